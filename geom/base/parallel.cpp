@@ -1,0 +1,108 @@
+// Two back ends behind the same functions: oneTBB, and std::thread for the tsan preset (Debian's libtbb is not instrumented, and
+// suppressing its reports would hide real races; spec/build.md, trap 5).
+#include "geom/base/parallel.h"
+
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <thread>
+
+#include "geom/base/run_context_state.h"
+
+#ifndef STERNA_STD_THREADS
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+#include <tbb/task_arena.h>
+#endif
+
+namespace sterna {
+namespace {
+
+/// Keeps the exception of the lowest chunk, so that the error a user sees does not depend on timing.
+class FirstException {
+ public:
+  void capture(std::size_t chunk) {
+    const std::scoped_lock lock(mutex_);
+    if (chunk >= chunk_) return;
+    chunk_ = chunk;
+    exception_ = std::current_exception();
+  }
+  void rethrow() const {
+    if (exception_) std::rethrow_exception(exception_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::size_t chunk_ = std::numeric_limits<std::size_t>::max();
+  std::exception_ptr exception_;
+};
+
+int resolve_threads(int threads) {
+  return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+
+#ifndef STERNA_STD_THREADS
+
+class ThreadPool {
+ public:
+  explicit ThreadPool(int threads) : threads(threads), arena(threads) {}
+  int threads;
+  tbb::task_arena arena;
+};
+
+static void run_chunks(ThreadPool& pool, std::size_t n_chunks, const std::function<void(std::size_t)>& body) {
+  pool.arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, n_chunks, [&](std::size_t i) { body(i); });
+  });
+}
+
+#else
+
+class ThreadPool {
+ public:
+  explicit ThreadPool(int threads) : threads(threads) {}
+  int threads;
+};
+
+static void run_chunks(ThreadPool& pool, std::size_t n_chunks, const std::function<void(std::size_t)>& body) {
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (std::size_t i = next.fetch_add(1); i < n_chunks; i = next.fetch_add(1)) body(i);
+  };
+  std::vector<std::jthread> workers;
+  for (int t = 1; t < pool.threads && static_cast<std::size_t>(t) < n_chunks; ++t) workers.emplace_back(work);
+  work();
+}
+
+#endif
+
+std::shared_ptr<ThreadPool> make_thread_pool(int threads) { return std::make_shared<ThreadPool>(resolve_threads(threads)); }
+int thread_count(const ThreadPool& pool) { return pool.threads; }
+
+void parallel_chunks(const RunContext& context, std::size_t n, std::size_t chunk, detail::RangeFunction f) {
+  if (n == 0) return;
+  context.check_stop();
+  const std::size_t n_chunks = (n + chunk - 1) / chunk;
+  if (n_chunks == 1) {
+    f(0, n);
+    return;
+  }
+  FirstException failure;
+  run_chunks(*context.state().pool, n_chunks, [&](std::size_t i) {
+    try {
+      context.check_stop();
+      f(i * chunk, std::min(n, (i + 1) * chunk));
+    } catch (...) {
+      failure.capture(i);
+    }
+  });
+  failure.rethrow();
+}
+
+void parallel_invoke(const RunContext& context, const std::function<void()>& f, const std::function<void()>& g) {
+  parallel_chunks(context, 2, 1, [&](std::size_t begin, std::size_t) { begin == 0 ? f() : g(); });
+}
+
+}  // namespace sterna

@@ -1,0 +1,80 @@
+#include "geom/base/run_context.h"
+
+#include <chrono>
+
+#include "geom/base/error.h"
+#include "geom/base/run_context_state.h"
+
+namespace sterna {
+namespace {
+
+constexpr auto k_progress_interval = std::chrono::milliseconds(100);
+
+std::int64_t now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+RunContext::RunContext(RunSettings settings) : state_(std::make_shared<State>()) {
+  state_->pool = make_thread_pool(settings.threads);
+  state_->settings = std::move(settings);
+}
+
+int RunContext::threads() const { return thread_count(*state_->pool); }
+std::uint64_t RunContext::seed() const { return state_->settings.seed; }
+const std::filesystem::path& RunContext::dump_directory() const { return state_->settings.dump_directory; }
+std::stop_token RunContext::stop_token() const { return state_->settings.stop; }
+
+void RunContext::check_stop() const {
+  if (!state_->settings.stop.stop_requested()) return;
+  throw Error({.code = ErrorCode::cancelled, .attempted = stage_.empty() ? "run" : stage_, .problem = "stopped on request"});
+}
+
+void RunContext::log(LogLevel level, std::string_view text) const {
+  if (!state_->settings.log) return;
+  const std::scoped_lock lock(state_->mutex);
+  state_->settings.log(level, text);
+}
+
+RunContext RunContext::part(std::string_view stage, double from, double to) const {
+  RunContext result = *this;
+  result.stage_ = stage_.empty() ? std::string(stage) : stage_ + "/" + std::string(stage);
+  result.from_ = from_ + from * (to_ - from_);
+  result.to_ = from_ + to * (to_ - from_);
+  result.progress(0.0);
+  return result;
+}
+
+void RunContext::progress(double share) const {
+  check_stop();
+  if (!state_->settings.progress) return;
+  const auto now = std::chrono::steady_clock::now();
+  const std::scoped_lock lock(state_->mutex);
+  if (now - state_->last_progress < k_progress_interval) return;
+  state_->last_progress = now;
+  state_->settings.progress({.stage = stage_, .share = from_ + share * (to_ - from_)});
+}
+
+void RunContext::add_time(std::string_view stage, double seconds) const {
+  const std::scoped_lock lock(state_->mutex);
+  for (StageTime& time : state_->times) {
+    if (time.stage == stage) {
+      time.seconds += seconds;
+      return;
+    }
+  }
+  state_->times.push_back({std::string(stage), seconds});
+}
+
+std::vector<StageTime> RunContext::times() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->times;
+}
+
+StageTimer::StageTimer(const RunContext& context, std::string_view stage)
+    : context_(context), stage_(stage), start_ns_(now_ns()) {}
+
+StageTimer::~StageTimer() { context_.add_time(stage_, static_cast<double>(now_ns() - start_ns_) * 1e-9); }
+
+}  // namespace sterna

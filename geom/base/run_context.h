@@ -1,0 +1,90 @@
+// What every public verb takes last: stop token, threads, seed, log, nested progress, dump folder. A cheap value; copies share one
+// state. There are no globals.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sterna {
+
+enum class LogLevel { debug, info, warning, error };
+
+/// One line of progress: the path of stages ("volume_mesh/envelope"), the share of the whole run done, in [0, 1].
+struct ProgressState {
+  std::string stage;
+  double share = 0.0;
+};
+
+/// Seconds of wall time spent in a stage; for logs and reports only, never for results.
+struct StageTime {
+  std::string stage;
+  double seconds = 0.0;
+};
+
+struct RunSettings {
+  int threads = 0;  ///< worker threads; 0 = all hardware threads
+  std::uint64_t seed = 1;
+  std::stop_token stop;
+  std::filesystem::path dump_directory;  ///< where VTUs of trouble go; empty = none is written
+  std::function<void(LogLevel, std::string_view)> log;         ///< empty = quiet; may be called from one thread at a time only
+  std::function<void(const ProgressState&)> progress;          ///< empty = none; called at most about ten times a second
+};
+
+class RunContext {
+ public:
+  explicit RunContext(RunSettings settings = {});
+
+  int threads() const;
+  std::uint64_t seed() const;
+  const std::filesystem::path& dump_directory() const;
+  std::stop_token stop_token() const;
+
+  /// \throws Error(cancelled) once a stop was requested. Cheap; call it in every outer loop.
+  void check_stop() const;
+
+  void debug(std::string_view text) const { log(LogLevel::debug, text); }
+  void info(std::string_view text) const { log(LogLevel::info, text); }
+  void warn(std::string_view text) const { log(LogLevel::warning, text); }
+  void log(LogLevel level, std::string_view text) const;
+
+  /// A context whose progress fills [from, to] of this one's and whose stage is named below this one's.
+  RunContext part(std::string_view stage, double from, double to) const;
+  /// Reports that `share` in [0, 1] of this context's part is done; also checks for a stop.
+  void progress(double share) const;
+
+  /// Adds wall seconds to the stage's record (log and report only).
+  void add_time(std::string_view stage, double seconds) const;
+  /// All recorded stage times, in order of first appearance.
+  std::vector<StageTime> times() const;
+
+  struct State;
+  State& state() const { return *state_; }
+
+ private:
+  std::shared_ptr<State> state_;
+  std::string stage_;
+  double from_ = 0.0;
+  double to_ = 1.0;
+};
+
+/// Records the wall time between construction and destruction under a stage's name.
+class StageTimer {
+ public:
+  StageTimer(const RunContext& context, std::string_view stage);
+  ~StageTimer();
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  RunContext context_;
+  std::string stage_;
+  std::int64_t start_ns_;
+};
+
+}  // namespace sterna

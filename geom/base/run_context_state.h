@@ -1,0 +1,24 @@
+// Private to geom/base: the state that all copies of a RunContext share.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <mutex>
+
+#include "geom/base/run_context.h"
+
+namespace sterna {
+
+class ThreadPool;  // parallel.cpp
+std::shared_ptr<ThreadPool> make_thread_pool(int threads);
+int thread_count(const ThreadPool& pool);
+
+struct RunContext::State {
+  RunSettings settings;
+  std::shared_ptr<ThreadPool> pool;
+  std::mutex mutex;  ///< guards log, progress and times
+  std::vector<StageTime> times;
+  std::chrono::steady_clock::time_point last_progress{};
+};
+
+}  // namespace sterna

@@ -1,0 +1,265 @@
+#include "geom/base/schema.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "geom/base/error.h"
+
+namespace sterna {
+namespace {
+
+struct NamedScale {
+  std::string_view name;
+  double scale;
+};
+/// SI value of each unit that a number may carry; exact by definition (inch = 25.4 mm, ft = 12 inch).
+constexpr std::array<NamedScale, 8> k_units = {{{"mm", 1e-3},
+                                                {"cm", 1e-2},
+                                                {"inch", 0.0254},
+                                                {"in", 0.0254},
+                                                {"ft", 0.3048},
+                                                {"deg", std::numbers::pi / 180.0},
+                                                {"rad", 1.0},
+                                                {"m", 1.0}}};
+
+std::string number_text(double value) {
+  if (is_automatic(value)) return "automatic";
+  char buffer[40];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return {buffer, result.ptr};
+}
+
+std::string value_text(const OptionValue& value) {
+  return std::visit(
+      [](const auto& v) -> std::string {
+        using V = std::decay_t<decltype(v)>;
+        if constexpr (std::is_same_v<V, bool>) return v ? "true" : "false";
+        else if constexpr (std::is_same_v<V, double>) return number_text(v);
+        else if constexpr (std::is_same_v<V, std::string>) return "\"" + v + "\"";
+        else return std::to_string(v);
+      },
+      value);
+}
+
+std::string_view kind_text(OptionKind kind) {
+  switch (kind) {
+    case OptionKind::boolean: return "true or false";
+    case OptionKind::integer: return "a whole number";
+    case OptionKind::number: return "a number";
+    case OptionKind::text: return "a text";
+  }
+  return "";
+}
+
+std::vector<std::string> split(std::string_view text) {
+  std::vector<std::string> words;
+  while (!text.empty()) {
+    const auto end = std::min(text.find(' '), text.size());
+    if (end > 0) words.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return words;
+}
+
+[[noreturn]] void reject(const Option& option, const std::string& given, const std::string& expected) {
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = "option " + std::string(option.stage) + "." + std::string(option.name),
+               .problem = given + " is not allowed, expected " + expected,
+               .hint = std::string(option.help)});
+}
+
+void check_range(const Option& option, double value) {
+  if (is_automatic(value)) {
+    if (option.automatic.empty()) reject(option, "\"automatic\"", std::string(kind_text(option.kind)));
+    return;
+  }
+  if (value < option.min || value > option.max || std::isinf(value))
+    reject(option, number_text(value), std::string(kind_text(option.kind)) + " in " + option.range_text());
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string_view to_string(Unit unit) {
+  switch (unit) {
+    case Unit::none: return "";
+    case Unit::metre: return "m";
+    case Unit::radian: return "rad";
+    case Unit::second: return "s";
+    case Unit::byte: return "B";
+  }
+  return "";
+}
+
+std::string Option::default_text() const {
+  if (required) return "required";
+  if (const double* number = std::get_if<double>(&default_value); number && is_automatic(*number))
+    return "automatic (" + std::string(automatic) + ")";
+  return value_text(default_value);
+}
+
+std::string Option::range_text() const {
+  const std::string suffix = unit == Unit::none ? "" : " " + std::string(to_string(unit));
+  if (!choices.empty()) {
+    std::string text = "one of";
+    for (const std::string& choice : split(choices)) text += (text.size() > 6 ? ", " : " ") + choice;
+    return text;
+  }
+  const bool has_min = !std::isinf(min);
+  const bool has_max = !std::isinf(max);
+  if (has_min && has_max) return number_text(min) + " .. " + number_text(max) + suffix;
+  if (has_min) return "x >= " + number_text(min) + suffix;
+  if (has_max) return "x <= " + number_text(max) + suffix;
+  return {};
+}
+
+void set_option(const Option& option, const OptionValue& value) {
+  const std::string expected = std::string(kind_text(option.kind));
+  if (option.kind == OptionKind::number && std::holds_alternative<std::int64_t>(value))
+    return set_option(option, static_cast<double>(std::get<std::int64_t>(value)));
+  if (option.kind == OptionKind::integer && std::holds_alternative<double>(value)) {
+    const double number = std::get<double>(value);
+    if (number == std::floor(number) && std::abs(number) < 1e15)
+      return set_option(option, static_cast<std::int64_t>(number));
+  }
+  if (value.index() != option.default_value.index()) reject(option, value_text(value), expected);
+  if (const double* number = std::get_if<double>(&value)) check_range(option, *number);
+  if (const std::int64_t* number = std::get_if<std::int64_t>(&value)) {
+    check_range(option, static_cast<double>(*number));
+    if (*number > std::numeric_limits<int>::max() || *number < std::numeric_limits<int>::min())
+      reject(option, value_text(value), expected + " of at most 2147483647");
+  }
+  if (const std::string* text = std::get_if<std::string>(&value); text && !option.choices.empty()) {
+    const std::vector<std::string> choices = split(option.choices);
+    if (std::find(choices.begin(), choices.end(), *text) == choices.end())
+      reject(option, value_text(value), option.range_text());
+  }
+  option.store(value);
+}
+
+const Option& find_option(const OptionTable& table, std::string_view name, std::string_view attempted) {
+  std::vector<std::string> names;
+  for (const Option& option : table) {
+    const std::string full = std::string(option.stage) + "." + std::string(option.name);
+    if (option.name == name || full == name) return option;
+    names.push_back(name.find('.') == std::string_view::npos ? std::string(option.name) : full);
+  }
+  const std::string nearest = nearest_name(name, names);
+  throw Error({.code = ErrorCode::unknown_option,
+               .attempted = std::string(attempted),
+               .problem = "unknown option \"" + std::string(name) + "\"",
+               .hint = nearest.empty() ? "help lists the options" : "did you mean \"" + nearest + "\"?"});
+}
+
+void set_option_from_text(const Option& option, std::string_view text) {
+  switch (option.kind) {
+    case OptionKind::boolean:
+      if (text != "true" && text != "false") reject(option, "\"" + std::string(text) + "\"", "true or false");
+      return set_option(option, text == "true");
+    case OptionKind::text: return set_option(option, std::string(text));
+    case OptionKind::integer: {
+      std::int64_t number = 0;
+      const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
+      if (result.ec != std::errc{} || result.ptr != text.data() + text.size())
+        reject(option, "\"" + std::string(text) + "\"", "a whole number");
+      return set_option(option, number);
+    }
+    case OptionKind::number:
+      if (text == "automatic") return set_option(option, k_automatic);
+      return set_option(option, parse_number_with_unit(text));
+  }
+}
+
+void require_options(const OptionTable& table, std::string_view attempted) {
+  std::string missing;
+  for (const Option& option : table) {
+    if (!option.required) continue;
+    const OptionValue value = option.get();
+    const double* number = std::get_if<double>(&value);
+    const std::string* text = std::get_if<std::string>(&value);
+    if ((number && is_automatic(*number)) || (text && text->empty()))
+      missing += (missing.empty() ? "" : ", ") + std::string(option.name) + " (" + std::string(option.help) + ")";
+  }
+  if (!missing.empty())
+    throw Error({.code = ErrorCode::bad_argument, .attempted = std::string(attempted), .problem = "needs " + missing});
+}
+
+std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(2, name.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const std::size_t d = edit_distance(name, candidate);
+    if (d >= best_distance) continue;
+    best_distance = d;
+    best = candidate;
+  }
+  return best;
+}
+
+double parse_number_with_unit(std::string_view text) {
+  const auto fail = [&]() -> double {
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "reading a number",
+                 .problem = "\"" + std::string(text) + "\" is not a number with an optional unit (m, mm, cm, inch, ft, deg, rad)",
+                 .hint = "write for example 2e-6, 0.5*mm or 35*deg"});
+  };
+  double number = 0.0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (result.ec != std::errc{} || !std::isfinite(number)) return fail();
+  std::string_view unit(result.ptr, static_cast<std::size_t>(text.data() + text.size() - result.ptr));
+  while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
+  if (!unit.empty() && unit.front() == '*') unit.remove_prefix(1);
+  while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
+  if (unit.empty()) return result.ptr == text.data() + text.size() ? number : fail();
+  for (const NamedScale& known : k_units)
+    if (known.name == unit) return number * known.scale;
+  return fail();
+}
+
+std::string options_to_json(const OptionTable& table) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const Option& option : table) {
+    auto& entry = json[std::string(option.stage)][std::string(option.name)];
+    std::visit(
+        [&](const auto& value) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(value)>, double>) {
+            if (is_automatic(value)) entry = "automatic";
+            else entry = value;
+          } else {
+            entry = value;
+          }
+        },
+        option.get());
+  }
+  return json.dump(2);
+}
+
+std::string options_help(const OptionTable& table) {
+  std::string text;
+  for (const Option& option : table) {
+    text += "  " + std::string(option.name) + " = " + option.default_text();
+    if (option.unit != Unit::none) text += " [" + std::string(to_string(option.unit)) + "]";
+    if (const std::string range = option.range_text(); !range.empty()) text += "  (" + range + ")";
+    text += "\n      " + std::string(option.help) + "\n";
+  }
+  return text;
+}
+
+}  // namespace sterna

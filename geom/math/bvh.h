@@ -1,0 +1,75 @@
+// Parallel bounding-volume hierarchy over boxes and over triangles: nearest point, box overlap, ray; same result for any thread count.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/base/vec3.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna {
+
+/// Hierarchy over n boxes; items are numbered as given.
+class BoxTree {
+ public:
+  /// Built in parallel (Morton order or median split), O(n log n).
+  BoxTree(std::span<const Box> boxes, const RunContext& context);
+
+  /// Calls visit(item) for every item whose box overlaps `box` (closed boxes); visit returns false to stop. Order is deterministic.
+  void visit_overlaps(const Box& box, const std::function<bool(std::uint32_t)>& visit) const;
+  /// All unordered pairs of items (i < j) with overlapping boxes, sorted. Parallel.
+  std::vector<std::array<std::uint32_t, 2>> overlapping_pairs(const RunContext& context) const;
+
+  struct Node {
+    Box box;
+    std::uint32_t first = 0;  ///< leaf: first entry in order(); inner: left child (right child is first + 1)
+    std::uint32_t count = 0;  ///< leaf: number of items; inner: 0
+  };
+  std::span<const Node> nodes() const { return nodes_; }
+  std::span<const std::uint32_t> order() const { return order_; }
+  std::span<const Box> boxes() const { return boxes_; }
+
+ private:
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Box> boxes_;
+};
+
+struct NearestHit {
+  TriangleId triangle;                                          ///< invalid when nothing lies within the limit
+  Point point;
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+/// Hierarchy over the triangles of a mesh (a copy of the coordinates is kept).
+class TriangleTree {
+ public:
+  TriangleTree(const TriMesh& mesh, const RunContext& context);
+
+  /// Nearest point on any triangle within `limit`; of equally near triangles the lowest id.
+  NearestHit nearest(const Point& p, double limit = std::numeric_limits<double>::infinity()) const;
+  /// All triangles whose box the ray p + t d, t >= 0, may hit, with t of the hit in the triangle's plane; sorted by t, then id.
+  struct RayHit {
+    TriangleId triangle;
+    double t = 0.0;
+  };
+  std::vector<RayHit> ray(const Point& p, const Vec3& direction) const;
+  /// Generalised winding number of a closed mesh about p: 1 inside for outward normals (Jacobson et al. 2013), hierarchical (Barill et al. 2018)
+  /// with relative error small enough to tell 0, 1, 2 apart.
+  double winding_number(const Point& p) const;
+  const BoxTree& boxes() const { return tree_; }
+
+ private:
+  std::vector<std::array<Point, 3>> corners_;
+  BoxTree tree_;
+  std::vector<Vec3> node_dipole_;
+  std::vector<Vec3> node_center_;
+  std::vector<double> node_radius_;
+};
+
+}  // namespace sterna

@@ -1,0 +1,24 @@
+// Exact sign predicates: a floating-point filter first, exact expansion arithmetic where the filter cannot decide. Never wrong for finite input
+// whose products neither overflow nor underflow (coordinates within 1e-70 .. 1e70).
+#pragma once
+
+#include "geom/base/vec3.h"
+
+namespace sterna {
+
+struct Vec2 {
+  double x = 0.0;
+  double y = 0.0;
+};
+
+/// Sign (-1, 0, +1) of det[b-a, c-a]: +1 when a, b, c turn counter-clockwise.
+int orient2d(const Vec2& a, const Vec2& b, const Vec2& c);
+/// Sign of det[b-a, c-a, d-a]: +1 when d lies on the side to which the right-hand normal of (a, b, c) points
+/// (so a CGNS tetrahedron a b c d has positive volume).
+int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+/// +1 when d lies inside the circle through a, b, c given counter-clockwise (sign flips with the orientation).
+int incircle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
+/// +1 when e lies inside the sphere through a, b, c, d with orient3d(a, b, c, d) > 0 (sign flips with the orientation).
+int insphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e);
+
+}  // namespace sterna

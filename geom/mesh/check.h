@@ -1,0 +1,78 @@
+// The invariant walker: proves that a HybridMesh tiles its domain, or says where it does not. Gates G1-G3 of quality.md.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/hybrid_mesh.h"
+
+namespace sterna {
+
+enum class Violation {
+  unmatched_face,         ///< G1: a cell face that no other cell and no boundary face shares
+  overmatched_face,       ///< G1: more than two cells at a face, or a boundary face between two cells
+  same_sense_face,        ///< G1: two cells (or cell and boundary face) see the face from the same side
+  stray_boundary_face,    ///< G1: a boundary face of no cell
+  duplicate_marker,       ///< G1: a boundary face that belongs to two patches
+  bad_index,              ///< G1: a node or patch index out of range, or a node repeated in one cell
+  unused_node,            ///< G1
+  boundary_intersection,  ///< G2: boundaries cross each other or themselves
+  envelope_intersection,  ///< G2: the surface between layers and tets crosses itself or a boundary
+  invalid_cell,           ///< G3: exact wedge, pyramid, tet or hexahedron test
+  volume_mismatch,        ///< divergence theorem: cells of the layer against wall-to-envelope; tets against envelope-to-farfield
+  broken_line,            ///< a wall-normal line whose nodes are not consecutive (column meshes only)
+};
+std::string_view to_string(Violation v);
+/// "G1", "G2", "G3" or "tiling".
+std::string_view gate_of(Violation v);
+
+struct Finding {
+  Violation violation;
+  Point position;
+  std::string what;  ///< entity by name: "prism 12 (column 3, layer 0), patch wing"
+};
+
+struct Quality {
+  double min_wedge_quality = 1.0;      ///< scaled Jacobian of the worst prism
+  double min_dihedral = 0.0;           ///< radians, over tets
+  double max_dihedral = 0.0;           ///< radians, over tets
+  Point worst_prism, worst_tet;
+  /// Skew angle (13) of the prisms: share below 6, below 18, above 60 degrees.
+  double skew_below_6 = 0.0, skew_below_18 = 0.0, skew_above_60 = 0.0;
+};
+
+struct CheckReport {
+  CellCounts cells;
+  std::int64_t n_nodes = 0;
+  std::int64_t n_boundary_triangles = 0, n_boundary_quads = 0;
+  std::vector<std::pair<Violation, std::int64_t>> counts;  ///< violations found, by kind; empty = VALID
+  std::vector<Finding> findings;                            ///< the first few of each kind, in mesh order
+  double layer_volume = 0.0, layer_volume_error = 0.0;      ///< m^3; error relative to layer_volume, limit 1e-11
+  double tet_volume = 0.0, tet_volume_error = 0.0;          ///< likewise for the tets
+  double total_volume = 0.0;
+  Quality quality;
+  bool is_valid() const { return counts.empty(); }
+  std::int64_t count(Violation v) const;
+};
+
+struct CheckOptions {
+  bool intersections = true;  ///< G2, the exact triangle-triangle tests
+  bool quality = true;        ///< fill CheckReport::quality
+  int findings_per_kind = 10;
+};
+
+/// Proves or refutes: every face matched by vertex ids with opposite sense or a boundary face of exactly one patch; every cell valid by its
+/// exact test; boundaries and envelope free of crossings; no unused node; volumes consistent to 1e-11. Column meshes are checked without making
+/// their cells explicit (matching over base edges), explicit ones by sorting faces; both parallel, same report for any thread count.
+/// Never throws for a bad mesh: findings are the result.
+CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context);
+
+/// Several lines for people: verdict, gates with counts, G4 and G20 as "not checked", quality, the findings with coordinates.
+std::string to_text(const CheckReport& report);
+/// JSON with schema "sterna-check-1".
+std::string to_json(const CheckReport& report);
+
+}  // namespace sterna

@@ -1,0 +1,116 @@
+// The volume mesh: prismatic layers stored as columns, explicit cells for the rest, boundary faces with patches.
+// Element order is CGNS SIDS: PENTA_6 base triangle's right-hand normal points towards the other triangle; face tables in cell_faces().
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "geom/base/ids.h"
+#include "geom/base/vec3.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna {
+
+enum class CellKind : std::uint8_t { tetrahedron, pyramid, prism, hexahedron };
+inline constexpr std::array<int, 4> k_cell_nodes = {4, 5, 6, 8};
+constexpr int n_nodes(CellKind kind) { return k_cell_nodes[static_cast<std::size_t>(kind)]; }
+std::string_view to_string(CellKind kind);
+
+/// A cell by value: its kind and its nodes in CGNS order.
+struct Cell {
+  CellKind kind = CellKind::tetrahedron;
+  std::array<NodeId, 8> nodes{};
+  std::span<const NodeId> span() const { return {nodes.data(), static_cast<std::size_t>(n_nodes(kind))}; }
+};
+
+/// A face of a cell: 3 or 4 local node numbers, right-hand normal out of the cell.
+struct LocalFace {
+  std::array<std::uint8_t, 4> nodes{};
+  std::uint8_t size = 3;
+};
+/// The SIDS face table of a kind: tet 021 013 123 203, pyramid 0321 014 124 234 304, prism 0143 1254 2035 021 345, hex 0321 0154 1265 2376 0473 4567.
+std::span<const LocalFace> cell_faces(CellKind kind);
+
+/// Layers as columns. Line k stands on one wall node; its nodes are consecutive: first_node[k] + j, j = 0 (wall) .. n_layers (envelope),
+/// unless it is collapsed: then the wall node is its only node. A column over base triangle (a, b, c) of lines has n_layers cells:
+/// prisms; pyramids where one line is collapsed; tets where two are; no cells where all three are.
+struct LayerBlock {
+  int n_layers = 0;
+  std::vector<std::array<std::uint32_t, 3>> base;  ///< lines of each base triangle, normal into the fluid
+  std::vector<std::uint32_t> first_node;           ///< wall node of each line
+  std::vector<std::uint8_t> is_collapsed;          ///< per line
+
+  std::size_t n_lines() const { return first_node.size(); }
+  std::size_t n_columns() const { return base.size(); }
+  /// Node of layer j (0 = wall) on line k.
+  NodeId node(std::uint32_t line, int j) const {
+    return NodeId(first_node[line] + (is_collapsed[line] ? 0u : static_cast<std::uint32_t>(j)));
+  }
+  int n_collapsed(std::size_t column) const {
+    const auto& b = base[column];
+    return is_collapsed[b[0]] + is_collapsed[b[1]] + is_collapsed[b[2]];
+  }
+  /// Cell `layer` (0 = at the wall) of a column. \pre not all three lines are collapsed.
+  Cell cell(std::size_t column, int layer) const;
+};
+
+struct BoundaryTriangle {
+  std::array<NodeId, 3> nodes;  ///< right-hand normal out of the fluid
+  PatchId patch;
+};
+struct BoundaryQuad {
+  std::array<NodeId, 4> nodes;  ///< right-hand normal out of the fluid
+  PatchId patch;
+};
+
+struct CellCounts {
+  std::int64_t tetrahedra = 0;
+  std::int64_t pyramids = 0;
+  std::int64_t prisms = 0;
+  std::int64_t hexahedra = 0;
+  std::int64_t total() const { return tetrahedra + pyramids + prisms + hexahedra; }
+};
+
+/// Plain struct of columns. Cells come in this order: those of `layers`, column by column, layer by layer; then prisms, pyramids,
+/// hexahedra, tetrahedra. A mesh read from a file has its cells in the explicit arrays and no layers.
+struct HybridMesh {
+  Column<NodeId, Point> points;  ///< metres
+  LayerBlock layers;
+  std::vector<std::array<NodeId, 6>> prisms;
+  std::vector<std::array<NodeId, 5>> pyramids;
+  std::vector<std::array<NodeId, 8>> hexahedra;
+  std::vector<std::array<NodeId, 4>> tetrahedra;
+  std::vector<BoundaryTriangle> boundary_triangles;
+  std::vector<BoundaryQuad> boundary_quads;
+  Column<PatchId, Patch> patches;
+};
+
+CellCounts count_cells(const HybridMesh& mesh);
+
+/// The same mesh with the cells of its columns moved to the explicit arrays (order kept); for tests and converters.
+HybridMesh explicit_cells(HybridMesh mesh);
+
+/// Calls f(const Cell&) for every cell in file order.
+template <class F>
+void for_each_cell(const HybridMesh& mesh, const F& f) {
+  for (std::size_t c = 0; c < mesh.layers.n_columns(); ++c) {
+    if (mesh.layers.n_collapsed(c) == 3) continue;
+    for (int j = 0; j < mesh.layers.n_layers; ++j) f(mesh.layers.cell(c, j));
+  }
+  const auto explicit_block = [&](CellKind kind, const auto& cells) {
+    Cell cell;
+    cell.kind = kind;
+    for (const auto& nodes : cells) {
+      std::copy(nodes.begin(), nodes.end(), cell.nodes.begin());
+      f(cell);
+    }
+  };
+  explicit_block(CellKind::prism, mesh.prisms);
+  explicit_block(CellKind::pyramid, mesh.pyramids);
+  explicit_block(CellKind::hexahedron, mesh.hexahedra);
+  explicit_block(CellKind::tetrahedron, mesh.tetrahedra);
+}
+
+}  // namespace sterna

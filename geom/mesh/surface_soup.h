@@ -1,0 +1,22 @@
+// Triangles as a file gives them: unwelded, unoriented, perhaps with unused vertices; with the patch names the file carries.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geom/base/vec3.h"
+
+namespace sterna {
+
+struct SurfaceSoup {
+  std::vector<Vec3> points;                             ///< in the file's own unit
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into points
+  std::vector<std::uint32_t> patch;                     ///< per triangle, index into patch_names; same size as triangles
+  std::vector<std::string> patch_names;                 ///< never empty when there are triangles; names may be empty strings
+  bool has_names = false;                               ///< the file itself named (or numbered) its patches
+  std::string source;                                   ///< file name for messages
+};
+
+}  // namespace sterna

@@ -1,0 +1,65 @@
+#include <gtest/gtest.h>
+
+#include "geom/base/error.h"
+#include "geom/base/schema.h"
+#include "volmesh/envelope/options.h"
+#include "volmesh/volume_mesh.h"
+
+namespace sterna {
+namespace {
+
+using volmesh::EnvelopeOptions;
+
+TEST(Schema, TextWithUnitsReachesTheMember) {
+  EnvelopeOptions options;
+  const OptionTable table = options_of(options);
+  set_option_from_text(find_option(table, "feature_angle", "test"), "40*deg");
+  set_option_from_text(find_option(table, "envelope.first_height", "test"), "2.5mm");
+  set_option_from_text(find_option(table, "layers", "test"), "24");
+  EXPECT_DOUBLE_EQ(options.feature_angle, 40.0 * 3.14159265358979323846 / 180.0);
+  EXPECT_DOUBLE_EQ(options.first_height, 2.5e-3);
+  EXPECT_EQ(options.layers, 24);
+}
+
+TEST(Schema, MisspeltNameGetsASuggestion) {
+  EnvelopeOptions options;
+  const OptionTable table = options_of(options);
+  try {
+    find_option(table, "layer", "volume_mesh");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::unknown_option);
+    EXPECT_NE(std::string(error.what()).find("did you mean \"layers\"?"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Schema, ValueOutsideItsRangeNamesValueAndLimit) {
+  EnvelopeOptions options;
+  const OptionTable table = options_of(options);
+  for (const char* text : {"0", "-3", "1001", "2.5", "many"}) {
+    try {
+      set_option_from_text(find_option(table, "layers", "test"), text);
+      FAIL() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::bad_argument);
+      EXPECT_NE(std::string(error.what()).find("layers"), std::string::npos);
+    }
+  }
+  EXPECT_EQ(options.layers, EnvelopeOptions{}.layers);
+}
+
+TEST(Schema, RequiredOptionsAreNamedWhenMissing) {
+  EnvelopeOptions options;
+  EXPECT_THROW(require_options(options_of(options), "volume_mesh"), Error);
+  options.first_height = 1e-6;
+  EXPECT_NO_THROW(require_options(options_of(options), "volume_mesh"));
+}
+
+TEST(Schema, ManifestHoldsEveryOption) {
+  EnvelopeOptions options;
+  const std::string json = options_to_json(options_of(options));
+  for (const Option& option : options_of(options)) EXPECT_NE(json.find("\"" + std::string(option.name) + "\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sterna

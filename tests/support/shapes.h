@@ -1,0 +1,13 @@
+// Small exact shapes for tests.
+#pragma once
+
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::test {
+
+/// Axis-parallel cube [0, 1]^3, each face split into 2 n^2 triangles, normals outward, one patch "cube".
+TriMesh cube(int n = 1);
+/// Icosahedral sphere, 20 f^2 triangles, radius about the origin, normals outward, one patch "sphere".
+TriMesh sphere(int f, double radius = 1.0);
+
+}  // namespace sterna::test

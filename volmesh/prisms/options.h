@@ -1,0 +1,26 @@
+// Options of the extrusion of prisms between wall and envelope.
+#pragma once
+
+#include "geom/base/schema.h"
+
+namespace sterna::volmesh {
+
+struct PrismOptions {
+  double wall_perpendicularity = 0.1;
+};
+
+}  // namespace sterna::volmesh
+
+namespace sterna {
+
+template <>
+struct Schema<volmesh::PrismOptions> {
+  using O = volmesh::PrismOptions;
+  static constexpr std::string_view stage = "prisms";
+  static constexpr std::array fields = {
+      Field<O>{.name = "wall_perpendicularity", .member = &O::wall_perpendicularity, .min = 0.0, .max = 1.0,
+               .help = "c_t of the layer curves: how far from the wall they stay normal to it; 0 = straight"},
+  };
+};
+
+}  // namespace sterna

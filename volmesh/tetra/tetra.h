@@ -1,0 +1,61 @@
+// Fills the space between closed boundaries with tetrahedra, in a helper process.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/base/schema.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::volmesh {
+
+struct TetraOptions {
+  double radius_edge = 1.2;
+  double memory_limit = 20e9;
+  double time_limit = k_automatic;
+  std::string helper = {};
+};
+
+/// Closed boundary of the domain: triangles whose right-hand normals point INTO the domain (envelope outwards of the body, farfield inwards).
+struct TetraBoundary {
+  std::span<const Vec3> points;
+  std::span<const std::array<std::uint32_t, 3>> triangles;
+  std::span<const Vec3> hole_points;  ///< one strictly inside each cavity that is not to be meshed
+};
+
+/// \post points of the boundary come first, in order, to the bit; every boundary triangle is a face of exactly one tet; every tet positive (exact);
+/// no other outer face.
+struct TetraResult {
+  std::vector<Vec3> new_points;                         ///< Steiner points; node number = n boundary points + index
+  std::vector<std::array<std::uint32_t, 4>> tetrahedra; ///< CGNS order, positive volume
+  double engine_seconds = 0.0;                          ///< inside tetrahedralize() alone; log only
+  double engine_peak_bytes = 0.0;                       ///< of the helper process; log only
+};
+
+/// \throws Error tetra_engine_missing, tetra_engine_failed (crash, time or memory limit, self-intersection it reports), tetra_result_invalid; each with places.
+TetraResult fill_with_tetgen(const TetraBoundary& boundary, const TetraOptions& options, const RunContext& context);
+
+/// One point strictly inside each cavity of a wall: for each solid (components nested in it considered), found by rays and exact tests, no search by hand.
+/// \pre wall closed, manifold, without self-intersection, normals out of the body.
+std::vector<Point> find_cavity_points(const TriMesh& wall, const RunContext& context);
+
+}  // namespace sterna::volmesh
+
+namespace sterna {
+
+template <>
+struct Schema<volmesh::TetraOptions> {
+  using O = volmesh::TetraOptions;
+  static constexpr std::string_view stage = "tetrahedra";
+  static constexpr std::array fields = {
+      Field<O>{.name = "radius_edge", .member = &O::radius_edge, .min = 1.01, .max = 10.0, .help = "largest circumradius over shortest edge of a tetrahedron"},
+      Field<O>{.name = "memory_limit", .member = &O::memory_limit, .unit = Unit::byte, .min = 1e8, .help = "address space of the helper process"},
+      Field<O>{.name = "time_limit", .member = &O::time_limit, .unit = Unit::second, .min = 0.1, .help = "the helper is stopped after this time", .automatic = "none"},
+      Field<O>{.name = "helper", .member = &O::helper, .help = "path of sterna-tet-tetgen; empty: beside the sterna executable"},
+  };
+};
+
+}  // namespace sterna

@@ -1,0 +1,54 @@
+// The driver: from a wall to a hybrid mesh. A list of steps, nothing else.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geom/base/error.h"
+#include "geom/base/run_context.h"
+#include "geom/mesh/check.h"
+#include "geom/mesh/hybrid_mesh.h"
+#include "geom/mesh/tri_mesh.h"
+#include "volmesh/envelope/options.h"
+#include "volmesh/farfield.h"
+#include "volmesh/prisms/options.h"
+#include "volmesh/tetra/tetra.h"
+
+namespace sterna::volmesh {
+
+struct VolumeMeshOptions {
+  EnvelopeOptions envelope;
+  PrismOptions prisms;
+  FarfieldOptions farfield;
+  TetraOptions tetrahedra;
+};
+
+/// All options of all stages, in stage order, for Lua, the command line, help and the manifest. `options` must outlive the table.
+OptionTable options_of(VolumeMeshOptions& options);
+
+/// What became of the layer; see method.md §2 for h_target.
+struct LayerReport {
+  double body_length = 0.0;             ///< m
+  double coverage = 0.0;                ///< share of wall area with h >= 0.9 h_target
+  double target_over_eq1 = 0.0;         ///< area mean of h_target over eq. (1)
+  double mean_height_share = 0.0;       ///< area mean h over area mean h_target
+  double mean_height = 0.0;             ///< m, area-weighted
+  std::int64_t n_vertices = 0;
+  std::int64_t n_compressed = 0;        ///< h < n h0: equally spaced, h0 not met
+  std::vector<ErrorPlace> collapsed;    ///< each collapsed vertex: place, patch and reason
+};
+
+struct VolumeMeshResult {
+  HybridMesh mesh;
+  LayerReport layer;
+  CheckReport check;
+  double tetra_engine_seconds = 0.0;    ///< inside the engine alone; log only
+  double tetra_engine_peak_bytes = 0.0; ///< log only
+};
+
+/// Steps: farfield, classify, initial envelope, smooth, untangle, unwarp, retract, (optimise: next issue), extrude and repair, tetrahedra, assemble, check.
+/// \pre wall closed, manifold, free of self-intersection, normals into the fluid.
+/// \throws Error of the stages; mesh_invalid when the final check finds violations.
+VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const RunContext& context);
+
+}  // namespace sterna::volmesh
