@@ -10,8 +10,8 @@
 #include "geom/base/run_context_state.h"
 
 #ifndef STERNA_STD_THREADS
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 #include <tbb/task_arena.h>
 #endif
 
@@ -47,8 +47,10 @@ int resolve_threads(int threads) {
 
 class ThreadPool {
  public:
-  explicit ThreadPool(int threads) : threads(threads), arena(threads) {}
+  explicit ThreadPool(int count)
+      : threads(count), allowance(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count)), arena(count) {}
   int threads;
+  tbb::global_control allowance;  ///< TBB caps at the hardware's threads by default; 7 threads must be possible on 2 cores
   tbb::task_arena arena;
 };
 
@@ -62,7 +64,7 @@ static void run_chunks(ThreadPool& pool, std::size_t n_chunks, const std::functi
 
 class ThreadPool {
  public:
-  explicit ThreadPool(int threads) : threads(threads) {}
+  explicit ThreadPool(int count) : threads(count) {}
   int threads;
 };
 
