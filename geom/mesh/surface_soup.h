@@ -15,6 +15,7 @@ struct SurfaceSoup {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into points
   std::vector<std::uint32_t> patch;                     ///< per triangle, index into patch_names; same size as triangles
   std::vector<std::string> patch_names;                 ///< never empty when there are triangles; names may be empty strings
+  bool single_precision = false;                        ///< the coordinates were stored as 32-bit floats (binary STL, float PLY, ...)
   bool has_names = false;                               ///< the file itself named (or numbered) its patches
   std::string source;                                   ///< file name for messages
 };

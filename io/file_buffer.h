@@ -1,0 +1,33 @@
+// A whole file in memory: what every reader starts from. A gzipped file (by content, whatever its name) arrives unpacked.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geom/base/run_context.h"
+
+namespace sterna::io {
+
+struct FileBuffer {
+  std::string source;       ///< the path as the user gave it, for messages
+  std::vector<char> bytes;  ///< unpacked
+  std::string_view text() const { return {bytes.data(), bytes.size()}; }
+};
+
+/// Loads `path`, and unpacks it when it begins with a gzip header (several members are joined).
+/// Memory stays in proportion to the file: unpacking stops at k_max_expansion times the packed size.
+/// \throws Error file_not_found (missing, a folder, unreadable), file_malformed (empty, damaged or suspiciously expanding gzip data), cancelled.
+FileBuffer load_file(const std::filesystem::path& path, const RunContext& context);
+
+/// "\"3.0x\"": bytes of a file made safe and short for a message.
+std::string quoted_excerpt(std::string_view bytes);
+
+/// Throws Error(file_malformed) "reading SOURCE: WHERE: PROBLEM", e.g. where = "line 12" or "byte 84".
+[[noreturn]] void throw_malformed(std::string_view source, std::string_view where, std::string_view problem, std::string_view hint = {});
+
+/// Throws Error(unsupported_format) "reading SOURCE: PROBLEM".
+[[noreturn]] void throw_unsupported(std::string_view source, std::string_view problem, std::string_view hint = {});
+
+}  // namespace sterna::io

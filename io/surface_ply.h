@@ -1,0 +1,15 @@
+// PLY as text or binary of either byte order; an integer face property can number patches.
+#pragma once
+
+#include <filesystem>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/surface_soup.h"
+
+namespace sterna::io {
+
+/// Reads the surface in an PLY file, plain or gzipped; coordinates as in the file.
+/// \throws Error file_not_found, file_malformed (place, what was found, what was expected), unsupported_format, cancelled.
+SurfaceSoup read_ply(const std::filesystem::path& path, const RunContext& context);
+
+}  // namespace sterna::io

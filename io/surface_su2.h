@@ -1,0 +1,15 @@
+// SU2: the boundary markers of a volume mesh, or the elements of a surface mesh.
+#pragma once
+
+#include <filesystem>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/surface_soup.h"
+
+namespace sterna::io {
+
+/// Reads the surface in an SU2 file, plain or gzipped; coordinates as in the file.
+/// \throws Error file_not_found, file_malformed (place, what was found, what was expected), unsupported_format, cancelled.
+SurfaceSoup read_su2(const std::filesystem::path& path, const RunContext& context);
+
+}  // namespace sterna::io
