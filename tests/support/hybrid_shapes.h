@@ -1,0 +1,40 @@
+// Small valid hybrid meshes, made by hand: layers as columns on a wall, tetrahedra above them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geom/mesh/hybrid_mesh.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::test {
+
+struct ShellOptions {
+  int n_layers = 3;
+  double layer_height = 0.4;             ///< of the whole layer, in units of the rays
+  double ratio = 1.5;                    ///< growth ratio of the layers
+  int n_shells = 2;                      ///< shells of prisms, each split into three tets, between the layer and the outer boundary
+  double outer_height = 2.0;             ///< of the outer boundary, in units of the rays; > layer_height
+  std::vector<std::uint32_t> collapsed;  ///< wall vertices whose line has no height
+};
+
+/// Columns along straight rays from the wall, then split shells up to an outer surface of the wall's connectivity. Patches: the wall's own, "farfield" (outer),
+/// and "side" (symmetry) when the wall has a boundary. Lines stand on the wall's vertices in their order; column t stands on wall triangle t.
+/// \pre wall edge-manifold and oriented; one ray per vertex; cells between neighbouring rays positive (true for rays from a common point or parallel ones).
+HybridMesh extrude(const TriMesh& wall, const std::vector<Vec3>& rays, const ShellOptions& options);
+
+/// Rays from `center` to each vertex, so that heights are multiples of the distance from it.
+std::vector<Vec3> rays_from(const TriMesh& wall, const Point& center);
+
+/// Layers and tets about an icosahedral unit sphere of 20 f^2 triangles: f = 1 gives 20 columns.
+HybridMesh sphere_shell(int f, const ShellOptions& options = {});
+/// The same about the cube [0, 1]^3 of cube(n); its rays come from the centre, side faces are flat.
+HybridMesh cube_shell(int n, const ShellOptions& options = {});
+/// Plate [0, 1]^2 of n x n squares with vertical rays: an open wall, so that columns end on quads of the patch "side".
+HybridMesh plate_block(int n, const ShellOptions& options = {});
+/// n^3 hexahedra in [0, 1]^3, patch "box".
+HybridMesh hexahedra_block(int n);
+/// One hexahedron [0, 1]^3 with a pyramid on its top, apex (0.5, 0.5, 1.5); patches "box" and "roof".
+HybridMesh hexahedron_with_roof();
+
+}  // namespace sterna::test
