@@ -1,0 +1,30 @@
+# Tests that are not GoogleTest executables. Included by tests/CMakeLists.txt.
+find_program(STERNA_SYSTEM_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)  # Debian's own: another python3 on PATH lacks meshio and VTK
+
+# Every GoogleTest executable leaves its results for tools/count_skips.
+foreach(folder ${test_folders})
+  file(RELATIVE_PATH name ${CMAKE_CURRENT_SOURCE_DIR} ${folder})
+  string(REPLACE "/" "_" name test_${name})
+  set_property(TEST ${name} APPEND PROPERTY ENVIRONMENT GTEST_OUTPUT=json:${CMAKE_BINARY_DIR}/test_results/${name}.json)
+endforeach()
+
+# The house rules, and that their check finds a planted violation of each.
+add_test(NAME architecture COMMAND ${CMAKE_SOURCE_DIR}/tools/check_architecture --root ${CMAKE_SOURCE_DIR} --binary $<TARGET_FILE:sterna>)
+add_test(NAME architecture_self_test
+         COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/check_architecture_test.py ${CMAKE_SOURCE_DIR}/tools/check_architecture ${CMAKE_CXX_COMPILER})
+add_test(NAME count_skips_self_test COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/count_skips_test.py ${CMAKE_SOURCE_DIR}/tools/count_skips)
+
+# ThreadSanitizer sees a deliberate race in our own loops, and none where there is none: on the back end of the tsan preset, in any preset.
+if(STERNA_SANITIZE STREQUAL "" OR STERNA_SANITIZE STREQUAL "thread")
+  file(GLOB tsan_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/geom/base/parallel.cpp ${CMAKE_SOURCE_DIR}/geom/base/run_context.cpp ${CMAKE_SOURCE_DIR}/geom/base/error.cpp)
+  add_executable(sterna_tsan_counter tsan/counter.cpp ${tsan_sources})
+  target_include_directories(sterna_tsan_counter PRIVATE ${CMAKE_SOURCE_DIR})
+  target_compile_definitions(sterna_tsan_counter PRIVATE STERNA_STD_THREADS)
+  # -O1: at -O3 the racing increments of a chunk become one.
+  target_compile_options(sterna_tsan_counter PRIVATE -fsanitize=thread -g -O1 -fno-omit-frame-pointer)
+  target_link_options(sterna_tsan_counter PRIVATE -fsanitize=thread)
+  target_link_libraries(sterna_tsan_counter PRIVATE Threads::Threads)
+  foreach(mode race clean)
+    add_test(NAME tsan_${mode} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tsan/run_counter $<TARGET_FILE:sterna_tsan_counter> ${mode})
+  endforeach()
+endif()
