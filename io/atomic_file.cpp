@@ -1,0 +1,108 @@
+#include "io/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "geom/base/error.h"
+
+namespace sterna::io {
+namespace {
+
+/// Attempts at a free temporary name; leftovers of killed runs with the same process number can occupy a few.
+constexpr int k_max_names = 1000;
+constexpr mode_t k_new_file_mode = 0666;  // the umask takes its part
+constexpr mode_t k_permission_bits = 07777;
+
+std::string reason(int error_number) { return std::generic_category().message(error_number); }
+
+std::string hint_for(int error_number) {
+  switch (error_number) {
+    case ENOSPC:
+    case EDQUOT:
+    case EFBIG: return "make room on the disk (or raise the limit), or write to another folder";
+    case EACCES:
+    case EPERM:
+    case EROFS: return "write to a folder that you may write to";
+    case ENOENT:
+    case ENOTDIR: return "create the folder first";
+    default: return {};
+  }
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), target_(path) {
+  std::error_code failure;
+  if (std::filesystem::is_symlink(path, failure)) {
+    target_ = std::filesystem::weakly_canonical(path, failure);
+    if (failure) fail(failure.value(), "following the link");
+  }
+  struct stat old {};
+  const bool exists = ::stat(target_.c_str(), &old) == 0;
+  if (exists && !S_ISREG(old.st_mode))
+    throw Error({.code = ErrorCode::write_failed,
+                 .attempted = "writing " + path_.string(),
+                 .problem = "there is something of that name that is not a regular file",
+                 .hint = "choose another name"});
+  for (int i = 0; descriptor_ < 0; ++i) {
+    temporary_ = target_.parent_path() / (".sterna-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".part");
+    descriptor_ = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, k_new_file_mode);
+    if (descriptor_ >= 0) break;
+    const int error_number = errno;
+    if (error_number == EEXIST && i < k_max_names) continue;
+    temporary_.clear();  // not ours
+    fail(error_number, "creating a file");
+  }
+  if (exists && ::fchmod(descriptor_, old.st_mode & k_permission_bits) != 0) fail(errno, "keeping the permissions");
+}
+
+AtomicFile::~AtomicFile() { discard(); }
+
+void AtomicFile::append(std::string_view bytes) {
+  write_at(size_, bytes);
+  size_ += bytes.size();
+}
+
+void AtomicFile::overwrite(std::uint64_t offset, std::string_view bytes) { write_at(offset, bytes); }
+
+void AtomicFile::commit() {
+  if (::fsync(descriptor_) != 0) fail(errno, "syncing");
+  const int descriptor = descriptor_;
+  descriptor_ = -1;
+  if (::close(descriptor) != 0) fail(errno, "closing");
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno, "renaming");
+  temporary_.clear();
+}
+
+void AtomicFile::write_at(std::uint64_t offset, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(errno, "writing");
+    if (n == 0) fail(ENOSPC, "writing");
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+    offset += static_cast<std::uint64_t>(n);
+  }
+}
+
+void AtomicFile::fail(int error_number, std::string_view doing) {
+  discard();
+  std::string problem = std::string(doing) + " failed after " + std::to_string(size_) + " bytes: " + reason(error_number);
+  throw Error({.code = ErrorCode::write_failed,
+               .attempted = "writing " + path_.string(),
+               .problem = std::move(problem),
+               .hint = hint_for(error_number)});
+}
+
+void AtomicFile::discard() noexcept {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  temporary_.clear();
+}
+
+}  // namespace sterna::io

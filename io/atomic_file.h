@@ -1,0 +1,42 @@
+// A file that appears whole or not at all: written under a temporary name in the same folder, renamed when complete.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace sterna::io {
+
+/// Output file. Until commit() an existing file of that name stays as it was; a file that is destroyed uncommitted (exception, cancel) leaves no trace.
+/// A symbolic link is followed, so that the link stays and its target is replaced; anything but a regular file is refused.
+/// \throws Error(write_failed) from every member, with the system's reason; the temporary is gone then.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::filesystem::path& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Adds bytes at the end. Not buffered: give it pieces of some 100 kB where speed matters.
+  void append(std::string_view bytes);
+  /// Replaces bytes that were written before. \pre offset + bytes.size() <= size()
+  void overwrite(std::uint64_t offset, std::string_view bytes);
+  std::uint64_t size() const { return size_; }
+
+  /// Syncs the contents to the disk and renames. After a crash of the machine either the old or the new file is there, each whole.
+  void commit();
+
+ private:
+  void write_at(std::uint64_t offset, std::string_view bytes);
+  [[noreturn]] void fail(int error_number, std::string_view doing);
+  void discard() noexcept;
+
+  std::filesystem::path path_;    ///< as the caller named it, for messages
+  std::filesystem::path target_;  ///< links resolved
+  std::filesystem::path temporary_;
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace sterna::io
