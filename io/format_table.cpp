@@ -12,7 +12,7 @@ namespace sterna::io {
 namespace {
 
 constexpr std::array k_formats = {
-    Format{.name = "SU2", .extensions = ".su2", .write_volume = write_volume_su2, .carries_patch_names = true},
+    Format{.name = "SU2", .extensions = ".su2", .read_volume = read_volume_su2, .write_volume = write_volume_su2, .carries_patch_names = true},
     Format{.name = "VTU", .extensions = ".vtu", .write_volume = write_volume_vtu, .carries_patch_names = true},
 };
 
