@@ -15,6 +15,7 @@ constexpr std::uint64_t k_lines_per_chunk = 8192;
 constexpr std::size_t k_longest_number = 1000;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
 bool ends_field(char c) { return is_blank(c) || c == '\n' || c == ','; }
 
 }  // namespace
@@ -87,6 +88,9 @@ LineBlock LineCursor::take_block(std::uint64_t n, std::string_view keyword) {
       fail("found the end of the file after " + std::to_string(i) + " of the " + std::to_string(n) + " lines that " + std::string(keyword) + " in line " +
                std::to_string(block.line) + " announces",
            "the file may have been cut short: copy or write it again");
+    if (is_letter(*at_) && rest_of_line().find('=') != std::string_view::npos)
+      fail("found " + quoted_excerpt(rest_of_line()) + " after " + std::to_string(i) + " of the " + std::to_string(n) + " lines that " + std::string(keyword) +
+           " in line " + std::to_string(block.line) + " announces");
     if (i % k_lines_per_chunk == 0) block.chunks.push_back({.begin = at_, .line = line_, .first_item = i, .n_items = std::min(k_lines_per_chunk, n - i)});
     next_line();
     block.chunks.back().end = at_;

@@ -1,0 +1,123 @@
+#include "io/atomic_file.h"
+
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+#include "io/volume_file.h"
+#include "tests/io/volume/volume_tools.h"
+#include "tests/support/data.h"
+#include "tests/support/hybrid_shapes.h"
+
+namespace sterna::io {
+namespace {
+
+using test::bytes_of;
+using test::expect_error;
+using test::files_in;
+
+/// While it lives, files of this process cannot grow beyond `n` bytes: a full disk that works as root, too.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t n) {
+    old_handler_ = ::signal(SIGXFSZ, SIG_IGN);
+    ::getrlimit(RLIMIT_FSIZE, &old_);
+    rlimit limit = old_;
+    limit.rlim_cur = n;
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &old_);
+    ::signal(SIGXFSZ, old_handler_);
+  }
+
+ private:
+  rlimit old_{};
+  sighandler_t old_handler_;
+};
+
+std::filesystem::path old_file(const std::string& name) { return test::write_text(name, "old"); }
+
+TEST(AtomicFile, ReplacesTheOldFileOnlyOnCommit) {
+  const auto path = old_file("a.txt");
+  AtomicFile file(path);
+  file.append("01234");
+  file.append("56789");
+  file.overwrite(3, "XYZ");
+  EXPECT_EQ(file.size(), 10u);
+  EXPECT_EQ(bytes_of(path), "old");
+  file.commit();
+  EXPECT_EQ(bytes_of(path), "012XYZ6789");
+  EXPECT_EQ(files_in(path.parent_path()), std::vector<std::string>{"a.txt"});
+}
+
+TEST(AtomicFile, LeavesNoTraceWhenNotCommitted) {
+  const auto path = old_file("a.txt");
+  {
+    AtomicFile file(path);
+    file.append("new");
+  }
+  EXPECT_EQ(bytes_of(path), "old");
+  EXPECT_EQ(files_in(path.parent_path()), std::vector<std::string>{"a.txt"});
+}
+
+TEST(AtomicFile, TwoAtATimeDoNotMeet) {
+  const auto folder = test::scratch();
+  AtomicFile a(folder / "a"), b(folder / "b");
+  a.append("a");
+  b.append("b");
+  a.commit();
+  b.commit();
+  EXPECT_EQ(bytes_of(folder / "a") + bytes_of(folder / "b"), "ab");
+}
+
+TEST(AtomicFile, FollowsLinksAndKeepsPermissions) {
+  const auto path = old_file("target");
+  ::chmod(path.c_str(), 0640);
+  const auto link = path.parent_path() / "link";
+  std::filesystem::create_symlink("target", link);
+  AtomicFile file(link);
+  file.append("new");
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(bytes_of(path), "new");
+  EXPECT_EQ(std::filesystem::status(path).permissions(), std::filesystem::perms{0640});
+}
+
+TEST(AtomicFile, RefusesWhatIsNotAFile) {
+  const auto folder = test::scratch();
+  expect_error(ErrorCode::write_failed, "not a regular file", [&] { AtomicFile file(folder); });
+  std::filesystem::create_symlink("/dev/null", folder / "mesh.su2");
+  expect_error(ErrorCode::write_failed, "not a regular file", [&] { AtomicFile file(folder / "mesh.su2"); });
+  expect_error(ErrorCode::write_failed, "No such file or directory", [&] { AtomicFile file(folder / "absent" / "mesh.su2"); });
+}
+
+TEST(AtomicFile, FullDiskLeavesTheOldFile) {
+  const HybridMesh mesh = test::sphere_shell(4);
+  for (const std::string name : {"mesh.su2", "mesh.vtu"}) {
+    const auto path = old_file(name);
+    expect_error(ErrorCode::write_failed, "File too large", [&] {
+      const FileSizeLimit limit(10000);
+      write_volume_file(mesh, path, RunContext({.threads = 2}));
+    });
+    EXPECT_EQ(bytes_of(path), "old");
+    EXPECT_EQ(files_in(path.parent_path()), std::vector<std::string>{name});
+  }
+}
+
+TEST(AtomicFile, CancelLeavesTheOldFile) {
+  for (const std::string name : {"mesh.su2", "mesh.vtu"}) {
+    const auto path = old_file(name);
+    std::stop_source stop;
+    // The stop comes from the progress of the writing itself, when the temporary file has been begun.
+    const RunContext context({.threads = 2, .stop = stop.get_token(), .progress = [&](const ProgressState&) { stop.request_stop(); }});
+    expect_error(ErrorCode::cancelled, "", [&] { write_volume_file(test::sphere_shell(20), path, context); });
+    EXPECT_EQ(bytes_of(path), "old");
+    EXPECT_EQ(files_in(path.parent_path()), std::vector<std::string>{name});
+  }
+}
+
+}  // namespace
+}  // namespace sterna::io

@@ -1,0 +1,62 @@
+// What the tests of volume files share: an independent reader, bytes of files, comparisons.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geom/base/error.h"
+#include "geom/mesh/hybrid_mesh.h"
+
+namespace sterna::test {
+
+/// "key value" lines of tests/tools/verify_mesh.py.
+struct IndependentReport {
+  std::map<std::string, std::string> values;
+  std::string output;  ///< all of it, for messages
+  double number(const std::string& key) const;
+  bool has(const std::string& key) const { return values.count(key) > 0; }
+};
+
+/// Reads `file` with "meshio" or "vtk" of Debian's python. nullopt: not installed (a failure was added when STERNA_REQUIRE_DATA=1, else skip the test).
+std::optional<IndependentReport> read_independently(const std::string& reader, const std::filesystem::path& file);
+
+/// The reader finds the same counts, bounds, volumes, markers as `mesh` has.
+void expect_same_mesh(const IndependentReport& report, const HybridMesh& mesh);
+
+std::string bytes_of(const std::filesystem::path& path);
+std::filesystem::path write_text(const std::string& name, const std::string& text);
+/// Names of all files in a folder, sorted.
+std::vector<std::string> files_in(const std::filesystem::path& folder);
+
+/// Volume by the divergence theorem over all cells' faces; quads as fans about their centres (the flux of the bilinear face).
+double volume_of(const HybridMesh& mesh);
+/// The same over the boundary faces, whose normals point outward.
+double enclosed_volume(const HybridMesh& mesh);
+
+/// Half a shell about a plate: prisms, pyramids, tets, triangles and quads, patches plate, farfield, side; one triangle of collapsed lines.
+HybridMesh mixed_mesh();
+
+/// Runs f, which must throw an Error of that code whose text contains `text`.
+template <class F>
+void expect_error(ErrorCode code, const std::string& text, const F& f) {
+  try {
+    f();
+    ADD_FAILURE() << "no error, expected " << to_string(code) << ": " << text;
+  } catch (const Error& error) {
+    EXPECT_EQ(to_string(error.code()), to_string(code)) << error.what();
+    EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace sterna::test
+
+/// Skips the test where the reader's Python module is not installed.
+#define STERNA_NEEDS_READER(report)                                                      \
+  do {                                                                                   \
+    if (!(report)) GTEST_SKIP() << "the Python module of the independent reader is not installed"; \
+  } while (false)
