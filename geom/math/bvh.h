@@ -17,11 +17,15 @@ namespace sterna {
 /// Hierarchy over n boxes; items are numbered as given.
 class BoxTree {
  public:
-  /// Built in parallel (Morton order or median split), O(n log n).
+  /// Built in parallel by median splits of the box centres along their longest extent, O(n log n); an empty box overlaps nothing.
+  /// \throws Error(bad_argument) when a box is not finite, Error(overflow) for 2^31 boxes or more.
   BoxTree(std::span<const Box> boxes, const RunContext& context);
 
   /// Calls visit(item) for every item whose box overlaps `box` (closed boxes); visit returns false to stop. Order is deterministic.
   void visit_overlaps(const Box& box, const std::function<bool(std::uint32_t)>& visit) const;
+  /// The same for inner loops: no indirect call.
+  template <class Visit>
+  void for_each_overlap(const Box& box, const Visit& visit) const;
   /// All unordered pairs of items (i < j) with overlapping boxes, sorted. Parallel.
   std::vector<std::array<std::uint32_t, 2>> overlapping_pairs(const RunContext& context) const;
 
@@ -30,6 +34,7 @@ class BoxTree {
     std::uint32_t first = 0;  ///< leaf: first entry in order(); inner: left child (right child is first + 1)
     std::uint32_t count = 0;  ///< leaf: number of items; inner: 0
   };
+  /// The root comes first, children after their parents; empty when there are no items.
   std::span<const Node> nodes() const { return nodes_; }
   std::span<const std::uint32_t> order() const { return order_; }
   std::span<const Box> boxes() const { return boxes_; }
@@ -39,6 +44,31 @@ class BoxTree {
   std::vector<std::uint32_t> order_;
   std::vector<Box> boxes_;
 };
+
+inline bool overlap(const Box& a, const Box& b) {
+  return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y && a.min.z <= b.max.z && b.min.z <= a.max.z;
+}
+
+template <class Visit>
+void BoxTree::for_each_overlap(const Box& box, const Visit& visit) const {
+  if (nodes_.empty()) return;
+  // Median splits: the depth is the logarithm of at most 2^31 items, and each level leaves one node behind.
+  std::uint32_t stack[64];
+  int n = 0;
+  stack[n++] = 0;
+  while (n > 0) {
+    const Node& node = nodes_[stack[--n]];
+    if (!overlap(node.box, box)) continue;
+    if (node.count == 0) {
+      stack[n++] = node.first + 1;
+      stack[n++] = node.first;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (overlap(boxes_[order_[i]], box) && !visit(order_[i])) return;
+    }
+  }
+}
 
 struct NearestHit {
   TriangleId triangle;                                          ///< invalid when nothing lies within the limit
