@@ -17,13 +17,15 @@ enum class Violation {
   same_sense_face,        ///< G1: two cells (or cell and boundary face) see the face from the same side
   stray_boundary_face,    ///< G1: a boundary face of no cell
   duplicate_marker,       ///< G1: a boundary face that belongs to two patches
-  bad_index,              ///< G1: a node or patch index out of range, or a node repeated in one cell
+  bad_index,              ///< G1: a node, line or patch index out of range, or a node repeated in one cell or boundary face
+  bad_point,              ///< G1: a coordinate that is not finite
   unused_node,            ///< G1
   boundary_intersection,  ///< G2: boundaries cross each other or themselves
   envelope_intersection,  ///< G2: the surface between layers and tets crosses itself or a boundary
   invalid_cell,           ///< G3: exact wedge, pyramid, tet or hexahedron test
   volume_mismatch,        ///< divergence theorem: cells of the layer against wall-to-envelope; tets against envelope-to-farfield
-  broken_line,            ///< a wall-normal line whose nodes are not consecutive (column meshes only)
+  broken_line,            ///< G1: two wall-normal lines that share nodes, so that one of them has none of its own (column meshes only)
+  overlapping_parts,      ///< tiling: a boundary whose fluid side is covered more than once or lies outside the mesh (closed boundaries only)
 };
 std::string_view to_string(Violation v);
 /// "G1", "G2", "G3" or "tiling".
@@ -37,10 +39,12 @@ struct Finding {
 
 struct Quality {
   double min_wedge_quality = 1.0;      ///< scaled Jacobian of the worst prism
-  double min_dihedral = 0.0;           ///< radians, over tets
-  double max_dihedral = 0.0;           ///< radians, over tets
-  Point worst_prism, worst_tet;
-  /// Skew angle (13) of the prisms: share below 6, below 18, above 60 degrees.
+  double min_dihedral = 0.0;           ///< radians, over the explicit tets
+  double max_dihedral = 0.0;           ///< radians, over the explicit tets
+  Point worst_prism;                   ///< where min_wedge_quality was found
+  Point worst_tet;                     ///< where min_dihedral was found
+  Point most_obtuse_tet;               ///< where max_dihedral was found
+  /// Skew angle (13) of the prisms: share below 6, below 18, above 60 degrees. Pyramids and tets of columns over collapsed lines count as prisms above 60.
   double skew_below_6 = 0.0, skew_below_18 = 0.0, skew_above_60 = 0.0;
 };
 
@@ -54,6 +58,9 @@ struct CheckReport {
   double tet_volume = 0.0, tet_volume_error = 0.0;          ///< likewise for the tets
   double total_volume = 0.0;
   Quality quality;
+  bool is_complete = true;             ///< false: indices out of range or points not finite, so that nothing else could be checked
+  bool intersections_checked = false;  ///< G2 was asked for and tried
+  bool quality_measured = false;       ///< `quality` is filled
   bool is_valid() const { return counts.empty(); }
   std::int64_t count(Violation v) const;
 };
@@ -64,6 +71,8 @@ struct CheckOptions {
   int findings_per_kind = 10;
 };
 
+/// "Layer" is every cell but the explicit tets, "envelope" the faces between layer and tets. Quads take part in the intersection test with both of their
+/// triangulations (planar ones with one).
 /// Proves or refutes: every face matched by vertex ids with opposite sense or a boundary face of exactly one patch; every cell valid by its
 /// exact test; boundaries and envelope free of crossings; no unused node; volumes consistent to 1e-11. Column meshes are checked without making
 /// their cells explicit (matching over base edges), explicit ones by sorting faces; both parallel, same report for any thread count.

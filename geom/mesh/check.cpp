@@ -1,0 +1,49 @@
+// The walker as its list of steps. Together they prove a tiling: positive cells that match face by face cover each point of the fluid equally often between two
+// boundaries; the boundary does not cross itself, and its fluid side is covered once.
+#include "geom/mesh/check.h"
+
+#include "geom/mesh/check_parts.h"
+
+namespace sterna {
+
+using namespace check_parts;
+
+CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context) {
+  CheckReport report;
+  report.n_nodes = static_cast<std::int64_t>(mesh.points.size());
+  report.n_boundary_triangles = static_cast<std::int64_t>(mesh.boundary_triangles.size());
+  report.n_boundary_quads = static_cast<std::int64_t>(mesh.boundary_quads.size());
+
+  Findings findings(options.findings_per_kind);
+  const CellNumbers cells(mesh);
+  report.is_complete = check_indices(mesh, cells, context, findings);
+  if (report.is_complete) {
+    report.cells = count_cells(mesh);
+    const FaceSlots slots(mesh, cells, find_open_sides(mesh.layers, context));
+    const FaceMatch match = match_faces(slots, mesh.points.size(), context);
+    report_faces(mesh, slots, match, findings);
+    context.progress(0.3);
+
+    const CellScan scan = scan_cells(mesh, cells, options.quality, context);
+    for (const std::uint64_t number : scan.invalid)
+      findings.add(Violation::invalid_cell, [&] {
+        const Point center = cells.center(number);
+        return std::pair(center, cells.name(number) + near_patch(mesh, center) + " is inverted or folded");
+      });
+    if (options.quality) report.quality = scan.quality.result();
+    report.quality_measured = options.quality;
+    check_volumes(mesh, slots, match, scan, context, report, findings);
+    context.progress(0.6);
+
+    if (options.intersections) {
+      check_crossings(mesh, slots, match, context, findings);
+      check_cover(mesh, slots, context, findings);
+      report.intersections_checked = true;
+    }
+  }
+  findings.store(report);
+  context.progress(1.0);
+  return report;
+}
+
+}  // namespace sterna

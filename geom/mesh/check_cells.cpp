@@ -1,0 +1,115 @@
+// One pass over all cells: the exact test of each kind (G3), the volumes for the divergence theorem, and quality while the points are at hand.
+#include "geom/math/measures.h"
+#include "geom/mesh/check_parts.h"
+
+namespace sterna::check_parts {
+namespace {
+
+/// Columns per chunk; each holds some 30 cells.
+constexpr std::size_t k_column_chunk = 64;
+
+class CellScanner {
+ public:
+  CellScanner(const HybridMesh& mesh, bool with_quality) : mesh_(mesh), with_quality_(with_quality) {}
+
+  CellScan take() { return std::move(scan_); }
+
+  void add_column(std::uint64_t first_number, std::size_t column) {
+    const LayerBlock& layers = mesh_.layers;
+    const int n_collapsed = layers.n_collapsed(column);
+    if (n_collapsed == 3) return;
+    for (int j = 0; j < layers.n_layers; ++j) {
+      const std::uint64_t number = first_number + static_cast<std::uint64_t>(j);
+      const Cell cell = layers.cell(column, j);
+      if (cell.kind == CellKind::prism) {
+        add_prism(number, points_of<6>(cell.nodes));
+        continue;
+      }
+      if (cell.kind == CellKind::pyramid) {
+        add_pyramid(number, points_of<5>(cell.nodes));
+      } else {
+        const auto p = points_of<4>(cell.nodes);
+        note(number, is_tet_valid(p));
+        scan_.layer_volume.add(tet_volume(p[0], p[1], p[2], p[3]));
+      }
+      if (with_quality_) scan_.quality.add_collapsed();
+    }
+  }
+
+  void add_explicit(std::uint64_t number, const std::array<NodeId, 6>& nodes) { add_prism(number, points_of<6>(nodes)); }
+  void add_explicit(std::uint64_t number, const std::array<NodeId, 5>& nodes) { add_pyramid(number, points_of<5>(nodes)); }
+  void add_explicit(std::uint64_t number, const std::array<NodeId, 8>& nodes) {
+    const auto p = points_of<8>(nodes);
+    note(number, is_hexahedron_valid(p));
+    scan_.layer_volume.add(hexahedron_volume(p));
+  }
+  void add_explicit(std::uint64_t number, const std::array<NodeId, 4>& nodes) {
+    const auto p = points_of<4>(nodes);
+    note(number, is_tet_valid(p));
+    scan_.tet_volume.add(tet_volume(p[0], p[1], p[2], p[3]));
+    if (with_quality_) scan_.quality.add_tet(p);
+  }
+
+ private:
+  template <std::size_t N, class Nodes>
+  std::array<Vec3, N> points_of(const Nodes& nodes) const {
+    std::array<Vec3, N> p;
+    for (std::size_t k = 0; k < N; ++k) p[k] = mesh_.points[nodes[k]];
+    return p;
+  }
+  void note(std::uint64_t number, bool is_valid) {
+    if (!is_valid) scan_.invalid.push_back(number);
+  }
+  void add_prism(std::uint64_t number, const WedgePoints& p) {
+    note(number, is_wedge_valid(p));
+    scan_.layer_volume.add(wedge_volume(p));
+    if (with_quality_) scan_.quality.add_prism(p);
+  }
+  void add_pyramid(std::uint64_t number, const std::array<Vec3, 5>& p) {
+    note(number, is_pyramid_valid(p));
+    scan_.layer_volume.add(pyramid_volume(p));
+  }
+
+  const HybridMesh& mesh_;
+  bool with_quality_;
+  CellScan scan_;
+};
+
+CellScan merge(CellScan all, CellScan more) {
+  all.invalid = concatenate(std::move(all.invalid), std::move(more.invalid));
+  all.layer_volume.add(more.layer_volume);
+  all.tet_volume.add(more.tet_volume);
+  all.quality.merge(more.quality);
+  return all;
+}
+
+}  // namespace
+
+CellScan scan_cells(const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const RunContext& context) {
+  const auto n_layers = static_cast<std::uint64_t>(mesh.layers.n_layers);
+  CellScan scan = parallel_reduce(
+      context, mesh.layers.n_columns(), CellScan{},
+      [&](std::size_t begin, std::size_t end) {
+        CellScanner scanner(mesh, with_quality);
+        for (std::size_t c = begin; c < end; ++c) scanner.add_column(c * n_layers, c);
+        return scanner.take();
+      },
+      merge, k_column_chunk);
+  const auto add_block = [&](std::uint64_t first_number, const auto& block) {
+    scan = parallel_reduce(
+        context, block.size(), std::move(scan),
+        [&](std::size_t begin, std::size_t end) {
+          CellScanner scanner(mesh, with_quality);
+          for (std::size_t c = begin; c < end; ++c) scanner.add_explicit(first_number + c, block[c]);
+          return scanner.take();
+        },
+        merge);
+  };
+  add_block(cells.first_prism(), mesh.prisms);
+  add_block(cells.first_pyramid(), mesh.pyramids);
+  add_block(cells.first_hexahedron(), mesh.hexahedra);
+  add_block(cells.first_tetrahedron(), mesh.tetrahedra);
+  return scan;
+}
+
+}  // namespace sterna::check_parts

@@ -1,0 +1,155 @@
+// Matches faces by their vertex ids. A face falls into the bucket of its lowest node; inside a bucket the faces are sorted by the remaining nodes in a canonical
+// order that keeps the cycle (a quad is the same face only with the same cycle), with one bit for the sense. Buckets are filled by counting (with atomic cursors:
+// the order inside a bucket is restored by its sort), in batches of node ranges that bound the memory.
+#include <atomic>
+
+#include "geom/mesh/check_parts.h"
+
+namespace sterna::check_parts {
+namespace {
+
+/// Faces held at a time: 2^27 of 16 bytes are 2 GiB.
+constexpr std::uint64_t k_batch_faces = std::uint64_t{1} << 27;
+/// Nodes per chunk of the matching loops; some 20 faces each.
+constexpr std::size_t k_node_chunk = 4096;
+
+/// A face without its lowest node a. Triangle (a, b, c), b < c; quad (a, b, d, c) in cyclic order, b < c, d opposite to a.
+struct FaceKey {
+  std::uint32_t b, c;
+  std::uint32_t d;               ///< NodeId::k_invalid for a triangle
+  std::uint32_t slot_and_sense;  ///< 2 * slot + (1 when the face runs a, c, .., b)
+
+  std::uint32_t slot() const { return slot_and_sense >> 1; }
+  bool is_reversed() const { return (slot_and_sense & 1u) != 0; }
+  bool is_same_face(const FaceKey& other) const { return b == other.b && c == other.c && d == other.d; }
+  friend auto operator<=>(const FaceKey&, const FaceKey&) = default;
+};
+
+struct KeyedFace {
+  std::uint32_t lowest = 0;
+  FaceKey key{};
+};
+
+std::size_t lowest_corner(const Face& face) {
+  std::size_t lowest = 0;
+  for (std::size_t k = 1; k < face.size; ++k)
+    if (face.nodes[k] < face.nodes[lowest]) lowest = k;
+  return lowest;
+}
+
+KeyedFace canonical(std::uint32_t slot, const Face& face) {
+  const std::size_t k = lowest_corner(face);
+  const auto at = [&](std::size_t i) { return face.nodes[(k + i) % face.size].value(); };
+  const std::uint32_t after = at(1), before = at(face.size - 1u);
+  const std::uint32_t opposite = face.size == 4 ? at(2) : NodeId::k_invalid;
+  return {at(0), {std::min(after, before), std::max(after, before), opposite, 2 * slot + (after > before ? 1u : 0u)}};
+}
+
+/// Decides one face from all its occurrences, cells first (boundary slots are the highest).
+void judge(const FaceSlots& slots, const FaceKey* face, std::size_t n, FaceMatch& match) {
+  std::size_t n_cells = 0;
+  while (n_cells < n && !slots.is_boundary(face[n_cells].slot())) ++n_cells;
+  const std::size_t n_boundary = n - n_cells;
+  const auto add = [&](Violation violation, std::size_t of, std::size_t other) {
+    match.issues.push_back({violation, static_cast<std::uint32_t>(n_cells), face[of].slot(), face[other].slot()});
+  };
+  for (std::size_t i = n_cells + 1; i < n; ++i) add(Violation::duplicate_marker, i, n_cells);
+  if (n_cells == 0) return add(Violation::stray_boundary_face, 0, 0);
+  if (n_cells > 2 || (n_cells == 2 && n_boundary > 0)) return add(Violation::overmatched_face, 0, n_cells > 2 ? 1 : 2);
+  if (n_cells == 2) {
+    if (face[0].is_reversed() == face[1].is_reversed()) return add(Violation::same_sense_face, 0, 1);
+    // The lower slot belongs to the layer when only one of them does.
+    if (slots.is_layer(face[0].slot()) && !slots.is_layer(face[1].slot())) match.interface.push_back(face[0].slot());
+    return;
+  }
+  if (n_boundary == 0) return add(Violation::unmatched_face, 0, 0);
+  match.outer.push_back(face[0].slot());
+  for (std::size_t i = 1; i < n; ++i)
+    if (face[i].is_reversed() != face[0].is_reversed()) add(Violation::same_sense_face, i, 0);
+}
+
+void append(FaceMatch& all, FaceMatch&& more) {
+  all.issues = concatenate(std::move(all.issues), std::move(more.issues));
+  all.outer.insert(all.outer.end(), more.outer.begin(), more.outer.end());
+  all.interface.insert(all.interface.end(), more.interface.begin(), more.interface.end());
+}
+
+}  // namespace
+
+FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, const RunContext& context) {
+  std::vector<std::uint32_t> cursor(n_points, 0);
+  slots.for_each(context, [&](std::uint32_t, const Face& face) {
+    std::atomic_ref<std::uint32_t>(cursor[face.nodes[lowest_corner(face)].index()]).fetch_add(1, std::memory_order_relaxed);
+  });
+  std::vector<std::uint64_t> first(n_points + 1, 0);
+  for (std::size_t node = 0; node < n_points; ++node) first[node + 1] = first[node] + cursor[node];
+
+  FaceMatch match;
+  std::vector<FaceKey> keys;
+  for (std::size_t begin_node = 0; begin_node < n_points;) {
+    std::size_t end_node = begin_node + 1;
+    while (end_node < n_points && first[end_node + 1] - first[begin_node] <= k_batch_faces) ++end_node;
+    const std::uint64_t first_key = first[begin_node];
+    keys.resize(first[end_node] - first_key);
+    std::fill(cursor.begin() + static_cast<std::ptrdiff_t>(begin_node), cursor.begin() + static_cast<std::ptrdiff_t>(end_node), 0u);
+    slots.for_each(context, [&](std::uint32_t slot, const Face& face) {
+      const std::size_t lowest = face.nodes[lowest_corner(face)].index();
+      if (lowest < begin_node || lowest >= end_node) return;
+      const std::uint32_t i = std::atomic_ref<std::uint32_t>(cursor[lowest]).fetch_add(1, std::memory_order_relaxed);
+      keys[first[lowest] - first_key + i] = canonical(slot, face).key;
+    });
+    FaceMatch batch = parallel_reduce(
+        context, end_node - begin_node, FaceMatch{},
+        [&](std::size_t begin, std::size_t end) {
+          FaceMatch part;
+          for (std::size_t node = begin_node + begin; node < begin_node + end; ++node) {
+            FaceKey* const bucket = keys.data() + (first[node] - first_key);
+            const std::size_t n = first[node + 1] - first[node];
+            std::sort(bucket, bucket + n);
+            for (std::size_t i = 0, e = 0; i < n; i = e) {
+              for (e = i; e < n && bucket[e].is_same_face(bucket[i]);) ++e;
+              judge(slots, bucket + i, e - i, part);
+            }
+          }
+          return part;
+        },
+        [](FaceMatch all, FaceMatch more) {
+          append(all, std::move(more));
+          return all;
+        },
+        k_node_chunk);
+    append(match, std::move(batch));
+    begin_node = end_node;
+  }
+  std::sort(match.issues.begin(), match.issues.end());
+  return match;
+}
+
+void report_faces(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, Findings& findings) {
+  for (const FaceIssue& issue : match.issues) {
+    findings.add(issue.violation, [&] {
+      const Point center = slots.center(issue.slot);
+      const std::string shape = slots.face(issue.slot).size == 3 ? "triangle" : "quad";
+      std::string what;
+      switch (issue.violation) {
+        case Violation::unmatched_face:
+          what = shape + " of " + slots.name(issue.slot) + near_patch(mesh, center) + " has no other cell and no boundary face";
+          break;
+        case Violation::overmatched_face:
+          what = shape + " of " + slots.name(issue.slot) + " belongs to " + std::to_string(issue.n_cells) + " cells" +
+                 (slots.is_boundary(issue.other) ? " and to " : ", among them ") + slots.name(issue.other);
+          if (!slots.is_boundary(issue.other)) what += near_patch(mesh, center);
+          break;
+        case Violation::same_sense_face:
+          what = slots.is_boundary(issue.slot) ? slots.name(issue.slot) + " points into its cell, " + slots.name(issue.other)
+                                               : slots.name(issue.slot) + " and " + slots.name(issue.other) + near_patch(mesh, center) + " lie on the same side of their " + shape;
+          break;
+        case Violation::stray_boundary_face: what = slots.name(issue.slot) + " is a face of no cell"; break;
+        default: what = slots.name(issue.slot) + " marks the face of " + slots.name(issue.other) + " again"; break;
+      }
+      return std::pair(center, std::move(what));
+    });
+  }
+}
+
+}  // namespace sterna::check_parts

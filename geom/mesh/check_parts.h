@@ -1,0 +1,187 @@
+// Shared by the check_*.cpp files only: numbering of cells and faces of a HybridMesh, collection of findings, and the steps of the walker.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geom/base/parallel.h"
+#include "geom/mesh/check.h"
+#include "geom/mesh/quality.h"
+
+namespace sterna::check_parts {
+
+inline constexpr std::size_t k_n_violations = static_cast<std::size_t>(Violation::overlapping_parts) + 1;
+
+/// Appends `more` to `all`; the combine function of every list that is gathered chunk by chunk.
+template <class T>
+std::vector<T> concatenate(std::vector<T> all, std::vector<T> more) {
+  if (all.empty()) return more;
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+/// Counts all violations and keeps the first few of each kind. Serial; parallel steps hand over compact records in a fixed order.
+class Findings {
+ public:
+  explicit Findings(int per_kind) : per_kind_(per_kind) {}
+  /// Counts one violation; `describe() -> Finding-like {Point, string}` is called only when it is kept.
+  template <class Describe>
+  void add(Violation violation, const Describe& describe) {
+    if (counts_[index(violation)]++ >= per_kind_) return;
+    auto [position, what] = describe();
+    kept_.push_back({violation, position, std::move(what)});
+  }
+  /// Whether a gate ("G1", ...) has any violation so far.
+  bool has_any_of(std::string_view gate) const;
+  void store(CheckReport& report);
+
+ private:
+  static std::size_t index(Violation violation) { return static_cast<std::size_t>(violation); }
+  int per_kind_;
+  std::array<std::int64_t, k_n_violations> counts_{};
+  std::vector<Finding> kept_;
+};
+
+/// Numbers the cells: column * n_layers + layer (fully collapsed columns hold numbers without cells), then prisms, pyramids, hexahedra, tetrahedra.
+class CellNumbers {
+ public:
+  explicit CellNumbers(const HybridMesh& mesh);
+  std::uint64_t first_prism() const { return first_[0]; }
+  std::uint64_t first_pyramid() const { return first_[1]; }
+  std::uint64_t first_hexahedron() const { return first_[2]; }
+  std::uint64_t first_tetrahedron() const { return first_[3]; }
+  bool is_layer(std::uint64_t number) const { return number < first_[3]; }
+  /// \pre the number has a cell.
+  Cell cell(std::uint64_t number) const;
+  /// Mean of the cell's nodes.
+  Point center(std::uint64_t number) const;
+  /// "prism 12 (column 3, layer 0)": the number counts cells of one kind in file order, so it is the same for columns and explicit cells.
+  std::string name(std::uint64_t number) const;
+
+ private:
+  const HybridMesh& mesh_;
+  std::array<std::uint64_t, 4> first_;
+};
+
+/// Three or four nodes, right-hand normal out of the cell (or out of the fluid); size 0: there is no such face.
+struct Face {
+  std::array<NodeId, 4> nodes{};
+  std::uint8_t size = 0;
+};
+
+/// A side of a column that no single other column shares: `corner` c is the base edge from line c to line c + 1.
+struct OpenSide {
+  std::uint32_t column = 0;
+  std::uint8_t corner = 0;
+};
+
+/// Numbers every face that is not proved inside the columns: bottoms and tops of columns, their open sides, faces of explicit cells, boundary faces.
+class FaceSlots {
+ public:
+  /// \throws Error(overflow) when the slots do not fit 31 bits (some 500 million tets).
+  FaceSlots(const HybridMesh& mesh, const CellNumbers& cells, std::vector<OpenSide> open_sides);
+
+  std::uint32_t size() const { return first_.back(); }
+  std::uint32_t first_boundary() const { return first_[k_boundary_triangles]; }
+  bool is_boundary(std::uint32_t slot) const { return slot >= first_boundary(); }
+  Face face(std::uint32_t slot) const;
+  Point center(std::uint32_t slot) const;
+  /// Number of the cell that has the face. \pre !is_boundary(slot)
+  std::uint64_t owner(std::uint32_t slot) const;
+  bool is_layer(std::uint32_t slot) const { return slot < first_[k_tetrahedra]; }
+  /// Patch of a boundary face.
+  PatchId patch(std::uint32_t slot) const;
+  /// "boundary triangle 12, patch wing", or the face's cell.
+  std::string name(std::uint32_t slot) const;
+
+  /// Calls f(slot, Face) for every existing face, in parallel, in no particular order.
+  template <class F>
+  void for_each(const RunContext& context, const F& f) const;
+
+ private:
+  enum Block { k_caps, k_sides, k_prisms, k_pyramids, k_hexahedra, k_tetrahedra, k_boundary_triangles, k_boundary_quads, k_n_blocks };
+  Face column_cap(std::uint32_t i) const;
+  Face column_side(std::uint32_t i) const;
+  template <class Cells, class F>
+  void for_each_of(const RunContext& context, CellKind kind, Block block, const Cells& cells, const F& f) const;
+
+  const HybridMesh& mesh_;
+  const CellNumbers& cells_;
+  std::vector<OpenSide> open_sides_;
+  std::array<std::uint32_t, k_n_blocks + 1> first_{};
+};
+
+template <class Cells, class F>
+void FaceSlots::for_each_of(const RunContext& context, CellKind kind, Block block, const Cells& cells, const F& f) const {
+  const auto local_faces = cell_faces(kind);
+  parallel_for(context, cells.size(), [&, local_faces](std::size_t c) {
+    auto slot = static_cast<std::uint32_t>(first_[block] + c * local_faces.size());
+    for (const LocalFace& local : local_faces) {
+      Face face;
+      face.size = local.size;
+      for (std::size_t k = 0; k < local.size; ++k) face.nodes[k] = cells[c][local.nodes[k]];
+      f(slot++, face);
+    }
+  });
+}
+
+template <class F>
+void FaceSlots::for_each(const RunContext& context, const F& f) const {
+  const auto visit = [&](std::size_t slot) {
+    const Face one = face(static_cast<std::uint32_t>(slot));
+    if (one.size > 0) f(static_cast<std::uint32_t>(slot), one);
+  };
+  parallel_for(context, first_[k_prisms], visit);
+  for_each_of(context, CellKind::prism, k_prisms, mesh_.prisms, f);
+  for_each_of(context, CellKind::pyramid, k_pyramids, mesh_.pyramids, f);
+  for_each_of(context, CellKind::hexahedron, k_hexahedra, mesh_.hexahedra, f);
+  for_each_of(context, CellKind::tetrahedron, k_tetrahedra, mesh_.tetrahedra, f);
+  parallel_for(context, size() - first_boundary(), [&](std::size_t i) { visit(first_boundary() + i); });
+}
+
+/// Name of the patch whose nearest boundary face (by centroid) is next to a point, for messages: ", near patch wing" or "".
+std::string near_patch(const HybridMesh& mesh, const Point& p);
+/// Name of a patch, also for an index out of range.
+std::string patch_name(const HybridMesh& mesh, PatchId patch);
+
+struct FaceIssue {
+  Violation violation;
+  std::uint32_t n_cells;      ///< that have the face
+  std::uint32_t slot, other;  ///< of the face itself and of the second one concerned (or the same)
+  friend auto operator<=>(const FaceIssue&, const FaceIssue&) = default;
+};
+
+struct FaceMatch {
+  std::vector<FaceIssue> issues;         ///< sorted
+  std::vector<std::uint32_t> outer;      ///< cell faces with a boundary face
+  std::vector<std::uint32_t> interface;  ///< faces of layer cells that a tet shares with opposite sense: the envelope
+};
+
+/// What one pass over all cells finds.
+struct CellScan {
+  std::vector<std::uint64_t> invalid;  ///< cell numbers, ascending
+  CompensatedSum layer_volume, tet_volume;
+  QualityScan quality;
+};
+
+// The steps, each in its own file.
+
+/// bad_index, bad_point, broken_line, unused_node. Returns whether every index can be used and every point is finite.
+bool check_indices(const HybridMesh& mesh, const CellNumbers& cells, const RunContext& context, Findings& findings);
+/// Base edges that are not shared by exactly two columns of opposite sense; edges between two collapsed lines have no faces and do not count.
+std::vector<OpenSide> find_open_sides(const LayerBlock& layers, const RunContext& context);
+FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, const RunContext& context);
+void report_faces(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, Findings& findings);
+CellScan scan_cells(const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const RunContext& context);
+/// Compares the cells' volumes with the flux through outer faces and envelope; fills the report's volumes.
+void check_volumes(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const CellScan& scan, const RunContext& context,
+                   CheckReport& report, Findings& findings);
+/// boundary_intersection, envelope_intersection.
+void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const RunContext& context, Findings& findings);
+/// overlapping_parts; does nothing when faces or crossings were found wrong, since then no side of a boundary is the fluid's.
+void check_cover(const HybridMesh& mesh, const FaceSlots& slots, const RunContext& context, Findings& findings);
+
+}  // namespace sterna::check_parts

@@ -1,0 +1,36 @@
+// Quality figures of a HybridMesh, gathered cell by cell so that they can share the one pass of `check`.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "geom/math/measures.h"
+#include "geom/mesh/check.h"
+
+namespace sterna {
+
+/// Skew angle (13) of method.md in radians: mean angle between the three growth edges and the normals of base and top. pi/2 for a vanishing edge or normal.
+double skew_angle(const WedgePoints& p);
+
+/// Running minima and counts; scans of consecutive chunks are merged in order, ties keep the first place.
+class QualityScan {
+ public:
+  void add_prism(const WedgePoints& p);
+  /// A pyramid or tet of a column over collapsed lines: no prism of its own, counted as skewed by more than 60 degrees.
+  void add_collapsed() { ++n_collapsed_; }
+  void add_tet(const std::array<Vec3, 4>& p);
+  void merge(const QualityScan& later);
+  Quality result() const;
+
+ private:
+  struct Extreme {
+    double value = std::numeric_limits<double>::infinity();
+    Point place;
+    void lower(double v, const Point& p);
+  };
+  Extreme wedge_, min_dihedral_, negative_max_dihedral_;
+  std::int64_t n_prisms_ = 0, n_collapsed_ = 0;
+  std::int64_t n_below_6_ = 0, n_below_18_ = 0, n_above_60_ = 0;
+};
+
+}  // namespace sterna
