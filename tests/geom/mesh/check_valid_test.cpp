@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tests/geom/mesh/check_support.h"
+#include "tests/support/shapes.h"
 
 namespace sterna {
 namespace {
