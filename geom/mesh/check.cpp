@@ -1,5 +1,5 @@
-// The walker as its list of steps. Together they prove a tiling: positive cells that match face by face cover each point of the fluid equally often between two
-// boundaries; the boundary does not cross itself, and its fluid side is covered once.
+// The walker as its list of steps. Together they prove a tiling: positive cells that match face by face cover each point of the fluid equally often
+// between two boundaries; the boundary does not cross itself, and its fluid side is covered once.
 #include "geom/mesh/check.h"
 
 #include "geom/mesh/check_parts.h"
@@ -19,8 +19,9 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
   report.is_complete = check_indices(mesh, cells, context, findings);
   if (report.is_complete) {
     report.cells = count_cells(mesh);
+    if (report.cells.total() == 0) findings.add(Violation::no_cells, [&] { return std::pair(Point{}, std::string("the mesh has no cells")); });
     const FaceSlots slots(mesh, cells, find_open_sides(mesh.layers, context));
-    const FaceMatch match = match_faces(slots, mesh.points.size(), context);
+    const FaceMatch match = match_faces(slots, mesh.points.size(), static_cast<std::uint64_t>(std::max<std::int64_t>(options.faces_at_a_time, 1)), context);
     report_faces(mesh, slots, match, findings);
     context.progress(0.3);
 

@@ -26,6 +26,7 @@ enum class Violation {
   volume_mismatch,        ///< divergence theorem: cells of the layer against wall-to-envelope; tets against envelope-to-farfield
   broken_line,            ///< G1: two wall-normal lines that share nodes, so that one of them has none of its own (column meshes only)
   overlapping_parts,      ///< tiling: a boundary whose fluid side is covered more than once or lies outside the mesh (closed boundaries only)
+  no_cells,               ///< tiling: the mesh has no cell at all
 };
 std::string_view to_string(Violation v);
 /// "G1", "G2", "G3" or "tiling".
@@ -69,6 +70,7 @@ struct CheckOptions {
   bool intersections = true;  ///< G2, the exact triangle-triangle tests
   bool quality = true;        ///< fill CheckReport::quality
   int findings_per_kind = 10;
+  std::int64_t faces_at_a_time = std::int64_t{1} << 27;  ///< bound of the memory for matching faces, 16 bytes each; the report does not depend on it
 };
 
 /// "Layer" is every cell but the explicit tets, "envelope" the faces between layer and tets. Quads take part in the intersection test with both of their

@@ -1,6 +1,7 @@
-// Faces, cells and crossings cannot tell a tiling from two meshes, one inside the other, that do not touch. The number of cells that cover a point is the winding
-// number of the boundary there; it is constant between boundaries, so one look at each piece of boundary suffices: on the fluid side of every piece it must be 1.
-// At a point of a boundary triangle, without that triangle's own part, the winding number is the mean of its two sides, here 1/2.
+// Faces, cells and crossings cannot tell a tiling from two meshes, one inside the other, that do not touch. The number of cells that cover a point is
+// the winding number of the boundary there; it is constant between boundaries, so one look at each piece of boundary suffices: on the fluid side of
+// every piece it must be 1. At a point of a boundary triangle, without that triangle's own part, the winding number is the mean of its two sides, here
+// 1/2.
 #include <cmath>
 #include <numbers>
 #include <numeric>

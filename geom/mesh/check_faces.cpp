@@ -1,6 +1,6 @@
-// Matches faces by their vertex ids. A face falls into the bucket of its lowest node; inside a bucket the faces are sorted by the remaining nodes in a canonical
-// order that keeps the cycle (a quad is the same face only with the same cycle), with one bit for the sense. Buckets are filled by counting (with atomic cursors:
-// the order inside a bucket is restored by its sort), in batches of node ranges that bound the memory.
+// Matches faces by their vertex ids. A face falls into the bucket of its lowest node; inside a bucket the faces are sorted by the remaining nodes in a
+// canonical order that keeps the cycle (a quad is the same face only with the same cycle), with one bit for the sense. Buckets are filled by counting
+// (with atomic cursors: the order inside a bucket is restored by its sort), in batches of node ranges that bound the memory.
 #include <atomic>
 
 #include "geom/mesh/check_parts.h"
@@ -8,8 +8,6 @@
 namespace sterna::check_parts {
 namespace {
 
-/// Faces held at a time: 2^27 of 16 bytes are 2 GiB.
-constexpr std::uint64_t k_batch_faces = std::uint64_t{1} << 27;
 /// Nodes per chunk of the matching loops; some 20 faces each.
 constexpr std::size_t k_node_chunk = 4096;
 
@@ -76,7 +74,7 @@ void append(FaceMatch& all, FaceMatch&& more) {
 
 }  // namespace
 
-FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, const RunContext& context) {
+FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, const RunContext& context) {
   std::vector<std::uint32_t> cursor(n_points, 0);
   slots.for_each(context, [&](std::uint32_t, const Face& face) {
     std::atomic_ref<std::uint32_t>(cursor[face.nodes[lowest_corner(face)].index()]).fetch_add(1, std::memory_order_relaxed);
@@ -88,7 +86,7 @@ FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, const RunCon
   std::vector<FaceKey> keys;
   for (std::size_t begin_node = 0; begin_node < n_points;) {
     std::size_t end_node = begin_node + 1;
-    while (end_node < n_points && first[end_node + 1] - first[begin_node] <= k_batch_faces) ++end_node;
+    while (end_node < n_points && first[end_node + 1] - first[begin_node] <= faces_at_a_time) ++end_node;
     const std::uint64_t first_key = first[begin_node];
     keys.resize(first[end_node] - first_key);
     std::fill(cursor.begin() + static_cast<std::ptrdiff_t>(begin_node), cursor.begin() + static_cast<std::ptrdiff_t>(end_node), 0u);
@@ -141,11 +139,16 @@ void report_faces(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatc
           if (!slots.is_boundary(issue.other)) what += near_patch(mesh, center);
           break;
         case Violation::same_sense_face:
-          what = slots.is_boundary(issue.slot) ? slots.name(issue.slot) + " points into its cell, " + slots.name(issue.other)
-                                               : slots.name(issue.slot) + " and " + slots.name(issue.other) + near_patch(mesh, center) + " lie on the same side of their " + shape;
+          what = slots.is_boundary(issue.slot)
+                     ? slots.name(issue.slot) + " points into its cell, " + slots.name(issue.other)
+                     : slots.name(issue.slot) + " and " + slots.name(issue.other) + near_patch(mesh, center) + " lie on the same side of their " + shape;
           break;
-        case Violation::stray_boundary_face: what = slots.name(issue.slot) + " is a face of no cell"; break;
-        default: what = slots.name(issue.slot) + " marks the face of " + slots.name(issue.other) + " again"; break;
+        case Violation::stray_boundary_face:
+          what = slots.name(issue.slot) + " is a face of no cell";
+          break;
+        default:
+          what = slots.name(issue.slot) + " marks the face of " + slots.name(issue.other) + " again";
+          break;
       }
       return std::pair(center, std::move(what));
     });

@@ -51,7 +51,8 @@ class IndexWalker {
                  std::to_string(layers.is_collapsed.size()) + " collapse flags");
       return;
     }
-    for (const std::uint64_t k : find_bad(context_, layers.n_lines(), [&](std::size_t line) { return layers.is_collapsed[line] > 1 || end_of_line(line) > mesh_.points.size(); }))
+    for (const std::uint64_t k :
+         find_bad(context_, layers.n_lines(), [&](std::size_t line) { return layers.is_collapsed[line] > 1 || end_of_line(line) > mesh_.points.size(); }))
       add_unsafe("line " + std::to_string(k) + ": nodes " + std::to_string(layers.first_node[k]) + " to " + std::to_string(end_of_line(k) - 1) + " of " +
                  std::to_string(mesh_.points.size()));
     for (const std::uint64_t c : find_bad(context_, layers.n_columns(), [&](std::size_t column) {
@@ -61,7 +62,8 @@ class IndexWalker {
       add_unsafe("column " + std::to_string(c) + ": line index out of range, " + std::to_string(layers.n_lines()) + " lines");
     if (!is_safe_) return;
     for (const std::uint64_t c : find_bad(context_, layers.n_columns(), [&](std::size_t column) { return has_repeated_node(layers.base[column]); }))
-      findings_.add(Violation::bad_index, [&] { return std::pair(mesh_.points[layers.node(layers.base[c][0], 0)], "column " + std::to_string(c) + " repeats a line"); });
+      findings_.add(Violation::bad_index,
+                    [&] { return std::pair(mesh_.points[layers.node(layers.base[c][0], 0)], "column " + std::to_string(c) + " repeats a line"); });
     check_lines();
   }
 
@@ -78,8 +80,9 @@ class IndexWalker {
       if (bad != nodes.end()) is_safe_ = false;
       findings_.add(Violation::bad_index, [&] {
         const auto good = std::find_if_not(nodes.begin(), nodes.end(), is_out_of_range);
-        return std::pair(good != nodes.end() ? mesh_.points[*good] : Point{},
-                         name(i) + (bad != nodes.end() ? ": node " + std::to_string(bad->value()) + " of " + std::to_string(n_points) : std::string(" repeats a node")));
+        return std::pair(
+            good != nodes.end() ? mesh_.points[*good] : Point{},
+            name(i) + (bad != nodes.end() ? ": node " + std::to_string(bad->value()) + " of " + std::to_string(n_points) : std::string(" repeats a node")));
       });
     }
   }
@@ -88,7 +91,8 @@ class IndexWalker {
   void check_patches(const Faces& faces, const char* what) {
     for (const std::uint64_t i : find_bad(context_, faces.size(), [&](std::size_t face) { return faces[face].patch.index() >= mesh_.patches.size(); }))
       findings_.add(Violation::bad_index, [&] {
-        return std::pair(mesh_.points[faces[i].nodes[0]], what + std::to_string(i) + ": patch " + std::to_string(faces[i].patch.value()) + " of " + std::to_string(mesh_.patches.size()));
+        return std::pair(mesh_.points[faces[i].nodes[0]],
+                         what + std::to_string(i) + ": patch " + std::to_string(faces[i].patch.value()) + " of " + std::to_string(mesh_.patches.size()));
       });
   }
 
@@ -146,7 +150,8 @@ class IndexWalker {
       if (end_of_line(before) > sorted[i].first)
         findings_.add(Violation::broken_line, [&] {
           const Point& p = mesh_.points.raw()[sorted[i].first];
-          return std::pair(p, "lines " + std::to_string(before) + " and " + std::to_string(line) + " share node " + std::to_string(sorted[i].first) + near_patch(mesh_, p));
+          return std::pair(
+              p, "lines " + std::to_string(before) + " and " + std::to_string(line) + " share node " + std::to_string(sorted[i].first) + near_patch(mesh_, p));
         });
       if (end_of_line(line) >= end_of_line(before)) longest = i;
     }

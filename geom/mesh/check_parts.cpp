@@ -82,8 +82,8 @@ std::string CellNumbers::name(std::uint64_t number) const {
 FaceSlots::FaceSlots(const HybridMesh& mesh, const CellNumbers& cells, std::vector<OpenSide> open_sides)
     : mesh_(mesh), cells_(cells), open_sides_(std::move(open_sides)) {
   const auto n_layers = static_cast<std::uint64_t>(std::max(mesh.layers.n_layers, 0));
-  const std::array<std::uint64_t, k_n_blocks> sizes = {2 * mesh.layers.n_columns(), open_sides_.size() * n_layers, 5 * mesh.prisms.size(),
-                                                       5 * mesh.pyramids.size(),    6 * mesh.hexahedra.size(),     4 * mesh.tetrahedra.size(),
+  const std::array<std::uint64_t, k_n_blocks> sizes = {2 * mesh.layers.n_columns(),    open_sides_.size() * n_layers, 5 * mesh.prisms.size(),
+                                                       5 * mesh.pyramids.size(),       6 * mesh.hexahedra.size(),     4 * mesh.tetrahedra.size(),
                                                        mesh.boundary_triangles.size(), mesh.boundary_quads.size()};
   std::uint64_t first = 0;
   for (std::size_t block = 0; block < k_n_blocks; ++block) {

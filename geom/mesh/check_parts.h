@@ -13,7 +13,7 @@
 
 namespace sterna::check_parts {
 
-inline constexpr std::size_t k_n_violations = static_cast<std::size_t>(Violation::overlapping_parts) + 1;
+inline constexpr std::size_t k_n_violations = static_cast<std::size_t>(Violation::no_cells) + 1;
 
 /// Appends `more` to `all`; the combine function of every list that is gathered chunk by chunk.
 template <class T>
@@ -173,12 +173,13 @@ struct CellScan {
 bool check_indices(const HybridMesh& mesh, const CellNumbers& cells, const RunContext& context, Findings& findings);
 /// Base edges that are not shared by exactly two columns of opposite sense; edges between two collapsed lines have no faces and do not count.
 std::vector<OpenSide> find_open_sides(const LayerBlock& layers, const RunContext& context);
-FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, const RunContext& context);
+/// At most `faces_at_a_time` faces are held at a time, or those of one lowest node if they are more.
+FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, const RunContext& context);
 void report_faces(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, Findings& findings);
 CellScan scan_cells(const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const RunContext& context);
 /// Compares the cells' volumes with the flux through outer faces and envelope; fills the report's volumes.
-void check_volumes(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const CellScan& scan, const RunContext& context,
-                   CheckReport& report, Findings& findings);
+void check_volumes(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const CellScan& scan, const RunContext& context, CheckReport& report,
+                   Findings& findings);
 /// boundary_intersection, envelope_intersection.
 void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const RunContext& context, Findings& findings);
 /// overlapping_parts; does nothing when faces or crossings were found wrong, since then no side of a boundary is the fluid's.

@@ -57,20 +57,36 @@ nlohmann::ordered_json to_array(const Point& p) { return {p.x, p.y, p.z}; }
 
 std::string_view to_string(Violation v) {
   switch (v) {
-    case Violation::unmatched_face: return "unmatched_face";
-    case Violation::overmatched_face: return "overmatched_face";
-    case Violation::same_sense_face: return "same_sense_face";
-    case Violation::stray_boundary_face: return "stray_boundary_face";
-    case Violation::duplicate_marker: return "duplicate_marker";
-    case Violation::bad_index: return "bad_index";
-    case Violation::bad_point: return "bad_point";
-    case Violation::unused_node: return "unused_node";
-    case Violation::boundary_intersection: return "boundary_intersection";
-    case Violation::envelope_intersection: return "envelope_intersection";
-    case Violation::invalid_cell: return "invalid_cell";
-    case Violation::volume_mismatch: return "volume_mismatch";
-    case Violation::broken_line: return "broken_line";
-    case Violation::overlapping_parts: return "overlapping_parts";
+    case Violation::unmatched_face:
+      return "unmatched_face";
+    case Violation::overmatched_face:
+      return "overmatched_face";
+    case Violation::same_sense_face:
+      return "same_sense_face";
+    case Violation::stray_boundary_face:
+      return "stray_boundary_face";
+    case Violation::duplicate_marker:
+      return "duplicate_marker";
+    case Violation::bad_index:
+      return "bad_index";
+    case Violation::bad_point:
+      return "bad_point";
+    case Violation::unused_node:
+      return "unused_node";
+    case Violation::boundary_intersection:
+      return "boundary_intersection";
+    case Violation::envelope_intersection:
+      return "envelope_intersection";
+    case Violation::invalid_cell:
+      return "invalid_cell";
+    case Violation::volume_mismatch:
+      return "volume_mismatch";
+    case Violation::broken_line:
+      return "broken_line";
+    case Violation::overlapping_parts:
+      return "overlapping_parts";
+    case Violation::no_cells:
+      return "no_cells";
   }
   return "";
 }
@@ -78,11 +94,16 @@ std::string_view to_string(Violation v) {
 std::string_view gate_of(Violation v) {
   switch (v) {
     case Violation::boundary_intersection:
-    case Violation::envelope_intersection: return "G2";
-    case Violation::invalid_cell: return "G3";
+    case Violation::envelope_intersection:
+      return "G2";
+    case Violation::invalid_cell:
+      return "G3";
     case Violation::volume_mismatch:
-    case Violation::overlapping_parts: return "tiling";
-    default: return "G1";
+    case Violation::overlapping_parts:
+    case Violation::no_cells:
+      return "tiling";
+    default:
+      return "G1";
   }
 }
 
@@ -108,7 +129,8 @@ std::string to_text(const CheckReport& report) {
   if (report.quality_measured) {
     const Quality& q = report.quality;
     text += format("  prisms: worst scaled Jacobian %.3g at ", q.min_wedge_quality) + format_point(q.worst_prism) +
-            format("; skew below 6 deg %.1f %%, below 18 deg %.1f %%, above 60 deg %.2f %%\n", 100.0 * q.skew_below_6, 100.0 * q.skew_below_18, 100.0 * q.skew_above_60);
+            format("; skew below 6 deg %.1f %%, below 18 deg %.1f %%, above 60 deg %.2f %%\n", 100.0 * q.skew_below_6, 100.0 * q.skew_below_18,
+                   100.0 * q.skew_above_60);
     text += format("  tetrahedra: dihedral angles %.2f deg at ", q.min_dihedral * k_degrees) + format_point(q.worst_tet) +
             format(" to %.2f deg at ", q.max_dihedral * k_degrees) + format_point(q.most_obtuse_tet) + "\n";
   }
@@ -148,7 +170,8 @@ std::string to_json(const CheckReport& report) {
   for (const auto& [violation, count] : report.counts) json["violations"][std::string(to_string(violation))] = count;
   json["findings"] = Json::array();
   for (const Finding& finding : report.findings)
-    json["findings"].push_back({{"violation", to_string(finding.violation)}, {"gate", gate_of(finding.violation)}, {"position", to_array(finding.position)}, {"what", finding.what}});
+    json["findings"].push_back(
+        {{"violation", to_string(finding.violation)}, {"gate", gate_of(finding.violation)}, {"position", to_array(finding.position)}, {"what", finding.what}});
   json["volume"] = {{"layer", report.layer_volume},
                     {"layer_error", report.layer_volume_error},
                     {"tetrahedra", report.tet_volume},

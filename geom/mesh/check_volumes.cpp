@@ -1,6 +1,6 @@
-// Divergence theorem: the volume of the layer's cells must equal the flux of x/3 through wall and envelope (and other boundary faces of layer cells), that of the
-// tets the flux through envelope and outer boundary. The flux is summed in extended precision about the middle of the walls: a layer of thickness h about a body of
-// length L is the difference of fluxes that are L/h times larger, and must still come out to 1e-11.
+// Divergence theorem: the volume of the layer's cells must equal the flux of x/3 through wall and envelope (and other boundary faces of layer cells),
+// that of the tets the flux through envelope and outer boundary. The flux is summed in extended precision about the middle of the walls: a layer of
+// thickness h about a body of length L is the difference of fluxes that are L/h times larger, and must still come out to 1e-11.
 #include <cmath>
 #include <cstdio>
 
@@ -33,8 +33,10 @@ class Flux {
       p[k] = {static_cast<long double>(x.x) - origin_.x, static_cast<long double>(x.y) - origin_.y, static_cast<long double>(x.z) - origin_.z};
     }
     // A bilinear quad carries the mean of its two triangulations.
-    long double flux = face.size == 3 ? determinant(p[0], p[1], p[2]) / 6.0L
-                                      : (determinant(p[0], p[1], p[2]) + determinant(p[0], p[2], p[3]) + determinant(p[0], p[1], p[3]) + determinant(p[1], p[2], p[3])) / 12.0L;
+    long double flux =
+        face.size == 3
+            ? determinant(p[0], p[1], p[2]) / 6.0L
+            : (determinant(p[0], p[1], p[2]) + determinant(p[0], p[2], p[3]) + determinant(p[0], p[1], p[3]) + determinant(p[1], p[2], p[3])) / 12.0L;
     if (is_reversed) flux = -flux;
     const auto leading = static_cast<double>(flux);
     sum.add(leading);
@@ -108,8 +110,9 @@ void check_volumes(const HybridMesh& mesh, const FaceSlots& slots, const FaceMat
     if (error <= k_volume_tolerance) return error;
     findings.add(Violation::volume_mismatch, [&] {
       char text[200];
-      std::snprintf(text, sizeof text, "%s: the cells' volumes sum to %.15g m^3, the surface around them encloses %.15g m^3; relative difference %.3g, limit %.3g", part,
-                    cells, surface, error, k_volume_tolerance);
+      std::snprintf(text, sizeof text,
+                    "%s: the cells' volumes sum to %.15g m^3, the surface around them encloses %.15g m^3; relative difference %.3g, limit %.3g", part, cells,
+                    surface, error, k_volume_tolerance);
       return std::pair(origin, std::string(text));
     });
     return error;

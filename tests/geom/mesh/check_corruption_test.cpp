@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <limits>
+#include <random>
 
 #include "tests/geom/mesh/check_support.h"
 
@@ -104,7 +105,8 @@ TEST(CheckCorruption, MarkerInTwoPatches) {
     const CheckReport report = checked(mesh);
     expect_found(report, Violation::duplicate_marker, 1, place);
     EXPECT_EQ(report.counts.size(), 1u) << to_text(report);
-    EXPECT_NE(report.findings[0].what.find("patch farfield marks the face of boundary triangle 80, patch sphere again"), std::string::npos) << report.findings[0].what;
+    EXPECT_NE(report.findings[0].what.find("patch farfield marks the face of boundary triangle 80, patch sphere again"), std::string::npos)
+        << report.findings[0].what;
   }
 }
 
@@ -160,7 +162,8 @@ TEST(CheckCorruption, MovedNodeInvertsPrisms) {
     const Point place = mesh.points[node];
     mesh.points[node] = 0.99 * mesh.points[columns.layers.node(line, 0)];  // into the wall
     const CheckReport report = checked(mesh);
-    const std::int64_t n_around = std::count_if(columns.layers.base.begin(), columns.layers.base.end(), [&](const auto& b) { return std::count(b.begin(), b.end(), line) > 0; });
+    const std::int64_t n_around =
+        std::count_if(columns.layers.base.begin(), columns.layers.base.end(), [&](const auto& b) { return std::count(b.begin(), b.end(), line) > 0; });
     expect_found(report, Violation::invalid_cell, n_around, place);
     expect_only(report, {Violation::invalid_cell});
   }
@@ -178,10 +181,15 @@ TEST(CheckCorruption, UnusedNode) {
 TEST(CheckCorruption, BadIndicesEndTheWalk) {
   const HybridMesh mesh = base_cells();
   const NodeId outside(static_cast<std::uint64_t>(mesh.points.size()));
-  const std::vector<std::function<void(HybridMesh&)>> corruptions = {
-      [&](HybridMesh& m) { m.prisms[k_prism][4] = outside; },          [&](HybridMesh& m) { m.tetrahedra[7][0] = NodeId{}; },
-      [&](HybridMesh& m) { m.boundary_triangles[3].nodes[1] = outside; }, [&](HybridMesh& m) { m.pyramids.push_back({outside, outside, outside, outside, outside}); },
-      [&](HybridMesh& m) { m.boundary_quads.push_back({{outside, outside, outside, outside}, PatchId(0)}); }};
+  const std::vector<std::function<void(HybridMesh&)>> corruptions = {[&](HybridMesh& m) { m.prisms[k_prism][4] = outside; },
+                                                                     [&](HybridMesh& m) { m.tetrahedra[7][0] = NodeId{}; },
+                                                                     [&](HybridMesh& m) { m.boundary_triangles[3].nodes[1] = outside; },
+                                                                     [&](HybridMesh& m) {
+                                                                       m.pyramids.push_back({outside, outside, outside, outside, outside});
+                                                                     },
+                                                                     [&](HybridMesh& m) {
+                                                                       m.boundary_quads.push_back({{outside, outside, outside, outside}, PatchId(0)});
+                                                                     }};
   for (const auto& corrupt : corruptions) {
     HybridMesh bad = mesh;
     corrupt(bad);
@@ -195,9 +203,12 @@ TEST(CheckCorruption, BadIndicesEndTheWalk) {
 TEST(CheckCorruption, BadLinesAndColumnsEndTheWalk) {
   const HybridMesh mesh = base_mesh();
   const std::vector<std::function<void(LayerBlock&)>> corruptions = {
-      [&](LayerBlock& l) { l.base[5][0] = static_cast<std::uint32_t>(l.n_lines()); }, [&](LayerBlock& l) { l.first_node[5] = static_cast<std::uint32_t>(mesh.points.size()) - 1; },
-      [&](LayerBlock& l) { l.is_collapsed.pop_back(); },                              [&](LayerBlock& l) { l.is_collapsed[3] = 2; },
-      [&](LayerBlock& l) { l.n_layers = 0; },                                         [&](LayerBlock& l) { l.n_layers = -1; }};
+      [&](LayerBlock& l) { l.base[5][0] = static_cast<std::uint32_t>(l.n_lines()); },
+      [&](LayerBlock& l) { l.first_node[5] = static_cast<std::uint32_t>(mesh.points.size()) - 1; },
+      [&](LayerBlock& l) { l.is_collapsed.pop_back(); },
+      [&](LayerBlock& l) { l.is_collapsed[3] = 2; },
+      [&](LayerBlock& l) { l.n_layers = 0; },
+      [&](LayerBlock& l) { l.n_layers = -1; }};
   for (const auto& corrupt : corruptions) {
     HybridMesh bad = mesh;
     corrupt(bad.layers);
@@ -335,6 +346,37 @@ TEST(CheckCorruption, AMeshInsideAnotherOneIsNoTiling) {
   // Inside the body it is a domain of its own.
   const CheckReport apart = checked(joined(base_cells(), base_cells(), 0.1, {}));
   EXPECT_TRUE(apart.is_valid()) << to_text(apart);
+}
+
+TEST(CheckCorruption, RandomDamageNeverThrowsAndBothFormsAgree) {
+  std::mt19937 random(5);
+  const HybridMesh base = sphere_shell(2, {.n_layers = 2, .n_shells = 1, .collapsed = {3}});
+  const auto any = [&](std::size_t n) { return static_cast<std::size_t>(random()) % n; };
+  const auto node = [&] { return NodeId(static_cast<std::uint64_t>(any(base.points.size()))); };
+  const std::vector<std::function<void(HybridMesh&)>> damages = {
+      [&](HybridMesh& m) { m.points[node()] = m.points[node()]; },                             // coincident points, flat cells
+      [&](HybridMesh& m) { m.points[node()] = 0.5 * (m.points[node()] + m.points[node()]); },  // collinear points
+      [&](HybridMesh& m) { m.points[node()] = -1.0 * m.points[node()]; },                      // far across
+      [&](HybridMesh& m) { m.tetrahedra[any(m.tetrahedra.size())][any(4)] = node(); },         // perhaps a repeated node
+      [&](HybridMesh& m) { m.boundary_triangles[any(m.boundary_triangles.size())].nodes[any(3)] = node(); },
+      [&](HybridMesh& m) {
+        m.boundary_quads.push_back({{node(), node(), node(), node()}, PatchId(0)});
+      },
+      [&](HybridMesh& m) { m.tetrahedra.erase(m.tetrahedra.begin() + static_cast<std::ptrdiff_t>(any(m.tetrahedra.size()))); },
+      [&](HybridMesh& m) { m.layers.base[any(m.layers.n_columns())][any(3)] = static_cast<std::uint32_t>(any(m.layers.n_lines())); },
+      [&](HybridMesh& m) { m.layers.is_collapsed[any(m.layers.n_lines())] ^= 1; },
+  };
+  int n_valid = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    HybridMesh mesh = base;
+    for (std::size_t n = 1 + any(3); n > 0; --n) damages[any(damages.size())](mesh);
+    const CheckReport columns = checked(mesh);
+    n_valid += columns.is_valid();
+    if (columns.is_complete) {
+      EXPECT_EQ(columns.is_valid(), checked(explicit_cells(mesh)).is_valid()) << "trial " << trial << "\n" << to_text(columns);
+    }
+  }
+  EXPECT_LT(n_valid, 20);  // a node or index replaced by itself
 }
 
 TEST(CheckCorruption, FindingsAreLimitedButAllAreCounted) {

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "geom/mesh/check.h"
 #include "tests/support/hybrid_shapes.h"
 
