@@ -1,0 +1,285 @@
+// Faces are matched by vertex numbers without a global sort: they are thrown into buckets by their lowest vertex (counting, then scattering; both in fixed
+// chunks), each bucket is sorted in cache by itself, and equal neighbours are compared. A boundary triangle takes part as the face of a cell outside.
+
+#include "volmesh/tetra/verify.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "geom/base/error.h"
+#include "geom/base/parallel.h"
+#include "geom/math/predicates.h"
+#include "volmesh/tetra/boundary_check.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr std::size_t k_owner_limit = std::size_t{1} << 29;  ///< owner, face and sense of a face share 32 bits
+constexpr std::size_t k_chunk = 1 << 14;                     ///< owners per chunk
+constexpr std::size_t k_bucket_owners = 1 << 12;             ///< mean owners per bucket: 16 k faces, 256 kB, stay in the second-level cache
+constexpr std::size_t k_most_buckets = 4096;
+constexpr std::size_t k_places_named = 10;
+constexpr std::size_t k_places_kept = 1000;
+
+enum class Fault : std::uint8_t { bad_index, not_positive, missing_boundary, free_face, crowded_face, same_sense };
+constexpr std::array<const char*, 6> k_fault_text = {
+    "tetrahedra with a node out of range or repeated", "tetrahedra without positive volume", "boundary triangles that are no face of a tetrahedron",
+    "outer faces that are no boundary triangle",       "faces of more than two cells",       "faces that both cells see from the same side"};
+
+struct Finding {
+  Fault fault;
+  std::size_t owner;  ///< tetrahedron, or number of tetrahedra + boundary triangle
+  int face = 0;
+};
+
+struct Findings {
+  std::array<std::int64_t, k_fault_text.size()> counts{};
+  std::vector<Finding> kept;
+
+  void add(const Finding& finding) {
+    ++counts[static_cast<std::size_t>(finding.fault)];
+    if (kept.size() < k_places_kept) kept.push_back(finding);
+  }
+  bool empty() const { return kept.empty(); }
+};
+
+Findings joined(Findings a, const Findings& b) {
+  for (std::size_t i = 0; i < a.counts.size(); ++i) a.counts[i] += b.counts[i];
+  const std::size_t room = std::min(b.kept.size(), k_places_kept - a.kept.size());
+  a.kept.insert(a.kept.end(), b.kept.begin(), b.kept.begin() + static_cast<std::ptrdiff_t>(room));
+  return a;
+}
+
+/// Boundary and new points as one list of nodes.
+struct Nodes {
+  const TetraBoundary& boundary;
+  const TetraResult& result;
+  std::size_t n_boundary = boundary.points.size();
+  std::size_t size() const { return n_boundary + result.new_points.size(); }
+  const Vec3& operator[](std::size_t i) const { return i < n_boundary ? boundary.points[i] : result.new_points[i - n_boundary]; }
+};
+
+/// SIDS faces of a tetrahedron, normals outwards.
+constexpr std::array<std::array<std::uint8_t, 3>, 4> k_tet_faces = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+
+/// The owners of faces: tetrahedra first, then boundary triangles, whose faces look into the domain, hence out of "their" cell.
+struct Owners {
+  const TetraBoundary& boundary;
+  const TetraResult& result;
+  std::size_t n_tetrahedra = result.tetrahedra.size();
+  std::size_t size() const { return n_tetrahedra + boundary.triangles.size(); }
+  bool is_boundary(std::size_t owner) const { return owner >= n_tetrahedra; }
+  std::array<std::uint32_t, 3> face(std::size_t owner, int face) const {
+    if (is_boundary(owner)) return boundary.triangles[owner - n_tetrahedra];
+    const auto& tet = result.tetrahedra[owner];
+    const auto& local = k_tet_faces[static_cast<std::size_t>(face)];
+    return {tet[local[0]], tet[local[1]], tet[local[2]]};
+  }
+  int n_faces(std::size_t owner) const { return is_boundary(owner) ? 1 : 4; }
+};
+
+/// A face with sorted vertices low < middle < high; `tag` = owner << 3 | face << 1 | odd permutation.
+struct FaceEntry {
+  std::uint64_t low_middle;
+  std::uint64_t high_tag;
+  std::uint32_t high() const { return static_cast<std::uint32_t>(high_tag >> 32); }
+  std::size_t owner() const { return static_cast<std::uint32_t>(high_tag) >> 3; }
+  int face() const { return static_cast<int>(high_tag >> 1 & 3); }
+  bool is_odd() const { return (high_tag & 1) != 0; }
+  bool same_vertices(const FaceEntry& b) const { return low_middle == b.low_middle && high() == b.high(); }
+  friend bool operator<(const FaceEntry& a, const FaceEntry& b) {
+    return a.low_middle != b.low_middle ? a.low_middle < b.low_middle : a.high_tag < b.high_tag;
+  }
+};
+
+FaceEntry make_entry(std::array<std::uint32_t, 3> v, std::size_t owner, int face) {
+  std::uint64_t odd = 0;
+  const auto order = [&](std::size_t i, std::size_t j) {
+    if (v[i] <= v[j]) return;
+    std::swap(v[i], v[j]);
+    odd ^= 1;
+  };
+  order(0, 1);
+  order(1, 2);
+  order(0, 1);
+  return {std::uint64_t{v[0]} << 32 | v[1], std::uint64_t{v[2]} << 32 | owner << 3 | static_cast<std::uint64_t>(face) << 1 | odd};
+}
+
+/// The faces of all owners, bucket after bucket; a bucket holds all faces whose lowest vertex lies in its range.
+struct FaceBuckets {
+  std::vector<FaceEntry> entries;
+  std::vector<std::size_t> first;  ///< of each bucket, and the end
+};
+
+FaceBuckets throw_into_buckets(const Owners& owners, std::size_t n_nodes, const RunContext& context) {
+  const std::size_t n_buckets = std::clamp<std::size_t>(owners.size() / k_bucket_owners, 1, k_most_buckets);
+  const std::size_t nodes_per_bucket = n_nodes / n_buckets + 1;
+  const std::size_t n_chunks = (owners.size() + k_chunk - 1) / k_chunk;
+  const auto bucket_of = [&](const FaceEntry& e) { return (e.low_middle >> 32) / nodes_per_bucket; };
+  const auto for_faces = [&](std::size_t begin, std::size_t end, const auto& f) {
+    for (std::size_t owner = begin; owner < end; ++owner) {
+      for (int face = 0; face < owners.n_faces(owner); ++face) f(make_entry(owners.face(owner, face), owner, face));
+    }
+  };
+
+  std::vector<std::size_t> place(n_chunks * n_buckets, 0);  // first counts, then the next free place of a chunk in a bucket
+  parallel_chunks(context, owners.size(), k_chunk, [&](std::size_t begin, std::size_t end) {
+    std::size_t* count = place.data() + begin / k_chunk * n_buckets;
+    for_faces(begin, end, [&](const FaceEntry& e) { ++count[bucket_of(e)]; });
+  });
+  FaceBuckets buckets;
+  buckets.first.assign(n_buckets + 1, 0);
+  std::size_t total = 0;
+  for (std::size_t bucket = 0; bucket < n_buckets; ++bucket) {
+    buckets.first[bucket] = total;
+    for (std::size_t chunk = 0; chunk < n_chunks; ++chunk) total += std::exchange(place[chunk * n_buckets + bucket], total);
+  }
+  buckets.first[n_buckets] = total;
+  buckets.entries.resize(total);
+  parallel_chunks(context, owners.size(), k_chunk, [&](std::size_t begin, std::size_t end) {
+    std::size_t* next = place.data() + begin / k_chunk * n_buckets;
+    for_faces(begin, end, [&](const FaceEntry& e) { buckets.entries[next[bucket_of(e)]++] = e; });
+  });
+  return buckets;
+}
+
+/// Judges the faces [begin, end) that have the same vertices.
+void judge_group(const Owners& owners, const FaceEntry* begin, const FaceEntry* end, Findings& findings) {
+  const auto find = [&](Fault fault, const FaceEntry& e) { findings.add({fault, e.owner(), e.face()}); };
+  const bool first_is_boundary = owners.is_boundary(begin->owner());
+  if (end - begin == 1) {
+    find(first_is_boundary ? Fault::missing_boundary : Fault::free_face, *begin);
+  } else if (end - begin > 2) {
+    find(Fault::crowded_face, *begin);
+  } else if (begin->is_odd() == begin[1].is_odd()) {
+    find(Fault::same_sense, *begin);
+  } else if (first_is_boundary) {
+    find(Fault::missing_boundary, *begin);  // two boundary triangles back to back; none of them has a tetrahedron
+  }
+}
+
+Findings match_faces(const Owners& owners, std::size_t n_nodes, const RunContext& context) {
+  FaceBuckets buckets = throw_into_buckets(owners, n_nodes, context);
+  return parallel_reduce(
+      context, buckets.first.size() - 1, Findings{},
+      [&](std::size_t begin, std::size_t end) {
+        Findings findings;
+        for (std::size_t bucket = begin; bucket < end; ++bucket) {
+          FaceEntry* const first = buckets.entries.data() + buckets.first[bucket];
+          FaceEntry* const last = buckets.entries.data() + buckets.first[bucket + 1];
+          std::sort(first, last);
+          for (const FaceEntry* e = first; e != last;) {
+            const FaceEntry* next = e + 1;
+            while (next != last && next->same_vertices(*e)) ++next;
+            judge_group(owners, e, next, findings);
+            e = next;
+          }
+        }
+        return findings;
+      },
+      joined, 1);
+}
+
+Findings judge_tetrahedra(const Nodes& nodes, const TetraResult& result, const RunContext& context) {
+  return parallel_reduce(
+      context, result.tetrahedra.size(), Findings{},
+      [&](std::size_t begin, std::size_t end) {
+        Findings findings;
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto& t = result.tetrahedra[i];
+          const bool is_repeated = t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] || t[2] == t[3];
+          if (is_repeated || std::ranges::any_of(t, [&](std::uint32_t v) { return v >= nodes.size(); })) {
+            findings.add({Fault::bad_index, i});
+          } else if (orient3d(nodes[t[0]], nodes[t[1]], nodes[t[2]], nodes[t[3]]) <= 0) {
+            findings.add({Fault::not_positive, i});
+          }
+        }
+        return findings;
+      },
+      joined, k_chunk);
+}
+
+ErrorInfo invalid(std::string problem) {
+  return {.code = ErrorCode::tetra_result_invalid, .attempted = "verifying the tetrahedra", .problem = std::move(problem)};
+}
+
+void check_new_points(const TetraBoundary& boundary, const TetraResult& result) {
+  const std::size_t n_boundary = boundary.points.size();
+  std::vector<std::uint8_t> is_used(result.new_points.size(), 0);
+  for (const auto& tet : result.tetrahedra) {
+    for (const std::uint32_t v : tet) {
+      if (v >= n_boundary) is_used[v - n_boundary] = 1;
+    }
+  }
+  for (std::size_t i = 0; i < is_used.size(); ++i) {
+    if (!is_finite(result.new_points[i])) throw Error(invalid("new point " + std::to_string(i) + " is not finite"));
+    if (is_used[i]) continue;
+    ErrorInfo error = invalid("new point " + std::to_string(i) + " is not used by any tetrahedron");
+    error.places.push_back({result.new_points[i], "new point " + std::to_string(i)});
+    throw Error(std::move(error));
+  }
+}
+
+ErrorPlace place_of(const Finding& finding, const Owners& owners, const Nodes& nodes) {
+  if (owners.is_boundary(finding.owner)) return place_of_triangle(owners.boundary, finding.owner - owners.n_tetrahedra, "");
+  Vec3 sum;
+  int n = 0;
+  const auto add = [&](std::uint32_t v) {
+    if (v >= nodes.size()) return;
+    sum += nodes[v];
+    ++n;
+  };
+  const std::string name = "tetrahedron " + std::to_string(finding.owner);
+  if (finding.fault == Fault::bad_index || finding.fault == Fault::not_positive) {
+    for (const std::uint32_t v : owners.result.tetrahedra[finding.owner]) add(v);
+    return {n > 0 ? sum / n : sum, name};
+  }
+  for (const std::uint32_t v : owners.face(finding.owner, finding.face)) add(v);
+  return {sum / n, "face " + std::to_string(finding.face) + " of " + name};
+}
+
+void throw_if_any(const Findings& findings, const Owners& owners, const Nodes& nodes) {
+  if (findings.empty()) return;
+  ErrorInfo error = invalid("");
+  for (std::size_t i = 0; i < findings.counts.size(); ++i) {
+    if (findings.counts[i] == 0) continue;
+    error.problem += (error.problem.empty() ? "" : ", ") + std::to_string(findings.counts[i]) + " " + k_fault_text[i];
+    error.n_places += findings.counts[i];
+  }
+  for (const Finding& finding : findings.kept) {
+    if (error.places.size() < k_places_named) error.places.push_back(place_of(finding, owners, nodes));
+    if (owners.is_boundary(finding.owner)) {
+      add_triangle(error.geometry, owners.boundary, finding.owner - owners.n_tetrahedra);
+    } else {
+      error.geometry.vertices.push_back(static_cast<std::uint32_t>(error.geometry.points.size()));
+      error.geometry.points.push_back(place_of(finding, owners, nodes).position);
+    }
+  }
+  if (findings.counts[static_cast<std::size_t>(Fault::missing_boundary)] > 0) {
+    error.hint = "the boundary is not closed, crosses itself, or a hole point lies on the wrong side of it";
+  }
+  throw Error(std::move(error));
+}
+
+}  // namespace
+
+void verify_tetrahedra(const TetraBoundary& boundary, const TetraResult& result, const RunContext& context) {
+  const Nodes nodes{boundary, result};
+  const Owners owners{boundary, result};
+  if (result.tetrahedra.empty()) {
+    ErrorInfo error = invalid("no tetrahedra at all");
+    error.hint = "the boundary is not closed, or a hole point lies in the domain";
+    throw Error(std::move(error));
+  }
+  if (owners.size() >= k_owner_limit || nodes.size() >= k_owner_limit) {
+    throw Error({.code = ErrorCode::overflow,
+                 .attempted = "verifying the tetrahedra",
+                 .problem = std::to_string(owners.size()) + " tetrahedra and boundary triangles, limit " + std::to_string(k_owner_limit)});
+  }
+  throw_if_any(judge_tetrahedra(nodes, result, context), owners, nodes);
+  check_new_points(boundary, result);
+  throw_if_any(match_faces(owners, nodes.size(), context), owners, nodes);
+}
+
+}  // namespace sterna::volmesh
