@@ -13,7 +13,9 @@ struct FarfieldOptions {
 };
 
 /// Icosahedral sphere (20 * f^2 triangles, f chosen from the edge length) about the centre of the wall's box; one patch "farfield"; normals INTO the fluid.
-/// \throws Error(bad_argument) when the sphere does not enclose the wall with a margin.
+/// Default: 500 triangles at 50 body lengths; the tetrahedra grow towards them geometrically, so that the farfield costs a few thousand.
+/// \throws Error(bad_argument) when the sphere does not enclose the wall with a margin of a quarter of the body length, or would have more than
+/// 20 million triangles; Error(empty_surface) for a wall without triangles.
 TriMesh farfield_sphere(const TriMesh& wall, const FarfieldOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh

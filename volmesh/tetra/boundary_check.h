@@ -1,6 +1,7 @@
 // What TetGen must never see: it accepts such boundaries and crashes or answers nonsense.
 #pragma once
 
+#include "geom/base/error.h"
 #include "geom/base/run_context.h"
 #include "volmesh/tetra/tetra.h"
 

@@ -61,7 +61,7 @@ class Request {
     Vec3* const holes = points_ + header.n_points;
     parallel_for(context, header.n_points, [&](std::size_t i) { points_[i] = scale * boundary.points[i]; });
     for (std::size_t i = 0; i < header.n_holes; ++i) holes[i] = scale * boundary.hole_points[i];
-    std::memcpy(holes + header.n_holes, boundary.triangles.data(), boundary.triangles.size_bytes());
+    std::memcpy(static_cast<void*>(holes + header.n_holes), boundary.triangles.data(), boundary.triangles.size_bytes());
   }
   const SharedBlock& block() const { return block_; }
   const Vec3* points() const { return points_; }  ///< as TetGen got them

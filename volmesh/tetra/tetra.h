@@ -20,6 +20,7 @@ struct TetraOptions {
 };
 
 /// Closed boundary of the domain: triangles whose right-hand normals point INTO the domain (envelope outwards of the body, farfield inwards).
+/// \pre free of self-intersection: the caller's exact test. Here it is looked for only once the engine has failed, to name the places.
 struct TetraBoundary {
   std::span<const Vec3> points;
   std::span<const std::array<std::uint32_t, 3>> triangles;
@@ -35,11 +36,18 @@ struct TetraResult {
   double engine_peak_bytes = 0.0;                       ///< of the helper process; log only
 };
 
-/// \throws Error tetra_engine_missing, tetra_engine_failed (crash, time or memory limit, self-intersection it reports), tetra_result_invalid; each with places.
+/// Runs TetGen 1.5 (`-pq<radius_edge>Y`, boundary kept) in the helper process sterna-tet-tetgen, found beside the running executable or one folder
+/// above it, and proves its answer. Coordinates are scaled by a power of two first, so a mesh in other units is the same mesh. A stop of the context
+/// or the time limit kills the helper at once; it never outlives the call.
+/// \throws Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface, non_manifold_surface, self_intersection
+/// (two points at one place) for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory limit; with the places
+/// where the boundary crosses itself, if it does); tetra_result_invalid; cancelled. Each with places where there are any.
 TetraResult fill_with_tetgen(const TetraBoundary& boundary, const TetraOptions& options, const RunContext& context);
 
-/// One point strictly inside each cavity of a wall: for each solid (components nested in it considered), found by rays and exact tests, no search by hand.
+/// One point strictly inside each cavity of a wall, that is in each connected solid region (a shell inside out bounds a hole of the solid around it, not a
+/// solid of its own): behind one of its largest triangles, centred along the axes, proven by exact ray crossings. In order of first triangle.
 /// \pre wall closed, manifold, without self-intersection, normals out of the body.
+/// \throws Error(not_orientable) when the region behind a shell is not a bounded solid (normals into the body, or bodies nested in bodies).
 std::vector<Point> find_cavity_points(const TriMesh& wall, const RunContext& context);
 
 }  // namespace sterna::volmesh

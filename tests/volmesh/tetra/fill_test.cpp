@@ -1,0 +1,207 @@
+#include <gmock/gmock.h>
+
+#include "tests/support/shapes.h"
+#include "tests/volmesh/tetra/cases.h"
+#include "volmesh/farfield.h"
+
+namespace sterna::volmesh {
+namespace {
+
+using test::both;
+using test::box;
+using test::Domain;
+using test::domain_around;
+using test::error_of;
+using test::expect_tiling;
+using test::inside_out;
+using test::transformed;
+using testing::HasSubstr;
+
+TetraResult fill(const Domain& domain, const TetraOptions& options = {}) { return fill_with_tetgen(domain.boundary(), options, RunContext{}); }
+
+TEST(FillWithTetgen, FillsBetweenOneBodyAndTheFarfield) {
+  for (const TriMesh& wall : {test::cube(1), test::cube(4), test::sphere(6)}) {
+    const Domain domain = domain_around(wall);
+    const TetraResult result = fill(domain);
+    expect_tiling(domain, result);
+    EXPECT_GT(result.engine_seconds, 0.0);
+    EXPECT_GT(result.engine_peak_bytes, 1e6);
+  }
+}
+
+TEST(FillWithTetgen, FillsAroundSeveralBodies) {
+  TriMesh wall = both(test::cube(2), transformed(test::sphere(4), 0.5, {3, 0, 0}));
+  wall = both(wall, transformed(test::cube(1), 0.25, {1.0001, 0.3, 0.3}));  // a gap of 1e-4
+  const Domain domain = domain_around(wall);
+  EXPECT_EQ(domain.holes.size(), 3u);
+  expect_tiling(domain, fill(domain));
+}
+
+TEST(FillWithTetgen, FillsTheHoleInsideAHollowBody) {
+  const TriMesh wall = both(test::sphere(5), inside_out(transformed(test::sphere(4), 0.5, {})));
+  const Domain domain = domain_around(wall, 20.0);
+  EXPECT_EQ(domain.holes.size(), 1u);
+  expect_tiling(domain, fill(domain));
+}
+
+TEST(FillWithTetgen, FillsAroundRazorThinBodies) {
+  // TetGen merges points closer than 1e-8 of the box, and dies of it, unless told not to.
+  for (const double thickness : {1e-3, 1e-6, 1e-9, 1e-12}) {
+    SCOPED_TRACE(thickness);
+    TriMesh wall = test::cube(3);
+    for (Point& p : wall.points) p.z *= thickness;
+    const Domain domain = domain_around(wall);
+    expect_tiling(domain, fill(domain));
+  }
+}
+
+TEST(FillWithTetgen, DoesNotDependOnUnitPlaceOrHandedness) {
+  const TriMesh wall = both(test::cube(2), transformed(test::sphere(3), 0.5, {2, 0.1, 0.2}));
+  for (const double scale : {1e-6, 1.0, 1e6, 1e-30, 1e30}) {
+    for (const double shift : {0.0, 1e3}) {
+      SCOPED_TRACE(testing::Message() << scale << " " << shift);
+      const Domain domain = domain_around(transformed(wall, scale, Vec3{shift, -shift, 2 * shift} * scale));
+      expect_tiling(domain, fill(domain));
+    }
+  }
+  TriMesh mirrored = inside_out(wall);
+  for (Point& p : mirrored.points) p.y = -p.y;
+  const Domain domain = domain_around(mirrored);
+  expect_tiling(domain, fill(domain));
+}
+
+TEST(FillWithTetgen, GivesTheSameMeshInUnitsOfAPowerOfTwo) {
+  const Domain domain = domain_around(test::sphere(4));
+  Domain small = domain;
+  for (Vec3& p : small.points) p *= 0x1p-20;
+  for (Vec3& p : small.holes) p *= 0x1p-20;
+  const TetraResult a = fill(domain), b = fill(small);
+  EXPECT_EQ(a.tetrahedra, b.tetrahedra);
+  ASSERT_EQ(a.new_points.size(), b.new_points.size());
+  for (std::size_t i = 0; i < a.new_points.size(); ++i) EXPECT_EQ(0x1p-20 * a.new_points[i], b.new_points[i]);
+}
+
+TEST(FillWithTetgen, TakesTheVerticesInAnyOrder) {
+  const Domain domain = domain_around(test::cube(2));
+  for (const std::uint32_t step : {5u, 7u, 11u}) {
+    Domain shuffled = domain;
+    const auto n = static_cast<std::uint32_t>(domain.points.size());
+    ASSERT_NE(n % step, 0u);
+    const auto new_number = [&](std::uint32_t v) { return v * step % n; };
+    for (std::uint32_t v = 0; v < n; ++v) shuffled.points[new_number(v)] = domain.points[v];
+    for (auto& t : shuffled.triangles) t = {new_number(t[1]), new_number(t[2]), new_number(t[0])};
+    std::ranges::reverse(shuffled.triangles);
+    expect_tiling(shuffled, fill(shuffled));
+  }
+}
+
+TEST(FillWithTetgen, IsDeterministicForAnyNumberOfThreads) {
+  const Domain domain = domain_around(both(test::cube(6), transformed(test::sphere(8), 0.5, {2, 0.1, 0.2})));
+  const TetraResult first = fill(domain);
+  for (const int threads : {1, 2, 7}) {
+    const TetraResult again = fill_with_tetgen(domain.boundary(), {}, RunContext({.threads = threads}));
+    EXPECT_EQ(first.tetrahedra, again.tetrahedra);
+    EXPECT_EQ(first.new_points, again.new_points);
+  }
+}
+
+TEST(FillWithTetgen, RefinesWithTheRadiusEdgeRatio) {
+  const Domain domain = domain_around(test::sphere(6));
+  EXPECT_GT(fill(domain, {.radius_edge = 1.2}).tetrahedra.size(), fill(domain, {.radius_edge = 2.0}).tetrahedra.size());
+}
+
+TEST(FillWithTetgen, RejectsAnOpenBoundary) {
+  Domain domain = domain_around(test::cube(2));
+  domain.triangles.erase(domain.triangles.begin() + 3);
+  const ErrorInfo error = error_of([&] { fill(domain); });
+  EXPECT_EQ(error.code, ErrorCode::open_surface);
+  EXPECT_THAT(error.problem, HasSubstr("3 edges"));
+  EXPECT_EQ(error.n_places, 3);
+  EXPECT_EQ(error.places.size(), 3u);
+  EXPECT_EQ(error.geometry.triangles.size(), 3u);
+}
+
+TEST(FillWithTetgen, RejectsADuplicateTriangle) {
+  Domain domain = domain_around(test::cube(1));
+  domain.triangles.push_back(domain.triangles[0]);
+  const ErrorInfo error = error_of([&] { fill(domain); });
+  EXPECT_EQ(error.code, ErrorCode::non_manifold_surface);
+  EXPECT_EQ(error.n_places, 3);
+}
+
+TEST(FillWithTetgen, RejectsATurnedTriangle) {
+  Domain domain = domain_around(test::cube(1));
+  std::swap(domain.triangles[0][0], domain.triangles[0][1]);
+  EXPECT_EQ(error_of([&] { fill(domain); }).code, ErrorCode::non_manifold_surface);
+}
+
+TEST(FillWithTetgen, RejectsAnIndexOutOfRange) {
+  Domain domain = domain_around(test::cube(1));
+  domain.triangles[5][1] = 99999;
+  const ErrorInfo error = error_of([&] { fill(domain); });
+  EXPECT_EQ(error.code, ErrorCode::bad_argument);
+  EXPECT_THAT(error.problem, HasSubstr("out of range"));
+  ASSERT_EQ(error.places.size(), 1u);
+  EXPECT_THAT(error.places[0].what, HasSubstr("triangle 5"));
+  EXPECT_THAT(error.places[0].what, HasSubstr("99999"));
+}
+
+TEST(FillWithTetgen, RejectsBadPoints) {
+  const Domain good = domain_around(test::cube(1));
+  Domain domain = good;
+  domain.points[4].y = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(error_of([&] { fill(domain); }).code, ErrorCode::bad_argument);
+  domain = good;
+  domain.points.push_back({3, 3, 3});
+  EXPECT_THAT(error_of([&] { fill(domain); }).problem, HasSubstr("no triangle uses"));
+  domain = good;
+  domain.points[4] = domain.points[5];
+  const ErrorInfo twins = error_of([&] { fill(domain); });
+  EXPECT_EQ(twins.code, ErrorCode::self_intersection);
+  ASSERT_EQ(twins.places.size(), 1u);
+  EXPECT_EQ(twins.places[0].position, good.points[5]);
+  domain = good;
+  domain.triangles[0] = {domain.triangles[0][0], domain.triangles[0][0], domain.triangles[0][1]};
+  EXPECT_EQ(error_of([&] { fill(domain); }).code, ErrorCode::bad_argument);
+  domain = good;
+  domain.holes[0].x = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(error_of([&] { fill(domain); }).code, ErrorCode::bad_argument);
+  EXPECT_EQ(error_of([&] { fill(Domain{}); }).code, ErrorCode::bad_argument);
+}
+
+TEST(FillWithTetgen, TellsWhereTheBoundaryCrossesItself) {
+  // TetGen dies of some of these, and answers others with triangles missing.
+  for (const double shift : {0.3, 0.55, 0.8}) {
+    SCOPED_TRACE(shift);
+    const TriMesh wall = both(test::sphere(3), transformed(test::sphere(4), 0.7, {shift, 0.1, 0.4}));
+    Domain domain;
+    domain.add(wall);
+    domain.add(farfield_sphere(wall, {}, RunContext{}));
+    domain.holes = {{0.01, 0.02, 0.03}, {shift, 0.1, 0.4}};
+    const ErrorInfo error = error_of([&] { fill(domain); });
+    EXPECT_TRUE(error.code == ErrorCode::tetra_engine_failed || error.code == ErrorCode::tetra_result_invalid);
+    EXPECT_THAT(error.problem, HasSubstr("crosses itself"));
+    ASSERT_FALSE(error.places.empty());
+    EXPECT_GT(error.n_places, 10);
+    EXPECT_FALSE(error.geometry.triangles.empty());
+    EXPECT_LT(norm(error.places[0].position), 1.2);
+  }
+}
+
+TEST(FillWithTetgen, RejectsTouchingBodies) {
+  const TriMesh wall = both(box({0, 0, 0}, {1, 1, 1}), box({1, 0.1, 0.1}, {2, 0.9, 0.9}));
+  const Domain domain = domain_around(wall);
+  EXPECT_EQ(domain.holes.size(), 2u);
+  EXPECT_THAT(error_of([&] { fill(domain); }).problem, HasSubstr("crosses itself"));
+}
+
+TEST(FillWithTetgen, RejectsWrongHolePoints) {
+  Domain domain = domain_around(test::cube(2));
+  domain.holes.clear();
+  EXPECT_EQ(error_of([&] { fill(domain); }).code, ErrorCode::tetra_result_invalid);
+  domain.holes = {{5, 5, 5}};
+  EXPECT_EQ(error_of([&] { fill(domain); }).code, ErrorCode::tetra_result_invalid);
+}
+
+}  // namespace
+}  // namespace sterna::volmesh

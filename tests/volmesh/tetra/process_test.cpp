@@ -1,0 +1,174 @@
+// The helper's death, in all its forms, is an error; the parent is unharmed and no zombie stays.
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "tests/support/data.h"
+#include "tests/support/shapes.h"
+#include "tests/volmesh/tetra/cases.h"
+
+namespace sterna::volmesh {
+namespace {
+
+using test::Domain;
+using test::domain_around;
+using test::error_of;
+using testing::HasSubstr;
+using Clock = std::chrono::steady_clock;
+
+constexpr double k_prompt_seconds = 5.0;  ///< an event must have become an error within this time
+
+/// A case that keeps TetGen busy for seconds.
+const Domain& slow_case() {
+  static const Domain domain = domain_around(test::sphere(70));
+  return domain;
+}
+
+class HelperProcess : public testing::Test {
+ protected:
+  ErrorInfo run(const Domain& domain, const TetraOptions& options, const RunContext& context = RunContext{}) {
+    const auto start = Clock::now();
+    const ErrorInfo error = error_of([&] { fill_with_tetgen(domain.boundary(), options, context); });
+    seconds_ = std::chrono::duration<double>(Clock::now() - start).count();
+    EXPECT_TRUE(test::has_no_children());
+    return error;
+  }
+  /// An executable shell script.
+  std::string script(const std::string& name, const std::string& text) {
+    const std::filesystem::path path = test::scratch() / name;
+    std::ofstream(path) << "#!/bin/sh\n" << text << "\n";
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    return path.string();
+  }
+  double seconds_ = 0.0;
+};
+
+pid_t first_child() {
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream children(task.path() / "children");
+    pid_t pid = 0;
+    if (children >> pid) return pid;
+  }
+  return 0;
+}
+
+TEST_F(HelperProcess, MissingIsNamed) {
+  const ErrorInfo error = run(domain_around(test::cube(1)), {.helper = "/nowhere/sterna-tet-tetgen"});
+  EXPECT_EQ(error.code, ErrorCode::tetra_engine_missing);
+  EXPECT_THAT(error.problem, HasSubstr("/nowhere/sterna-tet-tetgen"));
+  EXPECT_THAT(error.hint, HasSubstr("sterna-tet-tetgen"));
+  EXPECT_EQ(run(domain_around(test::cube(1)), {.helper = "/"}).code, ErrorCode::tetra_engine_missing);
+}
+
+TEST_F(HelperProcess, NoProgramIsMissingToo) {
+  const std::filesystem::path path = test::scratch() / "not_a_program";
+  std::ofstream(path) << "\x7f" "ELF nonsense";
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  EXPECT_EQ(run(domain_around(test::cube(1)), {.helper = path.string()}).code, ErrorCode::tetra_engine_missing);
+}
+
+TEST_F(HelperProcess, IsQuotedWhenItGivesNoAnswer) {
+  const ErrorInfo error = run(domain_around(test::cube(1)), {.helper = script("mute", "echo out of paper; echo and of ink >&2; exit 3")});
+  EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
+  EXPECT_THAT(error.problem, HasSubstr("exit status 3"));
+  EXPECT_THAT(error.problem, HasSubstr("out of paper\nand of ink"));
+}
+
+TEST_F(HelperProcess, MayTalkALot) {
+  const ErrorInfo error = run(domain_around(test::cube(1)), {.helper = script("talker", "yes 0123456789 | head -c 3000000; exit 4")});
+  EXPECT_THAT(error.problem, HasSubstr("exit status 4"));
+  EXPECT_LT(error.problem.size(), 2000u);
+}
+
+TEST_F(HelperProcess, GarbageIsNoAnswer) {
+  EXPECT_EQ(run(domain_around(test::cube(1)), {.helper = script("garbage", "head -c 1000 /dev/zero >&4")}).code, ErrorCode::tetra_engine_failed);
+  EXPECT_EQ(run(domain_around(test::cube(1)), {.helper = script("silent", "exec >&- 2>&-; sleep 0.3")}).code, ErrorCode::tetra_engine_failed);
+}
+
+TEST_F(HelperProcess, ACutAnswerIsInvalid) {
+  // The header of a good reply (48 bytes: magic, ok, no points, one tetrahedron) without what it announces.
+  const ErrorInfo error = run(domain_around(test::cube(1)), {.helper = script("cut", "printf 'STETREP1' >&4; head -c 8 /dev/zero >&4; printf '\\377\\377\\0\\0\\0\\0\\0\\0\\1\\0\\0\\0\\0\\0\\0\\0' >&4; head -c 16 /dev/zero >&4")});
+  EXPECT_EQ(error.code, ErrorCode::tetra_result_invalid);
+  EXPECT_THAT(error.problem, HasSubstr("bytes instead of"));
+}
+
+TEST_F(HelperProcess, ACrashIsNamed) {
+  const ErrorInfo error = run(domain_around(test::cube(1)), {.helper = script("crash", "echo last words; kill -SEGV $$")});
+  EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
+  EXPECT_THAT(error.problem, HasSubstr("signal 11"));
+  EXPECT_THAT(error.problem, HasSubstr("last words"));
+  EXPECT_THAT(error.hint, HasSubstr("does not cross itself"));
+}
+
+TEST_F(HelperProcess, KilledFromOutside) {
+  const Domain& domain = slow_case();
+  Clock::time_point killed_at;
+  std::jthread killer([&] {
+    pid_t pid = 0;
+    while ((pid = first_child()) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    killed_at = Clock::now();
+    kill(pid, SIGKILL);
+  });
+  const ErrorInfo error = run(domain, {});
+  killer.join();
+  EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
+  EXPECT_THAT(error.problem, HasSubstr("signal 9"));
+  EXPECT_LT(std::chrono::duration<double>(Clock::now() - killed_at).count(), k_prompt_seconds);
+}
+
+TEST_F(HelperProcess, TimeLimit) {
+  const ErrorInfo error = run(slow_case(), {.time_limit = 0.3});
+  EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
+  EXPECT_THAT(error.problem, HasSubstr("time limit"));
+  EXPECT_THAT(error.hint, HasSubstr("time_limit"));
+  EXPECT_LT(seconds_, 0.3 + k_prompt_seconds);
+}
+
+TEST_F(HelperProcess, MemoryLimit) {
+  const ErrorInfo error = run(domain_around(test::sphere(25)), {.memory_limit = 3e7});
+  EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
+  EXPECT_THAT(error.problem, HasSubstr("out of memory"));
+  EXPECT_THAT(error.problem, HasSubstr("30 MB"));
+  EXPECT_THAT(error.hint, HasSubstr("memory_limit"));
+}
+
+TEST_F(HelperProcess, HardlyAnyMemory) {
+  // Not even the request fits.
+  EXPECT_EQ(run(slow_case(), {.memory_limit = 1e6}).code, ErrorCode::tetra_engine_failed);
+}
+
+TEST_F(HelperProcess, StopsWithTheContext) {
+  const Domain& domain = slow_case();
+  std::stop_source source;
+  std::jthread stopper([&] {
+    while (first_child() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    source.request_stop();
+  });
+  const ErrorInfo error = run(domain, {}, RunContext({.stop = source.get_token()}));
+  EXPECT_EQ(error.code, ErrorCode::cancelled);
+  EXPECT_LT(seconds_, k_prompt_seconds);
+}
+
+TEST_F(HelperProcess, LeavesNoDescriptorOpen) {
+  const auto n_open = [] {
+    const auto list = std::filesystem::directory_iterator("/proc/self/fd");
+    return std::distance(begin(list), end(list));
+  };
+  const Domain domain = domain_around(test::cube(1));
+  fill_with_tetgen(domain.boundary(), {}, RunContext{});
+  const auto before = n_open();
+  fill_with_tetgen(domain.boundary(), {}, RunContext{});
+  run(domain, {.helper = "/nowhere"});
+  run(domain, {.helper = script("mute", "exit 1")});
+  EXPECT_EQ(n_open(), before);
+}
+
+}  // namespace
+}  // namespace sterna::volmesh

@@ -1,0 +1,245 @@
+// One point in each solid region of a wall.
+//
+// Problem: TetGen removes a cavity from a point inside it. Bodies may be several, hollow, nested, or as thin as a razor.
+// Steps: shells (components over edges); for each shell a point behind one of its largest triangles: a line along a coordinate axis through the triangle,
+// all crossings of it with the wall, the middle of the stretch from the triangle to the next crossing (`point_behind`); its winding number about every
+// shell, counted on that line with exact predicates (`windings`): in sum 1, or the region is no solid. The point is centred along the axes in turn, and of
+// all triangles' points the one with the most room wins. Points that are inside of the same shells are in the same region (shells do not cross), so one
+// point is kept for each set of shells.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "geom/base/error.h"
+#include "geom/base/parallel.h"
+#include "geom/math/bvh.h"
+#include "geom/math/measures.h"
+#include "geom/math/predicates.h"
+#include "geom/mesh/topology.h"
+#include "volmesh/tetra/tetra.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr std::size_t k_triangles_tried = 8;  ///< per shell, the largest
+/// Where a triangle is pierced; uneven, so that lines miss the edges and vertices of regular meshes. The next is taken where the line meets an edge.
+constexpr std::array<std::array<double, 3>, 5> k_weights = {{{0.43, 0.31, 0.26}, {0.2713, 0.4127, 0.316}, {0.361, 0.2117, 0.4273}, {0.5519, 0.1709, 0.2772}, {0.1373, 0.2939, 0.5688}}};
+
+struct Crossing {
+  TriangleId triangle;
+  double at = 0.0;  ///< coordinate along the axis, rounded; used for finding stretches only
+  int sense = 0;    ///< +1: the triangle's normal points along the axis
+};
+
+/// Set of shells around a point with the winding number about each, ascending; shells that do not wind around it are left out.
+using Windings = std::vector<std::pair<std::uint32_t, int>>;
+
+class Wall {
+ public:
+  Wall(const TriMesh& mesh, const Components& shells, const RunContext& context) : mesh_(mesh), shells_(shells), tree_(boxes_of(mesh, context), context) {}
+
+  /// Crossings with the line through p along an axis, sorted along it; none when it touches an edge or a vertex.
+  std::optional<std::vector<Crossing>> crossings(const Vec3& p, std::size_t axis) const {
+    Box line;
+    line.min = line.max = p;
+    const Box& all = tree_.nodes()[0].box;
+    line.min[axis] = all.min[axis];
+    line.max[axis] = all.max[axis];
+    std::vector<Crossing> found;
+    bool is_degenerate = false;
+    tree_.visit_overlaps(line, [&](std::uint32_t item) {
+      const TriangleId t(item);
+      const int sense = sense_of_crossing(t, p, axis, is_degenerate);
+      if (sense != 0) found.push_back({t, position(t, p, axis), sense});
+      return !is_degenerate;
+    });
+    if (is_degenerate) return std::nullopt;
+    std::ranges::sort(found, [](const Crossing& a, const Crossing& b) { return a.at != b.at ? a.at < b.at : a.triangle < b.triangle; });
+    return found;
+  }
+
+  /// Exact, from the crossings with the line through p. None when p lies on a triangle.
+  std::optional<Windings> windings(const Vec3& p, const std::vector<Crossing>& crossings) const {
+    std::map<std::uint32_t, int> sum;
+    for (const Crossing& crossing : crossings) {
+      const auto [a, b, c] = corners(mesh_, crossing.triangle);
+      const int side = orient3d(a, b, c, p);
+      if (side == 0) return std::nullopt;
+      if (side == -crossing.sense) sum[shells_.component[crossing.triangle]] += crossing.sense;  // the crossing lies ahead of p
+    }
+    Windings result;
+    for (const auto& [shell, winding] : sum) {
+      if (winding != 0) result.emplace_back(shell, winding);
+    }
+    return result;
+  }
+
+ private:
+  static std::vector<Box> boxes_of(const TriMesh& mesh, const RunContext& context) {
+    std::vector<Box> boxes(mesh.n_triangles());
+    parallel_for(context, boxes.size(), [&](std::size_t i) {
+      for (const Point& p : corners(mesh, TriangleId(std::uint64_t{i}))) boxes[i].add(p);
+    });
+    return boxes;
+  }
+  /// 0: no crossing. Exact, in the projection along the axis.
+  int sense_of_crossing(TriangleId t, const Vec3& p, std::size_t axis, bool& is_degenerate) const {
+    const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const auto flat = [&](const Vec3& q) { return Vec2{q[u], q[v]}; };
+    const std::array<Point, 3> corner = corners(mesh_, t);
+    int n_left = 0, n_right = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int turn = orient2d(flat(corner[k]), flat(corner[(k + 1) % 3]), flat(p));
+      n_left += turn > 0;
+      n_right += turn < 0;
+    }
+    if (n_left > 0 && n_right > 0) return 0;
+    if (n_left + n_right < 3) is_degenerate = true;
+    return n_left == 3 ? 1 : n_right == 3 ? -1 : 0;
+  }
+  double position(TriangleId t, const Vec3& p, std::size_t axis) const {
+    const auto [a, b, c] = corners(mesh_, t);
+    const Vec3 n = cross(b - a, c - a);
+    Vec3 to_line = p - a;
+    to_line[axis] = 0.0;
+    const double at = a[axis] - dot(n, to_line) / n[axis];
+    return std::clamp(at, std::min({a[axis], b[axis], c[axis]}), std::max({a[axis], b[axis], c[axis]}));
+  }
+
+  const TriMesh& mesh_;
+  const Components& shells_;
+  BoxTree tree_;
+};
+
+/// The largest triangles of each shell, shell after shell, largest first.
+std::vector<std::vector<TriangleId>> largest_triangles(const TriMesh& wall, const Components& shells) {
+  std::vector<std::vector<std::pair<double, TriangleId>>> best(shells.count);
+  const auto is_before = [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; };
+  for (const TriangleId t : wall.triangles.ids()) {
+    const auto [a, b, c] = corners(wall, t);
+    auto& list = best[shells.component[t]];
+    const std::pair entry{norm2(area_vector(a, b, c)), t};
+    if (list.size() == k_triangles_tried && !is_before(entry, list.back())) continue;
+    list.insert(std::ranges::upper_bound(list, entry, is_before), entry);
+    if (list.size() > k_triangles_tried) list.pop_back();
+  }
+  std::vector<std::vector<TriangleId>> result(shells.count);
+  for (std::size_t shell = 0; shell < best.size(); ++shell) {
+    for (const auto& entry : best[shell]) result[shell].push_back(entry.second);
+  }
+  return result;
+}
+
+std::size_t dominant_axis(const Vec3& n) {
+  const Vec3 m{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
+  return m.x >= m.y && m.x >= m.z ? 0 : m.y >= m.z ? 1 : 2;
+}
+
+struct Candidate {
+  Point point;
+  double room = 0.0;  ///< distance to the wall along the axes, the least
+  Windings windings;
+};
+
+struct Failure {
+  Point position;
+  std::string what;
+};
+
+bool is_solid(const Windings& windings) {
+  int sum = 0;
+  for (const auto& entry : windings) sum += entry.second;
+  return sum == 1;
+}
+
+/// Moves the point to the middle of its stretch along one axis, if exact signs prove that it stays in its region, and notes the room there.
+void center(const Wall& surface, std::size_t axis, Candidate& candidate) {
+  const auto crossings = surface.crossings(candidate.point, axis);
+  if (!crossings) return;
+  const auto next = std::ranges::upper_bound(*crossings, candidate.point[axis], {}, &Crossing::at);
+  if (next == crossings->begin() || next == crossings->end()) return;
+  Point moved = candidate.point;
+  moved[axis] = (next - 1)->at + 0.5 * (next->at - (next - 1)->at);
+  if (surface.windings(moved, *crossings) != candidate.windings) return;
+  candidate.point = moved;
+  candidate.room = std::min(candidate.room, 0.5 * (next->at - (next - 1)->at));
+}
+
+/// The middle of the stretch behind a triangle, centred; none when every line tried meets an edge, or nothing solid lies there (then `failure` says so).
+std::optional<Candidate> point_behind(const Wall& surface, const TriMesh& wall, TriangleId t, std::optional<Failure>& failure) {
+  const auto [a, b, c] = corners(wall, t);
+  const std::size_t axis = dominant_axis(cross(b - a, c - a));
+  for (const auto& weight : k_weights) {
+    Vec3 p = weight[0] * a + weight[1] * b + weight[2] * c;
+    const auto crossings = surface.crossings(p, axis);
+    if (!crossings) continue;
+    const auto here = std::ranges::find(*crossings, t, &Crossing::triangle);
+    if (here == crossings->end()) continue;  // a sliver: rounding moved the line out of it
+    const bool is_last = here->sense > 0 ? here == crossings->begin() : here + 1 == crossings->end();
+    if (is_last) {
+      failure = {p, "nothing lies behind this triangle"};
+      return std::nullopt;
+    }
+    const Crossing& next = here->sense > 0 ? *(here - 1) : *(here + 1);
+    p[axis] = here->at + 0.5 * (next.at - here->at);
+    auto windings = surface.windings(p, *crossings);
+    if (!windings) continue;
+    if (!is_solid(*windings)) {
+      failure = {p, "behind a triangle, but not inside of exactly one solid"};
+      return std::nullopt;
+    }
+    Candidate candidate{p, 0.5 * std::abs(next.at - here->at), std::move(*windings)};
+    for (const std::size_t step : {1, 2, 3}) center(surface, (axis + step) % 3, candidate);
+    return candidate;
+  }
+  return std::nullopt;
+}
+
+/// \throws Error(not_orientable) when none of the triangles has a solid behind it.
+Candidate roomiest_point(const Wall& surface, const TriMesh& wall, const std::vector<TriangleId>& triangles) {
+  Candidate best;
+  std::optional<Failure> failure;
+  for (const TriangleId t : triangles) {
+    auto candidate = point_behind(surface, wall, t, failure);
+    if (candidate && candidate->room > best.room) best = std::move(*candidate);
+  }
+  if (best.room > 0.0) return best;
+  const PatchId patch = wall.triangle_patch[triangles.front()];
+  ErrorInfo error{.code = ErrorCode::not_orientable,
+                  .attempted = "looking for a point inside each body",
+                  .problem = "the region behind a shell of patch \"" + wall.patches[patch].name + "\" is not a bounded solid",
+                  .hint = "normals must point out of the body, shells inside a body into its holes; a body must not lie inside another one"};
+  const auto [a, b, c] = corners(wall, triangles.front());
+  if (failure) error.places.push_back({failure->position, failure->what});
+  else error.places.push_back({(a + b + c) / 3.0, "largest triangle of the shell"});
+  throw Error(std::move(error));
+}
+
+}  // namespace
+
+std::vector<Point> find_cavity_points(const TriMesh& wall, const RunContext& context) {
+  if (wall.triangles.empty()) return {};
+  const Components shells = connected_components(wall, Topology(wall, context));
+  const Wall surface(wall, shells, context);
+  const std::vector<std::vector<TriangleId>> triangles = largest_triangles(wall, shells);
+  std::vector<Candidate> candidates(shells.count);
+  parallel_for(context, candidates.size(), [&](std::size_t shell) { candidates[shell] = roomiest_point(surface, wall, triangles[shell]); }, 1);
+
+  // One point per region, the one with the most room, in the place of its first shell.
+  std::vector<Candidate> kept;
+  std::map<Windings, std::size_t> region_of;
+  for (Candidate& candidate : candidates) {
+    const auto [it, is_new] = region_of.try_emplace(candidate.windings, kept.size());
+    if (is_new) kept.push_back(std::move(candidate));
+    else if (candidate.room > kept[it->second].room) kept[it->second] = std::move(candidate);
+  }
+  std::vector<Point> points;
+  for (const Candidate& candidate : kept) points.push_back(candidate.point);
+  return points;
+}
+
+}  // namespace sterna::volmesh
