@@ -1,0 +1,34 @@
+// Vertex classification from local geometry only (method.md §1, [ET15 §3.2.1]).
+#pragma once
+
+#include <cstdint>
+
+#include "geom/base/ids.h"
+#include "geom/base/run_context.h"
+#include "volmesh/envelope/layer_base.h"
+#include "volmesh/envelope/options.h"
+
+namespace sterna::volmesh {
+
+/// Combinable flags; none set = smooth. ridge + convex + concave = saddle.
+struct VertexClass {
+  bool is_ridge = false;    ///< exactly two feature edges that bend by less than 60 degrees
+  bool is_corner = false;   ///< any other non-zero number of feature edges
+  bool is_convex = false;   ///< an edge bends by more than +feature angle
+  bool is_concave = false;  ///< an edge bends by more than -feature angle
+  bool is_sharp = false;    ///< a feature edge bends by more than 120 degrees
+  bool is_blunt = false;    ///< a feature edge bends by less than that
+  bool is_smooth() const { return !is_ridge && !is_corner; }
+};
+
+struct Classification {
+  Column<VertexId, VertexClass> vertex;
+  Column<HalfedgeId, std::uint8_t> is_feature;  ///< 1 on both half-edges of a feature edge
+};
+
+/// Signed dihedral deviation of an edge in radians: angle between the normals of its two triangles, positive where convex; 0 on the boundary.
+double dihedral_deviation(const LayerBase& base, HalfedgeId h);
+
+Classification classify_vertices(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context);
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,18 @@
+// Initial envelope: growth directions and target heights (method.md §2, [ET15 §3.2.2]).
+#pragma once
+
+#include "volmesh/envelope/classify.h"
+#include "volmesh/envelope/envelope.h"
+
+namespace sterna::volmesh {
+
+/// Directions: the angle-weighted normal, pulled towards the best visible direction where it sees its faces badly. Heights: the target, which is the
+/// largest field with h <= eq. (1), h <= max_thickness (default 0.1 body lengths) and slope <= height_gradient along wall edges.
+/// Vertices without a direction that sees all their faces start collapsed (HeightLimit::invisible).
+Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context);
+
+/// The direction nearest to `wanted` (on the way to the best visible one) that sees every face of v with at least the cosine
+/// min(`cosine`, 0.5 * the best possible).
+Vec3 pull_into_cone(const LayerBase& base, VertexId v, const Vec3& wanted, double cosine);
+
+}  // namespace sterna::volmesh

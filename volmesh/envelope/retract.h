@@ -1,0 +1,23 @@
+// Collision avoidance between opposing layers (method.md §5, [ET15 §3.2.5]).
+#pragma once
+
+#include "volmesh/envelope/envelope.h"
+
+namespace sterna::volmesh {
+
+/// Shares the gap between opposing walls: where a growth line meets a wall that faces it, both heights keep together below the gap, in proportion to
+/// what each asks for.
+void share_gaps(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
+
+/// Lowers heights until the envelope is free of self-intersection by the exact triangle-triangle test, re-establishing valid macro-elements after each
+/// sweep; places that still collide after max_retract_sweeps collapse. \post no crossing pair among envelope triangles.
+void retract_collisions(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
+
+/// The envelope as an indexed triangle set: points = wall points, then one envelope point per vertex; corners of collapsed vertices refer to the wall.
+struct EnvelopeSurface {
+  std::vector<Vec3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+EnvelopeSurface envelope_surface(const LayerBase& base, const Envelope& envelope, const RunContext& context);
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,141 @@
+#include "volmesh/envelope/smooth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/parallel.h"
+#include "volmesh/envelope/initial.h"
+#include "volmesh/envelope/validity.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr double k_relaxation = 0.5;  ///< method.md §2
+/// Smoothing may lower a height to this share of its target: well above the 0.9 that counts as full height.
+constexpr double k_smooth_floor = 0.94;
+/// Directions may tilt until their faces are seen at 65 degrees, or half the best possible cosine.
+constexpr double k_cone_cosine = 0.4226;
+/// A convex feature needs no room: its fan must not tilt the lines of the smooth surface beside it.
+constexpr double k_convex_feature_weight = 0.2;
+constexpr int k_region_rounds = 6;
+constexpr int k_region_rings = 6;
+
+/// Calls f(neighbour, weight) for the vertices that take part in the smoothing of v.
+template <class F>
+void for_each_partner(const LayerBase& base, const Classification& classes, VertexId v, const F& f) {
+  const VertexClass& own = classes.vertex[v];
+  if (own.is_corner) return;
+  if (own.is_ridge) {
+    for (const HalfedgeId h : base.topology.outgoing(v)) {
+      if (!classes.is_feature[h]) continue;
+      const VertexId other = base.topology.to(h);
+      f(other, 1.0 / distance(base.wall.points[v], base.wall.points[other]));
+    }
+    return;
+  }
+  for (const VertexId other : base.topology.neighbours(v)) {
+    const VertexClass& flags = classes.vertex[other];
+    const bool is_convex_feature = !flags.is_smooth() && flags.is_convex && !flags.is_concave;
+    f(other, (is_convex_feature ? k_convex_feature_weight : 1.0) / distance(base.wall.points[v], base.wall.points[other]));
+  }
+}
+
+void grow_region(const LayerBase& base, int rings, Column<VertexId, std::uint8_t>& region, const RunContext& context) {
+  for (int ring = 0; ring < rings; ++ring) {
+    Column<VertexId, std::uint8_t> next = region;
+    parallel_for(context, region.size(), [&](std::size_t i) {
+      const VertexId v(i);
+      if (region[v]) return;
+      for (const VertexId other : base.topology.neighbours(v))
+        if (region[other]) next[v] = 1;
+    });
+    region = std::move(next);
+  }
+}
+
+}  // namespace
+
+void smooth_heights(const LayerBase& base, const Classification& classes, int sweeps, Envelope& envelope, const RunContext& context) {
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    Column<VertexId, double> next = envelope.height;
+    parallel_for(context, next.size(), [&](std::size_t i) {
+      const VertexId v(i);
+      if (envelope.is_collapsed(v)) return;
+      double sum = 0.0, weights = 0.0;
+      for_each_partner(base, classes, v, [&](VertexId other, double weight) {
+        if (envelope.is_collapsed(other)) return;
+        sum += weight * std::log(envelope.height[other]);
+        weights += weight;
+      });
+      if (weights == 0.0) return;
+      const double own = std::log(envelope.height[v]);
+      double h = std::exp(own + k_relaxation * (sum / weights - own));
+      if (classes.vertex[v].is_concave) h = std::min(h, envelope.height[v]);
+      const double ceiling = std::min(envelope.target[v], envelope.cap[v]);
+      next[v] = std::clamp(h, std::min(k_smooth_floor * ceiling, envelope.height[v]), ceiling);
+    });
+    envelope.height = std::move(next);
+  }
+}
+
+void smooth_directions(const LayerBase& base, const Classification& classes, int sweeps, Envelope& envelope, const RunContext& context,
+                       const Column<VertexId, std::uint8_t>* region) {
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    Column<VertexId, Vec3> next = envelope.direction;
+    parallel_for(context, next.size(), [&](std::size_t i) {
+      const VertexId v(i);
+      if (region && !(*region)[v]) return;
+      Vec3 sum;
+      double weights = 0.0;
+      for_each_partner(base, classes, v, [&](VertexId other, double weight) {
+        sum += weight * envelope.direction[other];
+        weights += weight;
+      });
+      if (weights == 0.0 || base.visibility[v] <= 0.0) return;
+      const Vec3 d = normalized(envelope.direction[v] + k_relaxation * (sum / weights - envelope.direction[v]));
+      if (norm2(d) == 0.0) return;
+      next[v] = pull_into_cone(base, v, d, k_cone_cosine);
+    });
+    envelope.direction = std::move(next);
+  }
+}
+
+void smooth_tangled_regions(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, Envelope& envelope,
+                            const RunContext& context) {
+  for (int round = 0; round < k_region_rounds; ++round) {
+    const std::vector<TriangleId> bad = invalid_macros(base, envelope, context);
+    if (bad.empty()) return;
+    Column<VertexId, std::uint8_t> region(base.wall.n_vertices(), 0);
+    for (const TriangleId t : bad)
+      for (const VertexId v : base.wall.triangles[t]) region[v] = 1;
+    grow_region(base, k_region_rings, region, context);
+    smooth_directions(base, classes, options.direction_sweeps, envelope, context, &region);
+  }
+}
+
+void smooth_envelope(const LayerBase& base, const Classification& classes, int sweeps, Envelope& envelope, const RunContext& context) {
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    Envelope proposal = envelope;
+    parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
+      const VertexId v(i);
+      if (envelope.is_collapsed(v) || !classes.vertex[v].is_smooth()) return;
+      Vec3 sum;
+      double weights = 0.0;
+      for_each_partner(base, classes, v, [&](VertexId other, double weight) {
+        sum += weight * envelope.point(base.wall, other);
+        weights += weight;
+      });
+      if (weights == 0.0) return;
+      const Point own = envelope.point(base.wall, v);
+      const Vec3 growth = own + k_relaxation * (sum / weights - own) - base.wall.points[v];
+      const double length = norm(growth);
+      if (length == 0.0) return;
+      const double ceiling = std::min(envelope.target[v], envelope.cap[v]);
+      proposal.direction[v] = pull_into_cone(base, v, growth / length, k_cone_cosine);
+      proposal.height[v] = std::clamp(length, std::min(k_smooth_floor * ceiling, envelope.height[v]), std::max(ceiling, envelope.height[v]));
+    });
+    apply_where_valid(base, envelope, proposal, context);
+  }
+}
+
+}  // namespace sterna::volmesh

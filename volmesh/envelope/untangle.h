@@ -1,0 +1,27 @@
+// Local repairs of the envelope: edge-based untangling, warp reduction by bisection, and growing back what was lowered too much.
+#pragma once
+
+#include "volmesh/envelope/envelope.h"
+
+namespace sterna::volmesh {
+
+/// Where the growth lines of an edge converge, limits both heights by the law of sines, eq. (2) corrected (method.md §3), to untangle_share of the
+/// height where they would meet; then smooths heights in the 2-ring of every limited vertex.
+void untangle_edges(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
+
+/// Lowers heights so that they rise by at most one edge length per edge beside lower (standing) neighbours, `sweeps` rings far.
+void level_steps(const LayerBase& base, const EnvelopeOptions& options, int sweeps, HeightLimit reason, Envelope& envelope,
+                 const RunContext& context);
+
+/// The limits of eq. (2) for one edge: heights at both ends where the growth lines meet, infinity where they do not converge.
+/// \pre directions are unit vectors.
+std::array<double, 2> edge_height_limits(const Point& p1, const Vec3& d1, const Point& p2, const Vec3& d2);
+
+/// Lowers heights to the largest values for which every macro-element is valid with margin (method.md §4); collapses vertices below h_min.
+/// \post invalid_macros() is empty.
+void unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit reason, Envelope& envelope, const RunContext& context);
+
+/// Raises heights towards min(target, cap) where macro-elements stay valid; undoes what earlier steps lowered more than needed.
+void regrow(const LayerBase& base, Envelope& envelope, const RunContext& context);
+
+}  // namespace sterna::volmesh
