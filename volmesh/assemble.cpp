@@ -1,0 +1,67 @@
+#include "volmesh/assemble.h"
+
+#include "geom/base/parallel.h"
+
+namespace sterna::volmesh {
+
+FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const TriMesh& outer) {
+  FillBoundary boundary;
+  const LayerBlock& layers = extrusion.layers;
+  const std::size_t n_lines = layers.n_lines();
+  boundary.points.reserve(n_lines + outer.n_vertices());
+  boundary.point2node.reserve(n_lines + outer.n_vertices());
+  for (std::uint32_t line = 0; line < n_lines; ++line) {
+    const NodeId top = layers.node(line, layers.n_layers);
+    boundary.points.push_back(extrusion.points[top.index()]);
+    boundary.point2node.push_back(top);
+  }
+  for (const VertexId v : outer.points.ids()) {
+    boundary.points.push_back(outer.points[v]);
+    boundary.point2node.push_back(NodeId(extrusion.points.size() + v.index()));
+  }
+  boundary.triangles.reserve(base.wall.n_triangles() + outer.n_triangles());
+  for (const TriangleVertices& v : base.wall.triangles) boundary.triangles.push_back({v[0].value(), v[1].value(), v[2].value()});
+  const std::uint32_t shift = static_cast<std::uint32_t>(n_lines);
+  for (const TriangleVertices& v : outer.triangles)
+    boundary.triangles.push_back({v[0].value() + shift, v[1].value() + shift, v[2].value() + shift});
+  return boundary;
+}
+
+HybridMesh assemble(const LayerBase& base, Extrusion extrusion, const TriMesh& outer, const FillBoundary& boundary, TetraResult tets,
+                    const RunContext& context) {
+  HybridMesh mesh;
+  mesh.layers = std::move(extrusion.layers);
+  const std::size_t n_layer_nodes = extrusion.points.size();
+  std::vector<Point> points = std::move(extrusion.points);
+  points.reserve(n_layer_nodes + outer.n_vertices() + tets.new_points.size());
+  points.insert(points.end(), outer.points.begin(), outer.points.end());
+  points.insert(points.end(), tets.new_points.begin(), tets.new_points.end());
+  mesh.points = Column<NodeId, Point>(std::move(points));
+
+  const std::size_t n_boundary = boundary.points.size();
+  mesh.tetrahedra.resize(tets.tetrahedra.size());
+  parallel_for(context, tets.tetrahedra.size(), [&](std::size_t i) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t p = tets.tetrahedra[i][k];
+      mesh.tetrahedra[i][k] = p < n_boundary ? boundary.point2node[p] : NodeId(n_layer_nodes + outer.n_vertices() + (p - n_boundary));
+    }
+  });
+
+  mesh.patches = base.wall.patches;
+  const std::size_t n_wall_patches = mesh.patches.size();
+  for (const Patch& patch : outer.patches) mesh.patches.push_back(patch);
+  const auto add_reversed = [&](const std::array<NodeId, 3>& n, PatchId patch) { mesh.boundary_triangles.push_back({{n[0], n[2], n[1]}, patch}); };
+  mesh.boundary_triangles.reserve(base.wall.n_triangles() + outer.n_triangles());
+  for (const TriangleId t : base.wall.triangles.ids()) {
+    const TriangleVertices& v = base.wall.triangles[t];
+    add_reversed({mesh.layers.node(v[0].value(), 0), mesh.layers.node(v[1].value(), 0), mesh.layers.node(v[2].value(), 0)}, base.wall.triangle_patch[t]);
+  }
+  for (const TriangleId t : outer.triangles.ids()) {
+    const TriangleVertices& v = outer.triangles[t];
+    const auto node = [&](std::size_t k) { return NodeId(n_layer_nodes + v[k].index()); };
+    add_reversed({node(0), node(1), node(2)}, PatchId(n_wall_patches + outer.triangle_patch[t].index()));
+  }
+  return mesh;
+}
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,23 @@
+// Joins layer, tetrahedra and outer boundary to one HybridMesh, and prepares the boundary that the tetrahedra fill.
+#pragma once
+
+#include "geom/mesh/hybrid_mesh.h"
+#include "volmesh/prisms/extrude.h"
+#include "volmesh/tetra/tetra.h"
+
+namespace sterna::volmesh {
+
+/// Closed surface around the tetrahedra: top of the layer (normals away from the wall) and outer boundary (normals into the fluid), with the
+/// HybridMesh node of every point.
+struct FillBoundary {
+  std::vector<Vec3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<NodeId> point2node;  ///< layer nodes first; outer nodes follow the layer's
+};
+FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const TriMesh& outer);
+
+/// Nodes: lines of the layer, outer boundary, Steiner points. Patches: the wall's, then the outer ones.
+HybridMesh assemble(const LayerBase& base, Extrusion extrusion, const TriMesh& outer, const FillBoundary& boundary, TetraResult tets,
+                    const RunContext& context);
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,32 @@
+#include "volmesh/envelope/build_envelope.h"
+
+#include "volmesh/envelope/initial.h"
+#include "volmesh/envelope/retract.h"
+#include "volmesh/envelope/smooth.h"
+#include "volmesh/envelope/untangle.h"
+
+namespace sterna::volmesh {
+
+Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context) {
+  const Classification classes = classify_vertices(base, options, context);
+  Envelope envelope = initial_envelope(base, options, context);
+  context.progress(0.1);
+
+  smooth_heights(base, classes, options.height_sweeps, envelope, context);
+  smooth_directions(base, classes, options.direction_sweeps, envelope, context);
+  smooth_tangled_regions(base, classes, options, envelope, context);
+  context.progress(0.3);
+
+  untangle_edges(base, options, envelope, context);
+  unwarp(base, options, HeightLimit::warp, envelope, context);
+  smooth_envelope(base, classes, options.envelope_sweeps, envelope, context);
+  regrow(base, envelope, context);
+  context.progress(0.6);
+
+  share_gaps(base, options, envelope, context);
+  retract_collisions(base, options, envelope, context.part("retract", 0.6, 1.0));
+  // Stage 6, the global optimisation (method.md §6), takes its place here.
+  return envelope;
+}
+
+}  // namespace sterna::volmesh

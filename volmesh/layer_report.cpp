@@ -1,0 +1,37 @@
+#include "volmesh/layer_report.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr double k_full_height_share = 0.9;  ///< of h_target that counts as covered
+
+}  // namespace
+
+LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope) {
+  LayerReport report;
+  report.body_length = base.body_length;
+  report.n_vertices = static_cast<std::int64_t>(base.wall.n_vertices());
+  const double compressed_below = options.layers * options.first_height;
+  double area = 0.0, covered = 0.0, heights = 0.0, targets = 0.0, ratios = 0.0;
+  for (const VertexId v : envelope.height.ids()) {
+    const double a = base.vertex_area[v];
+    const double h = envelope.height[v];
+    area += a;
+    heights += a * h;
+    targets += a * envelope.target[v];
+    ratios += a * envelope.target[v] / envelope.eq1[v];
+    if (h >= k_full_height_share * envelope.target[v]) covered += a;
+    if (h > 0.0 && h < compressed_below) ++report.n_compressed;
+    if (h > 0.0) continue;
+    const TriangleId t = triangle_of(base.topology.outgoing(v).front());
+    const Patch& patch = base.wall.patches[base.wall.triangle_patch[t]];
+    report.collapsed.push_back({base.wall.points[v], "vertex " + std::to_string(v.value()) + " of patch " + patch.name + ": " + std::string(to_string(envelope.limit[v]))});
+  }
+  report.coverage = covered / area;
+  report.target_over_eq1 = ratios / area;
+  report.mean_height_share = heights / targets;
+  report.mean_height = heights / area;
+  return report;
+}
+
+}  // namespace sterna::volmesh

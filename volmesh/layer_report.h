@@ -1,0 +1,11 @@
+// What became of the layer, measured against h_target (method.md §2).
+#pragma once
+
+#include "volmesh/envelope/envelope.h"
+#include "volmesh/volume_mesh.h"
+
+namespace sterna::volmesh {
+
+LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope);
+
+}  // namespace sterna::volmesh
