@@ -1,11 +1,12 @@
 // Faces are matched by vertex numbers without a global sort: they are thrown into buckets by their lowest vertex (counting, then scattering; both in fixed
-// chunks), each bucket is sorted in cache by itself, and equal neighbours are compared. A boundary triangle takes part as the face of a cell outside.
+// chunks), each bucket in cache to its vertices in the same way, and the two dozen faces of a vertex are sorted and compared. A boundary triangle takes part as the face of a cell outside.
 
 #include "volmesh/tetra/verify.h"
 
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <span>
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
@@ -19,6 +20,7 @@ constexpr std::size_t k_owner_limit = std::size_t{1} << 29;  ///< owner, face an
 constexpr std::size_t k_chunk = 1 << 14;                     ///< owners per chunk
 constexpr std::size_t k_bucket_owners = 1 << 12;             ///< mean owners per bucket: 16 k faces, 256 kB, stay in the second-level cache
 constexpr std::size_t k_most_buckets = 4096;
+constexpr std::size_t k_buckets_per_task = 4;
 constexpr std::size_t k_places_named = 10;
 constexpr std::size_t k_places_kept = 1000;
 
@@ -110,6 +112,8 @@ FaceEntry make_entry(std::array<std::uint32_t, 3> v, std::size_t owner, int face
 struct FaceBuckets {
   std::vector<FaceEntry> entries;
   std::vector<std::size_t> first;  ///< of each bucket, and the end
+  std::size_t nodes_per_bucket = 1;
+  std::span<const FaceEntry> bucket(std::size_t i) const { return {entries.data() + first[i], first[i + 1] - first[i]}; }
 };
 
 FaceBuckets throw_into_buckets(const Owners& owners, std::size_t n_nodes, const RunContext& context) {
@@ -129,6 +133,7 @@ FaceBuckets throw_into_buckets(const Owners& owners, std::size_t n_nodes, const 
     for_faces(begin, end, [&](const FaceEntry& e) { ++count[bucket_of(e)]; });
   });
   FaceBuckets buckets;
+  buckets.nodes_per_bucket = nodes_per_bucket;
   buckets.first.assign(n_buckets + 1, 0);
   std::size_t total = 0;
   for (std::size_t bucket = 0; bucket < n_buckets; ++bucket) {
@@ -159,17 +164,42 @@ void judge_group(const Owners& owners, const FaceEntry* begin, const FaceEntry* 
   }
 }
 
+/// Sorts buckets; keeps its memory from one to the next.
+class BucketSorter {
+ public:
+  explicit BucketSorter(std::size_t nodes_per_bucket) : first_(nodes_per_bucket + 1) {}
+
+  /// The bucket's faces, those with the same vertices side by side, in a total order.
+  std::span<const FaceEntry> sorted(std::span<const FaceEntry> bucket, std::size_t first_node) {
+    std::ranges::fill(first_, 0);
+    for (const FaceEntry& e : bucket) ++first_[(e.low_middle >> 32) - first_node + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    entries_.resize(bucket.size());
+    for (const FaceEntry& e : bucket) entries_[first_[(e.low_middle >> 32) - first_node]++] = e;
+    // Each first_[i] has moved on to the end of its vertex's faces.
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i + 1 < first_.size(); ++i) {
+      std::sort(entries_.begin() + static_cast<std::ptrdiff_t>(begin), entries_.begin() + static_cast<std::ptrdiff_t>(first_[i]));
+      begin = first_[i];
+    }
+    return entries_;
+  }
+
+ private:
+  std::vector<std::size_t> first_;
+  std::vector<FaceEntry> entries_;
+};
+
 Findings match_faces(const Owners& owners, std::size_t n_nodes, const RunContext& context) {
-  FaceBuckets buckets = throw_into_buckets(owners, n_nodes, context);
+  const FaceBuckets buckets = throw_into_buckets(owners, n_nodes, context);
   return parallel_reduce(
       context, buckets.first.size() - 1, Findings{},
       [&](std::size_t begin, std::size_t end) {
         Findings findings;
+        BucketSorter sorter(buckets.nodes_per_bucket);
         for (std::size_t bucket = begin; bucket < end; ++bucket) {
-          FaceEntry* const first = buckets.entries.data() + buckets.first[bucket];
-          FaceEntry* const last = buckets.entries.data() + buckets.first[bucket + 1];
-          std::sort(first, last);
-          for (const FaceEntry* e = first; e != last;) {
+          const std::span<const FaceEntry> faces = sorter.sorted(buckets.bucket(bucket), bucket * buckets.nodes_per_bucket);
+          for (const FaceEntry *e = faces.data(), *const last = e + faces.size(); e != last;) {
             const FaceEntry* next = e + 1;
             while (next != last && next->same_vertices(*e)) ++next;
             judge_group(owners, e, next, findings);
@@ -178,7 +208,7 @@ Findings match_faces(const Owners& owners, std::size_t n_nodes, const RunContext
         }
         return findings;
       },
-      joined, 1);
+      joined, k_buckets_per_task);
 }
 
 Findings judge_tetrahedra(const Nodes& nodes, const TetraResult& result, const RunContext& context) {

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <fstream>
 #include <map>
+#include <string>
 
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
@@ -63,6 +65,44 @@ TriMesh box(const Vec3& lo, const Vec3& hi) {
   quad(2, 6, 7, 3);
   quad(0, 2, 3, 1);
   quad(4, 5, 7, 6);
+  mesh.triangle_patch.assign(mesh.n_triangles(), patch);
+  return mesh;
+}
+
+TriMesh read_welded(const std::filesystem::path& path) {
+  TriMesh mesh;
+  const PatchId patch = mesh.patches.push_back({"wall", PatchKind::wall});
+  std::map<std::array<double, 3>, VertexId> known;
+  const auto weld = [&](const Point& p) {
+    const auto [it, is_new] = known.try_emplace({p.x, p.y, p.z});
+    if (is_new) it->second = mesh.points.push_back(p);
+    return it->second;
+  };
+  const auto add = [&](const std::array<Point, 3>& p) {
+    const TriangleVertices t = {weld(p[0]), weld(p[1]), weld(p[2])};
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh.triangles.push_back(t);
+  };
+  std::ifstream file(path);
+  std::string word;
+  std::array<Point, 3> corner;
+  if (path.extension() == ".off") {
+    std::size_t n_points = 0, n_triangles = 0, n_edges = 0, n = 0;
+    file >> word >> n_points >> n_triangles >> n_edges;
+    std::vector<Point> points(n_points);
+    for (Point& p : points) file >> p.x >> p.y >> p.z;
+    for (std::size_t t = 0, v = 0; t < n_triangles && file >> n; ++t) {
+      for (std::size_t k = 0; k < 3; ++k) corner[k] = file >> v ? points.at(v) : Point{};
+      add(corner);
+    }
+  } else {
+    for (std::size_t k = 0; file >> word;) {
+      if (word != "vertex") continue;
+      file >> corner[k].x >> corner[k].y >> corner[k].z;
+      if (++k < 3) continue;
+      add(corner);
+      k = 0;
+    }
+  }
   mesh.triangle_patch.assign(mesh.n_triangles(), patch);
   return mesh;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "geom/base/error.h"
@@ -31,6 +32,9 @@ TriMesh transformed(TriMesh mesh, double scale, const Vec3& shift);
 TriMesh inside_out(TriMesh mesh);
 /// Box [lo, hi] with 12 triangles, normals outward.
 TriMesh box(const Vec3& lo, const Vec3& hi);
+
+/// OFF or ASCII STL, vertices with equal coordinates welded, triangles with equal corners dropped; so that these tests need no reader of io.
+TriMesh read_welded(const std::filesystem::path& path);
 
 /// Fails the test unless the result tiles the domain: faces counted by a map, volumes summed; nothing of verify.cpp is used.
 void expect_tiling(const Domain& domain, const volmesh::TetraResult& result);

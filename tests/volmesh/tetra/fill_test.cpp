@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "tests/support/data.h"
 #include "tests/support/shapes.h"
 #include "tests/volmesh/tetra/cases.h"
 #include "volmesh/farfield.h"
@@ -108,6 +109,18 @@ TEST(FillWithTetgen, IsDeterministicForAnyNumberOfThreads) {
 TEST(FillWithTetgen, RefinesWithTheRadiusEdgeRatio) {
   const Domain domain = domain_around(test::sphere(6));
   EXPECT_GT(fill(domain, {.radius_edge = 1.2}).tetrahedra.size(), fill(domain, {.radius_edge = 2.0}).tetrahedra.size());
+}
+
+/// Real surfaces, their own triangles as inner boundary: sharp edges, needles, several bodies.
+TEST(FillWithTetgen, FillsAroundRealSurfaces) {
+  STERNA_NEEDS_SHARED_DATA();
+  for (const char* name : {"cgal_data_anchor_dense.off", "cgal_data_couplingdown.off", "caturbs_wing_wing.stl", "pygeo_bwb.stl"}) {
+    SCOPED_TRACE(name);
+    const TriMesh wall = test::read_welded(test::shared_data() / "surfaces" / "clean" / name);
+    ASSERT_GT(wall.n_triangles(), 500u);
+    const Domain domain = domain_around(wall);
+    expect_tiling(domain, fill(domain));
+  }
 }
 
 TEST(FillWithTetgen, RejectsAnOpenBoundary) {
