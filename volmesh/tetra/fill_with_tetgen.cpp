@@ -96,11 +96,12 @@ std::string text_of_code(int code) {
   }
 }
 
-std::string megabytes(double bytes) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.0f MB", bytes / 1e6);
+std::string with_unit(double value, const char* unit) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.6g %s", value, unit);
   return text.data();
 }
+std::string megabytes(double bytes) { return with_unit(std::round(bytes / 1e6), "MB"); }
 
 /// Adds the places where the boundary crosses itself, the usual reason for a failure; or says that there are none.
 void blame_boundary(ErrorInfo& error, const TetraBoundary& boundary, const RunContext& context) {
@@ -129,7 +130,7 @@ wire::ReplyHeader read_header(const SharedBlock& reply, const std::byte* data, c
   if (exit.is_success() && is_reply && header.outcome == wire::Outcome::ok) return header;
 
   if (exit.is_time_over) {
-    throw Error(engine_failure("stopped after the time limit of " + std::to_string(options.time_limit) + " s", "raise tetrahedra.time_limit, or coarsen the surface"));
+    throw Error(engine_failure("stopped after the time limit of " + with_unit(options.time_limit, "s"), "raise tetrahedra.time_limit, or coarsen the surface"));
   }
   if (is_reply && header.outcome == wire::Outcome::out_of_memory) {
     throw Error(engine_failure("out of memory: the limit of the helper is " + megabytes(options.memory_limit) + ", it had used " + megabytes(header.peak_bytes),
