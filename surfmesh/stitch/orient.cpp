@@ -1,157 +1,168 @@
 #include "surfmesh/stitch/orient.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
+#include "geom/base/error.h"
 #include "geom/base/parallel.h"
-#include "geom/math/bvh.h"
 #include "geom/math/measures.h"
 
 namespace sterna::surfmesh {
 namespace {
 
-void flip(IndexedSurface& surface, Orientation& orientation, std::size_t t) {
-  std::swap(surface.triangles[t][1], surface.triangles[t][2]);
-  orientation.is_flipped[t] ^= 1;
+/// A winding number is a whole number up to rounding; half-way tells 0 from +-1.
+constexpr double k_half_turn = 0.5;
+constexpr std::uint32_t k_none = 0xffffffffu;
+
+struct Component {
+  std::vector<std::uint32_t> facets;
+  Box box;
+  double volume = 0.0;          ///< signed, with consistent orientation, file units cubed
+  double area_as_read = 0.0;    ///< area of facets with the sense of the first facet minus the others'
+  bool is_closed = true;
+  std::uint32_t depth = 0;      ///< number of closed components around it
+  std::uint32_t parent = k_none;  ///< the innermost of them
+};
+
+/// Solid angle of a triangle seen from p (van Oosterom & Strackee 1983).
+double solid_angle(const Vec3& p, const std::array<Vec3, 3>& corners) {
+  const Vec3 a = corners[0] - p, b = corners[1] - p, c = corners[2] - p;
+  const double la = norm(a), lb = norm(b), lc = norm(c);
+  return 2.0 * std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
 }
 
-/// Signed volume of each component about its first point, m^3.
-std::vector<double> component_volumes(const IndexedSurface& surface, const Orientation& orientation) {
-  std::vector<CompensatedSum> volume(orientation.n_components);
-  std::vector<std::uint32_t> first(orientation.n_components, 0xffffffffu);
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const std::uint32_t c = orientation.component[t];
-    if (first[c] == 0xffffffffu) first[c] = surface.triangles[t][0];
-    const auto& v = surface.triangles[t];
-    volume[c].add(tet_volume(surface.points[first[c]], surface.points[v[0]], surface.points[v[1]], surface.points[v[2]]));
-  }
-  std::vector<double> result;
-  for (const CompensatedSum& sum : volume) result.push_back(sum.value());
-  return result;
+bool is_inside(const Vec3& p, const WorkingSurface& surface, const Component& component, const std::vector<char>& is_flipped, const RunContext& context) {
+  const auto turns = parallel_reduce(
+      context, component.facets.size(), CompensatedSum{},
+      [&](std::size_t begin, std::size_t end) {
+        CompensatedSum sum;
+        for (std::size_t i = begin; i < end; ++i) {
+          const std::uint32_t t = component.facets[i];
+          const double angle = solid_angle(p, surface.corners(t));
+          sum.add(is_flipped[t] ? -angle : angle);
+        }
+        return sum;
+      },
+      [](CompensatedSum a, const CompensatedSum& b) {
+        a.add(b);
+        return a;
+      });
+  return std::abs(turns.value()) / (4.0 * std::numbers::pi) > k_half_turn;
 }
 
-/// Components in which a vertex of component c lies: winding number about it of all others together, each outward, is the nesting depth.
-std::vector<int> nesting_depths(const IndexedSurface& surface, const Orientation& orientation, const RunContext& context) {
-  std::vector<int> depth(orientation.n_components, 0);
-  if (orientation.n_components == 1) return depth;
-  std::vector<Box> box(orientation.n_components);
-  std::vector<std::uint32_t> vertex(orientation.n_components, 0xffffffffu);
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const std::uint32_t c = orientation.component[t];
-    if (vertex[c] == 0xffffffffu) vertex[c] = surface.triangles[t][0];
-    for (const std::uint32_t v : surface.triangles[t]) box[c].add(surface.points[v]);
+bool contains(const Box& outer, const Box& inner) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (inner.min[axis] < outer.min[axis] || inner.max[axis] > outer.max[axis]) return false;
+  return true;
+}
+
+std::vector<Component> measure_components(const WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation) {
+  std::vector<Component> components(orientation.n_components);
+  for (std::uint32_t t = 0; t < surface.n_facets(); ++t) {
+    Component& component = components[orientation.component[t]];
+    component.facets.push_back(t);
+    for (const Vec3& p : surface.corners(t)) component.box.add(p);
+    for (std::uint32_t k = 0; k < 3; ++k) component.is_closed &= edges.edge_of(3 * t + k).count == 2;
   }
-  const auto contains = [](const Box& outer, const Box& inner) {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (inner.min[k] < outer.min[k] || inner.max[k] > outer.max[k]) return false;
-    return true;
-  };
-  for (std::uint32_t outer = 0; outer < orientation.n_components; ++outer) {
-    std::vector<std::uint32_t> inside;
-    for (std::uint32_t inner = 0; inner < orientation.n_components; ++inner)
-      if (inner != outer && contains(box[outer], box[inner])) inside.push_back(inner);
-    if (inside.empty()) continue;
-    TriMesh shell;
-    shell.points = Column<VertexId, Point>(surface.points);
-    shell.patches.push_back({"shell", PatchKind::wall});
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-      if (orientation.component[t] != outer) continue;
-      const auto& v = surface.triangles[t];
-      shell.triangles.push_back({VertexId(v[0]), VertexId(v[1]), VertexId(v[2])});
-      shell.triangle_patch.push_back(PatchId(0));
+  for (Component& component : components) {
+    const Vec3 center = component.box.center();
+    CompensatedSum volume, area;
+    for (const std::uint32_t t : component.facets) {
+      const auto c = surface.corners(t);
+      const double sign = orientation.is_flipped[t] ? -1.0 : 1.0;
+      volume.add(sign * tet_volume(center, c[0], c[1], c[2]));
+      area.add(sign * triangle_area(c[0], c[1], c[2]));
     }
-    const TriangleTree tree(shell, context);
-    for (const std::uint32_t inner : inside)
-      if (tree.winding_number(surface.points[vertex[inner]]) > 0.5) ++depth[inner];
+    component.volume = volume.value();
+    component.area_as_read = area.value();
   }
-  return depth;
+  return components;
+}
+
+void find_nesting(const WorkingSurface& surface, const Orientation& orientation, std::vector<Component>& components, const RunContext& context) {
+  if (components.size() < 2) return;
+  for (std::uint32_t i = 0; i < components.size(); ++i) {
+    context.check_stop();
+    Component& inner = components[i];
+    const Vec3 p = surface.points[surface.facets[inner.facets.front()][0]];
+    for (std::uint32_t j = 0; j < components.size(); ++j) {
+      const Component& outer = components[j];
+      if (i == j || !outer.is_closed || !contains(outer.box, inner.box)) continue;
+      if (!is_inside(p, surface, outer, orientation.is_flipped, context)) continue;
+      ++inner.depth;
+      if (inner.parent == k_none || std::abs(outer.volume) < std::abs(components[inner.parent].volume)) inner.parent = j;
+    }
+  }
 }
 
 }  // namespace
 
-Orientation orient_consistently(IndexedSurface& surface, const EdgeTable& edges) {
-  Orientation orientation;
-  const std::size_t n = surface.triangles.size();
-  constexpr std::uint32_t k_none = 0xffffffffu;
-  struct Link {
-    std::uint32_t other = k_none;
-    std::uint8_t is_same_sense = 0;
-  };
-  std::vector<std::array<Link, 3>> links(n);
-  std::vector<std::uint8_t> n_links(n, 0);
-  edges.for_each([&](std::span<const EdgeUse> uses) {
-    if (uses.size() != 2) return;
-    const std::uint8_t same = uses[0].is_forward == uses[1].is_forward ? 1 : 0;
-    for (std::size_t k = 0; k < 2; ++k) links[uses[k].triangle][n_links[uses[k].triangle]++] = {uses[1 - k].triangle, same};
-  });
-  orientation.component.assign(n, k_none);
-  orientation.is_flipped.assign(n, 0);
+Orientation flood_orientation(const WorkingSurface& surface, const EdgeTable& edges) {
+  Orientation result;
+  result.component.assign(surface.n_facets(), k_none);
+  result.is_flipped.assign(surface.n_facets(), 0);
   std::vector<std::uint32_t> stack;
-  for (std::uint32_t seed = 0; seed < n; ++seed) {
-    if (orientation.component[seed] != k_none) continue;
-    orientation.component[seed] = orientation.n_components;
-    stack.push_back(seed);
+  for (std::uint32_t start = 0; start < surface.n_facets(); ++start) {
+    if (result.component[start] != k_none) continue;
+    bool has_conflict = false;
+    result.component[start] = result.n_components;
+    stack.push_back(start);
     while (!stack.empty()) {
       const std::uint32_t t = stack.back();
       stack.pop_back();
-      for (std::uint8_t k = 0; k < n_links[t]; ++k) {
-        const auto [other, same] = links[t][k];
-        if (orientation.component[other] != k_none) continue;
-        orientation.component[other] = orientation.n_components;
-        orientation.is_flipped[other] = orientation.is_flipped[t] ^ same;
-        stack.push_back(other);
+      for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
+        const Edge& edge = edges.edge_of(h);
+        if (edge.count != 2) continue;
+        const std::uint32_t g = edges.at(edge)[0] == h ? edges.at(edge)[1] : edges.at(edge)[0];
+        const bool same_sense = surface.facets[h / 3][h % 3] == surface.facets[g / 3][g % 3];
+        const char wanted = static_cast<char>(result.is_flipped[t] != same_sense);
+        if (result.component[g / 3] == k_none) {
+          result.component[g / 3] = result.n_components;
+          result.is_flipped[g / 3] = wanted;
+          stack.push_back(g / 3);
+        } else if (result.is_flipped[g / 3] != wanted && !has_conflict) {
+          has_conflict = true;
+          result.conflicts.push_back(edge);
+        }
       }
     }
-    ++orientation.n_components;
+    ++result.n_components;
   }
-  edges.for_each([&](std::span<const EdgeUse> uses) {
-    if (uses.size() != 2) return;
-    const auto sense = [&](const EdgeUse& use) { return use.is_forward ^ orientation.is_flipped[use.triangle]; };
-    if (sense(uses[0]) == sense(uses[1])) orientation.conflicts.push_back(uses[0]);
-  });
-  for (std::size_t t = 0; t < n; ++t)
-    if (orientation.is_flipped[t]) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
-  return orientation;
+  return result;
 }
 
-std::int64_t orient_outward(IndexedSurface& surface, Orientation& orientation, const RunContext& context) {
-  const std::vector<double> volume = component_volumes(surface, orientation);
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-    if (volume[orientation.component[t]] < 0.0) flip(surface, orientation, t);
-  const std::vector<int> depth = nesting_depths(surface, orientation, context);
-  std::size_t next = 0;
-  const std::size_t n = surface.triangles.size();
-  for (std::size_t t = 0; t < n; ++t) {
-    if (depth[orientation.component[t]] > 0) continue;
-    surface.triangles[next] = surface.triangles[t];
-    surface.patch[next] = surface.patch[t];
-    orientation.component[next] = orientation.component[t];
-    orientation.is_flipped[next] = orientation.is_flipped[t];
-    ++next;
+void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation, StitchReport& report, const RunContext& context) {
+  std::vector<Component> components = measure_components(surface, edges, orientation);
+  find_nesting(surface, orientation, components, context);
+  report.n_components = orientation.n_components;
+  std::int64_t n_inconsistent = 0, n_inverted = 0, n_inverted_facets = 0;
+  for (std::uint32_t i = 0; i < components.size(); ++i) {
+    const Component& component = components[i];
+    std::int64_t n_minority = 0;
+    for (const std::uint32_t t : component.facets) n_minority += orientation.is_flipped[t];
+    const auto n = static_cast<std::int64_t>(component.facets.size());
+    const bool is_inside_out = component.is_closed ? (component.volume > 0.0) == (component.depth % 2 == 1) : component.area_as_read < 0.0;
+    const std::int64_t n_turned = is_inside_out ? n - n_minority : n_minority;
+    // More than half turned: the file's sense was inside out, and the rest was inconsistent.
+    if (2 * n_turned > n) {
+      ++n_inverted;
+      n_inverted_facets += n;
+      n_inconsistent += n - n_turned;
+    } else {
+      n_inconsistent += n_turned;
+    }
+    report.n_flipped += n_turned;
+    for (const std::uint32_t t : component.facets)
+      if (is_inside_out != static_cast<bool>(orientation.is_flipped[t])) std::swap(surface.facets[t][1], surface.facets[t][2]);
+    if (component.depth % 2 == 1 && component.is_closed)
+      report.messages.push_back("component " + std::to_string(i + 1) + " (" + count_of(n, "facet", "facets") + " about " +
+                                format_point(surface.metres(component.box.center())) + ") lies inside component " + std::to_string(component.parent + 1) +
+                                ": taken as a cavity in it, which the outer flow does not reach");
   }
-  surface.triangles.resize(next);
-  surface.patch.resize(next);
-  orientation.component.resize(next);
-  orientation.is_flipped.resize(next);
-  orientation.n_components = static_cast<std::uint32_t>(std::count(depth.begin(), depth.end(), 0));
-  return static_cast<std::int64_t>(n - next);
-}
-
-void orient_open_outward(IndexedSurface& surface, Orientation& orientation) {
-  Vec3 center;
-  double area = 0.0;
-  for (const auto& v : surface.triangles) {
-    const double a = triangle_area(surface.points[v[0]], surface.points[v[1]], surface.points[v[2]]);
-    center += (a / 3.0) * (surface.points[v[0]] + surface.points[v[1]] + surface.points[v[2]]);
-    area += a;
-  }
-  if (area > 0.0) center = center / area;
-  std::vector<double> flux(orientation.n_components, 0.0);
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
-    const auto& v = surface.triangles[t];
-    flux[orientation.component[t]] += tet_volume(center, surface.points[v[0]], surface.points[v[1]], surface.points[v[2]]);
-  }
-  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-    if (flux[orientation.component[t]] < 0.0) flip(surface, orientation, t);
+  if (n_inverted > 0)
+    report.messages.push_back("turned " + count_of(n_inverted, "component", "components") + " (" + count_of(n_inverted_facets, "facet", "facets") + ") inside out");
+  if (n_inconsistent > 0) report.messages.push_back("turned " + count_of(n_inconsistent, "facet", "facets") + " against the sense of the neighbours");
 }
 
 }  // namespace sterna::surfmesh

@@ -1,25 +1,25 @@
-// Consistent orientation within components, outward orientation over all of them.
+// Private to surfmesh/stitch: one sense for all facets of a component, and normals out of the body.
 #pragma once
 
-#include "surfmesh/stitch/edges.h"
+#include "geom/base/run_context.h"
+#include "surfmesh/stitch/edge_table.h"
+#include "surfmesh/stitch/stitch_surface.h"
+#include "surfmesh/stitch/working_surface.h"
 
 namespace sterna::surfmesh {
 
+/// Orientation found by flood fill, relative to the file's.
 struct Orientation {
-  std::vector<std::uint32_t> component;   ///< per triangle
+  std::vector<std::uint32_t> component;        ///< per facet; connected over edges with two facets, numbered by first facet
   std::uint32_t n_components = 0;
-  std::vector<EdgeUse> conflicts;         ///< edges at which no choice is consistent (Moebius bands); empty when orientable
-  std::vector<std::uint8_t> is_flipped;   ///< per triangle, relative to the input
+  std::vector<char> is_flipped;                ///< per facet: opposite to the first facet of its component
+  std::vector<Edge> conflicts;                 ///< one edge for each component that has no consistent orientation
 };
+Orientation flood_orientation(const WorkingSurface& surface, const EdgeTable& edges);
 
-/// Flood fill over edges with two triangles from the lowest triangle of each component; flips triangles of `surface`.
-Orientation orient_consistently(IndexedSurface& surface, const EdgeTable& edges);
-
-/// Turns closed components so that normals point out of the body, and removes components that lie inside another one's solid (winding number).
-/// \pre consistent, closed, free of self-intersection. Returns the number of removed triangles; flips are recorded in `orientation`.
-std::int64_t orient_outward(IndexedSurface& surface, Orientation& orientation, const RunContext& context);
-
-/// Turns an open component so that most of its area faces away from the surface's centre of area (a guess, said so to the user).
-void orient_open_outward(IndexedSurface& surface, Orientation& orientation);
+/// Applies a consistent orientation: closed components by signed volume and nesting depth (0 = a body, normals out; 1 = a cavity in it, normals into the cavity;
+/// 2 = a body in the cavity ...), open ones by the majority of their area. Depths are found by winding numbers.
+/// \pre no crowded edge, orientation without conflicts.
+void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation, StitchReport& report, const RunContext& context);
 
 }  // namespace sterna::surfmesh

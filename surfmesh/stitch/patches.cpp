@@ -1,57 +1,123 @@
 #include "surfmesh/stitch/patches.h"
 
-#include <cctype>
-#include <numeric>
+#include <algorithm>
+#include <filesystem>
+#include <set>
 
 #include "geom/math/measures.h"
 
 namespace sterna::surfmesh {
+namespace {
 
-std::string clean_patch_name(const std::string& name, const std::string& if_empty) {
+bool is_allowed(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' || c == '-'; }
+
+/// `name`, or name_2, name_3 ... when that is taken; remembers it.
+std::string unique_name(const std::string& name, std::set<std::string>& taken) {
+  std::string candidate = name;
+  for (int n = 2; !taken.insert(candidate).second; ++n) candidate = name + "_" + std::to_string(n);
+  return candidate;
+}
+
+/// File name without folder, ".gz" and extension.
+std::string stem_of(const std::string& source) {
+  std::filesystem::path path = std::filesystem::path(source).filename();
+  if (path.extension() == ".gz") path = path.stem();
+  return clean_name(path.stem().string());
+}
+
+}  // namespace
+
+std::string clean_name(std::string_view name) {
   std::string clean;
   for (const char c : name) {
-    const auto u = static_cast<unsigned char>(c);
-    clean += (u < 128 && std::isalnum(u)) || c == '_' || c == '.' || c == '-' ? c : '_';
+    if (is_allowed(c))
+      clean += c;
+    else if (!clean.empty() && clean.back() != '_')
+      clean += '_';
   }
   while (!clean.empty() && clean.back() == '_') clean.pop_back();
-  const std::size_t start = clean.find_first_not_of('_');
-  clean = start == std::string::npos ? "" : clean.substr(start);
-  if (clean.empty()) clean = if_empty;
-  if (std::isdigit(static_cast<unsigned char>(clean.front()))) clean = "patch_" + clean;
   return clean;
 }
 
-std::uint32_t split_by_angle(IndexedSurface& surface, const EdgeTable& edges, double angle, std::vector<std::uint32_t>& parent) {
-  std::vector<std::uint32_t> root(surface.triangles.size());
-  std::iota(root.begin(), root.end(), 0u);
-  const auto find = [&](std::uint32_t t) {
-    while (root[t] != t) t = root[t] = root[root[t]];
-    return t;
-  };
-  const auto normal = [&](std::uint32_t t) {
-    const auto& v = surface.triangles[t];
-    return area_vector(surface.points[v[0]], surface.points[v[1]], surface.points[v[2]]);
-  };
-  edges.for_each([&](std::span<const EdgeUse> uses) {
-    if (uses.size() != 2) return;
-    const std::uint32_t a = uses[0].triangle, b = uses[1].triangle;
-    if (surface.patch[a] != surface.patch[b] || angle_between(normal(a), normal(b)) > angle) return;
-    const std::uint32_t x = find(a), y = find(b);
-    root[std::max(x, y)] = std::min(x, y);
-  });
-  std::vector<std::uint32_t> number(root.size(), 0xffffffffu);
-  std::vector<std::uint32_t> region(root.size());
-  parent.clear();
-  for (std::uint32_t t = 0; t < root.size(); ++t) {
-    std::uint32_t& n = number[find(t)];
-    if (n == 0xffffffffu) {
-      n = static_cast<std::uint32_t>(parent.size());
-      parent.push_back(surface.patch[t]);
+std::vector<std::string> clean_patch_names(const std::vector<SurfaceSoup>& soups) {
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const SurfaceSoup& soup : soups) {
+    for (const std::string& given : soup.patch_names) {
+      std::string name = soup.has_names ? clean_name(given) : std::string();
+      if (name.empty() && soups.size() > 1) name = stem_of(soup.source);
+      if (name.empty()) name = "wall";
+      names.push_back(unique_name(name, taken));
     }
-    region[t] = n;
   }
-  surface.patch = std::move(region);
-  return static_cast<std::uint32_t>(parent.size());
+  return names;
+}
+
+TriMesh make_mesh(const WorkingSurface& surface, const std::vector<std::string>& names) {
+  TriMesh mesh;
+  std::vector<VertexId> vertex(surface.points.size());
+  std::vector<PatchId> patch(names.size());
+  mesh.triangles.reserve(surface.n_facets());
+  mesh.triangle_patch.reserve(surface.n_facets());
+  for (std::size_t t = 0; t < surface.n_facets(); ++t) {
+    TriangleVertices triangle;
+    for (std::size_t k = 0; k < 3; ++k) {
+      VertexId& v = vertex[surface.facets[t][k]];
+      if (!v.is_valid()) v = mesh.points.push_back(surface.points[surface.facets[t][k]]);
+      triangle[k] = v;
+    }
+    PatchId& p = patch[surface.patch[t]];
+    if (!p.is_valid()) p = mesh.patches.push_back({names[surface.patch[t]], PatchKind::wall});
+    mesh.triangles.push_back(triangle);
+    mesh.triangle_patch.push_back(p);
+  }
+  return mesh;
+}
+
+void split_patches(TriMesh& mesh, double angle, const RunContext& context) {
+  const Topology topology(mesh, context);
+  Column<TriangleId, Vec3> normal(mesh.n_triangles());
+  for (const TriangleId t : mesh.triangles.ids()) {
+    const auto c = corners(mesh, t);
+    normal[t] = area_vector(c[0], c[1], c[2]);
+  }
+  Column<TriangleId, PatchId> region(mesh.n_triangles(), PatchId());
+  std::vector<PatchId> region2patch;
+  std::vector<std::uint32_t> n_regions(mesh.patches.size(), 0);
+  std::vector<TriangleId> stack;
+  for (const TriangleId start : mesh.triangles.ids()) {
+    if (region[start].is_valid()) continue;
+    const PatchId patch = mesh.triangle_patch[start];
+    const PatchId current(static_cast<std::uint64_t>(region2patch.size()));
+    region2patch.push_back(patch);
+    ++n_regions[patch.index()];
+    region[start] = current;
+    stack.push_back(start);
+    while (!stack.empty()) {
+      const TriangleId t = stack.back();
+      stack.pop_back();
+      for (int k = 0; k < 3; ++k) {
+        const HalfedgeId twin = topology.twin(halfedge(t, k));
+        if (!twin.is_valid()) continue;
+        const TriangleId u = triangle_of(twin);
+        if (region[u].is_valid() || mesh.triangle_patch[u] != patch || angle_between(normal[t], normal[u]) > angle) continue;
+        region[u] = current;
+        stack.push_back(u);
+      }
+    }
+  }
+  std::set<std::string> taken;
+  for (const Patch& patch : mesh.patches)
+    if (n_regions[static_cast<std::size_t>(&patch - mesh.patches.raw().data())] == 1) taken.insert(patch.name);
+  Column<PatchId, Patch> patches;
+  std::vector<std::uint32_t> number(mesh.patches.size(), 0);
+  for (const PatchId from : region2patch) {
+    Patch patch = mesh.patches[from];
+    if (n_regions[from.index()] > 1) patch.name = unique_name(patch.name + "_" + std::to_string(++number[from.index()]), taken);
+    patches.push_back(std::move(patch));
+  }
+  mesh.patches = std::move(patches);
+  mesh.triangle_patch = std::move(region);
 }
 
 }  // namespace sterna::surfmesh

@@ -1,17 +1,24 @@
-// Patch names: from the files, made clean and unique, or regions between sharp edges.
+// Private to surfmesh/stitch: names and numbers of the patches.
 #pragma once
 
-#include <string>
-
-#include "surfmesh/stitch/edges.h"
+#include "geom/base/run_context.h"
+#include "geom/mesh/topology.h"
+#include "surfmesh/stitch/stitch_surface.h"
+#include "surfmesh/stitch/working_surface.h"
 
 namespace sterna::surfmesh {
 
-/// [A-Za-z0-9_.-] only: everything else becomes '_'; not empty, does not start with a digit.
-std::string clean_patch_name(const std::string& name, const std::string& if_empty);
+/// Names for all patches of all soups, in order: [A-Za-z0-9_.-] only (runs of others become one '_'), unique (a number is added). A name that the file does not
+/// give, or that has no allowed character, becomes "wall", with several files the file's stem.
+std::vector<std::string> clean_patch_names(const std::vector<SurfaceSoup>& soups);
 
-/// Numbers the regions of each patch that are separated by edges bending by more than `angle` (rad). `parent` receives the old patch of each region;
-/// returns the number of regions.
-std::uint32_t split_by_angle(IndexedSurface& surface, const EdgeTable& edges, double angle, std::vector<std::uint32_t>& parent);
+/// "My wing (left)" -> "My_wing_left"; may be empty.
+std::string clean_name(std::string_view name);
+
+/// The mesh, vertices and patches numbered by first use, unused ones dropped. \pre coordinates in metres.
+TriMesh make_mesh(const WorkingSurface& surface, const std::vector<std::string>& names);
+
+/// Splits each patch into the regions that edges which bend by more than `angle` (rad) cut off; the regions of wing become wing_1, wing_2 ..., by first triangle.
+void split_patches(TriMesh& mesh, double angle, const RunContext& context);
 
 }  // namespace sterna::surfmesh

@@ -1,34 +1,22 @@
-// Welding of vertices and removal of facets that bound nothing: first half of stitch_surface.
+// Private to surfmesh/stitch: one vertex where the files wrote several.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
 #include "geom/base/run_context.h"
-#include "geom/base/vec3.h"
+#include "surfmesh/stitch/stitch_surface.h"
+#include "surfmesh/stitch/working_surface.h"
 
 namespace sterna::surfmesh {
 
-/// Indexed triangles with one patch number each.
-struct IndexedSurface {
-  std::vector<Vec3> points;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> patch;
-};
+/// Joins the soups, welds vertices whose coordinates are equal (-0 = +0) and drops unused ones; numbered by first use. Facets with a repeated vertex stay.
+/// \throws Error(file_malformed) for an index out of range or a coordinate that is not finite, Error(empty_surface) when there is no facet.
+WorkingSurface weld_exact(const std::vector<SurfaceSoup>& soups, const StitchOptions& options, StitchReport& report);
 
-/// Makes vertices with equal coordinates (0.0 = -0.0) one; keeps the order of first appearance. Returns how many went.
-std::int64_t weld_exact(IndexedSurface& surface, const RunContext& context);
-/// Makes vertices nearer than `tolerance` one (chains included); the lowest index stays. With `only`, just marked vertices take part.
-std::int64_t weld_near(IndexedSurface& surface, double tolerance, const std::vector<std::uint8_t>* only);
-/// Drops facets with a repeated vertex.
-std::int64_t drop_collapsed(IndexedSurface& surface);
-/// Of facets on the same three vertices (any orientation) keeps the first.
-std::int64_t drop_duplicates(IndexedSurface& surface);
-/// Removes facets of zero area with three distinct vertices by flipping their longest edge with the neighbour. Returns how many were removed; those that
-/// cannot be flipped without making another zero-area facet or a repeated edge stay.
-std::int64_t flip_zero_area(IndexedSurface& surface);
-/// Drops vertices that no facet uses.
-std::int64_t drop_unused(IndexedSurface& surface);
+/// Welds near vertices. With a tolerance given: all vertices within it, always. Automatic: only when the surface is open, only vertices of its boundary, within
+/// the rounding of the file's own numbers, and only if that closes edges and adds no crowded edge and no pinched vertex; so small features survive.
+/// A chain of near vertices becomes one, at the place of the first. \post no facet has a repeated vertex or a copy.
+void weld_near(WorkingSurface& surface, const StitchOptions& options, StitchReport& report, const RunContext& context);
+
+/// Gives each edge-connected part its own copy of the vertices in which parts merely touch, so that touching is seen as the crossing that it is.
+void separate_parts(WorkingSurface& surface);
 
 }  // namespace sterna::surfmesh

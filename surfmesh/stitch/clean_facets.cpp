@@ -1,0 +1,114 @@
+#include "surfmesh/stitch/clean_facets.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "surfmesh/stitch/edge_table.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+/// For each facet the first one with the same vertices (itself when there is none), and whether there are others.
+struct Copies {
+  std::vector<std::uint32_t> first;
+  std::vector<char> is_doubled;
+  bool any = false;
+};
+
+Copies find_copies(const WorkingSurface& surface, const EdgeTable& edges) {
+  Copies copies;
+  copies.first.resize(surface.n_facets());
+  for (std::uint32_t t = 0; t < surface.n_facets(); ++t) copies.first[t] = t;
+  copies.is_doubled.assign(surface.n_facets(), 0);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> opposite;  // third vertex, facet
+  for (const Edge& edge : edges.edges()) {
+    if (edge.count < 2) continue;
+    opposite.clear();
+    for (const std::uint32_t h : edges.at(edge)) {
+      const std::uint32_t third = surface.facets[h / 3][previous_halfedge(h) % 3];
+      if (third > edge.high) opposite.emplace_back(third, h / 3);  // each facet is looked at from its lowest edge only
+    }
+    std::sort(opposite.begin(), opposite.end());
+    for (std::size_t i = 1; i < opposite.size(); ++i) {
+      if (opposite[i].first != opposite[i - 1].first) continue;
+      const std::uint32_t first = copies.first[opposite[i - 1].second];
+      copies.first[opposite[i].second] = first;
+      copies.is_doubled[first] = copies.is_doubled[opposite[i].second] = 1;
+      copies.any = true;
+    }
+  }
+  return copies;
+}
+
+/// Facets (first ones only) of the patch of doubled facets around `start`, and whether the rest of the surface is closed without it.
+struct DoubledPatch {
+  std::vector<std::uint32_t> facets;
+  bool is_redundant = false;
+};
+
+DoubledPatch grow_doubled_patch(std::uint32_t start, const EdgeTable& edges, const Copies& copies, std::vector<char>& visited) {
+  DoubledPatch patch;
+  bool has_even = false, has_odd = false;
+  patch.facets.push_back(start);
+  visited[start] = 1;
+  for (std::size_t i = 0; i < patch.facets.size(); ++i) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      std::size_t n_single = 0;
+      for (const std::uint32_t h : edges.at(edges.edge_of(3 * patch.facets[i] + k))) {
+        const std::uint32_t other = copies.first[h / 3];
+        if (!copies.is_doubled[other]) {
+          ++n_single;
+        } else if (!visited[other]) {
+          visited[other] = 1;
+          patch.facets.push_back(other);
+        }
+      }
+      if (n_single > 0) (n_single % 2 ? has_odd : has_even) = true;
+    }
+  }
+  patch.is_redundant = has_even && !has_odd;
+  return patch;
+}
+
+}  // namespace
+
+void drop_degenerate_facets(WorkingSurface& surface, StitchReport& report) {
+  std::vector<char> is_kept(surface.n_facets());
+  std::int64_t n_dropped = 0;
+  for (std::size_t t = 0; t < surface.n_facets(); ++t) {
+    const auto& [a, b, c] = surface.facets[t];
+    is_kept[t] = a != b && b != c && c != a;
+    n_dropped += !is_kept[t];
+  }
+  if (n_dropped == 0) return;
+  surface.keep(is_kept);
+  report.n_degenerate_removed += n_dropped;
+  report.messages.push_back("removed " + count_of(n_dropped, "facet", "facets") + " with a repeated vertex");
+}
+
+void drop_doubled_facets(WorkingSurface& surface, StitchReport& report) {
+  const EdgeTable edges(surface.facets, surface.points.size());
+  const Copies copies = find_copies(surface, edges);
+  if (!copies.any) return;
+  std::vector<char> is_kept(surface.n_facets(), 1);
+  std::vector<char> visited(surface.n_facets(), 0);
+  std::int64_t n_copies = 0, n_redundant = 0;
+  for (std::uint32_t t = 0; t < surface.n_facets(); ++t) {
+    if (copies.first[t] != t) {
+      is_kept[t] = 0;
+      ++n_copies;
+    } else if (copies.is_doubled[t] && !visited[t]) {
+      const DoubledPatch patch = grow_doubled_patch(t, edges, copies, visited);
+      if (!patch.is_redundant) continue;
+      for (const std::uint32_t dropped : patch.facets) is_kept[dropped] = 0;
+      n_redundant += static_cast<std::int64_t>(patch.facets.size());
+    }
+  }
+  surface.keep(is_kept);
+  report.n_duplicate_removed += n_copies + n_redundant;
+  std::string message = "removed " + count_of(n_copies, "copy of a facet", "copies of facets");
+  if (n_redundant > 0) message += " and with them " + count_of(n_redundant, "facet", "facets") + " of doubled sheets without thickness";
+  report.messages.push_back(std::move(message));
+}
+
+}  // namespace sterna::surfmesh
