@@ -1,5 +1,8 @@
 #include "volmesh/layer_report.h"
 
+#include <algorithm>
+#include <array>
+
 namespace sterna::volmesh {
 namespace {
 
@@ -12,6 +15,7 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
   report.body_length = base.body_length;
   report.n_vertices = static_cast<std::int64_t>(base.wall.n_vertices());
   const double compressed_below = options.layers * options.first_height;
+  std::array<double, k_height_limits> lost{};
   double area = 0.0, covered = 0.0, heights = 0.0, targets = 0.0, ratios = 0.0;
   for (const VertexId v : envelope.height.ids()) {
     const double a = base.vertex_area[v];
@@ -21,6 +25,7 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
     targets += a * envelope.target[v];
     ratios += a * envelope.target[v] / envelope.eq1[v];
     if (h >= k_full_height_share * envelope.target[v]) covered += a;
+    else lost[static_cast<std::size_t>(envelope.limit[v])] += a;
     if (h > 0.0 && h < compressed_below) ++report.n_compressed;
     if (h > 0.0) continue;
     const TriangleId t = triangle_of(base.topology.outgoing(v).front());
@@ -28,6 +33,9 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
     report.collapsed.push_back({base.wall.points[v], "vertex " + std::to_string(v.value()) + " of patch " + patch.name + ": " + std::string(to_string(envelope.limit[v]))});
   }
   report.coverage = covered / area;
+  for (std::size_t i = 0; i < lost.size(); ++i)
+    if (lost[i] > 0.0) report.lost_area.emplace_back(to_string(static_cast<HeightLimit>(i)), lost[i] / area);
+  std::stable_sort(report.lost_area.begin(), report.lost_area.end(), [](const auto& x, const auto& y) { return x.second > y.second; });
   report.target_over_eq1 = ratios / area;
   report.mean_height_share = heights / targets;
   report.mean_height = heights / area;

@@ -35,6 +35,7 @@ struct LayerReport {
   double mean_height = 0.0;             ///< m, area-weighted
   std::int64_t n_vertices = 0;
   std::int64_t n_compressed = 0;        ///< h < n h0: equally spaced, h0 not met
+  std::vector<std::pair<std::string, double>> lost_area;  ///< share of wall area below 0.9 h_target by reason, largest first
   std::vector<ErrorPlace> collapsed;    ///< each collapsed vertex: place, patch and reason
 };
 

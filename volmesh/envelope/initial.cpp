@@ -1,6 +1,7 @@
 #include "volmesh/envelope/initial.h"
 
 #include <algorithm>
+#include <cmath>
 #include <queue>
 
 #include "geom/base/parallel.h"
@@ -37,16 +38,40 @@ Vec3 pull_towards_visible(const LayerBase& base, VertexId v, const Vec3& wanted,
   return best;
 }
 
-/// Largest field h <= h0 with |h_i - h_j| <= gradient |e_ij|: Dijkstra from the lowest heights up (a unique result, whatever the order).
+/// Largest value at c for which the linear function over the triangle (a, b, c) rises by at most `slope` per metre, with values ha, hb given: from inside
+/// the triangle where the steepest rise comes from there (the eikonal update of Kimmel & Sethian 1998), else along the edges.
+double slope_bound(const Point& a, double ha, const Point& b, double hb, const Point& c, double slope) {
+  const double along_edges = std::min(ha + slope * distance(a, c), hb + slope * distance(b, c));
+  const Vec3 base = b - a;
+  const double length = norm(base);
+  if (length == 0.0) return along_edges;
+  const Vec3 x = base / length;
+  const double rise = (hb - ha) / length;  // the function's derivative along the edge a-b
+  if (std::abs(rise) >= slope) return along_edges;
+  const Vec3 to_c = c - a;
+  const double u = dot(to_c, x);
+  const double height = norm(to_c - u * x);
+  const double across = std::sqrt(slope * slope - rise * rise);
+  const double foot = u - height * rise / across;  // where the line of steepest rise through c meets a-b
+  return foot > 0.0 && foot < length ? ha + rise * u + across * height : along_edges;
+}
+
+/// Largest field h <= h0 whose tangential slope is at most `gradient` in every triangle: from the lowest heights up, until nothing falls any more.
 void limit_gradient(const LayerBase& base, double gradient, Column<VertexId, double>& height) {
   using Entry = std::pair<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  const auto& points = base.wall.points;
+  const auto offer = [&](VertexId v, double bound) {
+    if (bound >= height[v]) return;
+    height[v] = bound;
+    queue.emplace(bound, v.value());
+  };
   const auto offer_neighbours = [&](VertexId v) {
-    for (const VertexId other : base.topology.neighbours(v)) {
-      const double bound = height[v] + gradient * distance(base.wall.points[v], base.wall.points[other]);
-      if (bound >= height[other]) continue;
-      height[other] = bound;
-      queue.emplace(bound, other.value());
+    for (const HalfedgeId h : base.topology.outgoing(v)) {
+      const VertexId b = base.topology.to(h);
+      const VertexId c = base.topology.from(previous(h));
+      offer(c, slope_bound(points[v], height[v], points[b], height[b], points[c], gradient));
+      offer(b, slope_bound(points[v], height[v], points[c], height[c], points[b], gradient));
     }
   };
   for (const VertexId v : height.ids()) offer_neighbours(v);

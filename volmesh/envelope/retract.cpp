@@ -6,17 +6,23 @@
 #include "geom/base/parallel.h"
 #include "geom/math/bvh.h"
 #include "geom/math/intersect.h"
+#include "volmesh/envelope/smooth.h"
 #include "volmesh/envelope/untangle.h"
+#include "volmesh/envelope/validity.h"
 
 namespace sterna::volmesh {
 namespace {
 
 constexpr double k_look_ahead = 2.5;       ///< heights along the growth line within which an opposing wall matters
-constexpr double k_gap_share = 0.8;        ///< of the gap that both layers together may fill; the rest is for tets
-constexpr double k_opposing_cosine = 0.5;  ///< walls that face the line within 60 degrees oppose it
-constexpr double k_retract_factor = 0.8;   ///< of the height of colliding vertices, each sweep
-constexpr double k_ring_factor = 0.9;      ///< of the height of their neighbours
-constexpr double k_clearance_factor = 0.85;  ///< once nothing collides: leaves a gap for tets between retracted layers
+constexpr double k_gap_share = 0.95;       ///< of the gap that both layers together may fill; the rest is for tets
+constexpr double k_opposing_cosine = 0.7;  ///< walls that face the line within 45 degrees oppose it; the rest is left to the exact test
+constexpr int k_pair_bisections = 10;    ///< halvings: 0.1 % of the height
+constexpr double k_pair_reserve = 0.98;  ///< of the largest scale at which a pair of triangles is clear
+constexpr double k_clearance_factor = 0.95;  ///< once nothing collides: leaves a gap for tets between retracted layers
+constexpr int k_regrow_rounds = 8;
+constexpr double k_regrow_clearance = 1.06;  ///< regrown heights stay clear even when this much taller
+constexpr double k_lowered_share = 0.93;     ///< of the target: smoothing alone goes to 0.94
+constexpr int k_relax_rings = 3;
 constexpr int k_level_sweeps = 3;
 
 /// Parameter along the segment p + s d (s in [0, 1]) where it meets the triangle, or a negative number. Rounding does not matter: heights keep a reserve.
@@ -121,38 +127,159 @@ EnvelopeSurface envelope_surface(const LayerBase& base, const Envelope& envelope
   return surface;
 }
 
+namespace {
+
+/// Triangles that may collide after the vertices in `changed` moved: those with such a vertex, and all whose boxes meet one of them.
+std::vector<std::uint32_t> neighbourhood(const EnvelopeSurface& surface, const LayerBase& base, const Column<VertexId, std::uint8_t>& changed,
+                                         const RunContext& context) {
+  const auto box_of = [&](std::size_t t) {
+    Box box;
+    for (const std::uint32_t p : surface.triangles[t]) box.add(surface.points[p]);
+    return box;
+  };
+  std::vector<Box> boxes;
+  for (const TriangleId t : base.wall.triangles.ids()) {
+    const TriangleVertices& v = base.wall.triangles[t];
+    if (changed[v[0]] || changed[v[1]] || changed[v[2]]) boxes.push_back(box_of(t.index()));
+  }
+  std::vector<std::uint32_t> near;
+  if (boxes.empty()) return near;
+  const BoxTree tree(boxes, context);
+  std::vector<std::uint8_t> is_near(surface.triangles.size(), 0);
+  parallel_for(context, is_near.size(), [&](std::size_t t) {
+    tree.visit_overlaps(box_of(t), [&](std::uint32_t) {
+      is_near[t] = 1;
+      return false;
+    });
+  });
+  for (std::uint32_t t = 0; t < is_near.size(); ++t)
+    if (is_near[t]) near.push_back(t);
+  return near;
+}
+
+/// Largest common share of their heights at which two envelope triangles are clear of each other.
+double clear_share(const LayerBase& base, const Envelope& envelope, const std::array<std::uint32_t, 2>& pair) {
+  const auto crosses_at = [&](double share) {
+    std::vector<Vec3> points;
+    std::vector<VertexId> known;
+    std::array<std::array<std::uint32_t, 3>, 2> triangle;
+    for (std::size_t i = 0; i < 2; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const VertexId v = base.wall.triangles[TriangleId(pair[i])][k];
+        const auto found = std::find(known.begin(), known.end(), v);
+        triangle[i][k] = static_cast<std::uint32_t>(found - known.begin());
+        if (found != known.end()) continue;
+        known.push_back(v);
+        points.push_back(base.wall.points[v] + (share * envelope.height[v]) * envelope.direction[v]);
+      }
+    }
+    return triangles_cross(points, triangle[0], triangle[1]);
+  };
+  double clear = 0.0, crossing = 1.0;
+  for (int step = 0; step < k_pair_bisections; ++step) {
+    const double middle = 0.5 * (clear + crossing);
+    (crosses_at(middle) ? crossing : clear) = middle;
+  }
+  return clear;
+}
+
+/// Pairs of crossing envelope triangles of which at least one has a changed vertex, when the changed vertices are at `stretch` times their height.
+std::vector<std::array<std::uint32_t, 2>> crossings_near(const LayerBase& base, const Envelope& envelope, const Column<VertexId, std::uint8_t>& changed,
+                                                         double stretch, const RunContext& context) {
+  EnvelopeSurface surface = envelope_surface(base, envelope, context);
+  const std::size_t n = base.wall.n_vertices();
+  if (stretch != 1.0) {
+    for (const VertexId v : changed.ids())
+      if (changed[v]) surface.points[n + v.index()] = base.wall.points[v] + (stretch * envelope.height[v]) * envelope.direction[v];
+  }
+  const std::vector<std::uint32_t> items = neighbourhood(surface, base, changed, context);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const std::uint32_t t : items) triangles.push_back(surface.triangles[t]);
+  CrossingPairs crossings = find_crossings(surface.points, triangles, context);
+  for (auto& pair : crossings.pairs) pair = {items[pair[0]], items[pair[1]]};
+  return std::move(crossings.pairs);
+}
+
+Column<VertexId, std::uint8_t> changed_vertices(const Envelope& before, const Envelope& after) {
+  Column<VertexId, std::uint8_t> changed(before.height.size());
+  for (const VertexId v : changed.ids()) changed[v] = after.height[v] != before.height[v] || !(after.direction[v] == before.direction[v]) ? 1 : 0;
+  return changed;
+}
+
+/// As apply_where_valid, and besides no vertex moves whose triangles would come nearer to another part of the envelope than the clearance.
+void apply_where_clear(const LayerBase& base, Envelope& envelope, Envelope proposal, const RunContext& context) {
+  while (true) {
+    Envelope trial = envelope;
+    apply_where_valid(base, trial, proposal, context);
+    const Column<VertexId, std::uint8_t> changed = changed_vertices(envelope, trial);
+    bool has_reverted = false;
+    for (const auto& pair : crossings_near(base, trial, changed, k_regrow_clearance, context)) {
+      for (const std::uint32_t item : pair) {
+        for (const VertexId v : base.wall.triangles[TriangleId(item)]) {
+          if (!changed[v]) continue;
+          trial.height[v] = envelope.height[v];
+          trial.direction[v] = envelope.direction[v];
+          has_reverted = true;
+        }
+      }
+    }
+    if (!has_reverted) {
+      envelope = std::move(trial);
+      return;
+    }
+    proposal = std::move(trial);
+  }
+}
+
+/// Vertices below their target and the rings around them.
+Column<VertexId, std::uint8_t> lowered_region(const LayerBase& base, const Envelope& envelope, const RunContext& context) {
+  Column<VertexId, std::uint8_t> region(base.wall.n_vertices());
+  for (const VertexId v : region.ids()) region[v] = envelope.height[v] < k_lowered_share * envelope.target[v] ? 1 : 0;
+  grow_region(base, k_relax_rings, region, context);
+  return region;
+}
+
+}  // namespace
+
+void regrow_clear(const LayerBase& base, const Classification& classes, Envelope& envelope, const RunContext& context) {
+  for (int round = 0; round < k_regrow_rounds; ++round) {
+    apply_where_clear(base, envelope, raised(base, envelope, round, context), context);
+    apply_where_clear(base, envelope, relaxed(base, classes, lowered_region(base, envelope, context), envelope, context), context);
+  }
+}
+
 void retract_collisions(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context) {
   const EnvelopeScale scale = scale_of(options);
-  Column<VertexId, std::uint8_t> is_retracted(base.wall.n_vertices(), 0);
-  bool has_collided = false;
+  const std::size_t n = base.wall.n_vertices();
+  Column<VertexId, std::uint8_t> changed(n, 1), is_retracted(n, 0);
+  bool needs_clearance = false;
   for (int sweep = 0;; ++sweep) {
-    const EnvelopeSurface surface = envelope_surface(base, envelope, context);
-    const CrossingPairs crossings = find_crossings(surface.points, surface.triangles, context);
+    const std::vector<std::array<std::uint32_t, 2>> pairs = crossings_near(base, envelope, changed, 1.0, context);
     context.progress(static_cast<double>(sweep) / (sweep + 5.0));
-    if (crossings.total == 0) {
-      if (!has_collided) return;
+    const Column<VertexId, double> before = envelope.height;
+    if (pairs.empty()) {
+      if (!needs_clearance) return;
       // One more reduction of everything that was retracted; it may bring something else together, so look once more.
-      has_collided = false;
+      needs_clearance = false;
       for (const VertexId v : is_retracted.ids())
         if (is_retracted[v]) lower(envelope, v, k_clearance_factor * envelope.height[v], HeightLimit::collision, scale);
-      is_retracted.assign(is_retracted.size(), 0);
     } else {
-      context.debug("layers collide in " + std::to_string(crossings.total) + " pairs of triangles");
-      const double factor = sweep < options.max_retract_sweeps ? k_retract_factor : 0.0;
-      Column<VertexId, double> bound = envelope.height;
-      for (const auto& pair : crossings.pairs) {
-        for (const std::uint32_t item : pair) {
+      context.debug("layers collide in " + std::to_string(pairs.size()) + " pairs of triangles");
+      std::vector<double> share(pairs.size(), 0.0);
+      if (sweep < options.max_retract_sweeps)
+        parallel_for(context, share.size(), [&](std::size_t i) { share[i] = k_pair_reserve * clear_share(base, envelope, pairs[i]); }, 16);
+      for (std::size_t i = 0; i < share.size(); ++i) {
+        for (const std::uint32_t item : pairs[i]) {
           for (const VertexId v : base.wall.triangles[TriangleId(item)]) {
             is_retracted[v] = 1;
-            bound[v] = std::min(bound[v], factor * envelope.height[v]);
-            for (const VertexId other : base.topology.neighbours(v)) bound[other] = std::min(bound[other], k_ring_factor * envelope.height[other]);
+            lower(envelope, v, share[i] * before[v], HeightLimit::collision, scale);
           }
         }
       }
-      has_collided = sweep < options.max_retract_sweeps;
-      for (const VertexId v : bound.ids()) lower(envelope, v, bound[v], HeightLimit::collision, scale);
+      needs_clearance = sweep < options.max_retract_sweeps;
     }
     unwarp(base, options, HeightLimit::warp, envelope, context);
+    for (const VertexId v : changed.ids()) changed[v] = envelope.height[v] != before[v] ? 1 : 0;
   }
 }
 

@@ -40,6 +40,8 @@ void for_each_partner(const LayerBase& base, const Classification& classes, Vert
   }
 }
 
+}  // namespace
+
 void grow_region(const LayerBase& base, int rings, Column<VertexId, std::uint8_t>& region, const RunContext& context) {
   for (int ring = 0; ring < rings; ++ring) {
     Column<VertexId, std::uint8_t> next = region;
@@ -52,8 +54,6 @@ void grow_region(const LayerBase& base, int rings, Column<VertexId, std::uint8_t
     region = std::move(next);
   }
 }
-
-}  // namespace
 
 void smooth_heights(const LayerBase& base, const Classification& classes, int sweeps, Envelope& envelope, const RunContext& context) {
   for (int sweep = 0; sweep < sweeps; ++sweep) {
@@ -113,29 +113,33 @@ void smooth_tangled_regions(const LayerBase& base, const Classification& classes
   }
 }
 
-void smooth_envelope(const LayerBase& base, const Classification& classes, int sweeps, Envelope& envelope, const RunContext& context) {
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    Envelope proposal = envelope;
-    parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
-      const VertexId v(i);
-      if (envelope.is_collapsed(v) || !classes.vertex[v].is_smooth()) return;
-      Vec3 sum;
-      double weights = 0.0;
-      for_each_partner(base, classes, v, [&](VertexId other, double weight) {
-        sum += weight * envelope.point(base.wall, other);
-        weights += weight;
-      });
-      if (weights == 0.0) return;
-      const Point own = envelope.point(base.wall, v);
-      const Vec3 growth = own + k_relaxation * (sum / weights - own) - base.wall.points[v];
-      const double length = norm(growth);
-      if (length == 0.0) return;
-      const double ceiling = std::min(envelope.target[v], envelope.cap[v]);
-      proposal.direction[v] = pull_into_cone(base, v, growth / length, k_cone_cosine);
-      proposal.height[v] = std::clamp(length, std::min(k_smooth_floor * ceiling, envelope.height[v]), std::max(ceiling, envelope.height[v]));
+Envelope relaxed(const LayerBase& base, const Classification& classes, const Column<VertexId, std::uint8_t>& region, const Envelope& envelope,
+                 const RunContext& context) {
+  Envelope proposal = envelope;
+  parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
+    const VertexId v(i);
+    if (!region[v] || envelope.is_collapsed(v) || !classes.vertex[v].is_smooth()) return;
+    Vec3 sum;
+    double weights = 0.0;
+    for_each_partner(base, classes, v, [&](VertexId other, double weight) {
+      sum += weight * envelope.point(base.wall, other);
+      weights += weight;
     });
-    apply_where_valid(base, envelope, proposal, context);
-  }
+    if (weights == 0.0) return;
+    const Point own = envelope.point(base.wall, v);
+    const Vec3 growth = own + k_relaxation * (sum / weights - own) - base.wall.points[v];
+    const double length = norm(growth);
+    if (length == 0.0) return;
+    const double ceiling = std::min(envelope.target[v], envelope.cap[v]);
+    proposal.direction[v] = pull_into_cone(base, v, growth / length, k_cone_cosine);
+    proposal.height[v] = std::clamp(length, std::min(k_smooth_floor * ceiling, envelope.height[v]), std::max(ceiling, envelope.height[v]));
+  });
+  return proposal;
+}
+
+void smooth_envelope(const LayerBase& base, const Classification& classes, int sweeps, Envelope& envelope, const RunContext& context) {
+  const Column<VertexId, std::uint8_t> everywhere(base.wall.n_vertices(), 1);
+  for (int sweep = 0; sweep < sweeps; ++sweep) apply_where_valid(base, envelope, relaxed(base, classes, everywhere, envelope, context), context);
 }
 
 }  // namespace sterna::volmesh

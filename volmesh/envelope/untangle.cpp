@@ -1,6 +1,7 @@
 #include "volmesh/envelope/untangle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -18,8 +19,10 @@ constexpr int k_max_unwarp_rounds = 400;
 constexpr int k_bisection_steps = 12;     ///< halvings in log h: 1 % of the height over four decades
 constexpr double k_smallest_scale = 1e-5; ///< of the largest height of an element: where its bisection starts
 constexpr double k_reserve = 0.98;        ///< keep a little below the largest valid height, so that neighbours need not move again
+constexpr double k_regrow_share = 0.9;    ///< of the height at which growth lines meet that regrowth may reach
 constexpr int k_regrow_rounds = 12;
-constexpr double k_regrow_factor = 1.3;   ///< largest growth of a height in one round
+constexpr double k_regrow_factor = 1.3;   ///< largest growth of a height in the first round; later rounds try less, so that what fails at first gets its share
+constexpr double k_regrow_decay = 0.75;   ///< of the growth, from round to round
 constexpr double k_step_gradient = 1.0;   ///< slope along edges that may stand beside lowered places
 
 /// The element with its tallest corners cut to `height`.
@@ -102,7 +105,8 @@ void untangle_edges(const LayerBase& base, const EnvelopeOptions& options, Envel
   for (const VertexId v : limit.ids()) {
     if (!is_limited[v]) continue;
     lower(envelope, v, limit[v], HeightLimit::untangle, scale);
-    envelope.cap[v] = std::min(envelope.cap[v], limit[v]);
+    // The heights that regrow() may try: nearer to the meeting point, but there every wedge is tested.
+    envelope.cap[v] = std::min(envelope.cap[v], k_regrow_share / options.untangle_share * limit[v]);
   }
   level_steps(base, options, k_untangle_smoothing_sweeps, HeightLimit::untangle, envelope, context);
 }
@@ -133,21 +137,24 @@ void unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit r
                .hint = "report this surface"});
 }
 
+Envelope raised(const LayerBase& base, const Envelope& envelope, int round, const RunContext& context) {
+  const double factor = 1.0 + (k_regrow_factor - 1.0) * std::pow(k_regrow_decay, round);
+  Envelope proposal = envelope;
+  parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
+    const VertexId v(i);
+    if (envelope.is_collapsed(v)) return;
+    double h = std::min({envelope.target[v], envelope.cap[v], factor * envelope.height[v]});
+    for (const VertexId other : base.topology.neighbours(v)) {
+      const double bound = envelope.height[other] + k_step_gradient * distance(base.wall.points[v], base.wall.points[other]);
+      h = std::min(h, bound);
+    }
+    if (h > envelope.height[v]) proposal.height[v] = h;
+  });
+  return proposal;
+}
+
 void regrow(const LayerBase& base, Envelope& envelope, const RunContext& context) {
-  for (int round = 0; round < k_regrow_rounds; ++round) {
-    Envelope proposal = envelope;
-    parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
-      const VertexId v(i);
-      if (envelope.is_collapsed(v)) return;
-      double h = std::min({envelope.target[v], envelope.cap[v], k_regrow_factor * envelope.height[v]});
-      for (const VertexId other : base.topology.neighbours(v)) {
-        const double bound = envelope.height[other] + k_step_gradient * distance(base.wall.points[v], base.wall.points[other]);
-        h = std::min(h, bound);
-      }
-      if (h > envelope.height[v]) proposal.height[v] = h;
-    });
-    apply_where_valid(base, envelope, proposal, context);
-  }
+  for (int round = 0; round < k_regrow_rounds; ++round) apply_where_valid(base, envelope, raised(base, envelope, round, context), context);
 }
 
 }  // namespace sterna::volmesh

@@ -21,6 +21,9 @@ std::array<double, 2> edge_height_limits(const Point& p1, const Vec3& d1, const 
 /// \post invalid_macros() is empty.
 void unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit reason, Envelope& envelope, const RunContext& context);
 
+/// The envelope with heights raised one step towards min(target, cap), without steep steps; a proposal, not tested. Later rounds take smaller steps.
+Envelope raised(const LayerBase& base, const Envelope& envelope, int round, const RunContext& context);
+
 /// Raises heights towards min(target, cap) where macro-elements stay valid; undoes what earlier steps lowered more than needed.
 void regrow(const LayerBase& base, Envelope& envelope, const RunContext& context);
 
