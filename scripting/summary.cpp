@@ -1,0 +1,111 @@
+#include "scripting/summary.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+namespace sterna::scripting {
+namespace {
+
+constexpr double k_bytes_per_mb = 1e6;
+
+std::string counted(std::int64_t n, std::string_view one, std::string_view many) { return count_text(n) + " " + std::string(n == 1 ? one : many); }
+
+std::string verdict_text(const MeshValue& mesh) {
+  if (!mesh.check) return "not checked";
+  return mesh.check->is_valid() ? "VALID" : "INVALID";
+}
+
+std::int64_t n_nodes(const MeshValue& mesh) { return static_cast<std::int64_t>(mesh.mesh.points.size()); }
+
+/// Time outside the engine: what this program itself needs.
+double rest_seconds(const MeshValue& mesh, const RunMeasure& measure) { return measure.wall_seconds - mesh.origin->tetra_engine_seconds; }
+
+}  // namespace
+
+std::string count_text(std::int64_t n) {
+  std::string digits = std::to_string(n);
+  for (std::ptrdiff_t i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > (n < 0 ? 1 : 0); i -= 3) digits.insert(static_cast<std::size_t>(i), 1, ' ');
+  return digits;
+}
+
+std::string describe(const SurfaceValue& surface) {
+  const Box box = bounding_box(surface.mesh);
+  return fmt::format("TriMesh: {}, {}, {}, {:.6g} m long", counted(static_cast<std::int64_t>(surface.mesh.n_triangles()), "triangle", "triangles"),
+                     surface.report.is_closed ? "closed" : "open", counted(static_cast<std::int64_t>(surface.mesh.patches.size()), "patch", "patches"),
+                     box.empty() ? 0.0 : box.longest_side());
+}
+
+std::string describe(const MeshValue& mesh) {
+  const CellCounts cells = count_cells(mesh.mesh);
+  std::string text = "HybridMesh: " + counted(n_nodes(mesh), "node", "nodes");
+  if (cells.prisms > 0) text += ", " + counted(cells.prisms, "prism", "prisms");
+  if (cells.pyramids > 0) text += ", " + counted(cells.pyramids, "pyramid", "pyramids");
+  if (cells.tetrahedra > 0) text += ", " + counted(cells.tetrahedra, "tetrahedron", "tetrahedra");
+  if (cells.hexahedra > 0) text += ", " + counted(cells.hexahedra, "hexahedron", "hexahedra");
+  return text + ", " + counted(static_cast<std::int64_t>(mesh.mesh.patches.size()), "patch", "patches") + ", " + verdict_text(mesh);
+}
+
+double peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024.0;  // Linux counts in KiB
+}
+
+std::string summary_text(const MeshValue& mesh) {
+  const CellCounts cells = count_cells(mesh.mesh);
+  const volmesh::LayerReport& layer = mesh.origin->layer;
+  std::string text = fmt::format("  wall        {} triangles, body length {:.6g} m\n", count_text(mesh.origin->n_wall_triangles), layer.body_length);
+  text += fmt::format("  mesh        {} nodes: {} prisms in {} layers, {} pyramids, {} tetrahedra\n", count_text(n_nodes(mesh)), count_text(cells.prisms),
+                      mesh.origin->options.envelope.layers, count_text(cells.pyramids), count_text(cells.tetrahedra));
+  text += fmt::format("  layer       {:.2f} % of the area at its full height, mean height {:.4g} m\n", 100.0 * layer.coverage, layer.mean_height);
+  text += fmt::format("  compressed  {} of {} vertices (total height below layers x first height)\n", count_text(layer.n_compressed), count_text(layer.n_vertices));
+  text += fmt::format("  collapsed   {}\n", counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"));
+  for (const ErrorPlace& place : layer.collapsed) text += "    at " + format_point(place.position) + (place.what.empty() ? "" : ": " + place.what) + "\n";
+  return text + "  verdict     " + verdict_text(mesh);
+}
+
+std::string measure_text(const MeshValue& mesh, const RunMeasure& measure) {
+  std::string text = fmt::format("  seconds     {:.2f} in all on {} threads: {:.2f} in TetGen, {:.2f} the rest\n", measure.wall_seconds, measure.threads,
+                                 mesh.origin->tetra_engine_seconds, rest_seconds(mesh, measure));
+  text += fmt::format("  memory      {:.0f} MB at most here, {:.0f} MB in the TetGen process\n", peak_memory_bytes() / k_bytes_per_mb,
+                      mesh.origin->tetra_engine_peak_bytes / k_bytes_per_mb);
+  text += "  stages     ";
+  for (const StageTime& stage : measure.stages) text += fmt::format(" {} {:.2f}", stage.stage, stage.seconds);
+  return text;
+}
+
+std::string stats_json(const MeshValue& mesh, const RunMeasure& measure) {
+  const CellCounts cells = count_cells(mesh.mesh);
+  const volmesh::LayerReport& layer = mesh.origin->layer;
+  nlohmann::ordered_json json;
+  json["schema"] = "sterna-stats-1";
+  json["program"] = "sterna " STERNA_VERSION;
+  json["triangles"] = mesh.origin->n_wall_triangles;
+  json["layers"] = mesh.origin->options.envelope.layers;
+  json["nodes"] = n_nodes(mesh);
+  json["prisms"] = cells.prisms;
+  json["pyramids"] = cells.pyramids;
+  json["tetrahedra"] = cells.tetrahedra;
+  json["body_length"] = layer.body_length;
+  json["coverage"] = layer.coverage;
+  json["target_over_eq1"] = layer.target_over_eq1;
+  json["mean_height_share"] = layer.mean_height_share;
+  json["mean_height"] = layer.mean_height;
+  json["vertices"] = layer.n_vertices;
+  json["compressed"] = layer.n_compressed;
+  json["collapsed"] = layer.collapsed.size();
+  json["verdict"] = verdict_text(mesh);
+  json["threads"] = measure.threads;
+  json["wall_seconds"] = measure.wall_seconds;
+  json["engine_seconds"] = mesh.origin->tetra_engine_seconds;
+  json["rest_seconds"] = rest_seconds(mesh, measure);
+  json["stage_seconds"] = nlohmann::ordered_json::object();
+  for (const StageTime& stage : measure.stages) json["stage_seconds"][stage.stage] = stage.seconds;
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  json["engine_peak_memory_bytes"] = mesh.origin->tetra_engine_peak_bytes;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace sterna::scripting

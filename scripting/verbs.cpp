@@ -1,0 +1,125 @@
+#include "scripting/verbs.h"
+
+#include <fmt/format.h>
+
+#include <cctype>
+
+#include "geom/base/error.h"
+#include "geom/base/hash.h"
+#include "io/format_table.h"
+#include "io/surface_file.h"
+#include "io/trouble_vtu.h"
+#include "io/volume_file.h"
+#include "scripting/manifest.h"
+#include "scripting/summary.h"
+
+namespace sterna::scripting {
+namespace {
+
+// Shares of read_wall's progress; reading is bound by the disk, stitching by the intersection test.
+constexpr double k_read_end = 0.3;
+
+/// The unit is never silent: a factor of 1000 looks fine until the solver runs.
+std::string unit_text(double unit) { return fmt::format(" (1 unit of the file = {:g} m)", unit); }
+
+bool has_extension(const std::filesystem::path& path, std::string_view extension) {
+  std::string lower = path.extension().string();
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower == extension;
+}
+
+}  // namespace
+
+SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context) {
+  SurfaceValue wall;
+  wall.options = options;
+  std::vector<SurfaceSoup> soups;
+  {
+    const StageTimer timer(context, "read");
+    const RunContext part = context.part("read", 0.0, k_read_end);
+    for (const InputPath& file : files) {
+      soups.push_back(io::read_surface_file(file.path, part));
+      wall.inputs.push_back({file.name, hash_file(file.path)});
+      part.progress(static_cast<double>(soups.size()) / static_cast<double>(files.size()));
+    }
+  }
+  const StageTimer timer(context, "stitch");
+  surfmesh::StitchResult stitched = surfmesh::stitch_surface(soups, options, context.part("stitch", k_read_end, 1.0));
+  wall.mesh = std::move(stitched.mesh);
+  wall.report = std::move(stitched.report);
+  context.info(describe(wall) + unit_text(options.unit));
+  return wall;
+}
+
+MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context) {
+  volmesh::VolumeMeshResult result = volmesh::volume_mesh(wall.mesh, options, context);
+  MeshValue value;
+  value.mesh = std::move(result.mesh);
+  value.inputs = wall.inputs;
+  value.check = std::move(result.check);
+  value.origin = MeshOrigin{.surface_options = wall.options,
+                            .options = options,
+                            .layer = std::move(result.layer),
+                            .n_wall_triangles = static_cast<std::int64_t>(wall.mesh.n_triangles()),
+                            .tetra_engine_seconds = result.tetra_engine_seconds,
+                            .tetra_engine_peak_bytes = result.tetra_engine_peak_bytes};
+  return value;
+}
+
+MeshValue read_mesh(const InputPath& file, const RunContext& context) {
+  const StageTimer timer(context, "read");
+  MeshValue value;
+  value.mesh = io::read_volume_file(file.path, context.part("read", 0.0, 1.0));
+  value.inputs.push_back({file.name, hash_file(file.path)});
+  return value;
+}
+
+void require_mesh_output(const std::filesystem::path& path) {
+  const io::Format& format = io::format_of(path);
+  if (!format.write_volume) {
+    std::string known;
+    for (const io::Format& other : io::formats())
+      if (other.write_volume) known += (known.empty() ? "" : ", ") + std::string(other.name) + " (" + std::string(other.extensions) + ")";
+    throw Error({.code = ErrorCode::unsupported_format,
+                 .attempted = "writing " + path.string(),
+                 .problem = std::string(format.name) + " is not written as a volume mesh",
+                 .hint = known});
+  }
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder))
+    throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + folder.string()});
+}
+
+void write_mesh(const MeshValue& mesh, const std::filesystem::path& path, const RunContext& context) {
+  const StageTimer timer(context, "write");
+  io::write_volume_file(mesh.mesh, path, context.part("write " + path.filename().string(), 0.0, 1.0));
+  write_manifest(mesh, path, context);
+}
+
+void write_surface(const SurfaceValue& surface, const std::filesystem::path& path, const RunContext& context) {
+  if (!has_extension(path, ".vtu"))
+    throw Error({.code = ErrorCode::unsupported_format, .attempted = "writing " + path.string(), .problem = "surfaces are written as .vtu only"});
+  const StageTimer timer(context, "write");
+  io::write_surface_vtu(surface.mesh, path, context);
+}
+
+OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::VolumeMeshOptions& volume) {
+  OptionTable table = sterna::options_of(surface);
+  for (Option& option : volmesh::options_of(volume)) table.push_back(std::move(option));
+  return table;
+}
+
+void set_option_as_typed(const Option& option, std::string_view text) {
+  const bool is_bare_unit = option.kind == OptionKind::number && option.unit == Unit::metre && !text.empty() &&
+                            std::isalpha(static_cast<unsigned char>(text.front())) && text != "automatic";
+  try {
+    set_option_from_text(option, is_bare_unit ? "1*" + std::string(text) : std::string(text));
+  } catch (const Error& error) {
+    if (option.unit != Unit::radian) throw;
+    ErrorInfo info = error.info();
+    info.hint = "angles are in radians; write degrees as 40deg";
+    throw Error(std::move(info));
+  }
+}
+
+}  // namespace sterna::scripting

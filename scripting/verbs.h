@@ -1,0 +1,83 @@
+// The work behind both the Lua verbs and the command line: values that can be printed, checked, written and fed to the next verb.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/check.h"
+#include "surfmesh/stitch/stitch_surface.h"
+#include "volmesh/volume_mesh.h"
+
+namespace sterna::scripting {
+
+/// A file that went into a result, for its manifest.
+struct InputFile {
+  std::string name;  ///< as the user wrote it
+  std::string hash;  ///< hash_file
+};
+
+/// A surface with where it came from.
+struct SurfaceValue {
+  TriMesh mesh;
+  surfmesh::StitchReport report;
+  surfmesh::StitchOptions options;
+  std::vector<InputFile> inputs;
+};
+
+/// How a volume mesh was made here; absent for one that was read from a file.
+struct MeshOrigin {
+  surfmesh::StitchOptions surface_options;
+  volmesh::VolumeMeshOptions options;
+  volmesh::LayerReport layer;
+  std::int64_t n_wall_triangles = 0;
+  double tetra_engine_seconds = 0.0;
+  double tetra_engine_peak_bytes = 0.0;
+};
+
+struct MeshValue {
+  HybridMesh mesh;
+  std::vector<InputFile> inputs;
+  std::optional<MeshOrigin> origin;
+  std::optional<CheckReport> check;  ///< of the default options; always there for a mesh made here
+};
+
+using SurfaceHandle = std::shared_ptr<const SurfaceValue>;
+using MeshHandle = std::shared_ptr<const MeshValue>;
+
+/// A file as the user wrote it and where it was found.
+struct InputPath {
+  std::string name;
+  std::filesystem::path path;
+};
+
+/// Reads the files and joins them to one surface. \throws Error of io and of surfmesh::stitch_surface.
+SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context);
+
+/// \throws Error of volmesh::volume_mesh.
+MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context);
+
+/// Reads a volume mesh. \throws Error of io.
+MeshValue read_mesh(const InputPath& file, const RunContext& context);
+
+/// \throws Error unsupported_format or write_failed when a mesh of this name cannot be written: unknown extension, no such folder. Before the work.
+void require_mesh_output(const std::filesystem::path& path);
+
+/// Writes the mesh and, once that is done, its manifest "<path>.json". Each file appears whole or not at all. \throws Error of io.
+void write_mesh(const MeshValue& mesh, const std::filesystem::path& path, const RunContext& context);
+
+/// Writes a surface; VTU is the only format so far. \throws Error unsupported_format, write_failed.
+void write_surface(const SurfaceValue& surface, const std::filesystem::path& path, const RunContext& context);
+
+/// The options of reading a surface and of all stages of the volume mesh, for `--set stage.option=value`. The arguments must outlive the table.
+OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::VolumeMeshOptions& volume);
+
+/// set_option_from_text that also takes a bare unit for a length ("mm" is 1*mm) and says how angles are written.
+/// \throws Error(bad_argument)
+void set_option_as_typed(const Option& option, std::string_view text);
+
+}  // namespace sterna::scripting
