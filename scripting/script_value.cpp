@@ -1,0 +1,22 @@
+#include "scripting/script_value.h"
+
+namespace sterna::scripting {
+
+std::string_view type_text(const ScriptValue& value) {
+  struct Name {
+    std::string_view operator()(std::monostate) const { return "nil"; }
+    std::string_view operator()(bool) const { return "true or false"; }
+    std::string_view operator()(std::int64_t) const { return "a number"; }
+    std::string_view operator()(double) const { return "a number"; }
+    std::string_view operator()(const std::string&) const { return "a text"; }
+    std::string_view operator()(const std::shared_ptr<const ScriptTable>&) const { return "a table"; }
+    std::string_view operator()(const SurfaceHandle&) const { return "a surface"; }
+    std::string_view operator()(const MeshHandle&) const { return "a volume mesh"; }
+    std::string_view operator()(const ErrorHandle&) const { return "an error"; }
+    std::string_view operator()(const ScriptVerb*) const { return "a verb"; }
+    std::string_view operator()(const OpaqueValue& v) const { return v.type_name; }
+  };
+  return std::visit(Name{}, value);
+}
+
+}  // namespace sterna::scripting

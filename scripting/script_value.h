@@ -1,0 +1,36 @@
+// A Lua value as C++ sees it: copied out before a verb starts, so that no verb ever touches the Lua stack.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "geom/base/error.h"
+#include "scripting/verbs.h"
+
+namespace sterna::scripting {
+
+struct ScriptTable;
+struct ScriptVerb;  // script_call.h
+/// A value that no verb takes (function, coroutine); known by its type's name only.
+struct OpaqueValue {
+  std::string_view type_name;
+};
+using ErrorHandle = std::shared_ptr<const Error>;
+using ScriptValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::shared_ptr<const ScriptTable>, SurfaceHandle, MeshHandle, ErrorHandle,
+                                 const ScriptVerb*, OpaqueValue>;
+
+struct ScriptTable {
+  std::vector<ScriptValue> items;             ///< entries 1, 2, ... n
+  std::map<std::string, ScriptValue> fields;  ///< named entries, by name: Lua's own order differs between runs
+  std::vector<std::string> other_keys;        ///< keys that are neither, e.g. "[true]"
+};
+
+/// "a number", "a surface", "a table": the type for messages.
+std::string_view type_text(const ScriptValue& value);
+
+}  // namespace sterna::scripting

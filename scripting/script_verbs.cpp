@@ -1,0 +1,351 @@
+#include "scripting/script_verbs.h"
+
+#include <array>
+#include <numbers>
+
+#include "geom/base/error.h"
+#include "scripting/check_options.h"
+#include "scripting/summary.h"
+#include "scripting/table_reader.h"
+#include "scripting/verbs.h"
+
+namespace sterna::scripting {
+namespace {
+
+using TableHandle = std::shared_ptr<const ScriptTable>;
+
+[[noreturn]] void reject(const ScriptCall& call, std::string problem, std::string hint = {}) {
+  throw Error({.code = ErrorCode::bad_argument, .attempted = call.attempted(), .problem = std::move(problem), .hint = std::move(hint)});
+}
+
+/// The table of a call of the form verb{...}; a single text, as in read_surface "a.stl", counts as its first entry.
+ScriptTable table_argument(const ScriptCall& call, std::size_t index, std::string_view usage) {
+  if (call.arguments.size() > index + 1) reject(call, "takes one table, not several arguments", std::string(usage));
+  if (call.arguments.size() <= index) return {};
+  const ScriptValue& argument = call.arguments[index];
+  if (const auto* table = std::get_if<TableHandle>(&argument)) return **table;
+  ScriptTable table;
+  if (!std::holds_alternative<std::monostate>(argument)) table.items.push_back(argument);
+  return table;
+}
+
+template <class Handle>
+const Handle& self(const ScriptCall& call) {
+  if (!call.arguments.empty())
+    if (const auto* handle = std::get_if<Handle>(&call.arguments.front())) return *handle;
+  reject(call, "is a method", "call it with a colon: object:" + std::string(call.verb.substr(call.verb.find(':') + 1)) + "(...)");
+}
+
+/// Relative names are looked for in the current folder first, then beside the script.
+InputPath find_input(const ScriptCall& call, const std::string& name) {
+  const std::filesystem::path path = name;
+  const std::filesystem::path beside_script = call.session.script.parent_path() / path;
+  std::error_code ignored;  // a name that cannot even be looked up is reported by the reader, with its reason
+  if (path.is_relative() && !std::filesystem::exists(path, ignored) && std::filesystem::exists(beside_script, ignored)) return {name, beside_script};
+  return {name, path};
+}
+
+/// The command line's --set values for these options; they win over the script.
+void apply_overrides(const ScriptCall& call, const OptionTable& options) {
+  for (const auto& [name, text] : call.session.overrides)
+    for (const Option& option : options)
+      if (name == option.name || name == std::string(option.stage) + "." + std::string(option.name)) set_option_as_typed(option, text);
+}
+
+// ---- read_surface, read_mesh -------------------------------------------------------------------------------------------------------------
+
+std::vector<InputPath> file_names(const ScriptCall& call, TableReader& reader) {
+  std::vector<InputPath> files;
+  std::size_t number = 0;
+  for (const ScriptValue& item : reader.items()) {
+    ++number;
+    if (const auto* name = std::get_if<std::string>(&item)) files.push_back(find_input(call, *name));
+    else reader.add_problem("entry " + std::to_string(number) + ": expected a file name, not " + std::string(type_text(item)));
+  }
+  if (number == 0) reader.add_problem("needs a file name");
+  return files;
+}
+
+constexpr std::string_view k_read_surface_usage = "read_surface{ \"wing.stl\", \"body.stl\", unit = mm, split_angle = 40*deg }  or  read_surface \"wing.stl\"";
+
+ScriptValue read_surface(const ScriptCall& call) {
+  const ScriptTable table = table_argument(call, 0, k_read_surface_usage);
+  surfmesh::StitchOptions options;
+  const OptionTable schema = sterna::options_of(options);
+  TableReader reader(table, call.attempted());
+  const std::vector<InputPath> files = file_names(call, reader);
+  reader.read_options(schema);
+  apply_overrides(call, schema);
+  reader.finish();
+  return std::make_shared<const SurfaceValue>(read_wall(files, options, call.session.context.part("read_surface", 0.0, 1.0)));
+}
+
+constexpr std::string_view k_read_mesh_usage = "read_mesh \"mesh.su2\"";
+
+ScriptValue read_mesh_file(const ScriptCall& call) {
+  const ScriptTable table = table_argument(call, 0, k_read_mesh_usage);
+  TableReader reader(table, call.attempted());
+  const std::vector<InputPath> files = file_names(call, reader);
+  if (files.size() > 1) reader.add_problem("takes one file, not " + std::to_string(files.size()));
+  reader.finish();
+  return std::make_shared<const MeshValue>(read_mesh(files.front(), call.session.context.part("read_mesh", 0.0, 1.0)));
+}
+
+// ---- volume_mesh, sphere -----------------------------------------------------------------------------------------------------------------
+
+constexpr std::string_view k_volume_mesh_usage =
+    "volume_mesh{ wall, layers = 32, first_height = 1e-6, farfield = sphere{ radius = 100 }, envelope = { max_growth = 1.3 } }";
+
+ScriptValue make_mesh(const ScriptCall& call) {
+  const ScriptTable table = table_argument(call, 0, k_volume_mesh_usage);
+  volmesh::VolumeMeshOptions options;
+  const OptionTable schema = volmesh::options_of(options);
+  TableReader reader(table, call.attempted());
+  const std::vector<ScriptValue>& items = reader.items();
+  const SurfaceHandle* wall = items.empty() ? nullptr : std::get_if<SurfaceHandle>(&items.front());
+  if (!wall) reader.add_problem("entry 1: expected a surface (from read_surface), not " + std::string(items.empty() ? "nothing" : type_text(items.front())));
+  else if (items.size() > 1) reader.add_problem("takes one surface, not " + std::to_string(items.size()) + " (read_surface{ \"a.stl\", \"b.stl\" } joins files)");
+  reader.read_options(schema);
+  apply_overrides(call, schema);
+  reader.require(schema);
+  reader.finish();
+  auto mesh = std::make_shared<const MeshValue>(make_volume_mesh(**wall, options, call.session.context.part("volume_mesh", 0.0, 1.0)));
+  if (call.session.on_mesh) call.session.on_mesh(*mesh);
+  return mesh;
+}
+
+constexpr std::string_view k_sphere_usage = "sphere{ radius = 100, edge = 20 }";
+
+ScriptValue make_sphere(const ScriptCall& call) {
+  const ScriptTable table = table_argument(call, 0, k_sphere_usage);
+  volmesh::FarfieldOptions options;
+  OptionTable schema = sterna::options_of(options);
+  constexpr std::string_view k_prefix = "farfield_";
+  for (Option& option : schema) option.name.remove_prefix(k_prefix.size());
+  TableReader reader(table, call.attempted());
+  reader.read_options(schema);
+  reader.finish();
+  auto shape = std::make_shared<ScriptTable>();
+  shape->fields["shape"] = std::string("sphere");
+  for (const Option& option : schema)
+    if (const double value = std::get<double>(option.get()); !is_automatic(value)) shape->fields[std::string(option.name)] = value;
+  return shape;
+}
+
+// ---- Methods and fields --------------------------------------------------------------------------------------------------------------------
+
+/// mesh:write("a.su2", "b.vtu") or mesh:write{...}: the names after the object.
+std::vector<std::filesystem::path> output_names(const ScriptCall& call) {
+  std::vector<std::filesystem::path> names;
+  const auto add = [&](const ScriptValue& value) {
+    if (const auto* name = std::get_if<std::string>(&value)) names.emplace_back(*name);
+    else reject(call, "expected file names, not " + std::string(type_text(value)));
+  };
+  for (std::size_t i = 1; i < call.arguments.size(); ++i) {
+    const auto* table = std::get_if<TableHandle>(&call.arguments[i]);
+    if (!table) add(call.arguments[i]);
+    else if (!(*table)->fields.empty()) reject(call, "takes file names and no options (\"" + (*table)->fields.begin()->first + "\")");
+    else
+      for (const ScriptValue& item : (*table)->items) add(item);
+  }
+  if (names.empty()) reject(call, "needs at least one file name");
+  return names;
+}
+
+ScriptValue write_surface_files(const ScriptCall& call) {
+  const SurfaceHandle& surface = self<SurfaceHandle>(call);
+  for (const auto& name : output_names(call)) write_surface(*surface, name, call.session.context);
+  return surface;
+}
+
+ScriptValue write_mesh_files(const ScriptCall& call) {
+  const MeshHandle& mesh = self<MeshHandle>(call);
+  const auto names = output_names(call);
+  for (const auto& name : names) require_mesh_output(name);
+  for (const auto& name : names) write_mesh(*mesh, name, call.session.context);
+  return mesh;
+}
+
+std::string check_help() {
+  CheckSettings options;
+  return options_help(sterna::options_of(options));
+}
+
+ScriptValue check_mesh(const ScriptCall& call) {
+  const MeshHandle& mesh = self<MeshHandle>(call);
+  const ScriptTable table = table_argument(call, 1, "mesh:check{ findings_per_kind = 20 }");
+  CheckSettings options;
+  TableReader reader(table, call.attempted());
+  reader.read_options(sterna::options_of(options));
+  reader.finish();
+  // A mesh made here was checked with the default options when it was made, and cannot have changed.
+  const bool is_known = mesh->check && table.fields.empty();
+  const CheckReport report = is_known ? *mesh->check : check(mesh->mesh, options.to_options(), call.session.context.part("check", 0.0, 1.0));
+  call.session.print(to_text(report));
+  if (report.is_valid()) return mesh;
+  ErrorInfo info{.code = ErrorCode::mesh_invalid, .attempted = call.attempted(), .problem = "the mesh is INVALID"};
+  for (const auto& [violation, count] : report.counts) info.n_places += count;
+  for (const Finding& finding : report.findings) info.places.push_back({finding.position, std::string(to_string(finding.violation)) + ", " + finding.what});
+  throw Error(std::move(info));
+}
+
+ScriptValue describe_object(const ScriptCall& call) {
+  if (call.arguments.empty()) return std::monostate{};
+  const ScriptValue& object = call.arguments.front();
+  if (const auto* surface = std::get_if<SurfaceHandle>(&object)) return describe(**surface);
+  if (const auto* mesh = std::get_if<MeshHandle>(&object)) return describe(**mesh);
+  if (const auto* error = std::get_if<ErrorHandle>(&object)) return std::string((*error)->what());
+  std::string text = "sphere";
+  if (const auto* shape = std::get_if<TableHandle>(&object))
+    for (const auto& [name, value] : (*shape)->fields) {
+      if (const auto* number = std::get_if<double>(&value)) text += ", " + name + " " + std::to_string(*number) + " m";
+      if (const auto* whole = std::get_if<std::int64_t>(&value)) text += ", " + name + " " + std::to_string(*whole) + " m";
+    }
+  return text;
+}
+
+template <class PatchColumn>
+ScriptValue patch_names(const PatchColumn& patches) {
+  auto names = std::make_shared<ScriptTable>();
+  for (const Patch& patch : patches) names->items.emplace_back(patch.name);
+  return names;
+}
+
+using Fields = std::vector<std::pair<std::string, ScriptValue>>;
+
+/// The value of object.name among the fields; a wrong name is an error with a suggestion.
+ScriptValue select_field(const ScriptCall& call, Fields fields, std::span<const ScriptVerb> methods) {
+  const auto* name = call.arguments.size() < 2 ? nullptr : std::get_if<std::string>(&call.arguments[1]);
+  std::vector<std::string> known;
+  for (auto& [field, value] : fields) {
+    if (name && field == *name) return std::move(value);
+    known.push_back(field);
+  }
+  for (const ScriptVerb& method : methods) known.emplace_back(method.name.substr(method.name.find(':') + 1));
+  const std::string nearest = name ? nearest_name(*name, known) : "";
+  std::string all;
+  for (const std::string& other : known) all += (all.empty() ? "" : ", ") + other;
+  throw Error({.code = ErrorCode::unknown_option,
+               .attempted = call.attempted(),
+               .problem = name ? "there is no \"" + *name + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?") : "fields are named",
+               .hint = all});
+}
+
+ScriptValue surface_field(const ScriptCall& call) {
+  const SurfaceValue& surface = *self<SurfaceHandle>(call);
+  return select_field(call,
+                      {{"triangles", static_cast<std::int64_t>(surface.mesh.n_triangles())},
+                       {"vertices", static_cast<std::int64_t>(surface.mesh.n_vertices())},
+                       {"length", body_length(surface.mesh)},
+                       {"is_closed", surface.report.is_closed},
+                       {"patches", patch_names(surface.mesh.patches)}},
+                      surface_methods());
+}
+
+ScriptValue mesh_field(const ScriptCall& call) {
+  const MeshValue& mesh = *self<MeshHandle>(call);
+  const CellCounts cells = count_cells(mesh.mesh);
+  Fields fields = {{"nodes", static_cast<std::int64_t>(mesh.mesh.points.size())},
+                   {"prisms", cells.prisms},
+                   {"pyramids", cells.pyramids},
+                   {"tetrahedra", cells.tetrahedra},
+                   {"hexahedra", cells.hexahedra},
+                   {"cells", cells.total()},
+                   {"patches", patch_names(mesh.mesh.patches)}};
+  if (mesh.origin) {
+    fields.emplace_back("coverage", mesh.origin->layer.coverage);
+    fields.emplace_back("mean_height", mesh.origin->layer.mean_height);
+    fields.emplace_back("compressed", mesh.origin->layer.n_compressed);
+    fields.emplace_back("collapsed", static_cast<std::int64_t>(mesh.origin->layer.collapsed.size()));
+  }
+  return select_field(call, std::move(fields), mesh_methods());
+}
+
+ScriptValue error_field(const ScriptCall& call) {
+  const Error& error = *self<ErrorHandle>(call);
+  return select_field(call, {{"code", std::string(to_string(error.code()))}, {"message", std::string(error.what())}, {"places", error.n_places()}}, {});
+}
+
+// ---- help ----------------------------------------------------------------------------------------------------------------------------------
+
+std::string surface_help() {
+  surfmesh::StitchOptions options;
+  return options_help(sterna::options_of(options));
+}
+std::string volume_help() {
+  volmesh::VolumeMeshOptions options;
+  return options_help(volmesh::options_of(options));
+}
+std::string sphere_help() {
+  volmesh::FarfieldOptions options;
+  OptionTable schema = sterna::options_of(options);
+  for (Option& option : schema) option.name.remove_prefix(std::string_view("farfield_").size());
+  return options_help(schema);
+}
+
+const ScriptVerb* find_verb(std::string_view name) {
+  for (const std::span<const ScriptVerb> verbs : {script_verbs(), surface_methods(), mesh_methods()})
+    for (const ScriptVerb& verb : verbs)
+      if (verb.name == name || verb.name.substr(verb.name.find(':') + 1) == name) return &verb;
+  return nullptr;
+}
+
+std::string list_of_verbs() {
+  std::string text;
+  for (const std::span<const ScriptVerb> verbs : {script_verbs(), surface_methods(), mesh_methods()})
+    for (const ScriptVerb& verb : verbs) text += std::string(verb.name) + ": " + std::string(verb.summary) + "\n  " + std::string(verb.usage) + "\n";
+  return text + "numbers: mm, cm, inch, ft, deg. help(volume_mesh) prints the options of a verb.";
+}
+
+ScriptValue help(const ScriptCall& call) {
+  if (call.arguments.empty() || std::holds_alternative<std::monostate>(call.arguments.front())) {
+    call.session.print(list_of_verbs());
+    return std::monostate{};
+  }
+  const ScriptVerb* verb = nullptr;
+  if (const auto* value = std::get_if<const ScriptVerb*>(&call.arguments.front())) verb = *value;
+  if (const auto* name = std::get_if<std::string>(&call.arguments.front())) verb = find_verb(*name);
+  if (!verb) reject(call, "there is no help on this", "help() lists the verbs");
+  std::string text = std::string(verb->name) + ": " + std::string(verb->summary) + "\n  " + std::string(verb->usage);
+  if (verb->options_help) text += "\noptions (name = default [unit] (range)):\n" + verb->options_help();
+  if (text.back() == '\n') text.pop_back();
+  call.session.print(text);
+  return std::monostate{};
+}
+
+constexpr std::array<ScriptVerb, 5> k_verbs = {{
+    {"read_surface", k_read_surface_usage, "Reads surface files and joins them to one wall.", read_surface, surface_help, true},
+    {"read_mesh", k_read_mesh_usage, "Reads a volume mesh.", read_mesh_file, nullptr, true},
+    {"volume_mesh", k_volume_mesh_usage, "Meshes the space around a wall: prism layers on it, tetrahedra to the farfield.", make_mesh, volume_help, true},
+    {"sphere", k_sphere_usage, "A spherical farfield, for volume_mesh.", make_sphere, sphere_help},
+    {"help", "help(volume_mesh)", "Prints what a verb does and its options.", help},
+}};
+constexpr std::array<ScriptVerb, 1> k_surface_methods = {{
+    {"surface:write", "wall:write \"wall.vtu\"", "Writes a surface.", write_surface_files},
+}};
+constexpr std::array<ScriptVerb, 2> k_mesh_methods = {{
+    {"mesh:check", "mesh:check()", "Proves that the mesh tiles its domain and prints the verdict; an INVALID mesh is an error that names the places.", check_mesh, check_help},
+    {"mesh:write", "mesh:write(\"mesh.su2\", \"mesh.vtu\")", "Writes the mesh, each file with a manifest <file>.json beside it.", write_mesh_files},
+}};
+constexpr std::array<ScriptUnit, 5> k_units = {{{"mm", 1e-3}, {"cm", 1e-2}, {"inch", 0.0254}, {"ft", 0.3048}, {"deg", std::numbers::pi / 180.0}}};
+
+}  // namespace
+
+const ScriptVerb k_describe_object = {"tostring", "", "", describe_object};
+const ScriptVerb k_surface_field = {"surface", "", "", surface_field};
+const ScriptVerb k_mesh_field = {"mesh", "", "", mesh_field};
+const ScriptVerb k_error_field = {"error", "", "", error_field};
+
+std::span<const ScriptVerb> script_verbs() { return k_verbs; }
+std::span<const ScriptVerb> surface_methods() { return k_surface_methods; }
+std::span<const ScriptVerb> mesh_methods() { return k_mesh_methods; }
+std::span<const ScriptUnit> script_units() { return k_units; }
+
+std::string nearest_global(std::string_view name) {
+  std::vector<std::string> known;
+  for (const ScriptVerb& verb : k_verbs) known.emplace_back(verb.name);
+  for (const ScriptUnit& unit : k_units) known.emplace_back(unit.name);
+  return nearest_name(name, known);
+}
+
+}  // namespace sterna::scripting
