@@ -1,1 +1,3 @@
-int main() { return 1; }
+#include "scripting/cli.h"
+
+int main(int argc, char** argv) { return sterna::scripting::run_command_line(argc, argv); }

@@ -1,0 +1,197 @@
+// Parsing only: what the commands do is in commands.cpp. CLI11 is slow to compile, so this is the one file that includes it.
+#include "scripting/cli.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+
+#include "geom/base/error.h"
+#include "scripting/commands.h"
+#include "scripting/console.h"
+#include "scripting/exit_status.h"
+#include "scripting/interrupt.h"
+#include "scripting/verbs.h"
+
+namespace sterna::scripting {
+namespace {
+
+/// Options that every command has.
+struct CommonSettings {
+  ConsoleSettings console;
+  int threads = 0;
+  std::uint64_t seed = 1;
+  std::filesystem::path dump_directory;
+};
+
+/// What the command line asks for: one command, and where the picture of a failure goes.
+struct Request {
+  std::function<int(const CommandContext&)> execute;
+  std::filesystem::path trouble;  ///< beside the output, or beside the input of commands that write nothing
+};
+
+std::string kebab(std::string_view name) {
+  std::string text(name);
+  std::replace(text.begin(), text.end(), '_', '-');
+  return text;
+}
+
+/// "stage.option=value" as name and value.
+std::pair<std::string, std::string> split_assignment(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) throw CLI::ValidationError("--set", "\"" + text + "\" is not stage.option=value");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+void add_set_option(CLI::App& command, OptionOverrides& overrides) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&overrides](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) overrides.push_back(split_assignment(text));
+          },
+          "any option of any stage, e.g. --set envelope.layers=24")
+      ->type_name("STAGE.OPTION=VALUE")
+      ->allow_extra_args(false)
+      ->take_all();
+}
+
+/// One --kebab-name for each option of the schema, grouped by stage.
+void add_schema_options(CLI::App& command, OptionOverrides& overrides) {
+  surfmesh::StitchOptions surface;
+  volmesh::VolumeMeshOptions volume;
+  for (const Option& option : all_options(surface, volume)) {
+    const std::string name(option.name);
+    std::string help = std::string(option.help) + "; " + option.default_text();
+    if (const std::string range = option.range_text(); !range.empty()) help += "; " + range;
+    CLI::Option* added = command.add_option_function<std::string>(
+        "--" + kebab(name), [&overrides, name](const std::string& text) { overrides.emplace_back(name, text.empty() ? "true" : text); }, help);
+    added->group("Options of stage " + std::string(option.stage));
+    added->type_name(option.kind == OptionKind::boolean ? "[true|false]" : option.kind == OptionKind::text ? "TEXT" : "NUMBER");
+    if (option.kind == OptionKind::boolean) added->expected(0, 1);
+  }
+}
+
+void add_common_options(CLI::App& app, CommonSettings& common) {
+  app.add_option("--threads", common.threads, "worker threads; 0 = all of the machine. The result does not depend on it")->check(CLI::NonNegativeNumber);
+  app.add_option("--seed", common.seed, "seed of random numbers (math.random of scripts)");
+  app.add_flag("-q,--quiet", common.console.is_quiet, "no log and no progress, only results, warnings and errors");
+  app.add_flag("-v,--verbose", common.console.is_verbose, "more log");
+  app.add_option("--log", common.console.log_file, "write every log line with its time to this file")->type_name("FILE");
+  app.add_option("--dump-dir", common.dump_directory, "where VTU pictures of failures go; default: beside the output")->type_name("FOLDER")->check(CLI::ExistingDirectory);
+}
+
+std::filesystem::path beside(const std::filesystem::path& file) { return file.string() + ".trouble.vtu"; }
+
+void add_run_command(CLI::App& app, RunCommand& run, Request& request) {
+  CLI::App* command = app.add_subcommand("run", "run a Lua case");
+  command->add_option("script", run.script, "case.lua; input files are looked for in the current folder, then beside it; outputs go to the current folder")->required();
+  add_set_option(*command, run.overrides);
+  command->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(run, context); };
+    request.trouble = beside(run.script.filename());
+  });
+}
+
+void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Request& request) {
+  CLI::App* command = app.add_subcommand("mesh", "mesh the space around a surface: prism layers and tetrahedra");
+  command->add_option("surfaces", mesh.inputs, "surface files; several are joined to one wall")->required();
+  command->add_option("-o,--output", mesh.outputs, "mesh file (.su2, .vtu); may be given several times")->required()->allow_extra_args(false)->take_all();
+  command->add_option("--stats", mesh.stats, "write sizes, times and memory of this run as JSON")->type_name("FILE");
+  add_schema_options(*command, mesh.options);
+  add_set_option(*command, set);
+  command->footer("Numbers take units: 2e-6, 0.5mm, 35deg, --unit inch.");
+  command->final_callback([&] {
+    mesh.options.insert(mesh.options.end(), set.begin(), set.end());
+    request.execute = [&](const CommandContext& context) { return execute(mesh, context); };
+    request.trouble = beside(mesh.outputs.front());
+  });
+}
+
+void add_check_command(CLI::App& app, CheckCommand& check, Request& request) {
+  CLI::App* command = app.add_subcommand("check", "prove that a volume mesh tiles its domain; exit status 0 only if it is VALID");
+  command->add_option("mesh", check.input, "mesh file")->required();
+  command->add_flag("--json", check.is_json, "print the report as JSON");
+  command->add_option("--findings-per-kind", check.options.findings_per_kind, "places listed for each kind of violation")->check(CLI::PositiveNumber);
+  command->add_flag("--intersections,!--no-intersections", check.options.intersections, "test boundaries exactly for intersection (default)");
+  command->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(check, context); };
+    request.trouble = beside(std::filesystem::path(check.input).filename());
+  });
+}
+
+void add_info_command(CLI::App& app, InfoCommand& info, Request& request) {
+  CLI::App* command = app.add_subcommand("info", "say what a surface or mesh file holds: counts, patches, box, units");
+  command->add_option("file", info.input, "surface or mesh file")->required();
+  command->add_option("--unit", info.unit, "length of one unit of the file: mm, inch, 0.5mm ...");
+  command->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(info, context); };
+    request.trouble = beside(std::filesystem::path(info.input).filename());
+  });
+}
+
+int execute_request(const Request& request, const CommonSettings& common) {
+  const InterruptGuard interrupt;
+  Console console(common.console);
+  const RunContext context({.threads = common.threads,
+                            .seed = common.seed,
+                            .stop = interrupt.token(),
+                            .dump_directory = common.dump_directory,
+                            .log = [&](LogLevel level, std::string_view text) { console.log(level, text); },
+                            .progress = [&](const ProgressState& state) { console.progress(state); }});
+  try {
+    return request.execute({console, context});
+  } catch (const Error& error) {
+    const std::filesystem::path trouble = common.dump_directory.empty() ? request.trouble : common.dump_directory / request.trouble.filename();
+    console.end_progress();
+    console.error(error.what() + draw_trouble(error, trouble));
+    return exit_status_of(error.code());
+  }
+}
+
+int parse_and_execute(int argc, const char* const* argv) {
+  CLI::App app("sterna: hybrid meshes (prism layers and tetrahedra) around aircraft, for RANS solvers", "sterna");
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.set_version_flag("--version", "sterna " STERNA_VERSION);
+  app.footer(k_exit_status_help);
+  CommonSettings common;
+  RunCommand run;
+  MeshCommand mesh;
+  CheckCommand check;
+  InfoCommand info;
+  OptionOverrides set;
+  Request request;
+  add_common_options(app, common);
+  add_run_command(app, run, request);
+  add_mesh_command(app, mesh, set, request);
+  add_check_command(app, check, request);
+  add_info_command(app, info, request);
+  app.add_subcommand("formats", "list the file formats")->final_callback([&] { request.execute = list_formats; });
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? k_exit_success : k_exit_usage;
+  }
+  return execute_request(request, common);
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) noexcept {
+  // Before the console stands, and for what no Error describes, stderr is all there is.
+  try {
+    return parse_and_execute(argc, argv);
+  } catch (const Error& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return exit_status_of(error.code());
+  } catch (const std::bad_alloc&) {
+    std::fputs("error: not enough memory\n", stderr);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s (please report this)\n", error.what());
+  }
+  return k_exit_failed;
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,187 @@
+#include "scripting/commands.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "geom/base/error.h"
+#include "io/atomic_file.h"
+#include "io/format_table.h"
+#include "io/surface_file.h"
+#include "io/trouble_vtu.h"
+#include "scripting/exit_status.h"
+#include "scripting/script_run.h"
+#include "scripting/summary.h"
+#include "scripting/verbs.h"
+
+namespace sterna::scripting {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Shares of the progress of `sterna mesh`, from runs on surfaces of 10 k to 200 k triangles.
+constexpr double k_read_end = 0.05;
+constexpr double k_mesh_end = 0.90;
+
+/// Sets every option; all problems are reported together.
+void set_options(const OptionTable& table, const OptionOverrides& given) {
+  std::string problems;
+  std::size_t n_problems = 0;
+  for (const auto& [name, text] : given) {
+    try {
+      set_option_as_typed(find_option(table, name, "option " + name), text);
+    } catch (const Error& error) {
+      problems += "\n  - " + error.info().attempted + ": " + error.info().problem + (error.info().hint.empty() ? "" : " (" + error.info().hint + ")");
+      ++n_problems;
+    }
+  }
+  try {
+    require_options(table, "mesh");
+  } catch (const Error& error) {
+    problems += "\n  - " + error.info().problem;
+    ++n_problems;
+  }
+  if (n_problems == 0) return;
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = "reading the options",
+               .problem = n_problems == 1 ? problems.substr(5) : std::to_string(n_problems) + " problems" + problems});
+}
+
+struct PatchSize {
+  std::int64_t n_triangles = 0, n_quads = 0;
+};
+
+void print_box(const CommandContext& context, const Box& box) {
+  if (!box.empty())
+    context.console.print(fmt::format("  box      {} to {}, longest side {:.6g} m", format_point(box.min), format_point(box.max), box.longest_side()));
+}
+
+void print_patches(const CommandContext& context, const Column<PatchId, Patch>& patches, const std::vector<PatchSize>& sizes) {
+  for (const PatchId id : patches.ids()) {
+    const PatchSize& size = sizes[id.index()];
+    std::string text = fmt::format("  patch    \"{}\", {}: {} triangles", patches[id].name, to_string(patches[id].kind), count_text(size.n_triangles));
+    if (size.n_quads > 0) text += ", " + count_text(size.n_quads) + " quads";
+    context.console.print(text);
+  }
+}
+
+int print_volume_info(const InputPath& input, double unit, const CommandContext& context) {
+  MeshValue value = read_mesh(input, context.run);
+  if (count_cells(value.mesh).total() == 0) return -1;
+  Box box;
+  for (const Point& p : value.mesh.points) box.add(unit * p);
+  std::vector<PatchSize> sizes(value.mesh.patches.size());
+  for (const BoundaryTriangle& face : value.mesh.boundary_triangles) ++sizes[face.patch.index()].n_triangles;
+  for (const BoundaryQuad& face : value.mesh.boundary_quads) ++sizes[face.patch.index()].n_quads;
+  context.console.print("  " + describe(value));
+  print_box(context, box);
+  print_patches(context, value.mesh.patches, sizes);
+  return k_exit_success;
+}
+
+int print_surface_info(const InputPath& input, double unit, const CommandContext& context) {
+  const SurfaceSoup soup = io::read_surface_file(input.path, context.run.part("read", 0.0, 0.3));
+  context.console.print(fmt::format("  surface  {} triangles, {} points, {} patches {}", count_text(static_cast<std::int64_t>(soup.triangles.size())),
+                                    count_text(static_cast<std::int64_t>(soup.points.size())), soup.patch_names.size(), soup.has_names ? "by name" : "without names"));
+  Box box;
+  for (const Vec3& p : soup.points) box.add(unit * p);
+  print_box(context, box);
+  // Joined as `sterna mesh` would join it, but for the slow exact test for intersections; what cannot be joined is reported by the caller.
+  surfmesh::StitchOptions options;
+  options.unit = unit;
+  options.allow_open = true;
+  options.check_intersections = false;
+  SurfaceValue wall;
+  surfmesh::StitchResult stitched = surfmesh::stitch_surface({soup}, options, context.run.part("stitch", 0.3, 1.0));
+  wall.mesh = std::move(stitched.mesh);
+  wall.report = std::move(stitched.report);
+  std::vector<PatchSize> sizes(wall.mesh.patches.size());
+  for (const PatchId patch : wall.mesh.triangle_patch) ++sizes[patch.index()].n_triangles;
+  context.console.print("  joined   " + describe(wall));
+  print_patches(context, wall.mesh.patches, sizes);
+  return k_exit_success;
+}
+
+std::string read_write(bool is_read, bool is_written) {
+  return is_read && is_written ? "read, write" : is_read ? "read" : is_written ? "write" : "-";
+}
+
+}  // namespace
+
+int execute(const RunCommand& command, const CommandContext& context) {
+  run_script({.script = command.script,
+              .overrides = command.overrides,
+              .print = [&](std::string_view text) { context.console.print(text); },
+              .on_mesh = [&](const MeshValue& mesh) { context.run.info(summary_text(mesh)); }},
+             context.run);
+  return k_exit_success;
+}
+
+int execute(const MeshCommand& command, const CommandContext& context) {
+  surfmesh::StitchOptions surface_options;
+  volmesh::VolumeMeshOptions volume_options;
+  set_options(all_options(surface_options, volume_options), command.options);
+  for (const auto& output : command.outputs) require_mesh_output(output);
+  std::vector<InputPath> inputs;
+  for (const std::string& name : command.inputs) inputs.push_back({name, name});
+
+  const Clock::time_point start = Clock::now();
+  const SurfaceValue wall = read_wall(inputs, surface_options, context.run.part("surface", 0.0, k_read_end));
+  const MeshValue mesh = make_volume_mesh(wall, volume_options, context.run.part("volume_mesh", k_read_end, k_mesh_end));
+  const RunContext write_part = context.run.part("write", k_mesh_end, 1.0);
+  for (const auto& output : command.outputs) write_mesh(mesh, output, write_part);
+  const RunMeasure measure{.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count(), .stages = context.run.times(), .threads = context.run.threads()};
+
+  context.console.end_progress();
+  for (const auto& output : command.outputs) context.run.info("wrote " + output.string() + " and " + output.string() + ".json");
+  context.run.info(summary_text(mesh));
+  context.run.info(measure_text(mesh, measure));
+  if (!command.stats.empty()) {
+    io::AtomicFile file(command.stats);
+    file.append(stats_json(mesh, measure));
+    file.commit();
+  }
+  return k_exit_success;
+}
+
+int execute(const CheckCommand& command, const CommandContext& context) {
+  const MeshValue mesh = read_mesh({command.input, command.input}, context.run.part("read", 0.0, 0.3));
+  const CheckReport report = check(mesh.mesh, command.options.to_options(), context.run.part("check", 0.3, 1.0));
+  context.console.print(command.is_json ? to_json(report) : to_text(report));
+  return report.is_valid() ? k_exit_success : k_exit_invalid;
+}
+
+int execute(const InfoCommand& command, const CommandContext& context) {
+  surfmesh::StitchOptions unit;
+  const OptionTable schema = sterna::options_of(unit);
+  set_option_as_typed(find_option(schema, "unit", "info"), command.unit);
+  const InputPath input{command.input, command.input};
+  const io::Format& format = io::format_of(input.path);
+  context.console.print(fmt::format("{}: {}, 1 unit of the file = {:g} m", command.input, format.name, unit.unit));
+  // A format that holds volume meshes may hold a surface alone; then it is read as one.
+  if (format.read_volume) {
+    const int status = print_volume_info(input, unit.unit, context);
+    if (status >= 0) return status;
+  }
+  return print_surface_info(input, unit.unit, context);
+}
+
+int list_formats(const CommandContext& context) {
+  context.console.print(fmt::format("{:<14} {:<28} {:<12} {:<12} {}", "format", "extensions (also .gz to read)", "surface", "volume", "patch names"));
+  for (const io::Format& format : io::formats())
+    context.console.print(fmt::format("{:<14} {:<28} {:<12} {:<12} {}", format.name, format.extensions, read_write(format.read_surface != nullptr, false),
+                                      read_write(format.read_volume != nullptr, format.write_volume != nullptr), format.carries_patch_names ? "yes" : "no"));
+  return k_exit_success;
+}
+
+std::string draw_trouble(const Error& error, const std::filesystem::path& path) {
+  if (error.info().geometry.empty()) return {};
+  try {
+    io::write_trouble_vtu(error.info().geometry, path);
+    return "\n  drawn in " + path.string();
+  } catch (const Error& failure) {
+    return std::string("\n  and it could not be drawn: ") + failure.what();
+  }
+}
+
+}  // namespace sterna::scripting

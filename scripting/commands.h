@@ -1,0 +1,55 @@
+// The subcommands of `sterna`, free of any parsing: each takes its settings, prints its result and returns the exit status.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "scripting/check_options.h"
+#include "scripting/console.h"
+#include "scripting/script_call.h"
+
+namespace sterna::scripting {
+
+/// What every command gets: where to print, and the run.
+struct CommandContext {
+  Console& console;
+  const RunContext& run;
+};
+
+struct RunCommand {
+  std::filesystem::path script;
+  OptionOverrides overrides;  ///< --set
+};
+
+struct MeshCommand {
+  std::vector<std::string> inputs;
+  std::vector<std::filesystem::path> outputs;
+  OptionOverrides options;  ///< --layers 30 as {"layers", "30"} and --set stage.option=value, in the order of their precedence, the last wins
+  std::filesystem::path stats;
+};
+
+struct CheckCommand {
+  std::string input;
+  bool is_json = false;
+  CheckSettings options;
+};
+
+struct InfoCommand {
+  std::string input;
+  std::string unit = "1";
+};
+
+/// Each throws Error; the caller prints it and turns its code into the exit status.
+int execute(const RunCommand& command, const CommandContext& context);
+int execute(const MeshCommand& command, const CommandContext& context);
+int execute(const CheckCommand& command, const CommandContext& context);
+int execute(const InfoCommand& command, const CommandContext& context);
+/// `sterna formats`
+int list_formats(const CommandContext& context);
+
+/// Writes the geometry of a failure to `path`; returns the sentence that tells the user so, or why it could not be written. Empty without geometry.
+std::string draw_trouble(const Error& error, const std::filesystem::path& path);
+
+}  // namespace sterna::scripting
