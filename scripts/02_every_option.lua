@@ -1,0 +1,45 @@
+-- Every option of every stage at its default, to copy from. help(read_surface) and help(volume_mesh) say what each one does, its unit and its range.
+--   ./run scripts/02_every_option.lua
+
+local wall = read_surface{ "data/cessna.msh.gz",
+  unit = ft,                        -- metres per unit of the file: mm, cm, inch, ft or a number; default 1
+  split_angle = 60*deg,             -- default: patches as the file names them
+  weld_tolerance = "automatic",     -- metres
+  allow_open = false,
+  check_intersections = true,
+}
+
+local mesh = volume_mesh{ wall,
+  -- What the layers are asked to be; options can stand here or in the table of their stage, below.
+  layers = 30,
+  first_height = 1e-6 * wall.length,
+
+  envelope = {
+    max_growth = 1.4,
+    max_thickness = "automatic",
+    feature_angle = 35*deg,
+    height_gradient = 0.5,
+    height_sweeps = 5,
+    direction_sweeps = 50,
+    envelope_sweeps = 5,
+    untangle_share = 0.7,
+    max_retract_sweeps = 40,
+  },
+  prisms = {
+    wall_perpendicularity = 0.1,
+  },
+  farfield = sphere{
+    radius = 50 * wall.length,
+    edge = 10 * wall.length,
+  },
+  tetrahedra = {
+    radius_edge = 1.2,
+    memory_limit = 20e9,            -- bytes, of the helper process
+    time_limit = "automatic",       -- seconds; automatic: none
+    helper = "",                    -- path of sterna-tet-tetgen; empty: beside sterna
+  },
+}
+
+mesh:check{ intersections = true, quality = true, findings_per_kind = 10 }
+mesh:write "every_option.vtu"
+print(string.format("%d prisms, %d tetrahedra, %.1f %% of the area has its full height", mesh.prisms, mesh.tetrahedra, 100 * mesh.coverage))
