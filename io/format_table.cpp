@@ -5,6 +5,13 @@
 #include <cctype>
 
 #include "geom/base/error.h"
+#include "io/surface_msh.h"
+#include "io/surface_obj.h"
+#include "io/surface_off.h"
+#include "io/surface_ply.h"
+#include "io/surface_stl.h"
+#include "io/surface_su2.h"
+#include "io/surface_ugrid.h"
 #include "io/volume_su2.h"
 #include "io/volume_vtu.h"
 
@@ -12,7 +19,13 @@ namespace sterna::io {
 namespace {
 
 constexpr std::array k_formats = {
-    Format{.name = "SU2", .extensions = ".su2", .read_volume = read_volume_su2, .write_volume = write_volume_su2, .carries_patch_names = true},
+    Format{.name = "STL", .extensions = ".stl", .read_surface = read_stl, .carries_patch_names = true},
+    Format{.name = "OBJ", .extensions = ".obj", .read_surface = read_obj, .carries_patch_names = true},
+    Format{.name = "OFF", .extensions = ".off", .read_surface = read_off},
+    Format{.name = "PLY", .extensions = ".ply", .read_surface = read_ply},
+    Format{.name = "Gmsh MSH", .extensions = ".msh", .read_surface = read_msh, .carries_patch_names = true},
+    Format{.name = "UGRID", .extensions = ".lb8.ugrid .b8.ugrid .lb8l.ugrid .b8l.ugrid", .read_surface = read_ugrid, .carries_patch_names = true},
+    Format{.name = "SU2", .extensions = ".su2", .read_surface = read_su2, .read_volume = read_volume_su2, .write_volume = write_volume_su2, .carries_patch_names = true},
     Format{.name = "VTU", .extensions = ".vtu", .write_volume = write_volume_vtu, .carries_patch_names = true},
 };
 
