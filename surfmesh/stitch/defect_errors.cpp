@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <numeric>
 
@@ -16,8 +17,8 @@ constexpr std::size_t k_max_places = 10;
 constexpr std::size_t k_max_geometry = 20000;
 /// Boundary edges among which partners are sought for the hint; the search is quadratic (0.1 s at this size).
 constexpr std::size_t k_max_matching = 5000;
-/// Boundary edges match when their ends are nearer than this part of the shorter one's length; then welding closes the gap without closing holes.
-constexpr double k_near_match = 0.3;
+/// Boundary edges match when their ends are nearer than this part of the shortest boundary edge: then a tolerance that closes the gap collapses none of them.
+constexpr double k_near_match = 0.5;
 
 std::string list_sources(const WorkingSurface& surface) {
   constexpr std::size_t k_shown = 3;
@@ -34,10 +35,12 @@ ErrorInfo start_error(ErrorCode code, const WorkingSurface& surface) {
   return info;
 }
 
-/// "facet 12 of wing.stl", counted from 1 as people and STL viewers do.
+/// "facet 12", with several files "facet 12 of wing.stl"; counted from 1 as people and STL viewers do.
 std::string facet_name(const WorkingSurface& surface, std::uint32_t facet) {
   const FacetOrigin& origin = surface.origin[facet];
-  return "facet " + std::to_string(origin.facet + 1) + " of " + surface.sources[origin.soup];
+  std::string name = "facet " + std::to_string(origin.facet + 1);
+  if (surface.sources.size() > 1) name += " of " + std::filesystem::path(surface.sources[origin.soup]).filename().string();
+  return name;
 }
 
 Vec3 center(const WorkingSurface& surface, std::uint32_t facet) {
@@ -95,8 +98,9 @@ struct GapMatch {
   double largest_gap = 0.0;
 };
 
-GapMatch match_boundary(const WorkingSurface& surface, const std::vector<Edge>& boundary, const RunContext& context) {
+GapMatch match_boundary(const WorkingSurface& surface, const std::vector<Edge>& boundary, double shortest, const RunContext& context) {
   if (boundary.size() > k_max_matching) return {};
+  const double limit = k_near_match * shortest / surface.to_metres;
   std::vector<double> gap(boundary.size(), std::numeric_limits<double>::infinity());
   parallel_for(
       context, boundary.size(),
@@ -106,7 +110,7 @@ GapMatch match_boundary(const WorkingSurface& surface, const std::vector<Edge>& 
           if (i == j) continue;
           const Vec3 c = surface.points[boundary[j].low], d = surface.points[boundary[j].high];
           const double apart = std::min(std::max(distance(a, c), distance(b, d)), std::max(distance(a, d), distance(b, c)));
-          if (apart < k_near_match * std::min(distance(a, b), distance(c, d))) gap[i] = std::min(gap[i], apart);
+          if (apart < limit) gap[i] = std::min(gap[i], apart);
         }
       },
       64);
@@ -183,9 +187,9 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
       info.places.push_back({middle(surface, edge), "edge of one facet, " + short_number(length(surface, edge)) + " m long, " + facet_name(surface, edges.at(edge)[0] / 3)});
     add_edge(surface, edge, info.geometry);
   }
-  const GapMatch match = match_boundary(surface, defects.boundary, context);
   const double shortest = std::accumulate(defects.boundary.begin(), defects.boundary.end(), std::numeric_limits<double>::infinity(),
                                           [&](double l, const Edge& edge) { return std::min(l, length(surface, edge)); });
+  const GapMatch match = match_boundary(surface, defects.boundary, shortest, context);
   if (match.n_matched > 0 && (is_automatic(options.weld_tolerance) || options.weld_tolerance < match.largest_gap)) {
     const bool is_all = match.n_matched == n;
     info.hint = "weld_tolerance = " + short_number(1.01 * match.largest_gap) + " (m): " + (is_all ? "all" : std::to_string(match.n_matched)) +
@@ -248,15 +252,17 @@ void throw_self_intersection(const WorkingSurface& surface, const CrossingPairs&
     problems.push_back(count_of(static_cast<std::int64_t>(flat.size()), "facet has", "facets have") + " no area and cannot be removed without changing the surface");
   info.problem = problems.front() + (problems.size() > 1 ? "; " + problems.back() : "");
   info.n_places = crossings.total + static_cast<std::int64_t>(flat.size());
-  std::vector<char> is_shown(surface.n_facets(), 0);
+  const auto area = [&](std::uint32_t t) {
+    const auto c = surface.corners(t);
+    return norm2(cross(c[1] - c[0], c[2] - c[0]));
+  };
+  std::vector<char> is_shown(surface.n_facets(), 0), is_place(surface.n_facets(), 0);
   for (const auto& [a, b] : crossings.pairs) {
-    if (info.places.size() < k_max_places) {
-      const auto area = [&](std::uint32_t t) {
-        const auto c = surface.corners(t);
-        return norm2(cross(c[1] - c[0], c[2] - c[0]));
-      };
-      // The smaller facet is the nearer hint at the place.
-      info.places.push_back({center(surface, area(a) <= area(b) ? a : b), facet_name(surface, a) + " and " + facet_name(surface, b)});
+    // The smaller facet is the nearer hint at the place; one place for each, that the list does not stay with one large facet.
+    const std::uint32_t smaller = area(a) <= area(b) ? a : b;
+    if (info.places.size() < k_max_places && !is_place[smaller] && !is_place[a]) {
+      info.places.push_back({center(surface, smaller), facet_name(surface, a) + " and " + facet_name(surface, b)});
+      is_place[smaller] = is_place[a] = 1;
     }
     for (const std::uint32_t t : {a, b}) {
       if (!is_shown[t]) add_facet(surface, t, info.geometry);

@@ -36,6 +36,7 @@ std::string clean_name(std::string_view name) {
       clean += '_';
   }
   while (!clean.empty() && clean.back() == '_') clean.pop_back();
+  if (!clean.empty() && clean.front() >= '0' && clean.front() <= '9') clean.insert(0, "patch_");
   return clean;
 }
 

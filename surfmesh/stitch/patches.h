@@ -12,7 +12,7 @@ namespace sterna::surfmesh {
 /// give, or that has no allowed character, becomes "wall", with several files the file's stem.
 std::vector<std::string> clean_patch_names(const std::vector<SurfaceSoup>& soups);
 
-/// "My wing (left)" -> "My_wing_left"; may be empty.
+/// "My wing (left)" -> "My_wing_left", "3" -> "patch_3"; may be empty.
 std::string clean_name(std::string_view name);
 
 /// The mesh, vertices and patches numbered by first use, unused ones dropped. \pre coordinates in metres.

@@ -34,10 +34,20 @@ struct StitchResult {
   StitchReport report;
 };
 
-/// Joins the soups to one surface. Repairs (each with a message): welding, unused vertices, duplicate and degenerate facets, inconsistent or inverted
-/// orientation (winding number; a closed shell inside another's solid keeps its cavity sense).
+/// Joins the soups to one surface. Repairs, each with a message: welding; unused vertices dropped; facets with a repeated vertex, copies of facets and doubled
+/// sheets without thickness dropped; facets of exactly zero area flipped away (the surface stays the same set of points); inconsistent or inverted orientation.
+/// Closed components are oriented by signed volume and nesting (winding numbers): a body outwards, a shell inside a body's solid as a cavity in it whatever its
+/// sense in the file (with a message: the outer flow does not reach it), a shell in a cavity as a body again. Open ones keep the sense of most of their area.
+/// Automatic welding beyond equal coordinates happens only when the surface is open, only between vertices of its boundary, within 1e-9 of the body length
+/// (files in single precision: 2.5e-7 of the largest coordinate), and only if that closes edges without making another defect; so small features survive.
+/// Patches: [A-Za-z0-9_.-], unique; without names in the file "wall", with several files the file's stem; split by angle: name_1, name_2 ...
 /// \post closed (unless allow_open), manifold, no self-intersection, normals out of the body; patch names unique; every vertex used.
-/// \throws Error empty_surface, open_surface, non_manifold_surface, self_intersection, not_orientable: number of places, coordinates of the first few, geometry.
+/// \throws Error with number of places, coordinates (metres) of the first few, facets by name, geometry, hint. The first that applies, the others in its text:
+///   file_malformed (index out of range, coordinate not finite), empty_surface,
+///   non_manifold_surface (places = edges with more than two facets + vertices with several fans of one component),
+///   open_surface (places = edges with one facet), non_manifold_surface (only such vertices), not_orientable (places = components),
+///   self_intersection (places = pairs of facets that meet in more than they share + zero-area facets that cannot be flipped; exact, on the final coordinates);
+///   bad_argument for a weld_tolerance above 2 % of the body length.
 StitchResult stitch_surface(const std::vector<SurfaceSoup>& soups, const StitchOptions& options, const RunContext& context);
 
 }  // namespace sterna::surfmesh
@@ -51,7 +61,7 @@ struct Schema<surfmesh::StitchOptions> {
   static constexpr std::array fields = {
       Field<O>{.name = "unit", .member = &O::unit, .unit = Unit::metre, .min = 1e-9, .max = 1e9, .help = "length of one unit of the file (mm, cm, inch, ft are numbers)"},
       Field<O>{.name = "weld_tolerance", .member = &O::weld_tolerance, .unit = Unit::metre, .min = 0.0, .help = "vertices nearer than this become one",
-               .automatic = "exact duplicates, then 1e-9 of the body length (1e-7 for single-precision files)"},
+               .automatic = "equal coordinates; if the surface is then open, its boundary within 1e-9 of the body length, 2.5e-7 for single precision"},
       Field<O>{.name = "split_angle", .member = &O::split_angle, .unit = Unit::radian, .min = 0.0, .max = 3.15, .help = "split into patches along edges that bend by more than this",
                .automatic = "patches as named in the file, else one"},
       Field<O>{.name = "allow_open", .member = &O::allow_open, .help = "accept a surface with a boundary"},

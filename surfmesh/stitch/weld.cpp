@@ -18,6 +18,8 @@ namespace {
 constexpr double k_weld_double = 1e-9;
 /// ... and of files that store single precision, relative to the largest coordinate: two units in the last place, 2^-23 each.
 constexpr double k_weld_single = 2.5e-7;
+/// Largest tolerance a user may give, relative to the body length: beyond it nothing of the surface is left, and the pairs to look at grow beyond memory.
+constexpr double k_max_weld = 0.02;
 constexpr std::uint32_t k_none = 0xffffffffu;
 
 /// Numbers points by value: open addressing, first come first numbered, hence independent of anything but the input order.
@@ -68,6 +70,18 @@ double automatic_tolerance(const WorkingSurface& surface) {
     tolerance = std::max(tolerance, k_weld_single * largest);
   }
   return tolerance;
+}
+
+/// \throws Error(bad_argument) when the given tolerance is too large for the body.
+void check_tolerance(const WorkingSurface& surface, double tolerance) {
+  const double length = surface.to_metres * surface.box().longest_side();
+  if (tolerance <= k_max_weld * length) return;
+  ErrorInfo info;
+  info.code = ErrorCode::bad_argument;
+  info.attempted = "welding the vertices of the surface";
+  info.problem = "weld_tolerance is " + short_number(tolerance) + " m, more than " + short_number(100.0 * k_max_weld) + " % of the body length of " + short_number(length) + " m";
+  info.hint = "a tolerance below the shortest edge; weld_tolerance is in metres, whatever the unit of the file";
+  throw Error(std::move(info));
 }
 
 /// For every point the lowest one of its chain of candidates within the tolerance (itself when alone).
@@ -162,7 +176,8 @@ WorkingSurface weld_exact(const std::vector<SurfaceSoup>& soups, const StitchOpt
 void weld_near(WorkingSurface& surface, const StitchOptions& options, StitchReport& report, const RunContext& context) {
   const bool automatic = is_automatic(options.weld_tolerance);
   const double tolerance = automatic ? automatic_tolerance(surface) : options.weld_tolerance / surface.to_metres;
-  if (!(tolerance > 0.0)) return;
+  if (!(tolerance > 0.0) || surface.facets.empty()) return;
+  if (!automatic) check_tolerance(surface, options.weld_tolerance);
   std::optional<Defects> before;
   if (automatic) {
     before = find_defects(surface.facets, surface.points.size(), EdgeTable(surface.facets, surface.points.size()));

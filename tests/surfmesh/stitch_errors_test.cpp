@@ -41,6 +41,12 @@ TEST(StitchErrors, BadNumbers) {
   EXPECT_THAT(info.attempted, HasSubstr("facet 3 has a coordinate that is not a finite number"));
 }
 
+TEST(StitchErrors, ToleranceAboveTheLimit) {
+  const ErrorInfo info = stitch_error({soup_of(cube(2))}, {.unit = 0.001, .weld_tolerance = 0.5});
+  EXPECT_EQ(info.code, ErrorCode::bad_argument);
+  EXPECT_THAT(info.attempted, HasSubstr("weld_tolerance is 0.5 m, more than 2 % of the body length of 0.001 m"));
+}
+
 TEST(StitchErrors, OneFacetMissing) {
   const ErrorInfo info = stitch_error({without_facet(soup_of(cube(2)), 20)}, {.unit = 0.001});
   EXPECT_EQ(info.code, ErrorCode::open_surface);
@@ -49,7 +55,7 @@ TEST(StitchErrors, OneFacetMissing) {
   for (const ErrorPlace& place : info.places) EXPECT_LE(norm(place.position), 0.001 * std::sqrt(3.0)) << "coordinates are metres";
   EXPECT_EQ(info.geometry.edges.size(), 3u);
   EXPECT_THAT(info.attempted, HasSubstr("open along 3 edges around 1 hole"));
-  EXPECT_THAT(info.attempted, HasSubstr("of shape.stl"));
+  EXPECT_THAT(info.attempted, HasSubstr("joining shape.stl to one surface"));
   EXPECT_THAT(info.hint, HasSubstr("fill the holes"));
 }
 
@@ -137,10 +143,11 @@ TEST(StitchErrors, CrossingBodies) {
   const ErrorInfo info = stitch_error(soups);
   EXPECT_EQ(info.code, ErrorCode::self_intersection);
   EXPECT_GT(info.n_places, 10);
-  EXPECT_EQ(info.places.size(), 10u);
+  EXPECT_GT(info.places.size(), 1u);
+  EXPECT_LE(info.places.size(), 10u);
   EXPECT_FALSE(info.geometry.triangles.empty());
   EXPECT_THAT(info.attempted, HasSubstr("pairs of facets cross or touch, all between different bodies"));
-  EXPECT_THAT(info.attempted, HasSubstr("facet "));
+  EXPECT_THAT(info.attempted, HasSubstr(" of shape.stl and facet "));
   EXPECT_NO_THROW(stitch(soups, {.check_intersections = false}));
 }
 

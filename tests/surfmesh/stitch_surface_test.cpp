@@ -299,7 +299,7 @@ TEST(Stitch, GivenToleranceIsInMetres) {
 TEST(Stitch, PatchNamesAreCleanAndUnique) {
   SurfaceSoup a = soup_of(cube());
   a.has_names = true;
-  a.patch_names = {"My wing (left)", "", "wall", "never used", "My_wing_left", "flap-1.a"};
+  a.patch_names = {"My wing (left)", "", "wall", "never used", "My_wing_left", "7 flap-1.a"};
   for (std::size_t t = 0; t < 12; ++t) a.patch[t] = std::array<std::uint32_t, 5>{0, 1, 2, 4, 5}[t % 5];
   SurfaceSoup b = shifted(a, {2, 0, 0});
   b.source = "b.stl";
@@ -308,7 +308,7 @@ TEST(Stitch, PatchNamesAreCleanAndUnique) {
     for (const Patch& patch : mesh.patches) result.push_back(patch.name);
     return result;
   };
-  EXPECT_THAT(names(stitch({a}).mesh), testing::ElementsAre("My_wing_left", "wall", "wall_2", "My_wing_left_2", "flap-1.a"));
+  EXPECT_THAT(names(stitch({a}).mesh), testing::ElementsAre("My_wing_left", "wall", "wall_2", "My_wing_left_2", "patch_7_flap-1.a"));
   const auto two = names(stitch({a, b}).mesh);
   EXPECT_EQ(two.size(), 10u);
   EXPECT_THAT(two, Contains("My_wing_left_3"));
