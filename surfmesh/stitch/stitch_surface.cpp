@@ -56,7 +56,6 @@ void prove_free_of_crossings(WorkingSurface& surface, const StitchOptions& optio
 }  // namespace
 
 StitchResult stitch_surface(const std::vector<SurfaceSoup>& soups, const StitchOptions& options, const RunContext& context) {
-  const StageTimer timer(context, "stitch");
   StitchReport report;
   WorkingSurface surface = weld_exact(soups, options, report);
   report_welding(report);
@@ -86,7 +85,7 @@ StitchResult stitch_surface(const std::vector<SurfaceSoup>& soups, const StitchO
   if (!is_automatic(options.split_angle)) split_patches(result.mesh, options.split_angle, context);
   if (!report.is_closed) report.messages.push_back("the surface has a boundary, as allowed");
   for (const std::string& message : report.messages) context.info("surface: " + message);
-  context.info("surface: " + count_of(static_cast<std::int64_t>(result.mesh.n_triangles()), "triangle", "triangles") + ", " +
+  context.debug("surface: " + count_of(static_cast<std::int64_t>(result.mesh.n_triangles()), "triangle", "triangles") + ", " +
                count_of(static_cast<std::int64_t>(result.mesh.n_vertices()), "vertex", "vertices") + ", " + count_of(report.n_components, "component", "components") +
                ", " + count_of(static_cast<std::int64_t>(result.mesh.patches.size()), "patch", "patches") + ", body length " +
                short_number(body_length(result.mesh)) + " m (unit of the file: " + short_number(options.unit) + " m)");
