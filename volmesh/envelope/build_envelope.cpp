@@ -1,11 +1,18 @@
 #include "volmesh/envelope/build_envelope.h"
 
+#include <algorithm>
+
 #include "volmesh/envelope/initial.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/smooth.h"
 #include "volmesh/envelope/untangle.h"
 
 namespace sterna::volmesh {
+namespace {
+
+constexpr int k_denoising_sweeps = 3;
+
+}  // namespace
 
 Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context) {
   const Classification classes = classify_vertices(base, options, context);
@@ -13,7 +20,10 @@ Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, c
   context.progress(0.1);
 
   smooth_heights(base, classes, options.height_sweeps, envelope, context);
-  smooth_directions(base, classes, options.direction_sweeps, envelope, context);
+  // A few sweeps everywhere take out noise; the many sweeps only where lines converge, so that smooth surfaces keep their normals.
+  smooth_directions(base, classes, std::min(options.direction_sweeps, k_denoising_sweeps), envelope, context);
+  const Column<VertexId, std::uint8_t> concave = concave_region(base, classes, context);
+  smooth_directions(base, classes, options.direction_sweeps, envelope, context, &concave);
   smooth_tangled_regions(base, classes, options, envelope, context);
   context.progress(0.3);
 

@@ -17,6 +17,7 @@ constexpr double k_smooth_floor = 0.94;
 constexpr double k_cone_cosine = 0.4226;
 /// A convex feature needs no room: its fan must not tilt the lines of the smooth surface beside it.
 constexpr double k_convex_feature_weight = 0.2;
+constexpr int k_concave_rings = 8;  ///< reach of the wide smoothing around concave features: a layer is 4 to 9 edges thick by eq. (1)
 constexpr int k_region_rounds = 6;
 constexpr int k_region_rings = 6;
 
@@ -98,6 +99,13 @@ void smooth_directions(const LayerBase& base, const Classification& classes, int
     });
     envelope.direction = std::move(next);
   }
+}
+
+Column<VertexId, std::uint8_t> concave_region(const LayerBase& base, const Classification& classes, const RunContext& context) {
+  Column<VertexId, std::uint8_t> region(base.wall.n_vertices());
+  for (const VertexId v : region.ids()) region[v] = classes.vertex[v].is_concave ? 1 : 0;
+  grow_region(base, k_concave_rings, region, context);
+  return region;
 }
 
 void smooth_tangled_regions(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, Envelope& envelope,

@@ -14,6 +14,9 @@ void smooth_heights(const LayerBase& base, const Classification& classes, int sw
 void smooth_directions(const LayerBase& base, const Classification& classes, int sweeps, Envelope& envelope, const RunContext& context,
                        const Column<VertexId, std::uint8_t>* region = nullptr);
 
+/// Vertices at and around concave features.
+Column<VertexId, std::uint8_t> concave_region(const LayerBase& base, const Classification& classes, const RunContext& context);
+
 /// Further direction sweeps where, at the present heights, macro-elements are invalid: the layer may be several edges thick there, so the turn of the
 /// directions must be spread wider than the first sweeps did.
 void smooth_tangled_regions(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, Envelope& envelope,

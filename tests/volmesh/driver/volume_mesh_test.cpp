@@ -1,0 +1,127 @@
+// The whole pipeline on shapes that are hard in one way each, in every position and scale.
+#include <gtest/gtest.h>
+
+#include "geom/base/error.h"
+#include "tests/support/shapes.h"
+#include "volmesh/volume_mesh.h"
+
+namespace sterna::volmesh {
+namespace {
+
+VolumeMeshOptions thin_layers(const TriMesh& wall, int n = 12) {
+  VolumeMeshOptions options;
+  options.envelope.layers = n;
+  options.envelope.first_height = 1e-5 * body_length(wall);
+  options.farfield.farfield_radius = 10.0 * body_length(wall);
+  return options;
+}
+
+void expect_valid(const TriMesh& wall, const VolumeMeshOptions& options) {
+  const VolumeMeshResult result = volume_mesh(wall, options, RunContext({.threads = 2}));
+  EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
+  EXPECT_EQ(result.check.cells.prisms + result.check.cells.pyramids,
+            static_cast<std::int64_t>(wall.n_triangles()) * options.envelope.layers);
+}
+
+/// A wing-like wedge: unit chord and span, sharp trailing edge of `angle` radians.
+TriMesh sharp_wedge(double angle) {
+  TriMesh mesh;
+  mesh.patches.push_back({"wedge", PatchKind::wall});
+  const double half = std::tan(0.5 * angle);
+  mesh.points = Column<VertexId, Point>({{0, 0, -half}, {0, 0, half}, {1, 0, 0}, {0, 1, -half}, {0, 1, half}, {1, 1, 0}});
+  const auto add = [&](int a, int b, int c) {
+    mesh.triangles.push_back({VertexId(a), VertexId(b), VertexId(c)});
+    mesh.triangle_patch.push_back(PatchId(0));
+  };
+  add(0, 2, 1);  // root
+  add(3, 4, 5);  // tip
+  add(1, 2, 5), add(1, 5, 4);  // upper
+  add(0, 3, 5), add(0, 5, 2);  // lower
+  add(0, 1, 4), add(0, 4, 3);  // front
+  return mesh;
+}
+
+TEST(VolumeMesh, CubeAndSphere) {
+  expect_valid(test::cube(4), thin_layers(test::cube(4)));
+  expect_valid(test::sphere(6), thin_layers(test::sphere(6), 30));
+}
+
+TEST(VolumeMesh, RazorSharpTrailingEdges) {
+  for (const double angle : {0.5, 0.1, 0.01, 1e-3}) {
+    SCOPED_TRACE(angle);
+    expect_valid(sharp_wedge(angle), thin_layers(sharp_wedge(angle)));
+  }
+}
+
+TEST(VolumeMesh, MovedAndScaled) {
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    TriMesh wall = test::cube(3);
+    for (Point& p : wall.points) p = scale * p;
+    SCOPED_TRACE(scale);
+    expect_valid(wall, thin_layers(wall));
+  }
+  TriMesh wall = test::sphere(5);
+  for (Point& p : wall.points) p += Vec3{1e3, -1e3, 1e3};
+  expect_valid(wall, thin_layers(wall));
+}
+
+TEST(VolumeMesh, SeveralBodiesFindTheirCavities) {
+  TriMesh wall = test::cube(3);
+  for (const double x : {1.3, 2.9}) {
+    TriMesh other = test::sphere(5, 0.5);
+    for (Point& p : other.points) p += Vec3{x + 0.3, 0.5, 0.5};
+    append(wall, other);
+  }
+  expect_valid(wall, thin_layers(wall));
+}
+
+TEST(VolumeMesh, OneLayerAndManyLayers) {
+  const TriMesh wall = test::cube(2);
+  for (const int n : {1, 2, 60}) expect_valid(wall, thin_layers(wall, n));
+}
+
+TEST(VolumeMesh, NodesOfALineAreConsecutive) {
+  const TriMesh wall = test::sphere(4);
+  const VolumeMeshResult result = volume_mesh(wall, thin_layers(wall), RunContext({.threads = 2}));
+  const LayerBlock& layers = result.mesh.layers;
+  for (std::uint32_t line = 0; line < layers.n_lines(); ++line) {
+    EXPECT_EQ(result.mesh.points[layers.node(line, 0)], wall.points[VertexId(line)]);
+    for (int j = 1; j <= layers.n_layers; ++j) EXPECT_EQ(layers.node(line, j).value(), layers.node(line, j - 1).value() + 1);
+    EXPECT_NEAR(distance(result.mesh.points[layers.node(line, 0)], result.mesh.points[layers.node(line, 1)]), 2e-5, 2e-5 * 1e-6);
+  }
+}
+
+TEST(VolumeMesh, FirstHeightIsRequired) {
+  try {
+    volume_mesh(test::cube(2), {}, RunContext({.threads = 2}));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::bad_argument);
+    EXPECT_NE(std::string(error.what()).find("first_height"), std::string::npos);
+  }
+}
+
+TEST(VolumeMesh, SameMeshForAnyNumberOfThreads) {
+  const TriMesh wall = test::cube(5);
+  const VolumeMeshResult first = volume_mesh(wall, thin_layers(wall), RunContext({.threads = 1}));
+  for (const int threads : {2, 7}) {
+    const VolumeMeshResult result = volume_mesh(wall, thin_layers(wall), RunContext({.threads = threads}));
+    EXPECT_EQ(result.mesh.points, first.mesh.points);
+    EXPECT_EQ(result.mesh.tetrahedra, first.mesh.tetrahedra);
+  }
+}
+
+TEST(VolumeMesh, StopsOnRequest) {
+  std::stop_source source;
+  source.request_stop();
+  const TriMesh wall = test::cube(2);
+  try {
+    volume_mesh(wall, thin_layers(wall), RunContext({.threads = 2, .stop = source.get_token()}));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::cancelled);
+  }
+}
+
+}  // namespace
+}  // namespace sterna::volmesh
