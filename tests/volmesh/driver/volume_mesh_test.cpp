@@ -84,10 +84,11 @@ TEST(VolumeMesh, NodesOfALineAreConsecutive) {
   const TriMesh wall = test::sphere(4);
   const VolumeMeshResult result = volume_mesh(wall, thin_layers(wall), RunContext({.threads = 2}));
   const LayerBlock& layers = result.mesh.layers;
+  const double h0 = thin_layers(wall).envelope.first_height;
   for (std::uint32_t line = 0; line < layers.n_lines(); ++line) {
     EXPECT_EQ(result.mesh.points[layers.node(line, 0)], wall.points[VertexId(line)]);
     for (int j = 1; j <= layers.n_layers; ++j) EXPECT_EQ(layers.node(line, j).value(), layers.node(line, j - 1).value() + 1);
-    EXPECT_NEAR(distance(result.mesh.points[layers.node(line, 0)], result.mesh.points[layers.node(line, 1)]), 2e-5, 2e-5 * 1e-6);
+    EXPECT_NEAR(distance(result.mesh.points[layers.node(line, 0)], result.mesh.points[layers.node(line, 1)]), h0, 1e-3 * h0);  // lines are curved: the chord is a little shorter
   }
 }
 
