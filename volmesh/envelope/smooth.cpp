@@ -130,12 +130,13 @@ Envelope relaxed(const LayerBase& base, const Classification& classes, const Col
     Vec3 sum;
     double weights = 0.0;
     for_each_partner(base, classes, v, [&](VertexId other, double weight) {
-      sum += weight * envelope.point(base.wall, other);
+      sum += weight * (envelope.height[other] * envelope.direction[other]);
       weights += weight;
     });
     if (weights == 0.0) return;
-    const Point own = envelope.point(base.wall, v);
-    const Vec3 growth = own + k_relaxation * (sum / weights - own) - base.wall.points[v];
+    // The Laplacian of the envelope less that of the wall: the curvature of a coarse wall would otherwise outweigh a thin layer.
+    const Vec3 own = envelope.height[v] * envelope.direction[v];
+    const Vec3 growth = own + k_relaxation * (sum / weights - own);
     const double length = norm(growth);
     if (length == 0.0) return;
     const double ceiling = std::min(envelope.target[v], envelope.cap[v]);
