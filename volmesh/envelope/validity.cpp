@@ -9,10 +9,10 @@ namespace sterna::volmesh {
 namespace {
 
 /// g_1,min of eq. (6): the envelope triangle keeps this share of the wall triangle's area, projected on the wall.
-constexpr double k_min_area_share = 0.03;
+constexpr double k_min_area_share = 0.01;
 /// Smallest cosine between envelope normal and growth edge (warp, method.md §4), unless the wall triangle is itself seen more flatly.
-constexpr double k_min_warp_cosine = 0.1;
-constexpr double k_warp_share_of_wall = 0.3;
+constexpr double k_min_warp_cosine = 0.05;
+constexpr double k_warp_share_of_wall = 0.2;
 
 bool is_prism_valid_with_margin(const MacroElement& e) {
   std::array<Vec3, 3> top;
