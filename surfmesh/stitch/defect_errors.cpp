@@ -8,6 +8,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
+#include "surfmesh/stitch/weld.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -190,7 +191,7 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
   const double shortest = std::accumulate(defects.boundary.begin(), defects.boundary.end(), std::numeric_limits<double>::infinity(),
                                           [&](double l, const Edge& edge) { return std::min(l, length(surface, edge)); });
   const GapMatch match = match_boundary(surface, defects.boundary, shortest, context);
-  if (match.n_matched > 0 && (is_automatic(options.weld_tolerance) || options.weld_tolerance < match.largest_gap)) {
+  if (match.n_matched > 0 && match.largest_gap > weld_tolerance_in_use(surface, options)) {
     const bool is_all = match.n_matched == n;
     info.hint = "weld_tolerance = " + short_number(1.01 * match.largest_gap) + " (m): " + (is_all ? "all" : std::to_string(match.n_matched)) +
                 " of these edges have a partner within " + short_number(match.largest_gap) + " m (shortest of them: " + short_number(shortest) + " m)" +
@@ -229,14 +230,14 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
 }  // namespace
 
 void throw_on_defects(const WorkingSurface& surface, const EdgeTable& edges, const Defects& defects, const Orientation& orientation, const StitchOptions& options,
-                      const StitchReport&, const RunContext& context) {
+                      const RunContext& context) {
   if (!defects.crowded.empty()) throw_crowded(surface, edges, defects, orientation);
   if (!defects.boundary.empty() && !options.allow_open) throw_open(surface, edges, defects, orientation, options, context);
   if (!defects.pinched.empty()) throw_pinched(surface, defects, orientation);
   if (!orientation.conflicts.empty()) throw_not_orientable(surface, edges, orientation);
 }
 
-void throw_self_intersection(const WorkingSurface& surface, const CrossingPairs& crossings, const std::vector<std::uint32_t>& flat, const StitchOptions&) {
+void throw_self_intersection(const WorkingSurface& surface, const CrossingPairs& crossings, const std::vector<std::uint32_t>& flat) {
   ErrorInfo info = start_error(ErrorCode::self_intersection, surface);
   const Parts parts = connected_parts(surface.n_facets(), EdgeTable(surface.facets, surface.points.size()));
   std::int64_t n_between = 0;

@@ -16,11 +16,10 @@ namespace sterna::surfmesh {
 ///   3. pinched vertices: non_manifold_surface, places = vertices;
 ///   4. no consistent orientation: not_orientable, places = components.
 void throw_on_defects(const WorkingSurface& surface, const EdgeTable& edges, const Defects& defects, const Orientation& orientation, const StitchOptions& options,
-                      const StitchReport& report, const RunContext& context);
+                      const RunContext& context);
 
 /// \throws Error(self_intersection), places = crossing pairs + facets of zero area that could not be removed.
-[[noreturn]] void throw_self_intersection(const WorkingSurface& surface, const CrossingPairs& crossings, const std::vector<std::uint32_t>& flat,
-                                          const StitchOptions& options);
+[[noreturn]] void throw_self_intersection(const WorkingSurface& surface, const CrossingPairs& crossings, const std::vector<std::uint32_t>& flat);
 
 /// \throws Error(empty_surface)
 [[noreturn]] void throw_empty(const WorkingSurface& surface, const StitchReport& report);

@@ -161,7 +161,8 @@ void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orien
                                 ": taken as a cavity in it, which the outer flow does not reach");
   }
   if (n_inverted > 0)
-    report.messages.push_back("turned " + count_of(n_inverted, "component", "components") + " (" + count_of(n_inverted_facets, "facet", "facets") + ") inside out");
+    report.messages.push_back(count_of(n_inverted, "component", "components") + " (" + count_of(n_inverted_facets, "facet", "facets") + ") " +
+                              (n_inverted == 1 ? "was" : "were") + " inside out: turned");
   if (n_inconsistent > 0) report.messages.push_back("turned " + count_of(n_inconsistent, "facet", "facets") + " against the sense of the neighbours");
 }
 

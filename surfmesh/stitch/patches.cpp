@@ -57,7 +57,11 @@ std::vector<std::string> clean_patch_names(const std::vector<SurfaceSoup>& soups
 TriMesh make_mesh(const WorkingSurface& surface, const std::vector<std::string>& names) {
   TriMesh mesh;
   std::vector<VertexId> vertex(surface.points.size());
+  std::vector<char> is_used(names.size(), 0);
+  for (const std::uint32_t p : surface.patch) is_used[p] = 1;
   std::vector<PatchId> patch(names.size());
+  for (std::size_t p = 0; p < names.size(); ++p)
+    if (is_used[p]) patch[p] = mesh.patches.push_back({names[p], PatchKind::wall});
   mesh.triangles.reserve(surface.n_facets());
   mesh.triangle_patch.reserve(surface.n_facets());
   for (std::size_t t = 0; t < surface.n_facets(); ++t) {
@@ -67,10 +71,8 @@ TriMesh make_mesh(const WorkingSurface& surface, const std::vector<std::string>&
       if (!v.is_valid()) v = mesh.points.push_back(surface.points[surface.facets[t][k]]);
       triangle[k] = v;
     }
-    PatchId& p = patch[surface.patch[t]];
-    if (!p.is_valid()) p = mesh.patches.push_back({names[surface.patch[t]], PatchKind::wall});
     mesh.triangles.push_back(triangle);
-    mesh.triangle_patch.push_back(p);
+    mesh.triangle_patch.push_back(patch[surface.patch[t]]);
   }
   return mesh;
 }

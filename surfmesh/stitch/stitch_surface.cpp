@@ -19,6 +19,11 @@ void report_welding(StitchReport& report) {
   if (report.n_welded_exact > 0) report.messages.push_back("welded " + count_of(report.n_welded_exact, "vertex", "vertices") + " to others with the same coordinates");
 }
 
+/// Logs the messages from the n_logged-th on: before each step that may throw, so that an error comes with the repairs that led to it.
+void log_messages(const StitchReport& report, std::size_t& n_logged, const RunContext& context) {
+  for (; n_logged < report.messages.size(); ++n_logged) context.info("surface: " + report.messages[n_logged]);
+}
+
 void scale_to_metres(WorkingSurface& surface) {
   for (Vec3& p : surface.points) p = surface.metres(p);
   surface.to_metres = 1.0;
@@ -50,18 +55,20 @@ void prove_free_of_crossings(WorkingSurface& surface, const StitchOptions& optio
       b = facets2surface[b];
     }
   }
-  if (crossings.total > 0 || !flat.empty()) throw_self_intersection(surface, crossings, flat, options);
+  if (crossings.total > 0 || !flat.empty()) throw_self_intersection(surface, crossings, flat);
 }
 
 }  // namespace
 
 StitchResult stitch_surface(const std::vector<SurfaceSoup>& soups, const StitchOptions& options, const RunContext& context) {
   StitchReport report;
+  std::size_t n_logged = 0;
   WorkingSurface surface = weld_exact(soups, options, report);
   report_welding(report);
   drop_degenerate_facets(surface, report);
   drop_doubled_facets(surface, report);
   weld_near(surface, options, report, context);
+  log_messages(report, n_logged, context);
   if (surface.facets.empty()) throw_empty(surface, report);
   separate_parts(surface);
   context.progress(0.3);
@@ -70,12 +77,13 @@ StitchResult stitch_surface(const std::vector<SurfaceSoup>& soups, const StitchO
     const EdgeTable edges(surface.facets, surface.points.size());
     const Defects defects = find_defects(surface.facets, surface.points.size(), edges);
     const Orientation orientation = flood_orientation(surface, edges);
-    throw_on_defects(surface, edges, defects, orientation, options, report, context);
+    throw_on_defects(surface, edges, defects, orientation, options, context);
     report.is_closed = defects.boundary.empty();
     orient_outward(surface, edges, orientation, report, context);
   }
   flip_flat_facets(surface, report);
   scale_to_metres(surface);
+  log_messages(report, n_logged, context);
   context.progress(0.5);
   prove_free_of_crossings(surface, options, report, context);
   context.progress(0.9);
@@ -84,7 +92,7 @@ StitchResult stitch_surface(const std::vector<SurfaceSoup>& soups, const StitchO
   result.mesh = make_mesh(surface, clean_patch_names(soups));
   if (!is_automatic(options.split_angle)) split_patches(result.mesh, options.split_angle, context);
   if (!report.is_closed) report.messages.push_back("the surface has a boundary, as allowed");
-  for (const std::string& message : report.messages) context.info("surface: " + message);
+  log_messages(report, n_logged, context);
   context.debug("surface: " + count_of(static_cast<std::int64_t>(result.mesh.n_triangles()), "triangle", "triangles") + ", " +
                count_of(static_cast<std::int64_t>(result.mesh.n_vertices()), "vertex", "vertices") + ", " + count_of(report.n_components, "component", "components") +
                ", " + count_of(static_cast<std::int64_t>(result.mesh.patches.size()), "patch", "patches") + ", body length " +

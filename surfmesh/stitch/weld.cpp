@@ -173,9 +173,13 @@ WorkingSurface weld_exact(const std::vector<SurfaceSoup>& soups, const StitchOpt
   return surface;
 }
 
+double weld_tolerance_in_use(const WorkingSurface& surface, const StitchOptions& options) {
+  return is_automatic(options.weld_tolerance) ? surface.to_metres * automatic_tolerance(surface) : options.weld_tolerance;
+}
+
 void weld_near(WorkingSurface& surface, const StitchOptions& options, StitchReport& report, const RunContext& context) {
   const bool automatic = is_automatic(options.weld_tolerance);
-  const double tolerance = automatic ? automatic_tolerance(surface) : options.weld_tolerance / surface.to_metres;
+  const double tolerance = weld_tolerance_in_use(surface, options) / surface.to_metres;
   if (!(tolerance > 0.0) || surface.facets.empty()) return;
   if (!automatic) check_tolerance(surface, options.weld_tolerance);
   std::optional<Defects> before;
@@ -197,7 +201,11 @@ void weld_near(WorkingSurface& surface, const StitchOptions& options, StitchRepo
   drop_doubled_facets(welded, trial);
   if (before) {
     const Defects after = find_defects(welded.facets, welded.points.size(), EdgeTable(welded.facets, welded.points.size()));
-    if (after.boundary.size() >= before->boundary.size() || after.crowded.size() > before->crowded.size() || after.pinched.size() > before->pinched.size()) return;
+    if (after.boundary.size() >= before->boundary.size() || after.crowded.size() > before->crowded.size() || after.pinched.size() > before->pinched.size()) {
+      report.messages.push_back("left " + count_of(n_welded, "vertex", "vertices") + " of the boundary within " + short_number(tolerance * surface.to_metres) +
+                                " m of others: welding them closes nothing or makes other defects");
+      return;
+    }
   }
   surface = std::move(welded);
   report = std::move(trial);

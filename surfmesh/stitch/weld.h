@@ -16,6 +16,9 @@ WorkingSurface weld_exact(const std::vector<SurfaceSoup>& soups, const StitchOpt
 /// A chain of near vertices becomes one, at the place of the first. \throws Error(bad_argument) for a tolerance above 2 % of the body length. \post no facet has a repeated vertex or a copy.
 void weld_near(WorkingSurface& surface, const StitchOptions& options, StitchReport& report, const RunContext& context);
 
+/// The tolerance that weld_near works with, metres.
+double weld_tolerance_in_use(const WorkingSurface& surface, const StitchOptions& options);
+
 /// Gives each edge-connected part its own copy of the vertices in which parts merely touch, so that touching is seen as the crossing that it is.
 void separate_parts(WorkingSurface& surface);
 

@@ -75,7 +75,7 @@ TEST(Stitch, InsideOutMirroredMovedAndScaled) {
     const auto [mesh, report] = stitch({inside_out(soup_of(ball))});
     expect_stitched(mesh);
     EXPECT_EQ(report.n_flipped, static_cast<std::int64_t>(ball.n_triangles()));
-    EXPECT_THAT(report.messages, Contains(HasSubstr("turned 1 component (500 facets) inside out")));
+    EXPECT_THAT(report.messages, Contains(HasSubstr("1 component (500 facets) was inside out: turned")));
   }
   {
     SurfaceSoup mirrored = soup_of(ball);
