@@ -1,0 +1,2 @@
+-- expect file_not_found missing_file.lua:2: 
+read_surface{ "no_such_file.stl" }

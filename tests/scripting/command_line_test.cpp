@@ -1,0 +1,129 @@
+// The program as a user runs it: exit status, what goes to stdout and to stderr, which files are left.
+#include <fstream>
+
+#include "scripting/exit_status.h"
+#include "tests/support/data.h"
+#include "tests/support/process.h"
+
+namespace sterna::scripting {
+namespace {
+
+using test::ProcessResult;
+
+class CommandLine : public testing::Test {
+ protected:
+  CommandLine() : folder(test::scratch()) { std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder / "box.stl"); }
+
+  ProcessResult sterna(const std::vector<std::string>& arguments, double interrupt_after = -1.0) {
+    return test::run_process(test::sterna_program(), arguments, folder, interrupt_after);
+  }
+  void write(const std::string& name, const std::string& text) { std::ofstream(folder / name) << text; }
+  std::vector<std::string> files() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  std::filesystem::path folder;
+};
+
+TEST_F(CommandLine, HelpAndVersionSucceedOnStdout) {
+  EXPECT_EQ(sterna({"--version"}).output, "sterna 0.1.0\n");
+  const ProcessResult help = sterna({"--help"});
+  EXPECT_EQ(help.status, k_exit_success);
+  for (const char* part : {"run", "mesh", "check", "info", "formats", "Exit status: 0 success"}) EXPECT_NE(help.output.find(part), std::string::npos) << part;
+  const ProcessResult mesh = sterna({"mesh", "--help"});
+  for (const char* part : {"--layers", "--first-height", "--max-growth", "--farfield-radius", "--unit", "--split-angle", "--set"})
+    EXPECT_NE(mesh.output.find(part), std::string::npos) << part;
+  EXPECT_EQ(mesh.errors, "");
+}
+
+TEST_F(CommandLine, WrongUseIsStatusTwo) {
+  EXPECT_EQ(sterna({}).status, k_exit_usage);
+  EXPECT_EQ(sterna({"mash"}).status, k_exit_usage);
+  EXPECT_EQ(sterna({"mesh", "box.stl"}).status, k_exit_usage);
+  EXPECT_EQ(sterna({"mesh", "box.stl", "-o", "m.su2", "--set", "nonsense"}).status, k_exit_usage);
+  EXPECT_EQ(sterna({"run", "box.lua", "--threads", "-1"}).status, k_exit_usage);
+  EXPECT_EQ(files(), std::vector<std::string>{"box.stl"});
+}
+
+TEST_F(CommandLine, AllWrongOptionsAreNamedTogether) {
+  const ProcessResult result = sterna({"mesh", "box.stl", "-o", "m.su2", "--layers", "0", "--split-angle", "40", "--set", "envelope.max_grwoth=2"});
+  EXPECT_EQ(result.status, k_exit_usage);
+  for (const char* part : {"error: ", "4 problems", "envelope.layers: 0 is not allowed", "write degrees as 40deg", "did you mean \"envelope.max_growth\"?", "needs first_height"})
+    EXPECT_NE(result.errors.find(part), std::string::npos) << part << " in\n" << result.errors;
+  EXPECT_EQ(result.output, "");
+}
+
+TEST_F(CommandLine, OutputsAreCheckedBeforeTheWork) {
+  const ProcessResult format = sterna({"mesh", "no_such.stl", "--first-height", "1e-3", "-o", "m.docx"});
+  EXPECT_EQ(format.status, k_exit_failed);
+  EXPECT_NE(format.errors.find("m.docx"), std::string::npos) << format.errors;
+  const ProcessResult place = sterna({"mesh", "no_such.stl", "--first-height", "1e-3", "-o", "nowhere/m.su2"});
+  EXPECT_EQ(place.status, k_exit_failed);
+  EXPECT_NE(place.errors.find("there is no folder nowhere"), std::string::npos) << place.errors;
+}
+
+TEST_F(CommandLine, MissingFilesAreNamed) {
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"mesh", "no_such.stl", "--first-height", "1e-3", "-o", "m.su2"}, {"check", "no_such.su2"}, {"info", "no_such.stl"}, {"run", "no_such.lua"}}) {
+    const ProcessResult result = sterna(arguments);
+    EXPECT_EQ(result.status, k_exit_failed) << arguments.front();
+    EXPECT_NE(result.errors.find("error: "), std::string::npos);
+    EXPECT_NE(result.errors.find("no_such"), std::string::npos) << result.errors;
+  }
+  EXPECT_EQ(files(), std::vector<std::string>{"box.stl"});
+}
+
+TEST_F(CommandLine, ResultsGoToStdoutAndLogToStderr) {
+  write("case.lua", "print(read_surface{ 'box.stl', unit = mm })");
+  const ProcessResult result = sterna({"run", "case.lua"});
+  EXPECT_EQ(result.status, k_exit_success) << result.errors;
+  EXPECT_EQ(result.output, "TriMesh: 12 triangles, closed, 1 patch, 0.001 m long\n");
+  EXPECT_NE(result.errors.find("1 unit of the file = 0.001 m"), std::string::npos) << result.errors;
+  EXPECT_EQ(result.errors.find('\r'), std::string::npos) << "a progress line on a stderr that is no terminal";
+  EXPECT_EQ(sterna({"run", "case.lua", "--quiet"}).errors, "");
+  EXPECT_EQ(sterna({"run", "case.lua", "--quiet", "--log", "run.log"}).errors, "");
+  EXPECT_GT(std::filesystem::file_size(folder / "run.log"), 0u);
+}
+
+TEST_F(CommandLine, InfoDescribesASurfaceInMetres) {
+  const ProcessResult result = sterna({"info", "box.stl", "--unit", "inch"});
+  EXPECT_EQ(result.status, k_exit_success) << result.errors;
+  for (const char* part : {"STL", "1 unit of the file = 0.0254 m", "12 triangles", "closed", "(0.0254, 0.0254, 0.0254)", "\"box\", wall: 12 triangles"})
+    EXPECT_NE(result.output.find(part), std::string::npos) << part << " in\n" << result.output;
+}
+
+TEST_F(CommandLine, AnOpenSurfaceIsDrawn) {
+  std::ifstream whole(folder / "box.stl");
+  std::string text{std::istreambuf_iterator<char>(whole), {}};
+  const std::size_t facet = text.find(" facet");
+  text.erase(facet, text.find(" facet", facet + 1) - facet);
+  write("open.stl", text);
+  const ProcessResult result = sterna({"mesh", "open.stl", "--first-height", "1e-3", "-o", "m.su2"});
+  EXPECT_EQ(result.status, k_exit_failed);
+  EXPECT_NE(result.errors.find("m.su2.trouble.vtu"), std::string::npos) << result.errors;
+  EXPECT_NE(result.errors.find("(0.5, 0.5, 0)"), std::string::npos) << result.errors;
+  EXPECT_EQ(files(), (std::vector<std::string>{"box.stl", "m.su2.trouble.vtu", "open.stl"}));
+  std::filesystem::create_directory(folder / "dump");
+  EXPECT_NE(sterna({"mesh", "open.stl", "--first-height", "1e-3", "-o", "m.su2", "--dump-dir", "dump"}).errors.find("dump/m.su2.trouble.vtu"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::exists(folder / "dump" / "m.su2.trouble.vtu"));
+}
+
+TEST_F(CommandLine, CtrlCEndsAScriptWithinASecond) {
+  write("case.lua", "while true do pcall(function() while true do end end) end");
+  const ProcessResult result = sterna({"run", "case.lua"}, 0.3);
+  EXPECT_EQ(result.status, k_exit_interrupted) << result.errors;
+  EXPECT_LT(result.seconds, 1.3);
+  EXPECT_NE(result.errors.find("stopped on request"), std::string::npos) << result.errors;
+}
+
+TEST_F(CommandLine, FormatsListsTheTable) {
+  const ProcessResult result = sterna({"formats"});
+  EXPECT_EQ(result.status, k_exit_success);
+  for (const char* part : {"STL", "SU2", "VTU", "read, write"}) EXPECT_NE(result.output.find(part), std::string::npos) << part;
+}
+
+}  // namespace
+}  // namespace sterna::scripting

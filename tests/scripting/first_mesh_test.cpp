@@ -1,0 +1,115 @@
+// From a surface file to checked mesh files, as a user does it: command line and script.
+#include <cstring>
+#include <fstream>
+
+#include "scripting/exit_status.h"
+#include "tests/support/data.h"
+#include "tests/support/process.h"
+
+namespace sterna::scripting {
+namespace {
+
+using test::ProcessResult;
+
+std::string contents(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class FirstMesh : public testing::Test {
+ protected:
+  FirstMesh() : folder(test::scratch()) { std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder / "box.stl"); }
+
+  ProcessResult sterna(const std::vector<std::string>& arguments, double interrupt_after = -1.0) {
+    return test::run_process(test::sterna_program(), arguments, folder, interrupt_after);
+  }
+  ProcessResult mesh_box(const std::string& output, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments = {"mesh", "box.stl", "--layers", "8", "--first-height", "1e-3", "--farfield-radius", "10", "-o", output};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return sterna(arguments);
+  }
+
+  std::filesystem::path folder;
+};
+
+TEST_F(FirstMesh, CommandLineWritesCheckedMeshAndManifest) {
+  const ProcessResult result = mesh_box("box.su2", {"-o", "box.vtu", "--stats", "stats.json"});
+  ASSERT_EQ(result.status, k_exit_success) << result.errors;
+  for (const char* part : {"12 triangles", "prisms in 8 layers", "verdict     VALID", "in TetGen", "memory", "stages", "wrote box.su2"})
+    EXPECT_NE(result.errors.find(part), std::string::npos) << part << " in\n" << result.errors;
+  for (const char* name : {"box.su2", "box.su2.json", "box.vtu", "box.vtu.json", "stats.json"}) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  const std::string manifest = contents(folder / "box.su2.json");
+  for (const char* part : {"\"sterna-manifest-1\"", "\"first_height\": 0.001", "\"layers\": 8", "\"xxh3_128\"", "\"verdict\": \"VALID\"", "\"seed\": 1"})
+    EXPECT_NE(manifest.find(part), std::string::npos) << part;
+  EXPECT_EQ(manifest.find("seconds"), std::string::npos) << "wall-clock has no place in a manifest";
+  const std::string stats = contents(folder / "stats.json");
+  for (const char* part : {"\"sterna-stats-1\"", "\"engine_seconds\"", "\"rest_seconds\"", "\"peak_memory_bytes\"", "\"coverage\""})
+    EXPECT_NE(stats.find(part), std::string::npos) << part;
+
+  const ProcessResult check = sterna({"check", "box.su2"});
+  EXPECT_EQ(check.status, k_exit_success) << check.output << check.errors;
+  EXPECT_NE(check.output.find("VALID"), std::string::npos);
+  const ProcessResult json = sterna({"check", "box.su2", "--json"});
+  EXPECT_EQ(json.output.front(), '{');
+  const ProcessResult info = sterna({"info", "box.su2"});
+  EXPECT_EQ(info.status, k_exit_success) << info.errors;
+  for (const char* part : {"prisms", "tetrahedra", "farfield", "longest side"}) EXPECT_NE(info.output.find(part), std::string::npos) << part << " in\n" << info.output;
+}
+
+TEST_F(FirstMesh, AnyThreadCountWritesTheSameBytes) {
+  std::vector<std::string> meshes, manifests;
+  for (const char* threads : {"1", "2", "7"}) {
+    ASSERT_EQ(mesh_box("box.su2", {"--threads", threads}).status, k_exit_success);
+    meshes.push_back(contents(folder / "box.su2"));
+    manifests.push_back(contents(folder / "box.su2.json"));
+  }
+  EXPECT_EQ(meshes[0], meshes[1]);
+  EXPECT_EQ(meshes[0], meshes[2]);
+  EXPECT_EQ(manifests[0], manifests[1]);
+  EXPECT_EQ(manifests[0], manifests[2]);
+}
+
+TEST_F(FirstMesh, ScriptAndCommandLineMakeTheSameMesh) {
+  ASSERT_EQ(mesh_box("a.su2").status, k_exit_success);
+  std::ofstream(folder / "case.lua") << "local m = volume_mesh{ read_surface 'box.stl', layers = 8, first_height = 1*mm, farfield = sphere{ radius = 10 } }\n"
+                                        "print(m)  m:check():write 'b.su2'\n"
+                                        "read_mesh('b.su2'):check{}\n";
+  const ProcessResult result = sterna({"run", "case.lua"});
+  ASSERT_EQ(result.status, k_exit_success) << result.errors;
+  EXPECT_NE(result.output.find("VALID"), std::string::npos);
+  EXPECT_EQ(contents(folder / "a.su2"), contents(folder / "b.su2"));
+}
+
+TEST_F(FirstMesh, AFlippedCellIsInvalidWithItsOwnStatus) {
+  ASSERT_EQ(mesh_box("box.su2").status, k_exit_success);
+  // The marker of the wall loses its last face; the cell behind it then has a face that nobody matches.
+  std::string text = contents(folder / "box.su2");
+  const std::size_t count = text.find("MARKER_ELEMS=");
+  ASSERT_NE(count, std::string::npos);
+  const std::size_t number = text.find_first_of("0123456789", count), line_end = text.find('\n', number);
+  const int n = std::stoi(text.substr(number, line_end - number));
+  const std::size_t next_line = text.find('\n', line_end + 1);
+  text.replace(number, next_line - number, std::to_string(n - 1));
+  std::ofstream(folder / "broken.su2") << text;
+  const ProcessResult check = sterna({"check", "broken.su2"});
+  EXPECT_EQ(check.status, k_exit_invalid) << check.output << check.errors;
+  EXPECT_NE(check.output.find("INVALID"), std::string::npos) << check.output;
+  std::ofstream(folder / "case.lua") << "read_mesh('broken.su2'):check()";
+  const ProcessResult script = sterna({"run", "case.lua"});
+  EXPECT_EQ(script.status, k_exit_invalid) << script.errors;
+  EXPECT_NE(script.errors.find("case.lua:1: mesh:check: the mesh is INVALID"), std::string::npos) << script.errors;
+}
+
+TEST_F(FirstMesh, CtrlCLeavesNothingHalfWritten) {
+  STERNA_NEEDS_SHARED_DATA();
+  const std::string surface = (test::shared_data() / "surfaces" / "clean" / "dlr_f6_184k.stl").string();
+  for (const double seconds : {0.2, 1.0, 3.0}) {
+    const ProcessResult result = sterna({"mesh", surface, "--unit", "mm", "--first-height", "1e-6", "-o", "m.su2"}, seconds);
+    EXPECT_EQ(result.status, k_exit_interrupted) << result.errors;
+    EXPECT_LT(result.seconds, seconds + 1.0);
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) EXPECT_EQ(entry.path().filename(), "box.stl");
+  }
+}
+
+}  // namespace
+}  // namespace sterna::scripting

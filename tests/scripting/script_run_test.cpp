@@ -1,0 +1,149 @@
+#include "scripting/script_run.h"
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "geom/base/error.h"
+#include "tests/support/data.h"
+
+namespace sterna::scripting {
+namespace {
+
+/// Runs the text as a script in a folder of its own; returns what it printed.
+std::string run_text(const std::string& text, RunSettings settings = {}, OptionOverrides overrides = {}) {
+  const std::filesystem::path folder = test::scratch();
+  std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder / "box.stl");
+  std::ofstream(folder / "case.lua") << text;
+  std::string printed;
+  if (settings.threads == 0) settings.threads = 1;
+  run_script({.script = folder / "case.lua",
+              .overrides = std::move(overrides),
+              .print = [&](std::string_view line) { printed += std::string(line) + "\n"; },
+              .on_mesh = {}},
+             RunContext(std::move(settings)));
+  return printed;
+}
+
+Error error_of(const std::string& text, RunSettings settings = {}, OptionOverrides overrides = {}) {
+  try {
+    run_text(text, std::move(settings), std::move(overrides));
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "no error from: " << text;
+  return Error({});
+}
+
+TEST(ScriptRun, SeesItsSandboxAndNothingElse) {
+  EXPECT_EQ(run_text("print(dofile, loadfile, load, io, os, debug, package, coroutine)"), "nil\tnil\tnil\tnil\tnil\tnil\tnil\tnil\n");
+  EXPECT_EQ(run_text("print(type(table.sort), type(string.format), type(math.pi), type(utf8.char), type(require))"), "function\tfunction\tnumber\tfunction\tfunction\n");
+  EXPECT_EQ(run_text("print(mm, cm, inch, ft, 180*deg == math.pi)"), "0.001\t0.01\t0.0254\t0.3048\ttrue\n");
+}
+
+TEST(ScriptRun, RandomNumbersFollowFromTheSeedAlone) {
+  const std::string three = "print(math.random(1000000), math.random(1000000), math.random())";
+  EXPECT_EQ(run_text(three, {.seed = 5}), run_text(three, {.seed = 5}));
+  EXPECT_NE(run_text(three, {.seed = 5}), run_text(three, {.seed = 6}));
+  EXPECT_EQ(run_text("local a = math.random(1000000); math.randomseed(); print(a == math.random(1000000))"), "true\n");
+}
+
+TEST(ScriptRun, PairsGoesInTheSameOrderInEveryRun) {
+  EXPECT_EQ(run_text("local s = '' for k, v in pairs{ wing = 1, body = 2, tail = 3, engine = 4, 5, 6, [2.5] = 7 } do s = s .. k .. '=' .. v .. ' ' end print(s)"),
+            "1=5 2=6 2.5=7 body=2 engine=4 tail=3 wing=1 \n");
+  EXPECT_EQ(run_text("local n = 0 for k, v in pairs{ [true] = 1, [print] = 2, a = 3 } do n = n + v end print(n)"), "6\n");
+  EXPECT_EQ(run_text("local t = { a = 1, b = 2, c = 3 } local s = '' for k in pairs(t) do s = s .. k; t.b = nil end print(s)"), "ac\n");
+  EXPECT_EQ(run_text("for k in pairs(setmetatable({}, { __pairs = function() return next, { x = 1 }, nil end })) do print(k) end"), "x\n");
+  EXPECT_EQ(error_of("for k in pairs(nil) do end").code(), ErrorCode::script_failed);
+}
+
+TEST(ScriptRun, ModulesLieBesideTheScript) {
+  const std::filesystem::path folder = test::scratch();
+  std::ofstream(folder / "shape.lua") << "print 'loaded'; return { width = 3 }";
+  std::ofstream(folder / "case.lua") << "print(require('shape').width + require('shape').width)";
+  std::string printed;
+  const auto print = [&](std::string_view line) { printed += std::string(line) + "\n"; };
+  run_script({.script = folder / "case.lua", .overrides = {}, .print = print, .on_mesh = {}}, RunContext({.threads = 1}));
+  EXPECT_EQ(printed, "loaded\n6\n");
+  EXPECT_EQ(error_of("require '../secret'").code(), ErrorCode::bad_argument);
+  EXPECT_EQ(error_of("require 'absent'").code(), ErrorCode::file_not_found);
+}
+
+TEST(ScriptRun, MemoryIsCapped) {
+  const std::filesystem::path script = test::scratch() / "case.lua";
+  // Lua's own allocations, and those of a verb that is under way when the memory ends.
+  for (const char* text : {"local t = {} for i = 1, 1e9 do t[i] = string.rep('x', 1000) .. i end", "local t = {} while true do t[#t + 1] = sphere{ radius = 1 } end",
+                           "local t = {} while true do t[#t + 1] = { pairs = help } end", "string.rep('x', 1e9)"}) {
+    std::ofstream(script) << text;
+    try {
+      run_script({.script = script, .overrides = {}, .print = [](std::string_view) {}, .on_mesh = {}, .memory_limit = std::size_t{4} << 20}, RunContext({.threads = 1}));
+      ADD_FAILURE() << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::script_failed);
+      EXPECT_NE(std::string(error.what()).find("4 MiB"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(ScriptRun, StopEndsEvenAScriptThatCatchesEverything) {
+  std::stop_source source;
+  std::jthread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    source.request_stop();
+  });
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(error_of("while true do pcall(function() while true do pcall(error) end end) end", {.stop = source.get_token()}).code(), ErrorCode::cancelled);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
+}
+
+TEST(ScriptRun, ErrorsOfVerbsAreValuesForPcall) {
+  EXPECT_EQ(run_text("local ok, e = pcall(read_surface, 'absent.stl'); print(ok, e.code)"), "false\tfile_not_found\n");
+  EXPECT_EQ(run_text("local ok, e = pcall(sphere, {radius = 'x'}); print(e.message == tostring(e))"), "true\n");
+}
+
+TEST(ScriptRun, ObjectsCannotBeTornApart) {
+  EXPECT_EQ(run_text("local s = read_surface 'box.stl'; print(getmetatable(s), pcall(setmetatable, s, {}))").substr(0, 13), "locked\tfalse\t");
+  // A method of one kind on an object of another, and on no object at all.
+  EXPECT_EQ(run_text("local s = read_surface 'box.stl'; print(pcall(s.write, {}), pcall(s.write), (pcall(s.write, 3)))").substr(0, 5), "false");
+}
+
+TEST(ScriptRun, InputsAreFoundBesideTheScriptAndPrintThemselves) {
+  EXPECT_EQ(run_text("local s = read_surface{ 'box.stl', unit = mm } print(s) print(s.triangles, s.vertices, s.is_closed, #s.patches, s.length)"),
+            "TriMesh: 12 triangles, closed, 1 patch, 0.001 m long\n12\t8\ttrue\t1\t0.001\n");
+  EXPECT_EQ(run_text("print(sphere{ radius = 2, edge = 0.5 })"), "sphere, edge 0.500000 m, radius 2.000000 m\n");
+}
+
+TEST(ScriptRun, OverridesOfTheCommandLineWin) {
+  EXPECT_EQ(run_text("print(read_surface{ 'box.stl', unit = mm }.length)", {}, {{"surface.unit", "2"}}), "2.0\n");
+  EXPECT_EQ(error_of("print 'started'", {}, {{"surface.unti", "2"}}).code(), ErrorCode::unknown_option);
+  EXPECT_EQ(error_of("print 'started'", {}, {{"envelope.layers", "0"}}).code(), ErrorCode::bad_argument);
+}
+
+TEST(ScriptRun, HelpNamesEveryOptionWithItsRange) {
+  const std::string text = run_text("help(volume_mesh) help() help 'check' help(read_surface) help(sphere)");
+  for (const char* part : {"layers = 30  (1 .. 1000)", "first_height = required [m]", "split_angle", "findings_per_kind = 10", "mesh:write", "radius = automatic"})
+    EXPECT_NE(text.find(part), std::string::npos) << part;
+  EXPECT_EQ(error_of("help(3)").code(), ErrorCode::bad_argument);
+}
+
+TEST(ScriptRun, DeepRecursionAndWrongErrorValuesAreErrorsOfTheScript) {
+  EXPECT_EQ(error_of("local function f() return 1 + f() end f()").code(), ErrorCode::script_failed);
+  EXPECT_EQ(error_of("error({})").code(), ErrorCode::script_failed);
+  EXPECT_EQ(error_of("error()").code(), ErrorCode::script_failed);
+  EXPECT_EQ(error_of("print(setmetatable({}, {__tostring = function() error('inside') end}))").code(), ErrorCode::script_failed);
+}
+
+TEST(ScriptRun, ScriptOfEveryOptionNamesEveryOption) {
+  std::ifstream file(std::filesystem::path(STERNA_SOURCE_DIR) / "scripts" / "02_every_option.lua");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  surfmesh::StitchOptions surface;
+  volmesh::VolumeMeshOptions volume;
+  for (const Option& option : all_options(surface, volume)) {
+    const std::string name(option.name);
+    const std::string without_stage = name.starts_with("farfield_") ? name.substr(9) : name;
+    EXPECT_NE(text.find(" " + without_stage + " = "), std::string::npos) << name;
+  }
+}
+
+}  // namespace
+}  // namespace sterna::scripting

@@ -1,0 +1,70 @@
+#include "tests/support/process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <thread>
+
+namespace sterna::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::string contents(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A name for stdout and stderr that stands outside of the folder, whose contents tests look at.
+std::filesystem::path temporary_file() {
+  std::string name = (std::filesystem::temp_directory_path() / "sterna_test_XXXXXX").string();
+  const int descriptor = mkstemp(name.data());
+  if (descriptor < 0) throw std::runtime_error("no temporary file");
+  close(descriptor);
+  return name;
+}
+
+}  // namespace
+
+ProcessResult run_process(const std::filesystem::path& program, const std::vector<std::string>& arguments, const std::filesystem::path& folder, double interrupt_after) {
+  const std::filesystem::path output = temporary_file(), errors = temporary_file();
+  std::vector<std::string> words = {program.string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const Clock::time_point start = Clock::now();
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("fork failed");
+  if (child == 0) {
+    const int out = open(output.c_str(), O_WRONLY | O_TRUNC), err = open(errors.c_str(), O_WRONLY | O_TRUNC);
+    if (out < 0 || err < 0 || dup2(out, STDOUT_FILENO) < 0 || dup2(err, STDERR_FILENO) < 0 || chdir(folder.c_str()) != 0) _exit(126);
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  if (interrupt_after >= 0.0) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(interrupt_after));
+    kill(child, SIGINT);
+  }
+  int status = 0;
+  if (waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid failed");
+  ProcessResult result;
+  result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.output = contents(output);
+  result.errors = contents(errors);
+  std::filesystem::remove(output);
+  std::filesystem::remove(errors);
+  return result;
+}
+
+std::filesystem::path sterna_program() { return std::filesystem::path(STERNA_BINARY_DIR) / "sterna"; }
+
+}  // namespace sterna::test

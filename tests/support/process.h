@@ -1,0 +1,23 @@
+// Runs a program of the build as its user would.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sterna::test {
+
+struct ProcessResult {
+  int status = -1;     ///< exit status; 128 + signal when a signal ended it
+  std::string output;  ///< stdout
+  std::string errors;  ///< stderr
+  double seconds = 0.0;
+};
+
+/// Runs `program` in `folder` and waits. With interrupt_after >= 0 it gets SIGINT after so many seconds.
+ProcessResult run_process(const std::filesystem::path& program, const std::vector<std::string>& arguments, const std::filesystem::path& folder, double interrupt_after = -1.0);
+
+/// build/.../sterna
+std::filesystem::path sterna_program();
+
+}  // namespace sterna::test
