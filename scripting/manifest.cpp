@@ -11,20 +11,17 @@ using Json = nlohmann::ordered_json;
 
 Json cells_json(const HybridMesh& mesh) {
   const CellCounts cells = count_cells(mesh);
-  return {{"nodes", mesh.points.size()},
-          {"prisms", cells.prisms},
-          {"pyramids", cells.pyramids},
-          {"tetrahedra", cells.tetrahedra},
-          {"hexahedra", cells.hexahedra}};
+  return {
+      {"nodes", mesh.points.size()}, {"prisms", cells.prisms}, {"pyramids", cells.pyramids}, {"tetrahedra", cells.tetrahedra}, {"hexahedra", cells.hexahedra}};
 }
 
 Json layer_json(const volmesh::LayerReport& layer) {
   Json collapsed = Json::array();
-  for (const ErrorPlace& place : layer.collapsed)
-    collapsed.push_back({{"at", {place.position.x, place.position.y, place.position.z}}, {"what", place.what}});
-  return {{"body_length", layer.body_length}, {"coverage", layer.coverage},     {"target_over_eq1", layer.target_over_eq1},
-          {"mean_height", layer.mean_height}, {"vertices", layer.n_vertices}, {"compressed", layer.n_compressed},
-          {"collapsed", collapsed}};
+  for (const ErrorPlace& place : layer.collapsed) collapsed.push_back({{"at", {place.position.x, place.position.y, place.position.z}}, {"what", place.what}});
+  Json lost_area = Json::object();
+  for (const auto& [reason, share] : layer.lost_area) lost_area[reason] = share;
+  return {{"body_length", layer.body_length}, {"coverage", layer.coverage},   {"target_over_eq1", layer.target_over_eq1}, {"lost_area", lost_area},
+          {"mean_height", layer.mean_height}, {"vertices", layer.n_vertices}, {"compressed", layer.n_compressed},         {"collapsed", collapsed}};
 }
 
 }  // namespace

@@ -60,7 +60,9 @@ std::string summary_text(const MeshValue& mesh) {
   text += fmt::format("  mesh        {} nodes: {} prisms in {} layers, {} pyramids, {} tetrahedra\n", count_text(n_nodes(mesh)), count_text(cells.prisms),
                       mesh.origin->options.envelope.layers, count_text(cells.pyramids), count_text(cells.tetrahedra));
   text += fmt::format("  layer       {:.2f} % of the area at its full height, mean height {:.4g} m\n", 100.0 * layer.coverage, layer.mean_height);
-  text += fmt::format("  compressed  {} of {} vertices (total height below layers x first height)\n", count_text(layer.n_compressed), count_text(layer.n_vertices));
+  for (const auto& [reason, share] : layer.lost_area) text += fmt::format("              {:.2f} % below: {}\n", 100.0 * share, reason);
+  text +=
+      fmt::format("  compressed  {} of {} vertices (total height below layers x first height)\n", count_text(layer.n_compressed), count_text(layer.n_vertices));
   text += fmt::format("  collapsed   {}\n", counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"));
   for (const ErrorPlace& place : layer.collapsed) text += "    at " + format_point(place.position) + (place.what.empty() ? "" : ": " + place.what) + "\n";
   return text + "  verdict     " + verdict_text(mesh);
@@ -93,6 +95,8 @@ std::string stats_json(const MeshValue& mesh, const RunMeasure& measure) {
   json["target_over_eq1"] = layer.target_over_eq1;
   json["mean_height_share"] = layer.mean_height_share;
   json["mean_height"] = layer.mean_height;
+  json["lost_area"] = nlohmann::ordered_json::object();
+  for (const auto& [reason, share] : layer.lost_area) json["lost_area"][reason] = share;
   json["vertices"] = layer.n_vertices;
   json["compressed"] = layer.n_compressed;
   json["collapsed"] = layer.collapsed.size();

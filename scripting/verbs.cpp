@@ -1,7 +1,5 @@
 #include "scripting/verbs.h"
 
-#include <fmt/format.h>
-
 #include <cctype>
 
 #include "geom/base/error.h"
@@ -11,16 +9,12 @@
 #include "io/trouble_vtu.h"
 #include "io/volume_file.h"
 #include "scripting/manifest.h"
-#include "scripting/summary.h"
 
 namespace sterna::scripting {
 namespace {
 
 // Shares of read_wall's progress; reading is bound by the disk, stitching by the intersection test.
 constexpr double k_read_end = 0.3;
-
-/// The unit is never silent: a factor of 1000 looks fine until the solver runs.
-std::string unit_text(double unit) { return fmt::format(" (1 unit of the file = {:g} m)", unit); }
 
 bool has_extension(const std::filesystem::path& path, std::string_view extension) {
   std::string lower = path.extension().string();
@@ -47,7 +41,6 @@ SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchO
   surfmesh::StitchResult stitched = surfmesh::stitch_surface(soups, options, context.part("stitch", k_read_end, 1.0));
   wall.mesh = std::move(stitched.mesh);
   wall.report = std::move(stitched.report);
-  context.info(describe(wall) + unit_text(options.unit));
   return wall;
 }
 
