@@ -1,5 +1,7 @@
 #include "scripting/verbs.h"
 
+#include <fmt/format.h>
+
 #include <cctype>
 
 #include "geom/base/error.h"
@@ -9,6 +11,7 @@
 #include "io/trouble_vtu.h"
 #include "io/volume_file.h"
 #include "scripting/manifest.h"
+#include "scripting/summary.h"
 
 namespace sterna::scripting {
 namespace {
@@ -41,6 +44,8 @@ SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchO
   surfmesh::StitchResult stitched = surfmesh::stitch_surface(soups, options, context.part("stitch", k_read_end, 1.0));
   wall.mesh = std::move(stitched.mesh);
   wall.report = std::move(stitched.report);
+  // The unit is never silent: a factor of 1000 looks fine until the solver runs.
+  context.info(describe(wall) + fmt::format(" (1 unit of the file = {:g} m)", options.unit));
   return wall;
 }
 

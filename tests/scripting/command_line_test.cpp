@@ -81,7 +81,7 @@ TEST_F(CommandLine, ResultsGoToStdoutAndLogToStderr) {
   const ProcessResult result = sterna({"run", "case.lua"});
   EXPECT_EQ(result.status, k_exit_success) << result.errors;
   EXPECT_EQ(result.output, "TriMesh: 12 triangles, closed, 1 patch, 0.001 m long\n");
-  EXPECT_NE(result.errors.find("unit of the file: 0.001 m"), std::string::npos) << result.errors;
+  EXPECT_NE(result.errors.find("1 unit of the file = 0.001 m"), std::string::npos) << result.errors;
   EXPECT_EQ(result.errors.find('\r'), std::string::npos) << "a progress line on a stderr that is no terminal";
   EXPECT_EQ(sterna({"run", "case.lua", "--quiet"}).errors, "");
   EXPECT_EQ(sterna({"run", "case.lua", "--quiet", "--log", "run.log"}).errors, "");
