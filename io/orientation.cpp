@@ -9,19 +9,15 @@
 namespace sterna::io {
 namespace {
 
-/// Sum of tets that fill the cell (its quads cut along one diagonal): the sign is all that matters.
+/// The exact formulas with bilinear faces: a valid but warped prism can have a negative volume once its sides are cut along one diagonal.
 template <std::size_t N>
 double signed_volume(const HybridMesh& mesh, const std::array<NodeId, N>& nodes) {
-  const auto tet = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
-    return tet_volume(mesh.points[nodes[a]], mesh.points[nodes[b]], mesh.points[nodes[c]], mesh.points[nodes[d]]);
-  };
-  const auto wedge = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d, std::size_t e, std::size_t f) {
-    return tet(a, b, c, f) + tet(a, b, f, e) + tet(a, e, f, d);
-  };
-  if constexpr (N == 4) return tet(0, 1, 2, 3);
-  if constexpr (N == 5) return tet(0, 1, 2, 4) + tet(0, 2, 3, 4);
-  if constexpr (N == 6) return wedge(0, 1, 2, 3, 4, 5);
-  if constexpr (N == 8) return wedge(0, 1, 2, 4, 5, 6) + wedge(0, 2, 3, 4, 6, 7);
+  std::array<Point, N> p;
+  for (std::size_t k = 0; k < N; ++k) p[k] = mesh.points[nodes[k]];
+  if constexpr (N == 4) return tet_volume(p[0], p[1], p[2], p[3]);
+  if constexpr (N == 5) return pyramid_volume(p);
+  if constexpr (N == 6) return wedge_volume(p);
+  if constexpr (N == 8) return hexahedron_volume(p);
 }
 
 template <std::size_t N>
