@@ -1,0 +1,26 @@
+// Tags of an XML text in order, as a flat list: enough for VTK's files, whose raw data sections no XML parser takes.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sterna::io {
+
+struct XmlTag {
+  std::string name;          ///< "DataArray"; "/DataArray" closes; a self-closing tag is followed by its closing one
+  std::vector<std::pair<std::string, std::string>> attributes;  ///< entities resolved
+  std::string_view text;     ///< between this tag and the next
+  std::size_t offset = 0;    ///< byte of its '<'
+
+  /// Value of an attribute; \p fallback when there is none.
+  std::string_view attribute(std::string_view key, std::string_view fallback = {}) const;
+};
+
+/// All tags up to the end of the text, or up to and with `last`, whose text is all the rest. Comments and declarations are passed over.
+/// \throws Error(file_malformed) with the byte offset.
+std::vector<XmlTag> scan_xml_tags(std::string_view text, std::string_view last, std::string_view source);
+
+}  // namespace sterna::io
