@@ -35,7 +35,7 @@ Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, c
 
   share_gaps(base, options, envelope, context);
   retract_collisions(base, options, envelope, context.part("retract", 0.6, 1.0));
-  regrow_clear(base, classes, envelope, context);
+  regrow_clear(base, envelope, context);
   // Stage 6, the global optimisation (method.md §6), takes its place here.
   return envelope;
 }

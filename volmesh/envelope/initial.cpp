@@ -53,32 +53,38 @@ double slope_bound(const Point& a, double ha, const Point& b, double hb, const P
   const double height = norm(to_c - u * x);
   const double across = std::sqrt(slope * slope - rise * rise);
   const double foot = u - height * rise / across;  // where the line of steepest rise through c meets a-b
-  return foot > 0.0 && foot < length ? ha + rise * u + across * height : along_edges;
+  const double value = ha + rise * u + across * height;
+  return foot > 0.0 && foot < length && value >= std::max(ha, hb) ? value : along_edges;
 }
 
-/// Largest field h <= h0 whose tangential slope is at most `gradient` in every triangle: from the lowest heights up, until nothing falls any more.
+/// Largest field h <= h0 whose tangential slope is at most `gradient` in every triangle, by fast marching: heights become final from the lowest up, and a
+/// vertex is bounded by final ones only, so every height is visited once.
 void limit_gradient(const LayerBase& base, double gradient, Column<VertexId, double>& height) {
   using Entry = std::pair<double, std::uint32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  Column<VertexId, std::uint8_t> is_final(height.size(), 0);
   const auto& points = base.wall.points;
   const auto offer = [&](VertexId v, double bound) {
-    if (bound >= height[v]) return;
+    if (is_final[v] || bound >= height[v]) return;
     height[v] = bound;
     queue.emplace(bound, v.value());
   };
-  const auto offer_neighbours = [&](VertexId v) {
+  const auto offer_corner = [&](VertexId v, VertexId b, VertexId c) {
+    const double along_edge = height[v] + gradient * distance(points[v], points[c]);
+    offer(c, is_final[b] ? slope_bound(points[v], height[v], points[b], height[b], points[c], gradient) : along_edge);
+  };
+  for (const VertexId v : height.ids()) queue.emplace(height[v], v.value());
+  while (!queue.empty()) {
+    const VertexId v(queue.top().second);
+    queue.pop();
+    if (is_final[v]) continue;
+    is_final[v] = 1;
     for (const HalfedgeId h : base.topology.outgoing(v)) {
       const VertexId b = base.topology.to(h);
       const VertexId c = base.topology.from(previous(h));
-      offer(c, slope_bound(points[v], height[v], points[b], height[b], points[c], gradient));
-      offer(b, slope_bound(points[v], height[v], points[c], height[c], points[b], gradient));
+      offer_corner(v, b, c);
+      offer_corner(v, c, b);
     }
-  };
-  for (const VertexId v : height.ids()) offer_neighbours(v);
-  while (!queue.empty()) {
-    const auto [h, index] = queue.top();
-    queue.pop();
-    if (const VertexId v(index); height[v] == h) offer_neighbours(v);
   }
 }
 

@@ -6,7 +6,6 @@
 #include "geom/base/parallel.h"
 #include "geom/math/bvh.h"
 #include "geom/math/intersect.h"
-#include "volmesh/envelope/smooth.h"
 #include "volmesh/envelope/untangle.h"
 #include "volmesh/envelope/validity.h"
 
@@ -19,10 +18,8 @@ constexpr double k_opposing_cosine = 0.7;  ///< walls that face the line within 
 constexpr int k_pair_bisections = 10;    ///< halvings: 0.1 % of the height
 constexpr double k_pair_reserve = 0.98;  ///< of the largest scale at which a pair of triangles is clear
 constexpr double k_clearance_factor = 0.95;  ///< once nothing collides: leaves a gap for tets between retracted layers
-constexpr int k_regrow_rounds = 8;
+constexpr int k_regrow_rounds = 6;
 constexpr double k_regrow_clearance = 1.06;  ///< regrown heights stay clear even when this much taller
-constexpr double k_lowered_share = 0.93;     ///< of the target: smoothing alone goes to 0.94
-constexpr int k_relax_rings = 3;
 constexpr int k_level_sweeps = 3;
 
 /// Parameter along the segment p + s d (s in [0, 1]) where it meets the triangle, or a negative number. Rounding does not matter: heights keep a reserve.
@@ -183,16 +180,16 @@ double clear_share(const LayerBase& base, const Envelope& envelope, const std::a
   return clear;
 }
 
-/// Pairs of crossing envelope triangles of which at least one has a changed vertex, when the changed vertices are at `stretch` times their height.
-std::vector<std::array<std::uint32_t, 2>> crossings_near(const LayerBase& base, const Envelope& envelope, const Column<VertexId, std::uint8_t>& changed,
-                                                         double stretch, const RunContext& context) {
+/// Pairs of crossing envelope triangles around the vertices of `recheck`, when the `changed` vertices are at `stretch` times their height.
+std::vector<std::array<std::uint32_t, 2>> crossings_near(const LayerBase& base, const Envelope& envelope, const Column<VertexId, std::uint8_t>& recheck,
+                                                         const Column<VertexId, std::uint8_t>& changed, double stretch, const RunContext& context) {
   EnvelopeSurface surface = envelope_surface(base, envelope, context);
   const std::size_t n = base.wall.n_vertices();
   if (stretch != 1.0) {
     for (const VertexId v : changed.ids())
       if (changed[v]) surface.points[n + v.index()] = base.wall.points[v] + (stretch * envelope.height[v]) * envelope.direction[v];
   }
-  const std::vector<std::uint32_t> items = neighbourhood(surface, base, changed, context);
+  const std::vector<std::uint32_t> items = neighbourhood(surface, base, recheck, context);
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (const std::uint32_t t : items) triangles.push_back(surface.triangles[t]);
   CrossingPairs crossings = find_crossings(surface.points, triangles, context);
@@ -207,45 +204,41 @@ Column<VertexId, std::uint8_t> changed_vertices(const Envelope& before, const En
 }
 
 /// As apply_where_valid, and besides no vertex moves whose triangles would come nearer to another part of the envelope than the clearance.
-void apply_where_clear(const LayerBase& base, Envelope& envelope, Envelope proposal, const RunContext& context) {
+void apply_where_clear(const LayerBase& base, Envelope& envelope, const Envelope& proposal, const RunContext& context) {
+  Envelope trial = envelope;
+  apply_where_valid(base, trial, proposal, context);
+  Column<VertexId, std::uint8_t> changed = changed_vertices(envelope, trial);
+  Column<VertexId, std::uint8_t> recheck = changed;
   while (true) {
-    Envelope trial = envelope;
-    apply_where_valid(base, trial, proposal, context);
-    const Column<VertexId, std::uint8_t> changed = changed_vertices(envelope, trial);
+    Envelope next = trial;
+    Column<VertexId, std::uint8_t> reverted(changed.size(), 0);
     bool has_reverted = false;
-    for (const auto& pair : crossings_near(base, trial, changed, k_regrow_clearance, context)) {
+    for (const auto& pair : crossings_near(base, trial, recheck, changed, k_regrow_clearance, context)) {
       for (const std::uint32_t item : pair) {
         for (const VertexId v : base.wall.triangles[TriangleId(item)]) {
           if (!changed[v]) continue;
-          trial.height[v] = envelope.height[v];
-          trial.direction[v] = envelope.direction[v];
+          next.height[v] = envelope.height[v];
+          next.direction[v] = envelope.direction[v];
+          reverted[v] = 1;
           has_reverted = true;
         }
       }
     }
-    if (!has_reverted) {
-      envelope = std::move(trial);
-      return;
-    }
-    proposal = std::move(trial);
+    if (!has_reverted) break;
+    // Going back may spoil an element beside it, whose vertices then go back too; only what went back needs another look.
+    trial = envelope;
+    apply_where_valid(base, trial, next, context, &reverted);
+    const Column<VertexId, std::uint8_t> still_changed = changed_vertices(envelope, trial);
+    for (const VertexId v : changed.ids()) recheck[v] = changed[v] && !still_changed[v] ? 1 : 0;
+    changed = still_changed;
   }
-}
-
-/// Vertices below their target and the rings around them.
-Column<VertexId, std::uint8_t> lowered_region(const LayerBase& base, const Envelope& envelope, const RunContext& context) {
-  Column<VertexId, std::uint8_t> region(base.wall.n_vertices());
-  for (const VertexId v : region.ids()) region[v] = envelope.height[v] < k_lowered_share * envelope.target[v] ? 1 : 0;
-  grow_region(base, k_relax_rings, region, context);
-  return region;
+  envelope = std::move(trial);
 }
 
 }  // namespace
 
-void regrow_clear(const LayerBase& base, const Classification& classes, Envelope& envelope, const RunContext& context) {
-  for (int round = 0; round < k_regrow_rounds; ++round) {
-    apply_where_clear(base, envelope, raised(base, envelope, round, context), context);
-    apply_where_clear(base, envelope, relaxed(base, classes, lowered_region(base, envelope, context), envelope, context), context);
-  }
+void regrow_clear(const LayerBase& base, Envelope& envelope, const RunContext& context) {
+  for (int round = 0; round < k_regrow_rounds; ++round) apply_where_clear(base, envelope, raised(base, envelope, round, context), context);
 }
 
 void retract_collisions(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context) {
@@ -254,7 +247,7 @@ void retract_collisions(const LayerBase& base, const EnvelopeOptions& options, E
   Column<VertexId, std::uint8_t> changed(n, 1), is_retracted(n, 0);
   bool needs_clearance = false;
   for (int sweep = 0;; ++sweep) {
-    const std::vector<std::array<std::uint32_t, 2>> pairs = crossings_near(base, envelope, changed, 1.0, context);
+    const std::vector<std::array<std::uint32_t, 2>> pairs = crossings_near(base, envelope, changed, changed, 1.0, context);
     context.progress(static_cast<double>(sweep) / (sweep + 5.0));
     const Column<VertexId, double> before = envelope.height;
     if (pairs.empty()) {
@@ -278,7 +271,8 @@ void retract_collisions(const LayerBase& base, const EnvelopeOptions& options, E
       }
       needs_clearance = sweep < options.max_retract_sweeps;
     }
-    unwarp(base, options, HeightLimit::warp, envelope, context);
+    for (const VertexId v : changed.ids()) changed[v] = envelope.height[v] != before[v] ? 1 : 0;
+    unwarp(base, options, HeightLimit::warp, envelope, context, &changed);
     for (const VertexId v : changed.ids()) changed[v] = envelope.height[v] != before[v] ? 1 : 0;
   }
 }

@@ -1,7 +1,6 @@
 // Collision avoidance between opposing layers (method.md §5, [ET15 §3.2.5]).
 #pragma once
 
-#include "volmesh/envelope/classify.h"
 #include "volmesh/envelope/envelope.h"
 
 namespace sterna::volmesh {
@@ -14,9 +13,9 @@ void share_gaps(const LayerBase& base, const EnvelopeOptions& options, Envelope&
 /// sweep; places that still collide after max_retract_sweeps collapse. \post no crossing pair among envelope triangles.
 void retract_collisions(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
 
-/// Raises heights that were lowered more than needed towards min(target, cap) and relaxes the envelope around them, where macro-elements stay valid and the envelope stays clear of itself.
+/// Raises heights that were lowered more than needed towards min(target, cap) where macro-elements stay valid and the envelope stays clear of itself.
 /// \pre, \post envelope free of self-intersection.
-void regrow_clear(const LayerBase& base, const Classification& classes, Envelope& envelope, const RunContext& context);
+void regrow_clear(const LayerBase& base, Envelope& envelope, const RunContext& context);
 
 /// The envelope as an indexed triangle set: points = wall points, then one envelope point per vertex; corners of collapsed vertices refer to the wall.
 struct EnvelopeSurface {

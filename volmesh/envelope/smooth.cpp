@@ -81,23 +81,24 @@ void smooth_heights(const LayerBase& base, const Classification& classes, int sw
 
 void smooth_directions(const LayerBase& base, const Classification& classes, int sweeps, Envelope& envelope, const RunContext& context,
                        const Column<VertexId, std::uint8_t>* region) {
+  std::vector<VertexId> moving;
+  for (const VertexId v : envelope.direction.ids())
+    if ((!region || (*region)[v]) && !classes.vertex[v].is_corner && base.visibility[v] > 0.0) moving.push_back(v);
+  std::vector<Vec3> next(moving.size());
   for (int sweep = 0; sweep < sweeps; ++sweep) {
-    Column<VertexId, Vec3> next = envelope.direction;
-    parallel_for(context, next.size(), [&](std::size_t i) {
-      const VertexId v(i);
-      if (region && !(*region)[v]) return;
+    parallel_for(context, moving.size(), [&](std::size_t i) {
+      const VertexId v = moving[i];
       Vec3 sum;
       double weights = 0.0;
       for_each_partner(base, classes, v, [&](VertexId other, double weight) {
         sum += weight * envelope.direction[other];
         weights += weight;
       });
-      if (weights == 0.0 || base.visibility[v] <= 0.0) return;
-      const Vec3 d = normalized(envelope.direction[v] + k_relaxation * (sum / weights - envelope.direction[v]));
-      if (norm2(d) == 0.0) return;
-      next[v] = pull_into_cone(base, v, d, k_cone_cosine);
+      const Vec3 mean = weights > 0.0 ? sum / weights : envelope.direction[v];
+      const Vec3 d = normalized(envelope.direction[v] + k_relaxation * (mean - envelope.direction[v]));
+      next[i] = norm2(d) > 0.0 ? pull_into_cone(base, v, d, k_cone_cosine) : envelope.direction[v];
     });
-    envelope.direction = std::move(next);
+    parallel_for(context, moving.size(), [&](std::size_t i) { envelope.direction[moving[i]] = next[i]; });
   }
 }
 

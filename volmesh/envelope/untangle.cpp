@@ -111,10 +111,11 @@ void untangle_edges(const LayerBase& base, const EnvelopeOptions& options, Envel
   level_steps(base, options, k_untangle_smoothing_sweeps, HeightLimit::untangle, envelope, context);
 }
 
-void unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit reason, Envelope& envelope, const RunContext& context) {
+void unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit reason, Envelope& envelope, const RunContext& context,
+            const Column<VertexId, std::uint8_t>* suspects) {
   const EnvelopeScale scale = scale_of(options);
   const std::size_t n = base.wall.n_vertices();
-  Column<VertexId, std::uint8_t> dirty(n, 1);
+  Column<VertexId, std::uint8_t> dirty = suspects ? *suspects : Column<VertexId, std::uint8_t>(n, 1);
   for (int round = 0; round < k_max_unwarp_rounds; ++round) {
     const std::vector<TriangleId> bad = invalid_macros(base, envelope, context, &dirty);
     if (bad.empty()) return;

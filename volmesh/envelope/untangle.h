@@ -18,8 +18,10 @@ void level_steps(const LayerBase& base, const EnvelopeOptions& options, int swee
 std::array<double, 2> edge_height_limits(const Point& p1, const Vec3& d1, const Point& p2, const Vec3& d2);
 
 /// Lowers heights to the largest values for which every macro-element is valid with margin (method.md §4); collapses vertices below h_min.
+/// With `suspects`, only elements at marked vertices are looked at first: the others are known to be valid.
 /// \post invalid_macros() is empty.
-void unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit reason, Envelope& envelope, const RunContext& context);
+void unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit reason, Envelope& envelope, const RunContext& context,
+            const Column<VertexId, std::uint8_t>* suspects = nullptr);
 
 /// The envelope with heights raised one step towards min(target, cap), without steep steps; a proposal, not tested. Later rounds take smaller steps.
 Envelope raised(const LayerBase& base, const Envelope& envelope, int round, const RunContext& context);

@@ -81,7 +81,8 @@ std::vector<TriangleId> invalid_macros(const LayerBase& base, const Envelope& en
       });
 }
 
-void apply_where_valid(const LayerBase& base, Envelope& envelope, const Envelope& proposal, const RunContext& context) {
+void apply_where_valid(const LayerBase& base, Envelope& envelope, const Envelope& proposal, const RunContext& context,
+                       const Column<VertexId, std::uint8_t>* first_dirty) {
   const std::size_t n = base.wall.n_vertices();
   Column<VertexId, std::uint8_t> moved(n, 0);
   Envelope mixed = envelope;
@@ -92,7 +93,7 @@ void apply_where_valid(const LayerBase& base, Envelope& envelope, const Envelope
     mixed.height[v] = proposal.height[v];
     mixed.direction[v] = proposal.direction[v];
   });
-  Column<VertexId, std::uint8_t> dirty = moved;
+  Column<VertexId, std::uint8_t> dirty = first_dirty ? *first_dirty : moved;
   while (true) {
     bool has_reverted = false;
     const std::vector<TriangleId> bad = invalid_macros(base, mixed, context, &dirty);

@@ -26,6 +26,8 @@ std::vector<TriangleId> invalid_macros(const LayerBase& base, const Envelope& en
 
 /// Moves `envelope` to `proposal` (direction and height) at every vertex where this leaves its macro-elements valid: all at once, then vertices of
 /// invalid elements go back, until none is invalid that was not so before. \pre same wall; vertices with proposal == envelope are not touched.
-void apply_where_valid(const LayerBase& base, Envelope& envelope, const Envelope& proposal, const RunContext& context);
+/// With `dirty`, only elements at marked vertices are looked at first: the others are known to be valid in the proposal.
+void apply_where_valid(const LayerBase& base, Envelope& envelope, const Envelope& proposal, const RunContext& context,
+                       const Column<VertexId, std::uint8_t>* dirty = nullptr);
 
 }  // namespace sterna::volmesh
