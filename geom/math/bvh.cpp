@@ -59,11 +59,11 @@ BoxTree::BoxTree(std::span<const Box> boxes, const RunContext& context) : boxes_
 
   // A node under construction keeps its range of entries in first and count.
   nodes_.push_back({{}, 0, static_cast<std::uint32_t>(boxes.size())});
-  std::vector<std::size_t> level_begin = {0};
-  while (level_begin.back() < nodes_.size()) {
-    const std::size_t begin = level_begin.back();
+  level_begin_ = {0};
+  while (level_begin_.back() < nodes_.size()) {
+    const std::size_t begin = level_begin_.back();
     const std::size_t end = nodes_.size();
-    level_begin.push_back(end);
+    level_begin_.push_back(end);
     const std::size_t chunk = std::max<std::size_t>(1, k_large_node / (nodes_[begin].count + 1));
     parallel_for(
         context, end - begin,
@@ -86,9 +86,9 @@ BoxTree::BoxTree(std::span<const Box> boxes, const RunContext& context) : boxes_
   order_.resize(entries.size());
   parallel_for(context, entries.size(), [&](std::size_t i) { order_[i] = entries[i].item; });
   // Boxes from the deepest level to the root.
-  for (std::size_t level = level_begin.size() - 1; level-- > 0;) {
-    const std::size_t begin = level_begin[level];
-    parallel_for(context, level_begin[level + 1] - begin, [&](std::size_t i) {
+  for (std::size_t level = level_begin_.size() - 1; level-- > 0;) {
+    const std::size_t begin = level_begin_[level];
+    parallel_for(context, level_begin_[level + 1] - begin, [&](std::size_t i) {
       Node& node = nodes_[begin + i];
       // An empty box must not reach Box::add: its bounds are far away.
       const auto add = [&node](const Box& box) {

@@ -1,6 +1,6 @@
 // Crossing pairs of a set of triangles: each triangle queries the box tree for those of higher number, exact test on each.
 #include <algorithm>
-#include <cmath>
+#include <string>
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
@@ -13,14 +13,14 @@ namespace {
 /// Triangles per task: about 1 ms.
 constexpr std::size_t k_chunk = 512;
 
-void check_indices(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles) {
+void check_input(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles) {
+  const auto fail = [](const std::string& problem) {
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "looking for crossing triangles", .problem = problem});
+  };
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (const std::uint32_t v : triangles[t]) {
-      if (v >= points.size()) {
-        throw Error({.code = ErrorCode::bad_argument,
-                     .attempted = "looking for crossing triangles",
-                     .problem = "triangle " + std::to_string(t) + " refers to point " + std::to_string(v) + " of " + std::to_string(points.size())});
-      }
+      if (v >= points.size()) fail("triangle " + std::to_string(t) + " refers to point " + std::to_string(v) + " of " + std::to_string(points.size()));
+      if (!is_finite(points[v])) fail("point " + std::to_string(v) + " of triangle " + std::to_string(t) + " is not finite");
     }
   }
 }
@@ -29,7 +29,7 @@ void check_indices(std::span<const Vec3> points, std::span<const std::array<std:
 
 CrossingPairs find_crossings(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
                              const RunContext& context, std::size_t limit) {
-  check_indices(points, triangles);
+  check_input(points, triangles);
   std::vector<Box> boxes(triangles.size());
   parallel_for(context, triangles.size(), [&](std::size_t t) {
     for (const std::uint32_t v : triangles[t]) boxes[t].add(points[v]);

@@ -22,19 +22,22 @@ std::array<double, 2> tet_dihedral_range(const std::array<Vec3, 4>& p);
 /// A wedge in CGNS order: base 0 1 2, top 3 4 5, growth edges 0-3, 1-4, 2-5; sides are bilinear.
 using WedgePoints = std::array<Vec3, 6>;
 
-/// Exact volume formula of a wedge with bilinear sides (flux through each side = mean of its two triangulations), m^3.
+/// Exact volume formula of a wedge with bilinear sides (flux through each side = mean of its two triangulations), m^3; accurate to rounding of the
+/// terms height times base area, also for very flat wedges.
 double wedge_volume(const WedgePoints& p);
 /// Flux of x/3 relative to `origin` through the bilinear quad a b c d (right-hand normal), m^3; with all faces of a cell it sums to the volume.
 double bilinear_flux(const Vec3& origin, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// The exact wedge test of method.md §6: the Jacobian of the trilinear map is linear over the triangle and quadratic along the height, so it is
 /// positive everywhere iff along each growth edge k, with b0 = J_k(0), b2 = J_k(1), b1 = 2 J_k(1/2) - (b0 + b2)/2:
-/// b0 > 0, b2 > 0 and b1 > -sqrt(b0 b2). Floating-point filter with a forward error bound, undecided cases in exact arithmetic.
+/// b0 > 0, b2 > 0 and b1 > -sqrt(b0 b2). Floating-point filter with a forward error bound (about 14 M wedges/s/core), undecided cases in exact
+/// arithmetic (3 us). False when a coordinate is not finite. Coordinates zero or of magnitude 1e-36 .. 1e48.
 bool is_wedge_valid(const WedgePoints& p);
 /// The same test without the exact fallback: false where the filter cannot prove validity. For inner loops that only need "surely valid".
 bool is_wedge_surely_valid(const WedgePoints& p);
 /// Smallest of the nine numbers b0, b1', b2 over the three edges (b1' = b1 + sqrt(b0 b2) when b0, b2 > 0), each divided by the product of the lengths of
-/// the three edges that meet there: a scaled Jacobian in (-inf, 1]; positive iff valid (up to rounding). For reports and heuristics.
+/// the three edges that meet there (for b1': twice the geometric mean of both ends' products): a scaled Jacobian in (-inf, 1]; positive iff valid
+/// (up to rounding); at most 0 when an edge has no length. For reports and heuristics.
 double wedge_quality(const WedgePoints& p);
 
 /// Pyramid with bilinear base 0123 and apex 4 (CGNS): the Jacobian is bilinear over the base, so it is valid iff the four tets

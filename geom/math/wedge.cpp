@@ -79,6 +79,8 @@ Verdict filter(const WedgePoints& p) {
 }
 
 bool is_wedge_valid_exactly(const WedgePoints& p) {
+  // The filter cannot decide about these, and expansions would drop them when multiplied by zero.
+  if (!std::all_of(p.begin(), p.end(), is_finite)) return false;
   const auto n = normal_coefficients<Expansion<2>>(p);
   for (std::size_t k = 0; k < 3; ++k) {
     const Triple<Expansion<2>> d = difference<Expansion<2>>(p[k], p[k + 3]);

@@ -325,17 +325,36 @@ TEST(FindCrossings, CleanSurfacesHaveNoneAndInterpenetratingOnesDo) {
   EXPECT_EQ(find_crossings({}, {}, context).total, 0);
 }
 
-TEST(FindCrossings, RejectsIndicesOutOfRange) {
-  const std::vector<Vec3> points(3);
-  const std::vector<Indices> triangles = {{0, 1, 2}, {0, 1, 3}};
+std::string rejection(const std::vector<Vec3>& points, const std::vector<Indices>& triangles) {
   try {
     find_crossings(points, triangles, RunContext());
-    FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::bad_argument);
-    EXPECT_NE(std::string(error.what()).find("triangle 1 refers to point 3 of 3"), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(FindCrossings, RejectsIndicesOutOfRangeAndPointsThatAreNotFinite) {
+  EXPECT_EQ(rejection(std::vector<Vec3>(3), {{0, 1, 2}, {0, 1, 3}}), "looking for crossing triangles: triangle 1 refers to point 3 of 3");
+  std::vector<Vec3> points(4);
+  points[2].y = std::nan("");
+  EXPECT_EQ(rejection(points, {{0, 1, 3}, {1, 2, 3}}), "looking for crossing triangles: point 2 of triangle 1 is not finite");
+  EXPECT_EQ(rejection(points, {{0, 1, 3}}), "accepted");  // only points in use matter
+}
+
+TEST(FindCrossings, StopsWhenCancelled) {
+  std::stop_source source;
+  source.request_stop();
+  const Soup soup = soup_of(test::sphere(4));
+  try {
+    find_crossings(soup.points, soup.triangles, RunContext({.stop = source.get_token()}));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::cancelled);
   }
 }
+
 
 }  // namespace
 }  // namespace sterna

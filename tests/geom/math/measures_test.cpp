@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -110,6 +111,28 @@ TEST(Wedge, TwistedWedgeIsValidUpToTheHalfTurn) {
   // One unit in the last place to the valid side of the limit.
   EXPECT_TRUE(reference_is_valid(with_top(-1, 0x1p-53, -0x1p-53, -1, 0.5)));
   EXPECT_TRUE(is_wedge_valid(with_top(-1, 0x1p-53, -0x1p-53, -1, 0.5)));
+}
+
+TEST(Wedge, ExactTestKeepsItsRange) {
+  for (const double scale : {0x1p-119, 1.0, 0x1p159}) {  // 1e-36 .. 1e48
+    const auto scaled = [&](const WedgePoints& p) { return mapped(p, [&](const Vec3& x) { return scale * (x + Vec3{1, 1, 1}); }); };
+    for (const double d : {0.0, 0x1p-51, 0x1p-50, 0x1p-40}) {
+      const WedgePoints p = scaled(with_top(-0.75, d, -d, -0.75, 0x1p-20));
+      EXPECT_EQ(is_wedge_valid(p), reference_is_valid(p)) << scale << " " << d;
+      EXPECT_EQ(is_wedge_valid(p), d > 0.0) << scale << " " << d;
+    }
+  }
+}
+
+TEST(Wedge, CoordinatesThatAreNotFiniteAreInvalid) {
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
+    for (std::size_t i = 0; i < 18; ++i) {
+      WedgePoints p = k_right;
+      p[i / 3][i % 3] = bad;
+      EXPECT_FALSE(is_wedge_valid(p)) << bad << " at " << i;
+      EXPECT_FALSE(is_wedge_surely_valid(p)) << bad << " at " << i;
+    }
+  }
 }
 
 TEST(Wedge, CollapsedWedgesAreInvalid) {

@@ -182,14 +182,29 @@ TEST(Predicates, SignsSurviveExactTransformations) {
 TEST(Predicates, CoordinatesOfVeryDifferentSize) {
   std::mt19937_64 random(15);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  std::uniform_int_distribution<int> exponent(-100, 100);
-  for (int n = 0; n < 1000; ++n) {
+  for (int n = 0; n < 2000; ++n) {
+    // Every second time the whole range that the header promises, 1e-80 .. 1e100.
+    std::uniform_int_distribution<int> exponent(n % 2 == 0 ? -100 : -264, n % 2 == 0 ? 100 : 332);
     std::array<Vec3, 4> p;
     for (Vec3& q : p) {
       q = {std::ldexp(uniform(random), exponent(random)), std::ldexp(uniform(random), exponent(random)), std::ldexp(uniform(random), exponent(random))};
     }
     ASSERT_EQ(orient3d(p[0], p[1], p[2], p[3]), exact_orient3d(p[0], p[1], p[2], p[3]));
     ASSERT_EQ(orient2d({p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}), exact_orient2d({p[0].x, p[0].y}, {p[1].x, p[1].y}, {p[2].x, p[2].y}));
+  }
+}
+
+TEST(Predicates, RangeOfTheSpheres) {
+  // 1e-42 .. 1e60; on the sphere, one unit in the last place beside it.
+  for (const int exponent : {-138, 0, 198}) {
+    for (const int n : {-1, 0, 1}) {
+      std::array<Vec3, 5> p = {Vec3{0.7, 0.3, 0.9}, {0.7, 0.9, 0.9}, {0.1, 0.3, 0.9}, {0.1, 0.3, 0.2}, {0.7, 0.9, 0.2}};
+      p[4].z = nudge(p[4].z, n);
+      for (Vec3& q : p) q = std::ldexp(1.0, exponent) * q;
+      ASSERT_EQ(insphere(p[0], p[1], p[2], p[3], p[4]), exact_insphere(p[0], p[1], p[2], p[3], p[4]));
+      const auto flat = [](const Vec3& q) { return Vec2{q.x, q.z}; };
+      ASSERT_EQ(incircle(flat(p[0]), flat(p[2]), flat(p[3]), flat(p[4])), exact_incircle(flat(p[0]), flat(p[2]), flat(p[3]), flat(p[4])));
+    }
   }
 }
 
