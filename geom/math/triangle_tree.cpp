@@ -18,7 +18,7 @@ namespace {
 
 using Corners = std::array<Point, 3>;
 
-/// A node's far field is used beyond this many radii from its centre: the sum is then within 0.05 in the tests (on aircraft surfaces 0.02,
+/// A node's far field is used beyond this many radii from its centre: the sum is then within 0.05 in the tests (on aircraft surfaces 0.013,
 /// without the second moments 0.12), where 1/2 would be undecided.
 constexpr double k_far_radii = 3.0;
 /// Rounding of a distance between a point and a triangle, in units of the largest coordinate: keeps a box from being skipped although one of its
