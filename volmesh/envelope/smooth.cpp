@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geom/base/parallel.h"
 #include "volmesh/envelope/initial.h"
@@ -19,6 +20,7 @@ constexpr double k_cone_cosine = 0.4226;
 constexpr double k_convex_feature_weight = 0.2;
 constexpr int k_concave_rings = 8;  ///< reach of the wide smoothing around concave features: a layer is 4 to 9 edges thick by eq. (1)
 constexpr int k_region_rounds = 6;
+constexpr double k_worthwhile_share = 0.93;  ///< of the invalid elements may be left by a round, or the next one is not worth its time
 constexpr int k_region_rings = 6;
 
 /// Calls f(neighbour, weight) for the vertices that take part in the smoothing of v.
@@ -111,9 +113,11 @@ Column<VertexId, std::uint8_t> concave_region(const LayerBase& base, const Class
 
 void smooth_tangled_regions(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, Envelope& envelope,
                             const RunContext& context) {
+  std::size_t n_before = std::numeric_limits<std::size_t>::max();
   for (int round = 0; round < k_region_rounds; ++round) {
     const std::vector<TriangleId> bad = invalid_macros(base, envelope, context);
-    if (bad.empty()) return;
+    if (bad.empty() || static_cast<double>(bad.size()) > k_worthwhile_share * static_cast<double>(n_before)) return;
+    n_before = bad.size();
     Column<VertexId, std::uint8_t> region(base.wall.n_vertices(), 0);
     for (const TriangleId t : bad)
       for (const VertexId v : base.wall.triangles[t]) region[v] = 1;
