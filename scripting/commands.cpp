@@ -81,8 +81,8 @@ int print_volume_info(const InputPath& input, double unit, const CommandContext&
 
 int print_surface_info(const InputPath& input, double unit, const CommandContext& context) {
   const SurfaceSoup soup = io::read_surface_file(input.path, context.run.part("read", 0.0, 0.3));
-  context.console.print(fmt::format("  surface  {} triangles, {} points, {} patches {}", count_text(static_cast<std::int64_t>(soup.triangles.size())),
-                                    count_text(static_cast<std::int64_t>(soup.points.size())), soup.patch_names.size(), soup.has_names ? "by name" : "without names"));
+  context.console.print(fmt::format("  surface  {} triangles, {} points, patches {}", count_text(static_cast<std::int64_t>(soup.triangles.size())),
+                                    count_text(static_cast<std::int64_t>(soup.points.size())), soup.has_names ? "by name" : "without names"));
   Box box;
   for (const Vec3& p : soup.points) box.add(unit * p);
   print_box(context, box);
@@ -167,9 +167,10 @@ int execute(const InfoCommand& command, const CommandContext& context) {
 }
 
 int list_formats(const CommandContext& context) {
-  context.console.print(fmt::format("{:<14} {:<28} {:<12} {:<12} {}", "format", "extensions (also .gz to read)", "surface", "volume", "patch names"));
+  constexpr const char* k_row = "{:<10} {:<42} {:<8} {:<12} {}";
+  context.console.print(fmt::format(k_row, "format", "extensions (each also with .gz for reading)", "surface", "volume", "patch names"));
   for (const io::Format& format : io::formats())
-    context.console.print(fmt::format("{:<14} {:<28} {:<12} {:<12} {}", format.name, format.extensions, read_write(format.read_surface != nullptr, false),
+    context.console.print(fmt::format(k_row, format.name, format.extensions, read_write(format.read_surface != nullptr, false),
                                       read_write(format.read_volume != nullptr, format.write_volume != nullptr), format.carries_patch_names ? "yes" : "no"));
   return k_exit_success;
 }
