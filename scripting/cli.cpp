@@ -17,6 +17,9 @@
 namespace sterna::scripting {
 namespace {
 
+/// More threads are a slip of the keyboard: far above any machine, far below what the system refuses.
+constexpr int k_max_threads = 1024;
+
 /// Options that every command has.
 struct CommonSettings {
   ConsoleSettings console;
@@ -74,7 +77,7 @@ void add_schema_options(CLI::App& command, OptionOverrides& overrides) {
 }
 
 void add_common_options(CLI::App& app, CommonSettings& common) {
-  app.add_option("--threads", common.threads, "worker threads; 0 = all of the machine. The result does not depend on it")->check(CLI::NonNegativeNumber);
+  app.add_option("--threads", common.threads, "worker threads; 0 = all of the machine. The result does not depend on it")->check(CLI::Range(0, k_max_threads));
   app.add_option("--seed", common.seed, "seed of random numbers (math.random of scripts)");
   app.add_flag("-q,--quiet", common.console.is_quiet, "no log and no progress, only results, warnings and errors");
   app.add_flag("-v,--verbose", common.console.is_verbose, "more log");

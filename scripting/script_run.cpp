@@ -194,6 +194,21 @@ void open_libraries(lua_State* state) {
   lua_settop(state, 0);
 }
 
+/// A name that nothing has would be nil, and a table drops what is nil: unit = parsec would silently be no unit at all.
+int unknown_global(lua_State* state) {
+  if (lua_type(state, 2) != LUA_TSTRING) return 0;
+  return luaL_error(state, "unknown name (global '%s')", lua_tostring(state, 2));
+}
+
+void refuse_unknown_globals(lua_State* state) {
+  lua_pushglobaltable(state);
+  lua_newtable(state);
+  lua_pushcfunction(state, unknown_global);
+  lua_setfield(state, -2, "__index");
+  lua_setmetatable(state, -2);
+  lua_pop(state, 1);
+}
+
 void register_verbs(lua_State* state) {
   register_objects(state);
   for (const ScriptVerb& verb : script_verbs()) {
@@ -216,6 +231,7 @@ int run_source(lua_State* state) {
   const auto& source = *static_cast<const Source*>(lua_touserdata(state, 1));
   open_libraries(state);
   register_verbs(state);
+  refuse_unknown_globals(state);
   lua_sethook(state, check_stop_hook, LUA_MASKCOUNT, k_instructions_per_check);
   if (luaL_loadbufferx(state, source.text->data(), source.text->size(), source.chunk_name->c_str(), "t") != LUA_OK) return lua_error(state);
   lua_call(state, 0, 0);
@@ -234,7 +250,7 @@ int add_traceback(lua_State* state) {
   return 1;
 }
 
-/// Lua's own message, with a suggestion where a global verb is misspelt.
+/// Lua's own message, with a suggestion where a verb or unit is misspelt.
 Error with_suggestion(const Error& error) {
   if (error.code() != ErrorCode::script_failed) return error;
   ErrorInfo info = error.info();

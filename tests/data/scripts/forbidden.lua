@@ -1,2 +1,2 @@
--- expect script_failed forbidden.lua:2: attempt to index a nil value (global 'io')
+-- expect script_failed forbidden.lua:2: unknown name (global 'io')
 io.open("/etc/passwd")

@@ -1,3 +1,3 @@
--- expect script_failed misspelt_verb.lua:2: attempt to call a nil value (global 'read_surfaces')
+-- expect script_failed misspelt_verb.lua:2: unknown name (global 'read_surfaces')
 read_surfaces "box.stl"
 -- expect did you mean read_surface?
