@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "geom/math/measures.h"
 #include "io/volume_file.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
@@ -204,6 +205,19 @@ TEST(Su2Read, EveryKindIsFlipped) {
     EXPECT_NEAR(test::volume_of(back), volume, 1e-13 * volume);
     EXPECT_NEAR(test::enclosed_volume(back), volume, 1e-13 * volume);
   }
+}
+
+TEST(Su2Read, WarpedValidPrismsStay) {
+  // Valid by the exact test, but of negative volume when its sides are cut along the wrong diagonals: only the exact formula tells its winding.
+  HybridMesh mesh;
+  const WedgePoints p = {{{-1.38, 1.26, -0.04}, {2.57, 1.04, -0.21}, {-0.27, 1.22, -0.07}, {-0.82, -0.99, 0.2}, {0.97, 1.42, 2.05}, {-0.38, -0.34, 0.69}}};
+  ASSERT_TRUE(is_wedge_valid(p));
+  ASSERT_LT(tet_volume(p[0], p[1], p[2], p[5]) + tet_volume(p[0], p[1], p[5], p[4]) + tet_volume(p[0], p[4], p[5], p[3]), 0.0);
+  for (const Point& point : p) mesh.points.push_back(point);
+  mesh.prisms.push_back({NodeId(0), NodeId(1), NodeId(2), NodeId(3), NodeId(4), NodeId(5)});
+  const auto path = test::scratch() / "mesh.su2";
+  write(mesh, path);
+  EXPECT_EQ(read(path).prisms, mesh.prisms);
 }
 
 TEST(Su2Read, KindsFollowFromNames) {
