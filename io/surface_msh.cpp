@@ -1,7 +1,7 @@
 // Gmsh MSH: sections between $Name and $EndName in any order (4.1: entities before elements). Tags are sparse: a map leads to point numbers.
 #include "io/surface_msh.h"
 
-#include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <string>
 #include <unordered_map>
@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t k_stop_interval = 1 << 16;
 constexpr std::int64_t k_surface_dimension = 2;
+constexpr std::int64_t k_max_physical_tag = 2147483647;
 /// Shortest line of a node block (tag and newline) and of an element; bounds for the memory that a count may ask for.
 constexpr std::size_t k_min_node_bytes = 2;
 constexpr std::size_t k_min_element_bytes = 4;
@@ -32,16 +33,29 @@ std::size_t nodes_of_type(std::int64_t type) {
     case 7: return 5;   // pyramid
     case 8: return 3;   // line of second order
     case 9: return 6;   // triangle of second order
+    case 10: return 9;  // quadrangle of second order, with and (16) without a node in its middle
+    case 16: return 8;
     case 11: return 10; // tetrahedron of second order
+    case 12: return 27; // hexahedra, prisms, pyramids of second order: complete, serendipity
+    case 17: return 20;
+    case 13: return 18;
+    case 18: return 15;
+    case 14: return 14;
+    case 19: return 13;
     default: return 0;
   }
 }
+
+/// Faces of second order give their corners.
+bool is_triangle(std::int64_t type) { return type == 2 || type == 9; }
+bool is_quadrangle(std::int64_t type) { return type == 3 || type == 10 || type == 16; }
 
 class MshReader {
  public:
   MshReader(const FileBuffer& buffer, const RunContext& context) : scanner_(buffer), builder_(buffer.source), context_(context) {}
 
   SurfaceSoup read() {
+    if (scanner_.peek().starts_with('(')) throw_unsupported(scanner_.source(), "this is a Fluent mesh, not one of Gmsh", "save as MSH 4.1 ASCII of Gmsh, or as STL");
     scanner_.keyword("$MeshFormat");
     const std::string version(scanner_.token("the format's version"));
     if (version != "4.1" && version != "2.2") throw_unsupported(scanner_.source(), "MSH version " + version + " (4.1 and 2.2 are read)", "save as MSH 4.1 ASCII");
@@ -56,6 +70,7 @@ class MshReader {
       else if (section == "$Entities" && is_v4) read_entities();
       else if (section == "$Nodes") is_v4 ? read_nodes_v4() : read_nodes_v2();
       else if (section == "$Elements") is_v4 ? read_elements_v4() : read_elements_v2();
+      else if (section == "$PartitionedEntities") throw_unsupported(scanner_.source(), "a partitioned MSH file", "save the mesh without partitions");
       else skip_to_end(section);
       if (is_known(section)) scanner_.keyword("$End" + section.substr(1));
     }
@@ -74,6 +89,14 @@ class MshReader {
     while (!scanner_.at_end())
       if (scanner_.token("the end of a section") == end) return;
     scanner_.fail("found the end of the file, expected " + end);
+  }
+
+  /// Without the sign, which tells that the group turns the entity round.
+  std::int64_t read_physical_tag() {
+    const std::int64_t tag = scanner_.integer("the tag of a physical group");
+    if (std::abs(tag + (tag < 0 ? 1 : 0)) > k_max_physical_tag)
+      scanner_.fail("found " + std::to_string(tag) + " as the tag of a physical group, expected a number of 32 bits");
+    return std::abs(tag);
   }
 
   void read_physical_names() {
@@ -96,7 +119,7 @@ class MshReader {
         for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) scanner_.real("a coordinate of an entity's box");
         const std::size_t n_physical = scanner_.count("the number of physical groups of an entity", 2);
         for (std::size_t k = 0; k < n_physical; ++k) {
-          const std::int64_t physical = scanner_.integer("the tag of a physical group");
+          const std::int64_t physical = read_physical_tag();
           if (dimension == 2 && k == 0) physical_of_surface_[tag] = physical;
         }
         if (dimension == 0) continue;
@@ -125,12 +148,16 @@ class MshReader {
     std::vector<std::int64_t> tags;
     for (std::size_t block = 0; block < n_blocks; ++block) {
       context_.check_stop();
-      scanner_.integer("the dimension of an entity");
+      const std::int64_t dimension = scanner_.integer("the dimension of an entity");
+      if (dimension < 0 || dimension > 3) scanner_.fail("found " + std::to_string(dimension) + " as the dimension of an entity, expected 0 to 3");
       scanner_.integer("the tag of an entity");
-      if (scanner_.integer("0 or 1 for parametric nodes") != 0) throw_unsupported(scanner_.source(), "parametric nodes", "save without parametric coordinates");
+      const bool is_parametric = scanner_.integer("0 or 1 for parametric nodes") != 0;
       tags.resize(scanner_.count("the number of nodes of a block", k_min_node_bytes));
       for (std::int64_t& tag : tags) tag = scanner_.integer("the tag of a node");
-      for (const std::int64_t tag : tags) add_node(tag, read_point());
+      for (const std::int64_t tag : tags) {
+        add_node(tag, read_point());
+        for (std::int64_t k = 0; is_parametric && k < dimension; ++k) scanner_.real("a parametric coordinate of a node");
+      }
     }
   }
 
@@ -159,8 +186,8 @@ class MshReader {
       if (found == point_of_tag_.end()) scanner_.fail("found node " + std::to_string(tag) + ", which $Nodes does not list");
       if (k < 4) corners[k] = found->second;
     }
-    if (type == 2 || type == 9) builder_.add_triangle(corners[0], corners[1], corners[2]);
-    if (type == 3) builder_.add_polygon(corners);
+    if (is_triangle(type)) builder_.add_triangle(corners[0], corners[1], corners[2]);
+    if (is_quadrangle(type)) builder_.add_polygon(corners);
   }
 
   std::size_t require_type(std::int64_t type) {
@@ -175,12 +202,12 @@ class MshReader {
     scanner_.integer("the smallest element tag");
     scanner_.integer("the largest element tag");
     for (std::size_t block = 0; block < n_blocks; ++block) {
-      const std::int64_t dimension = scanner_.integer("the dimension of an entity");
+      scanner_.integer("the dimension of an entity");
       const std::int64_t entity = scanner_.integer("the tag of an entity");
       const std::int64_t type = scanner_.integer("an element type");
       const std::size_t n = scanner_.count("the number of elements of a block", k_min_element_bytes);
       const std::size_t n_nodes = require_type(type);
-      if (dimension == k_surface_dimension) {
+      if (is_triangle(type) || is_quadrangle(type)) {
         const auto physical = physical_of_surface_.find(entity);
         set_patch(physical == physical_of_surface_.end() ? 0 : physical->second, entity);
       }
@@ -201,12 +228,12 @@ class MshReader {
       const std::size_t n_tags = scanner_.count("the number of tags of an element", 2);
       std::int64_t physical = 0, entity = 0;
       for (std::size_t k = 0; k < n_tags; ++k) {
-        const std::int64_t tag = scanner_.integer("a tag of an element");
-        if (k == 0) physical = tag;
-        if (k == 1) entity = tag;
+        if (k == 0) physical = read_physical_tag();
+        else if (k == 1) entity = scanner_.integer("the entity of an element");
+        else scanner_.integer("a tag of an element");
       }
       const std::size_t n_nodes = require_type(type);
-      if (type == 2 || type == 3 || type == 9) set_patch(physical, entity);
+      if (is_triangle(type) || is_quadrangle(type)) set_patch(physical, entity);
       read_element(type, n_nodes);
     }
   }

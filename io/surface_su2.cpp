@@ -1,174 +1,200 @@
-// SU2: keys at the beginning of a line, blocks of lines behind them, in any order. Markers are patches; a file without markers gives its own triangles and
-// quads. Lines may carry trailing indices (formats.md §2.2).
+// SU2: blocks of lines behind "KEY= n", in any order (formats.md 2.2). Markers are the patches; a file without markers and volume elements is a surface mesh
+// whose own triangles and quads are read. What may be trailing on a line is not looked at.
 #include "io/surface_su2.h"
 
-#include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "io/file_buffer.h"
+#include "io/line_blocks.h"
+#include "io/su2_keyword.h"
 #include "io/surface_builder.h"
-#include "io/text_scanner.h"
+#include "io/vtk_cells.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::size_t k_stop_interval = 1 << 16;
-constexpr std::size_t k_min_line_bytes = 4;
-
-struct Face {
-  std::array<std::uint32_t, 4> nodes{};
-  std::uint8_t size = 0;
-  std::size_t offset = 0;  ///< in the file, for messages
-};
-
 struct Marker {
   std::string name;
-  std::vector<Face> faces;
+  LineBlock faces;
 };
 
-std::size_t nodes_of_type(std::int64_t type) {
-  switch (type) {
-    case 3: return 2;
-    case 5: return 3;
-    case 9: return 4;
-    case 10: return 4;
-    case 12: return 8;
-    case 13: return 6;
-    case 14: return 5;
-    default: return 0;
-  }
-}
-
-class Su2Reader {
+class Su2SurfaceReader {
  public:
-  Su2Reader(const FileBuffer& buffer, const RunContext& context) : scanner_(buffer, {.comment = '%', .line_bound = true}), builder_(buffer.source), context_(context) {}
+  Su2SurfaceReader(const FileBuffer& buffer, const RunContext& context)
+      : source_(buffer.source), cursor_(buffer.text(), source_), builder_(source_), context_(context) {}
 
   SurfaceSoup read() {
-    while (!scanner_.at_end()) {
-      const std::string key = read_key();
-      if (key == "NDIME") {
-        if (scanner_.integer("the dimension") != 3) scanner_.fail_expected("3: sterna meshes in three dimensions");
-        scanner_.next_line();
-      } else if (key == "NZONE") {
-        if (scanner_.integer("the number of zones") != 1) throw_unsupported(scanner_.source(), "several zones in one SU2 file", "give each zone a file of its own");
-        scanner_.next_line();
-      } else if (key == "NPOIN") read_points();
-      else if (key == "NELEM") read_elements();
-      else if (key == "NMARK") {
-        scanner_.integer("the number of markers");
-        scanner_.next_line();
-      } else if (key == "MARKER_TAG") read_marker();
-      else scanner_.next_line();
-    }
-    for (const Marker& marker : markers_) add_faces(marker);
-    if (markers_.empty()) add_faces(elements_);
+    while (cursor_.find_content()) take_line();
+    check_completeness();
+    read_points();
+    for (const Marker& marker : markers_) read_marker(marker);
+    read_elements();
     SurfaceSoup soup = builder_.finish(true);
     soup.has_names = !markers_.empty();
     return soup;
   }
 
  private:
-  /// "NPOIN=", "NPOIN=7" or "NPOIN =": the word before '='; what follows is left to be read.
-  std::string read_key() {
-    const std::string_view token = scanner_.peek();
-    const std::size_t equals = token.find('=');
-    std::string key(token.substr(0, equals));
-    scanner_.token("a key such as NPOIN=");
-    if (equals == std::string_view::npos) {
-      if (scanner_.peek() == "=") scanner_.token("=");
-      pending_.clear();
-    } else {
-      pending_ = std::string(token.substr(equals + 1));
+  // ---- first pass: where the blocks are
+
+  void take_line() {
+    const std::string_view line = cursor_.rest_of_line();
+    const Su2Keyword keyword = split_su2_keyword(line);
+    if (keyword.key.empty()) {
+      if (!is_in_unknown_section_)
+        cursor_.fail("found " + quoted_excerpt(line) + ", expected a keyword such as NPOIN= or MARKER_TAG=" +
+                     (last_block_.empty() ? std::string() : "; " + last_block_ + " announces fewer lines than there are"));
+      return cursor_.next_line();
     }
-    return key;
+    is_in_unknown_section_ = false;
+    if (keyword.key == "NPOIN") return take_block(points_, keyword);
+    if (keyword.key == "NELEM") return take_block(elements_, keyword);
+    if (keyword.key == "MARKER_TAG") return take_marker(keyword);
+    if (keyword.key == "NDIME") check_dimension(keyword);
+    else if (keyword.key == "NMARK") n_markers_ = su2_count(keyword, cursor_);
+    else if (keyword.key == "NZONE") check_zones(keyword);
+    else is_in_unknown_section_ = keyword.key != "IZONE";  // free-form deformation boxes, periodic transformations, ...
+    cursor_.next_line();
   }
 
-  std::size_t read_count(std::string_view expected) {
-    if (pending_.empty()) return scanner_.count(expected, k_min_line_bytes);
-    std::size_t n = 0;
-    for (const char c : pending_) {
-      if (c < '0' || c > '9' || n > scanner_.remaining()) scanner_.fail_expected(expected);
-      n = 10 * n + static_cast<std::size_t>(c - '0');
+  void check_dimension(const Su2Keyword& keyword) {
+    if (keyword.value == "2") throw_unsupported(source_, "line " + std::to_string(cursor_.line()) + ": NDIME= 2 is a plane mesh, which has no surface");
+    if (keyword.value != "3") cursor_.fail("found " + quoted_excerpt(keyword.value) + ", expected 3 after NDIME=");
+  }
+
+  void check_zones(const Su2Keyword& keyword) {
+    if (su2_count(keyword, cursor_) != 1)
+      throw_unsupported(source_, "line " + std::to_string(cursor_.line()) + ": a surface of several zones (NZONE= " + std::string(keyword.value) + ")",
+                        "give each zone a file of its own");
+  }
+
+  LineBlock take_lines(const Su2Keyword& keyword) {
+    const std::uint64_t n = su2_count(keyword, cursor_);
+    last_block_ = std::string(keyword.key) + "= in line " + std::to_string(cursor_.line());
+    return cursor_.take_block(n, std::string(keyword.key) + "=");
+  }
+
+  void take_block(std::optional<LineBlock>& block, const Su2Keyword& keyword) {
+    if (block) cursor_.fail("a second " + std::string(keyword.key) + "=; the first is in line " + std::to_string(block->line));
+    block = take_lines(keyword);
+  }
+
+  void take_marker(const Su2Keyword& tag) {
+    const std::string name = su2_marker_name(tag.value);
+    cursor_.next_line();
+    const Su2Keyword count = expect_keyword("MARKER_ELEMS", name);
+    if (name == k_su2_partition_marker) {
+      const std::uint64_t n = su2_count(count, cursor_);
+      cursor_.next_line();
+      expect_keyword("SEND_TO", name);
+      cursor_.take_block(n, "MARKER_ELEMS=");
+      ++n_partition_markers_;
+      return;
     }
-    if (n > scanner_.remaining() / k_min_line_bytes) scanner_.fail("found " + pending_ + ", more than the rest of the file can hold", "the file may have been cut short");
-    return n;
+    markers_.push_back({.name = name, .faces = take_lines(count)});
+  }
+
+  Su2Keyword expect_keyword(std::string_view key, const std::string& marker) {
+    const bool has_line = cursor_.find_content();
+    const Su2Keyword keyword = has_line ? split_su2_keyword(cursor_.rest_of_line()) : Su2Keyword{};
+    if (keyword.key != key)
+      cursor_.fail("found " + (has_line ? quoted_excerpt(cursor_.rest_of_line()) : std::string("the end of the file")) + ", expected " + std::string(key) +
+                   "= of marker \"" + marker + "\"");
+    return keyword;
+  }
+
+  void check_completeness() {
+    if (!points_) cursor_.fail("the file ends here without NPOIN=");
+    const std::uint64_t n_found = markers_.size() + n_partition_markers_;
+    if (n_markers_.value_or(n_found) != n_found)
+      cursor_.fail("found " + std::to_string(n_found) + " markers to the end of the file, expected " + std::to_string(*n_markers_) + " (NMARK=)",
+                   n_found < *n_markers_ ? "the file may have been cut short: copy or write it again" : "");
+    if (markers_.empty() && !elements_) cursor_.fail("the file ends here without NELEM= and without markers");
+    if (n_partition_markers_ > 0) context_.info("markers SEND_RECEIVE (boundaries of a partition) left out: " + std::to_string(n_partition_markers_));
+  }
+
+  // ---- second pass: the numbers
+
+  /// Calls f(cursor, number) at the beginning of every line of a block.
+  template <class F>
+  void for_each_line(const LineBlock& block, const F& f) {
+    for (const LineChunk& chunk : block.chunks) {
+      context_.check_stop();
+      LineCursor cursor(chunk, source_);
+      for (std::uint64_t i = 0; i < chunk.n_items; ++i) {
+        cursor.find_content();
+        f(cursor, chunk.first_item + i);
+        cursor.next_line();
+      }
+    }
   }
 
   void read_points() {
-    const std::size_t n = read_count("the number of points");
-    scanner_.next_line();
-    builder_.reserve_points(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i % k_stop_interval == 0) context_.check_stop();
+    builder_.reserve_points(points_->n_items);
+    for_each_line(*points_, [&](LineCursor& cursor, std::uint64_t i) {
       Vec3 p;
-      for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner_.real("a coordinate of a point");
+      for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = cursor.real("a coordinate of node ", i);
       builder_.add_point(p);
-      scanner_.next_line();
-    }
+    });
   }
 
-  Face read_face(std::size_t n_nodes) {
-    Face face;
-    face.size = static_cast<std::uint8_t>(n_nodes);
-    for (std::size_t k = 0; k < n_nodes; ++k) face.nodes[k] = scanner_.index("a point of a face", 0, 0xffffffffu);
-    face.offset = scanner_.offset();
-    return face;
+  void read_face(LineCursor& cursor, std::uint64_t type, std::uint64_t item) {
+    std::array<std::uint32_t, 4> corners{};
+    const std::span<std::uint32_t> used = std::span(corners).first(type == k_vtk_triangle ? 3 : 4);
+    for (std::uint32_t& corner : used) corner = cursor.index(builder_.n_points(), "a node of face ", item);
+    builder_.add_polygon(used);
   }
 
-  void read_faces(std::size_t n, std::vector<Face>& faces) {
-    scanner_.next_line();
-    for (std::size_t i = 0; i < n; ++i) {
-      if (i % k_stop_interval == 0) context_.check_stop();
-      const std::int64_t type = scanner_.integer("an element type");
-      const std::size_t n_nodes = nodes_of_type(type);
-      if (n_nodes == 0 && type != 1) scanner_.fail_expected("an element type: 5, 9, 10, 12, 13 or 14");
-      if (type == 5 || type == 9) faces.push_back(read_face(n_nodes));
-      scanner_.next_line();
-    }
-  }
-
-  void read_elements() { read_faces(read_count("the number of elements"), elements_.faces); }
-
-  void read_marker() {
-    Marker marker;
-    marker.name = pending_.empty() ? std::string(scanner_.rest_of_line()) : pending_ + std::string(scanner_.peek());
-    if (!pending_.empty()) scanner_.next_line();
-    if (scanner_.at_end() || read_key() != "MARKER_ELEMS") scanner_.fail_expected("MARKER_ELEMS= behind MARKER_TAG=");
-    const std::size_t n = read_count("the number of faces of the marker");
-    if (marker.name == "SEND_RECEIVE") {  // legacy partitions: SEND_TO line, then n lines
-      for (std::size_t i = 0; i < n + 2; ++i) scanner_.next_line();
-      return;
-    }
-    read_faces(n, marker.faces);
-    markers_.push_back(std::move(marker));
-  }
-
-  void add_faces(const Marker& marker) {
+  void read_marker(const Marker& marker) {
     builder_.set_patch(marker.name);
-    for (const Face& face : marker.faces) {
-      for (std::size_t k = 0; k < face.size; ++k) {
-        if (face.nodes[k] < builder_.n_points()) continue;
-        throw_malformed(scanner_.source(), "line " + std::to_string(scanner_.line_at(face.offset)),
-                        "found point " + std::to_string(face.nodes[k]) + ", but the file has " + std::to_string(builder_.n_points()) + " points (numbered from 0)");
-      }
-      builder_.add_polygon(std::span(face.nodes).first(face.size));
-    }
+    for_each_line(marker.faces, [&](LineCursor& cursor, std::uint64_t i) {
+      const std::uint64_t type = cursor.integer("the type of face ", i);
+      if (type != k_vtk_triangle && type != k_vtk_quad)
+        cursor.fail("found element type " + std::to_string(type) + " in marker \"" + marker.name + "\", expected 5 (triangle) or 9 (quadrilateral)");
+      read_face(cursor, type, i);
+    });
   }
 
-  TextScanner scanner_;
+  /// Without markers the faces among the elements are the surface; with markers they are left out.
+  void read_elements() {
+    if (!elements_) return;
+    std::uint64_t n_faces = 0, n_cells = 0;
+    if (markers_.empty()) builder_.set_patch({});
+    for_each_line(*elements_, [&](LineCursor& cursor, std::uint64_t i) {
+      const std::uint64_t type = cursor.integer("the type of element ", i);
+      const bool is_face = type == k_vtk_triangle || type == k_vtk_quad;
+      if (!is_face && !kind_of_vtk_type(static_cast<std::int64_t>(type)))
+        cursor.fail("found element type " + std::to_string(type) +
+                    ", expected 5 (triangle), 9 (quadrilateral), 10 (tetrahedron), 12 (hexahedron), 13 (prism) or 14 (pyramid)");
+      ++(is_face ? n_faces : n_cells);
+      if (is_face && markers_.empty()) read_face(cursor, type, i);
+    });
+    if (markers_.empty() && n_cells > 0)
+      throw_malformed(source_, "line " + std::to_string(elements_->line), "found a volume mesh without markers, expected its boundary faces behind NMARK=");
+    if (!markers_.empty() && n_faces > 0)
+      context_.warn(source_ + ": " + std::to_string(n_faces) + " faces among the elements belong to no marker and are left out");
+  }
+
+  std::string source_;
+  LineCursor cursor_;
   SurfaceBuilder builder_;
   const RunContext& context_;
-  std::string pending_;  ///< what stood behind '=' without a blank
-  Marker elements_;
+  std::optional<LineBlock> points_, elements_;
   std::vector<Marker> markers_;
+  std::optional<std::uint64_t> n_markers_;  ///< announced
+  std::uint64_t n_partition_markers_ = 0;
+  std::string last_block_;
+  bool is_in_unknown_section_ = false;
 };
 
 }  // namespace
 
 SurfaceSoup read_su2(const std::filesystem::path& path, const RunContext& context) {
   const FileBuffer buffer = load_file(path, context);
-  return Su2Reader(buffer, context).read();
+  return Su2SurfaceReader(buffer, context).read();
 }
 
 }  // namespace sterna::io

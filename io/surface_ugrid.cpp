@@ -1,10 +1,11 @@
-// UGRID (AFLR3): stream of counts, coordinates, triangles, quads and their patch numbers; volume cells are not looked at.
+// UGRID (AFLR3): stream of counts, coordinates, triangles, quads and their patch numbers; of the volume cells only their number.
 #include "io/surface_ugrid.h"
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <map>
 #include <string>
+#include <system_error>
 
 #include "io/byte_reader.h"
 #include "io/file_buffer.h"
@@ -33,24 +34,29 @@ Variant variant_of(const std::filesystem::path& path, const std::string& source)
   throw_unsupported(source, "this kind of UGRID file", "use .lb8.ugrid, .b8.ugrid, .lb8l.ugrid or .b8l.ugrid");
 }
 
-/// Names of a .mapbc file beside the mesh (FUN3D): a count, then lines "id condition name"; empty when there is none.
+/// Names of the .mapbc file beside the mesh (FUN3D), wing.mapbc or wing.lb8.mapbc for wing.lb8.ugrid: a count, then lines "id condition name".
+/// Empty when there is none; a patch without a name is left out.
 std::map<std::int64_t, std::string> read_mapbc(const std::filesystem::path& path, const RunContext& context) {
+  std::string stem = path.filename().string();
+  std::filesystem::path file;
+  std::error_code status;  // of a file that cannot be looked at; load_file says what is wrong with the one that is there
+  if (equal_ignoring_case(path.extension().string(), ".gz")) stem.resize(stem.size() - 3);
+  for (int n_extensions = 0; n_extensions < 2; ++n_extensions) {  // ".ugrid", then ".lb8"
+    stem.resize(stem.rfind('.'));
+    const std::filesystem::path candidate = path.parent_path() / (stem + ".mapbc");
+    if (file.empty() && std::filesystem::exists(candidate, status)) file = candidate;
+  }
   std::map<std::int64_t, std::string> names;
-  std::filesystem::path beside = path;
-  while (beside.has_extension()) {
-    beside = beside.parent_path() / beside.stem();
-    std::filesystem::path candidate = beside;
-    candidate += ".mapbc";
-    if (!std::filesystem::exists(candidate)) continue;
-    const FileBuffer buffer = load_file(candidate, context);
-    TextScanner scanner(buffer, {.line_bound = false});
-    const std::size_t n = scanner.count("the number of patches", 4);
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::int64_t id = scanner.integer("a patch number");
-      scanner.integer("a boundary condition number");
-      names[id] = std::string(scanner.rest_of_line());
-    }
-    break;
+  if (file.empty()) return names;
+  const FileBuffer buffer = load_file(file, context);
+  TextScanner scanner(buffer);
+  const std::size_t n = scanner.count("the number of patches", 4);
+  scanner.next_line();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::int64_t id = scanner.integer("a patch number");
+    scanner.integer("a boundary condition number");
+    const std::string_view name = scanner.rest_of_line();
+    if (!name.empty()) names[id] = name;
   }
   return names;
 }
@@ -109,6 +115,13 @@ SurfaceSoup read_ugrid(const std::filesystem::path& path, const RunContext& cont
   for (std::size_t i = 0; i < n_quads; ++i) {
     set_patch();
     builder.add_polygon(std::span(quads).subspan(4 * i, 4));
+  }
+  // Volume cells: only that they are all there, since a file that was cut short is not to be trusted.
+  constexpr std::array<std::size_t, 4> k_cell_corners = {4, 5, 6, 8};
+  for (std::size_t kind = 0; kind < k_cell_corners.size(); ++kind) {
+    const std::uint64_t n = counts[3 + kind];
+    reader.require(n, k_cell_corners[kind] * width, "volume cells of " + std::to_string(k_cell_corners[kind]) + " corners");
+    reader.skip(n * k_cell_corners[kind] * width);
   }
   SurfaceSoup soup = builder.finish(true);
   soup.has_names = true;

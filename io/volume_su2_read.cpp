@@ -1,7 +1,6 @@
 // SU2 reader, formats.md 2.2. Steps: index_zones finds the blocks; read_points; count_cells per chunk, so that each chunk knows its place in the arrays; read_cells;
 // orient_mesh repairs windings. The text is never copied; parsing is parallel over chunks of lines.
 #include <array>
-#include <cctype>
 #include <optional>
 #include <utility>
 
@@ -9,13 +8,12 @@
 #include "io/line_blocks.h"
 #include "io/orientation.h"
 #include "io/patch_names.h"
+#include "io/su2_keyword.h"
 #include "io/volume_su2.h"
 #include "io/vtk_cells.h"
 
 namespace sterna::io {
 namespace {
-
-constexpr std::string_view k_partition_marker = "SEND_RECEIVE";
 
 struct Marker {
   std::string name;
@@ -32,38 +30,6 @@ struct Zone {
   bool is_empty() const { return !points && !elements && markers.empty() && !has_dimension; }
 };
 
-/// "KEY= value" of a line; no key when the line is something else.
-struct Keyword {
-  std::string_view key, value;
-};
-
-std::string_view trimmed(std::string_view text) {
-  const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-Keyword split_keyword(std::string_view line) {
-  const std::size_t equals = line.find('=');
-  const std::string_view key = trimmed(line.substr(0, equals));
-  if (equals == std::string_view::npos || key.empty() || !std::isalpha(static_cast<unsigned char>(key[0]))) return {};
-  return {key, trimmed(line.substr(equals + 1))};
-}
-
-/// The first number of a keyword's value (old files add a second).
-std::uint64_t count_of(const Keyword& keyword, const LineCursor& cursor) {
-  if (keyword.value.empty() || !std::isdigit(static_cast<unsigned char>(keyword.value[0])))
-    cursor.fail("found " + quoted_excerpt(keyword.value) + ", expected a count after " + std::string(keyword.key) + "=");
-  std::uint64_t n = 0;
-  for (const char c : keyword.value) {
-    if (!std::isdigit(static_cast<unsigned char>(c))) break;
-    n = n * 10 + static_cast<std::uint64_t>(c - '0');
-    if (n > std::uint64_t{1} << 40) cursor.fail("the count after " + std::string(keyword.key) + "= is larger than any mesh");
-  }
-  return n;
-}
-
 /// First pass over the file: keywords are understood, blocks are passed over.
 class ZoneIndexer {
  public:
@@ -78,7 +44,7 @@ class ZoneIndexer {
  private:
   void take_line() {
     const std::string_view line = cursor_.rest_of_line();
-    const Keyword keyword = split_keyword(line);
+    const Su2Keyword keyword = split_su2_keyword(line);
     if (keyword.key.empty()) {
       if (!is_in_unknown_section_)
         cursor_.fail("found " + quoted_excerpt(line) + ", expected a keyword such as NPOIN= or MARKER_TAG=" +
@@ -97,7 +63,7 @@ class ZoneIndexer {
     if (keyword.key == "IZONE" || keyword.key == "NZONE" || is_in_unknown_section_) cursor_.next_line();
   }
 
-  void take_dimension(const Keyword& keyword) {
+  void take_dimension(const Su2Keyword& keyword) {
     if (keyword.value == "2")
       throw_unsupported(source_, "line " + std::to_string(cursor_.line()) + ": NDIME= 2 is a plane mesh, only NDIME= 3 is read as a volume mesh");
     if (keyword.value != "3") cursor_.fail("found " + quoted_excerpt(keyword.value) + ", expected 3 after NDIME=");
@@ -105,27 +71,26 @@ class ZoneIndexer {
     cursor_.next_line();
   }
 
-  void take_block(std::optional<LineBlock>& block, const Keyword& keyword) {
+  void take_block(std::optional<LineBlock>& block, const Su2Keyword& keyword) {
     if (block) cursor_.fail("a second " + std::string(keyword.key) + "=; the first is in line " + std::to_string(block->line));
-    const std::uint64_t n = count_of(keyword, cursor_);
+    const std::uint64_t n = su2_count(keyword, cursor_);
     last_block_ = std::string(keyword.key) + "= in line " + std::to_string(cursor_.line());
     block = cursor_.take_block(n, std::string(keyword.key) + "=");
   }
 
-  void take_marker_count(const Keyword& keyword) {
-    zone_.n_markers = count_of(keyword, cursor_);
+  void take_marker_count(const Su2Keyword& keyword) {
+    zone_.n_markers = su2_count(keyword, cursor_);
     cursor_.next_line();
   }
 
-  void take_marker(const Keyword& tag) {
+  void take_marker(const Su2Keyword& tag) {
     Marker marker;
-    for (const char c : tag.value)
-      if (c != ' ' && c != '\t') marker.name += c;  // as SU2 does
+    marker.name = su2_marker_name(tag.value);
     cursor_.next_line();
-    const Keyword count = expect_keyword("MARKER_ELEMS", marker.name);
-    const std::uint64_t n = count_of(count, cursor_);
+    const Su2Keyword count = expect_keyword("MARKER_ELEMS", marker.name);
+    const std::uint64_t n = su2_count(count, cursor_);
     last_block_ = "MARKER_ELEMS= in line " + std::to_string(cursor_.line());
-    if (marker.name == k_partition_marker) {
+    if (marker.name == k_su2_partition_marker) {
       cursor_.next_line();
       expect_keyword("SEND_TO", marker.name);
       cursor_.take_block(n, "MARKER_ELEMS=");
@@ -136,9 +101,9 @@ class ZoneIndexer {
     zone_.markers.push_back(std::move(marker));
   }
 
-  Keyword expect_keyword(std::string_view key, const std::string& marker) {
+  Su2Keyword expect_keyword(std::string_view key, const std::string& marker) {
     const bool has_line = cursor_.find_content();
-    const Keyword keyword = has_line ? split_keyword(cursor_.rest_of_line()) : Keyword{};
+    const Su2Keyword keyword = has_line ? split_su2_keyword(cursor_.rest_of_line()) : Su2Keyword{};
     if (keyword.key != key)
       cursor_.fail("found " + (has_line ? quoted_excerpt(cursor_.rest_of_line()) : std::string("the end of the file")) + ", expected " + std::string(key) +
                    "= of marker \"" + marker + "\"");
