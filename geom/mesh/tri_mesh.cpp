@@ -23,6 +23,7 @@ void Box::add(const Vec3& p) {
 }
 
 void Box::add(const Box& b) {
+  if (b.empty()) return;
   add(b.min);
   add(b.max);
 }
