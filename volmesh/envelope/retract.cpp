@@ -203,7 +203,8 @@ Column<VertexId, std::uint8_t> changed_vertices(const Envelope& before, const En
   return changed;
 }
 
-/// As apply_where_valid, and besides no vertex moves whose triangles would come nearer to another part of the envelope than the clearance.
+}  // namespace
+
 void apply_where_clear(const LayerBase& base, Envelope& envelope, const Envelope& proposal, const RunContext& context) {
   Envelope trial = envelope;
   apply_where_valid(base, trial, proposal, context);
@@ -234,8 +235,6 @@ void apply_where_clear(const LayerBase& base, Envelope& envelope, const Envelope
   }
   envelope = std::move(trial);
 }
-
-}  // namespace
 
 void regrow_clear(const LayerBase& base, Envelope& envelope, const RunContext& context) {
   for (int round = 0; round < k_regrow_rounds; ++round) apply_where_clear(base, envelope, raised(base, envelope, round, context), context);

@@ -17,6 +17,12 @@ void retract_collisions(const LayerBase& base, const EnvelopeOptions& options, E
 /// \pre, \post envelope free of self-intersection.
 void regrow_clear(const LayerBase& base, Envelope& envelope, const RunContext& context);
 
+/// As apply_where_valid, and besides no vertex moves whose triangles would come nearer to another part of the envelope than a clearance of 6 % of the
+/// height: all at once, then vertices of crossing or invalid elements go back until nothing crosses. Directions and heights of `proposal` count alone.
+/// Cost: one crossing pass over the triangles that moved, then cheap passes around what went back.
+/// \pre, \post envelope valid and free of self-intersection.
+void apply_where_clear(const LayerBase& base, Envelope& envelope, const Envelope& proposal, const RunContext& context);
+
 /// The envelope as an indexed triangle set: points = wall points, then one envelope point per vertex; corners of collapsed vertices refer to the wall.
 struct EnvelopeSurface {
   std::vector<Vec3> points;
