@@ -43,10 +43,12 @@ Cap smallest_cap(std::span<const Vec3> normals) {
   return cap;
 }
 
-LayerBase::LayerBase(const TriMesh& mesh, const RunContext& context)
+LayerBase::LayerBase(const TriMesh& mesh, const RunContext& context, Constraints constraints)
     : wall(mesh),
       topology(mesh, context),
       body_length(sterna::body_length(mesh)),
+      constraint(std::move(constraints.vertex)),
+      surfaces(std::move(constraints.surfaces)),
       unit_normal(mesh.n_triangles()),
       area(mesh.n_triangles()),
       vertex_normal(mesh.n_vertices()),
@@ -54,6 +56,7 @@ LayerBase::LayerBase(const TriMesh& mesh, const RunContext& context)
       visibility(mesh.n_vertices()),
       mean_edge(mesh.n_vertices()),
       vertex_area(mesh.n_vertices()) {
+  if (constraint.empty()) constraint.resize(mesh.n_vertices());
   parallel_for(context, mesh.n_triangles(), [&](std::size_t i) {
     const TriangleId t(i);
     const auto [a, b, c] = corners(mesh, t);

@@ -6,16 +6,20 @@
 #include "geom/base/run_context.h"
 #include "geom/mesh/topology.h"
 #include "geom/mesh/tri_mesh.h"
+#include "volmesh/envelope/constraint.h"
 
 namespace sterna::volmesh {
 
 struct LayerBase {
-  /// \pre wall closed, manifold, no degenerate triangle, normals into the fluid. `wall` must outlive this.
-  LayerBase(const TriMesh& wall, const RunContext& context);
+  /// \pre wall manifold, no degenerate triangle, normals into the fluid; constraints for the vertices of its rims if it has a boundary.
+  /// `wall` must outlive this.
+  LayerBase(const TriMesh& wall, const RunContext& context, Constraints constraints = {});
 
   const TriMesh& wall;
   Topology topology;
   double body_length;                          ///< m
+  Column<VertexId, VertexConstraint> constraint;                    ///< what directions and envelope points obey; all free by default
+  std::vector<std::shared_ptr<const ConstraintSurface>> surfaces;  ///< that VertexConstraint::on numbers
   Column<TriangleId, Vec3> unit_normal;        ///< of each triangle
   Column<TriangleId, double> area;             ///< m^2
   Column<VertexId, Vec3> vertex_normal;        ///< unit, angle-weighted mean of the incident normals (Thuermer & Wuethrich 1998)
