@@ -110,7 +110,7 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
   {
     const StageTimer timer(context, "tetrahedra");
     const std::vector<Point> holes = find_cavity_points(wall, context);
-    tets = fill_with_tetgen({boundary.points, boundary.triangles, holes}, options.tetrahedra, context.part("tetrahedra", 0.25, 0.9));
+    tets = fill({boundary.points, boundary.triangles, holes}, options.tetrahedra, context.part("tetrahedra", 0.25, 0.9));
   }
   result.tetra_engine_seconds = tets.engine_seconds;
   result.tetra_engine_peak_bytes = tets.engine_peak_bytes;

@@ -1,4 +1,4 @@
-// What TetGen must never see: it accepts such boundaries and crashes or answers nonsense.
+// What an engine must never see: it accepts such boundaries and crashes or answers nonsense.
 #pragma once
 
 #include "geom/base/error.h"
@@ -9,7 +9,7 @@ namespace sterna::volmesh {
 
 /// Indices in range, corners different and not collinear (exact), coordinates finite, every point used, no two points at one place, every edge of exactly two
 /// triangles of opposite sense. Not: self-intersections. Parallel, O(n log n).
-/// \throws Error as fill_with_tetgen() says.
+/// \throws Error as fill() says.
 void check_boundary(const TetraBoundary& boundary, const RunContext& context);
 
 /// "triangle 12 (0, 1, 2)" and its centroid.

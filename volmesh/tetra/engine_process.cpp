@@ -117,7 +117,7 @@ pid_t spawn(const std::string& path, int request, int reply, int output) {
     throw Error({.code = ErrorCode::tetra_engine_missing,
                  .attempted = "starting the tetrahedra engine",
                  .problem = "cannot start " + path + ": " + std::strerror(error),
-                 .hint = "build the target sterna-tet-tetgen, or set tetrahedra.helper to its path"});
+                 .hint = "build the target " + std::filesystem::path(path).filename().string() + ", or set tetrahedra.helper_folder to where it is"});
   }
   return pid;
 }
@@ -196,18 +196,18 @@ HelperExit run_helper(const std::string& path, const SharedBlock& request, const
   return result;
 }
 
-std::string find_helper(const std::string& name, const std::string& given) {
+std::string find_helper(const std::string& name, const std::string& given_folder) {
   namespace fs = std::filesystem;
   const auto is_executable = [](const fs::path& path) {
     std::error_code ignored;  // a path that cannot be looked at is no executable
     return fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
   };
   std::vector<fs::path> candidates;
-  if (given.empty()) {
+  if (given_folder.empty()) {
     const fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
     candidates = {folder / name, folder.parent_path() / name};
   } else {
-    candidates = {given};
+    candidates = {fs::path(given_folder) / name};
   }
   std::string looked_at;
   for (const fs::path& candidate : candidates) {
@@ -216,8 +216,8 @@ std::string find_helper(const std::string& name, const std::string& given) {
   }
   throw Error({.code = ErrorCode::tetra_engine_missing,
                .attempted = "looking for the tetrahedra engine " + name,
-               .problem = "no executable file at " + looked_at,
-               .hint = "build the target " + name + ", or set tetrahedra.helper to its path"});
+               .problem = "this engine is not built in: no executable file at " + looked_at,
+               .hint = "build the target " + name + " (its library must be installed), choose another tetrahedra.engine, or set tetrahedra.helper_folder to where it is"});
 }
 
 }  // namespace sterna::volmesh

@@ -42,8 +42,8 @@ struct HelperExit {
 /// \throws Error tetra_engine_missing when it cannot be started; cancelled (the helper is killed and reaped first).
 HelperExit run_helper(const std::string& path, const SharedBlock& request, const SharedBlock& reply, double time_limit, const RunContext& context);
 
-/// Path of the helper executable: `given` if not empty, else `name` in the folder of the running executable or the one above.
+/// Path of the helper executable `name`: in `folder` if that is not empty, else in the folder of the running executable or the one above.
 /// \throws Error(tetra_engine_missing) with the places that were looked at.
-std::string find_helper(const std::string& name, const std::string& given);
+std::string find_helper(const std::string& name, const std::string& folder);
 
 }  // namespace sterna::volmesh

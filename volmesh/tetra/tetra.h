@@ -1,4 +1,4 @@
-// Fills the space between closed boundaries with tetrahedra, in a helper process.
+// Fills the space between closed boundaries with tetrahedra: one door to several engines, each in a helper process.
 #pragma once
 
 #include <array>
@@ -13,10 +13,12 @@
 namespace sterna::volmesh {
 
 struct TetraOptions {
+  std::string engine = "automatic";
   double radius_edge = 1.2;
+  double hxt_improve_below = 0.02;
   double memory_limit = 20e9;
   double time_limit = k_automatic;
-  std::string helper = {};
+  std::string helper_folder = {};
 };
 
 /// Closed boundary of the domain: triangles whose right-hand normals point INTO the domain (envelope outwards of the body, farfield inwards).
@@ -32,17 +34,19 @@ struct TetraBoundary {
 struct TetraResult {
   std::vector<Vec3> new_points;                         ///< Steiner points; node number = n boundary points + index
   std::vector<std::array<std::uint32_t, 4>> tetrahedra; ///< CGNS order, positive volume
-  double engine_seconds = 0.0;                          ///< inside tetrahedralize() alone; log only
+  std::string engine;                                   ///< what made them: "tetgen" or "hxt"
+  double engine_seconds = 0.0;                          ///< inside the engine alone; log only
   double engine_peak_bytes = 0.0;                       ///< of the helper process; log only
 };
 
-/// Runs TetGen 1.5 (`-pq<radius_edge>Y`, boundary kept) in the helper process sterna-tet-tetgen, found beside the running executable or one folder
-/// above it, and proves its answer. Coordinates are scaled by a power of two first, so a mesh in other units is the same mesh. A stop of the context
-/// or the time limit kills the helper at once; it never outlives the call.
+/// Runs an engine in its helper process, found beside the running executable or one folder above it, and proves its answer (verify.h).
+/// Engines: "tetgen", TetGen 1.5 (`-pq<radius_edge>Y`, sizes by the radius-edge ratio alone); "hxt", HXT of Gmsh, which extends the sizes of the boundary into the
+/// volume; "automatic" is tetgen. Both keep the boundary. Coordinates are scaled by a power of two first, so a mesh in other units is the same mesh.
+/// A stop of the context or the time limit kills the helper at once; it never outlives the call.
 /// \throws Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface, non_manifold_surface, self_intersection
-/// (two points at one place) for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory limit; with the places
-/// where the boundary crosses itself, if it does); tetra_result_invalid; cancelled. Each with places where there are any.
-TetraResult fill_with_tetgen(const TetraBoundary& boundary, const TetraOptions& options, const RunContext& context);
+/// (two points at one place), not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory limit; with the
+/// places where the boundary crosses itself, if it does); tetra_result_invalid; cancelled. Each with places where there are any.
+TetraResult fill(const TetraBoundary& boundary, const TetraOptions& options, const RunContext& context);
 
 /// One point strictly inside each cavity of a wall, that is in each connected solid region (a shell inside out bounds a hole of the solid around it, not a
 /// solid of its own): behind one of its largest triangles, centred along the axes, proven by exact ray crossings. In order of first triangle.
@@ -59,10 +63,12 @@ struct Schema<volmesh::TetraOptions> {
   using O = volmesh::TetraOptions;
   static constexpr std::string_view stage = "tetrahedra";
   static constexpr std::array fields = {
-      Field<O>{.name = "radius_edge", .member = &O::radius_edge, .min = 1.01, .max = 10.0, .help = "largest circumradius over shortest edge of a tetrahedron"},
+      Field<O>{.name = "engine", .member = &O::engine, .help = "what makes the tetrahedra", .choices = "automatic tetgen hxt"},
+      Field<O>{.name = "radius_edge", .member = &O::radius_edge, .min = 1.01, .max = 10.0, .help = "largest circumradius over shortest edge of a tetrahedron (tetgen only)"},
+      Field<O>{.name = "hxt_improve_below", .member = &O::hxt_improve_below, .min = 0.0, .max = 1.0, .help = "HXT improves tetrahedra of a lower quality than this (1 = regular); 0: none"},
       Field<O>{.name = "memory_limit", .member = &O::memory_limit, .unit = Unit::byte, .min = 1e8, .help = "address space of the helper process"},
       Field<O>{.name = "time_limit", .member = &O::time_limit, .unit = Unit::second, .min = 0.1, .help = "the helper is stopped after this time", .automatic = "none"},
-      Field<O>{.name = "helper", .member = &O::helper, .help = "path of sterna-tet-tetgen; empty: beside the sterna executable"},
+      Field<O>{.name = "helper_folder", .member = &O::helper_folder, .help = "where sterna-tet-tetgen and sterna-tet-hxt are; empty: beside the sterna executable"},
   };
 };
 

@@ -1,7 +1,8 @@
-// What sterna and the helper sterna-tet-tetgen say to each other: two memfds, one block each, native byte order. This header is the
-// only code that the two programs share; it includes nothing of sterna.
+// What sterna and its engine helpers (sterna-tet-tetgen, sterna-tet-hxt) say to each other: two memfds, one block each, native byte order.
+// It includes nothing of sterna.
 //
-// Request: RequestHeader, 3 doubles per point, 3 doubles per hole point, 3 int32 per triangle (indices into the points).
+// Request: RequestHeader; 3 doubles per point; 3 doubles per hole point; the size field, size_bytes long, a multiple of 8;
+//          3 int32 per triangle (indices into the points); 1 int32 per triangle (its surface); 1 int32 per surface (its region).
 // Reply:   ReplyHeader, then (outcome ok only) 3 doubles per point, all of them, 4 int32 per tetrahedron.
 #pragma once
 
@@ -11,21 +12,25 @@ namespace sterna::volmesh::wire {
 
 inline constexpr int k_request_fd = 3;
 inline constexpr int k_reply_fd = 4;
-inline constexpr std::uint64_t k_request_magic = 0x3151455254455453;  ///< "STETREQ1" in memory; the last digit is the version
-inline constexpr std::uint64_t k_reply_magic = 0x3150455254455453;    ///< "STETREP1"
+inline constexpr std::uint64_t k_request_magic = 0x3251455254455453;  ///< "STETREQ2" in memory; the last digit is the version
+inline constexpr std::uint64_t k_reply_magic = 0x3250455254455453;    ///< "STETREP2"
 
 struct RequestHeader {
   std::uint64_t magic = k_request_magic;
   std::uint64_t n_points = 0;
   std::uint64_t n_holes = 0;
   std::uint64_t n_triangles = 0;
+  std::uint64_t n_surfaces = 0;    ///< connected components of the boundary
+  std::uint64_t size_bytes = 0;    ///< of the size field; 0: the engine extends the sizes of the boundary
   std::uint64_t memory_limit = 0;  ///< address space in bytes
-  char switches[64] = {};          ///< TetGen's own, without the dash
+  double scale = 1.0;              ///< coordinates in the request over metres
+  double radius_edge = 0.0;        ///< largest circumradius over shortest edge; TetGen only
+  double improve_below = 0.0;      ///< the engine improves tetrahedra of a lower quality (1 = regular); 0: none; HXT only
 };
 
 enum class Outcome : std::int32_t {
   ok = 0,
-  engine_code = 1,    ///< TetGen threw an int: see ReplyHeader::engine_code
+  engine_code = 1,    ///< the engine says that it failed: see ReplyHeader::engine_code, and its last words
   out_of_memory = 2,  ///< an allocation failed within the memory limit
   bad_request = 3,    ///< the request is not one of this protocol's version
   exception = 4,      ///< something else was thrown
@@ -37,10 +42,10 @@ struct ReplyHeader {
   std::int32_t engine_code = 0;
   std::uint64_t n_points = 0;
   std::uint64_t n_tetrahedra = 0;
-  double engine_seconds = 0.0;  ///< wall time inside tetrahedralize()
+  double engine_seconds = 0.0;  ///< wall time inside the engine
   double peak_bytes = 0.0;      ///< largest resident size of the helper so far
 };
 
-static_assert(sizeof(RequestHeader) == 104 && sizeof(ReplyHeader) == 48);
+static_assert(sizeof(RequestHeader) == 80 && sizeof(ReplyHeader) == 48);
 
 }  // namespace sterna::volmesh::wire

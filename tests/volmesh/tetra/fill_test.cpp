@@ -18,9 +18,17 @@ using test::inside_out;
 using test::transformed;
 using testing::HasSubstr;
 
-TetraResult fill(const Domain& domain, const TetraOptions& options = {}) { return fill_with_tetgen(domain.boundary(), options, RunContext{}); }
+TetraResult fill(const Domain& domain, const TetraOptions& options = {}) { return fill(domain.boundary(), options, RunContext{}); }
 
-TEST(FillWithTetgen, FillsBetweenOneBodyAndTheFarfield) {
+/// What each engine must do.
+class FillWith : public testing::TestWithParam<std::string> {
+ protected:
+  TetraOptions options() const { return {.engine = GetParam()}; }
+  TetraResult fill(const Domain& domain) const { return volmesh::fill(domain.boundary(), options(), RunContext{}); }
+};
+INSTANTIATE_TEST_SUITE_P(Engine, FillWith, testing::Values("tetgen", "hxt"), [](const auto& test) { return test.param; });
+
+TEST_P(FillWith, FillsBetweenOneBodyAndTheFarfield) {
   for (const TriMesh& wall : {test::cube(1), test::cube(4), test::sphere(6)}) {
     const Domain domain = domain_around(wall);
     const TetraResult result = fill(domain);
@@ -30,7 +38,7 @@ TEST(FillWithTetgen, FillsBetweenOneBodyAndTheFarfield) {
   }
 }
 
-TEST(FillWithTetgen, FillsAroundSeveralBodies) {
+TEST_P(FillWith, FillsAroundSeveralBodies) {
   TriMesh wall = both(test::cube(2), transformed(test::sphere(4), 0.5, {3, 0, 0}));
   wall = both(wall, transformed(test::cube(1), 0.25, {1.0001, 0.3, 0.3}));  // a gap of 1e-4
   const Domain domain = domain_around(wall);
@@ -38,14 +46,14 @@ TEST(FillWithTetgen, FillsAroundSeveralBodies) {
   expect_tiling(domain, fill(domain));
 }
 
-TEST(FillWithTetgen, FillsTheHoleInsideAHollowBody) {
+TEST_P(FillWith, FillsTheHoleInsideAHollowBody) {
   const TriMesh wall = both(test::sphere(5), inside_out(transformed(test::sphere(4), 0.5, {})));
   const Domain domain = domain_around(wall, 20.0);
   EXPECT_EQ(domain.holes.size(), 1u);
   expect_tiling(domain, fill(domain));
 }
 
-TEST(FillWithTetgen, FillsAroundRazorThinBodies) {
+TEST_P(FillWith, FillsAroundRazorThinBodies) {
   // TetGen merges points closer than 1e-8 of the box, and dies of it, unless told not to.
   for (const double thickness : {1e-3, 1e-6, 1e-9, 1e-12}) {
     SCOPED_TRACE(thickness);
@@ -56,7 +64,7 @@ TEST(FillWithTetgen, FillsAroundRazorThinBodies) {
   }
 }
 
-TEST(FillWithTetgen, DoesNotDependOnUnitPlaceOrHandedness) {
+TEST_P(FillWith, DoesNotDependOnUnitPlaceOrHandedness) {
   const TriMesh wall = both(test::cube(2), transformed(test::sphere(3), 0.5, {2, 0.1, 0.2}));
   for (const double scale : {1e-6, 1.0, 1e6, 1e-30, 1e30}) {
     for (const double shift : {0.0, 1e3}) {
@@ -71,7 +79,7 @@ TEST(FillWithTetgen, DoesNotDependOnUnitPlaceOrHandedness) {
   expect_tiling(domain, fill(domain));
 }
 
-TEST(FillWithTetgen, GivesTheSameMeshInUnitsOfAPowerOfTwo) {
+TEST_P(FillWith, GivesTheSameMeshInUnitsOfAPowerOfTwo) {
   const Domain domain = domain_around(test::sphere(4));
   Domain small = domain;
   for (Vec3& p : small.points) p *= 0x1p-20;
@@ -82,7 +90,7 @@ TEST(FillWithTetgen, GivesTheSameMeshInUnitsOfAPowerOfTwo) {
   for (std::size_t i = 0; i < a.new_points.size(); ++i) EXPECT_EQ(0x1p-20 * a.new_points[i], b.new_points[i]);
 }
 
-TEST(FillWithTetgen, TakesTheVerticesInAnyOrder) {
+TEST_P(FillWith, TakesTheVerticesInAnyOrder) {
   const Domain domain = domain_around(test::cube(2));
   for (const std::uint32_t step : {5u, 7u, 11u}) {
     Domain shuffled = domain;
@@ -96,11 +104,11 @@ TEST(FillWithTetgen, TakesTheVerticesInAnyOrder) {
   }
 }
 
-TEST(FillWithTetgen, IsDeterministicForAnyNumberOfThreads) {
+TEST_P(FillWith, IsDeterministicForAnyNumberOfThreads) {
   const Domain domain = domain_around(both(test::cube(6), transformed(test::sphere(8), 0.5, {2, 0.1, 0.2})));
   const TetraResult first = fill(domain);
   for (const int threads : {1, 2, 7}) {
-    const TetraResult again = fill_with_tetgen(domain.boundary(), {}, RunContext({.threads = threads}));
+    const TetraResult again = volmesh::fill(domain.boundary(), options(), RunContext({.threads = threads}));
     EXPECT_EQ(first.tetrahedra, again.tetrahedra);
     EXPECT_EQ(first.new_points, again.new_points);
   }
@@ -108,11 +116,29 @@ TEST(FillWithTetgen, IsDeterministicForAnyNumberOfThreads) {
 
 TEST(FillWithTetgen, RefinesWithTheRadiusEdgeRatio) {
   const Domain domain = domain_around(test::sphere(6));
-  EXPECT_GT(fill(domain, {.radius_edge = 1.2}).tetrahedra.size(), fill(domain, {.radius_edge = 2.0}).tetrahedra.size());
+  EXPECT_GT(fill(domain, {.engine = "tetgen", .radius_edge = 1.2}).tetrahedra.size(), fill(domain, {.engine = "tetgen", .radius_edge = 2.0}).tetrahedra.size());
+}
+
+TEST(FillWithHxt, ImprovesWhatItIsTold) {
+  const Domain domain = domain_around(test::sphere(6));
+  EXPECT_NE(fill(domain, {.engine = "hxt", .hxt_improve_below = 0.0}).tetrahedra, fill(domain, {.engine = "hxt", .hxt_improve_below = 0.3}).tetrahedra);
+}
+
+TEST(Fill, RefusesAnUnknownEngine) {
+  const ErrorInfo error = error_of([&] { fill(domain_around(test::cube(1)), {.engine = "steam"}); });
+  EXPECT_EQ(error.code, ErrorCode::bad_argument);
+  EXPECT_THAT(error.problem, HasSubstr("steam"));
+}
+
+TEST(Fill, TwoRegionsOneInsideTheOther) {
+  // A hollow body with a body in its hole: the domain has two parts, and a body of each must find its own.
+  const TriMesh wall = both(both(test::sphere(5), inside_out(transformed(test::sphere(4), 0.5, {}))), transformed(test::cube(2), 0.1, {}));
+  const Domain domain = domain_around(both(wall, transformed(test::cube(1), 0.3, {4, 0, 0})), 40.0);
+  for (const char* engine : {"tetgen", "hxt"}) expect_tiling(domain, fill(domain, {.engine = engine}));
 }
 
 /// Real surfaces, their own triangles as inner boundary: sharp edges, needles, several bodies.
-TEST(FillWithTetgen, FillsAroundRealSurfaces) {
+TEST_P(FillWith, FillsAroundRealSurfaces) {
   STERNA_NEEDS_SHARED_DATA();
   for (const char* name : {"cgal_data_anchor_dense.off", "cgal_data_couplingdown.off", "caturbs_wing_wing.stl", "pygeo_bwb.stl"}) {
     SCOPED_TRACE(name);
@@ -123,7 +149,7 @@ TEST(FillWithTetgen, FillsAroundRealSurfaces) {
   }
 }
 
-TEST(FillWithTetgen, RejectsAnOpenBoundary) {
+TEST_P(FillWith, RejectsAnOpenBoundary) {
   Domain domain = domain_around(test::cube(2));
   domain.triangles.erase(domain.triangles.begin() + 3);
   const ErrorInfo error = error_of([&] { fill(domain); });
@@ -134,7 +160,7 @@ TEST(FillWithTetgen, RejectsAnOpenBoundary) {
   EXPECT_EQ(error.geometry.triangles.size(), 3u);
 }
 
-TEST(FillWithTetgen, RejectsADuplicateTriangle) {
+TEST_P(FillWith, RejectsADuplicateTriangle) {
   Domain domain = domain_around(test::cube(1));
   domain.triangles.push_back(domain.triangles[0]);
   const ErrorInfo error = error_of([&] { fill(domain); });
@@ -142,13 +168,13 @@ TEST(FillWithTetgen, RejectsADuplicateTriangle) {
   EXPECT_EQ(error.n_places, 3);
 }
 
-TEST(FillWithTetgen, RejectsATurnedTriangle) {
+TEST_P(FillWith, RejectsATurnedTriangle) {
   Domain domain = domain_around(test::cube(1));
   std::swap(domain.triangles[0][0], domain.triangles[0][1]);
   EXPECT_EQ(error_of([&] { fill(domain); }).code, ErrorCode::non_manifold_surface);
 }
 
-TEST(FillWithTetgen, RejectsAnIndexOutOfRange) {
+TEST_P(FillWith, RejectsAnIndexOutOfRange) {
   Domain domain = domain_around(test::cube(1));
   domain.triangles[5][1] = 99999;
   const ErrorInfo error = error_of([&] { fill(domain); });
@@ -159,7 +185,7 @@ TEST(FillWithTetgen, RejectsAnIndexOutOfRange) {
   EXPECT_THAT(error.places[0].what, HasSubstr("99999"));
 }
 
-TEST(FillWithTetgen, RejectsBadPoints) {
+TEST_P(FillWith, RejectsBadPoints) {
   const Domain good = domain_around(test::cube(1));
   Domain domain = good;
   domain.points[4].y = std::numeric_limits<double>::quiet_NaN();
@@ -182,7 +208,7 @@ TEST(FillWithTetgen, RejectsBadPoints) {
   EXPECT_EQ(error_of([&] { fill(Domain{}); }).code, ErrorCode::bad_argument);
 }
 
-TEST(FillWithTetgen, TellsWhereTheBoundaryCrossesItself) {
+TEST_P(FillWith, TellsWhereTheBoundaryCrossesItself) {
   // TetGen dies of some of these, and answers others with triangles missing.
   for (const double shift : {0.3, 0.55, 0.8}) {
     SCOPED_TRACE(shift);
@@ -201,7 +227,7 @@ TEST(FillWithTetgen, TellsWhereTheBoundaryCrossesItself) {
   }
 }
 
-TEST(FillWithTetgen, RejectsTouchingBodies) {
+TEST_P(FillWith, RejectsTouchingBodies) {
   const TriMesh wall = both(box({0, 0, 0}, {1, 1, 1}), box({1, 0.1, 0.1}, {2, 0.9, 0.9}));
   const Domain domain = domain_around(wall);
   EXPECT_EQ(domain.holes.size(), 2u);
@@ -211,9 +237,9 @@ TEST(FillWithTetgen, RejectsTouchingBodies) {
 TEST(FillWithTetgen, RejectsWrongHolePoints) {
   Domain domain = domain_around(test::cube(2));
   domain.holes.clear();
-  EXPECT_EQ(error_of([&] { fill(domain); }).code, ErrorCode::tetra_result_invalid);
+  EXPECT_EQ(error_of([&] { fill(domain, {.engine = "tetgen"}); }).code, ErrorCode::tetra_result_invalid);
   domain.holes = {{5, 5, 5}};
-  EXPECT_EQ(error_of([&] { fill(domain); }).code, ErrorCode::tetra_result_invalid);
+  EXPECT_EQ(error_of([&] { fill(domain, {.engine = "tetgen"}); }).code, ErrorCode::tetra_result_invalid);
 }
 
 }  // namespace

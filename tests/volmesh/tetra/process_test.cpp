@@ -34,18 +34,22 @@ class HelperProcess : public testing::Test {
  protected:
   ErrorInfo run(const Domain& domain, const TetraOptions& options, const RunContext& context = RunContext{}) {
     const auto start = Clock::now();
-    const ErrorInfo error = error_of([&] { fill_with_tetgen(domain.boundary(), options, context); });
+    const ErrorInfo error = error_of([&] { fill(domain.boundary(), options, context); });
     seconds_ = std::chrono::duration<double>(Clock::now() - start).count();
     EXPECT_TRUE(test::has_no_children());
     return error;
   }
-  /// An executable shell script.
-  std::string script(const std::string& name, const std::string& text) {
-    const std::filesystem::path path = test::scratch() / name;
-    std::ofstream(path) << "#!/bin/sh\n" << text << "\n";
+  /// A folder where the helper of TetGen is a file with this text.
+  std::string folder_with(const std::string& name, const std::string& text) {
+    const std::filesystem::path folder = test::scratch() / name;
+    std::filesystem::create_directories(folder);
+    const std::filesystem::path path = folder / "sterna-tet-tetgen";
+    std::ofstream(path) << text;
     std::filesystem::permissions(path, std::filesystem::perms::owner_all);
-    return path.string();
+    return folder.string();
   }
+  /// The same with a shell script.
+  std::string script(const std::string& name, const std::string& text) { return folder_with(name, "#!/bin/sh\n" + text + "\n"); }
   double seconds_ = 0.0;
 };
 
@@ -59,47 +63,44 @@ pid_t first_child() {
 }
 
 TEST_F(HelperProcess, MissingIsNamed) {
-  const ErrorInfo error = run(domain_around(test::cube(1)), {.helper = "/nowhere/sterna-tet-tetgen"});
+  const ErrorInfo error = run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = "/nowhere"});
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_missing);
   EXPECT_THAT(error.problem, HasSubstr("/nowhere/sterna-tet-tetgen"));
   EXPECT_THAT(error.hint, HasSubstr("sterna-tet-tetgen"));
-  EXPECT_EQ(run(domain_around(test::cube(1)), {.helper = "/"}).code, ErrorCode::tetra_engine_missing);
+  EXPECT_EQ(run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = "/"}).code, ErrorCode::tetra_engine_missing);
 }
 
 TEST_F(HelperProcess, NoProgramIsMissingToo) {
-  const std::filesystem::path path = test::scratch() / "not_a_program";
-  std::ofstream(path) << "\x7f" "ELF nonsense";
-  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
-  EXPECT_EQ(run(domain_around(test::cube(1)), {.helper = path.string()}).code, ErrorCode::tetra_engine_missing);
+  EXPECT_EQ(run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = folder_with("not_a_program", "\x7f" "ELF nonsense")}).code, ErrorCode::tetra_engine_missing);
 }
 
 TEST_F(HelperProcess, IsQuotedWhenItGivesNoAnswer) {
-  const ErrorInfo error = run(domain_around(test::cube(1)), {.helper = script("mute", "echo out of paper; echo and of ink >&2; exit 3")});
+  const ErrorInfo error = run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("mute", "echo out of paper; echo and of ink >&2; exit 3")});
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
   EXPECT_THAT(error.problem, HasSubstr("exit status 3"));
   EXPECT_THAT(error.problem, HasSubstr("out of paper\nand of ink"));
 }
 
 TEST_F(HelperProcess, MayTalkALot) {
-  const ErrorInfo error = run(domain_around(test::cube(1)), {.helper = script("talker", "yes 0123456789 | head -c 3000000; exit 4")});
+  const ErrorInfo error = run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("talker", "yes 0123456789 | head -c 3000000; exit 4")});
   EXPECT_THAT(error.problem, HasSubstr("exit status 4"));
   EXPECT_LT(error.problem.size(), 2000u);
 }
 
 TEST_F(HelperProcess, GarbageIsNoAnswer) {
-  EXPECT_EQ(run(domain_around(test::cube(1)), {.helper = script("garbage", "head -c 1000 /dev/zero >&4")}).code, ErrorCode::tetra_engine_failed);
-  EXPECT_EQ(run(domain_around(test::cube(1)), {.helper = script("silent", "exec >&- 2>&-; sleep 0.3")}).code, ErrorCode::tetra_engine_failed);
+  EXPECT_EQ(run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("garbage", "head -c 1000 /dev/zero >&4")}).code, ErrorCode::tetra_engine_failed);
+  EXPECT_EQ(run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("silent", "exec >&- 2>&-; sleep 0.3")}).code, ErrorCode::tetra_engine_failed);
 }
 
 TEST_F(HelperProcess, ACutAnswerIsInvalid) {
   // The header of a good reply (48 bytes: magic, ok, no points, one tetrahedron) without what it announces.
-  const ErrorInfo error = run(domain_around(test::cube(1)), {.helper = script("cut", "printf 'STETREP1' >&4; head -c 8 /dev/zero >&4; printf '\\377\\377\\0\\0\\0\\0\\0\\0\\1\\0\\0\\0\\0\\0\\0\\0' >&4; head -c 16 /dev/zero >&4")});
+  const ErrorInfo error = run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("cut", "printf 'STETREP2' >&4; head -c 8 /dev/zero >&4; printf '\\377\\377\\0\\0\\0\\0\\0\\0\\1\\0\\0\\0\\0\\0\\0\\0' >&4; head -c 16 /dev/zero >&4")});
   EXPECT_EQ(error.code, ErrorCode::tetra_result_invalid);
   EXPECT_THAT(error.problem, HasSubstr("bytes instead of"));
 }
 
 TEST_F(HelperProcess, ACrashIsNamed) {
-  const ErrorInfo error = run(domain_around(test::cube(1)), {.helper = script("crash", "echo last words; kill -SEGV $$")});
+  const ErrorInfo error = run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("crash", "echo last words; kill -SEGV $$")});
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
   EXPECT_THAT(error.problem, HasSubstr("signal 11"));
   EXPECT_THAT(error.problem, HasSubstr("last words"));
@@ -116,7 +117,7 @@ TEST_F(HelperProcess, KilledFromOutside) {
     killed_at = Clock::now();
     kill(pid, SIGKILL);
   });
-  const ErrorInfo error = run(domain, {});
+  const ErrorInfo error = run(domain, {.engine = "tetgen"});
   killer.join();
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
   EXPECT_THAT(error.problem, HasSubstr("signal 9"));
@@ -124,7 +125,7 @@ TEST_F(HelperProcess, KilledFromOutside) {
 }
 
 TEST_F(HelperProcess, TimeLimit) {
-  const ErrorInfo error = run(slow_case(), {.time_limit = 0.3});
+  const ErrorInfo error = run(slow_case(), {.engine = "tetgen", .time_limit = 0.3});
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
   EXPECT_THAT(error.problem, HasSubstr("time limit"));
   EXPECT_THAT(error.hint, HasSubstr("time_limit"));
@@ -132,7 +133,7 @@ TEST_F(HelperProcess, TimeLimit) {
 }
 
 TEST_F(HelperProcess, MemoryLimit) {
-  const ErrorInfo error = run(domain_around(test::sphere(25)), {.memory_limit = 3e7});
+  const ErrorInfo error = run(domain_around(test::sphere(25)), {.engine = "tetgen", .memory_limit = 3e7});
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
   EXPECT_THAT(error.problem, HasSubstr("out of memory"));
   EXPECT_THAT(error.problem, HasSubstr("30 MB"));
@@ -141,7 +142,7 @@ TEST_F(HelperProcess, MemoryLimit) {
 
 TEST_F(HelperProcess, HardlyAnyMemory) {
   // Not even the request fits.
-  EXPECT_EQ(run(slow_case(), {.memory_limit = 1e6}).code, ErrorCode::tetra_engine_failed);
+  EXPECT_EQ(run(slow_case(), {.engine = "tetgen", .memory_limit = 1e6}).code, ErrorCode::tetra_engine_failed);
 }
 
 TEST_F(HelperProcess, StopsWithTheContext) {
@@ -151,7 +152,7 @@ TEST_F(HelperProcess, StopsWithTheContext) {
     while (first_child() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     source.request_stop();
   });
-  const ErrorInfo error = run(domain, {}, RunContext({.stop = source.get_token()}));
+  const ErrorInfo error = run(domain, {.engine = "tetgen"}, RunContext({.stop = source.get_token()}));
   EXPECT_EQ(error.code, ErrorCode::cancelled);
   EXPECT_LT(seconds_, k_prompt_seconds);
 }
@@ -162,11 +163,11 @@ TEST_F(HelperProcess, LeavesNoDescriptorOpen) {
     return std::distance(begin(list), end(list));
   };
   const Domain domain = domain_around(test::cube(1));
-  fill_with_tetgen(domain.boundary(), {}, RunContext{});
+  fill(domain.boundary(), {}, RunContext{});
   const auto before = n_open();
-  fill_with_tetgen(domain.boundary(), {}, RunContext{});
-  run(domain, {.helper = "/nowhere"});
-  run(domain, {.helper = script("mute", "exit 1")});
+  fill(domain.boundary(), {}, RunContext{});
+  run(domain, {.engine = "tetgen", .helper_folder = "/nowhere"});
+  run(domain, {.engine = "tetgen", .helper_folder = script("mute", "exit 1")});
   EXPECT_EQ(n_open(), before);
 }
 

@@ -1,0 +1,24 @@
+// The boundary as an engine with a boundary representation wants it: closed surfaces, and the regions of the domain that they bound.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "volmesh/tetra/tetra.h"
+
+namespace sterna::volmesh {
+
+/// Surfaces are connected components of the boundary (over shared vertices), in order of their first triangle; regions are connected parts of the domain.
+struct BoundaryParts {
+  std::vector<std::int32_t> triangle2surface;
+  std::vector<std::int32_t> surface2region;  ///< regions in order of their first surface
+  std::size_t n_surfaces() const { return surface2region.size(); }
+};
+
+/// A surface whose normals point inwards encloses a region; the others are bodies in the smallest region around them.
+/// \pre check_boundary() passed, no self-intersection.
+/// \throws Error(not_orientable) when a body lies in no region, with its place.
+BoundaryParts find_parts(const TetraBoundary& boundary, const RunContext& context);
+
+}  // namespace sterna::volmesh

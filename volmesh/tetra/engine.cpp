@@ -1,0 +1,189 @@
+#include "volmesh/tetra/engine.h"
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+#include "geom/base/parallel.h"
+#include "volmesh/tetra/engine_process.h"
+#include "volmesh/tetra/verify.h"
+#include "volmesh/tetra/wire.h"
+
+namespace sterna::volmesh {
+namespace {
+
+/// Power of two that brings the largest coordinate into [1, 2).
+double unit_scale(std::span<const Vec3> points) {
+  double largest = 0.0;
+  for (const Vec3& p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return std::ldexp(1.0, -std::ilogb(largest));
+}
+
+/// The request in shared memory, laid out as wire.h says.
+class Request {
+ public:
+  Request(const TetraBoundary& boundary, const BoundaryParts& parts, const TetraOptions& options, const RunContext& context)
+      : scale_(unit_scale(boundary.points)), block_("sterna tetra request", size_of(boundary, parts)) {
+    wire::RequestHeader header;
+    header.n_points = boundary.points.size();
+    header.n_holes = boundary.hole_points.size();
+    header.n_triangles = boundary.triangles.size();
+    header.n_surfaces = parts.n_surfaces();
+    header.memory_limit = static_cast<std::uint64_t>(options.memory_limit);
+    header.scale = scale_;
+    header.radius_edge = options.radius_edge;
+    header.improve_below = options.hxt_improve_below;
+    std::byte* at = block_.map();
+    const auto put = [&](const void* data, std::size_t size) {
+      std::memcpy(at, data, size);
+      at += size;
+    };
+    put(&header, sizeof header);
+    points_ = reinterpret_cast<Vec3*>(at);
+    Vec3* const holes = points_ + header.n_points;
+    parallel_for(context, header.n_points, [&](std::size_t i) { points_[i] = scale_ * boundary.points[i]; });
+    for (std::size_t i = 0; i < header.n_holes; ++i) holes[i] = scale_ * boundary.hole_points[i];
+    at = reinterpret_cast<std::byte*>(holes + header.n_holes);
+    put(boundary.triangles.data(), boundary.triangles.size_bytes());
+    put(parts.triangle2surface.data(), sizeof(std::int32_t) * parts.triangle2surface.size());
+    put(parts.surface2region.data(), sizeof(std::int32_t) * parts.surface2region.size());
+  }
+  const SharedBlock& block() const { return block_; }
+  const Vec3* points() const { return points_; }  ///< as the engine got them
+  double scale() const { return scale_; }
+
+ private:
+  static std::size_t size_of(const TetraBoundary& boundary, const BoundaryParts& parts) {
+    return sizeof(wire::RequestHeader) + sizeof(Vec3) * (boundary.points.size() + boundary.hole_points.size()) +
+           (sizeof(boundary.triangles[0]) + sizeof(std::int32_t)) * boundary.triangles.size() + sizeof(std::int32_t) * parts.n_surfaces();
+  }
+  double scale_;
+  SharedBlock block_;
+  Vec3* points_ = nullptr;
+};
+
+std::string last_words(const HelperExit& exit) {
+  std::string text = exit.output;
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
+  constexpr std::size_t k_quoted = 500;
+  if (text.size() > k_quoted) text.erase(0, text.size() - k_quoted);
+  return text.empty() ? "" : "; its last words: \"" + text + "\"";
+}
+
+/// TetGen's codes as terminatetetgen() in tetgen.h names them; the other engines have none.
+std::string text_of_code(EngineKind kind, int code) {
+  if (kind != EngineKind::tetgen) return "failed";
+  const std::string number = " (code " + std::to_string(code) + ")";
+  switch (code) {
+    case 2: return "met an internal error" + number;
+    case 3: return "found that the boundary intersects itself" + number;
+    case 4: return "met a feature that is too small for it" + number;
+    case 5: return "met two facets that are too close for it" + number;
+    case 10: return "rejected its input" + number;
+    default: return "failed" + number;
+  }
+}
+
+std::string with_unit(double value, const char* unit) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.6g %s", value, unit);
+  return text.data();
+}
+std::string megabytes(double bytes) { return with_unit(std::round(bytes / 1e6), "MB"); }
+
+std::string attempt(EngineKind kind) { return "filling the volume with tetrahedra (" + std::string(display_name(kind)) + ")"; }
+
+EngineFailure failure(FailureKind failure_kind, EngineKind kind, std::string problem, std::string hint = {}) {
+  return {failure_kind, {.code = ErrorCode::tetra_engine_failed, .attempted = attempt(kind), .problem = std::move(problem), .hint = std::move(hint)}};
+}
+
+/// Why a helper did not answer with a mesh; none when it did.
+std::optional<EngineFailure> judge_exit(EngineKind kind, const HelperExit& exit, const wire::ReplyHeader& header, const TetraOptions& options) {
+  const bool is_reply = header.magic == wire::k_reply_magic;
+  if (exit.is_success() && is_reply && header.outcome == wire::Outcome::ok) return std::nullopt;
+  if (exit.is_time_over) {
+    return failure(FailureKind::limit, kind, "stopped after the time limit of " + with_unit(options.time_limit, "s"), "raise tetrahedra.time_limit, or coarsen the surface");
+  }
+  if (is_reply && header.outcome == wire::Outcome::out_of_memory) {
+    return failure(FailureKind::limit, kind, "out of memory: the limit of the helper is " + megabytes(options.memory_limit) + ", it had used " + megabytes(header.peak_bytes),
+                   "raise tetrahedra.memory_limit, or coarsen the surface");
+  }
+  const std::string name(display_name(kind));
+  if (WIFSIGNALED(exit.wait_status)) {
+    const int signal = WTERMSIG(exit.wait_status);
+    const std::string problem = "the helper died of signal " + std::to_string(signal) + " (" + strsignal(signal) + ")" + last_words(exit);
+    if (signal == SIGKILL) return failure(FailureKind::limit, kind, problem, "someone killed it, perhaps the system for lack of memory");
+    return failure(FailureKind::deterministic, kind, problem);
+  }
+  if (is_reply && header.outcome == wire::Outcome::engine_code) {
+    return failure(FailureKind::deterministic, kind, name + " " + text_of_code(kind, header.engine_code) + last_words(exit));
+  }
+  return failure(FailureKind::deterministic, kind, "the helper gave no answer, exit status " + std::to_string(WEXITSTATUS(exit.wait_status)) + last_words(exit),
+                 "the helper may be of another version: build the target sterna-tet-" + std::string(to_string(kind)) + " again");
+}
+
+[[noreturn]] void throw_invalid_reply(EngineKind kind, std::string problem, std::vector<ErrorPlace> places = {}) {
+  throw Error({.code = ErrorCode::tetra_result_invalid,
+               .attempted = "reading the answer of " + std::string(display_name(kind)),
+               .problem = std::move(problem),
+               .places = std::move(places)});
+}
+
+TetraResult read_result(EngineKind kind, const wire::ReplyHeader& header, const SharedBlock& reply, const std::byte* data, const TetraBoundary& boundary, const Request& request,
+                        const RunContext& context) {
+  const std::size_t n_boundary = boundary.points.size();
+  const std::size_t expected = sizeof header + sizeof(Vec3) * header.n_points + sizeof(std::array<std::uint32_t, 4>) * header.n_tetrahedra;
+  if (reply.size() != expected) throw_invalid_reply(kind, std::to_string(reply.size()) + " bytes instead of " + std::to_string(expected));
+  if (header.n_points < n_boundary) throw_invalid_reply(kind, std::to_string(header.n_points) + " points come back of " + std::to_string(n_boundary));
+  const auto* points = reinterpret_cast<const Vec3*>(data + sizeof header);
+  for (std::size_t i = 0; i < n_boundary; ++i) {
+    if (points[i] == request.points()[i]) continue;
+    throw_invalid_reply(kind, "boundary point " + std::to_string(i) + " comes back in another place", {{boundary.points[i], "sent"}, {points[i] / request.scale(), "came back"}});
+  }
+  TetraResult result;
+  result.engine = to_string(kind);
+  result.engine_seconds = header.engine_seconds;
+  result.engine_peak_bytes = header.peak_bytes;
+  result.new_points.resize(header.n_points - n_boundary);
+  result.tetrahedra.resize(header.n_tetrahedra);
+  parallel_for(context, result.new_points.size(), [&](std::size_t i) { result.new_points[i] = points[n_boundary + i] / request.scale(); });
+  if (header.n_tetrahedra > 0) std::memcpy(result.tetrahedra.data(), points + header.n_points, sizeof(result.tetrahedra[0]) * header.n_tetrahedra);
+  return result;
+}
+
+EngineOutcome failed(EngineFailure failure) { return {std::nullopt, std::move(failure)}; }
+
+}  // namespace
+
+std::string_view to_string(EngineKind kind) { return kind == EngineKind::tetgen ? "tetgen" : "hxt"; }
+std::string_view display_name(EngineKind kind) { return kind == EngineKind::tetgen ? "TetGen" : "HXT"; }
+
+EngineOutcome run_engine(EngineKind kind, const TetraBoundary& boundary, const BoundaryParts& parts, const TetraOptions& options, const RunContext& context) {
+  try {
+    const std::string helper = find_helper("sterna-tet-" + std::string(to_string(kind)), options.helper_folder);
+    const Request request(boundary, parts, options, context);
+    SharedBlock reply("sterna tetra reply", 0);
+    const HelperExit exit = run_helper(helper, request.block(), reply, options.time_limit, context);
+    if (!exit.output.empty()) context.debug(std::string(display_name(kind)) + ": " + exit.output);
+    const std::byte* data = reply.map();
+    wire::ReplyHeader header;
+    header.magic = 0;
+    if (reply.size() >= sizeof header) std::memcpy(&header, data, sizeof header);
+    if (std::optional<EngineFailure> reason = judge_exit(kind, exit, header, options)) return failed(std::move(*reason));
+    TetraResult result = read_result(kind, header, reply, data, boundary, request, context);
+    verify_tetrahedra(boundary, result, context);
+    return {std::move(result), {}};
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::tetra_engine_missing) return failed({FailureKind::missing, error.info()});
+    if (error.code() == ErrorCode::tetra_result_invalid) return failed({FailureKind::deterministic, error.info()});
+    throw;
+  }
+}
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,41 @@
+// One run of one engine: request out, helper run, reply in, answer proven.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "geom/base/error.h"
+#include "geom/base/run_context.h"
+#include "volmesh/tetra/boundary_parts.h"
+#include "volmesh/tetra/tetra.h"
+
+namespace sterna::volmesh {
+
+enum class EngineKind { tetgen, hxt };
+/// "tetgen" or "hxt", as in TetraOptions::engine.
+std::string_view to_string(EngineKind kind);
+/// "TetGen" or "HXT", for messages.
+std::string_view display_name(EngineKind kind);
+
+enum class FailureKind {
+  missing,        ///< the engine is not built in, or its helper cannot be started
+  deterministic,  ///< it will fail again: exit code, signal, failed verification
+  limit,          ///< time or memory limit, or killed from outside: another machine or day may see another end
+};
+
+struct EngineFailure {
+  FailureKind kind = FailureKind::deterministic;
+  ErrorInfo error;
+};
+
+/// Either a verified result or a failure.
+struct EngineOutcome {
+  std::optional<TetraResult> result;
+  EngineFailure failure;
+};
+
+/// \pre check_boundary() passed; parts of this boundary.
+/// \throws Error(cancelled) on a stop of the context (the helper is gone by then); Error(tetra_engine_failed) when the system has no memory for the request.
+EngineOutcome run_engine(EngineKind kind, const TetraBoundary& boundary, const BoundaryParts& parts, const TetraOptions& options, const RunContext& context);
+
+}  // namespace sterna::volmesh

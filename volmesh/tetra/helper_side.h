@@ -1,0 +1,130 @@
+// What the mains of the engine helpers have in common: reading the request, writing the reply, limits. Everything of a helper's process is here or in its main.
+#pragma once
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
+#include "volmesh/tetra/wire.h"
+
+namespace sterna::volmesh::helper {
+
+/// Last words for the parent, which quotes them.
+inline void say(std::string_view text) {
+  if (write(STDERR_FILENO, text.data(), text.size()) < 0) std::_Exit(3);
+}
+
+inline void write_all(const void* data, std::size_t size) {
+  const char* at = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t written = write(wire::k_reply_fd, at, size);
+    if (written <= 0) {
+      say("the reply cannot be written\n");
+      std::_Exit(2);
+    }
+    at += written;
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+/// High-water mark of this process; ru_maxrss would not do, it starts at the parent's size after a vfork.
+inline double peak_bytes() {
+  double kilobytes = 0.0;
+  if (std::FILE* status = std::fopen("/proc/self/status", "r")) {
+    char line[256];
+    while (std::fgets(line, sizeof line, status)) {
+      if (std::strncmp(line, "VmHWM:", 6) == 0) kilobytes = std::strtod(line + 6, nullptr);
+    }
+    std::fclose(status);
+  }
+  return 1024.0 * kilobytes;
+}
+
+/// Wall time since its making.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Writes a reply without mesh. Returns the exit status that goes with it.
+inline int reply_failure(wire::Outcome outcome, int engine_code, double seconds) {
+  wire::ReplyHeader reply;
+  reply.outcome = outcome;
+  reply.engine_code = engine_code;
+  reply.engine_seconds = seconds;
+  reply.peak_bytes = peak_bytes();
+  std::fflush(nullptr);
+  write_all(&reply, sizeof reply);
+  return 1;
+}
+
+/// Writes the mesh and ends the process: the kernel frees a few hundred megabytes faster than destructors do.
+[[noreturn]] inline void reply_mesh(const double* points, std::size_t n_points, const int* tetrahedra, std::size_t n_tetrahedra, double seconds) {
+  wire::ReplyHeader reply;
+  reply.n_points = n_points;
+  reply.n_tetrahedra = n_tetrahedra;
+  reply.engine_seconds = seconds;
+  reply.peak_bytes = peak_bytes();
+  write_all(&reply, sizeof reply);
+  write_all(points, 24 * n_points);
+  write_all(tetrahedra, 16 * n_tetrahedra);
+  std::fflush(nullptr);
+  std::_Exit(0);
+}
+
+/// A private mapping: the engine may write where it likes.
+struct Request {
+  const wire::RequestHeader* header = nullptr;  ///< nullptr: not a request
+  double* points = nullptr;
+  double* holes = nullptr;
+  const std::byte* size_field = nullptr;  ///< nullptr: none
+  int* triangles = nullptr;
+  const int* triangle2surface = nullptr;
+  const int* surface2region = nullptr;
+};
+
+inline Request map_request() {
+  Request request;
+  struct stat state {};
+  if (fstat(wire::k_request_fd, &state) != 0) return request;
+  const auto size = static_cast<std::uint64_t>(state.st_size);
+  if (size < sizeof(wire::RequestHeader)) return request;
+  void* block = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE, wire::k_request_fd, 0);
+  if (block == MAP_FAILED) return request;
+  const auto* header = static_cast<const wire::RequestHeader*>(block);
+  if (header->magic != wire::k_request_magic) return request;
+  if (size != sizeof *header + 24 * (header->n_points + header->n_holes) + header->size_bytes + 16 * header->n_triangles + 4 * header->n_surfaces) return request;
+  request.points = reinterpret_cast<double*>(static_cast<std::byte*>(block) + sizeof *header);
+  request.holes = request.points + 3 * header->n_points;
+  auto* const size_field = reinterpret_cast<std::byte*>(request.holes + 3 * header->n_holes);
+  if (header->size_bytes > 0) request.size_field = size_field;
+  request.triangles = reinterpret_cast<int*>(size_field + header->size_bytes);
+  request.triangle2surface = request.triangles + 3 * header->n_triangles;
+  request.surface2region = request.triangle2surface + header->n_triangles;
+  request.header = header;
+  return request;
+}
+
+/// The helper never outlives its parent, leaves no core, and may not take more than its memory.
+inline void limit_resources(std::uint64_t memory_limit) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const rlimit none{0, 0};
+  setrlimit(RLIMIT_CORE, &none);
+  const rlimit memory{memory_limit, memory_limit};
+  setrlimit(RLIMIT_AS, &memory);
+}
+
+}  // namespace sterna::volmesh::helper

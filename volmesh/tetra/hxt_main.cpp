@@ -1,0 +1,123 @@
+// sterna-tet-hxt: one call of HXT (in libgmsh) in a process of its own. Reads the request from file descriptor 3, writes the reply to 4 (wire.h).
+//
+// Why a process: HXT's crashes on input it does not like, its memory, its global state, what it prints, and symbols that libgmsh shares with TetGen.
+// What is known of HXT as Debian builds it (Gmsh 4.8.4; all measured):
+// - It finds the region of a tetrahedron from the set of surfaces around it, so every closed component of the boundary must be a surface of its own:
+//   with one for all it cannot tell the domain from the inside of a body, and fails.
+// - Its improvement does not give up on tetrahedra that the boundary forces: pygeo_bwb takes 0.2 s without and 20 s with Gmsh's threshold of 0.3.
+// - With more than one thread its answer differs from run to run.
+
+#include <cmath>
+#include <exception>
+#include <gmsh.h>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "volmesh/tetra/helper_side.h"
+
+namespace {
+
+using namespace sterna::volmesh;
+
+constexpr int k_hxt = 10;       ///< Mesh.Algorithm3D
+constexpr int k_triangle = 2;   ///< Gmsh's element types
+constexpr int k_tetrahedron = 4;
+
+void set_options(const wire::RequestHeader& header) {
+  gmsh::option::setNumber("General.Terminal", 1);
+  gmsh::option::setNumber("General.Verbosity", 2);  // warnings and errors
+  for (const char* threads : {"General.NumThreads", "Mesh.MaxNumThreads1D", "Mesh.MaxNumThreads2D", "Mesh.MaxNumThreads3D"}) gmsh::option::setNumber(threads, 1);
+  gmsh::option::setNumber("Mesh.Algorithm3D", k_hxt);
+  gmsh::option::setNumber("Mesh.Optimize", header.improve_below > 0.0 ? 1 : 0);
+  gmsh::option::setNumber("Mesh.OptimizeThreshold", header.improve_below);
+  gmsh::option::setNumber("Mesh.Renumber", 0);  // node tags are our point numbers
+}
+
+/// Surfaces with their nodes and triangles, and a volume for each region. Tags are 1-based.
+void set_boundary(const helper::Request& request) {
+  const wire::RequestHeader& header = *request.header;
+  std::vector<int> point2surface(header.n_points, 0);
+  std::vector<std::vector<std::size_t>> corners(header.n_surfaces);
+  for (std::size_t t = 0; t < header.n_triangles; ++t) {
+    const int surface = request.triangle2surface[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto v = static_cast<std::size_t>(request.triangles[3 * t + k]);
+      point2surface[v] = surface;
+      corners[static_cast<std::size_t>(surface)].push_back(v + 1);
+    }
+  }
+  std::vector<std::vector<std::size_t>> tags(header.n_surfaces);
+  std::vector<std::vector<double>> coordinates(header.n_surfaces);
+  for (std::size_t v = 0; v < header.n_points; ++v) {
+    const auto surface = static_cast<std::size_t>(point2surface[v]);
+    tags[surface].push_back(v + 1);
+    coordinates[surface].insert(coordinates[surface].end(), request.points + 3 * v, request.points + 3 * v + 3);
+  }
+  std::vector<std::vector<int>> region2surfaces;
+  for (std::size_t s = 0; s < header.n_surfaces; ++s) {
+    const int tag = static_cast<int>(s) + 1;
+    gmsh::model::addDiscreteEntity(2, tag);
+    gmsh::model::mesh::addNodes(2, tag, tags[s], coordinates[s]);
+    gmsh::model::mesh::addElementsByType(tag, k_triangle, {}, corners[s]);
+    const auto region = static_cast<std::size_t>(request.surface2region[s]);
+    if (region >= region2surfaces.size()) region2surfaces.resize(region + 1);
+    region2surfaces[region].push_back(tag);
+  }
+  for (const std::vector<int>& surfaces : region2surfaces) gmsh::model::geo::addVolume({gmsh::model::geo::addSurfaceLoop(surfaces)});
+  gmsh::model::geo::synchronize();
+}
+
+/// Sends the mesh: boundary points first, then the new ones in the order of their tags.
+[[noreturn]] void send_mesh(const helper::Request& request, double seconds) {
+  const std::size_t n_boundary = request.header->n_points;
+  std::vector<std::size_t> tags, element_tags, corners;
+  std::vector<double> coordinates, unused;
+  gmsh::model::mesh::getNodes(tags, coordinates, unused, -1, -1, false, false);
+  gmsh::model::mesh::getElementsByType(k_tetrahedron, element_tags, corners);
+  std::size_t last_tag = n_boundary;
+  for (const std::size_t tag : tags) last_tag = std::max(last_tag, tag);
+
+  // Tags have gaps where HXT has dropped points again.
+  std::vector<int> tag2point(last_tag + 1, -1);
+  for (const std::size_t tag : tags) tag2point[tag] = 0;
+  int n_points = 0;
+  for (std::size_t tag = 1; tag <= last_tag; ++tag) {
+    if (tag2point[tag] == 0 || tag <= n_boundary) tag2point[tag] = n_points++;
+  }
+  std::vector<double> points(3 * static_cast<std::size_t>(n_points), std::nan(""));  // a boundary point that does not come back is found by the parent
+  for (std::size_t i = 0; i < tags.size(); ++i) std::memcpy(points.data() + 3 * tag2point[tags[i]], coordinates.data() + 3 * i, 24);
+  std::vector<int> tetrahedra(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) tetrahedra[i] = tag2point[corners[i]];
+  helper::reply_mesh(points.data(), static_cast<std::size_t>(n_points), tetrahedra.data(), tetrahedra.size() / 4, seconds);
+}
+
+int run(const helper::Request& request) {
+  const helper::Stopwatch watch;
+  try {
+    gmsh::initialize(0, nullptr, false);
+    set_options(*request.header);
+    gmsh::model::add("sterna");
+    set_boundary(request);
+    gmsh::model::mesh::generate(3);
+    send_mesh(request, watch.seconds());
+  } catch (const std::bad_alloc&) {
+    return helper::reply_failure(wire::Outcome::out_of_memory, 0, watch.seconds());
+  } catch (const std::exception& error) {
+    helper::say(error.what());
+  } catch (const std::string& error) {
+    helper::say(error);
+  } catch (...) {
+    return helper::reply_failure(wire::Outcome::exception, 0, watch.seconds());
+  }
+  return helper::reply_failure(wire::Outcome::engine_code, 0, watch.seconds());
+}
+
+}  // namespace
+
+int main() {
+  const helper::Request request = helper::map_request();
+  if (!request.header) return helper::reply_failure(wire::Outcome::bad_request, 0, 0.0);
+  helper::limit_resources(request.header->memory_limit);
+  return run(request);
+}
