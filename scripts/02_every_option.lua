@@ -33,10 +33,12 @@ local mesh = volume_mesh{ wall,
     edge = 10 * wall.length,
   },
   tetrahedra = {
-    radius_edge = 1.2,
+    engine = "automatic",           -- or "tetgen", "hxt"
+    radius_edge = 1.2,              -- TetGen
+    hxt_improve_below = 0.02,       -- HXT's own improvement
     memory_limit = 20e9,            -- bytes, of the helper process
     time_limit = "automatic",       -- seconds; automatic: none
-    helper = "",                    -- path of sterna-tet-tetgen; empty: beside sterna
+    helper_folder = "",             -- where sterna-tet-tetgen and sterna-tet-hxt are; empty: beside sterna
   },
 }
 
