@@ -1,0 +1,214 @@
+// The octree of a size field. Steps: sites from boundary and samples; refine level by level, every cell of a level in parallel, until no leaf is longer than
+// allowed by the size at its centre; values at the corners; pack.
+//
+// No source is missed however small it is: within a cell of edge e it lies at most e sqrt(3)/2 from the centre, where it asks for at most
+// its size + slope e sqrt(3)/2; the cell is split as long as that is below e / k_edge_over_size, and k_edge_over_size is lowered for steep slopes.
+
+#include "volmesh/tetra/size_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <unordered_map>
+
+#include "geom/base/error.h"
+#include "geom/base/parallel.h"
+#include "volmesh/tetra/size_sites.h"
+
+namespace sterna::volmesh {
+namespace {
+
+/// Largest edge of a leaf over the size at its centre. 2 keeps the leaves at about a thirtieth of the tetrahedra; along a plane wall, where sizes grow linearly,
+/// interpolation is exact whatever the edge.
+constexpr double k_edge_over_size = 2.0;
+/// Room around the boundary's box, as a share of its edge: places on the boundary are inside of the root to rounding and beyond.
+constexpr double k_margin = 1e-3;
+/// About 1 GB of buffer and a minute's work; a mesh of half a billion tetrahedra.
+constexpr std::uint64_t k_max_leaves = 1u << 24;
+/// Leaves per task, consecutive along a space-filling curve: a compact block, so that most of their corners are shared within it.
+constexpr std::size_t k_leaf_chunk = 1024;
+
+struct Octant {
+  std::uint32_t x = 0, y = 0, z = 0;  ///< place in units of its level's edge
+  std::uint32_t hint = 0;             ///< site that was nearest to its parent's centre
+};
+
+class Builder {
+ public:
+  Builder(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context)
+      : slope_(options.size_growth - 1.0),
+        largest_(is_automatic(options.size_max) ? std::numeric_limits<double>::infinity() : options.size_max),
+        edge_over_size_(std::min(k_edge_over_size, 1.0 / slope_)),
+        sources_(sources),
+        context_(context),
+        sites_(sites_of(boundary, sources), slope_, context) {
+    Box box;
+    for (const Vec3& p : boundary.points) box.add(p);
+    edge_ = (1.0 + 2.0 * k_margin) * box.longest_side();
+    origin_ = box.center() - 0.5 * Vec3{edge_, edge_, edge_};
+  }
+
+  SizeField build(double growth) {
+    refine();
+    const std::vector<float> values = corner_values();
+    return pack(values, growth);
+  }
+
+ private:
+  static std::vector<SizeSite> sites_of(const TetraBoundary& boundary, std::span<const SizeSource> sources);
+  /// The field itself, as exact as it gets.
+  double size_at(const Vec3& p, std::uint32_t& hint) const {
+    double size = std::min(sites_.smallest(p, hint), largest_);
+    for (const SizeSource& source : sources_) size = std::min(size, size_of(source, p, slope_));
+    return size;
+  }
+  double edge_of(int level) const { return std::ldexp(edge_, -level); }
+  void refine();
+  std::vector<float> corner_values() const;
+  SizeField pack(const std::vector<float>& values, double growth) const;
+
+  double slope_;
+  double largest_;
+  double edge_over_size_;
+  std::span<const SizeSource> sources_;
+  const RunContext& context_;
+  SizeSites sites_;
+  Vec3 origin_;
+  double edge_ = 0.0;
+  std::vector<std::uint32_t> nodes_;
+  std::vector<Octant> leaves_;
+  std::vector<std::uint8_t> leaf_level_;
+};
+
+/// Boundary vertices with the geometric mean of their edges (of long and short edges it favours neither; slivers have no short edge), and the samples.
+std::vector<SizeSite> Builder::sites_of(const TetraBoundary& boundary, std::span<const SizeSource> sources) {
+  std::vector<double> logs(boundary.points.size(), 0.0);
+  std::vector<std::uint32_t> counts(boundary.points.size(), 0);
+  for (const auto& t : boundary.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      // In a closed surface each edge comes once in each direction.
+      const double length = distance(boundary.points[t[k]], boundary.points[t[(k + 1) % 3]]);
+      logs[t[k]] += std::log(length);
+      ++counts[t[k]];
+    }
+  }
+  std::vector<SizeSite> sites;
+  sites.reserve(boundary.points.size());
+  for (std::size_t i = 0; i < boundary.points.size(); ++i)
+    if (counts[i] > 0) sites.push_back({boundary.points[i], std::exp(logs[i] / counts[i])});
+  for (const SizeSource& source : sources)
+    for (std::size_t i = 0; i < source.points.size() && source.kind == SourceKind::samples; ++i) sites.push_back({source.points[i], source.sizes[i]});
+  return sites;
+}
+
+/// Children of a level follow in the order of their parents, so every level is sorted along the same space-filling curve.
+void Builder::refine() {
+  std::vector<Octant> level{Octant{}};
+  nodes_.assign(1, 0);
+  std::size_t first = 0;  // node of the level's first octant
+  for (int depth = 0; !level.empty(); ++depth) {
+    context_.check_stop();
+    const double edge = edge_of(depth);
+    std::vector<std::uint8_t> is_split(level.size(), 0);
+    parallel_for(context_, level.size(), [&](std::size_t i) {
+      Octant& o = level[i];
+      const Vec3 center = origin_ + edge * Vec3{o.x + 0.5, o.y + 0.5, o.z + 0.5};
+      is_split[i] = depth < SizeFieldView::k_max_depth && edge > edge_over_size_ * size_at(center, o.hint);
+    }, 256);
+    std::vector<Octant> next;
+    const std::size_t next_first = nodes_.size();
+    for (std::size_t i = 0; i < level.size(); ++i) {
+      const Octant& o = level[i];
+      if (!is_split[i]) {
+        nodes_[first + i] = SizeFieldView::k_leaf_bit | static_cast<std::uint32_t>(leaves_.size());
+        leaves_.push_back(o);
+        leaf_level_.push_back(static_cast<std::uint8_t>(depth));
+        continue;
+      }
+      nodes_[first + i] = static_cast<std::uint32_t>(next_first + next.size());
+      for (std::uint32_t k = 0; k < 8; ++k) next.push_back({2 * o.x + (k & 1u), 2 * o.y + (k >> 1 & 1u), 2 * o.z + (k >> 2), o.hint});
+    }
+    if (leaves_.size() + next.size() > k_max_leaves)
+      throw Error({.code = ErrorCode::overflow,
+                   .attempted = "building the size field",
+                   .problem = "more than " + std::to_string(k_max_leaves) + " leaves are needed",
+                   .hint = "a source asks for a very small size in a large region"});
+    nodes_.resize(next_first + next.size(), 0);
+    first = next_first;
+    level = std::move(next);
+  }
+}
+
+std::vector<float> Builder::corner_values() const {
+  std::vector<float> values(8 * leaves_.size());
+  parallel_chunks(context_, leaves_.size(), k_leaf_chunk, [&](std::size_t begin, std::size_t end) {
+    struct Corner {
+      std::uint64_t xy;
+      std::uint64_t z;
+      bool operator==(const Corner&) const = default;
+    };
+    struct Hash {
+      std::size_t operator()(const Corner& c) const { return (c.xy ^ (c.z * 0x9e3779b97f4a7c15ull)) * 0xff51afd7ed558ccdull >> 7; }
+    };
+    std::unordered_map<Corner, float, Hash> known;
+    known.reserve(2 * (end - begin));
+    for (std::size_t leaf = begin; leaf < end; ++leaf) {
+      const Octant& o = leaves_[leaf];
+      const int level = leaf_level_[leaf];
+      const int shift = SizeFieldView::k_max_depth - level;
+      std::uint32_t hint = o.hint;
+      for (std::uint32_t k = 0; k < 8; ++k) {
+        const std::uint64_t x = static_cast<std::uint64_t>(o.x + (k & 1u)) << shift, y = static_cast<std::uint64_t>(o.y + (k >> 1 & 1u)) << shift,
+                            z = static_cast<std::uint64_t>(o.z + (k >> 2)) << shift;
+        const auto [it, is_new] = known.try_emplace({x << 32 | y, z}, 0.0f);
+        if (is_new) {
+          const Vec3 at{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+          it->second = static_cast<float>(size_at(origin_ + edge_of(SizeFieldView::k_max_depth) * at, hint));
+        }
+        values[8 * leaf + k] = it->second;
+      }
+    }
+  });
+  return values;
+}
+
+SizeField Builder::pack(const std::vector<float>& values, double growth) const {
+  SizeFieldView::Header header;
+  header.n_nodes = nodes_.size();
+  header.n_leaves = leaves_.size();
+  for (std::size_t axis = 0; axis < 3; ++axis) header.origin[axis] = origin_[axis];
+  header.edge = edge_;
+  const auto [smallest, largest] = std::ranges::minmax(values);
+  header.smallest = static_cast<double>(smallest);
+  header.largest = static_cast<double>(largest);
+  header.growth = growth;
+  std::vector<double> words(SizeFieldView::size_bytes(header.n_nodes, header.n_leaves) / sizeof(double), 0.0);
+  std::byte* at = reinterpret_cast<std::byte*>(words.data());
+  std::memcpy(at, &header, sizeof header);
+  std::memcpy(at + sizeof header, nodes_.data(), 4 * nodes_.size());
+  std::memcpy(at + sizeof header + 8 * ((nodes_.size() + 1) / 2), values.data(), 4 * values.size());
+  return SizeField(std::move(words));
+}
+
+void require_sane(const TetraBoundary& boundary, std::span<const SizeSource> sources, double growth) {
+  if (boundary.triangles.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "building the size field", .problem = "the boundary has no triangles"});
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    std::string problem = problem_of(sources[i], growth);
+    const double n_leaves = volume_of(sources[i]) / std::pow(k_edge_over_size * std::max(sources[i].size, sources[i].size_end), 3.0);
+    if (problem.empty() && n_leaves > static_cast<double>(k_max_leaves)) problem = "its region at this size is more than " + std::to_string(k_max_leaves) + " leaves of the field";
+    if (problem.empty()) continue;
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "building the size field",
+                 .problem = "source " + std::to_string(i + 1) + " (" + std::string(to_string(sources[i].kind)) + "): " + problem,
+                 .places = {{sources[i].from, "source"}}});
+  }
+}
+
+}  // namespace
+
+SizeField build_size_field(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context) {
+  require_sane(boundary, sources, options.size_growth);
+  return Builder(boundary, sources, options, context).build(options.size_growth);
+}
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,85 @@
+#include "volmesh/tetra/size_sites.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/parallel.h"
+#include "geom/math/bvh.h"
+
+namespace sterna::volmesh {
+namespace {
+
+float below(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
+float above(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
+
+}  // namespace
+
+SizeSites::SizeSites(std::span<const SizeSite> sites, double slope, const RunContext& context) : slope_(slope) {
+  std::vector<Box> boxes(sites.size());
+  parallel_for(context, sites.size(), [&](std::size_t i) { boxes[i].add(sites[i].at); });
+  const BoxTree tree(boxes, context);
+  sites_.resize(sites.size());
+  parallel_for(context, sites.size(), [&](std::size_t i) { sites_[i] = sites[tree.order()[i]]; });
+
+  nodes_.resize(tree.nodes().size());
+  parallel_for(context, nodes_.size(), [&](std::size_t i) {
+    const BoxTree::Node& from = tree.nodes()[i];
+    Node& node = nodes_[i];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      node.min[axis] = below(from.box.min[axis]);
+      node.max[axis] = above(from.box.max[axis]);
+    }
+    node.first = from.first;
+    node.count = from.count;
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t k = 0; k < from.count; ++k) smallest = std::min(smallest, sites_[from.first + k].size);
+    node.smallest = from.count > 0 ? below(smallest) : 0.0f;
+  });
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    Node& node = nodes_[i];
+    if (node.count == 0) node.smallest = std::min(nodes_[node.first].smallest, nodes_[node.first + 1].smallest);
+  }
+}
+
+double SizeSites::lower_bound(const Node& node, const Vec3& p) const {
+  double squared = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double away = std::max({static_cast<double>(node.min[axis]) - p[axis], p[axis] - static_cast<double>(node.max[axis]), 0.0});
+    squared += away * away;
+  }
+  return static_cast<double>(node.smallest) + slope_ * std::sqrt(squared);
+}
+
+double SizeSites::smallest(const Vec3& p, std::uint32_t& hint) const {
+  double best = sites_[hint].size + slope_ * distance(p, sites_[hint].at);
+  struct Entry {
+    std::uint32_t node;
+    double bound;
+  };
+  Entry stack[64];  // median splits: one entry stays behind on each of at most 32 levels
+  int n = 0;
+  stack[n++] = {0, lower_bound(nodes_[0], p)};
+  while (n > 0) {
+    const Entry entry = stack[--n];
+    if (entry.bound >= best) continue;
+    const Node& node = nodes_[entry.node];
+    if (node.count == 0) {
+      Entry near{node.first, lower_bound(nodes_[node.first], p)};
+      Entry far{node.first + 1, lower_bound(nodes_[node.first + 1], p)};
+      if (far.bound < near.bound) std::swap(near, far);
+      if (far.bound < best) stack[n++] = far;
+      if (near.bound < best) stack[n++] = near;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const double value = sites_[i].size + slope_ * distance(p, sites_[i].at);
+      if (value < best) {
+        best = value;
+        hint = i;
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace sterna::volmesh
