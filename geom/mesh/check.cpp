@@ -21,20 +21,34 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
     report.cells = count_cells(mesh);
     if (report.cells.total() == 0) findings.add(Violation::no_cells, [&] { return std::pair(Point{}, std::string("the mesh has no cells")); });
     const FaceSlots slots(mesh, cells, find_open_sides(mesh.layers, context));
-    const FaceMatch match = match_faces(slots, mesh.points.size(), static_cast<std::uint64_t>(std::max<std::int64_t>(options.faces_at_a_time, 1)), context);
+    const std::vector<double> volumes = options.quality ? tet_volumes(mesh, context) : std::vector<double>{};
+    const FaceMatch match =
+        match_faces(slots, mesh.points.size(), static_cast<std::uint64_t>(std::max<std::int64_t>(options.faces_at_a_time, 1)), volumes, options.limits, context);
     report_faces(mesh, slots, match, findings);
     context.progress(0.3);
 
-    const CellScan scan = scan_cells(mesh, cells, options.quality, context);
+    const CellScan scan = scan_cells(mesh, cells, options.quality, options.limits, context);
     for (const std::uint64_t number : scan.invalid)
       findings.add(Violation::invalid_cell, [&] {
         const Point center = cells.center(number);
         return std::pair(center, cells.name(number) + near_patch(mesh, center) + " is inverted or folded");
       });
-    if (options.quality) report.quality = scan.quality.result();
-    report.quality_measured = options.quality;
     check_volumes(mesh, slots, match, scan, context, report, findings);
-    context.progress(0.6);
+    check_symmetry(mesh, context, findings);
+    context.progress(0.5);
+
+    std::optional<DualScan> dual;
+    report.dual_checked = !findings.has_any_of("G1");
+    if (report.dual_checked) {
+      dual = check_dual(mesh, cells, options.limits, context, findings);
+      report.dual_volume = dual->volume.value();
+    }
+    context.progress(0.7);
+    if (options.quality) {
+      report.quality = scan.quality.result();
+      judge_gates(mesh, cells, slots, match, scan, dual ? &*dual : nullptr, options.limits, context, report);
+      report.quality_measured = true;
+    }
 
     if (options.intersections) {
       check_crossings(mesh, slots, match, context, findings);

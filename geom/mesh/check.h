@@ -1,4 +1,5 @@
-// The invariant walker: proves that a HybridMesh tiles its domain, or says where it does not. Gates G1-G3 of quality.md.
+// The invariant walker: proves that a HybridMesh tiles its domain and has a dual mesh, or says where not (VALID: G1-G4 and G20 of quality.md), and measures
+// the gates that say how good it is (QUALITY: G5-G16 and the targets of G3 and G4).
 #pragma once
 
 #include <cstdint>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "geom/base/run_context.h"
+#include "geom/mesh/gates.h"
 #include "geom/mesh/hybrid_mesh.h"
 
 namespace sterna {
@@ -27,9 +29,12 @@ enum class Violation {
   broken_line,            ///< G1: two wall-normal lines that share nodes, so that one of them has none of its own (column meshes only)
   overlapping_parts,      ///< tiling: a boundary whose fluid side is covered more than once or lies outside the mesh (closed boundaries only)
   no_cells,               ///< tiling: the mesh has no cell at all
+  negative_sub_volume,    ///< G4: a cell with a dual sub-volume that is not positive (exact)
+  open_dual_cell,         ///< G4: a control volume whose faces do not close (floating point, limit Measure::dual_closure)
+  off_symmetry_plane,     ///< G20: a node of a symmetry patch off the patch's axis plane
 };
 std::string_view to_string(Violation v);
-/// "G1", "G2", "G3" or "tiling".
+/// "G1", "G2", "G3", "G4", "G20" or "tiling".
 std::string_view gate_of(Violation v);
 
 struct Finding {
@@ -49,6 +54,14 @@ struct Quality {
   double skew_below_6 = 0.0, skew_below_18 = 0.0, skew_above_60 = 0.0;
 };
 
+/// What became of the layer on one patch, by area (G12). Full: at least 0.9 of the target height; compressed: below layers x first height.
+struct PatchCoverage {
+  std::string patch;
+  double area = 0.0;  ///< m^2 of wall
+  double full = 0.0, reduced = 0.0, compressed = 0.0, collapsed = 0.0;         ///< shares of it; they sum to 1
+  std::vector<std::pair<std::string, double>> lost;  ///< share of the area below full height by reason, largest first
+};
+
 struct CheckReport {
   CellCounts cells;
   std::int64_t n_nodes = 0;
@@ -58,17 +71,26 @@ struct CheckReport {
   double layer_volume = 0.0, layer_volume_error = 0.0;      ///< m^3; error relative to layer_volume, limit 1e-11
   double tet_volume = 0.0, tet_volume_error = 0.0;          ///< likewise for the tets
   double total_volume = 0.0;
+  double dual_volume = 0.0;            ///< m^3, sum of all control volumes; equals total_volume to rounding
   Quality quality;
+  std::vector<GateResult> gates;       ///< QUALITY, in the order of Measure; empty when quality was not asked for
+  std::vector<PatchCoverage> coverage; ///< of wall patches under layers, where the mesh says what was asked for
   bool is_complete = true;             ///< false: indices out of range or points not finite, so that nothing else could be checked
   bool intersections_checked = false;  ///< G2 was asked for and tried
-  bool quality_measured = false;       ///< `quality` is filled
+  bool dual_checked = false;           ///< G4 was tried: faces conform
+  bool quality_measured = false;       ///< `quality` and `gates` are filled
   bool is_valid() const { return counts.empty(); }
+  /// Worst state of the QUALITY gates; not_checked when none was.
+  GateState quality_state() const;
+  /// \pre quality_measured
+  const GateResult& gate(Measure measure) const { return gates[static_cast<std::size_t>(measure)]; }
   std::int64_t count(Violation v) const;
 };
 
 struct CheckOptions {
   bool intersections = true;  ///< G2, the exact triangle-triangle tests
-  bool quality = true;        ///< fill CheckReport::quality
+  bool quality = true;        ///< fill CheckReport::quality and gates
+  GateTable limits;           ///< of the QUALITY gates
   int findings_per_kind = 10;
   std::int64_t faces_at_a_time = std::int64_t{1} << 27;  ///< bound of the memory for matching faces, 16 bytes each; the report does not depend on it
 };
@@ -78,12 +100,13 @@ struct CheckOptions {
 /// Proves or refutes: every face matched by vertex ids with opposite sense or a boundary face of exactly one patch; every cell valid by its
 /// exact test; boundaries and envelope free of crossings; no unused node; volumes consistent to 1e-11. Column meshes are checked without making
 /// their cells explicit (matching over base edges), explicit ones by sorting faces; both parallel, same report for any thread count.
-/// Never throws for a bad mesh: findings are the result.
+/// The dual mesh and the QUALITY gates need a conforming mesh: with a G1 violation they are "not checked". Gates of layers need columns, and those that compare
+/// with a request need HybridMesh::request. Never throws for a bad mesh: findings are the result.
 CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context);
 
-/// Several lines for people: verdict, gates with counts, G4 and G20 as "not checked", quality, the findings with coordinates.
+/// Several lines for people: both verdicts, gates with counts and worst places, the findings with coordinates.
 std::string to_text(const CheckReport& report);
-/// JSON with schema "sterna-check-1".
+/// JSON with schema "sterna-check-2", described in docs/check_json.md.
 std::string to_json(const CheckReport& report);
 
 }  // namespace sterna

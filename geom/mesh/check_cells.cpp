@@ -10,7 +10,7 @@ constexpr std::size_t k_column_chunk = 64;
 
 class CellScanner {
  public:
-  CellScanner(const HybridMesh& mesh, bool with_quality) : mesh_(mesh), with_quality_(with_quality) {}
+  CellScanner(const HybridMesh& mesh, bool with_quality, const GateTable& limits) : mesh_(mesh), with_quality_(with_quality), scan_(limits) {}
 
   CellScan take() { return std::move(scan_); }
 
@@ -31,6 +31,7 @@ class CellScanner {
         const auto p = points_of<4>(cell.nodes);
         note(number, is_tet_valid(p));
         scan_.layer_volume.add(tet_volume(p[0], p[1], p[2], p[3]));
+        if (with_quality_) add_dihedrals(number, tet_dihedral_range(p));
       }
       if (with_quality_) scan_.quality.add_collapsed();
     }
@@ -47,7 +48,10 @@ class CellScanner {
     const auto p = points_of<4>(nodes);
     note(number, is_tet_valid(p));
     scan_.tet_volume.add(tet_volume(p[0], p[1], p[2], p[3]));
-    if (with_quality_) scan_.quality.add_tet(p);
+    if (!with_quality_) return;
+    const auto range = tet_dihedral_range(p);
+    add_dihedrals(number, range);
+    scan_.quality.add_tet(p, range);
   }
 
  private:
@@ -63,11 +67,16 @@ class CellScanner {
   void add_prism(std::uint64_t number, const WedgePoints& p) {
     note(number, is_wedge_valid(p));
     scan_.layer_volume.add(wedge_volume(p));
-    if (with_quality_) scan_.quality.add_prism(p);
+    if (with_quality_) scan_.scaled_jacobian.add(scan_.quality.add_prism(p), number);
   }
   void add_pyramid(std::uint64_t number, const std::array<Vec3, 5>& p) {
     note(number, is_pyramid_valid(p));
     scan_.layer_volume.add(pyramid_volume(p));
+  }
+
+  void add_dihedrals(std::uint64_t number, const std::array<double, 2>& range) {
+    scan_.min_dihedral.add(range[0], number);
+    scan_.max_dihedral.add(range[1], number);
   }
 
   const HybridMesh& mesh_;
@@ -80,17 +89,34 @@ CellScan merge(CellScan all, CellScan more) {
   all.layer_volume.add(more.layer_volume);
   all.tet_volume.add(more.tet_volume);
   all.quality.merge(more.quality);
+  all.scaled_jacobian.merge(more.scaled_jacobian);
+  all.min_dihedral.merge(more.min_dihedral);
+  all.max_dihedral.merge(more.max_dihedral);
   return all;
 }
 
 }  // namespace
 
-CellScan scan_cells(const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const RunContext& context) {
+CellScan::CellScan(const GateTable& limits)
+    : scaled_jacobian(info_of(Measure::scaled_jacobian), limits[Measure::scaled_jacobian]),
+      min_dihedral(info_of(Measure::min_dihedral), limits[Measure::min_dihedral]),
+      max_dihedral(info_of(Measure::max_dihedral), limits[Measure::max_dihedral]) {}
+
+std::vector<double> tet_volumes(const HybridMesh& mesh, const RunContext& context) {
+  std::vector<double> volumes(mesh.tetrahedra.size());
+  parallel_for(context, volumes.size(), [&](std::size_t i) {
+    const auto& n = mesh.tetrahedra[i];
+    volumes[i] = std::max(0.0, tet_volume(mesh.points[n[0]], mesh.points[n[1]], mesh.points[n[2]], mesh.points[n[3]]));
+  });
+  return volumes;
+}
+
+CellScan scan_cells(const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const GateTable& limits, const RunContext& context) {
   const auto n_layers = static_cast<std::uint64_t>(mesh.layers.n_layers);
   CellScan scan = parallel_reduce(
-      context, mesh.layers.n_columns(), CellScan{},
+      context, mesh.layers.n_columns(), CellScan(limits),
       [&](std::size_t begin, std::size_t end) {
-        CellScanner scanner(mesh, with_quality);
+        CellScanner scanner(mesh, with_quality, limits);
         for (std::size_t c = begin; c < end; ++c) scanner.add_column(c * n_layers, c);
         return scanner.take();
       },
@@ -99,7 +125,7 @@ CellScan scan_cells(const HybridMesh& mesh, const CellNumbers& cells, bool with_
     scan = parallel_reduce(
         context, block.size(), std::move(scan),
         [&](std::size_t begin, std::size_t end) {
-          CellScanner scanner(mesh, with_quality);
+          CellScanner scanner(mesh, with_quality, limits);
           for (std::size_t c = begin; c < end; ++c) scanner.add_explicit(first_number + c, block[c]);
           return scanner.take();
         },

@@ -44,7 +44,7 @@ KeyedFace canonical(std::uint32_t slot, const Face& face) {
 }
 
 /// Decides one face from all its occurrences, cells first (boundary slots are the highest).
-void judge(const FaceSlots& slots, const FaceKey* face, std::size_t n, FaceMatch& match) {
+void judge(const FaceSlots& slots, const FaceKey* face, std::size_t n, std::span<const double> tet_volumes, FaceMatch& match) {
   std::size_t n_cells = 0;
   while (n_cells < n && !slots.is_boundary(face[n_cells].slot())) ++n_cells;
   const std::size_t n_boundary = n - n_cells;
@@ -57,11 +57,20 @@ void judge(const FaceSlots& slots, const FaceKey* face, std::size_t n, FaceMatch
   if (n_cells == 2) {
     if (face[0].is_reversed() == face[1].is_reversed()) return add(Violation::same_sense_face, 0, 1);
     // The lower slot belongs to the layer when only one of them does.
-    if (slots.is_layer(face[0].slot()) && !slots.is_layer(face[1].slot())) match.interface.push_back(face[0].slot());
+    const bool is_layer = slots.is_layer(face[0].slot());
+    if (is_layer && !slots.is_layer(face[1].slot())) {
+      match.interface.push_back(face[0].slot());
+      match.interface_tets.push_back(face[1].slot());
+    }
+    if (!is_layer && match.tet_growth) {
+      const auto [small, large] = std::minmax(tet_volumes[slots.tet_of(face[0].slot())], tet_volumes[slots.tet_of(face[1].slot())]);
+      match.tet_growth->add(small > 0.0 ? large / small : std::numeric_limits<double>::infinity(), face[0].slot());
+    }
     return;
   }
   if (n_boundary == 0) return add(Violation::unmatched_face, 0, 0);
   match.outer.push_back(face[0].slot());
+  match.outer_boundary.push_back(face[1].slot());
   for (std::size_t i = 1; i < n; ++i)
     if (face[i].is_reversed() != face[0].is_reversed()) add(Violation::same_sense_face, i, 0);
 }
@@ -69,12 +78,21 @@ void judge(const FaceSlots& slots, const FaceKey* face, std::size_t n, FaceMatch
 void append(FaceMatch& all, FaceMatch&& more) {
   all.issues = concatenate(std::move(all.issues), std::move(more.issues));
   all.outer.insert(all.outer.end(), more.outer.begin(), more.outer.end());
+  all.outer_boundary.insert(all.outer_boundary.end(), more.outer_boundary.begin(), more.outer_boundary.end());
   all.interface.insert(all.interface.end(), more.interface.begin(), more.interface.end());
+  all.interface_tets.insert(all.interface_tets.end(), more.interface_tets.begin(), more.interface_tets.end());
+  if (all.tet_growth) all.tet_growth->merge(*more.tet_growth);
 }
 
 }  // namespace
 
-FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, const RunContext& context) {
+FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, std::span<const double> tet_volumes, const GateTable& limits,
+                      const RunContext& context) {
+  const auto make_match = [&] {
+    FaceMatch match;
+    if (!tet_volumes.empty()) match.tet_growth.emplace(info_of(Measure::tet_growth), limits[Measure::tet_growth]);
+    return match;
+  };
   std::vector<std::uint32_t> cursor(n_points, 0);
   slots.for_each(context, [&](std::uint32_t, const Face& face) {
     std::atomic_ref<std::uint32_t>(cursor[face.nodes[lowest_corner(face)].index()]).fetch_add(1, std::memory_order_relaxed);
@@ -82,7 +100,7 @@ FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_
   std::vector<std::uint64_t> first(n_points + 1, 0);
   for (std::size_t node = 0; node < n_points; ++node) first[node + 1] = first[node] + cursor[node];
 
-  FaceMatch match;
+  FaceMatch match = make_match();
   std::vector<FaceKey> keys;
   for (std::size_t begin_node = 0; begin_node < n_points;) {
     std::size_t end_node = begin_node + 1;
@@ -97,16 +115,16 @@ FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_
       keys[first[lowest] - first_key + i] = canonical(slot, face).key;
     });
     FaceMatch batch = parallel_reduce(
-        context, end_node - begin_node, FaceMatch{},
+        context, end_node - begin_node, make_match(),
         [&](std::size_t begin, std::size_t end) {
-          FaceMatch part;
+          FaceMatch part = make_match();
           for (std::size_t node = begin_node + begin; node < begin_node + end; ++node) {
             FaceKey* const bucket = keys.data() + (first[node] - first_key);
             const std::size_t n = first[node + 1] - first[node];
             std::sort(bucket, bucket + n);
             for (std::size_t i = 0, e = 0; i < n; i = e) {
               for (e = i; e < n && bucket[e].is_same_face(bucket[i]);) ++e;
-              judge(slots, bucket + i, e - i, part);
+              judge(slots, bucket + i, e - i, tet_volumes, part);
             }
           }
           return part;

@@ -4,16 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "geom/base/parallel.h"
 #include "geom/mesh/check.h"
+#include "geom/mesh/dual_metrics.h"
 #include "geom/mesh/quality.h"
 
 namespace sterna::check_parts {
 
-inline constexpr std::size_t k_n_violations = static_cast<std::size_t>(Violation::no_cells) + 1;
+inline constexpr std::size_t k_n_violations = static_cast<std::size_t>(Violation::off_symmetry_plane) + 1;
 
 /// Appends `more` to `all`; the combine function of every list that is gathered chunk by chunk.
 template <class T>
@@ -34,6 +37,8 @@ class Findings {
     auto [position, what] = describe();
     kept_.push_back({violation, position, std::move(what)});
   }
+  /// Counts n violations without a description, after those that have one.
+  void add_more(Violation violation, std::int64_t n) { counts_[index(violation)] += n; }
   /// Whether a gate ("G1", ...) has any violation so far.
   bool has_any_of(std::string_view gate) const;
   void store(CheckReport& report);
@@ -92,6 +97,13 @@ class FaceSlots {
   /// Number of the cell that has the face. \pre !is_boundary(slot)
   std::uint64_t owner(std::uint32_t slot) const;
   bool is_layer(std::uint32_t slot) const { return slot < first_[k_tetrahedra]; }
+  /// Number of the explicit tet that has the face. \pre !is_layer(slot), !is_boundary(slot)
+  std::uint32_t tet_of(std::uint32_t slot) const { return (slot - first_[k_tetrahedra]) / 4; }
+  /// Column whose bottom the face is, if it is one.
+  std::optional<std::uint32_t> column_under(std::uint32_t slot) const {
+    if (slot >= first_[k_sides] || slot % 2 != 0) return std::nullopt;
+    return slot / 2;
+  }
   /// Patch of a boundary face.
   PatchId patch(std::uint32_t slot) const;
   /// "boundary triangle 12, patch wing", or the face's cell.
@@ -157,14 +169,19 @@ struct FaceIssue {
 struct FaceMatch {
   std::vector<FaceIssue> issues;         ///< sorted
   std::vector<std::uint32_t> outer;      ///< cell faces with a boundary face
+  std::vector<std::uint32_t> outer_boundary;  ///< the boundary face of each of them
   std::vector<std::uint32_t> interface;  ///< faces of layer cells that a tet shares with opposite sense: the envelope
+  std::vector<std::uint32_t> interface_tets;  ///< the tet's face of each of them
+  std::optional<GateScan> tet_growth;    ///< ids are slots; only when asked for
 };
 
 /// What one pass over all cells finds.
 struct CellScan {
+  explicit CellScan(const GateTable& limits);
   std::vector<std::uint64_t> invalid;  ///< cell numbers, ascending
   CompensatedSum layer_volume, tet_volume;
   QualityScan quality;
+  GateScan scaled_jacobian, min_dihedral, max_dihedral;  ///< ids are cell numbers
 };
 
 // The steps, each in its own file.
@@ -174,9 +191,13 @@ bool check_indices(const HybridMesh& mesh, const CellNumbers& cells, const RunCo
 /// Base edges that are not shared by exactly two columns of opposite sense; edges between two collapsed lines have no faces and do not count.
 std::vector<OpenSide> find_open_sides(const LayerBlock& layers, const RunContext& context);
 /// At most `faces_at_a_time` faces are held at a time, or those of one lowest node if they are more.
-FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, const RunContext& context);
+/// Volume ratios over the faces between explicit tets are measured when `tet_volumes` has the tets' volumes.
+FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, std::span<const double> tet_volumes, const GateTable& limits,
+                      const RunContext& context);
 void report_faces(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, Findings& findings);
-CellScan scan_cells(const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const RunContext& context);
+CellScan scan_cells(const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const GateTable& limits, const RunContext& context);
+/// Volumes of the explicit tets, m^3; zero where not positive.
+std::vector<double> tet_volumes(const HybridMesh& mesh, const RunContext& context);
 /// Compares the cells' volumes with the flux through outer faces and envelope; fills the report's volumes.
 void check_volumes(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const CellScan& scan, const RunContext& context, CheckReport& report,
                    Findings& findings);
@@ -184,5 +205,15 @@ void check_volumes(const HybridMesh& mesh, const FaceSlots& slots, const FaceMat
 void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const RunContext& context, Findings& findings);
 /// overlapping_parts; does nothing when faces or crossings were found wrong, since then no side of a boundary is the fluid's.
 void check_cover(const HybridMesh& mesh, const FaceSlots& slots, const RunContext& context, Findings& findings);
+
+/// negative_sub_volume, open_dual_cell (G4), and the nodes' statistics. \pre no G1 violation
+DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const GateTable& limits, const RunContext& context, Findings& findings);
+/// off_symmetry_plane (G20).
+void check_symmetry(const HybridMesh& mesh, const RunContext& context, Findings& findings);
+/// The QUALITY gates into the report.
+void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, const CellScan& scan, const DualScan* dual,
+                 const GateTable& limits, const RunContext& context, CheckReport& report);
+/// Middle of an entity and its name for a place of a gate: of a node, with its line and layer if it has any.
+std::pair<Point, std::string> describe_node(const HybridMesh& mesh, std::uint64_t node);
 
 }  // namespace sterna::check_parts

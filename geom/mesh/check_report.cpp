@@ -10,21 +10,21 @@ namespace sterna {
 namespace {
 
 constexpr double k_degrees = 180.0 / std::numbers::pi;
-constexpr std::array<std::string_view, 4> k_checked_gates = {"G1", "G2", "G3", "tiling"};
-constexpr std::array<std::string_view, 2> k_unchecked_gates = {"G4", "G20"};
+/// Of the verdict VALID.
+constexpr std::array<std::string_view, 6> k_valid_gates = {"G1", "G2", "G3", "G4", "G20", "tiling"};
 
 std::string_view title_of(std::string_view gate) {
   if (gate == "G1") return "conformity";
   if (gate == "G2") return "no intersections";
   if (gate == "G3") return "valid cells";
-  if (gate == "G4") return "positive dual sub-volumes";
+  if (gate == "G4") return "dual sub-volumes, closure";
   if (gate == "G20") return "symmetry planes";
   return "volumes and cover";
 }
 
 bool is_checked(const CheckReport& report, std::string_view gate) {
   if (gate == "G1") return true;
-  return report.is_complete && (gate != "G2" || report.intersections_checked);
+  return report.is_complete && (gate != "G2" || report.intersections_checked) && (gate != "G4" || report.dual_checked);
 }
 
 std::int64_t count_of_gate(const CheckReport& report, std::string_view gate) {
@@ -51,7 +51,81 @@ std::string gate_line(std::string_view gate, const std::string& state) {
   return format("  %-6s %-26s ", std::string(gate).c_str(), std::string(title_of(gate)).c_str()) + state + "\n";
 }
 
-nlohmann::ordered_json to_array(const Point& p) { return {p.x, p.y, p.z}; }
+using Json = nlohmann::ordered_json;
+
+Json to_array(const Point& p) { return {p.x, p.y, p.z}; }
+
+/// In the unit of reports: degrees for angles.
+double shown(const MeasureInfo& info, double value) { return info.is_angle ? value * k_degrees : value; }
+
+std::string shown_text(const MeasureInfo& info, double value) { return format("%.4g", shown(info, value)) + (info.is_angle ? " deg" : ""); }
+
+/// "hard 5 deg, target 20 deg, 35 deg on 99.9 %"
+std::string limits_text(const MeasureInfo& info, const GateLimits& limits) {
+  std::string text;
+  const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  const auto limit = [&](double value) { return std::string(info.is_low_bad ? ">= " : "<= ") + shown_text(info, value); };
+  if (!std::isnan(limits.hard)) add("hard " + limit(limits.hard));
+  if (!std::isnan(limits.target)) add("target " + limit(limits.target));
+  if (!std::isnan(limits.usual)) add(limit(limits.usual) + format(" on %g %%", 100.0 * limits.usual_share));
+  return text;
+}
+
+std::string gate_text(const GateResult& gate) {
+  const MeasureInfo& info = info_of(gate.measure);
+  const std::string head = format("  %-4s %-32s ", std::string(info.gate).c_str(), std::string(info.title).c_str());
+  if (gate.state == GateState::not_checked) return head + "not checked: " + gate.reason + "\n";
+  std::string text = head + format("%-5s worst ", std::string(to_string(gate.state)).c_str()) + shown_text(info, gate.worst);
+  if (!std::isnan(gate.limits.usual))
+    text += format("; %.4g %% of %s ", 100.0 * gate.share_within, std::string(info.counted).c_str()) + (info.is_low_bad ? ">= " : "<= ") +
+            shown_text(info, gate.limits.usual);
+  if (const std::string limits = limits_text(info, gate.limits); !limits.empty()) text += " (" + limits + ")";
+  text += "\n";
+  if (gate.state == GateState::pass) return text;
+  for (const GatePlace& place : gate.places) text += "         " + shown_text(info, place.value) + " at " + format_point(place.position) + ": " + place.what + "\n";
+  return text;
+}
+
+/// JSON has no infinity and no NaN: null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json to_json(const GateResult& gate) {
+  const MeasureInfo& info = info_of(gate.measure);
+  Json json = {{"gate", info.gate}, {"measure", info.name}, {"title", info.title}, {"unit", info.is_angle ? "deg" : ""}, {"bound", info.is_low_bad ? "lower" : "upper"}};
+  json["state"] = gate.state == GateState::fail ? "fail" : to_string(gate.state);
+  json["limits"] = {{"hard", number(shown(info, gate.limits.hard))},
+                    {"target", number(shown(info, gate.limits.target))},
+                    {"usual", number(shown(info, gate.limits.usual))},
+                    {"usual_share", std::isnan(gate.limits.usual) ? Json(nullptr) : Json(gate.limits.usual_share)}};
+  if (gate.state == GateState::not_checked) {
+    json["reason"] = gate.reason;
+    return json;
+  }
+  json["worst"] = number(shown(info, gate.worst));
+  json["counted"] = info.counted;
+  json["total"] = gate.total;
+  json["share_within"] = gate.share_within;
+  json["beyond_hard"] = gate.n_beyond_hard;
+  json["places"] = Json::array();
+  for (const GatePlace& place : gate.places)
+    json["places"].push_back({{"value", number(shown(info, place.value))}, {"position", to_array(place.position)}, {"what", place.what}});
+  return json;
+}
+
+Json to_json(const PatchCoverage& patch) {
+  Json json = {{"patch", patch.patch}, {"area", patch.area}, {"full", patch.full}, {"reduced", patch.reduced}, {"compressed", patch.compressed}, {"collapsed", patch.collapsed}};
+  json["lost"] = Json::object();
+  for (const auto& [reason, share] : patch.lost) json["lost"][reason] = share;
+  return json;
+}
+
+std::string coverage_text(const PatchCoverage& patch) {
+  std::string text = "         patch " + patch.patch +
+                     format(": %.2f %% full, %.2f %% reduced, %.2f %% compressed, %.2f %% collapsed", 100.0 * patch.full, 100.0 * patch.reduced,
+                            100.0 * patch.compressed, 100.0 * patch.collapsed);
+  for (const auto& [reason, share] : patch.lost) text += format("; %.2f %% ", 100.0 * share) + reason;
+  return text + "\n";
+}
 
 }  // namespace
 
@@ -87,6 +161,12 @@ std::string_view to_string(Violation v) {
       return "overlapping_parts";
     case Violation::no_cells:
       return "no_cells";
+    case Violation::negative_sub_volume:
+      return "negative_sub_volume";
+    case Violation::open_dual_cell:
+      return "open_dual_cell";
+    case Violation::off_symmetry_plane:
+      return "off_symmetry_plane";
   }
   return "";
 }
@@ -98,6 +178,11 @@ std::string_view gate_of(Violation v) {
       return "G2";
     case Violation::invalid_cell:
       return "G3";
+    case Violation::negative_sub_volume:
+    case Violation::open_dual_cell:
+      return "G4";
+    case Violation::off_symmetry_plane:
+      return "G20";
     case Violation::volume_mismatch:
     case Violation::overlapping_parts:
     case Violation::no_cells:
@@ -113,15 +198,24 @@ std::int64_t CheckReport::count(Violation v) const {
   return 0;
 }
 
+GateState CheckReport::quality_state() const {
+  GateState worst = GateState::not_checked;
+  for (const GateState state : {GateState::pass, GateState::warn, GateState::fail})
+    for (const GateResult& gate : gates)
+      if (gate.state == state) worst = state;
+  return worst;
+}
+
 std::string to_text(const CheckReport& report) {
   const auto n = [](std::int64_t value) { return std::to_string(value); };
-  std::string text = report.is_valid() ? "VALID\n" : "INVALID\n";
+  std::string text = report.is_valid() ? "VALID" : "INVALID";
+  if (report.quality_measured) text += ", quality " + std::string(to_string(report.quality_state()));
+  text += "\n";
   text += "  cells: " + n(report.cells.prisms) + " prisms, " + n(report.cells.pyramids) + " pyramids, " + n(report.cells.hexahedra) + " hexahedra, " +
           n(report.cells.tetrahedra) + " tetrahedra; " + n(report.n_nodes) + " nodes; boundary: " + n(report.n_boundary_triangles) + " triangles, " +
           n(report.n_boundary_quads) + " quads\n";
   if (!report.is_complete) text += "  Indices or points are unusable, so nothing else could be checked.\n";
-  for (const std::string_view gate : k_checked_gates) text += gate_line(gate, state_of_gate(report, gate));
-  for (const std::string_view gate : k_unchecked_gates) text += gate_line(gate, "not checked");
+  for (const std::string_view gate : k_valid_gates) text += gate_line(gate, state_of_gate(report, gate));
   if (report.is_complete) {
     text += format("  volume: layer %.9g m^3 (error %.1e), tetrahedra %.9g m^3 (error %.1e), total %.9g m^3\n", report.layer_volume, report.layer_volume_error,
                    report.tet_volume, report.tet_volume_error, report.total_volume);
@@ -133,6 +227,11 @@ std::string to_text(const CheckReport& report) {
                    100.0 * q.skew_above_60);
     text += format("  tetrahedra: dihedral angles %.2f deg at ", q.min_dihedral * k_degrees) + format_point(q.worst_tet) +
             format(" to %.2f deg at ", q.max_dihedral * k_degrees) + format_point(q.most_obtuse_tet) + "\n";
+  }
+  for (const GateResult& gate : report.gates) {
+    text += gate_text(gate);
+    if (gate.measure != Measure::coverage) continue;
+    for (const PatchCoverage& patch : report.coverage) text += coverage_text(patch);
   }
   for (const auto& [violation, count] : report.counts) {
     text += "  " + std::string(gate_of(violation)) + " " + std::string(to_string(violation)) + ": " + n(count) + "\n";
@@ -148,10 +247,10 @@ std::string to_text(const CheckReport& report) {
 }
 
 std::string to_json(const CheckReport& report) {
-  using Json = nlohmann::ordered_json;
   Json json;
-  json["schema"] = "sterna-check-1";
+  json["schema"] = "sterna-check-2";
   json["verdict"] = report.is_valid() ? "VALID" : "INVALID";
+  json["quality_verdict"] = report.quality_measured ? to_string(report.quality_state()) : "not checked";
   json["is_complete"] = report.is_complete;
   json["cells"] = {{"prisms", report.cells.prisms},
                    {"pyramids", report.cells.pyramids},
@@ -161,11 +260,10 @@ std::string to_json(const CheckReport& report) {
   json["nodes"] = report.n_nodes;
   json["boundary"] = {{"triangles", report.n_boundary_triangles}, {"quads", report.n_boundary_quads}};
   Json& gates = json["gates"];
-  for (const std::string_view gate : k_checked_gates) {
+  for (const std::string_view gate : k_valid_gates) {
     const std::int64_t n = count_of_gate(report, gate);
     gates[std::string(gate)] = is_checked(report, gate) ? Json{{"state", n == 0 ? "pass" : "fail"}, {"violations", n}} : Json{{"state", "not checked"}};
   }
-  for (const std::string_view gate : k_unchecked_gates) gates[std::string(gate)] = {{"state", "not checked"}};
   json["violations"] = Json::object();
   for (const auto& [violation, count] : report.counts) json["violations"][std::string(to_string(violation))] = count;
   json["findings"] = Json::array();
@@ -176,7 +274,12 @@ std::string to_json(const CheckReport& report) {
                     {"layer_error", report.layer_volume_error},
                     {"tetrahedra", report.tet_volume},
                     {"tetrahedra_error", report.tet_volume_error},
-                    {"total", report.total_volume}};
+                    {"total", report.total_volume},
+                    {"dual", report.dual_checked ? Json(report.dual_volume) : Json(nullptr)}};
+  json["measures"] = Json::array();
+  for (const GateResult& gate : report.gates) json["measures"].push_back(to_json(gate));
+  json["coverage"] = Json::array();
+  for (const PatchCoverage& patch : report.coverage) json["coverage"].push_back(to_json(patch));
   if (!report.quality_measured) {
     json["quality"] = nullptr;
     return json.dump(2, ' ', false, Json::error_handler_t::replace);

@@ -37,7 +37,7 @@ void QualityScan::Extreme::lower(double v, const Point& p) {
   place = p;
 }
 
-void QualityScan::add_prism(const WedgePoints& p) {
+double QualityScan::add_prism(const WedgePoints& p) {
   ++n_prisms_;
   const double quality = wedge_quality(p);
   if (quality < wedge_.value) wedge_.lower(quality, center_of(p));
@@ -45,10 +45,11 @@ void QualityScan::add_prism(const WedgePoints& p) {
   n_below_6_ += skew < k_skew_small;
   n_below_18_ += skew < k_skew_medium;
   n_above_60_ += skew > k_skew_large;
+  return quality;
 }
 
-void QualityScan::add_tet(const std::array<Vec3, 4>& p) {
-  const auto [smallest, largest] = tet_dihedral_range(p);
+void QualityScan::add_tet(const std::array<Vec3, 4>& p, const std::array<double, 2>& range) {
+  const auto [smallest, largest] = range;
   if (smallest < min_dihedral_.value) min_dihedral_.lower(smallest, center_of(p));
   if (-largest < negative_max_dihedral_.value) negative_max_dihedral_.lower(-largest, center_of(p));
 }

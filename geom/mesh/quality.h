@@ -15,10 +15,12 @@ double skew_angle(const WedgePoints& p);
 /// Running minima and counts; scans of consecutive chunks are merged in order, ties keep the first place.
 class QualityScan {
  public:
-  void add_prism(const WedgePoints& p);
+  /// Returns the prism's wedge_quality.
+  double add_prism(const WedgePoints& p);
   /// A pyramid or tet of a column over collapsed lines: no prism of its own, counted as skewed by more than 60 degrees.
   void add_collapsed() { ++n_collapsed_; }
-  void add_tet(const std::array<Vec3, 4>& p);
+  /// `range` = tet_dihedral_range(p).
+  void add_tet(const std::array<Vec3, 4>& p, const std::array<double, 2>& range);
   void merge(const QualityScan& later);
   Quality result() const;
 

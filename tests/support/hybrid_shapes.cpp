@@ -71,7 +71,7 @@ HybridMesh extrude(const TriMesh& wall, const std::vector<Vec3>& rays, const She
   HybridMesh mesh;
   mesh.patches = wall.patches;
   const PatchId farfield = mesh.patches.push_back({"farfield", PatchKind::farfield});
-  const PatchId side = topology.n_boundary_halfedges() > 0 ? mesh.patches.push_back({"side", PatchKind::symmetry}) : PatchId{};
+  const PatchId side = topology.n_boundary_halfedges() > 0 ? mesh.patches.push_back({"side", PatchKind::slip}) : PatchId{};
 
   LayerBlock& layers = mesh.layers;
   layers.n_layers = options.n_layers;

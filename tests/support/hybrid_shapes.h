@@ -19,7 +19,7 @@ struct ShellOptions {
 };
 
 /// Columns along straight rays from the wall, then split shells up to an outer surface of the wall's connectivity. Patches: the wall's own, "farfield" (outer),
-/// and "side" (symmetry) when the wall has a boundary. Lines stand on the wall's vertices in their order; column t stands on wall triangle t.
+/// and "side" (slip) when the wall has a boundary. Lines stand on the wall's vertices in their order; column t stands on wall triangle t.
 /// \pre wall edge-manifold and oriented; one ray per vertex; cells between neighbouring rays positive (true for rays from a common point or parallel ones).
 HybridMesh extrude(const TriMesh& wall, const std::vector<Vec3>& rays, const ShellOptions& options);
 

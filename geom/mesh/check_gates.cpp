@@ -1,0 +1,52 @@
+// The QUALITY gates from what the steps of the walker have gathered, in the order of Measure.
+#include <cmath>
+
+#include "geom/math/measures.h"
+#include "geom/mesh/check_parts.h"
+
+namespace sterna::check_parts {
+namespace {
+
+constexpr const char* k_not_conforming = "the mesh does not conform (G1)";
+
+}  // namespace
+
+std::pair<Point, std::string> describe_node(const HybridMesh& mesh, std::uint64_t node) {
+  std::string what = "node " + std::to_string(node);
+  const LayerBlock& layers = mesh.layers;
+  for (std::size_t k = 0; k < layers.n_lines(); ++k) {
+    const std::uint64_t first = layers.first_node[k];
+    if (node < first || node > first + (layers.is_collapsed[k] ? 0u : static_cast<std::uint64_t>(layers.n_layers))) continue;
+    what += " (line " + std::to_string(k) + ", layer " + std::to_string(node - first) + ")";
+    break;
+  }
+  return {mesh.points.raw()[node], what};
+}
+
+void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, const CellScan& scan, const DualScan* dual,
+                 const GateTable& limits, const RunContext& context, CheckReport& report) {
+  const auto node = [&](std::uint64_t id) { return describe_node(mesh, id); };
+  const auto cell = [&](std::uint64_t id) { return std::pair(cells.center(id), cells.name(id)); };
+  const auto face = [&](std::uint64_t id) { return std::pair(slots.center(static_cast<std::uint32_t>(id)), "face of " + slots.name(static_cast<std::uint32_t>(id))); };
+  for (const MeasureInfo& info : measures()) report.gates.push_back(not_checked(info.measure, limits, "not written yet"));
+  const auto put = [&](GateResult result) { report.gates[static_cast<std::size_t>(result.measure)] = std::move(result); };
+
+  put(scan.scaled_jacobian.result(cell));
+  put(scan.min_dihedral.result(cell));
+  put(scan.max_dihedral.result(cell));
+  if (match.tet_growth) put(match.tet_growth->result(face));
+  if (dual != nullptr) {
+    put(dual->closure.result(node));
+    put(dual->orthogonality.result(node));
+    put(dual->sub_volume_ratio.result(node));
+    put(dual->face_area_ratio.result(node));
+    put(dual->relative_face_area_ratio.result(node));
+    put(dual->edge_ratio.result(node));
+  } else {
+    for (const Measure measure : {Measure::dual_closure, Measure::orthogonality, Measure::sub_volume_ratio, Measure::face_area_ratio, Measure::relative_face_area_ratio, Measure::edge_ratio})
+      put(not_checked(measure, limits, k_not_conforming));
+  }
+  context.check_stop();
+}
+
+}  // namespace sterna::check_parts

@@ -1,0 +1,195 @@
+// All nodes, each measured one of two ways: inner nodes of regular lines by LineDual, all others ("special") by NodeDual, which needs to know the explicit
+// cells and boundary faces around a node. The two ways agree to rounding; tests compare them with each other and with loops over edges.
+#include "geom/mesh/dual_metrics.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "geom/mesh/dual_parts.h"
+
+namespace sterna {
+namespace {
+
+using namespace dual_parts;
+
+/// Lines and nodes per chunk; large enough that making the scans of a chunk does not count.
+constexpr std::size_t k_line_chunk = 512;
+constexpr std::size_t k_node_chunk = 4096;
+/// Corners held at a time: 256 MB.
+constexpr std::uint64_t k_most_corners = std::uint64_t{1} << 26;
+
+/// Calls f(number, nodes) for every explicit cell and boundary face in [begin, end) of all of them, numbered as NodeDual does.
+template <class F>
+void for_each_explicit(const HybridMesh& mesh, const RunContext& context, const F& f) {
+  std::uint32_t first = 0;
+  const auto block = [&](const auto& entities, const auto& nodes_of) {
+    parallel_for(context, entities.size(), [&](std::size_t i) { f(static_cast<std::uint32_t>(first + i), std::span<const NodeId>(nodes_of(entities[i]))); });
+    first += static_cast<std::uint32_t>(entities.size());
+  };
+  const auto itself = [](const auto& nodes) -> const auto& { return nodes; };
+  const auto of_face = [](const auto& face) -> const auto& { return face.nodes; };
+  block(mesh.prisms, itself);
+  block(mesh.pyramids, itself);
+  block(mesh.hexahedra, itself);
+  block(mesh.tetrahedra, itself);
+  block(mesh.boundary_triangles, of_face);
+  block(mesh.boundary_quads, of_face);
+}
+
+class DualWalk {
+ public:
+  DualWalk(const HybridMesh& mesh, const RunContext& context)
+      : mesh_(mesh), context_(context), rings_(mesh.layers), is_regular_(find_regular_lines(mesh.layers, rings_, context)), special_(mesh.points.size()) {
+    const LayerBlock& layers = mesh.layers;
+    parallel_for(context, layers.n_lines(), [&](std::size_t k) {
+      if (rings_.columns(static_cast<std::uint32_t>(k)).empty()) return;
+      for (std::uint32_t j = 0, n = n_nodes(k); j < n; ++j)
+        if (is_regular_[k] == 0 || j == 0 || j + 1 == n) special_.insert(layers.first_node[k] + j);
+    });
+    for_each_explicit(mesh, context, [&](std::uint32_t, std::span<const NodeId> nodes) {
+      for (const NodeId node : nodes) special_.insert(node.index());
+    });
+    special_.number();
+    nodes_ = special_.members();
+    line_of_.assign(nodes_.size(), NodeId::k_invalid);
+    parallel_for(context, layers.n_lines(), [&](std::size_t k) {
+      for (std::uint32_t j = 0, n = n_nodes(k); j < n; ++j)
+        if (special_.contains(layers.first_node[k] + j)) line_of_[special_.index(layers.first_node[k] + j)] = static_cast<std::uint32_t>(k);
+    });
+  }
+
+  /// `make()` gives an empty part; `take(part, node, metrics)` adds a node to it; `merge(all, part)`.
+  template <class Part, class Make, class Take, class Merge>
+  Part run(const Make& make, const Take& take, const Merge& merge, std::vector<std::uint64_t>& suspects) {
+    struct WithSuspects {
+      Part part;
+      std::vector<std::uint64_t> suspects;
+    };
+    const auto join = [&](WithSuspects all, WithSuspects more) {
+      merge(all.part, std::move(more.part));
+      all.suspects.insert(all.suspects.end(), more.suspects.begin(), more.suspects.end());
+      return all;
+    };
+    const LayerBlock& layers = mesh_.layers;
+    WithSuspects all = parallel_reduce(
+        context_, layers.n_lines(), WithSuspects{make(), {}},
+        [&](std::size_t begin, std::size_t end) {
+          WithSuspects part{make(), {}};
+          LineDual lines(mesh_, rings_);
+          for (std::size_t k = begin; k < end; ++k) {
+            if (is_regular_[k] == 0) continue;
+            std::uint32_t node = layers.first_node[k];
+            for (const NodeMetrics& metrics : lines.measure(static_cast<std::uint32_t>(k)))
+              if (!special_.contains(++node)) take(part.part, node, metrics);
+          }
+          part.suspects = lines.take_suspects();
+          return part;
+        },
+        join, k_line_chunk);
+
+    std::vector<std::uint32_t> cursor(nodes_.size(), 0);
+    for_each_explicit(mesh_, context_, [&](std::uint32_t, std::span<const NodeId> nodes) {
+      for (const NodeId node : nodes) std::atomic_ref<std::uint32_t>(cursor[special_.index(node.index())]).fetch_add(1, std::memory_order_relaxed);
+    });
+    std::vector<std::uint64_t> first(nodes_.size() + 1, 0);
+    for (std::size_t i = 0; i < nodes_.size(); ++i) first[i + 1] = first[i] + cursor[i];
+    std::vector<std::uint32_t> corners;
+    for (std::size_t begin_node = 0; begin_node < nodes_.size();) {
+      std::size_t end_node = begin_node + 1;
+      while (end_node < nodes_.size() && first[end_node + 1] - first[begin_node] <= k_most_corners) ++end_node;
+      const std::uint64_t first_corner = first[begin_node];
+      corners.resize(first[end_node] - first_corner);
+      std::fill(cursor.begin() + static_cast<std::ptrdiff_t>(begin_node), cursor.begin() + static_cast<std::ptrdiff_t>(end_node), 0u);
+      for_each_explicit(mesh_, context_, [&](std::uint32_t number, std::span<const NodeId> nodes) {
+        for (const NodeId node : nodes) {
+          const std::size_t i = special_.index(node.index());
+          if (i < begin_node || i >= end_node) continue;
+          corners[first[i] - first_corner + std::atomic_ref<std::uint32_t>(cursor[i]).fetch_add(1, std::memory_order_relaxed)] = number;
+        }
+      });
+      all = parallel_reduce(
+          context_, end_node - begin_node, std::move(all),
+          [&](std::size_t begin, std::size_t end) {
+            WithSuspects part{make(), {}};
+            NodeDual nodes(mesh_, rings_);
+            for (std::size_t i = begin_node + begin; i < begin_node + end; ++i) {
+              const std::span<std::uint32_t> around(corners.data() + (first[i] - first_corner), first[i + 1] - first[i]);
+              std::sort(around.begin(), around.end());  // filled in no particular order
+              take(part.part, nodes_[i], nodes.measure(nodes_[i], line_of_[i], around));
+            }
+            part.suspects = nodes.take_suspects();
+            return part;
+          },
+          join, k_node_chunk);
+      begin_node = end_node;
+    }
+    suspects = std::move(all.suspects);
+    std::sort(suspects.begin(), suspects.end());
+    suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
+    return std::move(all.part);
+  }
+
+ private:
+  std::uint32_t n_nodes(std::size_t line) const { return mesh_.layers.is_collapsed[line] ? 1u : static_cast<std::uint32_t>(mesh_.layers.n_layers) + 1u; }
+
+  const HybridMesh& mesh_;
+  const RunContext& context_;
+  LineRings rings_;
+  std::vector<std::uint8_t> is_regular_;
+  NodeSubset special_;
+  std::vector<std::uint32_t> nodes_;    ///< the special ones, ascending
+  std::vector<std::uint32_t> line_of_;  ///< of each special node; NodeId::k_invalid = on none
+};
+
+}  // namespace
+
+DualScan::DualScan(const GateTable& limits)
+    : closure(info_of(Measure::dual_closure), limits[Measure::dual_closure]),
+      orthogonality(info_of(Measure::orthogonality), limits[Measure::orthogonality]),
+      sub_volume_ratio(info_of(Measure::sub_volume_ratio), limits[Measure::sub_volume_ratio]),
+      face_area_ratio(info_of(Measure::face_area_ratio), limits[Measure::face_area_ratio]),
+      relative_face_area_ratio(info_of(Measure::relative_face_area_ratio), limits[Measure::relative_face_area_ratio]),
+      edge_ratio(info_of(Measure::edge_ratio), limits[Measure::edge_ratio]) {}
+
+void DualScan::add(std::uint64_t node, const NodeMetrics& metrics) {
+  if (std::isnan(metrics.closure)) return;  // no cells
+  closure.add(metrics.closure, node);
+  orthogonality.add(metrics.orthogonality, node);
+  sub_volume_ratio.add(metrics.sub_volume_ratio, node);
+  face_area_ratio.add(metrics.face_area_ratio, node);
+  if (!std::isnan(metrics.relative_face_area_ratio)) relative_face_area_ratio.add(metrics.relative_face_area_ratio, node);
+  if (!std::isnan(metrics.edge_ratio)) edge_ratio.add(metrics.edge_ratio, node);
+  volume.add(metrics.volume);
+}
+
+void DualScan::merge(DualScan&& other) {
+  closure.merge(other.closure);
+  orthogonality.merge(other.orthogonality);
+  sub_volume_ratio.merge(other.sub_volume_ratio);
+  face_area_ratio.merge(other.face_area_ratio);
+  relative_face_area_ratio.merge(other.relative_face_area_ratio);
+  edge_ratio.merge(other.edge_ratio);
+  volume.add(other.volume);
+}
+
+DualScan scan_dual(const HybridMesh& mesh, const GateTable& limits, const RunContext& context) {
+  DualWalk walk(mesh, context);
+  std::vector<std::uint64_t> suspects;
+  DualScan scan = walk.run<DualScan>([&] { return DualScan(limits); }, [](DualScan& part, std::uint32_t node, const NodeMetrics& m) { part.add(node, m); },
+                                     [](DualScan& all, DualScan&& part) { all.merge(std::move(part)); }, suspects);
+  scan.suspects = std::move(suspects);
+  return scan;
+}
+
+Column<NodeId, NodeMetrics> dual_metrics(const HybridMesh& mesh, const RunContext& context) {
+  constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
+  Column<NodeId, NodeMetrics> result(mesh.points.size(), NodeMetrics{k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, 0.0});
+  struct Nothing {};
+  DualWalk walk(mesh, context);
+  std::vector<std::uint64_t> suspects;
+  walk.run<Nothing>([] { return Nothing{}; }, [&](Nothing&, std::uint32_t node, const NodeMetrics& m) { result.raw()[node] = m; }, [](Nothing&, Nothing&&) {}, suspects);
+  return result;
+}
+
+}  // namespace sterna

@@ -1,0 +1,112 @@
+// Shared by the dual_*.cpp files only: the two ways to the metrics of a node, and what decides between them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geom/mesh/dual_metrics.h"
+#include "geom/mesh/node_subset.h"
+
+namespace sterna::dual_parts {
+
+/// A sub-tet's volume is certainly positive when six times it exceeds this times the cube of the cell's size as seen from the corner (root of the sum of
+/// squared edges from there): three factors of at most that size, each within 7 roundings of its exact value, some 10 more when they are multiplied and
+/// summed; doubled. Sub-tets of a prism of aspect ratio 1e9 are still certain.
+inline constexpr double k_certain = 64 * 0x1p-53;
+
+/// Columns around each line.
+class LineRings {
+ public:
+  explicit LineRings(const LayerBlock& layers);
+  std::span<const std::uint32_t> columns(std::uint32_t line) const { return {columns_.data() + first_[line], first_[line + 1] - first_[line]}; }
+
+ private:
+  std::vector<std::uint32_t> first_, columns_;
+};
+
+/// 1 for lines that stand, closed all around by columns of prisms: inside their columns, nodes have nothing but those prisms.
+std::vector<std::uint8_t> find_regular_lines(const LayerBlock& layers, const LineRings& rings, const RunContext& context);
+
+/// Metrics of the inner nodes of one regular line after the other, vectorised over the layers.
+class LineDual {
+ public:
+  LineDual(const HybridMesh& mesh, const LineRings& rings);
+  /// Metrics of layers 1 .. n_layers - 1 of a regular line; valid until the next call.
+  std::span<const NodeMetrics> measure(std::uint32_t line);
+  std::vector<std::uint64_t> take_suspects() { return std::move(suspects_); }
+
+ private:
+  struct Coordinates {
+    std::vector<double> x, y, z;
+  };
+  /// Dual faces of one edge along the layer: part of the prisms above, by layer, and of those below, at their upper layer.
+  struct Slot {
+    std::uint32_t line = 0;
+    Coordinates above, below;
+  };
+  void load(std::uint32_t line, Coordinates& coordinates) const;
+  Slot& slot_of(std::uint32_t line);
+  void add_column(std::uint32_t column, const Coordinates& b, const Coordinates& c, Slot& to_b, Slot& to_c);
+  void reset();
+  void finish(std::uint32_t line);
+
+  const HybridMesh& mesh_;
+  const LineRings& rings_;
+  std::size_t n_padded_;
+  Coordinates own_;
+  std::vector<Coordinates> neighbours_;  ///< by slot
+  std::vector<Slot> slots_;
+  std::size_t n_slots_ = 0;
+  Coordinates upward_;  ///< dual faces of the edges of the line
+  std::vector<double> least_above_, most_above_, sum_above_, least_below_, most_below_, sum_below_;
+  std::vector<NodeMetrics> metrics_;
+  std::vector<std::uint64_t> suspects_;
+};
+
+/// Metrics of any node from the cells and boundary faces around it. Used for all that LineDual leaves.
+class NodeDual {
+ public:
+  NodeDual(const HybridMesh& mesh, const LineRings& rings);
+  /// A node of a line (`line` valid) or of none (NodeId::k_invalid); explicit cells and boundary faces by number, see Incidence.
+  NodeMetrics measure(std::uint32_t node, std::uint32_t line, std::span<const std::uint32_t> cells);
+  std::vector<std::uint64_t> take_suspects() { return std::move(suspects_); }
+
+ private:
+  struct Edge {
+    std::uint32_t other;
+    bool is_stack;
+    Vec3 normal;
+  };
+  struct BoundaryPiece {
+    PatchId patch;
+    Vec3 normal;
+  };
+  struct Corner {
+    std::uint8_t next, previous;         ///< neighbours of the corner on the face
+    std::uint8_t size;
+    std::array<std::uint8_t, 4> nodes;
+  };
+  Edge& edge_to(std::uint32_t other);
+  void add_columns(std::uint32_t line, std::uint32_t layer);
+  void add_cell(CellKind kind, std::span<const NodeId> nodes, std::uint64_t number);
+  void add_tet(std::span<const NodeId> nodes);
+  void add_boundary(std::span<const NodeId> nodes, PatchId patch);
+  void add_sub_volume(double six_times);
+  NodeMetrics result(std::uint32_t line) const;
+
+  const HybridMesh& mesh_;
+  const LineRings& rings_;
+  std::array<std::array<std::vector<Corner>, 8>, 4> corners_;  ///< faces of each corner, by kind
+  std::array<std::uint64_t, 6> first_;                         ///< numbers of explicit prisms, pyramids, hexahedra, tets, boundary triangles, quads
+  std::uint32_t node_ = 0;
+  Point origin_;
+  std::vector<Edge> edges_;
+  std::vector<BoundaryPiece> pieces_;
+  double least_ = 0.0, most_ = 0.0, sum_ = 0.0;
+  bool has_hexahedron_ = false;
+  std::vector<std::uint64_t> suspects_;
+};
+
+}  // namespace sterna::dual_parts

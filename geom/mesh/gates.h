@@ -1,0 +1,152 @@
+// The gates of quality.md that are numbers: what each measures, its limits, and the running statistics that decide it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geom/base/vec3.h"
+
+namespace sterna {
+
+/// One measured quantity of a gate; a gate may have several.
+enum class Measure : std::uint8_t {
+  scaled_jacobian,   ///< G3: wedge_quality of each prism
+  dual_closure,      ///< G4: sum of a dual cell's face normals over the sum of their areas
+  orthogonality,     ///< G5: SU2's, per node
+  sub_volume_ratio,  ///< G6: SU2's, per node
+  face_area_ratio,   ///< G7: SU2's CV face area aspect ratio, per node
+  relative_face_area_ratio,  ///< G7: the same over l_t / H, longest edge along the layer over height of the dual cell
+  stack_growth,      ///< G8: heights of consecutive cells of a line, the larger over the smaller
+  interface_height,  ///< G9: last layer height over 0.816 mean envelope edge, or its inverse
+  interface_volume,  ///< G9: thrice the tet's over the prism's volume, or its inverse
+  stack_angle,       ///< G10: steepest of the first cells against the wall's facets, less the best possible
+  first_height,      ///< G11: relative deviation of the first height along the vertex normal
+  coverage,          ///< G12: share of the wall's area with its full height
+  collapsed,         ///< G12: share of the wall's area without cells
+  layer_step,        ///< G13: difference of the number of layers over an edge
+  min_dihedral,      ///< G14
+  max_dihedral,      ///< G14
+  tet_growth,        ///< G15: volumes of two tets with a common face, the larger over the smaller
+  edge_ratio,        ///< G16: longest over shortest edge of a node, edges of its stack left out
+};
+inline constexpr std::size_t k_n_measures = static_cast<std::size_t>(Measure::edge_ratio) + 1;
+
+/// Limits of a measure in SI and radians; NaN where there is none.
+struct GateLimits {
+  double hard;         ///< beyond it the gate FAILs
+  double target;       ///< beyond it the gate warns
+  double usual;        ///< the measure's share `usual_share` must not be beyond it, or the gate warns
+  double usual_share;  ///< in [0, 1]
+  friend bool operator==(const GateLimits&, const GateLimits&) = default;
+};
+
+/// What is fixed of a measure.
+struct MeasureInfo {
+  Measure measure;
+  std::string_view gate;     ///< "G5"
+  std::string_view name;     ///< of its JSON entry: "orthogonality"
+  std::string_view title;    ///< for people
+  std::string_view counted;  ///< what the share counts: "nodes", "area", ...
+  bool is_angle;             ///< radians inside, degrees in reports
+  bool is_low_bad;           ///< limits are lower bounds
+  GateLimits limits;         ///< defaults
+};
+
+/// The table of quality.md §6, in the order of Measure.
+const std::array<MeasureInfo, k_n_measures>& measures();
+const MeasureInfo& info_of(Measure measure);
+
+/// Limits of all measures; starts with the defaults.
+class GateTable {
+ public:
+  GateTable();
+  const GateLimits& operator[](Measure measure) const { return limits_[static_cast<std::size_t>(measure)]; }
+  GateLimits& operator[](Measure measure) { return limits_[static_cast<std::size_t>(measure)]; }
+
+ private:
+  std::array<GateLimits, k_n_measures> limits_;
+};
+
+enum class GateState : std::uint8_t { pass, warn, fail, not_checked };
+/// "pass", "warn", "FAIL", "not checked"
+std::string_view to_string(GateState state);
+
+/// One of the worst places of a measure.
+struct GatePlace {
+  double value = 0.0;
+  Point position;
+  std::string what;  ///< entity by name
+};
+
+struct GateResult {
+  Measure measure = Measure::scaled_jacobian;
+  GateLimits limits{};
+  GateState state = GateState::not_checked;
+  std::string reason;             ///< why it was not checked
+  double worst = 0.0;
+  double total = 0.0;             ///< number of items, or m^2 where areas are counted
+  double share_within = 0.0;      ///< share of it within limits.usual; within limits.target where there is no usual limit
+  std::int64_t n_beyond_hard = 0; ///< items
+  std::vector<GatePlace> places;  ///< the worst ten that miss a limit (any, for a measure without limits), worst first
+};
+
+/// Running statistics of one measure: weight within the usual limit, and the worst items. Merging is independent of how items were dealt to the parts
+/// but for the rounding of weights that are not whole numbers.
+class GateScan {
+ public:
+  static constexpr std::size_t k_most_places = 10;
+  struct Item {
+    double badness;  ///< larger is worse
+    std::uint64_t id;
+    friend auto operator<=>(const Item&, const Item&) = default;
+  };
+
+  GateScan(const MeasureInfo& info, const GateLimits& limits);
+  /// A value that is not a number counts as infinitely bad.
+  void add(double value, std::uint64_t id, double weight = 1.0) {
+    const double badness = value == value ? sign_ * value : std::numeric_limits<double>::infinity();
+    total_ += weight;
+    if (badness <= usual_) within_ += weight;
+    if (badness > hard_) ++n_beyond_hard_;
+    if (badness >= entry_) remember({badness, id});
+  }
+  void merge(const GateScan& other);
+  bool empty() const { return worst_.empty(); }
+  /// Worst first; equal ones by ascending id.
+  const std::vector<Item>& worst() const { return worst_; }
+  double value_of(const Item& item) const { return sign_ * item.badness; }
+  /// `describe(id) -> pair(Point, string)` names the places.
+  template <class Describe>
+  GateResult result(const Describe& describe) const {
+    GateResult result = judge();
+    for (const Item& item : worst_) {
+      if (!is_notable(item)) break;
+      auto [position, what] = describe(item.id);
+      result.places.push_back({value_of(item), position, std::move(what)});
+    }
+    return result;
+  }
+
+ private:
+  void remember(const Item& item);
+  bool is_notable(const Item& item) const;
+  GateResult judge() const;
+
+  Measure measure_;
+  GateLimits limits_;
+  double sign_;
+  double hard_, target_, usual_;  ///< as badness; infinity where there is none
+  double entry_ = -std::numeric_limits<double>::infinity();
+  double total_ = 0.0, within_ = 0.0;
+  std::int64_t n_beyond_hard_ = 0;
+  std::vector<Item> worst_;
+};
+
+/// A measure that could not be taken.
+GateResult not_checked(Measure measure, const GateTable& limits, std::string reason);
+
+}  // namespace sterna
