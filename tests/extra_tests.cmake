@@ -39,3 +39,12 @@ foreach(script ${scripts})
   add_test(NAME script_${name} COMMAND sterna run ${script} WORKING_DIRECTORY ${folder})
   set_tests_properties(script_${name} PROPERTIES TIMEOUT 300)
 endforeach()
+
+# Benchmarks: tests/bench/NAME_main.cpp -> NAME, built and run by hand.
+file(GLOB bench_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/bench/*_main.cpp)
+foreach(source ${bench_sources})
+  get_filename_component(name ${source} NAME_WE)
+  string(REGEX REPLACE "_main$" "" name ${name})
+  add_executable(${name} ${source})
+  target_link_libraries(${name} PRIVATE sterna_test_support)
+endforeach()

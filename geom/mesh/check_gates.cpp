@@ -28,7 +28,7 @@ void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlo
   const auto node = [&](std::uint64_t id) { return describe_node(mesh, id); };
   const auto cell = [&](std::uint64_t id) { return std::pair(cells.center(id), cells.name(id)); };
   const auto face = [&](std::uint64_t id) { return std::pair(slots.center(static_cast<std::uint32_t>(id)), "face of " + slots.name(static_cast<std::uint32_t>(id))); };
-  for (const MeasureInfo& info : measures()) report.gates.push_back(not_checked(info.measure, limits, "not written yet"));
+  for (const MeasureInfo& info : measures()) report.gates.push_back(not_checked(info.measure, limits, "not measured"));
   const auto put = [&](GateResult result) { report.gates[static_cast<std::size_t>(result.measure)] = std::move(result); };
 
   put(scan.scaled_jacobian.result(cell));

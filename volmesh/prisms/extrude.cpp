@@ -6,6 +6,7 @@
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
+#include "geom/math/sub_volumes.h"
 #include "volmesh/envelope/growth_law.h"
 #include "volmesh/envelope/untangle.h"
 
@@ -26,6 +27,10 @@ double normal_share(double t, double c) {
   const double end = std::exp(-1.0 / c);
   return (std::exp(-t / c) - end) / (1.0 - end);
 }
+
+/// Valid in itself (G3) and with a positive dual mesh (G4); a tet has both at once.
+bool is_prism_certain(const WedgePoints& p) { return is_wedge_valid(p) && are_sub_volumes_positive(p); }
+bool is_pyramid_certain(const std::array<Vec3, 5>& p) { return is_pyramid_valid(p) && are_sub_volumes_positive(p); }
 
 /// The lines' nodes, their curvature and what is needed to rebuild single ones.
 class LineSet {
@@ -105,13 +110,13 @@ class LineSet {
       const auto& lines = layers_.base[c];
       const std::array<const Point*, 3> p = {&points_[layers_.first_node[lines[0]]], &points_[layers_.first_node[lines[1]]], &points_[layers_.first_node[lines[2]]]};
       for (int j = 0; j < scale_.n; ++j)
-        if (!is_wedge_valid({p[0][j], p[1][j], p[2][j], p[0][j + 1], p[1][j + 1], p[2][j + 1]})) return false;
+        if (!is_prism_certain({p[0][j], p[1][j], p[2][j], p[0][j + 1], p[1][j + 1], p[2][j + 1]})) return false;
       return true;
     }
     for (int j = 0; j < scale_.n; ++j) {
       const Cell cell = layers_.cell(c, j);
       const auto at = [&](std::size_t i) { return points_[cell.nodes[i].index()]; };
-      const bool is_valid = n_down == 1 ? is_pyramid_valid({at(0), at(1), at(2), at(3), at(4)}) : is_tet_valid({at(0), at(1), at(2), at(3)});
+      const bool is_valid = n_down == 1 ? is_pyramid_certain({at(0), at(1), at(2), at(3), at(4)}) : is_tet_valid({at(0), at(1), at(2), at(3)});
       if (!is_valid) return false;
     }
     return true;
@@ -202,6 +207,8 @@ Extrusion extrude_prisms(const LayerBase& base, const EnvelopeOptions& envelope_
           if (changed[VertexId(i)]) lines.place(envelope, VertexId(i));
         });
     }
+    for (const std::size_t c : bad)  // also where nothing was left to change in this round
+      for (const VertexId v : base.wall.triangles[TriangleId(c)]) changed[v] = 1;
     bad = lines.invalid_columns(&changed);
   }
   std::int64_t n_straightened = 0;

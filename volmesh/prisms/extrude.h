@@ -15,9 +15,9 @@ struct Extrusion {
   std::int64_t n_straightened = 0;  ///< lines whose curvature was reduced
 };
 
-/// Nodes by eqs. (10)-(12) with the normalised s(t). Invalid cells (exact tests) are repaired: c_t to zero at their lines and reduced around them; where this
+/// Nodes by eqs. (10)-(12) with the normalised s(t). Invalid cells (exact tests of the cell and of its dual sub-volumes) are repaired: c_t to zero at their lines and reduced around them; where this
 /// does not help, heights are made equal over the cell's corners and then lowered (through `unwarp`), down to collapse. Changes `envelope` accordingly.
-/// \post every cell of the layer is valid; top nodes are envelope.point() to the bit.
+/// \post every cell of the layer is valid with positive dual sub-volumes; top nodes are envelope.point() to the bit.
 Extrusion extrude_prisms(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, Envelope& envelope,
                          const RunContext& context);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "geom/math/measures.h"
 #include "geom/math/sub_volumes.h"
@@ -60,6 +61,43 @@ TEST(DualMetrics, AgreeAroundCollapsedLines) {
     expect_as_naive(plate_block(4, {.n_layers = 6, .collapsed = collapsed}));
     expect_as_naive(explicit_cells(plate_block(4, {.n_layers = 6, .collapsed = collapsed})));
   }
+}
+
+Cell only_cell(const HybridMesh& mesh) {
+  Cell result;
+  for_each_cell(mesh, [&](const Cell& cell) { result = cell; });
+  return result;
+}
+
+/// Smallest sub-tet of a lone cell by the definitions.
+double least_sub_volume(CellKind kind, const std::vector<Point>& points) {
+  HybridMesh mesh;
+  mesh.points = Column<NodeId, Point>(points);
+  std::array<NodeId, 6> nodes;
+  for (std::size_t k = 0; k < points.size(); ++k) nodes[k] = NodeId(static_cast<std::uint64_t>(k));
+  if (kind == CellKind::prism) mesh.prisms.push_back(nodes);
+  if (kind == CellKind::pyramid) mesh.pyramids.push_back({nodes[0], nodes[1], nodes[2], nodes[3], nodes[4]});
+  EXPECT_EQ(are_sub_volumes_positive(mesh, only_cell(mesh)), naive_dual(mesh).least_sub_volume > 0.0);
+  return naive_dual(mesh).least_sub_volume;
+}
+
+TEST(SubVolumes, SignsAreThoseOfTheDefinitionOnRandomPrismsAndPyramids) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> shift(-0.5, 0.5);
+  int n_positive = 0, n_valid_but_negative = 0;
+  for (int i = 0; i < 20000; ++i) {
+    WedgePoints p = {Point{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+    for (Point& x : p) x += Vec3{shift(random), shift(random), shift(random)};
+    const double least = least_sub_volume(CellKind::prism, {p.begin(), p.end()});
+    ASSERT_EQ(are_sub_volumes_positive(p), least > 0.0) << i;
+    n_positive += least > 0.0;
+    n_valid_but_negative += is_wedge_valid(p) && least <= 0.0;
+    std::array<Vec3, 5> q = {Point{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}};
+    for (Point& x : q) x += Vec3{shift(random), shift(random), shift(random)};
+    ASSERT_EQ(are_sub_volumes_positive(q), least_sub_volume(CellKind::pyramid, {q.begin(), q.end()}) > 0.0) << i;
+  }
+  EXPECT_GT(n_positive, 100);
+  EXPECT_GT(n_valid_but_negative, 10);  // so the gate says something that G3 does not
 }
 
 }  // namespace
