@@ -1,0 +1,222 @@
+// Our optimiser: its objective against hand-worked values, its gradients against central differences, its runs against what it promises.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "geom/math/measures.h"
+#include "tests/support/shapes.h"
+#include "volmesh/envelope/initial.h"
+#include "volmesh/envelope/optimise.h"
+#include "volmesh/envelope/untangle.h"
+#include "volmesh/envelope/validity.h"
+
+namespace sterna::volmesh {
+namespace {
+
+const RunContext k_context({.threads = 2});
+
+/// Deterministic numbers in [-0.5, 0.5).
+class Noise {
+ public:
+  double next() {
+    state_ = state_ * 1664525u + 1013904223u;
+    return static_cast<double>(state_ >> 8) / 16777216.0 - 0.5;
+  }
+  Vec3 vector() {
+    const double x = next(), y = next();
+    return {x, y, next()};
+  }
+
+ private:
+  std::uint32_t state_ = 7;
+};
+
+EnvelopeOptions thick_layers() {
+  EnvelopeOptions options;
+  options.first_height = 1e-4;
+  options.layers = 20;
+  options.max_growth = 1.5;
+  options.max_thickness = 0.6;
+  return options;
+}
+
+/// The sphere from within: lines converge, and a layer of half the radius leaves a quarter of the wall's area.
+TriMesh hollow_sphere(int f) {
+  TriMesh mesh = test::sphere(f);
+  for (TriangleVertices& v : mesh.triangles) std::swap(v[1], v[2]);
+  return mesh;
+}
+
+/// A valid envelope with tilted lines and uneven heights.
+Envelope rough_envelope(const LayerBase& base, const EnvelopeOptions& options, double tilt, double unevenness) {
+  Envelope envelope = initial_envelope(base, options, k_context);
+  Noise noise;
+  for (const VertexId v : envelope.height.ids()) {
+    envelope.direction[v] = normalized(envelope.direction[v] + tilt * noise.vector());
+    envelope.height[v] *= 1.0 - unevenness * (0.5 + noise.next());
+  }
+  unwarp(base, options, HeightLimit::warp, envelope, k_context);
+  return envelope;
+}
+
+double smallest_quality(const LayerBase& base, const Envelope& envelope) {
+  double least = 1.0;
+  for (const TriangleId t : base.wall.triangles.ids()) {
+    const MacroElement e = macro_element(base, envelope, t);
+    WedgePoints p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] = e.wall[k];
+      p[k + 3] = e.wall[k] + e.height[k] * e.direction[k];
+    }
+    least = std::min(least, wedge_quality(p));
+  }
+  return least;
+}
+
+TEST(LayerObjective, CubeByHand) {
+  // Every line of a cube of 12 triangles leaves its corner along a space diagonal: its cosine with each face, at the wall and at the envelope (a larger
+  // cube), is 1/sqrt(3). Heights are 0.8 of the bound.
+  const TriMesh cube = test::cube(1);
+  const LayerBase base(cube, k_context);
+  Envelope envelope;
+  const double diagonal = 1.0 / std::sqrt(3.0);
+  for (const VertexId v : cube.points.ids()) {
+    const Point& p = cube.points[v];
+    envelope.direction.push_back({p.x > 0.5 ? diagonal : -diagonal, p.y > 0.5 ? diagonal : -diagonal, p.z > 0.5 ? diagonal : -diagonal});
+    envelope.height.push_back(0.08);
+  }
+  envelope.target.assign(8, 0.1);
+  envelope.cap.assign(8, 0.1);
+  envelope.limit.assign(8, HeightLimit::none);
+  LayerObjective objective(base, envelope, envelope.target, 1e-6, 0.0, {}, k_context);
+  const ObjectiveValue value = objective.evaluate(objective.unknowns(envelope), nullptr, k_context);
+  EXPECT_EQ(objective.n_moving(), 8u);
+  EXPECT_NEAR(value.f1, 1.0 - diagonal, 1e-14);
+  EXPECT_NEAR(value.f3, 1.0 - diagonal, 1e-14);
+  double mean_rise = 0.0;  // angle-weighted normals of a cube's corners are its space diagonals
+  for (const VertexId v : cube.points.ids()) mean_rise += dot(base.vertex_normal[v], envelope.direction[v]) / 8.0;
+  EXPECT_NEAR(value.f2, 1.0 - 0.8 * mean_rise, 1e-14);
+  EXPECT_EQ(value.barrier, 0.0);
+}
+
+class Gradient : public testing::TestWithParam<ObjectiveWeights> {};
+
+TEST_P(Gradient, MatchesCentralDifferencesAtSecondOrder) {
+  const TriMesh sphere = hollow_sphere(6);
+  const LayerBase base(sphere, k_context);
+  const EnvelopeOptions options = thick_layers();
+  const Envelope envelope = rough_envelope(base, options, 0.3, 0.4);
+  LayerObjective objective(base, envelope, envelope.target, options.first_height, 0.0, GetParam(), k_context);
+  const Vec3Field y = objective.unknowns(envelope);
+  Vec3Field gradient;
+  const ObjectiveValue value = objective.evaluate(y, &gradient, k_context);
+  ASSERT_GT(value.barrier, 0.0) << "the barrier must be felt to be tested";
+  std::vector<float> slack;
+  objective.slacks(y, slack, k_context);
+  Noise noise;
+  Vec3Field direction(y.size());
+  for (Vec3& d : direction) d = noise.vector();
+  for (const TriangleId t : sphere.triangles.ids())  // where a barrier is steep, the differences' own third-order error would hide the order
+    if (slack[t.index()] < 0.05f)
+      for (const VertexId v : sphere.triangles[t]) direction[v.index()] = {};
+  const double exact = field_dot(gradient, direction, k_context);
+  const auto error_at = [&](double step) {
+    Vec3Field ahead = y, behind = y;
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      ahead[i] += step * direction[i];
+      behind[i] -= step * direction[i];
+    }
+    return (objective.evaluate(ahead, nullptr, k_context).total - objective.evaluate(behind, nullptr, k_context).total) / (2.0 * step) - exact;
+  };
+  const double coarse = error_at(2e-4), fine = error_at(1e-4);
+  EXPECT_LT(std::abs(fine), 1e-4 * std::abs(exact));
+  // Second order: half the step, a quarter of the error. 10 % for the next order; a tenth of a per mille of the slope is rounding.
+  if (std::abs(coarse) > 1e-9 * std::abs(exact)) {
+    EXPECT_NEAR(coarse / fine, 4.0, 0.4);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Terms, Gradient,
+                         testing::Values(ObjectiveWeights{.height = 0.0, .top = 0.0, .barrier = 0.0}, ObjectiveWeights{.height = 1.0, .top = 0.0, .barrier = 0.0},
+                                         ObjectiveWeights{.height = 0.0, .top = 1.0, .barrier = 0.0}, ObjectiveWeights{.height = 0.0, .top = 0.0, .barrier = 1.0},
+                                         ObjectiveWeights{.height = 0.5, .top = 0.3, .barrier = 0.02}));
+
+class Methods : public testing::TestWithParam<OptimiseMethod> {};
+
+TEST_P(Methods, ObjectiveFallsMonotonicallyAndElementsStayValid) {
+  const TriMesh sphere = hollow_sphere(12);
+  const LayerBase base(sphere, k_context);
+  const EnvelopeOptions options = thick_layers();
+  const Envelope start = rough_envelope(base, options, 0.4, 0.5);
+  OptimiseSettings settings;
+  settings.method = GetParam();
+  settings.max_evaluations = 60;
+  OptimiseReport report;
+  const Envelope result = optimise(base, start, upper_heights(base, start), options.first_height, settings, report, k_context);
+  ASSERT_GT(report.history.size(), 1u);
+  for (std::size_t i = 1; i < report.history.size(); ++i) EXPECT_LE(report.history[i].total, report.history[i - 1].total);
+  EXPECT_LE(report.n_evaluations, settings.max_evaluations);
+  EXPECT_TRUE(invalid_macros(base, result, k_context).empty());
+  EXPECT_GE(smallest_quality(base, result), 0.9 * smallest_quality(base, start) * (1.0 - 1e-12));
+  // On a sphere the best lines are the normals at full height.
+  double tilt = 0.0, share = 0.0;
+  for (const VertexId v : result.height.ids()) {
+    tilt += angle_between(result.direction[v], base.vertex_normal[v]);
+    share += result.height[v] / start.target[v];
+  }
+  const double n = static_cast<double>(result.height.size());
+  EXPECT_LT(tilt / n, 3.0 * std::numbers::pi / 180.0);
+  EXPECT_GT(share / n, 0.97);
+}
+
+TEST_P(Methods, SameBytesForAnyNumberOfThreads) {
+  const TriMesh sphere = hollow_sphere(24);
+  const LayerBase base(sphere, k_context);
+  const EnvelopeOptions options = thick_layers();
+  const Envelope start = rough_envelope(base, options, 0.3, 0.5);
+  OptimiseSettings settings;
+  settings.method = GetParam();
+  settings.max_evaluations = 12;
+  std::vector<Envelope> results;
+  for (const int threads : {1, 2, 7}) {
+    const RunContext context({.threads = threads});
+    OptimiseReport report;
+    results.push_back(optimise(base, start, upper_heights(base, start), options.first_height, settings, report, context));
+  }
+  for (const Envelope& other : results) {
+    EXPECT_EQ(other.height, results.front().height);
+    EXPECT_EQ(other.direction, results.front().direction);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Own, Methods, testing::Values(OptimiseMethod::descent, OptimiseMethod::lbfgs));
+
+TEST(Optimise, ConstrainedVerticesStayInTheirPlaneOrOnTheirLine) {
+  const TriMesh cube = test::cube(4);
+  Constraints constraints;
+  constraints.vertex.resize(cube.n_vertices());
+  VertexId in_plane, on_line, fixed;
+  for (const VertexId v : cube.points.ids()) {
+    const Point& p = cube.points[v];
+    if (p.z != 1.0 || p.x == 0.0 || p.x == 1.0 || p.y == 0.0 || p.y == 1.0) continue;
+    if (p.x == 0.5 && p.y == 0.5) constraints.vertex[in_plane = v] = {Freedom::plane, {0, 1, 0}};
+    if (p.x == 0.25 && p.y == 0.25) constraints.vertex[on_line = v] = {Freedom::line, {0, 0, 1}};
+    if (p.x == 0.75 && p.y == 0.75) constraints.vertex[fixed = v] = {Freedom::fixed, {}};
+  }
+  ASSERT_TRUE(in_plane.is_valid() && on_line.is_valid() && fixed.is_valid());
+  const LayerBase base(cube, k_context, constraints);
+  Envelope start = initial_envelope(base, thick_layers(), k_context);
+  start.direction[in_plane] = normalized(Vec3{0.3, 0.0, 1.0});
+  start.direction[on_line] = {0, 0, 1};
+  start.height[fixed] = 0.5 * start.target[fixed];
+  OptimiseReport report;
+  const Envelope result = optimise(base, start, upper_heights(base, start), 1e-4, {}, report, k_context);
+  EXPECT_EQ(result.direction[in_plane].y, 0.0);
+  EXPECT_LT(std::abs(result.direction[in_plane].x), 0.05);
+  EXPECT_EQ(result.direction[on_line], (Vec3{0, 0, 1}));
+  EXPECT_EQ(result.height[fixed], start.height[fixed]);
+}
+
+}  // namespace
+}  // namespace sterna::volmesh

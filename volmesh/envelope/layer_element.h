@@ -1,0 +1,76 @@
+// One macro-element as the optimiser sees it: the quantities that keep it valid, each with a barrier, and their derivatives.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geom/base/vec3.h"
+#include "volmesh/envelope/lbfgs.h"
+
+namespace sterna::volmesh {
+
+/// Where each barrier begins; all terms are dimensionless and 1 for a straight prism.
+inline constexpr double k_wall_cosine_onset = 0.2;  ///< cosine between growth edge and wall normal
+inline constexpr double k_area_onset = 0.2;         ///< share of the wall's area that the envelope triangle keeps in projection
+inline constexpr double k_top_cosine_onset = 0.25;  ///< cosine between growth edge and envelope normal
+inline constexpr double k_middle_onset = 0.3;       ///< b_1 + sqrt(b_0 b_2) of the exact wedge test
+/// The margins of is_macro_valid (validity.cpp).
+inline constexpr double k_area_margin = 0.01;
+inline constexpr double k_top_margin = 0.05;
+inline constexpr double k_top_margin_of_wall = 0.2;
+
+/// Slack below which the scaled Jacobian is looked at: elements further away have large ones, unless the wall triangle itself is a needle.
+inline constexpr double k_quality_onset = 0.3;
+
+/// -(x/onset - 1)^2 ln(x/onset) for 0 < x < onset (Li et al. 2020), with first and second derivative.
+struct Barrier {
+  double value, slope, curvature;
+};
+inline double barrier_value(double x, double onset) {
+  const double q = x / onset - 1.0;
+  return -q * q * std::log(x / onset);
+}
+inline Barrier barrier(double x, double onset) {
+  const double q = x / onset;
+  const double l = std::log(q), below = q - 1.0;
+  return {-below * below * l, -(2.0 * below * l + below * below / q) / onset,
+          (-2.0 * l - 4.0 * below / q + below * below / (q * q)) / (onset * onset)};
+}
+
+/// Weights of f_3 and of the barrier for one corner of one element.
+struct ElementWeights {
+  double top, barrier;
+};
+
+struct LayerElement {
+  Vec3 n_wall;                       ///< unit
+  double wall_area2 = 0.0;           ///< twice the area
+  std::array<Vec3, 2> e, top;        ///< edges 0-1 and 0-2 at wall and envelope
+  std::array<Vec3, 3> unit;          ///< growth edges
+  std::array<double, 3> length{};
+  // The rest is set by measure().
+  Vec3 n_top, n_middle;              ///< Bernstein coefficients of the normal over the height; n_wall * wall_area2 is the first
+  double top_area2 = 0.0, area = 0.0;
+  std::array<double, 3> wall_cosine{}, top_cosine{}, middle{};
+
+  void set_growth(std::size_t k, const Vec3& g) {
+    length[k] = norm(g);
+    unit[k] = g / length[k];
+  }
+  /// wedge_quality(), from what measure() has computed.
+  double scaled_jacobian() const;
+  double top_margin(std::size_t k) const { return std::min(k_top_margin, k_top_margin_of_wall * wall_cosine[k]); }
+
+  /// Returns the distance from infeasibility, in the units of the barrier's terms; -1 where infeasible (then the terms are not all set).
+  /// An element near its barriers is infeasible too when its scaled Jacobian (wedge_quality) is below `least_quality`.
+  double measure(double least_quality = 0.0);
+  /// Weighted f_3 and barrier. \pre feasible and measured.
+  double energy(const ElementWeights& weights) const;
+  /// Adds gradient and positive semi-definite Hessian of energy() with respect to the growth edge of corner 0. \pre as energy().
+  void differentiate_corner_0(const ElementWeights& weights, Vec3& gradient, SymmetricBlock& hessian) const;
+  /// Gradient of energy() with respect to all three growth edges; false when it is zero. \pre as energy().
+  bool differentiate(const ElementWeights& weights, Vec3* gradient) const;
+};
+
+}  // namespace sterna::volmesh

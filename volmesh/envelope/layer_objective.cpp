@@ -1,0 +1,251 @@
+#include "volmesh/envelope/layer_objective.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/parallel.h"
+
+namespace sterna::volmesh {
+namespace {
+
+/// Bounds that are closer than this ratio fix the vertex (method.md §6).
+constexpr double k_min_bound_ratio = 1.05;
+constexpr double k_far = 0.2;       ///< slack above which hold_back() lets an element have any step
+constexpr int k_max_halvings = 12;  ///< of a vertex's step before it stays where it is
+constexpr double k_on_bound = 1e-12;  ///< of h_u; clamp() meets bounds to rounding
+/// Cosine between mean facet normal and vertex normal below which the mean normal is no direction to grow in.
+constexpr double k_min_rise = 0.5;
+
+/// What of d lies within the constraint; d itself keeps its length.
+Vec3 within(const VertexConstraint& constraint, const Vec3& d) {
+  switch (constraint.freedom) {
+    case Freedom::free: return d;
+    case Freedom::plane:
+    case Freedom::surface: return d - dot(d, constraint.axis) * constraint.axis;
+    case Freedom::line: return dot(d, constraint.axis) * constraint.axis;
+    case Freedom::fixed: return {};
+  }
+  return d;
+}
+
+}  // namespace
+
+LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double least_quality,
+                               const ObjectiveWeights& weights, const RunContext& context)
+    : base_(base), weights_(weights), least_quality_(least_quality), h_u_(h_u.raw()) {
+  const std::size_t n = base.wall.n_vertices();
+  h_l_share_.assign(n, 1.0);
+  is_moving_.assign(n, 0);
+  normal_.resize(n);
+  normal_sum_.assign(n, Vec3{});
+  n_incident_.assign(n, 0.0);
+  is_element_.assign(base.wall.n_triangles(), 0);
+  corner_gradient_.resize(3 * base.wall.n_triangles());
+  has_gradient_.assign(base.wall.n_triangles(), 0);
+  const auto stands = [&](TriangleId t) {
+    const TriangleVertices& v = base.wall.triangles[t];
+    return !start.is_collapsed(v[0]) && !start.is_collapsed(v[1]) && !start.is_collapsed(v[2]);
+  };
+  parallel_for(context, n, [&](std::size_t i) {
+    const VertexId v(i);
+    normal_[i] = base.vertex_normal[v];
+    if (start.is_collapsed(v) || base.constraint[v].freedom == Freedom::fixed) return;
+    const double h = dot(start.height[v] * start.direction[v], normal_[i]);
+    h_u_[i] = std::max(h_u_[i], h);  // the start must lie within the bounds
+    if (!(h > 0.0) || h_u_[i] < k_min_bound_ratio * h_l) return;
+    h_l_share_[i] = std::min(h, h_l) / h_u_[i];
+    is_moving_[i] = 1;
+    for (const HalfedgeId half : base.topology.outgoing(v)) {
+      const TriangleId t = triangle_of(half);
+      if (!stands(t)) {
+        is_moving_[i] = 0;  // pyramids and tets beside collapsed vertices stay as they are
+        return;
+      }
+      normal_sum_[i] += base.unit_normal[t];
+      n_incident_[i] += 1.0;
+    }
+  });
+  parallel_for(context, is_element_.size(), [&](std::size_t i) {
+    const TriangleVertices& v = base.wall.triangles[TriangleId(i)];
+    is_element_[i] = stands(TriangleId(i)) && (is_moving_[v[0].index()] || is_moving_[v[1].index()] || is_moving_[v[2].index()]);
+  });
+  // Elements that touch a margin (by rounding) have no barrier: their vertices stay.
+  const Vec3Field y = unknowns(start);
+  for (std::size_t t = 0; t < is_element_.size(); ++t) {
+    LayerElement e;
+    if (!load(t, y, e) || e.measure() > 0.0) continue;
+    is_element_[t] = 0;
+    for (const VertexId v : base.wall.triangles[TriangleId(t)]) is_moving_[v.index()] = 0;
+  }
+  for (std::size_t i = 0; i < n; ++i) n_moving_ += is_moving_[i];
+  for (const std::uint8_t is_one : is_element_) n_elements_ += is_one;
+}
+
+Vec3Field LayerObjective::unknowns(const Envelope& envelope) const {
+  Vec3Field y(size());
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (h_u_[i] > 0.0) y[i] = (envelope.height[VertexId(i)] / h_u_[i]) * envelope.direction[VertexId(i)];
+  return y;
+}
+
+void LayerObjective::store(const Vec3Field& y, Envelope& envelope) const {
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    if (!is_moving_[i]) continue;
+    const VertexId v(i);
+    Vec3 g = h_u_[i] * y[i];
+    const VertexConstraint& constraint = base_.constraint[v];
+    if (constraint.freedom == Freedom::surface) g = base_.surfaces[static_cast<std::size_t>(constraint.on[0])]->closest(base_.wall.points[v] + g) - base_.wall.points[v];
+    envelope.height[v] = norm(g);
+    envelope.direction[v] = normalized(g);
+  }
+}
+
+void LayerObjective::clamp(std::size_t v, Vec3& y) const {
+  const double h = dot(y, normal_[v]);
+  const double inside = std::clamp(h, h_l_share_[v], 1.0);
+  if (inside != h) y += (inside - h) * normal_[v];
+}
+
+Vec3Field LayerObjective::separable_optimum(const Vec3Field& y, const RunContext& context) const {
+  Vec3Field best = y;
+  parallel_for(context, y.size(), [&](std::size_t i) {
+    if (!is_moving_[i]) return;
+    const double rise = dot(normal_sum_[i], normal_[i]);
+    const Vec3 mean = within(base_.constraint[VertexId(i)], normal_sum_[i]);
+    if (rise >= k_min_rise * norm(normal_sum_[i])) best[i] = mean / dot(mean, normal_[i]);
+  });
+  return best;
+}
+
+bool LayerObjective::load(std::size_t t, const Vec3Field& y, LayerElement& e) const {
+  if (!is_element_[t]) return false;
+  const TriangleId id(t);
+  const TriangleVertices& v = base_.wall.triangles[id];
+  const Point& p = base_.wall.points[v[0]];
+  e.n_wall = base_.unit_normal[id];
+  e.wall_area2 = 2.0 * base_.area[id];
+  std::array<Vec3, 3> g;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = v[k].index();
+    g[k] = h_u_[i] * y[i];
+    e.set_growth(k, g[k]);
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    e.e[k] = base_.wall.points[v[k + 1]] - p;
+    e.top[k] = e.e[k] + (g[k + 1] - g[0]);
+  }
+  return true;
+}
+
+ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, Vec3Field* gradient, const RunContext& context) {
+  const double element_weight = corner_weight();
+  const auto add = [](ObjectiveValue a, const ObjectiveValue& b) {
+    a.f1 += b.f1;
+    a.f2 += b.f2;
+    a.f3 += b.f3;
+    a.barrier += b.barrier;
+    return a;
+  };
+  const ElementWeights weights = element_weights();
+  ObjectiveValue value = parallel_reduce(
+      context, is_element_.size(), ObjectiveValue{},
+      [&](std::size_t begin, std::size_t end) {
+        ObjectiveValue sum;
+        for (std::size_t t = begin; t < end; ++t) {
+          has_gradient_[t] = 0;
+          LayerElement e;
+          if (!load(t, y, e)) continue;
+          e.measure();
+          sum.f3 += 3.0 - e.top_cosine[0] - e.top_cosine[1] - e.top_cosine[2];
+          sum.barrier += e.energy({0.0, 1.0});
+          has_gradient_[t] = gradient && e.differentiate(weights, corner_gradient_.data() + 3 * t);
+        }
+        return sum;
+      },
+      add);
+  value.f3 *= element_weight;
+  value.barrier *= element_weight;
+  if (gradient) gradient->resize(size());
+  const ObjectiveValue own = parallel_reduce(
+      context, size(), ObjectiveValue{},
+      [&](std::size_t begin, std::size_t end) {
+        ObjectiveValue sum;
+        for (std::size_t i = begin; i < end; ++i) {
+          if (!is_moving_[i]) {
+            if (gradient) (*gradient)[i] = {};
+            continue;
+          }
+          const double length = norm(y[i]);
+          const Vec3 u = y[i] / length;
+          const double seen = dot(normal_sum_[i], u);
+          sum.f1 += n_incident_[i] - seen;
+          sum.f2 += 1.0 - dot(y[i], normal_[i]);
+          if (!gradient) continue;
+          Vec3 d = (-element_weight / length) * (normal_sum_[i] - seen * u) - height_weight() * normal_[i];
+          for (const HalfedgeId h : base_.topology.outgoing(VertexId(i)))
+            if (has_gradient_[h.index() / 3]) d += h_u_[i] * corner_gradient_[h.index()];
+          (*gradient)[i] = within(base_.constraint[VertexId(i)], d);
+        }
+        return sum;
+      },
+      add);
+  value.f1 = element_weight * own.f1;
+  value.f2 = own.f2 / static_cast<double>(std::max<std::size_t>(n_moving_, 1));
+  value.total = value.f1 + weights_.height * value.f2 + weights_.top * value.f3 + weights_.barrier * value.barrier;
+  return value;
+}
+
+void LayerObjective::free_part(const Vec3Field& y, Vec3Field& gradient, const RunContext& context) const {
+  parallel_for(context, size(), [&](std::size_t i) {
+    if (!is_moving_[i]) return;
+    const double h = dot(y[i], normal_[i]), slope = dot(gradient[i], normal_[i]);
+    if ((h >= 1.0 - k_on_bound && slope < 0.0) || (h <= h_l_share_[i] + k_on_bound && slope > 0.0)) gradient[i] -= slope * normal_[i];
+  });
+}
+
+void LayerObjective::slacks(const Vec3Field& y, std::vector<float>& slack, const RunContext& context) const {
+  slack.resize(is_element_.size());
+  parallel_for(context, slack.size(), [&](std::size_t t) {
+    LayerElement e;
+    slack[t] = load(t, y, e) ? static_cast<float>(e.measure()) : 1.0f;
+  });
+}
+
+std::size_t LayerObjective::hold_back(const Vec3Field& from, const std::vector<float>& slack_from, double keep, Vec3Field& to, const RunContext& context) const {
+  std::vector<std::uint8_t> dirty(size(), 1), halvings(size(), 0);
+  std::size_t n_held = 0;
+  while (true) {
+    const std::vector<std::uint32_t> bad = parallel_reduce(
+        context, is_element_.size(), std::vector<std::uint32_t>{},
+        [&](std::size_t begin, std::size_t end) {
+          std::vector<std::uint32_t> list;
+          for (std::size_t t = begin; t < end; ++t) {
+            if (!is_element_[t]) continue;
+            const TriangleVertices& v = base_.wall.triangles[TriangleId(t)];
+            if (!dirty[v[0].index()] && !dirty[v[1].index()] && !dirty[v[2].index()]) continue;
+            LayerElement e;
+            load(t, to, e);
+            if (e.measure(least_quality_) < std::min(k_far, keep * static_cast<double>(slack_from[t]))) list.push_back(static_cast<std::uint32_t>(t));
+          }
+          return list;
+        },
+        [](std::vector<std::uint32_t> a, const std::vector<std::uint32_t>& b) {
+          a.insert(a.end(), b.begin(), b.end());
+          return a;
+        });
+    if (bad.empty()) return n_held;
+    dirty.assign(size(), 0);
+    for (const std::uint32_t t : bad)
+      for (const VertexId v : base_.wall.triangles[TriangleId(std::uint64_t{t})]) dirty[v.index()] = 1;
+    bool has_moved = false;
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (!dirty[i] || to[i] == from[i]) continue;
+      n_held += halvings[i] == 0;
+      has_moved = true;
+      to[i] = ++halvings[i] > k_max_halvings ? from[i] : from[i] + 0.5 * (to[i] - from[i]);
+    }
+    if (!has_moved) return n_held;
+  }
+}
+
+}  // namespace sterna::volmesh

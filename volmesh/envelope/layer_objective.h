@@ -1,0 +1,90 @@
+// What our optimiser minimises: the paper's f_1 + f_2, optionally the same orthogonality at the envelope (f_3), and a barrier on every way in which a
+// macro-element can become invalid (method.md §6, [ET15 §3.2.6]; barrier on the Jacobian: Garanzha et al. 2021).
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "volmesh/envelope/envelope.h"
+#include "volmesh/envelope/layer_element.h"
+#include "volmesh/envelope/lbfgs.h"
+
+namespace sterna::volmesh {
+
+struct ObjectiveWeights {
+  double height = 1.0;    ///< of f_2 against f_1
+  double top = 0.0;       ///< of f_3 against f_1
+  double barrier = 0.02;  ///< of the barrier, sum over its terms and elements, against f_1
+};
+
+/// Parts of the objective at one point.
+struct ObjectiveValue {
+  double f1 = 0.0;       ///< eq. (8), over the moving vertices
+  double f2 = 0.0;       ///< eq. (9)
+  double f3 = 0.0;       ///< eq. (8) with the envelope's normals
+  double barrier = 0.0;
+  double total = 0.0;    ///< weighted sum
+};
+
+/// The unknowns are the growth vectors of all vertices over their upper heights, y = (envelope point - wall point) / h_u: one Vec3 each, of which the
+/// vertex's constraint leaves 3, 2 or 1 components.
+class LayerObjective {
+ public:
+  /// h_u: upper bound of the normal component of the growth vector, m; h_l: lower bound. Vertices that are collapsed or whose bounds nearly meet do not move.
+  /// \pre every macro-element of `start` is valid. `base` must outlive this.
+  /// No element may get a scaled Jacobian below `least_quality`.
+  LayerObjective(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double least_quality,
+                 const ObjectiveWeights& weights, const RunContext& context);
+
+  std::size_t size() const { return h_u_.size(); }
+  bool is_moving(std::size_t v) const { return is_moving_[v] != 0; }
+  std::size_t n_moving() const { return n_moving_; }
+  Vec3Field unknowns(const Envelope& envelope) const;
+  /// Writes directions and heights of the moving vertices.
+  void store(const Vec3Field& y, Envelope& envelope) const;
+  /// What minimises f_1 + f_2 when macro-elements are left aside: every vertex for itself.
+  Vec3Field separable_optimum(const Vec3Field& y, const RunContext& context) const;
+
+  /// \pre every element feasible. gradient: with respect to y, within the constraints; null: value only.
+  ObjectiveValue evaluate(const Vec3Field& y, Vec3Field* gradient, const RunContext& context);
+  /// One pass over the vertices of `active`, colour by colour: each goes to the minimum of its local quadratic model, as far as the objective falls and all its
+  /// elements stay feasible. Afterwards `active` marks what should be visited again. The total falls monotonically. Returns the number of visits.
+  std::size_t descend(Vec3Field& y, std::vector<std::uint8_t>& active, double tolerance, const RunContext& context);
+  /// Gradient without what points out of the bounds that y lies on.
+  void free_part(const Vec3Field& y, Vec3Field& gradient, const RunContext& context) const;
+  /// y into the bounds.
+  void clamp(std::size_t v, Vec3& y) const;
+
+  /// Distance of every element from infeasibility (0), in the units of the barrier's terms.
+  void slacks(const Vec3Field& y, std::vector<float>& slack, const RunContext& context) const;
+  /// Draws vertices of `to` back towards `from`, until every element keeps at least `keep` of its slack in `from` (or is far from the barrier). Returns how many vertices were drawn back.
+  std::size_t hold_back(const Vec3Field& from, const std::vector<float>& slack_from, double keep, Vec3Field& to, const RunContext& context) const;
+
+ private:
+  bool load(std::size_t t, const Vec3Field& y, LayerElement& e) const;
+  struct VisitScratch;
+  void colour_vertices();
+  /// The step of one vertex; returns how far it went, in units of h_u.
+  double visit(std::size_t i, Vec3Field& y, VisitScratch& scratch) const;
+  /// Of one corner of one element in f_1 and f_3.
+  double corner_weight() const { return 1.0 / (3.0 * static_cast<double>(std::max<std::size_t>(n_elements_, 1))); }
+  ElementWeights element_weights() const { return {corner_weight() * weights_.top, corner_weight() * weights_.barrier}; }
+  double height_weight() const { return weights_.height / static_cast<double>(std::max<std::size_t>(n_moving_, 1)); }
+
+  const LayerBase& base_;
+  ObjectiveWeights weights_;
+  double least_quality_;
+  std::vector<double> h_u_, h_l_share_;
+  std::vector<std::uint8_t> is_moving_;
+  std::size_t n_moving_ = 0, n_elements_ = 0;
+  std::vector<Vec3> normal_;       ///< direction in which heights are measured: the vertex normal within the constraint
+  std::vector<Vec3> normal_sum_;   ///< sum of the unit normals of the standing incident triangles
+  std::vector<double> n_incident_;
+  std::vector<std::uint8_t> is_element_;  ///< no collapsed corner, some corner moves
+  std::vector<Vec3> corner_gradient_;     ///< 3 per element, scratch of evaluate()
+  std::vector<std::uint8_t> has_gradient_;
+  std::vector<std::vector<std::uint32_t>> colours_;  ///< moving vertices that share no element with others of their colour
+};
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,198 @@
+#include "volmesh/envelope/optimise.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/parallel.h"
+#include "geom/math/measures.h"
+#include "volmesh/envelope/validity.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr std::size_t k_memory = 7;       ///< pairs of the L-BFGS approximation
+constexpr double k_keep = 0.2;            ///< of its slack that an element near the barrier keeps in one step of L-BFGS
+constexpr double k_max_step = 0.5;        ///< of h_u, of a vertex in one step of L-BFGS
+constexpr double k_first_step = 0.25;     ///< of the steepest descent step that would undo f_1 on a plane
+constexpr double k_sufficient = 1e-4;     ///< Armijo's share of the predicted decrease
+constexpr int k_max_backtracks = 8;
+constexpr int k_patience = 4;             ///< iterations of L-BFGS over which the gain must exceed the tolerance
+constexpr double k_rest = 2e-3;           ///< of h_u: a vertex that moves less rests until a neighbour moves more
+constexpr double k_quality_share = 0.9;   ///< of the start's smallest scaled Jacobian that every element keeps (method.md §6)
+
+bool is_converged(const std::vector<ObjectiveValue>& history, std::size_t patience, double tolerance) {
+  if (history.size() < patience + 2) return false;
+  const double now = history.back().total;
+  return history[history.size() - 1 - patience].total - now < tolerance * (history.front().total - now);
+}
+
+void run_descent(LayerObjective& objective, const OptimiseSettings& settings, Vec3Field& y, OptimiseReport& report, const RunContext& context) {
+  std::vector<std::uint8_t> active(objective.size());
+  for (std::size_t i = 0; i < active.size(); ++i) active[i] = objective.is_moving(i);
+  report.history.push_back(objective.evaluate(y, nullptr, context));
+  report.stopped = "evaluations";
+  while (report.n_evaluations < settings.max_evaluations) {
+    const std::size_t n_visits = objective.descend(y, active, k_rest, context);
+    report.history.push_back(objective.evaluate(y, nullptr, context));
+    ++report.n_evaluations;
+    context.progress(static_cast<double>(report.n_evaluations) / settings.max_evaluations);
+    if (n_visits == 0 || is_converged(report.history, 1, settings.tolerance)) {
+      report.stopped = "converged";
+      return;
+    }
+  }
+}
+
+void run_lbfgs(LayerObjective& objective, const OptimiseSettings& settings, Vec3Field& y, OptimiseReport& report, const RunContext& context) {
+  const std::size_t n = objective.size();
+  Vec3Field trial(n), gradient(n), trial_gradient(n), free_gradient(n), direction(n);
+  std::vector<float> slack;
+  LbfgsMemory memory(n, k_memory);
+  ObjectiveValue value = objective.evaluate(y, &gradient, context);
+  report.history.push_back(value);
+  ++report.n_evaluations;
+  report.stopped = "evaluations";
+  const auto accept = [&](const ObjectiveValue& next) {
+    y.swap(trial);
+    gradient.swap(trial_gradient);
+    value = next;
+    report.history.push_back(value);
+  };
+  // The separable optimum first: away from the barriers it is the answer.
+  objective.slacks(y, slack, context);
+  trial = objective.separable_optimum(y, context);
+  objective.hold_back(y, slack, k_keep, trial, context);
+  const ObjectiveValue jump = objective.evaluate(trial, &trial_gradient, context);
+  ++report.n_evaluations;
+  if (jump.total < value.total) accept(jump);
+  while (report.n_evaluations < settings.max_evaluations) {
+    context.progress(static_cast<double>(report.n_evaluations) / settings.max_evaluations);
+    free_gradient = gradient;
+    objective.free_part(y, free_gradient, context);
+    memory.descend(free_gradient, k_first_step * static_cast<double>(objective.n_moving()), direction, context);
+    objective.slacks(y, slack, context);
+    double shrink = 1.0;
+    bool is_accepted = false;
+    for (int back = 0; back < k_max_backtracks && report.n_evaluations < settings.max_evaluations && !is_accepted; ++back, shrink *= 0.5) {
+      parallel_for(context, n, [&](std::size_t i) {
+        trial[i] = y[i];
+        if (!objective.is_moving(i)) return;
+        const double length = shrink * norm(direction[i]);
+        trial[i] += (length > k_max_step ? shrink * k_max_step / length : shrink) * direction[i];
+        objective.clamp(i, trial[i]);
+      });
+      objective.hold_back(y, slack, k_keep, trial, context);
+      const ObjectiveValue next = objective.evaluate(trial, &trial_gradient, context);
+      ++report.n_evaluations;
+      const double predicted = field_dot(gradient, trial, context) - field_dot(gradient, y, context);
+      if (!(next.total < value.total + k_sufficient * std::min(predicted, 0.0))) continue;
+      memory.push(y, trial, gradient, trial_gradient, context);
+      accept(next);
+      is_accepted = true;
+    }
+    if (!is_accepted && memory.empty()) {
+      report.stopped = "no further decrease";
+      return;
+    }
+    if (!is_accepted) memory.clear();
+    if (is_converged(report.history, k_patience, settings.tolerance)) {
+      report.stopped = "converged";
+      return;
+    }
+  }
+}
+
+double scaled_jacobian(const MacroElement& e) {
+  WedgePoints p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    p[k] = e.wall[k];
+    p[k + 3] = e.wall[k] + e.height[k] * e.direction[k];
+  }
+  return wedge_quality(p);
+}
+
+bool is_prism(const MacroElement& e) { return e.height[0] > 0.0 && e.height[1] > 0.0 && e.height[2] > 0.0; }
+
+/// Takes vertices back to `start` until every element is valid and as good as `limit`, or as it was. Returns how many went back.
+std::size_t take_back(const LayerBase& base, const Envelope& start, double limit, Envelope& envelope, const RunContext& context) {
+  const std::size_t n = base.wall.n_vertices();
+  std::size_t n_back = 0;
+  Column<VertexId, std::uint8_t> dirty(n, 1);
+  while (true) {
+    using List = std::vector<TriangleId>;
+    const List bad = parallel_reduce(
+        context, base.wall.n_triangles(), List{},
+        [&](std::size_t begin, std::size_t end) {
+          List list;
+          for (std::size_t i = begin; i < end; ++i) {
+            const TriangleId t(i);
+            const TriangleVertices& v = base.wall.triangles[t];
+            if (!dirty[v[0]] && !dirty[v[1]] && !dirty[v[2]]) continue;
+            const MacroElement e = macro_element(base, envelope, t);
+            if (!is_macro_valid(e) || (is_prism(e) && scaled_jacobian(e) < limit)) list.push_back(t);
+          }
+          return list;
+        },
+        [](List a, List b) {
+          a.insert(a.end(), b.begin(), b.end());
+          return a;
+        });
+    dirty.assign(n, 0);
+    bool has_changed = false;
+    for (const TriangleId t : bad) {
+      for (const VertexId v : base.wall.triangles[t]) {
+        if (envelope.height[v] == start.height[v] && envelope.direction[v] == start.direction[v]) continue;
+        envelope.height[v] = start.height[v];
+        envelope.direction[v] = start.direction[v];
+        dirty[v] = 1;
+        has_changed = true;
+        ++n_back;
+      }
+    }
+    if (!has_changed) return n_back;
+  }
+}
+
+double smallest_scaled_jacobian(const LayerBase& base, const Envelope& envelope, const RunContext& context) {
+  return parallel_reduce(
+      context, base.wall.n_triangles(), 1.0,
+      [&](std::size_t begin, std::size_t end) {
+        double least = 1.0;
+        for (std::size_t i = begin; i < end; ++i) {
+          const MacroElement e = macro_element(base, envelope, TriangleId(i));
+          if (is_prism(e)) least = std::min(least, scaled_jacobian(e));
+        }
+        return least;
+      },
+      [](double a, double b) { return std::min(a, b); });
+}
+
+}  // namespace
+
+Column<VertexId, double> upper_heights(const LayerBase& base, const Envelope& envelope) {
+  Column<VertexId, double> h_u = envelope.height;
+  for (const VertexId v : h_u.ids()) {
+    if (envelope.is_collapsed(v)) continue;
+    const bool is_kept_apart = envelope.limit[v] == HeightLimit::gap || envelope.limit[v] == HeightLimit::collision;
+    h_u[v] = is_kept_apart ? envelope.height[v] * dot(envelope.direction[v], base.vertex_normal[v])
+                           : std::max(envelope.height[v], std::min(envelope.target[v], envelope.cap[v]));
+  }
+  return h_u;
+}
+
+Envelope optimise(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, const OptimiseSettings& settings,
+                  OptimiseReport& report, const RunContext& context) {
+  const double least_quality = k_quality_share * smallest_scaled_jacobian(base, start, context);
+  LayerObjective objective(base, start, h_u, h_l, least_quality, settings.weights, context);
+  report = {};
+  report.n_moving = objective.n_moving();
+  Vec3Field y = objective.unknowns(start);
+  if (settings.method == OptimiseMethod::descent) run_descent(objective, settings, y, report, context);
+  else run_lbfgs(objective, settings, y, report, context);
+  Envelope result = start;
+  objective.store(y, result);
+  report.n_taken_back = take_back(base, start, least_quality, result, context);
+  return result;
+}
+
+}  // namespace sterna::volmesh
