@@ -71,7 +71,8 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
   });
   // Elements that touch a margin (by rounding) have no barrier: their vertices stay.
   const Vec3Field y = unknowns(start);
-  for (std::size_t t = 0; t < is_element_.size(); ++t) {
+  const bool has_barrier = weights.top > 0.0 || weights.barrier > 0.0;
+  for (std::size_t t = 0; t < is_element_.size() && has_barrier; ++t) {
     LayerElement e;
     if (!load(t, y, e) || e.measure() > 0.0) continue;
     is_element_[t] = 0;
@@ -147,8 +148,9 @@ ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, Vec3Field* gradient,
     return a;
   };
   const ElementWeights weights = element_weights();
+  const bool needs_elements = weights.top > 0.0 || weights.barrier > 0.0;
   ObjectiveValue value = parallel_reduce(
-      context, is_element_.size(), ObjectiveValue{},
+      context, needs_elements ? is_element_.size() : 0, ObjectiveValue{},
       [&](std::size_t begin, std::size_t end) {
         ObjectiveValue sum;
         for (std::size_t t = begin; t < end; ++t) {

@@ -32,13 +32,17 @@ struct ObjectiveValue {
 class LayerObjective {
  public:
   /// h_u: upper bound of the normal component of the growth vector, m; h_l: lower bound. Vertices that are collapsed or whose bounds nearly meet do not move.
-  /// \pre every macro-element of `start` is valid. `base` must outlive this.
+  /// \pre every macro-element of `start` is valid, unless the weights of f_3 and barrier are zero. `base` must outlive this.
   /// No element may get a scaled Jacobian below `least_quality`.
   LayerObjective(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double least_quality,
                  const ObjectiveWeights& weights, const RunContext& context);
 
   std::size_t size() const { return h_u_.size(); }
   bool is_moving(std::size_t v) const { return is_moving_[v] != 0; }
+  /// Standing elements with a moving corner.
+  bool is_element(std::size_t t) const { return is_element_[t] != 0; }
+  double upper(std::size_t v) const { return h_u_[v]; }              ///< h_u, m
+  double lower_share(std::size_t v) const { return h_l_share_[v]; }  ///< lower bound over h_u
   std::size_t n_moving() const { return n_moving_; }
   Vec3Field unknowns(const Envelope& envelope) const;
   /// Writes directions and heights of the moving vertices.
@@ -46,7 +50,7 @@ class LayerObjective {
   /// What minimises f_1 + f_2 when macro-elements are left aside: every vertex for itself.
   Vec3Field separable_optimum(const Vec3Field& y, const RunContext& context) const;
 
-  /// \pre every element feasible. gradient: with respect to y, within the constraints; null: value only.
+  /// \pre every element feasible, unless the weights of f_3 and barrier are zero: then elements are not looked at. gradient: with respect to y, within the constraints; null: value only.
   ObjectiveValue evaluate(const Vec3Field& y, Vec3Field* gradient, const RunContext& context);
   /// One pass over the vertices of `active`, colour by colour: each goes to the minimum of its local quadratic model, as far as the objective falls and all its
   /// elements stay feasible. Afterwards `active` marks what should be visited again. The total falls monotonically. Returns the number of visits.

@@ -18,7 +18,6 @@ constexpr double k_sufficient = 1e-4;     ///< Armijo's share of the predicted d
 constexpr int k_max_backtracks = 8;
 constexpr int k_patience = 4;             ///< iterations of L-BFGS over which the gain must exceed the tolerance
 constexpr double k_rest = 2e-3;           ///< of h_u: a vertex that moves less rests until a neighbour moves more
-constexpr double k_quality_share = 0.9;   ///< of the start's smallest scaled Jacobian that every element keeps (method.md §6)
 
 bool is_converged(const std::vector<ObjectiveValue>& history, std::size_t patience, double tolerance) {
   if (history.size() < patience + 2) return false;
@@ -113,7 +112,8 @@ double scaled_jacobian(const MacroElement& e) {
 
 bool is_prism(const MacroElement& e) { return e.height[0] > 0.0 && e.height[1] > 0.0 && e.height[2] > 0.0; }
 
-/// Takes vertices back to `start` until every element is valid and as good as `limit`, or as it was. Returns how many went back.
+}  // namespace
+
 std::size_t take_back(const LayerBase& base, const Envelope& start, double limit, Envelope& envelope, const RunContext& context) {
   const std::size_t n = base.wall.n_vertices();
   std::size_t n_back = 0;
@@ -166,8 +166,6 @@ double smallest_scaled_jacobian(const LayerBase& base, const Envelope& envelope,
       },
       [](double a, double b) { return std::min(a, b); });
 }
-
-}  // namespace
 
 Column<VertexId, double> upper_heights(const LayerBase& base, const Envelope& envelope) {
   Column<VertexId, double> h_u = envelope.height;

@@ -32,6 +32,14 @@ struct OptimiseReport {
 /// Upper heights for the optimisation: what stage 5 left where layers or gaps limit it, else the cap (method.md §6).
 Column<VertexId, double> upper_heights(const LayerBase& base, const Envelope& envelope);
 
+/// Of the start's smallest scaled Jacobian, what every element keeps (method.md §6).
+inline constexpr double k_quality_share = 0.9;
+/// Smallest wedge_quality of the macro-elements that are prisms; 1 when there are none.
+double smallest_scaled_jacobian(const LayerBase& base, const Envelope& envelope, const RunContext& context);
+/// Takes vertices back to `start` until every macro-element is valid and has a scaled Jacobian of `least_quality`. Returns how many went back.
+/// \pre `start` is so.
+std::size_t take_back(const LayerBase& base, const Envelope& start, double least_quality, Envelope& envelope, const RunContext& context);
+
 /// h_u: upper bound of the heights along the vertex normals, m; h_l: lower bound, m.
 /// \pre every macro-element of `start` is valid.
 /// \post every macro-element is valid (exact test and margins); no scaled Jacobian is below 0.9 of the smallest of the start. Collisions are not looked at:

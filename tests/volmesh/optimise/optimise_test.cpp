@@ -5,60 +5,14 @@
 #include <numbers>
 
 #include "geom/math/measures.h"
-#include "tests/support/shapes.h"
-#include "volmesh/envelope/initial.h"
+#include "tests/volmesh/optimise/rough_envelope.h"
 #include "volmesh/envelope/optimise.h"
-#include "volmesh/envelope/untangle.h"
 #include "volmesh/envelope/validity.h"
 
 namespace sterna::volmesh {
 namespace {
 
 const RunContext k_context({.threads = 2});
-
-/// Deterministic numbers in [-0.5, 0.5).
-class Noise {
- public:
-  double next() {
-    state_ = state_ * 1664525u + 1013904223u;
-    return static_cast<double>(state_ >> 8) / 16777216.0 - 0.5;
-  }
-  Vec3 vector() {
-    const double x = next(), y = next();
-    return {x, y, next()};
-  }
-
- private:
-  std::uint32_t state_ = 7;
-};
-
-EnvelopeOptions thick_layers() {
-  EnvelopeOptions options;
-  options.first_height = 1e-4;
-  options.layers = 20;
-  options.max_growth = 1.5;
-  options.max_thickness = 0.6;
-  return options;
-}
-
-/// The sphere from within: lines converge, and a layer of half the radius leaves a quarter of the wall's area.
-TriMesh hollow_sphere(int f) {
-  TriMesh mesh = test::sphere(f);
-  for (TriangleVertices& v : mesh.triangles) std::swap(v[1], v[2]);
-  return mesh;
-}
-
-/// A valid envelope with tilted lines and uneven heights.
-Envelope rough_envelope(const LayerBase& base, const EnvelopeOptions& options, double tilt, double unevenness) {
-  Envelope envelope = initial_envelope(base, options, k_context);
-  Noise noise;
-  for (const VertexId v : envelope.height.ids()) {
-    envelope.direction[v] = normalized(envelope.direction[v] + tilt * noise.vector());
-    envelope.height[v] *= 1.0 - unevenness * (0.5 + noise.next());
-  }
-  unwarp(base, options, HeightLimit::warp, envelope, k_context);
-  return envelope;
-}
 
 double smallest_quality(const LayerBase& base, const Envelope& envelope) {
   double least = 1.0;
@@ -106,12 +60,14 @@ TEST_P(Gradient, MatchesCentralDifferencesAtSecondOrder) {
   const TriMesh sphere = hollow_sphere(6);
   const LayerBase base(sphere, k_context);
   const EnvelopeOptions options = thick_layers();
-  const Envelope envelope = rough_envelope(base, options, 0.3, 0.4);
+  const Envelope envelope = rough_envelope(base, options, 0.3, 0.4, k_context);
   LayerObjective objective(base, envelope, envelope.target, options.first_height, 0.0, GetParam(), k_context);
   const Vec3Field y = objective.unknowns(envelope);
   Vec3Field gradient;
   const ObjectiveValue value = objective.evaluate(y, &gradient, k_context);
-  ASSERT_GT(value.barrier, 0.0) << "the barrier must be felt to be tested";
+  if (GetParam().barrier > 0.0) {
+    ASSERT_GT(value.barrier, 0.0) << "the barrier must be felt to be tested";
+  }
   std::vector<float> slack;
   objective.slacks(y, slack, k_context);
   Noise noise;
@@ -148,7 +104,7 @@ TEST_P(Methods, ObjectiveFallsMonotonicallyAndElementsStayValid) {
   const TriMesh sphere = hollow_sphere(12);
   const LayerBase base(sphere, k_context);
   const EnvelopeOptions options = thick_layers();
-  const Envelope start = rough_envelope(base, options, 0.4, 0.5);
+  const Envelope start = rough_envelope(base, options, 0.4, 0.5, k_context);
   OptimiseSettings settings;
   settings.method = GetParam();
   settings.max_evaluations = 60;
@@ -174,7 +130,7 @@ TEST_P(Methods, SameBytesForAnyNumberOfThreads) {
   const TriMesh sphere = hollow_sphere(24);
   const LayerBase base(sphere, k_context);
   const EnvelopeOptions options = thick_layers();
-  const Envelope start = rough_envelope(base, options, 0.3, 0.5);
+  const Envelope start = rough_envelope(base, options, 0.3, 0.5, k_context);
   OptimiseSettings settings;
   settings.method = GetParam();
   settings.max_evaluations = 12;
