@@ -24,9 +24,8 @@ void require_sane(const TriMesh& wall, VolumeMeshOptions& options) {
 Extrusion extrude_clear_of_collisions(const LayerBase& base, const VolumeMeshOptions& options, Envelope& envelope, const RunContext& context) {
   for (int round = 0; round < k_max_clear_rounds; ++round) {
     Extrusion extrusion = extrude_prisms(base, options.envelope, options.prisms, envelope, context);
-    const Column<VertexId, double> heights = envelope.height;
-    retract_collisions(base, options.envelope, envelope, context);
-    if (envelope.height == heights) return extrusion;
+    Collider collider(base, nullptr, context);
+    if (!retract_collisions(base, options.envelope, collider, envelope, context)) return extrusion;
   }
   throw Error({.code = ErrorCode::envelope_failed,
                .attempted = "extruding prisms",

@@ -15,6 +15,11 @@ constexpr int k_denoising_sweeps = 3;
 }  // namespace
 
 Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context) {
+  Collider collider(base, nullptr, context);
+  return build_envelope(base, options, collider, context);
+}
+
+Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, const RunContext& context) {
   const Classification classes = classify_vertices(base, options, context);
   Envelope envelope = initial_envelope(base, options, context);
   context.progress(0.1);
@@ -33,9 +38,9 @@ Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, c
   regrow(base, envelope, context);
   context.progress(0.6);
 
-  share_gaps(base, options, envelope, context);
-  retract_collisions(base, options, envelope, context.part("retract", 0.6, 1.0));
-  regrow_clear(base, envelope, context);
+  share_gaps(base, options, collider, envelope, context);
+  retract_collisions(base, options, collider, envelope, context.part("retract", 0.6, 1.0));
+  regrow_clear(base, collider, envelope, context);
   // Stage 6, the global optimisation (method.md §6), takes its place here.
   return envelope;
 }

@@ -17,16 +17,20 @@ enum class HeightLimit : std::uint8_t { none, untangle, warp, gap, collision, pr
 inline constexpr std::size_t k_height_limits = 7;
 std::string_view to_string(HeightLimit limit);
 
-struct Envelope {
+/// Where the envelope is; what a proposal consists of.
+struct EnvelopeShape {
   Column<VertexId, Vec3> direction;          ///< unit growth direction
   Column<VertexId, double> height;           ///< m along the direction; 0 = collapsed
+
+  bool is_collapsed(VertexId v) const { return height[v] == 0.0; }
+  Point point(const TriMesh& wall, VertexId v) const { return wall.points[v] + height[v] * direction[v]; }
+};
+
+struct Envelope : EnvelopeShape {
   Column<VertexId, double> target;           ///< m, h_target of method.md §2
   Column<VertexId, double> eq1;              ///< m, height by eq. (1) without caps
   Column<VertexId, double> cap;              ///< m, largest height that the stages so far allow (starts as target)
   Column<VertexId, HeightLimit> limit;
-
-  bool is_collapsed(VertexId v) const { return height[v] == 0.0; }
-  Point point(const TriMesh& wall, VertexId v) const { return wall.points[v] + height[v] * direction[v]; }
 };
 
 /// Derived numbers that every step needs.

@@ -1,33 +1,44 @@
 // Collision avoidance between opposing layers (method.md §5, [ET15 §3.2.5]).
 #pragma once
 
+#include "volmesh/envelope/collide.h"
 #include "volmesh/envelope/envelope.h"
+#include "volmesh/envelope/validity.h"
 
 namespace sterna::volmesh {
 
-/// Shares the gap between opposing walls: where a growth line meets a wall that faces it, both heights keep together below the gap, in proportion to
-/// what each asks for.
-void share_gaps(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
+/// Shares the gap between opposing walls: where a growth line meets a wall that faces it, both heights are lowered, in proportion to what each asks for,
+/// until a gap of 0.2 of the longer of the two local envelope edges remains (half the gap, where it is narrower than 0.4 edges). Limits `cap` too.
+/// \post every macro-element valid.
+void share_gaps(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context);
 
-/// Lowers heights until the envelope is free of self-intersection by the exact triangle-triangle test, re-establishing valid macro-elements after each
-/// sweep; places that still collide after max_retract_sweeps collapse. \post no crossing pair among envelope triangles.
-void retract_collisions(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
+/// Lowers heights until the exact triangle tests find top and sides of the layer clear of each other, of the wall and of the outer boundary, with macro-elements
+/// made valid again after each sweep; what still collides after max_retract_sweeps collapses, so it ends. With `suspects`, the top is known to be clear
+/// elsewhere. Returns whether it changed anything. \pre wall and outer boundary do not cross.
+bool retract_collisions(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context,
+                        const std::vector<VertexId>* suspects = nullptr);
 
-/// Raises heights that were lowered more than needed towards min(target, cap) where macro-elements stay valid and the envelope stays clear of itself.
-/// \pre, \post envelope free of self-intersection.
-void regrow_clear(const LayerBase& base, Envelope& envelope, const RunContext& context);
+/// Raises heights that were lowered more than needed towards min(target, cap) where macro-elements stay valid and the top stays clear.
+/// \pre, \post clear, as after retract_collisions.
+void regrow_clear(const LayerBase& base, Collider& collider, Envelope& envelope, const RunContext& context);
 
-/// As apply_where_valid, and besides no vertex moves whose triangles would come nearer to another part of the envelope than a clearance of 6 % of the
-/// height: all at once, then vertices of crossing or invalid elements go back until nothing crosses. Directions and heights of `proposal` count alone.
-/// Cost: one crossing pass over the triangles that moved, then cheap passes around what went back.
-/// \pre, \post envelope valid and free of self-intersection.
-void apply_where_clear(const LayerBase& base, Envelope& envelope, const Envelope& proposal, const RunContext& context);
+/// How much taller than wanted a changed height must still be clear, as a factor: room for the tetrahedra.
+inline constexpr double k_clearance = 1.06;
+
+/// Puts a change in force where macro-elements stay valid and the top stays clear of itself, the wall and the outer boundary, at `clearance` times the
+/// changed heights and at the heights themselves: all at once, then vertices of crossing or invalid elements go back until there are none.
+/// Cost: two exact passes over what moved (one with clearance 1), then around what went back. \pre, \post valid and clear.
+void apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, ShapeChange change, const RunContext& context,
+                       double clearance = k_clearance);
+/// The same for a whole shape. \pre vertices with proposal == envelope are not touched.
+void apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, const EnvelopeShape& proposal, const RunContext& context,
+                       double clearance = k_clearance);
 
 /// The envelope as an indexed triangle set: points = wall points, then one envelope point per vertex; corners of collapsed vertices refer to the wall.
 struct EnvelopeSurface {
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
-EnvelopeSurface envelope_surface(const LayerBase& base, const Envelope& envelope, const RunContext& context);
+EnvelopeSurface envelope_surface(const LayerBase& base, const EnvelopeShape& envelope, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "volmesh/envelope/validity.h"
 
@@ -15,7 +14,8 @@ namespace {
 /// Lines that converge by less than this do not meet within any layer (1e6 edge lengths away).
 constexpr double k_parallel = 1e-6;
 constexpr int k_untangle_smoothing_sweeps = 3;
-constexpr int k_max_unwarp_rounds = 400;
+constexpr int k_lowering_rounds = 100;    ///< of unwarp; 3 to 10 are usual, and elements that are still invalid then collapse
+constexpr int k_ring_sweeps = 3;          ///< rings over which the height rises again around a collapsed vertex
 constexpr int k_bisection_steps = 12;     ///< halvings in log h: 1 % of the height over four decades
 constexpr double k_smallest_scale = 1e-5; ///< of the largest height of an element: where its bisection starts
 constexpr double k_reserve = 0.98;        ///< keep a little below the largest valid height, so that neighbours need not move again
@@ -111,51 +111,130 @@ void untangle_edges(const LayerBase& base, const EnvelopeOptions& options, Envel
   level_steps(base, options, k_untangle_smoothing_sweeps, HeightLimit::untangle, envelope, context);
 }
 
-void unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit reason, Envelope& envelope, const RunContext& context,
-            const Column<VertexId, std::uint8_t>* suspects) {
-  const EnvelopeScale scale = scale_of(options);
-  const std::size_t n = base.wall.n_vertices();
-  Column<VertexId, std::uint8_t> dirty = suspects ? *suspects : Column<VertexId, std::uint8_t>(n, 1);
-  for (int round = 0; round < k_max_unwarp_rounds; ++round) {
-    const std::vector<TriangleId> bad = invalid_macros(base, envelope, context, &dirty);
-    if (bad.empty()) return;
-    std::vector<double> bound(bad.size());
-    parallel_for(context, bad.size(), [&](std::size_t i) { bound[i] = valid_cut(macro_element(base, envelope, bad[i])); }, 64);
-    dirty.assign(n, 0);
-    for (std::size_t i = 0; i < bad.size(); ++i) {
-      const TriangleVertices& vertices = base.wall.triangles[bad[i]];
-      for (const VertexId v : vertices) dirty[v] = 1;
-      if (bound[i] == 0.0) {
-        collapse_corners(base, bad[i], scale, reason, envelope);
-        continue;
-      }
-      for (const VertexId v : vertices) lower(envelope, v, k_reserve * bound[i], reason, scale);
-    }
-  }
-  throw Error({.code = ErrorCode::envelope_failed,
-               .attempted = "reducing warped elements of the layer",
-               .problem = "no valid heights after " + std::to_string(k_max_unwarp_rounds) + " rounds",
-               .hint = "report this surface"});
+namespace {
+
+/// What is lowered in one round, without repetition.
+void sort_unique(std::vector<VertexId>& vertices) {
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 }
 
-Envelope raised(const LayerBase& base, const Envelope& envelope, int round, const RunContext& context) {
-  const double factor = 1.0 + (k_regrow_factor - 1.0) * std::pow(k_regrow_decay, round);
-  Envelope proposal = envelope;
-  parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
-    const VertexId v(i);
-    if (envelope.is_collapsed(v)) return;
-    double h = std::min({envelope.target[v], envelope.cap[v], factor * envelope.height[v]});
-    for (const VertexId other : base.topology.neighbours(v)) {
-      const double bound = envelope.height[other] + k_step_gradient * distance(base.wall.points[v], base.wall.points[other]);
-      h = std::min(h, bound);
+/// Lowers the corners of invalid elements, or collapses them; returns the lowered vertices.
+std::vector<VertexId> lower_elements(const LayerBase& base, const std::vector<TriangleId>& bad, bool must_collapse, const EnvelopeScale& scale,
+                                     HeightLimit reason, Envelope& envelope, const RunContext& context) {
+  std::vector<double> bound(bad.size(), 0.0);
+  if (!must_collapse) parallel_for(context, bad.size(), [&](std::size_t i) { bound[i] = valid_cut(macro_element(base, envelope, bad[i])); }, 64);
+  std::vector<VertexId> lowered;
+  for (std::size_t i = 0; i < bad.size(); ++i) {
+    const TriangleVertices& vertices = base.wall.triangles[bad[i]];
+    const std::array<double, 3> before = {envelope.height[vertices[0]], envelope.height[vertices[1]], envelope.height[vertices[2]]};
+    if (must_collapse) {
+      for (const VertexId v : vertices) lower(envelope, v, 0.0, reason, scale);
+    } else if (bound[i] == 0.0) {
+      collapse_corners(base, bad[i], scale, reason, envelope);
+    } else {
+      for (const VertexId v : vertices) lower(envelope, v, k_reserve * bound[i], reason, scale);
     }
-    if (h > envelope.height[v]) proposal.height[v] = h;
-  });
-  return proposal;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (envelope.height[vertices[k]] != before[k]) lowered.push_back(vertices[k]);
+  }
+  sort_unique(lowered);
+  return lowered;
+}
+
+/// Surrounds collapsed vertices by a compressed ring (method.md §4), from which the height rises by at most k_step_gradient; returns what was lowered.
+std::vector<VertexId> surround_collapsed(const LayerBase& base, const std::vector<VertexId>& vertices, const EnvelopeScale& scale, Envelope& envelope) {
+  const double compressed = scale.n * scale.h0;
+  std::vector<VertexId> all, front;
+  for (const VertexId v : vertices) {
+    if (!envelope.is_collapsed(v)) continue;
+    for (const VertexId other : base.topology.neighbours(v)) {
+      envelope.cap[other] = std::min(envelope.cap[other], compressed);
+      if (envelope.height[other] <= compressed) continue;
+      lower(envelope, other, compressed, envelope.limit[v], scale);
+      front.push_back(other);
+    }
+  }
+  for (int sweep = 0; !front.empty(); ++sweep) {
+    sort_unique(front);
+    all.insert(all.end(), front.begin(), front.end());
+    std::vector<VertexId> next;
+    for (const VertexId v : front) {
+      for (const VertexId other : base.topology.neighbours(v)) {
+        const double bound = envelope.height[v] + k_step_gradient * distance(base.wall.points[v], base.wall.points[other]);
+        if (sweep == k_ring_sweeps || envelope.height[other] <= bound) continue;
+        lower(envelope, other, bound, envelope.limit[v], scale);
+        next.push_back(other);
+      }
+    }
+    front = std::move(next);
+  }
+  sort_unique(all);
+  return all;
+}
+
+}  // namespace
+
+std::vector<VertexId> unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit reason, Envelope& envelope, const RunContext& context,
+                             const std::vector<VertexId>* suspects) {
+  const EnvelopeScale scale = scale_of(options);
+  std::vector<VertexId> all, around;
+  const std::vector<VertexId>* looked_at = suspects;
+  std::vector<VertexId> may_be_down;
+  if (suspects) may_be_down = *suspects;
+  else
+    for (const VertexId v : envelope.height.ids()) may_be_down.push_back(v);
+  for (int round = 0;; ++round) {
+    const std::vector<TriangleId> bad = invalid_macros(base, envelope, context, looked_at);
+    // Each round of the second kind collapses a vertex, or all are valid: it ends.
+    around = bad.empty() ? surround_collapsed(base, may_be_down, scale, envelope)
+                         : lower_elements(base, bad, round >= k_lowering_rounds, scale, reason, envelope, context);
+    if (bad.empty()) may_be_down.clear();
+    if (around.empty()) break;
+    may_be_down.insert(may_be_down.end(), around.begin(), around.end());
+    all.insert(all.end(), around.begin(), around.end());
+    looked_at = &around;
+  }
+  sort_unique(all);
+  return all;
+}
+
+ShapeChange raised(const LayerBase& base, const Envelope& envelope, int round, const RunContext& context) {
+  const double factor = 1.0 + (k_regrow_factor - 1.0) * std::pow(k_regrow_decay, round);
+  ShapeChange all = parallel_reduce(
+      context, base.wall.n_vertices(), ShapeChange{},
+      [&](std::size_t begin, std::size_t end) {
+        ShapeChange change;
+        for (std::size_t i = begin; i < end; ++i) {
+          const VertexId v(i);
+          if (envelope.is_collapsed(v)) continue;
+          double h = std::min({envelope.target[v], envelope.cap[v], factor * envelope.height[v]});
+          if (h <= envelope.height[v]) continue;
+          for (const VertexId other : base.topology.neighbours(v))
+            h = std::min(h, envelope.height[other] + k_step_gradient * distance(base.wall.points[v], base.wall.points[other]));
+          if (h <= envelope.height[v]) continue;
+          change.vertices.push_back(v);
+          change.height.push_back(h);
+        }
+        return change;
+      },
+      [](ShapeChange a, ShapeChange b) {
+        a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+        a.height.insert(a.height.end(), b.height.begin(), b.height.end());
+        return a;
+      });
+  all.direction.reserve(all.vertices.size());
+  for (const VertexId v : all.vertices) all.direction.push_back(envelope.direction[v]);
+  return all;
 }
 
 void regrow(const LayerBase& base, Envelope& envelope, const RunContext& context) {
-  for (int round = 0; round < k_regrow_rounds; ++round) apply_where_valid(base, envelope, raised(base, envelope, round, context), context);
+  for (int round = 0; round < k_regrow_rounds; ++round) {
+    ShapeChange change = raised(base, envelope, round, context);
+    if (change.vertices.empty()) return;  // everything is as tall as it may be
+    std::vector<VertexId> vertices = change.vertices;
+    TrialChange(base, envelope, std::move(change), context).take_back_invalid(std::move(vertices));
+  }
 }
 
 }  // namespace sterna::volmesh

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "volmesh/envelope/envelope.h"
+#include "volmesh/envelope/validity.h"
 
 namespace sterna::volmesh {
 
@@ -17,14 +18,15 @@ void level_steps(const LayerBase& base, const EnvelopeOptions& options, int swee
 /// \pre directions are unit vectors.
 std::array<double, 2> edge_height_limits(const Point& p1, const Vec3& d1, const Point& p2, const Vec3& d2);
 
-/// Lowers heights to the largest values for which every macro-element is valid with margin (method.md §4); collapses vertices below h_min.
-/// With `suspects`, only elements at marked vertices are looked at first: the others are known to be valid.
-/// \post invalid_macros() is empty.
-void unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit reason, Envelope& envelope, const RunContext& context,
-            const Column<VertexId, std::uint8_t>* suspects = nullptr);
+/// Lowers heights to the largest values for which every macro-element is valid with margin (method.md §4); collapses vertices below h_min, and surrounds
+/// what it collapses by compressed ones. Ends by construction: after a number of rounds elements that are still invalid collapse.
+/// With `suspects`, only elements at these vertices are looked at first: the others are known to be valid.
+/// \post invalid_macros() is empty. Returns the vertices that it lowered, ascending.
+std::vector<VertexId> unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit reason, Envelope& envelope, const RunContext& context,
+                             const std::vector<VertexId>* suspects = nullptr);
 
-/// The envelope with heights raised one step towards min(target, cap), without steep steps; a proposal, not tested. Later rounds take smaller steps.
-Envelope raised(const LayerBase& base, const Envelope& envelope, int round, const RunContext& context);
+/// Heights raised one step towards min(target, cap), without steep steps; a proposal, not tested. Later rounds take smaller steps.
+ShapeChange raised(const LayerBase& base, const Envelope& envelope, int round, const RunContext& context);
 
 /// Raises heights towards min(target, cap) where macro-elements stay valid; undoes what earlier steps lowered more than needed.
 void regrow(const LayerBase& base, Envelope& envelope, const RunContext& context);

@@ -13,6 +13,10 @@ constexpr double k_min_area_share = 0.01;
 /// Smallest cosine between envelope normal and growth edge (warp, method.md §4), unless the wall triangle is itself seen more flatly.
 constexpr double k_min_warp_cosine = 0.05;
 constexpr double k_warp_share_of_wall = 0.2;
+/// Up to this share of the vertices it is cheaper to list their triangles than to look at all.
+constexpr std::size_t k_list_share = 16;
+/// Elements per task: about 50 us.
+constexpr std::size_t k_chunk = 512;
 
 bool is_prism_valid_with_margin(const MacroElement& e) {
   std::array<Vec3, 3> top;
@@ -34,7 +38,7 @@ bool is_prism_valid_with_margin(const MacroElement& e) {
 
 }  // namespace
 
-MacroElement macro_element(const LayerBase& base, const Envelope& envelope, TriangleId t) {
+MacroElement macro_element(const LayerBase& base, const EnvelopeShape& envelope, TriangleId t) {
   MacroElement element;
   const TriangleVertices& v = base.wall.triangles[t];
   for (std::size_t k = 0; k < 3; ++k) {
@@ -58,60 +62,113 @@ bool is_macro_valid(const MacroElement& e) {
   return is_tet_valid({e.wall[a], e.wall[b], e.wall[c], top(a)});
 }
 
-std::vector<TriangleId> invalid_macros(const LayerBase& base, const Envelope& envelope, const RunContext& context,
-                                       const Column<VertexId, std::uint8_t>* dirty) {
+std::vector<TriangleId> invalid_macros(const LayerBase& base, const EnvelopeShape& shape, const RunContext& context,
+                                       const std::vector<VertexId>* around) {
   using List = std::vector<TriangleId>;
+  const bool is_list = around && around->size() < base.wall.n_vertices() / k_list_share;
+  List candidates;
+  Column<VertexId, std::uint8_t> is_marked;
+  if (is_list) {
+    for (const VertexId v : *around)
+      for (const HalfedgeId h : base.topology.outgoing(v)) candidates.push_back(triangle_of(h));
+    std::sort(candidates.begin(), candidates.end());
+    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
+  } else if (around) {
+    is_marked.resize(base.wall.n_vertices());
+    for (const VertexId v : *around) is_marked[v] = 1;
+  }
   return parallel_reduce(
-      context, base.wall.n_triangles(), List{},
+      context, is_list ? candidates.size() : base.wall.n_triangles(), List{},
       [&](std::size_t begin, std::size_t end) {
         List bad;
         for (std::size_t i = begin; i < end; ++i) {
-          const TriangleId t(i);
-          if (dirty) {
-            const TriangleVertices& v = base.wall.triangles[t];
-            if (!(*dirty)[v[0]] && !(*dirty)[v[1]] && !(*dirty)[v[2]]) continue;
-          }
-          if (!is_macro_valid(macro_element(base, envelope, t))) bad.push_back(t);
+          const TriangleId t = is_list ? candidates[i] : TriangleId(i);
+          const TriangleVertices& v = base.wall.triangles[t];
+          if (!is_marked.empty() && !is_marked[v[0]] && !is_marked[v[1]] && !is_marked[v[2]]) continue;
+          if (!is_macro_valid(macro_element(base, shape, t))) bad.push_back(t);
         }
         return bad;
       },
       [](List a, List b) {
         a.insert(a.end(), b.begin(), b.end());
         return a;
-      });
+      },
+      k_chunk);
 }
 
-void apply_where_valid(const LayerBase& base, Envelope& envelope, const Envelope& proposal, const RunContext& context,
-                       const Column<VertexId, std::uint8_t>* first_dirty) {
-  const std::size_t n = base.wall.n_vertices();
-  Column<VertexId, std::uint8_t> moved(n, 0);
-  Envelope mixed = envelope;
-  parallel_for(context, n, [&](std::size_t i) {
-    const VertexId v(i);
-    if (proposal.height[v] == envelope.height[v] && proposal.direction[v] == envelope.direction[v]) return;
-    moved[v] = 1;
-    mixed.height[v] = proposal.height[v];
-    mixed.direction[v] = proposal.direction[v];
+ShapeChange difference(const EnvelopeShape& from, const EnvelopeShape& to, const RunContext& context) {
+  using List = std::vector<VertexId>;
+  ShapeChange change;
+  change.vertices = parallel_reduce(
+      context, from.height.size(), List{},
+      [&](std::size_t begin, std::size_t end) {
+        List moved;
+        for (std::size_t i = begin; i < end; ++i) {
+          const VertexId v(i);
+          if (to.height[v] != from.height[v] || !(to.direction[v] == from.direction[v])) moved.push_back(v);
+        }
+        return moved;
+      },
+      [](List a, List b) {
+        a.insert(a.end(), b.begin(), b.end());
+        return a;
+      });
+  change.direction.resize(change.vertices.size());
+  change.height.resize(change.vertices.size());
+  parallel_for(context, change.vertices.size(), [&](std::size_t i) {
+    change.direction[i] = to.direction[change.vertices[i]];
+    change.height[i] = to.height[change.vertices[i]];
   });
-  Column<VertexId, std::uint8_t> dirty = first_dirty ? *first_dirty : moved;
-  while (true) {
-    bool has_reverted = false;
-    const std::vector<TriangleId> bad = invalid_macros(base, mixed, context, &dirty);
-    dirty.assign(n, 0);
-    for (const TriangleId t : bad) {
-      for (const VertexId v : base.wall.triangles[t]) {
-        if (!moved[v]) continue;
-        moved[v] = 0;
-        dirty[v] = 1;
-        mixed.height[v] = envelope.height[v];
-        mixed.direction[v] = envelope.direction[v];
-        has_reverted = true;
-      }
-    }
-    if (!has_reverted) break;
+  return change;
+}
+
+TrialChange::TrialChange(const LayerBase& base, EnvelopeShape& shape, ShapeChange change, const RunContext& context)
+    : base_(base), shape_(shape), context_(context), change_(std::move(change)), is_in_force_(base.wall.n_vertices(), 0), place_(base.wall.n_vertices()) {
+  parallel_for(context, change_.vertices.size(), [&](std::size_t i) {
+    const VertexId v = change_.vertices[i];
+    place_[v] = static_cast<std::uint32_t>(i);
+    is_in_force_[v] = 1;
+    exchange(i);
+  });
+}
+
+void TrialChange::exchange(std::size_t i) {
+  const VertexId v = change_.vertices[i];
+  std::swap(change_.height[i], shape_.height[v]);
+  std::swap(change_.direction[i], shape_.direction[v]);
+}
+
+std::vector<VertexId> TrialChange::vertices_in_force() const {
+  std::vector<VertexId> result;
+  for (const VertexId v : change_.vertices)
+    if (is_in_force_[v]) result.push_back(v);
+  return result;
+}
+
+bool TrialChange::take_back(VertexId v) {
+  if (!is_in_force_[v]) return false;
+  is_in_force_[v] = 0;
+  exchange(place_[v]);
+  return true;
+}
+
+std::vector<VertexId> TrialChange::take_back_invalid(std::vector<VertexId> around) {
+  std::vector<VertexId> all;
+  while (!around.empty()) {
+    const std::vector<TriangleId> bad = invalid_macros(base_, shape_, context_, &around);
+    around.clear();
+    for (const TriangleId t : bad)
+      for (const VertexId v : base_.wall.triangles[t])
+        if (take_back(v)) around.push_back(v);
+    all.insert(all.end(), around.begin(), around.end());
   }
-  envelope.height = std::move(mixed.height);
-  envelope.direction = std::move(mixed.direction);
+  return all;
+}
+
+void apply_where_valid(const LayerBase& base, EnvelopeShape& envelope, const EnvelopeShape& proposal, const RunContext& context) {
+  ShapeChange change = difference(envelope, proposal, context);
+  std::vector<VertexId> vertices = change.vertices;
+  TrialChange(base, envelope, std::move(change), context).take_back_invalid(std::move(vertices));
 }
 
 }  // namespace sterna::volmesh

@@ -14,20 +14,53 @@ struct MacroElement {
   std::array<Vec3, 3> direction;
   std::array<double, 3> height;  ///< 0 = collapsed corner
 };
-MacroElement macro_element(const LayerBase& base, const Envelope& envelope, TriangleId t);
+MacroElement macro_element(const LayerBase& base, const EnvelopeShape& envelope, TriangleId t);
 
 /// Valid by the exact test of its element type, and with margin: the envelope triangle keeps a share of the wall triangle's projected area (g_1 of
 /// eq. (6)) and is not seen too flatly along any growth edge, unless the wall triangle itself is seen so.
 bool is_macro_valid(const MacroElement& element);
 
-/// Triangles whose macro-element is not valid, ascending. With `dirty`, only triangles with a marked vertex are looked at.
-std::vector<TriangleId> invalid_macros(const LayerBase& base, const Envelope& envelope, const RunContext& context,
-                                       const Column<VertexId, std::uint8_t>* dirty = nullptr);
+/// Triangles whose macro-element is not valid, ascending. With `around`, only triangles at these vertices are looked at.
+std::vector<TriangleId> invalid_macros(const LayerBase& base, const EnvelopeShape& shape, const RunContext& context,
+                                       const std::vector<VertexId>* around = nullptr);
+
+/// Other directions and heights for some vertices.
+struct ShapeChange {
+  std::vector<VertexId> vertices;  ///< ascending
+  std::vector<Vec3> direction;
+  std::vector<double> height;
+};
+/// The vertices at which `to` differs from `from`.
+ShapeChange difference(const EnvelopeShape& from, const EnvelopeShape& to, const RunContext& context);
+
+/// A change that is in force at the vertices where it has not been taken back. No copy of the shape is made: the change holds the other values.
+class TrialChange {
+ public:
+  /// Puts the change in force everywhere. `base` and `shape` must outlive this.
+  TrialChange(const LayerBase& base, EnvelopeShape& shape, ShapeChange change, const RunContext& context);
+
+  bool is_in_force(VertexId v) const { return is_in_force_[v] != 0; }
+  const Column<VertexId, std::uint8_t>& in_force() const { return is_in_force_; }
+  std::vector<VertexId> vertices_in_force() const;
+  /// False when the change is not in force there.
+  bool take_back(VertexId v);
+  /// Takes the change back at vertices of invalid elements, first among the elements at `around`, then around what went back, until none is invalid that
+  /// was not so before. Returns the vertices.
+  std::vector<VertexId> take_back_invalid(std::vector<VertexId> around);
+
+ private:
+  void exchange(std::size_t i);
+
+  const LayerBase& base_;
+  EnvelopeShape& shape_;
+  const RunContext& context_;
+  ShapeChange change_;
+  Column<VertexId, std::uint8_t> is_in_force_;
+  Column<VertexId, std::uint32_t> place_;  ///< of a vertex in the change
+};
 
 /// Moves `envelope` to `proposal` (direction and height) at every vertex where this leaves its macro-elements valid: all at once, then vertices of
 /// invalid elements go back, until none is invalid that was not so before. \pre same wall; vertices with proposal == envelope are not touched.
-/// With `dirty`, only elements at marked vertices are looked at first: the others are known to be valid in the proposal.
-void apply_where_valid(const LayerBase& base, Envelope& envelope, const Envelope& proposal, const RunContext& context,
-                       const Column<VertexId, std::uint8_t>* dirty = nullptr);
+void apply_where_valid(const LayerBase& base, EnvelopeShape& envelope, const EnvelopeShape& proposal, const RunContext& context);
 
 }  // namespace sterna::volmesh

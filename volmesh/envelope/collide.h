@@ -1,0 +1,77 @@
+// Where the top of the layer meets itself, the wall or the outer boundary: exact triangle tests over a hierarchy that is built once and refitted
+// where the top has moved.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <vector>
+
+#include "volmesh/envelope/box_pairs.h"
+#include "volmesh/envelope/envelope.h"
+
+namespace sterna::volmesh {
+
+/// The surfaces around the volume that the tetrahedra fill. Sides stand on the wall's boundary: a quadrilateral between wall edge and envelope edge,
+/// as two triangles.
+enum class BoundaryPart : std::uint8_t { top, side, wall, outer };
+std::string_view to_string(BoundaryPart part);
+
+struct BoundaryTriangle {
+  BoundaryPart part = BoundaryPart::top;
+  std::uint32_t index = 0;  ///< top, wall: wall triangle; outer: triangle of the outer boundary; side: 2 * boundary edge + 0 or 1
+  friend auto operator<=>(const BoundaryTriangle&, const BoundaryTriangle&) = default;
+};
+using BoundaryCrossing = std::array<BoundaryTriangle, 2>;
+
+class Collider {
+ public:
+  /// `outer` may be null; both must outlive this. Memory: about 150 bytes per wall triangle.
+  Collider(const LayerBase& base, const TriMesh* outer, const RunContext& context);
+
+  /// Brings the top to where `shape` has it; with `stretched`, marked vertices to `stretch` times their height. Cheap where nothing moved.
+  void move_top(const EnvelopeShape& shape, const RunContext& context, double stretch = 1.0, const Column<VertexId, std::uint8_t>* stretched = nullptr);
+
+  /// Crossing pairs (triangles_cross; corners are shared by wall vertex) of which at least one triangle belongs to top or sides and, with `around`, has one
+  /// of these vertices; sorted. Where all three corners are collapsed, the wall triangle stands for the top's. \pre move_top() was called.
+  std::vector<BoundaryCrossing> crossings(const RunContext& context, const std::vector<VertexId>* around = nullptr);
+  /// Crossing pairs among wall and outer boundary: no height can repair them.
+  std::vector<BoundaryCrossing> fixed_crossings(const RunContext& context);
+  /// Pairs with overlapping boxes, tested exactly, of the last call of one of the two.
+  std::int64_t n_pairs() const { return n_pairs_; }
+
+  /// Largest share of the present heights, to 0.1 %, at which the pair is clear; 0 when there is none.
+  double clear_share(const BoundaryCrossing& pair, const EnvelopeShape& shape) const;
+
+  /// Vertices whose height moves the triangle: none for wall and outer boundary.
+  std::vector<VertexId> moving_vertices(const BoundaryTriangle& triangle) const;
+  std::array<Point, 3> corners_of(const BoundaryTriangle& triangle) const;
+  /// Triangles of all parts that are there: those of the top that are not the wall's, and sides with an area.
+  std::int64_t n_triangles() const;
+
+  /// Wall triangles whose own box, or whose top's, overlaps the box; appended to `found` in a fixed order.
+  void find_walls(const Box& box, std::vector<std::uint32_t>& found) const;
+  void find_tops(const Box& box, std::vector<std::uint32_t>& found) const;
+
+ private:
+  using Corners = std::array<std::uint32_t, 3>;  ///< points of points_
+  bool is_down(VertexId v) const { return is_collapsed_[v] != 0; }
+  std::uint32_t top_point(VertexId v) const;
+  Corners points_of(const BoundaryTriangle& triangle) const;
+  template <class F>
+  void for_each_moving(TriangleId t, const F& f) const;
+  template <class IsActive>
+  void activate(const IsActive& is_active, bool refit, const RunContext& context);
+
+  const LayerBase& base_;
+  const TriMesh* outer_;
+  std::vector<Vec3> points_;  ///< of the wall, of the top, of the outer boundary
+  Column<VertexId, std::uint8_t> is_collapsed_;
+  std::vector<HalfedgeId> rim_;  ///< the wall's boundary, ascending
+  BoxHierarchy tree_;            ///< of the wall; the top's boxes use the same
+  BoxHierarchy outer_tree_;
+  FittedBoxes wall_, top_, outer_boxes_;
+  bool has_top_ = false;
+  std::int64_t n_pairs_ = 0;
+};
+
+}  // namespace sterna::volmesh

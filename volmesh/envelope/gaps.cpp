@@ -1,0 +1,157 @@
+// Gaps between opposing walls: each growth line looks for a wall that faces it, as far as both layers reach.
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/parallel.h"
+#include "volmesh/envelope/retract.h"
+#include "volmesh/envelope/untangle.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr double k_remaining_edges = 0.2;    ///< of the longer local envelope edge stays between two layers, for tets
+constexpr double k_remaining_share = 0.5;    ///< of a gap that is too narrow for that
+constexpr double k_opposing_cosine = 0.7;    ///< walls that face the line within 45 degrees oppose it; the rest is left to the exact test
+constexpr int k_level_sweeps = 3;
+
+/// Parameter along the segment p + s d (s in [0, 1]) where it meets the triangle, or a negative number. Rounding does not matter: heights keep a reserve.
+double segment_hit(const Point& p, const Vec3& d, const std::array<Point, 3>& t) {
+  const Vec3 e1 = t[1] - t[0], e2 = t[2] - t[0];
+  const Vec3 q = cross(d, e2);
+  const double det = dot(e1, q);
+  if (det == 0.0) return -1.0;
+  const Vec3 s = p - t[0];
+  const double u = dot(s, q) / det;
+  const Vec3 r = cross(s, e1);
+  const double v = dot(d, r) / det;
+  if (u < 0.0 || v < 0.0 || u + v > 1.0) return -1.0;
+  const double hit = dot(e2, r) / det;
+  return hit <= 1.0 ? hit : -1.0;
+}
+
+struct GapHit {
+  VertexId vertex;
+  TriangleId opposite;
+  double share;  ///< of the heights asked for on both sides
+};
+
+/// Mean length of the envelope's edges at a vertex.
+double envelope_edge(const LayerBase& base, const Envelope& envelope, VertexId v) {
+  const auto around = base.topology.neighbours(v);
+  const Point own = envelope.point(base.wall, v);
+  double sum = 0.0;
+  for (const VertexId other : around) sum += distance(own, envelope.point(base.wall, other));
+  return around.empty() ? 0.0 : sum / static_cast<double>(around.size());
+}
+
+class GapFinder {
+ public:
+  GapFinder(const LayerBase& base, const Collider& collider, const Envelope& envelope, const RunContext& context)
+      : base_(base), collider_(collider), envelope_(envelope), edge_(base.wall.n_vertices()) {
+    parallel_for(context, edge_.size(), [&](std::size_t i) { edge_[VertexId(i)] = envelope_edge(base, envelope, VertexId(i)); });
+  }
+
+  /// Appends the hit of v's growth line when both layers ask for more than the gap leaves them. `buffer` is scratch.
+  void find(VertexId v, std::vector<std::uint32_t>& buffer, std::vector<GapHit>& hits) const {
+    if (envelope_.is_collapsed(v)) return;
+    const double reach = envelope_.height[v] + k_remaining_edges * edge_[v];
+    const double look = how_far_to_look(v, reach, buffer);
+    if (look == 0.0) return;
+    const Vec3 segment = look * envelope_.direction[v];
+    buffer.clear();
+    collider_.find_walls(box_along(v, look), buffer);
+    double first = 2.0;
+    TriangleId nearest;
+    for (const std::uint32_t item : buffer) {
+      const TriangleId t(item);
+      if (!opposes(v, t)) continue;
+      const double s = segment_hit(base_.wall.points[v], segment, corners(base_.wall, t));
+      if (s < 0.0 || s > first || (s == first && nearest < t)) continue;
+      first = s;
+      nearest = t;
+    }
+    if (!nearest.is_valid()) return;
+    const double gap = first * look;
+    const double edge = std::max(edge_[v], largest(edge_, nearest));
+    const double remaining = std::min(k_remaining_edges * edge, k_remaining_share * gap);
+    const double share = (gap - remaining) / (envelope_.height[v] + height_against(v, nearest));
+    if (share < 1.0) hits.push_back({v, nearest, share});
+  }
+
+ private:
+  double largest(const Column<VertexId, double>& values, TriangleId t) const {
+    const TriangleVertices& v = base_.wall.triangles[t];
+    return std::max({values[v[0]], values[v[1]], values[v[2]]});
+  }
+  double cosine(VertexId v, TriangleId t) const { return -dot(base_.unit_normal[t], envelope_.direction[v]); }
+  bool opposes(VertexId v, TriangleId t) const {
+    const TriangleVertices& own = base_.wall.triangles[t];
+    return cosine(v, t) >= k_opposing_cosine && own[0] != v && own[1] != v && own[2] != v;
+  }
+  /// Extent along v's growth line of the layer on t.
+  double height_against(VertexId v, TriangleId t) const { return largest(envelope_.height, t) / cosine(v, t); }
+  Box box_along(VertexId v, double length) const {
+    Box box;
+    box.add(base_.wall.points[v]);
+    box.add(base_.wall.points[v] + length * envelope_.direction[v]);
+    return box;
+  }
+  /// A conflict begins where the line meets the opposite layer, which may be far from the wall under it: first look for layers, then as far as the
+  /// walls under them. 0 when there is none.
+  double how_far_to_look(VertexId v, double reach, std::vector<std::uint32_t>& buffer) const {
+    buffer.clear();
+    const Box box = box_along(v, reach);
+    collider_.find_tops(box, buffer);
+    collider_.find_walls(box, buffer);
+    double look = 0.0;
+    for (const std::uint32_t item : buffer) {
+      const TriangleId t(item);
+      if (!opposes(v, t)) continue;
+      look = std::max(look, std::max(reach, envelope_.height[v] + k_remaining_edges * largest(edge_, t)) + height_against(v, t));
+    }
+    return look;
+  }
+
+  const LayerBase& base_;
+  const Collider& collider_;
+  const Envelope& envelope_;
+  Column<VertexId, double> edge_;  ///< m, local envelope edge
+};
+
+}  // namespace
+
+void share_gaps(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context) {
+  const EnvelopeScale scale = scale_of(options);
+  collider.move_top(envelope, context);
+  const GapFinder finder(base, collider, envelope, context);
+  using List = std::vector<GapHit>;
+  const List hits = parallel_reduce(
+      context, base.wall.n_vertices(), List{},
+      [&](std::size_t begin, std::size_t end) {
+        List found;
+        std::vector<std::uint32_t> buffer;
+        for (std::size_t i = begin; i < end; ++i) finder.find(VertexId(i), buffer, found);
+        return found;
+      },
+      [](List a, List b) {
+        a.insert(a.end(), b.begin(), b.end());
+        return a;
+      },
+      256);
+  if (hits.empty()) return;
+  const Column<VertexId, double> asked = envelope.height;
+  std::vector<VertexId> lowered;
+  const auto limit = [&](VertexId v, double share) {
+    envelope.cap[v] = std::min(envelope.cap[v], share * asked[v]);
+    lower(envelope, v, share * asked[v], HeightLimit::gap, scale);
+    lowered.push_back(v);
+  };
+  for (const GapHit& hit : hits) {
+    limit(hit.vertex, hit.share);
+    for (const VertexId v : base.wall.triangles[hit.opposite]) limit(v, hit.share);
+  }
+  level_steps(base, options, k_level_sweeps, HeightLimit::gap, envelope, context);
+  unwarp(base, options, HeightLimit::warp, envelope, context);
+}
+
+}  // namespace sterna::volmesh
