@@ -25,24 +25,24 @@ BoxHierarchy::BoxHierarchy(const TriMesh& mesh, const RunContext& context) {
 }
 
 void FittedBoxes::fit(const BoxHierarchy& tree, const RunContext& context) {
-  is_active_place.assign(tree.item_at.size(), 1);
-  spread_activity(tree, true, context);
-  is_active_place.clear();
-  is_active_node.clear();
+  place_role.assign(tree.item_at.size(), k_both_roles);
+  spread_roles(tree, true, context);
+  place_role.clear();
+  node_role.clear();
 }
 
-void FittedBoxes::spread_activity(const BoxHierarchy& tree, bool refit, const RunContext& context) {
+void FittedBoxes::spread_roles(const BoxHierarchy& tree, bool refit, const RunContext& context) {
   node.resize(tree.nodes.size());
-  is_active_node.resize(tree.nodes.size());
+  node_role.resize(tree.nodes.size());
   for (std::size_t level = tree.level_begin.empty() ? 0 : tree.level_begin.size() - 1; level-- > 0;) {
     const std::size_t begin = tree.level_begin[level];
     parallel_for(context, tree.level_begin[level + 1] - begin, [&](std::size_t i) {
       const auto [first, count] = tree.nodes[begin + i];
-      std::uint8_t is_active = 0;
-      if (count == 0) is_active = is_active_node[first] | is_active_node[first + 1];
-      for (std::uint32_t j = first; j < first + count; ++j) is_active |= is_active_place[j];
-      is_active_node[begin + i] = is_active;
-      if (!refit || !is_active) return;
+      Role role = k_no_role;
+      if (count == 0) role = node_role[first] | node_role[first + 1];
+      for (std::uint32_t j = first; j < first + count; ++j) role |= place_role[j];
+      node_role[begin + i] = role;
+      if (!refit || role == k_no_role) return;
       RoundedBox box;
       for (std::uint32_t j = first; j < first + count; ++j) box.add(place[j]);
       if (count == 0) {

@@ -1,5 +1,5 @@
-// Overlapping pairs of boxes that move a little at a time: the hierarchy keeps its shape, boxes are refitted, and a search visits only pairs of which
-// at least one member is active. Two hierarchies, or one with itself, are descended together.
+// Overlapping pairs of boxes that move a little at a time: the hierarchy keeps its shape, boxes are refitted, and a search visits only pairs of roles that
+// matter. Two hierarchies, or one with itself, are descended together.
 #pragma once
 
 #include <array>
@@ -54,17 +54,24 @@ struct BoxHierarchy {
   BoxHierarchy(const TriMesh& mesh, const RunContext& context);
 };
 
-/// Boxes of a hierarchy's places and nodes, and which of them are active (empty: none).
+/// What an item may be in a search: a pair is wanted when one is a seeker and the other a partner.
+using Role = std::uint8_t;
+inline constexpr Role k_no_role = 0, k_seeker = 1, k_partner = 2, k_both_roles = 3;
+inline bool is_wanted(Role a, Role b) { return (((a & k_seeker) && (b & k_partner)) || ((a & k_partner) && (b & k_seeker))); }
+
+/// Boxes of a hierarchy's places and nodes, and their roles in the next search: one for all, or one each.
 struct FittedBoxes {
   std::vector<RoundedBox> place, node;
-  std::vector<std::uint8_t> is_active_place, is_active_node;
+  Role common_role = k_no_role;
+  std::vector<Role> place_role, node_role;  ///< empty: common_role; of a node: those of its places together
 
-  /// Boxes of the nodes from those of the places.
+  /// Boxes of all nodes from those of the places.
   void fit(const BoxHierarchy& tree, const RunContext& context);
-  /// Activity of the nodes from that of the places; with `refit`, boxes of active nodes too.
-  void spread_activity(const BoxHierarchy& tree, bool refit, const RunContext& context);
+  /// Roles of the nodes from those of the places; with `refit`, boxes of nodes with a role too.
+  void spread_roles(const BoxHierarchy& tree, bool refit, const RunContext& context);
 
-  bool is_active(std::size_t node_index) const { return !is_active_node.empty() && is_active_node[node_index] != 0; }
+  Role role_of_place(std::size_t i) const { return place_role.empty() ? common_role : place_role[i]; }
+  Role role_of_node(std::size_t i) const { return node_role.empty() ? common_role : node_role[i]; }
 };
 
 /// Items whose boxes overlap `box`, in the order of their places, appended to `found`.
@@ -83,7 +90,7 @@ using NodePair = std::array<std::uint32_t, 2>;
 std::vector<NodePair> split_search(const SearchSide& a, const SearchSide& b);
 /// False when the pair holds no wanted pair of places.
 inline bool is_worthwhile(const SearchSide& a, const SearchSide& b, const NodePair& pair) {
-  return (a.boxes->is_active(pair[0]) || b.boxes->is_active(pair[1])) && overlap(a.boxes->node[pair[0]], b.boxes->node[pair[1]]);
+  return is_wanted(a.boxes->role_of_node(pair[0]), b.boxes->role_of_node(pair[1])) && overlap(a.boxes->node[pair[0]], b.boxes->node[pair[1]]);
 }
 /// Appends the pairs of children into which a pair is split; false when both are leaves.
 inline bool split_pair(const SearchSide& a, const SearchSide& b, const NodePair& pair, std::vector<NodePair>& children) {
@@ -102,7 +109,7 @@ inline bool split_pair(const SearchSide& a, const SearchSide& b, const NodePair&
 
 }  // namespace detail
 
-/// Calls test(item_a, item_b, partial) for every pair with overlapping boxes of which one is active, each pair once (an item with itself too, when a and b are
+/// Calls test(item_a, item_b, partial) for every wanted pair with overlapping boxes, once each (an item with itself too, when a and b are
 /// the same boxes), with one Partial per task; returns all joined by Partial::append in an order that does not depend on threads. Parallel.
 template <class Partial, class Test>
 Partial search_pairs(const SearchSide& a, const SearchSide& b, const Test& test, const RunContext& context) {
@@ -113,10 +120,9 @@ Partial search_pairs(const SearchSide& a, const SearchSide& b, const Test& test,
     const auto [first_b, count_b] = b.tree->nodes[pair[1]];
     const bool is_diagonal = is_same && pair[0] == pair[1];
     for (std::uint32_t i = first_a; i < first_a + count_a; ++i) {
-      const bool is_active = !a.boxes->is_active_place.empty() && a.boxes->is_active_place[i];
+      const Role role = a.boxes->role_of_place(i);
       for (std::uint32_t j = is_diagonal ? i : first_b; j < first_b + count_b; ++j) {
-        if (!is_active && (b.boxes->is_active_place.empty() || !b.boxes->is_active_place[j])) continue;
-        if (overlap(a.boxes->place[i], b.boxes->place[j])) test(a.tree->item_at[i], b.tree->item_at[j], partial);
+        if (is_wanted(role, b.boxes->role_of_place(j)) && overlap(a.boxes->place[i], b.boxes->place[j])) test(a.tree->item_at[i], b.tree->item_at[j], partial);
       }
     }
   };

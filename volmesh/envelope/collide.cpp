@@ -102,23 +102,23 @@ void Collider::for_each_moving(TriangleId t, const F& f) const {
   }
 }
 
-/// Marks the top's places whose wall triangle has an active vertex.
-template <class IsActive>
-void Collider::activate(const IsActive& is_active, bool refit, const RunContext& context) {
-  top_.is_active_place.resize(tree_.item_at.size());
+/// Roles of the top's places from those of the vertices.
+template <class RoleOf>
+void Collider::assign_roles(const RoleOf& role_of, bool refit, const RunContext& context) {
+  top_.place_role.resize(tree_.item_at.size());
   parallel_for(context, tree_.item_at.size(), [&](std::size_t i) {
     const TriangleId t(tree_.item_at[i]);
     const TriangleVertices& v = base_.wall.triangles[t];
-    const bool is_active_triangle = is_active(v[0]) || is_active(v[1]) || is_active(v[2]);
-    top_.is_active_place[i] = is_active_triangle ? 1 : 0;
-    if (!refit || !is_active_triangle) return;
+    const Role role = role_of(v[0]) | role_of(v[1]) | role_of(v[2]);
+    top_.place_role[i] = role;
+    if (!refit || role == k_no_role) return;
     RoundedBox box;
     for_each_moving(t, [&](const BoundaryTriangle& triangle) {
       for (const std::uint32_t p : points_of(triangle)) box.add(points_[p]);
     });
     top_.place[i] = box;
   });
-  top_.spread_activity(tree_, refit, context);
+  top_.spread_roles(tree_, refit, context);
 }
 
 void Collider::move_top(const EnvelopeShape& shape, const RunContext& context, double stretch, const Column<VertexId, std::uint8_t>* stretched) {
@@ -135,17 +135,22 @@ void Collider::move_top(const EnvelopeShape& shape, const RunContext& context, d
     is_collapsed_[v] = is_collapsed;
   });
   has_top_ = true;
-  activate([&](VertexId v) { return has_moved[v] != 0; }, true, context);
+  assign_roles([&](VertexId v) { return has_moved[v] ? k_both_roles : k_no_role; }, true, context);
 }
 
-std::vector<BoundaryCrossing> Collider::crossings(const RunContext& context, const std::vector<VertexId>* around) {
+std::vector<BoundaryCrossing> Collider::crossings(const RunContext& context, const std::vector<VertexId>* around,
+                                                  const Column<VertexId, std::uint8_t>* against) {
+  // Roles belong to wall triangles: sides take part along with their top, which costs little.
   if (around) {
-    Column<VertexId, std::uint8_t> is_wanted(base_.wall.n_vertices(), 0);
-    for (const VertexId v : *around) is_wanted[v] = 1;
-    activate([&](VertexId v) { return is_wanted[v] != 0; }, false, context);
+    Column<VertexId, Role> role(base_.wall.n_vertices(), against ? k_no_role : k_partner);
+    for (const VertexId v : *around) role[v] |= k_seeker;
+    for (const VertexId v : role.ids())
+      if (against && (*against)[v]) role[v] |= k_partner;
+    assign_roles([&](VertexId v) { return role[v]; }, false, context);
   } else {
-    activate([](VertexId) { return true; }, false, context);
+    assign_roles([](VertexId) { return k_both_roles; }, false, context);
   }
+  wall_.common_role = outer_boxes_.common_role = against ? k_no_role : k_partner;
   const auto test = [&](const BoundaryTriangle& first, const BoundaryTriangle& second, Found& results) {
     ++results.n_tested;
     if (triangles_cross(points_, points_of(first), points_of(second))) results.pairs.push_back({std::min(first, second), std::max(first, second)});
@@ -189,18 +194,11 @@ std::vector<BoundaryCrossing> Collider::fixed_crossings(const RunContext& contex
         },
         context);
   };
-  wall_.is_active_place.assign(tree_.item_at.size(), 1);
-  wall_.spread_activity(tree_, false, context);
+  wall_.common_role = outer_boxes_.common_role = k_both_roles;
   Found found = search(wall, BoundaryPart::wall, wall, BoundaryPart::wall);
   if (outer_) {
     found.append(search(wall, BoundaryPart::wall, outer, BoundaryPart::outer));
-    outer_boxes_.is_active_place.assign(outer_tree_.item_at.size(), 1);
-    outer_boxes_.spread_activity(outer_tree_, false, context);
     found.append(search(outer, BoundaryPart::outer, outer, BoundaryPart::outer));
-  }
-  for (FittedBoxes* boxes : {&wall_, &outer_boxes_}) {
-    boxes->is_active_place.clear();
-    boxes->is_active_node.clear();
   }
   n_pairs_ = found.n_tested;
   std::sort(found.pairs.begin(), found.pairs.end());

@@ -31,9 +31,11 @@ class Collider {
   /// Brings the top to where `shape` has it; with `stretched`, marked vertices to `stretch` times their height. Cheap where nothing moved.
   void move_top(const EnvelopeShape& shape, const RunContext& context, double stretch = 1.0, const Column<VertexId, std::uint8_t>* stretched = nullptr);
 
-  /// Crossing pairs (triangles_cross; corners are shared by wall vertex) of which at least one triangle belongs to top or sides and, with `around`, has one
-  /// of these vertices; sorted. Where all three corners are collapsed, the wall triangle stands for the top's. \pre move_top() was called.
-  std::vector<BoundaryCrossing> crossings(const RunContext& context, const std::vector<VertexId>* around = nullptr);
+  /// Crossing pairs (triangles_cross; corners are shared by wall vertex) of which at least one triangle belongs to top or sides and, with `around`, to one
+  /// of these vertices; sorted. With `against`, only pairs of such a triangle and one of top or sides at a marked vertex. Where all three corners are
+  /// collapsed, the wall triangle stands for the top's. \pre move_top() was called.
+  std::vector<BoundaryCrossing> crossings(const RunContext& context, const std::vector<VertexId>* around = nullptr,
+                                          const Column<VertexId, std::uint8_t>* against = nullptr);
   /// Crossing pairs among wall and outer boundary: no height can repair them.
   std::vector<BoundaryCrossing> fixed_crossings(const RunContext& context);
   /// Pairs with overlapping boxes, tested exactly, of the last call of one of the two.
@@ -59,8 +61,8 @@ class Collider {
   Corners points_of(const BoundaryTriangle& triangle) const;
   template <class F>
   void for_each_moving(TriangleId t, const F& f) const;
-  template <class IsActive>
-  void activate(const IsActive& is_active, bool refit, const RunContext& context);
+  template <class RoleOf>
+  void assign_roles(const RoleOf& role_of, bool refit, const RunContext& context);
 
   const LayerBase& base_;
   const TriMesh* outer_;

@@ -40,14 +40,15 @@ std::vector<VertexId> lower_pairs(const Collider& collider, const std::vector<Bo
 /// Takes a trial change back wherever the top crosses something with the changed heights `stretch` times as tall.
 void take_back_crossing(TrialChange& trial, Collider& collider, const EnvelopeShape& shape, double stretch, const RunContext& context) {
   std::vector<VertexId> around = trial.vertices_in_force();
-  while (!around.empty()) {
+  for (bool is_first = true; !around.empty(); is_first = false) {
     collider.move_top(shape, context, stretch, &trial.in_force());
     std::vector<VertexId> gone;
-    for (const BoundaryCrossing& pair : collider.crossings(context, &around))
+    // What went back was clear of all that has not moved.
+    for (const BoundaryCrossing& pair : collider.crossings(context, &around, is_first ? nullptr : &trial.in_force()))
       for (const BoundaryTriangle& triangle : pair)
         for (const VertexId v : collider.moving_vertices(triangle))
           if (trial.take_back(v)) gone.push_back(v);
-    // Going back may spoil an element beside it, whose vertices then go back too; only what went back needs another look.
+    // Going back may spoil an element beside it, whose vertices then go back too.
     const std::vector<VertexId> more = trial.take_back_invalid(gone);
     gone.insert(gone.end(), more.begin(), more.end());
     around = std::move(gone);
@@ -74,26 +75,29 @@ EnvelopeSurface envelope_surface(const LayerBase& base, const EnvelopeShape& env
   return surface;
 }
 
-void apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, ShapeChange change, const RunContext& context,
-                       double clearance) {
-  if (change.vertices.empty()) return;
+std::vector<VertexId> apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, ShapeChange change,
+                                        const RunContext& context, double clearance) {
+  if (change.vertices.empty()) return {};
   std::vector<VertexId> vertices = change.vertices;
   TrialChange trial(base, envelope, std::move(change), context);
   trial.take_back_invalid(std::move(vertices));
   if (clearance != 1.0) take_back_crossing(trial, collider, envelope, clearance, context);
   take_back_crossing(trial, collider, envelope, 1.0, context);
+  return trial.vertices_in_force();
 }
 
-void apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, const EnvelopeShape& proposal, const RunContext& context,
-                       double clearance) {
-  apply_where_clear(base, collider, envelope, difference(envelope, proposal, context), context, clearance);
+std::vector<VertexId> apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, const EnvelopeShape& proposal,
+                                        const RunContext& context, double clearance) {
+  return apply_where_clear(base, collider, envelope, difference(envelope, proposal, context), context, clearance);
 }
 
 void regrow_clear(const LayerBase& base, Collider& collider, Envelope& envelope, const RunContext& context) {
+  Column<VertexId, std::uint8_t> n_failures(envelope.height.size(), 2);
   for (int round = 0; round < k_regrow_rounds; ++round) {
-    ShapeChange change = raised(base, envelope, round, context);
-    if (change.vertices.empty()) return;  // everything is as tall as it may be
-    apply_where_clear(base, collider, envelope, std::move(change), context);
+    ShapeChange change = raised(base, envelope, n_failures, context);
+    if (change.vertices.empty()) return;
+    const std::vector<VertexId> tried = change.vertices;
+    count_failures(tried, apply_where_clear(base, collider, envelope, std::move(change), context), n_failures);
   }
 }
 

@@ -28,11 +28,12 @@ inline constexpr double k_clearance = 1.06;
 /// Puts a change in force where macro-elements stay valid and the top stays clear of itself, the wall and the outer boundary, at `clearance` times the
 /// changed heights and at the heights themselves: all at once, then vertices of crossing or invalid elements go back until there are none.
 /// Cost: two exact passes over what moved (one with clearance 1), then around what went back. \pre, \post valid and clear.
-void apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, ShapeChange change, const RunContext& context,
-                       double clearance = k_clearance);
+/// Returns the vertices where it is in force.
+std::vector<VertexId> apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, ShapeChange change,
+                                        const RunContext& context, double clearance = k_clearance);
 /// The same for a whole shape. \pre vertices with proposal == envelope are not touched.
-void apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, const EnvelopeShape& proposal, const RunContext& context,
-                       double clearance = k_clearance);
+std::vector<VertexId> apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, const EnvelopeShape& proposal,
+                                        const RunContext& context, double clearance = k_clearance);
 
 /// The envelope as an indexed triangle set: points = wall points, then one envelope point per vertex; corners of collapsed vertices refer to the wall.
 struct EnvelopeSurface {

@@ -21,8 +21,7 @@ constexpr double k_smallest_scale = 1e-5; ///< of the largest height of an eleme
 constexpr double k_reserve = 0.98;        ///< keep a little below the largest valid height, so that neighbours need not move again
 constexpr double k_regrow_share = 0.97;   ///< of the height at which growth lines meet that regrowth may reach
 constexpr int k_regrow_rounds = 12;
-constexpr double k_regrow_factor = 1.3;   ///< largest growth of a height in the first round; later rounds try less, so that what fails at first gets its share
-constexpr double k_regrow_decay = 0.75;   ///< of the growth, from round to round
+constexpr std::array<double, 4> k_regrow_factors = {1.3, 1.12, 1.05, 1.02};  ///< growth of a height in one step, after so many failures
 constexpr double k_step_gradient = 1.0;   ///< slope along edges that may stand beside lowered places
 
 /// The element with its tallest corners cut to `height`.
@@ -199,16 +198,15 @@ std::vector<VertexId> unwarp(const LayerBase& base, const EnvelopeOptions& optio
   return all;
 }
 
-ShapeChange raised(const LayerBase& base, const Envelope& envelope, int round, const RunContext& context) {
-  const double factor = 1.0 + (k_regrow_factor - 1.0) * std::pow(k_regrow_decay, round);
+ShapeChange raised(const LayerBase& base, const Envelope& envelope, const Column<VertexId, std::uint8_t>& n_failures, const RunContext& context) {
   ShapeChange all = parallel_reduce(
       context, base.wall.n_vertices(), ShapeChange{},
       [&](std::size_t begin, std::size_t end) {
         ShapeChange change;
         for (std::size_t i = begin; i < end; ++i) {
           const VertexId v(i);
-          if (envelope.is_collapsed(v)) continue;
-          double h = std::min({envelope.target[v], envelope.cap[v], factor * envelope.height[v]});
+          if (envelope.is_collapsed(v) || n_failures[v] >= k_regrow_factors.size()) continue;
+          double h = std::min({envelope.target[v], envelope.cap[v], k_regrow_factors[n_failures[v]] * envelope.height[v]});
           if (h <= envelope.height[v]) continue;
           for (const VertexId other : base.topology.neighbours(v))
             h = std::min(h, envelope.height[other] + k_step_gradient * distance(base.wall.points[v], base.wall.points[other]));
@@ -228,12 +226,23 @@ ShapeChange raised(const LayerBase& base, const Envelope& envelope, int round, c
   return all;
 }
 
+void count_failures(const std::vector<VertexId>& tried, const std::vector<VertexId>& done, Column<VertexId, std::uint8_t>& n_failures) {
+  auto next = done.begin();
+  for (const VertexId v : tried) {
+    if (next != done.end() && *next == v) ++next;
+    else ++n_failures[v];
+  }
+}
+
 void regrow(const LayerBase& base, Envelope& envelope, const RunContext& context) {
+  Column<VertexId, std::uint8_t> n_failures(envelope.height.size(), 0);
   for (int round = 0; round < k_regrow_rounds; ++round) {
-    ShapeChange change = raised(base, envelope, round, context);
-    if (change.vertices.empty()) return;  // everything is as tall as it may be
-    std::vector<VertexId> vertices = change.vertices;
-    TrialChange(base, envelope, std::move(change), context).take_back_invalid(std::move(vertices));
+    ShapeChange change = raised(base, envelope, n_failures, context);
+    if (change.vertices.empty()) return;
+    const std::vector<VertexId> tried = change.vertices;
+    TrialChange trial(base, envelope, std::move(change), context);
+    trial.take_back_invalid(tried);
+    count_failures(tried, trial.vertices_in_force(), n_failures);
   }
 }
 

@@ -25,8 +25,11 @@ std::array<double, 2> edge_height_limits(const Point& p1, const Vec3& d1, const 
 std::vector<VertexId> unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit reason, Envelope& envelope, const RunContext& context,
                              const std::vector<VertexId>* suspects = nullptr);
 
-/// Heights raised one step towards min(target, cap), without steep steps; a proposal, not tested. Later rounds take smaller steps.
-ShapeChange raised(const LayerBase& base, const Envelope& envelope, int round, const RunContext& context);
+/// Heights raised one step towards min(target, cap), without steep steps; a proposal, not tested. Steps are smaller where earlier ones failed, and
+/// after a few failures there are none.
+ShapeChange raised(const LayerBase& base, const Envelope& envelope, const Column<VertexId, std::uint8_t>& n_failures, const RunContext& context);
+/// Counts the vertices of `tried` that are not in `done`. \pre both ascending.
+void count_failures(const std::vector<VertexId>& tried, const std::vector<VertexId>& done, Column<VertexId, std::uint8_t>& n_failures);
 
 /// Raises heights towards min(target, cap) where macro-elements stay valid; undoes what earlier steps lowered more than needed.
 void regrow(const LayerBase& base, Envelope& envelope, const RunContext& context);
