@@ -9,6 +9,7 @@
 #include "geom/mesh/check.h"
 #include "geom/mesh/hybrid_mesh.h"
 #include "geom/mesh/tri_mesh.h"
+#include "volmesh/envelope/certificate.h"
 #include "volmesh/envelope/options.h"
 #include "volmesh/farfield.h"
 #include "volmesh/prisms/options.h"
@@ -42,12 +43,13 @@ struct LayerReport {
 struct VolumeMeshResult {
   HybridMesh mesh;
   LayerReport layer;
+  EnvelopeCertificate certificate;
   CheckReport check;
   double tetra_engine_seconds = 0.0;    ///< inside the engine alone; log only
   double tetra_engine_peak_bytes = 0.0; ///< log only
 };
 
-/// Steps: farfield, classify, initial envelope, smooth, untangle, unwarp, retract, (optimise: next issue), extrude and repair, tetrahedra, assemble, check.
+/// Steps: farfield, envelope (build_envelope.h), extrude and repair, certificate, tetrahedra, assemble, check.
 /// \pre wall closed, manifold, free of self-intersection, normals into the fluid.
 /// \throws Error of the stages; mesh_invalid when the final check finds violations.
 VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const RunContext& context);

@@ -54,17 +54,21 @@ void FittedBoxes::spread_roles(const BoxHierarchy& tree, bool refit, const RunCo
   }
 }
 
-void find_overlaps(const BoxHierarchy& tree, const FittedBoxes& boxes, const RoundedBox& box, std::vector<std::uint32_t>& found) {
+void find_overlaps(const BoxHierarchy& tree, const FittedBoxes& a, const FittedBoxes& b, const RoundedBox& box, std::vector<std::uint32_t>& found) {
   if (tree.nodes.empty()) return;
+  const auto overlaps = [&box](RoundedBox first, const RoundedBox& second) {
+    first.add(second);
+    return overlap(first, box);
+  };
   std::uint32_t stack[k_stack];
   int n = 0;
   stack[n++] = 0;
   while (n > 0) {
     const std::uint32_t index = stack[--n];
-    if (!overlap(boxes.node[index], box)) continue;
+    if (!overlaps(a.node[index], b.node[index])) continue;
     const auto [first, count] = tree.nodes[index];
     for (std::uint32_t j = first; j < first + count; ++j)
-      if (overlap(boxes.place[j], box)) found.push_back(tree.item_at[j]);
+      if (overlaps(a.place[j], b.place[j])) found.push_back(tree.item_at[j]);
     if (count > 0) continue;
     stack[n++] = first + 1;
     stack[n++] = first;

@@ -74,8 +74,8 @@ struct FittedBoxes {
   Role role_of_node(std::size_t i) const { return node_role.empty() ? common_role : node_role[i]; }
 };
 
-/// Items whose boxes overlap `box`, in the order of their places, appended to `found`.
-void find_overlaps(const BoxHierarchy& tree, const FittedBoxes& boxes, const RoundedBox& box, std::vector<std::uint32_t>& found);
+/// Items for which the box around the item's boxes in `a` and in `b` overlaps `box`, in the order of their places, appended to `found`.
+void find_overlaps(const BoxHierarchy& tree, const FittedBoxes& a, const FittedBoxes& b, const RoundedBox& box, std::vector<std::uint32_t>& found);
 
 /// One hierarchy with its boxes, as a side of a search.
 struct SearchSide {

@@ -64,6 +64,9 @@ Collider::Collider(const LayerBase& base, const TriMesh* outer, const RunContext
   for (std::size_t h = 0; base.topology.n_boundary_halfedges() > 0 && h < base.topology.n_halfedges(); ++h)
     if (base.topology.is_boundary(HalfedgeId(h))) rim_.push_back(HalfedgeId(h));
   top_.place.resize(tree_.item_at.size());
+  Components components = connected_components(base.wall, base.topology);
+  component_ = std::move(components.component);
+  n_components_ = components.count;
   if (!outer) return;
   std::copy(outer->points.begin(), outer->points.end(), points_.begin() + static_cast<std::ptrdiff_t>(2 * n));
   outer_tree_ = BoxHierarchy(*outer, context);
@@ -222,11 +225,16 @@ double Collider::clear_share(const BoundaryCrossing& pair, const EnvelopeShape& 
       known[n_known++] = own[k];
     }
   }
+  // A vertex that both triangles share is cut by the lower of the two.
+  const std::array<double, 2> highest = {tallest(pair[0], shape), tallest(pair[1], shape)};
+  std::array<double, 6> reference{};
+  for (std::size_t i = 0; i < 2; ++i)
+    for (const std::uint32_t k : triangle[i]) reference[k] = reference[k] == 0.0 ? highest[i] : std::min(reference[k], highest[i]);
   const auto crosses_at = [&](double share) {
     for (std::size_t i = 0; i < n_known; ++i) {
       if (known[i] < n || known[i] >= 2 * n) continue;
       const VertexId v(known[i] - n);
-      points[i] = base_.wall.points[v] + (share * shape.height[v]) * shape.direction[v];
+      points[i] = base_.wall.points[v] + std::min(shape.height[v], share * reference[i]) * shape.direction[v];
     }
     return triangles_cross(points, triangle[0], triangle[1]);
   };
@@ -248,6 +256,12 @@ std::vector<VertexId> Collider::moving_vertices(const BoundaryTriangle& triangle
   return {base_.topology.from(h), base_.topology.to(h)};
 }
 
+double Collider::tallest(const BoundaryTriangle& triangle, const EnvelopeShape& shape) const {
+  double result = 0.0;
+  for (const VertexId v : moving_vertices(triangle)) result = std::max(result, shape.height[v]);
+  return result;
+}
+
 std::array<Point, 3> Collider::corners_of(const BoundaryTriangle& triangle) const {
   const Corners p = points_of(triangle);
   return {points_[p[0]], points_[p[1]], points_[p[2]]};
@@ -259,7 +273,10 @@ std::int64_t Collider::n_triangles() const {
   return n;
 }
 
-void Collider::find_walls(const Box& box, std::vector<std::uint32_t>& found) const { find_overlaps(tree_, wall_, rounded(box), found); }
-void Collider::find_tops(const Box& box, std::vector<std::uint32_t>& found) const { find_overlaps(tree_, top_, rounded(box), found); }
+void Collider::find_walls(const Box& box, std::vector<std::uint32_t>& found) const { find_overlaps(tree_, wall_, wall_, rounded(box), found); }
+void Collider::find_cells(const Box& box, std::vector<std::uint32_t>& found) const { find_overlaps(tree_, wall_, top_, rounded(box), found); }
+void Collider::find_outer(const Box& box, std::vector<std::uint32_t>& found) const {
+  find_overlaps(outer_tree_, outer_boxes_, outer_boxes_, rounded(box), found);
+}
 
 }  // namespace sterna::volmesh

@@ -23,6 +23,13 @@ struct BoundaryTriangle {
 };
 using BoundaryCrossing = std::array<BoundaryTriangle, 2>;
 
+/// A point of one part of the boundary within a macro-element of another part's layer.
+struct Swallowing {
+  Point place;
+  std::vector<VertexId> vertices;  ///< whose heights do it
+  double clear_share = 0.0;        ///< largest share of these heights, to 0.1 %, at which the point is outside
+};
+
 class Collider {
  public:
   /// `outer` may be null; both must outlive this. Memory: about 150 bytes per wall triangle.
@@ -38,11 +45,16 @@ class Collider {
                                           const Column<VertexId, std::uint8_t>* against = nullptr);
   /// Crossing pairs among wall and outer boundary: no height can repair them.
   std::vector<BoundaryCrossing> fixed_crossings(const RunContext& context);
+  /// Parts of the boundary (connected parts of wall and top, the outer boundary) that lie within the layer of another part, which can be although nothing
+  /// crosses. One entry per part. \pre crossings() is empty at `shape`, to which move_top() was called.
+  std::vector<Swallowing> swallowings(const EnvelopeShape& shape) const;
   /// Pairs with overlapping boxes, tested exactly, of the last call of one of the two.
   std::int64_t n_pairs() const { return n_pairs_; }
 
-  /// Largest share of the present heights, to 0.1 %, at which the pair is clear; 0 when there is none.
+  /// Largest share, to 0.1 %, such that the pair is clear when each triangle's heights are cut to that share of its tallest; 0 when there is none.
   double clear_share(const BoundaryCrossing& pair, const EnvelopeShape& shape) const;
+  /// Height of the tallest vertex that moves the triangle, m.
+  double tallest(const BoundaryTriangle& triangle, const EnvelopeShape& shape) const;
 
   /// Vertices whose height moves the triangle: none for wall and outer boundary.
   std::vector<VertexId> moving_vertices(const BoundaryTriangle& triangle) const;
@@ -50,9 +62,11 @@ class Collider {
   /// Triangles of all parts that are there: those of the top that are not the wall's, and sides with an area.
   std::int64_t n_triangles() const;
 
-  /// Wall triangles whose own box, or whose top's, overlaps the box; appended to `found` in a fixed order.
+  /// Triangles whose box overlaps the given one, appended to `found` in a fixed order: of the wall; wall triangles whose macro-element does; of the outer boundary.
   void find_walls(const Box& box, std::vector<std::uint32_t>& found) const;
-  void find_tops(const Box& box, std::vector<std::uint32_t>& found) const;
+  void find_cells(const Box& box, std::vector<std::uint32_t>& found) const;
+  void find_outer(const Box& box, std::vector<std::uint32_t>& found) const;
+  const TriMesh* outer() const { return outer_; }
 
  private:
   using Corners = std::array<std::uint32_t, 3>;  ///< points of points_
@@ -72,6 +86,8 @@ class Collider {
   BoxHierarchy tree_;            ///< of the wall; the top's boxes use the same
   BoxHierarchy outer_tree_;
   FittedBoxes wall_, top_, outer_boxes_;
+  Column<TriangleId, std::uint32_t> component_;  ///< connected part of the wall
+  std::uint32_t n_components_ = 0;
   bool has_top_ = false;
   std::int64_t n_pairs_ = 0;
 };

@@ -31,7 +31,7 @@ double segment_hit(const Point& p, const Vec3& d, const std::array<Point, 3>& t)
 
 struct GapHit {
   VertexId vertex;
-  TriangleId opposite;
+  TriangleId opposite;  ///< invalid: the outer boundary, which asks for nothing
   double share;  ///< of the heights asked for on both sides
 };
 
@@ -55,6 +55,7 @@ class GapFinder {
   void find(VertexId v, std::vector<std::uint32_t>& buffer, std::vector<GapHit>& hits) const {
     if (envelope_.is_collapsed(v)) return;
     const double reach = envelope_.height[v] + k_remaining_edges * edge_[v];
+    find_outer(v, reach, buffer, hits);
     const double look = how_far_to_look(v, reach, buffer);
     if (look == 0.0) return;
     const Vec3 segment = look * envelope_.direction[v];
@@ -71,14 +72,26 @@ class GapFinder {
       nearest = t;
     }
     if (!nearest.is_valid()) return;
-    const double gap = first * look;
-    const double edge = std::max(edge_[v], largest(edge_, nearest));
-    const double remaining = std::min(k_remaining_edges * edge, k_remaining_share * gap);
-    const double share = (gap - remaining) / (envelope_.height[v] + height_against(v, nearest));
-    if (share < 1.0) hits.push_back({v, nearest, share});
+    add_hit(v, nearest, first * look, std::max(edge_[v], largest(edge_, nearest)), height_against(v, nearest), hits);
   }
 
  private:
+  void add_hit(VertexId v, TriangleId opposite, double gap, double edge, double opposite_height, std::vector<GapHit>& hits) const {
+    const double remaining = std::min(k_remaining_edges * edge, k_remaining_share * gap);
+    const double share = (gap - remaining) / (envelope_.height[v] + opposite_height);
+    if (share < 1.0) hits.push_back({v, opposite, share});
+  }
+  void find_outer(VertexId v, double reach, std::vector<std::uint32_t>& buffer, std::vector<GapHit>& hits) const {
+    buffer.clear();
+    collider_.find_outer(box_along(v, reach), buffer);
+    const Vec3 segment = reach * envelope_.direction[v];
+    double first = 2.0;
+    for (const std::uint32_t item : buffer) {
+      const double s = segment_hit(base_.wall.points[v], segment, corners(*collider_.outer(), TriangleId(item)));
+      if (s >= 0.0) first = std::min(first, s);
+    }
+    if (first <= 1.0) add_hit(v, {}, first * reach, edge_[v], 0.0, hits);
+  }
   double largest(const Column<VertexId, double>& values, TriangleId t) const {
     const TriangleVertices& v = base_.wall.triangles[t];
     return std::max({values[v[0]], values[v[1]], values[v[2]]});
@@ -100,9 +113,7 @@ class GapFinder {
   /// walls under them. 0 when there is none.
   double how_far_to_look(VertexId v, double reach, std::vector<std::uint32_t>& buffer) const {
     buffer.clear();
-    const Box box = box_along(v, reach);
-    collider_.find_tops(box, buffer);
-    collider_.find_walls(box, buffer);
+    collider_.find_cells(box_along(v, reach), buffer);
     double look = 0.0;
     for (const std::uint32_t item : buffer) {
       const TriangleId t(item);
@@ -148,6 +159,7 @@ void share_gaps(const LayerBase& base, const EnvelopeOptions& options, Collider&
   };
   for (const GapHit& hit : hits) {
     limit(hit.vertex, hit.share);
+    if (!hit.opposite.is_valid()) continue;
     for (const VertexId v : base.wall.triangles[hit.opposite]) limit(v, hit.share);
   }
   level_steps(base, options, k_level_sweeps, HeightLimit::gap, envelope, context);

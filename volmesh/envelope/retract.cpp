@@ -11,6 +11,7 @@ namespace {
 constexpr double k_pair_reserve = 0.98;  ///< of the largest share at which a pair of triangles is clear
 constexpr double k_clearance_factor = 0.95;  ///< once nothing collides: leaves a gap for tets between retracted layers
 constexpr int k_regrow_rounds = 6;
+constexpr std::uint8_t k_first_step = 1;  ///< the largest step of regrowth rarely keeps the clearance
 
 void sort_unique(std::vector<VertexId>& vertices) {
   std::sort(vertices.begin(), vertices.end());
@@ -22,17 +23,20 @@ std::vector<VertexId> lower_pairs(const Collider& collider, const std::vector<Bo
                                   Envelope& envelope, const RunContext& context) {
   std::vector<double> share(pairs.size(), 0.0);
   if (!must_collapse) parallel_for(context, pairs.size(), [&](std::size_t i) { share[i] = k_pair_reserve * collider.clear_share(pairs[i], envelope); }, 16);
-  // A vertex of several pairs takes the smallest share of the height it had.
+  // A vertex of several pairs takes the lowest height; all from the heights before this round.
   std::vector<std::pair<VertexId, double>> wanted;
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    for (const BoundaryTriangle& triangle : pairs[i])
-      for (const VertexId v : collider.moving_vertices(triangle)) wanted.emplace_back(v, share[i]);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (const BoundaryTriangle& triangle : pairs[i]) {
+      const double height = share[i] * collider.tallest(triangle, envelope);
+      for (const VertexId v : collider.moving_vertices(triangle)) wanted.emplace_back(v, height);
+    }
+  }
   std::sort(wanted.begin(), wanted.end());
   std::vector<VertexId> vertices;
-  for (const auto& [v, smallest] : wanted) {
+  for (const auto& [v, height] : wanted) {
     if (!vertices.empty() && vertices.back() == v) continue;
     vertices.push_back(v);
-    lower(envelope, v, smallest * envelope.height[v], HeightLimit::collision, scale);
+    lower(envelope, v, height, HeightLimit::collision, scale);
   }
   return vertices;
 }
@@ -92,7 +96,7 @@ std::vector<VertexId> apply_where_clear(const LayerBase& base, Collider& collide
 }
 
 void regrow_clear(const LayerBase& base, Collider& collider, Envelope& envelope, const RunContext& context) {
-  Column<VertexId, std::uint8_t> n_failures(envelope.height.size(), 2);
+  Column<VertexId, std::uint8_t> n_failures(envelope.height.size(), k_first_step);
   for (int round = 0; round < k_regrow_rounds; ++round) {
     ShapeChange change = raised(base, envelope, n_failures, context);
     if (change.vertices.empty()) return;
@@ -111,7 +115,8 @@ bool retract_collisions(const LayerBase& base, const EnvelopeOptions& options, C
     collider.move_top(envelope, context);
     const std::vector<BoundaryCrossing> pairs = collider.crossings(context, looked_at);
     context.progress(static_cast<double>(sweep) / (sweep + 5.0));
-    if (pairs.empty()) {
+    const std::vector<Swallowing> swallowings = pairs.empty() ? collider.swallowings(envelope) : std::vector<Swallowing>{};
+    if (pairs.empty() && swallowings.empty()) {
       if (!needs_clearance) return has_changed;
       // One more reduction of everything that was retracted; it may bring something else together, so look once more.
       needs_clearance = false;
@@ -120,9 +125,14 @@ bool retract_collisions(const LayerBase& base, const EnvelopeOptions& options, C
       around = retracted;
     } else {
       // From max_retract_sweeps on each sweep collapses a vertex: it ends.
-      context.debug("layers collide in " + std::to_string(pairs.size()) + " pairs of triangles");
+      context.debug("layers collide in " + std::to_string(pairs.size() + swallowings.size()) + " places");
       const bool must_collapse = sweep >= options.max_retract_sweeps;
       around = lower_pairs(collider, pairs, must_collapse, scale, envelope, context);
+      for (const Swallowing& found : swallowings) {
+        const double share = must_collapse ? 0.0 : k_pair_reserve * found.clear_share;
+        for (const VertexId v : found.vertices) lower(envelope, v, share * envelope.height[v], HeightLimit::collision, scale);
+        around.insert(around.end(), found.vertices.begin(), found.vertices.end());
+      }
       retracted.insert(retracted.end(), around.begin(), around.end());
       needs_clearance = !must_collapse;
     }
