@@ -1,4 +1,4 @@
-// Gmsh MSH 4.1 and 2.2: triangles and quads; physical groups (or entities) are patches.
+// Gmsh MSH 4.1 and 2.2, text and binary: triangles and quads; physical groups (or entities) are patches.
 #pragma once
 
 #include <filesystem>

@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/file_buffer.h"
@@ -21,6 +22,15 @@ struct Marker {
   LineBlock faces;
 };
 
+/// One complete mesh of a file; node numbers start at 0 in each.
+struct Zone {
+  std::optional<LineBlock> points, elements;
+  std::vector<Marker> markers;
+  std::optional<std::uint64_t> n_markers;  ///< announced
+  std::uint64_t n_partition_markers = 0;
+  bool is_empty() const { return !points && !elements && markers.empty() && !n_markers && n_partition_markers == 0; }
+};
+
 class Su2SurfaceReader {
  public:
   Su2SurfaceReader(const FileBuffer& buffer, const RunContext& context)
@@ -28,12 +38,18 @@ class Su2SurfaceReader {
 
   SurfaceSoup read() {
     while (cursor_.find_content()) take_line();
-    check_completeness();
-    read_points();
-    for (const Marker& marker : markers_) read_marker(marker);
-    read_elements();
+    finish_zone();
+    check_zone_count();
+    bool has_names = false;
+    for (const Zone& zone : zones_) {
+      read_points(zone);
+      for (const Marker& marker : zone.markers) read_marker(marker);
+      read_elements(zone);
+      has_names = has_names || !zone.markers.empty();
+    }
+    tell_what_was_left_out();
     SurfaceSoup soup = builder_.finish(true);
-    soup.has_names = !markers_.empty();
+    soup.has_names = has_names;
     return soup;
   }
 
@@ -50,13 +66,14 @@ class Su2SurfaceReader {
       return cursor_.next_line();
     }
     is_in_unknown_section_ = false;
-    if (keyword.key == "NPOIN") return take_block(points_, keyword);
-    if (keyword.key == "NELEM") return take_block(elements_, keyword);
+    if (keyword.key == "NPOIN") return take_block(zone_.points, keyword);
+    if (keyword.key == "NELEM") return take_block(zone_.elements, keyword);
     if (keyword.key == "MARKER_TAG") return take_marker(keyword);
     if (keyword.key == "NDIME") check_dimension(keyword);
-    else if (keyword.key == "NMARK") n_markers_ = su2_count(keyword, cursor_);
-    else if (keyword.key == "NZONE") check_zones(keyword);
-    else is_in_unknown_section_ = keyword.key != "IZONE";  // free-form deformation boxes, periodic transformations, ...
+    else if (keyword.key == "NMARK") zone_.n_markers = su2_count(keyword, cursor_);
+    else if (keyword.key == "NZONE") n_zones_ = su2_count(keyword, cursor_);
+    else if (keyword.key == "IZONE") begin_zone();
+    else is_in_unknown_section_ = true;  // free-form deformation boxes, periodic transformations, ...
     cursor_.next_line();
   }
 
@@ -65,10 +82,16 @@ class Su2SurfaceReader {
     if (keyword.value != "3") cursor_.fail("found " + quoted_excerpt(keyword.value) + ", expected 3 after NDIME=");
   }
 
-  void check_zones(const Su2Keyword& keyword) {
-    if (su2_count(keyword, cursor_) != 1)
-      throw_unsupported(source_, "line " + std::to_string(cursor_.line()) + ": a surface of several zones (NZONE= " + std::string(keyword.value) + ")",
-                        "give each zone a file of its own");
+  /// IZONE= stands before each zone, so also before the first.
+  void begin_zone() {
+    if (!zones_.empty() || !zone_.is_empty()) finish_zone();
+    last_block_.clear();
+  }
+
+  void check_zone_count() const {
+    if (n_zones_ && *n_zones_ != zones_.size())
+      cursor_.fail("found " + std::to_string(zones_.size()) + " zones to the end of the file, expected " + std::to_string(*n_zones_) + " (NZONE=)",
+                   zones_.size() < *n_zones_ ? "the file may have been cut short: copy or write it again" : "");
   }
 
   LineBlock take_lines(const Su2Keyword& keyword) {
@@ -91,10 +114,10 @@ class Su2SurfaceReader {
       cursor_.next_line();
       expect_keyword("SEND_TO", name);
       cursor_.take_block(n, "MARKER_ELEMS=");
-      ++n_partition_markers_;
+      ++zone_.n_partition_markers;
       return;
     }
-    markers_.push_back({.name = name, .faces = take_lines(count)});
+    zone_.markers.push_back({.name = name, .faces = take_lines(count)});
   }
 
   Su2Keyword expect_keyword(std::string_view key, const std::string& marker) {
@@ -106,14 +129,23 @@ class Su2SurfaceReader {
     return keyword;
   }
 
-  void check_completeness() {
-    if (!points_) cursor_.fail("the file ends here without NPOIN=");
-    const std::uint64_t n_found = markers_.size() + n_partition_markers_;
-    if (n_markers_.value_or(n_found) != n_found)
-      cursor_.fail("found " + std::to_string(n_found) + " markers to the end of the file, expected " + std::to_string(*n_markers_) + " (NMARK=)",
-                   n_found < *n_markers_ ? "the file may have been cut short: copy or write it again" : "");
-    if (markers_.empty() && !elements_) cursor_.fail("the file ends here without NELEM= and without markers");
+  void finish_zone() {
+    if (!zone_.points) cursor_.fail("the mesh ends here without NPOIN=");
+    const std::uint64_t n_found = zone_.markers.size() + zone_.n_partition_markers;
+    const std::uint64_t n_expected = zone_.n_markers.value_or(n_found);
+    if (n_expected != n_found)
+      cursor_.fail("found " + std::to_string(n_found) + " markers to the end of the mesh, expected " + std::to_string(n_expected) + " (NMARK=)",
+                   n_found < n_expected ? "the file may have been cut short: copy or write it again" : "");
+    if (zone_.markers.empty() && !zone_.elements) cursor_.fail("the mesh ends here without NELEM= and without markers");
+    n_partition_markers_ += zone_.n_partition_markers;
+    zones_.push_back(std::move(zone_));
+    zone_ = {};
+  }
+
+  void tell_what_was_left_out() const {
+    if (zones_.size() > 1) context_.info("zones joined to one surface: " + std::to_string(zones_.size()));
     if (n_partition_markers_ > 0) context_.info("markers SEND_RECEIVE (boundaries of a partition) left out: " + std::to_string(n_partition_markers_));
+    if (n_lines_ > 0) context_.warn(source_ + ": " + std::to_string(n_lines_) + " lines (type 3) in markers, which are no faces, are left out");
   }
 
   // ---- second pass: the numbers
@@ -132,9 +164,11 @@ class Su2SurfaceReader {
     }
   }
 
-  void read_points() {
-    builder_.reserve_points(points_->n_items);
-    for_each_line(*points_, [&](LineCursor& cursor, std::uint64_t i) {
+  void read_points(const Zone& zone) {
+    first_point_ = builder_.n_points();
+    n_points_ = zone.points->n_items;
+    builder_.reserve_points(first_point_ + n_points_);
+    for_each_line(*zone.points, [&](LineCursor& cursor, std::uint64_t i) {
       Vec3 p;
       for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = cursor.real("a coordinate of node ", i);
       builder_.add_point(p);
@@ -144,7 +178,7 @@ class Su2SurfaceReader {
   void read_face(LineCursor& cursor, std::uint64_t type, std::uint64_t item) {
     std::array<std::uint32_t, 4> corners{};
     const std::span<std::uint32_t> used = std::span(corners).first(type == k_vtk_triangle ? 3 : 4);
-    for (std::uint32_t& corner : used) corner = cursor.index(builder_.n_points(), "a node of face ", item);
+    for (std::uint32_t& corner : used) corner = static_cast<std::uint32_t>(first_point_) + cursor.index(n_points_, "a node of face ", item);
     builder_.add_polygon(used);
   }
 
@@ -152,29 +186,35 @@ class Su2SurfaceReader {
     builder_.set_patch(marker.name);
     for_each_line(marker.faces, [&](LineCursor& cursor, std::uint64_t i) {
       const std::uint64_t type = cursor.integer("the type of face ", i);
+      if (type == k_vtk_line) {  // an edge of an open surface, as programs write it that take a surface for a plane mesh
+        ++n_lines_;
+        return;
+      }
       if (type != k_vtk_triangle && type != k_vtk_quad)
-        cursor.fail("found element type " + std::to_string(type) + " in marker \"" + marker.name + "\", expected 5 (triangle) or 9 (quadrilateral)");
+        cursor.fail("found element type " + std::to_string(type) + " in marker \"" + marker.name + "\", expected 5 (triangle), 9 (quadrilateral) or 3 (line)");
       read_face(cursor, type, i);
+      has_marked_faces_ = true;
     });
   }
 
-  /// Without markers the faces among the elements are the surface; with markers they are left out.
-  void read_elements() {
-    if (!elements_) return;
+  /// Where markers have no faces, the faces among the elements are the surface; else those are left out.
+  void read_elements(const Zone& zone) {
+    const bool are_elements_the_surface = !std::exchange(has_marked_faces_, false);
+    if (!zone.elements) return;
     std::uint64_t n_faces = 0, n_cells = 0;
-    if (markers_.empty()) builder_.set_patch({});
-    for_each_line(*elements_, [&](LineCursor& cursor, std::uint64_t i) {
+    if (are_elements_the_surface) builder_.set_patch({});
+    for_each_line(*zone.elements, [&](LineCursor& cursor, std::uint64_t i) {
       const std::uint64_t type = cursor.integer("the type of element ", i);
       const bool is_face = type == k_vtk_triangle || type == k_vtk_quad;
       if (!is_face && !kind_of_vtk_type(static_cast<std::int64_t>(type)))
         cursor.fail("found element type " + std::to_string(type) +
                     ", expected 5 (triangle), 9 (quadrilateral), 10 (tetrahedron), 12 (hexahedron), 13 (prism) or 14 (pyramid)");
       ++(is_face ? n_faces : n_cells);
-      if (is_face && markers_.empty()) read_face(cursor, type, i);
+      if (is_face && are_elements_the_surface) read_face(cursor, type, i);
     });
-    if (markers_.empty() && n_cells > 0)
-      throw_malformed(source_, "line " + std::to_string(elements_->line), "found a volume mesh without markers, expected its boundary faces behind NMARK=");
-    if (!markers_.empty() && n_faces > 0)
+    if (are_elements_the_surface && n_cells > 0)
+      throw_malformed(source_, "line " + std::to_string(zone.elements->line), "found a volume mesh without faces in markers, expected its boundary faces behind NMARK=");
+    if (!are_elements_the_surface && n_faces > 0)
       context_.warn(source_ + ": " + std::to_string(n_faces) + " faces among the elements belong to no marker and are left out");
   }
 
@@ -182,10 +222,13 @@ class Su2SurfaceReader {
   LineCursor cursor_;
   SurfaceBuilder builder_;
   const RunContext& context_;
-  std::optional<LineBlock> points_, elements_;
-  std::vector<Marker> markers_;
-  std::optional<std::uint64_t> n_markers_;  ///< announced
-  std::uint64_t n_partition_markers_ = 0;
+  std::optional<std::uint64_t> n_zones_;  ///< announced
+  std::vector<Zone> zones_;
+  Zone zone_;  ///< being indexed
+  std::size_t first_point_ = 0;  ///< of the zone that is read
+  std::uint64_t n_points_ = 0;
+  bool has_marked_faces_ = false;  ///< in the zone that is read
+  std::uint64_t n_lines_ = 0, n_partition_markers_ = 0;
   std::string last_block_;
   bool is_in_unknown_section_ = false;
 };

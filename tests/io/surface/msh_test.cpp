@@ -46,9 +46,19 @@ TEST(SurfaceMsh, OtherSectionsParametricNodesAndSecondOrderArePassedOver) {
   EXPECT_EQ(triangles_by_patch(second), triangles_by_patch(read(k_v2)));
 }
 
+TEST(SurfaceMsh, BinarySamplesAreTheTextOnes) {
+  STERNA_NEEDS_SHARED_DATA();
+  const auto samples = shared_data() / "formats";
+  expect_same_soup(read_surface(samples / "pt.v22bin.msh"), read_surface(samples / "pt.v22.msh"));
+  expect_same_soup(read_surface(samples / "mix4.v22bin.msh"), read_surface(samples / "mix4.v22.msh"));
+  const SurfaceSoup text = read_surface(samples / "pt.v41.msh"), binary = read_surface(samples / "pt.v41bin.msh");  // gmsh has put the nodes and groups in its own order
+  EXPECT_NEAR(volume_of(binary), volume_of(text), 1e-15);
+  EXPECT_EQ(binary.triangles.size(), text.triangles.size());
+}
+
 TEST(SurfaceMsh, WhatIsNotReadIsNamed) {
   const auto unsupported = ErrorCode::unsupported_format;
-  refused(replaced(k_v4, "4.1 0 8", "4.1 1 8"), {"binary MSH", "ASCII"}, unsupported);
+  refused(replaced(k_v4, "4.1 0 8", "4.1 1 4"), {"reals of 4 bytes"}, unsupported);
   refused(replaced(k_v4, "4.1 0 8", "4 0 8"), {"version 4", "4.1 and 2.2"}, unsupported);
   refused(replaced(k_v2, "3 3 2 0 4", "3 93 2 0 4"), {"type 93"}, unsupported);
   refused(replaced(k_v4, "$Entities", "$PartitionedEntities"), {"partition"}, unsupported);
@@ -65,6 +75,11 @@ TEST(SurfaceMsh, MistakesAreToldWithTheirLine) {
   refused(replaced(k_v2, "$Nodes\n5", "$Nodes\n500"), {"line 9", "found 500", "cut short"});
   refused(replaced(k_v2, "$EndNodes\n", ""), {"line 15", "\"$Elements\"", "$EndNodes"});
   refused(k_v2.substr(0, k_v2.size() - 13), {"the end of the file", "$EndElements"});
+  for (const std::string& text : {k_v2, k_v4}) {
+    refused(text.substr(0, text.find("$Elements")), {"the end of the file", "the section $Elements", "cut short"});
+    refused(text.substr(0, text.find("$Nodes")), {"the section $Nodes"});
+  }
+  refused(replaced(k_v4, "3 3 1 3\n", "3 4 1 3\n"), {"found 3 elements", "expected 4"});
   refused(replaced(k_v2, "2 2 2 7 3", "2 2 2 -9223372036854775808 3"), {"line 19", "32 bits"});
 }
 

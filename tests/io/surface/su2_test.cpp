@@ -68,6 +68,24 @@ TEST(SurfaceSu2, WithoutMarkersTheElementsAreTheSurface) {
   EXPECT_FALSE(soup.has_names);
 }
 
+TEST(SurfaceSu2, ZonesAreJoined) {
+  // Node numbers start at 0 in each zone; markers of the same name become one patch.
+  const std::string moved = replaced(replaced(k_tetrahedron, "MARKER_TAG= tip", "MARKER_TAG= tail"), "0 0 0\n", "0 0 -1\n");
+  const SurfaceSoup soup = read("NZONE= 2\nIZONE= 1\n" + k_tetrahedron + "IZONE= 2\n" + moved);
+  EXPECT_EQ(soup.points.size(), 8u);
+  EXPECT_EQ(triangles_by_patch(soup), (std::map<std::string, int>{{"wing", 6}, {"tip", 1}, {"tail", 1}}));
+  EXPECT_NEAR(volume_of(soup), volume_of(read(k_tetrahedron)) + volume_of(read(moved)), 1e-15);
+}
+
+TEST(SurfaceSu2, LinesInMarkersAreLeftOutAndTold) {
+  std::vector<std::string> warnings;
+  const std::string text = "NDIME= 3\nNELEM= 2\n5 0 1 2\n5 1 3 2\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n1 1 0\nNMARK= 1\nMARKER_TAG= edge\nMARKER_ELEMS= 2\n3 0 1\n3 1 3\n";
+  const SurfaceSoup soup = read_surface_text("mesh.su2", text, &warnings);
+  EXPECT_EQ(soup.triangles.size(), 2u);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("2 lines (type 3) in markers"), std::string::npos) << warnings[0];
+}
+
 TEST(SurfaceSu2, FacesBesideMarkersAreLeftOutWithAWarning) {
   std::vector<std::string> warnings;
   const SurfaceSoup soup = read_surface_text("mesh.su2", replaced(k_tetrahedron, "NELEM= 1\n", "NELEM= 2\n5 0 1 2\n"), &warnings);
@@ -82,7 +100,7 @@ TEST(SurfaceSu2, MistakesAreToldWithTheirLine) {
   refused(replaced(k_tetrahedron, "1 0 0\n", "1 nan 0\n"), {"line 4", "nan"});
   refused(replaced(k_tetrahedron, "5 1 2 3\n", "5 1 2 4\n"), {"line 17", "found 4", "from 0 to 3"});
   refused(replaced(k_tetrahedron, "5 1 2 3\n", "5 1 2 -3\n"), {"line 17", "-3"});
-  refused(replaced(k_tetrahedron, "5 1 2 3\n", "3 1 2\n"), {"line 17", "type 3", "\"tip\""});
+  refused(replaced(k_tetrahedron, "5 1 2 3\n", "1 1\n"), {"line 17", "type 1", "\"tip\""});
   refused(replaced(k_tetrahedron, "10 0 1 2 3\n", "77 0 1 2 3\n"), {"line 8", "type 77"});
   refused(replaced(k_tetrahedron, "NPOIN= 4", "NPOIN= 3"), {"line 6", "NPOIN= in line 2 announces fewer lines"});
   refused(replaced(k_tetrahedron, "NPOIN= 4", "NPOIN= 5"), {"line 7", "after 4 of the 5 lines"});
@@ -91,12 +109,13 @@ TEST(SurfaceSu2, MistakesAreToldWithTheirLine) {
   refused(replaced(k_tetrahedron, "NMARK= 2", "NMARK= 3"), {"found 2 markers", "expected 3", "cut short"});
   refused(replaced(k_tetrahedron, "MARKER_ELEMS= 3\n", ""), {"line 11", "MARKER_ELEMS= of marker \"wing\""});
   refused(k_tetrahedron + "NPOIN= 0\n", {"line 18", "a second NPOIN=", "line 2"});
-  refused(k_tetrahedron.substr(0, k_tetrahedron.find("NMARK")), {"line 7", "without markers"});
+  refused(k_tetrahedron.substr(0, k_tetrahedron.find("NMARK")), {"line 7", "without faces in markers"});
   refused("NDIME= 3\nNPOIN= 1\n0 0 0\n", {"without NELEM="});
   refused("NDIME= 3\n", {"without NPOIN="});
   refused(replaced(k_tetrahedron, "NDIME= 3", "NDIME= 4"), {"line 1", "expected 3"});
   refused(replaced(k_tetrahedron, "NDIME= 3", "NDIME= 2"), {"line 1", "plane"}, ErrorCode::unsupported_format);
-  refused("NZONE= 2\n" + k_tetrahedron, {"line 1", "several zones"}, ErrorCode::unsupported_format);
+  refused("NZONE= 2\nIZONE= 1\n" + k_tetrahedron, {"found 1 zones", "expected 2 (NZONE=)", "cut short"});
+  refused("NZONE= 2\nIZONE= 1\n" + k_tetrahedron + "IZONE= 2\n", {"without NPOIN="});
 }
 
 }  // namespace
