@@ -42,7 +42,12 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
   json["patches"] = Json::array();
   for (const Patch& patch : mesh.mesh.patches) json["patches"].push_back({{"name", patch.name}, {"kind", to_string(patch.kind)}});
   json["mesh"] = cells_json(mesh.mesh);
-  if (mesh.origin) json["layer"] = layer_json(mesh.origin->layer);
+  if (mesh.origin) {
+    json["layer"] = layer_json(mesh.origin->layer);
+    json["tetra_engine"] = mesh.origin->tetra_engine;
+    if (!mesh.origin->tetra_failures.empty()) json["tetra_failures"] = mesh.origin->tetra_failures;
+    if (!mesh.origin->is_reproducible) json["reproducible"] = "not reproducible: a time or memory limit decided which engine made the tetrahedra";
+  }
   json["verdict"] = !mesh.check ? "not checked" : mesh.check->is_valid() ? "VALID" : "INVALID";
   return json.dump(2) + "\n";
 }

@@ -69,8 +69,8 @@ std::string summary_text(const MeshValue& mesh) {
 }
 
 std::string measure_text(const MeshValue& mesh, const RunMeasure& measure) {
-  std::string text = fmt::format("  seconds     {:.2f} in all on {} threads: {:.2f} in the engine, {:.2f} the rest\n", measure.wall_seconds, measure.threads,
-                                 mesh.origin->tetra_engine_seconds, rest_seconds(mesh, measure));
+  std::string text = fmt::format("  seconds     {:.2f} in all on {} threads: {:.2f} in {}, {:.2f} the rest\n", measure.wall_seconds, measure.threads,
+                                 mesh.origin->tetra_engine_seconds, mesh.origin->tetra_engine, rest_seconds(mesh, measure));
   text += fmt::format("  memory      {:.0f} MB at most here, {:.0f} MB in the engine's process\n", peak_memory_bytes() / k_bytes_per_mb,
                       mesh.origin->tetra_engine_peak_bytes / k_bytes_per_mb);
   text += "  stages     ";

@@ -59,6 +59,9 @@ MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOp
                             .options = options,
                             .layer = std::move(result.layer),
                             .n_wall_triangles = static_cast<std::int64_t>(wall.mesh.n_triangles()),
+                            .tetra_engine = result.tetra_engine,
+                            .tetra_failures = result.tetra_failures,
+                            .is_reproducible = result.is_reproducible,
                             .tetra_engine_seconds = result.tetra_engine_seconds,
                             .tetra_engine_peak_bytes = result.tetra_engine_peak_bytes};
   return value;

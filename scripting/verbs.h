@@ -35,6 +35,9 @@ struct MeshOrigin {
   volmesh::VolumeMeshOptions options;
   volmesh::LayerReport layer;
   std::int64_t n_wall_triangles = 0;
+  std::string tetra_engine;
+  std::vector<std::string> tetra_failures;
+  bool is_reproducible = true;
   double tetra_engine_seconds = 0.0;
   double tetra_engine_peak_bytes = 0.0;
 };

@@ -32,10 +32,17 @@ local mesh = volume_mesh{ wall,
     radius = 50 * wall.length,
     edge = 10 * wall.length,
   },
+  size = {
+    growth = 1.3,                   -- of neighbouring tetrahedra
+    max = "automatic",              -- longest edge; automatic: no limit
+  },
   tetrahedra = {
     engine = "automatic",           -- or "tetgen", "hxt"
     radius_edge = 1.2,              -- TetGen
-    hxt_improve_below = 0.02,       -- HXT's own improvement
+    hxt_improve_below = 0,          -- HXT's own improvement; 0: none
+    max_new_points = "automatic",   -- more are a failure; automatic: no limit
+    try_other_engine = true,        -- after a failure that would repeat itself
+    fall_back_on_limits = false,    -- also after a time or memory limit; the manifest then says "not reproducible"
     memory_limit = 20e9,            -- bytes, of the helper process
     time_limit = "automatic",       -- seconds; automatic: none
     helper_folder = "",             -- where sterna-tet-tetgen and sterna-tet-hxt are; empty: beside sterna

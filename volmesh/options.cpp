@@ -10,6 +10,7 @@ OptionTable options_of(VolumeMeshOptions& options) {
   add(sterna::options_of(options.envelope));
   add(sterna::options_of(options.prisms));
   add(sterna::options_of(options.farfield));
+  add(sterna::options_of(options.size));
   add(sterna::options_of(options.tetrahedra));
   return table;
 }

@@ -89,8 +89,13 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
   {
     const StageTimer timer(context, "tetrahedra");
     const std::vector<Point> holes = find_cavity_points(wall, context);
-    tets = fill({boundary.points, boundary.triangles, holes}, options.tetrahedra, context.part("tetrahedra", 0.25, 0.9));
+    const TetraBoundary domain{boundary.points, boundary.triangles, holes};
+    const SizeField sizes = build_size_field(domain, {}, options.size, context);
+    tets = fill(domain, &sizes, options.tetrahedra, context.part("tetrahedra", 0.25, 0.9));
   }
+  result.tetra_engine = tets.engine;
+  result.tetra_failures = tets.failures;
+  result.is_reproducible = tets.is_reproducible;
   result.tetra_engine_seconds = tets.engine_seconds;
   result.tetra_engine_peak_bytes = tets.engine_peak_bytes;
   {

@@ -13,6 +13,7 @@
 #include "volmesh/envelope/options.h"
 #include "volmesh/farfield.h"
 #include "volmesh/prisms/options.h"
+#include "volmesh/tetra/size_field.h"
 #include "volmesh/tetra/tetra.h"
 
 namespace sterna::volmesh {
@@ -21,6 +22,7 @@ struct VolumeMeshOptions {
   EnvelopeOptions envelope;
   PrismOptions prisms;
   FarfieldOptions farfield;
+  SizeFieldOptions size;
   TetraOptions tetrahedra;
 };
 
@@ -45,6 +47,9 @@ struct VolumeMeshResult {
   LayerReport layer;
   EnvelopeCertificate certificate;
   CheckReport check;
+  std::string tetra_engine;             ///< "tetgen" or "hxt"
+  std::vector<std::string> tetra_failures;  ///< of the attempts before it, in order
+  bool is_reproducible = true;          ///< false when a time or memory limit decided what was done
   double tetra_engine_seconds = 0.0;    ///< inside the engine alone; log only
   double tetra_engine_peak_bytes = 0.0; ///< log only
 };

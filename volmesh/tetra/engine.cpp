@@ -12,6 +12,7 @@
 
 #include "geom/base/parallel.h"
 #include "volmesh/tetra/engine_process.h"
+#include "volmesh/tetra/size_field.h"
 #include "volmesh/tetra/verify.h"
 #include "volmesh/tetra/wire.h"
 
@@ -28,20 +29,22 @@ double unit_scale(std::span<const Vec3> points) {
 /// The request in shared memory, laid out as wire.h says.
 class Request {
  public:
-  Request(const TetraBoundary& boundary, const BoundaryParts& parts, const TetraOptions& options, const RunContext& context)
-      : scale_(unit_scale(boundary.points)), block_("sterna tetra request", size_of(boundary, parts)) {
+  Request(const EngineInput& input, const TetraOptions& options, const RunContext& context)
+      : scale_(unit_scale(input.boundary.points)), block_("sterna tetra request", size_of(input)) {
+    const auto& [boundary, parts, size_field] = input;
     wire::RequestHeader header;
     header.n_points = boundary.points.size();
     header.n_holes = boundary.hole_points.size();
     header.n_triangles = boundary.triangles.size();
     header.n_surfaces = parts.n_surfaces();
+    header.size_bytes = size_bytes(size_field).size();
     header.memory_limit = static_cast<std::uint64_t>(options.memory_limit);
     header.scale = scale_;
     header.radius_edge = options.radius_edge;
     header.improve_below = options.hxt_improve_below;
     std::byte* at = block_.map();
     const auto put = [&](const void* data, std::size_t size) {
-      std::memcpy(at, data, size);
+      if (size > 0) std::memcpy(at, data, size);
       at += size;
     };
     put(&header, sizeof header);
@@ -50,6 +53,7 @@ class Request {
     parallel_for(context, header.n_points, [&](std::size_t i) { points_[i] = scale_ * boundary.points[i]; });
     for (std::size_t i = 0; i < header.n_holes; ++i) holes[i] = scale_ * boundary.hole_points[i];
     at = reinterpret_cast<std::byte*>(holes + header.n_holes);
+    put(size_bytes(size_field).data(), header.size_bytes);
     put(boundary.triangles.data(), boundary.triangles.size_bytes());
     put(parts.triangle2surface.data(), sizeof(std::int32_t) * parts.triangle2surface.size());
     put(parts.surface2region.data(), sizeof(std::int32_t) * parts.surface2region.size());
@@ -59,9 +63,11 @@ class Request {
   double scale() const { return scale_; }
 
  private:
-  static std::size_t size_of(const TetraBoundary& boundary, const BoundaryParts& parts) {
-    return sizeof(wire::RequestHeader) + sizeof(Vec3) * (boundary.points.size() + boundary.hole_points.size()) +
-           (sizeof(boundary.triangles[0]) + sizeof(std::int32_t)) * boundary.triangles.size() + sizeof(std::int32_t) * parts.n_surfaces();
+  static std::span<const std::byte> size_bytes(const SizeField* size_field) { return size_field ? size_field->bytes() : std::span<const std::byte>(); }
+  static std::size_t size_of(const EngineInput& input) {
+    const TetraBoundary& boundary = input.boundary;
+    return sizeof(wire::RequestHeader) + sizeof(Vec3) * (boundary.points.size() + boundary.hole_points.size()) + size_bytes(input.size_field).size() +
+           (sizeof(boundary.triangles[0]) + sizeof(std::int32_t)) * boundary.triangles.size() + sizeof(std::int32_t) * input.parts.n_surfaces();
   }
   double scale_;
   SharedBlock block_;
@@ -128,6 +134,14 @@ std::optional<EngineFailure> judge_exit(EngineKind kind, const HelperExit& exit,
                  "the helper may be of another version: build the target sterna-tet-" + std::string(to_string(kind)) + " again");
 }
 
+/// A mesh with more points than the user wants.
+std::optional<EngineFailure> judge_count(EngineKind kind, const wire::ReplyHeader& header, const TetraBoundary& boundary, const TetraOptions& options) {
+  const double n_new = static_cast<double>(header.n_points) - static_cast<double>(boundary.points.size());
+  if (is_automatic(options.max_new_points) || n_new <= options.max_new_points) return std::nullopt;
+  return failure(FailureKind::deterministic, kind, with_unit(n_new, "new points") + ", limit " + with_unit(options.max_new_points, ""),
+                 "raise tetrahedra.max_new_points, or ask for larger tetrahedra");
+}
+
 [[noreturn]] void throw_invalid_reply(EngineKind kind, std::string problem, std::vector<ErrorPlace> places = {}) {
   throw Error({.code = ErrorCode::tetra_result_invalid,
                .attempted = "reading the answer of " + std::string(display_name(kind)),
@@ -164,10 +178,10 @@ EngineOutcome failed(EngineFailure failure) { return {std::nullopt, std::move(fa
 std::string_view to_string(EngineKind kind) { return kind == EngineKind::tetgen ? "tetgen" : "hxt"; }
 std::string_view display_name(EngineKind kind) { return kind == EngineKind::tetgen ? "TetGen" : "HXT"; }
 
-EngineOutcome run_engine(EngineKind kind, const TetraBoundary& boundary, const BoundaryParts& parts, const TetraOptions& options, const RunContext& context) {
+EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraOptions& options, const RunContext& context) {
   try {
     const std::string helper = find_helper("sterna-tet-" + std::string(to_string(kind)), options.helper_folder);
-    const Request request(boundary, parts, options, context);
+    const Request request(input, options, context);
     SharedBlock reply("sterna tetra reply", 0);
     const HelperExit exit = run_helper(helper, request.block(), reply, options.time_limit, context);
     if (!exit.output.empty()) context.debug(std::string(display_name(kind)) + ": " + exit.output);
@@ -176,8 +190,9 @@ EngineOutcome run_engine(EngineKind kind, const TetraBoundary& boundary, const B
     header.magic = 0;
     if (reply.size() >= sizeof header) std::memcpy(&header, data, sizeof header);
     if (std::optional<EngineFailure> reason = judge_exit(kind, exit, header, options)) return failed(std::move(*reason));
-    TetraResult result = read_result(kind, header, reply, data, boundary, request, context);
-    verify_tetrahedra(boundary, result, context);
+    if (std::optional<EngineFailure> reason = judge_count(kind, header, input.boundary, options)) return failed(std::move(*reason));
+    TetraResult result = read_result(kind, header, reply, data, input.boundary, request, context);
+    verify_tetrahedra(input.boundary, result, context);
     return {std::move(result), {}};
   } catch (const Error& error) {
     if (error.code() == ErrorCode::tetra_engine_missing) return failed({FailureKind::missing, error.info()});

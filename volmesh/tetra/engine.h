@@ -19,7 +19,7 @@ std::string_view display_name(EngineKind kind);
 
 enum class FailureKind {
   missing,        ///< the engine is not built in, or its helper cannot be started
-  deterministic,  ///< it will fail again: exit code, signal, failed verification
+  deterministic,  ///< it will fail again: exit code, signal, failed verification, too many points
   limit,          ///< time or memory limit, or killed from outside: another machine or day may see another end
 };
 
@@ -34,8 +34,15 @@ struct EngineOutcome {
   EngineFailure failure;
 };
 
-/// \pre check_boundary() passed; parts of this boundary.
+/// What an engine gets. `parts` are those of the boundary; the size field may be missing.
+struct EngineInput {
+  const TetraBoundary& boundary;
+  const BoundaryParts& parts;
+  const SizeField* size_field = nullptr;
+};
+
+/// \pre check_boundary() passed.
 /// \throws Error(cancelled) on a stop of the context (the helper is gone by then); Error(tetra_engine_failed) when the system has no memory for the request.
-EngineOutcome run_engine(EngineKind kind, const TetraBoundary& boundary, const BoundaryParts& parts, const TetraOptions& options, const RunContext& context);
+EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh

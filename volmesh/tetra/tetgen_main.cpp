@@ -10,8 +10,11 @@
 // - Self-intersecting, duplicate or degenerate facets make it crash, or answer with facets missing; it rarely reports them.
 // - An open boundary gives 0 tetrahedra and no error; an index out of range is read as it is.
 // - Points that it adds and removes again during boundary recovery are left out of the answer, but not with -J (pygeo_bwb).
+// - A tetunsuitable callback is asked for every tetrahedron, and obeyed; its volume argument is nothing.
 // - Its tetrahedra are positive in CGNS order; two runs are identical to the bit.
 
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <new>
 #include <string>
@@ -19,6 +22,7 @@
 #include <vector>
 
 #include "volmesh/tetra/helper_side.h"
+#include "volmesh/tetra/size_field_view.h"
 
 namespace {
 
@@ -56,6 +60,44 @@ struct BorrowedInput {
   tetgenio io;
 };
 
+/// A tetrahedron is split when its circumradius over the wanted edge length exceeds this: then the geometric mean of the edges is the wanted length (measured in a field
+/// of constant size). A regular tetrahedron of that length has 0.61.
+constexpr double k_radius_limit = 1.1 / 1.46;
+
+/// What TetGen's callback, which gets no data of ours, needs; set once, before TetGen runs.
+struct SizeTest {
+  SizeFieldView sizes;
+  double scale = 1.0;
+};
+SizeTest& size_test() {
+  static SizeTest test;
+  return test;
+}
+
+double circumradius(const double* a, const double* b, const double* c, const double* d) {
+  std::array<double, 3> u, v, w;
+  for (std::size_t k = 0; k < 3; ++k) {
+    u[k] = b[k] - a[k];
+    v[k] = c[k] - a[k];
+    w[k] = d[k] - a[k];
+  }
+  const auto cross = [](const auto& x, const auto& y) { return std::array{x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]}; };
+  const auto dot = [](const auto& x, const auto& y) { return x[0] * y[0] + x[1] * y[1] + x[2] * y[2]; };
+  const auto vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
+  const double uu = dot(u, u), vv = dot(v, v), ww = dot(w, w);
+  std::array<double, 3> sum;
+  for (std::size_t k = 0; k < 3; ++k) sum[k] = uu * vw[k] + vv * wu[k] + ww * uv[k];
+  return std::sqrt(dot(sum, sum)) / (2.0 * std::abs(dot(u, vw)));
+}
+
+/// TetGen asks for every tetrahedron that it might refine.
+bool is_too_large(double* a, double* b, double* c, double* d, double*, double) {
+  const SizeTest& test = size_test();
+  const double s = 0.25 / test.scale;
+  const double wanted = test.scale * test.sizes(s * (a[0] + b[0] + c[0] + d[0]), s * (a[1] + b[1] + c[1] + d[1]), s * (a[2] + b[2] + c[2] + d[2]));
+  return circumradius(a, b, c, d) > k_radius_limit * wanted;
+}
+
 /// -p boundary, -q<ratio> quality, -Y keep the boundary, -M merge nothing, -F write no faces, -Q quiet,
 /// -T tolerance below the rounding error of the box's size: never call a feature too small (error 4).
 std::string switches(const wire::RequestHeader& header) {
@@ -67,6 +109,11 @@ std::string switches(const wire::RequestHeader& header) {
 int run(const Request& request) {
   Facets facets(request);
   BorrowedInput in(request, facets);
+  if (request.size_field) {
+    size_test() = {SizeFieldView(request.size_field, request.header->size_bytes), request.header->scale};
+    if (!size_test().sizes.is_valid()) return helper::reply_failure(wire::Outcome::bad_request, 0, 0.0);
+    in.io.tetunsuitable = is_too_large;
+  }
   tetgenio out;
   std::string text = switches(*request.header);
   const helper::Stopwatch watch;

@@ -12,12 +12,17 @@
 
 namespace sterna::volmesh {
 
+class SizeField;
+
 struct TetraOptions {
   std::string engine = "automatic";
   double radius_edge = 1.2;
-  double hxt_improve_below = 0.02;
+  double hxt_improve_below = 0.0;
   double memory_limit = 20e9;
   double time_limit = k_automatic;
+  double max_new_points = k_automatic;
+  bool try_other_engine = true;
+  bool fall_back_on_limits = false;
   std::string helper_folder = {};
 };
 
@@ -35,18 +40,23 @@ struct TetraResult {
   std::vector<Vec3> new_points;                         ///< Steiner points; node number = n boundary points + index
   std::vector<std::array<std::uint32_t, 4>> tetrahedra; ///< CGNS order, positive volume
   std::string engine;                                   ///< what made them: "tetgen" or "hxt"
+  std::vector<std::string> failures;                    ///< of the attempts before, in order
+  bool is_reproducible = true;                          ///< false when a time or memory limit decided which engine made them
   double engine_seconds = 0.0;                          ///< inside the engine alone; log only
   double engine_peak_bytes = 0.0;                       ///< of the helper process; log only
 };
 
 /// Runs an engine in its helper process, found beside the running executable or one folder above it, and proves its answer (verify.h).
-/// Engines: "tetgen", TetGen 1.5 (`-pq<radius_edge>Y`, sizes by the radius-edge ratio alone); "hxt", HXT of Gmsh, which extends the sizes of the boundary into the
-/// volume; "automatic" is tetgen. Both keep the boundary. Coordinates are scaled by a power of two first, so a mesh in other units is the same mesh.
+/// Engines: "tetgen", TetGen 1.5 with its radius-edge ratio; "hxt", HXT of Gmsh; "automatic" is tetgen, or hxt where tetgen is not built in. Both keep the boundary
+/// and make edges of about the length that the size field asks for; without one (nullptr) TetGen's sizes follow from the radius-edge ratio, HXT's from the boundary.
+/// Coordinates are scaled by a power of two first, so a mesh in other units is the same mesh.
+/// Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof, too many new points) and the boundary does not cross itself, the other
+/// engine is tried. A time or memory limit ends the call unless `fall_back_on_limits`. Every step is logged as a warning and kept in the result.
 /// A stop of the context or the time limit kills the helper at once; it never outlives the call.
 /// \throws Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface, non_manifold_surface, self_intersection
 /// (two points at one place), not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory limit; with the
-/// places where the boundary crosses itself, if it does); tetra_result_invalid; cancelled. Each with places where there are any.
-TetraResult fill(const TetraBoundary& boundary, const TetraOptions& options, const RunContext& context);
+/// places where the boundary crosses itself, if it does); tetra_result_invalid; cancelled. Each with places where there are any; of several failures the first.
+TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, const TetraOptions& options, const RunContext& context);
 
 /// One point strictly inside each cavity of a wall, that is in each connected solid region (a shell inside out bounds a hole of the solid around it, not a
 /// solid of its own): behind one of its largest triangles, centred along the axes, proven by exact ray crossings. In order of first triangle.
@@ -68,6 +78,9 @@ struct Schema<volmesh::TetraOptions> {
       Field<O>{.name = "hxt_improve_below", .member = &O::hxt_improve_below, .min = 0.0, .max = 1.0, .help = "HXT improves tetrahedra of a lower quality than this (1 = regular); 0: none"},
       Field<O>{.name = "memory_limit", .member = &O::memory_limit, .unit = Unit::byte, .min = 1e8, .help = "address space of the helper process"},
       Field<O>{.name = "time_limit", .member = &O::time_limit, .unit = Unit::second, .min = 0.1, .help = "the helper is stopped after this time", .automatic = "none"},
+      Field<O>{.name = "max_new_points", .member = &O::max_new_points, .min = 0.0, .max = 1e9, .help = "a result with more points inside the volume is a failure", .automatic = "no limit"},
+      Field<O>{.name = "try_other_engine", .member = &O::try_other_engine, .help = "when the engine fails in a way that it will repeat, the other one is tried"},
+      Field<O>{.name = "fall_back_on_limits", .member = &O::fall_back_on_limits, .help = "the other engine is tried after a time or memory limit too; such a result is marked as not reproducible"},
       Field<O>{.name = "helper_folder", .member = &O::helper_folder, .help = "where sterna-tet-tetgen and sterna-tet-hxt are; empty: beside the sterna executable"},
   };
 };

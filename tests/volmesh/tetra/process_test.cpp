@@ -34,7 +34,7 @@ class HelperProcess : public testing::Test {
  protected:
   ErrorInfo run(const Domain& domain, const TetraOptions& options, const RunContext& context = RunContext{}) {
     const auto start = Clock::now();
-    const ErrorInfo error = error_of([&] { fill(domain.boundary(), options, context); });
+    const ErrorInfo error = error_of([&] { fill(domain.boundary(), nullptr, options, context); });
     seconds_ = std::chrono::duration<double>(Clock::now() - start).count();
     EXPECT_TRUE(test::has_no_children());
     return error;
@@ -163,9 +163,9 @@ TEST_F(HelperProcess, LeavesNoDescriptorOpen) {
     return std::distance(begin(list), end(list));
   };
   const Domain domain = domain_around(test::cube(1));
-  fill(domain.boundary(), {}, RunContext{});
+  fill(domain.boundary(), nullptr, {}, RunContext{});
   const auto before = n_open();
-  fill(domain.boundary(), {}, RunContext{});
+  fill(domain.boundary(), nullptr, {}, RunContext{});
   run(domain, {.engine = "tetgen", .helper_folder = "/nowhere"});
   run(domain, {.engine = "tetgen", .helper_folder = script("mute", "exit 1")});
   EXPECT_EQ(n_open(), before);

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 /// Each damage to a good mesh must be seen, whatever the number of threads.
 class VerifyTetrahedra : public testing::Test {
  protected:
-  VerifyTetrahedra() : domain(test::domain_around(test::cube(3), 10.0)), good(fill(domain.boundary(), {}, RunContext{})), result(good) {}
+  VerifyTetrahedra() : domain(test::domain_around(test::cube(3), 10.0)), good(fill(domain.boundary(), nullptr, {}, RunContext{})), result(good) {}
   ErrorInfo verify() const {
     const ErrorInfo first = error_of([&] { verify_tetrahedra(domain.boundary(), result, RunContext({.threads = 1})); });
     const ErrorInfo again = error_of([&] { verify_tetrahedra(domain.boundary(), result, RunContext({.threads = 7})); });

@@ -1,0 +1,140 @@
+// What follows when an engine fails: which failures another engine may answer for, and what is said about it.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/data.h"
+#include "tests/support/shapes.h"
+#include "tests/volmesh/tetra/cases.h"
+#include "volmesh/tetra/engine_process.h"
+
+namespace sterna::volmesh {
+namespace {
+
+using test::both;
+using test::Domain;
+using test::domain_around;
+using test::error_of;
+using test::expect_tiling;
+using test::transformed;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr const char* k_crash = "kill -SEGV $$";
+constexpr const char* k_endless = "sleep 100";
+
+class Ladder : public testing::Test {
+ protected:
+  /// A folder where TetGen's helper is a shell script, and HXT's is the real one or a script too.
+  std::string folder(const std::string& name, const std::string& tetgen, const std::string& hxt = {}) {
+    const std::filesystem::path folder = test::scratch() / name;
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    write_script(folder / "sterna-tet-tetgen", tetgen);
+    if (hxt.empty()) std::filesystem::create_symlink(find_helper("sterna-tet-hxt", {}), folder / "sterna-tet-hxt");
+    else write_script(folder / "sterna-tet-hxt", hxt);
+    return folder.string();
+  }
+  static void write_script(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream(path) << "#!/bin/sh\n" << text << "\n";
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  }
+  TetraResult fill(const Domain& domain, const TetraOptions& options) {
+    log_.clear();
+    return volmesh::fill(domain.boundary(), nullptr, options, RunContext({.log = [this](LogLevel level, std::string_view text) {
+                           if (level == LogLevel::warning) log_.emplace_back(text);
+                         }}));
+  }
+  Domain domain_ = domain_around(test::cube(2), 10.0);
+  std::vector<std::string> log_;
+};
+
+TEST_F(Ladder, NoStepWhenNothingFails) {
+  const TetraResult result = fill(domain_, {.engine = "tetgen"});
+  EXPECT_EQ(result.engine, "tetgen");
+  EXPECT_TRUE(result.is_reproducible);
+  EXPECT_THAT(result.failures, IsEmpty());
+  EXPECT_THAT(log_, IsEmpty());
+}
+
+TEST_F(Ladder, TheOtherEngineAfterACrash) {
+  for (const char* engine : {"automatic", "tetgen"}) {
+    const TetraResult result = fill(domain_, {.engine = engine, .helper_folder = folder("crash", k_crash)});
+    expect_tiling(domain_, result);
+    EXPECT_EQ(result.engine, "hxt");
+    EXPECT_TRUE(result.is_reproducible);
+    EXPECT_THAT(result.failures, ElementsAre(HasSubstr("signal 11")));
+    EXPECT_THAT(log_, ElementsAre(HasSubstr("signal 11"), HasSubstr("trying HXT")));
+  }
+}
+
+TEST_F(Ladder, TheOtherEngineAfterAWrongAnswer) {
+  const TetraResult result = fill(domain_, {.engine = "tetgen", .helper_folder = folder("liar", "printf 'STETREP2' >&4; head -c 40 /dev/zero >&4")});
+  expect_tiling(domain_, result);
+  EXPECT_THAT(result.failures, ElementsAre(HasSubstr("points come back of")));
+}
+
+TEST_F(Ladder, TheOtherEngineAfterTooManyPoints) {
+  const TetraResult free = fill(domain_, {.engine = "tetgen"}), other = fill(domain_, {.engine = "hxt"});
+  const std::size_t fewer = std::min(free.new_points.size(), other.new_points.size()), more = std::max(free.new_points.size(), other.new_points.size());
+  ASSERT_LT(fewer, more);
+  const char* greedy = free.new_points.size() == more ? "tetgen" : "hxt";
+  const TetraResult result = fill(domain_, {.engine = greedy, .max_new_points = static_cast<double>(fewer)});
+  EXPECT_NE(result.engine, greedy);
+  EXPECT_THAT(result.failures, ElementsAre(HasSubstr("limit")));
+  EXPECT_THAT(error_of([&] { fill(domain_, {.engine = greedy, .max_new_points = static_cast<double>(fewer - 1)}); }).problem, HasSubstr("new points"));
+}
+
+TEST_F(Ladder, CanBeForbidden) {
+  const ErrorInfo error = error_of([&] { fill(domain_, {.engine = "tetgen", .try_other_engine = false, .helper_folder = folder("crash", k_crash)}); });
+  EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
+  EXPECT_THAT(error.problem, HasSubstr("signal 11"));
+  EXPECT_THAT(log_, ElementsAre(HasSubstr("signal 11")));
+}
+
+TEST_F(Ladder, SaysWhatTheFirstEngineSaidWhenAllFail) {
+  const ErrorInfo error = error_of([&] { fill(domain_, {.helper_folder = folder("both", "echo first >&2; exit 3", k_crash)}); });
+  EXPECT_THAT(error.problem, HasSubstr("first"));
+  EXPECT_THAT(log_, Contains(HasSubstr("signal 11")));
+}
+
+TEST_F(Ladder, NotWhenTheBoundaryCrossesItself) {
+  const TriMesh wall = both(test::sphere(3), transformed(test::sphere(4), 0.7, {0.55, 0.1, 0.4}));
+  Domain crossing = domain_;
+  crossing = {};
+  crossing.add(wall);
+  crossing.add(test::inside_out(transformed(test::cube(2), 10.0, {-5, -5, -5})));
+  crossing.holes = {{0.01, 0.02, 0.03}, {0.55, 0.1, 0.4}};
+  const ErrorInfo error = error_of([&] { fill(crossing, {.helper_folder = folder("crash", k_crash)}); });
+  EXPECT_THAT(error.problem, HasSubstr("crosses itself"));
+  EXPECT_THAT(log_, testing::SizeIs(1));  // no other engine
+}
+
+TEST_F(Ladder, EndsAtATimeLimitUnlessToldOtherwise) {
+  const TetraOptions options = {.engine = "tetgen", .time_limit = 1.5, .helper_folder = folder("endless", k_endless)};
+  EXPECT_THAT(error_of([&] { fill(domain_, options); }).problem, HasSubstr("time limit"));
+  TetraOptions falling = options;
+  falling.fall_back_on_limits = true;
+  const TetraResult result = fill(domain_, falling);
+  EXPECT_EQ(result.engine, "hxt");
+  EXPECT_FALSE(result.is_reproducible);
+  EXPECT_THAT(result.failures, ElementsAre(HasSubstr("time limit")));
+}
+
+TEST_F(Ladder, AnEngineThatIsNotBuiltInIsNamed) {
+  const std::string only_hxt = folder("only_hxt", "");
+  std::filesystem::remove(std::filesystem::path(only_hxt) / "sterna-tet-tetgen");
+  const ErrorInfo error = error_of([&] { fill(domain_, {.engine = "tetgen", .helper_folder = only_hxt}); });
+  EXPECT_EQ(error.code, ErrorCode::tetra_engine_missing);
+  EXPECT_THAT(error.attempted, HasSubstr("sterna-tet-tetgen"));
+  EXPECT_THAT(error.problem, HasSubstr("not built in"));
+  const TetraResult result = fill(domain_, {.helper_folder = only_hxt});  // automatic: whatever there is
+  EXPECT_EQ(result.engine, "hxt");
+  EXPECT_TRUE(result.is_reproducible);
+}
+
+}  // namespace
+}  // namespace sterna::volmesh

@@ -1,0 +1,86 @@
+// Both engines follow the same size field.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <set>
+
+#include "tests/support/shapes.h"
+#include "tests/volmesh/tetra/cases.h"
+#include "volmesh/tetra/size_field.h"
+
+namespace sterna::volmesh {
+namespace {
+
+using test::Domain;
+using test::domain_around;
+using test::expect_tiling;
+
+class SizedFill : public testing::TestWithParam<std::string> {
+ protected:
+  TetraResult fill(const SizeField& sizes, int threads = 1) const { return volmesh::fill(domain.boundary(), &sizes, {.engine = GetParam()}, RunContext({.threads = threads})); }
+  SizeField field(std::vector<SizeSource> sources, double growth = 1.3) const { return build_size_field(domain.boundary(), sources, {.size_growth = growth}, RunContext{}); }
+  Domain domain = domain_around(test::sphere(8), 10.0);
+};
+INSTANTIATE_TEST_SUITE_P(Engine, SizedFill, testing::Values("tetgen", "hxt"), [](const auto& test) { return test.param; });
+
+/// Edge lengths over the wanted ones at their midpoints: geometric mean over the edges whose midpoints lie in a ball.
+double mean_edge_ratio(const Domain& domain, const TetraResult& result, const SizeField& sizes, const Vec3& center, double radius) {
+  const auto point = [&](std::uint32_t v) { return v < domain.points.size() ? domain.points[v] : result.new_points[v - domain.points.size()]; };
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const auto& tet : result.tetrahedra) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      for (std::size_t j = 0; j < i; ++j) edges.insert(std::minmax(tet[i], tet[j]));
+    }
+  }
+  double sum = 0.0;
+  int n = 0;
+  for (const auto& [a, b] : edges) {
+    const Vec3 middle = 0.5 * (point(a) + point(b));
+    if (distance(middle, center) > radius) continue;
+    sum += std::log(distance(point(a), point(b)) / sizes(middle));
+    ++n;
+  }
+  EXPECT_GT(n, 100);
+  return std::exp(sum / n);
+}
+
+TEST_P(SizedFill, MakesEdgesOfTheWantedLength) {
+  const SizeField sizes = field({{.kind = SourceKind::sphere, .from = {4, 0, 0}, .radius = 1.0, .size = 0.15}});
+  const TetraResult result = fill(sizes);
+  expect_tiling(domain, result);
+  // 5 %: the size varies over the ball by the octree's interpolation alone. Away from it sizes double within a few edges, which favours the longer ones.
+  EXPECT_NEAR(mean_edge_ratio(domain, result, sizes, {4, 0, 0}, 0.9), 1.0, 0.05);
+  EXPECT_NEAR(mean_edge_ratio(domain, result, sizes, {0, 4, 0}, 2.5), 1.1, 0.2);
+}
+
+TEST_P(SizedFill, GrowsAsItIsTold) {
+  EXPECT_GT(fill(field({}, 1.15)).tetrahedra.size(), 1.5 * static_cast<double>(fill(field({}, 1.5)).tetrahedra.size()));
+}
+
+TEST_P(SizedFill, IsDeterministic) {
+  const SizeField sizes = field({});
+  const TetraResult first = fill(sizes), again = fill(sizes, 7);
+  EXPECT_EQ(first.tetrahedra, again.tetrahedra);
+  EXPECT_EQ(first.new_points, again.new_points);
+}
+
+TEST_P(SizedFill, MeasuresInMetresWhateverTheUnit) {
+  // The same domain in units of 2^-20: the same mesh, since coordinates reach the engine scaled by a power of two.
+  const TetraResult large = fill(field({}));
+  for (Vec3& p : domain.points) p *= 0x1p-20;
+  for (Vec3& p : domain.holes) p *= 0x1p-20;
+  EXPECT_EQ(large.tetrahedra, fill(field({})).tetrahedra);
+}
+
+TEST(SizedFillBoth, EnginesMakeAboutAsManyTetrahedra) {
+  const Domain domain = domain_around(test::sphere(10), 20.0);
+  const std::vector<SizeSource> sources = {{.kind = SourceKind::sphere, .radius = 3.0, .size = 0.2}};
+  const SizeField sizes = build_size_field(domain.boundary(), sources, {}, RunContext{});
+  const auto count = [&](const char* engine) { return static_cast<double>(fill(domain.boundary(), &sizes, {.engine = engine}, RunContext{}).tetrahedra.size()); };
+  const double ratio = count("tetgen") / count("hxt");
+  EXPECT_GT(ratio, 1.0 / 1.3);
+  EXPECT_LT(ratio, 1.3);
+}
+
+}  // namespace
+}  // namespace sterna::volmesh
