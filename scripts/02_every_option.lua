@@ -33,8 +33,8 @@ local mesh = volume_mesh{ wall,
     edge = 10 * wall.length,
   },
   size = {
-    growth = 1.3,                   -- of neighbouring tetrahedra
-    max = "automatic",              -- longest edge; automatic: no limit
+    size_growth = 1.3,                 -- of neighbouring tetrahedra
+    size_max = "automatic",           -- longest edge; automatic: no limit
   },
   tetrahedra = {
     engine = "automatic",           -- or "tetgen", "hxt"
