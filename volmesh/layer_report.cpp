@@ -42,4 +42,15 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
   return report;
 }
 
+LayerRequest layer_request(const EnvelopeOptions& options, const Envelope& envelope) {
+  LayerRequest request;
+  request.first_height = options.first_height;
+  request.max_growth = options.max_growth;
+  request.target_height = envelope.target.raw();
+  for (std::size_t i = 0; i < k_height_limits; ++i) request.reasons.emplace_back(to_string(static_cast<HeightLimit>(i)));
+  request.reason.reserve(envelope.limit.size());
+  for (const HeightLimit limit : envelope.limit) request.reason.push_back(static_cast<std::uint8_t>(limit));
+  return request;
+}
+
 }  // namespace sterna::volmesh

@@ -8,4 +8,7 @@ namespace sterna::volmesh {
 
 LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope);
 
+/// What was asked of each line, for the gates of `check`.
+LayerRequest layer_request(const EnvelopeOptions& options, const Envelope& envelope);
+
 }  // namespace sterna::volmesh

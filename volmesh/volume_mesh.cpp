@@ -101,6 +101,7 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
   {
     const StageTimer timer(context, "assemble");
     result.mesh = assemble(base, std::move(extrusion), outer, boundary, std::move(tets), context);
+    result.mesh.request = layer_request(options.envelope, envelope);
   }
   {
     const StageTimer timer(context, "check");

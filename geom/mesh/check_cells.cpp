@@ -1,6 +1,7 @@
 // One pass over all cells: the exact test of each kind (G3), the volumes for the divergence theorem, and quality while the points are at hand.
 #include "geom/math/measures.h"
 #include "geom/mesh/check_parts.h"
+#include "geom/mesh/column_scan.h"
 
 namespace sterna::check_parts {
 namespace {
@@ -10,7 +11,7 @@ constexpr std::size_t k_column_chunk = 64;
 
 class CellScanner {
  public:
-  CellScanner(const HybridMesh& mesh, bool with_quality, const GateTable& limits) : mesh_(mesh), with_quality_(with_quality), scan_(limits) {}
+  CellScanner(const HybridMesh& mesh, bool with_quality, const GateTable& limits) : mesh_(mesh), with_quality_(with_quality), columns_(mesh), scan_(limits) {}
 
   CellScan take() { return std::move(scan_); }
 
@@ -18,13 +19,13 @@ class CellScanner {
     const LayerBlock& layers = mesh_.layers;
     const int n_collapsed = layers.n_collapsed(column);
     if (n_collapsed == 3) return;
+    if (n_collapsed == 0) {
+      add_prisms(first_number, column);
+      return;
+    }
     for (int j = 0; j < layers.n_layers; ++j) {
       const std::uint64_t number = first_number + static_cast<std::uint64_t>(j);
       const Cell cell = layers.cell(column, j);
-      if (cell.kind == CellKind::prism) {
-        add_prism(number, points_of<6>(cell.nodes));
-        continue;
-      }
       if (cell.kind == CellKind::pyramid) {
         add_pyramid(number, points_of<5>(cell.nodes));
       } else {
@@ -64,10 +65,25 @@ class CellScanner {
   void note(std::uint64_t number, bool is_valid) {
     if (!is_valid) scan_.invalid.push_back(number);
   }
+  void add_prisms(std::uint64_t first_number, std::size_t column) {
+    const auto& measures = columns_.measure(column);
+    for (std::size_t j = 0; j < measures.size(); ++j) {
+      const PrismMeasures& prism = measures[j];
+      const auto points = [&] { return points_of<6>(mesh_.layers.cell(column, static_cast<int>(j)).nodes); };
+      if (!prism.is_surely_valid) note(first_number + j, is_wedge_valid(points()));
+      scan_.layer_volume.add(prism.volume);
+      if (!with_quality_) continue;
+      scan_.quality.add_prism(prism.quality, prism.skew, points);
+      scan_.scaled_jacobian.add(prism.quality, first_number + j);
+    }
+  }
   void add_prism(std::uint64_t number, const WedgePoints& p) {
     note(number, is_wedge_valid(p));
     scan_.layer_volume.add(wedge_volume(p));
-    if (with_quality_) scan_.scaled_jacobian.add(scan_.quality.add_prism(p), number);
+    if (!with_quality_) return;
+    const double quality = wedge_quality(p);
+    scan_.quality.add_prism(quality, skew_angle(p), [&] { return p; });
+    scan_.scaled_jacobian.add(quality, number);
   }
   void add_pyramid(std::uint64_t number, const std::array<Vec3, 5>& p) {
     note(number, is_pyramid_valid(p));
@@ -81,6 +97,7 @@ class CellScanner {
 
   const HybridMesh& mesh_;
   bool with_quality_;
+  ColumnScan columns_;
   CellScan scan_;
 };
 

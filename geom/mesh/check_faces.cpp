@@ -44,7 +44,7 @@ KeyedFace canonical(std::uint32_t slot, const Face& face) {
 }
 
 /// Decides one face from all its occurrences, cells first (boundary slots are the highest).
-void judge(const FaceSlots& slots, const FaceKey* face, std::size_t n, std::span<const double> tet_volumes, FaceMatch& match) {
+void judge(const FaceSlots& slots, const FaceKey* face, std::size_t n, std::span<const double> tet_volumes, std::span<std::uint32_t> cap_neighbours, FaceMatch& match) {
   std::size_t n_cells = 0;
   while (n_cells < n && !slots.is_boundary(face[n_cells].slot())) ++n_cells;
   const std::size_t n_boundary = n - n_cells;
@@ -57,6 +57,8 @@ void judge(const FaceSlots& slots, const FaceKey* face, std::size_t n, std::span
   if (n_cells == 2) {
     if (face[0].is_reversed() == face[1].is_reversed()) return add(Violation::same_sense_face, 0, 1);
     // The lower slot belongs to the layer when only one of them does.
+    for (std::size_t i = 0; i < 2 && !cap_neighbours.empty(); ++i)
+      if (const auto cap = slots.prism_cap(face[i].slot())) cap_neighbours[*cap] = face[1 - i].slot();
     const bool is_layer = slots.is_layer(face[0].slot());
     if (is_layer && !slots.is_layer(face[1].slot())) {
       match.interface.push_back(face[0].slot());
@@ -101,6 +103,7 @@ FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_
   for (std::size_t node = 0; node < n_points; ++node) first[node + 1] = first[node] + cursor[node];
 
   FaceMatch match = make_match();
+  std::vector<std::uint32_t> cap_neighbours(slots.n_prism_caps(), k_no_slot);  // each entry is written once: a face is judged once
   std::vector<FaceKey> keys;
   for (std::size_t begin_node = 0; begin_node < n_points;) {
     std::size_t end_node = begin_node + 1;
@@ -124,7 +127,7 @@ FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_
             std::sort(bucket, bucket + n);
             for (std::size_t i = 0, e = 0; i < n; i = e) {
               for (e = i; e < n && bucket[e].is_same_face(bucket[i]);) ++e;
-              judge(slots, bucket + i, e - i, tet_volumes, part);
+              judge(slots, bucket + i, e - i, tet_volumes, cap_neighbours, part);
             }
           }
           return part;
@@ -138,6 +141,7 @@ FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_
     begin_node = end_node;
   }
   std::sort(match.issues.begin(), match.issues.end());
+  match.cap_neighbours = std::move(cap_neighbours);
   return match;
 }
 

@@ -1,7 +1,4 @@
 // The QUALITY gates from what the steps of the walker have gathered, in the order of Measure.
-#include <cmath>
-
-#include "geom/math/measures.h"
 #include "geom/mesh/check_parts.h"
 
 namespace sterna::check_parts {
@@ -28,25 +25,19 @@ void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlo
   const auto node = [&](std::uint64_t id) { return describe_node(mesh, id); };
   const auto cell = [&](std::uint64_t id) { return std::pair(cells.center(id), cells.name(id)); };
   const auto face = [&](std::uint64_t id) { return std::pair(slots.center(static_cast<std::uint32_t>(id)), "face of " + slots.name(static_cast<std::uint32_t>(id))); };
-  for (const MeasureInfo& info : measures()) report.gates.push_back(not_checked(info.measure, limits, "not measured"));
+  for (const MeasureInfo& info : measures()) report.gates.push_back(not_checked(info.measure, limits, dual == nullptr ? k_not_conforming : "the mesh has none"));
   const auto put = [&](GateResult result) { report.gates[static_cast<std::size_t>(result.measure)] = std::move(result); };
 
   put(scan.scaled_jacobian.result(cell));
   put(scan.min_dihedral.result(cell));
   put(scan.max_dihedral.result(cell));
+  if (dual == nullptr) return;
   if (match.tet_growth) put(match.tet_growth->result(face));
-  if (dual != nullptr) {
-    put(dual->closure.result(node));
-    put(dual->orthogonality.result(node));
-    put(dual->sub_volume_ratio.result(node));
-    put(dual->face_area_ratio.result(node));
-    put(dual->relative_face_area_ratio.result(node));
-    put(dual->edge_ratio.result(node));
-  } else {
-    for (const Measure measure : {Measure::dual_closure, Measure::orthogonality, Measure::sub_volume_ratio, Measure::face_area_ratio, Measure::relative_face_area_ratio, Measure::edge_ratio})
-      put(not_checked(measure, limits, k_not_conforming));
-  }
-  context.check_stop();
+  for (const GateScan* measure : {&dual->closure, &dual->orthogonality, &dual->sub_volume_ratio, &dual->face_area_ratio, &dual->relative_face_area_ratio, &dual->edge_ratio})
+    put(measure->result(node));
+  if (mesh.layers.n_columns() == 0) report.gates[static_cast<std::size_t>(Measure::relative_face_area_ratio)].reason = "the mesh has no columns of layers";
+  judge_interface(mesh, cells, slots, match, limits, context, report);
+  judge_layers(mesh, slots, match, limits, context, report);
 }
 
 }  // namespace sterna::check_parts

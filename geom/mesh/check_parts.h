@@ -104,6 +104,12 @@ class FaceSlots {
     if (slot >= first_[k_sides] || slot % 2 != 0) return std::nullopt;
     return slot / 2;
   }
+  std::size_t n_prism_caps() const { return 2 * ((first_[k_pyramids] - first_[k_prisms]) / 5); }
+  /// Twice the number of the explicit prism that has the face as its bottom, one more as its top; nothing for other faces.
+  std::optional<std::uint32_t> prism_cap(std::uint32_t slot) const {
+    if (slot < first_[k_prisms] || slot >= first_[k_pyramids] || (slot - first_[k_prisms]) % 5 < 3) return std::nullopt;
+    return (slot - first_[k_prisms]) / 5 * 2 + ((slot - first_[k_prisms]) % 5 == 4 ? 1 : 0);
+  }
   /// Patch of a boundary face.
   PatchId patch(std::uint32_t slot) const;
   /// "boundary triangle 12, patch wing", or the face's cell.
@@ -173,7 +179,9 @@ struct FaceMatch {
   std::vector<std::uint32_t> interface;  ///< faces of layer cells that a tet shares with opposite sense: the envelope
   std::vector<std::uint32_t> interface_tets;  ///< the tet's face of each of them
   std::optional<GateScan> tet_growth;    ///< ids are slots; only when asked for
+  std::vector<std::uint32_t> cap_neighbours;  ///< of explicit prisms, bottom and top: slot on the other side of a face that two cells share, else k_no_slot
 };
+inline constexpr std::uint32_t k_no_slot = 0xffffffffu;
 
 /// What one pass over all cells finds.
 struct CellScan {
@@ -210,6 +218,10 @@ void check_cover(const HybridMesh& mesh, const FaceSlots& slots, const RunContex
 DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const GateTable& limits, const RunContext& context, Findings& findings);
 /// off_symmetry_plane (G20).
 void check_symmetry(const HybridMesh& mesh, const RunContext& context, Findings& findings);
+/// Gates of layers: G8, G10 - G13, and the coverage by patch. G9 is measured face by face at the interface.
+void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const GateTable& limits, const RunContext& context, CheckReport& report);
+void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, const GateTable& limits,
+                     const RunContext& context, CheckReport& report);
 /// The QUALITY gates into the report.
 void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, const CellScan& scan, const DualScan* dual,
                  const GateTable& limits, const RunContext& context, CheckReport& report);

@@ -3,79 +3,20 @@
 //
 // In a prism (a0 b0 c0 | a1 b1 c1), seen from a0 (u relative to a0; g the centroid, m an edge's midpoint, f a face's centroid): the edge's two faces f1, f2
 // give the dual face (f1 - f2) x (g - m) / 2, and each the sub-volume |f . (g x m)| / 6.
-#include <immintrin.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "geom/mesh/dual_parts.h"
 
 namespace sterna::dual_parts {
-namespace {
 
-constexpr std::size_t k_width = 4;
-using Lanes [[gnu::vector_size(8 * k_width), gnu::aligned(8), gnu::may_alias]] = double;
-using Packed [[gnu::vector_size(8 * k_width)]] = double;
-
-Packed load(const std::vector<double>& values, std::size_t i) { return *reinterpret_cast<const Lanes*>(values.data() + i); }
-void store(std::vector<double>& values, std::size_t i, Packed v) { *reinterpret_cast<Lanes*>(values.data() + i) = v; }
-Packed least(Packed a, Packed b) { return _mm256_min_pd(a, b); }
-Packed most(Packed a, Packed b) { return _mm256_max_pd(a, b); }
-Packed root(Packed a) { return _mm256_sqrt_pd(a); }
-Packed all(double value) { return Packed{value, value, value, value}; }
-
-/// Four vectors.
-struct Vec3x4 {
-  Packed x, y, z;
-  friend Vec3x4 operator+(const Vec3x4& a, const Vec3x4& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  friend Vec3x4 operator-(const Vec3x4& a, const Vec3x4& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  friend Vec3x4 operator*(double s, const Vec3x4& a) { return {s * a.x, s * a.y, s * a.z}; }
-};
-Packed dot(const Vec3x4& a, const Vec3x4& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vec3x4 cross(const Vec3x4& a, const Vec3x4& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-
-template <class Coordinates>
-Vec3x4 load(const Coordinates& c, std::size_t i) {
-  return {load(c.x, i), load(c.y, i), load(c.z, i)};
-}
-template <class Coordinates>
-void add(Coordinates& c, std::size_t i, const Vec3x4& v) {
-  store(c.x, i, load(c.x, i) + v.x);
-  store(c.y, i, load(c.y, i) + v.y);
-  store(c.z, i, load(c.z, i) + v.z);
-}
-
-/// asin to 2e-8 (a millionth of a degree) without branches: Abramowitz & Stegun 4.4.46.
-Packed arc_sine(Packed x) {
-  const Packed one = all(1.0);
-  const Packed magnitude = least(one, most(x, -x));
-  Packed p = all(-0.0012624911);
-  for (const double coefficient : {0.0066700901, -0.0170881256, 0.0308918810, -0.0501743046, 0.0889789874, -0.2145988016, 1.5707963050}) p = p * magnitude + coefficient;
-  const Packed angle = all(0.5 * std::numbers::pi) - root(one - magnitude) * p;
-  return x < all(0.0) ? -angle : angle;
-}
-
-}  // namespace
+using namespace lanes;
 
 LineDual::LineDual(const HybridMesh& mesh, const LineRings& rings) : mesh_(mesh), rings_(rings) {
-  const auto n_nodes = static_cast<std::size_t>(std::max(mesh.layers.n_layers, 0)) + 1;
-  n_padded_ = (n_nodes + k_width - 1) / k_width * k_width + k_width;
-  for (Coordinates* c : {&own_, &upward_})
-    for (std::vector<double>* values : {&c->x, &c->y, &c->z}) values->assign(n_padded_, 0.0);
+  n_padded_ = padded_size(mesh.layers.n_layers);
+  upward_.assign(n_padded_, 0.0);
   for (std::vector<double>* values : {&least_above_, &most_above_, &sum_above_, &least_below_, &most_below_, &sum_below_}) values->assign(n_padded_, 0.0);
   metrics_.resize(n_padded_);
-}
-
-void LineDual::load(std::uint32_t line, Coordinates& c) const {
-  const auto n_nodes = static_cast<std::size_t>(mesh_.layers.n_layers) + 1;
-  const Point* points = mesh_.points.raw().data() + mesh_.layers.first_node[line];
-  for (std::size_t j = 0; j < n_padded_; ++j) {
-    const Point& p = points[std::min(j, n_nodes - 1)];
-    c.x[j] = p.x;
-    c.y[j] = p.y;
-    c.z[j] = p.z;
-  }
 }
 
 LineDual::Slot& LineDual::slot_of(std::uint32_t line) {
@@ -84,15 +25,12 @@ LineDual::Slot& LineDual::slot_of(std::uint32_t line) {
   if (n_slots_ == slots_.size()) {
     slots_.emplace_back();
     neighbours_.emplace_back();
-    Slot& added = slots_.back();
-    for (Coordinates* c : {&neighbours_.back(), &added.above, &added.below})
-      for (std::vector<double>* values : {&c->x, &c->y, &c->z}) values->resize(n_padded_);
   }
   Slot& slot = slots_[n_slots_];
   slot.line = line;
-  load(line, neighbours_[n_slots_]);
-  for (Coordinates* c : {&slot.above, &slot.below})
-    for (std::vector<double>* values : {&c->x, &c->y, &c->z}) std::fill(values->begin(), values->end(), 0.0);
+  neighbours_[n_slots_].read(mesh_, line);
+  slot.above.assign(n_padded_, 0.0);
+  slot.below.assign(n_padded_, 0.0);
   ++n_slots_;
   return slot;
 }
@@ -100,18 +38,19 @@ LineDual::Slot& LineDual::slot_of(std::uint32_t line) {
 void LineDual::reset() {
   n_slots_ = 0;
   constexpr double k_infinity = std::numeric_limits<double>::infinity();
-  for (std::vector<double>* values : {&upward_.x, &upward_.y, &upward_.z, &sum_above_, &sum_below_}) std::fill(values->begin(), values->end(), 0.0);
+  upward_.assign(n_padded_, 0.0);
+  for (std::vector<double>* values : {&sum_above_, &sum_below_}) std::fill(values->begin(), values->end(), 0.0);
   for (std::vector<double>* values : {&least_above_, &least_below_}) std::fill(values->begin(), values->end(), k_infinity);
   for (std::vector<double>* values : {&most_above_, &most_below_}) std::fill(values->begin(), values->end(), -k_infinity);
 }
 
 // (own, b, c) is seen counter-clockwise from above. Outward faces: own c b (bottom), own b b1 own1, c own own1 c1, own1 b1 c1 (top).
-void LineDual::add_column(std::uint32_t column, const Coordinates& b, const Coordinates& c, Slot& to_b, Slot& to_c) {
+void LineDual::add_column(std::uint32_t column, const LineVectors& b, const LineVectors& c, Slot& to_b, Slot& to_c) {
   const auto n = static_cast<std::size_t>(mesh_.layers.n_layers);
   for (std::size_t j = 0; j < n; j += k_width) {
-    const Vec3x4 a0 = dual_parts::load(own_, j), a1 = dual_parts::load(own_, j + 1);
-    const Vec3x4 b0 = dual_parts::load(b, j) - a0, b1 = dual_parts::load(b, j + 1) - a1;
-    const Vec3x4 c0 = dual_parts::load(c, j) - a0, c1 = dual_parts::load(c, j + 1) - a1;
+    const Vec3x4 a0 = own_.at(j), a1 = own_.at(j + 1);
+    const Vec3x4 b0 = b.at(j) - a0, b1 = b.at(j + 1) - a1;
+    const Vec3x4 c0 = c.at(j) - a0, c1 = c.at(j + 1) - a1;
     const Vec3x4 up = a1 - a0;
     const Vec3x4 half_up = 0.5 * up;
     const Vec3x4 middle = (1.0 / 6.0) * (b0 + c0 + b1 + c1);
@@ -136,24 +75,24 @@ void LineDual::add_column(std::uint32_t column, const Coordinates& b, const Coor
     const Vec3x4 at_top_b = side_b - half_up, at_top_c = side_c - half_up;
     const Vec3x4 at_bottom_b = side_b + half_up, at_bottom_c = side_c + half_up;
     const Vec3x4 from_bottom = middle + half_up, from_top = middle - half_up;
-    add(upward_, j, piece(at_bottom_b, at_bottom_c, from_bottom, half_up));
+    upward_.add(j, piece(at_bottom_b, at_bottom_c, from_bottom, half_up));
     const Packed shared_lowest = lowest, shared_highest = highest, shared_sum = sum;
     const Packed size2 = dot(b0, b0) + dot(c0, c0) + dot(b1, b1) + dot(c1, c1) + dot(up, up);
     const Packed bound = k_certain * size2 * root(size2);
 
-    add(to_b.above, j, piece(bottom, at_bottom_b, from_bottom, 0.5 * b0));
-    add(to_c.above, j, piece(at_bottom_c, bottom, from_bottom, 0.5 * c0));
-    store(least_above_, j, least(dual_parts::load(least_above_, j), lowest));
-    store(most_above_, j, most(dual_parts::load(most_above_, j), highest));
-    store(sum_above_, j, dual_parts::load(sum_above_, j) + sum);
+    to_b.above.add(j, piece(bottom, at_bottom_b, from_bottom, 0.5 * b0));
+    to_c.above.add(j, piece(at_bottom_c, bottom, from_bottom, 0.5 * c0));
+    store(least_above_, j, least(load(least_above_, j), lowest));
+    store(most_above_, j, most(load(most_above_, j), highest));
+    store(sum_above_, j, load(sum_above_, j) + sum);
     auto is_suspect = !(lowest > bound);
 
     lowest = shared_lowest, highest = shared_highest, sum = shared_sum;
-    add(to_b.below, j + 1, piece(at_top_b, top, from_top, 0.5 * b1));
-    add(to_c.below, j + 1, piece(top, at_top_c, from_top, 0.5 * c1));
-    store(least_below_, j + 1, least(dual_parts::load(least_below_, j + 1), lowest));
-    store(most_below_, j + 1, most(dual_parts::load(most_below_, j + 1), highest));
-    store(sum_below_, j + 1, dual_parts::load(sum_below_, j + 1) + sum);
+    to_b.below.add(j + 1, piece(at_top_b, top, from_top, 0.5 * b1));
+    to_c.below.add(j + 1, piece(top, at_top_c, from_top, 0.5 * c1));
+    store(least_below_, j + 1, least(load(least_below_, j + 1), lowest));
+    store(most_below_, j + 1, most(load(most_below_, j + 1), highest));
+    store(sum_below_, j + 1, load(sum_below_, j + 1) + sum);
     is_suspect |= !(lowest > bound);
 
     for (std::size_t k = 0; k < k_width && j + k < n; ++k)
@@ -162,7 +101,7 @@ void LineDual::add_column(std::uint32_t column, const Coordinates& b, const Coor
 }
 
 // Edges along the layer, then the two upright ones, four layers at a time.
-void LineDual::finish(std::uint32_t) {
+void LineDual::finish() {
   constexpr double k_infinity = std::numeric_limits<double>::infinity();
   const auto n = static_cast<std::size_t>(mesh_.layers.n_layers);
   for (std::size_t j = 0; j < n; j += k_width) {
@@ -176,20 +115,20 @@ void LineDual::finish(std::uint32_t) {
       smallest = least(smallest, area);
       closure = closure + normal;
     };
-    const Vec3x4 a = dual_parts::load(own_, j);
+    const Vec3x4 a = own_.at(j);
     for (std::size_t s = 0; s < n_slots_; ++s) {
-      const Vec3x4 edge = dual_parts::load(neighbours_[s], j) - a;
+      const Vec3x4 edge = neighbours_[s].at(j) - a;
       const Packed length = root(dot(edge, edge));
       longest = most(longest, length);
       shortest = least(shortest, length);
-      add_face(dual_parts::load(slots_[s].above, j) + dual_parts::load(slots_[s].below, j), edge, length);
+      add_face(slots_[s].above.at(j) + slots_[s].below.at(j), edge, length);
     }
-    const Vec3x4 up = dual_parts::load(own_, j + 1) - a;
+    const Vec3x4 up = own_.at(j + 1) - a;
     const Packed height_above = root(dot(up, up));
-    add_face(dual_parts::load(upward_, j), up, height_above);
+    add_face(upward_.at(j), up, height_above);
     // Layer 0 has no edge downwards and is not asked for: its lanes repeat the upper one.
     const std::size_t k_shift = j == 0 ? 0 : 1;
-    Vec3x4 below = dual_parts::load(own_, j - k_shift), normal_below = dual_parts::load(upward_, j - k_shift);
+    Vec3x4 below = own_.at(j - k_shift), normal_below = upward_.at(j - k_shift);
     if (j == 0) {
       const auto shift = [](Packed v) { return __builtin_shufflevector(v, v, 0, 0, 1, 2); };
       below = {shift(below.x), shift(below.y), shift(below.z)};
@@ -199,9 +138,9 @@ void LineDual::finish(std::uint32_t) {
     const Packed height_below = root(dot(down, down));
     add_face(Vec3x4{} - normal_below, down, height_below);
 
-    const Packed lowest = least(dual_parts::load(least_above_, j), dual_parts::load(least_below_, j));
-    const Packed highest = most(dual_parts::load(most_above_, j), dual_parts::load(most_below_, j));
-    const Packed volume = (1.0 / 6.0) * (dual_parts::load(sum_above_, j) + dual_parts::load(sum_below_, j));
+    const Packed lowest = least(load(least_above_, j), load(least_below_, j));
+    const Packed highest = most(load(most_above_, j), load(most_below_, j));
+    const Packed volume = (1.0 / 6.0) * (load(sum_above_, j) + load(sum_below_, j));
     const Packed ratio = largest / smallest;
     const Packed relative = ratio * (0.5 * (height_above + height_below)) / longest;
     const Packed orthogonality = weighted / area_sum;
@@ -217,7 +156,7 @@ std::span<const NodeMetrics> LineDual::measure(std::uint32_t line) {
   const auto n = static_cast<std::size_t>(mesh_.layers.n_layers);
   if (n < 2) return {};
   reset();
-  load(line, own_);
+  own_.read(mesh_, line);
   for (const std::uint32_t column : rings_.columns(line)) {
     const auto& base = mesh_.layers.base[column];
     const std::size_t corner = base[0] == line ? 0 : base[1] == line ? 1 : 2;
@@ -227,7 +166,7 @@ std::span<const NodeMetrics> LineDual::measure(std::uint32_t line) {
     Slot &to_b = slot_of(b), &to_c = slot_of(c);
     add_column(column, neighbours_[static_cast<std::size_t>(&to_b - slots_.data())], neighbours_[static_cast<std::size_t>(&to_c - slots_.data())], to_b, to_c);
   }
-  finish(line);
+  finish();
   return {metrics_.data() + 1, n - 1};
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geom/mesh/dual_metrics.h"
+#include "geom/mesh/lanes.h"
 #include "geom/mesh/node_subset.h"
 
 namespace sterna::dual_parts {
@@ -38,28 +39,24 @@ class LineDual {
   std::vector<std::uint64_t> take_suspects() { return std::move(suspects_); }
 
  private:
-  struct Coordinates {
-    std::vector<double> x, y, z;
-  };
   /// Dual faces of one edge along the layer: part of the prisms above, by layer, and of those below, at their upper layer.
   struct Slot {
     std::uint32_t line = 0;
-    Coordinates above, below;
+    lanes::LineVectors above, below;
   };
-  void load(std::uint32_t line, Coordinates& coordinates) const;
   Slot& slot_of(std::uint32_t line);
-  void add_column(std::uint32_t column, const Coordinates& b, const Coordinates& c, Slot& to_b, Slot& to_c);
+  void add_column(std::uint32_t column, const lanes::LineVectors& b, const lanes::LineVectors& c, Slot& to_b, Slot& to_c);
   void reset();
-  void finish(std::uint32_t line);
+  void finish();
 
   const HybridMesh& mesh_;
   const LineRings& rings_;
   std::size_t n_padded_;
-  Coordinates own_;
-  std::vector<Coordinates> neighbours_;  ///< by slot
+  lanes::LineVectors own_;
+  std::vector<lanes::LineVectors> neighbours_;  ///< by slot
   std::vector<Slot> slots_;
   std::size_t n_slots_ = 0;
-  Coordinates upward_;  ///< dual faces of the edges of the line
+  lanes::LineVectors upward_;  ///< dual faces of the edges of the line
   std::vector<double> least_above_, most_above_, sum_above_, least_below_, most_below_, sum_below_;
   std::vector<NodeMetrics> metrics_;
   std::vector<std::uint64_t> suspects_;

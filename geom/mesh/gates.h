@@ -41,7 +41,6 @@ struct GateLimits {
   double target;       ///< beyond it the gate warns
   double usual;        ///< the measure's share `usual_share` must not be beyond it, or the gate warns
   double usual_share;  ///< in [0, 1]
-  friend bool operator==(const GateLimits&, const GateLimits&) = default;
 };
 
 /// What is fixed of a measure.

@@ -6,6 +6,9 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "geom/base/ids.h"
 #include "geom/base/vec3.h"
@@ -56,6 +59,16 @@ struct LayerBlock {
   Cell cell(std::size_t column, int layer) const;
 };
 
+/// What was asked of the layer: its first height, growth and coverage are measured against it. Unknown for a mesh that was read from a file.
+struct LayerRequest {
+  double first_height = 0.0;          ///< m; 0 = nothing is known
+  double max_growth = 0.0;            ///< largest ratio of heights of consecutive cells
+  std::vector<double> target_height;  ///< m, of the whole layer, per line
+  std::vector<std::uint8_t> reason;   ///< per line: why it is lower than its target, index of `reasons`
+  std::vector<std::string> reasons;   ///< for people
+  bool is_known() const { return first_height > 0.0; }
+};
+
 struct BoundaryTriangle {
   std::array<NodeId, 3> nodes;  ///< right-hand normal out of the fluid
   PatchId patch;
@@ -78,6 +91,7 @@ struct CellCounts {
 struct HybridMesh {
   Column<NodeId, Point> points;  ///< metres
   LayerBlock layers;
+  LayerRequest request;          ///< of `layers`
   std::vector<std::array<NodeId, 6>> prisms;
   std::vector<std::array<NodeId, 5>> pyramids;
   std::vector<std::array<NodeId, 8>> hexahedra;

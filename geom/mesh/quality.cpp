@@ -37,15 +37,13 @@ void QualityScan::Extreme::lower(double v, const Point& p) {
   place = p;
 }
 
-double QualityScan::add_prism(const WedgePoints& p) {
+Point QualityScan::middle(const WedgePoints& p) { return center_of(p); }
+
+void QualityScan::add_skew(double skew) {
   ++n_prisms_;
-  const double quality = wedge_quality(p);
-  if (quality < wedge_.value) wedge_.lower(quality, center_of(p));
-  const double skew = skew_angle(p);
   n_below_6_ += skew < k_skew_small;
   n_below_18_ += skew < k_skew_medium;
   n_above_60_ += skew > k_skew_large;
-  return quality;
 }
 
 void QualityScan::add_tet(const std::array<Vec3, 4>& p, const std::array<double, 2>& range) {

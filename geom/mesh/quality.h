@@ -15,8 +15,12 @@ double skew_angle(const WedgePoints& p);
 /// Running minima and counts; scans of consecutive chunks are merged in order, ties keep the first place.
 class QualityScan {
  public:
-  /// Returns the prism's wedge_quality.
-  double add_prism(const WedgePoints& p);
+  /// A prism by its wedge_quality and skew_angle; `points()` gives its corners.
+  template <class Points>
+  void add_prism(double quality, double skew, const Points& points) {
+    if (quality < wedge_.value) wedge_.lower(quality, middle(points()));
+    add_skew(skew);
+  }
   /// A pyramid or tet of a column over collapsed lines: no prism of its own, counted as skewed by more than 60 degrees.
   void add_collapsed() { ++n_collapsed_; }
   /// `range` = tet_dihedral_range(p).
@@ -25,6 +29,8 @@ class QualityScan {
   Quality result() const;
 
  private:
+  static Point middle(const WedgePoints& p);
+  void add_skew(double skew);
   struct Extreme {
     double value = std::numeric_limits<double>::infinity();
     Point place;

@@ -1,0 +1,61 @@
+// G9: does the last prism fit the tet above it? The ideal pair is a regular tet on a prism of 0.816 times its edge, which has three times its volume.
+#include <cmath>
+
+#include "geom/math/measures.h"
+#include "geom/mesh/check_parts.h"
+
+namespace sterna::check_parts {
+namespace {
+
+/// Height of a regular tet over its edge, sqrt(2/3) (quality.md, §5).
+constexpr double k_regular_height = 0.81649658092772603;
+/// Volume of the prism of that height over the tet's: same base and height.
+constexpr double k_regular_volumes = 3.0;
+
+double deviation(double ratio) { return ratio > 0.0 ? std::max(ratio, 1.0 / ratio) : std::numeric_limits<double>::infinity(); }
+
+struct InterfaceScan {
+  explicit InterfaceScan(const GateTable& limits)
+      : height(info_of(Measure::interface_height), limits[Measure::interface_height]), volume(info_of(Measure::interface_volume), limits[Measure::interface_volume]) {}
+  GateScan height, volume;  ///< ids are slots of the prism's face
+};
+
+}  // namespace
+
+void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, const GateTable& limits,
+                     const RunContext& context, CheckReport& report) {
+  const InterfaceScan scan = parallel_reduce(
+      context, match.interface.size(), InterfaceScan(limits),
+      [&](std::size_t begin, std::size_t end) {
+        InterfaceScan part(limits);
+        for (std::size_t i = begin; i < end; ++i) {
+          const std::uint32_t slot = match.interface[i];
+          const Face face = slots.face(slot);
+          const Cell cell = cells.cell(slots.owner(slot));
+          if (face.size != 3 || cell.kind != CellKind::prism) continue;
+          WedgePoints p;
+          for (std::size_t k = 0; k < 6; ++k) p[k] = mesh.points[cell.nodes[k]];
+          const auto f = [&](std::size_t k) { return mesh.points[face.nodes[k]]; };
+          const double edge = (distance(f(0), f(1)) + distance(f(1), f(2)) + distance(f(2), f(0))) / 3.0;
+          const double height = (distance(p[0], p[3]) + distance(p[1], p[4]) + distance(p[2], p[5])) / 3.0;
+          const auto& t = mesh.tetrahedra[slots.tet_of(match.interface_tets[i])];
+          const double tet = tet_volume(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]], mesh.points[t[3]]);
+          part.height.add(deviation(height / (k_regular_height * edge)), slot);
+          part.volume.add(deviation(k_regular_volumes * tet / wedge_volume(p)), slot);
+        }
+        return part;
+      },
+      [](InterfaceScan all, const InterfaceScan& more) {
+        all.height.merge(more.height);
+        all.volume.merge(more.volume);
+        return all;
+      });
+  const auto face = [&](std::uint64_t id) { return std::pair(slots.center(static_cast<std::uint32_t>(id)), "top of " + slots.name(static_cast<std::uint32_t>(id))); };
+  for (const GateScan* measure : {&scan.height, &scan.volume}) {
+    GateResult result = measure->result(face);
+    if (measure->empty()) result.reason = "no tet stands on a prism";
+    report.gates[static_cast<std::size_t>(result.measure)] = std::move(result);
+  }
+}
+
+}  // namespace sterna::check_parts

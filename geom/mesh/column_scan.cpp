@@ -1,0 +1,64 @@
+// The formulas of geom/math/wedge.cpp, in lanes. The filter bounds the error of a coefficient a x b . d by the product of the lengths instead of the sum of
+// its terms' sizes: weaker, but free, as the lengths are needed anyway; prisms of scaled Jacobian 1e-13 are still decided.
+#include "geom/mesh/column_scan.h"
+
+namespace sterna {
+namespace {
+
+using namespace lanes;
+
+/// Error of a coefficient over the product of its three lengths: at most 10 roundings for each of six terms, each term at most the product (wedge.cpp,
+/// k_roundings); 2 b1 has twelve. Rounded up.
+constexpr double k_coefficient_error = 64 * 0x1p-53;
+/// For comparing -2 b1 with 2 sqrt(b0) sqrt(b2), as k_root_margin of wedge.cpp.
+constexpr double k_root_margin = 10 * 0x1p-53;
+
+}  // namespace
+
+const std::vector<PrismMeasures>& ColumnScan::measure(std::size_t column) {
+  const auto n = static_cast<std::size_t>(mesh_.layers.n_layers);
+  for (std::size_t k = 0; k < 3; ++k) lines_[k].read(mesh_, mesh_.layers.base[column][k]);
+  measures_.resize(n);
+  const Packed zero = all(0.0);
+  for (std::size_t j = 0; j < n; j += k_width) {
+    std::array<Vec3x4, 3> p, q, d;
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] = lines_[k].at(j);
+      q[k] = lines_[k].at(j + 1);
+      d[k] = q[k] - p[k];
+    }
+    const Vec3x4 a = p[1] - p[0], b = p[2] - p[0], a_top = q[1] - q[0], b_top = q[2] - q[0];
+    const Vec3x4 n0 = cross(a, b), n1_twice = cross(a, b_top) + cross(a_top, b), n2 = cross(a_top, b_top);
+    const Packed volume = (1.0 / 18.0) * dot(n0 + 0.5 * n1_twice + n2, d[0] + d[1] + d[2]);
+
+    // Edges opposite to the corners.
+    const std::array<Packed, 3> base = {norm(p[2] - p[1]), norm(b), norm(a)};
+    const std::array<Packed, 3> top = {norm(q[2] - q[1]), norm(b_top), norm(a_top)};
+    const Packed bottom_area = norm(n0), top_area = norm(n2);
+    const Packed longest_product = most(base[1], top[1]) * most(base[2], top[2]);  // of |a| |b|, lower or upper
+    Packed quality = all(std::numeric_limits<double>::infinity()), skew = zero;
+    auto is_certain = zero == zero;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Packed height = norm(d[k]);
+      const Packed b0 = dot(n0, d[k]), b1_twice = dot(n1_twice, d[k]), b2 = dot(n2, d[k]);
+      const Packed error = k_coefficient_error * longest_product * height;
+      const Packed low0 = b0 - error, low2 = b2 - error, low1 = b1_twice - 2.0 * error;
+      const Packed lowest = 2.0 * (1.0 - k_root_margin) * root(most(low0, zero)) * root(most(low2, zero));
+      is_certain &= (low0 > zero) & (low2 > zero) & ((low1 >= zero) | (-low1 < lowest));
+
+      const Packed base_scale = base[(k + 1) % 3] * base[(k + 2) % 3] * height, top_scale = top[(k + 1) % 3] * top[(k + 2) % 3] * height;
+      quality = least(quality, least(b0 / base_scale, b2 / top_scale));
+      const Packed middle = (0.5 * b1_twice + root(most(b0, zero)) * root(most(b2, zero))) / (2.0 * root(base_scale) * root(top_scale));
+      quality = (b0 > zero) & (b2 > zero) ? least(quality, middle) : quality;
+      quality = (base_scale > zero) & (top_scale > zero) ? quality : least(quality, zero);
+      const Packed lower = b0 / (bottom_area * height), upper = b2 / (top_area * height);
+      // An edge or normal without length counts as a right angle.
+      skew += arc_sine(bottom_area * height > zero ? lower : zero) + arc_sine(top_area * height > zero ? upper : zero);
+    }
+    skew = all(0.5 * std::numbers::pi) - (1.0 / 6.0) * skew;
+    for (std::size_t k = 0; k < k_width && j + k < n; ++k) measures_[j + k] = {is_certain[k] != 0, volume[k], quality[k], skew[k]};
+  }
+  return measures_;
+}
+
+}  // namespace sterna

@@ -1,0 +1,32 @@
+// All that a pass over the prisms of columns measures, four layers at a time.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geom/mesh/lanes.h"
+
+namespace sterna {
+
+/// Of one prism, as is_wedge_surely_valid, wedge_volume, wedge_quality and skew_angle have it; the angle to 2e-8.
+struct PrismMeasures {
+  bool is_surely_valid = false;  ///< false: ask is_wedge_valid
+  double volume = 0.0;           ///< m^3
+  double quality = 0.0;
+  double skew = 0.0;             ///< radians
+};
+
+class ColumnScan {
+ public:
+  explicit ColumnScan(const HybridMesh& mesh) : mesh_(mesh) {}
+  /// Measures of the prisms of a column from the wall up; valid until the next call. \pre no line of it is collapsed
+  const std::vector<PrismMeasures>& measure(std::size_t column);
+
+ private:
+  const HybridMesh& mesh_;
+  std::array<lanes::LineVectors, 3> lines_;
+  std::vector<PrismMeasures> measures_;
+};
+
+}  // namespace sterna

@@ -1,0 +1,84 @@
+// Four layers of a column at a time: packed doubles and vectors of them, and lines with their coordinates apart. Private to the *.cpp files of geom/mesh.
+// x86-64-v3 (AVX2) is what the project is built for; every operation is rounded like its scalar counterpart.
+#pragma once
+
+#include <immintrin.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "geom/mesh/hybrid_mesh.h"
+
+namespace sterna::lanes {
+
+inline constexpr std::size_t k_width = 4;
+using Packed [[gnu::vector_size(8 * k_width)]] = double;
+using Unaligned [[gnu::vector_size(8 * k_width), gnu::aligned(8), gnu::may_alias]] = double;
+
+inline Packed load(const std::vector<double>& values, std::size_t i) { return *reinterpret_cast<const Unaligned*>(values.data() + i); }
+inline void store(std::vector<double>& values, std::size_t i, Packed v) { *reinterpret_cast<Unaligned*>(values.data() + i) = v; }
+inline Packed all(double value) { return Packed{value, value, value, value}; }
+inline Packed least(Packed a, Packed b) { return _mm256_min_pd(a, b); }
+inline Packed most(Packed a, Packed b) { return _mm256_max_pd(a, b); }
+inline Packed root(Packed a) { return _mm256_sqrt_pd(a); }
+
+/// asin to 2e-8 (a millionth of a degree) without branches: Abramowitz & Stegun 4.4.46.
+inline Packed arc_sine(Packed x) {
+  const Packed one = all(1.0);
+  const Packed magnitude = least(one, most(x, -x));
+  Packed p = all(-0.0012624911);
+  for (const double coefficient : {0.0066700901, -0.0170881256, 0.0308918810, -0.0501743046, 0.0889789874, -0.2145988016, 1.5707963050}) p = p * magnitude + coefficient;
+  const Packed angle = all(0.5 * std::numbers::pi) - root(one - magnitude) * p;
+  return x < all(0.0) ? -angle : angle;
+}
+
+/// Four vectors.
+struct Vec3x4 {
+  Packed x, y, z;
+  friend Vec3x4 operator+(const Vec3x4& a, const Vec3x4& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Vec3x4 operator-(const Vec3x4& a, const Vec3x4& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Vec3x4 operator*(double s, const Vec3x4& a) { return {s * a.x, s * a.y, s * a.z}; }
+};
+inline Packed dot(const Vec3x4& a, const Vec3x4& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Packed norm(const Vec3x4& a) { return root(dot(a, a)); }
+inline Vec3x4 cross(const Vec3x4& a, const Vec3x4& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
+
+/// Length of the arrays below for a line of so many layers: four lanes may be read from any of its nodes, and from the one above.
+inline std::size_t padded_size(int n_layers) {
+  const auto n_nodes = static_cast<std::size_t>(std::max(n_layers, 0)) + 1;
+  return (n_nodes + k_width - 1) / k_width * k_width + k_width;
+}
+
+/// Vectors along a line, by layer.
+struct LineVectors {
+  std::vector<double> x, y, z;
+  void assign(std::size_t n, double value) {
+    for (std::vector<double>* values : {&x, &y, &z}) values->assign(n, value);
+  }
+  Vec3x4 at(std::size_t i) const { return {load(x, i), load(y, i), load(z, i)}; }
+  void add(std::size_t i, const Vec3x4& v) {
+    store(x, i, load(x, i) + v.x);
+    store(y, i, load(y, i) + v.y);
+    store(z, i, load(z, i) + v.z);
+  }
+  /// Points of a standing line; beyond its end the last one is repeated.
+  void read(const HybridMesh& mesh, std::uint32_t line) {
+    const auto n_nodes = static_cast<std::size_t>(mesh.layers.n_layers) + 1;
+    const std::size_t n = padded_size(mesh.layers.n_layers);
+    const Point* points = mesh.points.raw().data() + mesh.layers.first_node[line];
+    x.resize(n);
+    y.resize(n);
+    z.resize(n);
+    for (std::size_t j = 0; j < n; ++j) {
+      const Point& p = points[std::min(j, n_nodes - 1)];
+      x[j] = p.x;
+      y[j] = p.y;
+      z[j] = p.z;
+    }
+  }
+};
+
+}  // namespace sterna::lanes
