@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "volmesh/envelope/initial.h"
+#include "volmesh/envelope/keep_inside.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/smooth.h"
 #include "volmesh/envelope/untangle.h"
@@ -30,6 +31,7 @@ Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, C
   const Column<VertexId, std::uint8_t> concave = concave_region(base, classes, context);
   smooth_directions(base, classes, options.direction_sweeps, envelope, context, &concave);
   smooth_tangled_regions(base, classes, options, envelope, context);
+  keep_inside(base, options, envelope, context);
   context.progress(0.3);
 
   untangle_edges(base, options, envelope, context);
@@ -41,6 +43,7 @@ Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, C
   share_gaps(base, options, collider, envelope, context);
   retract_collisions(base, options, collider, envelope, context.part("retract", 0.6, 1.0));
   regrow_clear(base, collider, envelope, context);
+  seat_on_surfaces(base, options, &collider, envelope, context);
   // Stage 6, the global optimisation (method.md §6), takes its place here.
   return envelope;
 }

@@ -10,13 +10,47 @@ namespace {
 constexpr double k_sharp_angle = 120.0 * std::numbers::pi / 180.0;      ///< method.md §1
 constexpr double k_ridge_bend_limit = 60.0 * std::numbers::pi / 180.0;  ///< method.md §1
 
+Vec3 mirrored(const Vec3& v, const Vec3& normal) { return v - (2.0 * dot(v, normal)) * normal; }
+
+/// The first two of the feature edges at a vertex, those that mirroring adds included, and their number.
+struct FeatureEdges {
+  std::size_t n = 0;
+  std::array<Vec3, 2> direction;
+
+  void add(const LayerBase& base, VertexId v, VertexId other) {
+    const Point& p = base.wall.points[v];
+    std::array<Vec3, 4> copies = {base.wall.points[other] - p};
+    std::size_t n_copies = 1;
+    for (const std::int32_t surface : base.constraint[v].on) {
+      const std::size_t k = static_cast<std::size_t>(surface);
+      if (surface < 0 || base.constraint[other].is_on(k)) continue;
+      const Vec3 normal = base.surfaces[k]->normal(p);
+      for (std::size_t i = 0; i < n_copies; ++i) copies[n_copies + i] = mirrored(copies[i], normal);
+      n_copies *= 2;
+    }
+    for (std::size_t i = 0; i < n_copies; ++i, ++n)
+      if (n < 2) direction[n] = copies[i];
+  }
+};
+
+/// Normal of the triangle beyond a boundary edge when the body is mirrored at the surface that holds the edge; the edge's own if none does.
+Vec3 normal_beyond(const LayerBase& base, HalfedgeId h) {
+  const Vec3& own = base.unit_normal[triangle_of(h)];
+  const VertexId from = base.topology.from(h), to = base.topology.to(h);
+  for (const std::int32_t surface : base.constraint[from].on) {
+    const std::size_t k = static_cast<std::size_t>(surface);
+    if (surface < 0 || !base.constraint[to].is_on(k)) continue;
+    return mirrored(own, base.surfaces[k]->normal(0.5 * (base.wall.points[from] + base.wall.points[to])));
+  }
+  return own;
+}
+
 }  // namespace
 
 double dihedral_deviation(const LayerBase& base, HalfedgeId h) {
   const HalfedgeId twin = base.topology.twin(h);
-  if (!twin.is_valid()) return 0.0;
   const Vec3& n1 = base.unit_normal[triangle_of(h)];
-  const Vec3& n2 = base.unit_normal[triangle_of(twin)];
+  const Vec3 n2 = twin.is_valid() ? base.unit_normal[triangle_of(twin)] : normal_beyond(base, h);
   const Vec3 edge = base.wall.points[base.topology.to(h)] - base.wall.points[base.topology.from(h)];
   const double angle = angle_between(n1, n2);
   return dot(cross(n1, n2), edge) >= 0.0 ? angle : -angle;
@@ -35,17 +69,15 @@ Classification classify_vertices(const LayerBase& base, const EnvelopeOptions& o
   parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
     const VertexId v(i);
     VertexClass& flags = result.vertex[v];
-    std::size_t n_features = 0;
-    std::array<Vec3, 2> feature_direction;
-    for (const HalfedgeId h : base.topology.outgoing(v)) {
-      if (!result.is_feature[h]) continue;
-      if (n_features < 2) feature_direction[n_features] = base.wall.points[base.topology.to(h)] - base.wall.points[v];
-      ++n_features;
+    FeatureEdges features;
+    for_each_edge(base.topology, v, [&](HalfedgeId h, VertexId other) {
+      if (!result.is_feature[h]) return;
+      features.add(base, v, other);
       (deviation[h] > 0.0 ? flags.is_convex : flags.is_concave) = true;
       (std::abs(deviation[h]) > k_sharp_angle ? flags.is_sharp : flags.is_blunt) = true;
-    }
-    flags.is_ridge = n_features == 2 && angle_between(feature_direction[0], -feature_direction[1]) < k_ridge_bend_limit;
-    flags.is_corner = n_features > 0 && !flags.is_ridge;
+    });
+    flags.is_ridge = features.n == 2 && angle_between(features.direction[0], -features.direction[1]) < k_ridge_bend_limit;
+    flags.is_corner = features.n > 0 && !flags.is_ridge;
   });
   return result;
 }

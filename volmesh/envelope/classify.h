@@ -26,7 +26,8 @@ struct Classification {
   Column<HalfedgeId, std::uint8_t> is_feature;  ///< 1 on both half-edges of a feature edge
 };
 
-/// Signed dihedral deviation of an edge in radians: angle between the normals of its two triangles, positive where convex; 0 on the boundary.
+/// Signed dihedral deviation of an edge in radians: angle between the normals of its two triangles, positive where convex. A boundary edge on a
+/// constraint surface counts as if the body were mirrored there, as do the edges at its ends; any other boundary edge has 0.
 double dihedral_deviation(const LayerBase& base, HalfedgeId h);
 
 Classification classify_vertices(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context);

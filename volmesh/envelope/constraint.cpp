@@ -53,16 +53,22 @@ double ConstraintTriangles::inside_distance(const Point& p) const {
   return std::copysign(hit.distance, dot(area_vector(a, b, c), p - hit.point));
 }
 
-Vec3 constrained(const VertexConstraint& constraint, const Vec3& direction) {
+Vec3 project(const VertexConstraint& constraint, const Vec3& v) {
   const Vec3& axis = constraint.axis;
   switch (constraint.freedom) {
-    case Freedom::free: return normalized(direction);
+    case Freedom::free: return v;
     case Freedom::plane:
-    case Freedom::surface: return normalized(direction - dot(direction, axis) * axis);
-    case Freedom::line: return dot(direction, axis) == 0.0 ? Vec3{} : dot(direction, axis) > 0.0 ? axis : -axis;
+    case Freedom::surface: return v - dot(v, axis) * axis;
+    case Freedom::line: return dot(v, axis) * axis;
     case Freedom::fixed: break;
   }
   return {};
+}
+
+Vec3 constrained(const VertexConstraint& constraint, const Vec3& direction) {
+  if (constraint.freedom != Freedom::line) return normalized(project(constraint, direction));
+  const double along = dot(direction, constraint.axis);
+  return along == 0.0 ? Vec3{} : along > 0.0 ? constraint.axis : -constraint.axis;
 }
 
 int tangential_unknowns(const VertexConstraint& constraint) {

@@ -92,6 +92,9 @@ struct Constraints {
   std::vector<std::shared_ptr<const ConstraintSurface>> surfaces;
 };
 
+/// The part of `v` that the constraint allows; zero for fixed.
+Vec3 project(const VertexConstraint& constraint, const Vec3& v);
+
 /// `direction` projected into the constraint, unit; on a line the sense that is nearer. Zero when nothing of it lies in the constraint, and for fixed.
 Vec3 constrained(const VertexConstraint& constraint, const Vec3& direction);
 

@@ -13,8 +13,8 @@
 namespace sterna::volmesh {
 
 /// Why a vertex has less than its target height; the reason of the strongest limit.
-enum class HeightLimit : std::uint8_t { none, untangle, warp, gap, collision, prism, invisible };
-inline constexpr std::size_t k_height_limits = 7;
+enum class HeightLimit : std::uint8_t { none, untangle, warp, gap, collision, prism, invisible, fixed };
+inline constexpr std::size_t k_height_limits = 8;
 std::string_view to_string(HeightLimit limit);
 
 /// Where the envelope is; what a proposal consists of.

@@ -91,7 +91,9 @@ void limit_gradient(const LayerBase& base, double gradient, Column<VertexId, dou
 }  // namespace
 
 Vec3 pull_into_cone(const LayerBase& base, VertexId v, const Vec3& wanted, double cosine) {
-  return pull_towards_visible(base, v, wanted, std::min(cosine, k_cone_share * base.visibility[v]));
+  const Vec3 allowed = constrained(base.constraint[v], wanted);
+  if (norm2(allowed) == 0.0) return base.visible_direction[v];
+  return pull_towards_visible(base, v, allowed, std::min(cosine, k_cone_share * base.visibility[v]));
 }
 
 Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context) {
@@ -107,13 +109,18 @@ Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options,
     const VertexId v(i);
     const double r = growth_for_edge(options.first_height, base.mean_edge[v], options.max_growth, options.layers);
     envelope.eq1[v] = layer_height(options.first_height, r, options.layers);
-    envelope.target[v] = std::min(envelope.eq1[v], thickness);
+    envelope.target[v] = base.constraint[v].freedom == Freedom::fixed ? 0.0 : std::min(envelope.eq1[v], thickness);
     envelope.direction[v] = pull_towards_visible(base, v, base.vertex_normal[v], k_start_cosine * base.visibility[v]);
   });
   limit_gradient(base, options.height_gradient, envelope.target);
   envelope.height = envelope.target;
   envelope.cap = envelope.target;
+  const double least = std::min(scale_of(options).h_min, thickness);  // the rise from a fixed vertex starts below it
   for (const VertexId v : envelope.height.ids()) {
+    if (base.constraint[v].freedom == Freedom::fixed || envelope.target[v] < least) {
+      envelope.height[v] = 0.0;
+      envelope.limit[v] = HeightLimit::fixed;
+    }
     if (base.visibility[v] > k_visible) continue;
     envelope.height[v] = 0.0;
     envelope.limit[v] = HeightLimit::invisible;

@@ -11,7 +11,7 @@ namespace sterna::volmesh {
 /// Vertices without a direction that sees all their faces start collapsed (HeightLimit::invisible).
 Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context);
 
-/// The direction nearest to `wanted` (on the way to the best visible one) that sees every face of v with at least the cosine
+/// The direction within v's constraint nearest to `wanted` (on the way to the best visible one) that sees every face of v with at least the cosine
 /// min(`cosine`, 0.5 * the best possible).
 Vec3 pull_into_cone(const LayerBase& base, VertexId v, const Vec3& wanted, double cosine);
 

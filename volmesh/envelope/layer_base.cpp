@@ -21,7 +21,52 @@ Vec3 cap_axis(const Vec3& a, const Vec3& b, const Vec3& c) {
   return dot(axis, a) < 0.0 ? -axis : axis;
 }
 
+double worst_cosine_of(std::span<const Vec3> normals, const Vec3& d) {
+  double worst = 1.0;
+  for (const Vec3& n : normals) worst = std::min(worst, dot(n, d));
+  return worst;
+}
+
+/// Largest minimum of the cosines over the circle of directions in the plane: there two of them are equal, or one is at its own maximum.
+Cap best_in_plane(const Vec3& axis, std::span<const Vec3> normals) {
+  const VertexConstraint plane{Freedom::plane, axis};
+  Vec3 x;
+  for (std::size_t i = 0; i < normals.size() && norm2(x) == 0.0; ++i) x = constrained(plane, normals[i]);
+  if (norm2(x) == 0.0) return {tangent_axes({}, axis).axis[0], 0.0};
+  const Vec3 y = cross(axis, x);
+  Cap best{x, worst_cosine_of(normals, x)};
+  const auto offer = [&](double u, double v) {
+    const Vec3 d = normalized(u * x + v * y);
+    const double cosine = norm2(d) > 0.0 ? worst_cosine_of(normals, d) : -1.0;
+    if (cosine > best.cosine) best = {d, cosine};
+  };
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const double u = dot(normals[i], x), v = dot(normals[i], y);
+    offer(u, v);
+    for (std::size_t k = 0; k < i; ++k) {
+      const double du = dot(normals[k], x) - u, dv = dot(normals[k], y) - v;
+      offer(-dv, du);
+      offer(dv, -du);
+    }
+  }
+  return best;
+}
+
 }  // namespace
+
+Cap best_seen(const VertexConstraint& constraint, std::span<const Vec3> normals) {
+  switch (constraint.freedom) {
+    case Freedom::plane:
+    case Freedom::surface: return best_in_plane(constraint.axis, normals);
+    case Freedom::line: {
+      const double ahead = worst_cosine_of(normals, constraint.axis), back = worst_cosine_of(normals, -constraint.axis);
+      return ahead >= back ? Cap{constraint.axis, ahead} : Cap{-constraint.axis, back};
+    }
+    case Freedom::free:
+    case Freedom::fixed: break;
+  }
+  return smallest_cap(normals);
+}
 
 // Incremental smallest enclosing cap (Welzl 1991, on the sphere): a normal outside the cap of its predecessors lies on the new cap's border.
 Cap smallest_cap(std::span<const Vec3> normals) {
@@ -38,8 +83,7 @@ Cap smallest_cap(std::span<const Vec3> normals) {
         if (is_outside(normals[k])) fit(cap_axis(normals[i], normals[j], normals[k]), normals[i]);
     }
   }
-  cap.cosine = 1.0;
-  for (const Vec3& n : normals) cap.cosine = std::min(cap.cosine, dot(n, cap.axis));
+  cap.cosine = worst_cosine_of(normals, cap.axis);
   return cap;
 }
 
@@ -78,21 +122,33 @@ LayerBase::LayerBase(const TriMesh& mesh, const RunContext& context, Constraints
       normals.push_back(unit_normal[t]);
     }
     vertex_area[v] = third;
-    double length = 0.0;
-    const auto around = topology.neighbours(v);
-    for (const VertexId other : around) length += distance(mesh.points[v], mesh.points[other]);
-    mean_edge[v] = around.empty() ? 0.0 : length / static_cast<double>(around.size());
-    vertex_normal[v] = normalized(sum);
+    double length = 0.0, weights = 0.0;
+    for (const VertexId other : topology.neighbours(v)) {
+      const double weight = mirror_weight(v, other);
+      length += weight * distance(mesh.points[v], mesh.points[other]);
+      weights += weight;
+    }
+    mean_edge[v] = weights > 0.0 ? length / weights : 0.0;
+    const VertexConstraint& own = constraint[v];
+    vertex_normal[v] = own.freedom == Freedom::fixed ? normalized(sum) : constrained(own, sum);
     if (normals.empty()) return;
-    const Cap cap = smallest_cap(normals);
+    const Cap cap = best_seen(own, normals);
     visible_direction[v] = cap.axis;
     visibility[v] = cap.cosine;
-    const double own = worst_cosine(v, vertex_normal[v]);
-    if (own > cap.cosine) {  // caps beyond a right angle: the angle-weighted mean may see more
+    if (norm2(vertex_normal[v]) == 0.0) vertex_normal[v] = cap.axis;
+    const double seen = worst_cosine(v, vertex_normal[v]);
+    if (seen > cap.cosine) {  // caps beyond a right angle: the angle-weighted mean may see more
       visible_direction[v] = vertex_normal[v];
-      visibility[v] = own;
+      visibility[v] = seen;
     }
   });
+}
+
+double LayerBase::mirror_weight(VertexId v, VertexId other) const {
+  double weight = 1.0;
+  for (const std::int32_t surface : constraint[v].on)
+    if (surface >= 0 && !constraint[other].is_on(static_cast<std::size_t>(surface))) weight *= 2.0;
+  return weight;
 }
 
 double LayerBase::worst_cosine(VertexId v, const Vec3& d) const {

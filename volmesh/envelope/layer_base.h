@@ -22,15 +22,28 @@ struct LayerBase {
   std::vector<std::shared_ptr<const ConstraintSurface>> surfaces;  ///< that VertexConstraint::on numbers
   Column<TriangleId, Vec3> unit_normal;        ///< of each triangle
   Column<TriangleId, double> area;             ///< m^2
-  Column<VertexId, Vec3> vertex_normal;        ///< unit, angle-weighted mean of the incident normals (Thuermer & Wuethrich 1998)
-  Column<VertexId, Vec3> visible_direction;    ///< unit, axis of the smallest cap that holds all incident normals
+  Column<VertexId, Vec3> vertex_normal;        ///< unit, angle-weighted mean of the incident normals (Thuermer & Wuethrich 1998), within the constraint
+  Column<VertexId, Vec3> visible_direction;    ///< unit, within the constraint; sees the worst incident normal best: axis of the smallest cap that holds them all
   Column<VertexId, double> visibility;         ///< cosine between visible_direction and the worst incident normal; <= 0: no direction sees all faces
   Column<VertexId, double> mean_edge;          ///< m, l_j of eq. (1)
   Column<VertexId, double> vertex_area;        ///< m^2, a third of the incident triangles
 
   /// Smallest cosine between d and the normals of v's triangles.
   double worst_cosine(VertexId v, const Vec3& d) const;
+  /// Copies of the edge v-other that meet at v when the body is mirrored at the surfaces that v is on: 1, 2 or 4. With this weight in every mean
+  /// around v, projected into the constraint, half a body gets what the whole body would.
+  double mirror_weight(VertexId v, VertexId other) const;
 };
+
+/// Calls f(half-edge, other end) once for every edge at v: its outgoing half-edges and, on the boundary, the arriving one that has no twin.
+template <class F>
+void for_each_edge(const Topology& topology, VertexId v, const F& f) {
+  for (const HalfedgeId h : topology.outgoing(v)) {
+    f(h, topology.to(h));
+    const HalfedgeId arriving = previous(h);
+    if (topology.is_boundary(arriving)) f(arriving, topology.from(arriving));
+  }
+}
 
 /// Axis of the smallest spherical cap that holds all `normals`, and the cosine of its half angle (Aubry & Loehner 2008, "most normal normal").
 /// Meaningful for caps below 90 degrees; else the returned cosine (the true minimum over the normals) is not positive.
@@ -39,5 +52,8 @@ struct Cap {
   double cosine = -1.0;
 };
 Cap smallest_cap(std::span<const Vec3> normals);
+
+/// The direction within the constraint whose smallest cosine with the normals is largest, and that cosine. O(m^3) for m normals in a plane.
+Cap best_seen(const VertexConstraint& constraint, std::span<const Vec3> normals);
 
 }  // namespace sterna::volmesh

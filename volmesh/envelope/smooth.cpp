@@ -29,17 +29,15 @@ void for_each_partner(const LayerBase& base, const Classification& classes, Vert
   const VertexClass& own = classes.vertex[v];
   if (own.is_corner) return;
   if (own.is_ridge) {
-    for (const HalfedgeId h : base.topology.outgoing(v)) {
-      if (!classes.is_feature[h]) continue;
-      const VertexId other = base.topology.to(h);
-      f(other, 1.0 / distance(base.wall.points[v], base.wall.points[other]));
-    }
+    for_each_edge(base.topology, v, [&](HalfedgeId h, VertexId other) {
+      if (classes.is_feature[h]) f(other, base.mirror_weight(v, other) / distance(base.wall.points[v], base.wall.points[other]));
+    });
     return;
   }
   for (const VertexId other : base.topology.neighbours(v)) {
     const VertexClass& flags = classes.vertex[other];
     const bool is_convex_feature = !flags.is_smooth() && flags.is_convex && !flags.is_concave;
-    f(other, (is_convex_feature ? k_convex_feature_weight : 1.0) / distance(base.wall.points[v], base.wall.points[other]));
+    f(other, base.mirror_weight(v, other) * (is_convex_feature ? k_convex_feature_weight : 1.0) / distance(base.wall.points[v], base.wall.points[other]));
   }
 }
 
@@ -141,7 +139,7 @@ Envelope relaxed(const LayerBase& base, const Classification& classes, const Col
     if (weights == 0.0) return;
     // The Laplacian of the envelope less that of the wall: the curvature of a coarse wall would otherwise outweigh a thin layer.
     const Vec3 own = envelope.height[v] * envelope.direction[v];
-    const Vec3 growth = own + k_relaxation * (sum / weights - own);
+    const Vec3 growth = project(base.constraint[v], own + k_relaxation * (sum / weights - own));
     const double length = norm(growth);
     if (length == 0.0) return;
     const double ceiling = std::min(envelope.target[v], envelope.cap[v]);

@@ -4,6 +4,7 @@
 
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
+#include "volmesh/envelope/keep_inside.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -126,6 +127,7 @@ TrialChange::TrialChange(const LayerBase& base, EnvelopeShape& shape, ShapeChang
     : base_(base), shape_(shape), context_(context), change_(std::move(change)), is_in_force_(base.wall.n_vertices(), 0), place_(base.wall.n_vertices()) {
   parallel_for(context, change_.vertices.size(), [&](std::size_t i) {
     const VertexId v = change_.vertices[i];
+    if (!is_inside(base, v, change_.height[i] * change_.direction[i])) return;
     place_[v] = static_cast<std::uint32_t>(i);
     is_in_force_[v] = 1;
     exchange(i);

@@ -36,7 +36,7 @@ ShapeChange difference(const EnvelopeShape& from, const EnvelopeShape& to, const
 /// A change that is in force at the vertices where it has not been taken back. No copy of the shape is made: the change holds the other values.
 class TrialChange {
  public:
-  /// Puts the change in force everywhere. `base` and `shape` must outlive this.
+  /// Puts the change in force wherever it is_inside(). `base` and `shape` must outlive this.
   TrialChange(const LayerBase& base, EnvelopeShape& shape, ShapeChange change, const RunContext& context);
 
   bool is_in_force(VertexId v) const { return is_in_force_[v] != 0; }
@@ -59,7 +59,7 @@ class TrialChange {
   Column<VertexId, std::uint32_t> place_;  ///< of a vertex in the change
 };
 
-/// Moves `envelope` to `proposal` (direction and height) at every vertex where this leaves its macro-elements valid: all at once, then vertices of
+/// Moves `envelope` to `proposal` (direction and height) at every vertex where this leaves its macro-elements valid and itself is_inside(): all at once, then vertices of
 /// invalid elements go back, until none is invalid that was not so before. \pre same wall; vertices with proposal == envelope are not touched.
 void apply_where_valid(const LayerBase& base, EnvelopeShape& envelope, const EnvelopeShape& proposal, const RunContext& context);
 

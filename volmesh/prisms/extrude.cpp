@@ -8,6 +8,7 @@
 #include "geom/math/measures.h"
 #include "geom/math/sub_volumes.h"
 #include "volmesh/envelope/growth_law.h"
+#include "volmesh/envelope/keep_inside.h"
 #include "volmesh/envelope/untangle.h"
 
 namespace sterna::volmesh {
@@ -92,9 +93,13 @@ class LineSet {
     layer_parameters(scale_.h0, h, scale_.n, t.data());
     const Vec3 along = h * envelope.direction[v];
     const Vec3 aside = h * base_.vertex_normal[v] - along;
+    const VertexConstraint& constraint = base_.constraint[v];
+    const ConstraintSurface* surface =
+        constraint.freedom == Freedom::surface ? base_.surfaces[static_cast<std::size_t>(constraint.on[0])].get() : nullptr;
     for (int j = 1; j < scale_.n; ++j) {
       const double s = normal_share(t[static_cast<std::size_t>(j)], curvature_[v]);
       p[j] = wall + t[static_cast<std::size_t>(j)] * (along + s * aside);
+      if (surface) p[j] = surface->closest(p[j]);
     }
     p[scale_.n] = envelope.point(base_.wall, v);
   }
@@ -195,6 +200,7 @@ Extrusion extrude_prisms(const LayerBase& base, const EnvelopeOptions& envelope_
       const Column<VertexId, double> before = envelope.height;
       lower_columns(base, bad, scale, envelope);
       unwarp(base, envelope_options, HeightLimit::prism, envelope, context);
+      seat_on_surfaces(base, envelope_options, envelope, context);
       bool has_collapsed = false;
       for (const VertexId v : before.ids()) {
         if (before[v] == envelope.height[v]) continue;
