@@ -12,11 +12,24 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr int k_max_clear_rounds = 10;
+constexpr std::size_t k_max_places = 10;
 
 void require_sane(const TriMesh& wall, VolumeMeshOptions& options) {
   require_options(options_of(options), "volume_mesh");
   if (wall.n_triangles() == 0)
     throw Error({.code = ErrorCode::empty_surface, .attempted = "volume_mesh", .problem = "the wall has no triangles"});
+}
+
+void require_closed(const LayerBase& base) {
+  if (base.topology.n_boundary_halfedges() == 0) return;
+  ErrorInfo info{.code = ErrorCode::open_surface,
+                 .attempted = "volume_mesh",
+                 .problem = "the wall is open: " + std::to_string(base.topology.n_boundary_halfedges()) + " edges have one triangle",
+                 .n_places = static_cast<std::int64_t>(base.topology.n_boundary_halfedges()),
+                 .hint = "half models are not filled yet: mirror the wall and mesh the whole body, or close its holes"};
+  for (std::size_t i = 0; i < base.topology.n_halfedges() && info.places.size() < k_max_places; ++i)
+    if (base.topology.is_boundary(HalfedgeId(i))) info.places.push_back({base.wall.points[base.topology.from(HalfedgeId(i))], "an open edge starts here"});
+  throw Error(std::move(info));
 }
 
 /// Extrusion may lower heights, and lowering may bring surfaces together that were clear before: alternate until neither changes anything. What still
@@ -61,7 +74,9 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
   Extrusion extrusion;
   const LayerBase base = [&] {
     const StageTimer timer(context, "topology");
-    return LayerBase(wall, context);
+    LayerBase layer_base(wall, context);
+    require_closed(layer_base);
+    return layer_base;
   }();
   Collider collider = [&] {
     const StageTimer timer(context, "preflight");

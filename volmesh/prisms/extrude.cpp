@@ -200,7 +200,7 @@ Extrusion extrude_prisms(const LayerBase& base, const EnvelopeOptions& envelope_
       const Column<VertexId, double> before = envelope.height;
       lower_columns(base, bad, scale, envelope);
       unwarp(base, envelope_options, HeightLimit::prism, envelope, context);
-      seat_on_surfaces(base, envelope_options, envelope, context);
+      seat_on_surfaces(base, envelope_options, nullptr, envelope, context);
       bool has_collapsed = false;
       for (const VertexId v : before.ids()) {
         if (before[v] == envelope.height[v]) continue;

@@ -102,6 +102,19 @@ TEST(VolumeMesh, FirstHeightIsRequired) {
   }
 }
 
+TEST(VolumeMesh, OpenWallsAreRefusedWithTheirEdges) {
+  TriMesh open = test::cube(2);
+  open.triangles.resize(open.n_triangles() - 1);
+  open.triangle_patch.resize(open.n_triangles());
+  try {
+    volume_mesh(open, thin_layers(open), {});
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::open_surface);
+    EXPECT_NE(std::string(error.what()).find("3 edges have one triangle"), std::string::npos) << error.what();
+  }
+}
+
 TEST(VolumeMesh, SameMeshForAnyNumberOfThreads) {
   const TriMesh wall = test::cube(5);
   const VolumeMeshResult first = volume_mesh(wall, thin_layers(wall), RunContext({.threads = 1}));
