@@ -107,7 +107,7 @@ TEST(VolumeMesh, OpenWallsAreRefusedWithTheirEdges) {
   open.triangles.resize(open.n_triangles() - 1);
   open.triangle_patch.resize(open.n_triangles());
   try {
-    volume_mesh(open, thin_layers(open), {});
+    volume_mesh(open, thin_layers(open), RunContext({.threads = 2}));
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::open_surface);
