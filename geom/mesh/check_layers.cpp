@@ -91,7 +91,7 @@ class LineScanner {
       // Each inner edge is the next one of two lines and is looked at from the lower; one at the rim only from its only triangle.
       const int step = std::abs(n - lines_.n_layers(next));
       if (step == 0) {
-        n_level += 0.5;
+        n_level += is_shared(line, next) ? 0.5 : 1.0;
       } else if (line < next || !is_shared(line, next)) {
         scan_.step.add(step, line);
       }

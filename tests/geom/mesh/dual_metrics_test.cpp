@@ -8,8 +8,12 @@
 
 #include "geom/math/measures.h"
 #include "geom/math/sub_volumes.h"
+#include "io/surface_file.h"
+#include "surfmesh/stitch/stitch_surface.h"
 #include "tests/geom/mesh/check_support.h"
 #include "tests/geom/mesh/naive_dual.h"
+#include "tests/support/data.h"
+#include "volmesh/volume_mesh.h"
 
 namespace sterna {
 namespace {
@@ -61,6 +65,151 @@ TEST(DualMetrics, AgreeAroundCollapsedLines) {
     expect_as_naive(plate_block(4, {.n_layers = 6, .collapsed = collapsed}));
     expect_as_naive(explicit_cells(plate_block(4, {.n_layers = 6, .collapsed = collapsed})));
   }
+}
+
+HybridMesh one_cell(const std::vector<Point>& points, const std::vector<std::array<std::size_t, 3>>& triangles, const std::vector<std::array<std::size_t, 4>>& quads) {
+  HybridMesh mesh;
+  mesh.points = Column<NodeId, Point>(points);
+  mesh.patches.push_back({"all", PatchKind::wall});
+  for (const auto& t : triangles) mesh.boundary_triangles.push_back({{NodeId(t[0]), NodeId(t[1]), NodeId(t[2])}, PatchId(0)});
+  for (const auto& q : quads) mesh.boundary_quads.push_back({{NodeId(q[0]), NodeId(q[1]), NodeId(q[2]), NodeId(q[3])}, PatchId(0)});
+  return mesh;
+}
+
+HybridMesh right_prism(double height) {
+  HybridMesh mesh = one_cell({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, height}, {1, 0, height}, {0, 1, height}}, {{0, 2, 1}, {3, 4, 5}}, {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}});
+  mesh.prisms.push_back({NodeId(0), NodeId(1), NodeId(2), NodeId(3), NodeId(4), NodeId(5)});
+  return mesh;
+}
+
+TEST(DualMetrics, RightTetByHand) {
+  HybridMesh mesh = one_cell({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}, {});
+  mesh.tetrahedra.push_back({NodeId(0), NodeId(1), NodeId(2), NodeId(3)});
+  const auto m = metrics_of(mesh);
+  // Node 0: dual face of edge 0-1 = (2, 1, 1)/24, likewise the others: area sqrt(6)/24, cosine to the edge 2/sqrt(6), 35.264 degrees.
+  EXPECT_NEAR(m[NodeId(0)].orthogonality, (90 - 35.26438968) * k_degree, 1e-9);
+  // Boundary piece: a third of each of three faces of area 1/2, (-1, -1, -1)/6, area sqrt(3)/6; over sqrt(6)/24 that is sqrt(8).
+  EXPECT_NEAR(m[NodeId(0)].face_area_ratio, std::sqrt(8.0), 1e-14);
+  EXPECT_DOUBLE_EQ(m[NodeId(0)].edge_ratio, 1.0);
+  // Node 1: the face towards 0 as above; those towards 2 and 3 are normal to their edges, (-1, 1, 0)/24 and (-1, 0, 1)/24.
+  EXPECT_NEAR(m[NodeId(1)].orthogonality, (std::sqrt(6.0) * 54.73561032 + 2 * std::sqrt(2.0) * 90) / (std::sqrt(6.0) + 2 * std::sqrt(2.0)) * k_degree, 1e-8);
+  EXPECT_NEAR(m[NodeId(1)].edge_ratio, std::sqrt(2.0), 1e-15);
+  for (const NodeId node : mesh.points.ids()) {
+    EXPECT_NEAR(m[node].sub_volume_ratio, 1.0, 1e-14);  // 24 sub-tets of 1/144
+    EXPECT_NEAR(m[node].volume, 1.0 / 24, 1e-16);
+    EXPECT_LT(m[node].closure, 1e-15);
+  }
+}
+
+TEST(DualMetrics, RightPrismsByHand) {
+  for (const double h : {1.0, 1e-3, 1e-6}) {
+    const HybridMesh mesh = right_prism(h);
+    const auto m = metrics_of(mesh);
+    // Node 0: towards 1 the dual face (h/6, h/12, 0), area h sqrt(5)/12, 26.565 degrees off the edge; towards 2 the mirror image; upwards (0, 0, 1/6), aligned.
+    const double side = h * std::sqrt(5.0) / 12, top = 1.0 / 6;
+    EXPECT_NEAR(m[NodeId(0)].orthogonality, (2 * side * 63.43494882 + top * 90) / (2 * side + top) * k_degree, 1e-8);
+    // Boundary piece (-h/4, -h/4, -1/6).
+    const double boundary = std::sqrt(h * h / 8 + 1.0 / 36);
+    EXPECT_NEAR(m[NodeId(0)].face_area_ratio, std::max({side, top, boundary}) / std::min({side, top, boundary}), 1e-9 * boundary / side);
+    EXPECT_NEAR(m[NodeId(0)].edge_ratio, 1.0, 1e-15);               // the growth edge does not count
+    EXPECT_NEAR(m[NodeId(1)].edge_ratio, std::sqrt(2.0), 1e-15);
+    for (const NodeId node : mesh.points.ids()) {
+      EXPECT_NEAR(m[node].sub_volume_ratio, 1.0, 1e-9);  // 36 sub-tets of h/72, as the image of any straight prism
+      EXPECT_NEAR(m[node].volume, h / 12, 1e-9 * h);
+    }
+  }
+}
+
+TEST(DualMetrics, CubeAndCubeOfTets) {
+  // One hexahedron: dual faces 1/4, aligned; boundary piece (-1, -1, -1)/4.
+  const auto hex = metrics_of(hexahedra_block(1));
+  for (const NodeMetrics& m : hex) {
+    EXPECT_NEAR(m.orthogonality, 90 * k_degree, 1e-7);
+    EXPECT_NEAR(m.face_area_ratio, std::sqrt(3.0), 1e-14);
+    EXPECT_NEAR(m.sub_volume_ratio, 1.0, 1e-14);
+    EXPECT_NEAR(m.volume, 1.0 / 8, 1e-16);
+    EXPECT_TRUE(std::isnan(m.edge_ratio));
+  }
+  // Six tets about the diagonal 0-6, each of volume 1/6: on the diagonal a node has all six (volume 6/24), else two (2/24); sub-tets are all 1/144.
+  HybridMesh mesh = hexahedra_block(1);
+  const auto v = mesh.hexahedra.front();
+  mesh.hexahedra.clear();
+  mesh.boundary_quads.clear();
+  const std::array<std::size_t, 7> around = {1, 2, 3, 7, 4, 5, 1};
+  for (std::size_t k = 0; k < 6; ++k) mesh.tetrahedra.push_back({v[0], v[around[k]], v[around[k + 1]], v[6]});
+  for (std::size_t k = 0; k < 6; ++k) {
+    const NodeId a = v[around[k]], b = v[around[k + 1]];
+    mesh.boundary_triangles.push_back({{v[0], b, a}, PatchId(0)});
+    mesh.boundary_triangles.push_back({{v[6], a, b}, PatchId(0)});
+  }
+  expect_as_naive(mesh);
+  const auto tets = metrics_of(mesh);
+  for (std::size_t k = 0; k < 8; ++k) {
+    EXPECT_NEAR(tets[v[k]].volume, (k == 0 || k == 6 ? 6 : 2) / 24.0, 1e-15) << k;
+    EXPECT_NEAR(tets[v[k]].sub_volume_ratio, 1.0, 1e-14);
+    EXPECT_NEAR(tets[v[k]].edge_ratio, k == 0 || k == 6 ? std::sqrt(3.0) : std::sqrt(2.0), 1e-14);
+  }
+}
+
+TEST(DualMetrics, PyramidByHand) {
+  // Apex over the middle of a unit square, height 1, volume 1/3. Centroid (1/2, 1/2, 1/5). At the apex: sub-tets on a side (area vector half of 0 1 4), cut from
+  // the centroid: the side's tet to the centroid has volume (1/3 - base tet 1/3 * 1/5) / 4 = 1/15, a sixth for each of its six sub-tets: 1/90. On the base: the
+  // pyramid over it to the centroid has 1/15, an eighth for each of its sub-tets: 1/120.
+  HybridMesh mesh = one_cell({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}}, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}, {{0, 3, 2, 1}});
+  mesh.pyramids.push_back({NodeId(0), NodeId(1), NodeId(2), NodeId(3), NodeId(4)});
+  const auto m = metrics_of(mesh);
+  EXPECT_NEAR(m[NodeId(4)].volume, 8.0 / 90, 1e-15);
+  EXPECT_NEAR(m[NodeId(4)].sub_volume_ratio, 1.0, 1e-14);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(m[NodeId(k)].volume, 4.0 / 90 + 2.0 / 120, 1e-15);
+    EXPECT_NEAR(m[NodeId(k)].sub_volume_ratio, 120.0 / 90, 1e-13);
+  }
+  expect_as_naive(mesh);
+}
+
+TEST(DualMetrics, RegularStackHasOneAndAHalfTimesEdgeOverHeight) {
+  // Regular triangles of edge l: a hexagon of area l^2 sqrt(3)/2 above, sides of length l/sqrt(3); over the height H the ratio is 1.5 l/H.
+  constexpr int k_n = 4, k_layers = 8;
+  HybridMesh mesh = plate_block(k_n, {.n_layers = k_layers, .layer_height = 0.1, .ratio = 1.0});
+  for (Point& p : mesh.points) p = {p.x - 0.5 * p.y, std::sqrt(0.75) * p.y, p.z};
+  const auto m = metrics_of(mesh);
+  const std::uint32_t middle = 2 * (k_n + 1) + 2;
+  for (int j = 1; j < k_layers; ++j) {
+    const NodeMetrics& node = m[mesh.layers.node(middle, j)];
+    EXPECT_NEAR(node.relative_face_area_ratio, 1.5, 1e-12);
+    EXPECT_NEAR(node.face_area_ratio, 1.5 * (1.0 / k_n) / (0.1 / k_layers), 1e-9);
+    EXPECT_NEAR(node.orthogonality, 90 * k_degree, 1e-7);
+    EXPECT_NEAR(node.edge_ratio, 1.0, 1e-12);
+  }
+}
+
+TEST(DualMetrics, ThinLayersFarFromTheOrigin) {
+  HybridMesh mesh = sphere_shell(8, {.n_layers = 20, .layer_height = 1e-3, .ratio = 1.2});
+  move_points(mesh, 1.0, {1e3, -1e3, 1e3});
+  const CheckReport report = checked(mesh);
+  EXPECT_TRUE(report.is_valid()) << to_text(report);
+  EXPECT_LT(report.gate(Measure::dual_closure).worst, 1e-13);
+  EXPECT_NEAR(report.dual_volume, report.total_volume, 1e-12 * report.total_volume);
+}
+
+TEST(DualMetrics, RealMesh) {
+  STERNA_NEEDS_SHARED_DATA();
+  const SurfaceSoup soup = io::read_surface_file(shared_data() / "surfaces/clean/pygeo_bwb.stl", RunContext({.threads = 2}));
+  const TriMesh wall = surfmesh::stitch_surface({soup}, {}, RunContext({.threads = 2})).mesh;
+  volmesh::VolumeMeshOptions options;
+  options.envelope.layers = 6;
+  options.envelope.first_height = 1e-4 * body_length(wall);
+  options.farfield.farfield_radius = 20 * body_length(wall);
+  const volmesh::VolumeMeshResult result = volmesh::volume_mesh(wall, options, RunContext({.threads = 2}));
+  expect_as_naive(result.mesh, 1e-6);  // the naive one cancels: coordinates of 20 body lengths, cells of 1e-4
+  EXPECT_NEAR(result.check.dual_volume, result.check.total_volume, 1e-12 * result.check.total_volume);
+  EXPECT_LT(result.check.gate(Measure::dual_closure).worst, 1e-12);
+  for (const MeasureInfo& info : measures()) EXPECT_NE(result.check.gate(info.measure).state, GateState::not_checked) << info.name;
+  // The same mesh as a file would have it: lines are found again.
+  const CheckReport cells = check(explicit_cells(result.mesh), {.intersections = false}, RunContext({.threads = 2}));
+  for (const Measure measure : {Measure::stack_growth, Measure::stack_angle, Measure::layer_step, Measure::interface_height, Measure::interface_volume, Measure::sub_volume_ratio})
+    EXPECT_NEAR(cells.gate(measure).worst, result.check.gate(measure).worst, 1e-9 * std::abs(cells.gate(measure).worst)) << info_of(measure).name;
+  EXPECT_EQ(cells.gate(Measure::first_height).state, GateState::not_checked);
 }
 
 Cell only_cell(const HybridMesh& mesh) {

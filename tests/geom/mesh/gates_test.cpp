@@ -1,0 +1,285 @@
+// The QUALITY gates: how a measure is judged, and each gate on a mesh whose figure is known by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "geom/math/spherical_cap.h"
+#include "tests/geom/mesh/check_support.h"
+
+namespace sterna {
+namespace {
+
+using namespace test;
+
+constexpr double k_degree = std::numbers::pi / 180.0;
+
+GateResult judged(GateScan scan) {
+  return scan.result([](std::uint64_t id) { return std::pair(Point{static_cast<double>(id), 0, 0}, "item " + std::to_string(id)); });
+}
+
+TEST(Gates, PassWarnAndFailByHardTargetAndUsualLimits) {
+  const MeasureInfo& info = info_of(Measure::sub_volume_ratio);  // upper: hard 1e5, target 1e3, 200 on 99.9 %
+  const auto state_of = [&](std::int64_t n_good, std::vector<double> others) {
+    GateScan scan(info, info.limits);
+    for (std::int64_t i = 0; i < n_good; ++i) scan.add(2.0, static_cast<std::uint64_t>(i));
+    for (const double value : others) scan.add(value, 1000000);
+    return judged(scan).state;
+  };
+  EXPECT_EQ(state_of(0, {}), GateState::not_checked);
+  EXPECT_EQ(state_of(1, {}), GateState::pass);
+  EXPECT_EQ(state_of(999, {201.0}), GateState::pass);  // 99.9 %
+  EXPECT_EQ(state_of(998, {201.0}), GateState::warn);
+  EXPECT_EQ(state_of(9999, {1001.0}), GateState::warn);
+  EXPECT_EQ(state_of(9999, {100001.0}), GateState::fail);
+  EXPECT_EQ(state_of(9999, {1e5}), GateState::warn);  // a limit itself is kept
+  EXPECT_EQ(state_of(9999, {std::numeric_limits<double>::quiet_NaN()}), GateState::fail);
+
+  const MeasureInfo& low = info_of(Measure::orthogonality);
+  GateScan scan(low, low.limits);
+  scan.add(4.9 * k_degree, 7);
+  EXPECT_EQ(judged(scan).state, GateState::fail);
+  EXPECT_NEAR(judged(scan).worst, 4.9 * k_degree, 1e-15);
+  EXPECT_EQ(judged(scan).places.front().what, "item 7");
+}
+
+TEST(Gates, TheWorstTenHoweverTheItemsAreDealt) {
+  const MeasureInfo& info = info_of(Measure::edge_ratio);
+  GateScan whole(info, info.limits);
+  std::vector<GateScan> parts(7, GateScan(info, info.limits));
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const double value = 11.0 + static_cast<double>(i * 7919 % 100);  // each value ten times
+    whole.add(value, i);
+    parts[i % 7].add(value, i);
+  }
+  GateScan merged(info, info.limits);
+  for (std::size_t k = parts.size(); k-- > 0;) merged.merge(parts[k]);
+  EXPECT_EQ(merged.worst(), whole.worst());
+  EXPECT_EQ(whole.worst().size(), GateScan::k_most_places);
+  for (std::size_t k = 1; k < 10; ++k) {
+    EXPECT_EQ(whole.worst()[k].badness, 110.0);
+    EXPECT_LT(whole.worst()[k - 1].id, whole.worst()[k].id);
+  }
+  EXPECT_EQ(judged(merged).n_beyond_hard, judged(whole).n_beyond_hard);
+}
+
+TEST(Gates, TheTableIsThatOfQualityMd) {
+  const GateTable table;
+  EXPECT_NEAR(table[Measure::orthogonality].hard, 5 * k_degree, 1e-15);
+  EXPECT_EQ(table[Measure::sub_volume_ratio].hard, 1e5);
+  EXPECT_EQ(table[Measure::stack_growth].hard, 1.5);
+  EXPECT_EQ(table[Measure::interface_height].usual, 3);
+  EXPECT_EQ(table[Measure::tet_growth].usual_share, 0.999);
+  EXPECT_EQ(table[Measure::edge_ratio].usual, 10);
+  EXPECT_TRUE(std::isnan(table[Measure::stack_angle].hard));
+}
+
+TEST(Gates, LimitsMayBeOverridden) {
+  CheckOptions options;
+  options.limits[Measure::tet_growth].hard = 1.0;
+  const CheckReport report = checked(sphere_shell(3), options);
+  EXPECT_TRUE(report.is_valid());
+  EXPECT_EQ(report.gate(Measure::tet_growth).state, GateState::fail);
+  EXPECT_EQ(report.quality_state(), GateState::fail);
+}
+
+/// A plate of regular triangles of edge 1/n with straight layers.
+HybridMesh regular_plate(int n, const ShellOptions& options) {
+  HybridMesh mesh = plate_block(n, options);
+  for (Point& p : mesh.points) p = {p.x - 0.5 * p.y, std::sqrt(0.75) * p.y, p.z};
+  return mesh;
+}
+
+/// A request that the mesh's layers meet.
+void ask_for(HybridMesh& mesh, double first_height, double height, double max_growth) {
+  mesh.request.first_height = first_height;
+  mesh.request.max_growth = max_growth;
+  mesh.request.target_height.assign(mesh.layers.n_lines(), height);
+  mesh.request.reason.assign(mesh.layers.n_lines(), 0);
+  mesh.request.reasons = {"none", "warped"};
+}
+
+TEST(Gates, StraightLayersAsAsked) {
+  // Heights 1, 1.25, 1.5625 ... of 4 layers: sum (1.25^4 - 1)/0.25 = 5.765625 times the first.
+  constexpr double k_height = 0.1, k_first = k_height / 5.765625;
+  HybridMesh mesh = regular_plate(4, {.n_layers = 4, .layer_height = k_height, .ratio = 1.25});
+  ask_for(mesh, k_first, k_height, 1.25);
+  const CheckReport report = checked(mesh);
+  EXPECT_NEAR(report.gate(Measure::stack_growth).worst, 1.25, 1e-12);
+  EXPECT_EQ(report.gate(Measure::stack_growth).state, GateState::pass);
+  EXPECT_NEAR(report.gate(Measure::stack_growth).total, std::sqrt(0.75), 1e-12);  // m^2 of wall
+  EXPECT_NEAR(report.gate(Measure::stack_angle).worst, 0.0, 1e-7);
+  EXPECT_LT(report.gate(Measure::first_height).worst, 1e-12);
+  EXPECT_NEAR(report.gate(Measure::coverage).worst, 1.0, 1e-14);
+  EXPECT_EQ(report.gate(Measure::collapsed).worst, 0.0);
+  EXPECT_EQ(report.gate(Measure::layer_step).worst, 0.0);
+  EXPECT_EQ(report.gate(Measure::layer_step).total, 40 + 16);  // edges of 4 x 4 squares and their diagonals
+  ASSERT_EQ(report.coverage.size(), 1u);
+  EXPECT_EQ(report.coverage[0].patch, "plate");
+  // The last layer has 1.953125 first heights over 0.8165 of the edge 1/4: 0.166, 6.02 times too low.
+  EXPECT_NEAR(report.gate(Measure::interface_height).worst, std::sqrt(2.0 / 3.0) * 0.25 / (1.953125 * k_first), 1e-9);
+  EXPECT_EQ(report.gate(Measure::interface_height).state, GateState::warn);
+}
+
+TEST(Gates, GrowthBeyondTheRequestWarnsAndWithoutRequestIsMeasuredAgainstTheDefault) {
+  HybridMesh mesh = regular_plate(3, {.n_layers = 4, .layer_height = 0.1, .ratio = 1.3});
+  EXPECT_EQ(checked(mesh).gate(Measure::stack_growth).state, GateState::warn);  // default 1.2
+  EXPECT_EQ(checked(mesh).gate(Measure::first_height).state, GateState::not_checked);
+  EXPECT_NE(to_text(checked(mesh)).find("not checked: the mesh does not say what was asked for"), std::string::npos);
+  ask_for(mesh, 0.01, 0.1, 1.3);
+  EXPECT_EQ(checked(mesh).gate(Measure::stack_growth).state, GateState::pass);
+  mesh.points[mesh.layers.node(5, 2)].z *= 1.5;
+  const CheckReport report = checked(mesh);
+  EXPECT_EQ(report.gate(Measure::stack_growth).state, GateState::fail);
+  EXPECT_EQ(report.gate(Measure::stack_growth).places.front().what, "line 5, patch plate");
+}
+
+TEST(Gates, FirstHeightIsMeasuredAlongTheNormalWhereTheLayerIsNotCompressed) {
+  HybridMesh mesh = regular_plate(3, {.n_layers = 3, .layer_height = 0.3, .ratio = 1.0});
+  ask_for(mesh, 0.08, 0.3, 1.2);
+  EXPECT_NEAR(checked(mesh).gate(Measure::first_height).worst, 0.1 / 0.08 - 1.0, 1e-12);
+  EXPECT_EQ(checked(mesh).gate(Measure::first_height).state, GateState::fail);
+  ask_for(mesh, 0.11, 0.3, 1.2);  // three cells of 0.11 do not fit: compressed everywhere
+  const CheckReport compressed = checked(mesh);
+  EXPECT_EQ(compressed.gate(Measure::first_height).state, GateState::not_checked);
+  EXPECT_NEAR(compressed.coverage[0].full, 1.0, 1e-14);  // but as high as was asked for
+  ask_for(mesh, 0.11, 0.4, 1.2);
+  EXPECT_NEAR(checked(mesh).coverage[0].compressed, 1.0, 1e-14);
+  ask_for(mesh, 0.08, 0.4, 1.2);
+  mesh.request.reason.assign(mesh.layers.n_lines(), 1);
+  const CheckReport reduced = checked(mesh);
+  EXPECT_NEAR(reduced.coverage[0].reduced, 1.0, 1e-14);
+  EXPECT_EQ(reduced.coverage[0].lost.front().first, "warped");
+  EXPECT_EQ(reduced.gate(Measure::coverage).state, GateState::fail);
+  // A line that leans by 60 degrees has half the height along the normal.
+  for (Point& p : mesh.points) p.x += p.z * std::tan(60 * k_degree);
+  ask_for(mesh, 0.2, 0.6, 1.2);
+  EXPECT_NEAR(checked(mesh).gate(Measure::first_height).worst, 0.5, 1e-12);
+}
+
+TEST(Gates, LeanOfTheFirstCellsBeyondTheBestPossible) {
+  HybridMesh mesh = regular_plate(3, {.n_layers = 6, .layer_height = 0.2});
+  for (Point& p : mesh.points) p.x += p.z * std::tan(12 * k_degree);
+  const CheckReport report = checked(mesh);
+  EXPECT_NEAR(report.gate(Measure::stack_angle).worst, 12 * k_degree, 1e-9);
+  EXPECT_EQ(report.gate(Measure::stack_angle).state, GateState::warn);
+  EXPECT_EQ(report.gate(Measure::stack_angle).share_within, 0.0);
+  // At a cube's corner the best direction, the diagonal, is 54.7 degrees off its three faces; the shell's rays go there.
+  EXPECT_LT(checked(cube_shell(2)).gate(Measure::stack_angle).worst, 50 * k_degree);
+  const std::array<Vec3, 3> axes = {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  EXPECT_NEAR(smallest_spherical_cap(axes).angle, std::acos(1 / std::sqrt(3.0)), 1e-12);
+}
+
+TEST(Gates, CollapsedLinesAreStepsAndLostArea) {
+  HybridMesh mesh = regular_plate(4, {.n_layers = 3, .layer_height = 0.1, .collapsed = {12}});  // the middle: six of 32 triangles
+  ask_for(mesh, 0.01, 0.1, 2.0);
+  const CheckReport report = checked(mesh);
+  EXPECT_EQ(report.gate(Measure::layer_step).worst, 3.0);
+  EXPECT_EQ(report.gate(Measure::layer_step).n_beyond_hard, 6);
+  EXPECT_EQ(report.gate(Measure::layer_step).state, GateState::fail);
+  EXPECT_NEAR(report.gate(Measure::collapsed).worst, 2.0 / 32, 1e-14);  // a third of each
+  EXPECT_NEAR(report.gate(Measure::coverage).worst, 30.0 / 32, 1e-14);
+  // All three lines of a triangle: it has no cells, but it is wall.
+  HybridMesh bare = regular_plate(4, {.n_layers = 3, .layer_height = 0.1, .collapsed = {12, 13, 18}});
+  ask_for(bare, 0.01, 0.1, 2.0);
+  ASSERT_EQ(checked(bare).coverage.size(), 1u);
+  EXPECT_EQ(checked(bare).coverage[0].patch, "plate");
+}
+
+TEST(Gates, LinesAreFoundInExplicitPrisms) {
+  for (HybridMesh mesh : {sphere_shell(4, {.n_layers = 5, .ratio = 1.3}), plate_block(4, {.n_layers = 5, .collapsed = {12}}), cube_shell(2, {.n_layers = 1})}) {
+    const CheckReport columns = checked(mesh);
+    HybridMesh cells = explicit_cells(mesh);
+    // Prisms turned upside down and around, as another program may write them.
+    for (std::size_t i = 0; i < cells.prisms.size(); i += 3) {
+      const auto p = cells.prisms[i];
+      cells.prisms[i] = {p[5], p[4], p[3], p[2], p[1], p[0]};
+    }
+    const CheckReport found = checked(cells);
+    EXPECT_TRUE(found.is_valid()) << to_text(found);
+    for (const Measure measure : {Measure::stack_growth, Measure::stack_angle, Measure::layer_step, Measure::interface_height, Measure::interface_volume}) {
+      EXPECT_EQ(found.gate(measure).state, columns.gate(measure).state) << info_of(measure).name;
+      EXPECT_NEAR(found.gate(measure).worst, columns.gate(measure).worst, 1e-12) << info_of(measure).name;
+    }
+    EXPECT_NEAR(found.gate(Measure::edge_ratio).worst, columns.gate(Measure::edge_ratio).worst, mesh.layers.n_collapsed(0) == 0 ? 1e9 : 1e-9);
+  }
+  EXPECT_EQ(checked(hexahedra_block(2)).gate(Measure::stack_growth).reason, "the mesh has no prisms");
+}
+
+TEST(Gates, TetsByHand) {
+  // Two tets on one face, heights 1 and 6: volume ratio 6. The face is an equilateral triangle; a regular tet's dihedral angle is acos(1/3).
+  HybridMesh mesh;
+  mesh.patches.push_back({"all", PatchKind::wall});
+  const double h = std::sqrt(2.0 / 3.0);
+  mesh.points = Column<NodeId, Point>({{0, 0, 0}, {1, 0, 0}, {0.5, std::sqrt(0.75), 0}, {0.5, std::sqrt(1.0 / 12), h}, {0.5, std::sqrt(1.0 / 12), -6 * h}});
+  const auto n = [](int i) { return NodeId(i); };
+  mesh.tetrahedra = {{n(0), n(1), n(2), n(3)}, {n(0), n(2), n(1), n(4)}};
+  for (const auto& [a, b] : {std::pair(0, 1), {1, 2}, {2, 0}}) {
+    mesh.boundary_triangles.push_back({{n(a), n(b), n(3)}, PatchId(0)});
+    mesh.boundary_triangles.push_back({{n(b), n(a), n(4)}, PatchId(0)});
+  }
+  const CheckReport report = checked(mesh);
+  EXPECT_TRUE(report.is_valid()) << to_text(report);
+  EXPECT_NEAR(report.gate(Measure::tet_growth).worst, 6.0, 1e-12);
+  EXPECT_EQ(report.gate(Measure::tet_growth).total, 1.0);
+  EXPECT_EQ(report.gate(Measure::tet_growth).state, GateState::warn);
+  // Edges 1 and the long ones sqrt(1/3 + 36 * 2/3).
+  EXPECT_NEAR(report.gate(Measure::edge_ratio).worst, std::sqrt(1.0 / 3 + 24), 1e-12);
+  // The steep tet's base angle: height 6h over the inradius sqrt(1/12).
+  EXPECT_NEAR(report.gate(Measure::max_dihedral).worst, std::atan(6 * h / std::sqrt(1.0 / 12)), 1e-12);
+}
+
+TEST(Gates, SymmetryPatchesLieInOnePlane) {
+  HybridMesh mesh = hexahedra_block(3);
+  const PatchId plane = mesh.patches.push_back({"middle", PatchKind::symmetry});
+  for (BoundaryQuad& face : mesh.boundary_quads) {
+    const bool is_on_plane = std::all_of(face.nodes.begin(), face.nodes.end(), [&](NodeId node) { return mesh.points[node].y == 0.0; });
+    if (is_on_plane) face.patch = plane;
+  }
+  EXPECT_TRUE(checked(mesh).is_valid());
+  mesh.points[NodeId(1)].y = 5e-13;  // the body is one metre long
+  EXPECT_TRUE(checked(mesh).is_valid());
+  mesh.points[NodeId(1)].y = -2e-12;
+  const CheckReport report = checked(mesh);
+  EXPECT_FALSE(report.is_valid());
+  EXPECT_EQ(report.count(Violation::off_symmetry_plane), 1);
+  EXPECT_NE(to_text(report).find("node 1 of patch middle is -2e-12 m off the plane y = 0"), std::string::npos) << to_text(report);
+}
+
+TEST(Gates, PrismWithANegativeSubVolumeIsInvalidThoughItsJacobianIsPositive) {
+  // Top turned and moved over the base: all Jacobians positive, but the cell's centroid is on the wrong side of a part of a side's cone.
+  HybridMesh mesh;
+  mesh.patches.push_back({"all", PatchKind::wall});
+  mesh.points = Column<NodeId, Point>({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {3, -1, 3}, {3, 0, 3}, {0, -1, 3}});
+  const auto n = [](int i) { return NodeId(i); };
+  mesh.prisms.push_back({n(0), n(1), n(2), n(3), n(4), n(5)});
+  mesh.boundary_triangles = {{{n(0), n(2), n(1)}, PatchId(0)}, {{n(3), n(4), n(5)}, PatchId(0)}};
+  mesh.boundary_quads = {{{n(0), n(1), n(4), n(3)}, PatchId(0)}, {{n(1), n(2), n(5), n(4)}, PatchId(0)}, {{n(2), n(0), n(3), n(5)}, PatchId(0)}};
+  const CheckReport report = checked(mesh, {.intersections = false});
+  EXPECT_EQ(report.count(Violation::invalid_cell), 0);
+  EXPECT_EQ(report.count(Violation::negative_sub_volume), 1) << to_text(report);
+  EXPECT_EQ(report.counts.size(), 1u) << to_text(report);
+  EXPECT_NE(to_text(report).find("prism 0, near patch all has a dual sub-volume that is not positive"), std::string::npos);
+  EXPECT_TRUE(std::isinf(report.gate(Measure::sub_volume_ratio).worst));
+}
+
+TEST(CheckReport, JsonHasEveryMeasureWithItsLimits) {
+  const auto json = nlohmann::json::parse(to_json(checked(sphere_shell(3))));
+  ASSERT_EQ(json["measures"].size(), k_n_measures);
+  for (const auto& entry : json["measures"]) {
+    for (const char* key : {"gate", "measure", "title", "unit", "bound", "state", "limits"}) EXPECT_TRUE(entry.contains(key)) << key;
+    if (entry["state"] == "not checked") {
+      EXPECT_TRUE(entry.contains("reason"));
+    } else {
+      for (const char* key : {"worst", "counted", "total", "share_within", "beyond_hard", "places"}) EXPECT_TRUE(entry.contains(key)) << key;
+    }
+  }
+  EXPECT_EQ(json["measures"][2]["measure"], "orthogonality");
+  EXPECT_NEAR(json["measures"][2]["limits"]["hard"].get<double>(), 5.0, 1e-12);
+  EXPECT_TRUE(json["measures"][5]["limits"]["hard"].is_null());
+  EXPECT_NE(json["quality_verdict"], "not checked");
+}
+
+}  // namespace
+}  // namespace sterna
