@@ -3,6 +3,7 @@
 // usage: compare_optimisers [options] surface...        with the settings of shared/data/baselines.md: 35 layers, first height 1e-6 body lengths
 //   --evaluations=300   of NLopt (own methods stop by themselves, at 30 sweeps or evaluations)
 //   --solvers=a,b,...   of the names in solvers() below; default all
+//   --slack=      of NLopt's constraint (NloptSettings::slack)
 //   --threads=2  --layers=35  --history (f by evaluation, one line per solver)
 #include <algorithm>
 #include <chrono>
@@ -32,6 +33,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Settings {
   int evaluations = 300;
+  double slack = -1.0;  ///< of NLopt's constraint; negative: its default
   int threads = 2;
   int layers = 35;
   bool has_history = false;
@@ -46,6 +48,7 @@ struct Task {
   const Column<VertexId, double>& h_u;
   double h_l;
   int evaluations;
+  double slack;
   const RunContext& context;
 };
 
@@ -67,6 +70,7 @@ Answer run_nlopt(NloptMethod method, const Task& task) {
   NloptSettings settings;
   settings.method = method;
   settings.max_evaluations = task.evaluations;
+  if (task.slack >= 0.0) settings.slack = task.slack;
   NloptReport report;
   Answer answer;
   answer.envelope = nlopt_optimise(task.base, task.start, task.h_u, task.h_l, settings, report, task.context);
@@ -147,10 +151,10 @@ double height_share(const LayerBase& base, const Envelope& envelope) {
 }
 
 void print_row(const std::string& name, const Task& task, const Answer& answer, double f_start, double seconds) {
-  PaperProblem problem(task.base, task.start, task.h_u, task.h_l, task.context);
-  const ObjectiveValue f = problem.objective(problem.variables(answer.envelope).data(), nullptr, task.context);
+  const PaperProblem problem(task.base, task.start, task.h_u, task.h_l, NloptSettings{}.g1_min, task.context);
+  const PaperObjective f = problem.objective(problem.unknowns(answer.envelope), {}, task.context);
   const SkewShares skew = skew_shares(task.base, answer.envelope);
-  const double total = f.f1 + f.f2;
+  const double total = f.total();
   std::printf("| %s | %.6f | %.6f | %.6f | %.6f | %.2g | %.1f | %.1f | %.2f | %.2f | %d | %.2f | %zu | %s |\n", name.c_str(), f.f1, f.f2, total, f_start - total,
               smallest_scaled_jacobian(task.base, answer.envelope, task.context), skew.below_6, skew.below_18, skew.above_60, height_share(task.base, answer.envelope),
               answer.n_evaluations, seconds, answer.n_taken_back, answer.stopped.c_str());
@@ -169,30 +173,30 @@ void compare(const std::string& file, const Settings& settings) {
   const double build_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   const Column<VertexId, double> h_u = upper_heights(base, start);
   const EnvelopeScale scale = scale_of(options);
-  const Task task{base, start, h_u, std::max(scale.h0, scale.h_min), settings.evaluations, context};
-  PaperProblem problem(base, start, h_u, task.h_l, context);
-  std::vector<double> z = problem.variables(start), gradient(z.size());
-  const ObjectiveValue f = problem.objective(z.data(), nullptr, context);
+  const Task task{base, start, h_u, std::max(scale.h0, scale.h_min), settings.evaluations, settings.slack, context};
+  const PaperProblem problem(base, start, h_u, task.h_l, NloptSettings{}.g1_min, context);
+  const std::vector<double> z = problem.unknowns(start);
+  std::vector<double> gradient(z.size());
+  const PaperObjective f = problem.objective(z, {}, context);
 
-  // One evaluation as NLopt asks for it: objective and constraints with gradients.
+  // One evaluation as NLopt asks for it: objective and constraint with gradients.
   constexpr int k_repeats = 5;
   const Clock::time_point before = Clock::now();
   for (int i = 0; i < k_repeats; ++i) {
-    problem.objective(z.data(), gradient.data(), context);
-    problem.inversion(z.data(), gradient.data(), context);
-    problem.below_wall(z.data(), gradient.data(), context);
+    problem.objective(z, gradient, context);
+    problem.constraint(z, gradient, context);
   }
   const double evaluation = std::chrono::duration<double>(Clock::now() - before).count() / k_repeats;
   std::printf("\n%s: %zu triangles, %zu vertices, %zu unknowns; envelope before in %.2f s; one evaluation with gradients %.1f ms on %d threads\n\n", file.c_str(),
-              wall.n_triangles(), wall.n_vertices(), problem.n_variables(), build_seconds, 1e3 * evaluation, settings.threads);
+              wall.n_triangles(), wall.n_vertices(), problem.n_unknowns(), build_seconds, 1e3 * evaluation, settings.threads);
   std::printf("| solver | f1 | f2 | f | gain | min sJ | < 6 deg %% | < 18 deg %% | > 60 deg %% | height %% | evaluations | s | taken back | stopped |\n");
   std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-  print_row("start", task, {.envelope = start, .stopped = ""}, f.f1 + f.f2, 0.0);
+  print_row("start", task, {.envelope = start, .stopped = ""}, f.total(), 0.0);
   for (const Solver& solver : solvers()) {
     if (!settings.solvers.empty() && std::find(settings.solvers.begin(), settings.solvers.end(), solver.name) == settings.solvers.end()) continue;
     const Clock::time_point from = Clock::now();
     const Answer answer = solver.run(task);
-    print_row(solver.name, task, answer, f.f1 + f.f2, std::chrono::duration<double>(Clock::now() - from).count());
+    print_row(solver.name, task, answer, f.total(), std::chrono::duration<double>(Clock::now() - from).count());
     if (!settings.has_history) continue;
     std::printf("history of %s:", solver.name.c_str());
     for (const double value : answer.history) std::printf(" %.6g", value);
@@ -207,6 +211,7 @@ Settings parse(int argc, char** argv) {
     const std::size_t equals = argument.find('=');
     const std::string name = argument.substr(0, equals), value = equals == std::string::npos ? "" : argument.substr(equals + 1);
     if (name == "--evaluations") settings.evaluations = std::stoi(value);
+    else if (name == "--slack") settings.slack = std::stod(value);
     else if (name == "--threads") settings.threads = std::stoi(value);
     else if (name == "--layers") settings.layers = std::stoi(value);
     else if (name == "--history") settings.has_history = true;

@@ -1,31 +1,75 @@
+// Steps: walk to feasibility where the start is not feasible; minimise under the constraint; keep what is valid. Exceptions of the callbacks are kept and
+// thrown on this side of the C library.
+// Based on: S. G. Johnson, The NLopt nonlinear-optimization package; K. Svanberg, A class of globally convergent optimization methods based on conservative
+// convex separable approximations, SIAM J. Optim. 12 (2002).
 #include "volmesh/envelope/nlopt_optimise.h"
 
 #include <nlopt.h>
 
+#include <algorithm>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <new>
 
 #include "geom/base/error.h"
-#include "volmesh/envelope/paper_problem.h"
 #include "volmesh/envelope/validity.h"
 
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_constraint_tolerance = 1e-9;  ///< of the sums (5), which are dimensionless
-constexpr int k_max_shrinks = 30;                ///< halvings of the heights; less than 1e-9 of them is left then
+constexpr double k_walk_end = 1e-6;  ///< sum of violated g, dimensionless, at which the walk to feasibility ends; g_1,min is 1e-2
+constexpr double k_shrink = 0.9;      ///< of a growth edge, per step of the walk's second part
 
-/// What the C callbacks see. No exception may cross NLopt: the first one is kept and the run is stopped.
+/// What the C callbacks see. NLopt gets the sums of (8) and (9) times n_v rather than the means: its estimate of the curvature, rho, starts at 1 and never
+/// falls below 1e-5, while that of a mean over a million vertices is 1e-6, which would keep the steps far too short. The minimum is the same.
 struct Run {
-  PaperProblem& problem;
-  const RunContext& context;
+  const PaperProblem& problem;
+  const NloptSettings& settings;
   NloptReport& report;
-  nlopt_opt optimiser;
-  std::exception_ptr trouble;
+  const RunContext& context;
+  bool is_walking = false;  ///< minimises the sum of violated g alone
+  nlopt_opt optimiser = nullptr;
+  int n_evaluations = 0;
+  PaperObjective last;      ///< at the point of the latest evaluation; NLopt asks for the constraint at a point after the objective
+  double best_value = std::numeric_limits<double>::infinity();
+  std::vector<double> best{};  ///< best feasible point; when walking, the least infeasible one
+  std::exception_ptr trouble{};
 
+  double slack() const { return settings.slack * static_cast<double>(problem.n_elements()); }
+
+  void keep(double value, std::span<const double> z) {
+    best_value = value;
+    best.assign(z.begin(), z.end());
+  }
+
+  double objective(std::span<const double> z, std::span<double> gradient) {
+    ++n_evaluations;
+    context.progress(std::min(1.0, static_cast<double>(n_evaluations) / settings.max_evaluations));
+    if (is_walking) {
+      const double g = problem.constraint(z, gradient, context).total();
+      if (g < best_value) keep(g, z);
+      return g;
+    }
+    last = problem.objective(z, gradient, context);
+    const double scale = static_cast<double>(problem.n_vertices());
+    for (double& d : gradient) d *= scale;
+    return scale * last.total();
+  }
+
+  double constraint(std::span<const double> z, std::span<double> gradient) {
+    const PaperConstraint g = problem.constraint(z, gradient, context);
+    if (g.total() <= slack() && last.total() < best_value) {
+      keep(last.total(), z);
+      report.run.history.push_back({.f1 = last.f1, .f2 = last.f2, .total = last.total()});
+      report.violations.push_back({n_evaluations, g});
+    }
+    return g.total() - slack();
+  }
+
+  /// No exception may cross NLopt: the first one is kept and the run is stopped.
   template <class F>
-  double guarded(const F& f) {
+  double guarded(const F& f) noexcept {
     try {
       if (trouble) return 0.0;
       context.check_stop();
@@ -38,24 +82,16 @@ struct Run {
   }
 };
 
-double objective_callback(unsigned, const double* z, double* gradient, void* data) {
+std::span<double> gradient_of(double* gradient, unsigned n) { return gradient ? std::span<double>(gradient, n) : std::span<double>(); }
+
+double objective_callback(unsigned n, const double* z, double* gradient, void* data) {
   Run& run = *static_cast<Run*>(data);
-  return run.guarded([&] {
-    const ObjectiveValue value = run.problem.objective(z, gradient, run.context);
-    run.report.run.history.push_back(value);
-    ++run.report.run.n_evaluations;
-    return value.total;
-  });
+  return run.guarded([&] { return run.objective({z, n}, gradient_of(gradient, n)); });
 }
 
-double inversion_callback(unsigned, const double* z, double* gradient, void* data) {
+double constraint_callback(unsigned n, const double* z, double* gradient, void* data) {
   Run& run = *static_cast<Run*>(data);
-  return run.guarded([&] { return run.problem.inversion(z, gradient, run.context).sum; });
-}
-
-double below_wall_callback(unsigned, const double* z, double* gradient, void* data) {
-  Run& run = *static_cast<Run*>(data);
-  return run.guarded([&] { return run.problem.below_wall(z, gradient, run.context).sum; });
+  return run.guarded([&] { return run.constraint({z, n}, gradient_of(gradient, n)); });
 }
 
 void require_success(nlopt_result result, std::string_view what) {
@@ -80,57 +116,77 @@ std::string_view reason_of(nlopt_result result) {
   }
 }
 
-/// Halves all heights and tangential ways until no constraint is violated; lines steepen no further by that.
-void walk_to_feasibility(PaperProblem& problem, std::vector<double>& z, NloptReport& report, const RunContext& context) {
-  const auto is_feasible = [&] { return problem.inversion(z.data(), nullptr, context).n_violated == 0 && problem.below_wall(z.data(), nullptr, context).n_violated == 0; };
-  while (!is_feasible() && report.n_shrunk < k_max_shrinks) {
-    ++report.n_shrunk;
-    for (std::size_t i = 0; i < z.size(); ++i) z[i] = std::max(0.5 * z[i], problem.lower()[i]);
-  }
+/// One run of NLopt from z. \post run.best is the best point seen, if there was any.
+nlopt_result minimise(Run& run, std::vector<double> z) {
+  const NloptSettings& settings = run.settings;
+  const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimiser(
+      nlopt_create(settings.method == NloptMethod::mma ? NLOPT_LD_MMA : NLOPT_LD_CCSAQ, static_cast<unsigned>(z.size())), &nlopt_destroy);
+  if (!optimiser) throw std::bad_alloc();
+  run.optimiser = optimiser.get();
+  require_success(nlopt_set_lower_bounds(optimiser.get(), run.problem.bounds().lower.data()), "lower bounds");
+  require_success(nlopt_set_upper_bounds(optimiser.get(), run.problem.bounds().upper.data()), "upper bounds");
+  require_success(nlopt_set_min_objective(optimiser.get(), objective_callback, &run), "objective");
+  if (run.is_walking) require_success(nlopt_set_stopval(optimiser.get(), k_walk_end), "stop value");
+  else require_success(nlopt_add_inequality_constraint(optimiser.get(), constraint_callback, &run, 0.0), "constraint (5)");
+  require_success(nlopt_set_xtol_rel(optimiser.get(), settings.tolerance), "tolerance");
+  require_success(nlopt_set_maxeval(optimiser.get(), settings.max_evaluations), "evaluations");
+  if (!is_automatic(settings.max_seconds)) require_success(nlopt_set_maxtime(optimiser.get(), settings.max_seconds), "time limit");
+  double value = 0.0;
+  const nlopt_result result = nlopt_optimize(optimiser.get(), z.data(), &value);
+  if (run.trouble) std::rethrow_exception(run.trouble);
+  if (result != NLOPT_ROUNDOFF_LIMITED) require_success(result, "optimisation");
+  return result;
+}
+
+/// Minimises the sum of violated g alone; where that ends in a local minimum, shortens the growth edges of what is still violated. Returns whether it arrived.
+bool walk_to_feasibility(const PaperProblem& problem, const NloptSettings& settings, std::vector<double>& z, NloptReport& report, const RunContext& context) {
+  Run run{.problem = problem, .settings = settings, .report = report, .context = context, .is_walking = true};
+  minimise(run, z);
+  report.n_feasibility_evaluations = run.n_evaluations;
+  z = std::move(run.best);
+  while (problem.constraint(z, {}, context).total() > k_walk_end && problem.shrink_violated(z, k_shrink, context) > 0) ++report.n_shrunk;
+  return problem.constraint(z, {}, context).total() <= run.slack();
 }
 
 }  // namespace
 
 Envelope nlopt_optimise(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, const NloptSettings& settings,
                         NloptReport& report, const RunContext& context) {
+  const PaperProblem problem(base, start, h_u, h_l, settings.g1_min, context);
   report = {};
-  PaperProblem problem(base, start, h_u, h_l, context);
-  report.n_variables = problem.n_variables();
-  report.run.n_moving = problem.n_moving();
-  if (problem.n_variables() == 0) {
+  report.n_variables = problem.n_unknowns();
+  report.run.n_moving = problem.n_vertices();
+  if (problem.n_unknowns() == 0) {
     report.run.stopped = "nothing moves";
     return start;
   }
-  const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimiser(
-      nlopt_create(settings.method == NloptMethod::mma ? NLOPT_LD_MMA : NLOPT_LD_CCSAQ, static_cast<unsigned>(problem.n_variables())), &nlopt_destroy);
-  if (!optimiser) throw std::bad_alloc();
-  Run run{problem, context, report, optimiser.get(), {}};
-  std::vector<double> z = problem.variables(start);
-  walk_to_feasibility(problem, z, report, context);
-  report.run.history.push_back(problem.objective(z.data(), nullptr, context));
-  require_success(nlopt_set_lower_bounds(optimiser.get(), problem.lower().data()), "lower bounds");
-  require_success(nlopt_set_upper_bounds(optimiser.get(), problem.upper().data()), "upper bounds");
-  require_success(nlopt_set_min_objective(optimiser.get(), objective_callback, &run), "objective");
-  require_success(nlopt_add_inequality_constraint(optimiser.get(), inversion_callback, &run, k_constraint_tolerance), "constraint (6)");
-  require_success(nlopt_add_inequality_constraint(optimiser.get(), below_wall_callback, &run, k_constraint_tolerance), "constraint (7)");
-  require_success(nlopt_set_xtol_rel(optimiser.get(), settings.tolerance), "tolerance");
-  require_success(nlopt_set_maxeval(optimiser.get(), settings.max_evaluations), "evaluations");
-  if (!is_automatic(settings.max_seconds)) require_success(nlopt_set_maxtime(optimiser.get(), settings.max_seconds), "time limit");
-  double f = 0.0;
-  const nlopt_result result = nlopt_optimize(optimiser.get(), z.data(), &f);
-  if (run.trouble) std::rethrow_exception(run.trouble);
-  if (result != NLOPT_ROUNDOFF_LIMITED) require_success(result, "optimisation");
+  std::vector<double> z = problem.unknowns(start);
+  for (std::size_t i = 0; i < z.size(); ++i) z[i] = std::clamp(z[i], problem.bounds().lower[i], problem.bounds().upper[i]);  // outside by rounding only
+  Envelope from = start;
+  if (problem.constraint(z, {}, context).total() > k_walk_end) {
+    report.is_feasible = walk_to_feasibility(problem, settings, z, report, context);
+    if (!report.is_feasible) {
+      report.run.stopped = "no feasible point found";
+      return start;
+    }
+    problem.store(z, from);
+  }
+  const PaperObjective before = problem.objective(z, {}, context);
+
+  Run run{.problem = problem, .settings = settings, .report = report, .context = context};
+  const nlopt_result result = minimise(run, std::move(z));
+  report.run.n_evaluations = run.n_evaluations;
   report.run.stopped = reason_of(result);
   report.is_time_limit = result == NLOPT_MAXTIME_REACHED;
-  report.best = problem.objective(z.data(), nullptr, context);
+  report.best = report.run.history.back();  // the point that the run starts from at least
 
   Envelope optimised = start;
-  problem.store(z.data(), optimised);
+  problem.store(run.best, optimised);
   report.n_invalid = static_cast<std::int64_t>(invalid_macros(base, optimised, context).size());
-  report.run.n_taken_back = take_back(base, start, k_quality_share * smallest_scaled_jacobian(base, start, context), optimised, context);
-  const ObjectiveValue before = problem.objective(problem.variables(start).data(), nullptr, context);
-  const ObjectiveValue after = problem.objective(problem.variables(optimised).data(), nullptr, context);
-  return after.total < before.total ? optimised : start;
+  const double least_quality = smallest_scaled_jacobian(base, from, context);
+  report.run.n_taken_back = take_back(base, from, std::min(k_quality_share * least_quality, least_quality), optimised, context);
+  const PaperObjective after = problem.objective(problem.unknowns(optimised), {}, context);
+  return after.total() < before.total() ? optimised : from;
 }
 
 }  // namespace sterna::volmesh

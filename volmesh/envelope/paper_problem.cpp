@@ -1,139 +1,232 @@
+// Steps of an evaluation: growth edges from the unknowns; f over the vertices; g over the elements, whose few violated ones give their gradient in order of
+// their number, so that the sums do not depend on the number of threads.
 #include "volmesh/envelope/paper_problem.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geom/base/parallel.h"
+#include "geom/math/measures.h"
 
 namespace sterna::volmesh {
 namespace {
 
-/// Of h_u: no line leans further than 63 degrees from its vertex normal at full height.
-constexpr double k_tangential_bound = 2.0;
-/// g_1min of (6): the share of is_macro_valid (validity.cpp).
-constexpr double k_min_area_share = 0.01;
+/// Bounds that are closer than this ratio fix the vertex (method.md §6).
+constexpr double k_min_bound_ratio = 1.05;
+/// Tangential unknowns may reach this many h_u: 63 degrees from the normal at full height. A start further out has room for half as much again.
+constexpr double k_tangent_reach = 2.0;
+constexpr double k_tangent_reserve = 1.5;
+
+bool is_standing(const Envelope& envelope, const TriangleVertices& v) {
+  return !envelope.is_collapsed(v[0]) && !envelope.is_collapsed(v[1]) && !envelope.is_collapsed(v[2]);
+}
 
 }  // namespace
 
-PaperProblem::PaperProblem(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, const RunContext& context)
-    : base_(base),
-      objective_(base, start, h_u, h_l, 0.0, {.height = 1.0, .top = 0.0, .barrier = 0.0}, context),
-      frames_(base.wall.n_vertices()),
-      y_(objective_.unknowns(start)),
-      corner_gradient_(3 * base.wall.n_triangles()),
-      is_violated_(base.wall.n_triangles(), 0) {
-  h_u_.resize(frames_.size());
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    h_u_[i] = objective_.upper(i);
-    if (!objective_.is_moving(i)) continue;
-    Frame& frame = frames_[i];
-    const TangentAxes tangents = tangent_axes(base.constraint[VertexId(i)], base.vertex_normal[VertexId(i)]);
-    for (int k = 0; k < tangents.count; ++k) frame.axis[static_cast<std::size_t>(k)] = tangents.axis[static_cast<std::size_t>(k)];
-    frame.axis[static_cast<std::size_t>(tangents.count)] = base.vertex_normal[VertexId(i)];
-    frame.count = tangents.count + 1;
-    frame.first = lower_.size();
-    lower_.insert(lower_.end(), static_cast<std::size_t>(tangents.count), -k_tangential_bound);
-    upper_.insert(upper_.end(), static_cast<std::size_t>(tangents.count), k_tangential_bound);
-    lower_.push_back(objective_.lower_share(i));
-    upper_.push_back(1.0);
+/// Gradient of one violated element with respect to the growth edges of its corners, m^-1.
+struct PaperProblem::Violated {
+  TriangleId triangle;
+  std::array<Vec3, 3> gradient;
+};
+
+PaperProblem::PaperProblem(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double g1_min, const RunContext& context)
+    : base_(base), g1_min_(g1_min), vertex2place_(base.wall.n_vertices(), k_none), upper_(h_u), growth_(base.wall.n_vertices()) {
+  parallel_for(context, growth_.size(), [&](std::size_t i) { growth_[VertexId(i)] = start.height[VertexId(i)] * start.direction[VertexId(i)]; });
+  for (const VertexId v : start.height.ids()) {
+    if (start.is_collapsed(v) || base.constraint[v].freedom == Freedom::fixed) continue;
+    const auto around = base.topology.outgoing(v);
+    if (std::all_of(around.begin(), around.end(), [&](HalfedgeId h) { return is_standing(start, base.wall.triangles[triangle_of(h)]); }))
+      add_place(v, h_u[v], h_l);
+  }
+  for (const TriangleId t : base.wall.triangles.ids()) {
+    const TriangleVertices& v = base.wall.triangles[t];
+    if (is_standing(start, v) && (takes_part(v[0]) || takes_part(v[1]) || takes_part(v[2]))) elements_.push_back(t);
   }
 }
 
-std::vector<double> PaperProblem::variables(const Envelope& envelope) const {
-  const Vec3Field y = objective_.unknowns(envelope);
-  std::vector<double> z(n_variables());
-  for (std::size_t i = 0; i < frames_.size(); ++i)
-    for (int k = 0; k < frames_[i].count; ++k) {
-      const std::size_t j = frames_[i].first + static_cast<std::size_t>(k);
-      z[j] = std::clamp(dot(y[i], frames_[i].axis[static_cast<std::size_t>(k)]), lower_[j], upper_[j]);
-    }
+void PaperProblem::add_place(VertexId v, double h_u, double h_l) {
+  const VertexConstraint& constraint = base_.constraint[v];
+  const Vec3 normal = constrained(constraint, base_.vertex_normal[v]);
+  const double h = dot(growth_[v], normal);
+  upper_[v] = std::max(h_u, h);
+  if (!(h > 0.0) || upper_[v] < k_min_bound_ratio * h_l) return;
+  const TangentAxes tangent = tangent_axes(constraint, normal);
+  Place place{.vertex = v, .first = static_cast<std::uint32_t>(n_unknowns_), .n_tangents = static_cast<std::uint8_t>(tangent.count), .h_u = upper_[v]};
+  for (std::size_t k = 0; k < place.n_tangents; ++k) {
+    place.axis[k] = tangent.axis[k];
+    const double reach = std::max(k_tangent_reach, k_tangent_reserve * std::abs(dot(growth_[v], place.axis[k])) / place.h_u);
+    bounds_.lower.push_back(-reach);
+    bounds_.upper.push_back(reach);
+  }
+  place.axis[place.n_tangents] = normal;
+  bounds_.lower.push_back(std::min(h, h_l) / place.h_u);
+  bounds_.upper.push_back(1.0);
+  for (const HalfedgeId half : base_.topology.outgoing(v)) {
+    place.normal_sum += base_.unit_normal[triangle_of(half)];
+    place.n_triangles += 1.0;
+  }
+  n_unknowns_ += place.n_tangents + 1u;
+  vertex2place_[v] = static_cast<std::uint32_t>(vertices_.size());
+  vertices_.push_back(place);
+}
+
+Vec3 PaperProblem::growth(const Place& place, std::span<const double> z) {
+  Vec3 g;
+  for (std::size_t k = 0; k <= place.n_tangents; ++k) g += z[place.first + k] * place.axis[k];
+  return g;
+}
+
+void PaperProblem::add_gradient(const Place& place, const Vec3& d, std::span<double> gradient) {
+  for (std::size_t k = 0; k <= place.n_tangents; ++k) gradient[place.first + k] += dot(d, place.axis[k]);
+}
+
+std::vector<double> PaperProblem::unknowns(const Envelope& envelope) const {
+  std::vector<double> z(n_unknowns_);
+  for (const Place& place : vertices_) {
+    const Vec3 g = (envelope.height[place.vertex] / place.h_u) * envelope.direction[place.vertex];
+    for (std::size_t k = 0; k <= place.n_tangents; ++k) z[place.first + k] = dot(g, place.axis[k]);
+  }
   return z;
 }
 
-void PaperProblem::unpack(const double* z, const RunContext& context) {
-  parallel_for(context, frames_.size(), [&](std::size_t i) {
-    const Frame& frame = frames_[i];
-    if (frame.count == 0) return;
-    Vec3 sum;
-    for (int k = 0; k < frame.count; ++k) sum += z[frame.first + static_cast<std::size_t>(k)] * frame.axis[static_cast<std::size_t>(k)];
-    y_[i] = sum;
-  });
+void PaperProblem::store(std::span<const double> z, Envelope& envelope) const {
+  for (const Place& place : vertices_) {
+    Vec3 g = place.h_u * growth(place, z);
+    const VertexConstraint& constraint = base_.constraint[place.vertex];
+    const Point& foot = base_.wall.points[place.vertex];
+    if (constraint.freedom == Freedom::surface) g = base_.surfaces[static_cast<std::size_t>(constraint.on[0])]->closest(foot + g) - foot;
+    envelope.height[place.vertex] = norm(g);
+    envelope.direction[place.vertex] = normalized(g);
+  }
 }
 
-void PaperProblem::pack_gradient(const Vec3Field& by_vertex, double* gradient, const RunContext& context) const {
-  parallel_for(context, frames_.size(), [&](std::size_t i) {
-    const Frame& frame = frames_[i];
-    for (int k = 0; k < frame.count; ++k) gradient[frame.first + static_cast<std::size_t>(k)] = dot(by_vertex[i], frame.axis[static_cast<std::size_t>(k)]);
-  });
+std::size_t PaperProblem::shrink_violated(std::span<double> z, double factor, const RunContext& context) const {
+  std::vector<double> gradient(z.size());
+  constraint(z, gradient, context);
+  std::size_t n_shrunk = 0;
+  for (const Place& place : vertices_) {
+    bool could_mend = false;
+    for (std::size_t k = 0; k <= place.n_tangents; ++k) could_mend = could_mend || gradient[place.first + k] != 0.0;
+    double& height = z[place.first + place.n_tangents];
+    const double shrunk = std::max(bounds_.lower[place.first + place.n_tangents], factor * height);
+    if (!could_mend || !(shrunk < height)) continue;
+    for (std::size_t k = 0; k < place.n_tangents; ++k) z[place.first + k] *= factor;
+    height = shrunk;
+    ++n_shrunk;
+  }
+  return n_shrunk;
 }
 
-void PaperProblem::store(const double* z, Envelope& envelope) const {
-  Vec3Field y(frames_.size());
-  for (std::size_t i = 0; i < frames_.size(); ++i)
-    for (int k = 0; k < frames_[i].count; ++k) y[i] += z[frames_[i].first + static_cast<std::size_t>(k)] * frames_[i].axis[static_cast<std::size_t>(k)];
-  objective_.store(y, envelope);
+PaperObjective PaperProblem::objective(std::span<const double> z, std::span<double> gradient, const RunContext& context) const {
+  return objective({1.0, 1.0}, z, gradient, context);
 }
 
-ObjectiveValue PaperProblem::objective(const double* z, double* gradient, const RunContext& context) {
-  unpack(z, context);
-  const ObjectiveValue value = objective_.evaluate(y_, gradient ? &gradient_ : nullptr, context);
-  if (gradient) pack_gradient(gradient_, gradient, context);
-  return value;
+PaperConstraint PaperProblem::constraint(std::span<const double> z, std::span<double> gradient, const RunContext& context) const {
+  return constraint({1.0, 1.0}, z, gradient, context);
 }
 
-ConstraintSum PaperProblem::constraint(Kind kind, const double* z, double* gradient, const RunContext& context) {
-  unpack(z, context);
-  const auto& points = base_.wall.points;
-  const ConstraintSum total = parallel_reduce(
-      context, is_violated_.size(), ConstraintSum{},
+double PaperProblem::part(Part part, std::span<const double> z, std::span<double> gradient, const RunContext& context) const {
+  switch (part) {
+    case Part::f1: return objective({1.0, 0.0}, z, gradient, context).f1;
+    case Part::f2: return objective({0.0, 1.0}, z, gradient, context).f2;
+    case Part::g1: return constraint({1.0, 0.0}, z, gradient, context).g1;
+    case Part::g2: return constraint({0.0, 1.0}, z, gradient, context).g2;
+  }
+  return 0.0;
+}
+
+PaperObjective PaperProblem::objective(const Weights& weights, std::span<const double> z, std::span<double> gradient, const RunContext& context) const {
+  const double corner = 1.0 / (3.0 * static_cast<double>(std::max<std::size_t>(n_elements(), 1)));
+  const double vertex = 1.0 / static_cast<double>(std::max<std::size_t>(n_vertices(), 1));
+  PaperObjective sum = parallel_reduce(
+      context, vertices_.size(), PaperObjective{},
       [&](std::size_t begin, std::size_t end) {
-        ConstraintSum part;
-        for (std::size_t t = begin; t < end; ++t) {
-          is_violated_[t] = 0;
-          if (!objective_.is_element(t)) continue;
-          const TriangleVertices& v = base_.wall.triangles[TriangleId(t)];
-          const Vec3& normal = base_.unit_normal[TriangleId(t)];
-          Vec3* const out = corner_gradient_.data() + 3 * t;
-          double g = 0.0;
-          if (kind == Kind::inversion) {
-            std::array<Vec3, 3> growth;
-            for (std::size_t k = 0; k < 3; ++k) growth[k] = h_u_[v[k].index()] * y_[v[k].index()];
-            const Vec3 a = points[v[1]] - points[v[0]] + (growth[1] - growth[0]);
-            const Vec3 b = points[v[2]] - points[v[0]] + (growth[2] - growth[0]);
-            const Vec3 scaled = normal / (2.0 * base_.area[TriangleId(t)]);  // n_w / |n_w|^2
-            g = k_min_area_share - dot(scaled, cross(a, b));
-            const Vec3 to_a = -cross(b, scaled), to_b = -cross(scaled, a);
-            out[0] = h_u_[v[0].index()] * -(to_a + to_b);
-            out[1] = h_u_[v[1].index()] * to_a;
-            out[2] = h_u_[v[2].index()] * to_b;
-          } else {
-            std::size_t lowest = 0;
-            for (std::size_t k = 1; k < 3; ++k)
-              if (dot(y_[v[k].index()], normal) < dot(y_[v[lowest].index()], normal)) lowest = k;
-            g = -dot(y_[v[lowest].index()], normal);
-            for (std::size_t k = 0; k < 3; ++k) out[k] = k == lowest ? -normal : Vec3{};
-          }
-          if (!(g > 0.0)) continue;
-          is_violated_[t] = 1;
-          part.sum += g;
-          ++part.n_violated;
+        PaperObjective own;
+        for (std::size_t i = begin; i < end; ++i) {
+          const Place& place = vertices_[i];
+          const Vec3 g = growth(place, z);
+          const double length = norm(g);
+          const Vec3 u = g / length;
+          const double seen = dot(place.normal_sum, u);
+          own.f1 += place.n_triangles - seen;
+          own.f2 += 1.0 - z[place.first + place.n_tangents];
+          if (gradient.empty()) continue;
+          const Vec3 d = (-weights.first * corner / length) * (place.normal_sum - seen * u);
+          for (std::size_t k = 0; k <= place.n_tangents; ++k) gradient[place.first + k] = dot(d, place.axis[k]);
+          gradient[place.first + place.n_tangents] -= weights.second * vertex;
         }
-        return part;
+        return own;
       },
-      [](ConstraintSum a, const ConstraintSum& b) {
-        a.sum += b.sum;
-        a.n_violated += b.n_violated;
+      [](PaperObjective a, const PaperObjective& b) {
+        a.f1 += b.f1;
+        a.f2 += b.f2;
         return a;
       });
-  if (!gradient) return total;
-  gradient_.resize(frames_.size());
-  parallel_for(context, frames_.size(), [&](std::size_t i) {
-    Vec3 sum;
-    for (const HalfedgeId h : base_.topology.outgoing(VertexId(i)))
-      if (is_violated_[h.index() / 3]) sum += corner_gradient_[h.index()];
-    gradient_[i] = sum;
-  });
-  pack_gradient(gradient_, gradient, context);
-  return total;
+  sum.f1 *= corner;
+  sum.f2 *= vertex;
+  return sum;
+}
+
+PaperConstraint PaperProblem::constraint(const Weights& weights, std::span<const double> z, std::span<double> gradient, const RunContext& context) const {
+  parallel_for(context, vertices_.size(), [&](std::size_t i) { growth_[vertices_[i].vertex] = vertices_[i].h_u * growth(vertices_[i], z); });
+  struct Partial {
+    PaperConstraint sum;
+    std::vector<Violated> violated;
+  };
+  const bool needs_gradient = !gradient.empty();
+  const Partial all = parallel_reduce(
+      context, elements_.size(), Partial{},
+      [&](std::size_t begin, std::size_t end) {
+        Partial own;
+        for (std::size_t i = begin; i < end; ++i) {
+          const TriangleId t = elements_[i];
+          const TriangleVertices& v = base_.wall.triangles[t];
+          const auto [p0, p1, p2] = corners(base_.wall, t);
+          const Vec3 g0 = growth_[v[0]], g1 = growth_[v[1]], g2 = growth_[v[2]];
+          const Vec3& n = base_.unit_normal[t];
+          // (6): cross products are twice the area vectors of both triangles, and |n_w|^2 cancels one of the factors.
+          const Vec3 e1 = (p1 - p0) + (g1 - g0), e2 = (p2 - p0) + (g2 - g0);
+          const double double_area = 2.0 * base_.area[t];
+          const double first = g1_min_ - dot(n, cross(e1, e2)) / double_area;
+          // (7)
+          const std::array<double, 3> rise = {dot(g0, n) / upper_[v[0]], dot(g1, n) / upper_[v[1]], dot(g2, n) / upper_[v[2]]};
+          const std::size_t lowest = static_cast<std::size_t>(std::min_element(rise.begin(), rise.end()) - rise.begin());
+          const double second = -rise[lowest];
+          if (!(first > 0.0) && !(second > 0.0)) continue;
+          Violated bad{.triangle = t, .gradient = {}};
+          if (first > 0.0) {
+            own.sum.g1 += first;
+            ++own.sum.n_violated;
+            const Vec3 d1 = (-weights.first / double_area) * cross(e2, n), d2 = (-weights.first / double_area) * cross(n, e1);
+            bad.gradient = {-d1 - d2, d1, d2};
+          }
+          if (second > 0.0) {
+            own.sum.g2 += second;
+            ++own.sum.n_violated;
+            bad.gradient[lowest] += (-weights.second / upper_[v[lowest]]) * n;
+          }
+          if (needs_gradient) own.violated.push_back(bad);
+        }
+        return own;
+      },
+      [](Partial a, const Partial& b) {
+        a.sum.g1 += b.sum.g1;
+        a.sum.g2 += b.sum.g2;
+        a.sum.n_violated += b.sum.n_violated;
+        a.violated.insert(a.violated.end(), b.violated.begin(), b.violated.end());
+        return a;
+      });
+  if (!needs_gradient) return all.sum;
+  std::fill(gradient.begin(), gradient.end(), 0.0);
+  for (const Violated& bad : all.violated) {
+    const TriangleVertices& v = base_.wall.triangles[bad.triangle];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!takes_part(v[k])) continue;
+      const Place& place = vertices_[vertex2place_[v[k]]];
+      add_gradient(place, place.h_u * bad.gradient[k], gradient);
+    }
+  }
+  return all.sum;
 }
 
 }  // namespace sterna::volmesh
