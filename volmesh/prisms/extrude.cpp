@@ -1,163 +1,150 @@
+// Steps of Extruder::extrude: place_stale_lines, invalid_among; while any column is invalid: reduce_curving, lower_heights where that does not help, and both
+// again for what changed. Curving falls only and heights fall only, so the rounds end.
 #include "volmesh/prisms/extrude.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
-#include "geom/math/measures.h"
-#include "geom/math/sub_volumes.h"
-#include "volmesh/envelope/growth_law.h"
-#include "volmesh/envelope/keep_inside.h"
 #include "volmesh/envelope/untangle.h"
+#include "volmesh/prisms/layer_cells.h"
+#include "volmesh/prisms/layer_line.h"
 
 namespace sterna::volmesh {
 namespace {
 
 constexpr int k_max_repair_rounds = 200;
-constexpr int k_straighten_rounds = 3;     ///< rounds that reduce c_t before heights are touched
-constexpr double k_neighbour_share = 0.5;  ///< of c_t that stays beside a straightened line
-constexpr double k_equalise_factor = 1.05; ///< corners of an invalid cell keep heights within this ratio of the lowest
-constexpr double k_shrink_factor = 0.7;    ///< of the heights of a cell that stays invalid with equal heights and straight lines
-/// Below this c_t the exponential underflows and the line is straight to the last bit anyway.
-constexpr double k_straight = 1e-3;
+constexpr int k_curving_rounds = 8;         ///< rounds that reduce c_t by bisection; later ones straighten the lines and lower heights at once
+constexpr int k_bisections = 6;             ///< c_t to 1/64 of what it was
+constexpr double k_equalise_factor = 1.05;  ///< corners of an invalid cell keep heights within this ratio of the lowest
+constexpr double k_shrink_factor = 0.7;     ///< of the heights of a cell that stays invalid with equal heights and straight lines
+constexpr double k_hopeless = -1.0;         ///< invalid with straight lines
+constexpr std::size_t k_line_chunk = 512;
+constexpr std::size_t k_column_chunk = 256;
 
-/// Normalised s(t) of eq. (12): 1 at the wall, exactly 0 at the top.
-double normal_share(double t, double c) {
-  if (c < k_straight) return 0.0;
-  const double end = std::exp(-1.0 / c);
-  return (std::exp(-t / c) - end) / (1.0 - end);
+template <class T>
+std::vector<T> joined(std::vector<T> a, const std::vector<T>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
 }
 
-/// Valid in itself (G3) and with a positive dual mesh (G4); a tet has both at once.
-bool is_prism_certain(const WedgePoints& p) { return is_wedge_valid(p) && are_sub_volumes_positive(p); }
-bool is_pyramid_certain(const std::array<Vec3, 5>& p) { return is_pyramid_valid(p) && are_sub_volumes_positive(p); }
+template <class T>
+void sort_unique(std::vector<T>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
 
-/// The lines' nodes, their curvature and what is needed to rebuild single ones.
-class LineSet {
- public:
-  LineSet(const LayerBase& base, const EnvelopeScale& scale, double c_t, const RunContext& context)
-      : base_(base), scale_(scale), context_(context), curvature_(base.wall.n_vertices(), c_t) {}
+}  // namespace
 
-  /// Numbers the nodes (collapsed lines have one) and places them all.
-  void build(const Envelope& envelope) {
-    const std::size_t n = base_.wall.n_vertices();
-    layers_.n_layers = scale_.n;
-    layers_.first_node.resize(n);
-    layers_.is_collapsed.resize(n);
-    std::uint64_t next = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const bool is_down = envelope.is_collapsed(VertexId(i));
-      layers_.first_node[i] = NodeId(next).value();
-      layers_.is_collapsed[i] = is_down ? 1 : 0;
-      next += is_down ? 1u : static_cast<std::uint64_t>(scale_.n) + 1;
-    }
-    layers_.base.resize(base_.wall.n_triangles());
-    parallel_for(context_, layers_.base.size(), [&](std::size_t i) {
-      const TriangleVertices& v = base_.wall.triangles[TriangleId(i)];
-      layers_.base[i] = {v[0].value(), v[1].value(), v[2].value()};
-    });
-    points_.resize(next);
-    parallel_for(context_, n, [&](std::size_t i) { place(envelope, VertexId(i)); });
+Extruder::Extruder(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, const RunContext& context)
+    : base_(base),
+      envelope_options_(envelope_options),
+      scale_(scale_of(envelope_options)),
+      context_(context),
+      curving_(base, options.wall_perpendicularity),
+      placed_(base.wall.n_vertices()) {
+  const std::size_t n = base.wall.n_vertices();
+  const std::size_t per_line = static_cast<std::size_t>(scale_.n) + 1;
+  layers_.n_layers = scale_.n;
+  layers_.first_node.resize(n);
+  for (std::size_t i = 0; i < n; ++i) layers_.first_node[i] = NodeId(i * per_line).value();
+  layers_.is_collapsed.resize(n);
+  layers_.base.resize(base.wall.n_triangles());
+  for (const TriangleId t : IdRange<TriangleId>(base.wall.n_triangles())) {
+    const TriangleVertices& v = base.wall.triangles[t];
+    layers_.base[t.index()] = {v[0].value(), v[1].value(), v[2].value()};
   }
+  points_.resize(n * per_line);
+}
 
-  /// Columns with an invalid cell among those that touch a marked line (all if `dirty` is null), ascending.
-  std::vector<std::size_t> invalid_columns(const Column<VertexId, std::uint8_t>* dirty) const {
-    using List = std::vector<std::size_t>;
-    return parallel_reduce(
-        context_, layers_.n_columns(), List{},
-        [&](std::size_t begin, std::size_t end) {
-          List bad;
-          for (std::size_t c = begin; c < end; ++c) {
-            const auto& lines = layers_.base[c];
-            if (dirty && !(*dirty)[VertexId(lines[0])] && !(*dirty)[VertexId(lines[1])] && !(*dirty)[VertexId(lines[2])]) continue;
-            if (!is_column_valid(c)) bad.push_back(c);
-          }
-          return bad;
-        },
-        [](List a, List b) {
-          a.insert(a.end(), b.begin(), b.end());
-          return a;
-        });
-  }
+/// Places the lines whose height, direction or curving is not the one they were placed with; returns them, ascending.
+std::vector<VertexId> Extruder::place_stale_lines(const Envelope& envelope) {
+  return parallel_reduce(
+      context_, base_.wall.n_vertices(), std::vector<VertexId>{},
+      [&](std::size_t begin, std::size_t end) {
+        std::vector<VertexId> stale;
+        LinePlacer placer(base_, scale_);
+        for (std::size_t i = begin; i < end; ++i) {
+          const VertexId v(i);
+          const Placed wanted{envelope.direction[v], envelope.height[v], curving_[v]};
+          if (wanted == placed_[v]) continue;
+          placed_[v] = wanted;
+          layers_.is_collapsed[i] = envelope.is_collapsed(v) ? 1 : 0;
+          placer.place(envelope, v, curving_[v], points_.data() + layers_.first_node[i]);
+          stale.push_back(v);
+        }
+        return stale;
+      },
+      joined<VertexId>, k_line_chunk);
+}
 
-  /// Replaces the nodes of one line. \pre its collapse state is the one of the last build().
-  void place(const Envelope& envelope, VertexId v) {
-    Point* p = points_.data() + layers_.first_node[v.index()];
-    const Point wall = base_.wall.points[v];
-    p[0] = wall;
-    if (envelope.is_collapsed(v)) return;
-    std::vector<double> t;
-    t.resize(static_cast<std::size_t>(scale_.n) + 1);
-    const double h = envelope.height[v];
-    layer_parameters(scale_.h0, h, scale_.n, t.data());
-    const Vec3 along = h * envelope.direction[v];
-    const Vec3 aside = h * base_.vertex_normal[v] - along;
-    const VertexConstraint& constraint = base_.constraint[v];
-    const ConstraintSurface* surface =
-        constraint.freedom == Freedom::surface ? base_.surfaces[static_cast<std::size_t>(constraint.on[0])].get() : nullptr;
-    for (int j = 1; j < scale_.n; ++j) {
-      const double s = normal_share(t[static_cast<std::size_t>(j)], curvature_[v]);
-      p[j] = wall + t[static_cast<std::size_t>(j)] * (along + s * aside);
-      if (surface) p[j] = surface->closest(p[j]);
+Extruder::Columns Extruder::columns_at(const std::vector<VertexId>& lines) const {
+  Columns columns;
+  for (const VertexId v : lines)
+    for (const HalfedgeId h : base_.topology.outgoing(v)) columns.push_back(triangle_of(h).index());
+  sort_unique(columns);
+  return columns;
+}
+
+/// The invalid ones of some columns, or of all.
+Extruder::Columns Extruder::invalid_among(const Columns* some) const {
+  return parallel_reduce(
+      context_, some ? some->size() : layers_.n_columns(), Columns{},
+      [&](std::size_t begin, std::size_t end) {
+        Columns bad;
+        for (std::size_t i = begin; i < end; ++i) {
+          const std::size_t column = some ? (*some)[i] : i;
+          if (!is_column_certain(column_lines(layers_, points_, column), scale_.n)) bad.push_back(column);
+        }
+        return bad;
+      },
+      joined<std::size_t>, k_column_chunk);
+}
+
+/// Largest common share of the present c_t of its lines with which a column is valid, to 1/64; k_hopeless where straight lines are not either.
+double Extruder::valid_share_of_curving(const Envelope& envelope, std::size_t column) const {
+  const std::size_t per_line = static_cast<std::size_t>(scale_.n) + 1;
+  std::vector<Point> nodes(3 * per_line);
+  LinePlacer placer(base_, scale_);
+  const auto is_valid = [&](double share) {
+    ColumnLines lines;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId v(layers_.base[column][k]);
+      placer.place(envelope, v, share * curving_[v], nodes.data() + k * per_line);
+      lines.nodes[k] = nodes.data() + k * per_line;
+      lines.is_collapsed[k] = envelope.is_collapsed(v);
     }
-    p[scale_.n] = envelope.point(base_.wall, v);
+    return is_column_certain(lines, scale_.n);
+  };
+  if (!is_valid(0.0)) return k_hopeless;
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < k_bisections; ++i) {
+    const double middle = 0.5 * (low + high);
+    (is_valid(middle) ? low : high) = middle;
   }
+  return low;
+}
 
-  double& curvature(VertexId v) { return curvature_[v]; }
-  Extrusion take() { return {std::move(layers_), std::move(points_), 0}; }
-
- private:
-  bool is_column_valid(std::size_t c) const {
-    const int n_down = layers_.n_collapsed(c);
-    if (n_down == 3) return true;
-    if (n_down == 0) {
-      const auto& lines = layers_.base[c];
-      const std::array<const Point*, 3> p = {&points_[layers_.first_node[lines[0]]], &points_[layers_.first_node[lines[1]]], &points_[layers_.first_node[lines[2]]]};
-      for (int j = 0; j < scale_.n; ++j)
-        if (!is_prism_certain({p[0][j], p[1][j], p[2][j], p[0][j + 1], p[1][j + 1], p[2][j + 1]})) return false;
-      return true;
+/// Limits c_t at the lines of invalid columns to what bisection finds; returns the columns that no c_t makes valid.
+Extruder::Columns Extruder::reduce_curving(const Envelope& envelope, const Columns& bad) {
+  std::vector<double> share(bad.size());
+  parallel_for(context_, bad.size(), [&](std::size_t i) { share[i] = valid_share_of_curving(envelope, bad[i]); }, 8);
+  Columns hopeless;
+  for (std::size_t i = 0; i < bad.size(); ++i) {
+    if (share[i] == k_hopeless) {
+      hopeless.push_back(bad[i]);
+      continue;
     }
-    for (int j = 0; j < scale_.n; ++j) {
-      const Cell cell = layers_.cell(c, j);
-      const auto at = [&](std::size_t i) { return points_[cell.nodes[i].index()]; };
-      const bool is_valid = n_down == 1 ? is_pyramid_certain({at(0), at(1), at(2), at(3), at(4)}) : is_tet_valid({at(0), at(1), at(2), at(3)});
-      if (!is_valid) return false;
-    }
-    return true;
+    for (const VertexId v : base_.wall.triangles[TriangleId(bad[i])]) curving_.limit(v, share[i] * curving_[v]);
   }
-
-  const LayerBase& base_;
-  EnvelopeScale scale_;
-  const RunContext& context_;
-  Column<VertexId, double> curvature_;
-  LayerBlock layers_;
-  std::vector<Point> points_;
-};
-
-/// c_t = 0 on the lines of the columns, half on the neighbouring lines. Marks what changed; false when all those lines were straight already.
-bool straighten(const LayerBase& base, const std::vector<std::size_t>& columns, LineSet& lines, Column<VertexId, std::uint8_t>& changed) {
-  bool has_changed = false;
-  for (const std::size_t c : columns) {
-    for (const VertexId v : base.wall.triangles[TriangleId(c)]) {
-      if (lines.curvature(v) == 0.0) continue;
-      lines.curvature(v) = 0.0;
-      changed[v] = 1;
-      has_changed = true;
-      for (const VertexId other : base.topology.neighbours(v)) {
-        if (lines.curvature(other) == 0.0) continue;
-        lines.curvature(other) *= k_neighbour_share;
-        changed[other] = 1;
-      }
-    }
-  }
-  return has_changed;
+  return hopeless;
 }
 
 /// Equal heights over the corners of invalid columns; where they were equal already, lower ones.
-void lower_columns(const LayerBase& base, const std::vector<std::size_t>& columns, const EnvelopeScale& scale, Envelope& envelope) {
+void Extruder::lower_heights(const Columns& columns, Envelope& envelope) const {
+  Column<VertexId, std::uint8_t> touched(base_.wall.n_vertices(), 0);
   for (const std::size_t c : columns) {
-    const TriangleVertices& v = base.wall.triangles[TriangleId(c)];
+    const TriangleVertices& v = base_.wall.triangles[TriangleId(c)];
     double lowest = 0.0, tallest = 0.0;
     for (const VertexId vertex : v) {
       const double h = envelope.height[vertex];
@@ -165,23 +152,22 @@ void lower_columns(const LayerBase& base, const std::vector<std::size_t>& column
       tallest = std::max(tallest, h);
     }
     const double bound = tallest > k_equalise_factor * lowest ? k_equalise_factor * lowest : k_shrink_factor * lowest;
-    for (const VertexId vertex : v) lower(envelope, vertex, bound, HeightLimit::prism, scale);
+    for (const VertexId vertex : v) {
+      lower(envelope, vertex, bound, HeightLimit::prism, scale_);
+      touched[vertex] = 1;
+    }
   }
+  unwarp(base_, envelope_options_, HeightLimit::prism, envelope, context_, &touched);
 }
 
-}  // namespace
-
-Extrusion extrude_prisms(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, Envelope& envelope,
-                         const RunContext& context) {
-  const EnvelopeScale scale = scale_of(envelope_options);
-  LineSet lines(base, scale, options.wall_perpendicularity, context);
-  lines.build(envelope);
-  const std::size_t n_vertices = base.wall.n_vertices();
-  Column<VertexId, std::uint8_t> changed(n_vertices, 1);
-  std::vector<std::size_t> bad = lines.invalid_columns(nullptr);
+void Extruder::extrude(Envelope& envelope) {
+  Columns some = columns_at(is_first_ ? std::vector<VertexId>{} : place_stale_lines(envelope));
+  if (is_first_) place_stale_lines(envelope);
+  Columns bad = invalid_among(is_first_ ? nullptr : &some);
+  is_first_ = false;
   for (int round = 0; !bad.empty(); ++round) {
     if (round == k_max_repair_rounds) {
-      const auto place = base.wall.points[base.wall.triangles[TriangleId(bad.front())][0]];
+      const auto place = base_.wall.points[base_.wall.triangles[TriangleId(bad.front())][0]];
       throw Error({.code = ErrorCode::envelope_failed,
                    .attempted = "extruding prisms",
                    .problem = std::to_string(bad.size()) + " columns stay invalid after " + std::to_string(round) + " repairs",
@@ -189,39 +175,44 @@ Extrusion extrude_prisms(const LayerBase& base, const EnvelopeOptions& envelope_
                    .n_places = static_cast<std::int64_t>(bad.size()),
                    .hint = "report this surface"});
     }
-    context.debug("extrusion: " + std::to_string(bad.size()) + " invalid columns in round " + std::to_string(round));
-    changed.assign(n_vertices, 0);
-    if (round < k_straighten_rounds && straighten(base, bad, lines, changed)) {
-      parallel_for(context, n_vertices, [&](std::size_t i) {
-        if (changed[VertexId(i)]) lines.place(envelope, VertexId(i));
-      });
+    Columns hopeless;
+    if (round < k_curving_rounds) {
+      hopeless = reduce_curving(envelope, bad);
     } else {
-      straighten(base, bad, lines, changed);
-      const Column<VertexId, double> before = envelope.height;
-      lower_columns(base, bad, scale, envelope);
-      unwarp(base, envelope_options, HeightLimit::prism, envelope, context);
-      seat_on_surfaces(base, envelope_options, nullptr, envelope, context);
-      bool has_collapsed = false;
-      for (const VertexId v : before.ids()) {
-        if (before[v] == envelope.height[v]) continue;
-        changed[v] = 1;
-        has_collapsed = has_collapsed || envelope.is_collapsed(v);
-      }
-      if (has_collapsed) lines.build(envelope);
-      else
-        parallel_for(context, n_vertices, [&](std::size_t i) {
-          if (changed[VertexId(i)]) lines.place(envelope, VertexId(i));
-        });
+      hopeless = bad;
+      for (const std::size_t c : bad)
+        for (const VertexId v : base_.wall.triangles[TriangleId(c)]) curving_.limit(v, 0.0);
     }
-    for (const std::size_t c : bad)  // also where nothing was left to change in this round
-      for (const VertexId v : base.wall.triangles[TriangleId(c)]) changed[v] = 1;
-    bad = lines.invalid_columns(&changed);
+    context_.debug("extrusion: " + std::to_string(bad.size()) + " invalid columns in round " + std::to_string(round) + ", " + std::to_string(hopeless.size()) +
+                   " of them with straight lines too");
+    if (!hopeless.empty()) lower_heights(hopeless, envelope);
+    curving_.smooth(context_);
+    some = columns_at(place_stale_lines(envelope));
+    some.insert(some.end(), bad.begin(), bad.end());  // also where nothing was left to change in this round
+    sort_unique(some);
+    bad = invalid_among(&some);
   }
-  std::int64_t n_straightened = 0;
-  for (std::size_t i = 0; i < n_vertices; ++i) n_straightened += lines.curvature(VertexId(i)) < options.wall_perpendicularity ? 1 : 0;
-  Extrusion result = lines.take();
-  result.n_straightened = n_straightened;
+}
+
+Extrusion Extruder::take() {
+  std::uint64_t next = 0;
+  for (std::size_t i = 0; i < layers_.n_lines(); ++i) {
+    const std::size_t n_nodes = layers_.is_collapsed[i] ? 1 : static_cast<std::size_t>(scale_.n) + 1;
+    if (next != layers_.first_node[i]) std::copy_n(points_.begin() + layers_.first_node[i], n_nodes, points_.begin() + static_cast<std::ptrdiff_t>(next));
+    layers_.first_node[i] = static_cast<std::uint32_t>(next);
+    next += n_nodes;
+  }
+  points_.resize(next);
+  Extrusion result{std::move(layers_), std::move(points_), 0, curving_.distribution()};
+  for (const std::int64_t n : result.curving_shares) result.n_straightened += n;
   return result;
+}
+
+Extrusion extrude_prisms(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, Envelope& envelope,
+                         const RunContext& context) {
+  Extruder extruder(base, envelope_options, options, context);
+  extruder.extrude(envelope);
+  return extruder.take();
 }
 
 }  // namespace sterna::volmesh

@@ -1,0 +1,134 @@
+// How fast the layer is, stage by stage, on real surfaces with the settings of ../shared/data/baselines.md: 35 layers, first height 1e-6 of the body length L,
+// feature angle 35 degrees, growth at most 1.4, thickness at most 0.1 L, wall perpendicularity 0.1.
+// usage: envelope_bench [--threads 1,2] [--layers 35] SURFACE...        the ladder of surfaces is made by tests/bench/make_ladder
+// One table row for each surface, thread number and stage: seconds, of processor time too (the same times the threads on a quiet machine), elements per second
+// and core, peak of the resident memory during the stage.
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geom/math/intersect.h"
+#include "io/surface_file.h"
+#include "surfmesh/stitch/stitch_surface.h"
+#include "volmesh/envelope/build_envelope.h"
+#include "volmesh/envelope/retract.h"
+#include "volmesh/prisms/extrude.h"
+#include "volmesh/prisms/first_node.h"
+#include "volmesh/prisms/layer_cells.h"
+
+namespace {
+
+using namespace sterna;
+using namespace sterna::volmesh;
+using Clock = std::chrono::steady_clock;
+
+constexpr double k_bytes_per_mb = 1e6;
+
+/// Linux forgets the peak of the resident memory when 5 is written to clear_refs.
+void reset_peak() { std::ofstream("/proc/self/clear_refs") << 5; }
+
+double status_megabytes(const std::string& key) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(key)) return std::strtod(line.c_str() + key.size() + 1, nullptr) * 1024.0 / k_bytes_per_mb;
+  return 0.0;
+}
+
+struct Row {
+  std::string surface;
+  int threads;
+  double peak = 0.0;  ///< MB, of all stages of this surface so far
+
+  void timed(const char* stage, double n_elements, const char* element, const std::function<void()>& f) {
+    reset_peak();
+    const Clock::time_point start = Clock::now();
+    const std::clock_t cpu_start = std::clock();
+    f();
+    const double cpu = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    const double here = status_megabytes("VmHWM:");
+    peak = std::max(peak, here);
+    std::printf("| %s | %d | %s | %.3f | %.3f | %.0f | %s/s/core | %.0f |\n", surface.c_str(), threads, stage, seconds, cpu, n_elements / seconds / threads, element, here);
+    std::fflush(stdout);
+  }
+};
+
+TriMesh read(const std::string& path, const RunContext& context) {
+  return surfmesh::stitch_surface({io::read_surface_file(path, context)}, {}, context).mesh;
+}
+
+void run(const std::string& path, const TriMesh& wall, int threads, int n_layers) {
+  const RunContext context({.threads = threads, .log = [](LogLevel level, std::string_view text) {
+                              if (level != LogLevel::debug || std::getenv("STERNA_BENCH_VERBOSE")) std::fprintf(stderr, "%.*s\n", static_cast<int>(text.size()), text.data());
+                            }});
+  Row row{path.substr(path.rfind('/') + 1), threads};
+  const double n = static_cast<double>(wall.n_triangles());
+  const double n_prisms = n * n_layers;
+  const double length = body_length(wall);
+  EnvelopeOptions options;
+  options.layers = n_layers;
+  options.first_height = 1e-6 * length;
+  options.max_thickness = 0.1 * length;
+  const PrismOptions prisms{.wall_perpendicularity = 0.1};
+
+  std::optional<LayerBase> base;
+  Envelope envelope;
+  Extrusion extrusion;
+  LayerCertificate certificate;
+  CrossingPairs crossings;
+  std::printf("| %s | %d | triangles | | | %.0f | wall | %.0f |\n", row.surface.c_str(), threads, n, status_megabytes("VmRSS:"));
+  row.timed("topology", n, "triangles", [&] { base.emplace(wall, context); });
+  row.timed("envelope", n, "triangles", [&] { envelope = build_envelope(*base, options, context); });
+  const EnvelopeSurface surface = envelope_surface(*base, envelope, context);
+  row.timed("one exact self-intersection pass", n, "triangles", [&] { crossings = find_crossings(surface.points, surface.triangles, context); });
+  row.timed("extrusion", n_prisms, "prisms", [&] { extrusion = extrude_prisms(*base, options, prisms, envelope, context); });
+  row.timed("certificate of the prisms", n_prisms, "prisms", [&] { certificate = certify_layer(extrusion.layers, extrusion.points, context); });
+  const FirstNodeReport first = first_node_report(*base, classify_vertices(*base, options, context), options, envelope, extrusion, context);
+  std::printf("| %s | %d | all stages | | | | | %.0f |\n", row.surface.c_str(), threads, row.peak);
+  const auto& c = extrusion.curving_shares;
+  std::printf("\n%s: %lld crossing pairs; %lld of %lld cells proved, worst quality %.3g at (%.6g, %.6g, %.6g), layer %d\n", row.surface.c_str(),
+              static_cast<long long>(crossings.total), static_cast<long long>(certificate.n_proved), static_cast<long long>(certificate.n_cells),
+              certificate.min_quality, certificate.worst_place.x, certificate.worst_place.y, certificate.worst_place.z, certificate.worst_layer);
+  std::printf("  c_t reduced on %lld of %zu lines: %lld straight, %lld up to 1/4, %lld to 1/2, %lld to 3/4, %lld below 1\n", static_cast<long long>(extrusion.n_straightened),
+              extrusion.layers.n_lines(), static_cast<long long>(c[0]), static_cast<long long>(c[1]), static_cast<long long>(c[2]), static_cast<long long>(c[3]),
+              static_cast<long long>(c[4]));
+  std::printf("  first node within 2 %%: %.3f %% of full lines (worst %.3g), %.3f %% of the smooth facets' area (mean of three %.3f %%, worst %.3g); %.2f %% of the area at ridges, "
+              "%lld compressed, %lld collapsed\n\n",
+              100.0 * first.vertex_share, first.worst_vertex, 100.0 * first.facet_share, 100.0 * first.facet_mean_share, first.worst_facet, 100.0 * first.ridge_area,
+              static_cast<long long>(first.n_compressed), static_cast<long long>(first.n_collapsed));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<int> threads = {1, 2};
+  int n_layers = 35;
+  std::vector<std::string> surfaces;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument == "--threads" && i + 1 < argc) {
+      threads.clear();
+      for (char* at = argv[++i]; *at != '\0'; at += *at == ',') threads.push_back(static_cast<int>(std::strtol(at, &at, 10)));
+    } else if (argument == "--layers" && i + 1 < argc) {
+      n_layers = std::atoi(argv[++i]);
+    } else {
+      surfaces.push_back(argument);
+    }
+  }
+  if (surfaces.empty()) {
+    std::fprintf(stderr, "usage: envelope_bench [--threads 1,2] [--layers 35] SURFACE...\n");
+    return 2;
+  }
+  std::printf("| surface | threads | stage | seconds | processor | rate | per | peak MB |\n|---|---|---|---|---|---|---|---|\n");
+  for (const std::string& path : surfaces) {
+    const TriMesh wall = read(path, RunContext());
+    for (const int n : threads) run(path, wall, n, n_layers);
+  }
+  return 0;
+}

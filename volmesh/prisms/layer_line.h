@@ -1,0 +1,35 @@
+// One wall-normal line of the layer: where its nodes are (method.md §8, [ET15 eqs. (10)-(12)]).
+#pragma once
+
+#include <vector>
+
+#include "volmesh/envelope/envelope.h"
+
+namespace sterna::volmesh {
+
+/// Height of the layer at a vertex along its wall normal, m: h (d . n). It is what the layer law divides, so that the first node is h0 off the wall whatever the
+/// line's curve and slant; the layer is compressed (equally spaced, h0 not met) where it is below n h0. At least 0.1 h: steeper lines would not be told apart.
+double normal_height(const LayerBase& base, const Envelope& envelope, VertexId v);
+
+/// Distance of the first node along the wall normal over h0. Along a facet's normal it is smaller by the cosine between the two normals; the factor makes the cells
+/// on the vertex's triangles h0 high on average (inverse area-weighted mean cosine) and the lowest of them within 2 % where that can be, but stays at most 1.019:
+/// within the 2 % by which the distance along the wall normal may differ from h0 (G11).
+double first_height_factor(const LayerBase& base, VertexId v);
+
+/// Nodes p_0 .. p_n of a line: p_j = p + t_j (s_j h_n n + (1 - s_j)(e - p)) with envelope point e, wall normal n, h_n = normal_height and eq. (11) for
+/// h_n and h0 times first_height_factor.
+/// Eq. (10) has h in place of h_n; with h_n every node's distance along n is t_j h_n, and curving slides nodes along the wall only.
+/// s_j = s(t_j) of eq. (12), normalised: 1 at the wall, 0 at the top.
+class LinePlacer {
+ public:
+  LinePlacer(const LayerBase& base, const EnvelopeScale& scale);
+  /// Writes n + 1 nodes, or the wall point alone at a collapsed vertex. Nodes obey the vertex's constraint; the last is envelope.point() to the bit.
+  void place(const Envelope& envelope, VertexId v, double c_t, Point* nodes);
+
+ private:
+  const LayerBase& base_;
+  EnvelopeScale scale_;
+  std::vector<double> t_;
+};
+
+}  // namespace sterna::volmesh
