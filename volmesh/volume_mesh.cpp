@@ -7,6 +7,7 @@
 #include "volmesh/envelope/untangle.h"
 #include "volmesh/layer_report.h"
 #include "volmesh/prisms/extrude.h"
+#include "volmesh/prisms/layer_cells.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -37,11 +38,12 @@ void require_closed(const LayerBase& base) {
 Extrusion extrude_clear_of_collisions(const LayerBase& base, const VolumeMeshOptions& options, Collider& collider, Envelope& envelope,
                                       const RunContext& context) {
   const EnvelopeScale scale = scale_of(options.envelope);
+  Extruder extruder(base, options.envelope, options.prisms, context);
   for (int round = 0;; ++round) {
     const EnvelopeShape before = envelope;
-    Extrusion extrusion = extrude_prisms(base, options.envelope, options.prisms, envelope, context);
+    extruder.extrude(envelope);
     const std::vector<VertexId> repaired = difference(before, envelope, context).vertices;
-    if (repaired.empty() || !retract_collisions(base, options.envelope, collider, envelope, context, &repaired)) return extrusion;
+    if (repaired.empty() || !retract_collisions(base, options.envelope, collider, envelope, context, &repaired)) return extruder.take();
     if (round < k_max_clear_rounds) continue;
     std::vector<VertexId> disturbed = difference(before, envelope, context).vertices;
     for (const VertexId v : disturbed) lower(envelope, v, 0.0, HeightLimit::prism, scale);
@@ -49,6 +51,15 @@ Extrusion extrude_clear_of_collisions(const LayerBase& base, const VolumeMeshOpt
     disturbed = difference(before, envelope, context).vertices;
     retract_collisions(base, options.envelope, collider, envelope, context, &disturbed);
   }
+}
+
+void certify_cells(const Extrusion& extrusion, const RunContext& context, EnvelopeCertificate& certificate) {
+  const LayerCertificate cells = certify_layer(extrusion.layers, extrusion.points, context);
+  certificate.n_layer_cells = cells.n_cells;
+  certificate.n_invalid_layer_cells = cells.n_cells - cells.n_proved;
+  if (cells.worst_column < 0) return;
+  certificate.worst_layer_cell = {cells.min_quality, cells.worst_place,
+                                  "layer " + std::to_string(cells.worst_layer) + " on wall triangle " + std::to_string(cells.worst_column)};
 }
 
 void require_valid(const CheckReport& report) {
@@ -95,6 +106,7 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
   {
     const StageTimer timer(context, "certificate");
     result.certificate = certify_envelope(base, collider, envelope, context);
+    certify_cells(extrusion, context, result.certificate);
     require_proved(result.certificate);
   }
   result.layer = report_layer(base, options.envelope, envelope);

@@ -142,7 +142,7 @@ Extruder::Columns Extruder::reduce_curving(const Envelope& envelope, const Colum
 
 /// Equal heights over the corners of invalid columns; where they were equal already, lower ones.
 void Extruder::lower_heights(const Columns& columns, Envelope& envelope) const {
-  Column<VertexId, std::uint8_t> touched(base_.wall.n_vertices(), 0);
+  std::vector<VertexId> touched;
   for (const std::size_t c : columns) {
     const TriangleVertices& v = base_.wall.triangles[TriangleId(c)];
     double lowest = 0.0, tallest = 0.0;
@@ -154,9 +154,10 @@ void Extruder::lower_heights(const Columns& columns, Envelope& envelope) const {
     const double bound = tallest > k_equalise_factor * lowest ? k_equalise_factor * lowest : k_shrink_factor * lowest;
     for (const VertexId vertex : v) {
       lower(envelope, vertex, bound, HeightLimit::prism, scale_);
-      touched[vertex] = 1;
+      touched.push_back(vertex);
     }
   }
+  sort_unique(touched);
   unwarp(base_, envelope_options_, HeightLimit::prism, envelope, context_, &touched);
 }
 
