@@ -6,6 +6,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
+#include "volmesh/envelope/keep_inside.h"
 #include "volmesh/envelope/untangle.h"
 #include "volmesh/prisms/layer_cells.h"
 #include "volmesh/prisms/layer_line.h"
@@ -159,6 +160,7 @@ void Extruder::lower_heights(const Columns& columns, Envelope& envelope) const {
   }
   sort_unique(touched);
   unwarp(base_, envelope_options_, HeightLimit::prism, envelope, context_, &touched);
+  seat_on_surfaces(base_, envelope_options_, nullptr, envelope, context_);
 }
 
 void Extruder::extrude(Envelope& envelope) {

@@ -88,7 +88,7 @@ TEST(VolumeMesh, NodesOfALineAreConsecutive) {
   for (std::uint32_t line = 0; line < layers.n_lines(); ++line) {
     EXPECT_EQ(result.mesh.points[layers.node(line, 0)], wall.points[VertexId(line)]);
     for (int j = 1; j <= layers.n_layers; ++j) EXPECT_EQ(layers.node(line, j).value(), layers.node(line, j - 1).value() + 1);
-    EXPECT_NEAR(distance(result.mesh.points[layers.node(line, 0)], result.mesh.points[layers.node(line, 1)]), h0, 1e-3 * h0);  // lines are curved: the chord is a little shorter
+    EXPECT_NEAR(distance(result.mesh.points[layers.node(line, 0)], result.mesh.points[layers.node(line, 1)]), h0, 0.02 * h0);  // first_height_factor raises it to 1.019 h0 at most
   }
 }
 
