@@ -13,12 +13,15 @@
 #include <new>
 
 #include "geom/base/error.h"
+#include "geom/base/parallel.h"
+#include "geom/math/measures.h"
 #include "volmesh/envelope/validity.h"
 
 namespace sterna::volmesh {
 namespace {
 
 constexpr double k_walk_end = 1e-6;  ///< sum of violated g, dimensionless, at which the walk to feasibility ends; g_1,min is 1e-2
+constexpr int k_max_halvings = 8;     ///< of a vertex's way from the start, before it goes back there
 constexpr double k_shrink = 0.9;      ///< of a growth edge, per step of the walk's second part
 
 /// What the C callbacks see. NLopt gets the sums of (8) and (9) times n_v rather than the means: its estimate of the curvature, rho, starts at 1 and never
@@ -148,6 +151,67 @@ bool walk_to_feasibility(const PaperProblem& problem, const NloptSettings& setti
   return problem.constraint(z, {}, context).total() <= run.slack();
 }
 
+double quality_of(const MacroElement& e) {
+  WedgePoints p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    p[k] = e.wall[k];
+    p[k + 3] = e.wall[k] + e.height[k] * e.direction[k];
+  }
+  return wedge_quality(p);
+}
+
+/// Vertices of elements that are invalid or worse than `least_quality` go half the way back to `from`, again and again, in the end all the way, until there are
+/// no such elements (or none that are not so in `from`). `optimised` is at z at first. Returns how many vertices went back.
+std::size_t go_back(const LayerBase& base, const PaperProblem& problem, const Envelope& from, double least_quality, std::vector<double> z, Envelope& optimised,
+                    const RunContext& context) {
+  const std::size_t n = base.wall.n_vertices();
+  const std::vector<double> z_from = problem.unknowns(from);
+  Column<VertexId, std::uint8_t> dirty(n, 1), n_halvings(n, 0);
+  std::size_t n_back = 0;
+  while (true) {
+    using List = std::vector<TriangleId>;
+    const List bad = parallel_reduce(
+        context, base.wall.n_triangles(), List{},
+        [&](std::size_t begin, std::size_t end) {
+          List list;
+          for (std::size_t i = begin; i < end; ++i) {
+            const TriangleVertices& v = base.wall.triangles[TriangleId(i)];
+            if (!dirty[v[0]] && !dirty[v[1]] && !dirty[v[2]]) continue;
+            const MacroElement e = macro_element(base, optimised, TriangleId(i));
+            const bool is_prism = e.height[0] > 0.0 && e.height[1] > 0.0 && e.height[2] > 0.0;
+            if (!is_macro_valid(e) || (is_prism && quality_of(e) < least_quality)) list.push_back(TriangleId(i));
+          }
+          return list;
+        },
+        [](List a, const List& b) {
+          a.insert(a.end(), b.begin(), b.end());
+          return a;
+        });
+    dirty.assign(n, 0);
+    bool has_moved = false;
+    for (const TriangleId t : bad) {
+      for (const VertexId v : base.wall.triangles[t]) {
+        const std::span<double> own = problem.unknowns_of(v, z);
+        if (dirty[v] || own.empty() || n_halvings[v] > k_max_halvings) continue;
+        dirty[v] = 1;
+        has_moved = true;
+        n_back += n_halvings[v] == 0;
+        const double share = ++n_halvings[v] > k_max_halvings ? 0.0 : 0.5;
+        const double* const origin = z_from.data() + (own.data() - z.data());
+        for (std::size_t k = 0; k < own.size(); ++k) own[k] = origin[k] + share * (own[k] - origin[k]);
+      }
+    }
+    if (!has_moved) return n_back;
+    problem.store(z, optimised, context);
+    parallel_for(context, n, [&](std::size_t i) {
+      const VertexId v(i);
+      if (n_halvings[v] <= k_max_halvings) return;
+      optimised.height[v] = from.height[v];  // to the bit
+      optimised.direction[v] = from.direction[v];
+    });
+  }
+}
+
 }  // namespace
 
 Envelope nlopt_optimise(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, const NloptSettings& settings,
@@ -169,7 +233,7 @@ Envelope nlopt_optimise(const LayerBase& base, const Envelope& start, const Colu
       report.run.stopped = "no feasible point found";
       return start;
     }
-    problem.store(z, from);
+    problem.store(z, from, context);
   }
   const PaperObjective before = problem.objective(z, {}, context);
 
@@ -180,11 +244,11 @@ Envelope nlopt_optimise(const LayerBase& base, const Envelope& start, const Colu
   report.is_time_limit = result == NLOPT_MAXTIME_REACHED;
   report.best = report.run.history.back();  // the point that the run starts from at least
 
-  Envelope optimised = start;
-  problem.store(run.best, optimised);
+  Envelope optimised = from;
+  problem.store(run.best, optimised, context);
   report.n_invalid = static_cast<std::int64_t>(invalid_macros(base, optimised, context).size());
   const double least_quality = smallest_scaled_jacobian(base, from, context);
-  report.run.n_taken_back = take_back(base, from, std::min(k_quality_share * least_quality, least_quality), optimised, context);
+  report.run.n_taken_back = go_back(base, problem, from, std::min(k_quality_share * least_quality, least_quality), std::move(run.best), optimised, context);
   const PaperObjective after = problem.objective(problem.unknowns(optimised), {}, context);
   return after.total() < before.total() ? optimised : from;
 }

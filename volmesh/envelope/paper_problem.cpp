@@ -89,15 +89,22 @@ std::vector<double> PaperProblem::unknowns(const Envelope& envelope) const {
   return z;
 }
 
-void PaperProblem::store(std::span<const double> z, Envelope& envelope) const {
-  for (const Place& place : vertices_) {
+void PaperProblem::store(std::span<const double> z, Envelope& envelope, const RunContext& context) const {
+  parallel_for(context, vertices_.size(), [&](std::size_t i) {
+    const Place& place = vertices_[i];
     Vec3 g = place.h_u * growth(place, z);
     const VertexConstraint& constraint = base_.constraint[place.vertex];
     const Point& foot = base_.wall.points[place.vertex];
     if (constraint.freedom == Freedom::surface) g = base_.surfaces[static_cast<std::size_t>(constraint.on[0])]->closest(foot + g) - foot;
     envelope.height[place.vertex] = norm(g);
     envelope.direction[place.vertex] = normalized(g);
-  }
+  });
+}
+
+std::span<double> PaperProblem::unknowns_of(VertexId v, std::span<double> z) const {
+  if (!takes_part(v)) return {};
+  const Place& place = vertices_[vertex2place_[v]];
+  return z.subspan(place.first, place.n_tangents + 1u);
 }
 
 std::size_t PaperProblem::shrink_violated(std::span<double> z, double factor, const RunContext& context) const {

@@ -53,7 +53,9 @@ class PaperProblem {
   /// Unknowns of an envelope: any with the same wall; what of it lies outside the constraints is dropped. Not clamped to the bounds.
   std::vector<double> unknowns(const Envelope& envelope) const;
   /// Writes direction and height (length of the growth edge) of the vertices that take part; on a curved surface the point is put back on it.
-  void store(std::span<const double> z, Envelope& envelope) const;
+  void store(std::span<const double> z, Envelope& envelope, const RunContext& context) const;
+  /// The unknowns of one vertex; empty when it does not take part.
+  std::span<double> unknowns_of(VertexId v, std::span<double> z) const;
 
   /// \pre z.size() == n_unknowns(); gradient empty (value alone) or of that size: overwritten with d(f_1 + f_2)/dz. \cost one pass over the vertices
   PaperObjective objective(std::span<const double> z, std::span<double> gradient, const RunContext& context) const;

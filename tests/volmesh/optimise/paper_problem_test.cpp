@@ -111,7 +111,7 @@ TEST(PaperProblem, BoundsAndWhoTakesPart) {
   }
   // Unknowns and envelope are two ways to write the same.
   Envelope copy = envelope;
-  problem.store(z, copy);
+  problem.store(z, copy, k_context);
   for (const VertexId v : cube.points.ids()) EXPECT_LT(distance(copy.point(cube, v), envelope.point(cube, v)), 1e-15);
 }
 
@@ -138,7 +138,7 @@ TEST(PaperProblem, ConstraintsLeaveTwoOneOrNoTangentialUnknown) {
   EXPECT_EQ(problem.n_unknowns(), 3 * problem.n_vertices() - 1 - 2);
   // Whatever the unknowns are, the points stay within their constraints: vertex 0 has unknowns 0-2, vertex 1 has 3-4, vertex 2 has 5.
   std::vector<double> z(problem.n_unknowns(), 0.7);
-  problem.store(z, envelope);
+  problem.store(z, envelope, k_context);
   EXPECT_NEAR(dot(envelope.direction[plane], across), 0.0, 1e-15);
   EXPECT_NEAR(envelope.height[plane], 0.1 * std::hypot(0.7, 0.7), 1e-15);
   EXPECT_NEAR(distance(envelope.direction[line], plain.vertex_normal[line]), 0.0, 1e-15);
@@ -185,7 +185,7 @@ struct RoughCase {
       : mesh(surface_named(name)), base(mesh, k_context), envelope(initial_envelope(base, layers_for(mesh), k_context)), h_u(upper(base, envelope)),
         problem(base, envelope, h_u, 1e-6, k_g1_min, k_context), z(problem.unknowns(envelope)) {
     for (double& x : z) x += 2.4 * noise.next();
-    problem.store(z, envelope);
+    problem.store(z, envelope, k_context);
   }
   static Column<VertexId, double> upper(const LayerBase& base, const Envelope& envelope) {
     Column<VertexId, double> h_u = envelope.target;
