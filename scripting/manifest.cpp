@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/atomic_file.h"
+#include "scripting/layer_json.h"
 
 namespace sterna::scripting {
 namespace {
@@ -13,15 +14,6 @@ Json cells_json(const HybridMesh& mesh) {
   const CellCounts cells = count_cells(mesh);
   return {
       {"nodes", mesh.points.size()}, {"prisms", cells.prisms}, {"pyramids", cells.pyramids}, {"tetrahedra", cells.tetrahedra}, {"hexahedra", cells.hexahedra}};
-}
-
-Json layer_json(const volmesh::LayerReport& layer) {
-  Json collapsed = Json::array();
-  for (const ErrorPlace& place : layer.collapsed) collapsed.push_back({{"at", {place.position.x, place.position.y, place.position.z}}, {"what", place.what}});
-  Json lost_area = Json::object();
-  for (const auto& [reason, share] : layer.lost_area) lost_area[reason] = share;
-  return {{"body_length", layer.body_length}, {"coverage", layer.coverage},   {"target_over_eq1", layer.target_over_eq1}, {"lost_area", lost_area},
-          {"mean_height", layer.mean_height}, {"vertices", layer.n_vertices}, {"compressed", layer.n_compressed},         {"collapsed", collapsed}};
 }
 
 }  // namespace
@@ -43,7 +35,8 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
   for (const Patch& patch : mesh.mesh.patches) json["patches"].push_back({{"name", patch.name}, {"kind", to_string(patch.kind)}});
   json["mesh"] = cells_json(mesh.mesh);
   if (mesh.origin) {
-    json["layer"] = layer_json(mesh.origin->layer);
+    json["layer"] = Json::parse(layer_json(mesh.origin->layer));
+    json["certificate"] = Json::parse(certificate_json(mesh.origin->certificate));
     json["tetra_engine"] = mesh.origin->tetra_engine;
     if (!mesh.origin->tetra_failures.empty()) json["tetra_failures"] = mesh.origin->tetra_failures;
     if (!mesh.origin->is_reproducible) json["reproducible"] = "not reproducible: a time or memory limit decided which engine made the tetrahedra";

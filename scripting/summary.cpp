@@ -3,12 +3,17 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+
+#include "scripting/layer_json.h"
 
 namespace sterna::scripting {
 namespace {
 
 constexpr double k_bytes_per_mb = 1e6;
+constexpr std::size_t k_listed_places = 10;   ///< collapsed vertices in the summary; the manifest has all
+constexpr std::size_t k_listed_patches = 10;  ///< patches in the summary, worst covered first
 
 std::string counted(std::int64_t n, std::string_view one, std::string_view many) { return count_text(n) + " " + std::string(n == 1 ? one : many); }
 
@@ -18,6 +23,20 @@ std::string verdict_text(const MeshValue& mesh) {
 }
 
 std::int64_t n_nodes(const MeshValue& mesh) { return static_cast<std::int64_t>(mesh.mesh.points.size()); }
+
+/// The patches that are not covered to their full height, worst first; nothing for a wall of one patch.
+std::string patch_text(const volmesh::LayerReport& layer) {
+  std::vector<volmesh::PatchCoverage> patches = layer.patches;
+  if (patches.size() < 2) return "";
+  std::erase_if(patches, [](const volmesh::PatchCoverage& patch) { return patch.full >= 1.0; });
+  std::stable_sort(patches.begin(), patches.end(), [](const auto& a, const auto& b) { return a.full < b.full; });
+  patches.resize(std::min(patches.size(), k_listed_patches));
+  std::string text;
+  for (const volmesh::PatchCoverage& patch : patches)
+    text += fmt::format("    patch {}: {:.2f} % full, {:.2f} % compressed, {:.2f} % collapsed\n", patch.name, 100.0 * patch.full, 100.0 * patch.compressed,
+                        100.0 * patch.collapsed);
+  return text;
+}
 
 /// Time outside the engine: what this program itself needs.
 double rest_seconds(const MeshValue& mesh, const RunMeasure& measure) { return measure.wall_seconds - mesh.origin->tetra_engine_seconds; }
@@ -61,10 +80,15 @@ std::string summary_text(const MeshValue& mesh) {
                       mesh.origin->options.envelope.layers, count_text(cells.pyramids), count_text(cells.tetrahedra));
   text += fmt::format("  layer       {:.2f} % of the area at its full height, mean height {:.4g} m\n", 100.0 * layer.coverage, layer.mean_height);
   for (const auto& [reason, share] : layer.lost_area) text += fmt::format("              {:.2f} % below: {}\n", 100.0 * share, reason);
-  text +=
-      fmt::format("  compressed  {} of {} vertices (total height below layers x first height)\n", count_text(layer.n_compressed), count_text(layer.n_vertices));
-  text += fmt::format("  collapsed   {}\n", counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"));
-  for (const ErrorPlace& place : layer.collapsed) text += "    at " + format_point(place.position) + (place.what.empty() ? "" : ": " + place.what) + "\n";
+  text += fmt::format("  compressed  {:.2f} % of the area, {} of {} vertices (total height below layers x first height)\n", 100.0 * layer.compressed_area,
+                      count_text(layer.n_compressed), count_text(layer.n_vertices));
+  text += fmt::format("  collapsed   {:.2f} % of the area, {}\n", 100.0 * layer.collapsed_area,
+                      counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"));
+  for (std::size_t i = 0; i < std::min(layer.collapsed.size(), k_listed_places); ++i)
+    text += "    at " + format_point(layer.collapsed[i].position) + ": " + layer.collapsed[i].what + "\n";
+  if (layer.collapsed.size() > k_listed_places) text += fmt::format("    and {} more, all in the manifest\n", count_text(static_cast<std::int64_t>(layer.collapsed.size() - k_listed_places)));
+  text += patch_text(layer);
+  text += "  certificate " + to_text(mesh.origin->certificate) + "\n";
   return text + "  verdict     " + verdict_text(mesh);
 }
 
@@ -100,6 +124,8 @@ std::string stats_json(const MeshValue& mesh, const RunMeasure& measure) {
   json["vertices"] = layer.n_vertices;
   json["compressed"] = layer.n_compressed;
   json["collapsed"] = layer.collapsed.size();
+  json["layer"] = nlohmann::ordered_json::parse(layer_json(layer));
+  json["certificate"] = nlohmann::ordered_json::parse(certificate_json(mesh.origin->certificate));
   json["verdict"] = verdict_text(mesh);
   json["threads"] = measure.threads;
   json["wall_seconds"] = measure.wall_seconds;

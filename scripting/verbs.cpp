@@ -58,6 +58,7 @@ MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOp
   value.origin = MeshOrigin{.surface_options = wall.options,
                             .options = options,
                             .layer = std::move(result.layer),
+                            .certificate = std::move(result.certificate),
                             .n_wall_triangles = static_cast<std::int64_t>(wall.mesh.n_triangles()),
                             .tetra_engine = result.tetra_engine,
                             .tetra_failures = result.tetra_failures,

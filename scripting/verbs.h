@@ -34,6 +34,7 @@ struct MeshOrigin {
   surfmesh::StitchOptions surface_options;
   volmesh::VolumeMeshOptions options;
   volmesh::LayerReport layer;
+  volmesh::EnvelopeCertificate certificate;
   std::int64_t n_wall_triangles = 0;
   std::string tetra_engine;
   std::vector<std::string> tetra_failures;

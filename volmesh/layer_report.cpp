@@ -2,11 +2,99 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_full_height_share = 0.9;  ///< of h_target that counts as covered
+constexpr double k_full_height_share = 0.9;   ///< of h_target that counts as covered
+constexpr double k_suspicious_share = 0.5;    ///< of the area compressed: more likely a mistake in the settings than a difficult shape
+
+using LostArea = std::array<double, k_height_limits>;
+
+/// Areas by state, m^2.
+struct Areas {
+  double all = 0.0, full = 0.0, compressed = 0.0, collapsed = 0.0;
+  LostArea lost{};
+};
+
+class Classifier {
+ public:
+  Classifier(const EnvelopeOptions& options, const Envelope& envelope)
+      : envelope_(envelope), compressed_below_(options.layers * options.first_height) {}
+  bool is_full(VertexId v) const { return envelope_.height[v] >= k_full_height_share * envelope_.target[v]; }
+  bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && envelope_.height[v] < compressed_below_; }
+  void add(VertexId v, double area, Areas& areas) const {
+    areas.all += area;
+    if (is_full(v)) areas.full += area;
+    else areas.lost[static_cast<std::size_t>(envelope_.limit[v])] += area;
+    if (is_compressed(v)) areas.compressed += area;
+    if (envelope_.is_collapsed(v)) areas.collapsed += area;
+  }
+  double compressed_below() const { return compressed_below_; }
+
+ private:
+  const Envelope& envelope_;
+  double compressed_below_;  ///< m
+};
+
+std::vector<std::pair<std::string, double>> shares_of(const Areas& areas) {
+  std::vector<std::pair<std::string, double>> shares;
+  for (std::size_t i = 0; i < areas.lost.size(); ++i)
+    if (areas.lost[i] > 0.0) shares.emplace_back(to_string(static_cast<HeightLimit>(i)), areas.lost[i] / areas.all);
+  std::stable_sort(shares.begin(), shares.end(), [](const auto& x, const auto& y) { return x.second > y.second; });
+  return shares;
+}
+
+std::vector<PatchCoverage> cover_patches(const LayerBase& base, const Classifier& classifier) {
+  std::vector<Areas> areas(base.wall.patches.size());
+  for (const TriangleId t : base.wall.triangles.ids())
+    for (const VertexId v : base.wall.triangles[t]) classifier.add(v, base.area[t] / 3.0, areas[base.wall.triangle_patch[t].index()]);
+  std::vector<PatchCoverage> patches;
+  for (const PatchId p : base.wall.patches.ids()) {
+    const Areas& own = areas[p.index()];
+    const auto share = [&own](double part) { return own.all > 0.0 ? part / own.all : 0.0; };
+    patches.push_back({base.wall.patches[p].name, own.all, share(own.full), share(own.compressed), share(own.collapsed), shares_of(own)});
+  }
+  return patches;
+}
+
+std::string in_metres(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g m", x);
+  return text;
+}
+
+std::string vertex_text(const LayerBase& base, const Envelope& envelope, VertexId v) {
+  const Patch& patch = base.wall.patches[base.wall.triangle_patch[triangle_of(base.topology.outgoing(v).front())]];
+  return "vertex " + std::to_string(v.value()) + " of patch " + patch.name + ": " + std::string(to_string(envelope.limit[v]));
+}
+
+void list_places(const LayerBase& base, const Envelope& envelope, const Classifier& classifier, LayerReport& report) {
+  std::vector<VertexId> compressed;
+  for (const VertexId v : envelope.height.ids()) {
+    if (base.topology.outgoing(v).empty()) continue;  // belongs to no triangle
+    if (classifier.is_compressed(v)) compressed.push_back(v);
+    if (envelope.is_collapsed(v)) report.collapsed.push_back({base.wall.points[v], vertex_text(base, envelope, v)});
+  }
+  report.n_compressed = static_cast<std::int64_t>(compressed.size());
+  std::stable_sort(compressed.begin(), compressed.end(), [&](VertexId a, VertexId b) { return envelope.height[a] < envelope.height[b]; });
+  compressed.resize(std::min(compressed.size(), k_listed_compressed));
+  for (const VertexId v : compressed) report.compressed.push_back({base.wall.points[v], in_metres(envelope.height[v]) + ", " + vertex_text(base, envelope, v)});
+}
+
+/// Layers that are thinner than their own first cells come from a wrong unit more often than from a difficult shape.
+void warn(const EnvelopeOptions& options, const Envelope& envelope, const Classifier& classifier, LayerReport& report) {
+  const double tallest = *std::max_element(envelope.target.begin(), envelope.target.end());
+  const bool is_target_low = tallest < classifier.compressed_below();
+  if (!is_target_low && report.compressed_area <= k_suspicious_share) return;
+  char share[32];
+  std::snprintf(share, sizeof share, "%.0f %%", 100.0 * report.compressed_area);
+  report.warnings.push_back("the layer is compressed on " + std::string(share) + " of the wall: " + std::to_string(options.layers) + " layers of first_height " +
+                            in_metres(options.first_height) + " are " + in_metres(classifier.compressed_below()) + " tall" +
+                            (is_target_low ? ", more than the tallest target of " + in_metres(tallest) : "") + " (body length " + in_metres(report.body_length) +
+                            "); are first_height and the surface in the same unit?");
+}
 
 }  // namespace
 
@@ -14,31 +102,26 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
   LayerReport report;
   report.body_length = base.body_length;
   report.n_vertices = static_cast<std::int64_t>(base.wall.n_vertices());
-  const double compressed_below = options.layers * options.first_height;
-  std::array<double, k_height_limits> lost{};
-  double area = 0.0, covered = 0.0, heights = 0.0, targets = 0.0, ratios = 0.0;
+  const Classifier classifier(options, envelope);
+  Areas areas;
+  double heights = 0.0, targets = 0.0, ratios = 0.0;
   for (const VertexId v : envelope.height.ids()) {
     const double a = base.vertex_area[v];
-    const double h = envelope.height[v];
-    area += a;
-    heights += a * h;
+    classifier.add(v, a, areas);
+    heights += a * envelope.height[v];
     targets += a * envelope.target[v];
     ratios += a * envelope.target[v] / envelope.eq1[v];
-    if (h >= k_full_height_share * envelope.target[v]) covered += a;
-    else lost[static_cast<std::size_t>(envelope.limit[v])] += a;
-    if (h > 0.0 && h < compressed_below) ++report.n_compressed;
-    if (h > 0.0) continue;
-    const TriangleId t = triangle_of(base.topology.outgoing(v).front());
-    const Patch& patch = base.wall.patches[base.wall.triangle_patch[t]];
-    report.collapsed.push_back({base.wall.points[v], "vertex " + std::to_string(v.value()) + " of patch " + patch.name + ": " + std::string(to_string(envelope.limit[v]))});
   }
-  report.coverage = covered / area;
-  for (std::size_t i = 0; i < lost.size(); ++i)
-    if (lost[i] > 0.0) report.lost_area.emplace_back(to_string(static_cast<HeightLimit>(i)), lost[i] / area);
-  std::stable_sort(report.lost_area.begin(), report.lost_area.end(), [](const auto& x, const auto& y) { return x.second > y.second; });
-  report.target_over_eq1 = ratios / area;
+  report.coverage = areas.full / areas.all;
+  report.compressed_area = areas.compressed / areas.all;
+  report.collapsed_area = areas.collapsed / areas.all;
+  report.lost_area = shares_of(areas);
+  report.target_over_eq1 = ratios / areas.all;
   report.mean_height_share = heights / targets;
-  report.mean_height = heights / area;
+  report.mean_height = heights / areas.all;
+  report.patches = cover_patches(base, classifier);
+  list_places(base, envelope, classifier, report);
+  warn(options, envelope, classifier, report);
   return report;
 }
 

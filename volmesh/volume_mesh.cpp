@@ -110,6 +110,7 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
     require_proved(result.certificate);
   }
   result.layer = report_layer(base, options.envelope, envelope);
+  for (const std::string& warning : result.layer.warnings) context.warn(warning);
 
   const FillBoundary boundary = fill_boundary(base, extrusion, outer);
   TetraResult tets;

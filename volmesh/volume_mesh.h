@@ -29,6 +29,16 @@ struct VolumeMeshOptions {
 /// All options of all stages, in stage order, for Lua, the command line, help and the manifest. `options` must outlive the table.
 OptionTable options_of(VolumeMeshOptions& options);
 
+/// Shares of a patch's area, by its triangles' corners. The rest has less than its full height, but its first height.
+struct PatchCoverage {
+  std::string name;
+  double area = 0.0;        ///< m^2
+  double full = 0.0;        ///< h >= 0.9 h_target
+  double compressed = 0.0;  ///< 0 < h < n h0: equally spaced, h0 not met
+  double collapsed = 0.0;   ///< no layer
+  std::vector<std::pair<std::string, double>> lost_area;  ///< share below 0.9 h_target by reason, largest first
+};
+
 /// What became of the layer; see method.md §2 for h_target.
 struct LayerReport {
   double body_length = 0.0;             ///< m
@@ -39,8 +49,15 @@ struct LayerReport {
   std::int64_t n_vertices = 0;
   std::int64_t n_compressed = 0;        ///< h < n h0: equally spaced, h0 not met
   std::vector<std::pair<std::string, double>> lost_area;  ///< share of wall area below 0.9 h_target by reason, largest first
+  double compressed_area = 0.0;         ///< share of the wall area
+  double collapsed_area = 0.0;          ///< share of the wall area
+  std::vector<PatchCoverage> patches;   ///< in the wall's order
   std::vector<ErrorPlace> collapsed;    ///< each collapsed vertex: place, patch and reason
+  std::vector<ErrorPlace> compressed;   ///< the lowest standing vertices below n h0 (k_listed_compressed at most): place, patch, height and reason
+  std::vector<std::string> warnings;    ///< what looks like a mistake in the settings, each a sentence; logged too
 };
+
+inline constexpr std::size_t k_listed_compressed = 20;
 
 struct VolumeMeshResult {
   HybridMesh mesh;

@@ -1,0 +1,16 @@
+// What became of the layer, as JSON text: the same for manifest and statistics.
+#pragma once
+
+#include <string>
+
+#include "volmesh/volume_mesh.h"
+
+namespace sterna::scripting {
+
+/// Object: coverage in all and per patch (shares of area at full height, compressed, collapsed; lost area by reason), every collapsed vertex, the most
+/// compressed ones, warnings.
+std::string layer_json(const volmesh::LayerReport& layer);
+/// Object: what was tested, what failed (nothing), the worst elements with place.
+std::string certificate_json(const volmesh::EnvelopeCertificate& certificate);
+
+}  // namespace sterna::scripting
