@@ -54,7 +54,7 @@ class GapFinder {
   /// Appends the hit of v's growth line when both layers ask for more than the gap leaves them. `buffer` is scratch.
   void find(VertexId v, std::vector<std::uint32_t>& buffer, std::vector<GapHit>& hits) const {
     if (envelope_.is_collapsed(v)) return;
-    const double reach = envelope_.height[v] + k_remaining_edges * edge_[v];
+    const double reach = envelope_.height[v] + k_remaining_edges * edge_[v] / k_opposing_cosine;
     find_outer(v, reach, buffer, hits);
     const double look = how_far_to_look(v, reach, buffer);
     if (look == 0.0) return;
@@ -72,7 +72,9 @@ class GapFinder {
       nearest = t;
     }
     if (!nearest.is_valid()) return;
-    add_hit(v, nearest, first * look, std::max(edge_[v], largest(edge_, nearest)), height_against(v, nearest), hits);
+    // Across the gap an inclined line is longer than the gap that remains.
+    const double edge = std::max(edge_[v], largest(edge_, nearest)) / cosine(v, nearest);
+    add_hit(v, nearest, first * look, edge, height_against(v, nearest), hits);
   }
 
  private:
@@ -118,7 +120,7 @@ class GapFinder {
     for (const std::uint32_t item : buffer) {
       const TriangleId t(item);
       if (!opposes(v, t)) continue;
-      look = std::max(look, std::max(reach, envelope_.height[v] + k_remaining_edges * largest(edge_, t)) + height_against(v, t));
+      look = std::max(look, std::max(reach, envelope_.height[v] + k_remaining_edges * largest(edge_, t) / cosine(v, t)) + height_against(v, t));
     }
     return look;
   }
