@@ -31,6 +31,16 @@ Json patch_coverage_json(const volmesh::LayerReport& layer) {
   return patches;
 }
 
+Json first_node_json(const volmesh::LayerReport& layer) {
+  const volmesh::FirstNodeReport& first = layer.first_node;
+  const auto at = [](const Point& p) { return Json{p.x, p.y, p.z}; };
+  return {{"vertices_within_2_percent", first.vertex_share},
+          {"smooth_facet_area_within_2_percent", first.facet_share},
+          {"ridge_area", first.ridge_area},
+          {"worst_vertex", {{"deviation", first.worst_vertex}, {"at", at(first.worst_vertex_place)}}},
+          {"worst_facet", {{"deviation", first.worst_facet}, {"at", at(first.worst_facet_place)}}}};
+}
+
 }  // namespace
 
 std::string layer_json(const volmesh::LayerReport& layer) {
@@ -43,6 +53,8 @@ std::string layer_json(const volmesh::LayerReport& layer) {
                {"mean_height", layer.mean_height},
                {"vertices", layer.n_vertices},
                {"compressed", layer.n_compressed}};
+  json["first_node"] = first_node_json(layer);
+  json["reduced_curving"] = layer.reduced_curving;
   json["patches"] = patch_coverage_json(layer);
   json["most_compressed"] = places_json(layer.compressed);
   json["collapsed"] = places_json(layer.collapsed);

@@ -82,6 +82,8 @@ std::string summary_text(const MeshValue& mesh) {
   for (const auto& [reason, share] : layer.lost_area) text += fmt::format("              {:.2f} % below: {}\n", 100.0 * share, reason);
   text += fmt::format("  compressed  {:.2f} % of the area, {} of {} vertices (total height below layers x first height)\n", 100.0 * layer.compressed_area,
                       count_text(layer.n_compressed), count_text(layer.n_vertices));
+  text += fmt::format("  first node  within 2 % of first_height at {:.2f} % of the full lines, on {:.2f} % of the facets off ridges ({:.2f} % of the area is at ridges)\n",
+                      100.0 * layer.first_node.vertex_share, 100.0 * layer.first_node.facet_share, 100.0 * layer.first_node.ridge_area);
   text += fmt::format("  collapsed   {:.2f} % of the area, {}\n", 100.0 * layer.collapsed_area,
                       counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"));
   for (std::size_t i = 0; i < std::min(layer.collapsed.size(), k_listed_places); ++i)

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdio>
 
+#include "volmesh/prisms/layer_line.h"
+
 namespace sterna::volmesh {
 namespace {
 
@@ -20,10 +22,10 @@ struct Areas {
 
 class Classifier {
  public:
-  Classifier(const EnvelopeOptions& options, const Envelope& envelope)
-      : envelope_(envelope), compressed_below_(options.layers * options.first_height) {}
+  Classifier(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope)
+      : base_(base), envelope_(envelope), compressed_below_(options.layers * options.first_height) {}
   bool is_full(VertexId v) const { return envelope_.height[v] >= k_full_height_share * envelope_.target[v]; }
-  bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && envelope_.height[v] < compressed_below_; }
+  bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < compressed_below_; }
   void add(VertexId v, double area, Areas& areas) const {
     areas.all += area;
     if (is_full(v)) areas.full += area;
@@ -34,6 +36,7 @@ class Classifier {
   double compressed_below() const { return compressed_below_; }
 
  private:
+  const LayerBase& base_;
   const Envelope& envelope_;
   double compressed_below_;  ///< m
 };
@@ -98,11 +101,11 @@ void warn(const EnvelopeOptions& options, const Envelope& envelope, const Classi
 
 }  // namespace
 
-LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope) {
+LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion, const RunContext& context) {
   LayerReport report;
   report.body_length = base.body_length;
   report.n_vertices = static_cast<std::int64_t>(base.wall.n_vertices());
-  const Classifier classifier(options, envelope);
+  const Classifier classifier(base, options, envelope);
   Areas areas;
   double heights = 0.0, targets = 0.0, ratios = 0.0;
   for (const VertexId v : envelope.height.ids()) {
@@ -121,6 +124,8 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
   report.mean_height = heights / areas.all;
   report.patches = cover_patches(base, classifier);
   list_places(base, envelope, classifier, report);
+  report.first_node = first_node_report(base, classify_vertices(base, options, context), options, envelope, extrusion, context);
+  report.reduced_curving = extrusion.curving_shares;
   warn(options, envelope, classifier, report);
   return report;
 }

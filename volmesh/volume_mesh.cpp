@@ -109,7 +109,7 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
     certify_cells(extrusion, context, result.certificate);
     require_proved(result.certificate);
   }
-  result.layer = report_layer(base, options.envelope, envelope);
+  result.layer = report_layer(base, options.envelope, envelope, extrusion, context);
   for (const std::string& warning : result.layer.warnings) context.warn(warning);
 
   const FillBoundary boundary = fill_boundary(base, extrusion, outer);

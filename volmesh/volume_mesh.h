@@ -1,6 +1,7 @@
 // The driver: from a wall to a hybrid mesh. A list of steps, nothing else.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "volmesh/envelope/certificate.h"
 #include "volmesh/envelope/options.h"
 #include "volmesh/farfield.h"
+#include "volmesh/prisms/first_node.h"
 #include "volmesh/prisms/options.h"
 #include "volmesh/tetra/size_field.h"
 #include "volmesh/tetra/tetra.h"
@@ -34,7 +36,7 @@ struct PatchCoverage {
   std::string name;
   double area = 0.0;        ///< m^2
   double full = 0.0;        ///< h >= 0.9 h_target
-  double compressed = 0.0;  ///< 0 < h < n h0: equally spaced, h0 not met
+  double compressed = 0.0;  ///< 0 < normal_height < n h0: equally spaced, h0 not met
   double collapsed = 0.0;   ///< no layer
   std::vector<std::pair<std::string, double>> lost_area;  ///< share below 0.9 h_target by reason, largest first
 };
@@ -47,13 +49,15 @@ struct LayerReport {
   double mean_height_share = 0.0;       ///< area mean h over area mean h_target
   double mean_height = 0.0;             ///< m, area-weighted
   std::int64_t n_vertices = 0;
-  std::int64_t n_compressed = 0;        ///< h < n h0: equally spaced, h0 not met
+  std::int64_t n_compressed = 0;        ///< normal_height < n h0: equally spaced, h0 not met
   std::vector<std::pair<std::string, double>> lost_area;  ///< share of wall area below 0.9 h_target by reason, largest first
   double compressed_area = 0.0;         ///< share of the wall area
   double collapsed_area = 0.0;          ///< share of the wall area
   std::vector<PatchCoverage> patches;   ///< in the wall's order
   std::vector<ErrorPlace> collapsed;    ///< each collapsed vertex: place, patch and reason
   std::vector<ErrorPlace> compressed;   ///< the lowest standing vertices below n h0 (k_listed_compressed at most): place, patch, height and reason
+  FirstNodeReport first_node;           ///< how far the first nodes are off the wall
+  std::array<std::int64_t, 5> reduced_curving{};  ///< lines with less than wall_perpendicularity, by share of it: 0, up to 1/4, 1/2, 3/4, below 1
   std::vector<std::string> warnings;    ///< what looks like a mistake in the settings, each a sentence; logged too
 };
 
