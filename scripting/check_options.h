@@ -10,14 +10,18 @@ struct CheckSettings {
   bool intersections = CheckOptions{}.intersections;
   bool quality = CheckOptions{}.quality;
   int findings_per_kind = CheckOptions{}.findings_per_kind;
+  bool strict = false;
 
   CheckOptions to_options() const {
     CheckOptions options;
     options.intersections = intersections;
     options.quality = quality;
     options.findings_per_kind = findings_per_kind;
+    options.quality = options.quality || strict;
     return options;
   }
+  /// Whether the mesh passes: VALID, and with `strict` no QUALITY gate FAILs.
+  bool accepts(const CheckReport& report) const { return report.is_valid() && (!strict || report.quality_state() != GateState::fail); }
 };
 
 }  // namespace sterna::scripting
@@ -30,8 +34,9 @@ struct Schema<scripting::CheckSettings> {
   static constexpr std::string_view stage = "check";
   static constexpr std::array fields = {
       Field<O>{.name = "intersections", .member = &O::intersections, .help = "test boundaries and envelope exactly for intersection (gate G2)"},
-      Field<O>{.name = "quality", .member = &O::quality, .help = "measure angles and skew"},
+      Field<O>{.name = "quality", .member = &O::quality, .help = "measure the QUALITY gates (dual metrics, growth, angles, skew)"},
       Field<O>{.name = "findings_per_kind", .member = &O::findings_per_kind, .min = 1, .max = 1e6, .help = "places listed for each kind of violation"},
+      Field<O>{.name = "strict", .member = &O::strict, .help = "a QUALITY gate that FAILs is an error too"},
   };
 };
 

@@ -113,10 +113,11 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
 }
 
 void add_check_command(CLI::App& app, CheckCommand& check, Request& request) {
-  CLI::App* command = app.add_subcommand("check", "prove that a volume mesh tiles its domain; exit status 0 only if it is VALID");
+  CLI::App* command = app.add_subcommand("check", "prove that a volume mesh tiles its domain and measure its quality; exit status 0 only if it is VALID");
   command->add_option("mesh", check.input, "mesh file")->required();
   command->add_flag("--json", check.is_json, "print the report as JSON");
   command->add_option("--findings-per-kind", check.options.findings_per_kind, "places listed for each kind of violation")->check(CLI::PositiveNumber);
+  command->add_flag("--strict", check.options.strict, "exit status 3 also when a QUALITY gate FAILs");
   command->add_flag("--intersections,!--no-intersections", check.options.intersections, "test boundaries exactly for intersection (default)");
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(check, context); };

@@ -148,7 +148,7 @@ int execute(const CheckCommand& command, const CommandContext& context) {
   const MeshValue mesh = read_mesh({command.input, command.input}, context.run.part("read", 0.0, 0.3));
   const CheckReport report = check(mesh.mesh, command.options.to_options(), context.run.part("check", 0.3, 1.0));
   context.console.print(command.is_json ? to_json(report) : to_text(report));
-  return report.is_valid() ? k_exit_success : k_exit_invalid;
+  return command.options.accepts(report) ? k_exit_success : k_exit_invalid;
 }
 
 int execute(const InfoCommand& command, const CommandContext& context) {

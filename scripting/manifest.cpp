@@ -1,5 +1,6 @@
 #include "scripting/manifest.h"
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "io/atomic_file.h"
@@ -14,6 +15,22 @@ Json cells_json(const HybridMesh& mesh) {
   const CellCounts cells = count_cells(mesh);
   return {
       {"nodes", mesh.points.size()}, {"prisms", cells.prisms}, {"pyramids", cells.pyramids}, {"tetrahedra", cells.tetrahedra}, {"hexahedra", cells.hexahedra}};
+}
+
+/// Angles in degrees, as in reports; the whole report is what `sterna check --json` prints.
+Json quality_json(const CheckReport& report) {
+  Json measures = Json::object();
+  for (const GateResult& gate : report.gates) {
+    const MeasureInfo& info = info_of(gate.measure);
+    Json entry = {{"gate", info.gate}, {"state", to_string(gate.state)}};
+    if (gate.state != GateState::not_checked) {
+      const double worst = in_report_unit(info, gate.worst);
+      entry["worst"] = std::isfinite(worst) ? Json(worst) : Json(nullptr);
+      entry["share_within"] = gate.share_within;
+    }
+    measures[std::string(info.name)] = std::move(entry);
+  }
+  return {{"verdict", to_string(report.quality_state())}, {"measures", std::move(measures)}};
 }
 
 }  // namespace
@@ -42,6 +59,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     if (!mesh.origin->is_reproducible) json["reproducible"] = "not reproducible: a time or memory limit decided which engine made the tetrahedra";
   }
   json["verdict"] = !mesh.check ? "not checked" : mesh.check->is_valid() ? "VALID" : "INVALID";
+  if (mesh.check && mesh.check->quality_measured) json["quality"] = quality_json(*mesh.check);
   return json.dump(2) + "\n";
 }
 

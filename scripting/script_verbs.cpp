@@ -182,8 +182,12 @@ ScriptValue check_mesh(const ScriptCall& call) {
   const bool is_known = mesh->check && table.fields.empty();
   const CheckReport report = is_known ? *mesh->check : check(mesh->mesh, options.to_options(), call.session.context.part("check", 0.0, 1.0));
   call.session.print(to_text(report));
-  if (report.is_valid()) return mesh;
-  ErrorInfo info{.code = ErrorCode::mesh_invalid, .attempted = call.attempted(), .problem = "the mesh is INVALID"};
+  if (options.accepts(report)) return mesh;
+  ErrorInfo info{.code = ErrorCode::mesh_invalid, .attempted = call.attempted(), .problem = report.is_valid() ? "the mesh is VALID, but " + quality_text(report) : "the mesh is INVALID"};
+  for (const GateResult& gate : report.gates) {
+    if (report.is_valid() && gate.state == GateState::fail && !gate.places.empty())
+      info.places.push_back({gate.places.front().position, std::string(info_of(gate.measure).title) + ", " + gate.places.front().what});
+  }
   for (const auto& [violation, count] : report.counts) info.n_places += count;
   for (const Finding& finding : report.findings) info.places.push_back({finding.position, std::string(to_string(finding.violation)) + ", " + finding.what});
   throw Error(std::move(info));

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "scripting/layer_json.h"
@@ -72,6 +73,25 @@ double peak_memory_bytes() {
   return static_cast<double>(usage.ru_maxrss) * 1024.0;  // Linux counts in KiB
 }
 
+std::string quality_text(const CheckReport& report) {
+  const auto gates_in = [&](GateState state) {
+    std::string text;
+    std::string_view last;
+    for (const GateResult& gate : report.gates) {
+      if (gate.state != state || info_of(gate.measure).gate == last) continue;
+      last = info_of(gate.measure).gate;
+      text += " " + std::string(last);
+    }
+    return text;
+  };
+  const std::string failed = gates_in(GateState::fail), warned = gates_in(GateState::warn);
+  std::string text = "quality ";
+  if (failed.empty() && warned.empty()) return text + std::string(to_string(report.quality_state()));
+  if (!failed.empty()) text += "FAIL:" + failed;
+  if (!warned.empty()) text += (failed.empty() ? "warn:" : "; warn:") + warned;
+  return text;
+}
+
 std::string summary_text(const MeshValue& mesh) {
   const CellCounts cells = count_cells(mesh.mesh);
   const volmesh::LayerReport& layer = mesh.origin->layer;
@@ -91,7 +111,7 @@ std::string summary_text(const MeshValue& mesh) {
   if (layer.collapsed.size() > k_listed_places) text += fmt::format("    and {} more, all in the manifest\n", count_text(static_cast<std::int64_t>(layer.collapsed.size() - k_listed_places)));
   text += patch_text(layer);
   text += "  certificate " + to_text(mesh.origin->certificate) + "\n";
-  return text + "  verdict     " + verdict_text(mesh);
+  return text + "  verdict     " + verdict_text(mesh) + (mesh.check && mesh.check->quality_measured ? ", " + quality_text(*mesh.check) : "");
 }
 
 std::string measure_text(const MeshValue& mesh, const RunMeasure& measure) {
@@ -129,6 +149,15 @@ std::string stats_json(const MeshValue& mesh, const RunMeasure& measure) {
   json["layer"] = nlohmann::ordered_json::parse(layer_json(layer));
   json["certificate"] = nlohmann::ordered_json::parse(certificate_json(mesh.origin->certificate));
   json["verdict"] = verdict_text(mesh);
+  json["measures"] = nlohmann::ordered_json::object();
+  if (mesh.check)
+    for (const GateResult& gate : mesh.check->gates) {
+      if (gate.state == GateState::not_checked) continue;
+      const MeasureInfo& info = info_of(gate.measure);
+      const double worst = in_report_unit(info, gate.worst);
+      json["measures"][std::string(info.name)] = {
+          {"state", to_string(gate.state)}, {"worst", std::isfinite(worst) ? nlohmann::ordered_json(worst) : nullptr}, {"share_within", gate.share_within}};
+    }
   json["threads"] = measure.threads;
   json["wall_seconds"] = measure.wall_seconds;
   json["engine_seconds"] = mesh.origin->tetra_engine_seconds;

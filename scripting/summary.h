@@ -27,6 +27,8 @@ struct RunMeasure {
 /// Peak resident memory of this process so far, bytes.
 double peak_memory_bytes();
 
+/// "quality pass", "quality FAIL: G5 G14; warn: G9", "quality not checked".
+std::string quality_text(const CheckReport& report);
 /// Several lines: sizes, coverage, compressed and collapsed vertices (each listed), verdict. \pre mesh.origin
 std::string summary_text(const MeshValue& mesh);
 /// Several lines: seconds in the tetrahedra engine and the rest, stages, memory. \pre mesh.origin

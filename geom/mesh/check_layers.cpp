@@ -55,7 +55,9 @@ struct LayerScan {
 
 class LineScanner {
  public:
-  LineScanner(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const GateTable& limits) : mesh_(mesh), lines_(lines), fans_(fans), scan_(limits) {}
+  /// `is_compressed` has one entry per line, which is set.
+  LineScanner(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const GateTable& limits, std::vector<std::uint8_t>& is_compressed)
+      : mesh_(mesh), lines_(lines), fans_(fans), is_compressed_(is_compressed), scan_(limits) {}
 
   LayerScan take() { return std::move(scan_); }
 
@@ -135,13 +137,16 @@ class LineScanner {
 
   void add_first_height(std::uint32_t line, int n) {
     const double asked = mesh_.request.first_height;
-    if (distance(point(line, 0), point(line, n)) < n * asked * (1.0 - k_height_slack)) return;  // compressed: it cannot be met
+    // Compressed, by the height along the normal, as the extrusion has it: what was asked for cannot be met.
+    is_compressed_[line] = dot(point(line, n) - point(line, 0), vertex_normal_) < n * asked * (1.0 - k_height_slack);
+    if (is_compressed_[line] != 0) return;
     scan_.first_height.add(std::abs(dot(point(line, 1) - point(line, 0), vertex_normal_) / asked - 1.0), line);
   }
 
   const HybridMesh& mesh_;
   const LayerLines& lines_;
   const Fans& fans_;
+  std::vector<std::uint8_t>& is_compressed_;
   LayerScan scan_;
   std::vector<Vec3> normals_;
   std::vector<double> heights_;
@@ -157,7 +162,8 @@ struct PatchAreas {
 };
 
 /// Each corner of a wall triangle stands for a third of it.
-std::map<std::uint32_t, PatchAreas> measure_coverage(const HybridMesh& mesh, const LayerLines& lines, const RunContext& context) {
+std::map<std::uint32_t, PatchAreas> measure_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::vector<std::uint8_t>& is_compressed,
+                                                     const RunContext& context) {
   const LayerRequest& request = mesh.request;
   using Areas = std::map<std::uint32_t, PatchAreas>;
   return parallel_reduce(
@@ -173,8 +179,7 @@ std::map<std::uint32_t, PatchAreas> measure_coverage(const HybridMesh& mesh, con
             const int n = lines.n_layers(line);
             const double height = n == 0 ? 0.0 : distance(mesh.points[lines.node(line, 0)], mesh.points[lines.node(line, n)]);
             const bool is_full = n > 0 && height >= k_full_share * request.target_height[line];
-            const bool is_compressed = height < n * request.first_height * (1.0 - k_height_slack);
-            (n == 0 ? patch.collapsed : is_full ? patch.full : is_compressed ? patch.compressed : patch.reduced) += third;
+            (n == 0 ? patch.collapsed : is_full ? patch.full : is_compressed[line] != 0 ? patch.compressed : patch.reduced) += third;
             if (!is_full) patch.lost[request.reasons[request.reason[line]]] += third;
           }
         }
@@ -214,9 +219,10 @@ PatchCoverage share_out(const HybridMesh& mesh, std::uint32_t patch, const Patch
   return result;
 }
 
-void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const GateTable& limits, const RunContext& context, CheckReport& report) {
+void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::vector<std::uint8_t>& is_compressed, const GateTable& limits, const RunContext& context,
+                    CheckReport& report) {
   double full = 0.0, collapsed = 0.0, total = 0.0;
-  for (const auto& [patch, areas] : measure_coverage(mesh, lines, context)) {
+  for (const auto& [patch, areas] : measure_coverage(mesh, lines, is_compressed, context)) {
     report.coverage.push_back(share_out(mesh, patch, areas));
     full += areas.full;
     collapsed += areas.collapsed;
@@ -256,10 +262,11 @@ void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatc
     return;
   }
   const Fans fans(lines);
+  std::vector<std::uint8_t> is_compressed(lines.n_lines(), 0);
   const LayerScan scan = parallel_reduce(
       context, lines.n_lines(), LayerScan(limits),
       [&](std::size_t begin, std::size_t end) {
-        LineScanner scanner(mesh, lines, fans, limits);
+        LineScanner scanner(mesh, lines, fans, limits, is_compressed);
         for (std::size_t k = begin; k < end; ++k) scanner.add(static_cast<std::uint32_t>(k));
         return scanner.take();
       },
@@ -283,7 +290,7 @@ void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatc
     return;
   }
   put(scan.first_height.result(line));
-  judge_coverage(mesh, lines, limits, context, report);
+  judge_coverage(mesh, lines, is_compressed, limits, context, report);
 }
 
 }  // namespace sterna::check_parts

@@ -55,10 +55,7 @@ using Json = nlohmann::ordered_json;
 
 Json to_array(const Point& p) { return {p.x, p.y, p.z}; }
 
-/// In the unit of reports: degrees for angles.
-double shown(const MeasureInfo& info, double value) { return info.is_angle ? value * k_degrees : value; }
-
-std::string shown_text(const MeasureInfo& info, double value) { return format("%.4g", shown(info, value)) + (info.is_angle ? " deg" : ""); }
+std::string shown_text(const MeasureInfo& info, double value) { return format("%.4g", in_report_unit(info, value)) + (info.is_angle ? " deg" : ""); }
 
 /// "hard 5 deg, target 20 deg, 35 deg on 99.9 %"
 std::string limits_text(const MeasureInfo& info, const GateLimits& limits) {
@@ -93,22 +90,22 @@ Json to_json(const GateResult& gate) {
   const MeasureInfo& info = info_of(gate.measure);
   Json json = {{"gate", info.gate}, {"measure", info.name}, {"title", info.title}, {"unit", info.is_angle ? "deg" : ""}, {"bound", info.is_low_bad ? "lower" : "upper"}};
   json["state"] = gate.state == GateState::fail ? "fail" : to_string(gate.state);
-  json["limits"] = {{"hard", number(shown(info, gate.limits.hard))},
-                    {"target", number(shown(info, gate.limits.target))},
-                    {"usual", number(shown(info, gate.limits.usual))},
+  json["limits"] = {{"hard", number(in_report_unit(info, gate.limits.hard))},
+                    {"target", number(in_report_unit(info, gate.limits.target))},
+                    {"usual", number(in_report_unit(info, gate.limits.usual))},
                     {"usual_share", std::isnan(gate.limits.usual) ? Json(nullptr) : Json(gate.limits.usual_share)}};
   if (gate.state == GateState::not_checked) {
     json["reason"] = gate.reason;
     return json;
   }
-  json["worst"] = number(shown(info, gate.worst));
+  json["worst"] = number(in_report_unit(info, gate.worst));
   json["counted"] = info.counted;
   json["total"] = gate.total;
   json["share_within"] = gate.share_within;
   json["beyond_hard"] = gate.n_beyond_hard;
   json["places"] = Json::array();
   for (const GatePlace& place : gate.places)
-    json["places"].push_back({{"value", number(shown(info, place.value))}, {"position", to_array(place.position)}, {"what", place.what}});
+    json["places"].push_back({{"value", number(in_report_unit(info, place.value))}, {"position", to_array(place.position)}, {"what", place.what}});
   return json;
 }
 

@@ -46,6 +46,7 @@ bool is_none(double limit) { return limit != limit; }
 }  // namespace
 
 const std::array<MeasureInfo, k_n_measures>& measures() { return k_measures; }
+double in_report_unit(const MeasureInfo& info, double value) { return info.is_angle ? value / k_degree : value; }
 const MeasureInfo& info_of(Measure measure) { return k_measures[static_cast<std::size_t>(measure)]; }
 
 GateTable::GateTable() {

@@ -58,6 +58,8 @@ struct MeasureInfo {
 /// The table of quality.md §6, in the order of Measure.
 const std::array<MeasureInfo, k_n_measures>& measures();
 const MeasureInfo& info_of(Measure measure);
+/// A value of the measure in the unit of reports: degrees for angles.
+double in_report_unit(const MeasureInfo& info, double value);
 
 /// Limits of all measures; starts with the defaults.
 class GateTable {

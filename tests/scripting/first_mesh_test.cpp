@@ -51,6 +51,10 @@ TEST_F(FirstMesh, CommandLineWritesCheckedMeshAndManifest) {
   EXPECT_NE(check.output.find("VALID"), std::string::npos);
   const ProcessResult json = sterna({"check", "box.su2", "--json"});
   EXPECT_EQ(json.output.front(), '{');
+  // A box of 12 triangles in a wide farfield has tets that no gate lets pass: VALID still, and an error only where it is asked for.
+  EXPECT_EQ(check.output.substr(0, 19), "VALID, quality FAIL");
+  EXPECT_EQ(sterna({"check", "box.su2", "--strict"}).status, k_exit_invalid);
+  for (const char* part : {"\"quality\"", "\"sub_volume_ratio\""}) EXPECT_NE(manifest.find(part), std::string::npos) << part;
   const ProcessResult info = sterna({"info", "box.su2"});
   EXPECT_EQ(info.status, k_exit_success) << info.errors;
   for (const char* part : {"prisms", "tetrahedra", "farfield", "longest side"}) EXPECT_NE(info.output.find(part), std::string::npos) << part << " in\n" << info.output;
