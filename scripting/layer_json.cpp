@@ -49,6 +49,8 @@ std::string layer_json(const volmesh::LayerReport& layer) {
                {"compressed_area", layer.compressed_area},
                {"collapsed_area", layer.collapsed_area},
                {"target_over_eq1", layer.target_over_eq1},
+               {"feature_angle", layer.feature_angle},
+               {"max_visibility_angle", layer.visibility.max_angle},
                {"lost_area", shares_json(layer.lost_area)},
                {"mean_height", layer.mean_height},
                {"vertices", layer.n_vertices},

@@ -1,13 +1,17 @@
 #include "volmesh/volume_mesh.h"
 
+#include <numbers>
+
 #include "geom/base/error.h"
 #include "volmesh/assemble.h"
 #include "volmesh/envelope/build_envelope.h"
+#include "volmesh/envelope/feature_angle.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/untangle.h"
 #include "volmesh/layer_report.h"
 #include "volmesh/prisms/extrude.h"
 #include "volmesh/prisms/layer_cells.h"
+#include "volmesh/visibility_report.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -89,6 +93,8 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
     require_closed(layer_base);
     return layer_base;
   }();
+  options.envelope.feature_angle = feature_angle_of(base, options.envelope, context);
+  context.info("feature angle " + std::to_string(options.envelope.feature_angle * 180.0 / std::numbers::pi) + " deg");
   Collider collider = [&] {
     const StageTimer timer(context, "preflight");
     Collider of_wall(base, &outer, context);
@@ -110,6 +116,8 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
     require_proved(result.certificate);
   }
   result.layer = report_layer(base, options.envelope, envelope, extrusion, context);
+  result.layer.feature_angle = options.envelope.feature_angle;
+  result.layer.visibility = report_visibility(base);
   for (const std::string& warning : result.layer.warnings) context.warn(warning);
 
   const FillBoundary boundary = fill_boundary(base, extrusion, outer);

@@ -41,6 +41,16 @@ struct PatchCoverage {
   std::vector<std::pair<std::string, double>> lost_area;  ///< share below 0.9 h_target by reason, largest first
 };
 
+inline constexpr std::array<double, 4> k_visibility_limits_deg = {30.0, 45.0, 60.0, 80.0};
+
+/// Visibility angle of a vertex: between the direction that sees the worst of its faces best and that face's normal, rad.
+struct VisibilityReport {
+  Column<VertexId, double> angle;
+  double max_angle = 0.0;
+  std::array<double, 4> share_above{};  ///< of the vertices, above k_visibility_limits_deg
+  std::vector<ErrorPlace> hardest;      ///< the worst ten above the first of these limits
+};
+
 /// What became of the layer; see method.md §2 for h_target.
 struct LayerReport {
   double body_length = 0.0;             ///< m
@@ -48,6 +58,8 @@ struct LayerReport {
   double target_over_eq1 = 0.0;         ///< area mean of h_target over eq. (1)
   double mean_height_share = 0.0;       ///< area mean h over area mean h_target
   double mean_height = 0.0;             ///< m, area-weighted
+  double feature_angle = 0.0;           ///< rad, the user's or the one found
+  VisibilityReport visibility;
   std::int64_t n_vertices = 0;
   std::int64_t n_compressed = 0;        ///< normal_height < n h0: equally spaced, h0 not met
   std::vector<std::pair<std::string, double>> lost_area;  ///< share of wall area below 0.9 h_target by reason, largest first

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "geom/base/parallel.h"
+#include "volmesh/envelope/feature_angle.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -58,13 +59,14 @@ double dihedral_deviation(const LayerBase& base, HalfedgeId h) {
 
 Classification classify_vertices(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context) {
   Classification result;
+  result.feature_angle = feature_angle_of(base, options, context);
   result.vertex.resize(base.wall.n_vertices());
   result.is_feature.resize(base.topology.n_halfedges());
   Column<HalfedgeId, double> deviation(base.topology.n_halfedges());
   parallel_for(context, base.topology.n_halfedges(), [&](std::size_t i) {
     const HalfedgeId h(i);
     deviation[h] = dihedral_deviation(base, h);
-    result.is_feature[h] = std::abs(deviation[h]) > options.feature_angle ? 1 : 0;
+    result.is_feature[h] = std::abs(deviation[h]) > result.feature_angle ? 1 : 0;
   });
   parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
     const VertexId v(i);

@@ -10,7 +10,7 @@ struct EnvelopeOptions {
   double first_height = k_automatic;
   double max_growth = 1.4;
   double max_thickness = k_automatic;
-  double feature_angle = 0.6108652381980153;  // 35 degrees
+  double feature_angle = k_automatic;
   double height_gradient = 0.5;
   int height_sweeps = 5;
   int direction_sweeps = 50;
@@ -32,7 +32,7 @@ struct Schema<volmesh::EnvelopeOptions> {
       Field<O>{.name = "first_height", .member = &O::first_height, .unit = Unit::metre, .min = 1e-12, .help = "height of the first cell at the wall", .required = true},
       Field<O>{.name = "max_growth", .member = &O::max_growth, .min = 1.0, .max = 3.0, .help = "largest ratio of heights of consecutive layers"},
       Field<O>{.name = "max_thickness", .member = &O::max_thickness, .unit = Unit::metre, .min = 1e-12, .help = "largest total height of the layers", .automatic = "0.1 body lengths"},
-      Field<O>{.name = "feature_angle", .member = &O::feature_angle, .unit = Unit::radian, .min = 0.01, .max = 3.1, .help = "an edge that bends by more is a feature edge"},
+      Field<O>{.name = "feature_angle", .member = &O::feature_angle, .unit = Unit::radian, .min = 0.01, .max = 3.1, .help = "an edge that bends by more is a feature edge", .automatic = "20 to 60 deg, the gap in the histogram of dihedral angles"},
       Field<O>{.name = "height_gradient", .member = &O::height_gradient, .min = 0.05, .max = 2.0, .help = "largest tangential slope of the target height"},
       Field<O>{.name = "height_sweeps", .member = &O::height_sweeps, .min = 0, .max = 1000, .help = "smoothing sweeps of the heights"},
       Field<O>{.name = "direction_sweeps", .member = &O::direction_sweeps, .min = 0, .max = 1000, .help = "smoothing sweeps of the growth directions"},

@@ -1,6 +1,8 @@
 // Real surfaces with the settings of baselines.md (without the optimiser). The large ones are measured by tools/measure_surfaces.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "io/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/data.h"
@@ -24,6 +26,7 @@ TEST_P(RealSurface, GivesAValidMeshWithItsLayers) {
   VolumeMeshOptions options;
   const double length = body_length(wall);
   options.envelope.layers = 35;
+  options.envelope.feature_angle = 35.0 * std::numbers::pi / 180.0;
   options.envelope.first_height = 1e-6 * length;
   options.envelope.max_thickness = 0.1 * length;
   options.farfield.farfield_radius = 20 * length;

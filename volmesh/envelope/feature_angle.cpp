@@ -1,0 +1,64 @@
+#include "volmesh/envelope/feature_angle.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "geom/base/parallel.h"
+#include "geom/base/schema.h"
+#include "volmesh/envelope/classify.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr double k_deg = std::numbers::pi / 180.0;
+constexpr std::size_t k_lowest = 20, k_highest = 60;  ///< degrees: flatter edges occur on any coarse curved surface, sharper ones are features on all
+constexpr std::size_t k_window = 2;                   ///< bins to either side that are counted with a bin: single edges do not end a gap
+/// A window with at most this share of all edges is empty: some badly shaped triangles are found on every surface.
+constexpr double k_quiet_share = 1e-3;
+
+using Histogram = std::array<std::int64_t, 181>;  ///< edges per degree of |deviation|
+
+Histogram histogram_of(const LayerBase& base, const RunContext& context) {
+  return parallel_reduce(
+      context, base.topology.n_halfedges(), Histogram{},
+      [&](std::size_t begin, std::size_t end) {
+        Histogram counts{};
+        for (std::size_t i = begin; i < end; ++i) {
+          const HalfedgeId h(i);
+          const HalfedgeId twin = base.topology.twin(h);
+          if (twin.is_valid() && twin < h) continue;
+          ++counts[static_cast<std::size_t>(std::abs(dihedral_deviation(base, h)) / k_deg)];
+        }
+        return counts;
+      },
+      [](Histogram a, const Histogram& b) {
+        for (std::size_t i = 0; i < a.size(); ++i) a[i] += b[i];
+        return a;
+      });
+}
+
+}  // namespace
+
+double feature_angle_of(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context) {
+  if (!is_automatic(options.feature_angle)) return options.feature_angle;
+  const Histogram counts = histogram_of(base, context);
+  std::int64_t n_edges = 0;
+  for (const std::int64_t n : counts) n_edges += n;
+  std::array<std::int64_t, k_highest + 1> near{};
+  for (std::size_t i = k_lowest; i <= k_highest; ++i)
+    for (std::size_t k = i - k_window; k <= i + k_window; ++k) near[i] += counts[k];
+  const std::int64_t least = *std::min_element(near.begin() + k_lowest, near.end());
+  const std::int64_t quiet = std::max(least, static_cast<std::int64_t>(k_quiet_share * static_cast<double>(n_edges)));
+  std::size_t best_begin = k_lowest, best_end = k_lowest;
+  for (std::size_t begin = k_lowest; begin <= k_highest; ++begin) {
+    std::size_t end = begin;
+    while (end <= k_highest && near[end] <= quiet) ++end;
+    if (end - begin > best_end - best_begin) best_begin = begin, best_end = end;
+    begin = end;
+  }
+  return 0.5 * static_cast<double>(best_begin + best_end) * k_deg;  // bin i is [i, i + 1) degrees
+}
+
+}  // namespace sterna::volmesh

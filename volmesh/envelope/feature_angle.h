@@ -1,0 +1,14 @@
+// The angle beyond which an edge is a feature, from the surface itself (method.md §1).
+#pragma once
+
+#include "geom/base/run_context.h"
+#include "volmesh/envelope/layer_base.h"
+#include "volmesh/envelope/options.h"
+
+namespace sterna::volmesh {
+
+/// options.feature_angle, or where that is automatic: the middle of the widest gap, between 20 and 60 degrees, in the histogram of the edges' dihedral
+/// deviations. Smooth surfaces end below the gap, features begin above it; without a gap its emptiest part counts. Radians.
+double feature_angle_of(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context);
+
+}  // namespace sterna::volmesh
