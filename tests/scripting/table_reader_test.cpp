@@ -33,7 +33,7 @@ TEST(TableReader, EveryOptionOfEveryStageCanBeGivenFlatAndNested) {
   volmesh::VolumeMeshOptions options, defaults;
   for (const Option& option : volmesh::options_of(defaults)) {
     const OptionValue value = option.default_value;
-    const ScriptValue given = std::visit([](const auto& v) -> ScriptValue { return v; }, std::holds_alternative<double>(value) && is_automatic(std::get<double>(value)) ? OptionValue(1e9) : value);
+    const ScriptValue given = std::visit([](const auto& v) -> ScriptValue { return v; }, std::holds_alternative<double>(value) && is_automatic(std::get<double>(value)) ? OptionValue(std::min(1e9, option.max)) : value);
     for (const bool is_nested : {false, true}) {
       ScriptTable input;
       if (is_nested) input.fields[std::string(option.stage)] = table({{std::string(option.name), given}});
