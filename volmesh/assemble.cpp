@@ -24,6 +24,11 @@ FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, co
   const std::uint32_t shift = static_cast<std::uint32_t>(n_lines);
   for (const TriangleVertices& v : outer.triangles)
     boundary.triangles.push_back({v[0].value() + shift, v[1].value() + shift, v[2].value() + shift});
+  for (const TriMesh* mesh : {&base.wall, &outer}) {
+    const auto first = static_cast<std::uint32_t>(boundary.patch_names.size());
+    for (const Patch& patch : mesh->patches) boundary.patch_names.push_back(patch.name);
+    for (const PatchId patch : mesh->triangle_patch) boundary.triangle_patch.push_back(first + patch.value());
+  }
   return boundary;
 }
 

@@ -162,7 +162,9 @@ void check_edges(const TetraBoundary& boundary, const RunContext& context) {
 
 ErrorPlace place_of_triangle(const TetraBoundary& boundary, std::size_t triangle, const std::string& what) {
   const auto& t = boundary.triangles[triangle];
-  return {(boundary.points[t[0]] + boundary.points[t[1]] + boundary.points[t[2]]) / 3.0, "boundary triangle " + std::to_string(triangle) + " " + what};
+  std::string name = "boundary triangle " + std::to_string(triangle);
+  if (!boundary.triangle_patch.empty()) name += " of patch \"" + boundary.patch_names[boundary.triangle_patch[triangle]] + "\"";
+  return {(boundary.points[t[0]] + boundary.points[t[1]] + boundary.points[t[2]]) / 3.0, name + " " + what};
 }
 
 void add_triangle(TroubleGeometry& geometry, const TetraBoundary& boundary, std::size_t triangle) {

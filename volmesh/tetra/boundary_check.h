@@ -12,7 +12,7 @@ namespace sterna::volmesh {
 /// \throws Error as fill() says.
 void check_boundary(const TetraBoundary& boundary, const RunContext& context);
 
-/// "triangle 12 (0, 1, 2)" and its centroid.
+/// "boundary triangle 12 of patch "wing" <what>" and its centroid.
 ErrorPlace place_of_triangle(const TetraBoundary& boundary, std::size_t triangle, const std::string& what);
 /// Adds a triangle with points of its own to the geometry of a failure.
 void add_triangle(TroubleGeometry& geometry, const TetraBoundary& boundary, std::size_t triangle);

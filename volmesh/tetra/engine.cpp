@@ -105,7 +105,9 @@ std::string megabytes(double bytes) { return with_unit(std::round(bytes / 1e6), 
 
 std::string attempt(EngineKind kind) { return "filling the volume with tetrahedra (" + std::string(display_name(kind)) + ")"; }
 
-EngineFailure failure(FailureKind failure_kind, EngineKind kind, std::string problem, std::string hint = {}) {
+constexpr const char* k_hint = "the boundary does not cross itself; look for features many orders of magnitude smaller than the farfield";
+
+EngineFailure failure(FailureKind failure_kind, EngineKind kind, std::string problem, std::string hint = k_hint) {
   return {failure_kind, {.code = ErrorCode::tetra_engine_failed, .attempted = attempt(kind), .problem = std::move(problem), .hint = std::move(hint)}};
 }
 

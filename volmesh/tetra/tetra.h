@@ -27,11 +27,13 @@ struct TetraOptions {
 };
 
 /// Closed boundary of the domain: triangles whose right-hand normals point INTO the domain (envelope outwards of the body, farfield inwards).
-/// \pre free of self-intersection: the caller's exact test. Here it is looked for only once the engine has failed, to name the places.
 struct TetraBoundary {
   std::span<const Vec3> points;
   std::span<const std::array<std::uint32_t, 3>> triangles;
   std::span<const Vec3> hole_points;  ///< one strictly inside each cavity that is not to be meshed
+  bool is_clear = false;              ///< the caller has proven that the triangles meet in shared vertices and edges only; else fill() does
+  std::span<const std::string> patch_names = {};           ///< for messages; may be missing
+  std::span<const std::uint32_t> triangle_patch = {};      ///< index into patch_names for each triangle; empty without them
 };
 
 /// \post points of the boundary come first, in order, to the bit; every boundary triangle is a face of exactly one tet; every tet positive (exact);
@@ -50,12 +52,11 @@ struct TetraResult {
 /// Engines: "tetgen", TetGen 1.5 with its radius-edge ratio; "hxt", HXT of Gmsh; "automatic" is tetgen, or hxt where tetgen is not built in. Both keep the boundary
 /// and make edges of about the length that the size field asks for; without one (nullptr) TetGen's sizes follow from the radius-edge ratio, HXT's from the boundary.
 /// Coordinates are scaled by a power of two first, so a mesh in other units is the same mesh.
-/// Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof, too many new points) and the boundary does not cross itself, the other
-/// engine is tried. A time or memory limit ends the call unless `fall_back_on_limits`. Every step is logged as a warning and kept in the result.
+/// Before any engine runs, the boundary is checked, exactly where it must be (preflight.h); what engines find hard is logged.
+/// Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof, too many new points), the other engine is tried. A time or memory limit ends the call unless `fall_back_on_limits`. Every step is logged as a warning and kept in the result.
 /// A stop of the context or the time limit kills the helper at once; it never outlives the call.
-/// \throws Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface, non_manifold_surface, self_intersection
-/// (two points at one place), not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory limit; with the
-/// places where the boundary crosses itself, if it does); tetra_result_invalid; cancelled. Each with places where there are any; of several failures the first.
+/// \throws Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface, non_manifold_surface, self_intersection,
+/// not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory limit); tetra_result_invalid; cancelled. Each with places where there are any; of several failures the first.
 TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, const TetraOptions& options, const RunContext& context);
 
 /// One point strictly inside each cavity of a wall, that is in each connected solid region (a shell inside out bounds a hole of the solid around it, not a

@@ -1,0 +1,52 @@
+// Our own look at a boundary before any engine sees it: what no engine survives, and what it will have trouble with.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+#include "geom/base/error.h"
+#include "geom/base/run_context.h"
+#include "volmesh/tetra/tetra.h"
+
+namespace sterna::volmesh {
+
+enum class Trouble : std::uint8_t {
+  crossing,   ///< two triangles meet in more than their shared vertices (exact)
+  duplicate,  ///< two triangles have the same three vertices
+  folded,     ///< two triangles lie nearly on each other along a common edge; value: angle between them, rad
+  sliver,     ///< value: smallest height over longest edge
+  gap,        ///< two triangles without common vertex are close to each other; value: distance over the mean edge of the smaller one
+};
+/// "triangles that cross another one", ...
+std::string_view to_string(Trouble trouble);
+
+struct PreflightLimits {
+  double fold_angle = 1.0 * std::numbers::pi / 180.0;  ///< rad
+  double sliver = 1e-3;                                ///< height over longest edge
+  double gap = 0.01;                                   ///< share of the mean edge of the smaller triangle
+  bool is_clear = false;                               ///< the caller has proven that there are no crossings: they are not looked for
+};
+
+struct PreflightFinding {
+  Trouble trouble = Trouble::crossing;
+  std::array<std::uint32_t, 2> triangles{};  ///< ascending; of a sliver twice the same
+  double value = 0.0;
+};
+
+struct PreflightReport {
+  std::array<std::int64_t, 5> counts{};    ///< by trouble
+  std::vector<PreflightFinding> findings;  ///< the first thousand of each trouble, in order of the triangles
+  std::int64_t count(Trouble trouble) const { return counts[static_cast<std::size_t>(trouble)]; }
+};
+
+/// Parallel over a BoxTree; the same report for any number of threads. \pre check_boundary() passed.
+PreflightReport preflight(const TetraBoundary& boundary, const PreflightLimits& limits, const RunContext& context);
+
+/// Logs a warning for each kind of trouble that an engine may survive, with the number and the first place.
+/// \throws Error(self_intersection) for crossings and duplicates, with places and geometry.
+void judge(const PreflightReport& report, const TetraBoundary& boundary, const RunContext& context);
+
+}  // namespace sterna::volmesh
