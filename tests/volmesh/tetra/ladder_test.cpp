@@ -105,7 +105,7 @@ TEST_F(Ladder, NoEngineWhenTheBoundaryCrossesItself) {
   crossing.add(both(test::sphere(3), transformed(test::sphere(4), 0.7, {0.55, 0.1, 0.4})));
   crossing.add(test::inside_out(transformed(test::cube(2), 10.0, {-5, -5, -5})));
   EXPECT_EQ(error_of([&] { fill(crossing, {.helper_folder = "/nowhere"}); }).code, ErrorCode::self_intersection);
-  EXPECT_THAT(log_, IsEmpty());
+  EXPECT_THAT(log_, testing::Not(Contains(HasSubstr("trying"))));
 }
 
 TEST_F(Ladder, EndsAtALimitUnlessToldOtherwise) {

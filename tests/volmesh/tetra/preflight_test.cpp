@@ -54,7 +54,7 @@ TEST(Preflight, CrossingsAreThoseOfTheExactTest) {
   EXPECT_EQ(report.count(Trouble::crossing), crossings.total);
   std::size_t i = 0;
   for (const PreflightFinding& finding : report.findings) {
-    if (finding.trouble == Trouble::crossing) EXPECT_EQ(finding.triangles, crossings.pairs[i++]);
+    if (finding.trouble == Trouble::crossing) { EXPECT_EQ(finding.triangles, crossings.pairs[i++]); }
   }
   EXPECT_EQ(report_of(domain, {.is_clear = true}).count(Trouble::crossing), 0);
   const ErrorInfo error = test::error_of([&] { judge(report, domain.boundary(), RunContext{}); });
@@ -106,7 +106,7 @@ TEST(Preflight, FoldsBelowTheAngle) {
     domain.triangles = {{0, 1, 3}, {0, 3, 2}, {0, 4, 5}, {0, 5, 1}};
     const PreflightReport report = report_of(domain, {.gap = 0.0});
     expect_only(report, Trouble::folded, angle < 0.01745 ? 1 : 0);
-    if (angle < 0.01745) EXPECT_NEAR(report.findings.front().value, angle, 1e-9);
+    if (angle < 0.01745) { EXPECT_NEAR(report.findings.front().value, angle, 1e-9); }
   }
 }
 
