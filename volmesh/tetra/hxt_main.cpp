@@ -127,11 +127,24 @@ void set_size_field(const helper::Request& request) {
   helper::reply_mesh(points.data(), static_cast<std::size_t>(n_points), tetrahedra.data(), tetrahedra.size() / 4, seconds);
 }
 
+/// A crash after an allocation has failed is that failure's.
+void on_crash(int signal) {
+  if (is_memory_short) {
+    wire::ReplyHeader reply;
+    reply.outcome = wire::Outcome::out_of_memory;
+    helper::write_all(&reply, sizeof reply);
+    std::_Exit(1);
+  }
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
 int run(const helper::Request& request) {
   const helper::Stopwatch watch;
   try {
     gmsh::initialize(0, nullptr, false);
     set_options(*request.header);
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT}) std::signal(signal, on_crash);
     gmsh::model::add("sterna");
     set_boundary(request);
     set_size_field(request);
