@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "volmesh/envelope/global_optimisation.h"
 #include "volmesh/envelope/initial.h"
 #include "volmesh/envelope/keep_inside.h"
 #include "volmesh/envelope/retract.h"
@@ -25,7 +26,7 @@ Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, C
   Envelope envelope = initial_envelope(base, options, context);
   context.progress(0.1);
 
-  smooth_heights(base, classes, options.height_sweeps, envelope, context);
+  smooth_heights(base, classes, options, envelope, context);
   // A few sweeps everywhere take out noise; the many sweeps only where lines converge, so that smooth surfaces keep their normals.
   smooth_directions(base, classes, std::min(options.direction_sweeps, k_denoising_sweeps), envelope, context);
   const Column<VertexId, std::uint8_t> concave = concave_region(base, classes, context);
@@ -41,10 +42,10 @@ Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, C
   context.progress(0.6);
 
   share_gaps(base, options, collider, envelope, context);
-  retract_collisions(base, options, collider, envelope, context.part("retract", 0.6, 1.0));
+  retract_collisions(base, options, collider, envelope, context.part("retract", 0.6, 0.8));
   regrow_clear(base, collider, envelope, context);
   seat_on_surfaces(base, options, &collider, envelope, context);
-  // Stage 6, the global optimisation (method.md §6), takes its place here.
+  optimise_globally(base, options, collider, envelope, context.part("optimise", 0.8, 1.0));
   return envelope;
 }
 

@@ -1,6 +1,8 @@
 // Options of the envelope: what the user asks of the prismatic layer.
 #pragma once
 
+#include <string>
+
 #include "geom/base/schema.h"
 
 namespace sterna::volmesh {
@@ -12,11 +14,17 @@ struct EnvelopeOptions {
   double max_thickness = k_automatic;
   double feature_angle = k_automatic;
   double height_gradient = 0.5;
-  int height_sweeps = 5;
+  int height_sweeps = 50;
   int direction_sweeps = 50;
   int envelope_sweeps = 5;
   double untangle_share = 0.7;
   int max_retract_sweeps = 40;
+  double height_floor = 0.94;
+  std::string optimiser = "descent";
+  int optimiser_evaluations = 30;
+  double height_weight = 1.0;
+  double top_weight = 0.3;
+  double barrier_weight = 0.02;
 };
 
 }  // namespace sterna::volmesh
@@ -39,6 +47,12 @@ struct Schema<volmesh::EnvelopeOptions> {
       Field<O>{.name = "envelope_sweeps", .member = &O::envelope_sweeps, .min = 0, .max = 1000, .help = "smoothing sweeps of the envelope itself"},
       Field<O>{.name = "untangle_share", .member = &O::untangle_share, .min = 0.1, .max = 0.99, .help = "share of the height at which neighbouring growth lines would meet"},
       Field<O>{.name = "max_retract_sweeps", .member = &O::max_retract_sweeps, .min = 1, .max = 1000, .help = "sweeps of collision retraction before colliding places collapse"},
+      Field<O>{.name = "height_floor", .member = &O::height_floor, .min = 0.5, .max = 1.0, .help = "share of the target height to which smoothing may lower"},
+      Field<O>{.name = "optimiser", .member = &O::optimiser, .help = "of the whole envelope: our block descent or L-BFGS, or NLopt's MMA or CCSAQ", .choices = "none descent lbfgs mma ccsaq"},
+      Field<O>{.name = "optimiser_evaluations", .member = &O::optimiser_evaluations, .min = 1, .max = 1000000, .help = "largest number of evaluations (sweeps) of the optimiser"},
+      Field<O>{.name = "height_weight", .member = &O::height_weight, .min = 0.0, .max = 1000.0, .help = "of full height against lines normal to the wall (our optimisers)"},
+      Field<O>{.name = "top_weight", .member = &O::top_weight, .min = 0.0, .max = 1000.0, .help = "of lines normal to the envelope against lines normal to the wall (our optimisers)"},
+      Field<O>{.name = "barrier_weight", .member = &O::barrier_weight, .min = 1e-9, .max = 1000.0, .help = "of the barrier around invalid elements (our optimisers)"},
   };
 };
 

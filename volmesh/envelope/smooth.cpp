@@ -12,7 +12,7 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr double k_relaxation = 0.5;  ///< method.md §2
-/// Smoothing may lower a height to this share of its target: well above the 0.9 that counts as full height.
+/// Smoothing of the envelope may lower a height to this share of its ceiling: well above the 0.9 that counts as full height.
 constexpr double k_smooth_floor = 0.94;
 /// Directions may tilt until their faces are seen at 65 degrees, or half the best possible cosine.
 constexpr double k_cone_cosine = 0.4226;
@@ -56,8 +56,8 @@ void grow_region(const LayerBase& base, int rings, Column<VertexId, std::uint8_t
   }
 }
 
-void smooth_heights(const LayerBase& base, const Classification& classes, int sweeps, Envelope& envelope, const RunContext& context) {
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
+void smooth_heights(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context) {
+  for (int sweep = 0; sweep < options.height_sweeps; ++sweep) {
     Column<VertexId, double> next = envelope.height;
     parallel_for(context, next.size(), [&](std::size_t i) {
       const VertexId v(i);
@@ -73,10 +73,12 @@ void smooth_heights(const LayerBase& base, const Classification& classes, int sw
       double h = std::exp(own + k_relaxation * (sum / weights - own));
       if (classes.vertex[v].is_concave) h = std::min(h, envelope.height[v]);
       const double ceiling = std::min(envelope.target[v], envelope.cap[v]);
-      next[v] = std::clamp(h, std::min(k_smooth_floor * ceiling, envelope.height[v]), ceiling);
+      next[v] = std::clamp(h, std::min(options.height_floor * ceiling, envelope.height[v]), ceiling);
     });
     envelope.height = std::move(next);
   }
+  for (const VertexId v : envelope.height.ids())
+    if (!envelope.is_collapsed(v)) envelope.cap[v] = std::min(envelope.cap[v], envelope.height[v]);
 }
 
 void smooth_directions(const LayerBase& base, const Classification& classes, int sweeps, Envelope& envelope, const RunContext& context,

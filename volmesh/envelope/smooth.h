@@ -6,8 +6,9 @@
 
 namespace sterna::volmesh {
 
-/// log h <- log h + 0.5 (mean - log h), weights 1/|e|; kept within a few percent below the target; only downwards at concave vertices.
-void smooth_heights(const LayerBase& base, const Classification& classes, int sweeps, Envelope& envelope, const RunContext& context);
+/// log h <- log h + 0.5 (mean - log h), weights 1/|e|; kept between height_floor and all of the target; only downwards at concave vertices. The smoothed
+/// heights become the caps, so that later stages do not grow the roughness back.
+void smooth_heights(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
 
 /// d <- d + 0.5 (mean - d), normalised, pulled back into the visibility cone; a ridge vertex sees only its neighbours on the ridge, corners stay.
 /// With `region`, only marked vertices move.

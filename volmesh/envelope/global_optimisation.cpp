@@ -1,0 +1,80 @@
+#include "volmesh/envelope/global_optimisation.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "geom/base/error.h"
+#include "geom/base/parallel.h"
+#include "volmesh/envelope/nlopt_optimise.h"
+#include "volmesh/envelope/optimise.h"
+#include "volmesh/envelope/retract.h"
+
+namespace sterna::volmesh {
+namespace {
+
+/// Shares of the way to the optimum that vertices try one after the other.
+constexpr std::array<double, 4> k_shares = {1.0, 0.5, 0.25, 0.125};
+
+void log_result(const OptimiseReport& report, std::string_view optimiser, const RunContext& context) {
+  const ObjectiveValue &a = report.history.front(), &b = report.history.back();
+  char text[256];
+  std::snprintf(text, sizeof text, "optimised (%.*s): orthogonality %.4g -> %.4g, height %.4g -> %.4g, top %.4g -> %.4g; %d evaluations, %.*s",
+                static_cast<int>(optimiser.size()), optimiser.data(), a.f1, b.f1, a.f2, b.f2, a.f3, b.f3, report.n_evaluations,
+                static_cast<int>(report.stopped.size()), report.stopped.data());
+  context.debug(text);
+}
+
+Envelope optimum(const LayerBase& base, const EnvelopeOptions& options, const Envelope& start, const RunContext& context) {
+  const Column<VertexId, double> h_u = upper_heights(base, start);
+  const double h_l = std::max(options.first_height, scale_of(options).h_min);
+  if (options.optimiser == "descent" || options.optimiser == "lbfgs") {
+    OptimiseSettings settings;
+    settings.method = options.optimiser == "descent" ? OptimiseMethod::descent : OptimiseMethod::lbfgs;
+    settings.max_evaluations = options.optimiser_evaluations;
+    settings.weights = {.height = options.height_weight, .top = options.top_weight, .barrier = options.barrier_weight};
+    OptimiseReport report;
+    Envelope result = optimise(base, start, h_u, h_l, settings, report, context);
+    log_result(report, options.optimiser, context);
+    return result;
+  }
+  if (options.optimiser != "mma" && options.optimiser != "ccsaq")
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "optimising the envelope",
+                 .problem = "unknown optimiser \"" + options.optimiser + "\"",
+                 .hint = "one of none, descent, lbfgs, mma, ccsaq"});
+  NloptSettings settings;
+  settings.method = options.optimiser == "mma" ? NloptMethod::mma : NloptMethod::ccsaq;
+  settings.max_evaluations = options.optimiser_evaluations;
+  NloptReport report;
+  Envelope result = nlopt_optimise(base, start, h_u, h_l, settings, report, context);
+  log_result(report.run, options.optimiser, context);
+  return result;
+}
+
+}  // namespace
+
+void optimise_globally(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context) {
+  if (options.optimiser == "none") return;
+  const Envelope start = envelope;
+  const Envelope best = optimum(base, options, start, context);
+  const auto is_at = [](const Envelope& a, const Envelope& b, VertexId v) { return a.height[v] == b.height[v] && a.direction[v] == b.direction[v]; };
+  for (const double share : k_shares) {
+    EnvelopeShape proposal = envelope;
+    parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
+      const VertexId v(i);
+      if (is_at(best, start, v) || !is_at(envelope, start, v)) return;  // nothing to go for, or on its way already
+      if (share == 1.0) {
+        proposal.height[v] = best.height[v];
+        proposal.direction[v] = best.direction[v];
+        return;
+      }
+      const Vec3 g = (1.0 - share) * start.height[v] * start.direction[v] + share * best.height[v] * best.direction[v];
+      proposal.height[v] = norm(g);
+      proposal.direction[v] = normalized(g);
+    });
+    static const double CL = getenv("CL")?atof(getenv("CL")):1.02; const auto done = apply_where_clear(base, collider, envelope, proposal, context, CL);
+    printf("  share %g: %zu of %zu\n", share, done.size(), base.wall.n_vertices());
+  }
+}
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,13 @@
+// Stage 6 of the envelope (method.md §6): runs the optimiser that the options name and puts its result in force where the layer stays clear.
+#pragma once
+
+#include "volmesh/envelope/collide.h"
+#include "volmesh/envelope/envelope.h"
+
+namespace sterna::volmesh {
+
+/// \pre, \post every macro-element valid, envelope free of self-intersection. Where the optimum is not clear, vertices go part of the way.
+/// \throws Error(bad_argument) for an unknown optimiser.
+void optimise_globally(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context);
+
+}  // namespace sterna::volmesh
