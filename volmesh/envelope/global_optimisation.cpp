@@ -72,8 +72,7 @@ void optimise_globally(const LayerBase& base, const EnvelopeOptions& options, Co
       proposal.height[v] = norm(g);
       proposal.direction[v] = normalized(g);
     });
-    static const double CL = getenv("CL")?atof(getenv("CL")):1.02; const auto done = apply_where_clear(base, collider, envelope, proposal, context, CL);
-    printf("  share %g: %zu of %zu\n", share, done.size(), base.wall.n_vertices());
+    apply_where_clear(base, collider, envelope, proposal, context);
   }
 }
 

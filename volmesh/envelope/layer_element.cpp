@@ -12,10 +12,10 @@ struct Seeds {
 /// Calls f(x, onset, seeds) for every barrier term that is active.
 template <class F>
 void for_each_active_term(const LayerElement& el, const F& f) {
-  if (el.area - k_area_margin < k_area_onset) {
+  if (el.area - el.margins->area < k_area_onset) {
     Seeds s;
     s.to_top = el.n_wall / el.wall_area2;
-    f(el.area - k_area_margin, k_area_onset, s);
+    f(el.area - el.margins->area, k_area_onset, s);
   }
   const Vec3 unit_top = el.n_top / el.top_area2;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -30,11 +30,12 @@ void for_each_active_term(const LayerElement& el, const F& f) {
     if (above < k_top_cosine_onset) {
       Seeds s;
       s.to_top = (u - el.top_cosine[k] * unit_top) / el.top_area2;
-      const bool has_wall_margin = k_top_margin_of_wall * el.wall_cosine[k] < k_top_margin;
-      s.to_growth[k] = along(has_wall_margin ? unit_top - k_top_margin_of_wall * el.n_wall : unit_top);
+      const bool has_wall_margin = el.margins->top_of_wall * el.wall_cosine[k] < el.margins->top;
+      s.to_growth[k] = along(has_wall_margin ? unit_top - el.margins->top_of_wall * el.n_wall : unit_top);
       f(above, k_top_cosine_onset, s);
     }
-    if (el.middle[k] < k_middle_onset) {
+    const double middle = el.middle[k] - el.margins->middle;
+    if (middle < k_middle_onset) {
       const double share = el.top_cosine[k] * el.top_area2 / el.wall_area2;  // b_2 in units of wall area times height; b_0 is the wall cosine
       const double root = std::sqrt(el.wall_cosine[k] * share);
       const double d_wall = 0.5 * share / root, d_share = 0.5 * el.wall_cosine[k] / root;
@@ -42,7 +43,7 @@ void for_each_active_term(const LayerElement& el, const F& f) {
       s.to_top = (d_share / el.wall_area2) * u;
       s.to_middle = u / el.wall_area2;
       s.to_growth[k] = along(d_wall * el.n_wall + (d_share * el.n_top + el.n_middle) / el.wall_area2);
-      f(el.middle[k], k_middle_onset, s);
+      f(middle, k_middle_onset, s);
     }
   }
 }
@@ -96,7 +97,7 @@ double LayerElement::measure(double least_quality) {
   n_middle = 0.5 * (cross(e[0], top[1]) + cross(top[0], e[1]));
   top_area2 = norm(n_top);
   area = dot(n_wall, n_top) / wall_area2;
-  double slack = area - k_area_margin;
+  double slack = area - margins->area;
   if (!(slack > 0.0)) return -1.0;
   for (std::size_t k = 0; k < 3; ++k) {
     wall_cosine[k] = dot(n_wall, unit[k]);
@@ -104,7 +105,7 @@ double LayerElement::measure(double least_quality) {
     const double above = top_cosine[k] - top_margin(k);
     if (!(wall_cosine[k] > 0.0) || !(above > 0.0)) return -1.0;
     middle[k] = dot(n_middle, unit[k]) / wall_area2 + std::sqrt(wall_cosine[k] * top_cosine[k] * top_area2 / wall_area2);
-    slack = std::min({slack, wall_cosine[k], above, middle[k]});
+    slack = std::min({slack, wall_cosine[k], above, middle[k] - margins->middle});
   }
   if (slack < k_quality_onset && least_quality > 0.0 && scaled_jacobian() < least_quality) return -1.0;
   return slack > 0.0 ? slack : -1.0;
@@ -112,12 +113,13 @@ double LayerElement::measure(double least_quality) {
 
 double LayerElement::energy(const ElementWeights& weights) const {
   double sum = 0.0;
-  if (area - k_area_margin < k_area_onset) sum += barrier_value(area - k_area_margin, k_area_onset);
+  if (area - margins->area < k_area_onset) sum += barrier_value(area - margins->area, k_area_onset);
   for (std::size_t k = 0; k < 3; ++k) {
     if (wall_cosine[k] < k_wall_cosine_onset) sum += barrier_value(wall_cosine[k], k_wall_cosine_onset);
     const double above = top_cosine[k] - top_margin(k);
     if (above < k_top_cosine_onset) sum += barrier_value(above, k_top_cosine_onset);
-    if (middle[k] < k_middle_onset) sum += barrier_value(middle[k], k_middle_onset);
+    const double above_middle = middle[k] - margins->middle;
+    if (above_middle < k_middle_onset) sum += barrier_value(above_middle, k_middle_onset);
   }
   return weights.barrier * sum + weights.top * (3.0 - top_cosine[0] - top_cosine[1] - top_cosine[2]);
 }

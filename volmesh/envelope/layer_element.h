@@ -15,10 +15,17 @@ inline constexpr double k_wall_cosine_onset = 0.2;  ///< cosine between growth e
 inline constexpr double k_area_onset = 0.2;         ///< share of the wall's area that the envelope triangle keeps in projection
 inline constexpr double k_top_cosine_onset = 0.25;  ///< cosine between growth edge and envelope normal
 inline constexpr double k_middle_onset = 0.3;       ///< b_1 + sqrt(b_0 b_2) of the exact wedge test
-/// The margins of is_macro_valid (validity.cpp).
-inline constexpr double k_area_margin = 0.01;
-inline constexpr double k_top_margin = 0.05;
-inline constexpr double k_top_margin_of_wall = 0.2;
+/// Least values of an element's quantities; barriers begin above them.
+struct ElementMargins {
+  double area = 0.01;          ///< share of the wall's area
+  double top = 0.05;           ///< cosine between growth edge and envelope normal
+  double top_of_wall = 0.2;    ///< the same, of that between growth edge and wall normal, where this is less
+  double middle = 0.0;         ///< b_1 + sqrt(b_0 b_2)
+};
+/// Those of is_macro_valid (validity.cpp).
+inline constexpr ElementMargins k_least_margins = {};
+/// Those that elements keep which have them at the start: prisms of the extruded layer have room left for their curved lines.
+inline constexpr ElementMargins k_wide_margins = {.area = 0.06, .top = 0.15, .top_of_wall = 0.5, .middle = 0.1};
 
 /// Slack below which the scaled Jacobian is looked at: elements further away have large ones, unless the wall triangle itself is a needle.
 inline constexpr double k_quality_onset = 0.3;
@@ -44,6 +51,7 @@ struct ElementWeights {
 };
 
 struct LayerElement {
+  const ElementMargins* margins = &k_least_margins;
   Vec3 n_wall;                       ///< unit
   double wall_area2 = 0.0;           ///< twice the area
   std::array<Vec3, 2> e, top;        ///< edges 0-1 and 0-2 at wall and envelope
@@ -60,7 +68,7 @@ struct LayerElement {
   }
   /// wedge_quality(), from what measure() has computed.
   double scaled_jacobian() const;
-  double top_margin(std::size_t k) const { return std::min(k_top_margin, k_top_margin_of_wall * wall_cosine[k]); }
+  double top_margin(std::size_t k) const { return std::min(margins->top, margins->top_of_wall * wall_cosine[k]); }
 
   /// Returns the distance from infeasibility, in the units of the barrier's terms; -1 where infeasible (then the terms are not all set).
   /// An element near its barriers is infeasible too when its scaled Jacobian (wedge_quality) is below `least_quality`.

@@ -11,6 +11,7 @@ namespace {
 /// Bounds that are closer than this ratio fix the vertex (method.md §6).
 constexpr double k_min_bound_ratio = 1.05;
 constexpr double k_far = 0.2;       ///< slack above which hold_back() lets an element have any step
+constexpr double k_wide_reserve = 0.01;  ///< slack above the wide margins that an element has at the start to get them
 constexpr int k_max_halvings = 12;  ///< of a vertex's step before it stays where it is
 constexpr double k_on_bound = 1e-12;  ///< of h_u; clamp() meets bounds to rounding
 /// Cosine between mean facet normal and vertex normal below which the mean normal is no direction to grow in.
@@ -42,6 +43,7 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
   is_element_.assign(base.wall.n_triangles(), 0);
   corner_gradient_.resize(3 * base.wall.n_triangles());
   has_gradient_.assign(base.wall.n_triangles(), 0);
+  has_wide_margins_.assign(base.wall.n_triangles(), 1);
   const auto stands = [&](TriangleId t) {
     const TriangleVertices& v = base.wall.triangles[t];
     return !start.is_collapsed(v[0]) && !start.is_collapsed(v[1]) && !start.is_collapsed(v[2]);
@@ -69,14 +71,20 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
     const TriangleVertices& v = base.wall.triangles[TriangleId(i)];
     is_element_[i] = stands(TriangleId(i)) && (is_moving_[v[0].index()] || is_moving_[v[1].index()] || is_moving_[v[2].index()]);
   });
-  // Elements that touch a margin (by rounding) have no barrier: their vertices stay.
-  const Vec3Field y = unknowns(start);
   const bool has_barrier = weights.top > 0.0 || weights.barrier > 0.0;
-  for (std::size_t t = 0; t < is_element_.size() && has_barrier; ++t) {
-    LayerElement e;
-    if (!load(t, y, e) || e.measure() > 0.0) continue;
-    is_element_[t] = 0;
-    for (const VertexId v : base.wall.triangles[TriangleId(t)]) is_moving_[v.index()] = 0;
+  const Vec3Field y = unknowns(start);
+  if (has_barrier) {
+    parallel_for(context, is_element_.size(), [&](std::size_t t) {
+      LayerElement e;
+      has_wide_margins_[t] = load(t, y, e) && e.measure() > k_wide_reserve;
+    });
+    // Elements that touch the least margins (by rounding) have no barrier: their vertices stay.
+    for (std::size_t t = 0; t < is_element_.size(); ++t) {
+      LayerElement e;
+      if (has_wide_margins_[t] || !load(t, y, e) || e.measure() > 0.0) continue;
+      is_element_[t] = 0;
+      for (const VertexId v : base.wall.triangles[TriangleId(t)]) is_moving_[v.index()] = 0;
+    }
   }
   for (std::size_t i = 0; i < n; ++i) n_moving_ += is_moving_[i];
   for (const std::uint8_t is_one : is_element_) n_elements_ += is_one;
@@ -123,6 +131,7 @@ bool LayerObjective::load(std::size_t t, const Vec3Field& y, LayerElement& e) co
   const TriangleId id(t);
   const TriangleVertices& v = base_.wall.triangles[id];
   const Point& p = base_.wall.points[v[0]];
+  e.margins = margins_of(t);
   e.n_wall = base_.unit_normal[id];
   e.wall_area2 = 2.0 * base_.area[id];
   std::array<Vec3, 3> g;

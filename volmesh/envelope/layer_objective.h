@@ -66,6 +66,7 @@ class LayerObjective {
   std::size_t hold_back(const Vec3Field& from, const std::vector<float>& slack_from, double keep, Vec3Field& to, const RunContext& context) const;
 
  private:
+  const ElementMargins* margins_of(std::size_t t) const { return has_wide_margins_[t] ? &k_wide_margins : &k_least_margins; }
   bool load(std::size_t t, const Vec3Field& y, LayerElement& e) const;
   struct VisitScratch;
   void colour_vertices();
@@ -86,6 +87,7 @@ class LayerObjective {
   std::vector<Vec3> normal_sum_;   ///< sum of the unit normals of the standing incident triangles
   std::vector<double> n_incident_;
   std::vector<std::uint8_t> is_element_;  ///< no collapsed corner, some corner moves
+  std::vector<std::uint8_t> has_wide_margins_;  ///< likewise per triangle
   std::vector<Vec3> corner_gradient_;     ///< 3 per element, scratch of evaluate()
   std::vector<std::uint8_t> has_gradient_;
   std::vector<std::vector<std::uint32_t>> colours_;  ///< moving vertices that share no element with others of their colour

@@ -14,7 +14,7 @@ struct EnvelopeOptions {
   double max_thickness = k_automatic;
   double feature_angle = k_automatic;
   double height_gradient = 0.5;
-  int height_sweeps = 50;
+  int height_sweeps = 20;
   int direction_sweeps = 50;
   int envelope_sweeps = 5;
   double untangle_share = 0.7;
