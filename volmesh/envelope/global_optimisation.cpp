@@ -15,6 +15,9 @@ namespace {
 /// Shares of the way to the optimum that vertices try one after the other.
 constexpr std::array<double, 4> k_shares = {1.0, 0.5, 0.25, 0.125};
 
+/// Of the target, just above the share that counts as full height (layer_report.cpp).
+constexpr double k_full_height = 0.91;
+
 void log_result(const OptimiseReport& report, std::string_view optimiser, const RunContext& context) {
   const ObjectiveValue &a = report.history.front(), &b = report.history.back();
   char text[256];
@@ -32,6 +35,8 @@ Envelope optimum(const LayerBase& base, const EnvelopeOptions& options, const En
     settings.method = options.optimiser == "descent" ? OptimiseMethod::descent : OptimiseMethod::lbfgs;
     settings.max_evaluations = options.optimiser_evaluations;
     settings.weights = {.height = options.height_weight, .top = options.top_weight, .barrier = options.barrier_weight};
+    settings.height_floor = start.target;  // what counts as full height stays so
+    for (double& h : settings.height_floor) h *= k_full_height;
     OptimiseReport report;
     Envelope result = optimise(base, start, h_u, h_l, settings, report, context);
     log_result(report, options.optimiser, context);
@@ -69,7 +74,7 @@ void optimise_globally(const LayerBase& base, const EnvelopeOptions& options, Co
         return;
       }
       const Vec3 g = (1.0 - share) * start.height[v] * start.direction[v] + share * best.height[v] * best.direction[v];
-      proposal.height[v] = norm(g);
+      proposal.height[v] = (1.0 - share) * start.height[v] + share * best.height[v];  // the chord between two directions is shorter
       proposal.direction[v] = normalized(g);
     });
     apply_where_clear(base, collider, envelope, proposal, context);

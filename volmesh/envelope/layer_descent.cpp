@@ -131,7 +131,7 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
   double share = 1.0;
   for (int halving = 0; halving <= k_max_halvings; ++halving, share *= 0.5) {
     Vec3 next = (start + share * step) / scale;
-    clamp(i, next);  // rounding
+    clamp(i, next);  // the floor, and rounding
     if (!(local_objective(scale * next) <= before + k_sufficient * share * predicted)) continue;
     const double way = norm(next - y[i]);
     y[i] = next;

@@ -32,10 +32,11 @@ Vec3 within(const VertexConstraint& constraint, const Vec3& d) {
 }  // namespace
 
 LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double least_quality,
-                               const ObjectiveWeights& weights, const RunContext& context)
+                               const ObjectiveWeights& weights, const RunContext& context, const Column<VertexId, double>& floor)
     : base_(base), weights_(weights), least_quality_(least_quality), h_u_(h_u.raw()) {
   const std::size_t n = base.wall.n_vertices();
   h_l_share_.assign(n, 1.0);
+  least_length_.assign(n, 0.0);
   is_moving_.assign(n, 0);
   normal_.resize(n);
   normal_sum_.assign(n, Vec3{});
@@ -56,6 +57,7 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
     h_u_[i] = std::max(h_u_[i], h);  // the start must lie within the bounds
     if (!(h > 0.0) || h_u_[i] < k_min_bound_ratio * h_l) return;
     h_l_share_[i] = std::min(h, h_l) / h_u_[i];
+    if (!floor.empty()) least_length_[i] = std::min(start.height[v], floor[v]) / h_u_[i];
     is_moving_[i] = 1;
     for (const HalfedgeId half : base.topology.outgoing(v)) {
       const TriangleId t = triangle_of(half);
@@ -110,6 +112,8 @@ void LayerObjective::store(const Vec3Field& y, Envelope& envelope) const {
 }
 
 void LayerObjective::clamp(std::size_t v, Vec3& y) const {
+  const double length = norm(y);
+  if (length < least_length_[v]) y *= least_length_[v] / length;
   const double h = dot(y, normal_[v]);
   const double inside = std::clamp(h, h_l_share_[v], 1.0);
   if (inside != h) y += (inside - h) * normal_[v];

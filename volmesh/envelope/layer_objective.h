@@ -33,9 +33,10 @@ class LayerObjective {
  public:
   /// h_u: upper bound of the normal component of the growth vector, m; h_l: lower bound. Vertices that are collapsed or whose bounds nearly meet do not move.
   /// \pre every macro-element of `start` is valid, unless the weights of f_3 and barrier are zero. `base` must outlive this.
-  /// No element may get a scaled Jacobian below `least_quality`.
+  /// No element may get a scaled Jacobian below `least_quality`. `floor` (may be empty): lengths in metres below which
+  /// growth vectors that start longer do not go.
   LayerObjective(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double least_quality,
-                 const ObjectiveWeights& weights, const RunContext& context);
+                 const ObjectiveWeights& weights, const RunContext& context, const Column<VertexId, double>& floor = {});
 
   std::size_t size() const { return h_u_.size(); }
   bool is_moving(std::size_t v) const { return is_moving_[v] != 0; }
@@ -80,7 +81,7 @@ class LayerObjective {
   const LayerBase& base_;
   ObjectiveWeights weights_;
   double least_quality_;
-  std::vector<double> h_u_, h_l_share_;
+  std::vector<double> h_u_, h_l_share_, least_length_;
   std::vector<std::uint8_t> is_moving_;
   std::size_t n_moving_ = 0, n_elements_ = 0;
   std::vector<Vec3> normal_;       ///< direction in which heights are measured: the vertex normal within the constraint

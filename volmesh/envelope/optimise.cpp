@@ -181,7 +181,7 @@ Column<VertexId, double> upper_heights(const LayerBase& base, const Envelope& en
 Envelope optimise(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, const OptimiseSettings& settings,
                   OptimiseReport& report, const RunContext& context) {
   const double least_quality = k_quality_share * smallest_scaled_jacobian(base, start, context);
-  LayerObjective objective(base, start, h_u, h_l, least_quality, settings.weights, context);
+  LayerObjective objective(base, start, h_u, h_l, least_quality, settings.weights, context, settings.height_floor);
   report = {};
   report.n_moving = objective.n_moving();
   Vec3Field y = objective.unknowns(start);

@@ -17,6 +17,8 @@ enum class OptimiseMethod {
 struct OptimiseSettings {
   OptimiseMethod method = OptimiseMethod::descent;
   int max_evaluations = 30;     ///< of the objective; a sweep of the descent counts as one
+  /// Lengths of growth vectors, m, below which those that start longer do not go; empty: none.
+  Column<VertexId, double> height_floor = {};
   double tolerance = 1e-3;      ///< the run ends when an iteration gains less than this share of what was gained so far
   ObjectiveWeights weights;
 };
