@@ -44,9 +44,9 @@ Envelope build_envelope(const LayerBase& base, const EnvelopeOptions& options, C
   share_gaps(base, options, collider, envelope, context);
   retract_collisions(base, options, collider, envelope, context.part("retract", 0.6, 0.8));
   regrow_clear(base, collider, envelope, context);
-  seat_on_surfaces(base, options, &collider, envelope, context);
   optimise_globally(base, options, collider, envelope, context.part("optimise", 0.8, 1.0));
   if (options.optimiser != "none") regrow_clear(base, collider, envelope, context);
+  seat_on_surfaces(base, options, &collider, envelope, context);
   return envelope;
 }
 

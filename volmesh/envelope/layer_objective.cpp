@@ -29,6 +29,16 @@ Vec3 within(const VertexConstraint& constraint, const Vec3& d) {
   return d;
 }
 
+/// Share of a vertex of the whole body that half or quarter of it has: growth lines there see their own triangles only.
+double mirror_share(const VertexConstraint& constraint) {
+  switch (constraint.freedom) {
+    case Freedom::plane:
+    case Freedom::surface: return 0.5;
+    case Freedom::line: return 0.25;
+    default: return 1.0;
+  }
+}
+
 }  // namespace
 
 LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double least_quality,
@@ -41,6 +51,7 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
   normal_.resize(n);
   normal_sum_.assign(n, Vec3{});
   n_incident_.assign(n, 0.0);
+  mirror_share_.assign(n, 1.0);
   is_element_.assign(base.wall.n_triangles(), 0);
   corner_gradient_.resize(3 * base.wall.n_triangles());
   has_gradient_.assign(base.wall.n_triangles(), 0);
@@ -52,6 +63,7 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
   parallel_for(context, n, [&](std::size_t i) {
     const VertexId v(i);
     normal_[i] = base.vertex_normal[v];
+    mirror_share_[i] = mirror_share(base.constraint[v]);
     if (start.is_collapsed(v) || base.constraint[v].freedom == Freedom::fixed) return;
     const double h = dot(start.height[v] * start.direction[v], normal_[i]);
     h_u_[i] = std::max(h_u_[i], h);  // the start must lie within the bounds
@@ -88,7 +100,10 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
       for (const VertexId v : base.wall.triangles[TriangleId(t)]) is_moving_[v.index()] = 0;
     }
   }
-  for (std::size_t i = 0; i < n; ++i) n_moving_ += is_moving_[i];
+  for (std::size_t i = 0; i < n; ++i) {
+    n_moving_ += is_moving_[i];
+    if (is_moving_[i]) n_counted_ += mirror_share_[i];
+  }
   for (const std::uint8_t is_one : is_element_) n_elements_ += is_one;
 }
 
@@ -194,9 +209,9 @@ ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, Vec3Field* gradient,
           const Vec3 u = y[i] / length;
           const double seen = dot(normal_sum_[i], u);
           sum.f1 += n_incident_[i] - seen;
-          sum.f2 += 1.0 - dot(y[i], normal_[i]);
+          sum.f2 += mirror_share_[i] * (1.0 - dot(y[i], normal_[i]));
           if (!gradient) continue;
-          Vec3 d = (-element_weight / length) * (normal_sum_[i] - seen * u) - height_weight() * normal_[i];
+          Vec3 d = (-element_weight / length) * (normal_sum_[i] - seen * u) - height_weight(i) * normal_[i];
           for (const HalfedgeId h : base_.topology.outgoing(VertexId(i)))
             if (has_gradient_[h.index() / 3]) d += h_u_[i] * corner_gradient_[h.index()];
           (*gradient)[i] = within(base_.constraint[VertexId(i)], d);
@@ -205,7 +220,7 @@ ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, Vec3Field* gradient,
       },
       add);
   value.f1 = element_weight * own.f1;
-  value.f2 = own.f2 / static_cast<double>(std::max<std::size_t>(n_moving_, 1));
+  value.f2 = vertex_weight() * own.f2;
   value.total = value.f1 + weights_.height * value.f2 + weights_.top * value.f3 + weights_.barrier * value.barrier;
   return value;
 }

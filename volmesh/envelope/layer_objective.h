@@ -76,7 +76,8 @@ class LayerObjective {
   /// Of one corner of one element in f_1 and f_3.
   double corner_weight() const { return 1.0 / (3.0 * static_cast<double>(std::max<std::size_t>(n_elements_, 1))); }
   ElementWeights element_weights() const { return {corner_weight() * weights_.top, corner_weight() * weights_.barrier}; }
-  double height_weight() const { return weights_.height / static_cast<double>(std::max<std::size_t>(n_moving_, 1)); }
+  double vertex_weight() const { return n_counted_ > 0.0 ? 1.0 / n_counted_ : 1.0; }  ///< of a whole vertex in f_2
+  double height_weight(std::size_t v) const { return weights_.height * mirror_share_[v] * vertex_weight(); }
 
   const LayerBase& base_;
   ObjectiveWeights weights_;
@@ -84,9 +85,11 @@ class LayerObjective {
   std::vector<double> h_u_, h_l_share_, least_length_;
   std::vector<std::uint8_t> is_moving_;
   std::size_t n_moving_ = 0, n_elements_ = 0;
+  double n_counted_ = 0.0;  ///< moving vertices by their mirror share: n_v of (9)
   std::vector<Vec3> normal_;       ///< direction in which heights are measured: the vertex normal within the constraint
   std::vector<Vec3> normal_sum_;   ///< sum of the unit normals of the standing incident triangles
   std::vector<double> n_incident_;
+  std::vector<double> mirror_share_;  ///< of the whole body's vertex that is here: 1, 1/2 on a plane, 1/4 on a line; counts in f_2
   std::vector<std::uint8_t> is_element_;  ///< no collapsed corner, some corner moves
   std::vector<std::uint8_t> has_wide_margins_;  ///< likewise per triangle
   std::vector<Vec3> corner_gradient_;     ///< 3 per element, scratch of evaluate()
