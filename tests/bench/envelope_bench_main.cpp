@@ -1,8 +1,10 @@
 // How fast the layer is, stage by stage, on real surfaces with the settings of ../shared/data/baselines.md: 35 layers, first height 1e-6 of the body length L,
 // feature angle 35 degrees, growth at most 1.4, thickness at most 0.1 L, wall perpendicularity 0.1.
-// usage: envelope_bench [--threads 1,2] [--layers 35] SURFACE...        the ladder of surfaces is made by tests/bench/make_ladder
+// usage: envelope_bench [--threads 1,2] [--layers 35] [--nlopt 0] SURFACE...        the ladder of surfaces is made by tests/bench/make_ladder
+// --nlopt N: besides, N evaluations of NLopt's CCSAQ and MMA and our descent from the envelope that was built (compare_optimisers compares results).
 // One table row for each surface, thread number and stage: seconds, of processor time too (the same times the threads on a quiet machine), elements per second
 // and core, peak of the resident memory during the stage.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -17,6 +19,9 @@
 #include "io/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "volmesh/envelope/build_envelope.h"
+#include "volmesh/envelope/certificate.h"
+#include "volmesh/envelope/nlopt_optimise.h"
+#include "volmesh/envelope/optimise.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/prisms/extrude.h"
 #include "volmesh/prisms/first_node.h"
@@ -63,7 +68,29 @@ TriMesh read(const std::string& path, const RunContext& context) {
   return surfmesh::stitch_surface({io::read_surface_file(path, context)}, {}, context).mesh;
 }
 
-void run(const std::string& path, const TriMesh& wall, int threads, int n_layers) {
+/// What every optimiser of stage 6 costs, all from the same start.
+void time_optimisers(Row& row, const LayerBase& base, const EnvelopeOptions& options, const Envelope& start, int n_evaluations, const RunContext& context) {
+  const Column<VertexId, double> h_u = upper_heights(base, start);
+  const double h_l = std::max(options.first_height, scale_of(options).h_min);
+  const double n = static_cast<double>(base.wall.n_vertices()) * n_evaluations;
+  for (const NloptMethod method : {NloptMethod::ccsaq, NloptMethod::mma}) {
+    NloptReport report;
+    row.timed(method == NloptMethod::mma ? "MMA" : "CCSAQ", n, "vertex evaluations",
+              [&] { nlopt_optimise(base, start, h_u, h_l, {.method = method, .max_evaluations = n_evaluations}, report, context); });
+  }
+  OptimiseReport report;
+  row.timed("our descent", n, "vertex evaluations", [&] { optimise(base, start, h_u, h_l, {.max_evaluations = n_evaluations, .tolerance = 0.0}, report, context); });
+}
+
+struct Settings {
+  std::vector<int> threads = {1, 2};
+  int n_layers = 35;
+  int n_nlopt = 0;
+  std::vector<std::string> surfaces;
+};
+
+void run(const std::string& path, const TriMesh& wall, int threads, const Settings& settings) {
+  const int n_layers = settings.n_layers;
   const RunContext context({.threads = threads, .log = [](LogLevel level, std::string_view text) {
                               if (level != LogLevel::debug || std::getenv("STERNA_BENCH_VERBOSE")) std::fprintf(stderr, "%.*s\n", static_cast<int>(text.size()), text.data());
                             }});
@@ -84,15 +111,25 @@ void run(const std::string& path, const TriMesh& wall, int threads, int n_layers
   CrossingPairs crossings;
   std::printf("| %s | %d | triangles | | | %.0f | wall | %.0f |\n", row.surface.c_str(), threads, n, status_megabytes("VmRSS:"));
   row.timed("topology", n, "triangles", [&] { base.emplace(wall, context); });
-  row.timed("envelope", n, "triangles", [&] { envelope = build_envelope(*base, options, context); });
+  std::optional<Collider> collider;
+  EnvelopeCertificate proof;
+  row.timed("input tested for crossings", n, "triangles", [&] {
+    collider.emplace(*base, nullptr, context);
+    require_clear_input(*collider, context);
+  });
+  row.timed("envelope", n, "triangles", [&] { envelope = build_envelope(*base, options, *collider, context); });
+  row.timed("certificate of the envelope", n, "triangles", [&] { proof = certify_envelope(*base, *collider, envelope, context); });
+  collider.reset();
   const EnvelopeSurface surface = envelope_surface(*base, envelope, context);
+  if (settings.n_nlopt > 0) time_optimisers(row, *base, options, envelope, settings.n_nlopt, context);
   row.timed("one exact self-intersection pass", n, "triangles", [&] { crossings = find_crossings(surface.points, surface.triangles, context); });
   row.timed("extrusion", n_prisms, "prisms", [&] { extrusion = extrude_prisms(*base, options, prisms, envelope, context); });
   row.timed("certificate of the prisms", n_prisms, "prisms", [&] { certificate = certify_layer(extrusion.layers, extrusion.points, context); });
   const FirstNodeReport first = first_node_report(*base, classify_vertices(*base, options, context), options, envelope, extrusion, context);
   std::printf("| %s | %d | all stages | | | | | %.0f |\n", row.surface.c_str(), threads, row.peak);
+  std::printf("\n%s: %s\n", row.surface.c_str(), to_text(proof).c_str());
   const auto& c = extrusion.curving_shares;
-  std::printf("\n%s: %lld crossing pairs; %lld of %lld cells proved, worst quality %.3g at (%.6g, %.6g, %.6g), layer %d\n", row.surface.c_str(),
+  std::printf("%s: %lld crossing pairs; %lld of %lld cells proved, worst quality %.3g at (%.6g, %.6g, %.6g), layer %d\n", row.surface.c_str(),
               static_cast<long long>(crossings.total), static_cast<long long>(certificate.n_proved), static_cast<long long>(certificate.n_cells),
               certificate.min_quality, certificate.worst_place.x, certificate.worst_place.y, certificate.worst_place.z, certificate.worst_layer);
   std::printf("  c_t reduced on %lld of %zu lines: %lld straight, %lld up to 1/4, %lld to 1/2, %lld to 3/4, %lld below 1\n", static_cast<long long>(extrusion.n_straightened),
@@ -107,28 +144,28 @@ void run(const std::string& path, const TriMesh& wall, int threads, int n_layers
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<int> threads = {1, 2};
-  int n_layers = 35;
-  std::vector<std::string> surfaces;
+  Settings settings;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument == "--threads" && i + 1 < argc) {
-      threads.clear();
-      for (char* at = argv[++i]; *at != '\0'; at += *at == ',') threads.push_back(static_cast<int>(std::strtol(at, &at, 10)));
+      settings.threads.clear();
+      for (char* at = argv[++i]; *at != '\0'; at += *at == ',') settings.threads.push_back(static_cast<int>(std::strtol(at, &at, 10)));
     } else if (argument == "--layers" && i + 1 < argc) {
-      n_layers = std::atoi(argv[++i]);
+      settings.n_layers = std::atoi(argv[++i]);
+    } else if (argument == "--nlopt" && i + 1 < argc) {
+      settings.n_nlopt = std::atoi(argv[++i]);
     } else {
-      surfaces.push_back(argument);
+      settings.surfaces.push_back(argument);
     }
   }
-  if (surfaces.empty()) {
-    std::fprintf(stderr, "usage: envelope_bench [--threads 1,2] [--layers 35] SURFACE...\n");
+  if (settings.surfaces.empty()) {
+    std::fprintf(stderr, "usage: envelope_bench [--threads 1,2] [--layers 35] [--nlopt 0] SURFACE...\n");
     return 2;
   }
   std::printf("| surface | threads | stage | seconds | processor | rate | per | peak MB |\n|---|---|---|---|---|---|---|---|\n");
-  for (const std::string& path : surfaces) {
+  for (const std::string& path : settings.surfaces) {
     const TriMesh wall = read(path, RunContext());
-    for (const int n : threads) run(path, wall, n, n_layers);
+    for (const int n : settings.threads) run(path, wall, n, settings);
   }
   return 0;
 }
