@@ -1,7 +1,7 @@
 // How fast the layer is, stage by stage, on real surfaces with the settings of ../shared/data/baselines.md: 35 layers, first height 1e-6 of the body length L,
 // feature angle 35 degrees, growth at most 1.4, thickness at most 0.1 L, wall perpendicularity 0.1.
 // usage: envelope_bench [--threads 1,2] [--layers 35] [--nlopt 0] SURFACE...        the ladder of surfaces is made by tests/bench/make_ladder
-// --nlopt N: besides, N evaluations of NLopt's CCSAQ and MMA and our descent from the envelope that was built (compare_optimisers compares results).
+// --nlopt N: besides, N evaluations of NLopt's CCSAQ and MMA and of our descent from the envelope before stage 6 (compare_optimisers compares results).
 // One table row for each surface, thread number and stage: seconds, of processor time too (the same times the threads on a quiet machine), elements per second
 // and core, peak of the resident memory during the stage.
 #include <algorithm>
@@ -69,7 +69,9 @@ TriMesh read(const std::string& path, const RunContext& context) {
 }
 
 /// What every optimiser of stage 6 costs, all from the same start.
-void time_optimisers(Row& row, const LayerBase& base, const EnvelopeOptions& options, const Envelope& start, int n_evaluations, const RunContext& context) {
+void time_optimisers(Row& row, const LayerBase& base, EnvelopeOptions options, int n_evaluations, const RunContext& context) {
+  options.optimiser = "none";
+  const Envelope start = build_envelope(base, options, context);
   const Column<VertexId, double> h_u = upper_heights(base, start);
   const double h_l = std::max(options.first_height, scale_of(options).h_min);
   const double n = static_cast<double>(base.wall.n_vertices()) * n_evaluations;
@@ -121,7 +123,7 @@ void run(const std::string& path, const TriMesh& wall, int threads, const Settin
   row.timed("certificate of the envelope", n, "triangles", [&] { proof = certify_envelope(*base, *collider, envelope, context); });
   collider.reset();
   const EnvelopeSurface surface = envelope_surface(*base, envelope, context);
-  if (settings.n_nlopt > 0) time_optimisers(row, *base, options, envelope, settings.n_nlopt, context);
+  if (settings.n_nlopt > 0) time_optimisers(row, *base, options, settings.n_nlopt, context);
   row.timed("one exact self-intersection pass", n, "triangles", [&] { crossings = find_crossings(surface.points, surface.triangles, context); });
   row.timed("extrusion", n_prisms, "prisms", [&] { extrusion = extrude_prisms(*base, options, prisms, envelope, context); });
   row.timed("certificate of the prisms", n_prisms, "prisms", [&] { certificate = certify_layer(extrusion.layers, extrusion.points, context); });
