@@ -11,6 +11,7 @@
 #include <ctime>
 #include <fstream>
 #include <functional>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -104,6 +105,7 @@ void run(const std::string& path, const TriMesh& wall, int threads, const Settin
   options.layers = n_layers;
   options.first_height = 1e-6 * length;
   options.max_thickness = 0.1 * length;
+  options.feature_angle = 35.0 * std::numbers::pi / 180.0;
   const PrismOptions prisms{.wall_perpendicularity = 0.1};
 
   std::optional<LayerBase> base;
