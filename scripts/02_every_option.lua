@@ -24,11 +24,11 @@ local mesh = volume_mesh{ wall,
     envelope_sweeps = 5,
     untangle_share = 0.7,
     max_retract_sweeps = 40,
-    height_floor = 0.94,          -- share of the target height to which smoothing may lower
+    height_floor = 0.938,         -- share of the target height to which smoothing may lower
     optimiser = "descent",        -- none, descent, lbfgs (ours), mma, ccsaq (NLopt)
     optimiser_evaluations = 30,
     height_weight = 1.0,          -- of full height, against lines normal to the wall
-    top_weight = 0.3,             -- of lines normal to the envelope
+    top_weight = 0.4,             -- of lines normal to the envelope
     barrier_weight = 0.02,        -- around invalid elements
   },
   prisms = {

@@ -19,11 +19,11 @@ struct EnvelopeOptions {
   int envelope_sweeps = 5;
   double untangle_share = 0.7;
   int max_retract_sweeps = 40;
-  double height_floor = 0.94;
+  double height_floor = 0.938;
   std::string optimiser = "descent";
   int optimiser_evaluations = 30;
   double height_weight = 1.0;
-  double top_weight = 0.3;
+  double top_weight = 0.4;
   double barrier_weight = 0.02;
 };
 
