@@ -24,10 +24,10 @@
 
 // HXT says "failed" when it gets no memory. The program's own allocation functions come before those of the C library, which they call, and take note.
 extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* block, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
+void* __libc_malloc(std::size_t size);  // NOLINT(readability-identifier-naming): glibc's name
+void* __libc_calloc(std::size_t count, std::size_t size);  // NOLINT(readability-identifier-naming): glibc's name
+void* __libc_realloc(void* block, std::size_t size);  // NOLINT(readability-identifier-naming): glibc's name
+void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT(readability-identifier-naming): glibc's name
 }
 
 namespace {
