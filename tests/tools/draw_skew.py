@@ -33,7 +33,7 @@ def main():
             out.append(f'<line x1="{at}" x2="{at}" y1="{y}" y2="{y + HEIGHT}" stroke="#c53030" stroke-dasharray="3 2"/><text x="{at + 2}" y="{y + 10}" fill="#c53030">{limit}</text>')
         out.append(f'<line x1="{x}" x2="{x + WIDTH}" y1="{y + HEIGHT}" y2="{y + HEIGHT}" stroke="black"/>')
         out += [f'<text x="{x + WIDTH * d / (2 * SHOWN)}" y="{y + HEIGHT + 13}" text-anchor="middle">{d}</text>' for d in (0, 20, 40, 60)]
-        out.append(f'<text x="{x}" y="{y - 6}" font-weight="bold">{html.escape(name)}</text><text x="{x + WIDTH}" y="{y - 6}" text-anchor="end">highest bar {top:.1f} % of the prisms</text>')
+        out.append(f'<text x="{x}" y="{y - 6}" font-weight="bold">{html.escape(name)}</text><text x="{x + WIDTH}" y="{y + 14}" text-anchor="end">highest bar {top:.1f} % of the prisms</text>')
     out.append("</svg>")
     print("\n".join(out))
 
