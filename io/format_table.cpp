@@ -25,7 +25,8 @@ constexpr std::array k_formats = {
     Format{.name = "OFF", .extensions = ".off", .read_surface = read_off},
     Format{.name = "PLY", .extensions = ".ply", .read_surface = read_ply, .carries_patch_names = true},
     Format{.name = "Gmsh MSH", .extensions = ".msh", .read_surface = read_msh, .carries_patch_names = true},
-    Format{.name = "UGRID", .extensions = ".lb8.ugrid .b8.ugrid .lb8l.ugrid .b8l.ugrid", .read_surface = read_ugrid, .read_volume = read_volume_ugrid, .carries_patch_names = true},
+    Format{.name = "UGRID", .extensions = ".lb8.ugrid .b8.ugrid .lb8l.ugrid .b8l.ugrid .lb4.ugrid .b4.ugrid .ugrid", .read_surface = read_ugrid, .read_volume = read_volume_ugrid,
+           .write_volume = write_volume_ugrid, .carries_patch_names = true},
     Format{.name = "SU2", .extensions = ".su2", .read_surface = read_su2, .read_volume = read_volume_su2, .write_volume = write_volume_su2, .carries_patch_names = true},
     Format{.name = "VTU", .extensions = ".vtu", .read_volume = read_volume_vtu, .write_volume = write_volume_vtu, .carries_patch_names = true},
 };

@@ -40,7 +40,7 @@ std::vector<std::filesystem::path> victims() {
       const std::string name = entry.path().filename().string();
       bool is_wanted = entry.is_regular_file() && entry.file_size() <= k_small;
       is_wanted = is_wanted && std::any_of(starts.begin(), starts.end(), [&](const std::string& start) { return name.starts_with(start); });
-      const auto ends = {".stl", ".obj", ".off", ".ply", ".msh", ".su2", "8.ugrid", "8l.ugrid"};
+      const auto ends = {".stl", ".obj", ".off", ".ply", ".msh", ".su2", ".ugrid"};
       if (is_wanted && std::any_of(ends.begin(), ends.end(), [&](const char* end) { return name.ends_with(end); })) files.push_back(entry.path());
     }
   };

@@ -24,7 +24,8 @@ constexpr Sample k_samples[] = {
     {".ascii.stl", Names::named, true},       {".bin.stl", Names::none, false, true},  {".bin_attr.stl", Names::none, false, true}, {".bin_solidheader.stl", Names::none, false, true},
     {".obj", Names::named, true},             {".off", Names::none, true},             {"_tri.off", Names::none, true},             {".ascii.ply", Names::numbered, true},
     {".bin.ply", Names::numbered, false},     {".v22.msh", Names::named, true},        {".v41.msh", Names::named, true},            {".su2", Names::named, true},
-    {".lb8.ugrid", Names::named, false},      {".b8.ugrid", Names::named, false},      {".lb8l.ugrid", Names::named, false}};
+    {".lb8.ugrid", Names::named, false},      {".b8.ugrid", Names::named, false},      {".lb8l.ugrid", Names::named, false},
+    {".ugrid", Names::named, true}};
 
 struct Body {
   const char* name;
@@ -93,7 +94,7 @@ TEST(Samples, OldSu2WithTrailingIndices) {
 TEST(Samples, VariantsThatAreNotReadAreNamed) {
   STERNA_NEEDS_SHARED_DATA();
   const std::pair<const char*, const char*> files[] = {
-      {"pt.fluent.msh", "Fluent"}, {"pt.ugrid", ".lb8.ugrid"}, {"real_su2_square.su2", "NDIME= 2"}, {"n0012_113-33.su2", "NDIME= 2"}};
+      {"pt.fluent.msh", "Fluent"}, {"real_su2_square.su2", "NDIME= 2"}, {"n0012_113-33.su2", "NDIME= 2"}};
   for (const auto& [file, text] : files) {
     try {
       read_surface(shared_data() / "formats" / file);

@@ -106,6 +106,10 @@ TEST(SurfaceUgrid, MistakesAreToldWithTheirByte) {
   refused("t.lb8l.ugrid", UgridBytes(true, false).integers({std::int64_t{1} << 62, 1, 1, 1, 1, 1, 1}).bytes(), {"coordinates of the points"});
 }
 
+TEST(SurfaceUgrid, FortranRecordsAreNotRead) {
+  expect_refused("t.r8.ugrid", tetrahedron(false, true), ErrorCode::unsupported_format, {"Fortran records (.r8.ugrid)", ".lb8.ugrid"});
+}
+
 TEST(SurfaceUgrid, WhatFollowsTheCellsIsNotLookedAt) {
   expect_same_soup(read_surface_text("t.lb8.ugrid", tetrahedron(false, false) + "more records"), read_surface_text("t.lb8.ugrid", tetrahedron(false, false)));
 }
