@@ -1,0 +1,53 @@
+// Better tetrahedra from those that an engine made, within the same boundary.
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+
+#include "geom/base/run_context.h"
+#include "geom/base/schema.h"
+#include "volmesh/tetra/tetra.h"
+
+namespace sterna::volmesh {
+
+struct ImproveOptions {
+  double improve_min_angle = 12.0 * std::numbers::pi / 180.0;
+  double improve_max_angle = 160.0 * std::numbers::pi / 180.0;
+  int improve_rounds = 20;
+};
+
+/// What improvement found and left.
+struct ImproveReport {
+  std::int64_t n_bad_before = 0;  ///< tetrahedra with a dihedral angle beyond the limits
+  std::int64_t n_bad_after = 0;
+  std::int64_t n_bad_free_after = 0;  ///< of these without a vertex on the boundary
+  double min_angle_before = 0.0;  ///< radians
+  double min_angle_after = 0.0;
+  double max_angle_before = 0.0;
+  double max_angle_after = 0.0;
+  int rounds = 0;
+};
+
+/// Works on every tetrahedron with a dihedral angle beyond the limits, worst first: edge removal (rings of 3 to 8: 2-3, 4-4, ...), multi-face removal, smoothing of
+/// the worst sine, contraction and insertion of interior vertices, each change proven positive with exact predicates and accepted only when the worst
+/// tetrahedron that it touches gets better, so the smallest quality of the mesh never falls.
+/// Around each bad tetrahedron the neighbourhood is taken out; disjoint neighbourhoods, chosen worst first, are worked on in parallel: same bytes for any number of threads.
+/// \pre verify_tetrahedra() passed. \post it passes again; points of the boundary and its triangles as before.
+ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tets, const ImproveOptions& options, const RunContext& context);
+
+}  // namespace sterna::volmesh
+
+namespace sterna {
+
+template <>
+struct Schema<volmesh::ImproveOptions> {
+  using O = volmesh::ImproveOptions;
+  static constexpr std::string_view stage = "improve";
+  static constexpr std::array fields = {
+      Field<O>{.name = "improve_min_angle", .member = &O::improve_min_angle, .unit = Unit::radian, .min = 0.0, .max = 0.6, .help = "tetrahedra with a smaller dihedral angle are worked on"},
+      Field<O>{.name = "improve_max_angle", .member = &O::improve_max_angle, .unit = Unit::radian, .min = 2.0, .max = 3.14, .help = "tetrahedra with a larger dihedral angle are worked on"},
+      Field<O>{.name = "improve_rounds", .member = &O::improve_rounds, .min = 0, .max = 1000, .help = "passes over the bad tetrahedra; 0 leaves the mesh as the engine made it"},
+  };
+};
+
+}  // namespace sterna

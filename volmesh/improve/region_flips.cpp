@@ -1,0 +1,155 @@
+// Changes of connectivity without new points.
+// Edge removal: the tetrahedra around an edge are replaced by pairs over the best triangulation of the ring of vertices around it (2-3 for a ring of 3, 4-4
+// for 4, ...), found by dynamic programming (Klincsek 1980). Multi-face removal is its inverse: faces that lie between the same two vertices give way to the edge
+// between them. Based on: Shewchuk, Two discrete optimization algorithms for the topological improvement of tetrahedral meshes (2002).
+
+#include <algorithm>
+
+#include "volmesh/improve/region.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr std::size_t k_max_ring = 8;  ///< longer rings hardly ever win
+constexpr int k_max_faces_deep = 4;    ///< recursion from the first face
+
+std::size_t corner_of(const Region::Corners& c, std::uint32_t v) {
+  return static_cast<std::size_t>(std::ranges::find(c, v) - c.begin());
+}
+bool has(const Region::Corners& c, std::uint32_t v) { return corner_of(c, v) < 4; }
+
+/// The other two corners x, y such that (a, b, x, y) is positive.
+std::array<std::uint32_t, 2> other_two(const Region::Corners& c, std::uint32_t a, std::uint32_t b) {
+  const std::size_t i = corner_of(c, a), j = corner_of(c, b);
+  // Even permutations of 0123 by their first two places.
+  constexpr std::uint8_t k_rest[4][4][2] = {{{0, 0}, {2, 3}, {3, 1}, {1, 2}}, {{3, 2}, {0, 0}, {0, 3}, {2, 0}}, {{1, 3}, {3, 0}, {0, 0}, {0, 1}}, {{2, 1}, {0, 2}, {1, 0}, {0, 0}}};
+  return {c[k_rest[i][j][0]], c[k_rest[i][j][1]]};
+}
+
+}  // namespace
+
+bool Region::remove_edge_or_faces(std::uint32_t tet) {
+  Change best;
+  const Corners c = tets_[tet].corners;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j) try_edge(c[i], c[j], best);
+  for (std::size_t i = 0; i < 4; ++i) try_faces(tet, i, best);
+  return best.quality > 0.0 && apply(best);
+}
+
+void Region::try_edge(std::uint32_t a, std::uint32_t b, Change& best) {
+  std::array<std::uint32_t, k_max_ring> around{}, from{}, to{};
+  std::size_t n = 0;
+  for (const std::uint32_t t : incident_[a]) {
+    if (!has(tets_[t].corners, b)) continue;
+    if (n == k_max_ring) return;
+    around[n] = t;
+    const auto [x, y] = other_two(tets_[t].corners, a, b);
+    from[n] = x;
+    to[n++] = y;
+  }
+  if (n < 3) return;
+  const double before = worst({around.data(), n});
+  // The ring in its order; an edge of the border has an open one.
+  std::array<std::uint32_t, k_max_ring> ring{};
+  ring[0] = from[0];
+  for (std::size_t i = 1; i <= n; ++i) {
+    const auto next = std::find(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(n), ring[i - 1]);
+    if (next == from.begin() + static_cast<std::ptrdiff_t>(n)) return;
+    const std::uint32_t v = to[static_cast<std::size_t>(next - from.begin())];
+    if (i == n ? v != ring[0] : v == ring[0]) return;
+    if (i < n) ring[i] = v;
+  }
+  const double limit = std::max(before, best.quality);
+  double value[k_max_ring][k_max_ring];
+  std::uint8_t middle[k_max_ring][k_max_ring] = {};
+  for (std::size_t i = 0; i + 1 < n; ++i) value[i][i + 1] = 1.0;
+  for (std::size_t span = 2; span < n; ++span) {
+    for (std::size_t i = 0; i + span < n; ++i) {
+      const std::size_t k = i + span;
+      value[i][k] = -1.0;
+      for (std::size_t j = i + 1; j < k; ++j) {
+        double q = std::min(value[i][j], value[j][k]);
+        if (q <= value[i][k] || q <= limit) continue;
+        q = std::min(q, quality(Corners{ring[i], ring[j], ring[k], b}));
+        if (q <= value[i][k] || q <= limit) continue;
+        q = std::min(q, quality(Corners{ring[j], ring[i], ring[k], a}));
+        if (q <= value[i][k]) continue;
+        value[i][k] = q;
+        middle[i][k] = static_cast<std::uint8_t>(j);
+      }
+    }
+  }
+  const double after = value[0][n - 1];
+  if (after <= best.quality || !is_better(after, before)) return;
+  best = Change{.quality = after};
+  best.removed.assign(around.begin(), around.begin() + static_cast<std::ptrdiff_t>(n));
+  std::array<std::array<std::size_t, 2>, k_max_ring> stack{};
+  std::size_t depth = 0;
+  stack[depth++] = {0, n - 1};
+  while (depth > 0) {
+    const auto [i, k] = stack[--depth];
+    if (k == i + 1) continue;
+    const std::size_t j = middle[i][k];
+    best.added.push_back({ring[i], ring[j], ring[k], b});
+    best.added.push_back({ring[j], ring[i], ring[k], a});
+    stack[depth++] = {i, j};
+    stack[depth++] = {j, k};
+  }
+}
+
+std::uint32_t Region::across(std::uint32_t tet, const Face& face) const {
+  for (const std::uint32_t t : incident_[face[0]])
+    if (t != tet && has(tets_[t].corners, face[1]) && has(tets_[t].corners, face[2])) return t;
+  return k_none;
+}
+
+void Region::try_faces(std::uint32_t tet, std::size_t corner, Change& best) {
+  const Face face = opposite(tets_[tet].corners, corner);
+  const std::uint32_t other = across(tet, face);
+  if (other == k_none) return;
+  const std::uint32_t above = tets_[tet].corners[corner];
+  std::uint32_t below = 0;
+  for (const std::uint32_t v : tets_[other].corners)
+    if (v != face[0] && v != face[1] && v != face[2]) below = v;
+  Change change;
+  change.removed = {tet, other};
+  change.quality = 1.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    change.quality = std::min(change.quality, extend_faces(face[k], face[(k + 1) % 3], above, below, tet, 0, change));
+    if (change.quality <= best.quality) return;
+  }
+  if (is_better(change.quality, worst(change.removed))) best = std::move(change);
+}
+
+/// The side (u, v) of the faces chosen so far, seen counter-clockwise from `above`: either it stays a side and carries a new tetrahedron, or the face beyond it joins.
+double Region::extend_faces(std::uint32_t u, std::uint32_t v, std::uint32_t above, std::uint32_t below, std::uint32_t from_above, int depth, Change& change) const {
+  const Corners side{u, v, below, above};
+  const double as_side = quality(side);
+  if (as_side < limits_.target && depth < k_max_faces_deep) {
+    const std::uint32_t next_above = across(from_above, {u, v, above});
+    const auto third = [&]() -> std::uint32_t {
+      for (const std::uint32_t w : tets_[next_above].corners)
+        if (w != u && w != v && w != above) return w;
+      return k_none;
+    };
+    const std::uint32_t w = next_above == k_none ? k_none : third();
+    const std::uint32_t next_below = w == k_none || w == below ? k_none : across(next_above, {u, v, w});
+    if (next_below != k_none && has(tets_[next_below].corners, below) && std::ranges::find(change.removed, next_above) == change.removed.end()) {
+      Change longer = change;
+      longer.removed.push_back(next_above);
+      longer.removed.push_back(next_below);
+      // Beyond (u, v) the face is (v, u, w).
+      const double first = extend_faces(u, w, above, below, next_above, depth + 1, longer);
+      const double second = first > as_side ? extend_faces(w, v, above, below, next_above, depth + 1, longer) : -1.0;
+      if (std::min(first, second) > as_side) {
+        change = std::move(longer);
+        return std::min(first, second);
+      }
+    }
+  }
+  change.added.push_back(side);
+  return as_side;
+}
+
+}  // namespace sterna::volmesh
