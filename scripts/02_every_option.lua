@@ -53,6 +53,11 @@ local mesh = volume_mesh{ wall,
     time_limit = "automatic",       -- seconds; automatic: none
     helper_folder = "",             -- where sterna-tet-tetgen and sterna-tet-hxt are; empty: beside sterna
   },
+  improve = {                         -- of tetrahedra with dihedral angles beyond these
+    improve_min_angle = 12*deg,
+    improve_max_angle = 160*deg,
+    improve_rounds = 20,            -- 0: none
+  },
 }
 
 mesh:check{ intersections = true, quality = true, findings_per_kind = 10 }

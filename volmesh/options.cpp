@@ -12,6 +12,7 @@ OptionTable options_of(VolumeMeshOptions& options) {
   add(sterna::options_of(options.farfield));
   add(sterna::options_of(options.size));
   add(sterna::options_of(options.tetrahedra));
+  add(sterna::options_of(options.improve));
   return table;
 }
 

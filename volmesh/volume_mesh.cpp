@@ -135,6 +135,10 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
   result.tetra_engine_seconds = tets.engine_seconds;
   result.tetra_engine_peak_bytes = tets.engine_peak_bytes;
   {
+    const StageTimer timer(context, "improve");
+    result.improvement = improve_tetrahedra({boundary.points, boundary.triangles, {}}, tets, options.improve, context);
+  }
+  {
     const StageTimer timer(context, "assemble");
     result.mesh = assemble(base, std::move(extrusion), outer, boundary, std::move(tets), context);
     result.mesh.request = layer_request(options.envelope, envelope);

@@ -13,6 +13,7 @@
 #include "volmesh/envelope/certificate.h"
 #include "volmesh/envelope/options.h"
 #include "volmesh/farfield.h"
+#include "volmesh/improve/improve.h"
 #include "volmesh/prisms/first_node.h"
 #include "volmesh/prisms/options.h"
 #include "volmesh/tetra/size_field.h"
@@ -26,6 +27,7 @@ struct VolumeMeshOptions {
   FarfieldOptions farfield;
   SizeFieldOptions size;
   TetraOptions tetrahedra;
+  ImproveOptions improve;
 };
 
 /// All options of all stages, in stage order, for Lua, the command line, help and the manifest. `options` must outlive the table.
@@ -80,6 +82,7 @@ struct VolumeMeshResult {
   LayerReport layer;
   EnvelopeCertificate certificate;
   CheckReport check;
+  ImproveReport improvement;
   std::string tetra_engine;             ///< "tetgen" or "hxt"
   std::vector<std::string> tetra_failures;  ///< of the attempts before it, in order
   bool is_reproducible = true;          ///< false when a time or memory limit decided what was done
@@ -87,7 +90,7 @@ struct VolumeMeshResult {
   double tetra_engine_peak_bytes = 0.0; ///< log only
 };
 
-/// Steps: farfield, envelope (build_envelope.h), extrude and repair, certificate, tetrahedra, assemble, check.
+/// Steps: farfield, envelope (build_envelope.h), extrude and repair, certificate, tetrahedra, improve, assemble, check.
 /// \pre wall closed, manifold, free of self-intersection, normals into the fluid.
 /// \throws Error of the stages; mesh_invalid when the final check finds violations.
 VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const RunContext& context);

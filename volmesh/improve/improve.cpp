@@ -16,6 +16,9 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 4>;
 constexpr std::uint8_t k_given_up = 2;   ///< attempts: the tetrahedra at its corners, then those at the corners of these
+/// Jobs that a bad tetrahedron and those that took its place may start in all. On the boundary angles may force them, and small gains would go on for long.
+constexpr std::uint8_t k_max_tries_boundary = 3;
+constexpr std::uint8_t k_max_tries_free = 12;
 constexpr std::size_t k_job_chunk = 4;
 constexpr std::size_t k_scan_chunk = 1 << 15;
 constexpr std::uint32_t k_dead = 0xffffffffu;
@@ -27,8 +30,8 @@ struct Job {
   std::vector<std::uint32_t> vertices;  ///< ascending: local to global
   bool has_changed = false;
   std::vector<Vec3> points;             ///< of the local vertices, new ones at the end
-  std::vector<Corners> result;          ///< local corners
-  std::vector<double> quality;
+  std::vector<std::uint32_t> removed;   ///< of `tets`
+  std::vector<Corners> added;           ///< local corners
 };
 
 class Improver {
@@ -39,6 +42,7 @@ class Improver {
     points_.assign(boundary.points.begin(), boundary.points.end());
     points_.insert(points_.end(), tets.new_points.begin(), tets.new_points.end());
     attempts_.assign(tets_.size(), 0);
+    tries_.assign(tets_.size(), 0);
     find_bad();
   }
 
@@ -69,6 +73,10 @@ class Improver {
   };
 
   double quality(const Corners& c) const { return tet_quality(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]], limits_.obtuse_weight); }
+  bool may_try(std::uint32_t tet) const {
+    const bool is_free = std::ranges::all_of(tets_[tet], [&](std::uint32_t v) { return v >= n_fixed_; });
+    return tries_[tet] < (is_free ? k_max_tries_free : k_max_tries_boundary);
+  }
   bool is_alive(std::uint32_t tet) const { return tets_[tet][0] != k_dead; }
   void find_bad();
   void drop_good();
@@ -85,7 +93,8 @@ class Improver {
   std::vector<Corners>& tets_;
   const RunContext& context_;
   std::vector<Vec3> points_;
-  std::vector<std::uint8_t> attempts_;
+  std::vector<std::uint8_t> attempts_;  ///< neighbourhoods in vain since the last change beside it
+  std::vector<std::uint8_t> tries_;
   std::vector<Bad> bad_;  ///< may name tetrahedra twice, or good ones, until drop_good()
   // Incidence of the marked vertices of this round.
   std::vector<std::uint32_t> first_, incident_;
@@ -145,12 +154,13 @@ std::vector<std::uint8_t> Improver::widened(const std::vector<std::uint8_t>& mar
 
 std::vector<Job> Improver::choose_jobs() {
   std::uint8_t level = k_given_up;
-  for (const Bad& bad : bad_) level = std::min(level, attempts_[bad.tet]);
+  for (const Bad& bad : bad_)
+    if (may_try(bad.tet)) level = std::min(level, attempts_[bad.tet]);
   if (level == k_given_up) return {};
 
   std::vector<std::uint8_t> marks(points_.size(), 0);
   for (const Bad& bad : bad_)
-    if (attempts_[bad.tet] == level)
+    if (attempts_[bad.tet] == level && may_try(bad.tet))
       for (const std::uint32_t v : tets_[bad.tet]) marks[v] = 1;
   if (level > 0) marks = widened(marks);
   const std::vector<std::uint32_t> active = touching(marks);
@@ -179,7 +189,7 @@ std::vector<Job> Improver::choose_jobs() {
     return tets;
   };
   for (const Bad& bad : bad_) {
-    if (attempts_[bad.tet] != level || is_taken[bad.tet]) continue;
+    if (attempts_[bad.tet] != level || !may_try(bad.tet) || is_taken[bad.tet]) continue;
     Job job{.center = bad.tet};
     std::vector<std::uint32_t> core;
     add_corners(core, std::span(&bad.tet, 1));
@@ -203,51 +213,56 @@ void Improver::work(Job& job, Region& region) const {
   for (std::size_t i = 0; i < job.tets.size(); ++i)
     for (std::size_t k = 0; k < 4; ++k) ++degree[corners[i][k] = local(tets_[job.tets[i]][k])];
   std::vector<Vec3> points(job.vertices.size());
-  std::vector<std::uint8_t> is_free(job.vertices.size());
+  std::vector<VertexRole> roles(job.vertices.size(), VertexRole::kept);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint32_t v = job.vertices[i];
     points[i] = points_[v];
-    is_free[i] = v >= n_fixed_ && degree[i] == first_[v + 1] - first_[v];  // unmarked vertices have no incidence here
+    if (v < n_fixed_) roles[i] = VertexRole::boundary;
+    else if (degree[i] == first_[v + 1] - first_[v]) roles[i] = VertexRole::free;  // unmarked vertices have no incidence here
   }
-  region.assign(points, is_free, corners);
-  job.has_changed = region.improve();
+  region.assign(points, roles, corners);
+  job.has_changed = region.improve(static_cast<std::uint32_t>(std::ranges::lower_bound(job.tets, job.center) - job.tets.begin()));
   if (!job.has_changed) return;
   job.points.assign(region.points().begin(), region.points().end());
-  for (const Region::Tet& tet : region.tets())
-    if (tet.is_alive) {
-      job.result.push_back(tet.corners);
-      job.quality.push_back(tet.quality);
-    }
+  for (std::size_t i = 0; i < region.tets().size(); ++i) {
+    const Region::Tet& tet = region.tets()[i];
+    if (i < job.tets.size() && !tet.is_alive) job.removed.push_back(job.tets[i]);
+    if (i >= job.tets.size() && tet.is_alive) job.added.push_back(tet.corners);
+  }
 }
 
 void Improver::put_back(const Job& job) {
+  const auto n_tries = static_cast<std::uint8_t>(tries_[job.center] + 1);
+  tries_[job.center] = n_tries;
   if (!job.has_changed) {
     ++attempts_[job.center];
     return;
   }
+  for (const std::uint32_t t : job.tets) attempts_[t] = 0;
   const auto n_old = static_cast<std::uint32_t>(job.vertices.size());
   const auto shift = static_cast<std::uint32_t>(points_.size());
   for (std::size_t i = 0; i < n_old; ++i) points_[job.vertices[i]] = job.points[i];
   points_.insert(points_.end(), job.points.begin() + n_old, job.points.end());
-  for (std::size_t i = 0; i < std::max(job.result.size(), job.tets.size()); ++i) {
+  for (std::size_t i = 0; i < std::max(job.added.size(), job.removed.size()); ++i) {
     std::uint32_t slot = 0;
-    if (i < job.tets.size()) {
-      slot = job.tets[i];
+    if (i < job.removed.size()) {
+      slot = job.removed[i];
     } else {
       slot = static_cast<std::uint32_t>(tets_.size());
       tets_.emplace_back();
       attempts_.push_back(0);
+      tries_.push_back(0);
     }
-    if (i >= job.result.size()) {
+    if (i >= job.added.size()) {
       tets_[slot][0] = k_dead;
       continue;
     }
     for (std::size_t k = 0; k < 4; ++k) {
-      const std::uint32_t v = job.result[i][k];
+      const std::uint32_t v = job.added[i][k];
       tets_[slot][k] = v < n_old ? job.vertices[v] : shift + (v - n_old);
     }
-    attempts_[slot] = 0;
-    if (job.quality[i] < limits_.target) bad_.push_back({job.quality[i], slot});
+    tries_[slot] = n_tries;
+    bad_.push_back({0.0, slot});
   }
 }
 

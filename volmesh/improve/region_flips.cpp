@@ -4,6 +4,7 @@
 // between them. Based on: Shewchuk, Two discrete optimization algorithms for the topological improvement of tetrahedral meshes (2002).
 
 #include <algorithm>
+#include <limits>
 
 #include "volmesh/improve/region.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::size_t k_max_ring = 8;  ///< longer rings hardly ever win
 constexpr int k_max_faces_deep = 4;    ///< recursion from the first face
+constexpr double k_good_gain = 4.0;    ///< so good a side needs no face beyond it
 
 std::size_t corner_of(const Region::Corners& c, std::uint32_t v) {
   return static_cast<std::size_t>(std::ranges::find(c, v) - c.begin());
@@ -34,7 +36,7 @@ bool Region::remove_edge_or_faces(std::uint32_t tet) {
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = i + 1; j < 4; ++j) try_edge(c[i], c[j], best);
   for (std::size_t i = 0; i < 4; ++i) try_faces(tet, i, best);
-  return best.quality > 0.0 && apply(best);
+  return apply(best);
 }
 
 void Region::try_edge(std::uint32_t a, std::uint32_t b, Change& best) {
@@ -49,7 +51,7 @@ void Region::try_edge(std::uint32_t a, std::uint32_t b, Change& best) {
     to[n++] = y;
   }
   if (n < 3) return;
-  const double before = worst({around.data(), n});
+  compare_with({around.data(), n});
   // The ring in its order; an edge of the border has an open one.
   std::array<std::uint32_t, k_max_ring> ring{};
   ring[0] = from[0];
@@ -60,10 +62,10 @@ void Region::try_edge(std::uint32_t a, std::uint32_t b, Change& best) {
     if (i == n ? v != ring[0] : v == ring[0]) return;
     if (i < n) ring[i] = v;
   }
-  const double limit = std::max(before, best.quality);
+  const double limit = std::max(1.0, best.gain);
   double value[k_max_ring][k_max_ring];
   std::uint8_t middle[k_max_ring][k_max_ring] = {};
-  for (std::size_t i = 0; i + 1 < n; ++i) value[i][i + 1] = 1.0;
+  for (std::size_t i = 0; i + 1 < n; ++i) value[i][i + 1] = std::numeric_limits<double>::infinity();
   for (std::size_t span = 2; span < n; ++span) {
     for (std::size_t i = 0; i + span < n; ++i) {
       const std::size_t k = i + span;
@@ -71,9 +73,9 @@ void Region::try_edge(std::uint32_t a, std::uint32_t b, Change& best) {
       for (std::size_t j = i + 1; j < k; ++j) {
         double q = std::min(value[i][j], value[j][k]);
         if (q <= value[i][k] || q <= limit) continue;
-        q = std::min(q, quality(Corners{ring[i], ring[j], ring[k], b}));
+        q = std::min(q, gain(Corners{ring[i], ring[j], ring[k], b}));
         if (q <= value[i][k] || q <= limit) continue;
-        q = std::min(q, quality(Corners{ring[j], ring[i], ring[k], a}));
+        q = std::min(q, gain(Corners{ring[j], ring[i], ring[k], a}));
         if (q <= value[i][k]) continue;
         value[i][k] = q;
         middle[i][k] = static_cast<std::uint8_t>(j);
@@ -81,8 +83,8 @@ void Region::try_edge(std::uint32_t a, std::uint32_t b, Change& best) {
     }
   }
   const double after = value[0][n - 1];
-  if (after <= best.quality || !is_better(after, before)) return;
-  best = Change{.quality = after};
+  if (after <= limit) return;
+  best = Change{.gain = after};
   best.removed.assign(around.begin(), around.begin() + static_cast<std::ptrdiff_t>(n));
   std::array<std::array<std::size_t, 2>, k_max_ring> stack{};
   std::size_t depth = 0;
@@ -114,19 +116,20 @@ void Region::try_faces(std::uint32_t tet, std::size_t corner, Change& best) {
     if (v != face[0] && v != face[1] && v != face[2]) below = v;
   Change change;
   change.removed = {tet, other};
-  change.quality = 1.0;
+  compare_with(change.removed);
+  change.gain = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
-    change.quality = std::min(change.quality, extend_faces(face[k], face[(k + 1) % 3], above, below, tet, 0, change));
-    if (change.quality <= best.quality) return;
+    change.gain = std::min(change.gain, extend_faces(face[k], face[(k + 1) % 3], above, below, tet, 0, change));
+    if (change.gain <= std::max(1.0, best.gain)) return;
   }
-  if (is_better(change.quality, worst(change.removed))) best = std::move(change);
+  best = std::move(change);
 }
 
 /// The side (u, v) of the faces chosen so far, seen counter-clockwise from `above`: either it stays a side and carries a new tetrahedron, or the face beyond it joins.
 double Region::extend_faces(std::uint32_t u, std::uint32_t v, std::uint32_t above, std::uint32_t below, std::uint32_t from_above, int depth, Change& change) const {
   const Corners side{u, v, below, above};
-  const double as_side = quality(side);
-  if (as_side < limits_.target && depth < k_max_faces_deep) {
+  const double as_side = gain(side);
+  if (as_side < k_good_gain && depth < k_max_faces_deep) {
     const std::uint32_t next_above = across(from_above, {u, v, above});
     const auto third = [&]() -> std::uint32_t {
       for (const std::uint32_t w : tets_[next_above].corners)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "volmesh/improve/region.h"
 
@@ -34,12 +35,9 @@ Vec3 shortest_in_hull(std::span<const Vec3> gradients) {
 
 }  // namespace
 
-double Region::worst_from(std::span<const Face> faces, const Vec3& apex) const {
-  double result = 1.0;
-  for (const Face& face : faces) {
-    result = std::min(result, quality(face, apex));
-    if (result < 0.0) break;
-  }
+double Region::worst_gain(std::span<const Face> faces, std::span<const std::uint8_t> is_boundary, const Vec3& apex, double stop_below) const {
+  double result = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < faces.size() && result > stop_below; ++i) result = std::min(result, gain(faces[i], apex, is_boundary[i] != 0));
   return result;
 }
 
@@ -49,20 +47,22 @@ std::pair<Vec3, double> Region::best_place(std::span<const Face> faces, const Ve
   for (const Face& face : faces)
     for (const std::uint32_t v : face) longest = std::max(longest, norm2(points_[v] - p));
   const double size = std::sqrt(longest);
-  std::vector<double> qualities(faces.size());
+  std::vector<std::uint8_t> is_boundary(faces.size());
+  for (std::size_t i = 0; i < faces.size(); ++i) is_boundary[i] = touches_boundary(faces[i]);
+  std::vector<double> gains(faces.size());
   double reach = 0.2 * size;
-  double now = worst_from(faces, p);
+  double now = worst_gain(faces, is_boundary, p, -1.0);
   for (int climb = 0; climb < k_max_climbs && now > 0.0 && reach > 1e-4 * size; ++climb) {
-    for (std::size_t i = 0; i < faces.size(); ++i) qualities[i] = quality(faces[i], p);
+    for (std::size_t i = 0; i < faces.size(); ++i) gains[i] = gain(faces[i], p, is_boundary[i] != 0);
     std::array<Vec3, k_max_gradients> gradients;
     std::size_t n = 0;
     for (std::size_t i = 0; i < faces.size() && n < k_max_gradients; ++i) {
-      if (qualities[i] > k_nearly_worst * now) continue;
+      if (gains[i] > k_nearly_worst * now) continue;
       const double step = k_difference * size;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         Vec3 moved = p;
         moved[axis] += step;
-        gradients[n][axis] = (quality(faces[i], moved) - qualities[i]) / step;
+        gradients[n][axis] = (gain(faces[i], moved, is_boundary[i] != 0) - gains[i]) / step;
       }
       ++n;
     }
@@ -73,7 +73,7 @@ std::pair<Vec3, double> Region::best_place(std::span<const Face> faces, const Ve
     bool has_gained = false;
     for (int halving = 0; halving < 8; ++halving) {
       const Vec3 moved = p + (reach / slope) * direction;
-      const double then = worst_from(faces, moved);
+      const double then = worst_gain(faces, is_boundary, moved, now);
       if (then > now) {
         p = moved;
         now = then;
@@ -90,84 +90,83 @@ std::pair<Vec3, double> Region::best_place(std::span<const Face> faces, const Ve
 
 bool Region::smooth(std::uint32_t tet) {
   Change best;
-  double best_gain = 1.0;
   std::vector<Face> faces;
   for (const std::uint32_t v : tets_[tet].corners) {
-    if (!is_free_[v]) continue;
+    if (roles_[v] != VertexRole::free) continue;
     faces.clear();
     for (const std::uint32_t t : incident_[v]) {
       const Corners& c = tets_[t].corners;
       faces.push_back(opposite(c, static_cast<std::size_t>(std::ranges::find(c, v) - c.begin())));
     }
-    const double before = worst(incident_[v]);
+    compare_with(incident_[v]);
     const auto [place, after] = best_place(faces, points_[v]);
-    if (!is_better(after, before) || after / before <= best_gain) continue;
-    best_gain = after / before;
-    best = Change{.quality = after, .removed = incident_[v], .moved = v, .place = place};
+    if (after <= best.gain) continue;
+    best = Change{.gain = after, .removed = incident_[v], .moved = v, .place = place};
     for (const Face& face : faces) best.added.push_back({face[0], face[1], face[2], v});
   }
-  return best.quality > 0.0 && apply(best);
+  return apply(best);
 }
 
 bool Region::contract(std::uint32_t tet) {
   Change best;
   std::vector<std::uint32_t> neighbours;
   for (const std::uint32_t v : tets_[tet].corners) {
-    if (!is_free_[v]) continue;
+    if (roles_[v] != VertexRole::free) continue;
     neighbours.clear();
     for (const std::uint32_t t : incident_[v])
       for (const std::uint32_t u : tets_[t].corners)
         if (u != v) neighbours.push_back(u);
     std::ranges::sort(neighbours);
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
-    const double before = worst(incident_[v]);
+    compare_with(incident_[v]);
     for (const std::uint32_t u : neighbours) {
-      Change change{.quality = 1.0, .removed = incident_[v]};
+      Change change{.gain = std::numeric_limits<double>::infinity(), .removed = incident_[v]};
       for (const std::uint32_t t : incident_[v]) {
         Corners c = tets_[t].corners;
         if (std::ranges::find(c, u) != c.end()) continue;
         *std::ranges::find(c, v) = u;
-        change.quality = std::min(change.quality, quality(c));
-        if (change.quality <= std::max(best.quality, before)) break;
+        change.gain = std::min(change.gain, gain(c));
+        if (change.gain <= std::max(best.gain, 1.0)) break;
         change.added.push_back(c);
       }
-      if (change.quality > best.quality && is_better(change.quality, before)) best = std::move(change);
+      if (change.gain > std::max(best.gain, 1.0)) best = std::move(change);
     }
   }
-  return best.quality > 0.0 && apply(best);
+  return apply(best);
 }
 
 bool Region::insert(std::uint32_t tet) {
   struct Side {
     Face face;
     std::uint32_t inside;
-    double quality;
+    double gain;
   };
   const Corners start = tets_[tet].corners;
   const Vec3 p = 0.25 * (points_[start[0]] + points_[start[1]] + points_[start[2]] + points_[start[3]]);
   std::vector<std::uint32_t> cavity, best_cavity;
   std::vector<Side> sides, best_sides;
-  double best_quality = -1.0;
+  double best_gain = -1.0;
   const auto in_cavity = [&](std::uint32_t t) { return std::ranges::find(cavity, t) != cavity.end(); };
   const auto add = [&](std::uint32_t t) {
     cavity.push_back(t);
     std::erase_if(sides, [&](const Side& side) { return across(side.inside, side.face) == t; });
     for (std::size_t k = 0; k < 4; ++k) {
       const Face face = opposite(tets_[t].corners, k);
-      if (const std::uint32_t beyond = across(t, face); beyond == k_none || !in_cavity(beyond)) sides.push_back({face, t, quality(face, p)});
+      if (const std::uint32_t beyond = across(t, face); beyond == k_none || !in_cavity(beyond)) sides.push_back({face, t, gain(face, p, touches_boundary(face))});
     }
   };
   // Its last tetrahedron gone, a vertex would be lost within the cavity.
   const auto keeps_vertices = [&](std::uint32_t t) {
     return std::ranges::all_of(tets_[t].corners, [&](std::uint32_t v) {
-      return std::ranges::any_of(incident_[v], [&](std::uint32_t other) { return other != t && !in_cavity(other); }) || !is_free_[v];
+      return std::ranges::any_of(incident_[v], [&](std::uint32_t other) { return other != t && !in_cavity(other); }) || roles_[v] != VertexRole::free;
     });
   };
+  compare_with(std::span(&tet, 1));
   add(tet);
   while (cavity.size() < k_max_cavity) {
-    const auto lowest = std::ranges::min_element(sides, {}, &Side::quality);
-    if (lowest->quality > best_quality) {
-      best_quality = lowest->quality;
+    const auto lowest = std::ranges::min_element(sides, {}, &Side::gain);
+    if (lowest->gain > best_gain) {
+      best_gain = lowest->gain;
       best_cavity = cavity;
       best_sides = sides;
     }
@@ -175,13 +174,12 @@ bool Region::insert(std::uint32_t tet) {
     if (beyond == k_none || !keeps_vertices(beyond)) break;
     add(beyond);
   }
-  const double before = worst(best_cavity);
-  if (best_quality <= 0.0) return false;
+  if (best_gain <= 0.0) return false;
+  compare_with(best_cavity);
   std::vector<Face> faces;
   for (const Side& side : best_sides) faces.push_back(side.face);
   const auto [place, after] = best_place(faces, p);
-  if (!is_better(after, before)) return false;
-  Change change{.quality = after, .removed = best_cavity, .moved = static_cast<std::uint32_t>(points_.size()), .place = place};
+  Change change{.gain = after, .removed = best_cavity, .moved = static_cast<std::uint32_t>(points_.size()), .place = place};
   for (const Face& face : faces) change.added.push_back({face[0], face[1], face[2], change.moved});
   return apply(change);
 }

@@ -1,0 +1,304 @@
+#include "volmesh/improve/improve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <numbers>
+#include <random>
+
+#include "geom/math/measures.h"
+#include "geom/math/predicates.h"
+#include "tests/support/shapes.h"
+#include "volmesh/improve/region.h"
+#include "volmesh/improve/tet_quality.h"
+#include "volmesh/tetra/verify.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr double k_degree = std::numbers::pi / 180.0;
+
+/// A domain that owns its points, with tetrahedra in it.
+struct Filled {
+  std::vector<Vec3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Vec3> holes;
+  TetraResult tets;
+  TetraBoundary boundary() const { return {points, triangles, holes}; }
+  void add(const TriMesh& mesh, bool is_outer) {
+    const auto shift = static_cast<std::uint32_t>(points.size());
+    for (const Vec3& p : mesh.points) points.push_back(p);
+    for (const TriangleVertices& v : mesh.triangles) {
+      triangles.push_back({v[0].value() + shift, v[1].value() + shift, v[2].value() + shift});
+      if (is_outer) std::swap(triangles.back()[1], triangles.back()[2]);
+    }
+  }
+  Vec3 place(std::uint32_t v) const { return v < points.size() ? points[v] : tets.new_points[v - points.size()]; }
+  std::array<Vec3, 4> corners(std::size_t t) const {
+    const auto& c = tets.tetrahedra[t];
+    return {place(c[0]), place(c[1]), place(c[2]), place(c[3])};
+  }
+  double volume() const {
+    double sum = 0.0;
+    for (std::size_t t = 0; t < tets.tetrahedra.size(); ++t) {
+      const auto p = corners(t);
+      sum += tet_volume(p[0], p[1], p[2], p[3]);
+    }
+    return sum;
+  }
+  double worst(double obtuse_weight) const {
+    double worst = 1.0;
+    for (std::size_t t = 0; t < tets.tetrahedra.size(); ++t) {
+      const auto p = corners(t);
+      worst = std::min(worst, tet_quality(p[0], p[1], p[2], p[3], obtuse_weight));
+    }
+    return worst;
+  }
+};
+
+/// A sphere in a sphere, filled by TetGen as badly as its ratio allows.
+Filled shell(int f, double radius_edge) {
+  Filled filled;
+  filled.add(test::sphere(f), false);
+  filled.add(test::sphere(4, 8.0), true);
+  filled.holes = {{0.0, 0.0, 0.0}};
+  filled.tets = fill(filled.boundary(), nullptr, {.engine = "tetgen", .radius_edge = radius_edge}, RunContext());
+  return filled;
+}
+
+/// The cube's six tetrahedra per cell with inner vertices shaken by a share of the cell.
+Filled shaken_cube(int n, double shake) {
+  Filled filled;
+  filled.add(test::cube(n), true);
+  std::map<std::array<int, 3>, std::uint32_t> number;
+  for (std::uint32_t v = 0; v < filled.points.size(); ++v) {
+    const Vec3& p = filled.points[v];
+    number[{static_cast<int>(std::lround(p.x * n)), static_cast<int>(std::lround(p.y * n)), static_cast<int>(std::lround(p.z * n))}] = v;
+  }
+  std::mt19937_64 random(3);
+  const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53 - 0.5; };
+  const auto vertex = [&](int i, int j, int k) {
+    const auto [it, is_new] = number.try_emplace({i, j, k}, static_cast<std::uint32_t>(filled.points.size() + filled.tets.new_points.size()));
+    if (is_new) filled.tets.new_points.push_back((Vec3{i + shake * unit(), j + shake * unit(), k + shake * unit()}) / n);
+    return it->second;
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) {
+        std::array<int, 3> axes = {0, 1, 2};
+        do {  // Kuhn's: one path from corner to corner for each order of the axes
+          std::array<int, 3> at = {i, j, k};
+          std::array<std::uint32_t, 4> c{};
+          c[0] = vertex(at[0], at[1], at[2]);
+          for (std::size_t s = 0; s < 3; ++s) {
+            ++at[static_cast<std::size_t>(axes[s])];
+            c[s + 1] = vertex(at[0], at[1], at[2]);
+          }
+          if (orient3d(filled.place(c[0]), filled.place(c[1]), filled.place(c[2]), filled.place(c[3])) < 0) std::swap(c[2], c[3]);
+          filled.tets.tetrahedra.push_back(c);
+        } while (std::next_permutation(axes.begin(), axes.end()));
+      }
+  // The cube's triangles are those of the tetrahedra.
+  std::map<std::array<std::uint32_t, 3>, std::pair<int, std::array<std::uint32_t, 3>>> faces;
+  constexpr std::uint8_t k_faces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+  for (const auto& c : filled.tets.tetrahedra)
+    for (const auto& f : k_faces) {
+      const std::array<std::uint32_t, 3> face = {c[f[0]], c[f[1]], c[f[2]]};
+      std::array<std::uint32_t, 3> key = face;
+      std::sort(key.begin(), key.end());
+      auto& entry = faces[key];
+      ++entry.first;
+      entry.second = face;
+    }
+  filled.triangles.clear();
+  for (const auto& [key, entry] : faces)
+    if (entry.first == 1) filled.triangles.push_back(entry.second);
+  return filled;
+}
+
+void expect_improved(Filled filled, const ImproveOptions& options, double bad_share_left) {
+  ASSERT_NO_THROW(verify_tetrahedra(filled.boundary(), filled.tets, RunContext()));
+  const double weight = quality_limits(options.improve_min_angle, options.improve_max_angle).obtuse_weight;
+  const double volume = filled.volume(), worst = filled.worst(weight);
+  const ImproveReport report = improve_tetrahedra(filled.boundary(), filled.tets, options, RunContext());
+  EXPECT_NO_THROW(verify_tetrahedra(filled.boundary(), filled.tets, RunContext()));
+  EXPECT_NEAR(filled.volume(), volume, 1e-12 * volume);
+  EXPECT_GE(filled.worst(weight), worst);
+  EXPECT_GT(report.n_bad_before, 0);
+  EXPECT_LE(static_cast<double>(report.n_bad_after), bad_share_left * static_cast<double>(report.n_bad_before));
+  EXPECT_EQ(report.n_bad_free_after, 0);
+  // The report tells what is there.
+  std::int64_t n_bad = 0;
+  double low = 4.0, high = 0.0;
+  for (std::size_t t = 0; t < filled.tets.tetrahedra.size(); ++t) {
+    const auto [min, max] = tet_dihedral_range(filled.corners(t));
+    n_bad += min < options.improve_min_angle || max > options.improve_max_angle;
+    low = std::min(low, min);
+    high = std::max(high, max);
+  }
+  EXPECT_EQ(report.n_bad_after, n_bad);
+  EXPECT_NEAR(report.min_angle_after, low, 1e-6);
+  EXPECT_NEAR(report.max_angle_after, high, 1e-6);
+}
+
+TEST(TetQuality, is_the_smallest_weighted_sine) {
+  std::mt19937_64 random(1);
+  const auto unit = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  int n_positive = 0;
+  for (int i = 0; i < 1000; ++i) {
+    std::array<Vec3, 4> p;
+    for (Vec3& x : p) x = {unit(), unit(), unit()};
+    const double quality = tet_quality(p[0], p[1], p[2], p[3], 0.6);
+    if (tet_volume(p[0], p[1], p[2], p[3]) <= 0.0) {
+      EXPECT_EQ(quality, -1.0);
+      continue;
+    }
+    ++n_positive;
+    // Of obtuse angles the largest, of acute ones the smallest has the smallest sine.
+    const auto [min, max] = tet_dihedral_range(p);
+    const double expected = std::min(min > std::numbers::pi / 2 ? 1.0 : std::sin(min), max > std::numbers::pi / 2 ? 0.6 * std::sin(max) : 1.0);
+    if (max > std::numbers::pi / 2) { EXPECT_NEAR(quality, expected, 1e-9); }
+    const auto [of_smallest, of_largest] = dihedral_cosines(p[0], p[1], p[2], p[3]);
+    EXPECT_NEAR(std::acos(of_smallest), min, 1e-6);
+    EXPECT_NEAR(std::acos(of_largest), max, 1e-6);
+  }
+  EXPECT_GT(n_positive, 300);
+  const double regular = tet_quality({1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}, 1.0);
+  EXPECT_NEAR(regular, std::sqrt(8.0) / 3.0, 1e-12);
+}
+
+TEST(TetQuality, both_limits_are_one_threshold) {
+  const QualityLimits limits = quality_limits(12 * k_degree, 160 * k_degree);
+  // Wedges about the z axis with a given angle there, other angles harmless.
+  const auto wedge = [&](double angle) { return tet_quality({0, 0, -0.5}, {0, 0, 0.5}, {1, 0, 0}, {std::cos(angle), std::sin(angle), 0}, limits.obtuse_weight); };
+  EXPECT_NEAR(wedge(12 * k_degree), limits.target, 1e-12);
+  EXPECT_NEAR(wedge(160 * k_degree), limits.target, 1e-12);
+  EXPECT_LT(wedge(11 * k_degree), limits.target);
+  EXPECT_GT(wedge(100 * k_degree), limits.target);
+}
+
+/// Tetrahedra around the edge 0-1 with a ring of n vertices.
+std::vector<Region::Corners> around_edge(int n) {
+  std::vector<Region::Corners> tets;
+  for (int i = 0; i < n; ++i) tets.push_back({0, 1, static_cast<std::uint32_t>(2 + i), static_cast<std::uint32_t>(2 + (i + 1) % n)});
+  return tets;
+}
+
+bool improve_all(Region& region) {
+  bool has_changed = false;
+  for (std::uint32_t t = 0; t < region.tets().size(); ++t)
+    if (region.tets()[t].is_alive && region.tets()[t].quality < region.limits().target) has_changed |= region.improve(t);
+  return has_changed;
+}
+
+double region_volume(const Region& region) {
+  double sum = 0.0;
+  for (const Region::Tet& t : region.tets())
+    if (t.is_alive) sum += tet_volume(region.points()[t.corners[0]], region.points()[t.corners[1]], region.points()[t.corners[2]], region.points()[t.corners[3]]);
+  return sum;
+}
+
+TEST(Region, removes_an_edge_with_a_ring_of_any_size) {
+  for (int n = 3; n <= 7; ++n) {
+    // The edge passes the ring beside its middle, near one side: the tetrahedron there is flat at the edge.
+    const double half_side = std::numbers::pi / n;
+    std::vector<Vec3> points = {{0.95 * std::cos(half_side), 0, -1.0}, {0.95 * std::cos(half_side), 0, 1.0}};
+    for (int i = 0; i < n; ++i) points.push_back({std::cos(half_side * (2 * i - 1)), std::sin(half_side * (2 * i - 1)), 0.0});
+    const std::vector<VertexRole> fixed(points.size(), VertexRole::boundary);
+    Region region(quality_limits(12 * k_degree, 160 * k_degree));
+    region.assign(points, fixed, around_edge(n));
+    const double volume = region_volume(region);
+    ASSERT_TRUE(improve_all(region)) << n;
+    EXPECT_NEAR(region_volume(region), volume, 1e-12);
+    std::int64_t n_alive = 0;
+    for (const Region::Tet& t : region.tets()) {
+      if (!t.is_alive) continue;
+      ++n_alive;
+      EXPECT_GE(t.quality, std::sin(12 * k_degree)) << n;
+      EXPECT_FALSE(std::ranges::count(t.corners, 0u) && std::ranges::count(t.corners, 1u)) << n;
+    }
+    EXPECT_EQ(n_alive, 2 * (n - 2));
+  }
+}
+
+TEST(Region, two_three_flip_opens_a_flat_pair) {
+  // Two tetrahedra over a triangle, apexes close to it: three around the new edge are better.
+  const std::vector<Vec3> points = {{1, 0, 0}, {-0.5, 0.8, 0}, {-0.5, -0.8, 0}, {0, 0, 0.15}, {0, 0, -0.15}};
+  const std::vector<VertexRole> fixed(points.size(), VertexRole::boundary);
+  Region region(quality_limits(30 * k_degree, 120 * k_degree));
+  region.assign(points, fixed, std::vector<Region::Corners>{{0, 1, 2, 3}, {0, 2, 1, 4}});
+  ASSERT_TRUE(improve_all(region));
+  const auto alive = std::ranges::count_if(region.tets(), [](const Region::Tet& t) { return t.is_alive; });
+  EXPECT_EQ(alive, 3);
+  EXPECT_NEAR(region_volume(region), 0.3 * 0.5 * 1.6 * 1.5 / 3.0, 1e-12);
+}
+
+TEST(Region, smooths_a_free_vertex_to_the_middle) {
+  // An octahedron around a vertex that lies almost on a face.
+  const std::vector<Vec3> points = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {0.32, 0.33, 0.33}};
+  std::vector<Region::Corners> tets;
+  for (const std::uint32_t x : {0u, 1u})
+    for (const std::uint32_t y : {2u, 3u})
+      for (const std::uint32_t z : {4u, 5u}) {
+        tets.push_back({x, y, z, 6});
+        if (orient3d(points[x], points[y], points[z], points[6]) < 0) std::swap(tets.back()[0], tets.back()[1]);
+      }
+  std::vector<VertexRole> roles(7, VertexRole::kept);
+  roles[6] = VertexRole::free;
+  Region region(quality_limits(40 * k_degree, 110 * k_degree));
+  region.assign(points, roles, tets);
+  ASSERT_TRUE(improve_all(region));
+  double worst = 1.0;
+  for (const Region::Tet& t : region.tets())
+    if (t.is_alive) worst = std::min(worst, t.quality);
+  EXPECT_GT(worst, std::sin(40 * k_degree));
+  EXPECT_NEAR(region_volume(region), 4.0 / 3.0, 1e-12);
+}
+
+TEST(Improve, shaken_cubes_lose_their_slivers) {
+  Filled filled = shaken_cube(10, 0.55);
+  // Shaken too far some cells turn over; such a mesh is no input.
+  if (filled.worst(1.0) <= 0.0) filled = shaken_cube(10, 0.3);
+  expect_improved(filled, {.improve_min_angle = 18 * k_degree, .improve_max_angle = 150 * k_degree}, 0.02);
+}
+
+TEST(Improve, engine_meshes_reach_the_limits) { expect_improved(shell(12, 2.0), {}, 0.0); }
+
+TEST(Improve, engine_meshes_reach_stricter_limits_but_for_the_boundary) {
+  expect_improved(shell(12, 1.4), {.improve_min_angle = 17 * k_degree, .improve_max_angle = 150 * k_degree}, 0.02);
+}
+
+TEST(Improve, is_the_same_for_any_number_of_threads) {
+  const Filled start = shell(16, 1.8);
+  std::optional<TetraResult> first;
+  for (const int threads : {1, 2, 7}) {
+    TetraResult tets = start.tets;
+    improve_tetrahedra(start.boundary(), tets, {.improve_min_angle = 16 * k_degree}, RunContext({.threads = threads}));
+    if (!first) first = tets;
+    EXPECT_TRUE(tets.new_points == first->new_points && tets.tetrahedra == first->tetrahedra) << threads;
+  }
+  EXPECT_NE(first->tetrahedra, start.tets.tetrahedra);
+}
+
+TEST(Improve, no_rounds_change_nothing) {
+  const Filled start = shell(6, 1.8);
+  TetraResult tets = start.tets;
+  const ImproveReport report = improve_tetrahedra(start.boundary(), tets, {.improve_rounds = 0}, RunContext());
+  EXPECT_TRUE(tets.new_points == start.tets.new_points && tets.tetrahedra == start.tets.tetrahedra);
+  EXPECT_EQ(report.n_bad_before, report.n_bad_after);
+}
+
+TEST(Improve, does_not_depend_on_the_unit) {
+  Filled start = shell(6, 1.8);
+  TetraResult tets = start.tets;
+  improve_tetrahedra(start.boundary(), tets, {}, RunContext());
+  for (Vec3& p : start.points) p = 1024.0 * p;
+  for (Vec3& p : start.tets.new_points) p = 1024.0 * p;
+  improve_tetrahedra(start.boundary(), start.tets, {}, RunContext());
+  EXPECT_EQ(start.tets.tetrahedra, tets.tetrahedra);
+  for (std::size_t i = 0; i < tets.new_points.size(); ++i) EXPECT_EQ(start.tets.new_points[i], 1024.0 * tets.new_points[i]);
+}
+
+}  // namespace
+}  // namespace sterna::volmesh
