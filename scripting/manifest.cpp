@@ -17,6 +17,19 @@ Json cells_json(const HybridMesh& mesh) {
       {"nodes", mesh.points.size()}, {"prisms", cells.prisms}, {"pyramids", cells.pyramids}, {"tetrahedra", cells.tetrahedra}, {"hexahedra", cells.hexahedra}};
 }
 
+/// What a source is made of; samples by their number only.
+Json sources_json(const std::vector<volmesh::SizeSource>& sources) {
+  const auto point = [](const Vec3& p) { return Json{p.x, p.y, p.z}; };
+  Json list = Json::array();
+  for (const volmesh::SizeSource& s : sources) {
+    if (s.kind == volmesh::SourceKind::samples) list.push_back({{"kind", to_string(s.kind)}, {"points", s.points.size()}});
+    else
+      list.push_back({{"kind", to_string(s.kind)}, {"from", point(s.from)}, {"to", point(s.to)}, {"direction", point(s.direction)}, {"radius", s.radius}, {"length", s.length},
+                      {"height", s.height}, {"spread", s.spread}, {"size", s.size}, {"size_end", s.size_end}});
+  }
+  return list;
+}
+
 /// Angles in degrees, as in reports; the whole report is what `sterna check --json` prints.
 Json quality_json(const CheckReport& report) {
   Json measures = Json::object();
@@ -33,6 +46,12 @@ Json quality_json(const CheckReport& report) {
   return {{"verdict", to_string(report.quality_state())}, {"measures", std::move(measures)}};
 }
 
+Json improvement_json(const volmesh::ImproveReport& report) {
+  Json remaining = Json::array();
+  for (const ErrorPlace& place : report.remaining) remaining.push_back({{"at", {place.position.x, place.position.y, place.position.z}}, {"what", place.what}});
+  return {{"bad_before", report.n_bad_before}, {"bad_after", report.n_bad_after}, {"bad_off_boundary", report.n_bad_free_after}, {"forced", report.n_forced}, {"remaining", remaining}};
+}
+
 }  // namespace
 
 std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed) {
@@ -47,6 +66,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     surfmesh::StitchOptions surface = mesh.origin->surface_options;
     volmesh::VolumeMeshOptions volume = mesh.origin->options;
     json["options"] = Json::parse(options_to_json(all_options(surface, volume)));
+    if (!volume.sources.empty()) json["sources"] = sources_json(volume.sources);
   }
   json["patches"] = Json::array();
   for (const Patch& patch : mesh.mesh.patches) json["patches"].push_back({{"name", patch.name}, {"kind", to_string(patch.kind)}});
@@ -54,6 +74,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
   if (mesh.origin) {
     json["layer"] = Json::parse(layer_json(mesh.origin->layer));
     json["certificate"] = Json::parse(certificate_json(mesh.origin->certificate));
+    json["improvement"] = improvement_json(mesh.origin->improvement);
     json["tetra_engine"] = mesh.origin->tetra_engine;
     if (!mesh.origin->tetra_failures.empty()) json["tetra_failures"] = mesh.origin->tetra_failures;
     if (!mesh.origin->is_reproducible) json["reproducible"] = "not reproducible: a time or memory limit decided which engine made the tetrahedra";

@@ -5,6 +5,7 @@
 
 #include "geom/base/error.h"
 #include "scripting/check_options.h"
+#include "scripting/source_verbs.h"
 #include "scripting/summary.h"
 #include "scripting/table_reader.h"
 #include "scripting/verbs.h"
@@ -106,6 +107,7 @@ ScriptValue make_mesh(const ScriptCall& call) {
   if (!wall) reader.add_problem("entry 1: expected a surface (from read_surface), not " + std::string(items.empty() ? "nothing" : type_text(items.front())));
   else if (items.size() > 1) reader.add_problem("takes one surface, not " + std::to_string(items.size()) + " (read_surface{ \"a.stl\", \"b.stl\" } joins files)");
   reader.read_options(schema);
+  options.sources = read_sources(reader, call);
   apply_overrides(call, schema);
   reader.require(schema);
   reader.finish();
@@ -114,10 +116,11 @@ ScriptValue make_mesh(const ScriptCall& call) {
   return mesh;
 }
 
-constexpr std::string_view k_sphere_usage = "sphere{ radius = 100, edge = 20 }";
+constexpr std::string_view k_sphere_usage = "sphere{ radius = 100, edge = 20 }  or, as a source,  sphere{ {0, 0, 0}, radius = 1, size = 0.1 }";
 
 ScriptValue make_sphere(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_sphere_usage);
+  if (!table.items.empty() || table.fields.contains("size")) return make_sphere_source(call);
   volmesh::FarfieldOptions options;
   OptionTable schema = sterna::options_of(options);
   constexpr std::string_view k_prefix = "farfield_";
@@ -199,12 +202,14 @@ ScriptValue describe_object(const ScriptCall& call) {
   if (const auto* surface = std::get_if<SurfaceHandle>(&object)) return describe(**surface);
   if (const auto* mesh = std::get_if<MeshHandle>(&object)) return describe(**mesh);
   if (const auto* error = std::get_if<ErrorHandle>(&object)) return std::string((*error)->what());
-  std::string text = "sphere";
-  if (const auto* shape = std::get_if<TableHandle>(&object))
+  std::string text;
+  if (const auto* shape = std::get_if<TableHandle>(&object)) {
+    if (const auto kind = (*shape)->fields.find("shape"); kind != (*shape)->fields.end() && std::holds_alternative<std::string>(kind->second)) text = std::get<std::string>(kind->second);
     for (const auto& [name, value] : (*shape)->fields) {
       if (const auto* number = std::get_if<double>(&value)) text += ", " + name + " " + std::to_string(*number) + " m";
       if (const auto* whole = std::get_if<std::int64_t>(&value)) text += ", " + name + " " + std::to_string(*whole) + " m";
     }
+  }
   return text;
 }
 
@@ -321,7 +326,7 @@ constexpr std::array<ScriptVerb, 5> k_verbs = {{
     {"read_surface", k_read_surface_usage, "Reads surface files and joins them to one wall.", read_surface, surface_help, true},
     {"read_mesh", k_read_mesh_usage, "Reads a volume mesh.", read_mesh_file, nullptr, true},
     {"volume_mesh", k_volume_mesh_usage, "Meshes the space around a wall: prism layers on it, tetrahedra to the farfield.", make_mesh, volume_help, true},
-    {"sphere", k_sphere_usage, "A spherical farfield, for volume_mesh.", make_sphere, sphere_help},
+    {"sphere", k_sphere_usage, "A spherical farfield, for volume_mesh; with centre and size a source of small tetrahedra.", make_sphere, sphere_help},
     {"help", "help(volume_mesh)", "Prints what a verb does and its options.", help},
 }};
 constexpr std::array<ScriptVerb, 1> k_surface_methods = {{
@@ -340,14 +345,21 @@ const ScriptVerb k_surface_field = {"surface", "", "", surface_field};
 const ScriptVerb k_mesh_field = {"mesh", "", "", mesh_field};
 const ScriptVerb k_error_field = {"error", "", "", error_field};
 
-std::span<const ScriptVerb> script_verbs() { return k_verbs; }
+std::span<const ScriptVerb> script_verbs() {
+  static const std::vector<ScriptVerb> all = [] {
+    std::vector<ScriptVerb> verbs(k_verbs.begin(), k_verbs.end());
+    verbs.insert(verbs.end(), source_verbs().begin(), source_verbs().end());
+    return verbs;
+  }();
+  return all;
+}
 std::span<const ScriptVerb> surface_methods() { return k_surface_methods; }
 std::span<const ScriptVerb> mesh_methods() { return k_mesh_methods; }
 std::span<const ScriptUnit> script_units() { return k_units; }
 
 std::string nearest_global(std::string_view name) {
   std::vector<std::string> known;
-  for (const ScriptVerb& verb : k_verbs) known.emplace_back(verb.name);
+  for (const ScriptVerb& verb : script_verbs()) known.emplace_back(verb.name);
   for (const ScriptUnit& unit : k_units) known.emplace_back(unit.name);
   return nearest_name(name, known);
 }

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "scripting/layer_json.h"
 
 namespace sterna::scripting {
 namespace {
 
+constexpr double k_degrees = 180.0 / std::numbers::pi;
 constexpr double k_bytes_per_mb = 1e6;
 constexpr std::size_t k_listed_places = 10;   ///< collapsed vertices in the summary; the manifest has all
 constexpr std::size_t k_listed_patches = 10;  ///< patches in the summary, worst covered first
@@ -111,7 +113,12 @@ std::string summary_text(const MeshValue& mesh) {
   if (layer.collapsed.size() > k_listed_places) text += fmt::format("    and {} more, all in the manifest\n", count_text(static_cast<std::int64_t>(layer.collapsed.size() - k_listed_places)));
   text += patch_text(layer);
   text += "  certificate " + to_text(mesh.origin->certificate) + "\n";
-  return text + "  verdict     " + verdict_text(mesh) + (mesh.check && mesh.check->quality_measured ? ", " + quality_text(*mesh.check) : "");
+  const volmesh::ImproveReport& improvement = mesh.origin->improvement;
+  text += fmt::format("  angles      of tetrahedra {:.3g} to {:.4g} deg; {} beyond the limits, {} before improvement", k_degrees * improvement.min_angle_after,
+                      k_degrees * improvement.max_angle_after, count_text(improvement.n_bad_after), count_text(improvement.n_bad_before));
+  if (improvement.n_bad_after > 0)
+    text += fmt::format("\n              of these {} away from the boundary, {} at sharp angles of the boundary", count_text(improvement.n_bad_free_after), count_text(improvement.n_forced));
+  return text + "\n  verdict     " + verdict_text(mesh) + (mesh.check && mesh.check->quality_measured ? ", " + quality_text(*mesh.check) : "");
 }
 
 std::string measure_text(const MeshValue& mesh, const RunMeasure& measure) {
@@ -148,6 +155,13 @@ std::string stats_json(const MeshValue& mesh, const RunMeasure& measure) {
   json["collapsed"] = layer.collapsed.size();
   json["layer"] = nlohmann::ordered_json::parse(layer_json(layer));
   json["certificate"] = nlohmann::ordered_json::parse(certificate_json(mesh.origin->certificate));
+  const volmesh::ImproveReport& improvement = mesh.origin->improvement;
+  json["bad_tetrahedra_of_engine"] = improvement.n_bad_before;
+  json["bad_tetrahedra"] = improvement.n_bad_after;
+  json["bad_tetrahedra_off_boundary"] = improvement.n_bad_free_after;
+  json["bad_tetrahedra_forced"] = improvement.n_forced;
+  json["min_dihedral_deg"] = k_degrees * improvement.min_angle_after;
+  json["max_dihedral_deg"] = k_degrees * improvement.max_angle_after;
   json["verdict"] = verdict_text(mesh);
   json["measures"] = nlohmann::ordered_json::object();
   if (mesh.check)

@@ -60,6 +60,7 @@ MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOp
                             .layer = std::move(result.layer),
                             .certificate = std::move(result.certificate),
                             .n_wall_triangles = static_cast<std::int64_t>(wall.mesh.n_triangles()),
+                            .improvement = std::move(result.improvement),
                             .tetra_engine = result.tetra_engine,
                             .tetra_failures = result.tetra_failures,
                             .is_reproducible = result.is_reproducible,

@@ -36,6 +36,7 @@ struct MeshOrigin {
   volmesh::LayerReport layer;
   volmesh::EnvelopeCertificate certificate;
   std::int64_t n_wall_triangles = 0;
+  volmesh::ImproveReport improvement;
   std::string tetra_engine;
   std::vector<std::string> tetra_failures;
   bool is_reproducible = true;

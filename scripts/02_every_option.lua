@@ -42,6 +42,9 @@ local mesh = volume_mesh{ wall,
     size_growth = 1.3,                 -- of neighbouring tetrahedra
     size_max = "automatic",           -- longest edge; automatic: no limit
   },
+  sources = {                         -- places of smaller tetrahedra; also point, box, cylinder, wake, size_samples
+    line{ {0, 0, 0}, {wall.length, 0, 0}, radius = 0.2 * wall.length, size = 0.2 * wall.length },
+  },
   tetrahedra = {
     engine = "automatic",           -- or "tetgen", "hxt"
     radius_edge = 1.2,              -- TetGen

@@ -126,7 +126,7 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
     const StageTimer timer(context, "tetrahedra");
     const std::vector<Point> holes = find_cavity_points(wall, context);
     const TetraBoundary domain{boundary.points, boundary.triangles, holes, true, boundary.patch_names, boundary.triangle_patch};
-    const SizeField sizes = build_size_field(domain, {}, options.size, context);
+    const SizeField sizes = build_size_field(domain, options.sources, options.size, context);
     tets = fill(domain, &sizes, options.tetrahedra, context.part("tetrahedra", 0.25, 0.9));
   }
   result.tetra_engine = tets.engine;

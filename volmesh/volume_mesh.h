@@ -26,6 +26,7 @@ struct VolumeMeshOptions {
   PrismOptions prisms;
   FarfieldOptions farfield;
   SizeFieldOptions size;
+  std::vector<SizeSource> sources;  ///< of the size field
   TetraOptions tetrahedra;
   ImproveOptions improve;
 };

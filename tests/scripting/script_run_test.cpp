@@ -1,6 +1,7 @@
 #include "scripting/script_run.h"
 
 #include <chrono>
+#include <gmock/gmock.h>
 #include <fstream>
 #include <thread>
 
@@ -112,6 +113,22 @@ TEST(ScriptRun, InputsAreFoundBesideTheScriptAndPrintThemselves) {
   EXPECT_EQ(run_text("local s = read_surface{ 'box.stl', unit = mm } print(s) print(s.triangles, s.vertices, s.is_closed, #s.patches, s.length)"),
             "TriMesh: 12 triangles, closed, 1 patch, 0.001 m long\n12\t8\ttrue\t1\t0.001\n");
   EXPECT_EQ(run_text("print(sphere{ radius = 2, edge = 0.5 })"), "sphere, edge 0.500000 m, radius 2.000000 m\n");
+}
+
+TEST(ScriptRun, SourcesAreValuesThatPrintThemselves) {
+  EXPECT_EQ(run_text("print(box{ {-1, -2, -1}, {9, 2, 3}, size = 50*mm })"), "box, size 0.050000 m\n");
+  EXPECT_EQ(run_text("print(sphere{ {0, 0, 0}, radius = 1, size = 0.5 })"), "sphere, radius 1 m, size 0.500000 m\n");
+  EXPECT_EQ(run_text("local w = wake{ {1, 0, 0}, {2, 5, 0}, direction = {1, 0, 0}, length = 10, size = 0.1, size_end = 0.4 } print(w.size, #w)"), "0.1\t2\n");
+}
+
+TEST(ScriptRun, MistakesInSourcesAreToldWhereTheyAre) {
+  const auto message = [](const std::string& text) { return std::string(error_of(text).what()); };
+  EXPECT_THAT(message("box{ {0, 0, 0}, size = 1 }"), testing::HasSubstr("expected two points {x, y, z}"));
+  EXPECT_THAT(message("box{ {0, 0, 0}, {1, 1, 1}, radius = 1 }"), testing::AllOf(testing::HasSubstr("unknown key \"radius\""), testing::HasSubstr("size")));
+  EXPECT_THAT(message("line{ {0, 0, 0}, {1, 1, 1}, size = -1 }"), testing::HasSubstr("size"));
+  EXPECT_THAT(message("cylinder{ {0, 0, 0}, {1, 0, 0}, size = 1 }"), testing::HasSubstr("a cylinder needs a radius"));
+  EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, sources = { 3 } }"), testing::HasSubstr("sources, entry 1: expected a source"));
+  EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, sources = { size_samples 'absent.vtu' } }"), testing::HasSubstr("absent.vtu"));
 }
 
 TEST(ScriptRun, OverridesOfTheCommandLineWin) {

@@ -9,6 +9,7 @@
 
 #include "geom/base/parallel.h"
 #include "volmesh/improve/region.h"
+#include "volmesh/improve/remaining.h"
 #include "volmesh/improve/tet_quality.h"
 
 namespace sterna::volmesh {
@@ -328,6 +329,7 @@ ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tet
   report.n_bad_free_after = after.n_bad_free;
   report.min_angle_after = std::acos(after.max_cosine);
   report.max_angle_after = std::acos(after.min_cosine);
+  if (report.n_bad_after > 0) list_remaining(boundary, tets, options, report, context);
   return report;
 }
 

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <numbers>
+#include <vector>
 
+#include "geom/base/error.h"
 #include "geom/base/run_context.h"
 #include "geom/base/schema.h"
 #include "volmesh/tetra/tetra.h"
@@ -26,6 +28,8 @@ struct ImproveReport {
   double max_angle_before = 0.0;
   double max_angle_after = 0.0;
   int rounds = 0;
+  std::int64_t n_forced = 0;          ///< bad ones at a boundary angle that is too small for good ones, see k_forcing_angle in remaining.cpp
+  std::vector<ErrorPlace> remaining;  ///< each bad one, worst first: its centre, its angles, the sharpest angle of the boundary at it; the first 10 000
 };
 
 /// Works on every tetrahedron with a dihedral angle beyond the limits, worst first: edge removal (rings of 3 to 8: 2-3, 4-4, ...), multi-face removal, smoothing of

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <gmock/gmock.h>
 #include <map>
 #include <optional>
 #include <numbers>
@@ -128,6 +129,8 @@ void expect_improved(Filled filled, const ImproveOptions& options, double bad_sh
   EXPECT_GT(report.n_bad_before, 0);
   EXPECT_LE(static_cast<double>(report.n_bad_after), bad_share_left * static_cast<double>(report.n_bad_before));
   EXPECT_EQ(report.n_bad_free_after, 0);
+  EXPECT_EQ(static_cast<std::int64_t>(report.remaining.size()), report.n_bad_after);
+  EXPECT_LE(report.n_forced, report.n_bad_after);
   // The report tells what is there.
   std::int64_t n_bad = 0;
   double low = 4.0, high = 0.0;
@@ -267,6 +270,21 @@ TEST(Improve, engine_meshes_reach_the_limits) { expect_improved(shell(12, 2.0), 
 
 TEST(Improve, engine_meshes_reach_stricter_limits_but_for_the_boundary) {
   expect_improved(shell(12, 1.4), {.improve_min_angle = 17 * k_degree, .improve_max_angle = 150 * k_degree}, 0.02);
+}
+
+TEST(Improve, what_a_sharp_boundary_forces_is_listed_with_its_angle) {
+  // A wedge of 5 degrees: one tetrahedron, nothing to be done.
+  const double angle = 5 * k_degree;
+  Filled wedge;
+  wedge.points = {{0, 0, -0.5}, {0, 0, 0.5}, {1, 0, 0}, {std::cos(angle), std::sin(angle), 0}};
+  wedge.triangles = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+  wedge.tets.tetrahedra = {{0, 1, 2, 3}};
+  ASSERT_NO_THROW(verify_tetrahedra(wedge.boundary(), wedge.tets, RunContext()));
+  const ImproveReport report = improve_tetrahedra(wedge.boundary(), wedge.tets, {}, RunContext());
+  EXPECT_EQ(report.n_bad_after, 1);
+  EXPECT_EQ(report.n_forced, 1);
+  ASSERT_EQ(report.remaining.size(), 1u);
+  EXPECT_THAT(report.remaining[0].what, testing::HasSubstr("between boundary triangles: 5 deg"));
 }
 
 TEST(Improve, is_the_same_for_any_number_of_threads) {

@@ -1,0 +1,210 @@
+#include "scripting/source_verbs.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "geom/base/error.h"
+#include "geom/base/schema.h"
+#include "io/point_field.h"
+
+namespace sterna::scripting {
+
+/// The numbers of all kinds of sources; each verb takes some of them.
+struct SourceNumbers {
+  double size = k_automatic;
+  double size_end = k_automatic;
+  double radius = k_automatic;
+  double length = k_automatic;
+  double height = k_automatic;
+  double spread = k_automatic;
+};
+
+}  // namespace sterna::scripting
+
+namespace sterna {
+
+template <>
+struct Schema<scripting::SourceNumbers> {
+  using O = scripting::SourceNumbers;
+  static constexpr std::string_view stage = "source";
+  static constexpr std::array fields = {
+      Field<O>{.name = "size", .member = &O::size, .unit = Unit::metre, .min = 1e-12, .help = "edge length of tetrahedra inside", .required = true},
+      Field<O>{.name = "size_end", .member = &O::size_end, .unit = Unit::metre, .min = 1e-12, .help = "edge length at its far end", .automatic = "size"},
+      Field<O>{.name = "radius", .member = &O::radius, .unit = Unit::metre, .min = 0.0, .help = "everything nearer is inside", .automatic = "0"},
+      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-12, .help = "how far it is swept along its direction", .required = true},
+      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 0.0, .help = "thickness where it starts", .automatic = "0"},
+      Field<O>{.name = "spread", .member = &O::spread, .min = 0.0, .max = 10.0, .help = "half its growth in thickness over the distance from its start", .automatic = "0"},
+  };
+};
+
+}  // namespace sterna
+
+namespace sterna::scripting {
+namespace {
+
+using TableHandle = std::shared_ptr<const ScriptTable>;
+using volmesh::SizeSource;
+using volmesh::SourceKind;
+
+struct KindOfSource {
+  SourceKind kind;
+  std::string_view verb;
+  std::size_t n_points;
+  std::string_view numbers;  ///< that the verb takes, separated by blanks
+  std::string_view usage;
+};
+constexpr std::array<KindOfSource, 6> k_kinds = {{
+    {SourceKind::point, "point", 1, " size ", "point{ {0, 0, 0}, size = 0.01 }"},
+    {SourceKind::line, "line", 2, " size radius ", "line{ {0, 0, 0}, {8, 0, 0}, size = 0.02, radius = 0.5 }"},
+    {SourceKind::box, "box", 2, " size ", "box{ {-1, -2, -1}, {9, 2, 3}, size = 0.05 }"},
+    {SourceKind::sphere, "sphere", 1, " size radius ", "sphere{ {0, 0, 0}, radius = 1, size = 0.1 }"},
+    {SourceKind::cylinder, "cylinder", 2, " size radius ", "cylinder{ {0, 0, 0}, {8, 0, 0}, radius = 1, size = 0.1 }"},
+    {SourceKind::wake, "wake", 2, " size size_end length height spread ", "wake{ {1, 0, 0}, {2, 5, 0}, direction = {1, 0, 0.05}, length = 10, height = 0.2, spread = 0.05, size = 0.05 }"},
+}};
+constexpr std::string_view k_samples_usage = "size_samples{ \"sizes.vtu\", name = \"size\" }";
+
+std::optional<Vec3> point_of(const ScriptValue& value) {
+  const auto* table = std::get_if<TableHandle>(&value);
+  if (!table || (*table)->items.size() != 3 || !(*table)->fields.empty() || !(*table)->other_keys.empty()) return std::nullopt;
+  Vec3 p;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const ScriptValue& item = (*table)->items[axis];
+    if (const auto* number = std::get_if<double>(&item)) p[axis] = *number;
+    else if (const auto* whole = std::get_if<std::int64_t>(&item)) p[axis] = static_cast<double>(*whole);
+    else return std::nullopt;
+  }
+  return p;
+}
+
+/// The options that this kind takes; `numbers` must outlive them.
+OptionTable options_of(SourceNumbers& numbers, const KindOfSource& kind) {
+  OptionTable table = sterna::options_of(numbers);
+  std::erase_if(table, [&](const Option& option) { return kind.numbers.find(" " + std::string(option.name) + " ") == std::string_view::npos; });
+  return table;
+}
+
+SizeSource source_of(const ScriptTable& table, const KindOfSource& kind, const std::string& attempted) {
+  SizeSource source{.kind = kind.kind};
+  SourceNumbers numbers;
+  const OptionTable options = options_of(numbers, kind);
+  TableReader reader(table, attempted);
+  reader.field("shape");
+  const std::vector<ScriptValue>& points = reader.items();
+  const auto first = points.empty() ? std::nullopt : point_of(points[0]);
+  const auto second = points.size() < 2 ? std::nullopt : point_of(points[1]);
+  if (points.size() != kind.n_points || !first || (kind.n_points == 2 && !second))
+    reader.add_problem("expected " + std::string(kind.n_points == 2 ? "two points" : "a point") + " {x, y, z}: " + std::string(kind.usage));
+  if (first) source.from = *first;
+  if (second) source.to = *second;
+  if (kind.kind == SourceKind::wake) {
+    if (const ScriptValue* direction = reader.field("direction")) {
+      if (const auto vector = point_of(*direction)) source.direction = *vector;
+      else reader.add_problem("direction: expected {x, y, z}");
+    }
+  }
+  reader.read_options(options);
+  reader.require(options);
+  reader.finish();
+  const auto or_zero = [](double value) { return is_automatic(value) ? 0.0 : value; };
+  source.size = numbers.size;
+  source.size_end = or_zero(numbers.size_end);
+  source.radius = or_zero(numbers.radius);
+  source.length = or_zero(numbers.length);
+  source.height = or_zero(numbers.height);
+  source.spread = or_zero(numbers.spread);
+  return source;
+}
+
+ScriptTable table_of(const ScriptCall& call) {
+  if (call.arguments.size() == 1)
+    if (const auto* table = std::get_if<TableHandle>(&call.arguments.front())) return **table;
+  throw Error({.code = ErrorCode::bad_argument, .attempted = call.attempted(), .problem = "takes one table"});
+}
+
+ScriptValue make_source(const ScriptCall& call, const KindOfSource& kind) {
+  ScriptTable table = table_of(call);
+  const SizeSource source = source_of(table, kind, call.attempted());
+  // Growth is known by volume_mesh only; all the rest can be told at this line.
+  if (const std::string problem = problem_of(source, k_unbounded); !problem.empty())
+    throw Error({.code = ErrorCode::bad_argument, .attempted = call.attempted(), .problem = problem, .hint = std::string(kind.usage)});
+  table.fields["shape"] = std::string(kind.verb);
+  return std::make_shared<const ScriptTable>(std::move(table));
+}
+
+const KindOfSource* kind_named(std::string_view verb) {
+  const auto it = std::ranges::find(k_kinds, verb, &KindOfSource::verb);
+  return it == k_kinds.end() ? nullptr : &*it;
+}
+
+ScriptValue make_source_of_verb(const ScriptCall& call) { return make_source(call, *kind_named(call.verb)); }
+
+/// Checked here, read by the verb that uses it.
+ScriptValue make_samples(const ScriptCall& call) {
+  ScriptTable table;
+  if (call.arguments.size() == 1 && std::holds_alternative<std::string>(call.arguments.front())) table.items.push_back(call.arguments.front());
+  else table = table_of(call);
+  TableReader reader(table, call.attempted());
+  const std::vector<ScriptValue>& items = reader.items();
+  if (items.size() != 1 || !std::holds_alternative<std::string>(items.front())) reader.add_problem("expected one file name: " + std::string(k_samples_usage));
+  if (const ScriptValue* name = reader.field("name"); name && !std::holds_alternative<std::string>(*name)) reader.add_problem("name: expected the name of a point data array");
+  reader.finish();
+  table.fields["shape"] = std::string("size_samples");
+  return std::make_shared<const ScriptTable>(std::move(table));
+}
+
+SizeSource read_samples(const ScriptTable& table, const ScriptCall& call) {
+  const std::filesystem::path given = std::get<std::string>(table.items.front());
+  const std::filesystem::path beside_script = call.session.script.parent_path() / given;
+  std::error_code ignored;  // a name that cannot be looked up is reported by the reader, with its reason
+  const bool is_beside = given.is_relative() && !std::filesystem::exists(given, ignored) && std::filesystem::exists(beside_script, ignored);
+  const auto name = table.fields.find("name");
+  io::PointField field = io::read_point_field(is_beside ? beside_script : given, name == table.fields.end() ? "size" : std::get<std::string>(name->second), call.session.context);
+  return {.kind = SourceKind::samples, .points = std::move(field.points), .sizes = std::move(field.values)};
+}
+
+template <std::size_t I>
+std::string numbers_help() {
+  SourceNumbers numbers;
+  return options_help(options_of(numbers, k_kinds[I]));
+}
+
+constexpr std::array<ScriptVerb, 6> k_verbs = {{
+    {"point", k_kinds[0].usage, "Small tetrahedra at a point, for the sources of volume_mesh.", make_source_of_verb, numbers_help<0>},
+    {"line", k_kinds[1].usage, "Small tetrahedra within a distance of a line, for the sources of volume_mesh.", make_source_of_verb, numbers_help<1>},
+    {"box", k_kinds[2].usage, "Small tetrahedra in an axis-parallel box, for the sources of volume_mesh.", make_source_of_verb, numbers_help<2>},
+    {"cylinder", k_kinds[4].usage, "Small tetrahedra in a cylinder, for the sources of volume_mesh.", make_source_of_verb, numbers_help<4>},
+    {"wake", k_kinds[5].usage, "Small tetrahedra behind a trailing edge, for the sources of volume_mesh.", make_source_of_verb, numbers_help<5>},
+    {"size_samples", k_samples_usage, "Wanted edge lengths at the points of a VTU file, for the sources of volume_mesh.", make_samples},
+}};
+
+}  // namespace
+
+std::span<const ScriptVerb> source_verbs() { return k_verbs; }
+
+ScriptValue make_sphere_source(const ScriptCall& call) { return make_source(call, *kind_named("sphere")); }
+
+std::vector<SizeSource> read_sources(TableReader& reader, const ScriptCall& call) {
+  std::vector<SizeSource> sources;
+  const ScriptValue* value = reader.field("sources");
+  if (!value) return sources;
+  const auto* table = std::get_if<TableHandle>(value);
+  if (!table) {
+    reader.add_problem("sources: expected a list such as { " + std::string(k_kinds[2].usage) + " }");
+    return sources;
+  }
+  const bool is_single = (*table)->fields.contains("shape");
+  if (!is_single && (!(*table)->fields.empty() || !(*table)->other_keys.empty())) reader.add_problem("sources: entries of this list have no names");
+  const std::vector<ScriptValue> list = is_single ? std::vector<ScriptValue>{*value} : (*table)->items;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string where = "sources, entry " + std::to_string(i + 1);
+    const auto* entry = std::get_if<TableHandle>(&list[i]);
+    const auto* shape = entry && (*entry)->fields.contains("shape") ? std::get_if<std::string>(&(*entry)->fields.at("shape")) : nullptr;
+    if (shape && *shape == "size_samples") sources.push_back(read_samples(**entry, call));
+    else if (const KindOfSource* kind = shape ? kind_named(*shape) : nullptr; kind && (*entry)->fields.contains("size")) sources.push_back(source_of(**entry, *kind, call.attempted() + ", " + where));
+    else reader.add_problem(where + ": expected a source such as " + std::string(k_kinds[2].usage) + ", not " + std::string(type_text(list[i])));
+  }
+  return sources;
+}
+
+}  // namespace sterna::scripting
