@@ -42,9 +42,7 @@ local mesh = volume_mesh{ wall,
     size_growth = 1.3,                 -- of neighbouring tetrahedra
     size_max = "automatic",           -- longest edge; automatic: no limit
   },
-  sources = {                         -- places of smaller tetrahedra; also point, box, cylinder, wake, size_samples
-    line{ {0, 0, 0}, {wall.length, 0, 0}, radius = 0.2 * wall.length, size = 0.2 * wall.length },
-  },
+  sources = {},                        -- smaller tetrahedra: box{ {-1, -2, -1}, {9, 2, 3}, size = 0.05 }, point, line, sphere, cylinder, wake, size_samples
   tetrahedra = {
     engine = "automatic",           -- or "tetgen", "hxt"
     radius_edge = 1.2,              -- TetGen
