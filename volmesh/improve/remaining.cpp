@@ -49,10 +49,9 @@ class Boundary {
     }
   }
 
-  Sharp sharpest_at(const Corners& tet) const {
+  /// An angle between triangles below the limit counts first: it leaves no choice at all.
+  Sharp sharpest_at(const Corners& tet, double limit) const {
     Sharp sharpest;
-    for (const std::uint32_t v : tet)
-      if (v < corner_.size() && corner_[v] < sharpest.angle) sharpest = {corner_[v], "corner of a boundary triangle"};
     for (const std::uint32_t a : tet)
       for (const std::uint32_t b : tet) {
         if (a >= b) continue;
@@ -61,6 +60,9 @@ class Boundary {
         const double angle = domain_angle(a, b, left->second, right->second);
         if (angle < sharpest.angle) sharpest = {angle, "between boundary triangles"};
       }
+    if (sharpest.angle < limit) return sharpest;
+    for (const std::uint32_t v : tet)
+      if (v < corner_.size() && corner_[v] < sharpest.angle) sharpest = {corner_[v], "corner of a boundary triangle"};
     return sharpest;
   }
 
@@ -117,8 +119,9 @@ void list_remaining(const TetraBoundary& boundary, const TetraResult& tets, cons
   const Boundary surroundings(boundary, is_wanted);
   for (const Remaining& r : bad) {
     const Corners& c = tets.tetrahedra[r.tet];
-    const Sharp sharp = surroundings.sharpest_at(c);
-    report.n_forced += sharp.angle < k_forcing_angle * options.improve_min_angle;
+    const double limit = k_forcing_angle * options.improve_min_angle;
+    const Sharp sharp = surroundings.sharpest_at(c, limit);
+    report.n_forced += sharp.angle < limit;
     if (report.remaining.size() == k_max_listed) continue;
     Vec3 center;
     for (const std::uint32_t v : c) center += 0.25 * (v < n_fixed ? boundary.points[v] : tets.new_points[v - n_fixed]);
