@@ -107,6 +107,16 @@ FileBuffer load_file(const std::filesystem::path& path, const RunContext& contex
   return buffer;
 }
 
+std::string file_head(const std::filesystem::path& path, std::size_t n_bytes) {
+  std::error_code status;
+  if (!std::filesystem::is_regular_file(path, status)) return {};  // a pipe can be read only once
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), &gzclose);  // takes plain files too
+  if (!file) return {};
+  std::string head(n_bytes, '\0');
+  head.resize(static_cast<std::size_t>(std::max(0, gzread(file.get(), head.data(), static_cast<unsigned>(n_bytes)))));
+  return head;
+}
+
 std::string quoted_excerpt(std::string_view bytes) {
   std::string text = "\"";
   for (const char c : bytes.substr(0, k_longest_excerpt)) {

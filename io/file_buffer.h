@@ -21,6 +21,9 @@ struct FileBuffer {
 /// \throws Error file_not_found (missing, a folder, unreadable), file_malformed (empty, damaged or suspiciously expanding gzip data), cancelled.
 FileBuffer load_file(const std::filesystem::path& path, const RunContext& context);
 
+/// The first bytes of a regular file, unpacked, at most `n_bytes`; fewer, perhaps none, when they cannot be had: whoever loads the file says why.
+std::string file_head(const std::filesystem::path& path, std::size_t n_bytes);
+
 /// "\"3.0x\"": bytes of a file made safe and short for a message.
 std::string quoted_excerpt(std::string_view bytes);
 

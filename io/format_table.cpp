@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "geom/base/error.h"
+#include "io/file_buffer.h"
 #include "io/surface_msh.h"
 #include "io/surface_obj.h"
 #include "io/surface_off.h"
@@ -12,6 +13,8 @@
 #include "io/surface_stl.h"
 #include "io/surface_su2.h"
 #include "io/surface_ugrid.h"
+#include "io/surface_vtu.h"
+#include "io/text_scanner.h"
 #include "io/volume_su2.h"
 #include "io/volume_ugrid.h"
 #include "io/volume_vtu.h"
@@ -19,16 +22,20 @@
 namespace sterna::io {
 namespace {
 
+bool is_gmsh(std::string_view head) { return head.find("$MeshFormat") != std::string_view::npos; }
+
+// One line for each format; the order counts where extensions are shared.
 constexpr std::array k_formats = {
     Format{.name = "STL", .extensions = ".stl", .read_surface = read_stl, .carries_patch_names = true},
     Format{.name = "OBJ", .extensions = ".obj", .read_surface = read_obj, .carries_patch_names = true},
     Format{.name = "OFF", .extensions = ".off", .read_surface = read_off},
     Format{.name = "PLY", .extensions = ".ply", .read_surface = read_ply, .carries_patch_names = true},
-    Format{.name = "Gmsh MSH", .extensions = ".msh", .read_surface = read_msh, .carries_patch_names = true},
-    Format{.name = "UGRID", .extensions = ".lb8.ugrid .b8.ugrid .lb8l.ugrid .b8l.ugrid .lb4.ugrid .b4.ugrid .ugrid", .read_surface = read_ugrid, .read_volume = read_volume_ugrid,
-           .write_volume = write_volume_ugrid, .carries_patch_names = true},
-    Format{.name = "SU2", .extensions = ".su2", .read_surface = read_su2, .read_volume = read_volume_su2, .write_volume = write_volume_su2, .carries_patch_names = true},
-    Format{.name = "VTU", .extensions = ".vtu", .read_volume = read_volume_vtu, .write_volume = write_volume_vtu, .carries_patch_names = true},
+    Format{.name = "Gmsh MSH", .extensions = ".msh", .is_content = is_gmsh, .read_surface = read_msh, .carries_patch_names = true},
+    Format{.name = "UGRID", .extensions = ".lb8.ugrid .b8.ugrid .lb8l.ugrid .b8l.ugrid .lb4.ugrid .b4.ugrid .ugrid", .read_surface = read_ugrid, .write_surface = write_ugrid,
+           .read_volume = read_volume_ugrid, .write_volume = write_volume_ugrid, .carries_patch_names = true},
+    Format{.name = "SU2", .extensions = ".su2", .read_surface = read_su2, .write_surface = write_su2, .read_volume = read_volume_su2, .write_volume = write_volume_su2,
+           .carries_patch_names = true},
+    Format{.name = "VTU", .extensions = ".vtu", .read_surface = read_surface_vtu, .write_surface = write_surface_vtu, .read_volume = read_volume_vtu, .write_volume = write_volume_vtu, .carries_patch_names = true},
 };
 
 /// Calls f(extension) for each blank-separated word.
@@ -42,34 +49,100 @@ void for_each_extension(std::string_view extensions, const F& f) {
 }
 
 std::string known_extensions() {
+  std::vector<std::string_view> known;
   std::string text;
-  for (const Format& format : k_formats)
-    for_each_extension(format.extensions, [&](std::string_view extension) { text += (text.empty() ? "" : " ") + std::string(extension); });
+  for (const Format& format : k_formats) {
+    for_each_extension(format.extensions, [&](std::string_view extension) {
+      if (std::find(known.begin(), known.end(), extension) != known.end()) return;
+      known.push_back(extension);
+      text += (text.empty() ? "" : " ") + std::string(extension);
+    });
+  }
   return text;
+}
+
+std::string lower_case_name(const std::filesystem::path& path) {
+  std::string name = path.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (name.ends_with(".gz")) name.resize(name.size() - 3);
+  return name;
+}
+
+/// The lines with the longest extension that ends the name ("wing.lb8.ugrid" could also end in a plain ".ugrid"), in the table's order.
+std::vector<const Format*> formats_of_name(const std::filesystem::path& path) {
+  const std::string name = lower_case_name(path);
+  std::vector<const Format*> found;
+  std::size_t longest = 0;
+  for (const Format& format : k_formats) {
+    for_each_extension(format.extensions, [&](std::string_view extension) {
+      if (extension.size() < longest || !name.ends_with(extension)) return;
+      if (extension.size() > longest) found.clear();
+      longest = extension.size();
+      found.push_back(&format);
+    });
+  }
+  return found;
+}
+
+[[noreturn]] void throw_unknown_extension(std::string attempted) {
+  throw Error({.code = ErrorCode::unsupported_format,
+               .attempted = std::move(attempted),
+               .problem = "its extension is not known",
+               .hint = "known extensions: " + known_extensions() + " (each also with .gz for reading)"});
 }
 
 }  // namespace
 
 std::span<const Format> formats() { return k_formats; }
 
-const Format& format_of(const std::filesystem::path& path) {
-  std::string name = path.filename().string();
-  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (name.ends_with(".gz")) name.resize(name.size() - 3);
-  const Format* found = nullptr;
-  std::size_t longest = 0;  // "wing.lb8.ugrid" could also end in a plain ".ugrid"
-  for (const Format& format : k_formats) {
-    for_each_extension(format.extensions, [&](std::string_view extension) {
-      if (extension.size() <= longest || !name.ends_with(extension)) return;
-      found = &format;
-      longest = extension.size();
-    });
+bool has_use(const Format& format, FormatUse use) {
+  switch (use) {
+    case FormatUse::read_surface: return format.read_surface != nullptr;
+    case FormatUse::write_surface: return format.write_surface != nullptr;
+    case FormatUse::read_volume: return format.read_volume != nullptr;
+    case FormatUse::write_volume: return format.write_volume != nullptr;
   }
-  if (found) return *found;
+  return false;
+}
+
+const Format& format_of(const std::filesystem::path& path) {
+  std::vector<const Format*> candidates = formats_of_name(path);
+  if (candidates.empty()) throw_unknown_extension("finding the format of " + path.string());
+  const Format* const first = candidates.front();
+  std::erase_if(candidates, [](const Format* format) { return !format->is_read(); });
+  if (candidates.size() <= 1) return candidates.empty() ? *first : *candidates.front();
+  const std::string head = file_head(path, k_sniffed_bytes);
+  for (const Format* format : candidates)
+    if (format->is_content && format->is_content(head)) return *format;
+  return *candidates.front();
+}
+
+const Format& format_to_write(const std::filesystem::path& path, FormatUse use, std::string_view name) {
+  const std::string attempted = "writing " + path.string();
+  const std::string what = use == FormatUse::write_surface ? "surface" : "volume mesh";
+  if (lower_case_name(path).size() != path.filename().string().size())
+    throw Error({.code = ErrorCode::unsupported_format, .attempted = attempted, .problem = "files are not gzipped on writing"});
+  std::vector<const Format*> candidates;
+  if (name.empty()) {
+    candidates = formats_of_name(path);
+    if (candidates.empty()) throw_unknown_extension(attempted);
+  } else {
+    for (const Format& format : k_formats)
+      if (equal_ignoring_case(format.name, name)) candidates.push_back(&format);
+  }
+  for (const Format* format : candidates)
+    if (has_use(*format, use)) return *format;
   throw Error({.code = ErrorCode::unsupported_format,
-               .attempted = "finding the format of " + path.string(),
-               .problem = "its extension is not known",
-               .hint = "known extensions: " + known_extensions() + " (each also with .gz for reading)"});
+               .attempted = attempted,
+               .problem = candidates.empty() ? "there is no format \"" + std::string(name) + "\"" : std::string(candidates.front()->name) + " is not written as a " + what,
+               .hint = "a " + what + " is written as " + list_formats_with(use)});
+}
+
+std::string list_formats_with(FormatUse use) {
+  std::string text;
+  for (const Format& format : k_formats)
+    if (has_use(format, use)) text += (text.empty() ? "" : ", ") + std::string(format.name) + " (" + std::string(format.extensions) + ")";
+  return text;
 }
 
 }  // namespace sterna::io

@@ -11,7 +11,9 @@
 #include "io/file_buffer.h"
 #include "io/line_blocks.h"
 #include "io/su2_keyword.h"
+#include "io/surface_boundary.h"
 #include "io/surface_builder.h"
+#include "io/volume_su2.h"
 #include "io/vtk_cells.h"
 
 namespace sterna::io {
@@ -238,6 +240,10 @@ class Su2SurfaceReader {
 SurfaceSoup read_su2(const std::filesystem::path& path, const RunContext& context) {
   const FileBuffer buffer = load_file(path, context);
   return Su2SurfaceReader(buffer, context).read();
+}
+
+void write_su2(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  write_volume_su2(as_boundary(mesh, Winding::kept), path, context);
 }
 
 }  // namespace sterna::io

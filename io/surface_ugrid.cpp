@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "io/file_buffer.h"
+#include "io/surface_boundary.h"
 #include "io/surface_builder.h"
 #include "io/ugrid_source.h"
+#include "io/volume_ugrid.h"
 
 namespace sterna::io {
 namespace {
@@ -69,6 +71,10 @@ SurfaceSoup read_ugrid(const std::filesystem::path& path, const RunContext& cont
   SurfaceSoup soup = builder.finish(true);
   soup.has_names = true;
   return soup;
+}
+
+void write_ugrid(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  write_volume_ugrid(as_boundary(mesh, Winding::turned), path, context);  // which turns boundary faces
 }
 
 }  // namespace sterna::io

@@ -53,17 +53,4 @@ void write_trouble_vtu(const TroubleGeometry& geometry, const std::filesystem::p
   write_vtu(grid.document("dimension"), path, RunContext({.threads = 1}));
 }
 
-void write_surface_vtu(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
-  SmallGrid grid{.points = &mesh.points.raw()};
-  for (const TriangleId t : mesh.triangles.ids()) {
-    const TriangleVertices& v = mesh.triangles[t];
-    grid.add(std::array{v[0].value(), v[1].value(), v[2].value()}, k_vtk_triangle, static_cast<std::int32_t>(mesh.triangle_patch[t].value()) + 1);
-  }
-  VtuDocument document = grid.document("marker");
-  for (const PatchId patch : mesh.patches.ids())
-    document.field_data.emplace_back("patch:" + std::string(to_string(mesh.patches[patch].kind)) + ":" + mesh.patches[patch].name,
-                                     static_cast<std::int32_t>(patch.value()) + 1);
-  write_vtu(document, path, context);
-}
-
 }  // namespace sterna::io

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "geom/base/error.h"
+#include "io/format_table.h"
 #include "scripting/commands.h"
 #include "scripting/console.h"
 #include "scripting/exit_status.h"
@@ -99,8 +100,8 @@ void add_run_command(CLI::App& app, RunCommand& run, Request& request) {
 
 void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Request& request) {
   CLI::App* command = app.add_subcommand("mesh", "mesh the space around a surface: prism layers and tetrahedra");
-  command->add_option("surfaces", mesh.inputs, "surface files; several are joined to one wall")->required();
-  command->add_option("-o,--output", mesh.outputs, "mesh file (.su2, .vtu); may be given several times")->required()->allow_extra_args(false)->take_all();
+  command->add_option("surfaces", mesh.inputs, "surface files; several are joined to one wall. `sterna formats` lists what is read")->required();
+  command->add_option("-o,--output", mesh.outputs, "mesh file: " + io::list_formats_with(io::FormatUse::write_volume) + "; may be given several times")->required()->allow_extra_args(false)->take_all();
   command->add_option("--stats", mesh.stats, "write sizes, times and memory of this run as JSON")->type_name("FILE");
   add_schema_options(*command, mesh.options);
   add_set_option(*command, set);

@@ -167,11 +167,11 @@ int execute(const InfoCommand& command, const CommandContext& context) {
 }
 
 int list_formats(const CommandContext& context) {
-  constexpr const char* k_row = "{:<10} {:<42} {:<8} {:<12} {}";
-  context.console.print(fmt::format(k_row, "format", "extensions (each also with .gz for reading)", "surface", "volume", "patch names"));
+  constexpr const char* k_row = "{:<16} {:<12} {:<12} {:<12} {}";
+  context.console.print(fmt::format(k_row, "format", "surface", "volume", "patch names", "extensions (each also with .gz for reading)"));
   for (const io::Format& format : io::formats())
-    context.console.print(fmt::format(k_row, format.name, format.extensions, read_write(format.read_surface != nullptr, false),
-                                      read_write(format.read_volume != nullptr, format.write_volume != nullptr), format.carries_patch_names ? "yes" : "no"));
+    context.console.print(fmt::format(k_row, format.name, read_write(format.read_surface != nullptr, format.write_surface != nullptr),
+                                      read_write(format.read_volume != nullptr, format.write_volume != nullptr), format.carries_patch_names ? "yes" : "no", format.extensions));
   return k_exit_success;
 }
 

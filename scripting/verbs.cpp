@@ -8,7 +8,6 @@
 #include "geom/base/hash.h"
 #include "io/format_table.h"
 #include "io/surface_file.h"
-#include "io/trouble_vtu.h"
 #include "io/volume_file.h"
 #include "scripting/manifest.h"
 #include "scripting/summary.h"
@@ -18,12 +17,6 @@ namespace {
 
 // Shares of read_wall's progress; reading is bound by the disk, stitching by the intersection test.
 constexpr double k_read_end = 0.3;
-
-bool has_extension(const std::filesystem::path& path, std::string_view extension) {
-  std::string lower = path.extension().string();
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return lower == extension;
-}
 
 }  // namespace
 
@@ -78,16 +71,7 @@ MeshValue read_mesh(const InputPath& file, const RunContext& context) {
 }
 
 void require_mesh_output(const std::filesystem::path& path) {
-  const io::Format& format = io::format_of(path);
-  if (!format.write_volume) {
-    std::string known;
-    for (const io::Format& other : io::formats())
-      if (other.write_volume) known += (known.empty() ? "" : ", ") + std::string(other.name) + " (" + std::string(other.extensions) + ")";
-    throw Error({.code = ErrorCode::unsupported_format,
-                 .attempted = "writing " + path.string(),
-                 .problem = std::string(format.name) + " is not written as a volume mesh",
-                 .hint = known});
-  }
+  io::format_to_write(path, io::FormatUse::write_volume);
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!std::filesystem::is_directory(folder))
     throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + folder.string()});
@@ -100,10 +84,7 @@ void write_mesh(const MeshValue& mesh, const std::filesystem::path& path, const 
 }
 
 void write_surface(const SurfaceValue& surface, const std::filesystem::path& path, const RunContext& context) {
-  if (!has_extension(path, ".vtu"))
-    throw Error({.code = ErrorCode::unsupported_format, .attempted = "writing " + path.string(), .problem = "surfaces are written as .vtu only"});
-  const StageTimer timer(context, "write");
-  io::write_surface_vtu(surface.mesh, path, context);
+  io::write_surface_file(surface.mesh, path, context);
 }
 
 OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::VolumeMeshOptions& volume) {

@@ -75,7 +75,7 @@ void require_mesh_output(const std::filesystem::path& path);
 /// Writes the mesh and, once that is done, its manifest "<path>.json". Each file appears whole or not at all. \throws Error of io.
 void write_mesh(const MeshValue& mesh, const std::filesystem::path& path, const RunContext& context);
 
-/// Writes a surface; VTU is the only format so far. \throws Error unsupported_format, write_failed.
+/// Writes a surface; format by extension. \throws Error of io.
 void write_surface(const SurfaceValue& surface, const std::filesystem::path& path, const RunContext& context);
 
 /// The options of reading a surface and of all stages of the volume mesh, for `--set stage.option=value`. The arguments must outlive the table.

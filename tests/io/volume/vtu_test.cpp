@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include "io/surface_vtu.h"
 #include "io/trouble_vtu.h"
 #include "io/volume_file.h"
 #include "tests/io/volume/volume_tools.h"

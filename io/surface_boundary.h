@@ -1,0 +1,20 @@
+// A surface as the boundary of a volume mesh without cells, and back: what formats share that hold both.
+#pragma once
+
+#include <string>
+
+#include "geom/mesh/hybrid_mesh.h"
+#include "geom/mesh/surface_soup.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::io {
+
+/// The surface's triangles as boundary faces, in their order; node i is vertex i.
+enum class Winding { kept, turned };
+HybridMesh as_boundary(const TriMesh& mesh, Winding winding);
+
+/// The boundary faces of a volume mesh: triangles, then quads split in two; points that no face uses are left out. Winding as in the mesh, out of the fluid.
+/// Patches without faces are dropped. \pre faces have patches
+SurfaceSoup boundary_soup(const HybridMesh& mesh, const std::string& source);
+
+}  // namespace sterna::io
