@@ -1,0 +1,23 @@
+// Boundary conditions of FOI Edge: the tree of .aboc (text) and .bboc (binary) files, formats.md section 5.5.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::io {
+
+/// Kinds by boundary name from x.aboc or x.bboc beside the mesh x.bmsh, x.v2.bmsh or x.amsh; empty when there is neither. \throws Error(file_malformed)
+std::map<std::string, PatchKind> read_edge_conditions(const std::filesystem::path& mesh_path, const RunContext& context);
+
+/// Where the writer puts them: x.aboc.
+std::filesystem::path edge_conditions_path(const std::filesystem::path& mesh_path);
+
+/// Text of an .aboc file. Inflow and outflow become engine exhaust and inlet, whose parameters are left to the user: a warning. \param names of all patches; those without name are left out
+std::string edge_conditions_text(const Column<PatchId, Patch>& patches, const std::vector<std::string>& names, const RunContext& context);
+
+}  // namespace sterna::io
