@@ -15,6 +15,8 @@
 #include "io/surface_ugrid.h"
 #include "io/surface_vtu.h"
 #include "io/text_scanner.h"
+#include "io/volume_edge.h"
+#include "io/volume_foam.h"
 #include "io/volume_su2.h"
 #include "io/volume_ugrid.h"
 #include "io/volume_vtu.h"
@@ -36,6 +38,9 @@ constexpr std::array k_formats = {
     Format{.name = "SU2", .extensions = ".su2", .read_surface = read_su2, .write_surface = write_su2, .read_volume = read_volume_su2, .write_volume = write_volume_su2,
            .carries_patch_names = true},
     Format{.name = "VTU", .extensions = ".vtu", .read_surface = read_surface_vtu, .write_surface = write_surface_vtu, .read_volume = read_volume_vtu, .write_volume = write_volume_vtu, .carries_patch_names = true},
+    Format{.name = "OpenFOAM", .extensions = ".foam .bin.foam polymesh", .read_volume = read_volume_foam, .write_volume = write_volume_foam, .carries_patch_names = true},
+    Format{.name = "Edge", .extensions = ".bmsh .v2.bmsh", .read_volume = read_volume_edge, .write_volume = write_volume_edge, .carries_patch_names = true},
+    Format{.name = "Edge text", .extensions = ".amsh", .read_volume = read_volume_edge, .carries_patch_names = true},
 };
 
 /// Calls f(extension) for each blank-separated word.
@@ -62,7 +67,7 @@ std::string known_extensions() {
 }
 
 std::string lower_case_name(const std::filesystem::path& path) {
-  std::string name = path.filename().string();
+  std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();  // a folder may end in a slash
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (name.ends_with(".gz")) name.resize(name.size() - 3);
   return name;
@@ -120,7 +125,7 @@ const Format& format_of(const std::filesystem::path& path) {
 const Format& format_to_write(const std::filesystem::path& path, FormatUse use, std::string_view name) {
   const std::string attempted = "writing " + path.string();
   const std::string what = use == FormatUse::write_surface ? "surface" : "volume mesh";
-  if (lower_case_name(path).size() != path.filename().string().size())
+  if (path.has_filename() && lower_case_name(path).size() != path.filename().string().size())
     throw Error({.code = ErrorCode::unsupported_format, .attempted = attempted, .problem = "files are not gzipped on writing"});
   std::vector<const Format*> candidates;
   if (name.empty()) {

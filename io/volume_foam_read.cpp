@@ -88,6 +88,7 @@ void read_boundary(const std::filesystem::path& folder, std::uint64_t n_internal
 }  // namespace
 
 std::filesystem::path polymesh_folder(const std::filesystem::path& path) {
+  if (!path.has_filename() && path.has_parent_path()) return polymesh_folder(path.parent_path());  // ends in a slash
   if (path.filename() == "polyMesh") return path;
   if (std::filesystem::is_regular_file(path)) return path.parent_path() / "constant" / "polyMesh";
   return path / "constant" / "polyMesh";

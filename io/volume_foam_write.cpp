@@ -1,5 +1,7 @@
 // polyMesh writer: five files in a new folder. Inner faces first, by their lower cell and then by the other; then the boundary, patch by patch.
 #include <algorithm>
+#include <cctype>
+#include <iterator>
 #include <limits>
 
 #include "io/atomic_folder.h"
@@ -254,7 +256,7 @@ class FoamWriter {
 
 void write_volume_foam(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
   const std::filesystem::path folder_path = polymesh_folder(path);
-  std::string name = path.filename().string();
+  std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const FoamWriter writer(mesh, folder_path, name.ends_with(".bin.foam"), context);
   AtomicFolder folder(folder_path, "faces");

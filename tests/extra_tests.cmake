@@ -31,6 +31,7 @@ endif()
 
 # The program itself is run by the tests of scripting/, and every script of scripts/ by a test of its own, in a folder of its own.
 add_dependencies(test_scripting sterna)
+add_dependencies(test_io_volume sterna)
 file(GLOB scripts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/scripts/*.lua)
 foreach(script ${scripts})
   get_filename_component(name ${script} NAME_WE)

@@ -1,0 +1,208 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "io/volume_file.h"
+#include "tests/io/volume/openfoam_tools.h"
+#include "tests/io/volume/round_trip.h"
+#include "tests/io/volume/volume_tools.h"
+#include "tests/support/data.h"
+#include "tests/support/hybrid_shapes.h"
+#include "tests/support/process.h"
+
+namespace sterna::io {
+namespace {
+
+using test::CellOrder;
+
+HybridMesh read(const std::filesystem::path& path) { return read_volume_file(path, RunContext({.threads = 2})); }
+void write(const HybridMesh& mesh, const std::filesystem::path& path) { write_volume_file(mesh, path, RunContext({.threads = 2})); }
+
+TEST(Foam, RoundTripOfMixedMeshes) {
+  const auto folder = test::scratch();
+  for (const std::string name : {"text.foam", "binary.bin.foam"}) {
+    SCOPED_TRACE(name);
+    for (const HybridMesh& mesh : {test::six_patch_mesh(), test::hexahedra_block(3), test::hexahedron_with_roof(), test::sphere_shell(4, {.n_layers = 5, .collapsed = {3, 50, 51}})})
+      test::expect_round_trip(mesh, folder / name, CellOrder::rotated);
+  }
+  test::expect_round_trip(test::six_patch_mesh(), folder / "a" / "case" / "constant" / "polyMesh", CellOrder::rotated);
+}
+
+TEST(Foam, SamplesByteForByte) {
+  STERNA_NEEDS_SHARED_DATA();
+  const auto samples = test::shared_data() / "formats", folder = test::scratch();
+  for (const std::string body : {"pt", "mix4"}) {
+    SCOPED_TRACE(body);
+    HybridMesh mesh = read(samples / (body + ".foam"));
+    EXPECT_EQ(count_cells(mesh).total(), body == "pt" ? 2 : 4);
+    EXPECT_NEAR(test::volume_of(mesh), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // the figures of formats.md, section 14, to their digits
+    EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
+    EXPECT_EQ(mesh.patches[PatchId(0)], (Patch{"wall", PatchKind::wall}));
+    EXPECT_EQ(read(samples / (body + ".foam") / "constant" / "polyMesh/").points, mesh.points);
+    if (body == "mix4") continue;  // its cells are numbered by the generator: hexahedron, prism, pyramid, tetrahedron
+    write(mesh, folder / "out.foam");
+    EXPECT_EQ(test::all_bytes(folder / "out.foam" / "constant"), test::all_bytes(samples / "pt.foam" / "constant"));
+  }
+}
+
+/// Every check passes but those of quality in `allowed`, by a part of their line: a mesh of thin cells has small determinants.
+void expect_clean(const std::string& output, const std::vector<std::string>& allowed) {
+  for (const char* const line : {"Boundary definition OK.", "Cell to face addressing OK.", "Point usage OK.", "Upper triangular ordering OK.", "Face vertices OK.", "Topological cell zip-up check OK.",
+                                 "Face-face connectivity OK.", "Number of regions: 1 (OK).", "Cell volumes OK.", "Face pyramids OK."})
+    EXPECT_NE(output.find(line), std::string::npos) << line << "\n" << output;
+  EXPECT_TRUE(std::regex_search(output, std::regex("Boundary openness \\(.*\\) OK"))) << output;
+  std::istringstream lines(output);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("***") == std::string::npos) continue;
+    EXPECT_TRUE(std::any_of(allowed.begin(), allowed.end(), [&](const std::string& part) { return line.find(part) != std::string::npos; })) << line << "\n" << output;
+  }
+}
+
+TEST(Foam, CheckMeshFindsNothing) {
+  const auto folder = test::scratch();
+  const HybridMesh mesh = test::six_patch_mesh();
+  for (const std::string name : {"text.foam", "binary.bin.foam"}) {
+    test::make_foam_case(folder / name);
+    write(mesh, folder / name);
+    const auto output = test::run_openfoam("checkMesh", {"-case", name, "-allTopology", "-allGeometry"}, folder);
+    STERNA_NEEDS_OPENFOAM(output);
+    const CellCounts counts = count_cells(mesh);
+    EXPECT_EQ(test::number_after(*output, "prisms:"), static_cast<double>(counts.prisms));
+    EXPECT_EQ(test::number_after(*output, "pyramids:"), static_cast<double>(counts.pyramids));
+    EXPECT_EQ(test::number_after(*output, "tetrahedra:"), static_cast<double>(counts.tetrahedra));
+    EXPECT_EQ(test::number_after(*output, "    points:"), static_cast<double>(mesh.points.size()));
+    expect_clean(*output, {"small determinant"});
+  }
+}
+
+/// A wing from its STL file to OpenFOAM. Quality is the mesh's own; what the file answers for is in expect_clean().
+TEST(Foam, CheckMeshOnARealMesh) {
+  STERNA_NEEDS_SHARED_DATA();
+  const auto folder = test::scratch();
+  const std::string script = "local wall = read_surface{ \"" + (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() + "\", split_angle = 60*deg }\n"
+                             "local mesh = volume_mesh{ wall, layers = 6, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length } }\n"
+                             "mesh:write(\"case.bin.foam\")\n";
+  std::ofstream(folder / "case.lua") << script;
+  test::make_foam_case(folder / "case.bin.foam");
+  STERNA_NEEDS_OPENFOAM(test::run_openfoam("checkMesh", {"-help"}, folder));
+  const test::ProcessResult run = test::run_process(test::sterna_program(), {"--quiet", "run", "case.lua"}, folder);
+  ASSERT_EQ(run.status, 0) << run.output << run.errors;
+  const auto output = test::run_openfoam("checkMesh", {"-case", "case.bin.foam", "-allTopology", "-allGeometry"}, folder);
+  STERNA_NEEDS_OPENFOAM(output);
+  EXPECT_GT(test::number_after(*output, "prisms:"), 4000.0);
+  expect_clean(*output, {"skewness", "face tets", "small determinant", "Concave cells", "interpolation weight", "volume ratio"});
+}
+
+TEST(Foam, HostileFiles) {
+  const auto folder = test::scratch() / "case.foam", poly = folder / "constant" / "polyMesh";
+  write(test::hexahedron_with_roof(), folder);
+  const auto wrong = [&](const std::string& file, const std::string& from, const std::string& to, const std::string& message, ErrorCode code = ErrorCode::file_malformed) {
+    SCOPED_TRACE(file + ": " + to);
+    const std::string bytes = test::bytes_of(poly / file);
+    std::string text = bytes;
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << text;
+    std::ofstream(poly / file, std::ios::binary) << text.replace(at, from.size(), to);
+    test::expect_error(code, message, [&] { read(folder); });
+    std::ofstream(poly / file, std::ios::binary) << bytes;
+  };
+  wrong("points", "vectorField", "labelList", "found the class \"labelList\", expected vectorField");
+  wrong("points", "9\n(", "999999999\n(", "999999999 as the number of points");
+  wrong("points", "(0.5 0.5 1.5)", "(0.5 nan 1.5)", "line 20");
+  wrong("points", "(0.5 0.5 1.5)", "(0.5 0.5)", "found \")\", expected a coordinate");
+  wrong("points", "ascii", "binary", "byte");
+  wrong("faces", "4(", "4000000(", "as the number of nodes of a face");
+  wrong("faces", "4(", "7(", "expected a node of a face");
+  wrong("faces", "3(", "2(", "expected \")\"");
+  wrong("owner", "\n1\n", "\n10\n", "found 10 as the cell of a face");
+  wrong("owner", "\n1\n", "\n0\n", "faces");
+  wrong("owner", "10\n(", "9\n(", "expected \")\"");
+  wrong("neighbour", "1\n(\n1\n)", "4000000000{1}", "expected at most 10");
+  wrong("boundary", "startFace 1", "startFace 2", "starts at face 2, expected 1");
+  wrong("boundary", "nFaces 4", "nFaces 400", "ends behind the last face");
+  wrong("boundary", "nFaces", "nfaces", "has no type, nFaces or startFace");
+  for (const std::string name : {"points", "faces", "owner", "neighbour", "boundary"}) {
+    std::filesystem::rename(poly / name, poly / "away");
+    test::expect_error(ErrorCode::file_not_found, name, [&] { read(folder); });
+    std::filesystem::rename(poly / "away", poly / name);
+  }
+  read(folder);
+}
+
+TEST(Foam, NeverCrashesOnDamagedFiles) {
+  for (const std::string name : {"case.foam", "case.bin.foam"}) {
+    const auto folder = test::scratch() / name;
+    write(test::hexahedron_with_roof(), folder);
+    for (const std::string file : {"points", "faces", "owner", "neighbour", "boundary"}) {
+      const auto path = folder / "constant" / "polyMesh" / file;
+      const std::string bytes = test::bytes_of(path);
+      for (std::size_t n = 0; n < 2 * bytes.size(); n += 11) {
+        std::string damaged = n < bytes.size() ? bytes.substr(0, n) : bytes;
+        if (n >= bytes.size()) damaged[n - bytes.size()] = static_cast<char>(damaged[n - bytes.size()] ^ 0x15);
+        std::ofstream(path, std::ios::binary) << damaged;
+        try {
+          read(folder);
+        } catch (const Error& error) {
+          EXPECT_TRUE(error.code() == ErrorCode::file_malformed || error.code() == ErrorCode::unsupported_format) << error.what();
+        }
+      }
+      std::ofstream(path, std::ios::binary) << bytes;
+    }
+  }
+}
+
+TEST(Foam, TheOldFolderStaysUntilTheNewOneIsComplete) {
+  const auto folder = test::scratch() / "case.foam", poly = folder / "constant" / "polyMesh";
+  write(test::hexahedron_with_roof(), folder);
+  std::ofstream(poly / "cellZones") << "of the old mesh";
+  const std::string bytes = test::all_bytes(folder);
+  {
+    const test::FullDisk full(2000);
+    test::expect_error(ErrorCode::write_failed, "", [&] { write(test::six_patch_mesh(), folder); });
+  }
+  EXPECT_EQ(test::all_bytes(folder), bytes);
+  EXPECT_EQ(test::files_in(folder / "constant"), std::vector<std::string>{"polyMesh"});
+  write(test::hexahedra_block(2), folder);
+  EXPECT_THAT(test::files_in(poly), testing::ElementsAre("boundary", "faces", "neighbour", "owner", "points"));
+  EXPECT_EQ(test::files_in(folder / "constant"), std::vector<std::string>{"polyMesh"});
+
+  const auto other = folder / "other" / "polyMesh";
+  std::filesystem::create_directories(other / "precious");
+  test::expect_error(ErrorCode::write_failed, "something else", [&] { write(test::hexahedra_block(2), other); });
+  EXPECT_TRUE(std::filesystem::exists(other / "precious"));
+}
+
+TEST(Foam, MeshesThatDoNotCloseAreRefused) {
+  const auto path = test::scratch() / "case.foam";
+  HybridMesh mesh = test::six_patch_mesh();
+  mesh.boundary_quads.pop_back();
+  test::expect_error(ErrorCode::mesh_invalid, "belongs to one cell only and is not in the boundary", [&] { write(mesh, path); });
+  mesh = test::six_patch_mesh();
+  mesh.boundary_quads.push_back(mesh.boundary_quads.back());
+  test::expect_error(ErrorCode::mesh_invalid, "occurs more than twice", [&] { write(mesh, path); });
+  mesh = test::six_patch_mesh();
+  mesh.boundary_triangles[0].nodes[0] = NodeId(100000);
+  test::expect_error(ErrorCode::mesh_invalid, "100000", [&] { write(mesh, path); });
+  mesh = test::six_patch_mesh();
+  mesh.points[NodeId(7)].x = std::numeric_limits<double>::quiet_NaN();
+  test::expect_error(ErrorCode::mesh_invalid, "node 7 are not finite", [&] { write(mesh, path); });
+  EXPECT_FALSE(std::filesystem::exists(path / "constant" / "polyMesh"));
+}
+
+TEST(Foam, NamesAreMappedWithAMessage) {
+  std::vector<std::string> log;
+  HybridMesh mesh = test::hexahedron_with_roof();
+  mesh.patches[PatchId(0)].name = "2nd wall; left (\xC3\xBC)";
+  mesh.patches[PatchId(1)].name = "";
+  const auto path = test::scratch() / "case.foam";
+  write_volume_file(mesh, path, RunContext({.threads = 1, .log = [&](LogLevel level, std::string_view line) {
+                                              if (level == LogLevel::warning) log.emplace_back(line);
+                                            }}));
+  EXPECT_THAT(log, testing::ElementsAre(testing::HasSubstr("\"_2nd_wall__left__\xC3\xBC_\""), testing::HasSubstr("\"patch_2\"")));
+  EXPECT_EQ(read(path).patches[PatchId(0)].name, "_2nd_wall__left__\xC3\xBC_");
+}
+
+}  // namespace
+}  // namespace sterna::io

@@ -1,0 +1,28 @@
+// OpenFOAM of Debian as an independent reader of polyMesh folders and Fluent files.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sterna::test {
+
+/// Makes the few files without which no tool of OpenFOAM starts.
+void make_foam_case(const std::filesystem::path& folder);
+
+/// Output of a tool run in a case ("checkMesh"); nullopt: OpenFOAM is not installed (a failure was added when STERNA_REQUIRE_DATA=1, else skip the test).
+std::optional<std::string> run_openfoam(const std::string& tool, const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+
+/// The number behind `label` in a tool's output, e.g. number_after(out, "prisms:"); -1 when there is none.
+double number_after(const std::string& output, const std::string& label);
+
+}  // namespace sterna::test
+
+/// Skips the test where OpenFOAM is not installed.
+#define STERNA_NEEDS_OPENFOAM(output)                                               \
+  do {                                                                              \
+    if (!(output)) GTEST_SKIP() << "the Debian package openfoam is not installed"; \
+  } while (false)
