@@ -6,6 +6,7 @@
 
 #include "geom/base/error.h"
 #include "io/file_buffer.h"
+#include "io/surface_cgns.h"
 #include "io/surface_msh.h"
 #include "io/surface_obj.h"
 #include "io/surface_off.h"
@@ -15,6 +16,7 @@
 #include "io/surface_ugrid.h"
 #include "io/surface_vtu.h"
 #include "io/text_scanner.h"
+#include "io/volume_cgns.h"
 #include "io/volume_edge.h"
 #include "io/volume_foam.h"
 #include "io/volume_su2.h"
@@ -35,6 +37,8 @@ constexpr std::array k_formats = {
     Format{.name = "Gmsh MSH", .extensions = ".msh", .is_content = is_gmsh, .read_surface = read_msh, .carries_patch_names = true},
     Format{.name = "UGRID", .extensions = ".lb8.ugrid .b8.ugrid .lb8l.ugrid .b8l.ugrid .lb4.ugrid .b4.ugrid .ugrid", .read_surface = read_ugrid, .write_surface = write_ugrid,
            .read_volume = read_volume_ugrid, .write_volume = write_volume_ugrid, .carries_patch_names = true},
+    Format{.name = "CGNS", .extensions = ".cgns", .read_surface = read_cgns, .write_surface = write_cgns, .read_volume = read_volume_cgns, .write_volume = write_volume_cgns,
+           .carries_patch_names = true},
     Format{.name = "SU2", .extensions = ".su2", .read_surface = read_su2, .write_surface = write_su2, .read_volume = read_volume_su2, .write_volume = write_volume_su2,
            .carries_patch_names = true},
     Format{.name = "VTU", .extensions = ".vtu", .read_surface = read_surface_vtu, .write_surface = write_surface_vtu, .read_volume = read_volume_vtu, .write_volume = write_volume_vtu, .carries_patch_names = true},

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """Reads a mesh with an independent reader and prints what it holds, as "key value" lines for a test to compare.
 
-usage: verify_mesh.py meshio|vtk FILE
+usage: verify_mesh.py meshio|vtk|vtk-cgns FILE
 
   points N; bounds xmin xmax ymin ymax zmin zmax; cells.TYPE N and volume.TYPE V (signed, VTK's or SIDS' sense: positive = right winding);
   faces.MARKER N (boundary faces by marker number); enclosed V (volume by the divergence theorem over the boundary faces, positive = normals outward);
-  layer.LAYER N (cells by layer, VTU only); field.NAME VALUE.
+  layer.LAYER N (cells by layer, VTU only); field.NAME VALUE; patch.NAME MARKER (CGNS).
 Exit status 77: the Python module is not installed.
 """
 import sys
@@ -133,4 +133,41 @@ def with_vtk(path):
         print(f"vtk.smallest {volume[solid].min():.17g}")
 
 
-{"meshio": with_meshio, "vtk": with_vtk}[sys.argv[1]](sys.argv[2])
+def blocks_of_grid(grid):
+    """kind -> node numbers, in SIDS order as far as the file has them so."""
+    types = vtk_to_numpy(grid.GetCellTypesArray())
+    connectivity = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    offsets = vtk_to_numpy(grid.GetCells().GetOffsetsArray())
+    blocks = {}
+    for number in np.unique(types):
+        which = np.nonzero(types == number)[0]
+        n = offsets[which[0] + 1] - offsets[which[0]]
+        blocks[VTK_NAMES[int(number)]] = connectivity[offsets[which][:, None] + np.arange(n)]
+    return blocks
+
+
+def with_vtk_cgns(path):
+    reader = vtk.vtkCGNSReader()
+    reader.SetFileName(path)
+    reader.UpdateInformation()
+    reader.EnableAllBases()
+    reader.SetLoadBndPatch(1)
+    reader.Update()
+    zone = reader.GetOutput().GetBlock(0).GetBlock(0)
+    inside, patches = zone.GetBlock(0), zone.GetBlock(1)
+    points = vtk_to_numpy(inside.GetPoints().GetData())
+    blocks = blocks_of_grid(inside)  # VTK does not turn CGNS's wedges: SIDS order
+    markers = {}
+    for i in range(patches.GetNumberOfBlocks()):
+        grid = patches.GetBlock(i)
+        own = vtk_to_numpy(grid.GetPoints().GetData())
+        if not np.array_equal(own, points):
+            sys.exit("a patch has points of its own")
+        for kind, cells in blocks_of_grid(grid).items():
+            blocks[kind] = np.concatenate([blocks[kind], cells]) if kind in blocks else cells
+            markers[kind] = np.concatenate([markers.get(kind, np.zeros(0, int)), np.full(len(cells), i + 1)])
+        print(f"patch.{patches.GetMetaData(i).Get(vtk.vtkCompositeDataSet.NAME())} {i + 1}")
+    report(points, blocks, markers, {}, {})
+
+
+{"meshio": with_meshio, "vtk": with_vtk, "vtk-cgns": with_vtk_cgns}[sys.argv[1]](sys.argv[2])

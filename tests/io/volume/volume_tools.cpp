@@ -1,6 +1,7 @@
 #include "tests/io/volume/volume_tools.h"
 
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "io/volume_file.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"
+#include "tests/support/process.h"
 
 namespace sterna::test {
 namespace {
@@ -141,6 +144,92 @@ HybridMesh mixed_mesh() {
   // Coordinates that are no short decimals.
   for (Point& p : mesh.points) p = {p.x / 3.0, p.y / 7.0, p.z / 11.0};
   return mesh;
+}
+
+HybridMesh mesh_of_six_patches() {
+  HybridMesh mesh = mixed_mesh();
+  const auto add = [&](const char* name, PatchKind kind) { return mesh.patches.push_back({name, kind}); };
+  const PatchId symmetry = add("symmetry", PatchKind::symmetry), inflow = add("engine_intake", PatchKind::inflow), outflow = add("engine_exhaust", PatchKind::outflow);
+  // The sides of the plate by where they lie: y = 0 is the symmetry plane, x = 0 and its opposite are flown through.
+  Box box;
+  for (const Point& p : mesh.points) box.add(p);
+  const auto lies_at = [&](std::span<const NodeId> nodes, std::size_t axis, double place) {
+    return std::all_of(nodes.begin(), nodes.end(), [&](NodeId node) { return mesh.points[node][axis] == place; });
+  };
+  const auto assign = [&](auto& faces) {
+    for (auto& face : faces) {
+      if (lies_at(face.nodes, 2, box.min.z) || lies_at(face.nodes, 2, box.max.z)) continue;
+      if (lies_at(face.nodes, 1, 0.0)) face.patch = symmetry;
+      else if (lies_at(face.nodes, 0, 0.0)) face.patch = inflow;
+      else if (lies_at(face.nodes, 0, box.max.x)) face.patch = outflow;
+    }
+  };
+  assign(mesh.boundary_triangles);
+  assign(mesh.boundary_quads);
+  return mesh;
+}
+
+void expect_equal_meshes(const HybridMesh& back, const HybridMesh& mesh) {
+  const HybridMesh expected = explicit_cells(mesh);
+  EXPECT_EQ(back.points, expected.points);
+  EXPECT_EQ(back.prisms, expected.prisms);
+  EXPECT_EQ(back.pyramids, expected.pyramids);
+  EXPECT_EQ(back.hexahedra, expected.hexahedra);
+  EXPECT_EQ(back.tetrahedra, expected.tetrahedra);
+  EXPECT_EQ(back.patches, expected.patches);
+  const auto sorted = [](const auto& faces, const Column<PatchId, Patch>& patches) {
+    std::map<std::string, std::vector<std::vector<NodeId>>> by_patch;
+    for (const auto& face : faces) by_patch[patches[face.patch].name].emplace_back(face.nodes.begin(), face.nodes.end());
+    return by_patch;
+  };
+  EXPECT_EQ(sorted(back.boundary_triangles, back.patches), sorted(mesh.boundary_triangles, mesh.patches));
+  EXPECT_EQ(sorted(back.boundary_quads, back.patches), sorted(mesh.boundary_quads, mesh.patches));
+  EXPECT_NEAR(enclosed_volume(back), volume_of(mesh), 1e-12 * volume_of(mesh));  // rounding of sums
+}
+
+std::optional<std::string> output_of_tool(const std::string& program, const std::vector<std::string>& arguments) {
+  const std::filesystem::path path = std::filesystem::path("/usr/bin") / program;
+  if (!std::filesystem::exists(path)) {
+    const char* const required = std::getenv("STERNA_REQUIRE_DATA");
+    if (required && std::string(required) == "1") ADD_FAILURE() << "STERNA_REQUIRE_DATA=1, but " << path << " is not installed";
+    return std::nullopt;
+  }
+  const ProcessResult result = run_process(path, arguments, std::filesystem::temp_directory_path());
+  EXPECT_EQ(result.status, 0) << program << "\n" << result.output << result.errors;
+  return result.output + result.errors;
+}
+
+void expect_survives_damage(const std::filesystem::path& victim, const std::string& name) {
+  // In memory, where there is room: some thousand files are written.
+  const std::filesystem::path folder =
+      std::filesystem::is_directory("/dev/shm") ? std::filesystem::path("/dev/shm") / ("sterna_volume_test_" + std::to_string(::getpid())) : scratch() / "damaged";
+  std::filesystem::create_directories(folder);
+  const std::string bytes = bytes_of(victim);
+  int n_refused = 0;
+  const auto attempt = [&](const std::string& damaged, const std::string& damage) {
+    SCOPED_TRACE(victim.filename().string() + ", " + damage);
+    std::ofstream(folder / name, std::ios::binary) << damaged;
+    try {
+      io::read_volume_file(folder / name, RunContext({.threads = 1}));
+    } catch (const Error& error) {
+      ++n_refused;
+      EXPECT_TRUE(error.code() == ErrorCode::file_malformed || error.code() == ErrorCode::unsupported_format) << error.what();
+    }
+  };
+  constexpr std::size_t k_attempts = 400;
+  const std::size_t step = std::max<std::size_t>(1, bytes.size() / k_attempts);
+  for (std::size_t n = 0; n < bytes.size(); n += step) attempt(bytes.substr(0, n), "cut to " + std::to_string(n) + " bytes");
+  EXPECT_GT(n_refused, 0);
+  constexpr std::string_view k_changes = "\x01\x80\xff\x10\x55";
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < bytes.size(); i += 1 + step / 8) {
+    if (bytes[i] == ' ') continue;  // padding, mostly
+    std::string damaged = bytes;
+    damaged[i] = static_cast<char>(damaged[i] ^ k_changes[n++ % k_changes.size()]);
+    attempt(damaged, "byte " + std::to_string(i) + " changed");
+  }
+  std::error_code ignored;  // a few kB may remain in memory; no reason to fail
+  std::filesystem::remove_all(folder, ignored);
 }
 
 }  // namespace sterna::test

@@ -41,6 +41,19 @@ double enclosed_volume(const HybridMesh& mesh);
 /// Half a shell about a plate: prisms, pyramids, tets, triangles and quads, patches plate, farfield, side; one triangle of collapsed lines.
 HybridMesh mixed_mesh();
 
+/// A closed body with prisms, pyramids, tetrahedra and six patches of four kinds, two of which have triangles and quads.
+HybridMesh mesh_of_six_patches();
+
+/// `back`, read from a file, has the cells, coordinates to the bit, boundary faces (patch by patch, in order) and patches of `mesh`.
+void expect_equal_meshes(const HybridMesh& back, const HybridMesh& mesh);
+
+/// The output of a program of Debian's that reads files of ours. nullopt: not installed (a failure was added when STERNA_REQUIRE_DATA=1).
+std::optional<std::string> output_of_tool(const std::string& program, const std::vector<std::string>& arguments);
+
+/// The file `victim`, cut at many lengths and with many bytes changed, is read or refused with file_malformed or unsupported_format, under the name `name`
+/// (whose extension says the format).
+void expect_survives_damage(const std::filesystem::path& victim, const std::string& name);
+
 /// Runs f, which must throw an Error of that code whose text contains `text`.
 template <class F>
 void expect_error(ErrorCode code, const std::string& text, const F& f) {
@@ -59,4 +72,10 @@ void expect_error(ErrorCode code, const std::string& text, const F& f) {
 #define STERNA_NEEDS_READER(report)                                                      \
   do {                                                                                   \
     if (!(report)) GTEST_SKIP() << "the Python module of the independent reader is not installed"; \
+  } while (false)
+
+/// Skips the test where a program is not installed.
+#define STERNA_NEEDS_TOOL(output, what)                         \
+  do {                                                          \
+    if (!(output)) GTEST_SKIP() << what " is not installed"; \
   } while (false)

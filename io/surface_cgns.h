@@ -1,0 +1,18 @@
+// CGNS with a surface.
+#pragma once
+
+#include <filesystem>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/surface_soup.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::io {
+
+/// The faces of a CGNS file, quads split: see read_boundary_cgns.
+SurfaceSoup read_cgns(const std::filesystem::path& path, const RunContext& context);
+
+/// A base of two dimensions, a section and a family for each patch: see write_volume_cgns.
+void write_cgns(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
+
+}  // namespace sterna::io
