@@ -32,25 +32,13 @@ FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, co
   return boundary;
 }
 
-HybridMesh assemble(const LayerBase& base, Extrusion extrusion, const TriMesh& outer, const FillBoundary& boundary, TetraResult tets,
-                    const RunContext& context) {
+HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const TriMesh& outer) {
   HybridMesh mesh;
   mesh.layers = std::move(extrusion.layers);
   const std::size_t n_layer_nodes = extrusion.points.size();
   std::vector<Point> points = std::move(extrusion.points);
-  points.reserve(n_layer_nodes + outer.n_vertices() + tets.new_points.size());
   points.insert(points.end(), outer.points.begin(), outer.points.end());
-  points.insert(points.end(), tets.new_points.begin(), tets.new_points.end());
   mesh.points = Column<NodeId, Point>(std::move(points));
-
-  const std::size_t n_boundary = boundary.points.size();
-  mesh.tetrahedra.resize(tets.tetrahedra.size());
-  parallel_for(context, tets.tetrahedra.size(), [&](std::size_t i) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t p = tets.tetrahedra[i][k];
-      mesh.tetrahedra[i][k] = p < n_boundary ? boundary.point2node[p] : NodeId(n_layer_nodes + outer.n_vertices() + (p - n_boundary));
-    }
-  });
 
   mesh.patches = base.wall.patches;
   const std::size_t n_wall_patches = mesh.patches.size();
@@ -67,6 +55,20 @@ HybridMesh assemble(const LayerBase& base, Extrusion extrusion, const TriMesh& o
     add_reversed({node(0), node(1), node(2)}, PatchId(n_wall_patches + outer.triangle_patch[t].index()));
   }
   return mesh;
+}
+
+void add_tetrahedra(const FillBoundary& boundary, const TetraResult& tets, HybridMesh& mesh, const RunContext& context) {
+  const std::size_t n_boundary = boundary.points.size();
+  const std::size_t n_before = mesh.points.size();
+  std::vector<Point>& points = mesh.points.raw();
+  points.insert(points.end(), tets.new_points.begin(), tets.new_points.end());
+  mesh.tetrahedra.resize(tets.tetrahedra.size());
+  parallel_for(context, tets.tetrahedra.size(), [&](std::size_t i) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t p = tets.tetrahedra[i][k];
+      mesh.tetrahedra[i][k] = p < n_boundary ? boundary.point2node[p] : NodeId(n_before + (p - n_boundary));
+    }
+  });
 }
 
 }  // namespace sterna::volmesh

@@ -18,8 +18,9 @@ struct FillBoundary {
 };
 FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const TriMesh& outer);
 
-/// Nodes: lines of the layer, outer boundary, Steiner points. Patches: the wall's, then the outer ones.
-HybridMesh assemble(const LayerBase& base, Extrusion extrusion, const TriMesh& outer, const FillBoundary& boundary, TetraResult tets,
-                    const RunContext& context);
+/// All of the mesh but its tetrahedra. Nodes: lines of the layer, outer boundary. Patches: the wall's, then the outer ones.
+HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const TriMesh& outer);
+/// \pre mesh of assemble_layers(), `boundary` of the same. \post Steiner points follow its nodes.
+void add_tetrahedra(const FillBoundary& boundary, const TetraResult& tets, HybridMesh& mesh, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -1,7 +1,10 @@
 #include "volmesh/volume_mesh.h"
 
 #include <numbers>
+#include <optional>
+#include <utility>
 
+#include "geom/base/alongside.h"
 #include "geom/base/error.h"
 #include "volmesh/assemble.h"
 #include "volmesh/envelope/build_envelope.h"
@@ -57,13 +60,28 @@ Extrusion extrude_clear_of_collisions(const LayerBase& base, const VolumeMeshOpt
   }
 }
 
-void certify_cells(const Extrusion& extrusion, const RunContext& context, EnvelopeCertificate& certificate) {
-  const LayerCertificate cells = certify_layer(extrusion.layers, extrusion.points, context);
+/// What can be found out about the layer while an engine makes the tetrahedra.
+struct LayerProof {
+  LayerCertificate cells;
+  LayerCheck check;
+};
+
+void add_cells(const LayerCertificate& cells, EnvelopeCertificate& certificate) {
   certificate.n_layer_cells = cells.n_cells;
   certificate.n_invalid_layer_cells = cells.n_cells - cells.n_proved;
   if (cells.worst_column < 0) return;
   certificate.worst_layer_cell = {cells.min_quality, cells.worst_place,
                                   "layer " + std::to_string(cells.worst_layer) + " on wall triangle " + std::to_string(cells.worst_column)};
+}
+
+TetraResult fill_volume(const TriMesh& wall, const FillBoundary& boundary, const VolumeMeshOptions& options, const RunContext& context) {
+  const std::vector<Point> holes = find_cavity_points(wall, context);
+  const TetraBoundary domain{boundary.points, boundary.triangles, holes, true, boundary.patch_names, boundary.triangle_patch};
+  const SizeField sizes = [&] {
+    const StageTimer timer(context, "tetrahedra/size");
+    return build_size_field(domain, options.sources, options.size, context);
+  }();
+  return fill(domain, &sizes, options.tetrahedra, context);
 }
 
 void require_valid(const CheckReport& report) {
@@ -112,7 +130,6 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
   {
     const StageTimer timer(context, "certificate");
     result.certificate = certify_envelope(base, collider, envelope, context);
-    certify_cells(extrusion, context, result.certificate);
     require_proved(result.certificate);
   }
   result.layer = report_layer(base, options.envelope, envelope, extrusion, context);
@@ -121,13 +138,20 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
   for (const std::string& warning : result.layer.warnings) context.warn(warning);
 
   const FillBoundary boundary = fill_boundary(base, extrusion, outer);
+  result.mesh = assemble_layers(base, std::move(extrusion), outer);
+  result.mesh.request = layer_request(options.envelope, envelope);
   TetraResult tets;
+  std::optional<LayerCheck> layer_check;
   {
     const StageTimer timer(context, "tetrahedra");
-    const std::vector<Point> holes = find_cavity_points(wall, context);
-    const TetraBoundary domain{boundary.points, boundary.triangles, holes, true, boundary.patch_names, boundary.triangle_patch};
-    const SizeField sizes = build_size_field(domain, options.sources, options.size, context);
-    tets = fill(domain, &sizes, options.tetrahedra, context.part("tetrahedra", 0.25, 0.9));
+    Alongside<LayerProof> proof(context, [&mesh = std::as_const(result.mesh)](const RunContext& side) {
+      return LayerProof{certify_layer(mesh.layers, mesh.points.raw(), side), check_ahead(mesh, {}, side)};
+    });
+    tets = fill_volume(wall, boundary, options, context.part("tetrahedra", 0.25, 0.9));
+    LayerProof of_layer = proof.take();
+    add_cells(of_layer.cells, result.certificate);
+    require_proved(result.certificate);
+    layer_check.emplace(std::move(of_layer.check));
   }
   result.tetra_engine = tets.engine;
   result.tetra_failures = tets.failures;
@@ -140,12 +164,11 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
   }
   {
     const StageTimer timer(context, "assemble");
-    result.mesh = assemble(base, std::move(extrusion), outer, boundary, std::move(tets), context);
-    result.mesh.request = layer_request(options.envelope, envelope);
+    add_tetrahedra(boundary, tets, result.mesh, context);
   }
   {
     const StageTimer timer(context, "check");
-    result.check = check(result.mesh, {}, context.part("check", 0.9, 1.0));
+    result.check = check(result.mesh, {}, context.part("check", 0.9, 1.0), &*layer_check);
   }
   require_valid(result.check);
   return result;

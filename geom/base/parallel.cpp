@@ -5,6 +5,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "geom/base/run_context_state.h"
@@ -47,10 +48,11 @@ int resolve_threads(int threads) {
 
 class ThreadPool {
  public:
-  explicit ThreadPool(int count)
-      : threads(count), allowance(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count)), arena(count) {}
+  ThreadPool(int count, bool is_of_run) : threads(count), arena(count) {
+    if (is_of_run) allowance.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
+  }
   int threads;
-  tbb::global_control allowance;  ///< TBB caps at the hardware's threads by default; 7 threads must be possible on 2 cores
+  std::optional<tbb::global_control> allowance;  ///< TBB caps at the hardware's threads by default; 7 threads must be possible on 2 cores. The smallest of all rules
   tbb::task_arena arena;
 };
 
@@ -64,7 +66,7 @@ static void run_chunks(ThreadPool& pool, std::size_t n_chunks, const std::functi
 
 class ThreadPool {
  public:
-  explicit ThreadPool(int count) : threads(count) {}
+  ThreadPool(int count, bool) : threads(count) {}
   int threads;
 };
 
@@ -80,7 +82,8 @@ static void run_chunks(ThreadPool& pool, std::size_t n_chunks, const std::functi
 
 #endif
 
-std::shared_ptr<ThreadPool> make_thread_pool(int threads) { return std::make_shared<ThreadPool>(resolve_threads(threads)); }
+std::shared_ptr<ThreadPool> make_thread_pool(int threads) { return std::make_shared<ThreadPool>(resolve_threads(threads), true); }
+std::shared_ptr<ThreadPool> make_side_pool(int threads) { return std::make_shared<ThreadPool>(threads, false); }
 int thread_count(const ThreadPool& pool) { return pool.threads; }
 
 void parallel_chunks(const RunContext& context, std::size_t n, std::size_t chunk, detail::RangeFunction f) {
@@ -92,7 +95,7 @@ void parallel_chunks(const RunContext& context, std::size_t n, std::size_t chunk
     return;
   }
   FirstException failure;
-  run_chunks(*context.state().pool, n_chunks, [&](std::size_t i) {
+  run_chunks(pool_of(context), n_chunks, [&](std::size_t i) {
     try {
       context.check_stop();
       f(i * chunk, std::min(n, (i + 1) * chunk));

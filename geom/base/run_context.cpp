@@ -16,18 +16,27 @@ std::int64_t now_ns() {
 
 }  // namespace
 
-RunContext::RunContext(RunSettings settings) : state_(std::make_shared<State>()) {
-  state_->pool = make_thread_pool(settings.threads);
+RunContext::RunContext(RunSettings settings) : state_(std::make_shared<State>()), pool_(make_thread_pool(settings.threads)) {
   state_->settings = std::move(settings);
 }
 
-int RunContext::threads() const { return thread_count(*state_->pool); }
+RunContext RunContext::beside(int threads, std::stop_token stop) const {
+  RunContext result = *this;
+  result.pool_ = make_side_pool(threads);
+  result.is_beside_ = true;
+  result.beside_stop_ = std::move(stop);
+  return result;
+}
+
+ThreadPool& pool_of(const RunContext& context) { return *context.pool_; }
+
+int RunContext::threads() const { return thread_count(*pool_); }
 std::uint64_t RunContext::seed() const { return state_->settings.seed; }
 const std::filesystem::path& RunContext::dump_directory() const { return state_->settings.dump_directory; }
 std::stop_token RunContext::stop_token() const { return state_->settings.stop; }
 
 void RunContext::check_stop() const {
-  if (!state_->settings.stop.stop_requested()) return;
+  if (!state_->settings.stop.stop_requested() && !beside_stop_.stop_requested()) return;
   throw Error({.code = ErrorCode::cancelled, .attempted = stage_.empty() ? "run" : stage_, .problem = "stopped on request"});
 }
 
@@ -48,7 +57,7 @@ RunContext RunContext::part(std::string_view stage, double from, double to) cons
 
 void RunContext::progress(double share) const {
   check_stop();
-  if (!state_->settings.progress) return;
+  if (!state_->settings.progress || is_beside_) return;
   const auto now = std::chrono::steady_clock::now();
   const std::scoped_lock lock(state_->mutex);
   if (now - state_->last_progress < k_progress_interval) return;

@@ -13,6 +13,8 @@
 
 namespace sterna {
 
+class ThreadPool;  // parallel.cpp
+
 enum class LogLevel { debug, info, warning, error };
 
 /// One line of progress: the path of stages ("volume_mesh/envelope"), the share of the whole run done, in [0, 1].
@@ -53,6 +55,9 @@ class RunContext {
   void warn(std::string_view text) const { log(LogLevel::warning, text); }
   void log(LogLevel level, std::string_view text) const;
 
+  /// The same run with threads of its own and without progress, for work beside other work; `stop` ends that work alone. See alongside.h.
+  RunContext beside(int threads, std::stop_token stop) const;
+
   /// A context whose progress fills [from, to] of this one's and whose stage is named below this one's.
   RunContext part(std::string_view stage, double from, double to) const;
   /// Reports that `share` in [0, 1] of this context's part is done; also checks for a stop.
@@ -67,7 +72,11 @@ class RunContext {
   State& state() const { return *state_; }
 
  private:
+  friend ThreadPool& pool_of(const RunContext& context);
   std::shared_ptr<State> state_;
+  std::shared_ptr<ThreadPool> pool_;  ///< that of the state, or one of its own
+  bool is_beside_ = false;
+  std::stop_token beside_stop_;
   std::string stage_;
   double from_ = 0.0;
   double to_ = 1.0;

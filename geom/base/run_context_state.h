@@ -9,13 +9,14 @@
 
 namespace sterna {
 
-class ThreadPool;  // parallel.cpp
+/// The threads of a run; 0 = all of the machine.
 std::shared_ptr<ThreadPool> make_thread_pool(int threads);
+/// Threads beside those of a run.
+std::shared_ptr<ThreadPool> make_side_pool(int threads);
 int thread_count(const ThreadPool& pool);
 
 struct RunContext::State {
   RunSettings settings;
-  std::shared_ptr<ThreadPool> pool;
   std::mutex mutex;  ///< guards log, progress and times
   std::vector<StageTime> times;
   std::chrono::steady_clock::time_point last_progress{};

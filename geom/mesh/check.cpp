@@ -8,7 +8,8 @@ namespace sterna {
 
 using namespace check_parts;
 
-CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context) {
+CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context, const LayerCheck* ahead) {
+  const LayerCheck::Parts* const known = ahead ? ahead->parts() : nullptr;
   CheckReport report;
   report.n_nodes = static_cast<std::int64_t>(mesh.points.size());
   report.n_boundary_triangles = static_cast<std::int64_t>(mesh.boundary_triangles.size());
@@ -27,7 +28,8 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
     report_faces(mesh, slots, match, findings);
     context.progress(0.3);
 
-    const CellScan scan = scan_cells(mesh, cells, options.quality, options.limits, context);
+    const CellScan scan = scan_explicit_cells(known ? known->columns : scan_columns(mesh, options.quality, options.limits, context), mesh, cells, options.quality,
+                                              options.limits, context);
     for (const std::uint64_t number : scan.invalid)
       findings.add(Violation::invalid_cell, [&] {
         const Point center = cells.center(number);
@@ -40,7 +42,7 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
     std::optional<DualScan> dual;
     report.dual_checked = !findings.has_any_of("G1");
     if (report.dual_checked) {
-      dual = check_dual(mesh, cells, options.limits, context, findings);
+      dual = check_dual(mesh, cells, known ? &known->lines : nullptr, options.limits, context, findings);
       report.dual_volume = dual->volume.value();
     }
     context.progress(0.7);
@@ -51,7 +53,7 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
     }
 
     if (options.intersections) {
-      check_crossings(mesh, slots, match, context, findings);
+      check_crossings(mesh, slots, match, known && known->crossings ? &*known->crossings : nullptr, context, findings);
       check_cover(mesh, slots, context, findings);
       report.intersections_checked = true;
     }
@@ -59,6 +61,25 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
   findings.store(report);
   context.progress(1.0);
   return report;
+}
+
+LayerCheck::LayerCheck(std::unique_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+LayerCheck::LayerCheck(LayerCheck&&) noexcept = default;
+LayerCheck::~LayerCheck() = default;
+
+LayerCheck check_ahead(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context) {
+  Findings unused(0);
+  const CellNumbers cells(mesh);
+  if (!check_indices(mesh, cells, context, unused)) return LayerCheck(nullptr);
+  auto parts = std::make_unique<LayerCheck::Parts>(
+      LayerCheck::Parts{scan_columns(mesh, options.quality, options.limits, context), scan_lines(mesh, options.limits, context), std::nullopt});
+  if (options.intersections) {
+    const FaceSlots slots(mesh, cells, {});
+    CrossingCandidates candidates = crossing_candidates(mesh, slots, {}, slots.column_tops());
+    CrossingPairs crossings = find_crossings(mesh.points.raw(), candidates.triangles, context);
+    parts->crossings = CrossingTest{std::move(candidates.triangles), std::move(crossings)};
+  }
+  return LayerCheck(std::move(parts));
 }
 
 }  // namespace sterna

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -95,6 +96,20 @@ struct CheckOptions {
   std::int64_t faces_at_a_time = std::int64_t{1} << 27;  ///< bound of the memory for matching faces, 16 bytes each; the report does not depend on it
 };
 
+/// What check_ahead() has found.
+class LayerCheck {
+ public:
+  struct Parts;
+  explicit LayerCheck(std::unique_ptr<const Parts> parts);
+  LayerCheck(LayerCheck&&) noexcept;
+  ~LayerCheck();
+  /// nullptr: nothing could be found out, the mesh has faults.
+  const Parts* parts() const { return parts_.get(); }
+
+ private:
+  std::unique_ptr<const Parts> parts_;
+};
+
 /// "Layer" is every cell but the explicit tets, "envelope" the faces between layer and tets. Quads take part in the intersection test with both of their
 /// triangulations (planar ones with one).
 /// Proves or refutes: every face matched by vertex ids with opposite sense or a boundary face of exactly one patch; every cell valid by its
@@ -102,7 +117,11 @@ struct CheckOptions {
 /// their cells explicit (matching over base edges), explicit ones by sorting faces; both parallel, same report for any thread count.
 /// The dual mesh and the QUALITY gates need a conforming mesh: with a G1 violation they are "not checked". Gates of layers need columns, and those that compare
 /// with a request need HybridMesh::request. Never throws for a bad mesh: findings are the result.
-CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context);
+/// `ahead`: of check_ahead() of the same columns, boundary faces and their points, with the same options; saves time, changes nothing.
+CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context, const LayerCheck* ahead = nullptr);
+
+/// The part of check() that needs columns and boundary faces only, for a mesh that does not have its other cells and their points yet.
+LayerCheck check_ahead(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context);
 
 /// Several lines for people: both verdicts, gates with counts and worst places, the findings with coordinates.
 std::string to_text(const CheckReport& report);

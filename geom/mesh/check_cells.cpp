@@ -128,9 +128,9 @@ std::vector<double> tet_volumes(const HybridMesh& mesh, const RunContext& contex
   return volumes;
 }
 
-CellScan scan_cells(const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const GateTable& limits, const RunContext& context) {
+CellScan scan_columns(const HybridMesh& mesh, bool with_quality, const GateTable& limits, const RunContext& context) {
   const auto n_layers = static_cast<std::uint64_t>(mesh.layers.n_layers);
-  CellScan scan = parallel_reduce(
+  return parallel_reduce(
       context, mesh.layers.n_columns(), CellScan(limits),
       [&](std::size_t begin, std::size_t end) {
         CellScanner scanner(mesh, with_quality, limits);
@@ -138,6 +138,10 @@ CellScan scan_cells(const HybridMesh& mesh, const CellNumbers& cells, bool with_
         return scanner.take();
       },
       merge, k_column_chunk);
+}
+
+CellScan scan_explicit_cells(CellScan columns, const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const GateTable& limits, const RunContext& context) {
+  CellScan scan = std::move(columns);
   const auto add_block = [&](std::uint64_t first_number, const auto& block) {
     scan = parallel_reduce(
         context, block.size(), std::move(scan),

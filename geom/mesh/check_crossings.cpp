@@ -1,16 +1,10 @@
 // G2: all boundary faces and the envelope in one exact triangle-triangle test.
-#include "geom/math/intersect.h"
 #include "geom/math/measures.h"
 #include "geom/math/predicates.h"
 #include "geom/mesh/check_parts.h"
 
 namespace sterna::check_parts {
 namespace {
-
-struct CrossingCandidates {
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> slots;  ///< of the face that each triangle stands for
-};
 
 /// A quad stands for both of its triangulations, so that whatever crosses the bilinear surface on either side of a diagonal is seen; the two would overlap in a
 /// planar quad, where one suffices. Faces with a repeated node are left out (bad_index has them).
@@ -38,7 +32,12 @@ CrossingCandidates collect_candidates(const HybridMesh& mesh, const FaceSlots& s
   std::sort(doubled.begin(), doubled.end());
   std::vector<std::uint32_t> envelope = match.interface;
   std::sort(envelope.begin(), envelope.end());
+  return crossing_candidates(mesh, slots, doubled, envelope);
+}
 
+}  // namespace
+
+CrossingCandidates crossing_candidates(const HybridMesh& mesh, const FaceSlots& slots, std::span<const std::uint32_t> doubled, std::span<const std::uint32_t> envelope) {
   CrossingCandidates candidates;
   for (std::uint32_t slot = slots.first_boundary(); slot < slots.size(); ++slot)
     if (!std::binary_search(doubled.begin(), doubled.end(), slot)) add_face(mesh, slots, slot, candidates);
@@ -46,11 +45,10 @@ CrossingCandidates collect_candidates(const HybridMesh& mesh, const FaceSlots& s
   return candidates;
 }
 
-}  // namespace
-
-void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const RunContext& context, Findings& findings) {
+void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const CrossingTest* ahead, const RunContext& context, Findings& findings) {
   const CrossingCandidates candidates = collect_candidates(mesh, slots, match);
-  const CrossingPairs crossings = find_crossings(mesh.points.raw(), candidates.triangles, context);
+  const bool is_done = ahead && ahead->triangles == candidates.triangles;
+  const CrossingPairs crossings = is_done ? ahead->crossings : find_crossings(mesh.points.raw(), candidates.triangles, context);
   const auto corners_of = [&](std::uint32_t t) {
     const auto& v = candidates.triangles[t];
     return std::array{mesh.points.raw()[v[0]], mesh.points.raw()[v[1]], mesh.points.raw()[v[2]]};

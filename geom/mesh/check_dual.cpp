@@ -3,8 +3,8 @@
 
 namespace sterna::check_parts {
 
-DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const GateTable& limits, const RunContext& context, Findings& findings) {
-  DualScan scan = scan_dual(mesh, limits, context);
+DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const DualScan* ahead, const GateTable& limits, const RunContext& context, Findings& findings) {
+  DualScan scan = scan_dual(mesh, limits, context, ahead);
   std::vector<std::uint8_t> is_bad(scan.suspects.size(), 0);
   parallel_for(context, scan.suspects.size(), [&](std::size_t i) { is_bad[i] = !are_sub_volumes_positive(mesh, cells.cell(scan.suspects[i])); });
   for (std::size_t i = 0; i < is_bad.size(); ++i) {

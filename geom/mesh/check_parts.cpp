@@ -103,6 +103,13 @@ Face FaceSlots::column_cap(std::uint32_t i) const {
   return {{layers.node(b[0], top), layers.node(b[1], top), layers.node(b[2], top)}, 3};
 }
 
+std::vector<std::uint32_t> FaceSlots::column_tops() const {
+  std::vector<std::uint32_t> tops;
+  for (std::uint32_t slot = 1; slot < first_[k_sides]; slot += 2)
+    if (column_cap(slot).size > 0) tops.push_back(slot);
+  return tops;
+}
+
 Face FaceSlots::column_side(std::uint32_t i) const {
   const LayerBlock& layers = mesh_.layers;
   const OpenSide side = open_sides_[i / static_cast<std::uint32_t>(layers.n_layers)];

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geom/base/parallel.h"
+#include "geom/math/intersect.h"
 #include "geom/mesh/check.h"
 #include "geom/mesh/dual_metrics.h"
 #include "geom/mesh/quality.h"
@@ -104,6 +105,8 @@ class FaceSlots {
     if (slot >= first_[k_sides] || slot % 2 != 0) return std::nullopt;
     return slot / 2;
   }
+  /// Existing tops of columns, ascending.
+  std::vector<std::uint32_t> column_tops() const;
   std::size_t n_prism_caps() const { return 2 * ((first_[k_pyramids] - first_[k_prisms]) / 5); }
   /// Twice the number of the explicit prism that has the face as its bottom, one more as its top; nothing for other faces.
   std::optional<std::uint32_t> prism_cap(std::uint32_t slot) const {
@@ -203,19 +206,33 @@ std::vector<OpenSide> find_open_sides(const LayerBlock& layers, const RunContext
 FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, std::span<const double> tet_volumes, const GateTable& limits,
                       const RunContext& context);
 void report_faces(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, Findings& findings);
-CellScan scan_cells(const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const GateTable& limits, const RunContext& context);
+CellScan scan_columns(const HybridMesh& mesh, bool with_quality, const GateTable& limits, const RunContext& context);
+/// Adds the explicit cells to what was found in the columns.
+CellScan scan_explicit_cells(CellScan columns, const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const GateTable& limits, const RunContext& context);
 /// Volumes of the explicit tets, m^3; zero where not positive.
 std::vector<double> tet_volumes(const HybridMesh& mesh, const RunContext& context);
 /// Compares the cells' volumes with the flux through outer faces and envelope; fills the report's volumes.
 void check_volumes(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const CellScan& scan, const RunContext& context, CheckReport& report,
                    Findings& findings);
-/// boundary_intersection, envelope_intersection.
-void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const RunContext& context, Findings& findings);
+/// The triangles of one test for crossings: boundary faces, then the envelope.
+struct CrossingCandidates {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::uint32_t> slots;  ///< of the face that each triangle stands for
+};
+/// A test for crossings that has been made.
+struct CrossingTest {
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  CrossingPairs crossings;
+};
+/// All boundary faces but \p doubled ones, and \p envelope; both ascending.
+CrossingCandidates crossing_candidates(const HybridMesh& mesh, const FaceSlots& slots, std::span<const std::uint32_t> doubled, std::span<const std::uint32_t> envelope);
+/// boundary_intersection, envelope_intersection. Takes the result of `ahead` if that was about the same triangles.
+void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const CrossingTest* ahead, const RunContext& context, Findings& findings);
 /// overlapping_parts; does nothing when faces or crossings were found wrong, since then no side of a boundary is the fluid's.
 void check_cover(const HybridMesh& mesh, const FaceSlots& slots, const RunContext& context, Findings& findings);
 
 /// negative_sub_volume, open_dual_cell (G4), and the nodes' statistics. \pre no G1 violation
-DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const GateTable& limits, const RunContext& context, Findings& findings);
+DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const DualScan* ahead, const GateTable& limits, const RunContext& context, Findings& findings);
 /// off_symmetry_plane (G20).
 void check_symmetry(const HybridMesh& mesh, const RunContext& context, Findings& findings);
 /// Gates of layers: G8, G10 - G13, and the coverage by patch. G9 is measured face by face at the interface.
@@ -229,3 +246,13 @@ void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlo
 std::pair<Point, std::string> describe_node(const HybridMesh& mesh, std::uint64_t node);
 
 }  // namespace sterna::check_parts
+
+namespace sterna {
+
+struct LayerCheck::Parts {
+  check_parts::CellScan columns;
+  DualScan lines;
+  std::optional<check_parts::CrossingTest> crossings;
+};
+
+}  // namespace sterna

@@ -59,23 +59,34 @@ class DualWalk {
     });
   }
 
+  template <class Part>
+  struct WithSuspects {
+    Part part;
+    std::vector<std::uint64_t> suspects;
+  };
+
+  /// Whether explicit cells or boundary faces touch a node that lines() would have to itself.
+  bool has_special_inner_node() const {
+    const LayerBlock& layers = mesh_.layers;
+    return parallel_reduce(
+        context_, layers.n_lines(), false,
+        [&](std::size_t begin, std::size_t end) {
+          for (std::size_t k = begin; k < end; ++k)
+            for (std::uint32_t j = 1, n = n_nodes(k); is_regular_[k] != 0 && j + 1 < n; ++j)
+              if (special_.contains(layers.first_node[k] + j)) return true;
+          return false;
+        },
+        [](bool a, bool b) { return a || b; });
+  }
+
   /// `make()` gives an empty part; `take(part, node, metrics)` adds a node to it; `merge(all, part)`.
   template <class Part, class Make, class Take, class Merge>
-  Part run(const Make& make, const Take& take, const Merge& merge, std::vector<std::uint64_t>& suspects) {
-    struct WithSuspects {
-      Part part;
-      std::vector<std::uint64_t> suspects;
-    };
-    const auto join = [&](WithSuspects all, WithSuspects more) {
-      merge(all.part, std::move(more.part));
-      all.suspects.insert(all.suspects.end(), more.suspects.begin(), more.suspects.end());
-      return all;
-    };
+  WithSuspects<Part> lines(const Make& make, const Take& take, const Merge& merge) const {
     const LayerBlock& layers = mesh_.layers;
-    WithSuspects all = parallel_reduce(
-        context_, layers.n_lines(), WithSuspects{make(), {}},
+    return parallel_reduce(
+        context_, layers.n_lines(), WithSuspects<Part>{make(), {}},
         [&](std::size_t begin, std::size_t end) {
-          WithSuspects part{make(), {}};
+          WithSuspects<Part> part{make(), {}};
           LineDual lines(mesh_, rings_);
           for (std::size_t k = begin; k < end; ++k) {
             if (is_regular_[k] == 0) continue;
@@ -86,8 +97,12 @@ class DualWalk {
           part.suspects = lines.take_suspects();
           return part;
         },
-        join, k_line_chunk);
+        joined<Part>(merge), k_line_chunk);
+  }
 
+  /// All nodes that lines() has left, added to what it has found.
+  template <class Part, class Make, class Take, class Merge>
+  WithSuspects<Part> others(WithSuspects<Part> all, const Make& make, const Take& take, const Merge& merge) const {
     std::vector<std::uint32_t> cursor(nodes_.size(), 0);
     for_each_explicit(mesh_, context_, [&](std::uint32_t, std::span<const NodeId> nodes) {
       for (const NodeId node : nodes) std::atomic_ref<std::uint32_t>(cursor[special_.index(node.index())]).fetch_add(1, std::memory_order_relaxed);
@@ -111,7 +126,7 @@ class DualWalk {
       all = parallel_reduce(
           context_, end_node - begin_node, std::move(all),
           [&](std::size_t begin, std::size_t end) {
-            WithSuspects part{make(), {}};
+            WithSuspects<Part> part{make(), {}};
             NodeDual nodes(mesh_, rings_);
             for (std::size_t i = begin_node + begin; i < begin_node + end; ++i) {
               const std::span<std::uint32_t> around(corners.data() + (first[i] - first_corner), first[i + 1] - first[i]);
@@ -121,16 +136,23 @@ class DualWalk {
             part.suspects = nodes.take_suspects();
             return part;
           },
-          join, k_node_chunk);
+          joined<Part>(merge), k_node_chunk);
       begin_node = end_node;
     }
-    suspects = std::move(all.suspects);
-    std::sort(suspects.begin(), suspects.end());
-    suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
-    return std::move(all.part);
+    std::sort(all.suspects.begin(), all.suspects.end());
+    all.suspects.erase(std::unique(all.suspects.begin(), all.suspects.end()), all.suspects.end());
+    return all;
   }
 
  private:
+  template <class Part, class Merge>
+  static auto joined(const Merge& merge) {
+    return [&merge](WithSuspects<Part> all, WithSuspects<Part> more) {
+      merge(all.part, std::move(more.part));
+      all.suspects.insert(all.suspects.end(), more.suspects.begin(), more.suspects.end());
+      return all;
+    };
+  }
   std::uint32_t n_nodes(std::size_t line) const { return mesh_.layers.is_collapsed[line] ? 1u : static_cast<std::uint32_t>(mesh_.layers.n_layers) + 1u; }
 
   const HybridMesh& mesh_;
@@ -173,22 +195,47 @@ void DualScan::merge(DualScan&& other) {
   volume.add(other.volume);
 }
 
-DualScan scan_dual(const HybridMesh& mesh, const GateTable& limits, const RunContext& context) {
-  DualWalk walk(mesh, context);
-  std::vector<std::uint64_t> suspects;
-  DualScan scan = walk.run<DualScan>([&] { return DualScan(limits); }, [](DualScan& part, std::uint32_t node, const NodeMetrics& m) { part.add(node, m); },
-                                     [](DualScan& all, DualScan&& part) { all.merge(std::move(part)); }, suspects);
-  scan.suspects = std::move(suspects);
-  return scan;
+namespace {
+
+/// How DualWalk fills a DualScan.
+struct ScanSteps {
+  const GateTable& limits;
+  auto make() const {
+    return [this] { return DualScan(limits); };
+  }
+  static void take(DualScan& part, std::uint32_t node, const NodeMetrics& metrics) { part.add(node, metrics); }
+  static void merge(DualScan& all, DualScan&& part) { all.merge(std::move(part)); }
+};
+
+DualScan with_suspects(DualWalk::WithSuspects<DualScan> found) {
+  found.part.suspects = std::move(found.suspects);
+  return std::move(found.part);
+}
+
+}  // namespace
+
+DualScan scan_dual(const HybridMesh& mesh, const GateTable& limits, const RunContext& context, const DualScan* lines) {
+  const DualWalk walk(mesh, context);
+  const ScanSteps steps{limits};
+  DualWalk::WithSuspects<DualScan> found = lines && !walk.has_special_inner_node() ? DualWalk::WithSuspects<DualScan>{*lines, lines->suspects}
+                                                                                   : walk.lines<DualScan>(steps.make(), steps.take, steps.merge);
+  return with_suspects(walk.others<DualScan>(std::move(found), steps.make(), steps.take, steps.merge));
+}
+
+DualScan scan_lines(const HybridMesh& mesh, const GateTable& limits, const RunContext& context) {
+  const ScanSteps steps{limits};
+  return with_suspects(DualWalk(mesh, context).lines<DualScan>(steps.make(), steps.take, steps.merge));
 }
 
 Column<NodeId, NodeMetrics> dual_metrics(const HybridMesh& mesh, const RunContext& context) {
   constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
   Column<NodeId, NodeMetrics> result(mesh.points.size(), NodeMetrics{k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, 0.0});
   struct Nothing {};
-  DualWalk walk(mesh, context);
-  std::vector<std::uint64_t> suspects;
-  walk.run<Nothing>([] { return Nothing{}; }, [&](Nothing&, std::uint32_t node, const NodeMetrics& m) { result.raw()[node] = m; }, [](Nothing&, Nothing&&) {}, suspects);
+  const DualWalk walk(mesh, context);
+  const auto make = [] { return Nothing{}; };
+  const auto take = [&](Nothing&, std::uint32_t node, const NodeMetrics& m) { result.raw()[node] = m; };
+  const auto merge = [](Nothing&, Nothing&&) {};
+  walk.others<Nothing>(walk.lines<Nothing>(make, take, merge), make, take, merge);
   return result;
 }
 

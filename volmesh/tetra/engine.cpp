@@ -183,9 +183,15 @@ std::string_view display_name(EngineKind kind) { return kind == EngineKind::tetg
 EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraOptions& options, const RunContext& context) {
   try {
     const std::string helper = find_helper("sterna-tet-" + std::string(to_string(kind)), options.helper_folder);
+    std::optional<StageTimer> transfer(std::in_place, context, "tetrahedra/transfer");
     const Request request(input, options, context);
     SharedBlock reply("sterna tetra reply", 0);
-    const HelperExit exit = run_helper(helper, request.block(), reply, options.time_limit, context);
+    transfer.reset();
+    const HelperExit exit = [&] {
+      const StageTimer timer(context, "tetrahedra/helper");
+      return run_helper(helper, request.block(), reply, options.time_limit, context);
+    }();
+    transfer.emplace(context, "tetrahedra/transfer");
     if (!exit.output.empty()) context.debug(std::string(display_name(kind)) + ": " + exit.output);
     const std::byte* data = reply.map();
     wire::ReplyHeader header;
@@ -194,6 +200,8 @@ EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraO
     if (std::optional<EngineFailure> reason = judge_exit(kind, exit, header, options)) return failed(std::move(*reason));
     if (std::optional<EngineFailure> reason = judge_count(kind, header, input.boundary, options)) return failed(std::move(*reason));
     TetraResult result = read_result(kind, header, reply, data, input.boundary, request, context);
+    transfer.reset();
+    const StageTimer timer(context, "tetrahedra/verify");
     verify_tetrahedra(input.boundary, result, context);
     return {std::move(result), {}};
   } catch (const Error& error) {

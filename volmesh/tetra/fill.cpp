@@ -37,9 +37,12 @@ bool may_go_on(const EngineFailure& failure, const TetraOptions& options) {
 
 TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, const TetraOptions& options, const RunContext& context) {
   const std::vector<EngineKind> rungs = rungs_of(options);
-  check_boundary(boundary, context);
-  judge(preflight(boundary, {.is_clear = boundary.is_clear}, context), boundary, context);
-  const BoundaryParts parts = find_parts(boundary, context);
+  const BoundaryParts parts = [&] {
+    const StageTimer timer(context, "tetrahedra/boundary");
+    check_boundary(boundary, context);
+    judge(preflight(boundary, {.is_clear = boundary.is_clear}, context), boundary, context);
+    return find_parts(boundary, context);
+  }();
 
   std::vector<EngineFailure> failures;
   for (const EngineKind kind : rungs) {

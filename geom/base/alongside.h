@@ -1,0 +1,49 @@
+// Work of our own on a second thread while the calling one waits for something else.
+#pragma once
+
+#include <exception>
+#include <optional>
+#include <stop_token>
+#include <thread>
+#include <utility>
+
+#include "geom/base/run_context.h"
+
+namespace sterna {
+
+/// Runs `work(context) -> T` beside the caller, on all threads of the context but one; with a single thread it runs before the caller goes on. The result does not
+/// depend on that, because no kernel's does. The destructor stops the work.
+template <class T>
+class Alongside {
+ public:
+  template <class Work>
+  Alongside(const RunContext& context, Work work) {
+    if (context.threads() == 1) {
+      result_.emplace(work(context));
+      return;
+    }
+    thread_ = std::jthread([this, context, work = std::move(work)](std::stop_token stop) {
+      try {
+        result_.emplace(work(context.beside(context.threads() - 1, std::move(stop))));
+      } catch (...) {
+        exception_ = std::current_exception();
+      }
+    });
+  }
+  Alongside(const Alongside&) = delete;
+  Alongside& operator=(const Alongside&) = delete;
+
+  /// Waits for the result; call it once. \throws what the work has thrown.
+  T take() {
+    if (thread_.joinable()) thread_.join();
+    if (exception_) std::rethrow_exception(exception_);
+    return std::move(*result_);
+  }
+
+ private:
+  std::optional<T> result_;
+  std::exception_ptr exception_;
+  std::jthread thread_;  ///< last: ends before what it writes to
+};
+
+}  // namespace sterna
