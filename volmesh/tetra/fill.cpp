@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <optional>
 
+#include "geom/base/alongside.h"
 #include "geom/base/error.h"
 #include "volmesh/tetra/boundary_check.h"
 #include "volmesh/tetra/boundary_parts.h"
@@ -40,14 +42,20 @@ TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, con
   const BoundaryParts parts = [&] {
     const StageTimer timer(context, "tetrahedra/boundary");
     check_boundary(boundary, context);
-    judge(preflight(boundary, {.is_clear = boundary.is_clear}, context), boundary, context);
+    if (!boundary.is_clear) judge(preflight(boundary, {}, context), boundary, context);
     return find_parts(boundary, context);
   }();
+
+  // Of a boundary that is known to be clear, preflight can only say what engines find hard: that can wait until one has run.
+  std::optional<Alongside<PreflightReport>> look;
+  if (boundary.is_clear) look.emplace(context, [&](const RunContext& side) { return preflight(boundary, {.is_clear = true}, side); });
 
   std::vector<EngineFailure> failures;
   for (const EngineKind kind : rungs) {
     if (!failures.empty()) context.warn("trying " + std::string(display_name(kind)));
     EngineOutcome outcome = run_engine(kind, {boundary, parts, size_field}, options, context);
+    if (look) judge(look->take(), boundary, context);
+    look.reset();
     if (outcome.result) {
       for (const EngineFailure& failure : failures) {
         outcome.result->failures.push_back(failure.error.problem);

@@ -52,7 +52,8 @@ struct TetraResult {
 /// Engines: "tetgen", TetGen 1.5 with its radius-edge ratio; "hxt", HXT of Gmsh; "automatic" is tetgen, or hxt where tetgen is not built in. Both keep the boundary
 /// and make edges of about the length that the size field asks for; without one (nullptr) TetGen's sizes follow from the radius-edge ratio, HXT's from the boundary.
 /// Coordinates are scaled by a power of two first, so a mesh in other units is the same mesh.
-/// Before any engine runs, the boundary is checked, exactly where it must be (preflight.h); what engines find hard is logged.
+/// Before any engine runs, the boundary is checked, exactly where it must be (preflight.h); what engines find hard is logged. Of a clear boundary that is looked
+/// for while the first engine runs.
 /// Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof, too many new points), the other engine is tried. A time or memory limit ends the call unless `fall_back_on_limits`. Every step is logged as a warning and kept in the result.
 /// A stop of the context or the time limit kills the helper at once; it never outlives the call.
 /// \throws Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface, non_manifold_surface, self_intersection,
