@@ -35,7 +35,7 @@ class FirstMesh : public testing::Test {
 TEST_F(FirstMesh, CommandLineWritesCheckedMeshAndManifest) {
   const ProcessResult result = mesh_box("box.su2", {"-o", "box.vtu", "--stats", "stats.json"});
   ASSERT_EQ(result.status, k_exit_success) << result.errors;
-  for (const char* part : {"12 triangles", "1 unit of the file = 1 m", "prisms in 8 layers", "verdict     VALID", " in tetgen, ", "memory", "stages", "wrote box.su2"})
+  for (const char* part : {"12 triangles", "1 unit of the file = 1 m", "prisms in 8 layers", "verdict     VALID", " in hxt, ", "memory", "stages", "wrote box.su2"})
     EXPECT_NE(result.errors.find(part), std::string::npos) << part << " in\n" << result.errors;
   for (const char* name : {"box.su2", "box.su2.json", "box.vtu", "box.vtu.json", "stats.json"}) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
   const std::string manifest = contents(folder / "box.su2.json");

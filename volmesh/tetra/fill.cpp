@@ -14,9 +14,9 @@ namespace {
 
 /// The engines in the order in which they are to be tried.
 std::vector<EngineKind> rungs_of(const TetraOptions& options) {
-  std::vector<EngineKind> rungs = {EngineKind::tetgen, EngineKind::hxt};
-  if (options.engine == "hxt") std::ranges::reverse(rungs);
-  else if (options.engine != "tetgen" && options.engine != "automatic") {
+  std::vector<EngineKind> rungs = {EngineKind::hxt, EngineKind::tetgen};
+  if (options.engine == "tetgen") std::ranges::reverse(rungs);
+  else if (options.engine != "hxt" && options.engine != "automatic") {
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "choosing the tetrahedra engine",
                  .problem = "tetrahedra.engine is \"" + options.engine + "\"",

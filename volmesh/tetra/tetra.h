@@ -49,7 +49,8 @@ struct TetraResult {
 };
 
 /// Runs an engine in its helper process, found beside the running executable or one folder above it, and proves its answer (verify.h).
-/// Engines: "tetgen", TetGen 1.5 with its radius-edge ratio; "hxt", HXT of Gmsh; "automatic" is tetgen, or hxt where tetgen is not built in. Both keep the boundary
+/// Engines: "tetgen", TetGen 1.5 with its radius-edge ratio; "hxt", HXT of Gmsh; "automatic" is hxt, or tetgen where hxt is not built in (docs/tetrahedra.md: better
+/// meshes in less time on the clean surfaces). Both keep the boundary
 /// and make edges of about the length that the size field asks for; without one (nullptr) TetGen's sizes follow from the radius-edge ratio, HXT's from the boundary.
 /// Coordinates are scaled by a power of two first, so a mesh in other units is the same mesh.
 /// Before any engine runs, the boundary is checked, exactly where it must be (preflight.h); what engines find hard is logged. Of a clear boundary that is looked
@@ -75,7 +76,7 @@ struct Schema<volmesh::TetraOptions> {
   using O = volmesh::TetraOptions;
   static constexpr std::string_view stage = "tetrahedra";
   static constexpr std::array fields = {
-      Field<O>{.name = "engine", .member = &O::engine, .help = "what makes the tetrahedra", .choices = "automatic tetgen hxt"},
+      Field<O>{.name = "engine", .member = &O::engine, .help = "what makes the tetrahedra; automatic: hxt, or tetgen where that is not built in", .choices = "automatic tetgen hxt"},
       Field<O>{.name = "radius_edge", .member = &O::radius_edge, .min = 1.01, .max = 10.0, .help = "largest circumradius over shortest edge of a tetrahedron (tetgen only)"},
       Field<O>{.name = "hxt_improve_below", .member = &O::hxt_improve_below, .min = 0.0, .max = 1.0, .help = "HXT improves tetrahedra of a lower quality than this (1 = regular); 0: none"},
       Field<O>{.name = "memory_limit", .member = &O::memory_limit, .unit = Unit::byte, .min = 1e8, .help = "address space of the helper process"},

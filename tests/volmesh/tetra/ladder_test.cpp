@@ -60,14 +60,23 @@ TEST_F(Ladder, NoStepWhenNothingFails) {
 }
 
 TEST_F(Ladder, TheOtherEngineAfterACrash) {
-  for (const char* engine : {"automatic", "tetgen"}) {
-    const TetraResult result = fill(domain_, {.engine = engine, .helper_folder = folder("crash", k_crash)});
-    expect_tiling(domain_, result);
-    EXPECT_EQ(result.engine, "hxt");
-    EXPECT_TRUE(result.is_reproducible);
-    EXPECT_THAT(result.failures, ElementsAre(HasSubstr("signal 11")));
-    EXPECT_THAT(log_, ElementsAre(HasSubstr("signal 11"), HasSubstr("trying HXT")));
-  }
+  const TetraResult result = fill(domain_, {.engine = "tetgen", .helper_folder = folder("crash", k_crash)});
+  expect_tiling(domain_, result);
+  EXPECT_EQ(result.engine, "hxt");
+  EXPECT_TRUE(result.is_reproducible);
+  EXPECT_THAT(result.failures, ElementsAre(HasSubstr("signal 11")));
+  EXPECT_THAT(log_, ElementsAre(HasSubstr("signal 11"), HasSubstr("trying HXT")));
+}
+
+TEST_F(Ladder, AutomaticIsHxtThenTetgen) {
+  EXPECT_EQ(fill(domain_, {}).engine, "hxt");
+  const std::string helpers = folder("hxt_crashes", "", k_crash);
+  std::filesystem::remove(std::filesystem::path(helpers) / "sterna-tet-tetgen");
+  std::filesystem::create_symlink(find_helper("sterna-tet-tetgen", {}), std::filesystem::path(helpers) / "sterna-tet-tetgen");
+  const TetraResult result = fill(domain_, {.helper_folder = helpers});
+  expect_tiling(domain_, result);
+  EXPECT_EQ(result.engine, "tetgen");
+  EXPECT_THAT(result.failures, ElementsAre(HasSubstr("signal 11")));
 }
 
 TEST_F(Ladder, TheOtherEngineAfterAWrongAnswer) {
@@ -95,7 +104,7 @@ TEST_F(Ladder, CanBeForbidden) {
 }
 
 TEST_F(Ladder, SaysWhatTheFirstEngineSaidWhenAllFail) {
-  const ErrorInfo error = error_of([&] { fill(domain_, {.helper_folder = folder("both", "echo first >&2; exit 3", k_crash)}); });
+  const ErrorInfo error = error_of([&] { fill(domain_, {.engine = "tetgen", .helper_folder = folder("both", "echo first >&2; exit 3", k_crash)}); });
   EXPECT_THAT(error.problem, HasSubstr("first"));
   EXPECT_THAT(log_, Contains(HasSubstr("signal 11")));
 }

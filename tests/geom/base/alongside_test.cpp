@@ -1,0 +1,62 @@
+#include "geom/base/alongside.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <numeric>
+#include <vector>
+
+#include "geom/base/error.h"
+#include "geom/base/parallel.h"
+
+namespace sterna {
+namespace {
+
+std::size_t sum_of_squares(const RunContext& context) {
+  return parallel_reduce(
+      context, 100000, std::size_t{0},
+      [](std::size_t begin, std::size_t end) {
+        std::size_t sum = 0;
+        for (std::size_t i = begin; i < end; ++i) sum += i * i;
+        return sum;
+      },
+      std::plus<>{});
+}
+
+TEST(Alongside, GivesTheSameResultForAnyThreadCount) {
+  const std::size_t expected = sum_of_squares(RunContext({.threads = 1}));
+  for (const int threads : {1, 2, 7}) {
+    const RunContext context({.threads = threads});
+    Alongside<std::size_t> work(context, sum_of_squares);
+    EXPECT_EQ(sum_of_squares(context), expected);  // both at once
+    EXPECT_EQ(work.take(), expected);
+  }
+}
+
+TEST(Alongside, LeavesOneThreadToTheCaller) {
+  Alongside<int> work(RunContext({.threads = 4}), [](const RunContext& side) { return side.threads(); });
+  EXPECT_EQ(work.take(), 3);
+}
+
+TEST(Alongside, ThrowsWhatTheWorkHasThrown) {
+  Alongside<int> work(RunContext({.threads = 2}), [](const RunContext&) -> int { throw Error({.code = ErrorCode::bad_argument, .problem = "as wanted"}); });
+  EXPECT_THROW(work.take(), Error);
+}
+
+TEST(Alongside, IsStoppedWhenItIsNotWanted) {
+  std::atomic<bool> has_started = false;
+  const auto start = std::chrono::steady_clock::now();
+  {
+    Alongside<int> work(RunContext({.threads = 2}), [&](const RunContext& side) {
+      has_started = true;
+      while (true) side.check_stop();
+      return 0;
+    });
+    while (!has_started) std::this_thread::yield();
+  }
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));  // it would never end
+}
+
+}  // namespace
+}  // namespace sterna
