@@ -13,6 +13,7 @@
 #include "io/surface_ply.h"
 #include "io/surface_stl.h"
 #include "io/surface_su2.h"
+#include "io/surface_tau.h"
 #include "io/surface_ugrid.h"
 #include "io/surface_vtu.h"
 #include "io/text_scanner.h"
@@ -20,6 +21,7 @@
 #include "io/volume_edge.h"
 #include "io/volume_foam.h"
 #include "io/volume_su2.h"
+#include "io/volume_tau.h"
 #include "io/volume_ugrid.h"
 #include "io/volume_vtu.h"
 
@@ -38,6 +40,8 @@ constexpr std::array k_formats = {
     Format{.name = "UGRID", .extensions = ".lb8.ugrid .b8.ugrid .lb8l.ugrid .b8l.ugrid .lb4.ugrid .b4.ugrid .ugrid", .read_surface = read_ugrid, .write_surface = write_ugrid,
            .read_volume = read_volume_ugrid, .write_volume = write_volume_ugrid, .carries_patch_names = true},
     Format{.name = "CGNS", .extensions = ".cgns", .read_surface = read_cgns, .write_surface = write_cgns, .read_volume = read_volume_cgns, .write_volume = write_volume_cgns,
+           .carries_patch_names = true},
+    Format{.name = "TAU", .extensions = ".taumesh .grid .netcdf .nc", .read_surface = read_tau, .write_surface = write_tau, .read_volume = read_volume_tau, .write_volume = write_volume_tau,
            .carries_patch_names = true},
     Format{.name = "SU2", .extensions = ".su2", .read_surface = read_su2, .write_surface = write_su2, .read_volume = read_volume_su2, .write_volume = write_volume_su2,
            .carries_patch_names = true},

@@ -1,0 +1,153 @@
+// TAU reader: points, cells by kind, surface elements with their markers, names of markers.
+#include <map>
+
+#include "geom/base/parallel.h"
+#include "io/netcdf_source.h"
+#include "io/orientation.h"
+#include "io/surface_builder.h"
+#include "io/tau_mapping.h"
+#include "io/tau_names.h"
+#include "io/volume_tau.h"
+
+namespace sterna::io {
+namespace {
+
+enum class Contents { volume, boundary };
+
+class TauReader {
+ public:
+  TauReader(const FileBuffer& buffer, Contents contents, std::map<std::int64_t, TauMarker> mapping, const RunContext& context)
+      : buffer_(buffer), file_(buffer), contents_(contents), mapping_(std::move(mapping)), context_(context) {}
+
+  HybridMesh read() {
+    read_points();
+    read_cells(CellKind::tetrahedron, mesh_.tetrahedra);
+    read_cells(CellKind::prism, mesh_.prisms);
+    read_cells(CellKind::pyramid, mesh_.pyramids);
+    read_cells(CellKind::hexahedron, mesh_.hexahedra);
+    if (contents_ == Contents::boundary) mesh_.tetrahedra = {}, mesh_.prisms = {}, mesh_.pyramids = {}, mesh_.hexahedra = {};
+    read_faces();
+    return std::move(mesh_);
+  }
+
+ private:
+  void read_points() {
+    std::array<NumberArray, 3> values;
+    constexpr std::array<const char*, 3> k_names = {"points_xc", "points_yc", "points_zc"};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!file_.has(k_names[axis])) throw_malformed(buffer_.source, "the variables", std::string("found no \"") + k_names[axis] + "\": this is no primary grid of TAU");
+      values[axis] = file_.data(k_names[axis]);
+      values[axis].require_reals(values[0].count(), "coordinates of the points");
+    }
+    const std::size_t n = values[0].count();
+    if (n >= NodeId::k_invalid) throw_id_overflow(n);
+    mesh_.points.resize(n);
+    parallel_for(context_, n, [&](std::size_t i) {
+      const Point p = {values[0].real(i), values[1].real(i), values[2].real(i)};
+      if (!is_finite(p)) throw_malformed(buffer_.source, "point " + std::to_string(i), "its coordinates are not finite");
+      mesh_.points.raw()[i] = p;
+    });
+  }
+
+  /// Corners of elements of N nodes; none where the file has no such elements.
+  template <std::size_t N>
+  std::vector<std::array<NodeId, N>> corners_of(const TauElement& element) {
+    context_.check_stop();
+    std::vector<std::array<NodeId, N>> elements;
+    const std::string name = "points_of_" + std::string(element.plural);
+    if (!file_.has(name)) return elements;
+    const NumberArray corners = file_.data(name);
+    const std::uint64_t n = corners.count() / N;
+    corners.require_integers(n * N, "corners of elements of " + std::to_string(N) + " points");
+    elements.resize(n);
+    const std::int64_t n_points = static_cast<std::int64_t>(mesh_.points.size());
+    parallel_for(context_, n, [&](std::size_t i) {
+      for (std::size_t k = 0; k < N; ++k) {
+        const std::int64_t node = corners.integer(i * N + k);
+        if (node < 0 || node >= n_points) corners.fail("element " + std::to_string(i) + " has point " + std::to_string(node) + ", expected 0 to " + std::to_string(n_points - 1));
+        elements[i][k] = NodeId(static_cast<std::uint32_t>(node));
+      }
+    });
+    return elements;
+  }
+
+  template <std::size_t N>
+  void read_cells(CellKind kind, std::vector<std::array<NodeId, N>>& cells) {
+    cells = corners_of<N>(tau_element(kind));
+  }
+
+  void read_faces() {
+    const auto triangles = corners_of<3>(k_tau_triangle);
+    const auto quads = corners_of<4>(k_tau_quad);
+    const std::uint64_t n = triangles.size() + quads.size();
+    constexpr const char* k_markers = "boundarymarker_of_surfaces";
+    NumberArray markers;
+    if (n > 0) {
+      if (!file_.has(k_markers)) throw_malformed(buffer_.source, "the variables", std::string("found no \"") + k_markers + "\"");
+      markers = file_.data(k_markers);
+      markers.require_integers(n, "markers of all triangles, then of all quads");
+    }
+    add_patches(markers, n);
+    mesh_.boundary_triangles.reserve(triangles.size());
+    mesh_.boundary_quads.reserve(quads.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) mesh_.boundary_triangles.push_back({triangles[i], patches_.at(markers.integer(i))});
+    for (std::size_t i = 0; i < quads.size(); ++i) mesh_.boundary_quads.push_back({quads[i], patches_.at(markers.integer(triangles.size() + i))});
+  }
+
+  /// The markers that have faces: those that the file lists, in its order, then others by number.
+  void add_patches(const NumberArray& markers, std::uint64_t n) {
+    std::map<std::int64_t, bool> is_added;
+    for (std::uint64_t i = 0; i < n; ++i) is_added.emplace(markers.integer(i), false);
+    const auto add = [&](std::int64_t number) {
+      const auto found = is_added.find(number);
+      if (found == is_added.end() || std::exchange(found->second, true)) return;
+      TauMarker marker = marker_of(number);
+      patches_.emplace(number, mesh_.patches.push_back({.name = marker.name, .kind = kind_of_tau(marker)}));
+    };
+    if (file_.has("marker")) {
+      const NumberArray listed = file_.data("marker");
+      listed.require_integers(listed.count(), "numbers of the markers");
+      for (std::uint64_t i = 0; i < listed.count(); ++i) add(listed.integer(i));
+    }
+    std::vector<std::int64_t> rest;
+    for (const auto& [number, done] : is_added)
+      if (!done) rest.push_back(number);
+    for (const std::int64_t number : rest) add(number);
+  }
+
+  TauMarker marker_of(std::int64_t number) const {
+    TauMarker marker{.number = number, .name = {}, .condition = {}};
+    const auto mapped = mapping_.find(number);
+    if (mapped != mapping_.end()) marker = mapped->second;
+    const auto named = file_.attributes().find("marker_" + std::to_string(number));
+    if (named != file_.attributes().end() && named->second.kind == NumberKind::text && !named->second.text().empty()) marker.name = named->second.text();
+    if (marker.name.empty()) marker.name = numbered_patch(number);
+    return marker;
+  }
+
+  const FileBuffer& buffer_;
+  NetcdfSource file_;
+  Contents contents_;
+  std::map<std::int64_t, TauMarker> mapping_;
+  const RunContext& context_;
+  std::map<std::int64_t, PatchId> patches_;
+  HybridMesh mesh_;
+};
+
+HybridMesh read(const std::filesystem::path& path, Contents contents, const RunContext& context) {
+  const FileBuffer buffer = load_file(path, context);
+  return TauReader(buffer, contents, read_bmap(path, context), context).read();
+}
+
+}  // namespace
+
+HybridMesh read_volume_tau(const std::filesystem::path& path, const RunContext& context) {
+  HybridMesh mesh = read(path, Contents::volume, context);
+  context.progress(0.7);
+  orient_mesh(mesh, context);
+  return mesh;
+}
+
+HybridMesh read_boundary_tau(const std::filesystem::path& path, const RunContext& context) { return read(path, Contents::boundary, context); }
+
+}  // namespace sterna::io
