@@ -6,6 +6,8 @@
 
 #include "geom/base/error.h"
 #include "io/file_buffer.h"
+#include "io/fluent.h"
+#include "io/medit.h"
 #include "io/surface_cgns.h"
 #include "io/surface_msh.h"
 #include "io/surface_obj.h"
@@ -20,6 +22,7 @@
 #include "io/volume_cgns.h"
 #include "io/volume_edge.h"
 #include "io/volume_foam.h"
+#include "io/volume_msh.h"
 #include "io/volume_su2.h"
 #include "io/volume_tau.h"
 #include "io/volume_ugrid.h"
@@ -29,6 +32,11 @@ namespace sterna::io {
 namespace {
 
 bool is_gmsh(std::string_view head) { return head.find("$MeshFormat") != std::string_view::npos; }
+/// An S-expression.
+bool is_fluent(std::string_view head) {
+  const std::size_t first = head.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && head[first] == '(';
+}
 
 // One line for each format; the order counts where extensions are shared.
 constexpr std::array k_formats = {
@@ -36,7 +44,12 @@ constexpr std::array k_formats = {
     Format{.name = "OBJ", .extensions = ".obj", .read_surface = read_obj, .carries_patch_names = true},
     Format{.name = "OFF", .extensions = ".off", .read_surface = read_off},
     Format{.name = "PLY", .extensions = ".ply", .read_surface = read_ply, .carries_patch_names = true},
-    Format{.name = "Gmsh MSH", .extensions = ".msh", .is_content = is_gmsh, .read_surface = read_msh, .carries_patch_names = true},
+    Format{.name = "Gmsh MSH", .extensions = ".msh .bin.msh", .is_content = is_gmsh, .read_surface = read_msh, .read_volume = read_volume_msh, .write_volume = write_volume_msh,
+           .carries_patch_names = true},
+    Format{.name = "Fluent", .extensions = ".msh .fluent.msh", .is_content = is_fluent, .read_surface = read_surface_fluent, .read_volume = read_volume_fluent, .write_volume = write_volume_fluent,
+           .carries_patch_names = true},
+    Format{.name = "Medit", .extensions = ".mesh .meshb", .read_surface = read_surface_medit, .write_surface = write_surface_medit, .read_volume = read_volume_medit,
+           .write_volume = write_volume_medit, .carries_patch_names = true},
     Format{.name = "UGRID", .extensions = ".lb8.ugrid .b8.ugrid .lb8l.ugrid .b8l.ugrid .lb4.ugrid .b4.ugrid .ugrid", .read_surface = read_ugrid, .write_surface = write_ugrid,
            .read_volume = read_volume_ugrid, .write_volume = write_volume_ugrid, .carries_patch_names = true},
     Format{.name = "CGNS", .extensions = ".cgns", .read_surface = read_cgns, .write_surface = write_cgns, .read_volume = read_volume_cgns, .write_volume = write_volume_cgns,

@@ -85,7 +85,7 @@ def with_meshio(path):
         if block.type == "wedge" and is_su2:
             cells = cells[:, [0, 2, 1, 3, 5, 4]]  # meshio 5.0 takes SU2's wedges for SIDS, SU2 means VTK
         numbers = {name: np.asarray(values[i]).ravel() for name, values in mesh.cell_data.items()}
-        marker = numbers.get("su2:tag" if is_su2 else "marker")
+        marker = next((numbers[name] for name in ("su2:tag", "marker", "medit:ref", "gmsh:physical") if name in numbers), None)
         for store, value in ((blocks, cells), (markers, marker), (layers, numbers.get("layer"))):
             if value is not None:
                 store[block.type] = np.concatenate([store[block.type], value]) if block.type in store else value

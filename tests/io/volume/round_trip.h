@@ -9,18 +9,20 @@
 
 namespace sterna::test {
 
-/// mixed_mesh() with its side parted: patches plate, farfield, west, east, symmetry, north (slip); names are as given when `suffix` is empty.
+/// mixed_mesh() with its side parted: patches plate, farfield, west, east, symmetry, slip_north; names are as given when `suffix` is empty.
 HybridMesh six_patch_mesh(const std::string& suffix = {});
 
 /// What a format keeps of cells: the very nodes in their order, or the same cell turned round (formats that store faces).
 enum class CellOrder { same, rotated };
+/// Whether the format tells the kinds of patches, or only names, from which they follow as kind_of_name() says.
+enum class Kinds { kept, by_name };
 
 /// `back` is what was read of a file of `mesh`: the same points to the bit, cells of each kind in order, the same boundary faces (in any order) in patches of the same names
 /// and kinds; all boundary faces outwards.
-void expect_same_after_reading(const HybridMesh& back, const HybridMesh& mesh, CellOrder order);
+void expect_same_after_reading(const HybridMesh& back, const HybridMesh& mesh, CellOrder order, Kinds kinds = Kinds::kept);
 
 /// Writes, reads, compares; the bytes are the same for 2 and 7 threads, and (CellOrder::same) for columns and explicit cells. An old `path` is removed first.
-void expect_round_trip(const HybridMesh& mesh, const std::filesystem::path& path, CellOrder order);
+void expect_round_trip(const HybridMesh& mesh, const std::filesystem::path& path, CellOrder order, Kinds kinds = Kinds::kept);
 
 /// All bytes of a file, or of all files in a folder (with their names, sorted).
 std::string all_bytes(const std::filesystem::path& path);
