@@ -62,7 +62,7 @@ TEST(SurfaceMsh, WhatIsNotReadIsNamed) {
   refused(replaced(k_v4, "4.1 0 8", "4 0 8"), {"version 4", "4.1 and 2.2"}, unsupported);
   refused(replaced(k_v2, "3 3 2 0 4", "3 93 2 0 4"), {"type 93"}, unsupported);
   refused(replaced(k_v4, "$Entities", "$PartitionedEntities"), {"partition"}, unsupported);
-  refused("(0 \"a Fluent file\")\n(2 3)\n", {"Fluent"}, unsupported);
+  refused("(0 \"a Fluent file\")\n(2 2)\n", {"2 dimensions"}, unsupported);
 }
 
 TEST(SurfaceMsh, MistakesAreToldWithTheirLine) {

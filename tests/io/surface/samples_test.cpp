@@ -94,7 +94,7 @@ TEST(Samples, OldSu2WithTrailingIndices) {
 TEST(Samples, VariantsThatAreNotReadAreNamed) {
   STERNA_NEEDS_SHARED_DATA();
   const std::pair<const char*, const char*> files[] = {
-      {"pt.fluent.msh", "Fluent"}, {"real_su2_square.su2", "NDIME= 2"}, {"n0012_113-33.su2", "NDIME= 2"}};
+      {"real_su2_square.su2", "NDIME= 2"}, {"n0012_113-33.su2", "NDIME= 2"}};
   for (const auto& [file, text] : files) {
     try {
       read_surface(shared_data() / "formats" / file);
