@@ -213,7 +213,7 @@ class AdfWriter {
     if (node.has_data) {
       text_ += "DaTa" + pointer_text(at.data + 16 + byte_size(node.array));
       flush();
-      sections_.push_back(node.array.content);
+      sections_.insert(sections_.end(), node.array.content.begin(), node.array.content.end());
       text_ = "dEnD";
     }
     for (const CgnsOutputNode& child : node.children) put(child, next);

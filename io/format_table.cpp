@@ -17,6 +17,7 @@
 #include "io/surface_su2.h"
 #include "io/surface_tau.h"
 #include "io/surface_ugrid.h"
+#include "io/surface_vtkhdf.h"
 #include "io/surface_vtu.h"
 #include "io/text_scanner.h"
 #include "io/volume_cgns.h"
@@ -26,6 +27,7 @@
 #include "io/volume_su2.h"
 #include "io/volume_tau.h"
 #include "io/volume_ugrid.h"
+#include "io/volume_vtkhdf.h"
 #include "io/volume_vtu.h"
 
 namespace sterna::io {
@@ -58,6 +60,8 @@ constexpr std::array k_formats = {
            .carries_patch_names = true},
     Format{.name = "SU2", .extensions = ".su2", .read_surface = read_su2, .write_surface = write_su2, .read_volume = read_volume_su2, .write_volume = write_volume_su2,
            .carries_patch_names = true},
+    Format{.name = "VTKHDF", .extensions = ".vtkhdf .hdf", .read_surface = read_surface_vtkhdf, .write_surface = write_surface_vtkhdf, .read_volume = read_volume_vtkhdf,
+           .write_volume = write_volume_vtkhdf, .carries_patch_names = true},
     Format{.name = "VTU", .extensions = ".vtu", .read_surface = read_surface_vtu, .write_surface = write_surface_vtu, .read_volume = read_volume_vtu, .write_volume = write_volume_vtu, .carries_patch_names = true},
     Format{.name = "OpenFOAM", .extensions = ".foam .bin.foam polymesh", .read_volume = read_volume_foam, .write_volume = write_volume_foam, .carries_patch_names = true},
     Format{.name = "Edge", .extensions = ".bmsh .v2.bmsh", .read_volume = read_volume_edge, .write_volume = write_volume_edge, .carries_patch_names = true},

@@ -17,12 +17,12 @@ void put(std::string& bytes, std::uint64_t value, unsigned n_bytes) {
   for (unsigned k = 0; k < n_bytes; ++k) bytes += static_cast<char>(value >> (8 * k) & 0xff);
 }
 
-std::string type_message(NumberKind kind, std::uint64_t text_size) {
+std::string type_message(NumberKind kind, std::uint64_t text_size, bool ends_with_nul = true) {
   std::string bytes;
   const std::uint64_t size = kind == NumberKind::text ? text_size : byte_size(kind);
   if (kind == NumberKind::text) {
     put(bytes, 0x13, 1);
-    put(bytes, 0, 3);  // ends with NUL, ASCII (bytes of UTF-8 pass)
+    put(bytes, ends_with_nul ? 0 : 1, 3);  // ASCII (bytes of UTF-8 pass)
     put(bytes, size, 4);
   } else if (is_real(kind)) {
     const bool is_double = kind == NumberKind::f8;
@@ -60,7 +60,7 @@ std::string space_message(const std::vector<std::uint64_t>& extents) {
 }
 
 std::string attribute_message(const Hdf5OutputAttribute& attribute) {
-  const std::string type = type_message(attribute.kind, attribute.bytes.size()), space = space_message(attribute.extents);
+  const std::string type = type_message(attribute.kind, attribute.bytes.size(), attribute.bytes.ends_with('\0')), space = space_message(attribute.extents);
   std::string bytes;
   put(bytes, 3, 1);
   put(bytes, 0, 1);
@@ -119,7 +119,7 @@ class Hdf5Layout {
     for (const PlacedNode& placed : nodes_) {
       if (!placed.node->is_dataset) continue;
       if (placed.values > end) sections.push_back(fixed_section(std::string(placed.values - end, '\0')));
-      sections.push_back(placed.node->array.content);
+      sections.insert(sections.end(), placed.node->array.content.begin(), placed.node->array.content.end());
       end = placed.values + byte_size(placed.node->array);
     }
     return sections;
@@ -202,7 +202,7 @@ class Hdf5Layout {
 
 }  // namespace
 
-OutputArray output_text(std::string text, NumberKind kind) { return {.kind = kind, .extents = {text.size()}, .content = fixed_section(std::move(text))}; }
+OutputArray output_text(std::string text, NumberKind kind) { return {.kind = kind, .extents = {text.size()}, .content = {fixed_section(std::move(text))}}; }
 
 std::uint64_t byte_size(const OutputArray& array) {
   std::uint64_t n = byte_size(array.kind);

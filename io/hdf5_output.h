@@ -11,11 +11,11 @@
 
 namespace sterna::io {
 
-/// Values to be written: kind and extents (slowest first); `content` gives byte_size(kind) * product of extents bytes, little endian, in items of any size.
+/// Values to be written: kind and extents (slowest first); the sections of `content` together give byte_size(kind) * product of extents bytes, little endian, in items of any size.
 struct OutputArray {
   NumberKind kind = NumberKind::i4;
   std::vector<std::uint64_t> extents;
-  OutputSection content;
+  std::vector<OutputSection> content;
 };
 
 OutputArray output_text(std::string text, NumberKind kind = NumberKind::i1);
@@ -23,7 +23,7 @@ template <class T>
 OutputArray output_numbers(NumberKind kind, std::vector<std::uint64_t> extents, const std::vector<T>& values) {
   std::string bytes(values.size() * sizeof(T), '\0');
   for (std::size_t i = 0; i < values.size(); ++i) put_bytes(bytes.data() + i * sizeof(T), values[i], std::endian::little);
-  return {.kind = kind, .extents = std::move(extents), .content = fixed_section(std::move(bytes))};
+  return {.kind = kind, .extents = std::move(extents), .content = {fixed_section(std::move(bytes))}};
 }
 std::uint64_t byte_size(const OutputArray& array);
 
@@ -33,6 +33,7 @@ struct Hdf5OutputAttribute {
   std::vector<std::uint64_t> extents;  ///< empty = a scalar; a text is a scalar of bytes.size()
   std::string bytes;                   ///< little endian
 };
+/// A text of `size` bytes, cut or filled with NUL; without a NUL at its end it is stored as one that needs none.
 Hdf5OutputAttribute text_attribute(std::string name, std::string text, std::size_t size);
 
 /// A group (no array) or a dataset.

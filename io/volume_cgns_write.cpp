@@ -133,7 +133,7 @@ class CgnsWriter {
         }
         out.end_at(at);
       };
-      CgnsOutputNode values = cgns_node(k_axis_names[axis], "DataArray_t", {.kind = NumberKind::f8, .extents = {mesh_.points.size()}, .content = {.n_items = mesh_.points.size(), .format = format}});
+      CgnsOutputNode values = cgns_node(k_axis_names[axis], "DataArray_t", {.kind = NumberKind::f8, .extents = {mesh_.points.size()}, .content = {{.n_items = mesh_.points.size(), .format = format}}});
       values.children.push_back(cgns_node("DimensionalExponents", "DimensionalExponents_t", output_numbers<float>(NumberKind::f4, {5}, {0, 1, 0, 0, 0})));
       grid.children.push_back(std::move(values));
     }
@@ -145,7 +145,7 @@ class CgnsWriter {
     CgnsOutputNode node = cgns_node(std::move(name), "Elements_t", output_numbers<std::int32_t>(NumberKind::i4, {2}, {static_cast<std::int32_t>(type), 0}));
     node.children.push_back(cgns_node("ElementRange", "IndexRange_t", sizes({2}, {n_elements + 1, n_elements + n})));
     node.children.push_back(cgns_node("ElementConnectivity", "DataArray_t",
-                                      {.kind = is_wide_ ? NumberKind::i8 : NumberKind::i4, .extents = {n * size}, .content = {.n_items = n, .format = std::move(format)}}));
+                                      {.kind = is_wide_ ? NumberKind::i8 : NumberKind::i4, .extents = {n * size}, .content = {{.n_items = n, .format = std::move(format)}}}));
     n_elements += n;
     return node;
   }

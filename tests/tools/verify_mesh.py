@@ -93,10 +93,12 @@ def with_meshio(path):
 
 
 def with_vtk(path):
-    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader = vtk.vtkHDFReader() if path.endswith(".vtkhdf") else vtk.vtkXMLUnstructuredGridReader()
+    errors = []
+    reader.AddObserver("ErrorEvent", lambda *event: errors.append(event))
     reader.SetFileName(path)
     reader.Update()
-    if reader.GetErrorCode():
+    if errors or reader.GetErrorCode():
         sys.exit(f"VTK error code {reader.GetErrorCode()}")
     grid = reader.GetOutput()
     points = vtk_to_numpy(grid.GetPoints().GetData())

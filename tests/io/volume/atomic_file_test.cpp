@@ -96,7 +96,7 @@ TEST(AtomicFile, RefusesWhatIsNotAFile) {
 
 TEST(AtomicFile, FullDiskLeavesTheOldFile) {
   const HybridMesh mesh = test::sphere_shell(4);
-  for (const std::string name : {"mesh.su2", "mesh.vtu", "mesh.cgns", "mesh.adf.cgns", "mesh.taumesh"}) {
+  for (const std::string name : {"mesh.su2", "mesh.vtu", "mesh.cgns", "mesh.adf.cgns", "mesh.taumesh", "mesh.vtkhdf"}) {
     const auto path = old_file(name);
     expect_error(ErrorCode::write_failed, "File too large", [&] {
       const FileSizeLimit limit(10000);
@@ -108,7 +108,7 @@ TEST(AtomicFile, FullDiskLeavesTheOldFile) {
 }
 
 TEST(AtomicFile, CancelLeavesTheOldFile) {
-  for (const std::string name : {"mesh.su2", "mesh.vtu", "mesh.cgns", "mesh.adf.cgns", "mesh.taumesh"}) {
+  for (const std::string name : {"mesh.su2", "mesh.vtu", "mesh.cgns", "mesh.adf.cgns", "mesh.taumesh", "mesh.vtkhdf"}) {
     const auto path = old_file(name);
     std::stop_source stop;
     // The stop comes from the progress of the writing itself, when the temporary file has been begun.

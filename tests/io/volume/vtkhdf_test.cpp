@@ -1,0 +1,123 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <limits>
+
+#include "io/hdf5_output.h"
+#include "io/volume_file.h"
+#include "tests/io/volume/volume_tools.h"
+#include "tests/support/data.h"
+#include "tests/support/hybrid_shapes.h"
+
+namespace sterna::io {
+namespace {
+
+HybridMesh read(const std::filesystem::path& path) { return read_volume_file(path, RunContext({.threads = 2})); }
+void write(const HybridMesh& mesh, const std::filesystem::path& path, int threads = 2) { write_volume_file(mesh, path, RunContext({.threads = threads})); }
+
+TEST(VtkHdfRead, Samples) {
+  STERNA_NEEDS_SHARED_DATA();
+  for (const std::string version : {"", ".v2"}) {
+    HybridMesh mesh = read(test::shared_data() / "formats" / ("pt" + version + ".vtkhdf"));
+    EXPECT_EQ(mesh.prisms.size(), 1u);
+    EXPECT_EQ(mesh.tetrahedra.size(), 1u);
+    ASSERT_EQ(mesh.patches.size(), 3u);
+    EXPECT_EQ(mesh.patches[PatchId(0)].name, "patch_1");
+    EXPECT_NEAR(test::volume_of(mesh), 2.0 / 3.0, 1e-15);
+    EXPECT_NEAR(test::enclosed_volume(mesh), 2.0 / 3.0, 1e-15);
+    mesh = read(test::shared_data() / "formats" / ("mix4" + version + ".vtkhdf"));
+    EXPECT_EQ(count_cells(mesh).total(), 4);
+    EXPECT_NEAR(test::volume_of(mesh), 1.983333, 1e-6);  // the figure of formats.md, section 14, to its digits
+    EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
+  }
+}
+
+TEST(VtkHdf, RoundTripToTheBit) {
+  const auto folder = test::scratch(), file = folder / "mesh.vtkhdf";
+  for (const HybridMesh& mesh : {test::mixed_mesh(), test::mesh_of_six_patches(), test::hexahedron_with_roof(), test::sphere_shell(6, {.collapsed = {0, 20, 21}})}) {
+    write(mesh, file);
+    test::expect_equal_meshes(read(file), mesh);
+    const std::string bytes = test::bytes_of(file);
+    for (const int threads : {1, 7}) {
+      write(mesh, file, threads);
+      EXPECT_TRUE(test::bytes_of(file) == bytes);
+    }
+  }
+  EXPECT_EQ(test::files_in(folder), (std::vector<std::string>{"mesh.vtkhdf"}));
+}
+
+TEST(VtkHdfWrite, VtkFindsTheSame) {
+  const auto path = test::scratch() / "mesh.vtkhdf";
+  for (const HybridMesh& mesh : {test::mesh_of_six_patches(), test::hexahedron_with_roof(), test::sphere_shell(28, {.n_layers = 5, .collapsed = {3, 50, 51}})}) {
+    write(mesh, path);
+    const auto report = test::read_independently("vtk", path);
+    STERNA_NEEDS_READER(report);
+    test::expect_same_mesh(*report, mesh);
+    for (const PatchId patch : mesh.patches.ids())
+      EXPECT_EQ(report->number("field.patch:" + std::string(to_string(mesh.patches[patch].kind)) + ":" + mesh.patches[patch].name), patch.value() + 1.0);
+    for (int layer = 1; layer <= mesh.layers.n_layers; ++layer) EXPECT_GT(report->number("layer." + std::to_string(layer)), 0.0);
+    EXPECT_GT(report->number("vtk.smallest"), 0.0);  // VTK's own opinion of the windings
+  }
+}
+
+TEST(VtkHdf, NamesComeBackWhole) {
+  const auto file = test::scratch() / "mesh.vtkhdf";
+  HybridMesh mesh = test::hexahedron_with_roof();
+  mesh.patches[PatchId(0)].name = "left/wing: Flügel, and a name as long as one may want it to be";
+  mesh.patches[PatchId(1)].name = std::string(300, 'x');
+  std::vector<std::string> warnings;
+  write_volume_file(mesh, file, RunContext({.threads = 1, .log = [&](LogLevel level, std::string_view line) {
+                      if (level == LogLevel::warning) warnings.emplace_back(line);
+                    }}));
+  EXPECT_THAT(warnings, testing::ElementsAre(testing::HasSubstr("left_wing")));
+  EXPECT_EQ(read(file).patches, mesh.patches);
+}
+
+/// Two partitions: a tetrahedron each, ids and offsets of their own.
+TEST(VtkHdfRead, PartitionsAreJoined) {
+  const auto dataset = [](std::string name, OutputArray array) { return Hdf5OutputNode{.name = std::move(name), .is_dataset = true, .array = std::move(array)}; };
+  const auto numbers = [&](std::string name, const std::vector<std::int64_t>& values) { return dataset(std::move(name), output_numbers(NumberKind::i8, {values.size()}, values)); };
+  Hdf5OutputNode grid{.name = "VTKHDF"};
+  grid.attributes = {text_attribute("Type", "UnstructuredGrid", 17)};
+  grid.children = {numbers("NumberOfPoints", {4, 5}), numbers("NumberOfCells", {1, 2}), numbers("NumberOfConnectivityIds", {4, 6}), numbers("Connectivity", {0, 1, 2, 3, 1, 2, 3, 4, 0, 1}), numbers("Offsets", {0, 4, 0, 4, 6}),
+                   numbers("Types", {10, 10, 3}), dataset("Points", output_numbers<float>(NumberKind::f4, {9, 3}, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 9, 9, 9, 2, 0, 0, 3, 0, 0, 2, 0, 1, 2, 1, 0}))};
+  Hdf5OutputNode root;
+  root.children = {grid};
+  const auto path = test::scratch() / "two.hdf";
+  {
+    AtomicFile file(path);
+    write_sections(file, hdf5_sections(root), RunContext({.threads = 1}));
+    file.commit();
+  }
+  std::vector<std::string> log;
+  const HybridMesh mesh = read_volume_file(path, RunContext({.threads = 1, .log = [&](LogLevel, std::string_view line) { log.emplace_back(line); }}));
+  ASSERT_EQ(mesh.tetrahedra.size(), 2u);
+  EXPECT_DOUBLE_EQ(test::volume_of(mesh), 1.0 / 3.0);
+  EXPECT_THAT(log, testing::ElementsAre(testing::HasSubstr("left out: 1"), testing::HasSubstr("flipped: 1 of kind tetrahedron")));
+}
+
+TEST(VtkHdfRead, MistakesAreTold) {
+  const auto folder = test::scratch(), file = folder / "mesh.vtkhdf";
+  HybridMesh mesh = test::hexahedron_with_roof();
+  mesh.pyramids[0][4] = NodeId(99);
+  write(mesh, file);
+  test::expect_error(ErrorCode::file_malformed, "/VTKHDF/Connectivity: cell 0 has the node 99, there are 9", [&] { read(file); });
+  std::ofstream(folder / "text.vtkhdf") << "NDIME= 3\n";
+  test::expect_error(ErrorCode::file_malformed, "byte 0", [&] { read(folder / "text.vtkhdf"); });
+  mesh = test::mixed_mesh();
+  mesh.points[NodeId(4)].y = std::numeric_limits<double>::infinity();
+  test::expect_error(ErrorCode::mesh_invalid, "node 4 are not finite", [&] { write(mesh, file); });
+  write(test::mixed_mesh(), folder / "mesh.cgns");
+  std::filesystem::rename(folder / "mesh.cgns", file);
+  test::expect_error(ErrorCode::file_malformed, "/VTKHDF: there is no such group", [&] { read(file); });
+}
+
+TEST(VtkHdfRead, NeverCrashesOnDamagedFiles) {
+  const auto file = test::scratch() / "mesh.vtkhdf";
+  write(test::hexahedron_with_roof(), file);
+  test::expect_survives_damage(file, "damaged.vtkhdf");
+  if (test::has_shared_data()) test::expect_survives_damage(test::shared_data() / "formats/pt.vtkhdf", "damaged.hdf");  // groups of the old style, no checksums
+}
+
+}  // namespace
+}  // namespace sterna::io
