@@ -54,7 +54,7 @@ constexpr std::array k_formats = {
            .write_volume = write_volume_medit, .carries_patch_names = true},
     Format{.name = "UGRID", .extensions = ".lb8.ugrid .b8.ugrid .lb8l.ugrid .b8l.ugrid .lb4.ugrid .b4.ugrid .ugrid", .read_surface = read_ugrid, .write_surface = write_ugrid,
            .read_volume = read_volume_ugrid, .write_volume = write_volume_ugrid, .carries_patch_names = true},
-    Format{.name = "CGNS", .extensions = ".cgns", .read_surface = read_cgns, .write_surface = write_cgns, .read_volume = read_volume_cgns, .write_volume = write_volume_cgns,
+    Format{.name = "CGNS", .extensions = ".cgns .adf.cgns", .read_surface = read_cgns, .write_surface = write_cgns, .read_volume = read_volume_cgns, .write_volume = write_volume_cgns,
            .carries_patch_names = true},
     Format{.name = "TAU", .extensions = ".taumesh .grid .netcdf .nc", .read_surface = read_tau, .write_surface = write_tau, .read_volume = read_volume_tau, .write_volume = write_volume_tau,
            .carries_patch_names = true},
