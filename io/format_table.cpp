@@ -8,17 +8,25 @@
 #include "io/file_buffer.h"
 #include "io/fluent.h"
 #include "io/medit.h"
+#include "io/surface_cart3d.h"
 #include "io/surface_cgns.h"
+#include "io/surface_dwfs.h"
 #include "io/surface_msh.h"
+#include "io/surface_nastran.h"
 #include "io/surface_obj.h"
 #include "io/surface_off.h"
+#include "io/surface_plot3d.h"
 #include "io/surface_ply.h"
 #include "io/surface_stl.h"
 #include "io/surface_su2.h"
 #include "io/surface_tau.h"
+#include "io/surface_tetgen.h"
 #include "io/surface_ugrid.h"
+#include "io/surface_vtk.h"
 #include "io/surface_vtkhdf.h"
 #include "io/surface_vtu.h"
+#include "io/surface_wgs.h"
+#include "io/surface_zml.h"
 #include "io/text_scanner.h"
 #include "io/volume_cgns.h"
 #include "io/volume_edge.h"
@@ -33,6 +41,7 @@
 namespace sterna::io {
 namespace {
 
+bool is_xml(std::string_view head) { return head.substr(std::min(head.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), head.size())).starts_with('<'); }
 bool is_gmsh(std::string_view head) { return head.find("$MeshFormat") != std::string_view::npos; }
 /// An S-expression.
 bool is_fluent(std::string_view head) {
@@ -42,16 +51,20 @@ bool is_fluent(std::string_view head) {
 
 // One line for each format; the order counts where extensions are shared.
 constexpr std::array k_formats = {
-    Format{.name = "STL", .extensions = ".stl", .read_surface = read_stl, .carries_patch_names = true},
-    Format{.name = "OBJ", .extensions = ".obj", .read_surface = read_obj, .carries_patch_names = true},
-    Format{.name = "OFF", .extensions = ".off", .read_surface = read_off},
-    Format{.name = "PLY", .extensions = ".ply", .read_surface = read_ply, .carries_patch_names = true},
-    Format{.name = "Gmsh MSH", .extensions = ".msh .bin.msh", .is_content = is_gmsh, .read_surface = read_msh, .read_volume = read_volume_msh, .write_volume = write_volume_msh,
-           .carries_patch_names = true},
+    Format{.name = "STL", .extensions = ".stl", .read_surface = read_stl, .write_surface = write_stl, .carries_patch_names = true},
+    Format{.name = "STL binary", .extensions = ".stl", .write_surface = write_stl_binary},
+    Format{.name = "STL text", .extensions = ".stl", .write_surface = write_stl_text, .carries_patch_names = true},
+    Format{.name = "OBJ", .extensions = ".obj", .read_surface = read_obj, .write_surface = write_obj, .carries_patch_names = true},
+    Format{.name = "OFF", .extensions = ".off", .read_surface = read_off, .write_surface = write_off},
+    Format{.name = "PLY", .extensions = ".ply", .read_surface = read_ply, .write_surface = write_ply, .carries_patch_names = true},
+    Format{.name = "Gmsh MSH", .extensions = ".msh .bin.msh", .is_content = is_gmsh, .read_surface = read_msh, .write_surface = write_msh, .read_volume = read_volume_msh,
+           .write_volume = write_volume_msh, .carries_patch_names = true},
+    Format{.name = "Gmsh MSH 2.2", .extensions = ".msh", .write_surface = write_msh_2_2, .carries_patch_names = true},
     Format{.name = "Fluent", .extensions = ".msh .fluent.msh", .is_content = is_fluent, .read_surface = read_surface_fluent, .read_volume = read_volume_fluent, .write_volume = write_volume_fluent,
            .carries_patch_names = true},
     Format{.name = "Medit", .extensions = ".mesh .meshb", .read_surface = read_surface_medit, .write_surface = write_surface_medit, .read_volume = read_volume_medit,
            .write_volume = write_volume_medit, .carries_patch_names = true},
+    Format{.name = "dwfs", .extensions = ".msh", .is_content = is_xml, .read_surface = read_dwfs, .write_surface = write_dwfs, .carries_patch_names = true},
     Format{.name = "UGRID", .extensions = ".lb8.ugrid .b8.ugrid .lb8l.ugrid .b8l.ugrid .lb4.ugrid .b4.ugrid .ugrid", .read_surface = read_ugrid, .write_surface = write_ugrid,
            .read_volume = read_volume_ugrid, .write_volume = write_volume_ugrid, .carries_patch_names = true},
     Format{.name = "CGNS", .extensions = ".cgns .adf.cgns", .read_surface = read_cgns, .write_surface = write_cgns, .read_volume = read_volume_cgns, .write_volume = write_volume_cgns,
@@ -63,6 +76,17 @@ constexpr std::array k_formats = {
     Format{.name = "VTKHDF", .extensions = ".vtkhdf .hdf", .read_surface = read_surface_vtkhdf, .write_surface = write_surface_vtkhdf, .read_volume = read_volume_vtkhdf,
            .write_volume = write_volume_vtkhdf, .carries_patch_names = true},
     Format{.name = "VTU", .extensions = ".vtu", .read_surface = read_surface_vtu, .write_surface = write_surface_vtu, .read_volume = read_volume_vtu, .write_volume = write_volume_vtu, .carries_patch_names = true},
+    Format{.name = "VTK", .extensions = ".vtk", .read_surface = read_surface_vtk, .write_surface = write_surface_vtk, .read_volume = read_volume_vtk, .carries_patch_names = true},
+    Format{.name = "VTK text", .extensions = ".vtk", .write_surface = write_surface_vtk_text, .carries_patch_names = true},
+    Format{.name = "VTP", .extensions = ".vtp", .read_surface = read_surface_vtu, .write_surface = write_surface_vtp, .carries_patch_names = true},
+    Format{.name = "Nastran", .extensions = ".nas .bdf", .read_surface = read_nastran, .write_surface = write_nastran, .carries_patch_names = true},
+    Format{.name = "Cart3D", .extensions = ".tri .triq", .read_surface = read_cart3d, .write_surface = write_cart3d, .carries_patch_names = true},
+    Format{.name = "Cart3D binary", .extensions = ".bin.tri", .read_surface = read_cart3d, .write_surface = write_cart3d_binary, .carries_patch_names = true},
+    Format{.name = "TetGen smesh", .extensions = ".smesh", .read_surface = read_tetgen, .write_surface = write_smesh, .carries_patch_names = true},
+    Format{.name = "TetGen poly", .extensions = ".poly", .read_surface = read_tetgen, .write_surface = write_poly, .carries_patch_names = true},
+    Format{.name = "zml", .extensions = ".zml", .read_surface = read_zml, .carries_patch_names = true},
+    Format{.name = "LaWGS", .extensions = ".wgs", .read_surface = read_wgs, .carries_patch_names = true},
+    Format{.name = "PLOT3D", .extensions = ".fmt .xyz .p3d", .read_surface = read_plot3d},
     Format{.name = "OpenFOAM", .extensions = ".foam .bin.foam polymesh", .read_volume = read_volume_foam, .write_volume = write_volume_foam, .carries_patch_names = true},
     Format{.name = "Edge", .extensions = ".bmsh .v2.bmsh", .read_volume = read_volume_edge, .write_volume = write_volume_edge, .carries_patch_names = true},
     Format{.name = "Edge text", .extensions = ".amsh", .read_volume = read_volume_edge, .carries_patch_names = true},

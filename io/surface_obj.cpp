@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "io/name_rules.h"
 #include "io/surface_builder.h"
+#include "io/surface_output.h"
 #include "io/surface_polygon.h"
 #include "io/text_scanner.h"
 
@@ -131,6 +133,24 @@ SurfaceSoup read_obj(const std::filesystem::path& path, const RunContext& contex
   SurfaceSoup soup = builder.finish();
   soup.has_names = naming != nullptr;
   return soup;
+}
+
+void write_obj(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  const std::vector<std::string> names = names_by_rules(mesh.patches, {.format = "OBJ", .forbidden = "#\\", .may_have_blanks = false}, context);
+  std::size_t longest_name = 0;
+  for (const std::string& name : names) longest_name = std::max(longest_name, name.size());
+  const OutputSection faces = items_section(mesh.n_triangles(), longest_name + 3 * k_max_id_text + 8, [&](std::uint64_t i, char* at) {
+    const TriangleId t(i);
+    const PatchId patch = mesh.triangle_patch[t];
+    if (i == 0 || mesh.triangle_patch[TriangleId(i - 1)] != patch) {
+      at = put_text(put_text(at, "g "), names[patch.index()]);
+      *at++ = '\n';
+    }
+    at = put_corners_text(put_text(at, "f "), mesh.triangles[t], 1);
+    *at++ = '\n';
+    return at;
+  });
+  write_file(path, {point_lines(mesh, "v "), faces}, context);
 }
 
 }  // namespace sterna::io

@@ -9,6 +9,7 @@
 #include "geom/base/error.h"
 #include "io/byte_reader.h"
 #include "io/surface_builder.h"
+#include "io/surface_output.h"
 #include "io/surface_polygon.h"
 #include "io/text_scanner.h"
 
@@ -176,6 +177,11 @@ SurfaceSoup read_off(const std::filesystem::path& path, const RunContext& contex
   if (header.has_weight || header.has_extras) throw_unsupported(buffer.source, "OFF BINARY with normals, colours or weights of vertices is not read", "write it as text");
   scanner.next_line();
   return read_any_binary(buffer, scanner.offset(), context);
+}
+
+void write_off(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  write_file(path, {fixed_section("OFF\n" + std::to_string(mesh.n_vertices()) + " " + std::to_string(mesh.n_triangles()) + " 0\n"), point_lines(mesh, ""), triangle_lines(mesh, "3 ", 0)},
+             context);
 }
 
 }  // namespace sterna::io

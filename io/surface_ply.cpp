@@ -2,13 +2,18 @@
 #include "io/surface_ply.h"
 
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "io/byte_reader.h"
+#include "io/name_rules.h"
 #include "io/surface_builder.h"
+#include "io/surface_output.h"
 #include "io/surface_polygon.h"
 #include "io/text_scanner.h"
 
@@ -68,6 +73,7 @@ struct Element {
 struct Header {
   Encoding encoding = Encoding::text;
   std::vector<Element> elements;
+  std::map<std::int64_t, std::string> patch_names;  ///< from comments "patch <number> <name>"
 };
 
 // ---- header
@@ -137,6 +143,20 @@ std::size_t min_bytes(const Element& element, Encoding encoding) {
   return n;
 }
 
+/// Ours may name patches: "patch 2 left wing".
+void parse_comment(TextScanner& scanner, Header& header) {
+  if (scanner.peek() != "patch") return;
+  scanner.skip_token("patch");
+  const std::string_view number = scanner.peek();
+  std::int64_t patch = 0;
+  const auto [end, failure] = std::from_chars(number.data(), number.data() + number.size(), patch);
+  if (number.empty() || failure != std::errc{} || end != number.data() + number.size()) return;
+  scanner.skip_token("the number of a patch");
+  const std::size_t begin = scanner.offset();
+  if (const std::string_view name = scanner.rest_of_line(); !name.empty()) header.patch_names[patch] = name;
+  scanner.seek(begin);
+}
+
 Header parse_header(TextScanner& scanner) {
   Header header;
   bool has_format = false;
@@ -146,7 +166,10 @@ Header parse_header(TextScanner& scanner) {
     if (scanner.at_line_end() && scanner.remaining() > 0) continue;
     const std::string_view word = scanner.token("a line of the header, or end_header");
     if (word == "end_header") break;
-    if (word == "comment" || word == "obj_info") continue;
+    if (word == "comment" || word == "obj_info") {
+      parse_comment(scanner, header);
+      continue;
+    }
     if (word == "format") {
       header.encoding = parse_format(scanner);
       has_format = true;
@@ -285,7 +308,10 @@ void read_elements(const Header& header, Values values, SurfaceBuilder& builder,
       }
       if (element.is_vertex()) builder.add_point(p);
       if (!element.is_face()) continue;
-      if (patch) builder.set_patch(numbered_patch(*patch));
+      if (patch) {
+        const auto name = header.patch_names.find(*patch);
+        builder.set_patch(name == header.patch_names.end() ? numbered_patch(*patch) : name->second);
+      }
       if (corners.size() < 3) ++n_not_faces;
       else builder.add_polygon(corners);
     }
@@ -322,6 +348,27 @@ SurfaceSoup read_ply(const std::filesystem::path& path, const RunContext& contex
   soup.has_names = has_patches;
   soup.single_precision = is_single;
   return soup;
+}
+
+void write_ply(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  require_count(mesh.n_vertices(), std::numeric_limits<std::int32_t>::max(), "vertices", "PLY", path.string());
+  const std::vector<std::string> names = names_by_rules(mesh.patches, {.format = "PLY"}, context);
+  std::string header = "ply\nformat binary_little_endian 1.0\n";
+  for (std::size_t i = 0; i < names.size(); ++i) header += "comment patch " + std::to_string(i + 1) + " " + names[i] + "\n";
+  header += "element vertex " + std::to_string(mesh.n_vertices()) + "\nproperty double x\nproperty double y\nproperty double z\n";
+  header += "element face " + std::to_string(mesh.n_triangles()) + "\nproperty list uchar int vertex_indices\nproperty int patch\nend_header\n";
+  constexpr std::size_t k_vertex_bytes = 3 * sizeof(double);
+  constexpr std::size_t k_face_bytes = 1 + 4 * sizeof(std::int32_t);
+  const OutputSection vertices = items_section(mesh.n_vertices(), k_vertex_bytes, [&](std::uint64_t i, char* at) {
+    for (std::size_t axis = 0; axis < 3; ++axis) at = put_bytes(at, mesh.points.raw()[i][axis], std::endian::little);
+    return at;
+  });
+  const OutputSection faces = items_section(mesh.n_triangles(), k_face_bytes, [&](std::uint64_t i, char* at) {
+    *at++ = 3;
+    for (const VertexId v : mesh.triangles.raw()[i]) at = put_bytes(at, static_cast<std::int32_t>(v.value()), std::endian::little);
+    return put_bytes(at, static_cast<std::int32_t>(patch_number(mesh, TriangleId(i))), std::endian::little);
+  });
+  write_file(path, {fixed_section(std::move(header)), vertices, faces}, context);
 }
 
 }  // namespace sterna::io

@@ -2,11 +2,15 @@
 #include "io/surface_stl.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "io/byte_reader.h"
 #include "io/file_buffer.h"
+#include "io/name_rules.h"
 #include "io/surface_builder.h"
+#include "io/surface_output.h"
 #include "io/text_scanner.h"
 
 namespace sterna::io {
@@ -112,6 +116,38 @@ SurfaceSoup read_text(const FileBuffer& buffer, const RunContext& context) {
   return soup;
 }
 
+// ---- writing
+
+/// Unit normal by the right-hand rule; zero for a triangle without area.
+Vec3 facet_normal(const std::array<Point, 3>& p) {
+  const Vec3 n = cross(p[1] - p[0], p[2] - p[0]);
+  const double length = norm(n);
+  return length > 0.0 && std::isfinite(length) ? n / length : Vec3{};
+}
+
+OutputSection binary_facets(const TriMesh& mesh) {
+  return items_section(mesh.n_triangles(), k_facet_bytes, [&mesh](std::uint64_t i, char* at) {
+    const std::array<Point, 3> p = corners(mesh, TriangleId(i));
+    for (const Vec3& v : {facet_normal(p), p[0], p[1], p[2]})
+      for (std::size_t axis = 0; axis < 3; ++axis) at = put_bytes(at, static_cast<float>(v[axis]), std::endian::little);
+    return put_bytes(at, std::uint16_t{0}, std::endian::little);
+  });
+}
+
+OutputSection text_facets(const TriMesh& mesh, std::span<const TriangleId> triangles) {
+  constexpr std::size_t k_words = 120;  // of a facet, without its numbers
+  return items_section(triangles.size(), k_words + 4 * k_max_point_text, [&mesh, triangles](std::uint64_t i, char* at) {
+    const std::array<Point, 3> p = corners(mesh, triangles[i]);
+    at = put_point_text(put_text(at, "facet normal "), facet_normal(p));
+    at = put_text(at, "\n outer loop\n");
+    for (const Point& corner : p) {
+      at = put_point_text(put_text(at, "  vertex "), corner);
+      *at++ = '\n';
+    }
+    return put_text(at, " endloop\nendfacet\n");
+  });
+}
+
 }  // namespace
 
 SurfaceSoup read_stl(const std::filesystem::path& path, const RunContext& context) {
@@ -133,6 +169,33 @@ SurfaceSoup read_stl(const std::filesystem::path& path, const RunContext& contex
                  " facets are ignored");
   }
   return read_binary(buffer, n_facets, context);
+}
+
+void write_stl(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  mesh.patches.size() > 1 ? write_stl_text(mesh, path, context) : write_stl_binary(mesh, path, context);
+}
+
+void write_stl_binary(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  require_count(mesh.n_triangles(), std::numeric_limits<std::uint32_t>::max(), "triangles", "binary STL", path.string());
+  require_single_precision(mesh, "binary STL", path.string());
+  if (mesh.patches.size() > 1) context.warn("binary STL has no patches: the " + std::to_string(mesh.patches.size()) + " of the surface become one");
+  std::string header = "binary STL, single precision";  // must not begin with "solid"
+  header.resize(k_first_facet, ' ');
+  put_bytes(header.data() + k_header_bytes, static_cast<std::uint32_t>(mesh.n_triangles()), std::endian::little);
+  write_file(path, {fixed_section(std::move(header)), binary_facets(mesh)}, context);
+}
+
+void write_stl_text(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  const TrianglesByPatch triangles(mesh);
+  const std::vector<std::string> names = names_by_rules(mesh.patches, {.format = "STL", .forbidden = "\""}, context);
+  std::vector<OutputSection> sections;
+  for (const PatchId patch : triangles.used_patches()) {
+    sections.push_back(fixed_section("solid " + names[patch.index()] + "\n"));
+    sections.push_back(text_facets(mesh, triangles.of(patch)));
+    sections.push_back(fixed_section("endsolid " + names[patch.index()] + "\n"));
+  }
+  if (sections.empty()) sections.push_back(fixed_section("solid\nendsolid\n"));
+  write_file(path, sections, context);
 }
 
 }  // namespace sterna::io

@@ -7,6 +7,7 @@
 #include "io/cell_sections.h"
 #include "io/volume_vtu.h"
 #include "io/vtk_cells.h"
+#include "io/vtk_grid.h"
 #include "io/vtu_document.h"
 
 namespace sterna::io {
@@ -166,8 +167,7 @@ void write_volume_vtu(const HybridMesh& mesh, const std::filesystem::path& path,
   document.cell_data.push_back(per_cell<std::int32_t>("marker", VtuType::int32, cells, [](int, std::int32_t marker) { return marker; }));
   document.cell_data.push_back(per_cell<std::int32_t>("layer", VtuType::int32, cells, [](int layer, std::int32_t) { return layer; }));
   for (const PatchId patch : mesh.patches.ids())
-    document.field_data.emplace_back("patch:" + std::string(to_string(mesh.patches[patch].kind)) + ":" + mesh.patches[patch].name,
-                                     static_cast<std::int32_t>(patch.value()) + 1);
+    document.field_data.emplace_back(vtk_patch_key(mesh.patches[patch]), static_cast<std::int32_t>(patch.value()) + 1);
   write_vtu(document, path, context);
 }
 

@@ -12,6 +12,7 @@
 #include "geom/base/error.h"
 #include "io/atomic_file.h"
 #include "io/ordered_output.h"
+#include "io/xml_tags.h"
 
 namespace sterna::io {
 namespace {
@@ -38,23 +39,10 @@ std::string_view name_of(VtuType type) {
   return "";
 }
 
-std::string xml_escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;  // control characters are not XML
-    }
-  }
-  return out;
-}
-
 /// All arrays of a document in file order.
 std::vector<const VtuArray*> arrays_of(const VtuDocument& document) {
-  std::vector<const VtuArray*> arrays = {&document.points, &document.connectivity, &document.offsets, &document.types};
+  std::vector<const VtuArray*> arrays = {&document.points, &document.connectivity, &document.offsets};
+  if (document.kind == VtuKind::unstructured_grid) arrays.push_back(&document.types);
   for (const VtuArray& array : document.cell_data) arrays.push_back(&array);
   return arrays;
 }
@@ -66,23 +54,25 @@ std::string head(const VtuDocument& document, const std::vector<std::uint64_t>& 
            (array.n_components > 1 ? " NumberOfComponents=\"" + std::to_string(array.n_components) + "\"" : "") + " format=\"appended\" offset=\"" +
            std::to_string(offsets[next++]) + "\"/>\n";
   };
-  std::string text =
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
-      "<UnstructuredGrid>\n";
+  const bool is_surface = document.kind == VtuKind::poly_data;
+  const std::string kind = is_surface ? "PolyData" : "UnstructuredGrid";
+  const std::string cells = is_surface ? "Polys" : "Cells";
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind +
+                     "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<" + kind + ">\n";
   if (!document.field_data.empty()) {
     text += "<FieldData>\n";
     for (const auto& [name, value] : document.field_data)
       text += "<DataArray type=\"Int32\" Name=\"" + xml_escaped(name) + "\" NumberOfTuples=\"1\" format=\"ascii\">" + std::to_string(value) + "</DataArray>\n";
     text += "</FieldData>\n";
   }
-  text += "<Piece NumberOfPoints=\"" + std::to_string(document.n_points) + "\" NumberOfCells=\"" + std::to_string(document.n_cells) + "\">\n";
+  text += "<Piece NumberOfPoints=\"" + std::to_string(document.n_points) + "\" NumberOf" + cells + "=\"" + std::to_string(document.n_cells) + "\">\n";
   text += "<Points>\n" + array_tag(document.points) + "</Points>\n";
-  text += "<Cells>\n";
-  for (const VtuArray* array : {&document.connectivity, &document.offsets, &document.types}) text += array_tag(*array);
-  text += "</Cells>\n<CellData>\n";
+  text += "<" + cells + ">\n" + array_tag(document.connectivity);
+  text += array_tag(document.offsets);
+  if (!is_surface) text += array_tag(document.types);
+  text += "</" + cells + ">\n<CellData>\n";
   for (const VtuArray& array : document.cell_data) text += array_tag(array);
-  text += "</CellData>\n</Piece>\n</UnstructuredGrid>\n";
+  text += "</CellData>\n</Piece>\n</" + kind + ">\n";
   return text;
 }
 

@@ -23,12 +23,16 @@ struct VtuArray {
   std::function<void(std::uint64_t begin, std::uint64_t end, char* out)> fill;
 };
 
-/// An unstructured grid of one piece.
+/// What a file is to VTK: cells of any kind (.vtu), or a surface of polygons (.vtp).
+enum class VtuKind { unstructured_grid, poly_data };
+
+/// A grid of one piece.
 struct VtuDocument {
+  VtuKind kind = VtuKind::unstructured_grid;
   std::uint64_t n_points = 0;
   std::uint64_t n_cells = 0;
   VtuArray points;                                              ///< 3 components
-  VtuArray connectivity, offsets, types;                        ///< VTK node order, end positions, VTK numbers
+  VtuArray connectivity, offsets, types;                        ///< VTK node order, end positions, VTK numbers (not of PolyData)
   std::vector<VtuArray> cell_data;
   std::vector<std::pair<std::string, std::int32_t>> field_data;  ///< single numbers by name
 };

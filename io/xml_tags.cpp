@@ -119,4 +119,18 @@ std::vector<XmlTag> scan_xml_tags(std::string_view text, std::string_view last, 
   return TagScanner(text, source).scan(last);
 }
 
+std::string xml_escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;  // control characters are not XML
+    }
+  }
+  return out;
+}
+
 }  // namespace sterna::io

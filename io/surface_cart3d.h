@@ -1,0 +1,21 @@
+// Cart3D .tri: triangles with component numbers, text and binary (formats.md 7.2).
+#pragma once
+
+#include <filesystem>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/surface_soup.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::io {
+
+/// Text, or Fortran records of either byte order, by the contents. Scalars of .triq are passed over.
+/// \throws Error file_not_found, file_malformed (line or byte offset), cancelled.
+SurfaceSoup read_cart3d(const std::filesystem::path& path, const RunContext& context);
+
+/// Text with every digit; components count patches from 1. \throws Error write_failed, cancelled.
+void write_cart3d(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
+/// Little-endian Fortran records, single precision. \throws Error write_failed, overflow (float range, 31-bit records), cancelled.
+void write_cart3d_binary(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
+
+}  // namespace sterna::io

@@ -1,0 +1,18 @@
+// The .msh of sumo (dwfs): XML with one or more triangulations (sumo.md).
+#pragma once
+
+#include <filesystem>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/surface_soup.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::io {
+
+/// Tags are patches, named by the TagNameMap. \throws Error file_not_found, file_malformed (byte offset), cancelled.
+SurfaceSoup read_dwfs(const std::filesystem::path& path, const RunContext& context);
+
+/// Every digit, tags count patches from 1. \throws Error write_failed, cancelled.
+void write_dwfs(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
+
+}  // namespace sterna::io

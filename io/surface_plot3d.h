@@ -1,0 +1,15 @@
+// PLOT3D surfaces of several blocks, whole format: text, Fortran records, plain bytes.
+#pragma once
+
+#include <filesystem>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/surface_soup.h"
+
+namespace sterna::io {
+
+/// Each block is a patch of quads, "patch_<number>"; one of its three dimensions is 1. Byte order, precision and a trailing IBLANK array follow from the sizes.
+/// \throws Error file_not_found, file_malformed (line or byte offset), unsupported_format (volume blocks), overflow, cancelled.
+SurfaceSoup read_plot3d(const std::filesystem::path& path, const RunContext& context);
+
+}  // namespace sterna::io

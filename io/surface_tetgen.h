@@ -1,0 +1,20 @@
+// TetGen input: .smesh and .poly, with their .node file where they refer to one (formats.md 7.3).
+#pragma once
+
+#include <filesystem>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/surface_soup.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::io {
+
+/// Facets by their markers. A facet of .poly is one polygon; further polygons of one or two points, which only constrain it, are passed over.
+/// \throws Error file_not_found, file_malformed (line), unsupported_format (facets with holes, plane files of Triangle), cancelled.
+SurfaceSoup read_tetgen(const std::filesystem::path& path, const RunContext& context);
+
+/// Nodes and facets counted from 1, every digit, markers count patches from 1, no holes and no regions. \throws Error write_failed, overflow, cancelled.
+void write_smesh(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
+void write_poly(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
+
+}  // namespace sterna::io

@@ -1,0 +1,15 @@
+// LaWGS, the Langley Wireframe Geometry Standard (NASA TM 85767): networks of points.
+#pragma once
+
+#include <filesystem>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/surface_soup.h"
+
+namespace sterna::io {
+
+/// Each network is a patch of quads, moved into the common system (rotation about x, y, z, translation, scale). Mirror images that a network implies are not made, and told.
+/// \throws Error file_not_found, file_malformed (line), overflow, cancelled.
+SurfaceSoup read_wgs(const std::filesystem::path& path, const RunContext& context);
+
+}  // namespace sterna::io
