@@ -180,7 +180,26 @@ class CgnsReader {
     const std::uint64_t size = size_of(section, type);
     if (static_cast<std::uint64_t>(n) > corners.count() || corners.count() != static_cast<std::uint64_t>(n) * size)
       corners.fail("found " + std::to_string(corners.count()) + " numbers of nodes for " + std::to_string(n) + " elements of " + std::to_string(size));
-    for (std::int64_t i = 0; i < n; ++i) add_element(type, corners, static_cast<std::uint64_t>(i) * size, start + i);
+    switch (type) {
+      case cgns_type(CellKind::tetrahedron): add_cells(mesh_.tetrahedra, corners, start, n); break;
+      case cgns_type(CellKind::pyramid): add_cells(mesh_.pyramids, corners, start, n); break;
+      case cgns_type(CellKind::prism): add_cells(mesh_.prisms, corners, start, n); break;
+      case cgns_type(CellKind::hexahedron): add_cells(mesh_.hexahedra, corners, start, n); break;
+      default:
+        for (std::int64_t i = 0; i < n; ++i) add_element(type, corners, static_cast<std::uint64_t>(i) * size, start + i);
+    }
+  }
+
+  /// A section of cells of one type, which is most of a file.
+  template <std::size_t N>
+  void add_cells(std::vector<std::array<NodeId, N>>& cells, const NumberArray& corners, std::int64_t start, std::int64_t n) {
+    if (n == 0) return;
+    last_cell_ = std::max(last_cell_, start + n - 1);
+    std::vector<std::array<NodeId, N>> ignored;  // a surface needs to know that the nodes are sound, not the cells
+    std::vector<std::array<NodeId, N>>& found = contents_ == Contents::volume ? cells : ignored;
+    const std::size_t first = found.size();
+    found.resize(first + static_cast<std::size_t>(n));
+    parallel_for(context_, static_cast<std::size_t>(n), [&](std::size_t i) { found[first + i] = nodes_of<N>(corners, i * N, start + static_cast<std::int64_t>(i)); });
   }
 
   /// Types in front of each element; the offsets that some versions add are not needed.

@@ -89,7 +89,7 @@ class HeadWriter {
 
 class TauWriter {
  public:
-  TauWriter(const HybridMesh& mesh, const std::string& path, const RunContext& context) : mesh_(mesh), cells_(mesh), context_(context) {
+  TauWriter(const HybridMesh& mesh, const std::string& path, TauNetcdf kind, const RunContext& context) : mesh_(mesh), cells_(mesh), context_(context) {
     constexpr std::uint64_t k_max_number = std::numeric_limits<std::int32_t>::max();
     require_count(mesh.points.size(), k_max_number, "points", "TAU (32-bit numbers of points)", path);
     const FacesByPatch faces(mesh);
@@ -105,6 +105,7 @@ class TauWriter {
     is_cdf5_ = std::any_of(variables_.begin(), variables_.end(), [](const Variable& variable) { return variable.n_bytes > k_max_cdf2_variable; }) ||
                std::any_of(dimensions_.begin(), dimensions_.end(), [](const Dimension& dimension) { return dimension.length > k_max_number; });
     if (is_cdf5_) context.warn(path + ": an array exceeds the 4 GiB of NetCDF's 64-bit offset files; it is written as CDF-5, which not every TAU reads");
+    is_cdf5_ = is_cdf5_ || kind == TauNetcdf::cdf5;
   }
 
   std::vector<OutputSection> sections() const {
@@ -225,8 +226,10 @@ class TauWriter {
 
 }  // namespace
 
-void write_volume_tau(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
-  const TauWriter writer(mesh, path.string(), context);
+void write_volume_tau(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) { write_volume_tau(mesh, path, TauNetcdf::as_needed, context); }
+
+void write_volume_tau(const HybridMesh& mesh, const std::filesystem::path& path, TauNetcdf kind, const RunContext& context) {
+  const TauWriter writer(mesh, path.string(), kind, context);
   AtomicFile mapping(bmap_path(path));
   mapping.append(writer.mapping());
   AtomicFile file(path);

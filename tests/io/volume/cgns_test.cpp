@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "io/cgns_tree.h"
 #include "io/volume_cgns.h"
 #include "io/volume_file.h"
 #include "tests/io/volume/volume_tools.h"
@@ -139,6 +140,61 @@ TEST(CgnsRead, OtherFilesAreRefused) {
   test::expect_error(ErrorCode::unsupported_format, "structured", [&] { read(test::shared_data() / "surfaces/nasty/mdo_717_cgns_717_wl_L2.cgns"); });
   std::filesystem::copy_file(test::shared_data() / "formats/pt.vtkhdf", folder / "vtk.cgns");
   test::expect_error(ErrorCode::file_malformed, "not CGNS", [&] { read(folder / "vtk.cgns"); });
+}
+
+/// A tetrahedron whose four faces are one section "faces", with a condition that lists some of them.
+HybridMesh tetrahedron_with(const CgnsOutputNode& condition, std::vector<std::string>* warnings = nullptr) {
+  const auto numbers = [](std::vector<std::uint64_t> extents, const std::vector<std::int32_t>& values) { return output_numbers(NumberKind::i4, std::move(extents), values); };
+  CgnsOutputNode zone = cgns_node("Zone", "Zone_t", numbers({1, 3}, {4, 1, 0}));
+  zone.children = {cgns_node("ZoneType", "ZoneType_t", output_text("Unstructured")), cgns_node("GridCoordinates", "GridCoordinates_t"), cgns_node("cell", "Elements_t", numbers({2}, {10, 0})),
+                   cgns_node("faces", "Elements_t", numbers({2}, {5, 0})), cgns_node("ZoneBC", "ZoneBC_t")};
+  for (int axis = 0; axis < 3; ++axis)
+    zone.children[1].children.push_back(cgns_node(std::string("Coordinate") + "XYZ"[axis], "DataArray_t",
+                                                  output_numbers<float>(NumberKind::f4, {4}, {0, axis == 0 ? 1.0f : 0.0f, axis == 1 ? 1.0f : 0.0f, axis == 2 ? 1.0f : 0.0f})));
+  zone.children[2].children = {cgns_node("ElementRange", "IndexRange_t", numbers({2}, {1, 1})), cgns_node("ElementConnectivity", "DataArray_t", numbers({4}, {1, 3, 2, 4}))};  // flipped
+  zone.children[3].children = {cgns_node("ElementRange", "IndexRange_t", numbers({2}, {2, 5})),
+                               cgns_node("ElementConnectivity", "DataArray_t", numbers({12}, {1, 2, 3, 1, 2, 4, 2, 3, 4, 3, 1, 4}))};
+  zone.children[4].children = {condition};
+  CgnsOutputNode base = cgns_node("Base", "CGNSBase_t", numbers({2}, {3, 3}));
+  base.children = {zone, cgns_node("lid", "Family_t")};
+  base.children[1].children = {cgns_node("FamBC", "FamilyBC_t", output_text("BCFarfield"))};
+  CgnsOutputNode root = cgns_node("", "");
+  root.children = {cgns_node("CGNSLibraryVersion", "CGNSLibraryVersion_t", output_numbers<float>(NumberKind::f4, {1}, {3.3f})), base};
+  const auto path = test::scratch() / "tetrahedron.cgns";
+  {
+    AtomicFile file(path);
+    write_sections(file, cgns_hdf5_sections(root), RunContext({.threads = 1}));
+    file.commit();
+  }
+  const HybridMesh mesh = read_volume_file(path, RunContext({.threads = 1, .log = [&](LogLevel level, std::string_view line) {
+                                                               if (warnings && level == LogLevel::warning) warnings->emplace_back(line);
+                                                             }}));
+  EXPECT_DOUBLE_EQ(test::volume_of(mesh), 1.0 / 6.0);
+  EXPECT_DOUBLE_EQ(test::enclosed_volume(mesh), 1.0 / 6.0);
+  return mesh;
+}
+
+TEST(CgnsRead, ConditionsListElementsOrNodesInManyWays) {
+  const auto condition = [](const std::string& type, std::vector<CgnsOutputNode> children) {
+    CgnsOutputNode node = cgns_node("bc", "BC_t", output_text(type));
+    node.children = std::move(children);
+    return node;
+  };
+  const auto points = [](const std::string& name, const std::vector<std::int32_t>& values) {
+    return cgns_node(name, name.ends_with("Range") ? "IndexRange_t" : "IndexArray_t", output_numbers(NumberKind::i4, {1, values.size()}, values));
+  };
+  const CgnsOutputNode face_center = cgns_node("GridLocation", "GridLocation_t", output_text("FaceCenter")), lid = cgns_node("FamilyName", "FamilyName_t", output_text("lid"));
+  const std::vector<Patch> inflow = {{"faces", PatchKind::wall}, {"bc", PatchKind::inflow}}, family = {{"faces", PatchKind::wall}, {"lid", PatchKind::farfield}};
+  EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("PointRange", {4, 5}), face_center})).patches.raw(), inflow);
+  EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {3})})).patches.raw(), inflow);
+  EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("PointList", {2, 3, 4})})).patches.raw(), inflow);  // nodes
+  EXPECT_EQ(tetrahedron_with(condition("FamilySpecified", {points("PointList", {5}), face_center, lid})).patches.raw(), family);
+  EXPECT_EQ(tetrahedron_with(condition("BCSymmetryPlane", {points("ElementRange", {2, 5}), lid})).patches.raw(), (std::vector<Patch>{{"lid", PatchKind::symmetry}}));
+  std::vector<std::string> warnings;
+  EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {1})}), &warnings).patches.raw(), inflow);  // numbers without the cells before them
+  EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {9})}), &warnings).patches.raw(), (std::vector<Patch>{{"faces", PatchKind::wall}}));
+  EXPECT_THAT(warnings, testing::ElementsAre(testing::HasSubstr("lists volume cells"), testing::HasSubstr("lists no boundary face")));
+  test::expect_error(ErrorCode::file_malformed, "/Base/Zone/ZoneBC/bc/PointList: found the node 5, expected 1 to 4", [&] { tetrahedron_with(condition("BCInflow", {points("PointList", {5})})); });
 }
 
 /// A wrong number at a place that the message must name.

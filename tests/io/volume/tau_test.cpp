@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "io/volume_file.h"
+#include "io/volume_tau.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"
@@ -64,6 +65,17 @@ TEST(Tau, NcdumpReadsIt) {
                                   std::string("int points_of_pyramids(no_of_pyramids, points_per_pyramid) ;"), std::string("double points_zc(no_of_points) ;"),
                                   std::string(":marker_4 = \"symmetry\" ;"), std::string("marker = 1, 2, 3, 4, 5, 6 ;")})
     EXPECT_THAT(head, testing::HasSubstr(part));
+}
+
+TEST(Tau, RoundTripInCdf5) {
+  const auto file = test::scratch() / "mesh.grid";
+  const HybridMesh mesh = test::mesh_of_six_patches();
+  write_volume_tau(mesh, file, TauNetcdf::cdf5, RunContext({.threads = 2}));
+  test::expect_equal_meshes(read(file), mesh);
+  const auto kind = test::output_of_tool("ncdump", {"-k", file.string()});
+  STERNA_NEEDS_TOOL(kind, "ncdump of the package netcdf-bin");
+  EXPECT_EQ(*kind, "cdf5\n");
+  EXPECT_THAT(*test::output_of_tool("ncdump", {"-v", "marker", file.string()}), testing::HasSubstr("marker = 1, 2, 3, 4, 5, 6 ;"));
 }
 
 /// The same grid through Debian's library: other versions, groups in heaps, packed chunks.
