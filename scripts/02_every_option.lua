@@ -48,6 +48,7 @@ local mesh = volume_mesh{ wall,
     radius_edge = 1.2,              -- TetGen
     hxt_improve_below = 0,          -- HXT's own improvement; 0: none
     max_new_points = "automatic",   -- more are a failure; automatic: no limit
+    boundary_splits = "ladder",     -- never, ladder, always: may TetGen split triangles of envelope and farfield; ladder: after other failures
     try_other_engine = true,        -- after a failure that would repeat itself
     fall_back_on_limits = false,    -- also after a time or memory limit; the manifest then says "not reproducible"
     memory_limit = 20e9,            -- bytes, of the helper process

@@ -14,6 +14,7 @@
 #include "volmesh/layer_report.h"
 #include "volmesh/prisms/extrude.h"
 #include "volmesh/prisms/layer_cells.h"
+#include "volmesh/split_layer.h"
 #include "volmesh/visibility_report.h"
 
 namespace sterna::volmesh {
@@ -60,11 +61,22 @@ Extrusion extrude_clear_of_collisions(const LayerBase& base, const VolumeMeshOpt
   }
 }
 
+LayerReport report(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion, const RunContext& context) {
+  LayerReport report = report_layer(base, options, envelope, extrusion, context);
+  report.feature_angle = options.feature_angle;
+  report.visibility = report_visibility(base);
+  return report;
+}
+
 /// What can be found out about the layer while an engine makes the tetrahedra.
 struct LayerProof {
   LayerCertificate cells;
   LayerCheck check;
 };
+
+LayerProof prove_layer(const HybridMesh& mesh, const RunContext& context) {
+  return {certify_layer(mesh.layers, mesh.points.raw(), context), check_ahead(mesh, {}, context)};
+}
 
 void add_cells(const LayerCertificate& cells, EnvelopeCertificate& certificate) {
   certificate.n_layer_cells = cells.n_cells;
@@ -74,14 +86,37 @@ void add_cells(const LayerCertificate& cells, EnvelopeCertificate& certificate) 
                                   "layer " + std::to_string(cells.worst_layer) + " on wall triangle " + std::to_string(cells.worst_column)};
 }
 
-TetraResult fill_volume(const TriMesh& wall, const FillBoundary& boundary, const VolumeMeshOptions& options, const RunContext& context) {
+TetraResult fill_volume(const TriMesh& wall, const FillBoundary& boundary, const VolumeMeshOptions& options, SplitTaker take_splits, const RunContext& context) {
   const std::vector<Point> holes = find_cavity_points(wall, context);
-  const TetraBoundary domain{boundary.points, boundary.triangles, holes, true, boundary.patch_names, boundary.triangle_patch};
+  const TetraBoundary domain{boundary.points, boundary.triangles, holes, true, boundary.patch_names, boundary.triangle_patch, std::move(take_splits)};
   const SizeField sizes = [&] {
     const StageTimer timer(context, "tetrahedra/size");
     return build_size_field(domain, options.sources, options.size, context);
   }();
   return fill(domain, &sizes, options.tetrahedra, context);
+}
+
+/// Carries the splits of a result to the layer; where the layer must be lower with them, the volume inside the split boundary, kept now, is filled once more.
+SplitLayer take_splits(const LayerBase& base, const Envelope& envelope, const TriMesh& outer, const VolumeMeshOptions& options, TetraResult& tets,
+                       const RunContext& context) {
+  SplitLayer layer = split_layer(base, envelope, outer, options, tets, context);
+  if (layer.is_filled) return layer;
+  VolumeMeshOptions keeping = options;
+  keeping.tetrahedra.boundary_splits = "never";
+  tets = fill_volume(*layer.wall, layer.boundary, keeping, {}, context);
+  return layer;
+}
+
+/// The split layer instead of the one that it came from.
+void adopt(SplitLayer split, const VolumeMeshOptions& options, FillBoundary& boundary, VolumeMeshResult& result, const RunContext& context) {
+  result.n_split_triangles = static_cast<std::int64_t>(split.boundary.triangles.size() - boundary.triangles.size());
+  context.info("boundary splits: " + std::to_string(split.boundary.points.size() - boundary.points.size()) + " new points, " +
+               std::to_string(result.n_split_triangles) + " more triangles");
+  result.certificate = split.certificate;
+  result.layer = report(*split.base, options.envelope, split.envelope, split.extrusion, context);
+  result.mesh = assemble_layers(*split.base, std::move(split.extrusion), *split.outer);
+  result.mesh.request = layer_request(options.envelope, split.envelope);
+  boundary = std::move(split.boundary);
 }
 
 void require_valid(const CheckReport& report) {
@@ -132,26 +167,28 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
     result.certificate = certify_envelope(base, collider, envelope, context);
     require_proved(result.certificate);
   }
-  result.layer = report_layer(base, options.envelope, envelope, extrusion, context);
-  result.layer.feature_angle = options.envelope.feature_angle;
-  result.layer.visibility = report_visibility(base);
+  result.layer = report(base, options.envelope, envelope, extrusion, context);
   for (const std::string& warning : result.layer.warnings) context.warn(warning);
 
-  const FillBoundary boundary = fill_boundary(base, extrusion, outer);
+  FillBoundary boundary = fill_boundary(base, extrusion, outer);
   result.mesh = assemble_layers(base, std::move(extrusion), outer);
   result.mesh.request = layer_request(options.envelope, envelope);
   TetraResult tets;
   std::optional<LayerCheck> layer_check;
   {
     const StageTimer timer(context, "tetrahedra");
-    Alongside<LayerProof> proof(context, [&mesh = std::as_const(result.mesh)](const RunContext& side) {
-      return LayerProof{certify_layer(mesh.layers, mesh.points.raw(), side), check_ahead(mesh, {}, side)};
-    });
-    tets = fill_volume(wall, boundary, options, context.part("tetrahedra", 0.25, 0.9));
-    LayerProof of_layer = proof.take();
-    add_cells(of_layer.cells, result.certificate);
+    Alongside<LayerProof> proof(context, [&mesh = std::as_const(result.mesh)](const RunContext& side) { return prove_layer(mesh, side); });
+    std::optional<SplitLayer> split;
+    const SplitTaker taker = [&](TetraResult& of_engine) { split = take_splits(base, envelope, outer, options, of_engine, context); };
+    tets = fill_volume(wall, boundary, options, taker, context.part("tetrahedra", 0.25, 0.9));
+    std::optional<LayerProof> of_layer(proof.take());
+    if (split) {
+      adopt(std::move(*split), options, boundary, result, context);
+      of_layer.emplace(prove_layer(result.mesh, context));
+    }
+    add_cells(of_layer->cells, result.certificate);
     require_proved(result.certificate);
-    layer_check.emplace(std::move(of_layer.check));
+    layer_check.emplace(std::move(of_layer->check));
   }
   result.tetra_engine = tets.engine;
   result.tetra_failures = tets.failures;

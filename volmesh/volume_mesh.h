@@ -18,6 +18,7 @@
 #include "volmesh/prisms/options.h"
 #include "volmesh/tetra/size_field.h"
 #include "volmesh/tetra/tetra.h"
+#include "volmesh/true_surface.h"
 
 namespace sterna::volmesh {
 
@@ -29,6 +30,7 @@ struct VolumeMeshOptions {
   std::vector<SizeSource> sources;  ///< of the size field
   TetraOptions tetrahedra;
   ImproveOptions improve;
+  TrueSurface true_surface;         ///< where new wall vertices go when boundary triangles are split; empty: they stay on their triangle
 };
 
 /// All options of all stages, in stage order, for Lua, the command line, help and the manifest. `options` must outlive the table.
@@ -86,12 +88,14 @@ struct VolumeMeshResult {
   ImproveReport improvement;
   std::string tetra_engine;             ///< "tetgen" or "hxt"
   std::vector<std::string> tetra_failures;  ///< of the attempts before it, in order
+  std::int64_t n_split_triangles = 0;   ///< of wall and outer boundary, by which the mesh has more than were given
   bool is_reproducible = true;          ///< false when a time or memory limit decided what was done
   double tetra_engine_seconds = 0.0;    ///< inside the engine alone; log only
   double tetra_engine_peak_bytes = 0.0; ///< log only
 };
 
-/// Steps: farfield, envelope (build_envelope.h), extrude and repair, certificate, tetrahedra, improve, assemble, check.
+/// Steps: farfield, envelope (build_envelope.h), extrude and repair, certificate, tetrahedra, improve, assemble, check. Where the tetrahedra's engine was to split
+/// triangles of its boundary (tetra.h), wall, envelope and farfield of the mesh are split with them (split_layer.h).
 /// \pre wall closed, manifold, free of self-intersection, normals into the fluid.
 /// \throws Error of the stages; mesh_invalid when the final check finds violations.
 VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const RunContext& context);

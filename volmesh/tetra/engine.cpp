@@ -11,6 +11,8 @@
 #include <cstring>
 
 #include "geom/base/parallel.h"
+#include "volmesh/tetra/boundary_check.h"
+#include "volmesh/tetra/boundary_splits.h"
 #include "volmesh/tetra/engine_process.h"
 #include "volmesh/tetra/size_field.h"
 #include "volmesh/tetra/verify.h"
@@ -31,7 +33,7 @@ class Request {
  public:
   Request(const EngineInput& input, const TetraOptions& options, const RunContext& context)
       : scale_(unit_scale(input.boundary.points)), block_("sterna tetra request", size_of(input)) {
-    const auto& [boundary, parts, size_field] = input;
+    const auto& [boundary, parts, size_field, splits] = input;
     wire::RequestHeader header;
     header.n_points = boundary.points.size();
     header.n_holes = boundary.hole_points.size();
@@ -42,6 +44,7 @@ class Request {
     header.scale = scale_;
     header.radius_edge = options.radius_edge;
     header.improve_below = options.hxt_improve_below;
+    header.splits = splits == SplitMode::none ? wire::Splits::none : splits == SplitMode::recovery ? wire::Splits::recovery : wire::Splits::quality;
     std::byte* at = block_.map();
     const auto put = [&](const void* data, std::size_t size) {
       if (size > 0) std::memcpy(at, data, size);
@@ -151,10 +154,41 @@ std::optional<EngineFailure> judge_count(EngineKind kind, const wire::ReplyHeade
                .places = std::move(places)});
 }
 
+/// Boundary points come right after the boundary's own, in the engine's order; those in the volume follow.
+void adopt_splits(const TetraBoundary& boundary, std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint32_t> parents, TetraResult& result) {
+  const std::size_t n_old = boundary.points.size();
+  const std::size_t n_new = result.new_points.size();
+  std::vector<std::uint8_t> is_on_boundary(n_new, 0);
+  for (const auto& t : triangles)
+    for (const std::uint32_t v : t)
+      if (v >= n_old && v - n_old < n_new) is_on_boundary[v - n_old] = 1;
+  std::vector<std::uint32_t> old2new(n_new);
+  std::vector<Vec3> points(boundary.points.begin(), boundary.points.end()), inner;
+  for (std::size_t i = 0; i < n_new; ++i) {
+    if (!is_on_boundary[i]) continue;
+    old2new[i] = static_cast<std::uint32_t>(points.size());
+    points.push_back(result.new_points[i]);
+  }
+  for (std::size_t i = 0; i < n_new; ++i) {
+    if (is_on_boundary[i]) continue;
+    old2new[i] = static_cast<std::uint32_t>(points.size() + inner.size());
+    inner.push_back(result.new_points[i]);
+  }
+  const auto renumber = [&](auto& nodes) {
+    for (std::uint32_t& v : nodes)
+      if (v >= n_old && v - n_old < n_new) v = old2new[v - n_old];
+  };
+  std::vector<std::array<std::uint32_t, 3>> renumbered(triangles.begin(), triangles.end());
+  for (auto& t : renumbered) renumber(t);
+  for (auto& t : result.tetrahedra) renumber(t);
+  result.new_points = std::move(inner);
+  result.splits = find_splits(boundary, points, renumbered, parents);
+}
+
 TetraResult read_result(EngineKind kind, const wire::ReplyHeader& header, const SharedBlock& reply, const std::byte* data, const TetraBoundary& boundary, const Request& request,
                         const RunContext& context) {
   const std::size_t n_boundary = boundary.points.size();
-  const std::size_t expected = sizeof header + sizeof(Vec3) * header.n_points + sizeof(std::array<std::uint32_t, 4>) * header.n_tetrahedra;
+  const std::size_t expected = sizeof header + sizeof(Vec3) * header.n_points + sizeof(std::array<std::uint32_t, 4>) * header.n_tetrahedra + sizeof(std::array<std::uint32_t, 4>) * header.n_triangles;
   if (reply.size() != expected) throw_invalid_reply(kind, std::to_string(reply.size()) + " bytes instead of " + std::to_string(expected));
   if (header.n_points < n_boundary) throw_invalid_reply(kind, std::to_string(header.n_points) + " points come back of " + std::to_string(n_boundary));
   const auto* points = reinterpret_cast<const Vec3*>(data + sizeof header);
@@ -170,7 +204,29 @@ TetraResult read_result(EngineKind kind, const wire::ReplyHeader& header, const 
   result.tetrahedra.resize(header.n_tetrahedra);
   parallel_for(context, result.new_points.size(), [&](std::size_t i) { result.new_points[i] = points[n_boundary + i] / request.scale(); });
   if (header.n_tetrahedra > 0) std::memcpy(result.tetrahedra.data(), points + header.n_points, sizeof(result.tetrahedra[0]) * header.n_tetrahedra);
+  if (header.n_triangles > 0) {
+    const auto* triangles = reinterpret_cast<const std::array<std::uint32_t, 3>*>(data + sizeof header + sizeof(Vec3) * header.n_points + sizeof(result.tetrahedra[0]) * header.n_tetrahedra);
+    adopt_splits(boundary, {triangles, header.n_triangles}, {reinterpret_cast<const std::uint32_t*>(triangles + header.n_triangles), header.n_triangles}, result);
+  }
   return result;
+}
+
+/// The proof of verify.h, for the boundary as the engine has split it.
+void verify(const TetraBoundary& boundary, const TetraResult& result, const RunContext& context) {
+  if (result.splits.empty()) return verify_tetrahedra(boundary, result, context);
+  std::vector<Vec3> points(boundary.points.begin(), boundary.points.end());
+  points.insert(points.end(), result.splits.points.begin(), result.splits.points.end());
+  const TetraBoundary split{.points = points, .triangles = result.splits.triangles, .hole_points = {}};
+  try {
+    check_boundary(split, context);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled) throw;
+    ErrorInfo info = error.info();
+    info.code = ErrorCode::tetra_result_invalid;
+    info.attempted = "checking the boundary as the engine has split it";
+    throw Error(std::move(info));
+  }
+  verify_tetrahedra(split, result, context);
 }
 
 EngineOutcome failed(EngineFailure failure) { return {std::nullopt, std::move(failure)}; }
@@ -202,7 +258,7 @@ EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraO
     TetraResult result = read_result(kind, header, reply, data, input.boundary, request, context);
     transfer.reset();
     const StageTimer timer(context, "tetrahedra/verify");
-    verify_tetrahedra(input.boundary, result, context);
+    verify(input.boundary, result, context);
     return {std::move(result), {}};
   } catch (const Error& error) {
     if (error.code() == ErrorCode::tetra_engine_missing) return failed({FailureKind::missing, error.info()});

@@ -28,6 +28,13 @@ struct EngineFailure {
   ErrorInfo error;
 };
 
+/// Whether an engine may split triangles of the boundary.
+enum class SplitMode {
+  none,
+  recovery,  ///< only where the boundary cannot be kept otherwise (TetGen only)
+  quality,   ///< also where tetrahedra become better by it (TetGen only)
+};
+
 /// Either a verified result or a failure.
 struct EngineOutcome {
   std::optional<TetraResult> result;
@@ -39,9 +46,10 @@ struct EngineInput {
   const TetraBoundary& boundary;
   const BoundaryParts& parts;
   const SizeField* size_field = nullptr;
+  SplitMode splits = SplitMode::none;
 };
 
-/// \pre check_boundary() passed.
+/// \pre check_boundary() passed; splits with TetGen only. \post the result is proven, with splits for the boundary as split.
 /// \throws Error(cancelled) on a stop of the context (the helper is gone by then); Error(tetra_engine_failed) when the system has no memory for the request.
 EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraOptions& options, const RunContext& context);
 

@@ -12,33 +12,65 @@
 namespace sterna::volmesh {
 namespace {
 
-/// The engines in the order in which they are to be tried.
-std::vector<EngineKind> rungs_of(const TetraOptions& options) {
-  std::vector<EngineKind> rungs = {EngineKind::hxt, EngineKind::tetgen};
+[[noreturn]] void throw_bad(const std::string& option, const std::string& value, std::string hint) {
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = "choosing the tetrahedra engine",
+               .problem = "tetrahedra." + option + " is \"" + value + "\"",
+               .hint = std::move(hint)});
+}
+
+/// One attempt.
+struct Rung {
+  EngineKind engine;
+  SplitMode splits = SplitMode::none;
+};
+
+std::string text_of(const Rung& rung) {
+  return std::string(display_name(rung.engine)) + (rung.splits == SplitMode::none ? "" : " with splits of the boundary's triangles");
+}
+
+/// What is to be tried, in this order.
+std::vector<Rung> rungs_of(const TetraBoundary& boundary, const TetraOptions& options) {
+  std::vector<Rung> rungs = {{EngineKind::hxt}, {EngineKind::tetgen}};
   if (options.engine == "tetgen") std::ranges::reverse(rungs);
-  else if (options.engine != "hxt" && options.engine != "automatic") {
-    throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "choosing the tetrahedra engine",
-                 .problem = "tetrahedra.engine is \"" + options.engine + "\"",
-                 .hint = "one of automatic, tetgen, hxt"});
+  else if (options.engine != "hxt" && options.engine != "automatic") throw_bad("engine", options.engine, "one of automatic, tetgen, hxt");
+  if (options.boundary_splits == "always") {
+    if (options.engine == "hxt") throw_bad("boundary_splits", "always", "HXT keeps the boundary: leave the engine automatic, or choose tetgen");
+    if (!boundary.take_splits) throw_bad("boundary_splits", "always", "nothing here can take splits of the boundary");
+    return {{EngineKind::tetgen, SplitMode::quality}, {EngineKind::hxt}};
+  }
+  if (options.boundary_splits == "ladder") {
+    if (boundary.take_splits) rungs.push_back({EngineKind::tetgen, SplitMode::recovery});
+  } else if (options.boundary_splits != "never") {
+    throw_bad("boundary_splits", options.boundary_splits, "one of never, ladder, always");
   }
   return rungs;
 }
 
-/// Whether another engine may follow after this failure.
-bool may_go_on(const EngineFailure& failure, const TetraOptions& options) {
-  switch (failure.kind) {
-    case FailureKind::missing: return options.engine == "automatic";
-    case FailureKind::deterministic: return options.try_other_engine;
-    case FailureKind::limit: return options.try_other_engine && options.fall_back_on_limits;
+/// Whether this attempt may follow after these failures: the last one of an engine that is there decides.
+bool may_follow(const Rung& rung, const std::vector<EngineFailure>& failures, const TetraOptions& options) {
+  const auto last = std::find_if(failures.rbegin(), failures.rend(), [](const EngineFailure& f) { return f.kind != FailureKind::missing; });
+  const bool has_splits = rung.splits != SplitMode::none;
+  if (last == failures.rend()) return !has_splits && options.engine == "automatic";
+  return (has_splits || options.try_other_engine) && (last->kind == FailureKind::deterministic || options.fall_back_on_limits);
+}
+
+/// A result with splits is one only when its boundary's owner can follow.
+EngineOutcome taken(EngineOutcome outcome, const TetraBoundary& boundary) {
+  if (!outcome.result || outcome.result->splits.empty()) return outcome;
+  try {
+    boundary.take_splits(*outcome.result);
+    return outcome;
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled) throw;
+    return {std::nullopt, {FailureKind::deterministic, error.info()}};
   }
-  return false;
 }
 
 }  // namespace
 
 TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, const TetraOptions& options, const RunContext& context) {
-  const std::vector<EngineKind> rungs = rungs_of(options);
+  const std::vector<Rung> rungs = rungs_of(boundary, options);
   const BoundaryParts parts = [&] {
     const StageTimer timer(context, "tetrahedra/boundary");
     check_boundary(boundary, context);
@@ -51,9 +83,12 @@ TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, con
   if (boundary.is_clear) look.emplace(context, [&](const RunContext& side) { return preflight(boundary, {.is_clear = true}, side); });
 
   std::vector<EngineFailure> failures;
-  for (const EngineKind kind : rungs) {
-    if (!failures.empty()) context.warn("trying " + std::string(display_name(kind)));
-    EngineOutcome outcome = run_engine(kind, {boundary, parts, size_field}, options, context);
+  for (const Rung& rung : rungs) {
+    if (!failures.empty()) {
+      if (!may_follow(rung, failures, options)) continue;
+      context.warn("trying " + text_of(rung));
+    }
+    EngineOutcome outcome = taken(run_engine(rung.engine, {boundary, parts, size_field, rung.splits}, options, context), boundary);
     if (look) judge(look->take(), boundary, context);
     look.reset();
     if (outcome.result) {
@@ -66,7 +101,6 @@ TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, con
     failures.push_back(std::move(outcome.failure));
     const EngineFailure& failure = failures.back();
     context.warn(failure.error.attempted + ": " + failure.error.problem);
-    if (!may_go_on(failure, options)) break;
   }
   // An engine that is not there explains less than one that failed.
   const auto telling = std::ranges::find_if(failures, [](const EngineFailure& f) { return f.kind != FailureKind::missing; });

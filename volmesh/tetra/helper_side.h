@@ -71,16 +71,27 @@ inline int reply_failure(wire::Outcome outcome, int engine_code, double seconds)
   return 1;
 }
 
+/// A boundary with split triangles, for the reply.
+struct SplitBoundary {
+  const int* triangles = nullptr;
+  const int* parents = nullptr;  ///< of each triangle: that of the request, from 0
+  std::size_t n_triangles = 0;
+};
+
 /// Writes the mesh and ends the process: the kernel frees a few hundred megabytes faster than destructors do.
-[[noreturn]] inline void reply_mesh(const double* points, std::size_t n_points, const int* tetrahedra, std::size_t n_tetrahedra, double seconds) {
+[[noreturn]] inline void reply_mesh(const double* points, std::size_t n_points, const int* tetrahedra, std::size_t n_tetrahedra, double seconds,
+                                    const SplitBoundary& boundary = {}) {
   wire::ReplyHeader reply;
   reply.n_points = n_points;
   reply.n_tetrahedra = n_tetrahedra;
+  reply.n_triangles = boundary.n_triangles;
   reply.engine_seconds = seconds;
   reply.peak_bytes = peak_bytes();
   write_all(&reply, sizeof reply);
   write_all(points, 24 * n_points);
   write_all(tetrahedra, 16 * n_tetrahedra);
+  write_all(boundary.triangles, 12 * boundary.n_triangles);
+  write_all(boundary.parents, 4 * boundary.n_triangles);
   std::fflush(nullptr);
   std::_Exit(0);
 }

@@ -11,12 +11,17 @@
 // - An open boundary gives 0 tetrahedra and no error; an index out of range is read as it is.
 // - Points that it adds and removes again during boundary recovery are left out of the answer, but not with -J (pygeo_bwb).
 // - A tetunsuitable callback is asked for every tetrahedron, and obeyed; its volume argument is nothing.
+// - Without -Y it splits boundary triangles; each face of the answer has the marker of the facet that it is a part of. Even without -q it splits thousands on an
+//   envelope of bodies (pygeo_bwb: 2671 of 4964; with -q1.2 all of them, 24 parts each): edges must be Delaunay then. With -Y points in the volume do that.
+// - -q with -Y next to strips of triangles that are 2000 times longer than wide does not end: every new point's cavity holds thousands of points, and it is rejected
+//   because it encroaches upon the boundary (NACA0012).
 // - Its tetrahedra are positive in CGNS order; two runs are identical to the bit.
 
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <new>
+#include <optional>
 #include <string>
 #include <tetgen.h>
 #include <vector>
@@ -29,12 +34,19 @@ namespace {
 using namespace sterna::volmesh;
 using helper::Request;
 
-/// Facets of one triangle each, made in bulk; the vertex lists point into the request.
+/// A closed surface in the request or in an answer of TetGen.
+struct Surface {
+  double* points = nullptr;
+  std::size_t n_points = 0;
+  int* triangles = nullptr;
+  std::size_t n_triangles = 0;
+};
+
+/// Facets of one triangle each, made in bulk; the vertex lists point into the surface.
 struct Facets {
-  explicit Facets(const Request& request)
-      : polygons(request.header->n_triangles), facets(request.header->n_triangles), markers(request.header->n_triangles) {
+  explicit Facets(const Surface& surface) : polygons(surface.n_triangles), facets(surface.n_triangles), markers(surface.n_triangles) {
     for (std::size_t t = 0; t < facets.size(); ++t) {
-      polygons[t] = {request.triangles + 3 * t, 3};
+      polygons[t] = {surface.triangles + 3 * t, 3};
       facets[t] = {&polygons[t], 1, nullptr, 0};
       markers[t] = static_cast<int>(t) + 1;  // 1-based boundary triangle: TetGen's messages name it
     }
@@ -46,10 +58,10 @@ struct Facets {
 
 /// The input borrows all its arrays; they must be gone before tetgenio's destructor would delete them.
 struct BorrowedInput {
-  BorrowedInput(const Request& request, Facets& facets) {
+  BorrowedInput(const Request& request, const Surface& surface, Facets& facets) {
     io.firstnumber = 0;
-    io.pointlist = request.points;
-    io.numberofpoints = static_cast<int>(request.header->n_points);
+    io.pointlist = surface.points;
+    io.numberofpoints = static_cast<int>(surface.n_points);
     io.holelist = request.header->n_holes > 0 ? request.holes : nullptr;
     io.numberofholes = static_cast<int>(request.header->n_holes);
     io.facetlist = facets.facets.data();
@@ -98,27 +110,82 @@ bool is_too_large(double* a, double* b, double* c, double* d, double*, double) {
   return circumradius(a, b, c, d) > k_radius_limit * wanted;
 }
 
-/// -p boundary, -q<ratio> quality, -Y keep the boundary, -M merge nothing, -F write no faces, -Q quiet,
+/// -p boundary, -q<ratio> quality, -Y keep the boundary, -M merge nothing (every edge of the boundary stays one), -F write no faces, -Q quiet,
 /// -T tolerance below the rounding error of the box's size: never call a feature too small (error 4).
-std::string switches(const wire::RequestHeader& header) {
+std::string switches(const char* format, double radius_edge) {
   char text[64];
-  std::snprintf(text, sizeof text, "pq%.9gYMFQT1e-16", header.radius_edge);
+  std::snprintf(text, sizeof text, format, radius_edge);
   return text;
+}
+constexpr const char* k_keep_boundary = "pq%.9gYMFQT1e-16";
+constexpr const char* k_split_for_quality = "pq%.9gMQT1e-16";
+constexpr const char* k_split_to_recover = "pMQT1e-16";
+
+/// The new boundary in an answer with faces.
+struct SplitSurface {
+  /// Points in the volume are left out where `is_boundary_only`.
+  SplitSurface(const tetgenio& out, std::size_t n_kept, bool is_boundary_only) : triangles(out.trifacelist, out.trifacelist + 3 * static_cast<std::size_t>(out.numberoftrifaces)) {
+    const auto n_points = static_cast<std::size_t>(out.numberofpoints);
+    parents.reserve(triangles.size() / 3);
+    for (std::size_t t = 0; t < triangles.size() / 3; ++t) parents.push_back(out.trifacemarkerlist[t] - 1);
+    if (!is_boundary_only) return;
+    std::vector<int> old2new(n_points, -1);
+    for (std::size_t i = 0; i < n_kept; ++i) old2new[i] = static_cast<int>(i);
+    for (const int v : triangles) old2new[static_cast<std::size_t>(v)] = 0;
+    int n = 0;
+    for (std::size_t i = 0; i < n_points; ++i) {
+      if (old2new[i] < 0) continue;
+      old2new[i] = n++;
+      points.insert(points.end(), out.pointlist + 3 * i, out.pointlist + 3 * i + 3);
+    }
+    for (int& v : triangles) v = old2new[static_cast<std::size_t>(v)];
+  }
+  Surface surface() { return {points.data(), points.size() / 3, triangles.data(), triangles.size() / 3}; }
+  helper::SplitBoundary reply() const { return {triangles.data(), parents.data(), parents.size()}; }
+  std::vector<double> points;
+  std::vector<int> triangles;
+  std::vector<int> parents;
+};
+
+void tetrahedralize_surface(const Request& request, const Surface& surface, std::string text, tetgenio& out) {
+  Facets facets(surface);
+  BorrowedInput in(request, surface, facets);
+  if (request.size_field) in.io.tetunsuitable = is_too_large;
+  tetrahedralize(text.data(), &in.io, &out);
+}
+
+/// One run of TetGen, or two: with splits for recovery the first one splits the boundary where it must, the second one keeps what came out. Replies.
+[[noreturn]] void mesh(const Request& request, const helper::Stopwatch& watch) {
+  const Surface whole{request.points, request.header->n_points, request.triangles, request.header->n_triangles};
+  const double radius_edge = request.header->radius_edge;
+  tetgenio out;
+  std::optional<SplitSurface> split;
+  switch (request.header->splits) {
+    case wire::Splits::none: tetrahedralize_surface(request, whole, switches(k_keep_boundary, radius_edge), out); break;
+    case wire::Splits::quality:
+      tetrahedralize_surface(request, whole, switches(k_split_for_quality, radius_edge), out);
+      split.emplace(out, whole.n_points, false);
+      break;
+    case wire::Splits::recovery: {
+      tetgenio first;
+      tetrahedralize_surface(request, whole, k_split_to_recover, first);
+      split.emplace(first, whole.n_points, true);
+      tetrahedralize_surface(request, split->surface(), switches(k_keep_boundary, radius_edge), out);
+      break;
+    }
+  }
+  helper::reply_mesh(out.pointlist, static_cast<std::size_t>(out.numberofpoints), out.tetrahedronlist, static_cast<std::size_t>(out.numberoftetrahedra), watch.seconds(),
+                     split ? split->reply() : helper::SplitBoundary{});
 }
 
 int run(const Request& request) {
-  Facets facets(request);
-  BorrowedInput in(request, facets);
   if (request.size_field) {
     size_test() = {SizeFieldView(request.size_field, request.header->size_bytes), request.header->scale};
     if (!size_test().sizes.is_valid()) return helper::reply_failure(wire::Outcome::bad_request, 0, 0.0);
-    in.io.tetunsuitable = is_too_large;
   }
-  tetgenio out;
-  std::string text = switches(*request.header);
   const helper::Stopwatch watch;
   try {
-    tetrahedralize(text.data(), &in.io, &out);
+    mesh(request, watch);
   } catch (int code) {
     // 1 is TetGen's "out of memory"; see terminatetetgen() in tetgen.h.
     return helper::reply_failure(code == 1 ? wire::Outcome::out_of_memory : wire::Outcome::engine_code, code, watch.seconds());
@@ -127,7 +194,6 @@ int run(const Request& request) {
   } catch (...) {
     return helper::reply_failure(wire::Outcome::exception, 0, watch.seconds());
   }
-  helper::reply_mesh(out.pointlist, static_cast<std::size_t>(out.numberofpoints), out.tetrahedronlist, static_cast<std::size_t>(out.numberoftetrahedra), watch.seconds());
 }
 
 }  // namespace

@@ -3,12 +3,14 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "geom/base/run_context.h"
 #include "geom/base/schema.h"
 #include "geom/mesh/tri_mesh.h"
+#include "volmesh/tetra/boundary_splits.h"
 
 namespace sterna::volmesh {
 
@@ -21,10 +23,17 @@ struct TetraOptions {
   double memory_limit = 20e9;
   double time_limit = k_automatic;
   double max_new_points = k_automatic;
+  std::string boundary_splits = "ladder";
   bool try_other_engine = true;
   bool fall_back_on_limits = false;
   std::string helper_folder = {};
 };
+
+struct TetraResult;
+
+/// Takes over a result whose engine has split triangles of the boundary (TetraResult::splits is not empty): carries the splits to whatever the boundary belongs to.
+/// Throws where that cannot be done; the attempt has failed then.
+using SplitTaker = std::function<void(TetraResult&)>;
 
 /// Closed boundary of the domain: triangles whose right-hand normals point INTO the domain (envelope outwards of the body, farfield inwards).
 struct TetraBoundary {
@@ -34,13 +43,15 @@ struct TetraBoundary {
   bool is_clear = false;              ///< the caller has proven that the triangles meet in shared vertices and edges only; else fill() does
   std::span<const std::string> patch_names = {};           ///< for messages; may be missing
   std::span<const std::uint32_t> triangle_patch = {};      ///< index into patch_names for each triangle; empty without them
+  SplitTaker take_splits = {};                             ///< empty: no engine may split the triangles
 };
 
 /// \post points of the boundary come first, in order, to the bit; every boundary triangle is a face of exactly one tet; every tet positive (exact);
-/// no other outer face.
+/// no other outer face. With splits all that holds for the boundary as split: its points are the old ones and those of the splits, its triangles theirs.
 struct TetraResult {
-  std::vector<Vec3> new_points;                         ///< Steiner points; node number = n boundary points + index
+  std::vector<Vec3> new_points;                         ///< Steiner points in the volume; node number = n boundary points (with those of splits) + index
   std::vector<std::array<std::uint32_t, 4>> tetrahedra; ///< CGNS order, positive volume
+  BoundarySplits splits;                                ///< empty: the boundary is as it was
   std::string engine;                                   ///< what made them: "tetgen" or "hxt"
   std::vector<std::string> failures;                    ///< of the attempts before, in order
   bool is_reproducible = true;                          ///< false when a time or memory limit decided which engine made them
@@ -55,7 +66,9 @@ struct TetraResult {
 /// Coordinates are scaled by a power of two first, so a mesh in other units is the same mesh.
 /// Before any engine runs, the boundary is checked, exactly where it must be (preflight.h); what engines find hard is logged. Of a clear boundary that is looked
 /// for while the first engine runs.
-/// Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof, too many new points), the other engine is tried. A time or memory limit ends the call unless `fall_back_on_limits`. Every step is logged as a warning and kept in the result.
+/// Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof, too many new points), the other engine is tried, then TetGen with
+/// leave to split triangles of the boundary where it cannot keep them (`boundary_splits` "ladder", and a boundary with take_splits). With "always" TetGen comes
+/// first and splits them where tetrahedra become better by it, too. A time or memory limit ends the call unless `fall_back_on_limits`. Every step is logged as a warning and kept in the result.
 /// A stop of the context or the time limit kills the helper at once; it never outlives the call.
 /// \throws Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface, non_manifold_surface, self_intersection,
 /// not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory limit); tetra_result_invalid; cancelled. Each with places where there are any; of several failures the first.
@@ -82,6 +95,7 @@ struct Schema<volmesh::TetraOptions> {
       Field<O>{.name = "memory_limit", .member = &O::memory_limit, .unit = Unit::byte, .min = 1e8, .help = "address space of the helper process"},
       Field<O>{.name = "time_limit", .member = &O::time_limit, .unit = Unit::second, .min = 0.1, .help = "the helper is stopped after this time", .automatic = "none"},
       Field<O>{.name = "max_new_points", .member = &O::max_new_points, .min = 0.0, .max = 1e9, .help = "a result with more points inside the volume is a failure", .automatic = "no limit"},
+      Field<O>{.name = "boundary_splits", .member = &O::boundary_splits, .help = "whether TetGen may split triangles on top of the layer and of the farfield; the wall's are split with them. ladder: after other failures, where it cannot keep them; always: also for better tetrahedra", .choices = "never ladder always"},
       Field<O>{.name = "try_other_engine", .member = &O::try_other_engine, .help = "when the engine fails in a way that it will repeat, the other one is tried"},
       Field<O>{.name = "fall_back_on_limits", .member = &O::fall_back_on_limits, .help = "the other engine is tried after a time or memory limit too; such a result is marked as not reproducible"},
       Field<O>{.name = "helper_folder", .member = &O::helper_folder, .help = "where sterna-tet-tetgen and sterna-tet-hxt are; empty: beside the sterna executable"},

@@ -3,7 +3,8 @@
 //
 // Request: RequestHeader; 3 doubles per point; 3 doubles per hole point; the size field, size_bytes long, a multiple of 8;
 //          3 int32 per triangle (indices into the points); 1 int32 per triangle (its surface); 1 int32 per surface (its region).
-// Reply:   ReplyHeader, then (outcome ok only) 3 doubles per point, all of them, 4 int32 per tetrahedron.
+// Reply:   ReplyHeader, then (outcome ok only) 3 doubles per point, all of them, 4 int32 per tetrahedron; where the engine was allowed to split boundary triangles,
+//          3 int32 per triangle of the new boundary and 1 int32 for each: the triangle of the request that it is a part of.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,15 @@ namespace sterna::volmesh::wire {
 
 inline constexpr int k_request_fd = 3;
 inline constexpr int k_reply_fd = 4;
-inline constexpr std::uint64_t k_request_magic = 0x3251455254455453;  ///< "STETREQ2" in memory; the last digit is the version
-inline constexpr std::uint64_t k_reply_magic = 0x3250455254455453;    ///< "STETREP2"
+inline constexpr std::uint64_t k_request_magic = 0x3351455254455453;  ///< "STETREQ3" in memory; the last digit is the version
+inline constexpr std::uint64_t k_reply_magic = 0x3350455254455453;    ///< "STETREP3"
+
+/// What may become of the boundary's triangles; TetGen only.
+enum class Splits : std::uint64_t {
+  none = 0,      ///< all are kept
+  recovery = 1,  ///< split where the boundary is no part of a Delaunay triangulation otherwise; what comes out is kept
+  quality = 2,   ///< split where tetrahedra become better by it, or smaller as the size field asks
+};
 
 struct RequestHeader {
   std::uint64_t magic = k_request_magic;
@@ -26,6 +34,7 @@ struct RequestHeader {
   double scale = 1.0;              ///< coordinates in the request over metres
   double radius_edge = 0.0;        ///< largest circumradius over shortest edge; TetGen only
   double improve_below = 0.0;      ///< the engine improves tetrahedra of a lower quality (1 = regular); 0: none; HXT only
+  Splits splits = Splits::none;
 };
 
 enum class Outcome : std::int32_t {
@@ -42,10 +51,11 @@ struct ReplyHeader {
   std::int32_t engine_code = 0;
   std::uint64_t n_points = 0;
   std::uint64_t n_tetrahedra = 0;
+  std::uint64_t n_triangles = 0;  ///< of the new boundary; 0: it is the request's
   double engine_seconds = 0.0;  ///< wall time inside the engine
   double peak_bytes = 0.0;      ///< largest resident size of the helper so far
 };
 
-static_assert(sizeof(RequestHeader) == 80 && sizeof(ReplyHeader) == 48);
+static_assert(sizeof(RequestHeader) == 88 && sizeof(ReplyHeader) == 56);
 
 }  // namespace sterna::volmesh::wire

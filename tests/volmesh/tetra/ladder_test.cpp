@@ -80,7 +80,7 @@ TEST_F(Ladder, AutomaticIsHxtThenTetgen) {
 }
 
 TEST_F(Ladder, TheOtherEngineAfterAWrongAnswer) {
-  const TetraResult result = fill(domain_, {.engine = "tetgen", .helper_folder = folder("liar", "printf 'STETREP2' >&4; head -c 40 /dev/zero >&4")});
+  const TetraResult result = fill(domain_, {.engine = "tetgen", .helper_folder = folder("liar", "printf 'STETREP3' >&4; head -c 48 /dev/zero >&4")});
   expect_tiling(domain_, result);
   EXPECT_THAT(result.failures, ElementsAre(HasSubstr("points come back of")));
 }

@@ -93,8 +93,8 @@ TEST_F(HelperProcess, GarbageIsNoAnswer) {
 }
 
 TEST_F(HelperProcess, ACutAnswerIsInvalid) {
-  // The header of a good reply (48 bytes: magic, ok, no points, one tetrahedron) without what it announces.
-  const ErrorInfo error = run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("cut", "printf 'STETREP2' >&4; head -c 8 /dev/zero >&4; printf '\\377\\377\\0\\0\\0\\0\\0\\0\\1\\0\\0\\0\\0\\0\\0\\0' >&4; head -c 16 /dev/zero >&4")});
+  // The header of a good reply (56 bytes: magic, ok, no points, one tetrahedron) without what it announces.
+  const ErrorInfo error = run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("cut", "printf 'STETREP3' >&4; head -c 8 /dev/zero >&4; printf '\\377\\377\\0\\0\\0\\0\\0\\0\\1\\0\\0\\0\\0\\0\\0\\0' >&4; head -c 24 /dev/zero >&4")});
   EXPECT_EQ(error.code, ErrorCode::tetra_result_invalid);
   EXPECT_THAT(error.problem, HasSubstr("bytes instead of"));
 }
