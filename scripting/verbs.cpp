@@ -56,6 +56,7 @@ MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOp
                             .improvement = std::move(result.improvement),
                             .tetra_engine = result.tetra_engine,
                             .tetra_failures = result.tetra_failures,
+                            .n_split_triangles = result.n_split_triangles,
                             .is_reproducible = result.is_reproducible,
                             .tetra_engine_seconds = result.tetra_engine_seconds,
                             .tetra_engine_peak_bytes = result.tetra_engine_peak_bytes};
