@@ -156,6 +156,7 @@ void write_volume_vtu(const HybridMesh& mesh, const std::filesystem::path& path,
   constexpr std::uint64_t k_int32 = std::numeric_limits<std::int32_t>::max();
   const FileCells cells(mesh);
   VtuDocument document;
+  document.packing = vtu_packing(path);
   document.n_points = mesh.points.size();
   document.n_cells = cells.n_cells();
   document.points = points_array(mesh);

@@ -1,10 +1,12 @@
 #include "io/vtu_arrays.h"
 
+#include <lz4.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
 #include <optional>
 
 #include "geom/base/parallel.h"
@@ -25,7 +27,7 @@ constexpr std::array<std::pair<std::string_view, Type>, 10> k_types = {{{"Int8",
                                                                         {"Float32", Type::float32},
                                                                         {"Float64", Type::float64}}};
 
-/// Deflate makes at most 1032 bytes of one: a block that claims more is damaged, and no memory is reserved for it.
+/// Deflate makes at most 1032 bytes of one, LZ4 255: a block that claims more is damaged, and no memory is reserved for it.
 constexpr std::uint64_t k_max_expansion = 1032;
 constexpr std::uint64_t k_expansion_floor = 4096;
 
@@ -85,6 +87,14 @@ bool append_ascii(std::string_view text, std::vector<char>& bytes) {
   }
 }
 
+/// Unpacks a block of exactly n bytes.
+bool unpack(std::string_view packed, bool is_lz4, char* to, std::size_t n) {
+  constexpr std::size_t k_most = std::numeric_limits<int>::max();  // of LZ4
+  if (is_lz4) return packed.size() <= k_most && n <= k_most && LZ4_decompress_safe(packed.data(), to, static_cast<int>(packed.size()), static_cast<int>(n)) == static_cast<int>(n);
+  uLongf n_found = static_cast<uLongf>(n);
+  return uncompress(reinterpret_cast<Bytef*>(to), &n_found, reinterpret_cast<const Bytef*>(packed.data()), static_cast<uLong>(packed.size())) == Z_OK && n_found == n;
+}
+
 /// A compressed block and where its bytes go.
 struct Block {
   std::string_view packed;
@@ -114,11 +124,11 @@ VtuDecoder::VtuDecoder(const FileBuffer& buffer, const std::vector<XmlTag>& tags
   for (const XmlTag& tag : tags) {
     if (tag.name == "VTKFile") {
       const std::string_view compressor = tag.attribute("compressor");
-      if (!compressor.empty() && compressor != "vtkZLibDataCompressor")
-        throw_unsupported(buffer.source, "the arrays are compressed with " + std::string(compressor), "write the file with zlib or without compression");
+      if (compressor == "vtkZLibDataCompressor") packing_ = Packing::zlib;
+      else if (compressor == "vtkLZ4DataCompressor") packing_ = Packing::lz4;
+      else if (!compressor.empty()) throw_unsupported(buffer.source, "the arrays are compressed with " + std::string(compressor), "write the file with LZ4, zlib or without compression");
       if (tag.attribute("byte_order", "LittleEndian") != "LittleEndian")
         throw_unsupported(buffer.source, "the byte order is " + std::string(tag.attribute("byte_order")), "write the file as LittleEndian");
-      is_compressed_ = !compressor.empty();
       word_size_ = tag.attribute("header_type", "UInt32") == "UInt64" ? 8 : 4;
     } else if (tag.name == "DataArray" && tag.attribute("format") == "appended") {
       if (const auto offset = to_number(tag.attribute("offset"))) offsets_.push_back(*offset);
@@ -177,7 +187,7 @@ std::uint64_t VtuDecoder::header_word(std::string_view bytes, std::uint64_t i, c
 }
 
 std::vector<char> VtuDecoder::decode_blocks(std::string_view encoded, const XmlTag& tag) const {
-  if (!is_compressed_) {
+  if (packing_ == Packing::none) {
     const std::uint64_t n = header_word(encoded, 0, tag);
     if (n > encoded.size() - word_size_) fail(tag, "found " + std::to_string(encoded.size() - word_size_) + " bytes, expected " + std::to_string(n));
     return {encoded.begin() + static_cast<std::ptrdiff_t>(word_size_), encoded.begin() + static_cast<std::ptrdiff_t>(word_size_ + n)};
@@ -204,10 +214,7 @@ std::vector<char> VtuDecoder::decode_blocks(std::string_view encoded, const XmlT
       context_, blocks.size(),
       [&](std::size_t i) {
         const Block& block = blocks[i];
-        uLongf n = static_cast<uLongf>(block.size);
-        const int state = uncompress(reinterpret_cast<Bytef*>(bytes.data() + block.place), &n, reinterpret_cast<const Bytef*>(block.packed.data()),
-                                     static_cast<uLong>(block.packed.size()));
-        if (state != Z_OK || n != block.size) fail(tag, "block " + std::to_string(i) + " is damaged");
+        if (!unpack(block.packed, packing_ == Packing::lz4, bytes.data() + block.place, block.size)) fail(tag, "block " + std::to_string(i) + " is damaged");
       },
       1);
   return bytes;

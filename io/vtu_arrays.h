@@ -62,6 +62,7 @@ class VtuDecoder {
   VtuValues decode(const XmlTag& data_array) const;
 
  private:
+  enum class Packing { none, zlib, lz4 };
   std::vector<char> decode_blocks(std::string_view encoded, const XmlTag& tag) const;
   std::string_view appended_part(const XmlTag& tag) const;
   std::uint64_t header_word(std::string_view bytes, std::uint64_t i, const XmlTag& tag) const;
@@ -69,7 +70,7 @@ class VtuDecoder {
 
   const FileBuffer& buffer_;
   RunContext context_;
-  bool is_compressed_ = false;
+  Packing packing_ = Packing::none;
   std::size_t word_size_ = 4;
   std::string_view appended_;            ///< behind the '_'
   bool appended_is_base64_ = false;

@@ -2,10 +2,12 @@
 // after compression: their places are reserved, and filled in when the arrays are written.
 #include "io/vtu_document.h"
 
+#include <lz4.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <cstring>
 #include <limits>
 
@@ -47,6 +49,15 @@ std::vector<const VtuArray*> arrays_of(const VtuDocument& document) {
   return arrays;
 }
 
+std::string_view compressor_attribute(VtuPacking packing) {
+  switch (packing) {
+    case VtuPacking::zlib: return " compressor=\"vtkZLibDataCompressor\"";
+    case VtuPacking::lz4: return " compressor=\"vtkLZ4DataCompressor\"";
+    case VtuPacking::none: break;
+  }
+  return "";
+}
+
 std::string head(const VtuDocument& document, const std::vector<std::uint64_t>& offsets) {
   std::size_t next = 0;
   const auto array_tag = [&](const VtuArray& array) {
@@ -58,7 +69,7 @@ std::string head(const VtuDocument& document, const std::vector<std::uint64_t>& 
   const std::string kind = is_surface ? "PolyData" : "UnstructuredGrid";
   const std::string cells = is_surface ? "Polys" : "Cells";
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind +
-                     "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<" + kind + ">\n";
+                     "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"" + std::string(compressor_attribute(document.packing)) + ">\n<" + kind + ">\n";
   if (!document.field_data.empty()) {
     text += "<FieldData>\n";
     for (const auto& [name, value] : document.field_data)
@@ -76,40 +87,66 @@ std::string head(const VtuDocument& document, const std::vector<std::uint64_t>& 
   return text;
 }
 
-void compress_block(const VtuArray& array, std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
-  const std::size_t n_bytes = (end - begin) * size_of(array.type);
-  const auto raw = std::make_unique_for_overwrite<char[]>(n_bytes);
-  array.fill(begin, end, raw.get());
+void pack_zlib(const VtuArray& array, const char* raw, std::size_t n_bytes, ByteBuffer& out) {
   uLongf n_packed = compressBound(static_cast<uLong>(n_bytes));
   char* const place = out.reserve(n_packed);
-  const int state = compress2(reinterpret_cast<Bytef*>(place), &n_packed, reinterpret_cast<const Bytef*>(raw.get()), static_cast<uLong>(n_bytes), k_zlib_level);
+  const int state = compress2(reinterpret_cast<Bytef*>(place), &n_packed, reinterpret_cast<const Bytef*>(raw), static_cast<uLong>(n_bytes), k_zlib_level);
   if (state != Z_OK)
     throw Error({.code = ErrorCode::internal, .attempted = "compressing the array " + array.name, .problem = "zlib answers " + std::to_string(state)});
   out.end_at(place + n_packed);
 }
 
-/// "[number of blocks][block size][size of a shorter last block or 0][packed sizes]", then the packed blocks.
-void append_array(AtomicFile& file, const VtuArray& array, const RunContext& context) {
+/// A raw LZ4 block, not a frame. \pre n_bytes <= k_vtu_block, far below LZ4's limit of 2 GB
+void pack_lz4(const char* raw, std::size_t n_bytes, ByteBuffer& out) {
+  const int n_most = LZ4_compressBound(static_cast<int>(n_bytes));
+  char* const place = out.reserve(static_cast<std::size_t>(n_most));
+  out.end_at(place + LZ4_compress_default(raw, place, static_cast<int>(n_bytes), n_most));
+}
+
+void compress_block(const VtuArray& array, VtuPacking packing, std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
+  const std::size_t n_bytes = (end - begin) * size_of(array.type);
+  if (packing == VtuPacking::none) {
+    char* const place = out.reserve(n_bytes);
+    array.fill(begin, end, place);
+    out.end_at(place + n_bytes);
+    return;
+  }
+  const auto raw = std::make_unique_for_overwrite<char[]>(n_bytes);
+  array.fill(begin, end, raw.get());
+  if (packing == VtuPacking::lz4) pack_lz4(raw.get(), n_bytes, out);
+  else pack_zlib(array, raw.get(), n_bytes, out);
+}
+
+/// Packed: "[number of blocks][block size][size of a shorter last block or 0][packed sizes]", then the blocks. Else the number of bytes, then the bytes.
+void append_array(AtomicFile& file, const VtuArray& array, VtuPacking packing, const RunContext& context) {
   const std::uint64_t per_block = k_vtu_block / size_of(array.type);
   const std::uint64_t n_blocks = (array.n_values + per_block - 1) / per_block;
   std::vector<std::uint64_t> header(3 + n_blocks, 0);
   header[0] = n_blocks;
   header[1] = k_vtu_block;
   header[2] = array.n_values % per_block * size_of(array.type);
+  if (packing == VtuPacking::none) header.assign(1, array.n_values * size_of(array.type));
   const auto header_bytes = [&] { return std::string_view(reinterpret_cast<const char*>(header.data()), header.size() * sizeof(header[0])); };
   const std::uint64_t header_place = file.size();
   file.append(header_bytes());
   write_ordered(
       file, n_blocks,
       [&](std::size_t block, ByteBuffer& out) {
-        compress_block(array, block * per_block, std::min((block + 1) * per_block, array.n_values), out);
-        header[3 + block] = out.size();
+        compress_block(array, packing, block * per_block, std::min((block + 1) * per_block, array.n_values), out);
+        if (packing != VtuPacking::none) header[3 + block] = out.size();
       },
       context);
   file.overwrite(header_place, header_bytes());
 }
 
 }  // namespace
+
+VtuPacking vtu_packing(const std::filesystem::path& path) {
+  std::string name = path.filename().string();
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (name.ends_with(".raw.vtu")) return VtuPacking::none;
+  return name.ends_with(".lz4.vtu") ? VtuPacking::lz4 : VtuPacking::zlib;
+}
 
 VtuArray vtu_array(std::string name, const std::vector<std::int32_t>& values) {
   return {.name = std::move(name), .type = VtuType::int32, .n_values = values.size(), .fill = [&values](std::uint64_t begin, std::uint64_t end, char* out) {
@@ -131,7 +168,7 @@ void write_vtu(const VtuDocument& document, const std::filesystem::path& path, c
   for (std::size_t i = 0; i < arrays.size(); ++i) {
     offsets[i] = file.size() - data_begin;
     const double n_after = n_bytes + static_cast<double>(arrays[i]->n_values * size_of(arrays[i]->type));
-    append_array(file, *arrays[i], context.part(arrays[i]->name, n_bytes / n_bytes_in_all, n_after / n_bytes_in_all));
+    append_array(file, *arrays[i], document.packing, context.part(arrays[i]->name, n_bytes / n_bytes_in_all, n_after / n_bytes_in_all));
     n_bytes = n_after;
   }
   file.append("\n</AppendedData>\n</VTKFile>\n");

@@ -23,6 +23,11 @@ struct VtuArray {
   std::function<void(std::uint64_t begin, std::uint64_t end, char* out)> fill;
 };
 
+/// How arrays are packed. zlib is smallest and read by all; LZ4 is packed several times faster (meshio does not read it); none is fastest.
+enum class VtuPacking { zlib, lz4, none };
+/// From the name: x.raw.vtu none, x.lz4.vtu LZ4, others zlib.
+VtuPacking vtu_packing(const std::filesystem::path& path);
+
 /// What a file is to VTK: cells of any kind (.vtu), or a surface of polygons (.vtp).
 enum class VtuKind { unstructured_grid, poly_data };
 
@@ -35,12 +40,13 @@ struct VtuDocument {
   VtuArray connectivity, offsets, types;                        ///< VTK node order, end positions, VTK numbers (not of PolyData)
   std::vector<VtuArray> cell_data;
   std::vector<std::pair<std::string, std::int32_t>> field_data;  ///< single numbers by name
+  VtuPacking packing = VtuPacking::zlib;
 };
 
 /// An array over values that live as long as the document.
 VtuArray vtu_array(std::string name, const std::vector<std::int32_t>& values);
 
-/// Binary appended, zlib (level k_zlib_level), little endian, UInt64 headers. Same bytes for any number of threads.
+/// Binary appended, packed as the document says (zlib: level k_zlib_level), little endian, UInt64 headers. Same bytes for any number of threads.
 /// \throws Error write_failed, cancelled, and what a fill function throws.
 void write_vtu(const VtuDocument& document, const std::filesystem::path& path, const RunContext& context);
 

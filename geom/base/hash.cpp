@@ -43,4 +43,6 @@ std::string hash_file(const std::filesystem::path& path) {
   return hex;
 }
 
+std::uint64_t hash_bytes(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+
 }  // namespace sterna

@@ -21,6 +21,11 @@ TEST(HashFile, MatchesXxhsumAndSeesEveryByte) {
   EXPECT_NE(hash_file(path), before);
 }
 
+TEST(HashBytes, MatchesXxhsum) {
+  EXPECT_EQ(hash_bytes(""), 0x2d06800538d394c2u);  // XXH3-64 of nothing, from the library's own specification
+  EXPECT_NE(hash_bytes("a"), hash_bytes("b"));
+}
+
 TEST(HashFile, AMissingFileIsAnError) {
   EXPECT_THROW(hash_file(test::scratch() / "absent"), Error);
   EXPECT_THROW(hash_file(test::scratch()), Error);

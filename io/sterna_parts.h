@@ -1,0 +1,26 @@
+// Names of the arrays in a .sterna file, which writer and reader share (docs/sterna_format.md).
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::io::part {
+
+inline constexpr std::string_view k_surface_points = "surface/points", k_surface_triangles = "surface/triangles", k_surface_triangle_patch = "surface/triangle_patch",
+                                  k_surface_patches = "surface/patches";
+inline constexpr std::string_view k_direction = "envelope/direction", k_height = "envelope/height", k_target = "envelope/target", k_eq1 = "envelope/eq1", k_cap = "envelope/cap",
+                                  k_limit = "envelope/limit";
+inline constexpr std::string_view k_boundary_points = "tetrahedra/n_boundary_points", k_new_points = "tetrahedra/new_points", k_engine_tetrahedra = "tetrahedra/tetrahedra";
+inline constexpr std::string_view k_points = "mesh/points", k_prisms = "mesh/prisms", k_pyramids = "mesh/pyramids", k_hexahedra = "mesh/hexahedra", k_tetrahedra = "mesh/tetrahedra",
+                                  k_triangles = "mesh/boundary_triangles", k_triangle_patch = "mesh/boundary_triangle_patch", k_quads = "mesh/boundary_quads",
+                                  k_quad_patch = "mesh/boundary_quad_patch", k_patches = "mesh/patches";
+inline constexpr std::string_view k_n_layers = "mesh/layers/n_layers", k_base = "mesh/layers/base", k_first_node = "mesh/layers/first_node", k_is_collapsed = "mesh/layers/is_collapsed";
+inline constexpr std::string_view k_request = "mesh/request/first_height_max_growth", k_request_target = "mesh/request/target_height", k_request_reason = "mesh/request/reason",
+                                  k_request_reasons = "mesh/request/reasons";
+inline constexpr std::string_view k_manifest = "manifest", k_certificate = "certificate", k_quality = "quality";
+
+inline constexpr std::array k_patch_kinds = {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface};
+
+}  // namespace sterna::io::part
