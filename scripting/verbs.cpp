@@ -7,8 +7,10 @@
 #include "geom/base/error.h"
 #include "geom/base/hash.h"
 #include "io/format_table.h"
+#include "io/sterna_file.h"
 #include "io/surface_file.h"
 #include "io/volume_file.h"
+#include "scripting/layer_json.h"
 #include "scripting/manifest.h"
 #include "scripting/summary.h"
 
@@ -78,9 +80,19 @@ void require_mesh_output(const std::filesystem::path& path) {
     throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + folder.string()});
 }
 
-void write_mesh(const MeshValue& mesh, const std::filesystem::path& path, const RunContext& context) {
+void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const RunContext& context) {
+  const std::filesystem::path path = given.has_filename() ? given : given.parent_path();  // a folder may end in a slash
   const StageTimer timer(context, "write");
-  io::write_volume_file(mesh.mesh, path, context.part("write " + path.filename().string(), 0.0, 1.0));
+  const RunContext part = context.part("write " + path.filename().string(), 0.0, 1.0);
+  if (path.extension() == ".sterna") {  // holds what is known of the mesh, too
+    io::write_sterna({.mesh = &mesh.mesh,
+                      .manifest = manifest_json(mesh, path, context.seed()),
+                      .certificate = mesh.origin ? certificate_json(mesh.origin->certificate) : std::string(),
+                      .quality = mesh.check ? to_json(*mesh.check) : std::string()},
+                     path, part);
+  } else {
+    io::write_volume_file(mesh.mesh, path, part);
+  }
   write_manifest(mesh, path, context);
 }
 

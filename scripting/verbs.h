@@ -73,7 +73,7 @@ MeshValue read_mesh(const InputPath& file, const RunContext& context);
 /// \throws Error unsupported_format or write_failed when a mesh of this name cannot be written: unknown extension, no such folder. Before the work.
 void require_mesh_output(const std::filesystem::path& path);
 
-/// Writes the mesh and, once that is done, its manifest "<path>.json". Each file appears whole or not at all. \throws Error of io.
+/// Writes the mesh and, once that is done, its manifest "<path>.json"; a .sterna file holds manifest, certificate and quality, too. Each file appears whole or not at all. \throws Error of io.
 void write_mesh(const MeshValue& mesh, const std::filesystem::path& path, const RunContext& context);
 
 /// Writes a surface; format by extension. \throws Error of io.

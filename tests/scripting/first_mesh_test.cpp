@@ -2,6 +2,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "io/sterna_file.h"
 #include "scripting/exit_status.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"
@@ -58,6 +59,18 @@ TEST_F(FirstMesh, CommandLineWritesCheckedMeshAndManifest) {
   const ProcessResult info = sterna({"info", "box.su2"});
   EXPECT_EQ(info.status, k_exit_success) << info.errors;
   for (const char* part : {"prisms", "tetrahedra", "farfield", "longest side"}) EXPECT_NE(info.output.find(part), std::string::npos) << part << " in\n" << info.output;
+}
+
+TEST_F(FirstMesh, TheNativeFileHoldsWhatIsKnown) {
+  const ProcessResult result = mesh_box("box.sterna");
+  ASSERT_EQ(result.status, k_exit_success) << result.errors;
+  const io::SternaContent content = io::read_sterna(folder / "box.sterna", RunContext({.threads = 1}));
+  EXPECT_EQ(content.names(), "mesh, manifest, certificate, quality");
+  EXPECT_EQ(content.mesh->layers.n_layers, 8);
+  EXPECT_EQ(content.mesh->request.first_height, 1e-3);
+  EXPECT_NE(content.manifest.find("\"sterna-manifest-1\""), std::string::npos) << content.manifest;
+  EXPECT_NE(content.quality.find("\"sterna-check-2\""), std::string::npos);
+  EXPECT_EQ(sterna({"check", "box.sterna"}).status, k_exit_success);
 }
 
 TEST_F(FirstMesh, AnyThreadCountWritesTheSameBytes) {
