@@ -44,6 +44,10 @@ namespace {
 
 bool is_xml(std::string_view head) { return head.substr(std::min(head.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), head.size())).starts_with('<'); }
 bool is_gmsh(std::string_view head) { return head.find("$MeshFormat") != std::string_view::npos; }
+/// The keyword in upper or in lower case.
+bool has_data_set(std::string_view head, std::string_view upper, std::string_view lower) { return head.find(upper) != std::string_view::npos || head.find(lower) != std::string_view::npos; }
+bool is_vtk_surface(std::string_view head) { return has_data_set(head, "DATASET POLYDATA", "dataset polydata"); }
+bool is_vtk_grid(std::string_view head) { return has_data_set(head, "DATASET UNSTRUCTURED_GRID", "dataset unstructured_grid"); }
 /// An S-expression.
 bool is_fluent(std::string_view head) {
   const std::size_t first = head.find_first_not_of(" \t\r\n");
@@ -77,7 +81,8 @@ constexpr std::array k_formats = {
     Format{.name = "VTKHDF", .extensions = ".vtkhdf .hdf", .read_surface = read_surface_vtkhdf, .write_surface = write_surface_vtkhdf, .read_volume = read_volume_vtkhdf,
            .write_volume = write_volume_vtkhdf, .carries_patch_names = true},
     Format{.name = "VTU", .extensions = ".vtu", .read_surface = read_surface_vtu, .write_surface = write_surface_vtu, .read_volume = read_volume_vtu, .write_volume = write_volume_vtu, .carries_patch_names = true},
-    Format{.name = "VTK", .extensions = ".vtk", .read_surface = read_surface_vtk, .write_surface = write_surface_vtk, .read_volume = read_volume_vtk, .carries_patch_names = true},
+    Format{.name = "VTK", .extensions = ".vtk", .is_content = is_vtk_surface, .read_surface = read_surface_vtk, .write_surface = write_surface_vtk, .carries_patch_names = true},
+    Format{.name = "VTK grid", .extensions = ".vtk", .is_content = is_vtk_grid, .read_surface = read_surface_vtk, .read_volume = read_volume_vtk, .carries_patch_names = true},
     Format{.name = "VTK text", .extensions = ".vtk", .write_surface = write_surface_vtk_text, .carries_patch_names = true},
     Format{.name = "VTP", .extensions = ".vtp", .read_surface = read_surface_vtu, .write_surface = write_surface_vtp, .carries_patch_names = true},
     Format{.name = "Nastran", .extensions = ".nas .bdf", .read_surface = read_nastran, .write_surface = write_nastran, .carries_patch_names = true},

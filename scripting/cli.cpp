@@ -136,6 +136,18 @@ void add_info_command(CLI::App& app, InfoCommand& info, Request& request) {
   });
 }
 
+void add_convert_command(CLI::App& app, ConvertCommand& convert, Request& request) {
+  CLI::App* command = app.add_subcommand("convert", "write a surface or volume mesh in another format");
+  command->add_option("input", convert.input, "surface or mesh file")->required();
+  command->add_option("output", convert.output, "file to write; `sterna formats` lists the formats")->required();
+  command->add_option("--format", convert.settings.format, "format of the output by its name in `sterna formats`, e.g. \"STL text\"; default: by the extension")->type_name("NAME");
+  command->add_flag("--surface", convert.settings.as_surface, "of a volume mesh write the boundary");
+  command->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(convert, context); };
+    request.trouble = beside(convert.output);
+  });
+}
+
 int execute_request(const Request& request, const CommonSettings& common) {
   const InterruptGuard interrupt;
   Console console(common.console);
@@ -166,6 +178,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   MeshCommand mesh;
   CheckCommand check;
   InfoCommand info;
+  ConvertCommand convert;
   OptionOverrides set;
   Request request;
   add_common_options(app, common);
@@ -173,6 +186,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_mesh_command(app, mesh, set, request);
   add_check_command(app, check, request);
   add_info_command(app, info, request);
+  add_convert_command(app, convert, request);
   app.add_subcommand("formats", "list the file formats")->final_callback([&] { request.execute = list_formats; });
   try {
     app.parse(argc, argv);

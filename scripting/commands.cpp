@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <limits>
+#include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/mesh/check.h"
 #include "io/atomic_file.h"
 #include "io/format_table.h"
 #include "io/surface_file.h"
@@ -76,7 +81,37 @@ int print_volume_info(const InputPath& input, double unit, const CommandContext&
   context.console.print("  " + describe(value));
   print_box(context, box);
   print_patches(context, value.mesh.patches, sizes);
+  // In brief: without the slow exact test for intersections.
+  const CheckReport report = check(value.mesh, {.intersections = false}, context.run.part("check", 0.3, 1.0));
+  context.console.print("  check    " + std::string(report.is_valid() ? "no faults found, boundaries not tested for intersection" : "INVALID, `sterna check` says where") + "; " + quality_text(report));
   return k_exit_success;
+}
+
+/// Ranges of edges and angles; of triangles without area nothing but their number.
+void print_triangle_quality(const CommandContext& context, const TriMesh& mesh) {
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0.0, least_angle = std::numbers::pi, most_angle = 0.0, area = 0.0;
+  std::int64_t n_degenerate = 0;
+  for (const TriangleId t : mesh.triangles.ids()) {
+    const std::array<Point, 3> p = corners(mesh, t);
+    const double twice_area = norm(cross(p[1] - p[0], p[2] - p[0]));
+    if (twice_area <= 0.0) {
+      ++n_degenerate;
+      continue;
+    }
+    area += 0.5 * twice_area;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 edge = p[(k + 1) % 3] - p[k];
+      const double angle = angle_between(edge, p[(k + 2) % 3] - p[k]);
+      shortest = std::min(shortest, norm(edge));
+      longest = std::max(longest, norm(edge));
+      least_angle = std::min(least_angle, angle);
+      most_angle = std::max(most_angle, angle);
+    }
+  }
+  constexpr double k_degrees = 180.0 / std::numbers::pi;
+  if (area > 0.0)
+    context.console.print(fmt::format("  quality  area {:.6g} m^2, edges {:.4g} to {:.4g} m, angles {:.3g} to {:.4g} deg", area, shortest, longest, k_degrees * least_angle, k_degrees * most_angle));
+  if (n_degenerate > 0) context.console.print(fmt::format("  quality  triangles without area: {}", count_text(n_degenerate)));
 }
 
 int print_surface_info(const InputPath& input, double unit, const CommandContext& context) {
@@ -99,6 +134,7 @@ int print_surface_info(const InputPath& input, double unit, const CommandContext
   for (const PatchId patch : wall.mesh.triangle_patch) ++sizes[patch.index()].n_triangles;
   context.console.print("  joined   " + describe(wall));
   print_patches(context, wall.mesh.patches, sizes);
+  print_triangle_quality(context, wall.mesh);
   return k_exit_success;
 }
 
@@ -164,6 +200,13 @@ int execute(const InfoCommand& command, const CommandContext& context) {
     if (status >= 0) return status;
   }
   return print_surface_info(input, unit.unit, context);
+}
+
+int execute(const ConvertCommand& command, const CommandContext& context) {
+  const std::string what = convert({command.input, command.input}, command.output, command.settings, context.run);
+  context.console.end_progress();
+  context.run.info("wrote " + command.output.string() + ": " + what);
+  return k_exit_success;
 }
 
 int list_formats(const CommandContext& context) {

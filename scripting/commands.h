@@ -8,6 +8,7 @@
 #include "geom/base/run_context.h"
 #include "scripting/check_options.h"
 #include "scripting/console.h"
+#include "scripting/convert.h"
 #include "scripting/script_call.h"
 
 namespace sterna::scripting {
@@ -41,11 +42,18 @@ struct InfoCommand {
   std::string unit = "1";
 };
 
+struct ConvertCommand {
+  std::string input;
+  std::filesystem::path output;
+  ConvertSettings settings;
+};
+
 /// Each throws Error; the caller prints it and turns its code into the exit status.
 int execute(const RunCommand& command, const CommandContext& context);
 int execute(const MeshCommand& command, const CommandContext& context);
 int execute(const CheckCommand& command, const CommandContext& context);
 int execute(const InfoCommand& command, const CommandContext& context);
+int execute(const ConvertCommand& command, const CommandContext& context);
 /// `sterna formats`
 int list_formats(const CommandContext& context);
 

@@ -32,7 +32,7 @@ TEST_F(CommandLine, HelpAndVersionSucceedOnStdout) {
   EXPECT_EQ(sterna({"--version"}).output, "sterna 0.1.0\n");
   const ProcessResult help = sterna({"--help"});
   EXPECT_EQ(help.status, k_exit_success);
-  for (const char* part : {"run", "mesh", "check", "info", "formats", "Exit status: 0 success"}) EXPECT_NE(help.output.find(part), std::string::npos) << part;
+  for (const char* part : {"run", "mesh", "check", "info", "convert", "formats", "Exit status: 0 success"}) EXPECT_NE(help.output.find(part), std::string::npos) << part;
   const ProcessResult mesh = sterna({"mesh", "--help"});
   for (const char* part : {"--layers", "--first-height", "--max-growth", "--farfield-radius", "--unit", "--split-angle", "--set"})
     EXPECT_NE(mesh.output.find(part), std::string::npos) << part;
@@ -123,6 +123,31 @@ TEST_F(CommandLine, FormatsListsTheTable) {
   const ProcessResult result = sterna({"formats"});
   EXPECT_EQ(result.status, k_exit_success);
   for (const char* part : {"STL", "SU2", "VTU", "read, write"}) EXPECT_NE(result.output.find(part), std::string::npos) << part;
+}
+
+TEST_F(CommandLine, ConvertKeepsWhatItIs) {
+  ASSERT_EQ(sterna({"convert", "box.stl", "box.obj"}).status, k_exit_success);
+  const ProcessResult surface = sterna({"info", "box.obj"});
+  EXPECT_NE(surface.output.find("closed"), std::string::npos) << surface.output;
+  EXPECT_NE(surface.output.find("quality  area"), std::string::npos) << surface.output;
+  ASSERT_EQ(sterna({"convert", "box.obj", "box.dat", "--format", "legacy"}).status, k_exit_failed);  // no such format
+  ASSERT_EQ(sterna({"convert", "box.obj", "box.dat", "--format", "STL text"}).status, k_exit_success);
+  EXPECT_EQ(files(), (std::vector<std::string>{"box.dat", "box.obj", "box.stl"}));
+  const ProcessResult volume = sterna({"convert", "box.obj", "box.foam"});  // OpenFOAM holds volumes only
+  EXPECT_EQ(volume.status, k_exit_failed);
+  EXPECT_NE(volume.errors.find("OpenFOAM is not written as a surface"), std::string::npos) << volume.errors;
+}
+
+TEST_F(CommandLine, ConvertTakesVolumesToVolumesAndTheirBoundaryWhenAsked) {
+  write("tet.su2", "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nNMARK= 1\nMARKER_TAG= skin\nMARKER_ELEMS= 4\n5 0 2 1\n5 0 1 3\n5 1 2 3\n5 2 0 3\n");
+  ASSERT_EQ(sterna({"convert", "tet.su2", "tet.lb8.ugrid"}).status, k_exit_success);
+  const ProcessResult info = sterna({"info", "tet.lb8.ugrid"});
+  for (const char* part : {"1 tetrahedron", "\"skin\"", "no faults found"}) EXPECT_NE(info.output.find(part), std::string::npos) << info.output;
+  const ProcessResult refused = sterna({"convert", "tet.su2", "tet.stl"});
+  EXPECT_EQ(refused.status, k_exit_failed);
+  for (const char* part : {"a volume mesh of 1 cells", "--surface"}) EXPECT_NE(refused.errors.find(part), std::string::npos) << refused.errors;
+  ASSERT_EQ(sterna({"convert", "tet.su2", "tet.vtp", "--surface"}).status, k_exit_success);
+  EXPECT_NE(sterna({"info", "tet.vtp"}).output.find("4 triangles"), std::string::npos);
 }
 
 }  // namespace
