@@ -3,33 +3,29 @@
 #include <algorithm>
 
 #include "geom/math/predicates.h"
-#include "volmesh/improve/tet_quality.h"
 
 namespace sterna::volmesh {
 namespace {
 
-/// A change must raise the worst quality by this factor: progress that cannot go on for ever.
-constexpr double k_gain = 1.01;
-/// The class that is not worked on must not lose; beyond that its qualities count for more, lest they hide progress of the other.
-constexpr double k_slack = 2.0;
-/// Changes per region before the mesh takes a fresh look at what is worst.
-constexpr int k_max_changes = 12;
+/// A change must lower the sum of costs by this much: progress that cannot go on for ever.
+constexpr double k_least_drop = 0.01;
+/// A bad tetrahedron away from the boundary costs as much as so many at it.
+constexpr double k_interior_weight = 5.0;
 
 }  // namespace
-
-QualityLimits quality_limits(double min_angle, double max_angle) {
-  return {.target = std::sin(min_angle), .obtuse_weight = std::sin(min_angle) / std::sin(max_angle)};
-}
 
 void Region::assign(std::span<const Vec3> points, std::span<const VertexRole> roles, std::span<const Corners> tets) {
   points_.assign(points.begin(), points.end());
   roles_.assign(roles.begin(), roles.end());
+  changed_.assign(points.size(), 0);
+  clock_ = 1;
   for (auto& list : incident_) list.clear();
   incident_.resize(std::max(incident_.size(), points.size()));
   tets_.clear();
   for (const Corners& corners : tets) {
     for (const std::uint32_t v : corners) incident_[v].push_back(static_cast<std::uint32_t>(tets_.size()));
-    tets_.push_back({corners, quality(corners)});
+    const double q = quality(corners);
+    tets_.push_back({corners, q, cost_of(q, touches_boundary(corners))});
   }
 }
 
@@ -42,23 +38,38 @@ bool Region::touches_boundary(const Face& face) const {
   return std::ranges::any_of(face, [&](std::uint32_t v) { return roles_[v] == VertexRole::boundary; });
 }
 
+/// Below the target a step, so that their number counts, and a slope, so that the worst gain most; above it a little up to twice the target, so that others keep clear of it.
+double Region::cost_of(double quality, bool is_boundary) const {
+  const double x = quality / limits_.target;
+  if (x >= 2.0) return 0.0;
+  const double soft = 0.25 * (1.0 - 0.5 * x) * (1.0 - 0.5 * x);
+  return x >= 1.0 ? soft : (soft + 1.0 - 0.5 * x) * (is_boundary ? 1.0 : k_interior_weight);
+}
+
+double Region::slope_of_cost(double quality, bool is_boundary) const {
+  const double x = quality / limits_.target;
+  if (x >= 2.0) return 0.0;
+  const double soft = 0.25 * (1.0 - 0.5 * x);
+  return (x >= 1.0 ? soft : (soft + 0.5) * (is_boundary ? 1.0 : k_interior_weight)) / limits_.target;
+}
+
 void Region::compare_with(std::span<const std::uint32_t> removed) {
-  before_ = {limits_.target, limits_.target};
+  cost_before_ = 0.0;
+  worst_allowed_ = limits_.floor;
   for (const std::uint32_t t : removed) {
-    double& before = before_[touches_boundary(tets_[t].corners)];
-    before = std::min(before, tets_[t].quality);
+    cost_before_ += tets_[t].cost;
+    worst_allowed_ = std::min(worst_allowed_, tets_[t].quality);
   }
 }
 
-double Region::gain_of(double quality, bool is_boundary) const {
-  if (quality <= 0.0) return -1.0;
-  const double gain = quality / before_[is_boundary];
-  if (is_boundary == is_for_boundary_) return gain;
-  return gain < 1.0 ? -1.0 : k_slack * gain;
+double Region::cost(const Corners& c) const {
+  const double q = quality(c);
+  return q < worst_allowed_ || q <= 0.0 ? k_infinite : q >= 2.0 * limits_.target ? 0.0 : cost_of(q, touches_boundary(c));
 }
 
-double Region::gain(const Face& face, const Vec3& apex, bool is_boundary) const {
-  return gain_of(tet_quality(points_[face[0]], points_[face[1]], points_[face[2]], apex, limits_.obtuse_weight), is_boundary);
+double Region::cost(const Face& face, const Vec3& apex) const {
+  const double q = tet_quality(points_[face[0]], points_[face[1]], points_[face[2]], apex, limits_.obtuse_weight);
+  return q < worst_allowed_ || q <= 0.0 ? k_infinite : q >= 2.0 * limits_.target ? 0.0 : cost_of(q, touches_boundary(face));
 }
 
 Region::Face Region::opposite(const Corners& c, std::size_t corner) {
@@ -67,50 +78,66 @@ Region::Face Region::opposite(const Corners& c, std::size_t corner) {
 }
 
 bool Region::apply(const Change& change) {
-  if (!(change.gain > k_gain)) return false;
+  if (!(change.drop > k_least_drop)) return false;
   const auto place = [&](std::uint32_t v) -> const Vec3& { return v == change.moved ? change.place : points_[v]; };
-  // Cavities grew while they were compared with what they had at first.
   compare_with(change.removed);
+  double sum = 0.0;
   for (const Corners& c : change.added) {
     const Vec3 &p0 = place(c[0]), &p1 = place(c[1]), &p2 = place(c[2]), &p3 = place(c[3]);
     if (orient3d(p0, p1, p2, p3) <= 0) return false;
-    const bool is_boundary = touches_boundary(c);
-    if (gain_of(tet_quality(p0, p1, p2, p3, limits_.obtuse_weight), is_boundary) <= (is_boundary == is_for_boundary_ ? k_gain : 0.0)) return false;
+    const double q = tet_quality(p0, p1, p2, p3, limits_.obtuse_weight);
+    if (q < worst_allowed_ || q <= 0.0) return false;
+    sum += cost_of(q, touches_boundary(c));
   }
+  if (!(cost_before_ - sum > k_least_drop)) return false;
 
   if (change.moved == points_.size()) {
     points_.push_back(change.place);
     roles_.push_back(VertexRole::free);
+    changed_.push_back(0);
     incident_.resize(std::max(incident_.size(), points_.size()));
   } else if (change.moved != k_none) {
     points_[change.moved] = change.place;
   }
+  ++clock_;
   for (const std::uint32_t t : change.removed) {
     tets_[t].is_alive = false;
-    for (const std::uint32_t v : tets_[t].corners) std::erase(incident_[v], t);
+    for (const std::uint32_t v : tets_[t].corners) {
+      std::erase(incident_[v], t);
+      changed_[v] = clock_;
+    }
   }
   for (const Corners& c : change.added) {
-    for (const std::uint32_t v : c) incident_[v].push_back(static_cast<std::uint32_t>(tets_.size()));
-    tets_.push_back({c, quality(c)});
+    for (const std::uint32_t v : c) {
+      incident_[v].push_back(static_cast<std::uint32_t>(tets_.size()));
+      changed_[v] = clock_;
+    }
+    const double q = quality(c);
+    tets_.push_back({c, q, cost_of(q, touches_boundary(c))});
   }
   return true;
 }
 
+bool Region::is_stuck(std::uint32_t tet) const {
+  return std::ranges::all_of(tets_[tet].corners, [&](std::uint32_t v) { return changed_[v] <= tets_[tet].tried; }) && tets_[tet].tried > 0;
+}
+
 bool Region::help(std::uint32_t tet) { return remove_edge_or_faces(tet) || smooth(tet) || contract(tet) || insert(tet); }
 
-bool Region::improve(std::uint32_t tet) {
-  for (int n_changes = 0; n_changes < k_max_changes; ++n_changes) {
-    is_for_boundary_ = touches_boundary(tets_[tet].corners);
+bool Region::improve(std::span<const std::uint32_t> tets, int max_tries) {
+  std::vector<std::uint32_t> work(tets.begin(), tets.end());
+  const std::uint32_t start = clock_;
+  for (int tries = 0; tries < max_tries; ++tries) {
+    std::uint32_t worst = k_none;
+    std::erase_if(work, [&](std::uint32_t t) { return !tets_[t].is_alive || tets_[t].quality >= limits_.target; });
+    for (const std::uint32_t t : work)
+      if (!is_stuck(t) && (worst == k_none || tets_[t].quality < tets_[worst].quality)) worst = t;
+    if (worst == k_none) break;
     const std::size_t n_before = tets_.size();
-    if (!help(tet)) return n_changes > 0;
-    const auto is_worse = [&](std::uint32_t t) { return tets_[t].is_alive && tets_[t].quality < limits_.target; };
-    std::uint32_t next = is_worse(tet) ? tet : k_none;
-    for (auto t = static_cast<std::uint32_t>(n_before); t < tets_.size(); ++t)
-      if (is_worse(t) && (next == k_none || tets_[t].quality < tets_[next].quality)) next = t;
-    if (next == k_none) return true;
-    tet = next;
+    if (!help(worst)) tets_[worst].tried = clock_;
+    for (std::size_t t = n_before; t < tets_.size(); ++t) work.push_back(static_cast<std::uint32_t>(t));
   }
-  return true;
+  return clock_ > start;
 }
 
 }  // namespace sterna::volmesh

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t k_max_ring = 8;  ///< longer rings hardly ever win
 constexpr int k_max_faces_deep = 4;    ///< recursion from the first face
-constexpr double k_good_gain = 4.0;    ///< so good a side needs no face beyond it
 
 std::size_t corner_of(const Region::Corners& c, std::uint32_t v) {
   return static_cast<std::size_t>(std::ranges::find(c, v) - c.begin());
@@ -62,29 +61,30 @@ void Region::try_edge(std::uint32_t a, std::uint32_t b, Change& best) {
     if (i == n ? v != ring[0] : v == ring[0]) return;
     if (i < n) ring[i] = v;
   }
-  const double limit = std::max(1.0, best.gain);
+  const double limit = cost_before_ - best.drop;
   double value[k_max_ring][k_max_ring];
   std::uint8_t middle[k_max_ring][k_max_ring] = {};
-  for (std::size_t i = 0; i + 1 < n; ++i) value[i][i + 1] = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i + 1 < n; ++i) value[i][i + 1] = 0.0;
   for (std::size_t span = 2; span < n; ++span) {
     for (std::size_t i = 0; i + span < n; ++i) {
       const std::size_t k = i + span;
-      value[i][k] = -1.0;
+      value[i][k] = k_infinite;
       for (std::size_t j = i + 1; j < k; ++j) {
-        double q = std::min(value[i][j], value[j][k]);
-        if (q <= value[i][k] || q <= limit) continue;
-        q = std::min(q, gain(Corners{ring[i], ring[j], ring[k], b}));
-        if (q <= value[i][k] || q <= limit) continue;
-        q = std::min(q, gain(Corners{ring[j], ring[i], ring[k], a}));
-        if (q <= value[i][k]) continue;
-        value[i][k] = q;
+        double sum = value[i][j] + value[j][k];
+        const double least = std::min(value[i][k], limit);
+        if (sum >= least) continue;
+        sum += cost(Corners{ring[i], ring[j], ring[k], b});
+        if (sum >= least) continue;
+        sum += cost(Corners{ring[j], ring[i], ring[k], a});
+        if (sum >= least) continue;
+        value[i][k] = sum;
         middle[i][k] = static_cast<std::uint8_t>(j);
       }
     }
   }
   const double after = value[0][n - 1];
-  if (after <= limit) return;
-  best = Change{.gain = after};
+  if (after >= limit) return;
+  best = Change{.drop = cost_before_ - after};
   best.removed.assign(around.begin(), around.begin() + static_cast<std::ptrdiff_t>(n));
   std::array<std::array<std::size_t, 2>, k_max_ring> stack{};
   std::size_t depth = 0;
@@ -117,19 +117,21 @@ void Region::try_faces(std::uint32_t tet, std::size_t corner, Change& best) {
   Change change;
   change.removed = {tet, other};
   compare_with(change.removed);
-  change.gain = std::numeric_limits<double>::infinity();
+  double sum = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
-    change.gain = std::min(change.gain, extend_faces(face[k], face[(k + 1) % 3], above, below, tet, 0, change));
-    if (change.gain <= std::max(1.0, best.gain)) return;
+    sum += extend_faces(face[k], face[(k + 1) % 3], above, below, tet, 0, change);
+    if (cost_before_ - sum <= best.drop) return;
   }
+  change.drop = cost_before_ - sum;
   best = std::move(change);
 }
 
 /// The side (u, v) of the faces chosen so far, seen counter-clockwise from `above`: either it stays a side and carries a new tetrahedron, or the face beyond it joins.
+/// Its cost, less that of the tetrahedra at the faces that join.
 double Region::extend_faces(std::uint32_t u, std::uint32_t v, std::uint32_t above, std::uint32_t below, std::uint32_t from_above, int depth, Change& change) const {
   const Corners side{u, v, below, above};
-  const double as_side = gain(side);
-  if (as_side < k_good_gain && depth < k_max_faces_deep) {
+  const double as_side = cost(side);
+  if (as_side > 0.0 && depth < k_max_faces_deep) {
     const std::uint32_t next_above = across(from_above, {u, v, above});
     const auto third = [&]() -> std::uint32_t {
       for (const std::uint32_t w : tets_[next_above].corners)
@@ -143,11 +145,12 @@ double Region::extend_faces(std::uint32_t u, std::uint32_t v, std::uint32_t abov
       longer.removed.push_back(next_above);
       longer.removed.push_back(next_below);
       // Beyond (u, v) the face is (v, u, w).
-      const double first = extend_faces(u, w, above, below, next_above, depth + 1, longer);
-      const double second = first > as_side ? extend_faces(w, v, above, below, next_above, depth + 1, longer) : -1.0;
-      if (std::min(first, second) > as_side) {
+      double sum = -tets_[next_above].cost - tets_[next_below].cost;
+      sum += extend_faces(u, w, above, below, next_above, depth + 1, longer);
+      if (sum < as_side) sum += extend_faces(w, v, above, below, next_above, depth + 1, longer);
+      if (sum < as_side) {
         change = std::move(longer);
-        return std::min(first, second);
+        return sum;
       }
     }
   }

@@ -1,18 +1,17 @@
 // Changes that move, remove or add points.
-// Smoothing climbs the worst quality around a point, which is a maximum of a minimum: the direction is the shortest vector in the convex hull of the gradients of the
-// nearly worst tetrahedra, along which all of them gain (Freitag and Ollivier-Gooch 1997). Insertion takes tetrahedra away around a bad one until the cavity's faces
-// see a new point well (Klingner and Shewchuk 2007).
+// Smoothing goes down the sum of the costs of the tetrahedra around a point, along its gradient with steps that shrink; where the worst of them stand against each other, the
+// direction is the shortest vector in the convex hull of their gradients, along which all of them gain (Freitag and Ollivier-Gooch 1997). Insertion takes tetrahedra
+// away around a bad one until the cavity's faces see a new point well (Klingner and Shewchuk 2007).
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "volmesh/improve/region.h"
 
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_max_climbs = 12;          ///< steps of one smoothing
+constexpr int k_max_steps = 14;           ///< of one smoothing
 constexpr double k_nearly_worst = 1.08;   ///< qualities within this factor of the worst share the direction
 constexpr std::size_t k_max_gradients = 8;
 constexpr double k_difference = 1e-4;     ///< step of the numerical gradients over the size of the star: half of the digits of the quality
@@ -35,55 +34,68 @@ Vec3 shortest_in_hull(std::span<const Vec3> gradients) {
 
 }  // namespace
 
-double Region::worst_gain(std::span<const Face> faces, std::span<const std::uint8_t> is_boundary, const Vec3& apex, double stop_below) const {
-  double result = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < faces.size() && result > stop_below; ++i) result = std::min(result, gain(faces[i], apex, is_boundary[i] != 0));
-  return result;
+double Region::sum_of_costs(std::span<const Face> faces, const Vec3& apex, double stop_above) const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < faces.size() && sum < stop_above; ++i) sum += cost(faces[i], apex);
+  return sum;
 }
 
 std::pair<Vec3, double> Region::best_place(std::span<const Face> faces, const Vec3& start) const {
   Vec3 p = start;
+  double now = sum_of_costs(faces, p, k_infinite);
+  if (now == k_infinite || now == 0.0) return {p, now};
   double longest = 0.0;
   for (const Face& face : faces)
     for (const std::uint32_t v : face) longest = std::max(longest, norm2(points_[v] - p));
-  const double size = std::sqrt(longest);
-  std::vector<std::uint8_t> is_boundary(faces.size());
-  for (std::size_t i = 0; i < faces.size(); ++i) is_boundary[i] = touches_boundary(faces[i]);
-  std::vector<double> gains(faces.size());
+  const double size = std::sqrt(longest), step = k_difference * size;
+  const auto quality_at = [&](const Face& f, const Vec3& apex) { return tet_quality(points_[f[0]], points_[f[1]], points_[f[2]], apex, limits_.obtuse_weight); };
   double reach = 0.2 * size;
-  double now = worst_gain(faces, is_boundary, p, -1.0);
-  for (int climb = 0; climb < k_max_climbs && now > 0.0 && reach > 1e-4 * size; ++climb) {
-    for (std::size_t i = 0; i < faces.size(); ++i) gains[i] = gain(faces[i], p, is_boundary[i] != 0);
-    std::array<Vec3, k_max_gradients> gradients;
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < faces.size() && n < k_max_gradients; ++i) {
-      if (gains[i] > k_nearly_worst * now) continue;
-      const double step = k_difference * size;
+  for (int i_step = 0; i_step < k_max_steps && now > 0.0 && reach > 1e-3 * size; ++i_step) {
+    // Gradients of the qualities that cost anything, worst first.
+    struct Slope {
+      double quality;
+      Vec3 gradient;
+      bool is_boundary;
+    };
+    std::vector<Slope> slopes;
+    for (const Face& face : faces) {
+      const double q = quality_at(face, p);
+      if (q >= 2.0 * limits_.target) continue;
+      Slope slope{q, {}, touches_boundary(face)};
       for (std::size_t axis = 0; axis < 3; ++axis) {
         Vec3 moved = p;
         moved[axis] += step;
-        gradients[n][axis] = (gain(faces[i], moved, is_boundary[i] != 0) - gains[i]) / step;
+        slope.gradient[axis] = (quality_at(face, moved) - q) / step;
       }
+      slopes.push_back(slope);
+    }
+    std::ranges::stable_sort(slopes, {}, &Slope::quality);
+    Vec3 down;
+    for (const Slope& s : slopes) down += slope_of_cost(s.quality, s.is_boundary) * s.gradient;
+    std::array<Vec3, k_max_gradients> worst;
+    std::size_t n = 0;
+    while (n < std::min(slopes.size(), k_max_gradients) && slopes[n].quality <= k_nearly_worst * slopes[0].quality) {
+      worst[n] = slopes[n].gradient;
       ++n;
     }
-    const Vec3 direction = shortest_in_hull({gradients.data(), n});
-    const double slope = norm(direction);
-    if (!(slope * size > 1e-3 * now)) break;
-    // Halve the step until the worst gains; a step that gains at once may be longer next time.
     bool has_gained = false;
-    for (int halving = 0; halving < 8; ++halving) {
-      const Vec3 moved = p + (reach / slope) * direction;
-      const double then = worst_gain(faces, is_boundary, moved, now);
-      if (then > now) {
+    for (const Vec3& direction : {down, shortest_in_hull({worst.data(), n})}) {
+      const double length = norm(direction);
+      if (!(length * size > 1e-3 * now)) continue;
+      // Halve the step until the sum falls; a step that gains at once may be longer next time.
+      double trial = reach;
+      for (int halving = 0; halving < 6 && !has_gained; ++halving, trial *= 0.5) {
+        const Vec3 moved = p + (trial / length) * direction;
+        const double then = sum_of_costs(faces, moved, now);
+        if (then >= now) continue;
         p = moved;
         now = then;
         has_gained = true;
-        reach *= halving == 0 ? 1.5 : 1.0;
-        break;
+        reach = halving == 0 ? 1.5 * trial : trial;
       }
-      reach *= 0.5;
+      if (has_gained) break;
     }
-    if (!has_gained) break;
+    if (!has_gained) reach *= 1.0 / 16.0;
   }
   return {p, now};
 }
@@ -100,8 +112,8 @@ bool Region::smooth(std::uint32_t tet) {
     }
     compare_with(incident_[v]);
     const auto [place, after] = best_place(faces, points_[v]);
-    if (after <= best.gain) continue;
-    best = Change{.gain = after, .removed = incident_[v], .moved = v, .place = place};
+    if (cost_before_ - after <= best.drop) continue;
+    best = Change{.drop = cost_before_ - after, .removed = incident_[v], .moved = v, .place = place};
     for (const Face& face : faces) best.added.push_back({face[0], face[1], face[2], v});
   }
   return apply(best);
@@ -120,39 +132,50 @@ bool Region::contract(std::uint32_t tet) {
     neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
     compare_with(incident_[v]);
     for (const std::uint32_t u : neighbours) {
-      Change change{.gain = std::numeric_limits<double>::infinity(), .removed = incident_[v]};
+      Change change{.removed = incident_[v]};
+      double sum = 0.0;
+      const double limit = cost_before_ - best.drop;
       for (const std::uint32_t t : incident_[v]) {
         Corners c = tets_[t].corners;
         if (std::ranges::find(c, u) != c.end()) continue;
         *std::ranges::find(c, v) = u;
-        change.gain = std::min(change.gain, gain(c));
-        if (change.gain <= std::max(best.gain, 1.0)) break;
+        sum += cost(c);
+        if (sum >= limit) break;
         change.added.push_back(c);
       }
-      if (change.gain > std::max(best.gain, 1.0)) best = std::move(change);
+      if (sum >= limit) continue;
+      change.drop = cost_before_ - sum;
+      best = std::move(change);
     }
   }
   return apply(best);
 }
 
 bool Region::insert(std::uint32_t tet) {
+  const Corners c = tets_[tet].corners;
+  Change best;
+  try_insertion(tet, 0.25 * (points_[c[0]] + points_[c[1]] + points_[c[2]] + points_[c[3]]), best);
+  return apply(best);
+}
+
+void Region::try_insertion(std::uint32_t tet, const Vec3& p, Change& best) {
   struct Side {
     Face face;
     std::uint32_t inside;
-    double gain;
+    double quality;
   };
-  const Corners start = tets_[tet].corners;
-  const Vec3 p = 0.25 * (points_[start[0]] + points_[start[1]] + points_[start[2]] + points_[start[3]]);
-  std::vector<std::uint32_t> cavity, best_cavity;
+  std::vector<std::uint32_t> cavity;
   std::vector<Side> sides, best_sides;
-  double best_gain = -1.0;
+  std::size_t best_size = 0;
+  double best_drop = -k_infinite;
   const auto in_cavity = [&](std::uint32_t t) { return std::ranges::find(cavity, t) != cavity.end(); };
   const auto add = [&](std::uint32_t t) {
     cavity.push_back(t);
     std::erase_if(sides, [&](const Side& side) { return across(side.inside, side.face) == t; });
     for (std::size_t k = 0; k < 4; ++k) {
       const Face face = opposite(tets_[t].corners, k);
-      if (const std::uint32_t beyond = across(t, face); beyond == k_none || !in_cavity(beyond)) sides.push_back({face, t, gain(face, p, touches_boundary(face))});
+      if (const std::uint32_t beyond = across(t, face); beyond == k_none || !in_cavity(beyond))
+        sides.push_back({face, t, tet_quality(points_[face[0]], points_[face[1]], points_[face[2]], p, limits_.obtuse_weight)});
     }
   };
   // Its last tetrahedron gone, a vertex would be lost within the cavity.
@@ -161,27 +184,33 @@ bool Region::insert(std::uint32_t tet) {
       return std::ranges::any_of(incident_[v], [&](std::uint32_t other) { return other != t && !in_cavity(other); }) || roles_[v] != VertexRole::free;
     });
   };
-  compare_with(std::span(&tet, 1));
   add(tet);
   while (cavity.size() < k_max_cavity) {
-    const auto lowest = std::ranges::min_element(sides, {}, &Side::gain);
-    if (lowest->gain > best_gain) {
-      best_gain = lowest->gain;
-      best_cavity = cavity;
+    compare_with(cavity);
+    double sum = 0.0;
+    const Side* lowest = &sides[0];
+    for (const Side& side : sides) {
+      if (side.quality < lowest->quality) lowest = &side;
+      sum += side.quality <= worst_allowed_ ? k_infinite : cost_of(side.quality, touches_boundary(side.face));
+    }
+    if (cost_before_ - sum > best_drop) {
+      best_drop = cost_before_ - sum;
+      best_size = cavity.size();
       best_sides = sides;
     }
     const std::uint32_t beyond = across(lowest->inside, lowest->face);
     if (beyond == k_none || !keeps_vertices(beyond)) break;
     add(beyond);
   }
-  if (best_gain <= 0.0) return false;
-  compare_with(best_cavity);
+  if (best_drop == -k_infinite) return;
+  cavity.resize(best_size);
+  compare_with(cavity);
   std::vector<Face> faces;
   for (const Side& side : best_sides) faces.push_back(side.face);
   const auto [place, after] = best_place(faces, p);
-  Change change{.gain = after, .removed = best_cavity, .moved = static_cast<std::uint32_t>(points_.size()), .place = place};
-  for (const Face& face : faces) change.added.push_back({face[0], face[1], face[2], change.moved});
-  return apply(change);
+  if (cost_before_ - after <= best.drop) return;
+  best = Change{.drop = cost_before_ - after, .removed = cavity, .moved = static_cast<std::uint32_t>(points_.size()), .place = place};
+  for (const Face& face : faces) best.added.push_back({face[0], face[1], face[2], best.moved});
 }
 
 }  // namespace sterna::volmesh

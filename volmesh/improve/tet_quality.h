@@ -1,4 +1,4 @@
-// How far a tetrahedron's dihedral angles are from the limits: one number that improvement raises.
+// How far a tetrahedron's dihedral angles are from the limits: one number that improvement raises, and what it costs to fall short of the limits.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +8,17 @@
 #include "geom/base/vec3.h"
 
 namespace sterna::volmesh {
+
+/// Limits that an improved tetrahedron keeps to, as one threshold on tet_quality().
+struct QualityLimits {
+  double target = 0.0;         ///< tetrahedra below are worked on
+  double obtuse_weight = 1.0;  ///< of tet_quality(), such that both angle limits give the target
+  double floor = 0.0;          ///< a change may make tetrahedra as bad as this, or as the worst that it removes
+};
+/// \p min_angle, \p max_angle of a dihedral, radians.
+inline QualityLimits quality_limits(double min_angle, double max_angle) {
+  return {.target = std::sin(min_angle), .obtuse_weight = std::sin(min_angle) / std::sin(max_angle)};
+}
 
 /// Smallest sine of the six dihedral angles, those of obtuse angles times `obtuse_weight` (Klingner and Shewchuk 2007), in (0, 1]; -1 for a tetrahedron that is not
 /// positive. 0.05 us.

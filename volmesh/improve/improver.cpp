@@ -1,0 +1,271 @@
+#include "volmesh/improve/improver.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "geom/base/parallel.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr std::uint8_t k_given_up = 2;    ///< attempts: the tetrahedra around it, then those around these
+constexpr std::size_t k_group = 12;       ///< bad tetrahedra: enough to share what they have in common, few enough for a region that stays in the cache
+constexpr int k_tries_of_each = 12;       ///< attempts of a region for each of its bad tetrahedra: endless small gains are cut short
+constexpr std::size_t k_job_chunk = 1;
+constexpr std::size_t k_scan_chunk = 1 << 15;
+constexpr std::uint32_t k_none = 0xffffffffu;
+/// Changes may make tetrahedra of this share of the target as long as the mesh has worse ones.
+constexpr double k_floor = 0.5;
+
+std::uint64_t spread_bits(std::uint64_t x) {
+  x = (x | x << 32) & 0x1f00000000ffff;
+  x = (x | x << 16) & 0x1f0000ff0000ff;
+  x = (x | x << 8) & 0x100f00f00f00f00f;
+  x = (x | x << 4) & 0x10c30c30c30c30c3;
+  return (x | x << 2) & 0x1249249249249249;
+}
+
+void sort_unique(std::vector<std::uint32_t>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+std::uint32_t place_of(const std::vector<std::uint32_t>& ascending, std::uint32_t value) {
+  return static_cast<std::uint32_t>(std::ranges::lower_bound(ascending, value) - ascending.begin());
+}
+
+}  // namespace
+
+Improver::Improver(const TetraBoundary& boundary, TetraResult& tets, double min_angle, double max_angle, const RunContext& context)
+    : limits_(quality_limits(min_angle, max_angle)), n_fixed_(boundary.points.size()), tets_(tets.tetrahedra), context_(context) {
+  points_.reserve(n_fixed_ + tets.new_points.size());
+  points_.assign(boundary.points.begin(), boundary.points.end());
+  points_.insert(points_.end(), tets.new_points.begin(), tets.new_points.end());
+  attempts_.assign(tets_.size(), 0);
+  find_bad();
+  if (!bad_.empty()) limits_.floor = std::max(k_floor * limits_.target, bad_.front().quality);
+}
+
+bool Improver::is_alive(std::uint32_t tet) const { return tets_[tet][0] != k_none; }
+
+void Improver::find_bad() {
+  using List = std::vector<Bad>;
+  bad_ = parallel_reduce(
+      context_, tets_.size(), List{},
+      [&](std::size_t begin, std::size_t end) {
+        List list;
+        for (std::size_t t = begin; t < end; ++t)
+          if (const double q = quality(tets_[t]); q < limits_.target) list.push_back({q, static_cast<std::uint32_t>(t)});
+        return list;
+      },
+      [](List a, const List& b) {
+        a.insert(a.end(), b.begin(), b.end());
+        return a;
+      },
+      k_scan_chunk);
+  std::ranges::stable_sort(bad_, {}, &Bad::quality);
+}
+
+void Improver::drop_good() {
+  std::erase_if(bad_, [&](Bad& bad) {
+    if (!is_alive(bad.tet)) return true;
+    bad.quality = quality(tets_[bad.tet]);
+    return bad.quality >= limits_.target;
+  });
+  std::ranges::sort(bad_, {}, &Bad::tet);
+  bad_.erase(std::unique(bad_.begin(), bad_.end(), [](const Bad& a, const Bad& b) { return a.tet == b.tet; }), bad_.end());
+}
+
+void Improver::list_incident() {
+  first_.assign(points_.size() + 1, 0);
+  for (const Corners& c : tets_)
+    for (const std::uint32_t v : c) ++first_[v + 1];
+  for (std::size_t v = 0; v < points_.size(); ++v) first_[v + 1] += first_[v];
+  incident_.resize(first_.back());
+  std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+  for (std::size_t t = 0; t < tets_.size(); ++t)
+    for (const std::uint32_t v : tets_[t]) incident_[next[v]++] = static_cast<std::uint32_t>(t);
+  later_.resize(points_.size());
+}
+
+template <class F>
+void Improver::for_each_at(std::uint32_t vertex, const F& f) const {
+  const auto visit = [&](std::uint32_t t) {
+    if (is_alive(t) && std::ranges::find(tets_[t], vertex) != tets_[t].end()) f(t);
+  };
+  if (vertex + 1 < first_.size())
+    for (std::uint32_t i = first_[vertex]; i < first_[vertex + 1]; ++i) visit(incident_[i]);
+  for (const std::uint32_t t : later_[vertex]) visit(t);
+}
+
+int Improver::run(int max_passes) {
+  if (bad_.empty()) return 0;
+  if (max_passes > 0) list_incident();
+  int pass = 0;
+  for (; pass < max_passes; ++pass) {
+    context_.check_stop();
+    std::vector<Job> jobs = choose_jobs(pass);
+    if (jobs.empty()) break;
+    owner_.assign(points_.size(), k_none);
+    parallel_for(context_, jobs.size(), [&](std::size_t i) { claim_vertices(jobs[i], static_cast<std::uint32_t>(i)); }, k_job_chunk);
+    parallel_chunks(context_, jobs.size(), k_job_chunk, [&](std::size_t begin, std::size_t end) {
+      Region region(limits_);
+      for (std::size_t i = begin; i < end; ++i) work(jobs[i], static_cast<std::uint32_t>(i), region);
+    });
+    for (const Job& job : jobs) put_back(job);
+    drop_good();
+  }
+  return pass;
+}
+
+/// Groups along Morton's curve; its grid and the first group's size differ from pass to pass, so that what lay between two groups is within one another time.
+std::vector<Improver::Job> Improver::choose_jobs(int pass) const {
+  Vec3 low = points_[0], high = points_[0];
+  for (std::size_t v = 0; v < n_fixed_; ++v)
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], points_[v][axis]);
+      high[axis] = std::max(high[axis], points_[v][axis]);
+    }
+  struct Item {
+    std::uint64_t code;
+    std::uint32_t tet;
+    bool operator<(const Item& other) const { return code != other.code ? code < other.code : tet < other.tet; }
+  };
+  std::vector<Item> items;
+  const double shift = 0.381966 * pass - std::floor(0.381966 * pass);  // golden section: no two passes alike
+  for (const Bad& bad : bad_) {
+    if (attempts_[bad.tet] >= k_given_up) continue;
+    std::uint64_t code = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      double x = 0.0;
+      for (const std::uint32_t v : tets_[bad.tet]) x += 0.25 * (points_[v][axis] - low[axis]);
+      code |= spread_bits(static_cast<std::uint64_t>((x / (high[axis] - low[axis]) + shift) * 0x1p20)) << axis;
+    }
+    items.push_back({code, bad.tet});
+  }
+  std::sort(items.begin(), items.end());
+  std::vector<Job> jobs;
+  for (std::size_t begin = 0, end = 0; begin < items.size(); begin = end) {
+    end = std::min(items.size(), begin == 0 && pass % 2 == 1 ? k_group / 2 : begin + k_group);
+    Job& job = jobs.emplace_back();
+    for (std::size_t i = begin; i < end; ++i) job.bad.push_back(items[i].tet);
+  }
+  return jobs;
+}
+
+void Improver::claim_vertices(Job& job, std::uint32_t number) {
+  const auto widen = [&](std::vector<std::uint32_t>& vertices) {
+    const std::size_t n = vertices.size();
+    for (std::size_t i = 0; i < n; ++i)
+      for_each_at(vertices[i], [&](std::uint32_t t) { vertices.insert(vertices.end(), tets_[t].begin(), tets_[t].end()); });
+    sort_unique(vertices);
+  };
+  std::vector<std::uint32_t> hard;
+  for (const std::uint32_t t : job.bad) {
+    std::vector<std::uint32_t>& vertices = attempts_[t] == 0 ? job.vertices : hard;
+    vertices.insert(vertices.end(), tets_[t].begin(), tets_[t].end());
+  }
+  sort_unique(hard);
+  widen(hard);
+  job.vertices.insert(job.vertices.end(), hard.begin(), hard.end());
+  sort_unique(job.vertices);
+  widen(job.vertices);
+  for (const std::uint32_t v : job.vertices) {
+    const std::atomic_ref<std::uint32_t> owner(owner_[v]);
+    std::uint32_t now = owner.load(std::memory_order_relaxed);
+    while (number < now && !owner.compare_exchange_weak(now, number, std::memory_order_relaxed)) {}
+  }
+}
+
+/// Its vertices, their roles, and the tetrahedra between them.
+void Improver::gather(Job& job, std::uint32_t number, std::vector<VertexRole>& roles) const {
+  std::erase_if(job.vertices, [&](std::uint32_t v) { return owner_[v] != number; });
+  for (const std::uint32_t v : job.vertices) {
+    bool is_whole = true;
+    for_each_at(v, [&](std::uint32_t t) {
+      const bool is_ours = std::ranges::all_of(tets_[t], [&](std::uint32_t u) { return owner_[u] == number; });
+      is_whole &= is_ours;
+      if (is_ours && v == std::ranges::min(tets_[t])) job.tets.push_back(t);
+    });
+    roles.push_back(v < n_fixed_ ? VertexRole::boundary : is_whole ? VertexRole::free : VertexRole::kept);
+  }
+  sort_unique(job.tets);
+}
+
+void Improver::work(Job& job, std::uint32_t number, Region& region) const {
+  std::vector<VertexRole> roles;
+  gather(job, number, roles);
+  std::vector<Vec3> points(job.vertices.size());
+  for (std::size_t i = 0; i < points.size(); ++i) points[i] = points_[job.vertices[i]];
+  std::vector<Corners> corners(job.tets.size());
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    for (std::size_t k = 0; k < 4; ++k) corners[i][k] = place_of(job.vertices, tets_[job.tets[i]][k]);
+  for (const std::uint32_t t : job.bad)
+    if (const std::uint32_t place = place_of(job.tets, t); place < job.tets.size() && job.tets[place] == t) job.worked.push_back(place);
+
+  region.assign(points, roles, corners);
+  job.has_changed = region.improve(job.worked, k_tries_of_each * static_cast<int>(job.worked.size()));
+  for (const std::uint32_t t : job.worked) job.is_stuck.push_back(region.is_stuck(t));
+  if (!job.has_changed) return;
+  job.points.assign(region.points().begin(), region.points().end());
+  for (std::size_t i = 0; i < region.tets().size(); ++i) {
+    const Region::Tet& tet = region.tets()[i];
+    if (i < job.tets.size() && !tet.is_alive) job.removed.push_back(job.tets[i]);
+    if (i >= job.tets.size() && tet.is_alive) job.added.push_back(tet.corners);
+  }
+}
+
+void Improver::put_back(const Job& job) {
+  for (std::size_t i = 0; i < job.worked.size(); ++i) {
+    std::uint8_t& attempts = attempts_[job.tets[job.worked[i]]];
+    attempts = job.is_stuck[i] ? static_cast<std::uint8_t>(attempts + 1) : std::uint8_t{0};
+  }
+  if (!job.has_changed) return;
+  const auto n_old = static_cast<std::uint32_t>(job.vertices.size());
+  const auto shift = static_cast<std::uint32_t>(points_.size());
+  for (std::size_t i = 0; i < n_old; ++i) points_[job.vertices[i]] = job.points[i];
+  points_.insert(points_.end(), job.points.begin() + n_old, job.points.end());
+  later_.resize(points_.size());
+  for (std::size_t i = 0; i < std::max(job.added.size(), job.removed.size()); ++i) {
+    std::uint32_t slot = 0;
+    if (i < job.removed.size()) {
+      slot = job.removed[i];
+    } else {
+      slot = static_cast<std::uint32_t>(tets_.size());
+      tets_.emplace_back();
+      attempts_.push_back(0);
+    }
+    if (i >= job.added.size()) {
+      tets_[slot][0] = k_none;
+      continue;
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::uint32_t v = job.added[i][k];
+      tets_[slot][k] = v < n_old ? job.vertices[v] : shift + (v - n_old);
+      later_[tets_[slot][k]].push_back(slot);
+    }
+    attempts_[slot] = 0;
+    bad_.push_back({0.0, slot});
+  }
+}
+
+void Improver::finish(TetraResult& result) {
+  std::erase_if(tets_, [](const Corners& c) { return c[0] == k_none; });
+  std::vector<std::uint32_t> number(points_.size(), 0);
+  for (std::size_t v = 0; v < n_fixed_; ++v) number[v] = 1;
+  for (const Corners& c : tets_)
+    for (const std::uint32_t v : c) number[v] = 1;
+  std::uint32_t next = 0;
+  result.new_points.clear();
+  for (std::size_t v = 0; v < points_.size(); ++v) {
+    if (!number[v]) continue;
+    number[v] = next++;
+    if (v >= n_fixed_) result.new_points.push_back(points_[v]);
+  }
+  parallel_for(context_, tets_.size(), [&](std::size_t t) {
+    for (std::uint32_t& v : tets_[t]) v = number[v];
+  });
+}
+
+}  // namespace sterna::volmesh

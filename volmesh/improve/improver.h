@@ -1,0 +1,73 @@
+// Passes over the bad tetrahedra of a mesh, in disjoint groups that are worked on in parallel.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/base/vec3.h"
+#include "volmesh/improve/region.h"
+#include "volmesh/tetra/tetra.h"
+
+namespace sterna::volmesh {
+
+/// Each pass: the bad tetrahedra along a space-filling curve, so many to a group; a group owns the vertices around its bad ones unless a group before it does; the
+/// tetrahedra between vertices of one group are a Region of their own; the results are put back in order. A tetrahedron that its nearest neighbourhood could not help
+/// gets a wider one; one that this cannot help either is left until something changes beside it.
+class Improver {
+ public:
+  using Corners = std::array<std::uint32_t, 4>;
+
+  /// \pre verify_tetrahedra() passes.
+  Improver(const TetraBoundary& boundary, TetraResult& tets, double min_angle, double max_angle, const RunContext& context);
+  /// Number of passes made.
+  int run(int max_passes);
+  /// Removes what has vanished: numbers close up in order.
+  void finish(TetraResult& result);
+
+ private:
+  struct Bad {
+    double quality;
+    std::uint32_t tet;
+  };
+  struct Job {
+    std::vector<std::uint32_t> bad;       ///< that the group is for
+    std::vector<std::uint32_t> vertices;  ///< ascending: local to global
+    std::vector<std::uint32_t> tets;      ///< ascending
+    std::vector<std::uint32_t> worked;    ///< places in `tets` of its bad ones
+    std::vector<std::uint8_t> is_stuck;   ///< of these
+    bool has_changed = false;
+    std::vector<Vec3> points;             ///< of the local vertices, new ones at the end
+    std::vector<std::uint32_t> removed;   ///< of `tets`
+    std::vector<Corners> added;           ///< local corners
+  };
+
+  double quality(const Corners& c) const { return tet_quality(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]], limits_.obtuse_weight); }
+  bool is_alive(std::uint32_t tet) const;
+  void find_bad();
+  void drop_good();
+  void list_incident();
+  std::vector<Job> choose_jobs(int pass) const;
+  void claim_vertices(Job& job, std::uint32_t number);
+  void gather(Job& job, std::uint32_t number, std::vector<VertexRole>& roles) const;
+  void work(Job& job, std::uint32_t number, Region& region) const;
+  void put_back(const Job& job);
+  /// Calls f for every living tetrahedron at a vertex, perhaps twice.
+  template <class F>
+  void for_each_at(std::uint32_t vertex, const F& f) const;
+
+  QualityLimits limits_;
+  std::size_t n_fixed_;
+  std::vector<Corners>& tets_;
+  const RunContext& context_;
+  std::vector<Vec3> points_;
+  std::vector<std::uint8_t> attempts_;  ///< for each tetrahedron: neighbourhoods in vain since the last change beside it
+  std::vector<Bad> bad_;                ///< may name tetrahedra twice, or good ones, until drop_good()
+  std::vector<std::uint32_t> first_, incident_;     ///< tetrahedra at each vertex as they were at first
+  std::vector<std::vector<std::uint32_t>> later_;   ///< and those that came to it since
+  std::vector<std::uint32_t> owner_;                ///< of each vertex: number of the job
+};
+
+}  // namespace sterna::volmesh
