@@ -10,8 +10,10 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr std::uint8_t k_given_up = 2;    ///< attempts: the tetrahedra around it, then those around these
-constexpr std::size_t k_group = 12;       ///< bad tetrahedra: enough to share what they have in common, few enough for a region that stays in the cache
-constexpr int k_tries_of_each = 12;       ///< attempts of a region for each of its bad tetrahedra: endless small gains are cut short
+const std::size_t k_group = getenv("KG") ? static_cast<std::size_t>(atoi(getenv("KG"))) : 300;       ///< bad tetrahedra: enough to share what they have in common, few enough for a region that stays in the cache
+constexpr std::uint32_t k_ring_shift = 28;
+const std::uint32_t k_rings = getenv("KR") ? static_cast<std::uint32_t>(atoi(getenv("KR"))) : 2;
+const int k_tries_of_each = getenv("KT") ? atoi(getenv("KT")) : 300;       ///< attempts of a region for each of its bad tetrahedra: endless small gains are cut short
 constexpr std::size_t k_job_chunk = 1;
 constexpr std::size_t k_scan_chunk = 1 << 15;
 constexpr std::uint32_t k_none = 0xffffffffu;
@@ -29,10 +31,6 @@ std::uint64_t spread_bits(std::uint64_t x) {
 void sort_unique(std::vector<std::uint32_t>& values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
-std::uint32_t place_of(const std::vector<std::uint32_t>& ascending, std::uint32_t value) {
-  return static_cast<std::uint32_t>(std::ranges::lower_bound(ascending, value) - ascending.begin());
 }
 
 }  // namespace
@@ -108,7 +106,9 @@ int Improver::run(int max_passes) {
     std::vector<Job> jobs = choose_jobs(pass);
     if (jobs.empty()) break;
     owner_.assign(points_.size(), k_none);
-    parallel_for(context_, jobs.size(), [&](std::size_t i) { claim_vertices(jobs[i], static_cast<std::uint32_t>(i)); }, k_job_chunk);
+    local_.resize(points_.size());
+    for (std::uint32_t ring = 0; ring <= k_rings; ++ring)
+      parallel_for(context_, jobs.size(), [&](std::size_t i) { claim_ring(jobs[i], static_cast<std::uint32_t>(i), ring); }, k_job_chunk);
     parallel_chunks(context_, jobs.size(), k_job_chunk, [&](std::size_t begin, std::size_t end) {
       Region region(limits_);
       for (std::size_t i = begin; i < end; ++i) work(jobs[i], static_cast<std::uint32_t>(i), region);
@@ -154,55 +154,57 @@ std::vector<Improver::Job> Improver::choose_jobs(int pass) const {
   return jobs;
 }
 
-void Improver::claim_vertices(Job& job, std::uint32_t number) {
-  const auto widen = [&](std::vector<std::uint32_t>& vertices) {
-    const std::size_t n = vertices.size();
-    for (std::size_t i = 0; i < n; ++i)
-      for_each_at(vertices[i], [&](std::uint32_t t) { vertices.insert(vertices.end(), tets_[t].begin(), tets_[t].end()); });
-    sort_unique(vertices);
-  };
-  std::vector<std::uint32_t> hard;
-  for (const std::uint32_t t : job.bad) {
-    std::vector<std::uint32_t>& vertices = attempts_[t] == 0 ? job.vertices : hard;
-    vertices.insert(vertices.end(), tets_[t].begin(), tets_[t].end());
-  }
-  sort_unique(hard);
-  widen(hard);
-  job.vertices.insert(job.vertices.end(), hard.begin(), hard.end());
-  sort_unique(job.vertices);
-  widen(job.vertices);
-  for (const std::uint32_t v : job.vertices) {
+/// Claims what lies around the vertices that it owns. Nearer to a bad tetrahedron counts first, then the number; so the owners do not depend on the order of the claims.
+void Improver::claim_ring(Job& job, std::uint32_t number, std::uint32_t ring) {
+  const std::uint32_t rank = ring << k_ring_shift | number;
+  const auto claim = [&](std::uint32_t v) {
     const std::atomic_ref<std::uint32_t> owner(owner_[v]);
     std::uint32_t now = owner.load(std::memory_order_relaxed);
-    while (number < now && !owner.compare_exchange_weak(now, number, std::memory_order_relaxed)) {}
+    while (rank < now)
+      if (owner.compare_exchange_weak(now, rank, std::memory_order_relaxed)) {
+        job.vertices.push_back(v);
+        return;
+      }
+  };
+  if (ring == 0) {
+    for (const std::uint32_t t : job.bad)
+      for (const std::uint32_t v : tets_[t]) claim(v);
+    return;
   }
+  std::erase_if(job.vertices, [&](std::uint32_t v) { return owner_of(v) != number; });
+  const std::size_t begin = ring == 1 ? 0 : job.n_inner;
+  job.n_inner = job.vertices.size();
+  for (std::size_t i = begin; i < job.n_inner; ++i)
+    for_each_at(job.vertices[i], [&](std::uint32_t t) {
+      for (const std::uint32_t v : tets_[t]) claim(v);
+    });
 }
 
-/// Its vertices, their roles, and the tetrahedra between them.
-void Improver::gather(Job& job, std::uint32_t number, std::vector<VertexRole>& roles) const {
-  std::erase_if(job.vertices, [&](std::uint32_t v) { return owner_[v] != number; });
+void Improver::work(Job& job, std::uint32_t number, Region& region) {
+  std::erase_if(job.vertices, [&](std::uint32_t v) { return owner_of(v) != number; });
+  std::sort(job.vertices.begin(), job.vertices.end());
+  std::vector<Vec3> points(job.vertices.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = points_[job.vertices[i]];
+    local_[job.vertices[i]] = static_cast<std::uint32_t>(i);
+  }
+  std::vector<VertexRole> roles;
   for (const std::uint32_t v : job.vertices) {
     bool is_whole = true;
     for_each_at(v, [&](std::uint32_t t) {
-      const bool is_ours = std::ranges::all_of(tets_[t], [&](std::uint32_t u) { return owner_[u] == number; });
+      const Corners& c = tets_[t];
+      const bool is_ours = std::ranges::all_of(c, [&](std::uint32_t u) { return owner_of(u) == number; });
       is_whole &= is_ours;
-      if (is_ours && v == std::ranges::min(tets_[t])) job.tets.push_back(t);
+      if (is_ours && v == std::min({c[0], c[1], c[2], c[3]})) job.tets.push_back(t);
     });
     roles.push_back(v < n_fixed_ ? VertexRole::boundary : is_whole ? VertexRole::free : VertexRole::kept);
   }
   sort_unique(job.tets);
-}
-
-void Improver::work(Job& job, std::uint32_t number, Region& region) const {
-  std::vector<VertexRole> roles;
-  gather(job, number, roles);
-  std::vector<Vec3> points(job.vertices.size());
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = points_[job.vertices[i]];
   std::vector<Corners> corners(job.tets.size());
   for (std::size_t i = 0; i < corners.size(); ++i)
-    for (std::size_t k = 0; k < 4; ++k) corners[i][k] = place_of(job.vertices, tets_[job.tets[i]][k]);
+    for (std::size_t k = 0; k < 4; ++k) corners[i][k] = local_[tets_[job.tets[i]][k]];
   for (const std::uint32_t t : job.bad)
-    if (const std::uint32_t place = place_of(job.tets, t); place < job.tets.size() && job.tets[place] == t) job.worked.push_back(place);
+    if (const auto place = std::ranges::lower_bound(job.tets, t); place != job.tets.end() && *place == t) job.worked.push_back(static_cast<std::uint32_t>(place - job.tets.begin()));
 
   region.assign(points, roles, corners);
   job.has_changed = region.improve(job.worked, k_tries_of_each * static_cast<int>(job.worked.size()));

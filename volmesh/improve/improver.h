@@ -34,7 +34,8 @@ class Improver {
   };
   struct Job {
     std::vector<std::uint32_t> bad;       ///< that the group is for
-    std::vector<std::uint32_t> vertices;  ///< ascending: local to global
+    std::vector<std::uint32_t> vertices;  ///< ascending in the end: local to global
+    std::size_t n_inner = 0;              ///< of these, of all rings but the last
     std::vector<std::uint32_t> tets;      ///< ascending
     std::vector<std::uint32_t> worked;    ///< places in `tets` of its bad ones
     std::vector<std::uint8_t> is_stuck;   ///< of these
@@ -46,13 +47,13 @@ class Improver {
 
   double quality(const Corners& c) const { return tet_quality(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]], limits_.obtuse_weight); }
   bool is_alive(std::uint32_t tet) const;
+  std::uint32_t owner_of(std::uint32_t vertex) const { return owner_[vertex] & 0x0fffffffu; }
   void find_bad();
   void drop_good();
   void list_incident();
   std::vector<Job> choose_jobs(int pass) const;
-  void claim_vertices(Job& job, std::uint32_t number);
-  void gather(Job& job, std::uint32_t number, std::vector<VertexRole>& roles) const;
-  void work(Job& job, std::uint32_t number, Region& region) const;
+  void claim_ring(Job& job, std::uint32_t number, std::uint32_t ring);
+  void work(Job& job, std::uint32_t number, Region& region);
   void put_back(const Job& job);
   /// Calls f for every living tetrahedron at a vertex, perhaps twice.
   template <class F>
@@ -67,7 +68,8 @@ class Improver {
   std::vector<Bad> bad_;                ///< may name tetrahedra twice, or good ones, until drop_good()
   std::vector<std::uint32_t> first_, incident_;     ///< tetrahedra at each vertex as they were at first
   std::vector<std::vector<std::uint32_t>> later_;   ///< and those that came to it since
-  std::vector<std::uint32_t> owner_;                ///< of each vertex: number of the job
+  std::vector<std::uint32_t> owner_;                ///< of each vertex: ring around the bad ones in the highest bits, number of the job in the others
+  std::vector<std::uint32_t> local_;                ///< of each vertex: place among its job's vertices
 };
 
 }  // namespace sterna::volmesh
