@@ -152,17 +152,35 @@ bool Region::contract(std::uint32_t tet) {
 }
 
 bool Region::insert(std::uint32_t tet) {
+  static const int mode = getenv("KI") ? atoi(getenv("KI")) : 0;
   const Corners c = tets_[tet].corners;
+  const auto center = [&](const Corners& x) { return 0.25 * (points_[x[0]] + points_[x[1]] + points_[x[2]] + points_[x[3]]); };
   Change best;
-  try_insertion(tet, 0.25 * (points_[c[0]] + points_[c[1]] + points_[c[2]] + points_[c[3]]), best);
+  try_insertion(tet, center(c), best);
+  if (mode & 1)
+    for (std::size_t k = 0; k < 4; ++k)
+      if (const std::uint32_t beyond = across(tet, opposite(c, k)); beyond != k_none) try_insertion(tet, center(tets_[beyond].corners), best);
+  if (mode & 2)
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j) try_insertion(tet, 0.5 * (points_[c[i]] + points_[c[j]]), best);
+  if (mode & 4)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Face f = opposite(c, k);
+      const Vec3 n = cross(points_[f[1]] - points_[f[0]], points_[f[2]] - points_[f[0]]);
+      const double perimeter = norm(points_[f[1]] - points_[f[0]]) + norm(points_[f[2]] - points_[f[1]]) + norm(points_[f[0]] - points_[f[2]]);
+      const double r = norm(n) / perimeter;
+      const Vec3 middle = (norm(points_[f[1]] - points_[f[2]]) * points_[f[0]] + norm(points_[f[2]] - points_[f[0]]) * points_[f[1]] + norm(points_[f[0]] - points_[f[1]]) * points_[f[2]]) / perimeter;
+      for (const double h : {0.5, 1.0, 2.0}) try_insertion(tet, middle + (h * r / norm(n)) * n, best);
+    }
   return apply(best);
 }
 
 void Region::try_insertion(std::uint32_t tet, const Vec3& p, Change& best) {
   struct Side {
     Face face;
-    std::uint32_t inside;
+    std::uint32_t beyond;
     double quality;
+    double cost;
   };
   std::vector<std::uint32_t> cavity;
   std::vector<Side> sides, best_sides;
@@ -171,35 +189,39 @@ void Region::try_insertion(std::uint32_t tet, const Vec3& p, Change& best) {
   const auto in_cavity = [&](std::uint32_t t) { return std::ranges::find(cavity, t) != cavity.end(); };
   const auto add = [&](std::uint32_t t) {
     cavity.push_back(t);
-    std::erase_if(sides, [&](const Side& side) { return across(side.inside, side.face) == t; });
+    std::erase_if(sides, [&](const Side& side) { return side.beyond == t; });
     for (std::size_t k = 0; k < 4; ++k) {
       const Face face = opposite(tets_[t].corners, k);
-      if (const std::uint32_t beyond = across(t, face); beyond == k_none || !in_cavity(beyond))
-        sides.push_back({face, t, tet_quality(points_[face[0]], points_[face[1]], points_[face[2]], p, limits_.obtuse_weight)});
+      const std::uint32_t beyond = across(t, face);
+      if (beyond != k_none && in_cavity(beyond)) continue;
+      const double q = tet_quality(points_[face[0]], points_[face[1]], points_[face[2]], p, limits_.obtuse_weight);
+      sides.push_back({face, beyond, q, q >= 2.0 * limits_.target ? 0.0 : cost_of(q, touches_boundary(face))});
     }
   };
   // Its last tetrahedron gone, a vertex would be lost within the cavity.
   const auto keeps_vertices = [&](std::uint32_t t) {
     return std::ranges::all_of(tets_[t].corners, [&](std::uint32_t v) {
-      return std::ranges::any_of(incident_[v], [&](std::uint32_t other) { return other != t && !in_cavity(other); }) || roles_[v] != VertexRole::free;
+      return roles_[v] != VertexRole::free || std::ranges::any_of(incident_[v], [&](std::uint32_t other) { return other != t && !in_cavity(other); });
     });
   };
   add(tet);
+  double cost_before = tets_[tet].cost, worst_allowed = std::min(limits_.floor, tets_[tet].quality);
   while (cavity.size() < k_max_cavity) {
-    compare_with(cavity);
     double sum = 0.0;
     const Side* lowest = &sides[0];
     for (const Side& side : sides) {
       if (side.quality < lowest->quality) lowest = &side;
-      sum += side.quality <= worst_allowed_ ? k_infinite : cost_of(side.quality, touches_boundary(side.face));
+      sum += side.cost;
     }
-    if (cost_before_ - sum > best_drop) {
-      best_drop = cost_before_ - sum;
+    if (lowest->quality > 0.0 && lowest->quality >= worst_allowed && cost_before - sum > best_drop) {
+      best_drop = cost_before - sum;
       best_size = cavity.size();
       best_sides = sides;
     }
-    const std::uint32_t beyond = across(lowest->inside, lowest->face);
+    const std::uint32_t beyond = lowest->beyond;
     if (beyond == k_none || !keeps_vertices(beyond)) break;
+    cost_before += tets_[beyond].cost;
+    worst_allowed = std::min(worst_allowed, tets_[beyond].quality);
     add(beyond);
   }
   if (best_drop == -k_infinite) return;
