@@ -9,13 +9,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::uint8_t k_given_up = 2;    ///< attempts: the tetrahedra around it, then those around these
+const int kf = getenv("KF") ? atoi(getenv("KF")) : 4;
 const std::size_t k_group = getenv("KG") ? static_cast<std::size_t>(atoi(getenv("KG"))) : 300;       ///< bad tetrahedra: enough to share what they have in common, few enough for a region that stays in the cache
 constexpr std::uint32_t k_ring_shift = 28;
-const std::uint32_t k_rings = getenv("KR") ? static_cast<std::uint32_t>(atoi(getenv("KR"))) : 2;
-const int k_tries_of_each = getenv("KT") ? atoi(getenv("KT")) : 300;       ///< attempts of a region for each of its bad tetrahedra: endless small gains are cut short
+const std::uint32_t k_rings = getenv("KR") ? static_cast<std::uint32_t>(atoi(getenv("KR"))): 1;
 constexpr std::size_t k_job_chunk = 1;
-constexpr std::size_t k_scan_chunk = 1 << 15;
 constexpr std::uint32_t k_none = 0xffffffffu;
 /// Changes may make tetrahedra of this share of the target as long as the mesh has worse ones.
 constexpr double k_floor = 0.5;
@@ -35,35 +33,21 @@ void sort_unique(std::vector<std::uint32_t>& values) {
 
 }  // namespace
 
-Improver::Improver(const TetraBoundary& boundary, TetraResult& tets, double min_angle, double max_angle, const RunContext& context)
-    : limits_(quality_limits(min_angle, max_angle)), n_fixed_(boundary.points.size()), tets_(tets.tetrahedra), context_(context) {
+Improver::Improver(const TetraBoundary& boundary, TetraResult& tets, const QualityLimits& limits, std::span<const std::uint32_t> bad, const RunContext& context)
+    : limits_(limits), n_fixed_(boundary.points.size()), tets_(tets.tetrahedra), context_(context) {
   points_.reserve(n_fixed_ + tets.new_points.size());
   points_.assign(boundary.points.begin(), boundary.points.end());
   points_.insert(points_.end(), tets.new_points.begin(), tets.new_points.end());
-  attempts_.assign(tets_.size(), 0);
-  find_bad();
-  if (!bad_.empty()) limits_.floor = std::max(k_floor * limits_.target, bad_.front().quality);
+  n_failures_.assign(tets_.size(), 0);
+  double worst = limits.target;
+  for (const std::uint32_t t : bad) {
+    bad_.push_back({quality(tets_[t]), t});
+    worst = std::min(worst, bad_.back().quality);
+  }
+  limits_.floor = std::max(k_floor * limits_.target, worst);
 }
 
 bool Improver::is_alive(std::uint32_t tet) const { return tets_[tet][0] != k_none; }
-
-void Improver::find_bad() {
-  using List = std::vector<Bad>;
-  bad_ = parallel_reduce(
-      context_, tets_.size(), List{},
-      [&](std::size_t begin, std::size_t end) {
-        List list;
-        for (std::size_t t = begin; t < end; ++t)
-          if (const double q = quality(tets_[t]); q < limits_.target) list.push_back({q, static_cast<std::uint32_t>(t)});
-        return list;
-      },
-      [](List a, const List& b) {
-        a.insert(a.end(), b.begin(), b.end());
-        return a;
-      },
-      k_scan_chunk);
-  std::ranges::stable_sort(bad_, {}, &Bad::quality);
-}
 
 void Improver::drop_good() {
   std::erase_if(bad_, [&](Bad& bad) {
@@ -98,8 +82,7 @@ void Improver::for_each_at(std::uint32_t vertex, const F& f) const {
 }
 
 int Improver::run(int max_passes) {
-  if (bad_.empty()) return 0;
-  if (max_passes > 0) list_incident();
+  list_incident();
   int pass = 0;
   for (; pass < max_passes; ++pass) {
     context_.check_stop();
@@ -135,7 +118,7 @@ std::vector<Improver::Job> Improver::choose_jobs(int pass) const {
   std::vector<Item> items;
   const double shift = 0.381966 * pass - std::floor(0.381966 * pass);  // golden section: no two passes alike
   for (const Bad& bad : bad_) {
-    if (attempts_[bad.tet] >= k_given_up) continue;
+    if (n_failures_[bad.tet] >= kf) continue;
     std::uint64_t code = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       double x = 0.0;
@@ -207,8 +190,9 @@ void Improver::work(Job& job, std::uint32_t number, Region& region) {
     if (const auto place = std::ranges::lower_bound(job.tets, t); place != job.tets.end() && *place == t) job.worked.push_back(static_cast<std::uint32_t>(place - job.tets.begin()));
 
   region.assign(points, roles, corners);
-  job.has_changed = region.improve(job.worked, k_tries_of_each * static_cast<int>(job.worked.size()));
-  for (const std::uint32_t t : job.worked) job.is_stuck.push_back(region.is_stuck(t));
+  for (const std::uint32_t t : job.worked) job.n_failures.push_back(n_failures_[job.tets[t]]);
+  job.has_changed = region.improve(job.worked, job.n_failures);
+  for (std::size_t i = 0; i < job.worked.size(); ++i) job.n_failures[i] = region.tets()[job.worked[i]].n_failures;
   if (!job.has_changed) return;
   job.points.assign(region.points().begin(), region.points().end());
   for (std::size_t i = 0; i < region.tets().size(); ++i) {
@@ -219,10 +203,7 @@ void Improver::work(Job& job, std::uint32_t number, Region& region) {
 }
 
 void Improver::put_back(const Job& job) {
-  for (std::size_t i = 0; i < job.worked.size(); ++i) {
-    std::uint8_t& attempts = attempts_[job.tets[job.worked[i]]];
-    attempts = job.is_stuck[i] ? static_cast<std::uint8_t>(attempts + 1) : std::uint8_t{0};
-  }
+  for (std::size_t i = 0; i < job.worked.size(); ++i) n_failures_[job.tets[job.worked[i]]] = job.n_failures[i];
   if (!job.has_changed) return;
   const auto n_old = static_cast<std::uint32_t>(job.vertices.size());
   const auto shift = static_cast<std::uint32_t>(points_.size());
@@ -236,7 +217,7 @@ void Improver::put_back(const Job& job) {
     } else {
       slot = static_cast<std::uint32_t>(tets_.size());
       tets_.emplace_back();
-      attempts_.push_back(0);
+      n_failures_.push_back(0);
     }
     if (i >= job.added.size()) {
       tets_[slot][0] = k_none;
@@ -247,7 +228,7 @@ void Improver::put_back(const Job& job) {
       tets_[slot][k] = v < n_old ? job.vertices[v] : shift + (v - n_old);
       later_[tets_[slot][k]].push_back(slot);
     }
-    attempts_[slot] = 0;
+    n_failures_[slot] = 0;
     bad_.push_back({0.0, slot});
   }
 }

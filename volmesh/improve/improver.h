@@ -20,8 +20,8 @@ class Improver {
  public:
   using Corners = std::array<std::uint32_t, 4>;
 
-  /// \pre verify_tetrahedra() passes.
-  Improver(const TetraBoundary& boundary, TetraResult& tets, double min_angle, double max_angle, const RunContext& context);
+  /// \p bad: those below the target. \pre verify_tetrahedra() passes.
+  Improver(const TetraBoundary& boundary, TetraResult& tets, const QualityLimits& limits, std::span<const std::uint32_t> bad, const RunContext& context);
   /// Number of passes made.
   int run(int max_passes);
   /// Removes what has vanished: numbers close up in order.
@@ -38,7 +38,7 @@ class Improver {
     std::size_t n_inner = 0;              ///< of these, of all rings but the last
     std::vector<std::uint32_t> tets;      ///< ascending
     std::vector<std::uint32_t> worked;    ///< places in `tets` of its bad ones
-    std::vector<std::uint8_t> is_stuck;   ///< of these
+    std::vector<std::uint8_t> n_failures; ///< of these
     bool has_changed = false;
     std::vector<Vec3> points;             ///< of the local vertices, new ones at the end
     std::vector<std::uint32_t> removed;   ///< of `tets`
@@ -48,7 +48,6 @@ class Improver {
   double quality(const Corners& c) const { return tet_quality(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]], limits_.obtuse_weight); }
   bool is_alive(std::uint32_t tet) const;
   std::uint32_t owner_of(std::uint32_t vertex) const { return owner_[vertex] & 0x0fffffffu; }
-  void find_bad();
   void drop_good();
   void list_incident();
   std::vector<Job> choose_jobs(int pass) const;
@@ -64,7 +63,7 @@ class Improver {
   std::vector<Corners>& tets_;
   const RunContext& context_;
   std::vector<Vec3> points_;
-  std::vector<std::uint8_t> attempts_;  ///< for each tetrahedron: neighbourhoods in vain since the last change beside it
+  std::vector<std::uint8_t> n_failures_;  ///< of each tetrahedron: how often nothing helped it
   std::vector<Bad> bad_;                ///< may name tetrahedra twice, or good ones, until drop_good()
   std::vector<std::uint32_t> first_, incident_;     ///< tetrahedra at each vertex as they were at first
   std::vector<std::vector<std::uint32_t>> later_;   ///< and those that came to it since

@@ -1,6 +1,9 @@
 #include "volmesh/improve/region.h"
 
 #include <algorithm>
+#include <atomic>
+#include <ctime>
+#include <cstdio>
 
 #include "geom/math/predicates.h"
 
@@ -122,22 +125,36 @@ bool Region::is_stuck(std::uint32_t tet) const {
   return std::ranges::all_of(tets_[tet].corners, [&](std::uint32_t v) { return changed_[v] <= tets_[tet].tried; }) && tets_[tet].tried > 0;
 }
 
-bool Region::help(std::uint32_t tet) { return remove_edge_or_faces(tet) || smooth(tet) || contract(tet) || insert(tet); }
+struct Stat { std::atomic<long> n[8]; std::atomic<double> t[4]; ~Stat() { fprintf(stderr,"help %ld flips %ld smooth %ld contract %ld insert %ld | ms %.0f %.0f %.0f %.0f\n",n[0].load(),n[1].load(),n[2].load(),n[3].load(),n[4].load(),t[0]*1e3,t[1]*1e3,t[2]*1e3,t[3]*1e3);} } stat;
+double now() { timespec ts; clock_gettime(CLOCK_THREAD_CPUTIME_ID,&ts); return double(ts.tv_sec)+1e-9*double(ts.tv_nsec); }
+bool Region::help(std::uint32_t tet) {
+  ++stat.n[0];
+  double t=now();
+  bool r=remove_edge_or_faces(tet); double u=now(); stat.t[0]+=u-t; if(r){++stat.n[1];return true;} t=u;
+  r=smooth(tet); u=now(); stat.t[1]+=u-t; if(r){++stat.n[2];return true;} t=u;
+  r=contract(tet); u=now(); stat.t[2]+=u-t; if(r){++stat.n[3];return true;} t=u;
+  r=insert(tet); u=now(); stat.t[3]+=u-t; if(r){++stat.n[4];return true;}
+  return false;
+}
 
-bool Region::improve(std::span<const std::uint32_t> tets, int max_tries) {
+bool Region::improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures) {
+  static const int kf = getenv("KF") ? atoi(getenv("KF")) : 4;
   std::vector<std::uint32_t> work(tets.begin(), tets.end());
+  for (std::size_t i = 0; i < tets.size(); ++i) tets_[tets[i]].n_failures = n_failures[i];
   const std::uint32_t start = clock_;
-  for (int tries = 0; tries < max_tries; ++tries) {
+  for (;;) {
     std::uint32_t worst = k_none;
-    std::erase_if(work, [&](std::uint32_t t) { return !tets_[t].is_alive || tets_[t].quality >= limits_.target; });
+    std::erase_if(work, [&](std::uint32_t t) { return !tets_[t].is_alive || tets_[t].quality >= limits_.target || tets_[t].n_failures >= kf; });
     for (const std::uint32_t t : work)
       if (!is_stuck(t) && (worst == k_none || tets_[t].quality < tets_[worst].quality)) worst = t;
-    if (worst == k_none) break;
+    if (worst == k_none) return clock_ > start;
     const std::size_t n_before = tets_.size();
-    if (!help(worst)) tets_[worst].tried = clock_;
+    if (!help(worst)) {
+      tets_[worst].tried = clock_;
+      ++tets_[worst].n_failures;
+    }
     for (std::size_t t = n_before; t < tets_.size(); ++t) work.push_back(static_cast<std::uint32_t>(t));
   }
-  return clock_ > start;
 }
 
 }  // namespace sterna::volmesh

@@ -29,18 +29,18 @@ class Region {
     Corners corners;
     double quality = 0.0;
     double cost = 0.0;
-    std::uint32_t tried = 0;  ///< clock when nothing helped it
+    std::uint32_t tried = 0;       ///< clock when nothing helped it
+    std::uint8_t n_failures = 0;  ///< how often nothing helped it
     bool is_alive = true;
   };
 
   explicit Region(const QualityLimits& limits) : limits_(limits) {}
   /// Starts anew; memory is kept. \pre tetrahedra positive.
   void assign(std::span<const Vec3> points, std::span<const VertexRole> roles, std::span<const Corners> tets);
-  /// Works on the bad ones of these tetrahedra and on all bad ones that take their place, worst first, until they reach the target or nothing helps, with `max_tries`
-  /// attempts in all. True when something changed.
-  bool improve(std::span<const std::uint32_t> tets, int max_tries);
-  /// Whether nothing helps this tetrahedron as it and its neighbours are now.
-  bool is_stuck(std::uint32_t tet) const;
+  /// Works on the bad ones of these tetrahedra and on all bad ones that take their place, worst first, until they reach the target, nothing helps as they and their
+  /// neighbours are, or nothing helped k_max_failures times. `n_failures` of the given ones so far. True when something changed.
+  bool improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures);
+  static constexpr std::uint8_t k_max_failures = 4;
 
   const QualityLimits& limits() const { return limits_; }
   std::span<const Vec3> points() const { return points_; }  ///< those given, moved perhaps, then new ones
@@ -72,6 +72,8 @@ class Region {
   /// Carries a change out if it is proven valid and better.
   bool apply(const Change& change);
 
+  /// Whether nothing helps this tetrahedron as it and its neighbours are now.
+  bool is_stuck(std::uint32_t tet) const;
   bool help(std::uint32_t tet);
   // region_flips.cpp
   void try_edge(std::uint32_t a, std::uint32_t b, Change& best);

@@ -11,7 +11,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_max_ring = 8;  ///< longer rings hardly ever win
+constexpr std::size_t k_max_ring = 10; ///< longer rings hardly ever win
 constexpr int k_max_faces_deep = 4;    ///< recursion from the first face
 
 std::size_t corner_of(const Region::Corners& c, std::uint32_t v) {

@@ -15,7 +15,7 @@ constexpr int k_max_steps = 14;           ///< of one smoothing
 constexpr double k_nearly_worst = 1.08;   ///< qualities within this factor of the worst share the direction
 constexpr std::size_t k_max_gradients = 8;
 constexpr double k_difference = 1e-4;     ///< step of the numerical gradients over the size of the star: half of the digits of the quality
-constexpr std::size_t k_max_cavity = 40;  ///< tetrahedra
+const std::size_t k_max_cavity = getenv("KC") ? static_cast<std::size_t>(atoi(getenv("KC"))) : 40;  ///< tetrahedra
 
 /// Shortest vector in the convex hull of gradients (Gilbert's iteration, a few digits are plenty).
 Vec3 shortest_in_hull(std::span<const Vec3> gradients) {
@@ -198,12 +198,6 @@ void Region::try_insertion(std::uint32_t tet, const Vec3& p, Change& best) {
       sides.push_back({face, beyond, q, q >= 2.0 * limits_.target ? 0.0 : cost_of(q, touches_boundary(face))});
     }
   };
-  // Its last tetrahedron gone, a vertex would be lost within the cavity.
-  const auto keeps_vertices = [&](std::uint32_t t) {
-    return std::ranges::all_of(tets_[t].corners, [&](std::uint32_t v) {
-      return roles_[v] != VertexRole::free || std::ranges::any_of(incident_[v], [&](std::uint32_t other) { return other != t && !in_cavity(other); });
-    });
-  };
   add(tet);
   double cost_before = tets_[tet].cost, worst_allowed = std::min(limits_.floor, tets_[tet].quality);
   while (cavity.size() < k_max_cavity) {
@@ -219,7 +213,7 @@ void Region::try_insertion(std::uint32_t tet, const Vec3& p, Change& best) {
       best_sides = sides;
     }
     const std::uint32_t beyond = lowest->beyond;
-    if (beyond == k_none || !keeps_vertices(beyond)) break;
+    if (beyond == k_none) break;
     cost_before += tets_[beyond].cost;
     worst_allowed = std::min(worst_allowed, tets_[beyond].quality);
     add(beyond);

@@ -19,7 +19,6 @@ constexpr double k_degrees = 180.0 / std::numbers::pi;
 /// sharp corner is the face angle of a tetrahedron, whose dihedral angles there are small unless all its neighbours are as slender.
 constexpr double k_forcing_angle = 2.0;
 constexpr std::size_t k_max_listed = 10'000;
-constexpr std::size_t k_scan_chunk = 1 << 15;
 
 struct Remaining {
   std::uint32_t tet = 0;
@@ -80,34 +79,24 @@ class Boundary {
   std::map<std::array<std::uint32_t, 2>, std::uint32_t> opposite_;
 };
 
-std::vector<Remaining> bad_ones(const TetraBoundary& boundary, const TetraResult& tets, const ImproveOptions& options, const RunContext& context) {
-  using List = std::vector<Remaining>;
+std::vector<Remaining> with_angles(const TetraBoundary& boundary, const TetraResult& tets, std::span<const std::uint32_t> bad_tets, ImproveReport& report) {
   const std::size_t n_fixed = boundary.points.size();
-  const double highest = std::cos(options.improve_min_angle), lowest = std::cos(options.improve_max_angle);
-  return parallel_reduce(
-      context, tets.tetrahedra.size(), List{},
-      [&](std::size_t begin, std::size_t end) {
-        List list;
-        for (std::size_t t = begin; t < end; ++t) {
-          const Corners& c = tets.tetrahedra[t];
-          const auto place = [&](std::uint32_t v) { return v < n_fixed ? boundary.points[v] : tets.new_points[v - n_fixed]; };
-          const auto [of_smallest, of_largest] = dihedral_cosines(place(c[0]), place(c[1]), place(c[2]), place(c[3]));
-          if (of_smallest > highest || of_largest < lowest) list.push_back({static_cast<std::uint32_t>(t), std::acos(of_smallest), std::acos(of_largest)});
-        }
-        return list;
-      },
-      [](List a, const List& b) {
-        a.insert(a.end(), b.begin(), b.end());
-        return a;
-      },
-      k_scan_chunk);
+  const auto place = [&](std::uint32_t v) { return v < n_fixed ? boundary.points[v] : tets.new_points[v - n_fixed]; };
+  std::vector<Remaining> bad;
+  for (const std::uint32_t t : bad_tets) {
+    const Corners& c = tets.tetrahedra[t];
+    const auto [of_smallest, of_largest] = dihedral_cosines(place(c[0]), place(c[1]), place(c[2]), place(c[3]));
+    bad.push_back({t, std::acos(of_smallest), std::acos(of_largest)});
+    report.n_bad_free_after += std::ranges::all_of(c, [&](std::uint32_t v) { return v >= n_fixed; });
+  }
+  return bad;
 }
 
 }  // namespace
 
-void list_remaining(const TetraBoundary& boundary, const TetraResult& tets, const ImproveOptions& options, ImproveReport& report, const RunContext& context) {
+void list_remaining(const TetraBoundary& boundary, const TetraResult& tets, std::span<const std::uint32_t> bad_tets, const ImproveOptions& options, ImproveReport& report, const RunContext&) {
   const std::size_t n_fixed = boundary.points.size();
-  std::vector<Remaining> bad = bad_ones(boundary, tets, options, context);
+  std::vector<Remaining> bad = with_angles(boundary, tets, bad_tets, report);
   std::ranges::sort(bad, [&](const Remaining& a, const Remaining& b) {
     const double of_a = a.badness(options), of_b = b.badness(options);
     return of_a != of_b ? of_a > of_b : a.tet < b.tet;

