@@ -49,7 +49,8 @@ Json quality_json(const CheckReport& report) {
 Json improvement_json(const volmesh::ImproveReport& report) {
   Json remaining = Json::array();
   for (const ErrorPlace& place : report.remaining) remaining.push_back({{"at", {place.position.x, place.position.y, place.position.z}}, {"what", place.what}});
-  return {{"bad_before", report.n_bad_before}, {"bad_after", report.n_bad_after}, {"bad_off_boundary", report.n_bad_free_after}, {"forced", report.n_forced}, {"remaining", remaining}};
+  return {{"bad_before", report.n_bad_before}, {"bad_after", report.n_bad_after}, {"bad_off_boundary", report.n_bad_free_after}, {"forced", report.n_forced},
+          {"unforced", report.n_bad_after - report.n_bad_free_after - report.n_forced}, {"at_boundary", report.n_at_boundary}, {"remaining", remaining}};
 }
 
 }  // namespace

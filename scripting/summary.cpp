@@ -118,8 +118,10 @@ std::string summary_text(const MeshValue& mesh) {
   const volmesh::ImproveReport& improvement = mesh.origin->improvement;
   text += fmt::format("  angles      of tetrahedra {:.3g} to {:.4g} deg; {} beyond the limits, {} before improvement", k_degrees * improvement.min_angle_after,
                       k_degrees * improvement.max_angle_after, count_text(improvement.n_bad_after), count_text(improvement.n_bad_before));
+  const std::int64_t n_unforced = improvement.n_bad_after - improvement.n_bad_free_after - improvement.n_forced;
   if (improvement.n_bad_after > 0)
-    text += fmt::format("\n              of these {} away from the boundary, {} at sharp angles of the boundary", count_text(improvement.n_bad_free_after), count_text(improvement.n_forced));
+    text += fmt::format("\n              of these {} away from the boundary, {} forced by it, {} neither ({:.2g} % of the tetrahedra at the boundary)", count_text(improvement.n_bad_free_after),
+                        count_text(improvement.n_forced), count_text(n_unforced), 100.0 * static_cast<double>(n_unforced) / static_cast<double>(std::max<std::int64_t>(1, improvement.n_at_boundary)));
   return text + "\n  verdict     " + verdict_text(mesh) + (mesh.check && mesh.check->quality_measured ? ", " + quality_text(*mesh.check) : "");
 }
 
@@ -162,6 +164,8 @@ std::string stats_json(const MeshValue& mesh, const RunMeasure& measure) {
   json["bad_tetrahedra"] = improvement.n_bad_after;
   json["bad_tetrahedra_off_boundary"] = improvement.n_bad_free_after;
   json["bad_tetrahedra_forced"] = improvement.n_forced;
+  json["bad_tetrahedra_unforced"] = improvement.n_bad_after - improvement.n_bad_free_after - improvement.n_forced;
+  json["tetrahedra_at_boundary"] = improvement.n_at_boundary;
   json["min_dihedral_deg"] = k_degrees * improvement.min_angle_after;
   json["max_dihedral_deg"] = k_degrees * improvement.max_angle_after;
   json["verdict"] = verdict_text(mesh);

@@ -18,6 +18,7 @@ ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tet
     after = survey_angles(boundary, tets, limits, context);
   }
   report.n_bad_after = static_cast<std::int64_t>(after.bad.size());
+  report.n_at_boundary = after.n_at_boundary;
   report.min_angle_after = after.smallest;
   report.max_angle_after = after.largest;
   list_remaining(boundary, tets, after.bad, options, report, context);

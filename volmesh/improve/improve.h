@@ -15,7 +15,7 @@ namespace sterna::volmesh {
 struct ImproveOptions {
   double improve_min_angle = 12.0 * std::numbers::pi / 180.0;
   double improve_max_angle = 160.0 * std::numbers::pi / 180.0;
-  int improve_rounds = 20;
+  int improve_rounds = 30;
 };
 
 /// What improvement found and left.
@@ -28,14 +28,15 @@ struct ImproveReport {
   double max_angle_before = 0.0;
   double max_angle_after = 0.0;
   int rounds = 0;
-  std::int64_t n_forced = 0;          ///< bad ones at a boundary angle that is too small for good ones, see k_forcing_angle in remaining.cpp
+  std::int64_t n_at_boundary = 0;     ///< all tetrahedra with a vertex on the boundary
+  std::int64_t n_forced = 0;          ///< bad ones that the boundary is proven to force, see remaining.h; what is neither forced nor within the limits is a failure of improvement
   std::vector<ErrorPlace> remaining;  ///< each bad one, worst first: its centre, its angles, the sharpest angle of the boundary at it; the first 10 000
 };
 
-/// Works on every tetrahedron with a dihedral angle beyond the limits, worst first: edge removal (rings of 3 to 8: 2-3, 4-4, ...), multi-face removal, smoothing of
-/// the worst sine, contraction and insertion of interior vertices, each change proven positive with exact predicates and accepted only when the worst
-/// tetrahedron that it touches gets better, so the smallest quality of the mesh never falls.
-/// Around each bad tetrahedron the neighbourhood is taken out; disjoint neighbourhoods, chosen worst first, are worked on in parallel: same bytes for any number of threads.
+/// Works on every tetrahedron with a dihedral angle beyond the limits, worst first: edge removal (rings of 3 to 10: 2-3, 4-4, ...), multi-face removal, smoothing,
+/// contraction and insertion of interior vertices, and short detours over worse ones; each change proven positive with exact predicates and accepted only when it lowers
+/// a sum of costs without a tetrahedron worse than the worst that it removes or than half of the limit, so the smallest quality of the mesh never falls.
+/// Disjoint neighbourhoods of bad tetrahedra are worked on in parallel: same bytes for any number of threads.
 /// \pre verify_tetrahedra() passed. \post it passes again; points of the boundary and its triangles as before.
 ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tets, const ImproveOptions& options, const RunContext& context);
 

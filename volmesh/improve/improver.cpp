@@ -9,10 +9,9 @@
 namespace sterna::volmesh {
 namespace {
 
-const int kf = getenv("KF") ? atoi(getenv("KF")) : 4;
-const std::size_t k_group = getenv("KG") ? static_cast<std::size_t>(atoi(getenv("KG"))) : 300;       ///< bad tetrahedra: enough to share what they have in common, few enough for a region that stays in the cache
+constexpr std::size_t k_group = 300;      ///< bad tetrahedra: the more, the fewer lie between two groups; few enough to keep some cores busy
 constexpr std::uint32_t k_ring_shift = 28;
-const std::uint32_t k_rings = getenv("KR") ? static_cast<std::uint32_t>(atoi(getenv("KR"))): 1;
+constexpr std::uint32_t k_rings = 1;      ///< of vertices around the bad ones that a group claims
 constexpr std::size_t k_job_chunk = 1;
 constexpr std::uint32_t k_none = 0xffffffffu;
 /// Changes may make tetrahedra of this share of the target as long as the mesh has worse ones.
@@ -118,7 +117,8 @@ std::vector<Improver::Job> Improver::choose_jobs(int pass) const {
   std::vector<Item> items;
   const double shift = 0.381966 * pass - std::floor(0.381966 * pass);  // golden section: no two passes alike
   for (const Bad& bad : bad_) {
-    if (n_failures_[bad.tet] >= kf) continue;
+    const bool is_at_boundary = std::ranges::any_of(tets_[bad.tet], [&](std::uint32_t v) { return v < n_fixed_; });
+    if (n_failures_[bad.tet] >= Region::max_failures(is_at_boundary)) continue;
     std::uint64_t code = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       double x = 0.0;

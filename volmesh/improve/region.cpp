@@ -1,19 +1,19 @@
 #include "volmesh/improve/region.h"
 
 #include <algorithm>
-#include <atomic>
-#include <ctime>
-#include <cstdio>
 
 #include "geom/math/predicates.h"
 
 namespace sterna::volmesh {
 namespace {
 
-/// A change must lower the sum of costs by this much: progress that cannot go on for ever.
-constexpr double k_least_drop = 0.01;
 /// A bad tetrahedron away from the boundary costs as much as so many at it.
 constexpr double k_interior_weight = 5.0;
+
+/// A detour may cost so much at first, and goes so many changes far; it is the dearest of all, so each tetrahedron gets one, after others around it had their chance.
+constexpr double k_detour = 2.0;
+constexpr int k_detour_steps = 12;
+constexpr int k_failures_before_detour = 3;
 
 }  // namespace
 
@@ -80,8 +80,8 @@ Region::Face Region::opposite(const Corners& c, std::size_t corner) {
   return {c[k_faces[corner][0]], c[k_faces[corner][1]], c[k_faces[corner][2]]};
 }
 
-bool Region::apply(const Change& change) {
-  if (!(change.drop > k_least_drop)) return false;
+bool Region::apply(const Change& change, double least_drop) {
+  if (!(change.drop > least_drop) || change.removed.empty()) return false;
   const auto place = [&](std::uint32_t v) -> const Vec3& { return v == change.moved ? change.place : points_[v]; };
   compare_with(change.removed);
   double sum = 0.0;
@@ -92,8 +92,13 @@ bool Region::apply(const Change& change) {
     if (q < worst_allowed_ || q <= 0.0) return false;
     sum += cost_of(q, touches_boundary(c));
   }
-  if (!(cost_before_ - sum > k_least_drop)) return false;
+  const double drop = cost_before_ - sum;
+  if (!(drop > least_drop)) return false;
 
+  if (is_logging_) {
+    log_.push_back({change.removed, change.added.size(), change.moved, change.moved == points_.size(), {}, drop});
+    if (change.moved < points_.size()) log_.back().place = points_[change.moved];
+  }
   if (change.moved == points_.size()) {
     points_.push_back(change.place);
     roles_.push_back(VertexRole::free);
@@ -125,26 +130,100 @@ bool Region::is_stuck(std::uint32_t tet) const {
   return std::ranges::all_of(tets_[tet].corners, [&](std::uint32_t v) { return changed_[v] <= tets_[tet].tried; }) && tets_[tet].tried > 0;
 }
 
-struct Stat { std::atomic<long> n[8]; std::atomic<double> t[4]; ~Stat() { fprintf(stderr,"help %ld flips %ld smooth %ld contract %ld insert %ld | ms %.0f %.0f %.0f %.0f\n",n[0].load(),n[1].load(),n[2].load(),n[3].load(),n[4].load(),t[0]*1e3,t[1]*1e3,t[2]*1e3,t[3]*1e3);} } stat;
-double now() { timespec ts; clock_gettime(CLOCK_THREAD_CPUTIME_ID,&ts); return double(ts.tv_sec)+1e-9*double(ts.tv_nsec); }
+bool Region::help_with_what_is_there(std::uint32_t tet) {
+  Change flip;
+  try_edges_and_faces(tet, flip);
+  if (apply(flip)) return true;
+  Change move;
+  try_smoothing(tet, move);
+  if (apply(move)) return true;
+  Change contraction;
+  try_contractions(tet, contraction);
+  return apply(contraction);
+}
+
 bool Region::help(std::uint32_t tet) {
-  ++stat.n[0];
-  double t=now();
-  bool r=remove_edge_or_faces(tet); double u=now(); stat.t[0]+=u-t; if(r){++stat.n[1];return true;} t=u;
-  r=smooth(tet); u=now(); stat.t[1]+=u-t; if(r){++stat.n[2];return true;} t=u;
-  r=contract(tet); u=now(); stat.t[2]+=u-t; if(r){++stat.n[3];return true;} t=u;
-  r=insert(tet); u=now(); stat.t[3]+=u-t; if(r){++stat.n[4];return true;}
-  return false;
+  if (help_with_what_is_there(tet)) return true;
+  Change insertion;
+  try_insertions(tet, insertion);
+  return apply(insertion) || (tets_[tet].n_failures == k_failures_before_detour && detour(tet));
+}
+
+void Region::undo(std::size_t log_size) {
+  for (; log_.size() > log_size; log_.pop_back()) {
+    const Applied& last = log_.back();
+    for (std::size_t i = 0; i < last.n_added; ++i) {
+      const auto t = static_cast<std::uint32_t>(tets_.size() - 1);
+      for (const std::uint32_t v : tets_[t].corners) std::erase(incident_[v], t);
+      tets_.pop_back();
+    }
+    for (const std::uint32_t t : last.removed) {
+      tets_[t].is_alive = true;
+      for (const std::uint32_t v : tets_[t].corners) incident_[v].push_back(t);
+    }
+    if (last.is_new) {
+      points_.pop_back();
+      roles_.pop_back();
+      changed_.pop_back();
+    } else if (last.moved != k_none) {
+      points_[last.moved] = last.place;
+    }
+  }
+}
+
+bool Region::settle(const Change& change) {
+  const std::vector<std::uint32_t> stamps = changed_;
+  const std::uint32_t clock = clock_;
+  const std::size_t n_before = tets_.size();
+  log_.clear();
+  is_logging_ = true;
+  bool is_better = false;
+  if (apply(change, -k_detour)) {
+    double sum = 0.0;
+    for (int i = 0; i < k_detour_steps; ++i) {
+      sum = 0.0;
+      for (const Applied& a : log_) sum += a.drop;
+      if (sum > k_least_drop) break;
+      std::uint32_t worst = k_none;
+      for (auto t = static_cast<std::uint32_t>(n_before); t < tets_.size(); ++t)
+        if (tets_[t].is_alive && tets_[t].quality < limits_.target && !is_stuck(t) && (worst == k_none || tets_[t].quality < tets_[worst].quality)) worst = t;
+      if (worst == k_none) break;
+      if (!help_with_what_is_there(worst)) tets_[worst].tried = clock_;
+    }
+    sum = 0.0;
+    for (const Applied& a : log_) sum += a.drop;
+    is_better = sum > k_least_drop;
+    if (!is_better) undo(0);
+  }
+  is_logging_ = false;
+  if (!is_better) {
+    changed_ = stamps;
+    clock_ = clock;
+  } else {
+    for (auto t = static_cast<std::uint32_t>(n_before); t < tets_.size(); ++t) tets_[t].tried = 0;
+  }
+  return is_better;
+}
+
+bool Region::detour(std::uint32_t tet) {
+  Change by_insertion{.drop = -k_detour};
+  try_insertions(tet, by_insertion);
+  if (settle(by_insertion)) return true;
+  Change by_flip{.drop = -k_detour};
+  try_edges_and_faces(tet, by_flip);
+  if (settle(by_flip)) return true;
+  Change by_contraction{.drop = -k_detour};
+  try_contractions(tet, by_contraction);
+  return settle(by_contraction);
 }
 
 bool Region::improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures) {
-  static const int kf = getenv("KF") ? atoi(getenv("KF")) : 4;
   std::vector<std::uint32_t> work(tets.begin(), tets.end());
   for (std::size_t i = 0; i < tets.size(); ++i) tets_[tets[i]].n_failures = n_failures[i];
   const std::uint32_t start = clock_;
   for (;;) {
     std::uint32_t worst = k_none;
-    std::erase_if(work, [&](std::uint32_t t) { return !tets_[t].is_alive || tets_[t].quality >= limits_.target || tets_[t].n_failures >= kf; });
+    std::erase_if(work, [&](std::uint32_t t) { return !tets_[t].is_alive || tets_[t].quality >= limits_.target || tets_[t].n_failures >= max_failures(touches_boundary(tets_[t].corners)); });
     for (const std::uint32_t t : work)
       if (!is_stuck(t) && (worst == k_none || tets_[t].quality < tets_[worst].quality)) worst = t;
     if (worst == k_none) return clock_ > start;

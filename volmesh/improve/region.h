@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -38,9 +37,10 @@ class Region {
   /// Starts anew; memory is kept. \pre tetrahedra positive.
   void assign(std::span<const Vec3> points, std::span<const VertexRole> roles, std::span<const Corners> tets);
   /// Works on the bad ones of these tetrahedra and on all bad ones that take their place, worst first, until they reach the target, nothing helps as they and their
-  /// neighbours are, or nothing helped k_max_failures times. `n_failures` of the given ones so far. True when something changed.
+  /// neighbours are, or nothing helped max_failures() times. `n_failures` of the given ones so far. True when something changed.
   bool improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures);
-  static constexpr std::uint8_t k_max_failures = 4;
+  /// On the boundary many cannot be helped; away from it all can, sooner or later.
+  static constexpr std::uint8_t max_failures(bool is_at_boundary) { return is_at_boundary ? 6 : 16; }
 
   const QualityLimits& limits() const { return limits_; }
   std::span<const Vec3> points() const { return points_; }  ///< those given, moved perhaps, then new ones
@@ -56,6 +56,8 @@ class Region {
     Vec3 place;
   };
   static constexpr std::uint32_t k_none = 0xffffffffu;
+  /// A change must lower the sum of costs by this much: progress that cannot go on for ever.
+  static constexpr double k_least_drop = 0.01;
   static constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
   bool touches_boundary(const Corners& c) const;
@@ -69,22 +71,28 @@ class Region {
   /// Infinite for a tetrahedron that the change must not make.
   double cost(const Corners& c) const;
   double cost(const Face& face, const Vec3& apex) const;
-  /// Carries a change out if it is proven valid and better.
-  bool apply(const Change& change);
+  /// Carries a change out if it is proven valid and lowers the sum of costs by more than `least_drop`.
+  bool apply(const Change& change, double least_drop = k_least_drop);
+  /// Takes back all that was applied since `log_` had this length.
+  void undo(std::size_t log_size);
+  /// Carries out the best change of each kind even if it costs, then helps what is bad around it: kept when all in all the costs are lower.
+  bool detour(std::uint32_t tet);
+  bool settle(const Change& change);
 
   /// Whether nothing helps this tetrahedron as it and its neighbours are now.
   bool is_stuck(std::uint32_t tet) const;
   bool help(std::uint32_t tet);
+  bool help_with_what_is_there(std::uint32_t tet);
   // region_flips.cpp
   void try_edge(std::uint32_t a, std::uint32_t b, Change& best);
   void try_faces(std::uint32_t tet, std::size_t corner, Change& best);
   double extend_faces(std::uint32_t u, std::uint32_t v, std::uint32_t above, std::uint32_t below, std::uint32_t from_above, int depth, Change& change) const;
   std::uint32_t across(std::uint32_t tet, const Face& face) const;
-  bool remove_edge_or_faces(std::uint32_t tet);
+  void try_edges_and_faces(std::uint32_t tet, Change& best);
   // region_points.cpp
-  bool smooth(std::uint32_t tet);
-  bool contract(std::uint32_t tet);
-  bool insert(std::uint32_t tet);
+  void try_smoothing(std::uint32_t tet, Change& best);
+  void try_contractions(std::uint32_t tet, Change& best);
+  void try_insertions(std::uint32_t tet, Change& best);
   void try_insertion(std::uint32_t tet, const Vec3& place, Change& best);
   /// The place near `start` where the sum of the costs of the tetrahedra between it and the faces is lowest.
   std::pair<Vec3, double> best_place(std::span<const Face> faces, const Vec3& start) const;
@@ -101,6 +109,16 @@ class Region {
   std::vector<std::vector<std::uint32_t>> incident_;  ///< living tetrahedra of each vertex
   std::vector<std::uint32_t> changed_;                ///< clock of the last change at each vertex
   std::uint32_t clock_ = 1;
+  struct Applied {
+    std::vector<std::uint32_t> removed;
+    std::size_t n_added = 0;
+    std::uint32_t moved = k_none;
+    bool is_new = false;
+    Vec3 place;                          ///< of `moved` before
+    double drop = 0.0;
+  };
+  std::vector<Applied> log_;              ///< while a detour is under way
+  bool is_logging_ = false;
 };
 
 }  // namespace sterna::volmesh

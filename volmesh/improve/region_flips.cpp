@@ -29,13 +29,11 @@ std::array<std::uint32_t, 2> other_two(const Region::Corners& c, std::uint32_t a
 
 }  // namespace
 
-bool Region::remove_edge_or_faces(std::uint32_t tet) {
-  Change best;
+void Region::try_edges_and_faces(std::uint32_t tet, Change& best) {
   const Corners c = tets_[tet].corners;
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = i + 1; j < 4; ++j) try_edge(c[i], c[j], best);
   for (std::size_t i = 0; i < 4; ++i) try_faces(tet, i, best);
-  return apply(best);
 }
 
 void Region::try_edge(std::uint32_t a, std::uint32_t b, Change& best) {

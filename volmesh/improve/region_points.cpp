@@ -15,7 +15,9 @@ constexpr int k_max_steps = 14;           ///< of one smoothing
 constexpr double k_nearly_worst = 1.08;   ///< qualities within this factor of the worst share the direction
 constexpr std::size_t k_max_gradients = 8;
 constexpr double k_difference = 1e-4;     ///< step of the numerical gradients over the size of the star: half of the digits of the quality
-const std::size_t k_max_cavity = getenv("KC") ? static_cast<std::size_t>(atoi(getenv("KC"))) : 40;  ///< tetrahedra
+constexpr std::size_t k_max_cavity = 100; ///< tetrahedra
+/// Of points above a face, in radii of its inscribed circle.
+constexpr std::array<double, 3> k_heights = {0.5, 1.0, 2.0};
 
 /// Shortest vector in the convex hull of gradients (Gilbert's iteration, a few digits are plenty).
 Vec3 shortest_in_hull(std::span<const Vec3> gradients) {
@@ -100,8 +102,7 @@ std::pair<Vec3, double> Region::best_place(std::span<const Face> faces, const Ve
   return {p, now};
 }
 
-bool Region::smooth(std::uint32_t tet) {
-  Change best;
+void Region::try_smoothing(std::uint32_t tet, Change& best) {
   std::vector<Face> faces;
   for (const std::uint32_t v : tets_[tet].corners) {
     if (roles_[v] != VertexRole::free) continue;
@@ -116,11 +117,9 @@ bool Region::smooth(std::uint32_t tet) {
     best = Change{.drop = cost_before_ - after, .removed = incident_[v], .moved = v, .place = place};
     for (const Face& face : faces) best.added.push_back({face[0], face[1], face[2], v});
   }
-  return apply(best);
 }
 
-bool Region::contract(std::uint32_t tet) {
-  Change best;
+void Region::try_contractions(std::uint32_t tet, Change& best) {
   std::vector<std::uint32_t> neighbours;
   for (const std::uint32_t v : tets_[tet].corners) {
     if (roles_[v] != VertexRole::free) continue;
@@ -148,31 +147,25 @@ bool Region::contract(std::uint32_t tet) {
       best = std::move(change);
     }
   }
-  return apply(best);
 }
 
-bool Region::insert(std::uint32_t tet) {
-  static const int mode = getenv("KI") ? atoi(getenv("KI")) : 0;
+/// At its centre and those of its neighbours, in the middle of its edges, and above its faces: there a point serves two flat triangles that one flat tetrahedron joins.
+void Region::try_insertions(std::uint32_t tet, Change& best) {
   const Corners c = tets_[tet].corners;
   const auto center = [&](const Corners& x) { return 0.25 * (points_[x[0]] + points_[x[1]] + points_[x[2]] + points_[x[3]]); };
-  Change best;
   try_insertion(tet, center(c), best);
-  if (mode & 1)
-    for (std::size_t k = 0; k < 4; ++k)
-      if (const std::uint32_t beyond = across(tet, opposite(c, k)); beyond != k_none) try_insertion(tet, center(tets_[beyond].corners), best);
-  if (mode & 2)
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = i + 1; j < 4; ++j) try_insertion(tet, 0.5 * (points_[c[i]] + points_[c[j]]), best);
-  if (mode & 4)
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Face f = opposite(c, k);
-      const Vec3 n = cross(points_[f[1]] - points_[f[0]], points_[f[2]] - points_[f[0]]);
-      const double perimeter = norm(points_[f[1]] - points_[f[0]]) + norm(points_[f[2]] - points_[f[1]]) + norm(points_[f[0]] - points_[f[2]]);
-      const double r = norm(n) / perimeter;
-      const Vec3 middle = (norm(points_[f[1]] - points_[f[2]]) * points_[f[0]] + norm(points_[f[2]] - points_[f[0]]) * points_[f[1]] + norm(points_[f[0]] - points_[f[1]]) * points_[f[2]]) / perimeter;
-      for (const double h : {0.5, 1.0, 2.0}) try_insertion(tet, middle + (h * r / norm(n)) * n, best);
-    }
-  return apply(best);
+  for (std::size_t k = 0; k < 4; ++k)
+    if (const std::uint32_t beyond = across(tet, opposite(c, k)); beyond != k_none) try_insertion(tet, center(tets_[beyond].corners), best);
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = i + 1; j < 4; ++j) try_insertion(tet, 0.5 * (points_[c[i]] + points_[c[j]]), best);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Face f = opposite(c, k);
+    const Vec3 &p0 = points_[f[0]], &p1 = points_[f[1]], &p2 = points_[f[2]];
+    const double opposite_0 = norm(p2 - p1), opposite_1 = norm(p0 - p2), opposite_2 = norm(p1 - p0), perimeter = opposite_0 + opposite_1 + opposite_2;
+    const Vec3 normal = cross(p1 - p0, p2 - p0);
+    const Vec3 in_circle_center = (opposite_0 * p0 + opposite_1 * p1 + opposite_2 * p2) / perimeter;
+    for (const double height : k_heights) try_insertion(tet, in_circle_center + (height / perimeter) * normal, best);
+  }
 }
 
 void Region::try_insertion(std::uint32_t tet, const Vec3& p, Change& best) {

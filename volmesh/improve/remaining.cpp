@@ -6,8 +6,8 @@
 #include <map>
 #include <string>
 
-#include "geom/base/parallel.h"
 #include "geom/math/measures.h"
+#include "volmesh/improve/forcing.h"
 #include "volmesh/improve/tet_quality.h"
 
 namespace sterna::volmesh {
@@ -15,58 +15,81 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 4>;
 constexpr double k_degrees = 180.0 / std::numbers::pi;
-/// Times the smallest angle allowed. Around an edge of the boundary one tetrahedron must fit, and two share the angle where connectivity wants an edge there; a triangle's
-/// sharp corner is the face angle of a tetrahedron, whose dihedral angles there are small unless all its neighbours are as slender.
-constexpr double k_forcing_angle = 2.0;
 constexpr std::size_t k_max_listed = 10'000;
 
 struct Remaining {
   std::uint32_t tet = 0;
   double smallest = 0.0;  ///< dihedral angles, radians
   double largest = 0.0;
+  std::uint32_t triangle = k_unforced;  ///< of the boundary, that forces it
   /// How far beyond its limits, for the order.
   double badness(const ImproveOptions& options) const { return std::max(options.improve_min_angle - smallest, largest - options.improve_max_angle); }
 };
 
-/// A sharp angle of the boundary.
-struct Sharp {
-  double angle = 4.0;
-  const char* what = "no angle of the boundary";
-};
+std::string format(const char* pattern, auto... values) {
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(), pattern, values...);
+  return text.data();
+}
 
-class Boundary {
+/// The boundary around the vertices of bad tetrahedra.
+class Surroundings {
  public:
-  Boundary(const TetraBoundary& boundary, const std::vector<std::uint8_t>& is_wanted) : boundary_(boundary), corner_(boundary.points.size(), 4.0) {
+  Surroundings(const TetraBoundary& boundary, const std::vector<std::uint8_t>& is_wanted) : boundary_(boundary), corner_(boundary.points.size(), k_none) {
     for (std::uint32_t t = 0; t < boundary.triangles.size(); ++t) {
       const auto& v = boundary.triangles[t];
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3];
+        const std::uint32_t a = v[k], b = v[(k + 1) % 3];
         if (!is_wanted[a]) continue;
-        corner_[a] = std::min(corner_[a], corner_angle(point(a), point(b), point(c)));
-        if (is_wanted[b]) opposite_[{a, b}] = c;
+        corner_[a] = std::min(corner_[a], corner_angle(point(a), point(b), point(v[(k + 2) % 3])));
+        if (is_wanted[b]) triangle_[{a, b}] = t;
       }
     }
   }
 
-  /// An angle between triangles below the limit counts first: it leaves no choice at all.
-  Sharp sharpest_at(const Corners& tet, double limit) const {
-    Sharp sharpest;
+  /// The boundary triangle with this side, seen from the domain; k_unforced when there is none.
+  std::uint32_t triangle_at(std::uint32_t a, std::uint32_t b) const {
+    const auto found = triangle_.find({a, b});
+    return found == triangle_.end() ? k_unforced : found->second;
+  }
+  /// Boundary triangles that are faces of a tetrahedron.
+  std::vector<std::uint32_t> faces(const Corners& c) const {
+    constexpr std::uint8_t k_faces[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+    std::vector<std::uint32_t> result;
+    for (const auto& f : k_faces) {
+      const std::uint32_t t = triangle_at(c[f[0]], c[f[1]]);
+      if (t != k_unforced && apex(t, c[f[0]], c[f[1]]) == c[f[2]]) result.push_back(t);
+    }
+    return result;
+  }
+  /// Smallest angle between boundary triangles, through the domain, at an edge of the tetrahedron.
+  double smallest_between(const Corners& tet) const {
+    double smallest = k_none;
     for (const std::uint32_t a : tet)
       for (const std::uint32_t b : tet) {
-        if (a >= b) continue;
-        const auto left = opposite_.find({a, b}), right = opposite_.find({b, a});
-        if (left == opposite_.end() || right == opposite_.end()) continue;
-        const double angle = domain_angle(a, b, left->second, right->second);
-        if (angle < sharpest.angle) sharpest = {angle, "between boundary triangles"};
+        const std::uint32_t left = a < b ? triangle_at(a, b) : k_unforced, right = triangle_at(b, a);
+        if (left != k_unforced && right != k_unforced) smallest = std::min(smallest, domain_angle(a, b, apex(left, a, b), apex(right, a, b)));
       }
-    if (sharpest.angle < limit) return sharpest;
-    for (const std::uint32_t v : tet)
-      if (v < corner_.size() && corner_[v] < sharpest.angle) sharpest = {corner_[v], "corner of a boundary triangle"};
-    return sharpest;
+    return smallest;
   }
+  double smallest_corner(const Corners& tet) const {
+    double smallest = k_none;
+    for (const std::uint32_t v : tet)
+      if (v < corner_.size()) smallest = std::min(smallest, corner_[v]);
+    return smallest;
+  }
+  Vec3 center(std::uint32_t triangle) const {
+    const auto& v = boundary_.triangles[triangle];
+    return (point(v[0]) + point(v[1]) + point(v[2])) / 3.0;
+  }
+  static constexpr double k_none = 7.0;  ///< more than any angle
 
  private:
   Vec3 point(std::uint32_t v) const { return boundary_.points[v]; }
+  std::uint32_t apex(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const {
+    const auto& v = boundary_.triangles[triangle];
+    return *std::ranges::find_if(v, [&](std::uint32_t x) { return x != a && x != b; });
+  }
   /// Angle at the edge a b through the domain, into which the normals of (a, b, c) and (b, a, d) point.
   double domain_angle(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
     const Vec3 n = cross(point(b) - point(a), point(c) - point(a)), m = cross(point(a) - point(b), point(d) - point(b));
@@ -76,52 +99,67 @@ class Boundary {
 
   const TetraBoundary& boundary_;
   std::vector<double> corner_;  ///< smallest at each wanted vertex
-  std::map<std::array<std::uint32_t, 2>, std::uint32_t> opposite_;
+  std::map<std::array<std::uint32_t, 2>, std::uint32_t> triangle_;  ///< at each wanted side
 };
 
-std::vector<Remaining> with_angles(const TetraBoundary& boundary, const TetraResult& tets, std::span<const std::uint32_t> bad_tets, ImproveReport& report) {
-  const std::size_t n_fixed = boundary.points.size();
-  const auto place = [&](std::uint32_t v) { return v < n_fixed ? boundary.points[v] : tets.new_points[v - n_fixed]; };
-  std::vector<Remaining> bad;
-  for (const std::uint32_t t : bad_tets) {
-    const Corners& c = tets.tetrahedra[t];
-    const auto [of_smallest, of_largest] = dihedral_cosines(place(c[0]), place(c[1]), place(c[2]), place(c[3]));
-    bad.push_back({t, std::acos(of_smallest), std::acos(of_largest)});
-    report.n_bad_free_after += std::ranges::all_of(c, [&](std::uint32_t v) { return v >= n_fixed; });
-  }
-  return bad;
+/// Finds what forces each, of the boundary triangles that they lie on.
+void find_forcing(const TetraBoundary& boundary, const TetraResult& tets, const Surroundings& surroundings, const ImproveOptions& options, std::vector<Remaining>& bad, const RunContext& context) {
+  std::vector<std::uint32_t> wanted;
+  for (const Remaining& r : bad)
+    for (const std::uint32_t t : surroundings.faces(tets.tetrahedra[r.tet])) wanted.push_back(t);
+  std::ranges::sort(wanted);
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  const std::vector<std::uint32_t> forcing = forcing_triangles(boundary, wanted, options.improve_min_angle, options.improve_max_angle, context);
+  for (Remaining& r : bad)
+    for (const std::uint32_t t : surroundings.faces(tets.tetrahedra[r.tet]))
+      r.triangle = std::min(r.triangle, forcing[static_cast<std::size_t>(std::ranges::lower_bound(wanted, t) - wanted.begin())]);
 }
 
 }  // namespace
 
-void list_remaining(const TetraBoundary& boundary, const TetraResult& tets, std::span<const std::uint32_t> bad_tets, const ImproveOptions& options, ImproveReport& report, const RunContext&) {
+void list_remaining(const TetraBoundary& boundary, const TetraResult& tets, std::span<const std::uint32_t> bad_tets, const ImproveOptions& options, ImproveReport& report, const RunContext& context) {
+  if (bad_tets.empty()) return;
   const std::size_t n_fixed = boundary.points.size();
-  std::vector<Remaining> bad = with_angles(boundary, tets, bad_tets, report);
+  const auto place = [&](std::uint32_t v) { return v < n_fixed ? boundary.points[v] : tets.new_points[v - n_fixed]; };
+  std::vector<Remaining> bad;
+  std::vector<std::uint8_t> is_wanted(n_fixed, 0);
+  for (const std::uint32_t t : bad_tets) {
+    const Corners& c = tets.tetrahedra[t];
+    const auto [of_smallest, of_largest] = dihedral_cosines(place(c[0]), place(c[1]), place(c[2]), place(c[3]));
+    bad.push_back({t, std::acos(of_smallest), std::acos(of_largest)});
+    bool is_free = true;
+    for (const std::uint32_t v : c)
+      if (v < n_fixed) {
+        is_wanted[v] = 1;
+        is_free = false;
+      }
+    report.n_bad_free_after += is_free;
+  }
+  const Surroundings surroundings(boundary, is_wanted);
+  find_forcing(boundary, tets, surroundings, options, bad, context);
   std::ranges::sort(bad, [&](const Remaining& a, const Remaining& b) {
     const double of_a = a.badness(options), of_b = b.badness(options);
     return of_a != of_b ? of_a > of_b : a.tet < b.tet;
   });
-  std::vector<std::uint8_t> is_wanted(n_fixed, 0);
-  for (const Remaining& r : bad)
-    for (const std::uint32_t v : tets.tetrahedra[r.tet])
-      if (v < n_fixed) is_wanted[v] = 1;
-  const Boundary surroundings(boundary, is_wanted);
   for (const Remaining& r : bad) {
     const Corners& c = tets.tetrahedra[r.tet];
-    const double limit = k_forcing_angle * options.improve_min_angle;
-    const Sharp sharp = surroundings.sharpest_at(c, limit);
-    report.n_forced += sharp.angle < limit;
+    const double between = surroundings.smallest_between(c);
+    const bool is_wedge = between < options.improve_min_angle;
+    report.n_forced += is_wedge || r.triangle != k_unforced;
     if (report.remaining.size() == k_max_listed) continue;
-    Vec3 center;
-    for (const std::uint32_t v : c) center += 0.25 * (v < n_fixed ? boundary.points[v] : tets.new_points[v - n_fixed]);
-    std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(), "dihedral angles %.3g to %.4g deg; %s", k_degrees * r.smallest, k_degrees * r.largest, sharp.what);
-    std::string what = text.data();
-    if (sharp.angle < 4.0) {
-      std::snprintf(text.data(), text.size(), ": %.3g deg", k_degrees * sharp.angle);
-      what += text.data();
+    std::string what = format("dihedral angles %.3g to %.4g deg; ", k_degrees * r.smallest, k_degrees * r.largest);
+    const double corner = surroundings.smallest_corner(c);
+    if (is_wedge) {
+      what += format("forced: boundary triangles meet at %.3g deg", k_degrees * between);
+    } else if (r.triangle != k_unforced) {
+      const Vec3 other = surroundings.center(r.triangle);
+      what += format("forced: no room beside the boundary triangle at (%.6g, %.6g, %.6g)", other.x, other.y, other.z);
+    } else if (corner < Surroundings::k_none) {
+      what += format("not forced; sharpest corner of a boundary triangle here: %.3g deg", k_degrees * corner);
+    } else {
+      what += "not forced, away from the boundary";
     }
-    report.remaining.push_back({center, what});
+    report.remaining.push_back({0.25 * (place(c[0]) + place(c[1]) + place(c[2]) + place(c[3])), what});
   }
 }
 

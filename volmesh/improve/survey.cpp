@@ -18,6 +18,7 @@ AngleSurvey survey_angles(const TetraBoundary& boundary, const TetraResult& tets
   struct Part {
     double max_cosine = -1.0;  ///< of the smallest angle
     double min_cosine = 1.0;
+    std::int64_t n_at_boundary = 0;
     std::vector<std::uint32_t> bad;
   };
   const std::size_t n_fixed = boundary.points.size();
@@ -29,6 +30,7 @@ AngleSurvey survey_angles(const TetraBoundary& boundary, const TetraResult& tets
         double quality_of_interest = 1.0;  ///< better ones have no angle that is new
         for (std::size_t t = begin; t < end; ++t) {
           const auto& c = tets.tetrahedra[t];
+          part.n_at_boundary += std::min({c[0], c[1], c[2], c[3]}) < n_fixed;
           const Vec3 &p0 = place(c[0]), &p1 = place(c[1]), &p2 = place(c[2]), &p3 = place(c[3]);
           const double quality = tet_quality(p0, p1, p2, p3, limits.obtuse_weight);
           if (quality < limits.target) part.bad.push_back(static_cast<std::uint32_t>(t));
@@ -45,11 +47,12 @@ AngleSurvey survey_angles(const TetraBoundary& boundary, const TetraResult& tets
       [](Part a, const Part& b) {
         a.max_cosine = std::max(a.max_cosine, b.max_cosine);
         a.min_cosine = std::min(a.min_cosine, b.min_cosine);
+        a.n_at_boundary += b.n_at_boundary;
         a.bad.insert(a.bad.end(), b.bad.begin(), b.bad.end());
         return a;
       },
       k_scan_chunk);
-  return {std::acos(all.max_cosine), std::acos(all.min_cosine), all.bad};
+  return {std::acos(all.max_cosine), std::acos(all.min_cosine), all.n_at_boundary, all.bad};
 }
 
 }  // namespace sterna::volmesh

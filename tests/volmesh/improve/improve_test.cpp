@@ -4,6 +4,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <numbers>
 #include <random>
@@ -11,6 +12,7 @@
 #include "geom/math/measures.h"
 #include "geom/math/predicates.h"
 #include "tests/support/shapes.h"
+#include "volmesh/improve/forcing.h"
 #include "volmesh/improve/region.h"
 #include "volmesh/improve/tet_quality.h"
 #include "volmesh/tetra/verify.h"
@@ -189,10 +191,9 @@ std::vector<Region::Corners> around_edge(int n) {
 }
 
 bool improve_all(Region& region) {
-  bool has_changed = false;
-  for (std::uint32_t t = 0; t < region.tets().size(); ++t)
-    if (region.tets()[t].is_alive && region.tets()[t].quality < region.limits().target) has_changed |= region.improve(t);
-  return has_changed;
+  std::vector<std::uint32_t> all(region.tets().size());
+  std::iota(all.begin(), all.end(), 0u);
+  return region.improve(all, std::vector<std::uint8_t>(all.size(), 0));
 }
 
 double region_volume(const Region& region) {
@@ -284,7 +285,71 @@ TEST(Improve, what_a_sharp_boundary_forces_is_listed_with_its_angle) {
   EXPECT_EQ(report.n_bad_after, 1);
   EXPECT_EQ(report.n_forced, 1);
   ASSERT_EQ(report.remaining.size(), 1u);
-  EXPECT_THAT(report.remaining[0].what, testing::HasSubstr("between boundary triangles: 5 deg"));
+  EXPECT_THAT(report.remaining[0].what, testing::HasSubstr("forced: boundary triangles meet at 5 deg"));
+}
+
+/// The boundary of one tetrahedron, seen from its inside.
+Filled one_tetrahedron(std::vector<Vec3> points) {
+  Filled filled;
+  filled.points = std::move(points);
+  filled.triangles = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
+  filled.tets.tetrahedra = {{0, 1, 2, 3}};
+  return filled;
+}
+
+std::vector<std::uint32_t> forcing_of_all(const Filled& filled) {
+  std::vector<std::uint32_t> all(filled.triangles.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return forcing_triangles(filled.boundary(), all, 12 * k_degree, 160 * k_degree, RunContext());
+}
+
+TEST(Forcing, a_slender_tetrahedron_with_good_dihedral_angles_forces_nothing) {
+  // Corners of 0.6 degrees, dihedral angles of 60 and 90 degrees.
+  const Filled needle = one_tetrahedron({{0.01, 0, 0}, {-0.005, 0.00866, 0}, {-0.005, -0.00866, 0}, {0, 0, 1}});
+  ASSERT_GT(needle.worst(1.0), std::sin(12 * k_degree));
+  EXPECT_THAT(forcing_of_all(needle), testing::Each(k_unforced));
+}
+
+TEST(Forcing, a_flat_tetrahedron_is_forced_on_all_its_triangles) {
+  const Filled flat = one_tetrahedron({{0, 0, 0}, {1, 0, 0.02}, {1, 1, 0}, {0, 1, 0.02}});
+  ASSERT_GT(flat.worst(1.0), 0.0);
+  EXPECT_THAT(forcing_of_all(flat), testing::Each(testing::Ne(k_unforced)));
+}
+
+TEST(Forcing, sheets_force_each_other_only_when_cores_overlap) {
+  // Two triangles face to face; each core is tan 12 of the inscribed circle's radius high.
+  const double core = std::tan(12 * k_degree) * 0.5 / std::sqrt(3.0);
+  const auto sheets = [&](double gap) {
+    Filled filled;
+    const double h = std::sqrt(0.75);
+    filled.points = {{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0, 0, gap}, {1, 0, gap}, {0.5, h, gap}};
+    filled.triangles = {{0, 1, 2}, {3, 5, 4}};
+    return forcing_of_all(filled);
+  };
+  EXPECT_THAT(sheets(1.9 * core), testing::ElementsAre(1u, 0u));
+  EXPECT_THAT(sheets(2.1 * core), testing::Each(k_unforced));
+}
+
+TEST(Improve, a_thin_slab_is_forced_and_a_cube_is_not) {
+  Filled slab;
+  slab.add(test::cube(4), true);
+  for (Vec3& p : slab.points) p.z *= 0.01;
+  slab.tets = fill(slab.boundary(), nullptr, {.engine = "tetgen"}, RunContext());
+  const ImproveReport report = improve_tetrahedra(slab.boundary(), slab.tets, {}, RunContext());
+  EXPECT_NO_THROW(verify_tetrahedra(slab.boundary(), slab.tets, RunContext()));
+  EXPECT_GT(report.n_forced, 0);
+  EXPECT_EQ(report.n_at_boundary, std::ranges::count_if(slab.tets.tetrahedra, [&](const auto& c) { return std::ranges::min(c) < slab.points.size(); }));
+  std::int64_t n_forced = 0;
+  for (const ErrorPlace& place : report.remaining) {
+    EXPECT_THAT(place.what, testing::HasSubstr("forced"));
+    n_forced += place.what.find("not forced") == std::string::npos;
+  }
+  EXPECT_EQ(n_forced, report.n_forced);
+
+  Filled cube;
+  cube.add(test::cube(4), true);
+  cube.tets = fill(cube.boundary(), nullptr, {.engine = "tetgen"}, RunContext());
+  EXPECT_EQ(improve_tetrahedra(cube.boundary(), cube.tets, {}, RunContext()).n_bad_after, 0);
 }
 
 TEST(Improve, is_the_same_for_any_number_of_threads) {
