@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t k_group = 300;      ///< bad tetrahedra: the more, the fewer lie between two groups; few enough to keep some cores busy
 constexpr std::uint32_t k_ring_shift = 28;
-constexpr std::uint32_t k_rings = 1;      ///< of vertices around the bad ones that a group claims
+/// Rings of vertices around the bad ones that a group claims; every third pass another ring, for those that one did not help.
+constexpr std::uint32_t rings_of(int pass) { return pass % 3 == 2 ? 2 : 1; }
 constexpr std::size_t k_job_chunk = 1;
 constexpr std::uint32_t k_none = 0xffffffffu;
 /// Changes may make tetrahedra of this share of the target as long as the mesh has worse ones.
@@ -89,7 +90,7 @@ int Improver::run(int max_passes) {
     if (jobs.empty()) break;
     owner_.assign(points_.size(), k_none);
     local_.resize(points_.size());
-    for (std::uint32_t ring = 0; ring <= k_rings; ++ring)
+    for (std::uint32_t ring = 0; ring <= rings_of(pass); ++ring)
       parallel_for(context_, jobs.size(), [&](std::size_t i) { claim_ring(jobs[i], static_cast<std::uint32_t>(i), ring); }, k_job_chunk);
     parallel_chunks(context_, jobs.size(), k_job_chunk, [&](std::size_t begin, std::size_t end) {
       Region region(limits_);
@@ -117,8 +118,9 @@ std::vector<Improver::Job> Improver::choose_jobs(int pass) const {
   std::vector<Item> items;
   const double shift = 0.381966 * pass - std::floor(0.381966 * pass);  // golden section: no two passes alike
   for (const Bad& bad : bad_) {
-    const bool is_at_boundary = std::ranges::any_of(tets_[bad.tet], [&](std::uint32_t v) { return v < n_fixed_; });
-    if (n_failures_[bad.tet] >= Region::max_failures(is_at_boundary)) continue;
+    const Corners& c = tets_[bad.tet];
+    const bool is_at_boundary = std::min({c[0], c[1], c[2], c[3]}) < n_fixed_;
+    if (n_failures_[bad.tet] > 0 && n_failures_[bad.tet] >= max_failures({points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]}, is_at_boundary)) continue;
     std::uint64_t code = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       double x = 0.0;

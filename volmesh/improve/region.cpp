@@ -13,7 +13,11 @@ constexpr double k_interior_weight = 5.0;
 /// A detour may cost so much at first, and goes so many changes far; it is the dearest of all, so each tetrahedron gets one, after others around it had their chance.
 constexpr double k_detour = 2.0;
 constexpr int k_detour_steps = 12;
-constexpr int k_failures_before_detour = 3;
+constexpr int k_failures_before_detour = 2;
+constexpr double k_slender = 0.1;  ///< shortest over longest edge
+constexpr int k_max_failures_inside = 16;
+constexpr int k_max_failures_slender = 3;
+constexpr int k_max_failures = 8;
 
 }  // namespace
 
@@ -217,13 +221,30 @@ bool Region::detour(std::uint32_t tet) {
   return settle(by_contraction);
 }
 
+int max_failures(const std::array<Vec3, 4>& corners, bool is_at_boundary) {
+  if (!is_at_boundary) return k_max_failures_inside;
+  double shortest = norm2(corners[1] - corners[0]), longest = shortest;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double length = norm2(corners[i] - corners[j]);
+      shortest = std::min(shortest, length);
+      longest = std::max(longest, length);
+    }
+  return shortest < k_slender * k_slender * longest ? k_max_failures_slender : k_max_failures;
+}
+
+bool Region::is_given_up(std::uint32_t tet) const {
+  const Corners& c = tets_[tet].corners;
+  return tets_[tet].n_failures > 0 && tets_[tet].n_failures >= max_failures({points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]}, touches_boundary(c));
+}
+
 bool Region::improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures) {
   std::vector<std::uint32_t> work(tets.begin(), tets.end());
   for (std::size_t i = 0; i < tets.size(); ++i) tets_[tets[i]].n_failures = n_failures[i];
   const std::uint32_t start = clock_;
   for (;;) {
     std::uint32_t worst = k_none;
-    std::erase_if(work, [&](std::uint32_t t) { return !tets_[t].is_alive || tets_[t].quality >= limits_.target || tets_[t].n_failures >= max_failures(touches_boundary(tets_[t].corners)); });
+    std::erase_if(work, [&](std::uint32_t t) { return !tets_[t].is_alive || tets_[t].quality >= limits_.target || is_given_up(t); });
     for (const std::uint32_t t : work)
       if (!is_stuck(t) && (worst == k_none || tets_[t].quality < tets_[worst].quality)) worst = t;
     if (worst == k_none) return clock_ > start;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,9 @@ enum class VertexRole : std::uint8_t {
   free,      ///< may move or vanish
   boundary,  ///< of the domain: stays
 };
+
+/// How often nothing may help a tetrahedron before it is given up. Away from the boundary all can be helped, sooner or later; slender ones at it hardly ever, and they are many.
+int max_failures(const std::array<Vec3, 4>& corners, bool is_at_boundary);
 
 /// Local mesh. Corners are local vertices. Each tetrahedron below twice the target has a cost (cost()), more for one without a vertex on the domain's boundary, where its
 /// angles may force bad ones. Every operation replaces some tetrahedra by others that fill the same space, all proven positive (exact), of a smaller sum of costs, and
@@ -39,9 +43,6 @@ class Region {
   /// Works on the bad ones of these tetrahedra and on all bad ones that take their place, worst first, until they reach the target, nothing helps as they and their
   /// neighbours are, or nothing helped max_failures() times. `n_failures` of the given ones so far. True when something changed.
   bool improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures);
-  /// On the boundary many cannot be helped; away from it all can, sooner or later.
-  static constexpr std::uint8_t max_failures(bool is_at_boundary) { return is_at_boundary ? 6 : 16; }
-
   const QualityLimits& limits() const { return limits_; }
   std::span<const Vec3> points() const { return points_; }  ///< those given, moved perhaps, then new ones
   std::span<const Tet> tets() const { return tets_; }      ///< those given, dead perhaps, then new ones
@@ -81,6 +82,7 @@ class Region {
 
   /// Whether nothing helps this tetrahedron as it and its neighbours are now.
   bool is_stuck(std::uint32_t tet) const;
+  bool is_given_up(std::uint32_t tet) const;
   bool help(std::uint32_t tet);
   bool help_with_what_is_there(std::uint32_t tet);
   // region_flips.cpp
@@ -93,7 +95,16 @@ class Region {
   void try_smoothing(std::uint32_t tet, Change& best);
   void try_contractions(std::uint32_t tet, Change& best);
   void try_insertions(std::uint32_t tet, Change& best);
-  void try_insertion(std::uint32_t tet, const Vec3& place, Change& best);
+  /// Tetrahedra that a new point may take the place of.
+  struct Cavity {
+    std::vector<std::uint32_t> tets;
+    std::vector<Face> faces;  ///< around them
+    Vec3 place;
+    double drop = 0.0;        ///< of the sum of costs with the point there
+  };
+  /// The best around a tetrahedron for a point there, if any.
+  std::optional<Cavity> cavity_of(std::uint32_t tet, const Vec3& place) const;
+  void try_insertion(const Cavity& cavity, Change& best);
   /// The place near `start` where the sum of the costs of the tetrahedra between it and the faces is lowest.
   std::pair<Vec3, double> best_place(std::span<const Face> faces, const Vec3& start) const;
   double sum_of_costs(std::span<const Face> faces, const Vec3& apex, double stop_above) const;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "volmesh/improve/region.h"
 
@@ -18,6 +19,7 @@ constexpr double k_difference = 1e-4;     ///< step of the numerical gradients o
 constexpr std::size_t k_max_cavity = 100; ///< tetrahedra
 /// Of points above a face, in radii of its inscribed circle.
 constexpr std::array<double, 3> k_heights = {0.5, 1.0, 2.0};
+constexpr std::size_t k_smoothed_places = 3;
 
 /// Shortest vector in the convex hull of gradients (Gilbert's iteration, a few digits are plenty).
 Vec3 shortest_in_hull(std::span<const Vec3> gradients) {
@@ -149,26 +151,35 @@ void Region::try_contractions(std::uint32_t tet, Change& best) {
   }
 }
 
-/// At its centre and those of its neighbours, in the middle of its edges, and above its faces: there a point serves two flat triangles that one flat tetrahedron joins.
+/// At its centre, above its faces (there a point serves two flat triangles that one flat tetrahedron joins), and when that was in vain at its neighbours' centres and
+/// in the middle of its edges. The places are ranked as they are; only the best are worth smoothing.
 void Region::try_insertions(std::uint32_t tet, Change& best) {
   const Corners c = tets_[tet].corners;
   const auto center = [&](const Corners& x) { return 0.25 * (points_[x[0]] + points_[x[1]] + points_[x[2]] + points_[x[3]]); };
-  try_insertion(tet, center(c), best);
-  for (std::size_t k = 0; k < 4; ++k)
-    if (const std::uint32_t beyond = across(tet, opposite(c, k)); beyond != k_none) try_insertion(tet, center(tets_[beyond].corners), best);
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = i + 1; j < 4; ++j) try_insertion(tet, 0.5 * (points_[c[i]] + points_[c[j]]), best);
+  std::vector<Cavity> cavities;
+  const auto add = [&](const Vec3& place) {
+    if (std::optional<Cavity> cavity = cavity_of(tet, place)) cavities.push_back(std::move(*cavity));
+  };
+  add(center(c));
   for (std::size_t k = 0; k < 4; ++k) {
     const Face f = opposite(c, k);
     const Vec3 &p0 = points_[f[0]], &p1 = points_[f[1]], &p2 = points_[f[2]];
     const double opposite_0 = norm(p2 - p1), opposite_1 = norm(p0 - p2), opposite_2 = norm(p1 - p0), perimeter = opposite_0 + opposite_1 + opposite_2;
     const Vec3 normal = cross(p1 - p0, p2 - p0);
     const Vec3 in_circle_center = (opposite_0 * p0 + opposite_1 * p1 + opposite_2 * p2) / perimeter;
-    for (const double height : k_heights) try_insertion(tet, in_circle_center + (height / perimeter) * normal, best);
+    for (const double height : k_heights) add(in_circle_center + (height / perimeter) * normal);
   }
+  if (tets_[tet].n_failures > 0) {
+    for (std::size_t k = 0; k < 4; ++k)
+      if (const std::uint32_t beyond = across(tet, opposite(c, k)); beyond != k_none) add(center(tets_[beyond].corners));
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j) add(0.5 * (points_[c[i]] + points_[c[j]]));
+  }
+  std::ranges::stable_sort(cavities, std::ranges::greater(), &Cavity::drop);
+  for (std::size_t i = 0; i < std::min(cavities.size(), k_smoothed_places); ++i) try_insertion(cavities[i], best);
 }
 
-void Region::try_insertion(std::uint32_t tet, const Vec3& p, Change& best) {
+std::optional<Region::Cavity> Region::cavity_of(std::uint32_t tet, const Vec3& p) const {
   struct Side {
     Face face;
     std::uint32_t beyond;
@@ -211,15 +222,19 @@ void Region::try_insertion(std::uint32_t tet, const Vec3& p, Change& best) {
     worst_allowed = std::min(worst_allowed, tets_[beyond].quality);
     add(beyond);
   }
-  if (best_drop == -k_infinite) return;
+  if (best_drop == -k_infinite) return std::nullopt;
   cavity.resize(best_size);
-  compare_with(cavity);
-  std::vector<Face> faces;
-  for (const Side& side : best_sides) faces.push_back(side.face);
-  const auto [place, after] = best_place(faces, p);
+  Cavity result{.tets = std::move(cavity), .place = p, .drop = best_drop};
+  for (const Side& side : best_sides) result.faces.push_back(side.face);
+  return result;
+}
+
+void Region::try_insertion(const Cavity& cavity, Change& best) {
+  compare_with(cavity.tets);
+  const auto [place, after] = best_place(cavity.faces, cavity.place);
   if (cost_before_ - after <= best.drop) return;
-  best = Change{.drop = cost_before_ - after, .removed = cavity, .moved = static_cast<std::uint32_t>(points_.size()), .place = place};
-  for (const Face& face : faces) best.added.push_back({face[0], face[1], face[2], best.moved});
+  best = Change{.drop = cost_before_ - after, .removed = cavity.tets, .moved = static_cast<std::uint32_t>(points_.size()), .place = place};
+  for (const Face& face : cavity.faces) best.added.push_back({face[0], face[1], face[2], best.moved});
 }
 
 }  // namespace sterna::volmesh
