@@ -8,7 +8,7 @@ namespace sterna::volmesh {
 namespace {
 
 /// A bad tetrahedron away from the boundary costs as much as so many at it.
-constexpr double k_interior_weight = 5.0;
+constexpr double k_interior_weight = 20.0;
 
 /// A detour may cost so much at first, and goes so many changes far; it is the dearest of all, so each tetrahedron gets one, after others around it had their chance.
 constexpr double k_detour = 2.0;
