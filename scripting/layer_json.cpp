@@ -56,6 +56,7 @@ std::string layer_json(const volmesh::LayerReport& layer) {
                {"vertices", layer.n_vertices},
                {"compressed", layer.n_compressed}};
   json["first_node"] = first_node_json(layer);
+  json["interface"] = {{"within", layer.interface.within}, {"below", layer.interface.below}, {"above", layer.interface.above}, {"within_of_full", layer.interface.within_of_full}};
   json["reduced_curving"] = layer.reduced_curving;
   json["patches"] = patch_coverage_json(layer);
   json["most_compressed"] = places_json(layer.compressed);

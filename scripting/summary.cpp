@@ -108,6 +108,8 @@ std::string summary_text(const MeshValue& mesh) {
                       count_text(layer.n_compressed), count_text(layer.n_vertices));
   text += fmt::format("  first node  within 2 % of first_height at {:.2f} % of the full lines, on {:.2f} % of the facets off ridges ({:.2f} % of the area is at ridges)\n",
                       100.0 * layer.first_node.vertex_share, 100.0 * layer.first_node.facet_share, 100.0 * layer.first_node.ridge_area);
+  text += fmt::format("  interface   last layer between 1/3 and 3 heights of a regular tetrahedron on {:.2f} % of the envelope ({:.2f} % where the layer is full); {:.2f} % thinner, {:.2f} % thicker\n",
+                      100.0 * layer.interface.within, 100.0 * layer.interface.within_of_full, 100.0 * layer.interface.below, 100.0 * layer.interface.above);
   text += fmt::format("  collapsed   {:.2f} % of the area, {}\n", 100.0 * layer.collapsed_area,
                       counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"));
   for (std::size_t i = 0; i < std::min(layer.collapsed.size(), k_listed_places); ++i)

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdio>
 
+#include "geom/base/parallel.h"
+#include "geom/math/measures.h"
 #include "volmesh/prisms/layer_line.h"
 
 namespace sterna::volmesh {
@@ -99,6 +101,46 @@ void warn(const EnvelopeOptions& options, const Envelope& envelope, const Classi
                             "); are first_height and the surface in the same unit?");
 }
 
+constexpr double k_regular_height = 0.81649658092772603;  ///< of a regular tetrahedron over its edge
+constexpr double k_interface_ratio = 3.0;
+
+InterfaceReport report_interface(const LayerBase& base, const Classifier& classifier, const Extrusion& extrusion, const RunContext& context) {
+  struct Sums {
+    double within = 0.0, below = 0.0, above = 0.0, full = 0.0, full_within = 0.0;
+  };
+  const LayerBlock& layers = extrusion.layers;
+  const auto node = [&](VertexId v, int layer) { return extrusion.points[layers.node(v.value(), layer).index()]; };
+  const Sums sums = parallel_reduce(
+      context, base.wall.n_triangles(), Sums{},
+      [&](std::size_t begin, std::size_t end) {
+        Sums part;
+        for (std::size_t t = begin; t < end; ++t) {
+          const TriangleVertices& v = base.wall.triangles[TriangleId(t)];
+          std::array<Point, 3> top;
+          double height = 0.0;
+          for (std::size_t k = 0; k < 3; ++k) {
+            top[k] = node(v[k], layers.n_layers);
+            height += distance(top[k], node(v[k], layers.n_layers - 1)) / 3.0;
+          }
+          const double edge = (distance(top[0], top[1]) + distance(top[1], top[2]) + distance(top[2], top[0])) / 3.0;
+          const double ratio = height / (k_regular_height * edge);
+          double& sum = ratio > k_interface_ratio ? part.above : ratio * k_interface_ratio < 1.0 ? part.below : part.within;
+          const double area = triangle_area(top[0], top[1], top[2]);
+          sum += area;
+          if (!std::ranges::all_of(v, [&](VertexId corner) { return classifier.is_full(corner); })) continue;
+          part.full += area;
+          if (&sum == &part.within) part.full_within += area;
+        }
+        return part;
+      },
+      [](const Sums& a, const Sums& b) {
+        return Sums{a.within + b.within, a.below + b.below, a.above + b.above, a.full + b.full, a.full_within + b.full_within};
+      });
+  const double all = sums.within + sums.below + sums.above;
+  if (!(all > 0.0)) return {};
+  return {sums.within / all, sums.below / all, sums.above / all, sums.full > 0.0 ? sums.full_within / sums.full : 0.0};
+}
+
 }  // namespace
 
 LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion, const RunContext& context) {
@@ -125,6 +167,7 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
   report.patches = cover_patches(base, classifier);
   list_places(base, envelope, classifier, report);
   report.first_node = first_node_report(base, classify_vertices(base, options, context), options, envelope, extrusion, context);
+  report.interface = report_interface(base, classifier, extrusion, context);
   report.reduced_curving = extrusion.curving_shares;
   warn(options, envelope, classifier, report);
   return report;

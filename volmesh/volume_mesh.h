@@ -56,6 +56,14 @@ struct VisibilityReport {
   std::vector<ErrorPlace> hardest;      ///< the worst ten above the first of these limits
 };
 
+/// Last prism's height over that of a regular tetrahedron on its top, 0.816 times the mean edge there: shares of the envelope's area.
+struct InterfaceReport {
+  double within = 0.0;          ///< ratio in [1/3, 3]
+  double below = 0.0;           ///< thinner
+  double above = 0.0;           ///< thicker
+  double within_of_full = 0.0;  ///< `within` of the triangles with full height at all corners: elsewhere the layer had to be compressed
+};
+
 /// What became of the layer; see method.md §2 for h_target.
 struct LayerReport {
   double body_length = 0.0;             ///< m
@@ -74,6 +82,7 @@ struct LayerReport {
   std::vector<ErrorPlace> collapsed;    ///< each collapsed vertex: place, patch and reason
   std::vector<ErrorPlace> compressed;   ///< the lowest standing vertices below n h0 (k_listed_compressed at most): place, patch, height and reason
   FirstNodeReport first_node;           ///< how far the first nodes are off the wall
+  InterfaceReport interface;
   std::array<std::int64_t, 5> reduced_curving{};  ///< lines with less than wall_perpendicularity, by share of it: 0, up to 1/4, 1/2, 3/4, below 1
   std::vector<std::string> warnings;    ///< what looks like a mistake in the settings, each a sentence; logged too
 };
