@@ -5,21 +5,10 @@
 
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
+#include "geom/math/spherical_cap.h"
 
 namespace sterna::volmesh {
 namespace {
-
-/// A normal this much (in cosine) outside a cap still counts as inside: far below any angle that matters, far above rounding.
-constexpr double k_cap_slack = 1e-12;
-
-Vec3 cap_axis(const Vec3& a, const Vec3& b) { return normalized(a + b); }
-
-/// Axis of the circle through three unit vectors, on their side; falls back on two of them when they are nearly collinear on the sphere.
-Vec3 cap_axis(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 axis = normalized(cross(b - a, c - a));
-  if (norm2(axis) == 0.0) return cap_axis(a, b);
-  return dot(axis, a) < 0.0 ? -axis : axis;
-}
 
 double worst_cosine_of(std::span<const Vec3> normals, const Vec3& d) {
   double worst = 1.0;
@@ -68,23 +57,9 @@ Cap best_seen(const VertexConstraint& constraint, std::span<const Vec3> normals)
   return smallest_cap(normals);
 }
 
-// Incremental smallest enclosing cap (Welzl 1991, on the sphere): a normal outside the cap of its predecessors lies on the new cap's border.
 Cap smallest_cap(std::span<const Vec3> normals) {
-  Cap cap{normals[0], 1.0};
-  const auto is_outside = [&](const Vec3& n) { return dot(n, cap.axis) < cap.cosine - k_cap_slack; };
-  const auto fit = [&](const Vec3& axis, const Vec3& border) { cap = {axis, dot(axis, border)}; };
-  for (std::size_t i = 1; i < normals.size(); ++i) {
-    if (!is_outside(normals[i])) continue;
-    fit(cap_axis(normals[i], normals[0]), normals[i]);
-    for (std::size_t j = 1; j < i; ++j) {
-      if (!is_outside(normals[j])) continue;
-      fit(cap_axis(normals[i], normals[j]), normals[i]);
-      for (std::size_t k = 0; k < j; ++k)
-        if (is_outside(normals[k])) fit(cap_axis(normals[i], normals[j], normals[k]), normals[i]);
-    }
-  }
-  cap.cosine = worst_cosine_of(normals, cap.axis);
-  return cap;
+  const Vec3 axis = smallest_spherical_cap(normals).axis;
+  return {axis, worst_cosine_of(normals, axis)};
 }
 
 LayerBase::LayerBase(const TriMesh& mesh, const RunContext& context, Constraints constraints)

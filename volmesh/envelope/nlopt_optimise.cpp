@@ -151,15 +151,6 @@ bool walk_to_feasibility(const PaperProblem& problem, const NloptSettings& setti
   return problem.constraint(z, {}, context).total() <= run.slack();
 }
 
-double quality_of(const MacroElement& e) {
-  WedgePoints p;
-  for (std::size_t k = 0; k < 3; ++k) {
-    p[k] = e.wall[k];
-    p[k + 3] = e.wall[k] + e.height[k] * e.direction[k];
-  }
-  return wedge_quality(p);
-}
-
 /// Vertices of elements that are invalid or worse than `least_quality` go half the way back to `from`, again and again, in the end all the way, until there are
 /// no such elements (or none that are not so in `from`). `optimised` is at z at first. Returns how many vertices went back.
 std::size_t go_back(const LayerBase& base, const PaperProblem& problem, const Envelope& from, double least_quality, std::vector<double> z, Envelope& optimised,
@@ -169,24 +160,7 @@ std::size_t go_back(const LayerBase& base, const PaperProblem& problem, const En
   Column<VertexId, std::uint8_t> dirty(n, 1), n_halvings(n, 0);
   std::size_t n_back = 0;
   while (true) {
-    using List = std::vector<TriangleId>;
-    const List bad = parallel_reduce(
-        context, base.wall.n_triangles(), List{},
-        [&](std::size_t begin, std::size_t end) {
-          List list;
-          for (std::size_t i = begin; i < end; ++i) {
-            const TriangleVertices& v = base.wall.triangles[TriangleId(i)];
-            if (!dirty[v[0]] && !dirty[v[1]] && !dirty[v[2]]) continue;
-            const MacroElement e = macro_element(base, optimised, TriangleId(i));
-            const bool is_prism = e.height[0] > 0.0 && e.height[1] > 0.0 && e.height[2] > 0.0;
-            if (!is_macro_valid(e) || (is_prism && quality_of(e) < least_quality)) list.push_back(TriangleId(i));
-          }
-          return list;
-        },
-        [](List a, const List& b) {
-          a.insert(a.end(), b.begin(), b.end());
-          return a;
-        });
+    const std::vector<TriangleId> bad = poor_macros(base, optimised, least_quality, dirty, context);
     dirty.assign(n, 0);
     bool has_moved = false;
     for (const TriangleId t : bad) {

@@ -101,17 +101,6 @@ void run_lbfgs(LayerObjective& objective, const OptimiseSettings& settings, Vec3
   }
 }
 
-double scaled_jacobian(const MacroElement& e) {
-  WedgePoints p;
-  for (std::size_t k = 0; k < 3; ++k) {
-    p[k] = e.wall[k];
-    p[k + 3] = e.wall[k] + e.height[k] * e.direction[k];
-  }
-  return wedge_quality(p);
-}
-
-bool is_prism(const MacroElement& e) { return e.height[0] > 0.0 && e.height[1] > 0.0 && e.height[2] > 0.0; }
-
 }  // namespace
 
 std::size_t take_back(const LayerBase& base, const Envelope& start, double limit, Envelope& envelope, const RunContext& context) {
@@ -119,24 +108,7 @@ std::size_t take_back(const LayerBase& base, const Envelope& start, double limit
   std::size_t n_back = 0;
   Column<VertexId, std::uint8_t> dirty(n, 1);
   while (true) {
-    using List = std::vector<TriangleId>;
-    const List bad = parallel_reduce(
-        context, base.wall.n_triangles(), List{},
-        [&](std::size_t begin, std::size_t end) {
-          List list;
-          for (std::size_t i = begin; i < end; ++i) {
-            const TriangleId t(i);
-            const TriangleVertices& v = base.wall.triangles[t];
-            if (!dirty[v[0]] && !dirty[v[1]] && !dirty[v[2]]) continue;
-            const MacroElement e = macro_element(base, envelope, t);
-            if (!is_macro_valid(e) || (is_prism(e) && scaled_jacobian(e) < limit)) list.push_back(t);
-          }
-          return list;
-        },
-        [](List a, List b) {
-          a.insert(a.end(), b.begin(), b.end());
-          return a;
-        });
+    const std::vector<TriangleId> bad = poor_macros(base, envelope, limit, dirty, context);
     dirty.assign(n, 0);
     bool has_changed = false;
     for (const TriangleId t : bad) {

@@ -63,6 +63,39 @@ bool is_macro_valid(const MacroElement& e) {
   return is_tet_valid({e.wall[a], e.wall[b], e.wall[c], top(a)});
 }
 
+bool is_prism(const MacroElement& e) { return e.height[0] > 0.0 && e.height[1] > 0.0 && e.height[2] > 0.0; }
+
+double scaled_jacobian(const MacroElement& e) {
+  WedgePoints p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    p[k] = e.wall[k];
+    p[k + 3] = e.wall[k] + e.height[k] * e.direction[k];
+  }
+  return wedge_quality(p);
+}
+
+std::vector<TriangleId> poor_macros(const LayerBase& base, const EnvelopeShape& shape, double least_quality, const Column<VertexId, std::uint8_t>& marked,
+                                    const RunContext& context) {
+  using List = std::vector<TriangleId>;
+  return parallel_reduce(
+      context, base.wall.n_triangles(), List{},
+      [&](std::size_t begin, std::size_t end) {
+        List list;
+        for (std::size_t i = begin; i < end; ++i) {
+          const TriangleId t(i);
+          const TriangleVertices& v = base.wall.triangles[t];
+          if (!marked[v[0]] && !marked[v[1]] && !marked[v[2]]) continue;
+          const MacroElement e = macro_element(base, shape, t);
+          if (!is_macro_valid(e) || (is_prism(e) && scaled_jacobian(e) < least_quality)) list.push_back(t);
+        }
+        return list;
+      },
+      [](List a, const List& b) {
+        a.insert(a.end(), b.begin(), b.end());
+        return a;
+      });
+}
+
 std::vector<TriangleId> invalid_macros(const LayerBase& base, const EnvelopeShape& shape, const RunContext& context,
                                        const std::vector<VertexId>* around) {
   using List = std::vector<TriangleId>;

@@ -20,6 +20,14 @@ MacroElement macro_element(const LayerBase& base, const EnvelopeShape& envelope,
 /// eq. (6)) and is not seen too flatly along any growth edge, unless the wall triangle itself is seen so.
 bool is_macro_valid(const MacroElement& element);
 
+/// A prism: no collapsed corner.
+bool is_prism(const MacroElement& element);
+/// Quality of a macro-element that is a prism (wedge_quality).
+double scaled_jacobian(const MacroElement& element);
+/// Triangles with a marked corner whose macro-element is not valid or, being a prism, of a lower quality than `least_quality`; ascending.
+std::vector<TriangleId> poor_macros(const LayerBase& base, const EnvelopeShape& shape, double least_quality, const Column<VertexId, std::uint8_t>& marked,
+                                    const RunContext& context);
+
 /// Triangles whose macro-element is not valid, ascending. With `around`, only triangles at these vertices are looked at.
 std::vector<TriangleId> invalid_macros(const LayerBase& base, const EnvelopeShape& shape, const RunContext& context,
                                        const std::vector<VertexId>* around = nullptr);
