@@ -15,6 +15,7 @@
 #include "volmesh/prisms/extrude.h"
 #include "volmesh/prisms/layer_cells.h"
 #include "volmesh/split_layer.h"
+#include "volmesh/tetra/size_supply.h"
 #include "volmesh/visibility_report.h"
 
 namespace sterna::volmesh {
@@ -86,14 +87,8 @@ void add_cells(const LayerCertificate& cells, EnvelopeCertificate& certificate) 
                                   "layer " + std::to_string(cells.worst_layer) + " on wall triangle " + std::to_string(cells.worst_column)};
 }
 
-TetraResult fill_volume(const TriMesh& wall, const FillBoundary& boundary, const VolumeMeshOptions& options, SplitTaker take_splits, const RunContext& context) {
-  const std::vector<Point> holes = find_cavity_points(wall, context);
-  const TetraBoundary domain{boundary.points, boundary.triangles, holes, true, boundary.patch_names, boundary.triangle_patch, std::move(take_splits)};
-  const SizeField sizes = [&] {
-    const StageTimer timer(context, "tetrahedra/size");
-    return build_size_field(domain, options.sources, options.size, context);
-  }();
-  return fill(domain, &sizes, options.tetrahedra, context);
+TetraBoundary domain_of(const FillBoundary& boundary, std::span<const Point> holes, SplitTaker take_splits) {
+  return {boundary.points, boundary.triangles, holes, true, boundary.patch_names, boundary.triangle_patch, std::move(take_splits)};
 }
 
 /// Carries the splits of a result to the layer; where the layer must be lower with them, the volume inside the split boundary, kept now, is filled once more.
@@ -103,7 +98,10 @@ SplitLayer take_splits(const LayerBase& base, const Envelope& envelope, const Tr
   if (layer.is_filled) return layer;
   VolumeMeshOptions keeping = options;
   keeping.tetrahedra.boundary_splits = "never";
-  tets = fill_volume(*layer.wall, layer.boundary, keeping, {}, context);
+  const std::vector<Point> holes = find_cavity_points(*layer.wall, context);
+  const TetraBoundary domain = domain_of(layer.boundary, holes, {});
+  SizeSupply sizes(domain, options.sources, options.size, context);
+  tets = fill(domain, sizes, keeping.tetrahedra, context);
   return layer;
 }
 
@@ -177,10 +175,16 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
   std::optional<LayerCheck> layer_check;
   {
     const StageTimer timer(context, "tetrahedra");
-    Alongside<LayerProof> proof(context, [&mesh = std::as_const(result.mesh)](const RunContext& side) { return prove_layer(mesh, side); });
     std::optional<SplitLayer> split;
     const SplitTaker taker = [&](TetraResult& of_engine) { split = take_splits(base, envelope, outer, options, of_engine, context); };
-    tets = fill_volume(wall, boundary, options, taker, context.part("tetrahedra", 0.25, 0.9));
+    const std::vector<Point> holes = find_cavity_points(wall, context);
+    const TetraBoundary domain = domain_of(boundary, holes, taker);
+    SizeSupply sizes(domain, options.sources, options.size, context);
+    Alongside<LayerProof> proof(context, [&sizes, &mesh = std::as_const(result.mesh)](const RunContext& side) {
+      sizes.wait();  // the engine needs them sooner
+      return prove_layer(mesh, side);
+    });
+    tets = fill(domain, sizes, options.tetrahedra, context.part("tetrahedra", 0.25, 0.9));
     std::optional<LayerProof> of_layer(proof.take());
     if (split) {
       adopt(std::move(*split), options, boundary, result, context);

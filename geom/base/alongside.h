@@ -2,6 +2,7 @@
 #pragma once
 
 #include <exception>
+#include <latch>
 #include <optional>
 #include <stop_token>
 #include <thread>
@@ -11,7 +12,12 @@
 
 namespace sterna {
 
-/// Runs `work(context) -> T` beside the caller, on all threads of the context but one; with a single thread it runs before the caller goes on. The result does not
+namespace detail {
+/// Lowers the priority of the calling thread, so that what the caller waits for comes first.
+void yield_to_others();
+}  // namespace detail
+
+/// Runs `work(context) -> T` beside the caller, on all threads of the context but one; with a single thread it runs before the caller goes on. Its priority is low. The result does not
 /// depend on that, because no kernel's does. The destructor stops the work.
 template <class T>
 class Alongside {
@@ -20,19 +26,26 @@ class Alongside {
   Alongside(const RunContext& context, Work work) {
     if (context.threads() == 1) {
       result_.emplace(work(context));
+      ended_.count_down();
       return;
     }
     thread_ = std::jthread([this, context, work = std::move(work)](std::stop_token stop) {
+      detail::yield_to_others();
       try {
         result_.emplace(work(context.beside(context.threads() - 1, std::move(stop))));
       } catch (...) {
         exception_ = std::current_exception();
       }
+      ended_.count_down();
     });
   }
   Alongside(const Alongside&) = delete;
   Alongside& operator=(const Alongside&) = delete;
 
+  /// Whether take() would not wait.
+  bool is_done() const { return ended_.try_wait(); }
+  /// From any thread.
+  void wait() const { ended_.wait(); }
   /// Waits for the result; call it once. \throws what the work has thrown.
   T take() {
     if (thread_.joinable()) thread_.join();
@@ -43,6 +56,7 @@ class Alongside {
  private:
   std::optional<T> result_;
   std::exception_ptr exception_;
+  std::latch ended_{1};
   std::jthread thread_;  ///< last: ends before what it writes to
 };
 

@@ -14,7 +14,7 @@
 #include "volmesh/tetra/boundary_check.h"
 #include "volmesh/tetra/boundary_splits.h"
 #include "volmesh/tetra/engine_process.h"
-#include "volmesh/tetra/size_field.h"
+#include "volmesh/tetra/size_supply.h"
 #include "volmesh/tetra/verify.h"
 #include "volmesh/tetra/wire.h"
 
@@ -33,13 +33,13 @@ class Request {
  public:
   Request(const EngineInput& input, const TetraOptions& options, const RunContext& context)
       : scale_(unit_scale(input.boundary.points)), block_("sterna tetra request", size_of(input)) {
-    const auto& [boundary, parts, size_field, splits] = input;
+    const auto& [boundary, parts, sizes, splits] = input;
     wire::RequestHeader header;
     header.n_points = boundary.points.size();
     header.n_holes = boundary.hole_points.size();
     header.n_triangles = boundary.triangles.size();
     header.n_surfaces = parts.n_surfaces();
-    header.size_bytes = size_bytes(size_field).size();
+    header.has_size_field = sizes ? 1 : 0;
     header.memory_limit = static_cast<std::uint64_t>(options.memory_limit);
     header.scale = scale_;
     header.radius_edge = options.radius_edge;
@@ -56,7 +56,6 @@ class Request {
     parallel_for(context, header.n_points, [&](std::size_t i) { points_[i] = scale_ * boundary.points[i]; });
     for (std::size_t i = 0; i < header.n_holes; ++i) holes[i] = scale_ * boundary.hole_points[i];
     at = reinterpret_cast<std::byte*>(holes + header.n_holes);
-    put(size_bytes(size_field).data(), header.size_bytes);
     put(boundary.triangles.data(), boundary.triangles.size_bytes());
     put(parts.triangle2surface.data(), sizeof(std::int32_t) * parts.triangle2surface.size());
     put(parts.surface2region.data(), sizeof(std::int32_t) * parts.surface2region.size());
@@ -66,10 +65,9 @@ class Request {
   double scale() const { return scale_; }
 
  private:
-  static std::span<const std::byte> size_bytes(const SizeField* size_field) { return size_field ? size_field->bytes() : std::span<const std::byte>(); }
   static std::size_t size_of(const EngineInput& input) {
     const TetraBoundary& boundary = input.boundary;
-    return sizeof(wire::RequestHeader) + sizeof(Vec3) * (boundary.points.size() + boundary.hole_points.size()) + size_bytes(input.size_field).size() +
+    return sizeof(wire::RequestHeader) + sizeof(Vec3) * (boundary.points.size() + boundary.hole_points.size()) +
            (sizeof(boundary.triangles[0]) + sizeof(std::int32_t)) * boundary.triangles.size() + sizeof(std::int32_t) * input.parts.n_surfaces();
   }
   double scale_;
@@ -245,7 +243,9 @@ EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraO
     transfer.reset();
     const HelperExit exit = [&] {
       const StageTimer timer(context, "tetrahedra/helper");
-      return run_helper(helper, request.block(), reply, options.time_limit, context);
+      LateData size_field;
+      if (input.sizes) size_field = [&] { return input.sizes->is_ready() ? input.sizes->get().bytes() : std::span<const std::byte>(); };
+      return run_helper(helper, request.block(), reply, size_field, options.time_limit, context);
     }();
     transfer.emplace(context, "tetrahedra/transfer");
     if (!exit.output.empty()) context.debug(std::string(display_name(kind)) + ": " + exit.output);

@@ -41,11 +41,11 @@ struct EngineOutcome {
   EngineFailure failure;
 };
 
-/// What an engine gets. `parts` are those of the boundary; the size field may be missing.
+/// What an engine gets. `parts` are those of the boundary; there may be no sizes.
 struct EngineInput {
   const TetraBoundary& boundary;
   const BoundaryParts& parts;
-  const SizeField* size_field = nullptr;
+  SizeSupply* sizes = nullptr;
   SplitMode splits = SplitMode::none;
 };
 

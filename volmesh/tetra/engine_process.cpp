@@ -14,6 +14,7 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <thread>
 
 #include "geom/base/error.h"
@@ -26,6 +27,7 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr int k_poll_ms = 20;                   ///< how soon a stop or the time limit is noticed
+constexpr int k_late_poll_ms = 2;                ///< how soon data that comes late is handed on
 constexpr std::size_t k_output_kept = 4096;     ///< bytes of the helper's last words kept for the error text
 constexpr int k_first_free_descriptor = 10;     ///< above the descriptors that the helper inherits, so that dup2 in the child never clobbers a source
 
@@ -95,13 +97,47 @@ struct SpawnSetup {
   posix_spawnattr_t attributes;
 };
 
-pid_t spawn(const std::string& path, int request, int reply, int output) {
+struct Pipe {
+  Pipe() {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw_system_failure("pipe2", errno);
+    read_end.value = moved_up(ends[0]);
+    write_end.value = moved_up(ends[1]);
+  }
+  Descriptor read_end, write_end;
+};
+
+/// What a helper gets later than its start. The read end of the pipe stays open here: writing to it must not raise SIGPIPE when the helper has died.
+class LateBlock {
+ public:
+  /// False as long as there is no data.
+  bool send(std::span<const std::byte> data) {
+    if (is_sent_ || data.empty()) return is_sent_;
+    block_.append(data);
+    const std::uint64_t size = data.size();
+    if (write(ready_.write_end.value, &size, sizeof size) != sizeof size) throw_system_failure("writing to a pipe", errno);
+    return is_sent_ = true;
+  }
+  int descriptor() const { return block_.descriptor(); }
+  int ready_descriptor() const { return ready_.read_end.value; }
+
+ private:
+  SharedBlock block_{"sterna late", 0};
+  Pipe ready_;
+  bool is_sent_ = false;
+};
+
+pid_t spawn(const std::string& path, int request, int reply, int output, const LateBlock* late) {
   SpawnSetup setup;
   posix_spawn_file_actions_addopen(&setup.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&setup.actions, output, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&setup.actions, output, STDERR_FILENO);
   posix_spawn_file_actions_adddup2(&setup.actions, request, wire::k_request_fd);
   posix_spawn_file_actions_adddup2(&setup.actions, reply, wire::k_reply_fd);
+  if (late) {
+    posix_spawn_file_actions_adddup2(&setup.actions, late->descriptor(), wire::k_size_fd);
+    posix_spawn_file_actions_adddup2(&setup.actions, late->ready_descriptor(), wire::k_size_ready_fd);
+  }
   sigset_t none, all;
   sigemptyset(&none);
   sigfillset(&all);
@@ -163,24 +199,33 @@ std::byte* SharedBlock::map() {
   return data_;
 }
 
-HelperExit run_helper(const std::string& path, const SharedBlock& request, const SharedBlock& reply, double time_limit, const RunContext& context) {
+void SharedBlock::append(std::span<const std::byte> data) {
+  while (!data.empty()) {
+    const ssize_t n = write(descriptor_, data.data(), data.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) throw_system_failure("writing " + std::to_string(data.size()) + " bytes to memory", errno);
+    data = data.subspan(static_cast<std::size_t>(n));
+  }
+}
+
+HelperExit run_helper(const std::string& path, const SharedBlock& request, const SharedBlock& reply, const LateData& late, double time_limit, const RunContext& context) {
   using Clock = std::chrono::steady_clock;
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw_system_failure("pipe2", errno);
-  Descriptor read_end{ends[0]};
-  Descriptor write_end{moved_up(ends[1])};
+  Pipe words;
+  std::optional<LateBlock> late_block;
+  if (late) late_block.emplace();
 
   HelperExit result;
   const auto start = Clock::now();
-  Child child(spawn(path, request.descriptor(), reply.descriptor(), write_end.value));
-  write_end.reset();
+  Child child(spawn(path, request.descriptor(), reply.descriptor(), words.write_end.value, late_block ? &*late_block : nullptr));
+  words.write_end.reset();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
 
   // The end of the output is the end of the helper, unless it has closed its output; then it is waited for in small sleeps.
   for (bool is_open = true; is_open || !child.has_ended();) {
+    const bool is_waiting = late_block && !late_block->send(late());
     if (is_open) {
-      pollfd event{read_end.value, POLLIN, 0};
-      if (poll(&event, 1, k_poll_ms) > 0) is_open = read_output(read_end.value, result.output);
+      pollfd event{words.read_end.value, POLLIN, 0};
+      if (poll(&event, 1, is_waiting ? k_late_poll_ms : k_poll_ms) > 0) is_open = read_output(words.read_end.value, result.output);
     } else {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

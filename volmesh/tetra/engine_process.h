@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <span>
 #include <string>
 
 #include "geom/base/run_context.h"
@@ -20,6 +22,8 @@ class SharedBlock {
   int descriptor() const { return descriptor_; }
   /// Maps the block at its present size, which another process may have changed; nullptr when it is empty. The mapping lives as long as the object.
   std::byte* map();
+  /// Puts data at its end, which moves. \throws Error(tetra_engine_failed) when there is no memory for it.
+  void append(std::span<const std::byte> data);
   std::size_t size() const { return size_; }  ///< of the mapping
 
  private:
@@ -27,6 +31,9 @@ class SharedBlock {
   std::byte* data_ = nullptr;
   std::size_t size_ = 0;
 };
+
+/// Data that is not there yet: nothing as long as it is not.
+using LateData = std::function<std::span<const std::byte>()>;
 
 /// How a helper ended.
 struct HelperExit {
@@ -40,7 +47,8 @@ struct HelperExit {
 /// Starts `path` with the request as descriptor 3 and the reply as 4, waits for its end. Its own process group, so that Ctrl-C reaches it through
 /// the context's stop only. \p time_limit in seconds, k_automatic = none.
 /// \throws Error tetra_engine_missing when it cannot be started; cancelled (the helper is killed and reaped first).
-HelperExit run_helper(const std::string& path, const SharedBlock& request, const SharedBlock& reply, double time_limit, const RunContext& context);
+/// `late`, where it is not empty, is asked again and again for what goes to descriptor 5 later (wire.h); what it throws ends the helper and comes out here.
+HelperExit run_helper(const std::string& path, const SharedBlock& request, const SharedBlock& reply, const LateData& late, double time_limit, const RunContext& context);
 
 /// Path of the helper executable `name`: in `folder` if that is not empty, else in the folder of the running executable or the one above.
 /// \throws Error(tetra_engine_missing) with the places that were looked at.

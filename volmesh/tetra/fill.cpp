@@ -7,6 +7,7 @@
 #include "volmesh/tetra/boundary_parts.h"
 #include "volmesh/tetra/engine.h"
 #include "volmesh/tetra/preflight.h"
+#include "volmesh/tetra/size_supply.h"
 #include "volmesh/tetra/tetra.h"
 
 namespace sterna::volmesh {
@@ -67,9 +68,7 @@ EngineOutcome taken(EngineOutcome outcome, const TetraBoundary& boundary) {
   }
 }
 
-}  // namespace
-
-TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, const TetraOptions& options, const RunContext& context) {
+TetraResult fill_with(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, const RunContext& context) {
   const std::vector<Rung> rungs = rungs_of(boundary, options);
   const BoundaryParts parts = [&] {
     const StageTimer timer(context, "tetrahedra/boundary");
@@ -80,7 +79,12 @@ TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, con
 
   // Of a boundary that is known to be clear, preflight can only say what engines find hard: that can wait until one has run.
   std::optional<Alongside<PreflightReport>> look;
-  if (boundary.is_clear) look.emplace(context, [&](const RunContext& side) { return preflight(boundary, {.is_clear = true}, side); });
+  if (boundary.is_clear) {
+    look.emplace(context, [&boundary, sizes](const RunContext& side) {
+      if (sizes) sizes->wait();  // the engine needs them sooner
+      return preflight(boundary, {.is_clear = true}, side);
+    });
+  }
 
   std::vector<EngineFailure> failures;
   for (const Rung& rung : rungs) {
@@ -88,7 +92,7 @@ TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, con
       if (!may_follow(rung, failures, options)) continue;
       context.warn("trying " + text_of(rung));
     }
-    EngineOutcome outcome = taken(run_engine(rung.engine, {boundary, parts, size_field, rung.splits}, options, context), boundary);
+    EngineOutcome outcome = taken(run_engine(rung.engine, {boundary, parts, sizes, rung.splits}, options, context), boundary);
     if (look) judge(look->take(), boundary, context);
     look.reset();
     if (outcome.result) {
@@ -105,6 +109,18 @@ TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, con
   // An engine that is not there explains less than one that failed.
   const auto telling = std::ranges::find_if(failures, [](const EngineFailure& f) { return f.kind != FailureKind::missing; });
   throw Error(telling == failures.end() ? failures.front().error : telling->error);
+}
+
+}  // namespace
+
+TetraResult fill(const TetraBoundary& boundary, SizeSupply& sizes, const TetraOptions& options, const RunContext& context) {
+  return fill_with(boundary, &sizes, options, context);
+}
+
+TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, const TetraOptions& options, const RunContext& context) {
+  if (!size_field) return fill_with(boundary, nullptr, options, context);
+  SizeSupply sizes(*size_field);
+  return fill_with(boundary, &sizes, options, context);
 }
 
 }  // namespace sterna::volmesh

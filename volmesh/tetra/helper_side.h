@@ -15,6 +15,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "volmesh/tetra/size_field_view.h"
 #include "volmesh/tetra/wire.h"
 
 namespace sterna::volmesh::helper {
@@ -101,7 +102,6 @@ struct Request {
   const wire::RequestHeader* header = nullptr;  ///< nullptr: not a request
   double* points = nullptr;
   double* holes = nullptr;
-  const std::byte* size_field = nullptr;  ///< nullptr: none
   int* triangles = nullptr;
   const int* triangle2surface = nullptr;
   const int* surface2region = nullptr;
@@ -117,17 +117,44 @@ inline Request map_request() {
   if (block == MAP_FAILED) return request;
   const auto* header = static_cast<const wire::RequestHeader*>(block);
   if (header->magic != wire::k_request_magic) return request;
-  if (size != sizeof *header + 24 * (header->n_points + header->n_holes) + header->size_bytes + 16 * header->n_triangles + 4 * header->n_surfaces) return request;
+  if (size != sizeof *header + 24 * (header->n_points + header->n_holes) + 16 * header->n_triangles + 4 * header->n_surfaces) return request;
   request.points = reinterpret_cast<double*>(static_cast<std::byte*>(block) + sizeof *header);
   request.holes = request.points + 3 * header->n_points;
-  auto* const size_field = reinterpret_cast<std::byte*>(request.holes + 3 * header->n_holes);
-  if (header->size_bytes > 0) request.size_field = size_field;
-  request.triangles = reinterpret_cast<int*>(size_field + header->size_bytes);
+  request.triangles = reinterpret_cast<int*>(request.holes + 3 * header->n_holes);
   request.triangle2surface = request.triangles + 3 * header->n_triangles;
   request.surface2region = request.triangle2surface + header->n_triangles;
   request.header = header;
   return request;
 }
+
+/// The size field, which the parent may still be making: it is waited for at the first question.
+class LateSizes {
+ public:
+  /// Sizes in the request's units.
+  explicit LateSizes(double scale) : scale_(scale) {}
+  double operator()(double x, double y, double z) {
+    if (!view_.is_valid()) wait();
+    return scale_ * view_(x / scale_, y / scale_, z / scale_);
+  }
+  double waited_seconds() const { return waited_; }
+
+ private:
+  void wait() {
+    const Stopwatch watch;
+    std::uint64_t size = 0;
+    const void* block = MAP_FAILED;
+    if (read(wire::k_size_ready_fd, &size, sizeof size) == sizeof size) block = mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, wire::k_size_fd, 0);
+    if (block != MAP_FAILED) view_ = SizeFieldView(static_cast<const std::byte*>(block), size);
+    waited_ = watch.seconds();
+    if (view_.is_valid()) return;
+    say("the size field cannot be read\n");
+    std::_Exit(3);
+  }
+
+  double scale_;
+  SizeFieldView view_;
+  double waited_ = 0.0;
+};
 
 /// The helper never outlives its parent, leaves no core, and may not take more than its memory.
 inline void limit_resources(std::uint64_t memory_limit) {

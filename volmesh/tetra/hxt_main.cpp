@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "volmesh/tetra/helper_side.h"
-#include "volmesh/tetra/size_field_view.h"
 
 // HXT says "failed" when it gets no memory. The program's own allocation functions come before those of the C library, which they call, and take note.
 extern "C" {
@@ -94,13 +93,10 @@ void set_boundary(const helper::Request& request) {
 }
 
 /// The size field alone says how long edges are: HXT would take the minimum with what it extends from the boundary.
-void set_size_field(const helper::Request& request) {
-  if (!request.size_field) return;
-  const SizeFieldView sizes(request.size_field, request.header->size_bytes);
-  if (!sizes.is_valid()) throw std::string("the size field is of another version");
+void set_size_field(const helper::Request& request, helper::LateSizes& sizes) {
+  if (!request.header->has_size_field) return;
   gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
-  const double scale = request.header->scale;
-  gmsh::model::mesh::setSizeCallback([=](int, int, double x, double y, double z) { return k_size_factor * scale * sizes(x / scale, y / scale, z / scale); });
+  gmsh::model::mesh::setSizeCallback([&sizes](int, int, double x, double y, double z) { return k_size_factor * sizes(x, y, z); });
 }
 
 /// Sends the mesh: boundary points first, then the new ones in the order of their tags.
@@ -141,15 +137,16 @@ void on_crash(int signal) {
 
 int run(const helper::Request& request) {
   const helper::Stopwatch watch;
+  helper::LateSizes sizes(request.header->scale);
   try {
     gmsh::initialize(0, nullptr, false);
     set_options(*request.header);
     for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT}) std::signal(signal, on_crash);
     gmsh::model::add("sterna");
     set_boundary(request);
-    set_size_field(request);
+    set_size_field(request, sizes);
     gmsh::model::mesh::generate(3);
-    send_mesh(request, watch.seconds());
+    send_mesh(request, watch.seconds() - sizes.waited_seconds());
   } catch (const std::bad_alloc&) {
     return helper::reply_failure(wire::Outcome::out_of_memory, 0, watch.seconds());
   } catch (const std::exception& error) {

@@ -27,7 +27,6 @@
 #include <vector>
 
 #include "volmesh/tetra/helper_side.h"
-#include "volmesh/tetra/size_field_view.h"
 
 namespace {
 
@@ -77,13 +76,9 @@ struct BorrowedInput {
 constexpr double k_radius_limit = 1.1 / 1.46;
 
 /// What TetGen's callback, which gets no data of ours, needs; set once, before TetGen runs.
-struct SizeTest {
-  SizeFieldView sizes;
-  double scale = 1.0;
-};
-SizeTest& size_test() {
-  static SizeTest test;
-  return test;
+helper::LateSizes*& sizes_of_callback() {
+  static helper::LateSizes* sizes = nullptr;
+  return sizes;
 }
 
 double circumradius(const double* a, const double* b, const double* c, const double* d) {
@@ -104,9 +99,8 @@ double circumradius(const double* a, const double* b, const double* c, const dou
 
 /// TetGen asks for every tetrahedron that it might refine.
 bool is_too_large(double* a, double* b, double* c, double* d, double*, double) {
-  const SizeTest& test = size_test();
-  const double s = 0.25 / test.scale;
-  const double wanted = test.scale * test.sizes(s * (a[0] + b[0] + c[0] + d[0]), s * (a[1] + b[1] + c[1] + d[1]), s * (a[2] + b[2] + c[2] + d[2]));
+  const auto middle = [&](std::size_t k) { return 0.25 * (a[k] + b[k] + c[k] + d[k]); };
+  const double wanted = (*sizes_of_callback())(middle(0), middle(1), middle(2));
   return circumradius(a, b, c, d) > k_radius_limit * wanted;
 }
 
@@ -150,7 +144,7 @@ struct SplitSurface {
 void tetrahedralize_surface(const Request& request, const Surface& surface, std::string text, tetgenio& out) {
   Facets facets(surface);
   BorrowedInput in(request, surface, facets);
-  if (request.size_field) in.io.tetunsuitable = is_too_large;
+  if (request.header->has_size_field) in.io.tetunsuitable = is_too_large;
   tetrahedralize(text.data(), &in.io, &out);
 }
 
@@ -174,15 +168,13 @@ void tetrahedralize_surface(const Request& request, const Surface& surface, std:
       break;
     }
   }
-  helper::reply_mesh(out.pointlist, static_cast<std::size_t>(out.numberofpoints), out.tetrahedronlist, static_cast<std::size_t>(out.numberoftetrahedra), watch.seconds(),
+  helper::reply_mesh(out.pointlist, static_cast<std::size_t>(out.numberofpoints), out.tetrahedronlist, static_cast<std::size_t>(out.numberoftetrahedra), watch.seconds() - sizes_of_callback()->waited_seconds(),
                      split ? split->reply() : helper::SplitBoundary{});
 }
 
 int run(const Request& request) {
-  if (request.size_field) {
-    size_test() = {SizeFieldView(request.size_field, request.header->size_bytes), request.header->scale};
-    if (!size_test().sizes.is_valid()) return helper::reply_failure(wire::Outcome::bad_request, 0, 0.0);
-  }
+  helper::LateSizes sizes(request.header->scale);
+  sizes_of_callback() = &sizes;
   const helper::Stopwatch watch;
   try {
     mesh(request, watch);

@@ -15,6 +15,7 @@
 namespace sterna::volmesh {
 
 class SizeField;
+class SizeSupply;
 
 struct TetraOptions {
   std::string engine = "automatic";
@@ -73,6 +74,8 @@ struct TetraResult {
 /// \throws Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface, non_manifold_surface, self_intersection,
 /// not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory limit); tetra_result_invalid; cancelled. Each with places where there are any; of several failures the first.
 TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, const TetraOptions& options, const RunContext& context);
+/// Engines begin with the boundary and wait for the sizes when they need them. \throws what the making of the size field throws, too.
+TetraResult fill(const TetraBoundary& boundary, SizeSupply& sizes, const TetraOptions& options, const RunContext& context);
 
 /// One point strictly inside each cavity of a wall, that is in each connected solid region (a shell inside out bounds a hole of the solid around it, not a
 /// solid of its own): behind one of its largest triangles, centred along the axes, proven by exact ray crossings. In order of first triangle.

@@ -1,8 +1,8 @@
 // What sterna and its engine helpers (sterna-tet-tetgen, sterna-tet-hxt) say to each other: two memfds, one block each, native byte order.
 // It includes nothing of sterna.
 //
-// Request: RequestHeader; 3 doubles per point; 3 doubles per hole point; the size field, size_bytes long, a multiple of 8;
-//          3 int32 per triangle (indices into the points); 1 int32 per triangle (its surface); 1 int32 per surface (its region).
+// Request: RequestHeader; 3 doubles per point; 3 doubles per hole point; 3 int32 per triangle (indices into the points); 1 int32 per triangle (its surface);
+//          1 int32 per surface (its region).
 // Reply:   ReplyHeader, then (outcome ok only) 3 doubles per point, all of them, 4 int32 per tetrahedron; where the engine was allowed to split boundary triangles,
 //          3 int32 per triangle of the new boundary and 1 int32 for each: the triangle of the request that it is a part of.
 #pragma once
@@ -13,7 +13,9 @@ namespace sterna::volmesh::wire {
 
 inline constexpr int k_request_fd = 3;
 inline constexpr int k_reply_fd = 4;
-inline constexpr std::uint64_t k_request_magic = 0x3351455254455453;  ///< "STETREQ3" in memory; the last digit is the version
+inline constexpr int k_size_fd = 5;        ///< the size field, once it is there
+inline constexpr int k_size_ready_fd = 6;  ///< pipe: then its length in bytes comes here, a uint64
+inline constexpr std::uint64_t k_request_magic = 0x3451455254455453;  ///< "STETREQ4" in memory; the last digit is the version
 inline constexpr std::uint64_t k_reply_magic = 0x3350455254455453;    ///< "STETREP3"
 
 /// What may become of the boundary's triangles; TetGen only.
@@ -29,7 +31,7 @@ struct RequestHeader {
   std::uint64_t n_holes = 0;
   std::uint64_t n_triangles = 0;
   std::uint64_t n_surfaces = 0;    ///< connected components of the boundary
-  std::uint64_t size_bytes = 0;    ///< of the size field; 0: the engine extends the sizes of the boundary
+  std::uint64_t has_size_field = 0;  ///< 0: the engine extends the sizes of the boundary
   std::uint64_t memory_limit = 0;  ///< address space in bytes
   double scale = 1.0;              ///< coordinates in the request over metres
   double radius_edge = 0.0;        ///< largest circumradius over shortest edge; TetGen only

@@ -1,0 +1,31 @@
+// A size field that may still be in the making while an engine works on the boundary.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "geom/base/alongside.h"
+#include "volmesh/tetra/size_field.h"
+
+namespace sterna::volmesh {
+
+class SizeSupply {
+ public:
+  /// One that is ready. `field` must outlive it.
+  explicit SizeSupply(const SizeField& field) : field_(&field) {}
+  /// Begins to build one (build_size_field) beside the caller; boundary and sources must outlive it.
+  SizeSupply(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context);
+
+  bool is_ready() const { return field_ || making_->is_done(); }
+  /// From any thread.
+  void wait() const;
+  /// Waits. \throws what build_size_field() has thrown.
+  const SizeField& get();
+
+ private:
+  const SizeField* field_ = nullptr;
+  std::optional<SizeField> made_;
+  std::optional<Alongside<SizeField>> making_;  ///< last: ends first
+};
+
+}  // namespace sterna::volmesh
