@@ -6,7 +6,7 @@
 
 #include "tests/support/shapes.h"
 #include "tests/volmesh/tetra/cases.h"
-#include "volmesh/tetra/size_field.h"
+#include "volmesh/tetra/size_supply.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -80,6 +80,26 @@ TEST(SizedFillBoth, EnginesMakeAboutAsManyTetrahedra) {
   const double ratio = count("tetgen") / count("hxt");
   EXPECT_GT(ratio, 1.0 / 1.3);
   EXPECT_LT(ratio, 1.3);
+}
+
+TEST_P(SizedFill, ASupplyInTheMakingGivesTheSameMesh) {
+  const TetraResult expected = fill(field({}));
+  for (const int threads : {1, 2}) {
+    const RunContext context({.threads = threads});
+    const TetraBoundary boundary = domain.boundary();
+    SizeSupply sizes(boundary, {}, {}, context);
+    const TetraResult result = volmesh::fill(boundary, sizes, {.engine = GetParam()}, context);
+    EXPECT_EQ(result.tetrahedra, expected.tetrahedra);
+    EXPECT_EQ(result.new_points, expected.new_points);
+  }
+}
+
+TEST_P(SizedFill, ASupplyThatFailsEndsTheEngine) {
+  const RunContext context({.threads = 2});
+  const TetraBoundary boundary = domain.boundary();
+  const std::vector<SizeSource> sources = {{.kind = SourceKind::sphere, .from = {4, 0, 0}, .radius = 1.0, .size = -1.0}};
+  SizeSupply sizes(boundary, sources, {}, context);
+  EXPECT_EQ(test::error_of([&] { volmesh::fill(boundary, sizes, {.engine = GetParam()}, context); }).code, ErrorCode::bad_argument);
 }
 
 }  // namespace
