@@ -50,6 +50,7 @@ local mesh = volume_mesh{ wall,
     max_new_points = "automatic",   -- more are a failure; automatic: no limit
     boundary_splits = "ladder",     -- never, ladder, always: may TetGen split triangles of envelope and farfield; ladder: after other failures
     try_other_engine = true,        -- after a failure that would repeat itself
+    repair_boundary = true,         -- when nothing of that helps: a lower, smoother layer around slivers, folds and gaps of its top, and all again
     fall_back_on_limits = false,    -- also after a time or memory limit; the manifest then says "not reproducible"
     memory_limit = 20e9,            -- bytes, of the helper process
     time_limit = "automatic",       -- seconds; automatic: none

@@ -14,6 +14,7 @@
 #include "volmesh/layer_report.h"
 #include "volmesh/prisms/extrude.h"
 #include "volmesh/prisms/layer_cells.h"
+#include "volmesh/repair_envelope.h"
 #include "volmesh/split_layer.h"
 #include "volmesh/tetra/size_supply.h"
 #include "volmesh/visibility_report.h"
@@ -23,6 +24,7 @@ namespace {
 
 constexpr int k_max_clear_rounds = 10;
 constexpr std::size_t k_max_places = 10;
+constexpr int k_max_boundary_repairs = 3;
 
 void require_sane(const TriMesh& wall, VolumeMeshOptions& options) {
   require_options(options_of(options), "volume_mesh");
@@ -156,24 +158,28 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
     const StageTimer timer(context, "envelope");
     envelope = build_envelope(base, options.envelope, collider, context.part("envelope", 0.0, 0.15));
   }
-  {
-    const StageTimer timer(context, "prisms");
-    extrusion = extrude_clear_of_collisions(base, options, collider, envelope, context.part("prisms", 0.15, 0.25));
-  }
-  {
-    const StageTimer timer(context, "certificate");
-    result.certificate = certify_envelope(base, collider, envelope, context);
-    require_proved(result.certificate);
-  }
-  result.layer = report(base, options.envelope, envelope, extrusion, context);
+  FillBoundary boundary;
+  const auto lay_out = [&](const RunContext& part) {
+    {
+      const StageTimer timer(context, "prisms");
+      extrusion = extrude_clear_of_collisions(base, options, collider, envelope, part);
+    }
+    {
+      const StageTimer timer(context, "certificate");
+      result.certificate = certify_envelope(base, collider, envelope, context);
+      require_proved(result.certificate);
+    }
+    result.layer = report(base, options.envelope, envelope, extrusion, context);
+    boundary = fill_boundary(base, extrusion, outer);
+    result.mesh = assemble_layers(base, std::move(extrusion), outer);
+    result.mesh.request = layer_request(options.envelope, envelope);
+  };
+  lay_out(context.part("prisms", 0.15, 0.25));
   for (const std::string& warning : result.layer.warnings) context.warn(warning);
 
-  FillBoundary boundary = fill_boundary(base, extrusion, outer);
-  result.mesh = assemble_layers(base, std::move(extrusion), outer);
-  result.mesh.request = layer_request(options.envelope, envelope);
   TetraResult tets;
   std::optional<LayerCheck> layer_check;
-  {
+  for (int n_repairs = 0; !layer_check; ++n_repairs) {
     const StageTimer timer(context, "tetrahedra");
     std::optional<SplitLayer> split;
     const SplitTaker taker = [&](TetraResult& of_engine) { split = take_splits(base, envelope, outer, options, of_engine, context); };
@@ -184,7 +190,18 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
       sizes.wait();  // the engine needs them sooner
       return prove_layer(mesh, side);
     });
-    tets = fill(domain, sizes, options.tetrahedra, context.part("tetrahedra", 0.25, 0.9));
+    try {
+      tets = fill(domain, sizes, options.tetrahedra, context.part("tetrahedra", 0.25, 0.9));
+    } catch (const FillError& error) {
+      proof.take();  // nothing reads the boundary any more
+      result.tetra_failures.insert(result.tetra_failures.end(), error.failures().begin(), error.failures().end());
+      if (!options.tetrahedra.repair_boundary || !error.is_repeatable() || n_repairs == k_max_boundary_repairs) throw;
+      const std::size_t n_changed = repair_envelope(base, boundary, error.info().places, collider, envelope, context).size();
+      if (n_changed == 0) throw;
+      context.warn("trying again with a layer that is lower and smoother at " + std::to_string(n_changed) + " vertices around slivers, folds and gaps of its top");
+      lay_out(context);
+      continue;
+    }
     std::optional<LayerProof> of_layer(proof.take());
     if (split) {
       adopt(std::move(*split), options, boundary, result, context);
@@ -195,7 +212,7 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
     layer_check.emplace(std::move(of_layer->check));
   }
   result.tetra_engine = tets.engine;
-  result.tetra_failures = tets.failures;
+  result.tetra_failures.insert(result.tetra_failures.end(), tets.failures.begin(), tets.failures.end());
   result.is_reproducible = tets.is_reproducible;
   result.tetra_engine_seconds = tets.engine_seconds;
   result.tetra_engine_peak_bytes = tets.engine_peak_bytes;

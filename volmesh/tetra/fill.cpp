@@ -108,7 +108,10 @@ TetraResult fill_with(const TetraBoundary& boundary, SizeSupply* sizes, const Te
   }
   // An engine that is not there explains less than one that failed.
   const auto telling = std::ranges::find_if(failures, [](const EngineFailure& f) { return f.kind != FailureKind::missing; });
-  throw Error(telling == failures.end() ? failures.front().error : telling->error);
+  std::vector<std::string> problems;
+  for (const EngineFailure& failure : failures) problems.push_back(failure.error.problem);
+  const bool is_repeatable = telling != failures.end() && std::ranges::none_of(failures, [](const EngineFailure& f) { return f.kind == FailureKind::limit; });
+  throw FillError(telling == failures.end() ? failures.front().error : telling->error, is_repeatable, std::move(problems));
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "geom/base/error.h"
 #include "geom/base/run_context.h"
 #include "geom/base/schema.h"
 #include "geom/mesh/tri_mesh.h"
@@ -26,6 +28,7 @@ struct TetraOptions {
   double max_new_points = k_automatic;
   std::string boundary_splits = "ladder";
   bool try_other_engine = true;
+  bool repair_boundary = true;
   bool fall_back_on_limits = false;
   std::string helper_folder = {};
 };
@@ -60,6 +63,20 @@ struct TetraResult {
   double engine_peak_bytes = 0.0;                       ///< of the helper process; log only
 };
 
+/// What fill() throws when engines have failed.
+class FillError : public Error {
+ public:
+  FillError(ErrorInfo info, bool is_repeatable, std::vector<std::string> failures)
+      : Error(std::move(info)), is_repeatable_(is_repeatable), failures_(std::make_shared<const std::vector<std::string>>(std::move(failures))) {}
+  /// It would fail again on this boundary, and no time or memory limit had a part in it.
+  bool is_repeatable() const { return is_repeatable_; }
+  const std::vector<std::string>& failures() const { return *failures_; }  ///< problems of all attempts, in order
+
+ private:
+  bool is_repeatable_;
+  std::shared_ptr<const std::vector<std::string>> failures_;
+};
+
 /// Runs an engine in its helper process, found beside the running executable or one folder above it, and proves its answer (verify.h).
 /// Engines: "tetgen", TetGen 1.5 with its radius-edge ratio; "hxt", HXT of Gmsh; "automatic" is hxt, or tetgen where hxt is not built in (docs/tetrahedra.md: better
 /// meshes in less time on the clean surfaces). Both keep the boundary
@@ -71,7 +88,7 @@ struct TetraResult {
 /// leave to split triangles of the boundary where it cannot keep them (`boundary_splits` "ladder", and a boundary with take_splits). With "always" TetGen comes
 /// first and splits them where tetrahedra become better by it, too. A time or memory limit ends the call unless `fall_back_on_limits`. Every step is logged as a warning and kept in the result.
 /// A stop of the context or the time limit kills the helper at once; it never outlives the call.
-/// \throws Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface, non_manifold_surface, self_intersection,
+/// \throws FillError when the engines have failed; Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface, non_manifold_surface, self_intersection,
 /// not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory limit); tetra_result_invalid; cancelled. Each with places where there are any; of several failures the first.
 TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, const TetraOptions& options, const RunContext& context);
 /// Engines begin with the boundary and wait for the sizes when they need them. \throws what the making of the size field throws, too.
@@ -100,6 +117,7 @@ struct Schema<volmesh::TetraOptions> {
       Field<O>{.name = "max_new_points", .member = &O::max_new_points, .min = 0.0, .max = 1e9, .help = "a result with more points inside the volume is a failure", .automatic = "no limit"},
       Field<O>{.name = "boundary_splits", .member = &O::boundary_splits, .help = "whether TetGen may split triangles on top of the layer and of the farfield; the wall's are split with them. ladder: after other failures, where it cannot keep them; always: also for better tetrahedra", .choices = "never ladder always"},
       Field<O>{.name = "try_other_engine", .member = &O::try_other_engine, .help = "when the engine fails in a way that it will repeat, the other one is tried"},
+      Field<O>{.name = "repair_boundary", .member = &O::repair_boundary, .help = "when all that fails in a way that it will repeat, the layer is made lower and smoother around slivers, folds and gaps of its top, and everything is tried again"},
       Field<O>{.name = "fall_back_on_limits", .member = &O::fall_back_on_limits, .help = "the other engine is tried after a time or memory limit too; such a result is marked as not reproducible"},
       Field<O>{.name = "helper_folder", .member = &O::helper_folder, .help = "where sterna-tet-tetgen and sterna-tet-hxt are; empty: beside the sterna executable"},
   };
