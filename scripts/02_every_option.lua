@@ -46,6 +46,7 @@ local mesh = volume_mesh{ wall,
   tetrahedra = {
     engine = "automatic",           -- or "tetgen", "hxt"
     radius_edge = 1.2,              -- TetGen
+    two_pass = false,               -- TetGen: a coarse mesh gives the sizes of the mesh itself
     hxt_improve_below = 0,          -- HXT's own improvement; 0: none
     max_new_points = "automatic",   -- more are a failure; automatic: no limit
     boundary_splits = "ladder",     -- never, ladder, always: may TetGen split triangles of envelope and farfield; ladder: after other failures

@@ -211,7 +211,7 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& user_
     require_proved(result.certificate);
     layer_check.emplace(std::move(of_layer->check));
   }
-  result.tetra_engine = tets.engine;
+  result.tetra_engine = tets.engine + (tets.is_two_pass ? " in two passes" : "");
   result.tetra_failures.insert(result.tetra_failures.end(), tets.failures.begin(), tets.failures.end());
   result.is_reproducible = tets.is_reproducible;
   result.tetra_engine_seconds = tets.engine_seconds;

@@ -95,7 +95,7 @@ struct VolumeMeshResult {
   EnvelopeCertificate certificate;
   CheckReport check;
   ImproveReport improvement;
-  std::string tetra_engine;             ///< "tetgen" or "hxt"
+  std::string tetra_engine;             ///< "tetgen", "tetgen in two passes" or "hxt"
   std::vector<std::string> tetra_failures;  ///< of the attempts before it, in order
   std::int64_t n_split_triangles = 0;   ///< of wall and outer boundary, by which the mesh has more than were given
   bool is_reproducible = true;          ///< false when a time or memory limit decided what was done

@@ -9,6 +9,7 @@
 #include "volmesh/tetra/preflight.h"
 #include "volmesh/tetra/size_supply.h"
 #include "volmesh/tetra/tetra.h"
+#include "volmesh/tetra/two_pass.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -24,10 +25,11 @@ namespace {
 struct Rung {
   EngineKind engine;
   SplitMode splits = SplitMode::none;
+  bool is_two_pass = false;
 };
 
 std::string text_of(const Rung& rung) {
-  return std::string(display_name(rung.engine)) + (rung.splits == SplitMode::none ? "" : " with splits of the boundary's triangles");
+  return std::string(display_name(rung.engine)) + (rung.splits == SplitMode::none ? "" : " with splits of the boundary's triangles") + (rung.is_two_pass ? " in two passes" : "");
 }
 
 /// What is to be tried, in this order.
@@ -35,10 +37,14 @@ std::vector<Rung> rungs_of(const TetraBoundary& boundary, const TetraOptions& op
   std::vector<Rung> rungs = {{EngineKind::hxt}, {EngineKind::tetgen}};
   if (options.engine == "tetgen") std::ranges::reverse(rungs);
   else if (options.engine != "hxt" && options.engine != "automatic") throw_bad("engine", options.engine, "one of automatic, tetgen, hxt");
+  if (options.two_pass) {
+    if (options.engine == "hxt") throw_bad("two_pass", "true", "only TetGen has two passes: leave the engine automatic, or choose tetgen");
+    rungs = {{EngineKind::tetgen, SplitMode::none, true}, {EngineKind::hxt}};
+  }
   if (options.boundary_splits == "always") {
     if (options.engine == "hxt") throw_bad("boundary_splits", "always", "HXT keeps the boundary: leave the engine automatic, or choose tetgen");
     if (!boundary.take_splits) throw_bad("boundary_splits", "always", "nothing here can take splits of the boundary");
-    return {{EngineKind::tetgen, SplitMode::quality}, {EngineKind::hxt}};
+    return {{EngineKind::tetgen, SplitMode::quality, options.two_pass}, {EngineKind::hxt}};
   }
   if (options.boundary_splits == "ladder") {
     if (boundary.take_splits) rungs.push_back({EngineKind::tetgen, SplitMode::recovery});
@@ -68,6 +74,25 @@ EngineOutcome taken(EngineOutcome outcome, const TetraBoundary& boundary) {
   }
 }
 
+/// One run of an engine, or two.
+EngineOutcome run(const Rung& rung, const TetraBoundary& boundary, const BoundaryParts& parts, SizeSupply* sizes, const TetraOptions& options, const RunContext& context) {
+  if (!rung.is_two_pass) return run_engine(rung.engine, {boundary, parts, sizes, rung.splits}, options, context);
+  TetraOptions coarse = options;
+  coarse.radius_edge = std::max(options.radius_edge, k_coarse_radius_edge);
+  EngineOutcome first = run_engine(rung.engine, {boundary, parts}, coarse, context);
+  if (!first.result) return first;
+  context.info("first pass: " + std::to_string(first.result->tetrahedra.size()) + " tetrahedra");
+  const SizeSource samples = nodal_sizes(boundary, *first.result, context);
+  const SizeField field = sizes ? sizes->with(samples, boundary, context) : build_size_field(boundary, std::span(&samples, 1), {}, context);
+  SizeSupply second_sizes(field);
+  EngineOutcome second = run_engine(rung.engine, {boundary, parts, &second_sizes, rung.splits}, options, context);
+  if (!second.result) return second;
+  second.result->is_two_pass = true;
+  second.result->engine_seconds += first.result->engine_seconds;
+  second.result->engine_peak_bytes = std::max(second.result->engine_peak_bytes, first.result->engine_peak_bytes);
+  return second;
+}
+
 TetraResult fill_with(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, const RunContext& context) {
   const std::vector<Rung> rungs = rungs_of(boundary, options);
   const BoundaryParts parts = [&] {
@@ -92,7 +117,7 @@ TetraResult fill_with(const TetraBoundary& boundary, SizeSupply* sizes, const Te
       if (!may_follow(rung, failures, options)) continue;
       context.warn("trying " + text_of(rung));
     }
-    EngineOutcome outcome = taken(run_engine(rung.engine, {boundary, parts, sizes, rung.splits}, options, context), boundary);
+    EngineOutcome outcome = taken(run(rung, boundary, parts, sizes, options, context), boundary);
     if (look) judge(look->take(), boundary, context);
     look.reset();
     if (outcome.result) {

@@ -1,8 +1,12 @@
 #include "volmesh/tetra/size_supply.h"
 
+#include <algorithm>
+#include <vector>
+
 namespace sterna::volmesh {
 
-SizeSupply::SizeSupply(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context) {
+SizeSupply::SizeSupply(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context)
+    : sources_(sources), options_(options) {
   making_.emplace(context, [&boundary, sources, options](const RunContext& side) {
     const StageTimer timer(side, "tetrahedra/size");
     return build_size_field(boundary, sources, options, side);
@@ -16,6 +20,20 @@ void SizeSupply::wait() const {
 const SizeField& SizeSupply::get() {
   if (!field_) field_ = &made_.emplace(making_->take());
   return *field_;
+}
+
+SizeField SizeSupply::with(const SizeSource& samples, const TetraBoundary& boundary, const RunContext& context) {
+  const SizeField& field = get();
+  std::vector<SizeSource> sources(sources_.begin(), sources_.end());
+  sources.push_back(samples);
+  SizeFieldOptions options = options_;
+  if (!making_) {
+    // What made it is not known here: it speaks at the samples.
+    options.size_growth = field.view().header().growth;
+    SizeSource& own = sources.back();
+    for (std::size_t i = 0; i < own.points.size(); ++i) own.sizes[i] = std::min(own.sizes[i], field(own.points[i]));
+  }
+  return build_size_field(boundary, sources, options, context);
 }
 
 }  // namespace sterna::volmesh

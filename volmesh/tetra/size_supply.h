@@ -21,9 +21,13 @@ class SizeSupply {
   void wait() const;
   /// Waits. \throws what build_size_field() has thrown.
   const SizeField& get();
+  /// A field that asks for these sizes, too, where they are smaller; sizes grow as in this one. Waits, throws as get() does.
+  SizeField with(const SizeSource& samples, const TetraBoundary& boundary, const RunContext& context);
 
  private:
   const SizeField* field_ = nullptr;
+  std::span<const SizeSource> sources_;  ///< of the one that is built here
+  SizeFieldOptions options_;
   std::optional<SizeField> made_;
   std::optional<Alongside<SizeField>> making_;  ///< last: ends first
 };

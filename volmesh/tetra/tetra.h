@@ -22,6 +22,7 @@ class SizeSupply;
 struct TetraOptions {
   std::string engine = "automatic";
   double radius_edge = 1.2;
+  bool two_pass = false;
   double hxt_improve_below = 0.0;
   double memory_limit = 20e9;
   double time_limit = k_automatic;
@@ -57,6 +58,7 @@ struct TetraResult {
   std::vector<std::array<std::uint32_t, 4>> tetrahedra; ///< CGNS order, positive volume
   BoundarySplits splits;                                ///< empty: the boundary is as it was
   std::string engine;                                   ///< what made them: "tetgen" or "hxt"
+  bool is_two_pass = false;                             ///< a coarse mesh gave the sizes
   std::vector<std::string> failures;                    ///< of the attempts before, in order
   bool is_reproducible = true;                          ///< false when a time or memory limit decided which engine made them
   double engine_seconds = 0.0;                          ///< inside the engine alone; log only
@@ -87,6 +89,7 @@ class FillError : public Error {
 /// Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof, too many new points), the other engine is tried, then TetGen with
 /// leave to split triangles of the boundary where it cannot keep them (`boundary_splits` "ladder", and a boundary with take_splits). With "always" TetGen comes
 /// first and splits them where tetrahedra become better by it, too. A time or memory limit ends the call unless `fall_back_on_limits`. Every step is logged as a warning and kept in the result.
+/// With `two_pass` TetGen comes first and runs twice: a coarse mesh without sizes, then the mesh with the smoothed sizes at its nodes and the size field, the smaller ones.
 /// A stop of the context or the time limit kills the helper at once; it never outlives the call.
 /// \throws FillError when the engines have failed; Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface, non_manifold_surface, self_intersection,
 /// not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory limit); tetra_result_invalid; cancelled. Each with places where there are any; of several failures the first.
@@ -111,6 +114,7 @@ struct Schema<volmesh::TetraOptions> {
   static constexpr std::array fields = {
       Field<O>{.name = "engine", .member = &O::engine, .help = "what makes the tetrahedra; automatic: hxt, or tetgen where that is not built in", .choices = "automatic tetgen hxt"},
       Field<O>{.name = "radius_edge", .member = &O::radius_edge, .min = 1.01, .max = 10.0, .help = "largest circumradius over shortest edge of a tetrahedron (tetgen only)"},
+      Field<O>{.name = "two_pass", .member = &O::two_pass, .help = "TetGen makes a coarse mesh first (radius-edge ratio 1.5), whose smoothed edge lengths are sizes for the mesh itself"},
       Field<O>{.name = "hxt_improve_below", .member = &O::hxt_improve_below, .min = 0.0, .max = 1.0, .help = "HXT improves tetrahedra of a lower quality than this (1 = regular); 0: none"},
       Field<O>{.name = "memory_limit", .member = &O::memory_limit, .unit = Unit::byte, .min = 1e8, .help = "address space of the helper process"},
       Field<O>{.name = "time_limit", .member = &O::time_limit, .unit = Unit::second, .min = 0.1, .help = "the helper is stopped after this time", .automatic = "none"},
