@@ -95,10 +95,11 @@ EngineOutcome run(const Rung& rung, const TetraBoundary& boundary, const Boundar
 
 TetraResult fill_with(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, const RunContext& context) {
   const std::vector<Rung> rungs = rungs_of(boundary, options);
+  PreflightReport seen;
   const BoundaryParts parts = [&] {
     const StageTimer timer(context, "tetrahedra/boundary");
     check_boundary(boundary, context);
-    if (!boundary.is_clear) judge(preflight(boundary, {}, context), boundary, context);
+    if (!boundary.is_clear) judge(seen = preflight(boundary, {}, context), boundary, context);
     return find_parts(boundary, context);
   }();
 
@@ -118,7 +119,7 @@ TetraResult fill_with(const TetraBoundary& boundary, SizeSupply* sizes, const Te
       context.warn("trying " + text_of(rung));
     }
     EngineOutcome outcome = taken(run(rung, boundary, parts, sizes, options, context), boundary);
-    if (look) judge(look->take(), boundary, context);
+    if (look) judge(seen = look->take(), boundary, context);
     look.reset();
     if (outcome.result) {
       for (const EngineFailure& failure : failures) {
@@ -136,7 +137,9 @@ TetraResult fill_with(const TetraBoundary& boundary, SizeSupply* sizes, const Te
   std::vector<std::string> problems;
   for (const EngineFailure& failure : failures) problems.push_back(failure.error.problem);
   const bool is_repeatable = telling != failures.end() && std::ranges::none_of(failures, [](const EngineFailure& f) { return f.kind == FailureKind::limit; });
-  throw FillError(telling == failures.end() ? failures.front().error : telling->error, is_repeatable, std::move(problems));
+  ErrorInfo error = telling == failures.end() ? failures.front().error : telling->error;
+  if (is_repeatable) add_suspects(seen, boundary, error);
+  throw FillError(std::move(error), is_repeatable, std::move(problems));
 }
 
 }  // namespace

@@ -231,6 +231,18 @@ PreflightReport preflight(const TetraBoundary& boundary, const PreflightLimits& 
       joined, k_chunk);
 }
 
+void add_suspects(const PreflightReport& report, const TetraBoundary& boundary, ErrorInfo& error) {
+  if (!error.places.empty()) return;
+  for (const Trouble trouble : {Trouble::folded, Trouble::gap, Trouble::sliver}) {
+    error.n_places += report.count(trouble);
+    for (const PreflightFinding& finding : report.findings) {
+      if (finding.trouble != trouble) continue;
+      if (error.places.size() < k_places_named) error.places.push_back(place_of_triangle(boundary, finding.triangles[0], text_of(finding) + " (hard for engines)"));
+      for (const std::uint32_t t : finding.triangles) add_triangle(error.geometry, boundary, t);
+    }
+  }
+}
+
 void judge(const PreflightReport& report, const TetraBoundary& boundary, const RunContext& context) {
   for (const Trouble trouble : {Trouble::folded, Trouble::sliver, Trouble::gap}) {
     if (report.count(trouble) == 0) continue;

@@ -45,6 +45,9 @@ struct PreflightReport {
 /// Parallel over a BoxTree; the same report for any number of threads. \pre check_boundary() passed.
 PreflightReport preflight(const TetraBoundary& boundary, const PreflightLimits& limits, const RunContext& context);
 
+/// Where an engine that says no place may have met its trouble: adds the triangles found (folded ones and gaps first) to an error without places.
+void add_suspects(const PreflightReport& report, const TetraBoundary& boundary, ErrorInfo& error);
+
 /// Logs a warning for each kind of trouble that an engine may survive, with the number and the first place.
 /// \throws Error(self_intersection) for crossings and duplicates, with places and geometry.
 void judge(const PreflightReport& report, const TetraBoundary& boundary, const RunContext& context);

@@ -109,6 +109,17 @@ TEST_F(Ladder, SaysWhatTheFirstEngineSaidWhenAllFail) {
   EXPECT_THAT(log_, Contains(HasSubstr("signal 11")));
 }
 
+TEST_F(Ladder, AFailureWithoutAPlaceNamesWhatIsHardForEngines) {
+  TriMesh plate = test::cube(1);
+  for (Point& p : plate.points) p.z *= 1e-4;  // its sides are slivers
+  const Domain domain = domain_around(plate, 10.0);
+  const ErrorInfo error = error_of([&] { fill(domain, {.helper_folder = folder("crash", k_crash, k_crash)}); });
+  EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
+  ASSERT_FALSE(error.places.empty());
+  EXPECT_THAT(error.places.front().what, HasSubstr("hard for engines"));
+  EXPECT_FALSE(error.geometry.triangles.empty());  // drawn in the VTU
+}
+
 TEST_F(Ladder, NoEngineWhenTheBoundaryCrossesItself) {
   Domain crossing;
   crossing.add(both(test::sphere(3), transformed(test::sphere(4), 0.7, {0.55, 0.1, 0.4})));

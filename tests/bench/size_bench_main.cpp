@@ -1,0 +1,74 @@
+// How fast a size field is built and read.
+// usage: size_bench SURFACE...
+// Places: around the vertices of the wall, in their order (as engines ask, neighbour after neighbour) and shuffled, at distances of 0.1 to 1000 times the local edge.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <vector>
+
+#include "io/surface_file.h"
+#include "surfmesh/stitch/stitch_surface.h"
+#include "volmesh/farfield.h"
+#include "volmesh/tetra/size_field.h"
+
+namespace {
+
+using namespace sterna;
+using namespace sterna::volmesh;
+using Clock = std::chrono::steady_clock;
+
+constexpr int k_places_per_vertex = 20;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+double rate(const SizeField& field, const std::vector<Vec3>& places) {
+  const Clock::time_point start = Clock::now();
+  double sum = 0.0;
+  for (const Vec3& p : places) sum += field(p);
+  const double seconds = seconds_since(start);
+  return sum > 0.0 ? static_cast<double>(places.size()) / seconds : 0.0;
+}
+
+void measure(const char* path) {
+  const RunContext context({.threads = 1});
+  const TriMesh wall = surfmesh::stitch_surface({io::read_surface_file(path, context)}, {}, context).mesh;
+  const TriMesh outer = farfield_sphere(wall, {}, context);
+  std::vector<Vec3> points(wall.points.begin(), wall.points.end());
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  const auto shift = static_cast<std::uint32_t>(points.size());
+  for (const TriangleVertices& v : wall.triangles) triangles.push_back({v[0].value(), v[1].value(), v[2].value()});
+  for (const TriangleVertices& v : outer.triangles) triangles.push_back({v[0].value() + shift, v[1].value() + shift, v[2].value() + shift});
+  points.insert(points.end(), outer.points.begin(), outer.points.end());
+  const TetraBoundary boundary{points, triangles, {}};
+  const Clock::time_point start = Clock::now();
+  const SizeField field = build_size_field(boundary, {}, {}, context);
+  const double building = seconds_since(start);
+
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-1.0, 3.0);
+  std::vector<Vec3> places;
+  for (const Point& p : wall.points) {
+    const double edge = field(p);
+    for (int k = 0; k < k_places_per_vertex; ++k)
+      places.push_back(p + std::pow(10.0, exponent(random)) * edge * normalized(Vec3{normal(random), normal(random), normal(random)}));
+  }
+  // Engines go through space along a curve; here the distance is sorted within each vertex at least.
+  for (std::size_t first = 0; first < places.size(); first += k_places_per_vertex)
+    std::sort(places.begin() + static_cast<std::ptrdiff_t>(first), places.begin() + static_cast<std::ptrdiff_t>(first + k_places_per_vertex),
+              [&](const Vec3& a, const Vec3& b) { return field(a) < field(b); });
+  const double in_order = rate(field, places);
+  std::shuffle(places.begin(), places.end(), random);
+  std::printf("| %s | %zu | %.2f | %llu | %.1f | %.2f | %.2f |\n", path, wall.n_triangles(), building, static_cast<unsigned long long>(field.view().header().n_leaves),
+              static_cast<double>(field.bytes().size()) / 1e6, in_order / 1e6, rate(field, places) / 1e6);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::puts("| surface | triangles | built in s, one core | leaves | MB | M/s in order | M/s at random |\n|---|---|---|---|---|---|---|");
+  for (int i = 1; i < argc; ++i) measure(argv[i]);
+  return argc > 1 ? 0 : 2;
+}
