@@ -38,7 +38,7 @@ std::vector<Rung> rungs_of(const TetraBoundary& boundary, const TetraOptions& op
   if (options.engine == "tetgen") std::ranges::reverse(rungs);
   else if (options.engine != "hxt" && options.engine != "automatic") throw_bad("engine", options.engine, "one of automatic, tetgen, hxt");
   if (options.two_pass) {
-    if (options.engine == "hxt") throw_bad("two_pass", "true", "only TetGen has two passes: leave the engine automatic, or choose tetgen");
+    if (options.engine == "hxt") throw_bad("two_pass", "true\" with engine \"hxt", "only TetGen has two passes: leave the engine automatic, or choose tetgen");
     rungs = {{EngineKind::tetgen, SplitMode::none, true}, {EngineKind::hxt}};
   }
   if (options.boundary_splits == "always") {
@@ -83,6 +83,7 @@ EngineOutcome run(const Rung& rung, const TetraBoundary& boundary, const Boundar
   if (!first.result) return first;
   context.info("first pass: " + std::to_string(first.result->tetrahedra.size()) + " tetrahedra");
   const SizeSource samples = nodal_sizes(boundary, *first.result, context);
+  if (samples.points.empty()) return run_engine(rung.engine, {boundary, parts, sizes, rung.splits}, options, context);  // nothing in the volume to take sizes from
   const SizeField field = sizes ? sizes->with(samples, boundary, context) : build_size_field(boundary, std::span(&samples, 1), {}, context);
   SizeSupply second_sizes(field);
   EngineOutcome second = run_engine(rung.engine, {boundary, parts, &second_sizes, rung.splits}, options, context);
