@@ -60,7 +60,7 @@ local mesh = volume_mesh{ wall,
   improve = {                         -- of tetrahedra with dihedral angles beyond these
     improve_min_angle = 12*deg,
     improve_max_angle = 160*deg,
-    improve_rounds = 20,            -- 0: none
+    improve_rounds = 30,            -- 0: none
   },
 }
 

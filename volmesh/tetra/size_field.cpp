@@ -132,7 +132,7 @@ void Builder::refine() {
       throw Error({.code = ErrorCode::overflow,
                    .attempted = "building the size field",
                    .problem = "more than " + std::to_string(k_max_leaves) + " leaves are needed",
-                   .hint = "a source asks for a very small size in a large region"});
+                   .hint = "size_max, or a source, asks for a very small size in a large region"});
     nodes_.resize(next_first + next.size(), 0);
     first = next_first;
     level = std::move(next);
