@@ -149,16 +149,6 @@ std::string padded(std::string text, std::size_t n) {
   return text;
 }
 
-std::string type_of(NumberKind kind) {
-  switch (kind) {
-    case NumberKind::i4: return "I4";
-    case NumberKind::i8: return "I8";
-    case NumberKind::f4: return "R4";
-    case NumberKind::f8: return "R8";
-    default: return "C1";
-  }
-}
-
 /// Places first, then bytes; node header, table of children and data of a node follow each other, then its children.
 class AdfWriter {
  public:
@@ -196,7 +186,7 @@ class AdfWriter {
     const Place& at = places_[own];
     const std::uint64_t n = node.children.size();
     text_ += "NoDe" + padded(node.name, k_name) + padded(node.label, k_name) + hex_text(n, 8) + hex_text(n, 8) + (n > 0 ? pointer_text(at.table) : k_no_pointer) +
-             padded(node.has_data ? type_of(node.array.kind) : "MT", k_name);
+             padded(node.has_data ? cgns_type_of(node.array.kind) : "MT", k_name);
     const std::size_t n_extents = node.has_data ? node.array.extents.size() : 0;
     text_ += hex_text(n_extents, 2);
     for (std::size_t k = 0; k < k_max_extents; ++k) text_ += hex_text(k < n_extents ? node.array.extents[k] : 0, 8);

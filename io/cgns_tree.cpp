@@ -56,22 +56,11 @@ class Hdf5Container : public CgnsContainer {
   std::set<std::uint64_t> seen_;
 };
 
-/// The type of CGNS for a kind of numbers. \pre kind is written by us
-std::string type_of(NumberKind kind) {
-  switch (kind) {
-    case NumberKind::i4: return "I4";
-    case NumberKind::i8: return "I8";
-    case NumberKind::f4: return "R4";
-    case NumberKind::f8: return "R8";
-    default: return "C1";
-  }
-}
-
 Hdf5OutputNode hdf5_node(const CgnsOutputNode& node) {
   Hdf5OutputNode group{.name = node.name};
   group.attributes.push_back(text_attribute("name", node.name, k_cgns_name + 1));
   group.attributes.push_back(text_attribute("label", node.label, k_cgns_name + 1));
-  group.attributes.push_back(text_attribute("type", node.has_data ? type_of(node.array.kind) : "MT", 3));
+  group.attributes.push_back(text_attribute("type", node.has_data ? cgns_type_of(node.array.kind) : "MT", 3));
   group.attributes.push_back({.name = "flags", .kind = NumberKind::i4, .extents = {1}, .bytes = std::string("\1\0\0\0", 4)});  // 1: extents are reversed
   if (node.has_data) {
     Hdf5OutputNode data{.name = std::string(k_data), .is_dataset = true, .array = node.array};
@@ -83,6 +72,16 @@ Hdf5OutputNode hdf5_node(const CgnsOutputNode& node) {
 }
 
 }  // namespace
+
+std::string cgns_type_of(NumberKind kind) {
+  switch (kind) {
+    case NumberKind::i4: return "I4";
+    case NumberKind::i8: return "I8";
+    case NumberKind::f4: return "R4";
+    case NumberKind::f8: return "R8";
+    default: return "C1";
+  }
+}
 
 const CgnsNode* CgnsNode::find(std::string_view wanted) const {
   const auto found = std::find_if(children.begin(), children.end(), [&](const CgnsNode& child) { return child.name == wanted; });

@@ -77,4 +77,7 @@ CgnsOutputNode cgns_node(std::string name, std::string label, OutputArray array)
 std::vector<OutputSection> cgns_hdf5_sections(const CgnsOutputNode& root);
 std::vector<OutputSection> cgns_adf_sections(const CgnsOutputNode& root);
 
+/// The type of CGNS ("I4", ...) for a kind of numbers. \pre kind is written by us
+std::string cgns_type_of(NumberKind kind);
+
 }  // namespace sterna::io

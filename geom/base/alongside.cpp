@@ -7,8 +7,8 @@ namespace sterna::detail {
 
 void yield_to_others() {
   constexpr int k_nice = 10;  // about a tenth of the weight of a thread of normal priority
-  // Linux: the nice value belongs to the thread. Where it cannot be changed the work is only less polite.
-  if (setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), k_nice) != 0) return;
+  // Linux: the nice value belongs to the thread, and may always be raised.
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), k_nice);
 }
 
 }  // namespace sterna::detail

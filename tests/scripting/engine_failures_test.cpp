@@ -10,6 +10,7 @@
 
 #include "scripting/script_run.h"
 #include "tests/support/data.h"
+#include "tests/support/process.h"
 
 namespace sterna::scripting {
 namespace {
@@ -22,15 +23,6 @@ constexpr double k_prompt_seconds = 60.0;
 
 /// Makes the box's tetrahedra so many (some millions) that no engine is ready within seconds.
 constexpr const char* k_slow_sources = "sources = { sphere{ {0.5, 0.5, 0.5}, radius = 2, size = 0.03 } }";
-
-pid_t first_child() {
-  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
-    std::ifstream children(task.path() / "children");
-    pid_t pid = 0;
-    if (children >> pid) return pid;
-  }
-  return 0;
-}
 
 class EngineFailures : public testing::TestWithParam<std::string> {
  protected:
@@ -66,7 +58,7 @@ TEST_P(EngineFailures, AKilledHelperIsAnErrorAndTheScriptGoesOn) {
   Clock::time_point killed_at;
   std::jthread killer([&] {
     pid_t pid = 0;
-    while ((pid = first_child()) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    while ((pid = test::first_child()) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     killed_at = Clock::now();
     kill(pid, SIGKILL);
@@ -83,7 +75,7 @@ TEST_P(EngineFailures, NoMemoryForTheHelperIsAnErrorAndTheScriptGoesOn) {
   // The event lies between the helper's start and its end: all of it counts.
   Clock::time_point started_at;
   std::jthread watcher([&] {
-    while (first_child() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    while (test::first_child() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     started_at = Clock::now();
   });
   const std::string limit = GetParam() == "hxt" ? "1.7e8" : "1e8";  // libgmsh alone takes 120 MB of addresses

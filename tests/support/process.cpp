@@ -67,4 +67,13 @@ ProcessResult run_process(const std::filesystem::path& program, const std::vecto
 
 std::filesystem::path sterna_program() { return std::filesystem::path(STERNA_BINARY_DIR) / "sterna"; }
 
+pid_t first_child() {
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream children(task.path() / "children");
+    pid_t pid = 0;
+    if (children >> pid) return pid;
+  }
+  return 0;
+}
+
 }  // namespace sterna::test

@@ -1,6 +1,8 @@
 // Runs a program of the build as its user would.
 #pragma once
 
+#include <sys/types.h>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -19,5 +21,8 @@ ProcessResult run_process(const std::filesystem::path& program, const std::vecto
 
 /// build/.../sterna
 std::filesystem::path sterna_program();
+
+/// A process that this one has started and that still runs; 0 when there is none.
+pid_t first_child();
 
 }  // namespace sterna::test

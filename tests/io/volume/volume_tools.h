@@ -11,6 +11,7 @@
 
 #include "geom/base/error.h"
 #include "geom/mesh/hybrid_mesh.h"
+#include "tests/support/hybrid_shapes.h"
 
 namespace sterna::test {
 
@@ -63,6 +64,20 @@ void expect_error(ErrorCode code, const std::string& text, const F& f) {
   } catch (const Error& error) {
     EXPECT_EQ(to_string(error.code()), to_string(code)) << error.what();
     EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+  }
+}
+
+/// Meshes of all kinds of cells come back as they were, and are the same bytes for 1, 2 and 7 threads. `read(path) -> HybridMesh`, `write(mesh, path, threads)`.
+template <class Read, class Write>
+void expect_round_trips(const std::filesystem::path& file, const Read& read, const Write& write) {
+  for (const HybridMesh& mesh : {mixed_mesh(), mesh_of_six_patches(), hexahedron_with_roof(), sphere_shell(6, {.collapsed = {0, 20, 21}})}) {
+    write(mesh, file, 2);
+    expect_equal_meshes(read(file), mesh);
+    const std::string bytes = bytes_of(file);
+    for (const int threads : {1, 7}) {
+      write(mesh, file, threads);
+      EXPECT_TRUE(bytes_of(file) == bytes);
+    }
   }
 }
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "tests/support/data.h"
+#include "tests/support/process.h"
 #include "tests/support/shapes.h"
 #include "tests/volmesh/tetra/cases.h"
 
@@ -52,15 +53,6 @@ class HelperProcess : public testing::Test {
   std::string script(const std::string& name, const std::string& text) { return folder_with(name, "#!/bin/sh\n" + text + "\n"); }
   double seconds_ = 0.0;
 };
-
-pid_t first_child() {
-  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
-    std::ifstream children(task.path() / "children");
-    pid_t pid = 0;
-    if (children >> pid) return pid;
-  }
-  return 0;
-}
 
 TEST_F(HelperProcess, MissingIsNamed) {
   const ErrorInfo error = run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = "/nowhere"});
@@ -116,7 +108,7 @@ TEST_P(EngineProcess, KilledFromOutside) {
   Clock::time_point killed_at;
   std::jthread killer([&] {
     pid_t pid = 0;
-    while ((pid = first_child()) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    while ((pid = test::first_child()) == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     killed_at = Clock::now();
     kill(pid, SIGKILL);
@@ -155,7 +147,7 @@ TEST_F(HelperProcess, StopsWithTheContext) {
   const Domain& domain = slow_case();
   std::stop_source source;
   std::jthread stopper([&] {
-    while (first_child() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    while (test::first_child() == 0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     source.request_stop();
   });
   const ErrorInfo error = run(domain, {.engine = "tetgen"}, RunContext({.stop = source.get_token()}));
