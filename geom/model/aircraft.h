@@ -1,0 +1,217 @@
+// An aircraft as data: what .smx and CPACS files and scripts say, before any surface is made of it. Plain structs; metres, radians, x aft,
+// y to the right wing, z up.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geom/base/vec3.h"
+#include "geom/model/nurbs_form.h"
+
+namespace sterna {
+
+/// Where a component stands: rotations about the fixed axes x, then y, then z, then the translation to `origin`.
+struct Placement {
+  Point origin;
+  Vec3 rotation;  ///< radians
+  friend constexpr bool operator==(const Placement&, const Placement&) = default;
+};
+
+enum class CapShape { strip, dome };  ///< half-elliptic strip over the end (sumo: LongCap); polar dome with continuous slope (RingCap)
+
+/// End of a body or wing.
+struct EndCap {
+  CapShape shape = CapShape::dome;
+  double height = 0.0;  ///< relative to the half thickness; 0 = flat
+  friend bool operator==(const EndCap&, const EndCap&) = default;
+};
+
+/// Limits of surface edges that a file asks for; lengths in metres. Not a number: not said.
+struct RefinementRegion {
+  bool is_ellipse = false;
+  Uv lower, upper;  ///< rectangle in the component's (u, v)
+  Uv center;        ///< ellipse
+  double radius_u = 0.0, radius_v = 0.0;
+  double factor = 1.0;  ///< of the longest edge
+  friend bool operator==(const RefinementRegion&, const RefinementRegion&) = default;
+};
+struct MeshCriterion {
+  bool is_automatic = false;  ///< the limits below are only what an earlier run found
+  bool is_wing = false;
+  bool is_stretched = false;  ///< anisotropic along the span (sumo: xcoarse)
+  std::optional<double> max_edge, min_edge;
+  std::optional<double> max_normal_angle;  ///< radians between normals of a triangle
+  std::optional<double> max_stretch;
+  std::optional<std::int64_t> max_vertices;
+  double leading_edge_factor = 1.0, trailing_edge_factor = 1.0;
+  std::vector<RefinementRegion> regions;
+  std::vector<double> scale, breaks;  ///< sumo's local chord scaling, rebuilt by it when the lengths differ
+  std::vector<double> kinks;
+  std::vector<Vec3> kink_tangents;
+  friend bool operator==(const MeshCriterion&, const MeshCriterion&) = default;
+};
+
+// ---------------------------------------------------------------------------------------------------------------------- bodies
+
+enum class FrameShape { points, circle, ellipse, double_ellipse, egg, isikveren, loop };
+
+/// Cross section of a body in a plane x = const; of shape `loop`: anywhere.
+struct BodyFrame {
+  std::string name;
+  Point center;          ///< component axes
+  double height = 1.0;   ///< full, metres
+  double width = 1.0;
+  FrameShape shape = FrameShape::circle;
+  bool is_symmetric = true;
+  int n_points = 7;        ///< spline points of the half section that a formula is sampled with
+  double exponent = 2.0;   ///< ellipse: |y|^n + |z|^n = 1
+  double offset = 0.0;     ///< double ellipse: height of the widest place, of the half height
+  double distortion = 0.0; ///< Huegelschaeffer's egg
+  double zp = 0.0, a0 = 0.0, a1 = 0.0, b1 = 0.0;  ///< Isikveren's section, as CEASIOM has it
+  /// Shape `points`: right half from the bottom (0, -1) to the top (0, 1), u = y / (width / 2), v = z / (height / 2).
+  std::vector<Uv> points;
+  /// Shape `loop`: the whole section in component axes, from the bottom over the right side, the top and the left side; not closed by a repeated point.
+  std::vector<Point> loop;
+  friend bool operator==(const BodyFrame&, const BodyFrame&) = default;
+};
+
+/// Inner lip of an inlet in place of the front cap: down to a flat fan face.
+struct InletLip {
+  double axial_offset = 0.4;   ///< depth of the fan face behind the front frame, in mean front radii
+  double radial_offset = 0.2;  ///< how much smaller it is, in mean front radii
+  double shape = 1.0;          ///< fullness of the lip
+  friend bool operator==(const InletLip&, const InletLip&) = default;
+};
+
+struct Body {
+  std::string name;
+  Placement placement;
+  bool keeps_straight = false;  ///< longitudinal tangents after Akima: straight parts stay straight; else after Bessel
+  bool is_linear = false;       ///< straight between frames (CPACS without guide curves)
+  std::vector<BodyFrame> frames;  ///< ascending x; at least 2
+  std::optional<InletLip> lip;
+  EndCap nose, tail;
+  std::optional<MeshCriterion> criterion;
+  friend bool operator==(const Body&, const Body&) = default;
+};
+
+// ---------------------------------------------------------------------------------------------------------------------- wings
+
+struct WingSection {
+  std::string name;
+  Point leading_edge;     ///< component axes
+  double chord = 1.0;
+  double twist = 0.0;     ///< about +y: nose up
+  double dihedral = 0.0;  ///< about +x
+  double yaw = 0.0;       ///< about +z
+  std::string airfoil;    ///< label
+  std::vector<Uv> points; ///< unit chord, u = x, v = z: trailing edge, upper side, leading edge, lower side, trailing edge
+  /// Not empty: the airfoil stands in component axes as given here, same order; chord and angles above do not count.
+  std::vector<Point> loop;
+  bool is_break = false;    ///< a kink of the wing stands here
+  bool is_reversed = false; ///< airfoil upside down
+  int n_approximation = -1; ///< points of sumo's least-squares airfoil; -1: interpolate
+  std::string naca;         ///< designation that a file names instead of points
+  std::optional<double> extend_leading_x, extend_leading_y, extend_trailing_x, extend_trailing_y;  ///< sumo's fairing airfoils; kept, not applied
+  friend bool operator==(const WingSection&, const WingSection&) = default;
+};
+
+/// Sections in order along the span, right tip first. When symmetric the last one stands in the plane of symmetry and the other half follows.
+struct Wing {
+  std::string name;
+  Placement placement;
+  bool is_symmetric = false;
+  bool has_winglet = false;  ///< an elliptic arc replaces the part before the winglet's root
+  bool is_cubic = false;     ///< along the span between breaks; else straight
+  std::vector<WingSection> sections;  ///< at least 2
+  std::optional<double> trailing_edge; ///< metres of thickness, 0 = sharp; nothing: as the airfoils have it
+  EndCap right_tip{CapShape::strip, 1.0};
+  EndCap left_tip{CapShape::strip, 1.0};  ///< that of the last section when not symmetric
+  std::optional<MeshCriterion> criterion;
+  friend bool operator==(const Wing&, const Wing&) = default;
+};
+
+// ---------------------------------------------------------------------------------------------------------------------- systems
+
+enum class ControlKind { trailing_edge, leading_edge, all_moving };
+std::string_view to_string(ControlKind kind);
+
+struct HingePoint {
+  double span = 0.0;   ///< of the wing: 0 right tip .. 1 left tip; beyond the ends: over the tip
+  double chord = 0.0;  ///< fraction from the leading edge
+  friend bool operator==(const HingePoint&, const HingePoint&) = default;
+};
+struct ControlSurface {
+  std::string name;
+  std::string wing;
+  ControlKind kind = ControlKind::trailing_edge;
+  std::vector<HingePoint> hinge;  ///< at least 2; segments between them are named <name>Segment0, 1, ... where there are several
+  friend bool operator==(const ControlSurface&, const ControlSurface&) = default;
+};
+struct ControlParticipation {
+  std::string segment;
+  double factor = 1.0;
+  friend bool operator==(const ControlParticipation&, const ControlParticipation&) = default;
+};
+struct Control {
+  std::string name;
+  std::vector<ControlParticipation> participations;
+  friend bool operator==(const Control&, const Control&) = default;
+};
+
+struct EngineRegion {
+  std::string body;
+  bool is_nose = true;  ///< else the tail
+  friend bool operator==(const EngineRegion&, const EngineRegion&) = default;
+};
+struct Turbofan {
+  std::string name;
+  double bypass_ratio = 0.0;
+  double fan_pressure_ratio = 1.0;
+  double total_pressure_ratio = 1.0;
+  double turbine_temperature = 0.0;  ///< kelvin
+  std::optional<double> inlet_efficiency, nozzle_efficiency, spool_efficiency, combustor_efficiency, polytropic_efficiency, combustor_pressure_loss;
+  friend bool operator==(const Turbofan&, const Turbofan&) = default;
+};
+struct JetEngine {
+  std::string name;
+  std::optional<double> mass_flow;  ///< kg/s
+  std::optional<double> inflow_velocity, outflow_velocity;  ///< through the surface, m/s
+  std::optional<Turbofan> turbofan;
+  std::vector<EngineRegion> intakes, nozzles;
+  friend bool operator==(const JetEngine&, const JetEngine&) = default;
+};
+
+/// What sumo keeps for its own mesher.
+struct SumoSettings {
+  std::int64_t version = 0;  ///< major << 16 | minor << 8 | patch
+  double max_stretch = 5.0;
+  double max_angle = 0.5235987755982988;  ///< radians
+  std::int64_t iterations = 3;
+  std::optional<double> farfield_radius, radius_edge;
+  friend bool operator==(const SumoSettings&, const SumoSettings&) = default;
+};
+
+struct Aircraft {
+  std::string name;
+  std::vector<Body> bodies;
+  std::vector<Wing> wings;
+  std::vector<ControlSurface> control_surfaces;
+  std::vector<Control> controls;
+  std::vector<JetEngine> engines;
+  std::optional<SumoSettings> sumo;
+  std::optional<double> reference_area, reference_length;  ///< as the file states them
+  std::optional<Point> reference_point;
+  friend bool operator==(const Aircraft&, const Aircraft&) = default;
+};
+
+/// An aircraft and what its file has beyond it: each message names line, element, and what became of it.
+struct AircraftReading {
+  Aircraft aircraft;
+  std::vector<std::string> messages;
+};
+
+}  // namespace sterna
