@@ -1,0 +1,177 @@
+#include "geom/delaunay/planar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "geom/base/error.h"
+#include "geom/delaunay/insertion_order.h"
+
+namespace sterna::delaunay {
+namespace {
+
+using Kind = Location::Kind;
+
+/// Points between two looks at the stop token.
+constexpr std::size_t k_stop_interval = 1 << 16;
+
+void check_input(std::span<const Vec2> points, std::span<const Segment> segments) {
+  const auto fail = [](std::string problem) {
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "triangulating points and segments in the plane", .problem = std::move(problem)});
+  };
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y)) fail("point " + std::to_string(i) + " has a coordinate that is not finite");
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    if (std::max(segments[i].from, segments[i].to) >= points.size())
+      fail("segment " + std::to_string(i) + " ends at point " + std::to_string(std::max(segments[i].from, segments[i].to)) + ", but there are " + std::to_string(points.size()));
+}
+
+/// A triangle of three points and the three ghost triangles around it. \pre turn(a, b, c) > 0
+void make_first_triangle(Triangulation& mesh, VertexId a, VertexId b, VertexId c) {
+  mesh.cells.assign(4, Cell{});
+  const std::array<VertexId, 3> v{a, b, c};
+  const TriangleId real(0);
+  mesh.cells[real].vertex = v;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const TriangleId ghost(1 + k), before(1 + (k + 2) % 3), after(1 + (k + 1) % 3);
+    // Across the edge from v[k] to v[k + 1].
+    mesh.cells[ghost].vertex = {v[(k + 1) % 3], v[k], k_ghost};
+    mesh.cells[ghost].twin = {halfedge(real, k), halfedge(before, 2), halfedge(after, 1)};
+    mesh.cells[real].twin[k] = halfedge(ghost, 0);
+    mesh.outgoing[v[k]] = halfedge(real, k);
+  }
+}
+
+/// The first three points of `order` that make a triangle are moved to its front; false when all are on one line.
+bool start(Triangulation& mesh, std::vector<std::uint32_t>& order) {
+  const auto point = [&](std::size_t i) -> const Vec2& { return mesh.uv[VertexId(order[i])]; };
+  const auto bring = [&](std::size_t from, std::size_t to) {
+    std::rotate(order.begin() + static_cast<std::ptrdiff_t>(to), order.begin() + static_cast<std::ptrdiff_t>(from), order.begin() + static_cast<std::ptrdiff_t>(from) + 1);
+  };
+  std::size_t second = 1;
+  while (second < order.size() && point(second).x == point(0).x && point(second).y == point(0).y) ++second;
+  if (second >= order.size()) return false;
+  bring(second, 1);
+  std::size_t third = 2;
+  while (third < order.size() && orient2d(point(0), point(1), point(third)) == 0) ++third;
+  if (third >= order.size()) return false;
+  bring(third, 2);
+  VertexId a(order[0]), b(order[1]);
+  const VertexId c(order[2]);
+  if (mesh.turn(a, b, c) < 0) std::swap(a, b);
+  make_first_triangle(mesh, a, b, c);
+  return true;
+}
+
+void insert_points(PlanarTriangulation& result, const RunContext& context) {
+  Triangulation& mesh = result.mesh;
+  std::vector<std::uint32_t> order = insertion_order(mesh.uv.raw());
+  if (!start(mesh, order)) {
+    // No triangle, but points at the same place are known all the same.
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+      const Vec2 &a = mesh.uv[VertexId(i)], &b = mesh.uv[VertexId(j)];
+      return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : i < j;
+    });
+    for (std::size_t i = 1; i < order.size(); ++i) {
+      const Vec2 &a = mesh.uv[VertexId(order[i - 1])], &b = mesh.uv[VertexId(order[i])];
+      if (a.x == b.x && a.y == b.y) result.same_as[order[i]] = result.same_as[order[i - 1]];
+    }
+    return;
+  }
+  mesh.cells.reserve(2 * order.size() + 4);
+  Cavity cavity;
+  TriangleId last(0);
+  for (std::size_t i = 3; i < order.size(); ++i) {
+    if (i % k_stop_interval == 0) context.check_stop();
+    const VertexId p(order[i]);
+    // In an exact Delaunay triangulation the walk visits no triangle twice.
+    const Location location = locate(mesh, mesh.uv[p], last, mesh.cells.size() + 1);
+    if (location.kind == Kind::on_vertex) {
+      result.same_as[p.index()] = mesh.origin(location.halfedge);
+      continue;
+    }
+    insert(mesh, p, location, PlanarCriterion{}, cavity);
+    last = cavity.triangles.front();
+  }
+}
+
+}  // namespace
+
+bool PlanarCriterion::conflicts(const Triangulation& mesh, TriangleId t, VertexId p) const {
+  const auto& v = mesh.cells[t].vertex;
+  const Vec2& place = mesh.uv[p];
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (v[k].is_valid()) continue;
+    const Vec2 &a = mesh.uv[v[(k + 1) % 3]], &b = mesh.uv[v[(k + 2) % 3]];
+    const int side = orient2d(a, b, place);
+    if (side != 0) return side > 0;
+    // On the line of the edge: in conflict between its ends only.
+    return a.x != b.x ? std::min(a.x, b.x) < place.x && place.x < std::max(a.x, b.x) : std::min(a.y, b.y) < place.y && place.y < std::max(a.y, b.y);
+  }
+  return incircle(mesh.uv[v[0]], mesh.uv[v[1]], mesh.uv[v[2]], place) > 0;
+}
+
+PlanarTriangulation triangulate_plane(std::span<const Vec2> points, std::span<const Segment> segments, Extent extent, const RunContext& context) {
+  check_input(points, segments);
+  PlanarTriangulation result;
+  result.mesh.uv = Column<VertexId, Vec2>(std::vector<Vec2>(points.begin(), points.end()));
+  result.mesh.outgoing.assign(points.size(), HalfedgeId{});
+  result.same_as.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) result.same_as[i] = VertexId(static_cast<std::uint64_t>(i));
+  insert_points(result, context);
+  if (!result.mesh.cells.empty())
+    for (const Segment& segment : segments) insert_segment(result.mesh, result.same_as[segment.from], result.same_as[segment.to], segment.is_border);
+  if (extent == Extent::inside) carve(result.mesh);
+  return result;
+}
+
+std::vector<TriangleVertices> extract_triangles(const Triangulation& mesh) {
+  std::vector<TriangleVertices> triangles;
+  triangles.reserve(mesh.n_triangles());
+  for (const TriangleId t : mesh.cells.ids())
+    if (!mesh.cells[t].is_dead && !mesh.is_ghost(t)) triangles.push_back(mesh.cells[t].vertex);
+  return triangles;
+}
+
+void carve(Triangulation& mesh) {
+  // Flood by depth: all that is reached from outside without crossing a border is at depth 0, behind one border at depth 1 ...
+  constexpr std::uint32_t k_unseen = ~0u;
+  Column<TriangleId, std::uint32_t> depth(mesh.cells.size(), k_unseen);
+  std::vector<TriangleId> level, next_level;
+  for (const TriangleId t : mesh.cells.ids())
+    if (!mesh.cells[t].is_dead && mesh.is_ghost(t)) level.push_back(t);
+  for (std::uint32_t d = 0; !level.empty(); ++d, level.swap(next_level), next_level.clear()) {
+    while (!level.empty()) {
+      const TriangleId t = level.back();
+      level.pop_back();
+      if (depth[t] != k_unseen) continue;
+      depth[t] = d;
+      for (std::uint32_t c = 0; c < 3; ++c) {
+        const TriangleId other = triangle_of(mesh.cells[t].twin[c]);
+        if (depth[other] != k_unseen) continue;
+        ((mesh.cells[t].flags[c] & k_domain_border) != 0 ? next_level : level).push_back(other);
+      }
+    }
+  }
+  Column<TriangleId, TriangleId> kept(mesh.cells.size());
+  std::uint32_t n = 0;
+  for (const TriangleId t : mesh.cells.ids())
+    if (!mesh.cells[t].is_dead && depth[t] % 2 == 1) kept[t] = TriangleId(n++);
+  Column<TriangleId, Cell> cells(n);
+  mesh.outgoing.assign(mesh.outgoing.size(), HalfedgeId{});
+  for (const TriangleId t : mesh.cells.ids()) {
+    if (!kept[t].is_valid()) continue;
+    Cell& cell = cells[kept[t]];
+    cell = mesh.cells[t];
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const HalfedgeId out = cell.twin[c];
+      const TriangleId other = kept[triangle_of(out)];
+      cell.twin[c] = other.is_valid() ? halfedge(other, corner_of(out)) : HalfedgeId{};
+      mesh.outgoing[cell.vertex[c]] = halfedge(kept[t], c);
+    }
+  }
+  mesh.cells = std::move(cells);
+  mesh.free_cells.clear();
+}
+
+}  // namespace sterna::delaunay
