@@ -1,6 +1,7 @@
 #include "geom/delaunay/insertion_order.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace sterna::delaunay {
@@ -11,19 +12,50 @@ constexpr int k_levels = 26;
 /// Points of the first round; below, order does not matter.
 constexpr std::uint32_t k_first_round_bits = 10;
 
+/// Two levels of Hilbert's curve at once: for each of its four orientations and each of 4 x 4 cells, the cell's place and the orientation within it.
+/// Orientation: bit 0 = coordinates exchanged, bit 1 = both mirrored.
+struct TwoLevels {
+  std::array<std::array<std::uint8_t, 16>, 4> place{};
+  std::array<std::array<std::uint8_t, 16>, 4> inner{};
+};
+
+constexpr TwoLevels make_two_levels() {
+  TwoLevels table;
+  for (unsigned orientation = 0; orientation < 4; ++orientation) {
+    for (unsigned cell = 0; cell < 16; ++cell) {
+      unsigned state = orientation, place = 0;
+      for (unsigned level = 2; level-- > 0;) {
+        unsigned x = (cell >> (2 + level)) & 1u, y = (cell >> level) & 1u;
+        if ((state & 2u) != 0) {
+          x ^= 1u;
+          y ^= 1u;
+        }
+        if ((state & 1u) != 0) {
+          const unsigned old_x = x;
+          x = y;
+          y = old_x;
+        }
+        place = place << 2 | ((3u * x) ^ y);
+        // In the quadrants at the start and at the end of the curve it runs along the other diagonal; at the end, backwards too.
+        if (y == 0) state ^= x != 0 ? 3u : 1u;
+      }
+      table.place[orientation][cell] = static_cast<std::uint8_t>(place);
+      table.inner[orientation][cell] = static_cast<std::uint8_t>(state);
+    }
+  }
+  return table;
+}
+constexpr TwoLevels k_two_levels = make_two_levels();
+
 /// Place along Hilbert's curve of a cell of the 2^k_levels square.
 std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y) {
+  static_assert(k_levels % 2 == 0);
   std::uint64_t key = 0;
-  for (int level = k_levels - 1; level >= 0; --level) {
-    const std::uint32_t bx = (x >> level) & 1u, by = (y >> level) & 1u;
-    key = key << 2 | ((3u * bx) ^ by);
-    // Rotate the quadrant so that the curve is continuous.
-    if (by == 0) {
-      const std::uint32_t mask = bx != 0 ? ~0u : 0u;
-      const std::uint32_t old_x = x ^ mask;
-      x = y ^ mask;
-      y = old_x;
-    }
+  std::uint32_t state = 0;
+  for (int shift = k_levels - 2; shift >= 0; shift -= 2) {
+    const std::uint32_t cell = ((x >> shift) & 3u) << 2 | ((y >> shift) & 3u);
+    key = key << 4 | k_two_levels.place[state][cell];
+    state = k_two_levels.inner[state][cell];
   }
   return key;
 }

@@ -26,6 +26,8 @@ void check_input(std::span<const Vec2> points, std::span<const Segment> segments
       fail("segment " + std::to_string(i) + " ends at point " + std::to_string(std::max(segments[i].from, segments[i].to)) + ", but there are " + std::to_string(points.size()));
 }
 
+bool is_same_place(const Vec2& a, const Vec2& b) { return a.x == b.x && a.y == b.y; }
+
 /// A triangle of three points and the three ghost triangles around it. \pre turn(a, b, c) > 0
 void make_first_triangle(Triangulation& mesh, VertexId a, VertexId b, VertexId c) {
   mesh.cells.assign(4, Cell{});
@@ -42,57 +44,76 @@ void make_first_triangle(Triangulation& mesh, VertexId a, VertexId b, VertexId c
   }
 }
 
-/// The first three points of `order` that make a triangle are moved to its front; false when all are on one line.
-bool start(Triangulation& mesh, std::vector<std::uint32_t>& order) {
-  const auto point = [&](std::size_t i) -> const Vec2& { return mesh.uv[VertexId(order[i])]; };
+/// Moves the first three points of `order` that make a triangle to its front; false when all are on one line.
+bool bring_triangle_to_front(std::span<const Vec2> points, std::vector<std::uint32_t>& order) {
+  const auto point = [&](std::size_t i) -> const Vec2& { return points[order[i]]; };
   const auto bring = [&](std::size_t from, std::size_t to) {
     std::rotate(order.begin() + static_cast<std::ptrdiff_t>(to), order.begin() + static_cast<std::ptrdiff_t>(from), order.begin() + static_cast<std::ptrdiff_t>(from) + 1);
   };
   std::size_t second = 1;
-  while (second < order.size() && point(second).x == point(0).x && point(second).y == point(0).y) ++second;
+  while (second < order.size() && is_same_place(point(second), point(0))) ++second;
   if (second >= order.size()) return false;
   bring(second, 1);
   std::size_t third = 2;
   while (third < order.size() && orient2d(point(0), point(1), point(third)) == 0) ++third;
   if (third >= order.size()) return false;
   bring(third, 2);
-  VertexId a(order[0]), b(order[1]);
-  const VertexId c(order[2]);
-  if (mesh.turn(a, b, c) < 0) std::swap(a, b);
-  make_first_triangle(mesh, a, b, c);
   return true;
 }
 
-void insert_points(PlanarTriangulation& result, const RunContext& context) {
+/// Points on one line make no triangle, but those at the same place are known all the same.
+void join_points_of_line(std::span<const Vec2> points, std::vector<std::uint32_t>& order, std::vector<VertexId>& same_as) {
+  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    const Vec2 &a = points[i], &b = points[j];
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : i < j;
+  });
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (is_same_place(points[order[i - 1]], points[order[i]])) same_as[order[i]] = same_as[order[i - 1]];
+}
+
+/// Vertices numbered in the order of insertion get the numbers of their points.
+void renumber_vertices(Triangulation& mesh, std::span<const Vec2> points, const std::vector<std::uint32_t>& order) {
+  for (Cell& cell : mesh.cells)
+    for (VertexId& v : cell.vertex)
+      if (v.is_valid()) v = VertexId(order[v.index()]);
+  Column<VertexId, HalfedgeId> outgoing(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) outgoing[VertexId(order[i])] = mesh.outgoing[VertexId(static_cast<std::uint64_t>(i))];
+  mesh.outgoing = std::move(outgoing);
+  mesh.uv = Column<VertexId, Vec2>(std::vector<Vec2>(points.begin(), points.end()));
+}
+
+/// The Delaunay triangulation of the points. While it grows, vertices are numbered in the order of insertion, so that neighbours are near in memory.
+void insert_points(std::span<const Vec2> points, PlanarTriangulation& result, const RunContext& context) {
   Triangulation& mesh = result.mesh;
-  std::vector<std::uint32_t> order = insertion_order(mesh.uv.raw());
-  if (!start(mesh, order)) {
-    // No triangle, but points at the same place are known all the same.
-    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-      const Vec2 &a = mesh.uv[VertexId(i)], &b = mesh.uv[VertexId(j)];
-      return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : i < j;
-    });
-    for (std::size_t i = 1; i < order.size(); ++i) {
-      const Vec2 &a = mesh.uv[VertexId(order[i - 1])], &b = mesh.uv[VertexId(order[i])];
-      if (a.x == b.x && a.y == b.y) result.same_as[order[i]] = result.same_as[order[i - 1]];
-    }
+  const std::size_t n = points.size();
+  std::vector<std::uint32_t> order = insertion_order(points);
+  if (!bring_triangle_to_front(points, order)) {
+    join_points_of_line(points, order, result.same_as);
+    mesh.uv = Column<VertexId, Vec2>(std::vector<Vec2>(points.begin(), points.end()));
+    mesh.outgoing.assign(n, HalfedgeId{});
     return;
   }
-  mesh.cells.reserve(2 * order.size() + 4);
+  mesh.uv.resize(n);
+  for (std::size_t i = 0; i < n; ++i) mesh.uv[VertexId(static_cast<std::uint64_t>(i))] = points[order[i]];
+  mesh.outgoing.assign(n, HalfedgeId{});
+  mesh.cells.reserve(2 * n + 4);
+  const bool is_left = mesh.turn(VertexId(0u), VertexId(1u), VertexId(2u)) > 0;
+  make_first_triangle(mesh, VertexId(0u), VertexId(is_left ? 1u : 2u), VertexId(is_left ? 2u : 1u));
   Cavity cavity;
   TriangleId last(0);
-  for (std::size_t i = 3; i < order.size(); ++i) {
+  for (std::size_t i = 3; i < n; ++i) {
     if (i % k_stop_interval == 0) context.check_stop();
-    const VertexId p(order[i]);
+    const VertexId p(static_cast<std::uint64_t>(i));
     // In an exact Delaunay triangulation the walk visits no triangle twice.
     const Location location = locate(mesh, mesh.uv[p], last, mesh.cells.size() + 1);
     if (location.kind == Kind::on_vertex) {
-      result.same_as[p.index()] = mesh.origin(location.halfedge);
+      result.same_as[order[i]] = VertexId(order[mesh.origin(location.halfedge).index()]);
       continue;
     }
     insert(mesh, p, location, PlanarCriterion{}, cavity);
     last = cavity.triangles.front();
   }
+  renumber_vertices(mesh, points, order);
 }
 
 }  // namespace
@@ -114,11 +135,9 @@ bool PlanarCriterion::conflicts(const Triangulation& mesh, TriangleId t, VertexI
 PlanarTriangulation triangulate_plane(std::span<const Vec2> points, std::span<const Segment> segments, Extent extent, const RunContext& context) {
   check_input(points, segments);
   PlanarTriangulation result;
-  result.mesh.uv = Column<VertexId, Vec2>(std::vector<Vec2>(points.begin(), points.end()));
-  result.mesh.outgoing.assign(points.size(), HalfedgeId{});
   result.same_as.resize(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) result.same_as[i] = VertexId(static_cast<std::uint64_t>(i));
-  insert_points(result, context);
+  insert_points(points, result, context);
   if (!result.mesh.cells.empty())
     for (const Segment& segment : segments) insert_segment(result.mesh, result.same_as[segment.from], result.same_as[segment.to], segment.is_border);
   if (extent == Extent::inside) carve(result.mesh);

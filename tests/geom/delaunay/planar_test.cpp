@@ -10,6 +10,7 @@
 
 #include "geom/base/error.h"
 #include "geom/delaunay/check_triangulation.h"
+#include "geom/delaunay/insertion_order.h"
 
 namespace sterna::delaunay {
 namespace {
@@ -64,6 +65,18 @@ void expect_delaunay_of_hull(const PlanarTriangulation& result) {
   EXPECT_EQ(check.n_border_loops, 1);
   EXPECT_EQ(check.n_ghosts, check.n_border_edges);
   EXPECT_EQ(check.n_used_vertices, n_points_of(result));
+}
+
+TEST(InsertionOrder, IsAPermutationThatStaysNear) {
+  const std::size_t n = 100000;
+  const std::vector<Vec2> points = random_points(n, 21);
+  std::vector<std::uint32_t> order = insertion_order(points);
+  // The last round is a half of all points along one curve: the mean step is about the spacing of n / 2 points, 0.0045; a curve with jumps has far more.
+  double way = 0.0;
+  for (std::size_t i = n - n / 4; i < n; ++i) way += std::hypot(points[order[i]].x - points[order[i - 1]].x, points[order[i]].y - points[order[i - 1]].y);
+  EXPECT_LT(way / static_cast<double>(n / 4), 1.5 * 0.0045);
+  std::sort(order.begin(), order.end());
+  for (std::uint32_t i = 0; i < n; ++i) ASSERT_EQ(order[i], i);
 }
 
 TEST(Planar, ThreePointsInAnyOrderAreOneTriangle) {
