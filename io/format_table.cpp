@@ -146,11 +146,8 @@ std::vector<const Format*> formats_of_name(const std::filesystem::path& path) {
   return found;
 }
 
-[[noreturn]] void throw_unknown_extension(std::string attempted) {
-  throw Error({.code = ErrorCode::unsupported_format,
-               .attempted = std::move(attempted),
-               .problem = "its extension is not known",
-               .hint = "known extensions: " + known_extensions() + " (each also with .gz for reading)"});
+[[noreturn]] void throw_unknown_extension(std::string attempted, std::string hint) {
+  throw Error({.code = ErrorCode::unsupported_format, .attempted = std::move(attempted), .problem = "its extension is not known", .hint = std::move(hint)});
 }
 
 }  // namespace
@@ -169,7 +166,13 @@ bool has_use(const Format& format, FormatUse use) {
 
 const Format& format_of(const std::filesystem::path& path) {
   std::vector<const Format*> candidates = formats_of_name(path);
-  if (candidates.empty()) throw_unknown_extension("finding the format of " + path.string());
+  if (candidates.empty()) {
+    const std::string attempted = "finding the format of " + path.string();
+    std::error_code ignored;  // a path that cannot be asked is no folder
+    if (std::filesystem::is_directory(path, ignored))
+      throw Error({.code = ErrorCode::unsupported_format, .attempted = attempted, .problem = "it is a folder", .hint = "name a file in it; of folders only OpenFOAM's polyMesh is read"});
+    throw_unknown_extension(attempted, "known extensions: " + known_extensions() + " (each also with .gz)");
+  }
   const Format* const first = candidates.front();
   std::erase_if(candidates, [](const Format* format) { return !format->is_read(); });
   if (candidates.size() <= 1) return candidates.empty() ? *first : *candidates.front();
@@ -187,7 +190,7 @@ const Format& format_to_write(const std::filesystem::path& path, FormatUse use, 
   std::vector<const Format*> candidates;
   if (name.empty()) {
     candidates = formats_of_name(path);
-    if (candidates.empty()) throw_unknown_extension(attempted);
+    if (candidates.empty()) throw_unknown_extension(attempted, "a volume mesh is written as " + list_formats_with(FormatUse::write_volume) + "; a surface also as " + list_formats_with(FormatUse::write_surface));
   } else {
     for (const Format& format : k_formats)
       if (equal_ignoring_case(format.name, name)) candidates.push_back(&format);

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "geom/base/error.h"
+#include "geom/base/schema.h"
 #include "io/format_table.h"
 #include "scripting/commands.h"
 #include "scripting/console.h"
@@ -167,6 +168,47 @@ int execute_request(const Request& request, const CommonSettings& common) {
   }
 }
 
+/// The commands of the program by name, or the long options that a command takes.
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+std::vector<std::string> long_options(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* level = &app; level; level = level->get_parent())
+    for (const CLI::Option* option : level->get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// What is misspelt in a command line that was refused, with a suggestion; empty where every name is known and something else is wrong.
+std::string misspelling(const CLI::App& app, int argc, const char* const* argv) {
+  const std::vector<std::string> commands = command_names(app);
+  const auto with_suggestion = [](const std::string& what, const std::string& word, const std::vector<std::string>& known) {
+    const std::string nearest = nearest_name(word, known);
+    return "there is no " + what + " " + word + (nearest.empty() ? "" : ", did you mean " + nearest + "?");
+  };
+  const CLI::App* command = nullptr;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--") break;
+    if (!word.starts_with("--")) {
+      if (command || word.starts_with("-")) continue;
+      if (std::find(commands.begin(), commands.end(), word) == commands.end()) return with_suggestion("command", word, commands);
+      command = app.get_subcommand(word);
+      continue;
+    }
+    const std::string name = word.substr(0, word.find('='));
+    const std::vector<std::string> known = long_options(command ? *command : app);
+    if (std::find(known.begin(), known.end(), name) == known.end()) return with_suggestion(command ? "option of " + command->get_name() : "option", name, known);
+    const CLI::Option* option = (command ? *command : app).get_option_no_throw(name);
+    if (!option) option = app.get_option_no_throw(name);
+    if (!command && option && option->get_items_expected_min() > 0 && word.find('=') == std::string::npos) ++i;  // its value is no command
+  }
+  return {};
+}
+
 int parse_and_execute(int argc, const char* const* argv) {
   CLI::App app("sterna: hybrid meshes (prism layers and tetrahedra) around aircraft, for RANS solvers", "sterna");
   app.require_subcommand(1);
@@ -191,7 +233,13 @@ int parse_and_execute(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? k_exit_success : k_exit_usage;
+    if (error.get_exit_code() == 0) return app.exit(error);
+    if (const std::string wrong = misspelling(app, argc, argv); !wrong.empty()) {
+      std::fprintf(stderr, "error: %s\nRun with --help for more information.\n", wrong.c_str());
+      return k_exit_usage;
+    }
+    app.exit(error);
+    return k_exit_usage;
   }
   return execute_request(request, common);
 }

@@ -112,8 +112,12 @@ void set_option_as_typed(const Option& option, std::string_view text) {
   try {
     set_option_from_text(option, is_bare_unit ? "1*" + std::string(text) : std::string(text));
   } catch (const Error& error) {
-    if (option.unit != Unit::radian) throw;
+    if (option.unit != Unit::radian && !is_bare_unit) throw;
     ErrorInfo info = error.info();
+    if (is_bare_unit) {
+      info.problem = std::string(option.name) + ": \"" + std::string(text) + "\" is neither a number nor a unit of length (m, mm, cm, inch, ft)";
+      throw Error(std::move(info));
+    }
     info.hint = "angles are in radians; write degrees as 40deg";
     throw Error(std::move(info));
   }

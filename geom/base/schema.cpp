@@ -1,10 +1,12 @@
 #include "geom/base/schema.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 
 #include "geom/base/error.h"
 
@@ -44,6 +46,14 @@ std::string value_text(const OptionValue& value) {
       value);
 }
 
+/// With its unit as users write it: angles in degrees, to six digits, which hides the conversion's rounding.
+std::string display_text(double value, Unit unit) {
+  if (unit != Unit::radian) return number_text(value) + (unit == Unit::none ? "" : " " + std::string(to_string(unit)));
+  std::ostringstream text;
+  text << value * 180.0 / std::numbers::pi << " deg";
+  return text.str();
+}
+
 std::string_view kind_text(OptionKind kind) {
   switch (kind) {
     case OptionKind::boolean: return "true or false";
@@ -77,7 +87,7 @@ void check_range(const Option& option, double value) {
     return;
   }
   if (value < option.min || value > option.max || std::isinf(value))
-    reject(option, number_text(value), std::string(kind_text(option.kind)) + " in " + option.range_text());
+    reject(option, number_text(value) + (option.unit == Unit::radian ? " rad" : ""), std::string(kind_text(option.kind)) + " in " + option.range_text());
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -112,11 +122,11 @@ std::string Option::default_text() const {
   if (required) return "required";
   if (const double* number = std::get_if<double>(&default_value); number && is_automatic(*number))
     return "automatic (" + std::string(automatic) + ")";
+  if (const double* number = std::get_if<double>(&default_value)) return display_text(*number, unit);
   return value_text(default_value);
 }
 
 std::string Option::range_text() const {
-  const std::string suffix = unit == Unit::none ? "" : " " + std::string(to_string(unit));
   if (!choices.empty()) {
     std::string text = "one of";
     for (const std::string& choice : split(choices)) text += (text.size() > 6 ? ", " : " ") + choice;
@@ -124,9 +134,9 @@ std::string Option::range_text() const {
   }
   const bool has_min = !std::isinf(min);
   const bool has_max = !std::isinf(max);
-  if (has_min && has_max) return number_text(min) + " .. " + number_text(max) + suffix;
-  if (has_min) return "x >= " + number_text(min) + suffix;
-  if (has_max) return "x <= " + number_text(max) + suffix;
+  if (has_min && has_max) return (unit == Unit::radian ? display_text(min, unit) : number_text(min)) + " .. " + display_text(max, unit);
+  if (has_min) return "x >= " + display_text(min, unit);
+  if (has_max) return "x <= " + display_text(max, unit);
   return {};
 }
 
@@ -254,8 +264,9 @@ std::string options_to_json(const OptionTable& table) {
 std::string options_help(const OptionTable& table) {
   std::string text;
   for (const Option& option : table) {
-    text += "  " + std::string(option.name) + " = " + option.default_text();
-    if (option.unit != Unit::none) text += " [" + std::string(to_string(option.unit)) + "]";
+    const std::string value = option.default_text();
+    text += "  " + std::string(option.name) + " = " + value;
+    if (option.unit != Unit::none && std::isalpha(static_cast<unsigned char>(value.front()))) text += " [" + std::string(to_string(option.unit)) + "]";
     if (const std::string range = option.range_text(); !range.empty()) text += "  (" + range + ")";
     text += "\n      " + std::string(option.help) + "\n";
   }

@@ -48,6 +48,22 @@ TEST_F(CommandLine, WrongUseIsStatusTwo) {
   EXPECT_EQ(files(), std::vector<std::string>{"box.stl"});
 }
 
+TEST_F(CommandLine, MisspeltNamesGetASuggestion) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"mash", "box.stl"}, "did you mean mesh?"},
+      {{"--threads", "2", "covnert", "box.stl", "a.obj"}, "did you mean convert?"},
+      {{"mesh", "box.stl", "--layres", "3", "-o", "m.su2"}, "there is no option of mesh --layres, did you mean --layers?"},
+      {{"mesh", "box.stl", "--first-height", "1e-3", "--unit", "parsec", "-o", "m.su2"}, "\"parsec\" is neither a number nor a unit of length"},
+  };
+  for (const auto& [arguments, text] : cases) {
+    const ProcessResult result = sterna(arguments);
+    EXPECT_EQ(result.status, k_exit_usage) << text;
+    EXPECT_NE(result.errors.find(text), std::string::npos) << result.errors;
+  }
+  std::filesystem::create_directory(folder / "parts");
+  EXPECT_NE(sterna({"info", "parts"}).errors.find("it is a folder"), std::string::npos);
+}
+
 TEST_F(CommandLine, AllWrongOptionsAreNamedTogether) {
   const ProcessResult result = sterna({"mesh", "box.stl", "-o", "m.su2", "--layers", "0", "--split-angle", "40", "--set", "envelope.max_grwoth=2"});
   EXPECT_EQ(result.status, k_exit_usage);
