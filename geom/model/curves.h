@@ -1,0 +1,115 @@
+// Lines, circles, ellipses in space and in parameter planes; parts and other parameters of any curve.
+#pragma once
+
+#include "geom/model/curve.h"
+#include "geom/model/frame.h"
+
+namespace sterna {
+
+/// origin + t * direction; the direction's length is the speed.
+class LineCurve final : public Curve {
+ public:
+  /// \throws Error(bad_argument) for a direction or a domain of no length
+  LineCurve(const Point& origin, const Vec3& direction, Interval domain);
+  Interval domain() const override { return domain_; }
+  Point point(double t) const override { return origin_ + t * direction_; }
+  CurveDerivatives derivatives(double t) const override { return {point(t), direction_, {}}; }
+  std::optional<NurbsCurveForm<Point>> exact_nurbs() const override;
+  const Point& origin() const { return origin_; }
+  const Vec3& direction() const { return direction_; }
+
+ private:
+  Point origin_;
+  Vec3 direction_;
+  Interval domain_;
+};
+/// From a to b with t in [0, distance]. \throws Error(bad_argument) when they coincide
+CurvePtr segment(const Point& a, const Point& b);
+
+/// centre + cos t * x + sin t * y: circle or ellipse, or an arc of it; periodic when the domain is a whole turn. x and y carry the half axes. No exact
+/// NURBS: a rational form would have another parameter.
+class EllipseCurve final : public Curve {
+ public:
+  /// \throws Error(bad_argument) when x, y are not at right angles (to 1e-9) or have no length, or the domain none or more than a turn
+  EllipseCurve(const Point& centre, const Vec3& x, const Vec3& y, Interval domain);
+  Interval domain() const override { return domain_; }
+  bool is_periodic() const override { return is_periodic_; }
+  Point point(double t) const override;
+  CurveDerivatives derivatives(double t) const override;
+  const Point& centre() const { return centre_; }
+  const Vec3& x() const { return x_; }
+  const Vec3& y() const { return y_; }
+
+ private:
+  Point centre_;
+  Vec3 x_, y_;
+  Interval domain_;
+  bool is_periodic_;
+};
+/// Circle about frame.z. \throws Error(bad_argument) unless radius > 0
+CurvePtr circle(const Frame& frame, double radius, Interval angles);
+
+/// base(scale * t + shift) on its own domain: a part, other units, or backwards (scale < 0).
+class CurveView final : public Curve {
+ public:
+  /// \throws Error(bad_argument) for scale 0, or when the domain's image is not in the base's (to 1e-9 of its length) and the base is not periodic
+  CurveView(CurvePtr base, Interval domain, double scale, double shift);
+  Interval domain() const override { return domain_; }
+  bool is_periodic() const override;
+  Point point(double t) const override { return base_->point(scale_ * t + shift_); }
+  CurveDerivatives derivatives(double t) const override;
+  std::vector<double> breaks() const override;
+  std::optional<NurbsCurveForm<Point>> exact_nurbs() const override;
+  const CurvePtr& base() const { return base_; }
+  double scale() const { return scale_; }
+  double shift() const { return shift_; }
+
+ private:
+  CurvePtr base_;
+  Interval domain_;
+  double scale_, shift_;
+};
+/// The part `range` of a curve, same parameter.
+CurvePtr part_of(const CurvePtr& curve, Interval range);
+/// The same curve with its parameter stretched to `domain`.
+CurvePtr reparametrised(const CurvePtr& curve, Interval domain);
+/// Backwards over the same domain.
+CurvePtr reversed(const CurvePtr& curve);
+
+/// origin + t * direction in a parameter plane.
+class ParameterLine final : public ParameterCurve {
+ public:
+  /// \throws Error(bad_argument) for a direction or a domain of no length
+  ParameterLine(Uv origin, Uv direction, Interval domain);
+  Interval domain() const override { return domain_; }
+  Uv point(double t) const override { return origin_ + t * direction_; }
+  ParameterCurveDerivatives derivatives(double t) const override { return {point(t), direction_}; }
+  std::optional<NurbsCurveForm<Uv>> exact_nurbs() const override;
+  Uv origin() const { return origin_; }
+  Uv direction() const { return direction_; }
+
+ private:
+  Uv origin_, direction_;
+  Interval domain_;
+};
+/// From a at the domain's start to b at its end. \throws Error(bad_argument) when they coincide
+ParameterCurvePtr parameter_segment(Uv a, Uv b, Interval domain = {0.0, 1.0});
+
+/// centre + cos t * x + sin t * y in a parameter plane: circle or ellipse, or an arc of it. No exact NURBS, as for EllipseCurve.
+class ParameterArc final : public ParameterCurve {
+ public:
+  /// \throws Error(bad_argument) when x and y are parallel, or the domain has no length
+  ParameterArc(Uv centre, Uv x, Uv y, Interval domain);
+  Interval domain() const override { return domain_; }
+  Uv point(double t) const override;
+  ParameterCurveDerivatives derivatives(double t) const override;
+  Uv centre() const { return centre_; }
+  Uv x() const { return x_; }
+  Uv y() const { return y_; }
+
+ private:
+  Uv centre_, x_, y_;
+  Interval domain_;
+};
+
+}  // namespace sterna

@@ -1,0 +1,43 @@
+// Exact operations on NURBS as data: the same curve or surface on other knots, in another parameter, of another degree.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "geom/model/knot_basis.h"
+#include "geom/model/nurbs_form.h"
+
+namespace sterna {
+
+/// w * (x, y, z, 1) of every pole. \throws Error(bad_argument) unless there are `n` poles, none or `n` positive weights, all finite
+std::vector<Lanes4> weighted_poles(const std::vector<Point>& poles, const std::vector<double>& weights, std::size_t n, std::string_view attempted);
+
+/// The same curve on other knots of the same or a higher degree. \pre the new knots are clamped, lie inside the domain (restriction is allowed) and
+/// have every old knot at least as often as the new degree exceeds the old one plus its old multiplicity (insertion, elevation).
+NurbsCurveForm<Point> on_knots(const NurbsCurveForm<Point>& form, int degree, const std::vector<double>& knots);
+NurbsSurfaceForm on_knots_u(const NurbsSurfaceForm& form, int degree, const std::vector<double>& knots);
+NurbsSurfaceForm on_knots_v(const NurbsSurfaceForm& form, int degree, const std::vector<double>& knots);
+
+/// Knots of the part `range` of a spline, clamped at both ends. \pre range lies in the domain and has a length
+std::vector<double> restricted_knots(int degree, const std::vector<double>& knots, Interval range);
+/// Knots of the same curve of a higher degree: every distinct knot appears `by` times more.
+std::vector<double> elevated_knots(const std::vector<double>& knots, int by);
+/// Ascending union of two clamped knot vectors of one degree and domain, each knot as often as in the one that has it more often; knots of `b` that
+/// miss one of `a` by rounding (1e-14 of the domain) are taken for it.
+std::vector<double> united_knots(const std::vector<double>& a, const std::vector<double>& b);
+/// Knots stretched to begin and end where `domain` does.
+std::vector<double> stretched_knots(const std::vector<double>& knots, Interval domain);
+
+/// The part of a curve as a curve. \pre range lies in the domain
+NurbsCurveForm<Point> restricted(const NurbsCurveForm<Point>& form, Interval range);
+/// The part of a surface as a surface.
+NurbsSurfaceForm restricted(const NurbsSurfaceForm& form, Interval range_u, Interval range_v);
+/// C(-t): the domain becomes [-to, -from].
+NurbsCurveForm<Point> reversed(const NurbsCurveForm<Point>& form);
+NurbsSurfaceForm reversed_u(const NurbsSurfaceForm& form);
+NurbsSurfaceForm reversed_v(const NurbsSurfaceForm& form);
+/// S(v, u).
+NurbsSurfaceForm exchanged(const NurbsSurfaceForm& form);
+
+}  // namespace sterna

@@ -1,0 +1,119 @@
+// Surfaces made of curves: of revolution, extruded, ruled; and views of any surface: a part, other parameters, reversed, exchanged.
+#pragma once
+
+#include "geom/model/curve.h"
+#include "geom/model/frame.h"
+#include "geom/model/surface.h"
+
+namespace sterna {
+
+/// A profile turned about an axis: u is the angle (right-hand rule, 0 where the profile lies), v the profile's parameter. No exact NURBS: a rational
+/// form would have another parameter along the circles.
+class RevolutionSurface final : public Surface {
+ public:
+  /// \throws Error(bad_argument) for an axis without direction, or angles of no length or more than a turn
+  RevolutionSurface(CurvePtr profile, const Point& axis_point, const Vec3& axis, Interval angles);
+  ParameterBox domain() const override { return {angles_, profile_->domain()}; }
+  bool is_periodic_u() const override;
+  bool is_periodic_v() const override { return profile_->is_periodic(); }
+  Point point(Uv at) const override;
+  SurfaceDerivatives derivatives(Uv at) const override;
+  std::vector<double> breaks_v() const override { return profile_->breaks(); }
+  std::string kind() const override { return "surface of revolution"; }
+  const CurvePtr& profile() const { return profile_; }
+  const Point& axis_point() const { return axis_point_; }
+  const Vec3& axis() const { return axis_; }
+
+ private:
+  Vec3 turned(const Vec3& v, double cosine, double sine) const { return cosine * v + sine * cross(axis_, v) + (1.0 - cosine) * dot(axis_, v) * axis_; }
+  CurvePtr profile_;
+  Point axis_point_;
+  Vec3 axis_;
+  Interval angles_;
+};
+
+/// C(u) + v * direction.
+class ExtrusionSurface final : public Surface {
+ public:
+  /// \throws Error(bad_argument) for a direction or a range of no length
+  ExtrusionSurface(CurvePtr curve, const Vec3& direction, Interval range);
+  ParameterBox domain() const override { return {curve_->domain(), range_}; }
+  bool is_periodic_u() const override { return curve_->is_periodic(); }
+  Point point(Uv at) const override { return curve_->point(at.u) + at.v * direction_; }
+  SurfaceDerivatives derivatives(Uv at) const override;
+  std::vector<double> breaks_u() const override { return curve_->breaks(); }
+  std::optional<NurbsSurfaceForm> exact_nurbs() const override;
+  std::string kind() const override { return "extrusion"; }
+  const CurvePtr& curve() const { return curve_; }
+  const Vec3& direction() const { return direction_; }
+
+ private:
+  CurvePtr curve_;
+  Vec3 direction_;
+  Interval range_;
+};
+
+/// (1 - v) A(u) + v B(u), u and v in [0, 1], each curve's domain stretched to [0, 1]. Exact NURBS when both curves have one and at most one of them,
+/// or both with equal weights on equal knots, are rational.
+class RuledSurface final : public Surface {
+ public:
+  RuledSurface(CurvePtr a, CurvePtr b);
+  ParameterBox domain() const override { return {}; }
+  bool is_periodic_u() const override { return a_->is_periodic() && b_->is_periodic(); }
+  Point point(Uv at) const override { return (1.0 - at.v) * a_->point(at.u) + at.v * b_->point(at.u); }
+  SurfaceDerivatives derivatives(Uv at) const override;
+  std::vector<double> breaks_u() const override;
+  std::optional<NurbsSurfaceForm> exact_nurbs() const override;
+  std::string kind() const override { return "ruled surface"; }
+  const CurvePtr& a() const { return a_; }  ///< over [0, 1]
+  const CurvePtr& b() const { return b_; }
+
+ private:
+  CurvePtr a_, b_;
+};
+
+/// base(scale_u * p + shift_u, scale_v * q + shift_v), where (p, q) is the view's (u, v), or its (v, u) when exchanged.
+class SurfaceView final : public Surface {
+ public:
+  struct Map {
+    double scale = 1.0;
+    double shift = 0.0;
+    double operator()(double t) const { return scale * t + shift; }
+    friend bool operator==(const Map&, const Map&) = default;
+  };
+  /// `domain` is the view's own. \throws Error(bad_argument) for a scale of 0, or a part that is not within the base (to 1e-9) where that is not periodic
+  SurfaceView(SurfacePtr base, const ParameterBox& domain, Map u, Map v, bool is_exchanged = false);
+  ParameterBox domain() const override { return domain_; }
+  bool is_periodic_u() const override;
+  bool is_periodic_v() const override;
+  Point point(Uv at) const override { return base_->point(base_uv(at)); }
+  SurfaceDerivatives derivatives(Uv at) const override;
+  void points(std::span<const Uv> at, std::span<Point> points) const override;
+  std::vector<double> breaks_u() const override;
+  std::vector<double> breaks_v() const override;
+  std::optional<NurbsSurfaceForm> exact_nurbs() const override;
+  std::string kind() const override { return base_->kind(); }
+  const SurfacePtr& base() const { return base_; }
+  /// The base's parameters of the view's.
+  Uv base_uv(Uv at) const { return is_exchanged_ ? Uv{u_(at.v), v_(at.u)} : Uv{u_(at.u), v_(at.v)}; }
+  Map map_u() const { return u_; }
+  Map map_v() const { return v_; }
+  bool is_exchanged() const { return is_exchanged_; }
+
+ private:
+  SurfacePtr base_;
+  ParameterBox domain_;
+  Map u_, v_;
+  bool is_exchanged_;
+};
+/// The part of a surface over `box`, same parameters.
+SurfacePtr part_of(const SurfacePtr& surface, const ParameterBox& box);
+/// The same surface with its parameters stretched to `box`.
+SurfacePtr reparametrised(const SurfacePtr& surface, const ParameterBox& box);
+/// Backwards along u (the normal turns round) over the same domain.
+SurfacePtr reversed_u(const SurfacePtr& surface);
+SurfacePtr reversed_v(const SurfacePtr& surface);
+/// S(v, u) (the normal turns round).
+SurfacePtr exchanged(const SurfacePtr& surface);
+
+}  // namespace sterna
