@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "geom/base/vec3.h"
+#include "geom/model/frame.h"
 #include "geom/model/nurbs_form.h"
 
 namespace sterna {
@@ -19,6 +19,9 @@ struct Placement {
   Vec3 rotation;  ///< radians
   friend constexpr bool operator==(const Placement&, const Placement&) = default;
 };
+
+/// Of component axes into those of the aircraft.
+Transform transform_of(const Placement& placement);
 
 enum class CapShape { strip, dome };  ///< half-elliptic strip over the end (sumo: LongCap); polar dome with continuous slope (RingCap)
 
@@ -91,6 +94,7 @@ struct Body {
   Placement placement;
   bool keeps_straight = false;  ///< longitudinal tangents after Akima: straight parts stay straight; else after Bessel
   bool is_linear = false;       ///< straight between frames (CPACS without guide curves)
+  bool has_mirror_image = false;  ///< a second one stands on the other side of y = 0
   std::vector<BodyFrame> frames;  ///< ascending x; at least 2
   std::optional<InletLip> lip;
   EndCap nose, tail;
@@ -125,6 +129,8 @@ struct Wing {
   Placement placement;
   bool is_symmetric = false;
   bool has_winglet = false;  ///< an elliptic arc replaces the part before the winglet's root
+  bool has_mirror_image = false;  ///< a second one stands on the other side of y = 0 (a wing that does not reach it)
+  bool is_pylon = false;
   bool is_cubic = false;     ///< along the span between breaks; else straight
   std::vector<WingSection> sections;  ///< at least 2
   std::optional<double> trailing_edge; ///< metres of thickness, 0 = sharp; nothing: as the airfoils have it
@@ -132,6 +138,30 @@ struct Wing {
   EndCap left_tip{CapShape::strip, 1.0};  ///< that of the last section when not symmetric
   std::optional<MeshCriterion> criterion;
   friend bool operator==(const Wing&, const Wing&) = default;
+};
+
+// ---------------------------------------------------------------------------------------------------------------------- nacelles
+
+/// Profile of a cowl at an angle about the axis.
+struct CowlSection {
+  std::string name;
+  double angle = 0.0;  ///< radians, right-hand rule about +x from the top: towards the left wing
+  std::vector<Uv> profile;  ///< u = x, v = distance from the axis: trailing edge, inner side, leading edge, outer side, trailing edge
+  friend bool operator==(const CowlSection&, const CowlSection&) = default;
+};
+/// Ring about the axis x; one section: a body of revolution.
+struct Cowl {
+  std::string name;
+  std::vector<CowlSection> sections;  ///< ascending angle
+  friend bool operator==(const Cowl&, const Cowl&) = default;
+};
+struct CowlNacelle {
+  std::string name;
+  Transform placement;
+  std::vector<Cowl> cowls;         ///< fan cowl, core cowl
+  bool has_mirror_image = false;
+  std::vector<Uv> center_body;     ///< u = x, v = radius, from the nose; empty: none
+  friend bool operator==(const CowlNacelle&, const CowlNacelle&) = default;
 };
 
 // ---------------------------------------------------------------------------------------------------------------------- systems
@@ -199,6 +229,7 @@ struct Aircraft {
   std::string name;
   std::vector<Body> bodies;
   std::vector<Wing> wings;
+  std::vector<CowlNacelle> nacelles;
   std::vector<ControlSurface> control_surfaces;
   std::vector<Control> controls;
   std::vector<JetEngine> engines;

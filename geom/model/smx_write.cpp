@@ -135,6 +135,7 @@ void add_shape(Node& node, const BodyFrame& frame) {
 
 void add_body(Node& root, const Body& body) {
   if (body.is_linear) refuse("body '" + body.name + "' is straight between its frames; .smx has only smooth bodies", "write the model as STEP instead");
+  if (body.has_mirror_image) refuse("body '" + body.name + "' has a mirror image; .smx wants it as a body of its own", "add the image as a body of its own");
   Node node = root.append_child("BodySkeleton");
   set(node, "akimatg", body.keeps_straight);
   set(node, "name", body.name);
@@ -162,6 +163,7 @@ void add_body(Node& root, const Body& body) {
 
 void add_wing(Node& root, const Wing& wing) {
   if (wing.trailing_edge.value_or(0.0) != 0.0) refuse("wing '" + wing.name + "' has a blunt trailing edge; .smx has only sharp ones", "write the model as STEP instead");
+  if (wing.has_mirror_image) refuse("wing '" + wing.name + "' has a mirror image; .smx wants it as a wing of its own", "add the image as a wing of its own");
   Node node = root.append_child("WingSkeleton");
   set(node, "flags", std::string(wing.is_symmetric ? "autosym," : "") + (wing.has_winglet ? "detectwinglet," : "") + (wing.is_cubic ? "cubic," : ""));
   set(node, "name", wing.name);
@@ -253,6 +255,8 @@ void add_engine(Node& root, const JetEngine& engine) {
 }  // namespace
 
 void write_smx(const Aircraft& aircraft, const std::filesystem::path& path) {
+  if (!aircraft.nacelles.empty())
+    refuse("nacelle '" + aircraft.nacelles.front().name + "' is made of cowls; .smx has only bodies with an inlet lip", "write the model as STEP instead");
   pugi::xml_document document;
   Node declaration = document.append_child(pugi::node_declaration);
   set(declaration, "version", std::string("1.0"));

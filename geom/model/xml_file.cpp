@@ -173,6 +173,28 @@ std::string XmlFile::content(const pugi::xml_node& node) {
   return all;
 }
 
+std::string XmlFile::child_text(const pugi::xml_node& node, const char* child) {
+  std::string text = content(node.child(child));
+  const auto is_ink = [](char c) { return !is_blank(c); };
+  text.erase(std::find_if(text.rbegin(), text.rend(), is_ink).base(), text.end());
+  text.erase(text.begin(), std::find_if(text.begin(), text.end(), is_ink));
+  return text;
+}
+
+double XmlFile::child_number(const pugi::xml_node& node, const char* child, double fallback) const {
+  const pugi::xml_node at = node.child(child);
+  if (!at) return fallback;
+  const std::string text = child_text(node, child);
+  const std::optional<double> value = parse_number(text);
+  if (!value) fail(at, "'" + text.substr(0, 40) + "' is not a finite number");
+  return *value;
+}
+
+double XmlFile::required_child_number(const pugi::xml_node& node, const char* child) const {
+  if (!node.child(child)) fail(node, std::string("the element '") + child + "' is missing");
+  return child_number(node, child, 0.0);
+}
+
 std::vector<Uv> XmlFile::pairs(const pugi::xml_node& node) const {
   const std::vector<double> values = numbers(node, content(node));
   if (values.size() % 2 != 0) fail(node, "a list of " + std::to_string(values.size()) + " numbers cannot be pairs");

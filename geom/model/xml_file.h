@@ -54,6 +54,12 @@ class XmlFile {
   /// The same as pairs. \throws Error(file_malformed) when their number is odd
   std::vector<Uv> pairs(const pugi::xml_node& node) const;
 
+  /// Number in the text of a child element, `fallback` where there is no such child. \throws Error(file_malformed)
+  double child_number(const pugi::xml_node& node, const char* child, double fallback) const;
+  double required_child_number(const pugi::xml_node& node, const char* child) const;
+  /// Text of a child without blanks around it; empty where there is none.
+  static std::string child_text(const pugi::xml_node& node, const char* child);
+
   /// Tells every attribute and child element that is in neither list (names separated by blanks).
   void tell_unknown(const pugi::xml_node& node, std::string_view attributes, std::string_view children);
 

@@ -1,0 +1,55 @@
+// Parts of the CPACS reader that its files share.
+#pragma once
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "geom/model/aircraft.h"
+#include "geom/model/frame.h"
+#include "geom/model/xml_file.h"
+
+namespace sterna::cpacs {
+
+/// The file and its uIDs.
+struct Document {
+  explicit Document(const std::filesystem::path& path);
+  ~Document();
+  XmlFile file;
+  /// The element with a uID. \throws Error(file_malformed) at `from` when there is none
+  pugi::xml_node resolve(const pugi::xml_node& from, const std::string& uid) const;
+  /// The same, empty when there is none.
+  pugi::xml_node find(const std::string& uid) const;
+
+ private:
+  struct Uids;
+  std::unique_ptr<Uids> uids_;
+};
+
+/// Scaling, then rotation, then translation of an element's child `transformation`.
+struct Transformation {
+  Vec3 scaling{1.0, 1.0, 1.0};
+  Vec3 rotation;  ///< radians about x, y', z''
+  Vec3 translation;
+  bool is_absolute = false;  ///< the translation is from the origin, not from that of the parent component
+  Transform matrix() const;
+};
+Transformation read_transformation(const Document& document, const pugi::xml_node& element);
+Vec3 read_vector(const XmlFile& file, const pugi::xml_node& element, const Vec3& fallback);
+
+/// Airfoil of unit chord by its uID: u = x, v = z; trailing edge, upper side, leading edge, lower side, trailing edge.
+std::vector<Uv> read_airfoil(const Document& document, const pugi::xml_node& from, const std::string& uid);
+/// Fuselage profile by its uID, u = y, v = z: counter-clockwise seen from behind (bottom, right, top, left), from its lowest point, no point twice.
+/// Half profiles (open, ends at y = 0) are completed, and told.
+std::vector<Uv> read_fuselage_profile(Document& document, const pugi::xml_node& from, const std::string& uid);
+/// Nacelle or curve profile, u = x, v = y, as written.
+std::vector<Uv> read_curve_profile(const Document& document, const pugi::xml_node& from, const std::string& uid);
+/// Reverses where needed so that the signed area has the sign of `sign`.
+void orient(std::vector<Uv>& points, double sign);
+
+/// Nacelle of an engine that stands at `placement`.
+CowlNacelle read_nacelle(Document& document, const pugi::xml_node& installed, const Transform& placement);
+
+inline constexpr double k_degree = 0.017453292519943295;
+
+}  // namespace sterna::cpacs

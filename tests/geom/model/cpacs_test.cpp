@@ -1,0 +1,176 @@
+// Reader of CPACS: all real files, transformations and profiles by hand, refusals with their place.
+#include "geom/model/cpacs.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "geom/base/error.h"
+#include "tests/support/data.h"
+
+namespace sterna {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+AircraftReading read_real(const std::string& name) { return read_cpacs(test::shared_data() / "cpacs" / name, RunContext()); }
+
+AircraftReading read_text(const std::string& text) {
+  const auto path = test::scratch() / "case.xml";
+  std::ofstream(path) << text;
+  return read_cpacs(path, RunContext());
+}
+
+const WingSection& tip_of(const Wing& wing) { return wing.sections.front(); }
+const WingSection& root_of(const Wing& wing) { return wing.sections.back(); }
+
+struct RealFile {
+  const char* name;
+  std::size_t fuselages, wings, nacelles, controls;
+};
+class CpacsFiles : public testing::TestWithParam<RealFile> {};
+
+TEST_P(CpacsFiles, are_read_with_every_component) {
+  STERNA_NEEDS_SHARED_DATA();
+  const Aircraft aircraft = read_real(GetParam().name).aircraft;
+  EXPECT_EQ(aircraft.bodies.size(), GetParam().fuselages);
+  EXPECT_EQ(aircraft.wings.size(), GetParam().wings);
+  EXPECT_EQ(aircraft.nacelles.size(), GetParam().nacelles);
+  EXPECT_EQ(aircraft.control_surfaces.size(), GetParam().controls);
+  for (const Wing& wing : aircraft.wings)
+    for (const WingSection& section : wing.sections) EXPECT_GE(section.loop.size(), 5u);
+  for (const ControlSurface& surface : aircraft.control_surfaces)
+    for (const HingePoint& point : surface.hinge) {
+      EXPECT_TRUE(point.span >= 0.0 && point.span <= 1.0) << surface.name << " " << point.span;
+      EXPECT_TRUE(point.chord >= 0.0 && point.chord < 1.0) << surface.name;
+    }
+}
+
+// Components by counting in the files; pylons count as wings.
+INSTANTIATE_TEST_SUITE_P(all_twelve, CpacsFiles,
+                         testing::Values(RealFile{"CPACS_30_D150.xml", 1, 3, 0, 5}, RealFile{"boxWing.xml", 1, 2, 0, 1}, RealFile{"canards.xml", 1, 1, 0, 1},
+                                         RealFile{"d150.xml", 1, 3, 0, 5}, RealFile{"landingGears.xml", 1, 1, 0, 0}, RealFile{"nacelles.xml", 0, 1, 4, 0},
+                                         RealFile{"onera_m6.xml", 1, 1, 0, 0}, RealFile{"simpletest-flaps.cpacs.xml", 1, 1, 0, 3},
+                                         RealFile{"simpletest-halfmodel.cpacs.xml", 1, 1, 0, 0}, RealFile{"simpletest-nacelle.xml", 1, 1, 0, 0},
+                                         RealFile{"simpletest-pylon-nacelle.cpacs.xml", 1, 2, 1, 0}, RealFile{"simpletest.cpacs.xml", 1, 1, 0, 0}),
+                         [](const auto& info) {
+                           std::string name = info.param.name;
+                           std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+                           return name;
+                         });
+
+TEST(Cpacs, onera_m6_stands_where_its_positioning_says) {
+  STERNA_NEEDS_SHARED_DATA();
+  const Wing wing = read_real("onera_m6.xml").aircraft.wings.at(0);
+  EXPECT_TRUE(wing.is_symmetric);
+  ASSERT_EQ(wing.sections.size(), 2u);
+  EXPECT_NEAR(root_of(wing).chord, 0.8059, 1e-12);
+  EXPECT_NEAR(tip_of(wing).chord, 0.4513, 1e-12);
+  EXPECT_NEAR(tip_of(wing).leading_edge.y, 1.1963 * std::cos(M_PI / 6), 1e-12);  // length and sweep of the file
+  EXPECT_NEAR(tip_of(wing).leading_edge.x, 1.1963 * 0.5, 1e-12);
+  // The airfoil runs from the trailing edge over the upper side.
+  const auto highest = std::max_element(wing.sections[0].loop.begin(), wing.sections[0].loop.end(), [](const Point& a, const Point& b) { return a.z < b.z; });
+  EXPECT_LT(highest - wing.sections[0].loop.begin(), std::ssize(wing.sections[0].loop) / 2);
+}
+
+TEST(Cpacs, a_fin_is_turned_first_about_its_own_axes) {
+  STERNA_NEEDS_SHARED_DATA();
+  const Aircraft aircraft = read_real("d150.xml").aircraft;
+  const Wing& fin = aircraft.wings.at(2);
+  EXPECT_EQ(fin.name, "Wing3V");
+  EXPECT_FALSE(fin.is_symmetric || fin.has_mirror_image);
+  for (const WingSection& section : fin.sections) EXPECT_NEAR(section.leading_edge.y, 0.0, 0.01);  // the file itself is 2 mm off
+  EXPECT_GT(fin.sections.back().leading_edge.z, fin.sections.front().leading_edge.z + 4.0);
+  EXPECT_EQ(aircraft.reference_area, 122.4);
+}
+
+TEST(Cpacs, children_move_with_parents_and_absolute_ones_do_not) {
+  STERNA_NEEDS_SHARED_DATA();
+  const Aircraft aircraft = read_real("simpletest-pylon-nacelle.cpacs.xml").aircraft;
+  const Wing& pylon = aircraft.wings.at(1);
+  EXPECT_TRUE(pylon.is_pylon);
+  EXPECT_NEAR(aircraft.nacelles.at(0).placement.shift.y, 1.0, 1e-12);    // the pylon's
+  EXPECT_NEAR(aircraft.nacelles[0].placement.shift.z, -0.12 - 0.41, 1e-12);
+  EXPECT_EQ(aircraft.nacelles[0].cowls.at(0).sections.size(), 3u);
+  EXPECT_EQ(aircraft.nacelles[0].center_body.size(), 4u);
+}
+
+TEST(Cpacs, what_is_left_out_is_named) {
+  STERNA_NEEDS_SHARED_DATA();
+  EXPECT_THAT(read_real("simpletest-nacelle.xml").messages, Contains(HasSubstr("/genericGeometryComponents: this element is not known and was left out")));
+  EXPECT_THAT(read_real("landingGears.xml").messages, Contains(HasSubstr("/landingGears")));
+  EXPECT_THAT(read_real("nacelles.xml").messages, Contains(HasSubstr("guide curves are not supported")));
+  EXPECT_THAT(read_real("boxWing.xml").messages, Contains(HasSubstr("the engine has no cowls")));
+}
+
+/// A wing of two sections; `section` is put into the first one, `profiles` after the wing.
+std::string wing_file(const std::string& element, const std::string& airfoil, const std::string& positionings = "", const std::string& wing = "uID='W'") {
+  const auto section = [&](const std::string& n, const std::string& inside) {
+    return "<section uID='S" + n + "'><elements><element uID='E" + n + "'><airfoilUID>A</airfoilUID>" + inside + "</element></elements></section>\n";
+  };
+  return "<cpacs><header><cpacsVersion>3.2</cpacsVersion></header><vehicles><aircraft><model uID='M'><wings><wing " + wing + ">\n<sections>" + section("1", element) + section("2", "") +
+         "</sections><positionings>" + positionings + "<positioning><length>2</length><toSectionUID>S2</toSectionUID></positioning></positionings>"
+         "<segments><segment uID='G'><fromElementUID>E1</fromElementUID><toElementUID>E2</toElementUID></segment></segments></wing></wings></model></aircraft>"
+         "<profiles><wingAirfoils><wingAirfoil uID='A'>" + airfoil + "</wingAirfoil></wingAirfoils></profiles></vehicles></cpacs>";
+}
+const char* const k_diamond = "<pointList><x>1;0.5;0;0.5;1</x><y>0;0;0;0;0</y><z>0;-0.1;0;0.1;0</z></pointList>";
+
+TEST(Cpacs, an_element_is_scaled_then_turned_about_its_own_axes_then_moved) {
+  const Wing wing = read_text(wing_file("<transformation><scaling><x>2</x><z>3</z></scaling><rotation><x>90</x><z>90</z></rotation><translation><y>5</y></translation></transformation>", k_diamond)).aircraft.wings[0];
+  // x' y' z'': the turn about z acts first, then that about x. (1, 0, 0) -> (2, 0, 0) -> (0, 2, 0) -> (0, 0, 2); (0, 0, 1) -> (0, 0, 3) -> (0, -3, 0).
+  const std::vector<Point>& loop = wing.sections[0].loop;
+  EXPECT_NEAR(distance(loop[0], {0.0, 5.0, 2.0}), 0.0, 1e-12);
+  EXPECT_NEAR(distance(loop[1], {0.0, 5.0 - 0.3, 1.0}), 0.0, 1e-12);  // the upper side comes first, although the file has the lower one first
+  EXPECT_NEAR(wing.sections[0].chord, 2.0, 1e-12);
+  EXPECT_NEAR(wing.sections[1].leading_edge.y, 2.0, 1e-12);
+}
+
+TEST(Cpacs, wings_that_reach_the_plane_of_symmetry_are_one_and_others_have_an_image) {
+  const Wing whole = read_text(wing_file("", k_diamond, "", "uID='W' symmetry='x-z-plane'")).aircraft.wings[0];
+  EXPECT_TRUE(whole.is_symmetric);
+  EXPECT_NEAR(whole.sections[0].leading_edge.y, 2.0, 1e-12);  // the tip comes first
+  const Wing apart = read_text(wing_file("<transformation><translation><y>0.5</y></translation></transformation>", k_diamond, "", "uID='W' symmetry='x-z-plane'")).aircraft.wings[0];
+  EXPECT_TRUE(apart.has_mirror_image);
+  EXPECT_FALSE(apart.is_symmetric);
+}
+
+TEST(Cpacs, class_shape_airfoils_have_their_thickness) {
+  // N1 = 0.5, N2 = 1, B = {a, a}: z = a sqrt(x) (1 - x), largest at x = 1/3.
+  const Wing wing = read_text(wing_file("", "<cst2D><upperN1>0.5</upperN1><upperN2>1</upperN2><upperB>0.2;0.2</upperB><lowerN1>0.5</lowerN1><lowerN2>1</lowerN2><lowerB>-0.1;-0.1</lowerB>"
+                                            "<trailingEdgeThickness>0.01</trailingEdgeThickness></cst2D>")).aircraft.wings[0];
+  const std::vector<Point>& loop = wing.sections[0].loop;
+  EXPECT_NEAR(loop.front().z, 0.005, 1e-12);
+  EXPECT_NEAR(loop.back().z, -0.005, 1e-12);
+  for (const Point& p : loop) {
+    const double shape = std::sqrt(p.x) * (1.0 - p.x);
+    EXPECT_TRUE(std::abs(p.z - (0.2 * shape + 0.005 * p.x)) < 1e-12 || std::abs(p.z - (-0.1 * shape - 0.005 * p.x)) < 1e-12) << p.x << " " << p.z;
+  }
+}
+
+TEST(Cpacs, errors_name_line_and_path) {
+  const auto error_of = [](const std::string& text) -> std::string {
+    try {
+      read_text(text);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.code(), ErrorCode::file_malformed);
+      return e.what();
+    }
+    ADD_FAILURE() << "no error";
+    return {};
+  };
+  EXPECT_THAT(error_of(wing_file("", "<pointList><x>1;0</x><z>0;0;0</z></pointList>")), HasSubstr("the lists 'x' and 'z' have 2 and 3 numbers"));
+  EXPECT_THAT(error_of(wing_file("<transformation><scaling><x>wide</x></scaling></transformation>", k_diamond)), HasSubstr("section[S1]/elements/element[E1]/transformation/scaling/x: 'wide' is not a finite number"));
+  EXPECT_THAT(error_of(wing_file("", k_diamond, "<positioning><length>1</length><fromSectionUID>S1</fromSectionUID><toSectionUID>S1</toSectionUID></positioning>")), HasSubstr("run in a circle"));
+  EXPECT_THAT(error_of("<cpacs><header><cpacsVersion>1.5</cpacsVersion></header></cpacs>"), HasSubstr("version 1.5 is not supported"));
+  EXPECT_THAT(error_of("<cpacs/>"), HasSubstr("no aircraft model"));
+  std::string broken = wing_file("", k_diamond);
+  broken.replace(broken.find("<airfoilUID>A<"), 14, "<airfoilUID>B<");
+  EXPECT_THAT(error_of(broken), HasSubstr("line 2, /cpacs/vehicles/aircraft/model[M]/wings/wing[W]/sections/section[S1]/elements/element[E1]: the file has no element with the uID 'B'"));
+}
+
+}  // namespace
+}  // namespace sterna
