@@ -10,6 +10,7 @@
 #include "geom/base/error.h"
 #include "geom/base/hash.h"
 #include "geom/base/parallel.h"
+#include "io/byte_planes.h"
 #include "io/byte_reader.h"
 #include "io/ordered_output.h"
 #include "io/section_output.h"
@@ -31,16 +32,6 @@ constexpr std::uint64_t k_lz4_expansion = 255;         // no packed byte gives m
 constexpr std::size_t k_longest_name = 255;
 /// A chunk that LZ4 does not shrink by a sixteenth is stored as it is: unpacking would cost more than reading.
 constexpr std::size_t k_gain = 16;
-
-void gather_planes(const char* values, std::size_t n, std::size_t size, char* planes) {
-  for (std::size_t k = 0; k < size; ++k)
-    for (std::size_t i = 0; i < n; ++i) planes[k * n + i] = values[i * size + k];
-}
-
-void scatter_planes(const char* planes, std::size_t n, std::size_t size, char* values) {
-  for (std::size_t k = 0; k < size; ++k)
-    for (std::size_t i = 0; i < n; ++i) values[i * size + k] = planes[k * n + i];
-}
 
 template <class T>
 void append_number(std::string& text, T value) {
@@ -67,7 +58,7 @@ bool is_chunked_file(std::string_view head) { return head.starts_with(k_magic); 
 
 ChunkedWriter::ChunkedWriter(AtomicFile& file) : file_(file) { file_.append(std::string(k_head_bytes, '\0')); }
 
-void ChunkedWriter::add(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const FillValues& fill, const RunContext& context) {
+void ChunkedWriter::pack(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const FindValues& find, const RunContext& context) {
   const std::size_t size = size_of(type);
   const std::uint64_t per_chunk = k_chunk_bytes / size, n_chunks = (n_values + per_chunk - 1) / per_chunk;
   std::vector<StoredArray::Chunk> chunks(n_chunks);
@@ -77,17 +68,17 @@ void ChunkedWriter::add(std::string_view name, NumberType type, std::uint32_t n_
       [&](std::size_t c, ByteBuffer& out) {
         const std::uint64_t begin = c * per_chunk, end = std::min(begin + per_chunk, n_values);
         const std::size_t n_bytes = (end - begin) * size;
-        const auto values = std::make_unique_for_overwrite<char[]>(2 * n_bytes);
-        fill(begin, end, values.get());
-        char* const planes = values.get() + n_bytes;
-        gather_planes(values.get(), end - begin, size, planes);
-        char* const place = out.reserve(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(n_bytes))));
-        const int n_packed = LZ4_compress_default(planes, place, static_cast<int>(n_bytes), LZ4_compressBound(static_cast<int>(n_bytes)));
+        const int bound = LZ4_compressBound(static_cast<int>(n_bytes));
+        char* const place = out.reserve(static_cast<std::size_t>(bound) + 2 * n_bytes);  // planes and values behind it: the buffer is used again, its pages stay
+        char* const planes = place + bound;
+        const char* const values = find(begin, end, planes + n_bytes);
+        gather_planes(values, end - begin, size, planes);
+        const int n_packed = LZ4_compress_default(planes, place, static_cast<int>(n_bytes), bound);
         if (n_packed > 0 && static_cast<std::size_t>(n_packed) < n_bytes - n_bytes / k_gain) {
           out.end_at(place + n_packed);
           chunks[c].codec = k_lz4_planes;
         } else {
-          std::memcpy(place, values.get(), n_bytes);
+          std::memcpy(place, values, n_bytes);
           out.end_at(place + n_bytes);
           chunks[c].codec = k_plain;
         }
@@ -112,11 +103,17 @@ void ChunkedWriter::add(std::string_view name, NumberType type, std::uint32_t n_
   ++n_arrays_;
 }
 
+void ChunkedWriter::add(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const FillValues& fill, const RunContext& context) {
+  const auto filled = [&fill](std::uint64_t begin, std::uint64_t end, char* room) {
+    fill(begin, end, room);
+    return static_cast<const char*>(room);
+  };
+  pack(name, type, n_components, n_values, filled, context);
+}
+
 void ChunkedWriter::add_memory(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const void* values, const RunContext& context) {
   const char* const bytes = static_cast<const char*>(values);
-  add(
-      name, type, n_components, n_values,
-      [bytes, size = size_of(type)](std::uint64_t begin, std::uint64_t end, char* out) { std::memcpy(out, bytes + begin * size, (end - begin) * size); }, context);
+  pack(name, type, n_components, n_values, [bytes, size = size_of(type)](std::uint64_t begin, std::uint64_t, char*) { return bytes + begin * size; }, context);
 }
 
 void ChunkedWriter::finish() {

@@ -18,8 +18,8 @@ enum class NumberType : std::uint8_t { u8 = 1, u32 = 2, i64 = 3, f64 = 4 };
 std::size_t size_of(NumberType type);
 
 inline constexpr std::uint32_t k_chunked_version = 1;
-/// Values of a chunk take this many bytes at most: enough to pack well, and 32 of them at a time fit into 100 MB.
-inline constexpr std::uint64_t k_chunk_bytes = 3u << 19;
+/// Values of a chunk take this many bytes at most: enough to pack well, few enough for the cache of a core, and 64 buffers with three times as much fit into 100 MB.
+inline constexpr std::uint64_t k_chunk_bytes = 3u << 17;
 
 /// What `fill` writes for [begin, end) are the values' bytes, little endian; called from any thread.
 using FillValues = std::function<void(std::uint64_t begin, std::uint64_t end, char* out)>;
@@ -39,6 +39,10 @@ class ChunkedWriter {
   void finish();
 
  private:
+  /// Where the bytes of [begin, end) are: filled into `room`, or where they lie.
+  using FindValues = std::function<const char*(std::uint64_t begin, std::uint64_t end, char* room)>;
+  void pack(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const FindValues& find, const RunContext& context);
+
   AtomicFile& file_;
   std::string directory_;
   std::uint32_t n_arrays_ = 0;

@@ -1,17 +1,24 @@
-// Writes a mesh of columns and tetrahedra in each format named: speed against a plain write of as many bytes in the same run, and memory beside the mesh.
-//   write_volumes N FOLDER EXTENSION...      N^2 squares of the plate, 30 layers, 4 shells of tetrahedra: N = 870 has 45 M prisms
+// Writes a mesh of columns and tetrahedra in each format named, and reads it back: speed against a plain write of as many bytes in the same run (SU2: against
+// fprintf of the same content), and memory beside the mesh.
+//   write_volumes N FOLDER EXTENSION...      N^2 squares of the plate, 30 layers, 4 shells of tetrahedra: N = 870 has 26.5 M nodes, 45.4 M prisms, 18.2 M tetrahedra
+//   write_volumes --write N FOLDER EXTENSION...      without reading
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "io/atomic_file.h"
+#include "io/format_table.h"
 #include "io/volume_file.h"
+#include "io/vtk_cells.h"
 #include "tests/support/hybrid_shapes.h"
 
 namespace {
@@ -46,31 +53,110 @@ double write_plain(const std::filesystem::path& path, std::uint64_t n) {
   return now() - begin;
 }
 
+/// Bends the plate, so that no two coordinates are alike, as on a real body: packing must not look better than it is.
+void bend(sterna::HybridMesh& mesh) {
+  for (sterna::Point& p : mesh.points) {
+    const double x = p.x, y = p.y;
+    p.x += 0.05 * std::sin(3.0 * y + p.z);
+    p.y += 0.05 * std::sin(2.0 * x - p.z);
+    p.z += 0.1 * std::sin(3.0 * x + 2.0 * y);
+  }
+}
+
+/// What the arrays of a mesh file hold that is not packed and knows no columns: coordinates, 32-bit connectivity.
+double content_bytes(const sterna::HybridMesh& mesh, const sterna::CellCounts& counts) {
+  return 24.0 * static_cast<double>(mesh.points.size()) + 4.0 * static_cast<double>(6 * counts.prisms + 5 * counts.pyramids + 4 * counts.tetrahedra + 8 * counts.hexahedra) +
+         16.0 * static_cast<double>(mesh.boundary_triangles.size()) + 20.0 * static_cast<double>(mesh.boundary_quads.size());
+}
+
+/// SU2 as one writes it first: fprintf, a line a call, 17 digits.
+double write_with_fprintf(const sterna::HybridMesh& mesh, const std::filesystem::path& path) {
+  const double begin = now();
+  std::FILE* const file = std::fopen(path.c_str(), "w");
+  if (!file) throw std::runtime_error("cannot write " + path.string());
+  std::fprintf(file, "NDIME= 3\nNPOIN= %zu\n", mesh.points.size());
+  for (const sterna::Point& p : mesh.points) std::fprintf(file, "%.17g %.17g %.17g\n", p.x, p.y, p.z);
+  std::fprintf(file, "NELEM= %lld\n", static_cast<long long>(sterna::count_cells(mesh).total()));
+  sterna::for_each_cell(mesh, [&](const sterna::Cell& cell) {
+    const auto order = sterna::io::vtk_order(cell.kind);
+    const auto n = [&](std::size_t i) { return cell.nodes[order[i]].value(); };
+    const int type = sterna::io::vtk_type(cell.kind);
+    if (cell.kind == sterna::CellKind::prism) std::fprintf(file, "%d %u %u %u %u %u %u\n", type, n(0), n(1), n(2), n(3), n(4), n(5));
+    else if (cell.kind == sterna::CellKind::pyramid) std::fprintf(file, "%d %u %u %u %u %u\n", type, n(0), n(1), n(2), n(3), n(4));
+    else std::fprintf(file, "%d %u %u %u %u\n", type, n(0), n(1), n(2), n(3));
+  });
+  for (const sterna::PatchId patch : mesh.patches.ids()) {
+    std::fprintf(file, "MARKER_TAG= %s\n", mesh.patches[patch].name.c_str());
+    for (const auto& face : mesh.boundary_triangles)
+      if (face.patch == patch) std::fprintf(file, "5 %u %u %u\n", face.nodes[0].value(), face.nodes[1].value(), face.nodes[2].value());
+    for (const auto& face : mesh.boundary_quads)
+      if (face.patch == patch) std::fprintf(file, "9 %u %u %u %u\n", face.nodes[0].value(), face.nodes[1].value(), face.nodes[2].value(), face.nodes[3].value());
+  }
+  std::fflush(file);
+  ::fsync(::fileno(file));
+  std::fclose(file);
+  return now() - begin;
+}
+
+struct Settings {
+  bool is_read_back = true;
+  int n = 0;
+  std::filesystem::path folder;
+  std::vector<std::string> extensions;
+};
+
+void run(const sterna::HybridMesh& mesh, double content, const std::string& extension, const Settings& settings, const sterna::RunContext& context) {
+  const std::filesystem::path path = settings.folder / ("bench" + extension), plain_path = settings.folder / "bench.plain";
+  reset_peak();
+  const double before = memory("VmRSS"), begin = now();
+  sterna::io::write_volume_file(mesh, path, context);
+  const double seconds = now() - begin, extra = memory("VmHWM") - before;
+  const std::uint64_t n = size_of(path);
+  const double plain = write_plain(plain_path, n);
+  std::filesystem::remove(plain_path);
+  std::printf("%-14s write %7.3f GB %7.2f s %6.3f GB/s (content %6.3f GB/s)  plain write %6.2f s: %4.0f %%  extra memory %6.3f GB\n", extension.c_str(), static_cast<double>(n) / 1e9, seconds,
+              static_cast<double>(n) / 1e9 / seconds, content / 1e9 / seconds, plain, 100.0 * plain / seconds, extra / 1e9);
+  std::fflush(stdout);
+  if (extension == ".su2") {
+    const double with_fprintf = write_with_fprintf(mesh, plain_path);
+    std::filesystem::remove(plain_path);
+    std::printf("%-14s fprintf %38.2f s: %.1f times as long\n", "", with_fprintf, with_fprintf / seconds);
+    std::fflush(stdout);
+  }
+  if (settings.is_read_back && sterna::io::format_of(path).read_volume) {
+    reset_peak();
+    const double before_reading = memory("VmRSS"), begin_reading = now();
+    const sterna::HybridMesh back = sterna::io::read_volume_file(path, context);
+    const double reading = now() - begin_reading, held = memory("VmRSS") - before_reading;
+    std::printf("%-14s read  %18.2f s %6.3f GB/s  peak memory %6.3f GB, of it the mesh %6.3f GB%s\n", "", reading, static_cast<double>(n) / 1e9 / reading,
+                (memory("VmHWM") - before_reading) / 1e9, held / 1e9, back.points.size() == mesh.points.size() ? "" : "  OTHER MESH");
+    std::fflush(stdout);
+  }
+  std::filesystem::remove_all(path);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 4) {
-    std::fprintf(stderr, "usage: write_volumes N FOLDER EXTENSION...\n");
+  Settings settings;
+  int at = 1;
+  if (argc > 1 && std::string(argv[1]) == "--write") {
+    settings.is_read_back = false;
+    ++at;
+  }
+  if (argc < at + 3) {
+    std::fprintf(stderr, "usage: write_volumes [--write] N FOLDER EXTENSION...\n");
     return 2;
   }
-  const std::filesystem::path folder = argv[2];
-  const sterna::HybridMesh mesh = sterna::test::plate_block(std::atoi(argv[1]), {.n_layers = 30, .n_shells = 4});
+  settings.n = std::atoi(argv[at]);
+  settings.folder = argv[at + 1];
+  settings.extensions.assign(argv + at + 2, argv + argc);
+  sterna::HybridMesh mesh = sterna::test::plate_block(settings.n, {.n_layers = 30, .n_shells = 4});
+  bend(mesh);
   const sterna::CellCounts counts = sterna::count_cells(mesh);
-  std::printf("%zu nodes, %lld prisms, %lld tetrahedra, %.2f GB in memory\n", mesh.points.size(), static_cast<long long>(counts.prisms), static_cast<long long>(counts.tetrahedra), memory("VmRSS") / 1e9);
+  std::printf("%zu nodes, %lld prisms, %lld tetrahedra, %.2f GB in memory, %.2f GB of content\n", mesh.points.size(), static_cast<long long>(counts.prisms),
+              static_cast<long long>(counts.tetrahedra), memory("VmRSS") / 1e9, content_bytes(mesh, counts) / 1e9);
   const sterna::RunContext context({.threads = 0});
-  for (int i = 3; i < argc; ++i) {
-    const std::filesystem::path path = folder / (std::string("bench") + argv[i]);
-    reset_peak();
-    const double before = memory("VmRSS"), begin = now();
-    sterna::io::write_volume_file(mesh, path, context);
-    const double seconds = now() - begin, extra = memory("VmHWM") - before;
-    const std::uint64_t n = size_of(path);
-    std::filesystem::remove_all(path);
-    const double plain = write_plain(folder / "bench.plain", n);
-    std::filesystem::remove(folder / "bench.plain");
-    std::printf("%-14s %7.3f GB %7.2f s %6.3f GB/s  plain write %6.2f s (%3.0f %%)  extra memory %6.3f GB\n", argv[i], static_cast<double>(n) / 1e9, seconds, static_cast<double>(n) / 1e9 / seconds, plain,
-                100.0 * plain / seconds, extra / 1e9);
-    std::fflush(stdout);
-  }
+  for (const std::string& extension : settings.extensions) run(mesh, content_bytes(mesh, counts), extension, settings, context);
   return 0;
 }
