@@ -14,6 +14,8 @@ namespace {
 
 /// Attempts at a free temporary name; leftovers of killed runs with the same process number can occupy a few.
 constexpr int k_max_names = 1000;
+/// As soon as so many bytes are there, the disk begins to take them while more are made: else it would stand idle until fsync.
+constexpr std::uint64_t k_send_bytes = 1u << 23;
 constexpr mode_t k_new_file_mode = 0666;  // the umask takes its part
 constexpr mode_t k_permission_bits = 07777;
 
@@ -65,6 +67,10 @@ AtomicFile::~AtomicFile() { discard(); }
 void AtomicFile::append(std::string_view bytes) {
   write_at(size_, bytes);
   size_ += bytes.size();
+  if (size_ - n_sent_ < k_send_bytes) return;
+  // Begins what commit() waits for and reports on; a file system that cannot begin early does it all then.
+  static_cast<void>(::sync_file_range(descriptor_, static_cast<off_t>(n_sent_), static_cast<off_t>(size_ - n_sent_), SYNC_FILE_RANGE_WRITE));
+  n_sent_ = size_;
 }
 
 void AtomicFile::overwrite(std::uint64_t offset, std::string_view bytes) { write_at(offset, bytes); }

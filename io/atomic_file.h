@@ -37,6 +37,7 @@ class AtomicFile {
   std::filesystem::path temporary_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
+  std::uint64_t n_sent_ = 0;  ///< of them, those whose way to the disk has begun
 };
 
 }  // namespace sterna::io

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "geom/base/error.h"
+#include "geom/base/parallel.h"
 #include "io/cell_sections.h"
 #include "io/chunked_file.h"
 #include "io/section_output.h"
@@ -128,9 +129,10 @@ class PartWriter {
         context_);
   }
 
-  static void require_finite(const std::vector<Vec3>& points) {
-    for (std::size_t i = 0; i < points.size(); ++i)
+  void require_finite(const std::vector<Vec3>& points) const {
+    parallel_for(context_, points.size(), [&](std::size_t i) {
       if (!is_finite(points[i])) throw_node_not_finite(i);
+    });
   }
   static void require_size(std::size_t found, std::size_t expected, const std::string& what) {
     if (found != expected)
