@@ -1,5 +1,7 @@
 #include "volmesh/assemble.h"
 
+#include <algorithm>
+
 #include "geom/base/parallel.h"
 
 namespace sterna::volmesh {
@@ -29,6 +31,60 @@ FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, co
     for (const Patch& patch : mesh->patches) boundary.patch_names.push_back(patch.name);
     for (const PatchId patch : mesh->triangle_patch) boundary.triangle_patch.push_back(first + patch.value());
   }
+  return boundary;
+}
+
+namespace {
+
+std::size_t n_layer_nodes(const LayerBlock& layers) {
+  std::size_t n = 0;
+  for (std::uint32_t line = 0; line < layers.n_lines(); ++line) n = std::max(n, layers.node(line, layers.n_layers).index() + 1);
+  return n;
+}
+
+/// The first patch of the outer boundary.
+std::uint32_t outer_patch_of(const HybridMesh& layers) {
+  std::uint32_t patch = static_cast<std::uint32_t>(layers.patches.size());
+  for (std::size_t t = layers.layers.n_columns(); t < layers.boundary_triangles.size(); ++t) patch = std::min(patch, layers.boundary_triangles[t].patch.value());
+  return patch;
+}
+
+/// Corners of a boundary triangle, normal into the fluid, counted from the first node of the outer boundary.
+TriangleVertices outer_corners(const sterna::BoundaryTriangle& face, std::size_t first_node) {
+  const auto corner = [&](std::size_t k) { return VertexId(face.nodes[k].index() - first_node); };
+  return {corner(0), corner(2), corner(1)};
+}
+
+}  // namespace
+
+TriMesh outer_of(const HybridMesh& layers) {
+  const std::size_t first_node = n_layer_nodes(layers.layers), n_wall = layers.layers.n_columns();
+  TriMesh outer;
+  for (std::size_t i = first_node; i < layers.points.size(); ++i) outer.points.push_back(layers.points.raw()[i]);
+  const std::uint32_t first_patch = outer_patch_of(layers);
+  for (std::size_t p = first_patch; p < layers.patches.size(); ++p) outer.patches.push_back(layers.patches.raw()[p]);
+  for (std::size_t t = n_wall; t < layers.boundary_triangles.size(); ++t) {
+    outer.triangles.push_back(outer_corners(layers.boundary_triangles[t], first_node));
+    outer.triangle_patch.push_back(PatchId(layers.boundary_triangles[t].patch.value() - first_patch));
+  }
+  return outer;
+}
+
+FillBoundary boundary_of(const HybridMesh& layers) {
+  FillBoundary boundary;
+  const LayerBlock& block = layers.layers;
+  const std::size_t first_node = n_layer_nodes(block), n_columns = block.n_columns();
+  for (std::uint32_t line = 0; line < block.n_lines(); ++line) boundary.point2node.push_back(block.node(line, block.n_layers));
+  for (std::size_t i = first_node; i < layers.points.size(); ++i) boundary.point2node.push_back(NodeId(i));
+  for (const NodeId node : boundary.point2node) boundary.points.push_back(layers.points[node]);
+  boundary.triangles = block.base;
+  const auto shift = static_cast<std::uint32_t>(block.n_lines());
+  for (std::size_t t = n_columns; t < layers.boundary_triangles.size(); ++t) {
+    const TriangleVertices v = outer_corners(layers.boundary_triangles[t], first_node);
+    boundary.triangles.push_back({v[0].value() + shift, v[1].value() + shift, v[2].value() + shift});
+  }
+  for (const Patch& patch : layers.patches) boundary.patch_names.push_back(patch.name);
+  for (const sterna::BoundaryTriangle& face : layers.boundary_triangles) boundary.triangle_patch.push_back(face.patch.value());
   return boundary;
 }
 

@@ -17,6 +17,10 @@ struct FillBoundary {
   std::vector<NodeId> point2node;  ///< layer nodes first; outer nodes follow the layer's
 };
 FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const TriMesh& outer);
+/// The same of what assemble_layers() made of them. Uses columns and boundary triangles, nodes up to the last of the outer boundary.
+FillBoundary boundary_of(const HybridMesh& layers);
+/// The outer boundary that assemble_layers() got.
+TriMesh outer_of(const HybridMesh& layers);
 
 /// All of the mesh but its tetrahedra. Nodes: lines of the layer, outer boundary. Patches: the wall's, then the outer ones.
 HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const TriMesh& outer);

@@ -1,0 +1,95 @@
+// A run that is stopped behind a step and continued gives the mesh of the uninterrupted run, to the bit.
+#include "volmesh/stages.h"
+
+#include <gtest/gtest.h>
+
+#include "geom/base/error.h"
+#include "tests/support/shapes.h"
+
+namespace sterna::volmesh {
+namespace {
+
+const RunContext k_context({.threads = 2});
+
+VolumeMeshOptions options_for(const TriMesh& wall) {
+  VolumeMeshOptions options;
+  options.envelope.layers = 8;
+  options.envelope.first_height = 1e-4 * body_length(wall);
+  options.farfield.farfield_radius = 5.0 * body_length(wall);
+  return options;
+}
+
+void expect_same(const VolumeMeshResult& result, const VolumeMeshResult& whole) {
+  EXPECT_EQ(result.mesh.points, whole.mesh.points);
+  EXPECT_EQ(result.mesh.tetrahedra, whole.mesh.tetrahedra);
+  EXPECT_EQ(result.mesh.layers.base, whole.mesh.layers.base);
+  EXPECT_EQ(result.mesh.layers.first_node, whole.mesh.layers.first_node);
+  EXPECT_EQ(result.mesh.layers.is_collapsed, whole.mesh.layers.is_collapsed);
+  EXPECT_EQ(result.mesh.request.target_height, whole.mesh.request.target_height);
+  EXPECT_EQ(result.mesh.request.reason, whole.mesh.request.reason);
+  EXPECT_EQ(to_json(result.check), to_json(whole.check));
+  EXPECT_EQ(to_text(result.certificate), to_text(whole.certificate));
+  EXPECT_EQ(result.layer.coverage, whole.layer.coverage);
+  EXPECT_EQ(result.layer.reduced_curving, whole.layer.reduced_curving);
+  EXPECT_EQ(result.layer.feature_angle, whole.layer.feature_angle);
+  EXPECT_EQ(result.tetra_engine, whole.tetra_engine);
+  EXPECT_EQ(result.n_split_triangles, whole.n_split_triangles);
+}
+
+void expect_continued(const TriMesh& wall, const VolumeMeshOptions& options) {
+  EnvelopeStage envelope;
+  FilledStage filled;
+  const VolumeMeshResult whole = volume_mesh(wall, options, {.enveloped = [&](const EnvelopeStage& stage) { envelope = stage; }, .filled = [&](const FilledStage& stage) { filled = stage; }}, k_context);
+  EXPECT_EQ(filled.split_wall.has_value(), whole.n_split_triangles > 0);
+  expect_same(finish_mesh(wall, filled, options, k_context), whole);
+  const FilledStage again = make_tetrahedra(wall, envelope, options, k_context);
+  EXPECT_EQ(again.tets.tetrahedra, filled.tets.tetrahedra);
+  expect_same(finish_mesh(wall, again, options, k_context), whole);
+  const EnvelopeStage alone = make_envelope(wall, options, k_context);
+  EXPECT_EQ(alone.envelope.height, envelope.envelope.height);
+  EXPECT_EQ(alone.envelope.direction, envelope.envelope.direction);
+}
+
+TEST(Stages, ContinuedMeshesAreTheSame) {
+  const TriMesh wall = test::cube(4);
+  expect_continued(wall, options_for(wall));
+}
+
+TEST(Stages, ContinuedMeshesAreTheSameAfterSplits) {
+  const TriMesh wall = test::cube(3);
+  VolumeMeshOptions options = options_for(wall);
+  options.tetrahedra.boundary_splits = "always";
+  options.tetrahedra.radius_edge = 1.6;
+  options.sources.push_back({.kind = SourceKind::point, .from = {1.3, 0.4, 0.6}, .size = 0.05});
+  expect_continued(wall, options);
+}
+
+TEST(Stages, PartsOfDifferentRunsAreRefused) {
+  const TriMesh wall = test::cube(3), other = test::cube(2);
+  const VolumeMeshOptions options = options_for(wall);
+  const EnvelopeStage envelope = make_envelope(wall, options, k_context);
+  const auto expect_refused = [](const std::string& problem, const auto& call) {
+    try {
+      call();
+      FAIL() << "not refused";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::bad_argument);
+      EXPECT_NE(std::string(error.what()).find(problem), std::string::npos) << error.what();
+    }
+  };
+  expect_refused("vertices of the envelope", [&] { make_tetrahedra(other, envelope, options, k_context); });
+  const FilledStage filled = make_tetrahedra(wall, envelope, options, k_context);
+  expect_refused("vertices of the envelope", [&] { finish_mesh(other, filled, options, k_context); });
+  FilledStage wrong = filled;
+  wrong.layers.layers.base[0] = {0, 1, 1};
+  expect_refused("outer triangles of the layer that are not where", [&] { finish_mesh(wall, wrong, options, k_context); });
+  wrong = filled;
+  wrong.layers.points[NodeId(0)].x += 1e-9;
+  expect_refused("outer triangles of the layer that are not where", [&] { finish_mesh(wall, wrong, options, k_context); });
+  wrong = filled;
+  wrong.tets.tetrahedra.pop_back();
+  EXPECT_THROW(finish_mesh(wall, wrong, options, k_context), Error);
+}
+
+}  // namespace
+}  // namespace sterna::volmesh

@@ -1,0 +1,80 @@
+// The steps of volume_mesh() by hand: the value of each holds all that the rest needs, so that a run can be stopped behind any of them, written, and continued
+// to the same mesh, to the bit.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "volmesh/envelope/collide.h"
+#include "volmesh/envelope/envelope.h"
+#include "volmesh/volume_mesh.h"
+
+namespace sterna::volmesh {
+
+/// The envelope of a wall.
+struct EnvelopeStage {
+  Envelope envelope;
+  double feature_angle = 0.0;  ///< rad, the user's or the one found
+};
+
+/// The layer under the envelope, and the tetrahedra that an engine has made around it.
+struct FilledStage {
+  std::optional<TriMesh> split_wall;  ///< nullopt: the wall as it was given
+  EnvelopeStage envelope;             ///< of that wall, as the layer ends now
+  HybridMesh layers;                  ///< of assemble_layers(): lines of the layer, then the outer boundary; no tetrahedra
+  TetraResult tets;                   ///< fill boundary_of(layers); not improved, without splits
+  std::vector<std::string> tetra_failures;
+  std::array<std::int64_t, 5> curving_shares{};  ///< Extrusion::curving_shares
+  std::int64_t n_split_triangles = 0;
+};
+
+/// Called when a step of volume_mesh() has ended; either may be empty.
+struct StageWatch {
+  std::function<void(const EnvelopeStage&)> enveloped;
+  std::function<void(const FilledStage&)> filled;
+};
+
+/// volume_mesh() with someone who looks on.
+VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const StageWatch& watch, const RunContext& context);
+
+/// The first step. \pre, \throws as volume_mesh()
+EnvelopeStage make_envelope(const TriMesh& wall, const VolumeMeshOptions& options, const RunContext& context);
+/// The second. Everything that the envelope is made of is proved again. \pre `envelope` of make_envelope() on this wall
+/// \throws Error(bad_argument) for an envelope of another size, else of the stages
+FilledStage make_tetrahedra(const TriMesh& wall, const EnvelopeStage& envelope, const VolumeMeshOptions& options, const RunContext& context);
+/// The last: improves, joins, checks. What the stage holds is proved again; options of earlier steps have no effect but in the report.
+/// \throws Error(bad_argument) for parts that do not belong together, else of the stages
+VolumeMeshResult finish_mesh(const TriMesh& wall, FilledStage filled, const VolumeMeshOptions& options, const RunContext& context);
+
+// ---- The same for a driver that does not want to prove anything twice ---------------------------------------------------------------------
+
+/// Wall and outer boundary with what every step needs of them.
+struct MeshingSite {
+  /// \throws as volume_mesh() for what no step can repair
+  MeshingSite(const TriMesh& wall, const VolumeMeshOptions& user_options, const RunContext& context);
+  MeshingSite(const MeshingSite&) = delete;
+  MeshingSite& operator=(const MeshingSite&) = delete;
+
+  VolumeMeshOptions options;  ///< with the feature angle
+  TriMesh outer;
+  LayerBase base;
+  Collider collider;
+};
+
+/// What is known of a layer beside its mesh.
+struct LayerKnowledge {
+  LayerReport report;
+  EnvelopeCertificate certificate;
+  std::optional<LayerCheck> check;
+};
+
+EnvelopeStage make_envelope(MeshingSite& site, const RunContext& context);
+/// The layer under the envelope, which may get lower, and the tetrahedra around it.
+FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage envelope, LayerKnowledge& knowledge, const RunContext& context);
+VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const ImproveOptions& options, const RunContext& context);
+
+}  // namespace sterna::volmesh
