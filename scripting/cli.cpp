@@ -104,6 +104,7 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   command->add_option("surfaces", mesh.inputs, "surface files; several are joined to one wall. `sterna formats` lists what is read")->required();
   command->add_option("-o,--output", mesh.outputs, "mesh file: " + io::list_formats_with(io::FormatUse::write_volume) + "; may be given several times")->required()->allow_extra_args(false)->take_all();
   command->add_option("--stats", mesh.stats, "write sizes, times and memory of this run as JSON")->type_name("FILE");
+  command->add_option("--stages", mesh.stages, "keep surface, envelope, tetrahedra and mesh in this .sterna file; `sterna mesh case.sterna -o ...` continues behind the last step in it")->type_name("FILE");
   add_schema_options(*command, mesh.options);
   add_set_option(*command, set);
   command->footer("Numbers take units: 2e-6, 0.5mm, 35deg, --unit inch.");

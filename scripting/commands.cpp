@@ -17,6 +17,7 @@
 #include "scripting/exit_status.h"
 #include "scripting/script_run.h"
 #include "scripting/summary.h"
+#include "scripting/stages.h"
 #include "scripting/verbs.h"
 
 namespace sterna::scripting {
@@ -138,6 +139,32 @@ int print_surface_info(const InputPath& input, double unit, const CommandContext
   return k_exit_success;
 }
 
+/// The steps of a run, where the one input is a .sterna file that holds some; else nothing.
+StageContent steps_of(const MeshCommand& command, const CommandContext& context) {
+  if (command.inputs.size() != 1 || std::filesystem::path(command.inputs.front()).extension() != ".sterna") return {};
+  return read_stages({command.inputs.front(), command.inputs.front()}, context.run.part("read", 0.0, k_read_end));
+}
+
+/// From the last step on. Options that are given win over those of the file.
+MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, const CommandContext& context) {
+  if (!command.stages.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "mesh", .problem = "--stages keeps the steps of a whole run; this one continues from " + command.inputs.front()});
+  volmesh::VolumeMeshOptions options = steps.envelope->options;
+  set_options(volmesh::options_of(options), command.options);
+  const RunContext part = context.run.part("volume_mesh", k_read_end, k_mesh_end);
+  context.run.info("continuing behind the " + std::string(steps.tetrahedra ? "tetrahedra" : "envelope") + " of " + command.inputs.front());
+  return steps.tetrahedra ? finish_mesh(*steps.tetrahedra, options, part) : finish_mesh(make_tetrahedra(*steps.envelope, options, part), options, part);
+}
+
+MeshValue make_mesh(const MeshCommand& command, const CommandContext& context) {
+  surfmesh::StitchOptions surface_options;
+  volmesh::VolumeMeshOptions volume_options;
+  set_options(all_options(surface_options, volume_options), command.options);
+  std::vector<InputPath> inputs;
+  for (const std::string& name : command.inputs) inputs.push_back({name, name});
+  const SurfaceValue wall = read_wall(inputs, surface_options, context.run.part("surface", 0.0, k_read_end));
+  return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_read_end, k_mesh_end));
+}
+
 std::string read_write(bool is_read, bool is_written) {
   return is_read && is_written ? "read, write" : is_read ? "read" : is_written ? "write" : "-";
 }
@@ -154,16 +181,10 @@ int execute(const RunCommand& command, const CommandContext& context) {
 }
 
 int execute(const MeshCommand& command, const CommandContext& context) {
-  surfmesh::StitchOptions surface_options;
-  volmesh::VolumeMeshOptions volume_options;
-  set_options(all_options(surface_options, volume_options), command.options);
   for (const auto& output : command.outputs) require_mesh_output(output);
-  std::vector<InputPath> inputs;
-  for (const std::string& name : command.inputs) inputs.push_back({name, name});
-
   const Clock::time_point start = Clock::now();
-  const SurfaceValue wall = read_wall(inputs, surface_options, context.run.part("surface", 0.0, k_read_end));
-  const MeshValue mesh = make_volume_mesh(wall, volume_options, context.run.part("volume_mesh", k_read_end, k_mesh_end));
+  const StageContent steps = steps_of(command, context);
+  const MeshValue mesh = steps.envelope ? continue_mesh(steps, command, context) : make_mesh(command, context);
   const RunContext write_part = context.run.part("write", k_mesh_end, 1.0);
   for (const auto& output : command.outputs) write_mesh(mesh, output, write_part);
   const RunMeasure measure{.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count(), .stages = context.run.times(), .threads = context.run.threads()};

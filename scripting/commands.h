@@ -29,6 +29,7 @@ struct MeshCommand {
   std::vector<std::filesystem::path> outputs;
   OptionOverrides options;  ///< --layers 30 as {"layers", "30"} and --set stage.option=value, in the order of their precedence, the last wins
   std::filesystem::path stats;
+  std::filesystem::path stages;  ///< .sterna file that keeps the steps of the run; empty: none
 };
 
 struct CheckCommand {

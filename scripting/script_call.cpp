@@ -6,6 +6,7 @@
 #include <span>
 
 #include "scripting/script_verbs.h"
+#include "scripting/stage_verbs.h"
 
 namespace sterna::scripting {
 namespace {
@@ -21,6 +22,8 @@ struct ObjectBox {
 };
 const char k_box_tag = 0;
 constexpr const char* k_surface_type = "sterna.surface";
+constexpr const char* k_envelope_type = "sterna.envelope";
+constexpr const char* k_tetrahedra_type = "sterna.tetrahedra";
 constexpr const char* k_mesh_type = "sterna.mesh";
 constexpr const char* k_error_type = "sterna.error";
 constexpr const char* k_shape_type = "sterna.shape";
@@ -159,6 +162,8 @@ void push_value(lua_State* state, const ScriptValue& value) {
   else if (const auto* text = std::get_if<std::string>(&value)) lua_pushlstring(state, text->data(), text->size());
   else if (const auto* table = std::get_if<std::shared_ptr<const ScriptTable>>(&value)) push_table(state, **table);
   else if (std::holds_alternative<SurfaceHandle>(value)) push_object(state, value, k_surface_type);
+  else if (std::holds_alternative<EnvelopeHandle>(value)) push_object(state, value, k_envelope_type);
+  else if (std::holds_alternative<TetrahedraHandle>(value)) push_object(state, value, k_tetrahedra_type);
   else if (std::holds_alternative<MeshHandle>(value)) push_object(state, value, k_mesh_type);
   else if (std::holds_alternative<ErrorHandle>(value)) push_object(state, value, k_error_type);
   else lua_pushnil(state);
@@ -219,6 +224,8 @@ void push_verb(lua_State* state, const ScriptVerb& verb) {
 
 void register_objects(lua_State* state) {
   register_type(state, k_surface_type, k_describe_object, k_surface_field, surface_methods());
+  register_type(state, k_envelope_type, k_describe_object, k_envelope_field, envelope_methods());
+  register_type(state, k_tetrahedra_type, k_describe_object, k_tetrahedra_field, tetrahedra_methods());
   register_type(state, k_mesh_type, k_describe_object, k_mesh_field, mesh_methods());
   register_type(state, k_error_type, k_describe_object, k_error_field, {});
   luaL_newmetatable(state, k_shape_type);

@@ -11,6 +11,8 @@ std::string_view type_text(const ScriptValue& value) {
     std::string_view operator()(const std::string&) const { return "a text"; }
     std::string_view operator()(const std::shared_ptr<const ScriptTable>&) const { return "a table"; }
     std::string_view operator()(const SurfaceHandle&) const { return "a surface"; }
+    std::string_view operator()(const EnvelopeHandle&) const { return "an envelope"; }
+    std::string_view operator()(const TetrahedraHandle&) const { return "tetrahedra"; }
     std::string_view operator()(const MeshHandle&) const { return "a volume mesh"; }
     std::string_view operator()(const ErrorHandle&) const { return "an error"; }
     std::string_view operator()(const ScriptVerb*) const { return "a verb"; }

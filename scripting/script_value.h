@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geom/base/error.h"
+#include "scripting/stages.h"
 #include "scripting/verbs.h"
 
 namespace sterna::scripting {
@@ -21,7 +22,7 @@ struct OpaqueValue {
   std::string_view type_name;
 };
 using ErrorHandle = std::shared_ptr<const Error>;
-using ScriptValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::shared_ptr<const ScriptTable>, SurfaceHandle, MeshHandle, ErrorHandle,
+using ScriptValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::shared_ptr<const ScriptTable>, SurfaceHandle, EnvelopeHandle, TetrahedraHandle, MeshHandle, ErrorHandle,
                                  const ScriptVerb*, OpaqueValue>;
 
 struct ScriptTable {

@@ -6,66 +6,17 @@
 #include "geom/base/error.h"
 #include "scripting/check_options.h"
 #include "scripting/source_verbs.h"
+#include "scripting/stage_verbs.h"
+#include "scripting/stages.h"
 #include "scripting/summary.h"
 #include "scripting/table_reader.h"
+#include "scripting/verb_tools.h"
 #include "scripting/verbs.h"
 
 namespace sterna::scripting {
 namespace {
 
-using TableHandle = std::shared_ptr<const ScriptTable>;
-
-[[noreturn]] void reject(const ScriptCall& call, std::string problem, std::string hint = {}) {
-  throw Error({.code = ErrorCode::bad_argument, .attempted = call.attempted(), .problem = std::move(problem), .hint = std::move(hint)});
-}
-
-/// The table of a call of the form verb{...}; a single text, as in read_surface "a.stl", counts as its first entry.
-ScriptTable table_argument(const ScriptCall& call, std::size_t index, std::string_view usage) {
-  if (call.arguments.size() > index + 1) reject(call, "takes one table, not several arguments", std::string(usage));
-  if (call.arguments.size() <= index) return {};
-  const ScriptValue& argument = call.arguments[index];
-  if (const auto* table = std::get_if<TableHandle>(&argument)) return **table;
-  ScriptTable table;
-  if (!std::holds_alternative<std::monostate>(argument)) table.items.push_back(argument);
-  return table;
-}
-
-template <class Handle>
-const Handle& self(const ScriptCall& call) {
-  if (!call.arguments.empty())
-    if (const auto* handle = std::get_if<Handle>(&call.arguments.front())) return *handle;
-  reject(call, "is a method", "call it with a colon: object:" + std::string(call.verb.substr(call.verb.find(':') + 1)) + "(...)");
-}
-
-/// Relative names are looked for in the current folder first, then beside the script.
-InputPath find_input(const ScriptCall& call, const std::string& name) {
-  const std::filesystem::path path = name;
-  const std::filesystem::path beside_script = call.session.script.parent_path() / path;
-  std::error_code ignored;  // a name that cannot even be looked up is reported by the reader, with its reason
-  if (path.is_relative() && !std::filesystem::exists(path, ignored) && std::filesystem::exists(beside_script, ignored)) return {name, beside_script};
-  return {name, path};
-}
-
-/// The command line's --set values for these options; they win over the script.
-void apply_overrides(const ScriptCall& call, const OptionTable& options) {
-  for (const auto& [name, text] : call.session.overrides)
-    for (const Option& option : options)
-      if (name == option.name || name == std::string(option.stage) + "." + std::string(option.name)) set_option_as_typed(option, text);
-}
-
 // ---- read_surface, read_mesh -------------------------------------------------------------------------------------------------------------
-
-std::vector<InputPath> file_names(const ScriptCall& call, TableReader& reader) {
-  std::vector<InputPath> files;
-  std::size_t number = 0;
-  for (const ScriptValue& item : reader.items()) {
-    ++number;
-    if (const auto* name = std::get_if<std::string>(&item)) files.push_back(find_input(call, *name));
-    else reader.add_problem("entry " + std::to_string(number) + ": expected a file name, not " + std::string(type_text(item)));
-  }
-  if (number == 0) reader.add_problem("needs a file name");
-  return files;
-}
 
 constexpr std::string_view k_read_surface_usage = "read_surface{ \"wing.stl\", \"body.stl\", unit = mm, split_angle = 40*deg }  or  read_surface \"wing.stl\"";
 
@@ -95,7 +46,7 @@ ScriptValue read_mesh_file(const ScriptCall& call) {
 // ---- volume_mesh, sphere -----------------------------------------------------------------------------------------------------------------
 
 constexpr std::string_view k_volume_mesh_usage =
-    "volume_mesh{ wall, layers = 32, first_height = 1e-6, farfield = sphere{ radius = 100 }, envelope = { max_growth = 1.3 } }";
+    "volume_mesh{ wall, layers = 32, first_height = 1e-6, farfield = sphere{ radius = 100 }, envelope = { max_growth = 1.3 }, stages = \"case.sterna\" }";
 
 ScriptValue make_mesh(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_volume_mesh_usage);
@@ -108,10 +59,15 @@ ScriptValue make_mesh(const ScriptCall& call) {
   else if (items.size() > 1) reader.add_problem("takes one surface, not " + std::to_string(items.size()) + " (read_surface{ \"a.stl\", \"b.stl\" } joins files)");
   reader.read_options(schema);
   options.sources = read_sources(reader, call);
+  std::filesystem::path stages;
+  if (const ScriptValue* value = reader.field("stages")) {
+    if (const auto* name = std::get_if<std::string>(value)) stages = *name;
+    else reader.add_problem("stages: expected the name of a .sterna file, not " + std::string(type_text(*value)));
+  }
   apply_overrides(call, schema);
   reader.require(schema);
   reader.finish();
-  auto mesh = std::make_shared<const MeshValue>(make_volume_mesh(**wall, options, call.session.context.part("volume_mesh", 0.0, 1.0)));
+  auto mesh = std::make_shared<const MeshValue>(make_volume_mesh(**wall, options, stages, call.session.context.part("volume_mesh", 0.0, 1.0)));
   if (call.session.on_mesh) call.session.on_mesh(*mesh);
   return mesh;
 }
@@ -136,24 +92,6 @@ ScriptValue make_sphere(const ScriptCall& call) {
 }
 
 // ---- Methods and fields --------------------------------------------------------------------------------------------------------------------
-
-/// mesh:write("a.su2", "b.vtu") or mesh:write{...}: the names after the object.
-std::vector<std::filesystem::path> output_names(const ScriptCall& call) {
-  std::vector<std::filesystem::path> names;
-  const auto add = [&](const ScriptValue& value) {
-    if (const auto* name = std::get_if<std::string>(&value)) names.emplace_back(*name);
-    else reject(call, "expected file names, not " + std::string(type_text(value)));
-  };
-  for (std::size_t i = 1; i < call.arguments.size(); ++i) {
-    const auto* table = std::get_if<TableHandle>(&call.arguments[i]);
-    if (!table) add(call.arguments[i]);
-    else if (!(*table)->fields.empty()) reject(call, "takes file names and no options (\"" + (*table)->fields.begin()->first + "\")");
-    else
-      for (const ScriptValue& item : (*table)->items) add(item);
-  }
-  if (names.empty()) reject(call, "needs at least one file name");
-  return names;
-}
 
 ScriptValue write_surface_files(const ScriptCall& call) {
   const SurfaceHandle& surface = self<SurfaceHandle>(call);
@@ -200,6 +138,8 @@ ScriptValue describe_object(const ScriptCall& call) {
   if (call.arguments.empty()) return std::monostate{};
   const ScriptValue& object = call.arguments.front();
   if (const auto* surface = std::get_if<SurfaceHandle>(&object)) return describe(**surface);
+  if (const auto* envelope = std::get_if<EnvelopeHandle>(&object)) return describe(**envelope);
+  if (const auto* tetrahedra = std::get_if<TetrahedraHandle>(&object)) return describe(**tetrahedra);
   if (const auto* mesh = std::get_if<MeshHandle>(&object)) return describe(**mesh);
   if (const auto* error = std::get_if<ErrorHandle>(&object)) return std::string((*error)->what());
   std::string text;
@@ -218,26 +158,6 @@ ScriptValue patch_names(const PatchColumn& patches) {
   auto names = std::make_shared<ScriptTable>();
   for (const Patch& patch : patches) names->items.emplace_back(patch.name);
   return names;
-}
-
-using Fields = std::vector<std::pair<std::string, ScriptValue>>;
-
-/// The value of object.name among the fields; a wrong name is an error with a suggestion.
-ScriptValue select_field(const ScriptCall& call, Fields fields, std::span<const ScriptVerb> methods) {
-  const auto* name = call.arguments.size() < 2 ? nullptr : std::get_if<std::string>(&call.arguments[1]);
-  std::vector<std::string> known;
-  for (auto& [field, value] : fields) {
-    if (name && field == *name) return std::move(value);
-    known.push_back(field);
-  }
-  for (const ScriptVerb& method : methods) known.emplace_back(method.name.substr(method.name.find(':') + 1));
-  const std::string nearest = name ? nearest_name(*name, known) : "";
-  std::string all;
-  for (const std::string& other : known) all += (all.empty() ? "" : ", ") + other;
-  throw Error({.code = ErrorCode::unknown_option,
-               .attempted = call.attempted(),
-               .problem = name ? "there is no \"" + *name + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?") : "fields are named",
-               .hint = all});
 }
 
 ScriptValue surface_field(const ScriptCall& call) {
@@ -293,7 +213,7 @@ std::string sphere_help() {
 }
 
 const ScriptVerb* find_verb(std::string_view name) {
-  for (const std::span<const ScriptVerb> verbs : {script_verbs(), surface_methods(), mesh_methods()})
+  for (const std::span<const ScriptVerb> verbs : {script_verbs(), surface_methods(), envelope_methods(), tetrahedra_methods(), mesh_methods()})
     for (const ScriptVerb& verb : verbs)
       if (verb.name == name || verb.name.substr(verb.name.find(':') + 1) == name) return &verb;
   return nullptr;
@@ -301,7 +221,7 @@ const ScriptVerb* find_verb(std::string_view name) {
 
 std::string list_of_verbs() {
   std::string text;
-  for (const std::span<const ScriptVerb> verbs : {script_verbs(), surface_methods(), mesh_methods()})
+  for (const std::span<const ScriptVerb> verbs : {script_verbs(), surface_methods(), envelope_methods(), tetrahedra_methods(), mesh_methods()})
     for (const ScriptVerb& verb : verbs) text += std::string(verb.name) + ": " + std::string(verb.summary) + "\n  " + std::string(verb.usage) + "\n";
   return text + "numbers: mm, cm, inch, ft, deg. help(volume_mesh) prints the options of a verb.";
 }
@@ -348,6 +268,7 @@ const ScriptVerb k_error_field = {"error", "", "", error_field};
 std::span<const ScriptVerb> script_verbs() {
   static const std::vector<ScriptVerb> all = [] {
     std::vector<ScriptVerb> verbs(k_verbs.begin(), k_verbs.end());
+    verbs.insert(verbs.end(), stage_verbs().begin(), stage_verbs().end());
     verbs.insert(verbs.end(), source_verbs().begin(), source_verbs().end());
     return verbs;
   }();

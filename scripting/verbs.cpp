@@ -44,27 +44,6 @@ SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchO
   return wall;
 }
 
-MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context) {
-  volmesh::VolumeMeshResult result = volmesh::volume_mesh(wall.mesh, options, context);
-  MeshValue value;
-  value.mesh = std::move(result.mesh);
-  value.inputs = wall.inputs;
-  value.check = std::move(result.check);
-  value.origin = MeshOrigin{.surface_options = wall.options,
-                            .options = options,
-                            .layer = std::move(result.layer),
-                            .certificate = std::move(result.certificate),
-                            .n_wall_triangles = static_cast<std::int64_t>(wall.mesh.n_triangles()),
-                            .improvement = std::move(result.improvement),
-                            .tetra_engine = result.tetra_engine,
-                            .tetra_failures = result.tetra_failures,
-                            .n_split_triangles = result.n_split_triangles,
-                            .is_reproducible = result.is_reproducible,
-                            .tetra_engine_seconds = result.tetra_engine_seconds,
-                            .tetra_engine_peak_bytes = result.tetra_engine_peak_bytes};
-  return value;
-}
-
 MeshValue read_mesh(const InputPath& file, const RunContext& context) {
   const StageTimer timer(context, "read");
   MeshValue value;

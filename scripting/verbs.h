@@ -64,9 +64,6 @@ struct InputPath {
 /// Reads the files and joins them to one surface. \throws Error of io and of surfmesh::stitch_surface.
 SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context);
 
-/// \throws Error of volmesh::volume_mesh.
-MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context);
-
 /// Reads a volume mesh. \throws Error of io.
 MeshValue read_mesh(const InputPath& file, const RunContext& context);
 

@@ -1,0 +1,62 @@
+// A volume mesh step by step: values between the steps, which a .sterna file holds, so that a run can be stopped and continued to the same bytes.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+
+#include "scripting/verbs.h"
+#include "volmesh/stages.h"
+
+namespace sterna::scripting {
+
+/// The envelope of a wall, with all that the rest of the run needs.
+struct EnvelopeValue {
+  SurfaceHandle wall;
+  volmesh::VolumeMeshOptions options;
+  volmesh::EnvelopeStage stage;
+  std::size_t n_sources_in_file = 0;  ///< of the run that wrote the file that this was read from; `options` do not have them
+};
+
+/// Layer and tetrahedra, not yet one mesh.
+struct TetrahedraValue {
+  SurfaceHandle wall;
+  std::int64_t n_wall_triangles = 0;  ///< as they were given, before any were split
+  volmesh::VolumeMeshOptions options;
+  volmesh::FilledStage stage;
+};
+
+using EnvelopeHandle = std::shared_ptr<const EnvelopeValue>;
+using TetrahedraHandle = std::shared_ptr<const TetrahedraValue>;
+
+/// \throws Error of volmesh::make_envelope, make_tetrahedra, finish_mesh.
+EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context);
+TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::VolumeMeshOptions& options, const RunContext& context);
+MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::VolumeMeshOptions& options, const RunContext& context);
+
+/// make_volume_mesh() that leaves surface, envelope, tetrahedra and at last the mesh, its manifest, certificate and quality in a .sterna file, which is replaced
+/// as each step ends; nothing is written without a name.
+MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const std::filesystem::path& stages, const RunContext& context);
+
+/// What a .sterna file holds; null where it does not. An envelope in a file with tetrahedra is the one that their layer has, of its wall with splits.
+struct StageContent {
+  SurfaceHandle surface;
+  EnvelopeHandle envelope;
+  TetrahedraHandle tetrahedra;
+  MeshHandle mesh;
+};
+/// \throws Error of io; file_malformed where parts do not belong together or options are missing.
+StageContent read_stages(const InputPath& file, const RunContext& context);
+
+/// Writes a step's value to a .sterna file. \throws Error of io; bad_argument for another extension.
+void write_stage(const EnvelopeValue& envelope, const std::filesystem::path& path, const RunContext& context);
+void write_stage(const TetrahedraValue& tetrahedra, const std::filesystem::path& path, const RunContext& context);
+
+/// Throws Error(bad_argument) unless steps can be written to a file of this name.
+void require_stage_output(const std::filesystem::path& path);
+
+/// One line each.
+std::string describe(const EnvelopeValue& envelope);
+std::string describe(const TetrahedraValue& tetrahedra);
+
+}  // namespace sterna::scripting
