@@ -148,8 +148,15 @@ StageContent steps_of(const MeshCommand& command, const CommandContext& context)
 /// From the last step on. Options that are given win over those of the file.
 MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, const CommandContext& context) {
   if (!command.stages.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "mesh", .problem = "--stages keeps the steps of a whole run; this one continues from " + command.inputs.front()});
-  volmesh::VolumeMeshOptions options = steps.envelope->options;
-  set_options(volmesh::options_of(options), command.options);
+  volmesh::VolumeMeshOptions options = steps.envelope->options, all;
+  OptionTable open = finish_options(options);
+  if (!steps.tetrahedra)
+    for (Option& option : tetrahedra_options(options)) open.push_back(std::move(option));
+  const OptionTable known = volmesh::options_of(all);
+  for (const auto& [name, text] : command.options)
+    if (const Option& option = find_option(known, name, "option " + name); std::none_of(open.begin(), open.end(), [&](const Option& o) { return o.name == option.name; }))
+      throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + name, .problem = "belongs to a step that is done already in " + command.inputs.front(), .hint = "mesh the surface anew"});
+  set_options(open, command.options);
   const RunContext part = context.run.part("volume_mesh", k_read_end, k_mesh_end);
   context.run.info("continuing behind the " + std::string(steps.tetrahedra ? "tetrahedra" : "envelope") + " of " + command.inputs.front());
   return steps.tetrahedra ? finish_mesh(*steps.tetrahedra, options, part) : finish_mesh(make_tetrahedra(*steps.envelope, options, part), options, part);

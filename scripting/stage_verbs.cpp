@@ -11,17 +11,6 @@
 namespace sterna::scripting {
 namespace {
 
-/// The options of some stages of a volume mesh.
-OptionTable options_of_stages(volmesh::VolumeMeshOptions& options, std::initializer_list<std::string_view> stages) {
-  OptionTable table = volmesh::options_of(options);
-  std::erase_if(table, [&](const Option& option) { return std::find(stages.begin(), stages.end(), option.stage) == stages.end(); });
-  return table;
-}
-
-OptionTable envelope_options(volmesh::VolumeMeshOptions& options) { return options_of_stages(options, {"envelope", "farfield"}); }
-OptionTable tetrahedra_options(volmesh::VolumeMeshOptions& options) { return options_of_stages(options, {"prisms", "farfield", "size", "tetrahedra"}); }
-OptionTable finish_options(volmesh::VolumeMeshOptions& options) { return options_of_stages(options, {"improve"}); }
-
 template <class Handle>
 Handle entry(TableReader& reader, std::size_t number, std::string_view what) {
   const std::vector<ScriptValue>& items = reader.items();
@@ -72,8 +61,8 @@ constexpr std::string_view k_prisms_usage = "prisms{ env, tets, improve_rounds =
 
 /// The layer is laid out before the tetrahedra are made (it may have to be lower than the envelope was), so what it is made with belongs to tetrahedra{}.
 void refuse_layer_options(TableReader& reader) {
-  volmesh::VolumeMeshOptions options;
-  for (const Option& option : options_of_stages(options, {"prisms"}))
+  volmesh::PrismOptions options;
+  for (const Option& option : sterna::options_of(options))
     if (reader.field(std::string(option.name))) reader.add_problem(std::string(option.name) + ": belongs to tetrahedra{ env, " + std::string(option.name) + " = ... }, which lays the layer out first");
 }
 

@@ -176,6 +176,13 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
   return value;
 }
 
+/// The options of some stages of a volume mesh.
+OptionTable options_of_stages(volmesh::VolumeMeshOptions& options, std::initializer_list<std::string_view> stages) {
+  OptionTable table = volmesh::options_of(options);
+  std::erase_if(table, [&](const Option& option) { return std::find(stages.begin(), stages.end(), option.stage) == stages.end(); });
+  return table;
+}
+
 std::int64_t n_triangles(const SurfaceValue& surface) { return static_cast<std::int64_t>(surface.mesh.n_triangles()); }
 
 // ---- Writing -------------------------------------------------------------------------------------------------------------------------------
@@ -222,6 +229,10 @@ void write_finished(const SurfaceValue& wall, const FinishedParts& parts, const 
 }
 
 }  // namespace
+
+OptionTable envelope_options(volmesh::VolumeMeshOptions& options) { return options_of_stages(options, {"envelope", "farfield"}); }
+OptionTable tetrahedra_options(volmesh::VolumeMeshOptions& options) { return options_of_stages(options, {"prisms", "farfield", "size", "tetrahedra"}); }
+OptionTable finish_options(volmesh::VolumeMeshOptions& options) { return options_of_stages(options, {"improve"}); }
 
 EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context) {
   return {.wall = wall, .options = options, .stage = volmesh::make_envelope(wall->mesh, options, context)};

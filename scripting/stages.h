@@ -29,6 +29,11 @@ struct TetrahedraValue {
 using EnvelopeHandle = std::shared_ptr<const EnvelopeValue>;
 using TetrahedraHandle = std::shared_ptr<const TetrahedraValue>;
 
+/// What each of the three steps takes. The arguments must outlive the tables.
+OptionTable envelope_options(volmesh::VolumeMeshOptions& options);
+OptionTable tetrahedra_options(volmesh::VolumeMeshOptions& options);
+OptionTable finish_options(volmesh::VolumeMeshOptions& options);
+
 /// \throws Error of volmesh::make_envelope, make_tetrahedra, finish_mesh.
 EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context);
 TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::VolumeMeshOptions& options, const RunContext& context);

@@ -73,6 +73,74 @@ TEST_F(FirstMesh, TheNativeFileHoldsWhatIsKnown) {
   EXPECT_EQ(sterna({"check", "box.sterna"}).status, k_exit_success);
 }
 
+/// Stopped behind each step, written, read, continued: the same files as of the run that was not stopped. A wing: layers meet, heights are lowered.
+TEST_F(FirstMesh, StepsAreContinuedToTheSameBytes) {
+  STERNA_NEEDS_SHARED_DATA();
+  const std::string wing = "local wall = read_surface{ '" + (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() + "', split_angle = 60*deg }\n";
+  const std::string layer = "layers = 8, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 5 * wall.length }";
+  const std::string fill = "wall_perpendicularity = 0.2, size_growth = 1.8";
+  const auto run = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder / (name + ".lua")) << text;
+    const ProcessResult result = sterna({"run", name + ".lua"});
+    EXPECT_EQ(result.status, k_exit_success) << result.errors;
+    return result.output;
+  };
+  run("whole", wing + "volume_mesh{ wall, " + layer + ", " + fill + ", improve_rounds = 5, stages = 'all.sterna' }:write 'whole.su2'");
+  run("envelope", wing + "make_envelope{ wall, " + layer + " }:write('env.sterna', 'env.vtu')");
+  const std::string told = run("tetrahedra", "local s = read_stages 'env.sterna'\nassert(not s.tetrahedra and not s.mesh)\nprint(s.envelope, s.envelope.wall)\n"
+                                             "local tets = tetrahedra{ s.envelope, " + fill + " }\nprint(tets)\ntets:write 'tets.sterna'");
+  EXPECT_NE(told.find("Envelope: "), std::string::npos) << told;
+  EXPECT_NE(told.find("880 triangles, closed, 4 patches"), std::string::npos) << told;
+  EXPECT_NE(told.find("Tetrahedra: "), std::string::npos) << told;
+  run("prisms", "local s = read_stages 'tets.sterna'\nassert(not s.mesh)\nprisms{ s.envelope, s.tetrahedra, improve_rounds = 5 }:write 'prisms.su2'");
+  run("memory", wing + "local env = make_envelope{ wall, " + layer + " }\nlocal tets = tetrahedra{ env, size = { size_growth = 1.8 }, prisms = { wall_perpendicularity = 0.2 } }\nprisms{ env, tets, improve_rounds = 5 }:write 'memory.su2'");
+  run("last", "local s = read_stages 'all.sterna'\nassert(s.mesh.prisms > 0)\ns.mesh:write 'last.su2'\nprisms{ s.envelope, s.tetrahedra }:write 'again.su2'");
+  const std::string whole = contents(folder / "whole.su2");
+  EXPECT_GT(whole.size(), 100000u);
+  for (const char* name : {"prisms.su2", "memory.su2", "last.su2", "again.su2"}) EXPECT_TRUE(contents(folder / name) == whole) << name;
+
+  const ProcessResult continued = sterna({"mesh", "env.sterna", "--wall-perpendicularity", "0.2", "--size-growth", "1.8", "--improve-rounds", "5", "-o", "command.su2"});
+  EXPECT_EQ(continued.status, k_exit_success) << continued.errors;
+  EXPECT_NE(continued.errors.find("continuing behind the envelope of env.sterna"), std::string::npos) << continued.errors;
+  EXPECT_TRUE(contents(folder / "command.su2") == whole);
+  const auto without_name = [&](const std::string& name) {
+    std::string manifest = contents(folder / (name + ".json"));
+    return manifest.erase(manifest.find(name), name.size());
+  };
+  EXPECT_EQ(without_name("command.su2"), without_name("whole.su2"));
+  EXPECT_EQ(without_name("prisms.su2"), without_name("whole.su2"));
+
+  const io::SternaContent content = io::read_sterna(folder / "all.sterna", RunContext({.threads = 1}));
+  EXPECT_EQ(content.names(), "surface, envelope, tetrahedra, mesh, manifest, certificate, quality");
+  EXPECT_EQ(sterna({"check", "all.sterna"}).status, k_exit_success);
+  const ProcessResult late = sterna({"mesh", "all.sterna", "--layers", "9", "-o", "late.su2"});
+  EXPECT_NE(late.status, k_exit_success);
+  EXPECT_NE(late.errors.find("belongs to a step that is done already"), std::string::npos) << late.errors;
+}
+
+TEST_F(FirstMesh, StepsThatDoNotFitAreRefused) {
+  const auto error_of = [&](const std::string& text) {
+    std::ofstream(folder / "case.lua") << text;
+    const ProcessResult result = sterna({"run", "case.lua"});
+    EXPECT_NE(result.status, k_exit_success);
+    return result.errors;
+  };
+  const std::string env = "local wall = read_surface 'box.stl'\nlocal env = make_envelope{ wall, layers = 4, first_height = 1e-3, farfield = sphere{ radius = 10 } }\n";
+  const auto expect_told = [&](const std::string& text, const std::string& part) {
+    const std::string errors = error_of(text);
+    EXPECT_NE(errors.find(part), std::string::npos) << errors;
+  };
+  expect_told(env + "tetrahedra{ wall }", "case.lua:3: tetrahedra: entry 1: expected an envelope (from make_envelope or read_stages), not a surface");
+  expect_told(env + "tetrahedra{ env, layers = 3 }", "unknown key \"layers\"");
+  expect_told(env + "prisms{ env }", "entry 2: expected tetrahedra (from tetrahedra{...} or read_stages), not nothing");
+  expect_told(env + "prisms{ env, tetrahedra{ env }, wall_perpendicularity = 0.3 }", "belongs to tetrahedra{ env, wall_perpendicularity = ... }");
+  expect_told(env + "prisms{ make_envelope{ wall, layers = 4, first_height = 1e-3 }, tetrahedra{ read_stages('env.sterna').envelope } }", "env.sterna");
+  expect_told(env + "env:write 'env.sterna'\nprisms{ env, tetrahedra{ read_stages('env.sterna').envelope } }", "these tetrahedra are around another envelope");
+  expect_told(env + "tetrahedra{ env }:write 'tets.vtu'", "written to .sterna files only");
+  expect_told(env + "print(env.hight)", "there is no \"hight\"");
+  expect_told("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, stages = 'a.su2' }", "written to .sterna files only");
+}
+
 TEST_F(FirstMesh, AnyThreadCountWritesTheSameBytes) {
   std::vector<std::string> meshes, manifests;
   for (const char* threads : {"1", "2", "7"}) {
