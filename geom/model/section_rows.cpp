@@ -1,0 +1,194 @@
+#include "geom/model/section_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "geom/base/error.h"
+#include "geom/model/spline.h"
+
+namespace sterna {
+namespace {
+
+/// Samples of the length of a side: the fractions found with so many are even to 1e-6; the points themselves lie on the curve anyway.
+constexpr std::size_t k_length_samples = 2000;
+/// A frame whose size is below this part of its distance from the origin, or of a metre, is a point.
+constexpr double k_point_size = 1e-9;
+
+[[noreturn]] void refuse(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places = {}) {
+  throw Error({.code = code, .attempted = "making a cross section", .problem = problem, .places = std::move(places)});
+}
+
+/// Points of a curve between two parameters at fractions of the length.
+std::vector<Point> at_fractions(const std::function<Point(double)>& curve, double from, double to, const std::vector<double>& fractions) {
+  std::vector<double> length{0.0};
+  const auto parameter = [&](double part) { return from + part * (to - from); };
+  Point last = curve(from);
+  for (std::size_t i = 1; i <= k_length_samples; ++i) {
+    const Point next = curve(parameter(static_cast<double>(i) / k_length_samples));
+    length.push_back(length.back() + distance(last, next));
+    last = next;
+  }
+  std::vector<Point> points;
+  for (const double fraction : fractions) {
+    const double wanted = fraction * length.back();
+    const auto above = std::upper_bound(length.begin() + 1, length.end() - 1, wanted);
+    const auto i = static_cast<std::size_t>(above - length.begin());
+    const double step = length[i] - length[i - 1];
+    const double part = (static_cast<double>(i - 1) + (step > 0.0 ? (wanted - length[i - 1]) / step : 0.0)) / k_length_samples;
+    points.push_back(curve(parameter(std::clamp(part, 0.0, 1.0))));
+  }
+  return points;
+}
+
+/// Right half of a section given by a formula, unit half width and height, angle 0 at the bottom, pi at the top.
+std::function<Uv(double)> shape_of(const BodyFrame& frame) {
+  const auto power = [](double value, double exponent) { return value <= 0.0 ? 0.0 : std::pow(value, exponent); };
+  switch (frame.shape) {
+    case FrameShape::circle:
+    case FrameShape::ellipse: {
+      const double e = frame.shape == FrameShape::circle ? 1.0 : 2.0 / frame.exponent;
+      return [=](double a) { return Uv{power(std::sin(a), e), -std::copysign(power(std::abs(std::cos(a)), e), std::cos(a))}; };
+    }
+    case FrameShape::double_ellipse:
+      return [offset = frame.offset](double a) {
+        const double c = -std::cos(a);
+        return Uv{std::max(std::sin(a), 0.0), offset + c * (c < 0.0 ? 1.0 + offset : 1.0 - offset)};
+      };
+    case FrameShape::egg: {  // y2 = (1 - z2) / (1 + d z), scaled to unit half width
+      const auto raw = [d = frame.distortion](double z) { return std::sqrt(std::max(0.0, 1.0 - z * z) / (1.0 + d * z)); };
+      double widest = 0.0;
+      for (int i = 0; i <= 4000; ++i) widest = std::max(widest, raw(-1.0 + i / 2000.0));
+      return [=](double a) { return Uv{raw(-std::cos(a)) / widest, -std::cos(a)}; };
+    }
+    default: refuse(ErrorCode::unsupported_format, "frame '" + frame.name + "': Isikveren's sections have no documented formula and are not supported");
+  }
+}
+
+std::vector<Point> closed(std::vector<Point> right, const std::vector<Point>& left) {
+  right.insert(right.end(), left.begin() + 1, left.end());
+  right.back() = right.front();
+  return right;
+}
+
+std::vector<double> even_fractions(std::size_t m) {
+  std::vector<double> fractions;
+  for (std::size_t i = 0; i <= m; ++i) fractions.push_back(static_cast<double>(i) / static_cast<double>(m));
+  return fractions;
+}
+
+/// Both halves of a smooth closed curve through points, split at point `top`.
+std::vector<Point> halves_of(std::vector<Point> loop, std::size_t top, std::size_t m) {
+  loop.push_back(loop.front());
+  const std::vector<double> at = spline_parameters(loop, SplineParameters::chord_length);
+  const CurvePtr curve = spline_curve(loop, {.tangents = SplineTangents::periodic, .at = at});
+  const auto point = [&](double t) { return curve->point(t); };
+  const std::vector<double> fractions = even_fractions(m);
+  return closed(at_fractions(point, 0.0, at[top], fractions), at_fractions(point, at[top], 1.0, fractions));
+}
+
+}  // namespace
+
+std::vector<double> airfoil_stations(std::size_t n) {
+  std::vector<double> stations;
+  for (std::size_t k = 0; k <= n; ++k) stations.push_back(0.5 * (1.0 - std::cos(std::numbers::pi * static_cast<double>(k) / static_cast<double>(n))));
+  stations.back() = 1.0;
+  return stations;
+}
+
+std::vector<Point> section_loop(const WingSection& section, const std::optional<double>& trailing_edge) {
+  std::vector<Point> loop = section.loop;
+  if (loop.empty()) {
+    if (section.points.size() < 5) refuse(ErrorCode::bad_argument, "section '" + section.name + "' has " + std::to_string(section.points.size()) + " airfoil points; at least 5 are needed");
+    const Transform place = transform_of({section.leading_edge, {section.dihedral, section.twist, section.yaw}});
+    const double up = section.is_reversed ? -section.chord : section.chord;
+    for (const Uv p : section.points) loop.push_back(place.point({section.chord * p.u, 0.0, up * p.v}));
+    if (section.is_reversed) std::reverse(loop.begin(), loop.end());
+  }
+  if (!trailing_edge) return loop;
+  const Point upper = loop.front(), lower = loop.back(), middle = 0.5 * (upper + lower);
+  const auto nose = std::max_element(loop.begin(), loop.end(), [&](const Point& a, const Point& b) { return distance(a, middle) < distance(b, middle); });
+  const auto n_upper = nose - loop.begin();
+  const Point leading = *nose;
+  const Vec3 chord = middle - leading;
+  Vec3 gap = upper - lower;
+  if (*trailing_edge > 0.0 && norm(gap) <= k_point_size * norm(chord)) {  // sharp so far: it opens towards the upper side
+    Vec3 up;
+    for (std::ptrdiff_t i = 0; i < n_upper; ++i) up += loop[static_cast<std::size_t>(i)] - leading;
+    for (auto i = static_cast<std::size_t>(n_upper); i < loop.size(); ++i) up -= loop[i] - leading;
+    gap = up - dot(up, chord) / norm2(chord) * chord;
+  }
+  const Vec3 half = 0.5 * *trailing_edge * normalized(gap);
+  const Vec3 move_upper = middle + half - upper, move_lower = middle - half - lower;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const double part = std::clamp(dot(loop[i] - leading, chord) / norm2(chord), 0.0, 1.0);
+    loop[i] += part * (static_cast<std::ptrdiff_t>(i) < n_upper ? move_upper : move_lower);
+  }
+  loop.front() = middle + half;
+  loop.back() = *trailing_edge > 0.0 ? middle - half : loop.front();
+  return loop;
+}
+
+AirfoilRow airfoil_row(const std::vector<Point>& loop, std::size_t n, const std::string& name) {
+  const std::vector<double> at = spline_parameters(loop, SplineParameters::centripetal);
+  const CurvePtr curve = spline_curve(loop, {.tangents = SplineTangents::not_a_knot, .at = at});
+  const Point middle = 0.5 * (loop.front() + loop.back());
+  // The leading edge: farthest from the trailing edge, near the farthest point of the list.
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    if (distance(loop[i], middle) > distance(loop[best], middle)) best = i;
+  if (best == 0 || best + 1 == loop.size()) refuse(ErrorCode::bad_argument, "section '" + name + "' has no leading edge between its ends", {{loop[best], "farthest point"}});
+  double low = at[best - 1], high = at[best + 1];
+  constexpr double k_golden = 0.6180339887498949;
+  for (int i = 0; i < 80; ++i) {
+    const double a = high - k_golden * (high - low), b = low + k_golden * (high - low);
+    if (distance(curve->point(a), middle) > distance(curve->point(b), middle)) high = b;
+    else low = a;
+  }
+  // Where the list itself has the farthest point, that one is meant.
+  const double nose = distance(curve->point(0.5 * (low + high)), middle) > distance(loop[best], middle) * (1.0 + 1e-12) ? 0.5 * (low + high) : at[best];
+  const auto point = [&](double t) { return curve->point(t); };
+  const std::vector<double> stations = airfoil_stations(n);
+  AirfoilRow row{at_fractions(point, 0.0, nose, stations)};
+  std::vector<Point> lower = at_fractions(point, 1.0, nose, stations);
+  row.points.insert(row.points.end(), lower.rbegin() + 1, lower.rend());
+  row.points.front() = loop.front();
+  row.points.back() = loop.back();
+  return row;
+}
+
+std::vector<Point> frame_row(const BodyFrame& frame, std::size_t m) {
+  if (frame.shape == FrameShape::loop) {
+    double size = 0.0;
+    for (const Point& p : frame.loop) size = std::max(size, distance(p, frame.loop.front()));
+    if (size <= k_point_size * std::max(1.0, norm(frame.loop.front()))) return std::vector<Point>(2 * m + 1, frame.loop.front());
+    std::size_t top = 0;
+    for (std::size_t i = 1; i < frame.loop.size(); ++i) {
+      const double higher = frame.loop[i].z - frame.loop[top].z;
+      if (higher > k_point_size * size || (higher > -k_point_size * size && std::abs(frame.loop[i].y - frame.center.y) < std::abs(frame.loop[top].y - frame.center.y))) top = i;
+    }
+    if (top == 0) refuse(ErrorCode::bad_argument, "frame '" + frame.name + "' has its highest point where it begins, at the bottom", {{frame.loop.front(), "first point"}});
+    return halves_of(frame.loop, top, m);
+  }
+  if (!(frame.width > 0.0 && frame.height > 0.0))
+    refuse(ErrorCode::bad_argument, "frame '" + frame.name + "' is " + std::to_string(frame.width) + " m wide and " + std::to_string(frame.height) + " m high; both must be positive");
+  const auto place = [&](Uv p) { return frame.center + Vec3{0.0, 0.5 * frame.width * p.u, 0.5 * frame.height * p.v}; };
+  if (frame.shape == FrameShape::points) {
+    std::vector<Point> loop;
+    for (const Uv p : frame.points) loop.push_back(place(p));
+    const std::size_t top = loop.size() - 1;
+    for (std::size_t i = top; i-- > 0;)
+      if (i > 0 || frame.points[0].u != 0.0) loop.push_back(place({-frame.points[i].u, frame.points[i].v}));
+    return halves_of(loop, top, m);
+  }
+  const std::function<Uv(double)> shape = shape_of(frame);
+  const std::vector<double> fractions = even_fractions(m);
+  std::vector<Point> right = at_fractions([&](double a) { return place(shape(a)); }, 0.0, std::numbers::pi, fractions);
+  right.front().y = right.back().y = frame.center.y;
+  std::vector<Point> left;
+  for (std::size_t i = right.size(); i-- > 0;) left.push_back({right[i].x, 2.0 * frame.center.y - right[i].y, right[i].z});
+  return closed(std::move(right), left);
+}
+
+}  // namespace sterna

@@ -1,0 +1,66 @@
+// Reference data: formulas of trapezoids, and published values of the ONERA M6 and the D150.
+#include "geom/model/reference_data.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geom/model/components.h"
+#include "geom/model/cpacs.h"
+#include "tests/support/data.h"
+
+namespace sterna {
+namespace {
+
+WingSection diamond(Point leading, double chord) {
+  return {.name = "s", .leading_edge = leading, .chord = chord, .points = {{1.0, 0.0}, {0.6, 0.05}, {0.2, 0.05}, {0.0, 0.0}, {0.2, -0.05}, {0.6, -0.05}, {1.0, 0.0}}};
+}
+
+TEST(ReferenceData, a_trapezoid_has_its_formulas) {
+  const double root = 2.0, tip = 1.0, half_span = 5.0;
+  const Wing wing{.name = "W", .is_symmetric = true, .sections = {diamond({1.5, half_span, 0.0}, tip), diamond({0.0, 0.0, 0.0}, root)}};
+  const WingReference r = wing_reference(wing);
+  EXPECT_NEAR(r.span, 10.0, 1e-12);
+  EXPECT_NEAR(r.area, 15.0, 1e-12);
+  EXPECT_NEAR(r.mean_geometric_chord, 1.5, 1e-12);
+  const double taper = tip / root;
+  EXPECT_NEAR(r.mean_aerodynamic_chord, 2.0 / 3.0 * root * (1 + taper + taper * taper) / (1 + taper), 1e-12);
+  EXPECT_NEAR(r.aerodynamic_chord_start.x, 1.5 / half_span * half_span / 3.0 * (1 + 2 * taper) / (1 + taper), 1e-12);
+  EXPECT_NEAR(r.aerodynamic_chord_start.y, 0.0, 1e-12);
+  EXPECT_NEAR(r.aspect_ratio, 100.0 / 15.0, 1e-12);
+}
+
+// Schmitt and Charpin, AGARD AR-138 (1979): semi span 1.1963 m, root 0.8059 m, taper 0.562, mean aerodynamic chord 0.64607 m, half area 0.7532 m2. The
+// file says 1.1963 along the swept leading edge instead of along the span, so its span is that times cos 30 degrees: 0.866 of the published.
+TEST(ReferenceData, onera_m6) {
+  STERNA_NEEDS_SHARED_DATA();
+  Wing wing = read_cpacs(test::shared_data() / "cpacs/onera_m6.xml", RunContext()).aircraft.wings.at(0);
+  const WingReference file = wing_reference(wing);
+  EXPECT_NEAR(file.span, 2 * 1.1963 * std::cos(M_PI / 6), 1e-9);
+  EXPECT_NEAR(file.mean_aerodynamic_chord, 0.64607, 0.005 * 0.64607);
+  for (WingSection& section : wing.sections)
+    for (Point& p : section.loop) p.y /= std::cos(M_PI / 6);
+  const WingReference stretched = wing_reference(wing);
+  EXPECT_NEAR(stretched.span, 2 * 1.1963, 0.005 * 2 * 1.1963);
+  EXPECT_NEAR(stretched.area, 2 * 0.7532, 0.005 * 2 * 0.7532);
+}
+
+// The file's own reference area is 122.4 m2 (its <reference>); DLR's D150 spans 33.91 m.
+TEST(ReferenceData, d150) {
+  STERNA_NEEDS_SHARED_DATA();
+  const Aircraft aircraft = read_cpacs(test::shared_data() / "cpacs/d150.xml", RunContext()).aircraft;
+  const WingReference r = wing_reference(aircraft.wings.at(0));
+  EXPECT_NEAR(r.span, 33.91, 0.005 * 33.91);
+  EXPECT_NEAR(r.projected_area, 122.4, 0.005 * 122.4);
+  const std::vector<ComponentReference> parts = component_references(make_components(aircraft, RunContext()));
+  ASSERT_EQ(parts.size(), 4u);
+  for (const ComponentReference& part : parts) {
+    EXPECT_GT(part.volume, 0.0);
+    EXPECT_GT(part.wetted_area, 0.0);
+  }
+  EXPECT_GT(parts[1].wetted_area, 2.0 * r.area);  // both sides, and they are curved
+  EXPECT_LT(parts[1].wetted_area, 2.1 * r.area);
+}
+
+}  // namespace
+}  // namespace sterna
