@@ -13,6 +13,7 @@ namespace sterna::delaunay {
 
 /// The empty circle in the plane, exact. Ghost triangles: conflict with what lies beyond their edge of the hull, or on it.
 struct PlanarCriterion {
+  static constexpr bool k_needs_normals = false;
   bool conflicts(const Triangulation& mesh, TriangleId t, VertexId p) const;
 };
 

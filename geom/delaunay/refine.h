@@ -1,0 +1,121 @@
+// Refinement: a queue of triangles that are not good enough, worst first; for each the caller proposes a new vertex. Based on: Ruppert 1995, Rebay 1993.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/delaunay/surface_triangulation.h"
+
+namespace sterna::delaunay {
+
+/// Triangles by priority, in classes of a quarter of an octave; within a class first come, first served. All operations in constant time.
+class RefineQueue {
+ public:
+  struct Entry {
+    TriangleId triangle;
+    std::uint32_t stamp;  ///< of the triangle when it was put in: an entry of a triangle that has changed since is void
+  };
+  /// \pre priority > 0
+  void push(double priority, Entry entry) {
+    const auto c = static_cast<std::size_t>(std::clamp(4.0 * std::log2(priority) + 0.5 * k_classes, 0.0, k_classes - 1.0));
+    classes_[c].entries.push_back(entry);
+    top_ = std::max(top_, c);
+  }
+  /// \return false when empty
+  bool pop(Entry& entry) {
+    for (;; --top_) {
+      Class& c = classes_[top_];
+      if (c.first < c.entries.size()) {
+        entry = c.entries[c.first++];
+        return true;
+      }
+      c.entries.clear();
+      c.first = 0;
+      if (top_ == 0) return false;
+    }
+  }
+
+ private:
+  static constexpr double k_classes = 256.0;
+  struct Class {
+    std::vector<Entry> entries;
+    std::size_t first = 0;
+  };
+  std::array<Class, static_cast<std::size_t>(k_classes)> classes_;
+  std::size_t top_ = 0;
+};
+
+struct RefineReport {
+  std::size_t n_inserted = 0;
+  std::size_t n_too_near = 0;        ///< proposals refused, by reason
+  std::size_t n_beyond_border = 0;
+  std::size_t n_folded = 0;
+  bool is_limit_met = false;         ///< stopped at `max_insertions`; the rest is not refined
+};
+
+struct Proposal {
+  Uv at;
+  SurfaceSample sample;
+  double min_distance = 0.0;  ///< metres: nearer to a vertex around its cavity it is refused
+};
+
+/// Inserts vertices until no triangle has a priority, proposals are refused, or the limit is met. A refused proposal is not made again before something
+/// beside its triangle has changed; so it ends.
+/// Task: double priority(surface, t), not positive when t is good or cannot be improved; never called for flat triangles;
+///       bool propose(surface, t, Proposal&), false when it knows of none; void inserted(surface, p, proposal).
+/// Criterion: as for insert_vertex. `Flips`: flip to the 3-D criterion after each insertion.
+template <bool Flips, class Criterion, class Task>
+RefineReport refine(SurfaceTriangulation& surface, const Criterion& criterion, Task& task, std::size_t max_insertions, const RunContext& context) {
+  constexpr std::size_t k_stop_interval = 4096;
+  Triangulation& mesh = surface.mesh;
+  RefineReport report;
+  RefineQueue queue;
+  const auto consider = [&](TriangleId t) {
+    if (surface.is_flat(t)) return;
+    const double priority = task.priority(surface, t);
+    if (priority > 0.0) queue.push(priority, {t, mesh.cells[t].stamp});
+  };
+  for (const TriangleId t : mesh.cells.ids())
+    if (!mesh.cells[t].is_dead) consider(t);
+  Cavity cavity;
+  std::vector<HalfedgeId> to_flip;
+  std::vector<TriangleId> touched;
+  RefineQueue::Entry entry;
+  Proposal proposal;
+  while (queue.pop(entry)) {
+    const TriangleId t = entry.triangle;
+    if (mesh.cells[t].is_dead || mesh.cells[t].stamp != entry.stamp) continue;
+    if (!(task.priority(surface, t) > 0.0) || !task.propose(surface, t, proposal)) continue;
+    if (report.n_inserted >= max_insertions) {
+      report.is_limit_met = true;
+      break;
+    }
+    const InsertOutcome outcome = insert_vertex(surface, proposal.at, proposal.sample, t, proposal.min_distance, criterion, cavity);
+    if (outcome != InsertOutcome::inserted) {
+      ++(outcome == InsertOutcome::too_near ? report.n_too_near : outcome == InsertOutcome::beyond_border ? report.n_beyond_border : report.n_folded);
+      ++mesh.cells[t].stamp;  // other entries of the same triangle would make the same proposal
+      continue;
+    }
+    if (++report.n_inserted % k_stop_interval == 0) context.check_stop();
+    const VertexId p(static_cast<std::uint64_t>(mesh.uv.size() - 1));
+    task.inserted(surface, p, proposal);
+    if constexpr (Flips) {
+      to_flip.clear();
+      for (const TriangleId s : cavity.triangles) to_flip.push_back(halfedge(s, 0));
+      touched.clear();
+      flip_around(surface, to_flip, touched);
+      for (const TriangleId s : touched) consider(s);
+    }
+    for_star(mesh, p, [&](HalfedgeId h) {
+      consider(triangle_of(h));
+      if (const HalfedgeId out = mesh.twin(next(h)); out.is_valid()) consider(triangle_of(out));
+    });
+  }
+  return report;
+}
+
+}  // namespace sterna::delaunay

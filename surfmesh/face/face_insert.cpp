@@ -1,0 +1,247 @@
+// Passes that insert: unfolding, size, quality. Each is a task of delaunay::refine (geom/delaunay/refine.h).
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geom/base/error.h"
+#include "geom/delaunay/planar.h"
+#include "geom/delaunay/refine.h"
+#include "surfmesh/face/face_passes.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+using delaunay::Proposal;
+using delaunay::SurfaceSample;
+using delaunay::SurfaceTriangulation;
+
+/// A triangle follows the surface when its normal is within 40 degrees of the surface's: flips may turn it by up to 60.
+constexpr double k_unfolded_cosine = 0.766;
+/// ... and its middle is nearer to it than this part of its longest edge.
+constexpr double k_max_sag = 0.2;
+/// Unfolding goes on for triangles larger than this many times the wanted edge length only: smaller ones are as the user wanted them.
+constexpr double k_unfold_floor = 0.7;
+/// Circumradius over that of an equilateral triangle with the wanted edges, above which a triangle gets a vertex.
+constexpr double k_size_threshold = 1.1;
+/// A new vertex may not be nearer to another than this part of the wanted length.
+constexpr double k_min_spacing = 0.65;
+/// In the second pass: the goal is angles, so vertices may be nearer.
+constexpr double k_min_spacing_for_quality = 0.5;
+/// From an edge that is done the front grows or shrinks by this factor at most, so sizes change gradually.
+constexpr double k_front_growth = 1.5;
+constexpr double k_front_shrink = 0.7;
+/// A place is right within this part of the edge length: no more evaluations of the surface than that needs.
+constexpr double k_place_tolerance = 0.15;
+
+struct Triangle {
+  std::array<VertexId, 3> v;
+  std::array<Point, 3> p;
+  std::array<double, 3> edge2;  ///< squared length of the edge from corner k to k + 1
+  double size;                  ///< mean wanted length of the corners
+};
+
+Triangle gather(const FaceState& state, TriangleId t) {
+  Triangle tri;
+  tri.v = state.mesh.mesh.cells[t].vertex;
+  for (std::size_t k = 0; k < 3; ++k) tri.p[k] = state.mesh.points[tri.v[k]];
+  for (std::size_t k = 0; k < 3; ++k) tri.edge2[k] = norm2(tri.p[(k + 1) % 3] - tri.p[k]);
+  tri.size = (state.size[tri.v[0]] + state.size[tri.v[1]] + state.size[tri.v[2]]) / 3.0;
+  return tri;
+}
+
+/// Squared circumradius.
+double circumradius2(const Triangle& tri) {
+  const double area2 = norm2(cross(tri.p[1] - tri.p[0], tri.p[2] - tri.p[0]));
+  return area2 > 0.0 ? tri.edge2[0] * tri.edge2[1] * tri.edge2[2] / (4.0 * area2) : std::numeric_limits<double>::infinity();
+}
+
+/// Circumradius over that of the equilateral triangle of the wanted size.
+double size_ratio(const Triangle& tri) { return std::sqrt(3.0 * circumradius2(tri)) / tri.size; }
+
+/// The place over the middle of edge k at `height` metres towards its apex: parameters by the linear map of the triangle, then on the surface.
+void propose_over_edge(const FaceState& state, const Triangle& tri, std::size_t k, double height, double spacing, Proposal& proposal) {
+  const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+  const Vec3 along = tri.p[l] - tri.p[k];
+  const Vec3 middle = 0.5 * (tri.p[k] + tri.p[l]);
+  const Vec3 to_apex = tri.p[m] - middle;
+  const double share = dot(to_apex, along) / tri.edge2[k];
+  const Vec3 up = to_apex - share * along;
+  const double apex_height = norm(up);
+  const double ratio = apex_height > 0.0 ? height / apex_height : 0.0;
+  const Uv a = state.mesh.parameters(tri.v[k]), b = state.mesh.parameters(tri.v[l]), c = state.mesh.parameters(tri.v[m]);
+  const Uv uv_middle = 0.5 * (a + b);
+  const Uv uv_up = c - uv_middle - share * (b - a);
+  proposal.at = approach(state, middle + ratio * up, uv_middle + ratio * uv_up, k_place_tolerance * spacing, proposal.sample);
+}
+
+/// Signed height of the circumcentre over the middle of edge k.
+double centre_height(const Triangle& tri, std::size_t k) {
+  const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+  const Vec3 a = tri.p[k] - tri.p[m], b = tri.p[l] - tri.p[m];
+  const double area = norm(cross(a, b));
+  // Half the edge times the cotangent of the opposite angle.
+  return area > 0.0 ? 0.5 * std::sqrt(tri.edge2[k]) * dot(a, b) / area : 0.0;
+}
+
+struct UnfoldTask {
+  FaceState& state;
+
+  double priority(const SurfaceTriangulation& mesh, TriangleId t) const {
+    const Triangle tri = gather(state, t);
+    const Uv a = mesh.parameters(tri.v[0]), b = mesh.parameters(tri.v[1]), c = mesh.parameters(tri.v[2]);
+    const SurfaceSample middle = sample(state.surface, (1.0 / 3.0) * (a + b + c));
+    double reach2 = std::max({tri.edge2[0], tri.edge2[1], tri.edge2[2]});
+    for (const Point& p : tri.p) reach2 = std::max(reach2, norm2(p - middle.point));
+    const double reach = std::sqrt(reach2);
+    if (reach < k_unfold_floor * tri.size) return 0.0;
+    const Vec3 normal = normalized(cross(tri.p[1] - tri.p[0], tri.p[2] - tri.p[0]));
+    bool is_unfolded = distance(middle.point, (tri.p[0] + tri.p[1] + tri.p[2]) / 3.0) < k_max_sag * reach;
+    const auto follows = [&](const Vec3& along) { return norm2(along) == 0.0 || dot(normal, along) > k_unfolded_cosine; };
+    is_unfolded = is_unfolded && follows(middle.frame.normal);
+    for (const VertexId v : tri.v) is_unfolded = is_unfolded && follows(mesh.frames[v].normal);
+    return is_unfolded ? 0.0 : reach;
+  }
+  /// The middle of the longest free edge in the plane; of the triangle, when all are constrained.
+  bool propose(const SurfaceTriangulation& mesh, TriangleId t, Proposal& proposal) const {
+    const auto& v = mesh.mesh.cells[t].vertex;
+    const Uv corner[3] = {mesh.parameters(v[0]), mesh.parameters(v[1]), mesh.parameters(v[2])};
+    proposal.at = (1.0 / 3.0) * (corner[0] + corner[1] + corner[2]);
+    double longest = 0.0;
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      if ((mesh.mesh.cells[t].flags[c] & delaunay::k_constrained) != 0) continue;
+      const Vec2 &p = mesh.mesh.uv[v[c]], &q = mesh.mesh.uv[v[(c + 1) % 3]];
+      const double length = std::hypot(q.x - p.x, q.y - p.y);
+      if (length > longest) {
+        longest = length;
+        proposal.at = 0.5 * (corner[c] + corner[(c + 1) % 3]);
+      }
+    }
+    proposal.sample = sample(state.surface, proposal.at);
+    proposal.min_distance = 0.0;
+    return true;
+  }
+  void inserted(const SurfaceTriangulation&, VertexId, const Proposal& proposal) const { state.size.push_back(wanted_size(state, proposal.at, proposal.sample.point)); }
+};
+
+/// The wanted length at a new vertex: what its place wants, and no jump from its neighbours.
+void push_graded_size(FaceState& state, VertexId p, const Proposal& proposal) {
+  double size = wanted_size(state, proposal.at, proposal.sample.point);
+  delaunay::for_star(state.mesh.mesh, p, [&](HalfedgeId h) {
+    const VertexId q = state.mesh.mesh.target(h);
+    size = std::min(size, state.size[q] + state.options.size_growth * distance(state.mesh.points[q], proposal.sample.point));
+  });
+  state.size.push_back(size);
+}
+
+struct SizeTask {
+  FaceState& state;
+  bool is_front;  ///< only beside edges that are done
+
+  bool is_done(HalfedgeId out) const {
+    if (!out.is_valid()) return true;
+    const TriangleId t = delaunay::triangle_of(out);
+    return !state.mesh.is_flat(t) && size_ratio(gather(state, t)) <= k_size_threshold;
+  }
+  /// The shortest edge that is done and has the circumcentre on the triangle's side; 3 when there is none.
+  std::size_t front_edge(TriangleId t, const Triangle& tri) const {
+    std::size_t best = 3;
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      if (best < 3 && tri.edge2[c] >= tri.edge2[best]) continue;
+      if (tri.v[c] == tri.v[(c + 1) % 3] || tri.edge2[c] == 0.0) continue;
+      if (!is_done(state.mesh.mesh.cells[t].twin[c])) continue;
+      best = c;
+    }
+    return best;
+  }
+  double priority(const SurfaceTriangulation&, TriangleId t) const {
+    const Triangle tri = gather(state, t);
+    const double ratio = size_ratio(tri);
+    if (ratio <= k_size_threshold) return 0.0;
+    if (is_front && front_edge(t, tri) == 3) return 0.0;
+    // The front goes around once after the other: first come, first served. Without it the largest first.
+    return is_front ? 1.0 : std::min(ratio, 1e9);
+  }
+  bool propose(const SurfaceTriangulation&, TriangleId t, Proposal& proposal) const {
+    const Triangle tri = gather(state, t);
+    std::size_t k = is_front ? front_edge(t, tri) : 3;
+    if (k == 3) k = static_cast<std::size_t>(std::min_element(tri.edge2.begin(), tri.edge2.end()) - tri.edge2.begin());
+    const double edge = std::sqrt(tri.edge2[k]);
+    const double side = std::clamp(tri.size, k_front_shrink * edge, k_front_growth * edge);
+    const double ideal = std::sqrt(std::max(side * side - 0.25 * edge * edge, 0.25 * edge * edge));
+    const double centre = centre_height(tri, k);
+    const double height = centre > 0.0 ? std::min(ideal, centre) : ideal;
+    propose_over_edge(state, tri, k, height, side, proposal);
+    proposal.min_distance = k_min_spacing * std::min(side, wanted_size(state, proposal.at, proposal.sample.point));
+    return true;
+  }
+  void inserted(const SurfaceTriangulation&, VertexId p, const Proposal& proposal) const { push_graded_size(state, p, proposal); }
+};
+
+struct QualityTask {
+  FaceState& state;
+  double worst_allowed;  ///< cotangent
+
+  double priority(const SurfaceTriangulation&, TriangleId t) const {
+    const Triangle tri = gather(state, t);
+    const double worst = delaunay::worst_cotangent(tri.p[0], tri.p[1], tri.p[2]);
+    return worst > worst_allowed ? std::min(worst, 1e9) : 0.0;
+  }
+  bool propose(const SurfaceTriangulation&, TriangleId t, Proposal& proposal) const {
+    const Triangle tri = gather(state, t);
+    const auto k = static_cast<std::size_t>(std::min_element(tri.edge2.begin(), tri.edge2.end()) - tri.edge2.begin());
+    const double edge = std::sqrt(tri.edge2[k]);
+    // Off-centre: the new triangle on the shortest edge just meets the goal.
+    const double height = std::min(centre_height(tri, k), 0.5 * edge / std::tan(0.5 * state.options.min_angle));
+    propose_over_edge(state, tri, k, height, edge, proposal);
+    proposal.min_distance = std::max(0.9 * edge, k_min_spacing_for_quality * wanted_size(state, proposal.at, proposal.sample.point));
+    return true;
+  }
+  void inserted(const SurfaceTriangulation&, VertexId p, const Proposal& proposal) const { push_graded_size(state, p, proposal); }
+};
+
+std::size_t insertions_left(const FaceState& state) {
+  // A vertex makes two triangles.
+  const auto limit = static_cast<std::size_t>(state.options.max_triangles);
+  const std::size_t n = state.mesh.mesh.n_triangles();
+  return limit > n ? (limit - n) / 2 : 0;
+}
+
+void count(FaceState& state, const delaunay::RefineReport& done, FaceMeshReport& report) {
+  report.n_refused += static_cast<std::int64_t>(done.n_too_near + done.n_beyond_border + done.n_folded);
+  if (!done.is_limit_met) return;
+  const VertexId last(static_cast<std::uint64_t>(state.mesh.points.size() - 1));
+  ErrorInfo info{.code = ErrorCode::overflow, .attempted = "meshing a face",
+                 .problem = "the limit of " + std::to_string(state.options.max_triangles) + " triangles (max_triangles) is met before the edges are as short as wanted"};
+  info.places.push_back({state.mesh.points[last], "edge length wanted here: " + std::to_string(state.size[last]) + " m"});
+  info.hint = "larger edges, a larger curvature_angle or min_edge, or a higher limit";
+  throw Error(std::move(info));
+}
+
+}  // namespace
+
+void unfold(FaceState& state, FaceMeshReport& report, const RunContext& context) {
+  UnfoldTask task{state};
+  const delaunay::RefineReport done = delaunay::refine<false>(state.mesh, delaunay::PlanarCriterion{}, task, insertions_left(state), context);
+  count(state, done, report);
+  report.n_unfolding += static_cast<std::int64_t>(done.n_inserted);
+  report.n_flips += static_cast<std::int64_t>(delaunay::flip_all(state.mesh));
+}
+
+void refine_by_size(FaceState& state, FaceMeshReport& report, const RunContext& context) {
+  for (const bool is_front : {true, false}) {
+    SizeTask task{state, is_front};
+    const delaunay::RefineReport done = delaunay::refine<true>(state.mesh, delaunay::SphereCriterion{&state.mesh.points}, task, insertions_left(state), context);
+    count(state, done, report);
+    report.n_first_pass += static_cast<std::int64_t>(done.n_inserted);
+  }
+}
+
+void refine_by_quality(FaceState& state, FaceMeshReport& report, const RunContext& context) {
+  if (state.options.min_angle <= 0.0) return;
+  QualityTask task{state, 1.0 / std::tan(state.options.min_angle)};
+  const delaunay::RefineReport done = delaunay::refine<true>(state.mesh, delaunay::SphereCriterion{&state.mesh.points}, task, insertions_left(state), context);
+  count(state, done, report);
+  report.n_second_pass += static_cast<std::int64_t>(done.n_inserted);
+}
+
+}  // namespace sterna::surfmesh

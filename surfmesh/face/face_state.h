@@ -1,0 +1,32 @@
+// What the steps of mesh_face share: the surface, the triangulation that grows on it, the wanted length of edges at each vertex.
+#pragma once
+
+#include "geom/delaunay/surface_triangulation.h"
+#include "surfmesh/face/face_mesh.h"
+#include "surfmesh/face/face_sizes.h"
+
+namespace sterna::surfmesh {
+
+struct FaceState {
+  const Surface& surface;
+  const SizeFunction& user_size;
+  const FaceMeshOptions& options;
+  ParameterBox box;                        ///< of the border
+  CurvatureSizes curvature_sizes;
+  delaunay::SurfaceTriangulation mesh;
+  Column<VertexId, double> size;           ///< metres, of every vertex of `mesh`
+};
+
+delaunay::SurfaceSample sample(const Surface& surface, Uv at);
+
+/// The lesser of what the user and the curvature want at a place. \throws Error(bad_argument) when the user's is not positive
+double wanted_size(const FaceState& state, Uv at, const Point& point);
+
+/// Parameters, and the sample there, near `target`, by Newton's method on the tangent plane from `guess`; held within the box of the border.
+/// `tolerance`: metres along the surface.
+Uv approach(const FaceState& state, const Point& target, Uv guess, double tolerance, delaunay::SurfaceSample& at_result);
+
+/// Change of (u, v) that moves a point of this frame by `step` along the tangent plane; zero where the frame is degenerate.
+Uv parameter_step(const delaunay::SurfaceFrame& frame, const Vec3& step);
+
+}  // namespace sterna::surfmesh
