@@ -21,7 +21,8 @@ constexpr double k_min_gain = 0.01;
 /// Of the way to where the triangles would be equilateral: the whole of it, then half, are tried.
 constexpr double k_steps[] = {1.0, 0.4};
 
-double mean_height_over(const Vec3& along) { return 0.5 * std::numbers::sqrt3 * norm(along); }
+/// Height of the equilateral triangle on an edge.
+double equilateral_height(const Vec3& along) { return 0.5 * std::numbers::sqrt3 * norm(along); }
 
 /// Worst cotangent of the star of v with v at `at`, infinite when a triangle would look against its normal there.
 double worst_of_star(const SurfaceTriangulation& mesh, VertexId v, const Point& at, const Vec3& normal) {
@@ -48,7 +49,7 @@ Point ideal_place(const SurfaceTriangulation& mesh, VertexId v) {
     if (length2 == 0.0) return;
     Vec3 up = at - middle;
     up -= (dot(up, along) / length2) * along;
-    sum += middle + mean_height_over(along) * normalized(up);
+    sum += middle + equilateral_height(along) * normalized(up);
     n += 1.0;
   });
   return n > 0.0 ? sum / n : at;
@@ -118,18 +119,17 @@ void collapse_short_edges(FaceState& state, FaceMeshReport& report, const RunCon
 
 void remove_poor_vertices(FaceState& state, FaceMeshReport& report) {
   SurfaceTriangulation& mesh = state.mesh;
+  std::vector<HalfedgeId> edges;
   for (std::uint32_t i = mesh.n_border; i < mesh.points.size(); ++i) {
     const VertexId v(i);
     if (!mesh.mesh.outgoing[v].is_valid()) continue;
     const int n = valence(mesh, v);
     if (n > 4) continue;
     const double before = worst_of_star(mesh, v, mesh.points[v], mesh.frames[v].normal);
-    HalfedgeId best;
-    delaunay::for_star(mesh.mesh, v, [&](HalfedgeId h) { best = best.is_valid() ? best : h; });
-    std::vector<HalfedgeId> edges;
+    edges.clear();
     delaunay::for_star(mesh.mesh, v, [&](HalfedgeId h) { edges.push_back(h); });
     for (const HalfedgeId h : edges) {
-      if (!delaunay::collapse_edge(mesh, h, std::min(before, k_good_cotangent * 1.3))) continue;
+      if (!delaunay::collapse_edge(mesh, h, std::min(before, k_collapse_cotangent))) continue;
       ++report.n_collapses;
       break;
     }

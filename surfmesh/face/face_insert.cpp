@@ -17,7 +17,7 @@ using delaunay::SurfaceTriangulation;
 
 /// A triangle follows the surface when its normal is within 40 degrees of the surface's: flips may turn it by up to 60.
 constexpr double k_unfolded_cosine = 0.766;
-/// ... and its middle is nearer to it than this part of its longest edge.
+/// ... and the surface's point for its middle is nearer to its plane than this part of its longest edge.
 constexpr double k_max_sag = 0.2;
 /// Unfolding goes on for triangles larger than this many times the wanted edge length only: smaller ones are as the user wanted them.
 constexpr double k_unfold_floor = 0.7;
@@ -95,7 +95,7 @@ struct UnfoldTask {
     const double reach = std::sqrt(reach2);
     if (reach < k_unfold_floor * tri.size) return 0.0;
     const Vec3 normal = normalized(cross(tri.p[1] - tri.p[0], tri.p[2] - tri.p[0]));
-    bool is_unfolded = distance(middle.point, (tri.p[0] + tri.p[1] + tri.p[2]) / 3.0) < k_max_sag * reach;
+    bool is_unfolded = std::abs(dot(middle.point - tri.p[0], normal)) < k_max_sag * reach;
     const auto follows = [&](const Vec3& along) { return norm2(along) == 0.0 || dot(normal, along) > k_unfolded_cosine; };
     is_unfolded = is_unfolded && follows(middle.frame.normal);
     for (const VertexId v : tri.v) is_unfolded = is_unfolded && follows(mesh.frames[v].normal);
