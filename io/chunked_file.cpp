@@ -40,6 +40,16 @@ void append_number(std::string& text, T value) {
   text.append(bytes.data(), bytes.size());
 }
 
+/// Fuzzers get behind the hashes, which stop nobody who means harm.
+bool is_intact(std::string_view bytes, std::uint64_t hash) {
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+  static_cast<void>(bytes), static_cast<void>(hash);
+  return true;
+#else
+  return hash_bytes(bytes) == hash;
+#endif
+}
+
 bool is_known(std::uint8_t type) { return type >= static_cast<std::uint8_t>(NumberType::u8) && type <= static_cast<std::uint8_t>(NumberType::f64); }
 
 }  // namespace
@@ -144,12 +154,12 @@ ChunkedReader::ChunkedReader(const FileBuffer& buffer) : buffer_(buffer) {
   if (head.take<std::uint32_t>() != k_byte_order_mark) head.fail("found another byte order, expected little endian");
   const auto place = head.take<std::uint64_t>(), n_bytes = head.take<std::uint64_t>(), hash = head.take<std::uint64_t>(), file_bytes = head.take<std::uint64_t>();
   const auto head_hash = head.take<std::uint64_t>();
-  if (hash_bytes(text.substr(0, k_hashed_head_bytes)) != head_hash) throw_malformed(buffer.source, "byte 0", "the head is damaged: its hash is another", "copy or write the file again");
+  if (!is_intact(text.substr(0, k_hashed_head_bytes), head_hash)) throw_malformed(buffer.source, "byte 0", "the head is damaged: its hash is another", "copy or write the file again");
   if (file_bytes != text.size())
     throw_malformed(buffer.source, "byte 48", "found " + std::to_string(text.size()) + " bytes in the file, expected " + std::to_string(file_bytes), "the file may have been cut short: copy or write it again");
   if (place < k_head_bytes || place > text.size() || n_bytes != text.size() - place)
     throw_malformed(buffer.source, "byte 24", "found the directory at byte " + std::to_string(place) + " with " + std::to_string(n_bytes) + " bytes, expected it to end with the file");
-  if (hash_bytes(text.substr(place)) != hash) throw_malformed(buffer.source, "byte " + std::to_string(place), "the directory is damaged: its hash is another", "copy or write the file again");
+  if (!is_intact(text.substr(place), hash)) throw_malformed(buffer.source, "byte " + std::to_string(place), "the directory is damaged: its hash is another", "copy or write the file again");
   read_directory(place, text.size());
 }
 
@@ -207,7 +217,7 @@ void ChunkedReader::read(std::string_view name, char* to, const RunContext& cont
         const auto damaged = [&](const char* what) {
           throw_malformed(buffer_.source, "byte " + std::to_string(chunk.offset), "chunk " + std::to_string(c) + " of array " + quoted_excerpt(name) + " is damaged: " + what, "copy or write the file again");
         };
-        if (hash_bytes(packed) != chunk.hash) damaged("its hash is another");
+        if (!is_intact(packed, chunk.hash)) damaged("its hash is another");
         char* const place = to + begin * size;
         if (chunk.codec == k_plain) {
           std::memcpy(place, packed.data(), n * size);

@@ -1,5 +1,7 @@
 #include "io/edge_conditions.h"
 
+#include <system_error>
+
 #include "io/ffa_tree.h"
 #include "io/patch_names.h"
 
@@ -56,7 +58,8 @@ std::map<std::string, PatchKind> read_edge_conditions(const std::filesystem::pat
   std::map<std::string, PatchKind> kinds;
   for (const char* const extension : {".aboc", ".bboc"}) {
     const std::filesystem::path path = stem_of(mesh_path).string() + extension;
-    if (!std::filesystem::exists(path)) continue;
+    std::error_code status;  // of a file that cannot be looked at; load_file says what is wrong with the one that is there
+    if (!std::filesystem::exists(path, status)) continue;
     const FileBuffer buffer = load_file(path, context);
     const FfaNode root = parse_ffa(buffer);
     const FfaNode* const region = root.find("region");
@@ -73,14 +76,17 @@ std::map<std::string, PatchKind> read_edge_conditions(const std::filesystem::pat
 std::string edge_conditions_text(const Column<PatchId, Patch>& patches, const std::vector<std::string>& names, const RunContext& context) {
   std::string boundaries;
   int n = 1;  // the region's name
+  const auto warn = [&](const std::string& name, PatchKind kind, const Condition& condition, const std::string& consequence) {
+    context.warn("patch \"" + name + "\" (" + std::string(to_string(kind)) + ") is written with the Edge condition " + std::string(condition.boundary_class) + " / " + std::string(condition.type) + consequence);
+  };
   const auto entry = [](std::string_view name, std::string_view value) { return std::string(name) + ", L, 1, 1, 0\n'" + std::string(value) + "'\n"; };
   for (const PatchId patch : patches.ids()) {
     if (names[patch.index()].empty()) continue;
     const PatchKind kind = patches[patch].kind;
     const Condition condition = condition_of(kind);
-    if (kind == PatchKind::inflow || kind == PatchKind::outflow || kind == PatchKind::interface)
-      context.warn("patch \"" + names[patch.index()] + "\" (" + std::string(to_string(kind)) + ") is written with the Edge condition " + std::string(condition.boundary_class) + " / " +
-                   std::string(condition.type) + (kind == PatchKind::interface ? "" : "; add its parameters to the .aboc file"));
+    const PatchKind back = kind_of(std::string(condition.boundary_class), std::string(condition.type), names[patch.index()]);
+    if (kind == PatchKind::inflow || kind == PatchKind::outflow) warn(names[patch.index()], kind, condition, "; add its parameters to the .aboc file");
+    else if (back != kind) warn(names[patch.index()], kind, condition, ", which is read as " + std::string(to_string(back)));
     boundaries += "boundary, N, 0, 0, 3\n" + entry("b_name", names[patch.index()]) + entry("b_class", condition.boundary_class) + entry("b_type", condition.type);
     ++n;
   }

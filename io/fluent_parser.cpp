@@ -20,21 +20,6 @@ constexpr std::int64_t k_single_binary = 2000;  // added to the index of a secti
 constexpr std::int64_t k_double_binary = 3000;
 constexpr std::int64_t k_most_face_nodes = 64;  // of a polygon; more is a damaged file
 
-PatchKind kind_of_zone(std::int64_t type, const std::string& name) {
-  switch (type) {
-    case 3: return name.starts_with("slip") ? PatchKind::slip : PatchKind::wall;
-    case 4:
-    case 10:
-    case 20: return PatchKind::inflow;
-    case 5:
-    case 36: return PatchKind::outflow;
-    case 7:
-    case 37: return PatchKind::symmetry;
-    case 9: return PatchKind::farfield;
-    default: return PatchKind::interface;
-  }
-}
-
 class FluentParser {
  public:
   FluentParser(const FileBuffer& buffer, const RunContext& context) : buffer_(buffer), text_(buffer.text()), context_(context) {}
@@ -285,7 +270,7 @@ class FluentParser {
     const auto named = names_.find(zone.id);
     const std::string name = named == names_.end() ? numbered_patch(zone.id) : named->second;
     const PatchId patch = find_or_add_patch(content_.patches, name);
-    content_.patches[patch].kind = kind_of_zone(zone.type, name);
+    content_.patches[patch].kind = kind_of_fluent_zone(zone.type, name);
     for (std::size_t f = zone.first_face; f < zone.first_face + zone.n_faces; ++f) {
       if (faces.neighbour[f] == FaceMesh::k_none) faces.patch[f] = patch;
       else ++content_.n_inner_walls;
@@ -304,6 +289,21 @@ class FluentParser {
 };
 
 }  // namespace
+
+PatchKind kind_of_fluent_zone(std::int64_t type, std::string_view name) {
+  switch (type) {
+    case 3: return name.starts_with("slip") ? PatchKind::slip : PatchKind::wall;
+    case 4:
+    case 10:
+    case 20: return PatchKind::inflow;
+    case 5:
+    case 36: return PatchKind::outflow;
+    case 7:
+    case 37: return PatchKind::symmetry;
+    case 9: return PatchKind::farfield;
+    default: return PatchKind::interface;
+  }
+}
 
 FluentContent parse_fluent(const FileBuffer& buffer, const RunContext& context) { return FluentParser(buffer, context).parse(); }
 

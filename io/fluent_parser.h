@@ -1,7 +1,9 @@
 // The sections of a Fluent mesh as faces with their cells.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geom/base/run_context.h"
@@ -18,6 +20,9 @@ struct FluentContent {
   Column<PatchId, Patch> patches;   ///< zones of boundary faces
   std::int64_t n_inner_walls = 0;   ///< faces of boundary zones between two cells, taken as inner faces
 };
+
+/// The kind of patch that a zone of that type and name is.
+PatchKind kind_of_fluent_zone(std::int64_t type, std::string_view name);
 
 /// \throws Error file_malformed, unsupported_format
 FluentContent parse_fluent(const FileBuffer& buffer, const RunContext& context);

@@ -4,6 +4,7 @@
 
 #include "io/cell_sections.h"
 #include "io/fluent.h"
+#include "io/fluent_parser.h"
 #include "io/mesh_faces.h"
 #include "io/name_rules.h"
 #include "io/section_output.h"
@@ -164,10 +165,22 @@ class FluentWriter {
   std::vector<OutputSection> sections_;
 };
 
+void warn_of_lost_kinds(const HybridMesh& mesh, const std::vector<std::string>& names, const RunContext& context) {
+  for (const PatchId patch : mesh.patches.ids()) {
+    const PatchKind kind = mesh.patches[patch].kind;
+    const ZoneType type = zone_type(kind);
+    const PatchKind back = kind_of_fluent_zone(type.number, names[patch.index()]);
+    if (back == kind) continue;
+    context.warn("patch \"" + names[patch.index()] + "\" (" + std::string(to_string(kind)) + ") is written as a Fluent zone of type " + std::string(type.word) + ", which is read as " + std::string(to_string(back)) +
+                 (kind == PatchKind::slip ? ": set its shear stress to zero in Fluent" : ""));
+  }
+}
+
 }  // namespace
 
 void write_volume_fluent(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
   const std::vector<std::string> names = names_by_rules(mesh.patches, {.format = "Fluent", .forbidden = "()\"'`,;\\#|", .may_have_blanks = false}, context);
+  warn_of_lost_kinds(mesh, names, context);
   FluentWriter writer(mesh, path, context);
   const std::vector<OutputSection> sections = writer.sections(names);
   AtomicFile file(path);

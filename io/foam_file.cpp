@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <system_error>
 
 #include "geom/base/error.h"
 
@@ -18,7 +19,8 @@ bool is_mark(char c) { return c == '(' || c == ')' || c == '{' || c == '}' || c 
 
 FileBuffer load(const std::filesystem::path& path, const RunContext& context) {
   const std::filesystem::path packed = path.string() + ".gz";
-  return load_file(!std::filesystem::exists(path) && std::filesystem::exists(packed) ? packed : path, context);
+  std::error_code status;  // of a file that cannot be looked at; load_file says what is wrong with it
+  return load_file(!std::filesystem::exists(path, status) && std::filesystem::exists(packed, status) ? packed : path, context);
 }
 
 template <class T>

@@ -27,6 +27,18 @@ struct Row {
   std::int64_t reference = 0;
 };
 
+/// Where the rows of a section begin: row `first_row` of all of its kind is at byte `offset`.
+struct SectionStart {
+  std::size_t first_row = 0, offset = 0;
+};
+
+/// The elements of one kind, perhaps of several sections.
+template <std::size_t N>
+struct Table {
+  std::vector<Row<N>> rows;
+  std::vector<SectionStart> starts;
+};
+
 /// What a file holds, in any of its forms.
 class MeditReader {
  public:
@@ -57,11 +69,11 @@ class MeditReader {
       }
       return entry->second;
     };
-    for (const auto& row : triangles_) mesh.boundary_triangles.push_back({row.nodes, patch_of(row.reference)});
-    for (const auto& row : quads_) mesh.boundary_quads.push_back({row.nodes, patch_of(row.reference)});
-    const auto take = [](const auto& rows, auto& cells) {
-      cells.reserve(rows.size());
-      for (const auto& row : rows) cells.push_back(row.nodes);
+    for (const auto& row : triangles_.rows) mesh.boundary_triangles.push_back({row.nodes, patch_of(row.reference)});
+    for (const auto& row : quads_.rows) mesh.boundary_quads.push_back({row.nodes, patch_of(row.reference)});
+    const auto take = [](const auto& table, auto& cells) {
+      cells.reserve(table.rows.size());
+      for (const auto& row : table.rows) cells.push_back(row.nodes);
     };
     take(tetrahedra_, mesh.tetrahedra);
     take(prisms_, mesh.prisms);
@@ -180,9 +192,12 @@ class MeditReader {
   }
 
   template <std::size_t N>
-  void read_rows(std::vector<Row<N>>& rows, bool is_wanted) {
+  void read_rows(Table<N>& table, bool is_wanted) {
     const std::size_t n = count(0, N + 1);
-    if (is_wanted) rows.reserve(rows.size() + n);
+    if (is_wanted) {
+      table.rows.reserve(table.rows.size() + n);
+      table.starts.push_back({table.rows.size(), bytes_ ? bytes_->offset() : scanner_.offset()});
+    }
     for (std::size_t i = 0; i < n; ++i) {
       Row<N> row;
       for (NodeId& node : row.nodes) {
@@ -191,16 +206,29 @@ class MeditReader {
         node = NodeId(static_cast<std::uint32_t>(number - 1));
       }
       row.reference = integer("the reference of an element");
-      if (is_wanted) rows.push_back(row);
+      if (is_wanted) table.rows.push_back(row);
     }
   }
 
   template <std::size_t N>
-  void check_nodes(const std::vector<Row<N>>& rows, const char* what) const {
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      for (const NodeId node : rows[i].nodes)
+  void check_nodes(const Table<N>& table, const char* what) {
+    for (std::size_t i = 0; i < table.rows.size(); ++i)
+      for (const NodeId node : table.rows[i].nodes)
         if (node.index() >= points_.size())
-          throw_malformed(buffer_.source, std::string(what) + " " + std::to_string(i + 1), "has the vertex " + std::to_string(node.value() + 1ull) + ", there are " + std::to_string(points_.size()));
+          throw_malformed(buffer_.source, place_of(table, i), std::string(what) + " " + std::to_string(i + 1) + " has the vertex " + std::to_string(node.value() + 1ull) + ", there are " + std::to_string(points_.size()));
+  }
+
+  /// "line 12" or "byte 80" of a row.
+  template <std::size_t N>
+  std::string place_of(const Table<N>& table, std::size_t i) {
+    const auto after = std::upper_bound(table.starts.begin(), table.starts.end(), i, [](std::size_t row, const SectionStart& start) { return row < start.first_row; });
+    const SectionStart& start = *(after - 1);
+    const std::size_t n_before = i - start.first_row;
+    if (bytes_) return "byte " + std::to_string(start.offset + n_before * (N + 1) * integer_bytes());
+    scanner_.seek(start.offset);
+    for (std::size_t k = 0; k < n_before * (N + 1); ++k) scanner_.skip_token("a number");
+    scanner_.peek();
+    return "line " + std::to_string(scanner_.line());
   }
 
   const FileBuffer& buffer_;
@@ -211,11 +239,11 @@ class MeditReader {
   const RunContext& context_;
   bool has_vertices_ = false;
   std::vector<Point> points_;
-  std::vector<Row<3>> triangles_;
-  std::vector<Row<4>> quads_, tetrahedra_;
-  std::vector<Row<6>> prisms_;
-  std::vector<Row<5>> pyramids_;
-  std::vector<Row<8>> hexahedra_;
+  Table<3> triangles_;
+  Table<4> quads_, tetrahedra_;
+  Table<6> prisms_;
+  Table<5> pyramids_;
+  Table<8> hexahedra_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <system_error>
 
 #include "io/text_scanner.h"
 
@@ -26,7 +27,8 @@ std::filesystem::path names_path(const std::filesystem::path& mesh_path) {
 std::map<std::int64_t, Patch> read_names(const std::filesystem::path& mesh_path, const RunContext& context) {
   std::map<std::int64_t, Patch> patches;
   const std::filesystem::path path = names_path(mesh_path);
-  if (!std::filesystem::exists(path)) return patches;
+  std::error_code status;  // of a file that cannot be looked at; load_file says what is wrong with the one that is there
+  if (!std::filesystem::exists(path, status)) return patches;
   const FileBuffer buffer = load_file(path, context);
   TextScanner scanner(buffer, {.comment = '#', .line_bound = true});
   for (;;) {

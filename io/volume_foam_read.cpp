@@ -1,5 +1,6 @@
 // polyMesh reader: points, faces, their cells, patches; the cells are rebuilt from the faces.
 #include <algorithm>
+#include <system_error>
 
 #include "geom/base/error.h"
 #include "io/face_mesh.h"
@@ -90,7 +91,8 @@ void read_boundary(const std::filesystem::path& folder, std::uint64_t n_internal
 std::filesystem::path polymesh_folder(const std::filesystem::path& path) {
   if (!path.has_filename() && path.has_parent_path()) return polymesh_folder(path.parent_path());  // ends in a slash
   if (path.filename() == "polyMesh") return path;
-  if (std::filesystem::is_regular_file(path)) return path.parent_path() / "constant" / "polyMesh";
+  std::error_code status;  // of a path that cannot be looked at; load_file says what is wrong with it
+  if (std::filesystem::is_regular_file(path, status)) return path.parent_path() / "constant" / "polyMesh";
   return path / "constant" / "polyMesh";
 }
 

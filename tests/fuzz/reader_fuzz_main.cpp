@@ -1,78 +1,87 @@
-// libFuzzer target for every reader of the table of formats: a reader gives a result or throws sterna::Error, whatever the bytes.
-// The environment names the reader: STERNA_FUZZ="<format>:surface" or "<format>:volume". With STERNA_FUZZ=list the program prints the readers, one a line, with their
-// extensions, and ends. Built by the preset "fuzz"; run by tests/fuzz/run_fuzzers.
-#include <unistd.h>
-
+// libFuzzer target for every reader of the table of formats. Whatever the bytes: a reader gives a sound mesh, or throws sterna::Error that says where and why.
+// The environment variable STERNA_FUZZ names the target ("UGRID:volume:.lb8.ugrid"). Beside libFuzzer's options:
+//   reader_fuzz --list                          prints the targets, one a line
+//   reader_fuzz --seeds FOLDER SAMPLES...       fills FOLDER with inputs of the target from our own writers and from the folders SAMPLES
+// Built by the preset "fuzz"; run by tests/fuzz/run_fuzzers.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "geom/base/error.h"
-#include "io/format_table.h"
-#include "io/text_scanner.h"
+#include "tests/fuzz/fuzz_input.h"
+#include "tests/fuzz/seeds.h"
+#include "tests/support/reader_checks.h"
 
 namespace {
 
 using namespace sterna;
 
-/// The file that readers are given: in memory, with the extension of the format.
-class InputFile {
- public:
-  explicit InputFile(std::string_view extension) : path_("/dev/shm/sterna_fuzz_" + std::to_string(getpid()) + std::string(extension)) {}
-  ~InputFile() { std::remove(path_.c_str()); }
-  void fill(const std::uint8_t* bytes, std::size_t n) const {
-    std::FILE* const file = std::fopen(path_.c_str(), "wb");
-    if (!file || std::fwrite(bytes, 1, n, file) != n || std::fclose(file) != 0) std::abort();
-  }
-  const std::filesystem::path& path() const { return path_; }
+constexpr std::size_t k_largest_seed = 65536;  // bytes: small inputs are run a thousand times as often
 
- private:
-  std::filesystem::path path_;
-};
-
-struct Target {
-  const io::Format* format = nullptr;
-  bool is_volume = false;
-};
-
-std::string_view first_extension(const io::Format& format) { return format.extensions.substr(0, format.extensions.find(' ')); }
-
-void list_readers() {
-  for (const io::Format& format : io::formats())
-    for (const bool is_volume : {false, true})
-      if (is_volume ? format.read_volume != nullptr : format.read_surface != nullptr)
-        std::printf("%s:%s\t%s\n", std::string(format.name).c_str(), is_volume ? "volume" : "surface", std::string(format.extensions).c_str());
+[[noreturn]] void report(const std::string& what) {
+  std::fprintf(stderr, "FINDING: %s\n", what.c_str());
+  std::abort();
 }
 
-Target chosen() {
-  const char* const text = std::getenv("STERNA_FUZZ");
-  const std::string_view choice = text ? text : "list";
-  const std::size_t colon = choice.rfind(':');
-  for (const io::Format& format : io::formats()) {
-    if (colon == std::string_view::npos || !io::equal_ignoring_case(format.name, choice.substr(0, colon))) continue;
-    const Target target{&format, choice.substr(colon + 1) == "volume"};
-    if (target.is_volume ? format.read_volume != nullptr : format.read_surface != nullptr) return target;
+fuzz::Target chosen_target() {
+  const char* const name = std::getenv("STERNA_FUZZ");
+  for (const fuzz::Target& target : fuzz::all_targets())
+    if (name && target.name() == name) return target;
+  std::fprintf(stderr, "STERNA_FUZZ names no target; --list prints them\n");
+  std::_Exit(2);  // std::exit would be a finding to libFuzzer
+}
+
+/// A refusal has a reason that the user can act on.
+void check(const Error& error, const fuzz::Target& target) {
+  const std::string text = error.what();
+  const std::string_view name = target.format->name;
+  switch (error.code()) {
+    case ErrorCode::file_malformed:
+      if (!test::says_where(error, name == "CGNS" || name == "TAU" || name == "VTKHDF")) report("no place in: " + text);
+      break;
+    case ErrorCode::unsupported_format:
+    case ErrorCode::overflow: break;
+    case ErrorCode::file_not_found:
+      if (!target.is_folder() && text.find("x.node") == std::string::npos) report("a file that is not needed: " + text);
+      break;
+    default: report("code " + std::string(to_string(error.code())) + ": " + text);
   }
-  list_readers();
-  std::fflush(stdout);
-  std::_Exit(choice == "list" ? 0 : 2);  // std::exit would be a finding to libFuzzer
+}
+
+/// \param mesh a HybridMesh or a SurfaceSoup
+template <class Mesh>
+void check(const Mesh& mesh) {
+  const std::string flaw = test::flaw_of(mesh);
+  if (!flaw.empty()) report(flaw);
 }
 
 }  // namespace
 
+extern "C" int LLVMFuzzerInitialize(int* n_arguments, char*** arguments) {
+  const std::vector<std::string> words(*arguments + 1, *arguments + *n_arguments);
+  if (words.empty() || !words[0].starts_with("--")) return 0;
+  if (words[0] == "--list") {
+    for (const fuzz::Target& target : fuzz::all_targets()) std::printf("%s\n", target.name().c_str());
+  } else if (words[0] == "--seeds" && words.size() >= 2) {
+    const std::vector<std::filesystem::path> samples(words.begin() + 2, words.end());
+    std::printf("%d\n", fuzz::write_seeds(chosen_target(), words[1], samples, k_largest_seed));
+  }
+  std::fflush(stdout);
+  std::_Exit(0);
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t n) {
-  static const Target target = chosen();
-  static const InputFile file(first_extension(*target.format));
+  static const fuzz::Target target = chosen_target();
+  static const fuzz::InputFiles files(target);
   static const RunContext context({.threads = 1});
-  file.fill(bytes, n);
+  files.fill({reinterpret_cast<const char*>(bytes), n});
   try {
-    if (target.is_volume) target.format->read_volume(file.path(), context);
-    else target.format->read_surface(file.path(), context);
+    if (target.is_volume) check(target.format->read_volume(files.path(), context));
+    else check(target.format->read_surface(files.path(), context));
   } catch (const Error& error) {
-    if (error.code() == ErrorCode::internal) std::abort();  // a refusal has a reason that the user can act on
+    check(error, target);
   }
   return 0;
 }

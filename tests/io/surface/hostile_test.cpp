@@ -6,6 +6,7 @@
 
 #include "tests/io/surface/surface_tools.h"
 #include "tests/support/data.h"
+#include "tests/support/reader_checks.h"
 
 namespace sterna::test {
 namespace {
@@ -62,6 +63,7 @@ bool survive(const std::filesystem::path& path, const std::string& damage) {
     // The damage may make a TetGen file ask for its .node file, which is not there.
     const bool is_companion = error.code() == ErrorCode::file_not_found && std::string(error.what()).find(".node") != std::string::npos;
     EXPECT_TRUE(is_companion || error.code() == ErrorCode::file_malformed || error.code() == ErrorCode::unsupported_format) << error.what();
+    EXPECT_TRUE(error.code() != ErrorCode::file_malformed || says_where(error, false)) << error.what();
     EXPECT_NE(std::string(error.what()).find(path.stem().string()), std::string::npos) << error.what();
   }
   EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), k_longest_seconds);

@@ -108,6 +108,17 @@ TEST(Edge, FilesWithoutRegionAreRead) {
   EXPECT_EQ(mesh.patches.size(), 3u);
 }
 
+TEST(Edge, KindsThatAreLostAreTold) {
+  const auto path = test::scratch() / "mesh.bmsh";
+  HybridMesh mesh = test::hexahedron_with_roof();
+  mesh.patches.raw() = {{"middle", PatchKind::symmetry}, {"inner", PatchKind::interface}};
+  EXPECT_THAT(test::warnings_of_writing(mesh, path), testing::ElementsAre("patch \"middle\" (symmetry) is written with the Edge condition wall / weak euler, which is read as slip",
+                                                                          "patch \"inner\" (interface) is written with the Edge condition wall / weak euler, which is read as slip"));
+  mesh.patches.raw() = {{"symmetry", PatchKind::symmetry}, {"slip", PatchKind::slip}};
+  EXPECT_THAT(test::warnings_of_writing(mesh, path), testing::IsEmpty());
+  EXPECT_EQ(read(path).patches.raw(), mesh.patches.raw());
+}
+
 TEST(Edge, HostileFiles) {
   STERNA_NEEDS_SHARED_DATA();
   const auto samples = test::shared_data() / "formats";

@@ -25,6 +25,17 @@ TEST(Fluent, RoundTripOfMixedMeshes) {
     test::expect_round_trip(mesh, path, CellOrder::rotated);
 }
 
+TEST(Fluent, KindsThatAreLostAreTold) {
+  const auto path = test::scratch() / "mesh.fluent.msh";
+  HybridMesh mesh = test::hexahedron_with_roof();
+  mesh.patches.raw() = {{"tunnel", PatchKind::slip}, {"slippery", PatchKind::wall}};
+  EXPECT_THAT(test::warnings_of_writing(mesh, path), testing::ElementsAre("patch \"tunnel\" (slip) is written as a Fluent zone of type wall, which is read as wall: set its shear stress to zero in Fluent",
+                                                                          "patch \"slippery\" (wall) is written as a Fluent zone of type wall, which is read as slip"));
+  mesh.patches.raw() = {{"slip_tunnel", PatchKind::slip}, {"inner", PatchKind::interface}};
+  EXPECT_THAT(test::warnings_of_writing(mesh, path), testing::IsEmpty());
+  EXPECT_EQ(read(path).patches.raw(), mesh.patches.raw());
+}
+
 TEST(Fluent, Samples) {
   STERNA_NEEDS_SHARED_DATA();
   const auto samples = test::shared_data() / "formats", folder = test::scratch();

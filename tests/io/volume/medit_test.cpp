@@ -149,7 +149,7 @@ TEST(Medit, HostileFiles) {
   wrong("Vertices\n4", "Vertices\n5", "expected a coordinate");
   wrong("Vertices\n4", "Vertices\n3", "expected a keyword");
   wrong("0 0 1 0", "0 0 inf 0", "line 8");
-  wrong("1 3 2 1", "1 3 5 1", "has the vertex 5, there are 4");
+  wrong("1 3 2 1", "1 3 5 1", "line 11: triangle 1 has the vertex 5, there are 4");
   wrong("1 3 2 1", "0 3 2 1", "found 0 as a vertex");
   wrong("1 3 2 1", "1 3 99999999999 1", "found 99999999999 as a vertex");
   wrong("Tetrahedra", "TetrahedraP2", "higher order", ErrorCode::unsupported_format);

@@ -9,6 +9,7 @@
 #include "io/patch_names.h"
 #include "io/volume_file.h"
 #include "tests/io/volume/volume_tools.h"
+#include "tests/support/reader_checks.h"
 #include "tests/support/data.h"
 
 namespace sterna::test {
@@ -140,8 +141,9 @@ void expect_no_crash_on_damage(const std::filesystem::path& path, std::size_t k)
   const auto try_to_read = [&](const std::string& damaged) {
     std::ofstream(path, std::ios::binary) << damaged;
     try {
-      io::read_volume_file(path, context);
+      EXPECT_EQ(flaw_of(io::read_volume_file(path, context)), "");
     } catch (const Error& error) {
+      EXPECT_TRUE(error.code() != ErrorCode::file_malformed || says_where(error, false)) << error.what();
       EXPECT_TRUE(error.code() == ErrorCode::file_malformed || error.code() == ErrorCode::unsupported_format || error.code() == ErrorCode::overflow) << error.what();
     }
   };

@@ -29,6 +29,9 @@ std::optional<IndependentReport> read_independently(const std::string& reader, c
 /// The reader finds the same counts, bounds, volumes, markers as `mesh` has.
 void expect_same_mesh(const IndependentReport& report, const HybridMesh& mesh);
 
+/// Writes the mesh and returns the warnings.
+std::vector<std::string> warnings_of_writing(const HybridMesh& mesh, const std::filesystem::path& path);
+
 std::string bytes_of(const std::filesystem::path& path);
 std::filesystem::path write_text(const std::string& name, const std::string& text);
 /// Names of all files in a folder, sorted.
