@@ -99,6 +99,7 @@ class MeditReader {
       else if (keyword.ends_with("P2") || keyword.ends_with("Q2") || keyword.ends_with("P3") || keyword.ends_with("Q3")) throw_curved(keyword);
       else if (!read_section([&](const MeditSection& section) { return section.keyword == keyword; })) skip_text();
     }
+    if (!has_ended) scanner_.fail("found the end of the file, expected End or a section", "the file may have been cut short: copy or write it again");
   }
 
   void read_binary() {

@@ -71,18 +71,22 @@ class BulkParser {
   BulkParser(const FileBuffer& buffer, const RunContext& context) : buffer_(buffer), text_(buffer.text()), context_(context), builder_(buffer.source) {}
 
   SurfaceSoup parse() {
-    find_bulk();
-    while (next_line()) {
+    const bool has_begin = find_bulk();
+    bool has_end = false;
+    while (!has_end && next_line()) {
       if (line_number_ % k_stop_interval == 0) context_.check_stop();
       if (line_.starts_with('$')) {
         take_comment();
       } else if (begins_with_word(line_, "ENDDATA")) {
-        break;
+        has_end = true;
       } else if (!trimmed(line_).empty()) {
         take_line();
       }
     }
     take_card();
+    // Cards that other files include have neither beginning nor end.
+    if (has_begin && !has_end) throw_malformed(buffer_.source, "line " + std::to_string(line_number_), "found the end of the file, expected ENDDATA after BEGIN BULK", "the file may have been cut short: copy or write it again");
+    if (!has_end) context_.warn(buffer_.source + ": there is no ENDDATA; whether the file is whole cannot be told");
     add_faces();
     if (n_volumes_ > 0 && faces_.empty()) throw_malformed(buffer_.source, "line 1", "found a volume mesh without faces, expected CTRIA3 or CQUAD4 for its boundary");
     SurfaceSoup soup = builder_.finish(n_volumes_ > 0);
@@ -103,10 +107,11 @@ class BulkParser {
   }
 
   /// Executive and case control come before "BEGIN BULK" where there is one.
-  void find_bulk() {
+  bool find_bulk() {
     while (next_line())
-      if (begins_with_word(line_, "BEGIN") && trimmed(trimmed(line_).substr(5)).size() >= 4 && equal_ignoring_case(trimmed(trimmed(line_).substr(5)).substr(0, 4), "BULK")) return;
+      if (begins_with_word(line_, "BEGIN") && trimmed(trimmed(line_).substr(5)).size() >= 4 && equal_ignoring_case(trimmed(trimmed(line_).substr(5)).substr(0, 4), "BULK")) return true;
     position_ = line_number_ = 0;
+    return false;
   }
 
   void take_line() {
