@@ -1,0 +1,81 @@
+// Nearest points on surfaces and curves: damped Newton from a seed, or from every place that samples leave possible.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/math/bvh.h"
+#include "geom/model/curve.h"
+#include "geom/model/surface.h"
+
+namespace sterna {
+
+struct SurfaceFoot {
+  Uv at;
+  Point point;            ///< on the surface
+  double distance = 0.0;  ///< metres
+};
+
+/// Projects points onto one surface, within a box of its parameters; made once, used from many threads.
+class SurfaceProjector {
+ public:
+  /// `box` within the domain; parameters of a whole period may run across the seam. Samples the surface: about 1 ms.
+  /// \throws Error(bad_argument) for a box without size
+  explicit SurfaceProjector(SurfacePtr surface);
+  SurfaceProjector(SurfacePtr surface, const ParameterBox& box);
+
+  /// Local minimum of the distance reached from `seed` (moved into the box), never farther than the seed's point. Feet on the border are found as
+  /// such; at poles all directions are tried. Points accurate to about 1e-12 of the surface's extent.
+  SurfaceFoot seeded(const Point& p, Uv seed) const;
+  /// Nearest point: every cell of samples is tried that could hold a nearer one. Cells bound the surface by their samples with a margin, so a feature
+  /// far thinner than a cell may be missed.
+  SurfaceFoot nearest(const Point& p) const;
+  /// feet[i] = seeded(points[i], seeds[i]); with empty seeds nearest(points[i]). Parallel. \pre equal sizes
+  void project(std::span<const Point> points, std::span<const Uv> seeds, std::span<SurfaceFoot> feet, const RunContext& context) const;
+
+  const SurfacePtr& surface() const { return surface_; }
+  const ParameterBox& box() const { return box_; }
+  /// Diagonal of the samples' box, metres.
+  double extent() const { return extent_; }
+
+ private:
+  SurfaceFoot descend(const Point& p, Uv start) const;
+  SurfaceFoot leave_pole(const Point& p, const SurfaceFoot& foot) const;
+  void move_inside(Uv& at) const;
+
+  SurfacePtr surface_;
+  ParameterBox box_;
+  bool wraps_u_ = false, wraps_v_ = false;  ///< the box is a whole period
+  double extent_ = 0.0;
+  std::vector<double> stations_u_, stations_v_;
+  std::vector<Point> middles_;  ///< of the cells, along v first
+  BoxTree cells_;
+};
+
+struct CurveFoot {
+  double t = 0.0;
+  Point point;
+  double distance = 0.0;
+};
+
+/// Projects points onto one curve, within a range of its parameter.
+class CurveProjector {
+ public:
+  explicit CurveProjector(CurvePtr curve);
+  /// \throws Error(bad_argument) for a range of no length
+  CurveProjector(CurvePtr curve, Interval range);
+  CurveFoot seeded(const Point& p, double seed) const;
+  CurveFoot nearest(const Point& p) const;
+
+ private:
+  CurvePtr curve_;
+  Interval range_;
+  bool wraps_ = false;
+  double extent_ = 0.0;
+  std::vector<double> stations_;
+  std::vector<Point> points_;
+  std::vector<double> reach_;  ///< of each interval: how far the curve may leave the sphere over its ends
+};
+
+}  // namespace sterna
