@@ -14,11 +14,10 @@ using Register = char __attribute__((vector_size(k_block)));
 /// Of a block of `Size` registers.
 template <std::size_t Size>
 void shuffle(std::array<Register, Size>& block) {
-  constexpr Register k_low = {0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23}, k_high = {8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31};
   std::array<Register, Size> result;
   for (std::size_t i = 0; i < Size / 2; ++i) {
-    result[2 * i] = __builtin_shuffle(block[i], block[i + Size / 2], k_low);
-    result[2 * i + 1] = __builtin_shuffle(block[i], block[i + Size / 2], k_high);
+    result[2 * i] = __builtin_shufflevector(block[i], block[i + Size / 2], 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+    result[2 * i + 1] = __builtin_shufflevector(block[i], block[i + Size / 2], 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
   }
   block = result;
 }
