@@ -174,7 +174,7 @@ void write_volume_medit(const HybridMesh& mesh, const std::filesystem::path& pat
   MeditWriter writer(mesh, path);
   const std::vector<OutputSection> sections = writer.sections();
   AtomicFile names(names_path(path));
-  names.append(names_text(mesh.patches));
+  names.append(names_text(mesh.patches, context));
   AtomicFile file(path);
   write_sections(file, sections, context);
   const StageTimer timer(context, "sync");

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <system_error>
 
+#include "io/name_rules.h"
 #include "io/text_scanner.h"
 
 namespace sterna::io {
@@ -45,14 +46,10 @@ std::map<std::int64_t, Patch> read_names(const std::filesystem::path& mesh_path,
   }
 }
 
-std::string names_text(const Column<PatchId, Patch>& patches) {
+std::string names_text(const Column<PatchId, Patch>& patches, const RunContext& context) {
+  const std::vector<std::string> names = names_by_rules(patches, {.format = ".names", .forbidden = "#"}, context);
   std::string text = "# patches: number kind name\n";
-  for (const PatchId patch : patches.ids()) {
-    std::string name = patches[patch].name;
-    std::replace_if(name.begin(), name.end(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0 || c == '#'; }, '_');
-    if (name.find_first_not_of(' ') == std::string::npos) name = "patch_" + std::to_string(patch.value() + 1);
-    text += std::to_string(patch.value() + 1) + " " + std::string(to_string(patches[patch].kind)) + " " + name + "\n";
-  }
+  for (const PatchId patch : patches.ids()) text += std::to_string(patch.value() + 1) + " " + std::string(to_string(patches[patch].kind)) + " " + names[patch.index()] + "\n";
   return text;
 }
 

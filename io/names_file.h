@@ -17,7 +17,7 @@ std::filesystem::path names_path(const std::filesystem::path& mesh_path);
 /// Patches by number; empty when there is no such file. \throws Error(file_malformed) with its line
 std::map<std::int64_t, Patch> read_names(const std::filesystem::path& mesh_path, const RunContext& context);
 
-/// The file's text; patches are numbered from 1.
-std::string names_text(const Column<PatchId, Patch>& patches);
+/// The file's text; patches are numbered from 1. Warns of names that it cannot spell.
+std::string names_text(const Column<PatchId, Patch>& patches, const RunContext& context);
 
 }  // namespace sterna::io

@@ -41,13 +41,17 @@ std::vector<std::string> node_names(const HybridMesh& mesh, const FacesByPatch& 
     while (stem.ends_with(' ')) stem.pop_back();
     while (stem.starts_with(' ')) stem.erase(0, 1);
     if (stem.empty() || stem == "..") stem = "patch_" + std::to_string(patch.value() + 1);
-    std::string name = cut_text(stem, limit);
+    const auto cut_stem = [&](std::size_t n) {
+      std::string text = cut_text(stem, n);
+      while (text.ends_with(' ')) text.pop_back();
+      return text;
+    };
+    std::string name = cut_stem(limit);
     const auto is_taken = [&] { return taken.count(name) > 0 || (has_both && taken.count(name + std::string(k_quad_suffix)) > 0); };
     for (int i = 2; is_taken(); ++i) {
       const std::string number = "_" + std::to_string(i);
-      name = cut_text(stem, limit - number.size()) + number;
+      name = cut_stem(limit - number.size()) + number;
     }
-    while (name.ends_with(' ')) name.pop_back();  // a cut can end at one
     taken.insert(name);
     if (has_both) taken.insert(name + std::string(k_quad_suffix));
     if (name != mesh.patches[patch].name) context.warn("patch \"" + mesh.patches[patch].name + "\" is named \"" + name + "\" in the CGNS file");

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Reads a mesh with an independent reader and prints what it holds, as "key value" lines for a test to compare.
 
-usage: verify_mesh.py meshio|vtk|vtk-cgns FILE
+usage: verify_mesh.py gmsh|meshio|vtk|vtk-cgns FILE
 
   points N; bounds xmin xmax ymin ymax zmin zmax; cells.TYPE N and volume.TYPE V (signed, VTK's or SIDS' sense: positive = right winding);
   faces.MARKER N (boundary faces by marker number); enclosed V (volume by the divergence theorem over the boundary faces, positive = normals outward);
@@ -9,20 +9,15 @@ usage: verify_mesh.py meshio|vtk|vtk-cgns FILE
 Exit status 77: the Python module is not installed.
 """
 import sys
-import warnings
 
-try:
-    import numpy as np
-    if sys.argv[1] == "meshio":
-        import meshio
-    else:
-        import vtk
-        from vtk.util.numpy_support import vtk_to_numpy
-except ImportError as failure:
-    print(failure)
-    sys.exit(77)
+from independent import module, read_with_gmsh
 
-warnings.filterwarnings("ignore")
+np, = module("numpy")
+if sys.argv[1] == "meshio":
+    meshio, = module("meshio")
+elif sys.argv[1].startswith("vtk"):
+    vtk, support = module("vtk", "vtk.util.numpy_support")
+    vtk_to_numpy = support.vtk_to_numpy
 
 # SIDS faces, normals out of the cell.
 FACES = {
@@ -172,4 +167,9 @@ def with_vtk_cgns(path):
     report(points, blocks, markers, {}, {})
 
 
-{"meshio": with_meshio, "vtk": with_vtk, "vtk-cgns": with_vtk_cgns}[sys.argv[1]](sys.argv[2])
+def with_gmsh(path):
+    points, blocks, markers = read_with_gmsh(path)
+    report(points, blocks, markers, {}, {})
+
+
+{"gmsh": with_gmsh, "meshio": with_meshio, "vtk": with_vtk, "vtk-cgns": with_vtk_cgns}[sys.argv[1]](sys.argv[2])

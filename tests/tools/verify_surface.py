@@ -1,26 +1,21 @@
 #!/usr/bin/python3
 """Reads a surface with an independent reader and prints what it holds, as "key value" lines for a test to compare.
 
-usage: verify_surface.py meshio|vtk FILE
+usage: verify_surface.py gmsh|meshio|vtk FILE
 
   triangles N; enclosed V (volume, positive = normals outward); area A; marker.NAME N (triangles by patch, where the reader has them).
 Exit status 77: the Python module is not installed.
 """
 import sys
-import warnings
 
-try:
-    import numpy as np
-    if sys.argv[1] == "meshio":
-        import meshio
-    else:
-        import vtk
-        from vtk.util.numpy_support import vtk_to_numpy
-except ImportError as failure:
-    print(failure)
-    sys.exit(77)
+from independent import module, read_with_gmsh
 
-warnings.filterwarnings("ignore")
+np, = module("numpy")
+if sys.argv[1] == "meshio":
+    meshio, = module("meshio")
+elif sys.argv[1].startswith("vtk"):
+    vtk, support = module("vtk", "vtk.util.numpy_support")
+    vtk_to_numpy = support.vtk_to_numpy
 
 
 def report(points, triangles, markers):
@@ -62,5 +57,11 @@ def with_vtk(path):
     report(vtk_to_numpy(grid.GetPoints().GetData()).astype(float), triangles, None if marker is None else vtk_to_numpy(marker))
 
 
+def with_gmsh(path):
+    points, blocks, markers = read_with_gmsh(path)
+    numbers = markers["triangle"]
+    report(points, blocks["triangle"], numbers if len(set(numbers)) > 1 else None)  # of one entity: the file has no patches
+
+
 if __name__ == "__main__":
-    with_meshio(sys.argv[2]) if sys.argv[1] == "meshio" else with_vtk(sys.argv[2])
+    {"gmsh": with_gmsh, "meshio": with_meshio, "vtk": with_vtk}[sys.argv[1]](sys.argv[2])

@@ -274,11 +274,13 @@ TEST_P(SurfaceReaders, Agree) {
   EXPECT_EQ(found, independent.has_markers ? expected : std::vector<int>());
 }
 
-// meshio reads no SU2 file without elements.
+// meshio reads no SU2 file without elements; Gmsh 4.8 neither SU2, OFF nor VTK 5.1.
 INSTANTIATE_TEST_SUITE_P(Independent, SurfaceReaders,
                          ::testing::Values(Independent{"meshio", "STL text", ".stl", false}, Independent{"meshio", "STL binary", ".stl", false}, Independent{"meshio", "OFF", ".off", false},
                                            Independent{"meshio", "OBJ", ".obj", false}, Independent{"meshio", "Gmsh MSH", ".msh", true}, Independent{"meshio", "Gmsh MSH 2.2", ".msh", true},
                                            Independent{"meshio", "VTU", ".vtu", true}, Independent{"meshio", "Nastran", ".nas", true},
+                                           Independent{"gmsh", "STL text", ".stl", true}, Independent{"gmsh", "STL binary", ".stl", false}, Independent{"gmsh", "Gmsh MSH", ".msh", true},
+                                           Independent{"gmsh", "Gmsh MSH 2.2", ".msh", true}, Independent{"gmsh", "Medit", ".mesh", true}, Independent{"gmsh", "Nastran", ".bdf", true},
                                            Independent{"vtk", "STL text", ".stl", true}, Independent{"vtk", "STL binary", ".stl", false}, Independent{"vtk", "OBJ", ".obj", false},
                                            Independent{"vtk", "PLY", ".ply", false}, Independent{"vtk", "VTK", ".vtk", true}, Independent{"vtk", "VTK text", ".vtk", true},
                                            Independent{"vtk", "VTP", ".vtp", true}, Independent{"vtk", "VTU", ".vtu", true}));

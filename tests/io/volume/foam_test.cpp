@@ -1,8 +1,6 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
-#include <regex>
-#include <sstream>
 
 #include "io/volume_file.h"
 #include "tests/io/volume/openfoam_tools.h"
@@ -10,7 +8,6 @@
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"
-#include "tests/support/process.h"
 
 namespace sterna::io {
 namespace {
@@ -47,19 +44,6 @@ TEST(Foam, SamplesByteForByte) {
   }
 }
 
-/// Every check passes but those of quality in `allowed`, by a part of their line: a mesh of thin cells has small determinants.
-void expect_clean(const std::string& output, const std::vector<std::string>& allowed) {
-  for (const char* const line : {"Boundary definition OK.", "Cell to face addressing OK.", "Point usage OK.", "Upper triangular ordering OK.", "Face vertices OK.", "Topological cell zip-up check OK.",
-                                 "Face-face connectivity OK.", "Number of regions: 1 (OK).", "Cell volumes OK.", "Face pyramids OK."})
-    EXPECT_NE(output.find(line), std::string::npos) << line << "\n" << output;
-  EXPECT_TRUE(std::regex_search(output, std::regex("Boundary openness \\(.*\\) OK"))) << output;
-  std::istringstream lines(output);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.find("***") == std::string::npos) continue;
-    EXPECT_TRUE(std::any_of(allowed.begin(), allowed.end(), [&](const std::string& part) { return line.find(part) != std::string::npos; })) << line << "\n" << output;
-  }
-}
-
 TEST(Foam, CheckMeshFindsNothing) {
   const auto folder = test::scratch();
   const HybridMesh mesh = test::six_patch_mesh();
@@ -73,26 +57,8 @@ TEST(Foam, CheckMeshFindsNothing) {
     EXPECT_EQ(test::number_after(*output, "pyramids:"), static_cast<double>(counts.pyramids));
     EXPECT_EQ(test::number_after(*output, "tetrahedra:"), static_cast<double>(counts.tetrahedra));
     EXPECT_EQ(test::number_after(*output, "    points:"), static_cast<double>(mesh.points.size()));
-    expect_clean(*output, {"small determinant"});
+    test::expect_clean(*output, {"small determinant"});
   }
-}
-
-/// A wing from its STL file to OpenFOAM. Quality is the mesh's own; what the file answers for is in expect_clean().
-TEST(Foam, CheckMeshOnARealMesh) {
-  STERNA_NEEDS_SHARED_DATA();
-  const auto folder = test::scratch();
-  const std::string script = "local wall = read_surface{ \"" + (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() + "\", split_angle = 60*deg }\n"
-                             "local mesh = volume_mesh{ wall, layers = 6, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length } }\n"
-                             "mesh:write(\"case.bin.foam\")\n";
-  std::ofstream(folder / "case.lua") << script;
-  test::make_foam_case(folder / "case.bin.foam");
-  STERNA_NEEDS_OPENFOAM(test::run_openfoam("checkMesh", {"-help"}, folder));
-  const test::ProcessResult run = test::run_process(test::sterna_program(), {"--quiet", "run", "case.lua"}, folder);
-  ASSERT_EQ(run.status, 0) << run.output << run.errors;
-  const auto output = test::run_openfoam("checkMesh", {"-case", "case.bin.foam", "-allTopology", "-allGeometry"}, folder);
-  STERNA_NEEDS_OPENFOAM(output);
-  EXPECT_GT(test::number_after(*output, "prisms:"), 4000.0);
-  expect_clean(*output, {"aspect ratio", "skewness", "face tets", "small determinant", "Concave cells", "interpolation weight", "volume ratio"});
 }
 
 TEST(Foam, HostileFiles) {

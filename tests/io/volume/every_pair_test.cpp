@@ -1,0 +1,182 @@
+// Every volume format of the table, alone and with every other: a new line of the table takes part by itself.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "io/format_table.h"
+#include "io/volume_file.h"
+#include "tests/io/volume/round_trip.h"
+#include "tests/io/volume/volume_tools.h"
+#include "tests/support/data.h"
+
+namespace sterna::io {
+namespace {
+
+/// A format with one of its extensions.
+struct Variant {
+  const Format* format;
+  std::string extension;
+  std::string name() const { return std::string(format->name) + " " + extension; }
+};
+
+/// Of formats that are written and read.
+std::vector<Variant> variants() {
+  std::vector<Variant> result;
+  for (const Format& format : formats()) {
+    if (!format.write_volume) continue;
+    EXPECT_NE(format.read_volume, nullptr) << format.name << " is written and not read";
+    std::istringstream extensions{std::string(format.extensions)};
+    for (std::string extension; extensions >> extension;) result.push_back({&format, extension});
+  }
+  return result;
+}
+
+/// Writes and reads; what was told on the way.
+HybridMesh through(const HybridMesh& mesh, const Variant& variant, const std::filesystem::path& folder, std::vector<std::string>* told = nullptr) {
+  const RunContext context({.threads = 2, .log = [told](LogLevel level, std::string_view text) {
+                              if (told && level == LogLevel::warning) told->emplace_back(text);
+                            }});
+  // "polymesh" is the name of a folder, not an extension.
+  const std::filesystem::path path = variant.extension.starts_with('.') ? folder / ("mesh" + variant.extension) : folder / "case" / "constant" / variant.extension;
+  std::filesystem::remove_all(path);
+  std::filesystem::create_directories(path.parent_path());
+  write_volume_file(mesh, path, context, variant.format->name);
+  return read_volume_file(path, context);
+}
+
+using Loop = std::vector<NodeId>;
+template <class Nodes>
+Loop loop_of(const Nodes& nodes) {
+  Loop loop(nodes.begin(), nodes.end());
+  std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+  return loop;
+}
+
+/// Each boundary face, from its lowest node on, with its patch.
+std::map<Loop, PatchId> faces_of(const HybridMesh& mesh) {
+  std::map<Loop, PatchId> faces;
+  for (const auto& face : mesh.boundary_triangles) faces[loop_of(face.nodes)] = face.patch;
+  for (const auto& face : mesh.boundary_quads) faces[loop_of(face.nodes)] = face.patch;
+  return faces;
+}
+
+/// Each cell as its outward faces: the same however its nodes are numbered.
+std::vector<std::vector<Loop>> cells_of(const HybridMesh& mesh) {
+  std::vector<std::vector<Loop>> cells;
+  for_each_cell(mesh, [&](const Cell& cell) {
+    std::vector<Loop> faces;
+    for (const LocalFace& local : cell_faces(cell.kind)) {
+      Loop nodes;
+      for (std::size_t k = 0; k < local.size; ++k) nodes.push_back(cell.nodes[local.nodes[k]]);
+      faces.push_back(loop_of(nodes));
+    }
+    std::sort(faces.begin(), faces.end());
+    cells.push_back(std::move(faces));
+  });
+  std::sort(cells.begin(), cells.end());
+  return cells;
+}
+
+/// Of coordinates of about 1 that a format keeps: 17 digits and 64 bits all, 32 bits half an ulp.
+double precision_of(const Variant& variant) { return variant.extension == ".lb4.ugrid" || variant.extension == ".b4.ugrid" ? 0x1p-24 : 0.0; }
+
+/// What a mesh is, whatever a file says of it.
+struct Content {
+  Column<NodeId, Point> points;
+  std::vector<std::vector<Loop>> cells;
+  std::map<Loop, PatchId> faces;
+  explicit Content(const HybridMesh& mesh) : points(mesh.points), cells(cells_of(mesh)), faces(faces_of(mesh)) {}
+};
+
+/// The patch of `mesh` that each patch of `back` is; the same content.
+std::vector<PatchId> expect_same_content(const HybridMesh& back, const Content& expected, double precision) {
+  const Content found(back);
+  EXPECT_EQ(found.points.size(), expected.points.size());
+  double farthest = 0.0;
+  for (std::size_t i = 0; i < std::min(found.points.size(), expected.points.size()); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(found.points.raw()[i][axis] - expected.points.raw()[i][axis]));
+  EXPECT_LE(farthest, precision);
+  EXPECT_TRUE(found.cells == expected.cells);
+  std::vector<PatchId> patch_of(back.patches.size());
+  EXPECT_EQ(found.faces.size(), expected.faces.size());
+  for (const auto& [loop, patch] : found.faces) {
+    const auto it = expected.faces.find(loop);
+    if (it == expected.faces.end()) {
+      ADD_FAILURE() << "a boundary face that was not written";
+      return patch_of;
+    }
+    if (!patch_of[patch.index()].is_valid()) patch_of[patch.index()] = it->second;
+    EXPECT_EQ(patch_of[patch.index()], it->second) << "patch " << back.patches[patch].name;
+  }
+  EXPECT_NEAR(test::enclosed_volume(back), test::volume_of(back), 1e-12 * test::volume_of(back));  // rounding of sums
+  return patch_of;
+}
+
+/// Names are kept, or a message tells the old and the new one.
+void expect_names(const HybridMesh& back, const HybridMesh& mesh, const std::vector<PatchId>& patch_of, const std::vector<std::string>& told) {
+  EXPECT_EQ(back.patches.size(), mesh.patches.size());
+  for (const PatchId patch : back.patches.ids()) {
+    ASSERT_TRUE(patch_of[patch.index()].is_valid()) << "a patch without faces: " << back.patches[patch].name;
+    const std::string &found = back.patches[patch].name, &wanted = mesh.patches[patch_of[patch.index()]].name;
+    if (found == wanted) continue;
+    EXPECT_TRUE(std::any_of(told.begin(), told.end(), [&](const std::string& line) { return line.find(wanted) != std::string::npos && line.find(found) != std::string::npos; }))
+        << "\"" << wanted << "\" came back as \"" << found << "\", and nobody tells";
+  }
+}
+
+TEST(EveryVolumeFormat, KeepsCellsFacesAndNames) {
+  const HybridMesh mesh = test::six_patch_mesh();
+  ASSERT_EQ(mesh.patches.size(), 6u);
+  const CellCounts counts = count_cells(mesh);
+  ASSERT_TRUE(counts.prisms > 0 && counts.pyramids > 0 && counts.tetrahedra > 0 && !mesh.boundary_quads.empty() && !mesh.boundary_triangles.empty());
+  const Content content(mesh);
+  ASSERT_GE(variants().size(), 12u);
+  for (const Variant& variant : variants()) {
+    SCOPED_TRACE(variant.name());
+    std::vector<std::string> told;
+    const HybridMesh back = through(mesh, variant, test::scratch(), &told);
+    expect_names(back, mesh, expect_same_content(back, content, precision_of(variant)), told);
+    EXPECT_EQ(back.patches.size(), 6u);
+    for (const PatchId patch : back.patches.ids()) EXPECT_EQ(std::count_if(mesh.patches.begin(), mesh.patches.end(), [&](const Patch& p) { return p.name == back.patches[patch].name; }), 1) << "plain names need no mapping: " << back.patches[patch].name;
+  }
+}
+
+TEST(EveryVolumeFormat, AwkwardNamesAreKeptOrTold) {
+  HybridMesh mesh = test::six_patch_mesh();
+  const std::array<std::string, 6> names = {"wing of the left side, with its flap and slat tracks",             // longer than 32 bytes, blanks
+                                            "wing of the left side, with its flap and slat rails",               // the same up to there
+                                            "Fl\xC3\xBC" "gel-\xE7\xBF\xBC",                                     // UTF-8
+                                            "Fl\xC3\xBCgel \xC3\xBC" "ber dem Rumpf hinter dem Cockpit \xC3\xA4\xC3\xB6\xC3\xBC",  // UTF-8 that is cut somewhere
+                                            "2nd \"wall\"; (a=b){%}", "Wall/of\\paths#1"};
+  for (std::size_t i = 0; i < names.size(); ++i) mesh.patches[PatchId(static_cast<std::uint64_t>(i))].name = names[i];
+  const Content content(mesh);
+  for (const Variant& variant : variants()) {
+    SCOPED_TRACE(variant.name());
+    std::vector<std::string> told;
+    const HybridMesh back = through(mesh, variant, test::scratch(), &told);
+    expect_names(back, mesh, expect_same_content(back, content, precision_of(variant)), told);
+  }
+}
+
+TEST(EveryVolumeFormat, EveryPairKeepsCellsFacesAndNames) {
+  const HybridMesh mesh = test::six_patch_mesh();
+  const Content content(mesh);
+  const auto folder = test::scratch();
+  for (const Variant& first : variants()) {
+    if (!first.format->extensions.starts_with(first.extension)) continue;  // other extensions of a format read what the first does
+    const HybridMesh once = through(mesh, first, folder / "once");
+    for (const Variant& second : variants()) {
+      SCOPED_TRACE(first.name() + " to " + second.name());
+      std::vector<std::string> told;
+      const HybridMesh twice = through(once, second, folder / "twice", &told);
+      expect_names(twice, mesh, expect_same_content(twice, content, std::max(precision_of(first), precision_of(second))), told);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sterna::io
