@@ -1,0 +1,209 @@
+#include "geom/model/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geom/base/error.h"
+#include "geom/model/analytic_surfaces.h"
+#include "geom/model/curves.h"
+#include "geom/model/model_builder.h"
+#include "geom/model/nurbs_curve.h"
+#include "geom/model/nurbs_surface.h"
+#include "geom/model/section_rows.h"
+
+namespace sterna {
+namespace {
+
+[[noreturn]] void refuse(const std::string& attempted, const std::string& problem) { throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = problem}); }
+
+/// A duct of rectangular stations: walls between them by cubics (straight or with level ends), flat ends.
+struct DuctStation {
+  double x, half_width, half_height;
+  bool is_level = false;  ///< the part that begins here has walls parallel to x at both ends
+};
+
+class DuctBuilder {
+ public:
+  DuctBuilder(const std::vector<DuctStation>& stations, const Component& component) : stations_(stations), builder_(component) {}
+
+  Model build(const std::string& wall, FaceRole wall_role, const std::string& first, FaceRole first_role, const std::string& last, FaceRole last_role) {
+    for (const DuctStation& s : stations_) add_station(s);
+    for (std::size_t i = 0; i + 1 < stations_.size(); ++i) add_walls(i, wall, wall_role);
+    builder_.plane({rings_.front().begin(), rings_.front().end()}, first_role, first);
+    builder_.plane({rings_.back().begin(), rings_.back().end()}, last_role, last);
+    return builder_.closed_solid(wall);
+  }
+
+ private:
+  using Corners = std::array<CornerId, 4>;
+  static Point corner_point(const DuctStation& s, std::size_t k) {
+    constexpr std::array<std::array<double, 2>, 4> k_sides{{{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}};
+    return {s.x, k_sides[k][0] * s.half_width, k_sides[k][1] * s.half_height};
+  }
+  void add_station(const DuctStation& s) {
+    Corners corners;
+    std::array<EdgeId, 4> ring;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = builder_.corner(corner_point(s, k));
+    for (std::size_t k = 0; k < 4; ++k) ring[k] = builder_.straight_edge(corners[k], corners[(k + 1) % 4]);
+    corners_.push_back(corners);
+    rings_.push_back(ring);
+  }
+  void add_walls(std::size_t i, const std::string& name, FaceRole role) {
+    const DuctStation &a = stations_[i], &b = stations_[i + 1];
+    const double arm = a.is_level ? 0.5 * (b.x - a.x) : 0.0;
+    std::array<std::vector<Point>, 4> poles;
+    std::array<EdgeId, 4> edges;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Point p = corner_point(a, k), q = corner_point(b, k);
+      if (a.is_level) poles[k] = {p, p + Vec3{arm, 0.0, 0.0}, q - Vec3{arm, 0.0, 0.0}, q};
+      else poles[k] = {p, p + (q - p) / 3.0, q - (q - p) / 3.0, q};
+      edges[k] = builder_.edge(std::make_shared<NurbsCurve>(NurbsCurveForm<Point>{3, k_bezier, poles[k], {}}), {0.0, 1.0}, corners_[i][k], corners_[i + 1][k]);
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t next = (k + 1) % 4;
+      NurbsSurfaceForm form{1, 3, {0.0, 0.0, 1.0, 1.0}, k_bezier, 2, 4, poles[k], {}};
+      form.poles.insert(form.poles.end(), poles[next].begin(), poles[next].end());
+      builder_.patch(std::make_shared<NurbsSurface>(form), {{0.0, 1.0}, {0.0, 1.0}}, {rings_[i][k], edges[next], rings_[i + 1][k], edges[k]}, role, name);
+    }
+  }
+
+  inline static const std::vector<double> k_bezier{0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0};
+  const std::vector<DuctStation>& stations_;
+  ModelBuilder builder_;
+  std::vector<Corners> corners_;
+  std::vector<std::array<EdgeId, 4>> rings_;
+};
+
+/// Symmetric section of NACA's 4-digit thickness form, closed trailing edge: 5 t (0.2969 sqrt x - 0.126 x - 0.3516 x2 + 0.2843 x3 - 0.1036 x4).
+std::vector<Uv> symmetric_section(double thickness) {
+  constexpr int k_points = 40;
+  std::vector<Uv> points;
+  const auto half = [&](double x) { return 5.0 * thickness * (0.2969 * std::sqrt(x) + x * (-0.126 + x * (-0.3516 + x * (0.2843 - 0.1036 * x)))); };
+  for (int i = 0; i <= 2 * k_points; ++i) {
+    const double x = 0.5 + 0.5 * std::cos(std::numbers::pi * i / k_points);
+    const double y = i == 0 || i == 2 * k_points ? 0.0 : half(x);
+    points.push_back({x, i <= k_points ? y : -y});
+  }
+  points[k_points] = {0.0, 0.0};
+  return points;
+}
+
+}  // namespace
+
+Model make_box(const std::string& name, const Point& from, const Point& to) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!(to[axis] > from[axis])) refuse("making box '" + name + "'", "its corners " + format_point(from) + " and " + format_point(to) + " must ascend in x, y and z");
+  ModelBuilder builder({name, ComponentKind::box});
+  std::array<CornerId, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i) corners[i] = builder.corner({i & 1 ? to.x : from.x, i & 2 ? to.y : from.y, i & 4 ? to.z : from.z});
+  std::array<std::array<EdgeId, 8>, 8> edges{};
+  for (std::size_t i = 0; i < 8; ++i)
+    for (const std::size_t bit : {1u, 2u, 4u})
+      if (!(i & bit)) edges[i][i | bit] = edges[i | bit][i] = builder.straight_edge(corners[i], corners[i | bit]);
+  for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{1, 2}, {2, 4}, {4, 1}})
+    for (const std::size_t side : {std::size_t{0}, 7 - a - b}) builder.plane({edges[side][side | a], edges[side | a][side | a | b], edges[side | a | b][side | b], edges[side | b][side]}, FaceRole::skin, name);
+  return builder.closed_solid(name);
+}
+
+Model make_cylinder(const std::string& name, const Point& from, const Point& to, double radius) {
+  const double length = distance(from, to);
+  if (!(length > 0.0) || !(radius > 0.0)) refuse("making cylinder '" + name + "'", "it is " + std::to_string(length) + " m long and has a radius of " + std::to_string(radius) + " m; both must be positive");
+  ModelBuilder builder({name, ComponentKind::body});
+  const Frame frame = frame_along(from, to - from);
+  const double pi = std::numbers::pi;
+  const auto surface = std::make_shared<CylinderSurface>(frame, radius, ParameterBox{k_full_turn, {0.0, length}});
+  std::array<std::array<CornerId, 2>, 2> corners;
+  std::array<std::array<EdgeId, 2>, 2> halves;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Point center = end == 0 ? from : to;
+    const CurvePtr curve = std::make_shared<EllipseCurve>(center, radius * frame.x, radius * frame.y, k_full_turn);
+    corners[end] = {builder.corner(center + radius * frame.x), builder.corner(center - radius * frame.x)};
+    halves[end] = {builder.edge(curve, {0.0, pi}, corners[end][0], corners[end][1]), builder.edge(curve, {pi, 2.0 * pi}, corners[end][1], corners[end][0])};
+  }
+  const std::array<EdgeId, 2> sides{builder.straight_edge(corners[0][0], corners[1][0]), builder.straight_edge(corners[0][1], corners[1][1])};
+  builder.patch(surface, {{0.0, pi}, {0.0, length}}, {halves[0][0], sides[1], halves[1][0], sides[0]}, FaceRole::skin, name);
+  builder.patch(surface, {{pi, 2.0 * pi}, {0.0, length}}, {halves[0][1], sides[0], halves[1][1], sides[1]}, FaceRole::skin, name);
+  builder.plane({halves[0][0], halves[0][1]}, FaceRole::nose, name);
+  builder.plane({halves[1][0], halves[1][1]}, FaceRole::tail, name);
+  return builder.closed_solid(name);
+}
+
+Model make_test_section(const TestSectionOptions& o) {
+  TestSectionOptions checked = o;
+  require_options(options_of(checked), "making a test section");
+  const double start = is_automatic(o.upstream) ? -0.5 * o.length : -o.upstream;
+  std::vector<DuctStation> stations;
+  if (o.contraction_length > 0.0 && o.contraction_ratio > 1.0) {
+    const double scale = std::sqrt(o.contraction_ratio);
+    stations.push_back({start - o.contraction_length, 0.5 * scale * o.width, 0.5 * scale * o.height, true});
+  }
+  stations.push_back({start, 0.5 * o.width, 0.5 * o.height});
+  stations.push_back({start + o.length, 0.5 * o.width, 0.5 * o.height});
+  if (o.diffuser_length > 0.0) {
+    const double wider = o.diffuser_length * std::tan(o.diffuser_angle);
+    stations.push_back({start + o.length + o.diffuser_length, 0.5 * o.width + wider, 0.5 * o.height + wider});
+  }
+  Model model = DuctBuilder(stations, {o.wall, ComponentKind::tunnel}).build(o.wall, FaceRole::wall, o.inflow, FaceRole::inflow, o.outflow, FaceRole::outflow);
+  for (ModelFace& face : model.faces) face.is_reversed = !face.is_reversed;  // the fluid is inside
+  return model;
+}
+
+Body nacelle_body(const std::string& name, const Point& position, const NacelleOptions& o) {
+  NacelleOptions checked = o;
+  require_options(options_of(checked), "making nacelle '" + name + "'");
+  if (!(o.fan_ratio < o.highlight_ratio))
+    refuse("making nacelle '" + name + "'", "fan_ratio is " + std::to_string(o.fan_ratio) + "; it must be below highlight_ratio (" + std::to_string(o.highlight_ratio) + ")");
+  Body body{.name = name, .placement = {position, {}}};
+  const auto add = [&](double x, double ratio) {
+    body.frames.push_back({.name = "x" + std::to_string(x), .center = {x * o.length, 0.0, 0.0}, .height = ratio * o.diameter, .width = ratio * o.diameter, .n_points = 11});
+  };
+  // In front a quarter ellipse from the highlight to the largest diameter, behind a parabola to the exit.
+  for (const double t : {0.0, 0.04, 0.15, 0.35, 0.65}) add(t * o.thickest, o.highlight_ratio + (1.0 - o.highlight_ratio) * std::sqrt(1.0 - (1.0 - t) * (1.0 - t)));
+  for (const double t : {0.0, 0.35, 0.7, 1.0}) add(o.thickest + t * (1.0 - o.thickest), 1.0 - (1.0 - o.exit_ratio) * t * t);
+  const double radius = 0.5 * o.highlight_ratio * o.diameter;
+  body.lip = InletLip{o.fan_depth * o.length / radius, 1.0 - o.fan_ratio / o.highlight_ratio, 1.0};
+  return body;
+}
+
+Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, const PylonOptions& o) {
+  const std::string attempted = "making pylon '" + name + "'";
+  if (!(o.nacelle_from < o.nacelle_to) || !(o.wing_from < o.wing_to)) refuse(attempted, "its leading edges must lie before its trailing edges (nacelle_from < nacelle_to, wing_from < wing_to)");
+  const Transform nacelle_map = transform_of(nacelle.placement), wing_map = transform_of(wing.placement);
+  const Point front = nacelle_map.point(nacelle.frames.front().center), back = nacelle_map.point(nacelle.frames.back().center);
+  const double y = 0.5 * (front.y + back.y);
+  struct Line {
+    Point leading, trailing;
+  };
+  std::vector<Line> lines;
+  for (const WingSection& section : wing.sections) {
+    const std::vector<Point> loop = section_loop(section, std::nullopt);
+    const Point trailing = 0.5 * (loop.front() + loop.back());
+    lines.push_back({wing_map.point(*std::max_element(loop.begin(), loop.end(), [&](const Point& a, const Point& b) { return distance(a, trailing) < distance(b, trailing); })), wing_map.point(trailing)});
+  }
+  const double side = wing.is_symmetric && y * lines.front().leading.y < 0.0 ? -1.0 : 1.0;  // the other half of the wing
+  const std::size_t n = lines.size();
+  std::optional<Line> local;
+  for (std::size_t i = 0; i + 1 < n && !local; ++i) {
+    const double a = lines[i].leading.y, b = lines[i + 1].leading.y;
+    if (a == b || (side * y - a) * (side * y - b) > 0.0) continue;
+    const double t = (side * y - a) / (b - a);
+    local = Line{lines[i].leading + t * (lines[i + 1].leading - lines[i].leading), lines[i].trailing + t * (lines[i + 1].trailing - lines[i].trailing)};
+  }
+  if (!local) refuse(attempted, "nacelle '" + nacelle.name + "' stands at y = " + std::to_string(y) + " m, where wing '" + wing.name + "' has no section");
+  const Vec3 chord = local->trailing - local->leading;
+  const auto section = [&](const std::string& label, const Point& leading, const Point& trailing) {
+    WingSection s{.name = label, .leading_edge = leading, .chord = distance(leading, trailing)};
+    for (const Uv p : symmetric_section(o.thickness)) s.loop.push_back(leading + p.u * (trailing - leading) + Vec3{0.0, p.v * s.chord, 0.0});
+    for (Point& p : s.loop) p.y += y - leading.y;
+    s.leading_edge.y = y;
+    return s;
+  };
+  Wing pylon{.name = name, .is_pylon = true};
+  pylon.sections = {section("nacelle", front + o.nacelle_from * (back - front), front + o.nacelle_to * (back - front)), section("wing", local->leading + o.wing_from * chord, local->leading + o.wing_to * chord)};
+  pylon.trailing_edge = 0.0;
+  pylon.right_tip = pylon.left_tip = {CapShape::strip, 0.0};
+  return pylon;
+}
+
+}  // namespace sterna

@@ -1,0 +1,103 @@
+// Parametric shapes with named options: boxes, cylinders, test sections, and the bodies and wings that nacelles and pylons are.
+#pragma once
+
+#include <string>
+
+#include "geom/base/schema.h"
+#include "geom/model/aircraft.h"
+#include "geom/model/model.h"
+
+namespace sterna {
+
+/// Axis-parallel box as a solid body. \throws Error(bad_argument) when it has no size
+Model make_box(const std::string& name, const Point& from, const Point& to);
+
+/// Solid cylinder between two points. \throws Error(bad_argument) when it has no length or radius
+Model make_cylinder(const std::string& name, const Point& from, const Point& to, double radius);
+
+/// Wind-tunnel test section around the x axis, the fluid inside; the model stands at the origin.
+struct TestSectionOptions {
+  double length = k_automatic;
+  double width = k_automatic;
+  double height = k_automatic;
+  double upstream = k_automatic;
+  double contraction_length = 0.0;
+  double contraction_ratio = 1.0;
+  double diffuser_length = 0.0;
+  double diffuser_angle = 0.0;
+  std::string inflow = "inflow";
+  std::string outflow = "outflow";
+  std::string wall = "tunnel";
+};
+template <>
+struct Schema<TestSectionOptions> {
+  using O = TestSectionOptions;
+  static constexpr std::string_view stage = "test_section";
+  static constexpr std::array fields = {
+      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-9, .help = "of the straight part", .required = true},
+      Field<O>{.name = "width", .member = &O::width, .unit = Unit::metre, .min = 1e-9, .help = "along y", .required = true},
+      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 1e-9, .help = "along z", .required = true},
+      Field<O>{.name = "upstream", .member = &O::upstream, .unit = Unit::metre, .help = "how far the straight part begins before x = 0", .automatic = "half its length"},
+      Field<O>{.name = "contraction_length", .member = &O::contraction_length, .unit = Unit::metre, .min = 0.0, .help = "of a contraction before it; 0 = none"},
+      Field<O>{.name = "contraction_ratio", .member = &O::contraction_ratio, .min = 1.0, .max = 100.0, .help = "of the areas at both ends of the contraction"},
+      Field<O>{.name = "diffuser_length", .member = &O::diffuser_length, .unit = Unit::metre, .min = 0.0, .help = "of a diffuser behind it; 0 = none"},
+      Field<O>{.name = "diffuser_angle", .member = &O::diffuser_angle, .unit = Unit::radian, .min = 0.0, .max = 0.7853981633974483, .help = "of each wall of the diffuser against x"},
+      Field<O>{.name = "inflow", .member = &O::inflow, .help = "name of the patch where air comes in"},
+      Field<O>{.name = "outflow", .member = &O::outflow, .help = "name of the patch where it leaves"},
+      Field<O>{.name = "wall", .member = &O::wall, .help = "name of the walls' patch"},
+  };
+};
+/// \throws Error(bad_argument)
+Model make_test_section(const TestSectionOptions& options);
+
+/// Nacelle of circular sections with an inlet lip down to a fan face and a flat nozzle; its front stands at `position`.
+struct NacelleOptions {
+  double length = k_automatic;
+  double diameter = k_automatic;
+  double highlight_ratio = 0.82;
+  double fan_ratio = 0.78;
+  double fan_depth = 0.25;
+  double exit_ratio = 0.6;
+  double thickest = 0.35;
+};
+template <>
+struct Schema<NacelleOptions> {
+  using O = NacelleOptions;
+  static constexpr std::string_view stage = "nacelle";
+  static constexpr std::array fields = {
+      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-9, .help = "along x", .required = true},
+      Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "largest outer one", .required = true},
+      Field<O>{.name = "highlight_ratio", .member = &O::highlight_ratio, .min = 0.3, .max = 0.99, .help = "diameter of the front edge, of the largest one"},
+      Field<O>{.name = "fan_ratio", .member = &O::fan_ratio, .min = 0.1, .max = 0.98, .help = "diameter of the fan face, of the largest one; below highlight_ratio"},
+      Field<O>{.name = "fan_depth", .member = &O::fan_depth, .min = 0.01, .max = 0.8, .help = "how far the fan face stands behind the front, of the length"},
+      Field<O>{.name = "exit_ratio", .member = &O::exit_ratio, .min = 0.1, .max = 0.99, .help = "diameter of the nozzle plane, of the largest one"},
+      Field<O>{.name = "thickest", .member = &O::thickest, .min = 0.1, .max = 0.8, .help = "where the largest diameter is, of the length"},
+  };
+};
+/// \throws Error(bad_argument)
+Body nacelle_body(const std::string& name, const Point& position, const NacelleOptions& options);
+
+/// Pylon between a wing and a nacelle that hangs below or stands above it: from within the nacelle to within the wing.
+struct PylonOptions {
+  double thickness = 0.1;
+  double nacelle_from = 0.2;
+  double nacelle_to = 0.95;
+  double wing_from = 0.1;
+  double wing_to = 0.7;
+};
+template <>
+struct Schema<PylonOptions> {
+  using O = PylonOptions;
+  static constexpr std::string_view stage = "pylon";
+  static constexpr std::array fields = {
+      Field<O>{.name = "thickness", .member = &O::thickness, .min = 0.005, .max = 0.5, .help = "of its sections, of their chord"},
+      Field<O>{.name = "nacelle_from", .member = &O::nacelle_from, .min = 0.0, .max = 1.0, .help = "leading edge in the nacelle, of its length"},
+      Field<O>{.name = "nacelle_to", .member = &O::nacelle_to, .min = 0.0, .max = 1.5, .help = "trailing edge in the nacelle, of its length"},
+      Field<O>{.name = "wing_from", .member = &O::wing_from, .min = -0.5, .max = 0.9, .help = "leading edge in the wing, of the local chord"},
+      Field<O>{.name = "wing_to", .member = &O::wing_to, .min = 0.0, .max = 1.0, .help = "trailing edge in the wing, of the local chord"},
+  };
+};
+/// \throws Error(bad_argument) when the nacelle does not stand within the wing's span
+Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, const PylonOptions& options);
+
+}  // namespace sterna
