@@ -115,6 +115,7 @@ struct WingSection {
   std::vector<Uv> points; ///< unit chord, u = x, v = z: trailing edge, upper side, leading edge, lower side, trailing edge
   /// Not empty: the airfoil stands in component axes as given here, same order; chord and angles above do not count.
   std::vector<Point> loop;
+  bool is_row = false;      ///< `loop` holds the very points that surfaces are made through (section_rows.h), nothing is sampled again
   bool is_break = false;    ///< a kink of the wing stands here
   bool is_reversed = false; ///< airfoil upside down
   int n_approximation = -1; ///< points of sumo's least-squares airfoil; -1: interpolate

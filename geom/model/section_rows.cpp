@@ -158,6 +158,32 @@ AirfoilRow airfoil_row(const std::vector<Point>& loop, std::size_t n, const std:
   return row;
 }
 
+WingRows wing_rows(const Wing& wing) {
+  /// Trailing edges thinner than this part of the chord are sharp: 6 digits of a file.
+  constexpr double k_sharp = 1e-6;
+  WingRows result;
+  std::optional<double> thickness = wing.trailing_edge;
+  for (const bool is_first_try : {true, false}) {  // all sharp where any is
+    result = {};
+    for (const WingSection& section : wing.sections) {
+      if (section.is_row) result.rows.push_back(section.loop);
+      else result.rows.push_back(airfoil_row(section_loop(section, thickness), k_wing_side_points, section.name).points);
+      std::vector<Point>& row = result.rows.back();
+      if (distance(row.front(), row.back()) <= k_sharp * distance(row.front(), row[k_wing_side_points])) result.is_blunt = false;
+    }
+    if (result.is_blunt || !is_first_try) break;
+    thickness = 0.0;
+  }
+  if (!result.is_blunt)
+    for (std::vector<Point>& row : result.rows) row.front() = row.back() = 0.5 * (row.front() + row.back());
+  if (wing.is_symmetric)
+    for (std::size_t i = wing.sections.size() - 1; i-- > 0;) {
+      result.rows.push_back(result.rows[i]);
+      for (Point& p : result.rows.back()) p.y = -p.y;
+    }
+  return result;
+}
+
 std::vector<Point> frame_row(const BodyFrame& frame, std::size_t m) {
   if (frame.shape == FrameShape::loop) {
     double size = 0.0;

@@ -15,10 +15,7 @@
 namespace sterna {
 namespace {
 
-/// Points of each side of an airfoil: NACA sections are met to 1e-6 chord.
-constexpr std::size_t k_side_points = 48;
-/// Trailing edges thinner than this part of the chord are sharp: 6 digits of a file.
-constexpr double k_sharp = 1e-6;
+constexpr std::size_t k_side_points = k_wing_side_points;
 /// First and last section of a symmetric wing that are nearer to each other than this part of the span: the wing is a ring.
 constexpr double k_ring = 1e-6;
 
@@ -53,26 +50,13 @@ class WingBuilder {
 void WingBuilder::make_rows() {
   const auto refuse = [&](const std::string& problem) { throw Error({.code = ErrorCode::bad_argument, .attempted = "making wing '" + wing_.name + "'", .problem = problem}); };
   if (wing_.sections.size() < 2) refuse("it has " + std::to_string(wing_.sections.size()) + " sections; at least 2 are needed");
-  std::optional<double> thickness = wing_.trailing_edge;
-  for (const bool is_first_try : {true, false}) {  // all sharp where any is
-    rows_.clear();
-    is_blunt_ = true;
-    for (const WingSection& section : wing_.sections) {
-      rows_.push_back(airfoil_row(section_loop(section, thickness), k_side_points, section.name).points);
-      const std::vector<Point>& row = rows_.back();
-      if (distance(row.front(), row.back()) <= k_sharp * distance(row.front(), row[k_side_points])) is_blunt_ = false;
-    }
-    if (is_blunt_ || !is_first_try) break;
-    thickness = 0.0;
-  }
+  WingRows made = wing_rows(wing_);
+  rows_ = std::move(made.rows);
+  is_blunt_ = made.is_blunt;
   for (const WingSection& section : wing_.sections) is_break_.push_back(section.is_break || !wing_.is_cubic);
   if (wing_.is_symmetric) {
     is_break_.back() = true;
-    for (std::size_t i = wing_.sections.size() - 1; i-- > 0;) {
-      rows_.push_back(rows_[i]);
-      for (Point& p : rows_.back()) p.y = -p.y;
-      is_break_.push_back(is_break_[i]);
-    }
+    for (std::size_t i = wing_.sections.size() - 1; i-- > 0;) is_break_.push_back(is_break_[i]);
     double off = 0.0;
     for (std::size_t k = 0; k < rows_.front().size(); ++k) off = std::max(off, distance(rows_.front()[k], rows_.back()[k]));
     is_ring_ = off <= k_ring * distance(rows_.front().front(), rows_[rows_.size() / 2].front());
