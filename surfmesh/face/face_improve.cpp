@@ -140,14 +140,22 @@ void smooth(FaceState& state, FaceMeshReport& report, const RunContext& context)
   SurfaceTriangulation& mesh = state.mesh;
   std::vector<HalfedgeId> work;
   std::vector<TriangleId> touched;
+  // After the first sweep only vertices beside a change are looked at again.
+  std::vector<std::uint8_t> is_active(mesh.points.size(), 1);
   for (int sweep = 0; sweep < state.options.smoothing_sweeps; ++sweep) {
     context.check_stop();
     std::int64_t n_moved = 0;
     for (std::uint32_t i = mesh.n_border; i < mesh.points.size(); ++i) {
       const VertexId v(i);
-      if (!mesh.mesh.outgoing[v].is_valid() || !improve_place(state, v)) continue;
+      if (is_active[i] == 0 || !mesh.mesh.outgoing[v].is_valid()) continue;
+      is_active[i] = 0;
+      if (!improve_place(state, v)) continue;
       ++n_moved;
       flip_at(state, v, work, touched, report);
+      is_active[i] = 1;
+      delaunay::for_star(mesh.mesh, v, [&](HalfedgeId h) { is_active[mesh.mesh.target(h).index()] = 1; });
+      for (const TriangleId t : touched)
+        for (const VertexId w : mesh.mesh.cells[t].vertex) is_active[w.index()] = 1;
     }
     report.n_moves += n_moved;
     if (n_moved == 0) break;
