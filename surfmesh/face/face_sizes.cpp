@@ -62,8 +62,9 @@ CurvatureSizes::CurvatureSizes(const Surface& surface, const ParameterBox& box, 
     for (std::size_t j = 0; j < n_v; ++j) {
       const SurfaceDerivatives d = surface.derivatives({u_[i], v_[j]});
       points[i * n_v + j] = d.point;
-      mean_speed_u_ += norm(d.du) / static_cast<double>(n_u * n_v);
-      mean_speed_v_ += norm(d.dv) / static_cast<double>(n_u * n_v);
+      // Some parametrisations have no finite speed on their border (a square root at a nose): such samples say nothing.
+      if (is_finite(d.du)) mean_speed_u_ += norm(d.du) / static_cast<double>(n_u * n_v);
+      if (is_finite(d.dv)) mean_speed_v_ += norm(d.dv) / static_cast<double>(n_u * n_v);
       // The chord of an arc of radius 1 / curvature.
       const double curvature = largest_curvature(d);
       if (curvature > 0.0) size_[i * n_v + j] = std::max(min_edge, 2.0 * std::sin(0.5 * angle) / curvature);

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double k_pi = std::numbers::pi;
 
-/// t in `to` = t.from + length * s^power, s in [0, 1] the share of the way in `from`.
+/// t in `to` = t.from + length * ((s + e)^power - e^power) / ((1 + e)^power - e^power), s in [0, 1] the share of the way in `from`; e keeps speeds finite for
+/// powers below one.
 class PowerSurface final : public Surface {
  public:
   PowerSurface(SurfacePtr surface, const ParameterBox& box, double power_u, double power_v)
@@ -37,10 +38,12 @@ class PowerSurface final : public Surface {
     double at, first, second;
   };
   static Line line(double t, const Interval& from, const Interval& to, double power) {
-    const double s = std::max((t - from.from) / from.length(), 0.0);
-    const double rate = to.length() / from.length();
-    return {to.from + to.length() * std::pow(s, power), rate * power * std::pow(s, power - 1.0),
-            power == 1.0 ? 0.0 : rate / from.length() * power * (power - 1.0) * std::pow(std::max(s, 1e-9), power - 2.0)};
+    const double e = power < 1.0 ? 1e-3 : 0.0;
+    const double s = std::max((t - from.from) / from.length(), 0.0) + e;
+    const double start = std::pow(e, power), rate = to.length() / (std::pow(1.0 + e, power) - start);
+    const double by_t = 1.0 / from.length();
+    const double second = power == 1.0 || power == 2.0 ? power - 1.0 : (power - 1.0) * std::pow(std::max(s, 1e-9), power - 2.0);
+    return {to.from + rate * (std::pow(s, power) - start), rate * by_t * power * std::pow(s, power - 1.0), rate * by_t * by_t * power * second};
   }
   SurfacePtr surface_;
   ParameterBox inner_, box_;
@@ -74,6 +77,28 @@ SurfacePtr wing() {
     }
   }
   return spline_surface(grid, {}, {});
+}
+
+/// A body's blunt nose, a whole turn of bicubic spline whose first row is one point; along it the parameter is slow at the nose.
+SurfacePtr nose() {
+  constexpr std::size_t n_x = 15, n_turn = 25;
+  PointGrid grid{n_x, n_turn, {}};
+  for (std::size_t i = 0; i < n_x; ++i)
+    for (std::size_t j = 0; j < n_turn; ++j) {
+      const double s = static_cast<double>(i) / (n_x - 1), angle = 2.0 * k_pi * static_cast<double>(j % (n_turn - 1)) / (n_turn - 1);
+      const double radius = i == 0 ? 0.0 : 0.5 * std::sqrt(s * (2.0 - s));
+      grid.points.push_back({2.0 * s * s, radius * std::sin(angle), 0.8 * radius * std::cos(angle)});
+    }
+  SplineOptions around;
+  around.tangents = SplineTangents::periodic;
+  return spline_surface(grid, {}, around);
+}
+
+/// Parameters at a small angle to each other: x = u + shear v.
+SurfacePtr sheared() {
+  Frame frame;
+  frame.y = normalized(Vec3{10.0, 1.0, 0.0});
+  return std::make_shared<PlaneSurface>(frame, ParameterBox{{0, 1}, {0, 1}});
 }
 
 struct Edge {
@@ -148,9 +173,9 @@ surfmesh::FaceBorder box_border(const Surface& surface, const ParameterBox& box,
 
 std::vector<FaceShape> face_shapes() {
   std::vector<FaceShape> shapes;
-  const auto add = [&](std::string name, SurfacePtr surface, double size, double area = 0.0) {
+  const auto add = [&](std::string name, SurfacePtr surface, double size, double area = 0.0, int n_narrow = 0) {
     const ParameterBox box = surface->domain();
-    shapes.push_back({std::move(name), std::move(surface), box, size, area});
+    shapes.push_back({std::move(name), std::move(surface), box, size, area, n_narrow});
   };
   const Frame frame;
   add("plane", std::make_shared<PlaneSurface>(frame, ParameterBox{{0, 2}, {0, 1}}), 0.05, 2.0);
@@ -162,6 +187,11 @@ std::vector<FaceShape> face_shapes() {
   add("wing", wing(), 0.04);
   add("badly_scaled", reparametrised(bump(), {{0, 1e6}, {0, 1e-3}}, 1.0, 1.0), 0.05);
   add("stretched", reparametrised(std::make_shared<PlaneSurface>(frame, ParameterBox{{0, 2}, {0, 1}}), {{0, 1}, {0, 1}}, 3.0, 1.0), 0.05, 2.0);
+  add("nose", nose(), 0.05);
+  add("sheared", sheared(), 0.02, 0.0, 20);
+  add("cone", std::make_shared<ConeSurface>(frame, 0.0, 0.3, ParameterBox{k_full_turn, {0, 2}}), 0.06, 0.0, 8);
+  add("slow_pole", reparametrised(std::make_shared<SphereSurface>(frame, 1.0), {{0, 1}, {0, 1}}, 1.0, 3.0), 0.1, 4.0 * k_pi);
+  add("fast_pole", reparametrised(std::make_shared<SphereSurface>(frame, 1.0), {{0, 1}, {0, 1}}, 1.0, 0.4), 0.1, 4.0 * k_pi);
   return shapes;
 }
 

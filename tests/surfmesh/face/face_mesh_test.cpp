@@ -88,7 +88,7 @@ TEST_P(Shapes, AreSoundAndWellShaped) {
     const FaceBorder border = test::box_border(*shape.surface, shape.box, shape.size / factor);
     const FaceMesh mesh = mesh_shape(shape, shape.size / factor);
     expect_sound(mesh, *shape.surface, border);
-    EXPECT_EQ(mesh.report.n_outside_20_130, 0) << "angles " << mesh.report.min_angle / k_deg << " .. " << mesh.report.max_angle / k_deg << " at " << format_point(mesh.report.worst_place);
+    EXPECT_LE(mesh.report.n_outside_20_130, shape.n_narrow) << "angles " << mesh.report.min_angle / k_deg << " .. " << mesh.report.max_angle / k_deg << " at " << format_point(mesh.report.worst_place);
     // Equilateral triangles of the wanted edge cover the face: fewer than a third off would need edges 15 % longer.
     const double ideal = area_of(mesh) / (0.25 * std::numbers::sqrt3 * shape.size * shape.size / (factor * factor));
     EXPECT_GT(static_cast<double>(mesh.triangles.size()), 0.75 * ideal);
