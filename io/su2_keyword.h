@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "io/line_blocks.h"
 
@@ -25,5 +27,18 @@ std::uint64_t su2_count(const Su2Keyword& keyword, const LineCursor& cursor);
 
 /// A marker's name without its blanks, as SU2 itself removes them.
 std::string su2_marker_name(std::string_view value);
+
+struct Su2Marker {
+  std::string name;
+  LineBlock faces;
+};
+
+/// The blocks of one complete mesh of a file; node numbers start at 0 in each.
+struct Su2Zone {
+  std::optional<LineBlock> points, elements;
+  std::vector<Su2Marker> markers;
+  std::optional<std::uint64_t> n_markers;  ///< announced
+  std::uint64_t n_partition_markers = 0;
+};
 
 }  // namespace sterna::io

@@ -19,17 +19,7 @@
 namespace sterna::io {
 namespace {
 
-struct Marker {
-  std::string name;
-  LineBlock faces;
-};
-
-/// One complete mesh of a file; node numbers start at 0 in each.
-struct Zone {
-  std::optional<LineBlock> points, elements;
-  std::vector<Marker> markers;
-  std::optional<std::uint64_t> n_markers;  ///< announced
-  std::uint64_t n_partition_markers = 0;
+struct Zone : Su2Zone {
   bool is_empty() const { return !points && !elements && markers.empty() && !n_markers && n_partition_markers == 0; }
 };
 
@@ -45,7 +35,7 @@ class Su2SurfaceReader {
     bool has_names = false;
     for (const Zone& zone : zones_) {
       read_points(zone);
-      for (const Marker& marker : zone.markers) read_marker(marker);
+      for (const Su2Marker& marker : zone.markers) read_marker(marker);
       read_elements(zone);
       has_names = has_names || !zone.markers.empty();
     }
@@ -184,7 +174,7 @@ class Su2SurfaceReader {
     builder_.add_polygon(used);
   }
 
-  void read_marker(const Marker& marker) {
+  void read_marker(const Su2Marker& marker) {
     builder_.set_patch(marker.name);
     for_each_line(marker.faces, [&](LineCursor& cursor, std::uint64_t i) {
       const std::uint64_t type = cursor.integer("the type of face ", i);

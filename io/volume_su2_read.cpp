@@ -15,17 +15,7 @@
 namespace sterna::io {
 namespace {
 
-struct Marker {
-  std::string name;
-  LineBlock faces;
-};
-
-/// One complete mesh of a file; node numbers start at 0 in each.
-struct Zone {
-  std::optional<LineBlock> points, elements;
-  std::vector<Marker> markers;
-  std::optional<std::uint64_t> n_markers;  ///< announced
-  std::uint64_t n_partition_markers = 0;
+struct Zone : Su2Zone {
   bool has_dimension = false;
   bool is_empty() const { return !points && !elements && markers.empty() && !has_dimension; }
 };
@@ -84,7 +74,7 @@ class ZoneIndexer {
   }
 
   void take_marker(const Su2Keyword& tag) {
-    Marker marker;
+    Su2Marker marker;
     marker.name = su2_marker_name(tag.value);
     cursor_.next_line();
     const Su2Keyword count = expect_keyword("MARKER_ELEMS", marker.name);
@@ -243,7 +233,7 @@ void read_zone(const Zone& zone, std::string_view source, HybridMesh& mesh, cons
   read_points(*zone.points, source, mesh, first_node, context);
   std::vector<CellChunk> chunks;
   for (const LineChunk& lines : zone.elements->chunks) chunks.push_back({lines, PatchId{}});
-  for (const Marker& marker : zone.markers) {
+  for (const Su2Marker& marker : zone.markers) {
     const PatchId patch = find_or_add_patch(mesh.patches, marker.name);
     for (const LineChunk& lines : marker.faces.chunks) chunks.push_back({lines, patch});
   }
