@@ -9,8 +9,10 @@
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/cad/reference_data.h"
 #include "geom/mesh/check.h"
 #include "io/atomic_file.h"
+#include "io/cad_file.h"
 #include "io/format_table.h"
 #include "io/surface_file.h"
 #include "io/trouble_vtu.h"
@@ -172,6 +174,24 @@ MeshValue make_mesh(const MeshCommand& command, const CommandContext& context) {
   return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_read_end, k_mesh_end));
 }
 
+std::string measures_text(const BodyMeasures& body) {
+  std::string text = fmt::format("{} faces, area {:.6g} m^2", body.n_faces, body.area);
+  if (body.has_volume) text += fmt::format(", volume {:.6g} m^3", body.volume);
+  return text + fmt::format(", centre {}, box {} to {}", format_point(body.centre), format_point(body.box.min), format_point(body.box.max));
+}
+
+int print_cad_info(const InfoCommand& command, double unit, const CommandContext& context) {
+  ReadCadOptions options;
+  if (command.unit != InfoCommand{}.unit) options.unit = unit;
+  const CadFile file = io::read_cad(command.input, options, context.run.part("read", 0.0, 0.8));
+  const ReferenceData data = cad::reference_data(file.model, context.run.part("measure", 0.8, 1.0));
+  context.console.print(command.input + ": " + to_text(file.report));
+  context.console.print("  total    " + measures_text(data.total));
+  for (const BodyMeasures& solid : data.solids) context.console.print(fmt::format("  solid    \"{}\", {}: {}", solid.name, solid.has_volume ? "closed" : "open", measures_text(solid)));
+  for (const BodyMeasures& component : data.components) context.console.print(fmt::format("  part     \"{}\": {}", component.name, measures_text(component)));
+  return k_exit_success;
+}
+
 std::string read_write(bool is_read, bool is_written) {
   return is_read && is_written ? "read, write" : is_read ? "read" : is_written ? "write" : "-";
 }
@@ -219,6 +239,7 @@ int execute(const InfoCommand& command, const CommandContext& context) {
   surfmesh::StitchOptions unit;
   const OptionTable schema = sterna::options_of(unit);
   set_option_as_typed(find_option(schema, "unit", "info"), command.unit);
+  if (io::is_cad_file(command.input)) return print_cad_info(command, unit.unit, context);
   const InputPath input{command.input, command.input};
   const io::Format& format = io::format_of(input.path);
   context.console.print(fmt::format("{}: {}, 1 unit of the file = {:g} m", command.input, format.name, unit.unit));

@@ -40,6 +40,7 @@ std::string_view to_string(ErrorCode code) {
     case ErrorCode::self_intersection: return "self_intersection";
     case ErrorCode::not_orientable: return "not_orientable";
     case ErrorCode::envelope_failed: return "envelope_failed";
+    case ErrorCode::geometry_failed: return "geometry_failed";
     case ErrorCode::tetra_engine_missing: return "tetra_engine_missing";
     case ErrorCode::tetra_engine_failed: return "tetra_engine_failed";
     case ErrorCode::tetra_result_invalid: return "tetra_result_invalid";

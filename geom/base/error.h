@@ -28,6 +28,7 @@ enum class ErrorCode {
   self_intersection,     ///< of a wall, an envelope, or between boundaries
   not_orientable,
   envelope_failed,
+  geometry_failed,       ///< an operation on exact geometry: a conversion, healing, a boolean
   tetra_engine_missing,
   tetra_engine_failed,   ///< crash, error code, time or memory limit of the helper
   tetra_result_invalid,  ///< the engine answered, but not with a mesh of the domain

@@ -1,0 +1,356 @@
+#include "geom/cad/heal.h"
+
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRepLib.hxx>
+#include <BRepTools_ReShape.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
+#include <Message_Msg.hxx>
+#include <Message_MsgFile.hxx>
+#include <Message_ProgressScope.hxx>
+#include <Precision.hxx>
+#include <ShapeBuild_ReShape.hxx>
+#include <ShapeExtend_BasicMsgRegistrator.hxx>
+#include <ShapeFix_FixSmallFace.hxx>
+#include <ShapeFix_Shape.hxx>
+#include <ShapeFix_Solid.hxx>
+#include <ShapeFix_Wireframe.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Solid.hxx>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sterna::cad {
+namespace {
+
+/// Gaps that sewing tries to close when the user gives none, as shares of the longest side. Up from the resolution of the usual modellers; 1e-5 of an airliner is
+/// 0.6 mm: above that, thin trailing edges would be sewn together.
+constexpr std::array<double, 3> k_sew_ladder = {1e-7, 1e-6, 1e-5};
+/// Sewing beyond this share of the shortest edge joins its two ends.
+constexpr double k_sew_of_shortest_edge = 0.25;
+/// Edges and faces below this share of the longest side carry no shape that a mesh could show.
+constexpr double k_small_share = 1e-6;
+/// Tolerances may grow to this share of the longest side while borders are mended.
+constexpr double k_max_tolerance_share = 1e-4;
+/// Two faces are one where area, centre and box agree to this share of the face's size.
+constexpr double k_same_face = 1e-6;
+/// A step that removes small things may change the area by no more than this share.
+constexpr double k_area_change = 1e-6;
+
+/// OpenCASCADE's keys for what it mends, in our words; what is not here is told by its key.
+constexpr std::array<std::pair<const char*, const char*>, 27> k_words = {{
+    {"FixWire.FixDegenerated.MSG0", "edge at a pole marked as degenerate"},
+    {"FixWire.FixDegenerated.MSG5", "edge at a pole marked as degenerate"},
+    {"FixWire.FixCurve3d.Removed", "edge without curves removed"},
+    {"FixAdvWire.FixSmall.MSG0", "small edge removed"},
+    {"FixAdvWire.FixSmall.MSG5", "small edge removed"},
+    {"FixAdvWire.FixIntersection.MSG0", "border that crossed itself corrected"},
+    {"FixAdvWire.FixIntersection.MSG5", "edge that crossed itself corrected"},
+    {"FixAdvWire.FixIntersection.MSG10", "edges that crossed each other corrected"},
+    {"FixAdvWire.FixLacking.MSG0", "missing edge of a border inserted"},
+    {"FixAdvWire.FixLacking.MSG5", "missing edge of a border inserted"},
+    {"FixAdvFace.FixMissingSeam.MSG0", "missing seam added"},
+    {"FixAdvFace.FixSmallAreaWire.MSG0", "border without area removed"},
+    {"FixAdvFace.FixOrientation.MSG0", "face without border given its natural one"},
+    {"FixAdvFace.FixOrientation.MSG5", "border that ran the wrong way reversed"},
+    {"FixAdvFace.FixOrientation.MSG11", "border that cannot be oriented"},
+    {"FixAdvFace.FixLoopWire.MSG0", "border split into several"},
+    {"FixAdvFace.FixSpotFace.MSG0", "face as small as a point removed"},
+    {"FixAdvFace.FixStripFace.MSG0", "face as narrow as a line removed"},
+    {"FixWireframe.FixSmallEdges.MSG0", "small edge removed"},
+    {"FixWireframe.FixSmallEdges.MSG1", "small border removed"},
+    {"FixWireframe.FixSmallEdges.MSG2", "small face removed"},
+    {"FixWireframe.FixFixWireGaps.MSG0", "gap in a border closed"},
+    {"Fix.SplitCommonVertex.MSG0", "borders with a common corner taken apart"},
+    {"FixEdge.SameParameter.MSG0", "curves of an edge given the same parameter"},
+    {"FixAdvShell.FixOrientation.MSG0", "faces of a shell oriented alike"},
+    {"FixAdvShell.FixOrientation.MSG30", "shell of parts that do not touch split"},
+    {"FixAdvSolid.FixOrientation.MSG20", "solid turned right side out"},
+}};
+
+/// Takes down what OpenCASCADE's fixers tell, in the order in which they tell it.
+class MendNotes : public ShapeExtend_BasicMsgRegistrator {
+ public:
+  explicit MendNotes(CadReport& report) : report_(report) {
+    for (const auto& [key, words] : k_words) Message_MsgFile::AddMsg(key, words);
+  }
+  void Send(const TopoDS_Shape& shape, const Message_Msg& message, const Message_Gravity) override {
+    report_.mended.push_back({.what = TCollection_AsciiString(message.Value(), '?').ToCString(), .place = place_of(shape)});
+  }
+  DEFINE_STANDARD_RTTI_INLINE(MendNotes, ShapeExtend_BasicMsgRegistrator)
+
+ private:
+  CadReport& report_;
+};
+
+struct FaceMeasure {
+  double area = 0.0;
+  gp_Pnt centre;
+};
+
+FaceMeasure measure(const TopoDS_Shape& face) {
+  GProp_GProps properties;
+  BRepGProp::SurfaceProperties(face, properties);
+  return {std::abs(properties.Mass()), properties.CentreOfMass()};
+}
+
+Bnd_Box box_of(const TopoDS_Shape& shape) {
+  Bnd_Box box;
+  BRepBndLib::Add(shape, box, false);
+  return box;
+}
+
+bool is_same_box(const Bnd_Box& a, const Bnd_Box& b) {
+  if (a.IsVoid() || b.IsVoid()) return false;
+  const double tolerance = k_same_face * std::sqrt(a.SquareExtent());
+  return a.CornerMin().Distance(b.CornerMin()) <= tolerance && a.CornerMax().Distance(b.CornerMax()) <= tolerance;
+}
+
+/// Labels go where their faces went.
+template <class NewShape>
+void move_labels(FaceLabels& labels, const TopoDS_Shape& before, const NewShape& new_shape) {
+  for (TopExp_Explorer f(before, TopAbs_FACE); f.More(); f.Next()) {
+    const FaceLabel* label = labels.Seek(f.Current());
+    if (!label) continue;
+    const FaceLabel copy = *label;
+    const TopoDS_Shape after = new_shape(f.Current());
+    if (after.IsNull()) continue;
+    for (TopExp_Explorer part(after, TopAbs_FACE); part.More(); part.Next()) labels.Bind(part.Current(), copy);
+  }
+}
+
+/// Faces that occur twice in a part, or loose beside it. Contacts between solids are no doubles.
+void drop_doubled_faces(LabelledShape& labelled, CadReport& report) {
+  struct Known {
+    Bnd_Box box;
+    TopoDS_Shape face;
+    std::size_t group;
+  };
+  std::vector<Known> known;
+  for (std::size_t p = 0; p < labelled.parts.size(); ++p) {
+    ShapePart& part = labelled.parts[p];
+    const bool is_loose = part.shape.ShapeType() != TopAbs_SOLID;
+    const std::size_t group = is_loose ? labelled.parts.size() : p;
+    const Handle(BRepTools_ReShape) context = new BRepTools_ReShape;
+    bool is_changed = false;
+    for (TopExp_Explorer f(part.shape, TopAbs_FACE); f.More(); f.Next()) {
+      const Bnd_Box box = box_of(f.Current());
+      const auto is_double = [&](const Known& other) {
+        if ((other.group != group && !is_loose) || !is_same_box(box, other.box)) return false;
+        const FaceMeasure a = measure(f.Current()), b = measure(other.face);
+        return std::abs(a.area - b.area) <= k_same_face * b.area && a.centre.Distance(b.centre) <= k_same_face * std::sqrt(b.area);
+      };
+      if (std::any_of(known.begin(), known.end(), is_double)) {
+        report.mended.push_back({.what = "doubled face removed", .place = place_of(f.Current())});
+        context->Remove(f.Current());
+        is_changed = true;
+      } else {
+        known.push_back({box, f.Current(), group});
+      }
+    }
+    if (is_changed) part.shape = context->Apply(part.shape);
+  }
+  std::erase_if(labelled.parts, [](const ShapePart& part) { return part.shape.IsNull() || !TopExp_Explorer(part.shape, TopAbs_FACE).More(); });
+}
+
+/// Faces, borders and shells that OpenCASCADE's check rejects.
+void mend_invalid(LabelledShape& labelled, double size, CadReport& report, const Message_ProgressRange& progress, const RunContext& context) {
+  Message_ProgressScope parts(progress, "mending", static_cast<double>(labelled.parts.size()));
+  for (ShapePart& part : labelled.parts) {
+    context.check_stop();
+    const Message_ProgressRange range = parts.Next();
+    if (BRepCheck_Analyzer(part.shape).IsValid()) continue;
+    const Handle(ShapeBuild_ReShape) changes = new ShapeBuild_ReShape;
+    const Handle(ShapeFix_Shape) fixer = new ShapeFix_Shape(part.shape);
+    fixer->SetContext(changes);
+    fixer->SetMsgRegistrator(new MendNotes(report));
+    fixer->SetMaxTolerance(std::max(k_max_tolerance_share * size, Precision::Confusion()));
+    fixer->Perform(range);
+    move_labels(labelled.labels, part.shape, [&](const TopoDS_Shape& face) { return changes->Apply(face); });
+    part.shape = fixer->Shape();
+  }
+  std::erase_if(labelled.parts, [](const ShapePart& part) { return part.shape.IsNull() || !TopExp_Explorer(part.shape, TopAbs_FACE).More(); });
+}
+
+double length_of(const TopoDS_Shape& shape) {
+  GProp_GProps properties;
+  BRepGProp::LinearProperties(shape, properties);
+  return properties.Mass();
+}
+
+bool has_small_edges(const TopoDS_Shape& shape, double small) {
+  for (TopExp_Explorer e(shape, TopAbs_EDGE); e.More(); e.Next())
+    if (!BRep_Tool::Degenerated(TopoDS::Edge(e.Current())) && length_of(e.Current()) < small) return true;
+  return false;
+}
+
+/// Spots and strips: the area is less than that of a band as narrow as `small` along half the border.
+bool has_small_faces(const TopoDS_Shape& shape, double small) {
+  for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next())
+    if (measure(f.Current()).area < 0.5 * small * length_of(f.Current())) return true;
+  return false;
+}
+
+/// Takes the result of a step that drops small things, unless it changed the area: then the step harmed more than it mended.
+void accept(ShapePart& part, LabelledShape& labelled, const TopoDS_Shape& result, const Handle(ShapeBuild_ReShape) & changes, std::size_t n_notes_before, const char* what, CadReport& report) {
+  if (result.IsNull()) return;
+  const double before = measure(part.shape).area, after = measure(result).area;
+  if (std::abs(after - before) > k_area_change * before) {
+    report.mended.resize(n_notes_before);
+    report.warnings.push_back(std::string(what) + " near " + format_point(place_of(part.shape)) + " were kept: dropping them would change the area by more than 1e-6 of it");
+    return;
+  }
+  move_labels(labelled.labels, part.shape, [&](const TopoDS_Shape& face) { return changes->Apply(face); });
+  part.shape = result;
+}
+
+void drop_small(LabelledShape& labelled, double small, CadReport& report, const RunContext& context) {
+  for (ShapePart& part : labelled.parts) {
+    context.check_stop();
+    if (has_small_edges(part.shape, small)) {
+      const Handle(ShapeBuild_ReShape) changes = new ShapeBuild_ReShape;
+      ShapeFix_Wireframe fixer(part.shape);
+      fixer.SetContext(changes);
+      const std::size_t n_before = report.mended.size();
+      fixer.SetMsgRegistrator(new MendNotes(report));
+      fixer.SetPrecision(small);
+      fixer.ModeDropSmallEdges() = true;
+      fixer.FixSmallEdges();
+      accept(part, labelled, fixer.Shape(), changes, n_before, "small edges", report);
+    }
+    if (has_small_faces(part.shape, small)) {
+      const Handle(ShapeBuild_ReShape) changes = new ShapeBuild_ReShape;
+      ShapeFix_FixSmallFace fixer;
+      fixer.Init(part.shape);
+      fixer.SetContext(changes);
+      const std::size_t n_before = report.mended.size();
+      fixer.SetMsgRegistrator(new MendNotes(report));
+      fixer.SetPrecision(small);
+      fixer.Perform();
+      accept(part, labelled, fixer.Shape(), changes, n_before, "small faces", report);
+    }
+  }
+}
+
+/// Every edge joins two faces, or a face with itself, and none is used more often.
+bool is_closed(const TopoDS_Shape& shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
+  for (int e = 1; e <= faces.Extent(); ++e)
+    if (faces(e).Extent() != 2 && !BRep_Tool::Degenerated(TopoDS::Edge(faces.FindKey(e)))) return false;
+  return true;
+}
+
+int count_free_edges(const std::vector<TopoDS_Shape>& shapes) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces;
+  for (const TopoDS_Shape& shape : shapes) TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
+  int n_free = 0;
+  for (int e = 1; e <= faces.Extent(); ++e) {
+    const TopoDS_Edge& edge = TopoDS::Edge(faces.FindKey(e));
+    n_free += faces(e).Extent() == 1 && !BRep_Tool::Degenerated(edge) && !BRep_Tool::IsClosed(edge, TopoDS::Face(faces(e).First()));
+  }
+  return n_free;
+}
+
+/// Without those that are so small that sewing may swallow them.
+double shortest_edge(const std::vector<TopoDS_Shape>& shapes, double small) {
+  double shortest = Precision::Infinite();
+  for (const TopoDS_Shape& shape : shapes)
+    for (TopExp_Explorer e(shape, TopAbs_EDGE); e.More(); e.Next())
+      if (const double length = BRep_Tool::Degenerated(TopoDS::Edge(e.Current())) ? 0.0 : length_of(e.Current()); length > small) shortest = std::min(shortest, length);
+  return shortest;
+}
+
+std::vector<double> sewing_tolerances(const ReadCadOptions& options, double size, double shortest) {
+  if (!is_automatic(options.sew_tolerance)) return {options.sew_tolerance};
+  std::vector<double> tolerances;
+  for (const double share : k_sew_ladder) {
+    const double tolerance = std::max(share * size, Precision::Confusion());
+    if (tolerance <= k_sew_of_shortest_edge * shortest && (tolerances.empty() || tolerance > tolerances.back())) tolerances.push_back(tolerance);
+  }
+  return tolerances;
+}
+
+/// Open shells and loose faces of all parts, joined where their edges meet.
+void sew_open_parts(LabelledShape& labelled, const ReadCadOptions& options, double size, double small, CadReport& report, const Message_ProgressRange& progress, const RunContext& context) {
+  std::vector<TopoDS_Shape> open;
+  for (const ShapePart& part : labelled.parts)
+    if (count_free_edges({part.shape}) > 0) open.push_back(part.shape);
+  if (open.empty()) return;
+  const int n_before = count_free_edges(open);
+  const std::vector<double> tolerances = sewing_tolerances(options, size, shortest_edge(open, small));
+  Message_ProgressScope tries(progress, "sewing", static_cast<double>(std::max<std::size_t>(tolerances.size(), 1)));
+  Handle(BRepBuilderAPI_Sewing) best;
+  int n_best = n_before;
+  for (const double tolerance : tolerances) {
+    context.check_stop();
+    const Handle(BRepBuilderAPI_Sewing) sewing = new BRepBuilderAPI_Sewing(tolerance);
+    for (const TopoDS_Shape& shape : open)
+      for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) sewing->Add(f.Current());
+    sewing->Perform(tries.Next());
+    context.check_stop();
+    if (sewing->SewedShape().IsNull()) continue;
+    const int n_free = count_free_edges({sewing->SewedShape()});
+    if (n_free < n_best) {
+      best = sewing;
+      n_best = n_free;
+    }
+    if (n_free == 0) break;
+  }
+  if (best.IsNull()) return;
+  for (int i = 1; i <= best->NbContigousEdges(); ++i) {
+    const TopoDS_Edge& edge = best->ContigousEdge(i);
+    report.mended.push_back({.what = "edges of two faces joined", .place = place_of(edge), .value = std::min(BRep_Tool::Tolerance(edge), best->Tolerance())});
+  }
+  for (int i = 1; i <= best->NbDeletedFaces(); ++i) report.mended.push_back({.what = "face without extent removed", .place = place_of(best->DeletedFace(i))});
+  for (const TopoDS_Shape& shape : open) move_labels(labelled.labels, shape, [&](const TopoDS_Shape& face) { return best->Modified(face); });
+  std::erase_if(labelled.parts, [&](const ShapePart& part) { return std::any_of(open.begin(), open.end(), [&](const TopoDS_Shape& s) { return s.IsSame(part.shape); }); });
+  const auto add = [&](const TopoDS_Shape& shape) {
+    const FaceLabel* label = labelled.labels.Seek(TopExp_Explorer(shape, TopAbs_FACE).Current());
+    labelled.parts.push_back({.shape = shape, .component = label ? label->component : std::string(), .name = {}, .label = {}});
+  };
+  for (TopExp_Explorer s(best->SewedShape(), TopAbs_SHELL); s.More(); s.Next()) add(s.Current());
+  for (TopExp_Explorer f(best->SewedShape(), TopAbs_FACE, TopAbs_SHELL); f.More(); f.Next()) add(f.Current());
+}
+
+/// Closed shells become solids whose faces look outwards.
+void make_solids(LabelledShape& labelled, CadReport& report) {
+  for (ShapePart& part : labelled.parts) {
+    if (part.shape.ShapeType() == TopAbs_SHELL && is_closed(part.shape)) {
+      part.shape = ShapeFix_Solid().SolidFromShell(TopoDS::Shell(part.shape));
+      report.mended.push_back({.what = "closed shell made a solid", .place = place_of(part.shape)});
+    } else if (part.shape.ShapeType() == TopAbs_SOLID) {
+      TopoDS_Solid solid = TopoDS::Solid(part.shape);
+      GProp_GProps volume;
+      BRepGProp::VolumeProperties(solid, volume);
+      if (volume.Mass() >= 0.0 || count_free_edges({solid}) > 0) continue;
+      if (!BRepLib::OrientClosedSolid(solid)) continue;
+      part.shape = solid;
+      report.mended.push_back({.what = "solid turned right side out", .place = place_of(part.shape)});
+    }
+  }
+}
+
+}  // namespace
+
+void heal(LabelledShape& labelled, const ReadCadOptions& options, CadReport& report, const Message_ProgressRange& progress, const RunContext& context) {
+  const double size = longest_side(compound_of(labelled.parts));
+  const double small = is_automatic(options.small) ? k_small_share * size : options.small;
+  Message_ProgressScope steps(progress, "healing", 2.0);
+  drop_doubled_faces(labelled, report);
+  mend_invalid(labelled, size, report, steps.Next(), context);
+  drop_small(labelled, small, report, context);
+  sew_open_parts(labelled, options, size, small, report, steps.Next(), context);
+  make_solids(labelled, report);
+}
+
+}  // namespace sterna::cad

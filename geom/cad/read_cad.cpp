@@ -1,0 +1,161 @@
+// The reader as its steps: translate, unit, mend, model, report.
+#include "geom/cad/read_cad.h"
+
+#include <BRepGProp.hxx>
+#include <GProp_GProps.hxx>
+#include <Message_ProgressScope.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS_Edge.hxx>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+#include "geom/cad/heal.h"
+#include "geom/cad/occt_call.h"
+#include "geom/cad/translate.h"
+
+namespace sterna {
+namespace cad {
+namespace {
+
+/// Sizes between which an aircraft, a rotor or a wind-tunnel model is expected, metres; outside the unit is doubted, never changed.
+constexpr double k_smallest_size = 0.3;
+constexpr double k_largest_size = 400.0;
+/// A model smaller than this whose numbers would be an aircraft in metres is doubted too.
+constexpr double k_small_size = 2.0;
+constexpr Interval k_aircraft = {5.0, 120.0};
+
+/// Shares of a read that translation and mending take, from the files of docs/cad_files.md.
+constexpr double k_translate_share = 50.0;
+constexpr double k_heal_share = 50.0;
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+/// Doubts about the unit: a header that says mm over numbers that are metres is seen in real files.
+void doubt_unit(double size, bool is_given, CadReport& report) {
+  const bool looks_like_metres = size < k_small_size && k_aircraft.contains(size / report.unit);
+  if (is_given || size <= 0.0 || (size >= k_smallest_size && size <= k_largest_size && !looks_like_metres)) return;
+  const std::string as = report.format == CadFormat::brep ? "a BREP file has no unit; taken as metres" : "the file's unit (" + report.file_unit + ")";
+  report.warnings.push_back(as + " makes the model " + number(size) + " m long; its numbers span " + number(size / report.unit) + ": if that is in another unit, give `unit` (1 for m, 0.001 for mm)");
+}
+
+/// Loose faces and shells go by the name of the file where they have no other.
+void name_after_file(LabelledShape& labelled, const std::string& source) {
+  std::string stem = source.substr(source.find_last_of('/') + 1);
+  if (stem.ends_with(".gz")) stem.resize(stem.size() - 3);
+  stem = stem.substr(0, stem.find_last_of('.'));
+  std::size_t n_nameless = 0;
+  for (const ShapePart& part : labelled.parts)
+    if (part.shape.ShapeType() == TopAbs_SOLID && part.component.empty() && part.name.empty()) ++n_nameless;
+  std::size_t number = 0;
+  for (ShapePart& part : labelled.parts) {
+    if (!part.component.empty()) continue;
+    if (!part.name.empty())
+      part.component = part.name;
+    else if (part.shape.ShapeType() == TopAbs_SOLID && n_nameless > 1)
+      part.component = stem + "_" + std::to_string(++number);
+    else
+      part.component = stem;
+  }
+}
+
+/// What is said of a part is said of its faces, so that they can be joined with faces of other parts.
+void label_faces(LabelledShape& labelled) {
+  for (const ShapePart& part : labelled.parts)
+    for (TopExp_Explorer f(part.shape, TopAbs_FACE); f.More(); f.Next()) {
+      FaceLabel label = labelled.labels.IsBound(f.Current()) ? labelled.labels.Find(f.Current()) : FaceLabel{};
+      if (label.component.empty()) label.component = part.component;
+      if (!label.colour) label.colour = part.label.colour;
+      if (label.layer.empty()) label.layer = part.label.layer;
+      labelled.labels.Bind(f.Current(), label);
+    }
+}
+
+double length_of(const TopoDS_Edge& edge) {
+  GProp_GProps properties;
+  BRepGProp::LinearProperties(edge, properties);
+  return properties.Mass();
+}
+
+void describe_result(const Model& model, CadReport& report) {
+  report.n_faces = model.faces.size();
+  std::vector<bool> is_loose(model.faces.size(), true);
+  for (const ModelSolid& solid : model.solids) {
+    solid.is_closed ? ++report.n_closed : ++report.n_open;
+    for (const FaceId f : solid.faces) is_loose[f.index()] = false;
+  }
+  report.n_open += static_cast<std::size_t>(std::count(is_loose.begin(), is_loose.end(), true));
+  const auto uses = uses_of_edges(model);
+  for (const EdgeId e : free_edges(model)) {
+    const ModelEdge& edge = model.edges[e];
+    report.free_edges.push_back({e, uses[e].front().face, edge.curve->point(0.5 * (edge.range.from + edge.range.to)), length_of(model.shape->content().edges[e.index()])});
+  }
+  report.faults = faults_of(*model.shape);
+}
+
+void count_names(const LabelledShape& labelled, CadReport& report) {
+  for (const ShapePart& part : labelled.parts) report.n_named_parts += !part.name.empty() || !part.component.empty();
+  for (FaceLabels::Iterator it(labelled.labels); it.More(); it.Next()) report.n_named_faces += !it.Value().name.empty();
+}
+
+}  // namespace
+
+CadFile read_cad_bytes(std::string_view bytes, CadFormat format, const std::string& source, const ReadCadOptions& options, const RunContext& context) {
+  CadFile file;
+  CadReport& report = file.report;
+  report.format = format;
+  const std::string attempted = "reading " + source;
+  run_occt({.attempted = attempted, .time_limit = options.time_limit}, context, [&](const Message_ProgressRange& progress) {
+    Message_ProgressScope steps(progress, "reading", k_translate_share + k_heal_share);
+    Translated translated = translate(bytes, format, source, steps.Next(k_translate_share));
+    context.check_stop();
+    if (translated.labelled.parts.empty())
+      throw Error({.code = ErrorCode::file_malformed, .attempted = attempted, .problem = "no face in it", .hint = "only solids, shells and faces are read, no wires or meshes"});
+    report.file_unit = translated.file_unit;
+    report.unit = is_automatic(options.unit) ? translated.unit : options.unit;
+    if (report.unit != translated.unit) scale(translated.labelled, report.unit / translated.unit);
+    doubt_unit(longest_side(compound_of(translated.labelled.parts)), !is_automatic(options.unit), report);
+    count_names(translated.labelled, report);
+    name_after_file(translated.labelled, source);
+    label_faces(translated.labelled);
+    if (options.heal) heal(translated.labelled, options, report, steps.Next(k_heal_share), context);
+    file.model = model_of(translated.labelled, attempted, context);
+    file.model.source_unit = report.file_unit;
+    describe_result(file.model, report);
+  });
+  for (const std::string& warning : report.warnings) context.warn(source + ": " + warning);
+  return file;
+}
+
+}  // namespace cad
+
+std::string to_text(const CadReport& report) {
+  constexpr std::size_t k_shown = 10;
+  std::string text = std::string(to_string(report.format)) + ", unit " + report.file_unit + " = " + cad::number(report.unit) + " m: " + std::to_string(report.n_faces) + " faces, " + std::to_string(report.n_closed) +
+                     " closed solids" + (report.n_open > 0 ? ", " + std::to_string(report.n_open) + " open shells or loose faces" : "") + "; names: " + std::to_string(report.n_named_parts) + " parts, " +
+                     std::to_string(report.n_named_faces) + " faces";
+  for (const std::string& warning : report.warnings) text += "\n  warning: " + warning;
+  std::map<std::string, std::vector<const CadMend*>> by_kind;
+  for (const CadMend& mend : report.mended) by_kind[mend.what].push_back(&mend);
+  for (const auto& [what, mends] : by_kind) {
+    text += "\n  mended: " + what + ", " + std::to_string(mends.size()) + " x";
+    for (std::size_t i = 0; i < std::min<std::size_t>(mends.size(), 3); ++i)
+      text += (i == 0 ? ": " : ", ") + format_point(mends[i]->place) + (mends[i]->value > 0.0 ? " " + cad::number(mends[i]->value) + " m" : "");
+    if (mends.size() > 3) text += " ...";
+  }
+  for (std::size_t i = 0; i < std::min(report.free_edges.size(), k_shown); ++i) {
+    const CadFreeEdge& edge = report.free_edges[i];
+    text += "\n  open: edge " + std::to_string(edge.edge.index()) + " of face " + std::to_string(edge.face.index()) + " at " + format_point(edge.place) + ", " + cad::number(edge.length) + " m long";
+  }
+  if (report.free_edges.size() > k_shown) text += "\n  open: and " + std::to_string(report.free_edges.size() - k_shown) + " more edges";
+  for (std::size_t i = 0; i < std::min(report.faults.size(), k_shown); ++i) text += "\n  fault: " + report.faults[i].what + " at " + format_point(report.faults[i].position);
+  if (report.faults.size() > k_shown) text += "\n  fault: and " + std::to_string(report.faults.size() - k_shown) + " more";
+  return text;
+}
+
+}  // namespace sterna

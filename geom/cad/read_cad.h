@@ -1,0 +1,86 @@
+// CAD files into models: STEP, IGES and BREP with names, colours, layers and units, mended where they need it, with a report of each thing that was mended.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geom/base/error.h"
+#include "geom/base/run_context.h"
+#include "geom/base/schema.h"
+#include "geom/cad/cad_format.h"
+#include "geom/model/model.h"
+
+namespace sterna {
+
+struct ReadCadOptions {
+  double unit = k_automatic;             ///< metres for 1 unit of the file's numbers
+  bool heal = true;
+  double sew_tolerance = k_automatic;    ///< metres
+  double small = k_automatic;            ///< metres
+  double time_limit = 600.0;             ///< seconds
+};
+template <>
+struct Schema<ReadCadOptions> {
+  static constexpr std::string_view stage = "read_cad";
+  using T = ReadCadOptions;
+  static constexpr std::array fields = {
+      Field<T>{.name = "unit", .member = &T::unit, .unit = Unit::metre, .min = 1e-9, .max = 1e6, .help = "metres for 1 unit of the file's numbers, instead of what its header says", .automatic = "the header's unit; BREP, which has none: 1"},
+      Field<T>{.name = "heal", .member = &T::heal, .help = "mend borders, orientation, gaps, small and doubled faces"},
+      Field<T>{.name = "sew_tolerance", .member = &T::sew_tolerance, .unit = Unit::metre, .min = 1e-9, .max = 1.0, .help = "largest gap between faces that is closed by joining their edges", .automatic = "tried up to 1e-5 of the longest side, the least that closes most"},
+      Field<T>{.name = "small", .member = &T::small, .unit = Unit::metre, .min = 0.0, .max = 1.0, .help = "edges, and strips of faces, shorter than this are dropped", .automatic = "1e-6 of the longest side"},
+      Field<T>{.name = "time_limit", .member = &T::time_limit, .unit = Unit::second, .min = 1.0, .max = 1e6, .help = "reading and mending give up after this"},
+  };
+};
+
+/// One thing that healing changed.
+struct CadMend {
+  std::string what;    ///< "small edge removed"
+  Point place;
+  double value = 0.0;  ///< metres: the gap or length that was mended; 0 where it has none
+};
+
+/// Where a shell is open.
+struct CadFreeEdge {
+  EdgeId edge;
+  FaceId face;
+  Point place;  ///< half way along the edge
+  double length = 0.0;
+};
+
+struct CadReport {
+  cad::CadFormat format = cad::CadFormat::step;
+  std::string file_unit;            ///< as the file names it; "none" for BREP
+  double unit = 1.0;                ///< metres for 1 unit of the file, as applied
+  std::size_t n_faces = 0;
+  std::size_t n_closed = 0;         ///< closed solids
+  std::size_t n_open = 0;           ///< shells with free edges, and loose faces
+  std::size_t n_named_parts = 0;    ///< solids, shells and instances with names of the file
+  std::size_t n_named_faces = 0;
+  std::vector<CadMend> mended;
+  std::vector<CadFreeEdge> free_edges;
+  std::vector<ErrorPlace> faults;   ///< what OpenCASCADE's check still objects to
+  std::vector<std::string> warnings;
+  bool is_closed() const { return n_open == 0 && n_closed > 0; }
+};
+
+struct CadFile {
+  Model model;
+  CadReport report;
+};
+
+namespace cad {
+
+/// Reads the bytes of a file, unpacked. `source` is its name for messages; its stem names components that have no other name. A file without a single face is refused.
+/// Placed instances of assemblies become components of their own, named after the instance, else the product; faces without a name get that of their component.
+/// What cannot be closed is no error: it is listed in the report, and each warning also goes to the log.
+/// \throws Error file_malformed, geometry_failed (OpenCASCADE gave up, the time limit), cancelled.
+CadFile read_cad_bytes(std::string_view bytes, CadFormat format, const std::string& source, const ReadCadOptions& options, const RunContext& context);
+
+}  // namespace cad
+
+/// Several lines for people: format, unit, faces, solids, names, closed or not, what was mended, where it is open.
+std::string to_text(const CadReport& report);
+
+}  // namespace sterna

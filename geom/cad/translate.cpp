@@ -1,0 +1,309 @@
+// STEP and IGES through OpenCASCADE's extended documents (XDE), which keep names, colours, layers and assemblies; BREP as it is.
+#include "geom/cad/translate.h"
+
+#include <BRepBuilderAPI_Transform.hxx>
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <IGESCAFControl_Reader.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <Interface_Static.hxx>
+#include <Quantity_Color.hxx>
+#include <STEPCAFControl_Controller.hxx>
+#include <STEPCAFControl_Reader.hxx>
+#include <TColStd_HSequenceOfExtendedString.hxx>
+#include <TColStd_SequenceOfAsciiString.hxx>
+#include <TDF_LabelSequence.hxx>
+#include <TDataStd_Name.hxx>
+#include <TDocStd_Document.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopLoc_Location.hxx>
+#include <TopoDS.hxx>
+#include <UnitsMethods.hxx>
+#include <XCAFDoc_ColorTool.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_LayerTool.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <map>
+#include <sstream>
+#include <streambuf>
+
+namespace sterna::cad {
+namespace {
+
+[[noreturn]] void malformed(const std::string& source, const std::string& problem, const std::string& hint = {}) {
+  throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + source, .problem = problem, .hint = hint});
+}
+
+std::string utf8(const TCollection_ExtendedString& text) { return TCollection_AsciiString(text, 0).ToCString(); }
+
+/// Names that translators put where the file has none.
+bool is_made_up(const std::string& name) {
+  return name.empty() || name == "NONE" || name == "None" || name.starts_with("Open CASCADE") || name.starts_with("=>[") || name == "SOLID" || name == "SHELL" || name == "COMPOUND" || name == "FACE" ||
+         name == "Unnamed" || name.find_first_not_of(" \t") == std::string::npos;
+}
+
+std::string name_of(const TDF_Label& label) {
+  Handle(TDataStd_Name) attribute;
+  if (!label.FindAttribute(TDataStd_Name::GetID(), attribute)) return {};
+  std::string name = utf8(attribute->Get());
+  const std::size_t last = name.find_last_not_of(" \t");
+  name.resize(last == std::string::npos ? 0 : last + 1);
+  return is_made_up(name) ? std::string() : name;
+}
+
+/// Walks a document: assemblies down to their parts, each with the placement and the names on the way.
+class DocumentWalk {
+ public:
+  explicit DocumentWalk(const Handle(TDocStd_Document)& document)
+      : shapes_(XCAFDoc_DocumentTool::ShapeTool(document->Main())), colours_(XCAFDoc_DocumentTool::ColorTool(document->Main())), layers_(XCAFDoc_DocumentTool::LayerTool(document->Main())) {}
+
+  LabelledShape walk() {
+    TDF_LabelSequence roots;
+    shapes_->GetFreeShapes(roots);
+    for (const TDF_Label& root : roots) visit(root, TopLoc_Location(), {}, {});
+    return std::move(result_);
+  }
+
+ private:
+  void visit(const TDF_Label& label, const TopLoc_Location& place, const std::string& instance, const FaceLabel& inherited) {
+    const FaceLabel own = label_of(label);
+    const FaceLabel merged{.name = {}, .colour = own.colour ? own.colour : inherited.colour, .layer = own.layer.empty() ? inherited.layer : own.layer};
+    if (!XCAFDoc_ShapeTool::IsAssembly(label)) {
+      add_part(label, place, instance, own.name, merged);
+      return;
+    }
+    TDF_LabelSequence components;
+    XCAFDoc_ShapeTool::GetComponents(label, components);
+    for (const TDF_Label& component : components) {
+      TDF_Label product;
+      if (!XCAFDoc_ShapeTool::GetReferredShape(component, product)) continue;
+      const FaceLabel of_instance = label_of(component);
+      const std::string name = !of_instance.name.empty() && !of_instance.name.starts_with("NAUO") ? of_instance.name : name_of(product);
+      visit(product, place * XCAFDoc_ShapeTool::GetLocation(component), name, {.name = {}, .colour = of_instance.colour ? of_instance.colour : merged.colour, .layer = of_instance.layer.empty() ? merged.layer : of_instance.layer});
+    }
+  }
+
+  void add_part(const TDF_Label& label, const TopLoc_Location& place, const std::string& instance, const std::string& product, const FaceLabel& merged) {
+    const TopoDS_Shape shape = XCAFDoc_ShapeTool::GetShape(label);
+    if (shape.IsNull()) return;
+    const auto placed = [&](const TopoDS_Shape& s) { return s.Moved(place); };
+    TDF_LabelSequence parts;
+    XCAFDoc_ShapeTool::GetSubShapes(label, parts);
+    // Names of solids and shells within a product, and labels of faces; what is said of a solid holds for its faces.
+    NCollection_DataMap<TopoDS_Shape, FaceLabel, TopTools_ShapeMapHasher> of_parts;
+    for (const TDF_Label& part : parts) {
+      const TopoDS_Shape sub = XCAFDoc_ShapeTool::GetShape(part);
+      const FaceLabel own = label_of(part);
+      if (sub.IsNull() || own.is_empty()) continue;
+      if (sub.ShapeType() == TopAbs_FACE)
+        result_.labels.Bind(placed(sub), own);
+      else
+        of_parts.Bind(placed(sub), own);
+    }
+    const std::string component = unique_component(!instance.empty() ? instance : product);
+    const auto add = [&](const TopoDS_Shape& s) {
+      ShapePart part{.shape = s, .component = component, .name = {}, .label = merged};
+      if (const FaceLabel* own = of_parts.Seek(s)) {
+        part.name = own->name;
+        if (own->colour) part.label.colour = own->colour;
+        if (!own->layer.empty()) part.label.layer = own->layer;
+      }
+      result_.parts.push_back(part);
+    };
+    const TopoDS_Shape whole = placed(shape);
+    for (TopExp_Explorer s(whole, TopAbs_SOLID); s.More(); s.Next()) add(s.Current());
+    for (TopExp_Explorer s(whole, TopAbs_SHELL, TopAbs_SOLID); s.More(); s.Next()) add(s.Current());
+    for (TopExp_Explorer s(whole, TopAbs_FACE, TopAbs_SHELL); s.More(); s.Next()) add(s.Current());
+    if (whole.ShapeType() == TopAbs_FACE && !product.empty()) {  // IGES: the name of the top level is the face's own
+      FaceLabel own = merged;
+      own.name = product;
+      result_.labels.Bind(whole, own);
+      result_.parts.back().component.clear();
+    }
+  }
+
+  /// Several instances of a product are several components.
+  std::string unique_component(const std::string& name) {
+    if (name.empty()) return {};
+    const int count = ++counts_[name];
+    return count == 1 ? name : name + "_" + std::to_string(count);
+  }
+
+  FaceLabel label_of(const TDF_Label& label) const {
+    FaceLabel result{.name = name_of(label), .colour = {}, .layer = {}};
+    Quantity_Color colour;
+    if (colours_->GetColor(label, XCAFDoc_ColorSurf, colour) || colours_->GetColor(label, XCAFDoc_ColorGen, colour)) {
+      double r = 0.0, g = 0.0, b = 0.0;
+      colour.Values(r, g, b, Quantity_TOC_sRGB);
+      result.colour = {static_cast<float>(r), static_cast<float>(g), static_cast<float>(b)};
+    }
+    const Handle(TColStd_HSequenceOfExtendedString) layers = layers_->GetLayers(label);
+    if (!layers.IsNull() && !layers->IsEmpty()) result.layer = utf8(layers->First());
+    return result;
+  }
+
+  Handle(XCAFDoc_ShapeTool) shapes_;
+  Handle(XCAFDoc_ColorTool) colours_;
+  Handle(XCAFDoc_LayerTool) layers_;
+  std::map<std::string, int> counts_;
+  LabelledShape result_;
+};
+
+/// Bytes as a stream, without a copy.
+class ByteStream : public std::streambuf {
+ public:
+  explicit ByteStream(std::string_view bytes) {
+    char* begin = const_cast<char*>(bytes.data());  // never written: a get area only
+    setg(begin, begin, begin + bytes.size());
+  }
+
+ protected:
+  pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
+    char* base = from == std::ios_base::beg ? eback() : from == std::ios_base::cur ? gptr() : egptr();
+    if (base + offset < eback() || base + offset > egptr()) return pos_type(off_type(-1));
+    setg(eback(), base + offset, egptr());
+    return gptr() - eback();
+  }
+  pos_type seekpos(pos_type position, std::ios_base::openmode mode) override { return seekoff(off_type(position), std::ios_base::beg, mode); }
+};
+
+/// Bytes under a name that OpenCASCADE's IGES reader, which knows no streams, can open.
+class MemoryFile {
+ public:
+  MemoryFile(std::string_view bytes, const std::string& source) : descriptor_(memfd_create("sterna-cad", MFD_CLOEXEC)) {
+    if (descriptor_ < 0) fail(source);
+    while (!bytes.empty()) {
+      const ssize_t n = write(descriptor_, bytes.data(), bytes.size());
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) fail(source);
+      bytes.remove_prefix(static_cast<std::size_t>(n));
+    }
+  }
+  ~MemoryFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  [[noreturn]] void fail(const std::string& source) {
+    const std::string reason = std::strerror(errno);
+    if (descriptor_ >= 0) close(descriptor_);
+    throw Error({.code = ErrorCode::geometry_failed, .attempted = "reading " + source, .problem = "no memory file: " + reason});
+  }
+  int descriptor_;
+};
+
+Handle(TDocStd_Document) new_document() {
+  const Handle(TDocStd_Document) document = new TDocStd_Document("MDTV-XCAF");
+  XCAFDoc_DocumentTool::Set(document->Main(), false);
+  return document;
+}
+
+void set_common_parameters() {
+  STEPCAFControl_Controller::Init();
+  IGESCAFControl_Reader().WS();  // makes the parameters of IGES known
+  XCAFDoc_ShapeTool::SetAutoNaming(false);
+  Interface_Static::SetCVal("xstep.cascade.unit", "M");
+  Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
+  Interface_Static::SetIVal("read.surfacecurve.mode", 0);
+}
+
+Translated translate_step(std::string_view bytes, const std::string& source, const Message_ProgressRange& progress) {
+  STEPCAFControl_Reader reader;
+  reader.SetNameMode(true);
+  reader.SetColorMode(true);
+  reader.SetLayerMode(true);
+  reader.SetPropsMode(false);
+  ByteStream buffer(bytes);
+  std::istream stream(&buffer);
+  if (reader.ChangeReader().ReadStream(source.c_str(), stream) != IFSelect_RetDone) malformed(source, "not a STEP file that OpenCASCADE can parse", "is it complete? the last line should be END-ISO-10303-21;");
+  Translated result;
+  TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
+  reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
+  result.file_unit = lengths.IsEmpty() ? "none" : lengths.First().ToCString();
+  Handle(TDocStd_Document) document = new_document();
+  if (!reader.Transfer(document, progress)) malformed(source, "holds no shape that OpenCASCADE can translate");
+  result.labelled = DocumentWalk(document).walk();
+  return result;
+}
+
+Translated translate_iges(std::string_view bytes, const std::string& source, const Message_ProgressRange& progress) {
+  IGESCAFControl_Reader reader;
+  reader.SetNameMode(true);
+  reader.SetColorMode(true);
+  reader.SetLayerMode(true);
+  const MemoryFile file(bytes, source);
+  if (reader.ReadFile(file.path().c_str()) != IFSelect_RetDone) malformed(source, "not an IGES file that OpenCASCADE can parse");
+  Translated result;
+  const Handle(IGESData_IGESModel) model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
+  const IGESData_GlobalSection& header = model->GlobalSection();
+  result.file_unit = header.UnitName().IsNull() ? "none" : header.UnitName()->ToCString();
+  result.unit = header.UnitValue();  // in units of xstep.cascade.unit, our metre
+  Handle(TDocStd_Document) document = new_document();
+  if (!reader.Transfer(document, progress)) malformed(source, "holds no shape that OpenCASCADE can translate");
+  result.labelled = DocumentWalk(document).walk();
+  return result;
+}
+
+Translated translate_brep(std::string_view bytes, const std::string& source, const Message_ProgressRange& progress) {
+  // OpenCASCADE's reader prints to the terminal what it misses.
+  for (const std::string_view section : {"\nLocations ", "\nCurve2ds ", "\nCurves ", "\nPolygon3D ", "\nSurfaces ", "\nTriangulations ", "\nTShapes "})
+    if (bytes.find(section) == std::string_view::npos) malformed(source, "no section \"" + std::string(section.substr(1, section.size() - 2)) + "\"", "is it complete, and text rather than binary BREP?");
+  ByteStream buffer(bytes);
+  std::istream stream(&buffer);
+  TopoDS_Shape shape;
+  BRepTools::Read(shape, stream, BRep_Builder(), progress);
+  if (shape.IsNull()) malformed(source, "not a BREP file that OpenCASCADE can parse");
+  Translated result;
+  result.file_unit = "none";
+  const auto add = [&](const TopoDS_Shape& s) { result.labelled.parts.push_back({.shape = s, .component = {}, .name = {}, .label = {}}); };
+  for (TopExp_Explorer s(shape, TopAbs_SOLID); s.More(); s.Next()) add(s.Current());
+  for (TopExp_Explorer s(shape, TopAbs_SHELL, TopAbs_SOLID); s.More(); s.Next()) add(s.Current());
+  for (TopExp_Explorer s(shape, TopAbs_FACE, TopAbs_SHELL); s.More(); s.Next()) add(s.Current());
+  return result;
+}
+
+/// Metres for one unit as STEP spells it in FileUnits; 0 where we do not know it.
+double metres_of(const std::string& unit) {
+  static const std::map<std::string, double> k_units = {{"METRE", 1.0},       {"MILLIMETRE", 1e-3}, {"CENTIMETRE", 1e-2}, {"DECIMETRE", 0.1},  {"KILOMETRE", 1e3}, {"MICROMETRE", 1e-6},
+                                                        {"INCH", 0.0254},     {"FOOT", 0.3048},     {"FEET", 0.3048},     {"YARD", 0.9144},    {"MILE", 1609.344}, {"metre", 1.0},
+                                                        {"millimetre", 1e-3}, {"centimetre", 1e-2}, {"inch", 0.0254},     {"foot", 0.3048},    {"METER", 1.0},     {"MILLIMETER", 1e-3}};
+  const auto it = k_units.find(unit);
+  return it == k_units.end() ? 0.0 : it->second;
+}
+
+}  // namespace
+
+Translated translate(std::string_view bytes, CadFormat format, const std::string& source, const Message_ProgressRange& progress) {
+  set_common_parameters();
+  switch (format) {
+    case CadFormat::step: {
+      Translated result = translate_step(bytes, source, progress);
+      if (const double unit = metres_of(result.file_unit); unit > 0.0) result.unit = unit;
+      return result;
+    }
+    case CadFormat::iges: return translate_iges(bytes, source, progress);
+    case CadFormat::brep: return translate_brep(bytes, source, progress);
+  }
+  return {};
+}
+
+void scale(LabelledShape& labelled, double factor) {
+  gp_Trsf transformation;
+  transformation.SetScaleFactor(factor);
+  BRepBuilderAPI_Transform transform(compound_of(labelled.parts), transformation, true);
+  FaceLabels labels;
+  for (FaceLabels::Iterator it(labelled.labels); it.More(); it.Next()) labels.Bind(transform.ModifiedShape(it.Key()), it.Value());
+  labelled.labels = labels;
+  for (ShapePart& part : labelled.parts) part.shape = transform.ModifiedShape(part.shape);
+}
+
+}  // namespace sterna::cad

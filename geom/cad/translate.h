@@ -1,0 +1,26 @@
+// Inside geom/cad only: files of each format into labelled shapes, metres. The bytes are those of an unpacked file.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "geom/cad/cad_format.h"
+#include "geom/cad/occt_shape.h"
+
+class Message_ProgressRange;
+
+namespace sterna::cad {
+
+struct Translated {
+  LabelledShape labelled;
+  std::string file_unit;
+  double unit = 1.0;  ///< metres for 1 unit of the file, already applied
+};
+
+/// \throws Error(file_malformed), and whatever OpenCASCADE throws; call it inside run_occt.
+Translated translate(std::string_view bytes, CadFormat format, const std::string& source, const Message_ProgressRange& progress);
+
+/// Scales everything about the origin; labels follow.
+void scale(LabelledShape& labelled, double factor);
+
+}  // namespace sterna::cad

@@ -1,0 +1,32 @@
+// Models into CAD files: STEP, IGES, BREP; metres, names where the format has them, the same bytes for the same model.
+#pragma once
+
+#include <string>
+
+#include "geom/base/run_context.h"
+#include "geom/base/schema.h"
+#include "geom/cad/cad_format.h"
+#include "geom/model/model.h"
+
+namespace sterna {
+
+struct WriteCadOptions {
+  std::string step_schema = "ap214";
+};
+template <>
+struct Schema<WriteCadOptions> {
+  static constexpr std::string_view stage = "write_cad";
+  using T = WriteCadOptions;
+  static constexpr std::array fields = {
+      Field<T>{.name = "step_schema", .member = &T::step_schema, .help = "application protocol of STEP files", .choices = "ap203 ap214 ap242"},
+  };
+};
+
+namespace cad {
+
+/// The bytes of a file. STEP keeps names of solids and faces, colours and layers; IGES colours and layers; BREP geometry alone. No date is written.
+/// `name` stands in the file's header. \throws Error(geometry_failed) for a surface without an exact form, or what OpenCASCADE refuses; Error(cancelled)
+std::string cad_bytes(const Model& model, CadFormat format, const std::string& name, const WriteCadOptions& options, const RunContext& context);
+
+}  // namespace cad
+}  // namespace sterna

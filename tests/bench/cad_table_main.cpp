@@ -1,0 +1,62 @@
+// Table of CAD files: what is in them, what was mended, whether they close, and what remains of area and volume after a STEP export.
+// usage: cad_table FILE ...   (docs/cad_files.md is its output for ../shared/data/cad)
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "geom/cad/reference_data.h"
+#include "io/cad_file.h"
+
+using namespace sterna;
+
+namespace {
+
+std::string mended_text(const CadReport& report) {
+  std::map<std::string, int> counts;
+  for (const CadMend& mend : report.mended) ++counts[mend.what];
+  std::string text;
+  for (const auto& [what, count] : counts) text += (text.empty() ? "" : "; ") + std::to_string(count) + " x " + what;
+  return text.empty() ? "-" : text;
+}
+
+std::string closed_text(const CadReport& report) {
+  if (report.is_closed()) return "closed";
+  return "open: " + std::to_string(report.free_edges.size()) + " free edges" + (report.free_edges.empty() ? "" : ", first at " + format_point(report.free_edges.front().place));
+}
+
+double relative_change(double before, double after) { return before == after ? 0.0 : std::abs(after - before) / std::abs(before); }
+
+/// Largest relative change of area and volume by a STEP export that is read again.
+double step_change(const CadFile& file, const ReferenceData& before) {
+  const std::string bytes = cad::cad_bytes(file.model, cad::CadFormat::step, "again.step", {}, RunContext());
+  const ReferenceData after = cad::reference_data(cad::read_cad_bytes(bytes, cad::CadFormat::step, "again.step", {}, RunContext()).model, RunContext());
+  return std::max(relative_change(before.total.area, after.total.area), relative_change(before.total.volume, after.total.volume));
+}
+
+void print_row(const std::filesystem::path& path) {
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    const CadFile file = io::read_cad(path, {}, RunContext());
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const ReferenceData data = cad::reference_data(file.model, RunContext());
+    const CadReport& r = file.report;
+    std::printf("| %s | %zu | %zu | %s | %zu / %zu | %s | %s | %zu | %.6g | %.6g | %.1e | %.2f |\n", path.filename().c_str(), r.n_faces, r.n_closed, r.file_unit.c_str(), r.n_named_parts, r.n_named_faces, mended_text(r).c_str(),
+                closed_text(r).c_str(), r.faults.size(), data.total.area, data.total.volume, step_change(file, data), seconds);
+    if (std::getenv("CAD_TABLE_VERBOSE")) std::printf("%s\n", to_text(r).c_str());
+  } catch (const Error& error) {
+    std::printf("| %s | error: %s |\n", path.filename().c_str(), error.what());
+  }
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::puts("| file | faces | solids | unit | names: parts / faces | mended | closed | faults left | area, m^2 | volume, m^3 | STEP again | seconds |");
+  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|");
+  for (int i = 1; i < argc; ++i) print_row(argv[i]);
+}
