@@ -60,6 +60,9 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), target_
     fail(error_number, "creating a file");
   }
   if (exists && ::fchmod(descriptor_, old.st_mode & k_permission_bits) != 0) fail(errno, "keeping the permissions");
+  struct stat created {};
+  if (::fstat(descriptor_, &created) != 0) fail(errno, "looking at the file");
+  mode_ = created.st_mode & k_permission_bits;
 }
 
 AtomicFile::~AtomicFile() { discard(); }
@@ -74,6 +77,20 @@ void AtomicFile::append(std::string_view bytes) {
 }
 
 void AtomicFile::overwrite(std::uint64_t offset, std::string_view bytes) { write_at(offset, bytes); }
+
+void AtomicFile::adopt() {
+  ::close(descriptor_);  // a library may have put another file in its place
+  descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CLOEXEC);
+  if (descriptor_ < 0) fail(errno, "opening the file again");
+  if (::fchmod(descriptor_, mode_) != 0) fail(errno, "keeping the permissions");
+  struct stat written {};
+  if (::fstat(descriptor_, &written) != 0) fail(errno, "looking at the file");
+  size_ = static_cast<std::uint64_t>(written.st_size);
+}
+
+void AtomicFile::give_room() noexcept {
+  if (!temporary_.empty()) (void)!::truncate(temporary_.c_str(), 0);
+}
 
 void AtomicFile::commit() {
   if (::fsync(descriptor_) != 0) fail(errno, "syncing");
@@ -97,7 +114,7 @@ void AtomicFile::write_at(std::uint64_t offset, std::string_view bytes) {
 
 void AtomicFile::fail(int error_number, std::string_view doing) {
   discard();
-  std::string problem = std::string(doing) + " failed after " + std::to_string(size_) + " bytes: " + reason(error_number);
+  std::string problem = std::string(doing) + " failed" + (size_ > 0 ? " after " + std::to_string(size_) + " bytes" : "") + (error_number != 0 ? ": " + reason(error_number) : ": the system gives no reason");
   throw Error({.code = ErrorCode::write_failed,
                .attempted = "writing " + path_.string(),
                .problem = std::move(problem),

@@ -24,18 +24,28 @@ class AtomicFile {
   void overwrite(std::uint64_t offset, std::string_view bytes);
   std::uint64_t size() const { return size_; }
 
+  const std::filesystem::path& path() const { return path_; }  ///< as the caller named it
+
+  /// Where the contents are until commit(): for a library that writes a file of that name itself, in place of append(). Afterwards adopt() takes what it has written.
+  const std::filesystem::path& temporary() const { return temporary_; }
+  void adopt();
+  /// For a library that fails: frees the disk of what is written so far, so that what it must still put to close its file finds room.
+  void give_room() noexcept;
+  /// Throws Error(write_failed) with the system's reason, e.g. errno of a library's failure; 0 = it has none.
+  [[noreturn]] void fail(int error_number, std::string_view doing);
+
   /// Syncs the contents to the disk and renames. After a crash of the machine either the old or the new file is there, each whole.
   void commit();
 
  private:
   void write_at(std::uint64_t offset, std::string_view bytes);
-  [[noreturn]] void fail(int error_number, std::string_view doing);
   void discard() noexcept;
 
   std::filesystem::path path_;    ///< as the caller named it, for messages
   std::filesystem::path target_;  ///< links resolved
   std::filesystem::path temporary_;
   int descriptor_ = -1;
+  unsigned mode_ = 0;  ///< permissions, as it was created
   std::uint64_t size_ = 0;
   std::uint64_t n_sent_ = 0;  ///< of them, those whose way to the disk has begun
 };

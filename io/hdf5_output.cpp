@@ -1,220 +1,201 @@
-// The file: superblock, all object headers, then the datasets' values, each on a multiple of 8 bytes.
+// Steps: all groups and datasets with their places (the structure is complete before the first value), the values in slabs, the file closed, synced and renamed.
 #include "io/hdf5_output.h"
 
-#include <functional>
+#include <hdf5.h>
 
-#include "io/hdf5_checksum.h"
+#include <cerrno>
+#include <charconv>
+#include <utility>
+
+#include "geom/base/error.h"
+#include "io/atomic_file.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::uint64_t k_superblock = 48;
-constexpr std::uint64_t k_nowhere = ~std::uint64_t{0};
-/// Links that the header of a group may hold before a library that adds some moves them into a heap.
-constexpr std::uint16_t k_max_compact_links = 0xffff;
+static_assert(std::endian::native == std::endian::little, "values are handed over as they lie in memory");
 
-void put(std::string& bytes, std::uint64_t value, unsigned n_bytes) {
-  for (unsigned k = 0; k < n_bytes; ++k) bytes += static_cast<char>(value >> (8 * k) & 0xff);
-}
-
-std::string type_message(NumberKind kind, std::uint64_t text_size, bool ends_with_nul = true) {
-  std::string bytes;
-  const std::uint64_t size = kind == NumberKind::text ? text_size : byte_size(kind);
-  if (kind == NumberKind::text) {
-    put(bytes, 0x13, 1);
-    put(bytes, ends_with_nul ? 0 : 1, 3);  // ASCII (bytes of UTF-8 pass)
-    put(bytes, size, 4);
-  } else if (is_real(kind)) {
-    const bool is_double = kind == NumberKind::f8;
-    put(bytes, 0x11, 1);
-    put(bytes, 0x20, 1);  // little endian, highest bit of the mantissa not stored
-    put(bytes, 8 * size - 1, 1);
-    put(bytes, 0, 1);
-    put(bytes, size, 4);
-    put(bytes, 0, 2);
-    put(bytes, 8 * size, 2);
-    put(bytes, is_double ? 52 : 23, 1);
-    put(bytes, is_double ? 11 : 8, 1);
-    put(bytes, 0, 1);
-    put(bytes, is_double ? 52 : 23, 1);
-    put(bytes, is_double ? 1023 : 127, 4);
-  } else {
-    const bool is_signed = kind == NumberKind::i1 || kind == NumberKind::i2 || kind == NumberKind::i4 || kind == NumberKind::i8;
-    put(bytes, 0x10, 1);
-    put(bytes, is_signed ? 0x08 : 0, 3);
-    put(bytes, size, 4);
-    put(bytes, 0, 2);
-    put(bytes, 8 * size, 2);
+/// While it lives, this thread's failures in the library are not printed.
+class QuietLibrary {
+ public:
+  QuietLibrary() {
+    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   }
-  return bytes;
-}
+  ~QuietLibrary() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+  QuietLibrary(const QuietLibrary&) = delete;
+  QuietLibrary& operator=(const QuietLibrary&) = delete;
 
-std::string space_message(const std::vector<std::uint64_t>& extents) {
-  std::string bytes;
-  put(bytes, 2, 1);
-  put(bytes, extents.size(), 1);
-  put(bytes, 0, 1);
-  put(bytes, extents.empty() ? 0 : 1, 1);
-  for (const std::uint64_t extent : extents) put(bytes, extent, 8);
-  return bytes;
-}
-
-std::string attribute_message(const Hdf5OutputAttribute& attribute) {
-  const std::string type = type_message(attribute.kind, attribute.bytes.size(), attribute.bytes.ends_with('\0')), space = space_message(attribute.extents);
-  std::string bytes;
-  put(bytes, 3, 1);
-  put(bytes, 0, 1);
-  put(bytes, attribute.name.size() + 1, 2);
-  put(bytes, type.size(), 2);
-  put(bytes, space.size(), 2);
-  put(bytes, 0, 1);
-  bytes += attribute.name;
-  bytes += '\0';
-  return bytes + type + space + attribute.bytes;
-}
-
-std::string link_message(const std::string& name, std::uint64_t order, std::uint64_t address) {
-  std::string bytes;
-  const unsigned size_bytes = name.size() < 256 ? 1 : 2;
-  put(bytes, 1, 1);
-  put(bytes, 4 | (size_bytes - 1), 1);  // order of creation given
-  put(bytes, order, 8);
-  put(bytes, name.size(), size_bytes);
-  bytes += name;
-  put(bytes, address, 8);
-  return bytes;
-}
-
-/// One node with the places that are found before anything is written.
-struct PlacedNode {
-  const Hdf5OutputNode* node = nullptr;
-  std::vector<std::size_t> children;
-  std::uint64_t header = 0;
-  std::uint64_t values = 0;
+ private:
+  H5E_auto2_t print_ = nullptr;
+  void* data_ = nullptr;
 };
 
-class Hdf5Layout {
+/// The system's reason for the last failure as the library quotes it ("errno = 28"); 0: the system had none.
+int system_reason() {
+  int error_number = 0;
+  const auto take = [](unsigned, const H5E_error2_t* error, void* data) -> herr_t {
+    const std::string_view text = error->desc ? error->desc : "";
+    constexpr std::string_view k_mark = "errno = ";
+    const std::size_t at = text.find(k_mark);
+    if (at != std::string_view::npos) std::from_chars(text.data() + at + k_mark.size(), text.data() + text.size(), *static_cast<int*>(data));
+    return 0;
+  };
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take, &error_number);
+  return error_number;
+}
+
+/// Closes what the library opened.
+class Handle {
  public:
-  explicit Hdf5Layout(const Hdf5OutputNode& root) {
-    add(root);
-    std::uint64_t end = k_superblock;
-    for (PlacedNode& placed : nodes_) {  // sizes do not depend on places
-      placed.header = end;
-      end += header_of(placed).size();
-    }
-    for (PlacedNode& placed : nodes_) {
-      if (!placed.node->is_dataset) continue;
-      end = (end + 7) / 8 * 8;
-      placed.values = end;
-      end += byte_size(placed.node->array);
-    }
-    file_end_ = end;
+  Handle(AtomicFile& file, hid_t id, herr_t (*close)(hid_t), const char* doing) : id_(id), close_(close) {
+    if (id_ < 0) file.fail(system_reason(), doing);
+  }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  Handle& operator=(Handle&&) = delete;
+  operator hid_t() const { return id_; }  // NOLINT: it stands for the number
+  herr_t close() { return close_(std::exchange(id_, -1)); }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+hid_t standard_type(NumberKind kind) {
+  switch (kind) {
+    case NumberKind::i1: return H5T_STD_I8LE;
+    case NumberKind::u1: return H5T_STD_U8LE;
+    case NumberKind::i2: return H5T_STD_I16LE;
+    case NumberKind::u2: return H5T_STD_U16LE;
+    case NumberKind::i4: return H5T_STD_I32LE;
+    case NumberKind::u4: return H5T_STD_U32LE;
+    case NumberKind::i8: return H5T_STD_I64LE;
+    case NumberKind::u8: return H5T_STD_U64LE;
+    case NumberKind::f4: return H5T_IEEE_F32LE;
+    case NumberKind::f8: return H5T_IEEE_F64LE;
+    case NumberKind::text: return H5T_C_S1;
+  }
+  return -1;
+}
+
+class Hdf5Writer {
+ public:
+  explicit Hdf5Writer(AtomicFile& file) : file_(file), library_file_(create(file)) {}
+  ~Hdf5Writer() {
+    if (is_complete_) return;
+    datasets_.clear();
+    file_.give_room();  // so that the library can close what it cannot leave open
   }
 
-  std::vector<OutputSection> sections() const {
-    std::string head = superblock();
-    for (const PlacedNode& placed : nodes_) head += header_of(placed);
-    std::uint64_t end = head.size();
-    std::vector<OutputSection> sections{fixed_section(std::move(head))};
-    for (const PlacedNode& placed : nodes_) {
-      if (!placed.node->is_dataset) continue;
-      if (placed.values > end) sections.push_back(fixed_section(std::string(placed.values - end, '\0')));
-      sections.insert(sections.end(), placed.node->array.content.begin(), placed.node->array.content.end());
-      end = placed.values + byte_size(placed.node->array);
+  void write(const Hdf5OutputNode& root, const RunContext& context) {
+    {
+      const Handle group(file_, H5Gopen2(library_file_, "/", H5P_DEFAULT), H5Gclose, "creating the structure");
+      add_children(group, root);
     }
-    return sections;
+    stream_arrays(
+        arrays_, [&](std::size_t array, std::uint64_t first_value, std::string_view bytes) { put(array, first_value, bytes); }, context);
+    datasets_.clear();
+    if (library_file_.close() < 0) file_.fail(system_reason(), "closing");
+    is_complete_ = true;
   }
 
  private:
-  std::size_t add(const Hdf5OutputNode& node) {
-    const std::size_t own = nodes_.size();
-    nodes_.push_back({.node = &node});
+  void require(herr_t status, const char* doing) const {
+    if (status < 0) file_.fail(system_reason(), doing);
+  }
+
+  /// A group keeps and indexes the order of creation (CGNS lists children by it), and no times.
+  static void set_up_group(AtomicFile& file, hid_t plist) {
+    if (H5Pset_link_creation_order(plist, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) < 0 || H5Pset_obj_track_times(plist, false) < 0) file.fail(system_reason(), "creating the structure");
+  }
+
+  static Handle create(AtomicFile& file) {
+    const Handle creation(file, H5Pcreate(H5P_FILE_CREATE), H5Pclose, "creating a file"), access(file, H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "creating a file");
+    set_up_group(file, creation);
+    // Locks: nobody else knows the temporary file, and some network disks refuse them.
+    if (H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 || H5Pset_file_locking(access, false, true) < 0) file.fail(system_reason(), "creating a file");
+    return {file, H5Fcreate(file.temporary().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "creating a file"};
+  }
+
+  void add_children(hid_t group, const Hdf5OutputNode& node) {
+    for (const Hdf5OutputAttribute& attribute : node.attributes) add_attribute(group, attribute);
     for (const Hdf5OutputNode& child : node.children) {
-      const std::size_t place = add(child);
-      nodes_[own].children.push_back(place);
-    }
-    return own;
-  }
-
-  std::string superblock() const {
-    std::string bytes = "\x89HDF\r\n\x1a\n";
-    put(bytes, 2, 1);
-    put(bytes, 8, 1);
-    put(bytes, 8, 1);
-    put(bytes, 0, 1);
-    put(bytes, 0, 8);
-    put(bytes, k_nowhere, 8);
-    put(bytes, file_end_, 8);
-    put(bytes, nodes_.front().header, 8);
-    put(bytes, hdf5_checksum(bytes), 4);
-    return bytes;
-  }
-
-  std::string header_of(const PlacedNode& placed) const {
-    std::string messages;
-    const auto add_message = [&](std::uint8_t type, const std::string& content, std::uint8_t flags = 0) {
-      put(messages, type, 1);
-      put(messages, content.size(), 2);
-      put(messages, flags, 1);
-      messages += content;
-    };
-    std::string content;
-    if (placed.node->is_dataset) {
-      const OutputArray& array = placed.node->array;
-      add_message(0x01, space_message(array.extents));
-      add_message(0x03, type_message(array.kind, 1), 1);  // 1: never changes
-      add_message(0x05, "\x03\x09", 1);                   // space allocated early, filled where a value is set (none is)
-      put(content, 3, 1);
-      put(content, 1, 1);
-      put(content, byte_size(array) == 0 ? k_nowhere : placed.values, 8);
-      put(content, byte_size(array), 8);
-      add_message(0x08, content);
-    } else {
-      put(content, 0, 1);
-      put(content, 3, 1);  // the order of creation is kept and indexed: CGNS lists children by it
-      put(content, placed.children.size(), 8);
-      for (int k = 0; k < 3; ++k) put(content, k_nowhere, 8);
-      add_message(0x02, content);
-      content.clear();
-      put(content, 0, 1);
-      put(content, 1, 1);
-      put(content, k_max_compact_links, 2);
-      put(content, 0, 2);
-      add_message(0x0a, content, 1);
-      for (std::size_t i = 0; i < placed.children.size(); ++i) {
-        const PlacedNode& child = nodes_[placed.children[i]];
-        add_message(0x06, link_message(child.node->name, i, child.header));
+      if (child.is_dataset) {
+        add_dataset(group, child);
+        continue;
       }
+      const Handle plist(file_, H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "creating the structure");
+      set_up_group(file_, plist);
+      const Handle below(file_, H5Gcreate2(group, child.name.c_str(), H5P_DEFAULT, plist, H5P_DEFAULT), H5Gclose, "creating the structure");
+      add_children(below, child);
     }
-    for (const Hdf5OutputAttribute& attribute : placed.node->attributes) add_message(0x0c, attribute_message(attribute));
-    std::string bytes = "OHDR";
-    put(bytes, 2, 1);
-    put(bytes, 2, 1);  // the size has 4 bytes; no times
-    put(bytes, messages.size(), 4);
-    bytes += messages;
-    put(bytes, hdf5_checksum(bytes), 4);
-    return bytes;
   }
 
-  std::vector<PlacedNode> nodes_;
-  std::uint64_t file_end_ = 0;
+  void add_attribute(hid_t object, const Hdf5OutputAttribute& attribute) const {
+    const Handle type(file_, H5Tcopy(standard_type(attribute.kind)), H5Tclose, "creating the structure");
+    if (attribute.kind == NumberKind::text) {
+      require(H5Tset_size(type, attribute.bytes.size()), "creating the structure");
+      require(H5Tset_strpad(type, attribute.bytes.ends_with('\0') ? H5T_STR_NULLTERM : H5T_STR_NULLPAD), "creating the structure");
+    }
+    const std::vector<hsize_t> extents(attribute.extents.begin(), attribute.extents.end());
+    const Handle space(file_, extents.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose, "creating the structure");
+    const Handle created(file_, H5Acreate2(object, attribute.name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "creating the structure");
+    require(H5Awrite(created, type, attribute.bytes.data()), "writing an attribute");
+  }
+
+  void add_dataset(hid_t group, const Hdf5OutputNode& node) {
+    const Handle plist(file_, H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "creating the structure");
+    require(H5Pset_obj_track_times(plist, false), "creating the structure");
+    require(H5Pset_layout(plist, H5D_CONTIGUOUS), "creating the structure");
+    require(H5Pset_alloc_time(plist, H5D_ALLOC_TIME_EARLY), "creating the structure");
+    require(H5Pset_fill_time(plist, H5D_FILL_TIME_NEVER), "creating the structure");
+    const std::vector<hsize_t> extents(node.array.extents.begin(), node.array.extents.end());
+    const Handle space(file_, H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose, "creating the structure");
+    datasets_.emplace_back(file_, H5Dcreate2(group, node.name.c_str(), standard_type(node.array.kind), space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose, "creating the structure");
+    arrays_.push_back(&node.array);
+    for (const Hdf5OutputAttribute& attribute : node.attributes) add_attribute(datasets_.back(), attribute);
+  }
+
+  /// Whole rows, or all of an array at once.
+  void put(std::size_t number, std::uint64_t first_value, std::string_view bytes) const {
+    const QuietLibrary quiet;  // of the thread that this is
+    const OutputArray& array = *arrays_[number];
+    const std::uint64_t n_values = bytes.size() / byte_size(array.kind), row = array.extents.front() == 0 ? 1 : count_of(array) / array.extents.front();
+    const Handle in_file(file_, H5Dget_space(datasets_[number]), H5Sclose, "writing");
+    std::vector<hsize_t> start(array.extents.size(), 0), count(array.extents.begin(), array.extents.end());
+    start[0] = first_value / row;
+    count[0] = n_values / row;
+    if (first_value % row != 0 || n_values % row != 0) throw Error({.code = ErrorCode::internal, .attempted = "writing an HDF5 array", .problem = "its values come in parts of rows"});
+    require(H5Sselect_hyperslab(in_file, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), "writing");
+    const Handle in_memory(file_, H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose, "writing");
+    require(H5Dwrite(datasets_[number], standard_type(array.kind), in_memory, in_file, H5P_DEFAULT, bytes.data()), "writing");
+  }
+
+  AtomicFile& file_;
+  Handle library_file_;
+  std::vector<Handle> datasets_;
+  std::vector<const OutputArray*> arrays_;
+  bool is_complete_ = false;
 };
 
 }  // namespace
-
-OutputArray output_text(std::string text, NumberKind kind) { return {.kind = kind, .extents = {text.size()}, .content = {fixed_section(std::move(text))}}; }
-
-std::uint64_t byte_size(const OutputArray& array) {
-  std::uint64_t n = byte_size(array.kind);
-  for (const std::uint64_t extent : array.extents) n *= extent;
-  return n;
-}
 
 Hdf5OutputAttribute text_attribute(std::string name, std::string text, std::size_t size) {
   text.resize(size, '\0');
   return {.name = std::move(name), .kind = NumberKind::text, .extents = {}, .bytes = std::move(text)};
 }
 
-std::vector<OutputSection> hdf5_sections(const Hdf5OutputNode& root) { return Hdf5Layout(root).sections(); }
+void write_hdf5(const Hdf5OutputNode& root, const std::filesystem::path& path, const RunContext& context) {
+  const auto lock = hold_container_libraries();
+  const QuietLibrary quiet;
+  AtomicFile file(path);
+  Hdf5Writer(file).write(root, context);
+  file.adopt();
+  const StageTimer timer(context, "sync");
+  file.commit();
+}
 
 }  // namespace sterna::io

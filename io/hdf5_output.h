@@ -1,31 +1,15 @@
-// Writer of HDF5 files that are known beforehand: a tree of groups and datasets whose values are streamed, in slabs, by all threads. No times, no padding
-// of chance: the same bytes each time. Based on: HDF5 File Format Specification, version 3.0; readable from HDF5 1.8 on.
+// Writer of HDF5 files by libhdf5: a tree of groups and datasets whose values are streamed. No times: the same bytes each time.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "io/number_array.h"
-#include "io/section_output.h"
+#include "geom/base/run_context.h"
+#include "io/output_array.h"
 
 namespace sterna::io {
-
-/// Values to be written: kind and extents (slowest first); the sections of `content` together give byte_size(kind) * product of extents bytes, little endian, in items of any size.
-struct OutputArray {
-  NumberKind kind = NumberKind::i4;
-  std::vector<std::uint64_t> extents;
-  std::vector<OutputSection> content;
-};
-
-OutputArray output_text(std::string text, NumberKind kind = NumberKind::i1);
-template <class T>
-OutputArray output_numbers(NumberKind kind, std::vector<std::uint64_t> extents, const std::vector<T>& values) {
-  std::string bytes(values.size() * sizeof(T), '\0');
-  for (std::size_t i = 0; i < values.size(); ++i) put_bytes(bytes.data() + i * sizeof(T), values[i], std::endian::little);
-  return {.kind = kind, .extents = std::move(extents), .content = {fixed_section(std::move(bytes))}};
-}
-std::uint64_t byte_size(const OutputArray& array);
 
 struct Hdf5OutputAttribute {
   std::string name;
@@ -40,12 +24,13 @@ Hdf5OutputAttribute text_attribute(std::string name, std::string text, std::size
 struct Hdf5OutputNode {
   std::string name;
   std::vector<Hdf5OutputAttribute> attributes;
-  std::vector<Hdf5OutputNode> children;  ///< of a group, in the order of creation
+  std::vector<Hdf5OutputNode> children;  ///< of a group, in the order of creation, which the file keeps
   bool is_dataset = false;
   OutputArray array;
 };
 
-/// The file as sections for write_sections. \pre names of siblings differ, attributes are below 64 kB
-std::vector<OutputSection> hdf5_sections(const Hdf5OutputNode& root);
+/// Writes the file under `root`, readable from HDF5 1.8 on; whole or not at all. \pre names of siblings differ, attributes are below 64 kB
+/// \throws Error write_failed; what the arrays throw; cancelled
+void write_hdf5(const Hdf5OutputNode& root, const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

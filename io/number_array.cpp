@@ -25,11 +25,6 @@ std::string_view name_of(NumberKind kind) {
 
 }  // namespace
 
-std::size_t byte_size(NumberKind kind) {
-  constexpr std::array<std::size_t, 11> k_sizes = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8, 1};
-  return k_sizes[static_cast<std::size_t>(kind)];
-}
-
 std::uint64_t count_of(const std::vector<std::uint64_t>& extents, const std::string& source, const std::string& where) {
   std::uint64_t n = 1;
   for (const std::uint64_t extent : extents)

@@ -4,30 +4,25 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace sterna::io {
+#include "io/number_kind.h"
 
-enum class NumberKind : std::uint8_t { i1, u1, i2, u2, i4, u4, i8, u8, f4, f8, text };
-std::size_t byte_size(NumberKind kind);
-constexpr bool is_real(NumberKind kind) { return kind == NumberKind::f4 || kind == NumberKind::f8; }
-constexpr bool is_integer(NumberKind kind) { return kind < NumberKind::f4; }
+namespace sterna::io {
 
 /// The product of extents. \throws Error(file_malformed), speaking of `where` in `source`, when it does not fit 64 bits.
 std::uint64_t count_of(const std::vector<std::uint64_t>& extents, const std::string& source, const std::string& where);
 
-/// A view of the file's bytes, or of `unpacked` where they were packed or in pieces. bytes.size() == count() * byte_size(kind).
+/// A view of the values; whoever has them (ContainerImage) must outlive it. bytes.size() == count() * byte_size(kind).
 struct NumberArray {
   NumberKind kind = NumberKind::i4;
   std::endian order = std::endian::little;
   std::vector<std::uint64_t> extents;  ///< slowest first, as in C
   std::string_view bytes;
-  std::shared_ptr<const std::vector<char>> unpacked;
   std::string source;  ///< the file, for messages
-  std::string where;   ///< "byte 2048" or a path of names
+  std::string where;   ///< a path of names
 
   std::uint64_t count() const { return bytes.size() / byte_size(kind); }
   /// \pre is_integer(kind), i < count(). Unsigned numbers beyond 2^63 come out negative, which every range check refuses.

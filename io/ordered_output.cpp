@@ -16,11 +16,15 @@ void ByteBuffer::grow(std::size_t n) {
 }
 
 void write_ordered(AtomicFile& file, std::size_t n_chunks, const FillChunk& fill, const RunContext& context) {
+  write_ordered([&](std::string_view bytes) { file.append(bytes); }, n_chunks, fill, context);
+}
+
+void write_ordered(const TakeBytes& take, std::size_t n_chunks, const FillChunk& fill, const RunContext& context) {
   std::vector<ByteBuffer> filling(std::min(n_chunks, k_batch_chunks));
   std::vector<ByteBuffer> writing(filling.size());
   std::size_t n_writing = 0;
   const auto write_batch = [&] {
-    for (std::size_t i = 0; i < n_writing; ++i) file.append(writing[i].view());
+    for (std::size_t i = 0; i < n_writing; ++i) take(writing[i].view());
   };
   for (std::size_t first = 0; first < n_chunks; first += k_batch_chunks) {
     const std::size_t n_filling = std::min(k_batch_chunks, n_chunks - first);

@@ -20,13 +20,16 @@ OutputSection fixed_section(std::string bytes) {
   return {.n_items = 1, .format = [bytes = std::move(bytes)](std::uint64_t, std::uint64_t, ByteBuffer& out) { out.append(bytes); }};
 }
 
-void write_sections(AtomicFile& file, const std::vector<OutputSection>& sections, const RunContext& context) {
+void write_sections(const TakeBytes& take, const std::vector<OutputSection>& sections, std::uint64_t items_per_chunk, const RunContext& context) {
   std::vector<Chunk> chunks;
   for (const OutputSection& section : sections)
-    for (std::uint64_t begin = 0; begin < section.n_items; begin += k_items_per_chunk)
-      chunks.push_back({&section, begin, std::min(begin + k_items_per_chunk, section.n_items)});
+    for (std::uint64_t begin = 0; begin < section.n_items; begin += items_per_chunk) chunks.push_back({&section, begin, std::min(begin + items_per_chunk, section.n_items)});
   write_ordered(
-      file, chunks.size(), [&](std::size_t i, ByteBuffer& out) { chunks[i].section->format(chunks[i].begin, chunks[i].end, out); }, context);
+      take, chunks.size(), [&](std::size_t i, ByteBuffer& out) { chunks[i].section->format(chunks[i].begin, chunks[i].end, out); }, context);
+}
+
+void write_sections(AtomicFile& file, const std::vector<OutputSection>& sections, const RunContext& context) {
+  write_sections([&](std::string_view bytes) { file.append(bytes); }, sections, k_items_per_chunk, context);
 }
 
 char* put_real_text(char* at, double value) { return std::to_chars(at, at + k_max_real_text, value).ptr; }

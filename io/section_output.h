@@ -29,6 +29,12 @@ OutputSection fixed_section(std::string bytes);
 /// Appends the sections to `file`; the same bytes for any number of threads. \throws what the sections and AtomicFile::append throw; Error(cancelled)
 void write_sections(AtomicFile& file, const std::vector<OutputSection>& sections, const RunContext& context);
 
+/// The same to `take`, in chunks of a number of items.
+void write_sections(const TakeBytes& take, const std::vector<OutputSection>& sections, std::uint64_t items_per_chunk, const RunContext& context);
+
+/// Items per chunk where they are numbers or short rows of them: below 1 MB.
+inline constexpr std::uint64_t k_items_per_chunk_of_numbers = 16384;
+
 /// Room that text needs at most: "-2.2250738585072014e-308", a 64-bit number with its sign.
 inline constexpr std::size_t k_max_real_text = 24;
 inline constexpr std::size_t k_max_integer_text = 20;

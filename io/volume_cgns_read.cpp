@@ -10,6 +10,8 @@
 #include "geom/base/parallel.h"
 #include "io/cgns_elements.h"
 #include "io/cgns_tree.h"
+#include "io/container_file.h"
+#include "io/file_buffer.h"
 #include "io/orientation.h"
 #include "io/patch_names.h"
 #include "io/volume_cgns.h"
@@ -468,8 +470,8 @@ class CgnsReader {
 };
 
 HybridMesh read(const std::filesystem::path& path, Contents contents, const RunContext& context) {
-  const FileBuffer buffer = load_file(path, context);
-  const CgnsTree tree(buffer);
+  const ContainerImage image = read_container(path, ContainerFormat::cgns, cgns_labels_beside_the_mesh(), context);
+  const CgnsTree tree(image);
   return CgnsReader(tree, contents, context).read();
 }
 

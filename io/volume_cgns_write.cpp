@@ -7,7 +7,7 @@
 #include "geom/base/error.h"
 #include "io/cell_sections.h"
 #include "io/cgns_elements.h"
-#include "io/cgns_tree.h"
+#include "io/cgns_output.h"
 #include "io/volume_cgns.h"
 
 namespace sterna::io {
@@ -74,11 +74,12 @@ class CgnsWriter {
       throw Error({.code = ErrorCode::unsupported_format, .attempted = "writing " + path, .problem = "CGNS 2.54 in ADF has no 64-bit integers", .hint = "write HDF5: .cgns"});
   }
 
-  std::vector<OutputSection> sections() const {
+  void write(const std::filesystem::path& path, const RunContext& context) const {
     CgnsOutputNode root = cgns_node("", "");
     root.children.push_back(cgns_node("CGNSLibraryVersion", "CGNSLibraryVersion_t", output_numbers<float>(NumberKind::f4, {1}, {is_adf_ ? k_adf_version : k_hdf5_version})));
     root.children.push_back(base());
-    return is_adf_ ? cgns_adf_sections(root) : cgns_hdf5_sections(root);
+    if (is_adf_) write_cgns_adf(root, path, context);
+    else write_cgns_hdf5(root, path, context);
   }
 
  private:
@@ -228,11 +229,7 @@ bool is_adf_name(const std::filesystem::path& path) {
 void write_volume_cgns(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) { write_volume_cgns(mesh, path, CgnsIntegers::as_needed, context); }
 
 void write_volume_cgns(const HybridMesh& mesh, const std::filesystem::path& path, CgnsIntegers integers, const RunContext& context) {
-  const CgnsWriter writer(mesh, is_adf_name(path), integers, path.string(), context);
-  AtomicFile file(path);
-  write_sections(file, writer.sections(), context);
-  const StageTimer timer(context, "sync");
-  file.commit();
+  CgnsWriter(mesh, is_adf_name(path), integers, path.string(), context).write(path, context);
 }
 
 }  // namespace sterna::io

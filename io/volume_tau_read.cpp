@@ -2,7 +2,8 @@
 #include <map>
 
 #include "geom/base/parallel.h"
-#include "io/netcdf_source.h"
+#include "io/container_file.h"
+#include "io/file_buffer.h"
 #include "io/orientation.h"
 #include "io/surface_builder.h"
 #include "io/tau_mapping.h"
@@ -16,8 +17,8 @@ enum class Contents { volume, boundary };
 
 class TauReader {
  public:
-  TauReader(const FileBuffer& buffer, Contents contents, std::map<std::int64_t, TauMarker> mapping, const RunContext& context)
-      : buffer_(buffer), file_(buffer), contents_(contents), mapping_(std::move(mapping)), context_(context) {}
+  TauReader(const ContainerImage& image, Contents contents, std::map<std::int64_t, TauMarker> mapping, const RunContext& context)
+      : image_(image), contents_(contents), mapping_(std::move(mapping)), context_(context) {}
 
   HybridMesh read() {
     read_points();
@@ -31,12 +32,19 @@ class TauReader {
   }
 
  private:
+  bool has(const std::string& variable) const { return image_.root().find(variable) != nullptr; }
+  NumberArray data(const std::string& variable) const {
+    NumberArray array = image_.data(image_.child(image_.root(), variable));
+    array.where = "variable \"" + variable + "\"";
+    return array;
+  }
+
   void read_points() {
     std::array<NumberArray, 3> values;
     constexpr std::array<const char*, 3> k_names = {"points_xc", "points_yc", "points_zc"};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!file_.has(k_names[axis])) throw_malformed(buffer_.source, "the variables", std::string("found no \"") + k_names[axis] + "\": this is no primary grid of TAU");
-      values[axis] = file_.data(k_names[axis]);
+      if (!has(k_names[axis])) throw_malformed(image_.source(), "the variables", std::string("found no \"") + k_names[axis] + "\": this is no primary grid of TAU");
+      values[axis] = data(k_names[axis]);
       values[axis].require_reals(values[0].count(), "coordinates of the points");
     }
     const std::size_t n = values[0].count();
@@ -44,7 +52,7 @@ class TauReader {
     mesh_.points.resize(n);
     parallel_for(context_, n, [&](std::size_t i) {
       const Point p = {values[0].real(i), values[1].real(i), values[2].real(i)};
-      if (!is_finite(p)) throw_malformed(buffer_.source, "point " + std::to_string(i), "its coordinates are not finite");
+      if (!is_finite(p)) throw_malformed(image_.source(), "point " + std::to_string(i), "its coordinates are not finite");
       mesh_.points.raw()[i] = p;
     });
   }
@@ -55,8 +63,8 @@ class TauReader {
     context_.check_stop();
     std::vector<std::array<NodeId, N>> elements;
     const std::string name = "points_of_" + std::string(element.plural);
-    if (!file_.has(name)) return elements;
-    const NumberArray corners = file_.data(name);
+    if (!has(name)) return elements;
+    const NumberArray corners = data(name);
     const std::uint64_t n = corners.count() / N;
     corners.require_integers(n * N, "corners of elements of " + std::to_string(N) + " points");
     elements.resize(n);
@@ -83,8 +91,8 @@ class TauReader {
     constexpr const char* k_markers = "boundarymarker_of_surfaces";
     NumberArray markers;
     if (n > 0) {
-      if (!file_.has(k_markers)) throw_malformed(buffer_.source, "the variables", std::string("found no \"") + k_markers + "\"");
-      markers = file_.data(k_markers);
+      if (!has(k_markers)) throw_malformed(image_.source(), "the variables", std::string("found no \"") + k_markers + "\"");
+      markers = data(k_markers);
       markers.require_integers(n, "markers of all triangles, then of all quads");
     }
     add_patches(markers, n);
@@ -104,8 +112,8 @@ class TauReader {
       TauMarker marker = marker_of(number);
       patches_.emplace(number, mesh_.patches.push_back({.name = marker.name, .kind = kind_of_tau(marker)}));
     };
-    if (file_.has("marker")) {
-      const NumberArray listed = file_.data("marker");
+    if (has("marker")) {
+      const NumberArray listed = data("marker");
       listed.require_integers(listed.count(), "numbers of the markers");
       for (std::uint64_t i = 0; i < listed.count(); ++i) add(listed.integer(i));
     }
@@ -119,14 +127,13 @@ class TauReader {
     TauMarker marker{.number = number, .name = {}, .condition = {}};
     const auto mapped = mapping_.find(number);
     if (mapped != mapping_.end()) marker = mapped->second;
-    const auto named = file_.attributes().find("marker_" + std::to_string(number));
-    if (named != file_.attributes().end() && named->second.kind == NumberKind::text && !named->second.text().empty()) marker.name = named->second.text();
+    const NumberArray* const named = image_.root().attribute("marker_" + std::to_string(number));
+    if (named && named->kind == NumberKind::text && !named->text().empty()) marker.name = named->text();
     if (marker.name.empty()) marker.name = numbered_patch(number);
     return marker;
   }
 
-  const FileBuffer& buffer_;
-  NetcdfSource file_;
+  const ContainerImage& image_;
   Contents contents_;
   std::map<std::int64_t, TauMarker> mapping_;
   const RunContext& context_;
@@ -135,8 +142,8 @@ class TauReader {
 };
 
 HybridMesh read(const std::filesystem::path& path, Contents contents, const RunContext& context) {
-  const FileBuffer buffer = load_file(path, context);
-  return TauReader(buffer, contents, read_bmap(path, context), context).read();
+  const ContainerImage image = read_container(path, ContainerFormat::netcdf, {}, context);
+  return TauReader(image, contents, read_bmap(path, context), context).read();
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
-// TAU writer: the head of a classic NetCDF file (dimensions, attributes, variables with their places), then each variable's values, big endian.
+// TAU writer: the dimensions, attributes and variables of the NetCDF file, described first, then streamed.
 #include <algorithm>
 #include <cctype>
 #include <limits>
 
 #include "io/cell_sections.h"
-#include "io/section_output.h"
+#include "io/netcdf_output.h"
 #include "io/tau_mapping.h"
 #include "io/tau_names.h"
 #include "io/volume_tau.h"
@@ -13,79 +13,6 @@ namespace sterna::io {
 namespace {
 
 constexpr std::uint64_t k_max_cdf2_variable = (std::uint64_t{1} << 32) - 4;
-constexpr std::uint32_t k_int = 4;
-constexpr std::uint32_t k_double = 6;
-constexpr std::uint32_t k_char = 2;
-
-struct Dimension {
-  std::string name;
-  std::uint64_t length = 0;
-};
-struct Variable {
-  std::string name;
-  std::vector<std::size_t> dimensions;
-  std::uint32_t type = k_int;
-  std::uint64_t n_bytes = 0;
-  OutputSection content;
-};
-
-/// The head in CDF-2 or CDF-5, whose counts have 64 bits.
-class HeadWriter {
- public:
-  explicit HeadWriter(bool is_cdf5) : is_cdf5_(is_cdf5) { bytes_ = is_cdf5 ? "CDF\5" : "CDF\2"; }
-
-  std::string write(const std::vector<Dimension>& dimensions, const std::vector<std::pair<std::string, std::string>>& attributes, const std::vector<Variable>& variables) {
-    wide(0);  // no records
-    list(10, dimensions.size());
-    for (const Dimension& dimension : dimensions) {
-      text(dimension.name);
-      wide(dimension.length);
-    }
-    list(12, attributes.size());
-    for (const auto& [name, value] : attributes) {
-      text(name);
-      narrow(k_char);
-      text(value);
-    }
-    list(11, variables.size());
-    std::uint64_t begin = bytes_.size();
-    for (const Variable& variable : variables) begin += entry_size(variable);
-    for (const Variable& variable : variables) {
-      text(variable.name);
-      wide(variable.dimensions.size());
-      for (const std::size_t dimension : variable.dimensions) wide(dimension);
-      list(0, 0);
-      narrow(variable.type);
-      wide(variable.n_bytes);
-      put(begin, 8);
-      begin += variable.n_bytes;
-    }
-    return std::move(bytes_);
-  }
-
- private:
-  void put(std::uint64_t value, unsigned n) {
-    for (unsigned k = n; k-- > 0;) bytes_ += static_cast<char>(value >> (8 * k) & 0xff);
-  }
-  void narrow(std::uint32_t value) { put(value, 4); }
-  void wide(std::uint64_t value) { put(value, is_cdf5_ ? 8 : 4); }
-  void list(std::uint32_t tag, std::uint64_t n) {
-    narrow(tag);
-    wide(n);
-  }
-  void text(const std::string& value) {
-    wide(value.size());
-    bytes_ += value;
-    bytes_.append((4 - value.size() % 4) % 4, '\0');
-  }
-  std::uint64_t entry_size(const Variable& variable) const {
-    const std::uint64_t n_wide = is_cdf5_ ? 8 : 4;
-    return n_wide + (variable.name.size() + 3) / 4 * 4 + n_wide + n_wide * variable.dimensions.size() + 4 + n_wide + 4 + n_wide + 8;
-  }
-
-  bool is_cdf5_;
-  std::string bytes_;
-};
 
 class TauWriter {
  public:
@@ -102,19 +29,16 @@ class TauWriter {
     add_cells();
     add_faces();
     add_points();
-    is_cdf5_ = std::any_of(variables_.begin(), variables_.end(), [](const Variable& variable) { return variable.n_bytes > k_max_cdf2_variable; }) ||
-               std::any_of(dimensions_.begin(), dimensions_.end(), [](const Dimension& dimension) { return dimension.length > k_max_number; });
-    if (is_cdf5_) context.warn(path + ": an array exceeds the 4 GiB of NetCDF's 64-bit offset files; it is written as CDF-5, which not every TAU reads");
-    is_cdf5_ = is_cdf5_ || kind == TauNetcdf::cdf5;
+    const auto is_too_large = [](const NetcdfOutput::Variable& variable) { return count_of(variable.array) * byte_size(variable.array.kind) > k_max_cdf2_variable; };
+    contents_.is_cdf5 = std::any_of(contents_.variables.begin(), contents_.variables.end(), is_too_large) ||
+                        std::any_of(contents_.dimensions.begin(), contents_.dimensions.end(), [](const NetcdfOutput::Dimension& dimension) { return dimension.length > k_max_number; });
+    if (contents_.is_cdf5) context.warn(path + ": an array exceeds the 4 GiB of NetCDF's 64-bit offset files; it is written as CDF-5, which not every TAU reads");
+    contents_.is_cdf5 = contents_.is_cdf5 || kind == TauNetcdf::cdf5;
+    contents_.attributes = {{"type", "Primary Grid: Tau Format"}};
+    for (const TauMarker& marker : markers_) contents_.attributes.emplace_back("marker_" + std::to_string(marker.number), marker.name);
   }
 
-  std::vector<OutputSection> sections() const {
-    std::vector<std::pair<std::string, std::string>> attributes = {{"type", "Primary Grid: Tau Format"}};
-    for (const TauMarker& marker : markers_) attributes.emplace_back("marker_" + std::to_string(marker.number), marker.name);
-    std::vector<OutputSection> sections{fixed_section(HeadWriter(is_cdf5_).write(dimensions_, attributes, variables_))};
-    for (const Variable& variable : variables_) sections.push_back(variable.content);
-    return sections;
-  }
+  const NetcdfOutput& contents() const { return contents_; }
 
   /// The mapping cannot spell comments and line ends in names.
   std::string mapping() const {
@@ -137,12 +61,18 @@ class TauWriter {
   }
 
   std::size_t dimension(std::string name, std::uint64_t length) {
-    dimensions_.push_back({std::move(name), length});
-    return dimensions_.size() - 1;
+    contents_.dimensions.push_back({std::move(name), length});
+    return contents_.dimensions.size() - 1;
+  }
+
+  void add_variable(std::string name, std::vector<std::size_t> dimensions, NumberKind kind, OutputSection content) {
+    NetcdfOutput::Variable variable{.name = std::move(name), .dimensions = std::move(dimensions), .array = {.kind = kind, .extents = {}, .content = {std::move(content)}}};
+    for (const std::size_t dimension : variable.dimensions) variable.array.extents.push_back(contents_.dimensions[dimension].length);
+    contents_.variables.push_back(std::move(variable));
   }
 
   static char* put_nodes(char* at, std::span<const NodeId> nodes) {
-    for (const NodeId node : nodes) at = put_bytes(at, static_cast<std::int32_t>(node.value()), std::endian::big);  // counts were checked
+    for (const NodeId node : nodes) at = put_bytes(at, static_cast<std::int32_t>(node.value()), std::endian::little);  // counts were checked
     return at;
   }
 
@@ -150,7 +80,7 @@ class TauWriter {
   void add_elements(const TauElement& element, std::uint64_t n, std::uint64_t size, decltype(OutputSection::format) format) {
     if (n == 0) return;
     const std::size_t count = dimension("no_of_" + std::string(element.plural), n), width = dimension("points_per_" + std::string(element.singular), size);
-    variables_.push_back({.name = "points_of_" + std::string(element.plural), .dimensions = {count, width}, .type = k_int, .n_bytes = 4 * n * size, .content = {.n_items = n, .format = std::move(format)}});
+    add_variable("points_of_" + std::string(element.plural), {count, width}, NumberKind::i4, {.n_items = n, .format = std::move(format)});
   }
 
   void add_cells() {
@@ -184,15 +114,15 @@ class TauWriter {
       char* at = out.reserve((end - begin) * 4);
       for (std::uint64_t i = begin; i < end; ++i) {
         const PatchId patch = i < n_triangles ? mesh_.boundary_triangles[i].patch : mesh_.boundary_quads[i - n_triangles].patch;
-        at = put_bytes(at, marker_of_patch_[patch.index()], std::endian::big);
+        at = put_bytes(at, marker_of_patch_[patch.index()], std::endian::little);
       }
       out.end_at(at);
     };
-    variables_.push_back({.name = "boundarymarker_of_surfaces", .dimensions = {count}, .type = k_int, .n_bytes = 4 * n, .content = {.n_items = n, .format = format_markers}});
+    add_variable("boundarymarker_of_surfaces", {count}, NumberKind::i4, {.n_items = n, .format = format_markers});
     std::string numbers(4 * markers_.size(), '\0');
     char* at = numbers.data();
-    for (const TauMarker& marker : markers_) at = put_bytes(at, static_cast<std::int32_t>(marker.number), std::endian::big);
-    variables_.push_back({.name = "marker", .dimensions = {dimension("no_of_markers", markers_.size())}, .type = k_int, .n_bytes = numbers.size(), .content = fixed_section(std::move(numbers))});
+    for (const TauMarker& marker : markers_) at = put_bytes(at, static_cast<std::int32_t>(marker.number), std::endian::little);
+    add_variable("marker", {dimension("no_of_markers", markers_.size())}, NumberKind::i4, fixed_section(std::move(numbers)));
   }
 
   void add_points() {
@@ -206,11 +136,11 @@ class TauWriter {
         for (std::uint64_t i = begin; i < end; ++i) {
           const Point& p = mesh_.points.raw()[i];
           if (!is_finite(p)) throw_node_not_finite(i);
-          at = put_bytes(at, p[axis], std::endian::big);
+          at = put_bytes(at, p[axis], std::endian::little);
         }
         out.end_at(at);
       };
-      variables_.push_back({.name = k_names[axis], .dimensions = {count}, .type = k_double, .n_bytes = 8 * n, .content = {.n_items = n, .format = format}});
+      add_variable(k_names[axis], {count}, NumberKind::f8, {.n_items = n, .format = format});
     }
   }
 
@@ -219,9 +149,7 @@ class TauWriter {
   const RunContext& context_;
   std::vector<TauMarker> markers_;
   std::vector<std::int32_t> marker_of_patch_;  ///< 0 = no faces
-  std::vector<Dimension> dimensions_;
-  std::vector<Variable> variables_;
-  bool is_cdf5_ = false;
+  NetcdfOutput contents_;
 };
 
 }  // namespace
@@ -232,10 +160,7 @@ void write_volume_tau(const HybridMesh& mesh, const std::filesystem::path& path,
   const TauWriter writer(mesh, path.string(), kind, context);
   AtomicFile mapping(bmap_path(path));
   mapping.append(writer.mapping());
-  AtomicFile file(path);
-  write_sections(file, writer.sections(), context);
-  const StageTimer timer(context, "sync");
-  file.commit();
+  write_netcdf(writer.contents(), path, context);
   mapping.commit();
 }
 

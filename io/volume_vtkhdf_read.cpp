@@ -4,7 +4,8 @@
 #include <optional>
 
 #include "geom/base/parallel.h"
-#include "io/hdf5_source.h"
+#include "io/container_file.h"
+#include "io/file_buffer.h"
 #include "io/orientation.h"
 #include "io/patch_names.h"
 #include "io/surface_builder.h"
@@ -26,14 +27,14 @@ std::optional<PatchKind> kind_named(std::string_view name) {
 
 class VtkHdfReader {
  public:
-  VtkHdfReader(const FileBuffer& buffer, const RunContext& context) : buffer_(buffer), file_(buffer), context_(context), group_(file_.child(file_.root(), "VTKHDF")) {}
+  VtkHdfReader(const ContainerImage& file, const RunContext& context) : file_(file), context_(context), group_(file_.child(file_.root(), "VTKHDF")) {}
 
   HybridMesh read() {
-    const auto type = group_.attributes.find("Type");
-    if (type == group_.attributes.end()) throw_malformed(buffer_.source, "/VTKHDF", "found no attribute \"Type\"");
-    if (type->second.text() != "UnstructuredGrid") throw_unsupported(buffer_.source, "the file holds " + quoted_excerpt(type->second.text()) + ", not an UnstructuredGrid");
+    const NumberArray* const type = group_.attribute("Type");
+    if (!type) throw_malformed(file_.source(), "/VTKHDF", "found no attribute \"Type\"");
+    if (type->text() != "UnstructuredGrid") throw_unsupported(file_.source(), "the file holds " + quoted_excerpt(type->text()) + ", not an UnstructuredGrid");
     const std::vector<std::uint64_t> n_points = counts("NumberOfPoints"), n_cells = counts("NumberOfCells"), n_ids = counts("NumberOfConnectivityIds");
-    if (n_cells.size() != n_points.size() || n_ids.size() != n_points.size()) throw_malformed(buffer_.source, "/VTKHDF", "the numbers of points, cells and connectivity ids are not of the same partitions");
+    if (n_cells.size() != n_points.size() || n_ids.size() != n_points.size()) throw_malformed(file_.source(), "/VTKHDF", "the numbers of points, cells and connectivity ids are not of the same partitions");
     read_points(sum(n_points, "/VTKHDF/NumberOfPoints"));
     const std::uint64_t n_all_cells = sum(n_cells, "/VTKHDF/NumberOfCells");
     connectivity_ = integers("Connectivity", sum(n_ids, "/VTKHDF/NumberOfConnectivityIds"));
@@ -47,7 +48,7 @@ class VtkHdfReader {
   }
 
  private:
-  NumberArray array(std::string_view name) { return file_.data(file_.child(group_, name)); }
+  NumberArray array(std::string_view name) const { return file_.data(file_.child(group_, name)); }
   NumberArray integers(std::string_view name, std::uint64_t n) {
     NumberArray values = array(name);
     values.require_integers(n, "as many as the partitions have");
@@ -68,8 +69,8 @@ class VtkHdfReader {
   std::uint64_t sum(const std::vector<std::uint64_t>& values, const char* where) const {
     std::uint64_t total = 0;
     for (const std::uint64_t value : values)
-      if (__builtin_add_overflow(total, value, &total)) throw_malformed(buffer_.source, where, "the sum does not fit 64 bits");
-    if (total > std::uint64_t{1} << 60) throw_malformed(buffer_.source, where, "found " + std::to_string(total) + " in all");
+      if (__builtin_add_overflow(total, value, &total)) throw_malformed(file_.source(), where, "the sum does not fit 64 bits");
+    if (total > std::uint64_t{1} << 60) throw_malformed(file_.source(), where, "found " + std::to_string(total) + " in all");
     return total;
   }
 
@@ -88,25 +89,23 @@ class VtkHdfReader {
   /// Patches that the field data names, in its order.
   void read_names() {
     if (!group_.find("FieldData")) return;
-    const Hdf5Object fields = file_.child(group_, "FieldData");
-    for (const Hdf5Link& link : fields.links) {
-      if (!link.name.starts_with(k_patch_prefix)) continue;
-      const std::string_view rest = std::string_view(link.name).substr(k_patch_prefix.size());
+    for (const ContainerNode& field : file_.child(group_, "FieldData").children) {
+      if (!field.name.starts_with(k_patch_prefix)) continue;
+      const std::string_view rest = std::string_view(field.name).substr(k_patch_prefix.size());
       const std::size_t colon = rest.find(':');
       const auto kind = kind_named(rest.substr(0, colon));
       if (colon == std::string_view::npos || !kind) continue;
-      const Hdf5Object field = file_.child(fields, link.name);
       const NumberArray number = file_.data(field);
       number.require_integers(1, "the marker of a patch");
-      const auto whole = field.attributes.find("name");
-      const std::string name = whole == field.attributes.end() ? std::string(rest.substr(colon + 1)) : whole->second.text();
+      const NumberArray* const whole = field.attribute("name");
+      const std::string name = whole ? whole->text() : std::string(rest.substr(colon + 1));
       patches_.emplace(number.integer(0), mesh_.patches.push_back({.name = name, .kind = *kind}));
     }
   }
 
   void read_markers(std::uint64_t n_cells) {
     if (!group_.find("CellData")) return;
-    const Hdf5Object cell_data = file_.child(group_, "CellData");
+    const ContainerNode& cell_data = file_.child(group_, "CellData");
     for (const std::string_view name : k_marker_names) {
       if (!cell_data.find(name)) continue;
       NumberArray values = file_.data(file_.child(cell_data, name));
@@ -123,7 +122,7 @@ class VtkHdfReader {
       if (begin < 0 || end < begin || end > static_cast<std::int64_t>(n_ids) || (i == 0 && begin != 0))
         offsets_.fail("cell " + std::to_string(i) + " has the ids " + std::to_string(begin) + " to " + std::to_string(end) + " of " + std::to_string(n_ids));
       nodes_.clear();
-      if (end - begin > 8) throw_unsupported(buffer_.source, "cell " + std::to_string(i) + " has " + std::to_string(end - begin) + " nodes", k_hint);
+      if (end - begin > 8) throw_unsupported(file_.source(), "cell " + std::to_string(i) + " has " + std::to_string(end - begin) + " nodes", k_hint);
       for (std::int64_t k = begin; k < end; ++k) {
         const std::int64_t node = connectivity_.integer(first_id_ + static_cast<std::uint64_t>(k));
         if (node < 0 || node >= static_cast<std::int64_t>(n_points)) connectivity_.fail("cell " + std::to_string(i) + " has the node " + std::to_string(node) + ", there are " + std::to_string(n_points));
@@ -162,7 +161,7 @@ class VtkHdfReader {
     } else if (type >= k_vtk_vertex && type < k_vtk_triangle) {
       ++n_left_out_;  // vertices and lines bound nothing
     } else {
-      throw_unsupported(buffer_.source, "cell " + std::to_string(cell) + " is of VTK type " + std::to_string(type), k_hint);
+      throw_unsupported(file_.source(), "cell " + std::to_string(cell) + " is of VTK type " + std::to_string(type), k_hint);
     }
   }
 
@@ -175,10 +174,9 @@ class VtkHdfReader {
 
   static constexpr std::string_view k_hint = "tetrahedra, pyramids, wedges, hexahedra, triangles and quads are read";
 
-  const FileBuffer& buffer_;
-  Hdf5Source file_;
+  const ContainerImage& file_;
   const RunContext& context_;
-  Hdf5Object group_;
+  const ContainerNode& group_;
   NumberArray connectivity_, offsets_, types_;
   std::optional<NumberArray> markers_;
   std::map<std::int64_t, PatchId> patches_;
@@ -191,8 +189,8 @@ class VtkHdfReader {
 }  // namespace
 
 HybridMesh read_volume_vtkhdf(const std::filesystem::path& path, const RunContext& context) {
-  const FileBuffer buffer = load_file(path, context);
-  HybridMesh mesh = VtkHdfReader(buffer, context).read();
+  const ContainerImage file = read_container(path, ContainerFormat::hdf5, {"PointData"}, context);
+  HybridMesh mesh = VtkHdfReader(file, context).read();
   context.progress(0.7);
   orient_mesh(mesh, context);
   return mesh;

@@ -147,10 +147,7 @@ void write_volume_vtkhdf(const HybridMesh& mesh, const std::filesystem::path& pa
   if (!mesh.patches.empty()) grid.children.push_back(patch_numbers(mesh, context));
   Hdf5OutputNode root;
   root.children.push_back(std::move(grid));
-  AtomicFile file(path);
-  write_sections(file, hdf5_sections(root), context);
-  const StageTimer timer(context, "sync");
-  file.commit();
+  write_hdf5(root, path, context);
 }
 
 }  // namespace sterna::io

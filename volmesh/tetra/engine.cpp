@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -32,7 +31,7 @@ double unit_scale(std::span<const Vec3> points) {
 class Request {
  public:
   Request(const EngineInput& input, const TetraOptions& options, const RunContext& context)
-      : scale_(unit_scale(input.boundary.points)), block_("sterna tetra request", size_of(input)) {
+      : scale_(unit_scale(input.boundary.points)), block_("sterna tetra request", size_of(input), engine_task()) {
     const auto& [boundary, parts, sizes, splits] = input;
     wire::RequestHeader header;
     header.n_points = boundary.points.size();
@@ -74,14 +73,6 @@ class Request {
   SharedBlock block_;
   Vec3* points_ = nullptr;
 };
-
-std::string last_words(const HelperExit& exit) {
-  std::string text = exit.output;
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
-  constexpr std::size_t k_quoted = 500;
-  if (text.size() > k_quoted) text.erase(0, text.size() - k_quoted);
-  return text.empty() ? "" : "; its last words: \"" + text + "\"";
-}
 
 /// TetGen's codes as terminatetetgen() in tetgen.h names them; the other engines have none.
 std::string text_of_code(EngineKind kind, int code) {
@@ -239,13 +230,13 @@ EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraO
     const std::string helper = find_helper("sterna-tet-" + std::string(to_string(kind)), options.helper_folder);
     std::optional<StageTimer> transfer(std::in_place, context, "tetrahedra/transfer");
     const Request request(input, options, context);
-    SharedBlock reply("sterna tetra reply", 0);
+    SharedBlock reply("sterna tetra reply", 0, engine_task());
     transfer.reset();
     const HelperExit exit = [&] {
       const StageTimer timer(context, "tetrahedra/helper");
       LateData size_field;
       if (input.sizes) size_field = [&] { return input.sizes->is_ready() ? input.sizes->get().bytes() : std::span<const std::byte>(); };
-      return run_helper(helper, request.block(), reply, size_field, options.time_limit, context);
+      return run_helper({.task = engine_task(), .path = helper, .arguments = {}, .late = size_field, .time_limit = options.time_limit}, request.block().descriptor(), reply.descriptor(), context);
     }();
     transfer.emplace(context, "tetrahedra/transfer");
     if (!exit.output.empty()) context.debug(std::string(display_name(kind)) + ": " + exit.output);

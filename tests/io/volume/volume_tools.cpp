@@ -209,7 +209,7 @@ std::optional<std::string> output_of_tool(const std::string& program, const std:
   return result.output + result.errors;
 }
 
-void expect_survives_damage(const std::filesystem::path& victim, const std::string& name) {
+void expect_survives_damage(const std::filesystem::path& victim, const std::string& name, std::size_t n_attempts) {
   // In memory, where there is room: some thousand files are written.
   const std::filesystem::path folder =
       std::filesystem::is_directory("/dev/shm") ? std::filesystem::path("/dev/shm") / ("sterna_volume_test_" + std::to_string(::getpid())) : scratch() / "damaged";
@@ -229,13 +229,12 @@ void expect_survives_damage(const std::filesystem::path& victim, const std::stri
       EXPECT_TRUE(error.code() == ErrorCode::file_malformed || error.code() == ErrorCode::unsupported_format) << error.what();
     }
   };
-  constexpr std::size_t k_attempts = 400;
-  const std::size_t step = std::max<std::size_t>(1, bytes.size() / k_attempts);
+  const std::size_t step = std::max<std::size_t>(1, bytes.size() / n_attempts), step_of_changes = std::max<std::size_t>(1 + step / 8, bytes.size() / (8 * n_attempts));
   for (std::size_t n = 0; n < bytes.size(); n += step) attempt(bytes.substr(0, n), "cut to " + std::to_string(n) + " bytes");
   EXPECT_GT(n_refused, 0);
   constexpr std::string_view k_changes = "\x01\x80\xff\x10\x55";
   std::size_t n = 0;
-  for (std::size_t i = 0; i < bytes.size(); i += 1 + step / 8) {
+  for (std::size_t i = 0; i < bytes.size(); i += step_of_changes) {
     if (bytes[i] == ' ') continue;  // padding, mostly
     std::string damaged = bytes;
     damaged[i] = static_cast<char>(damaged[i] ^ k_changes[n++ % k_changes.size()]);

@@ -1,0 +1,281 @@
+#include "geom/base/helper_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <thread>
+
+#include "geom/base/schema.h"
+
+extern char** environ;
+
+namespace sterna {
+namespace {
+
+constexpr int k_poll_ms = 20;                   ///< how soon a stop or the time limit is noticed
+constexpr int k_late_poll_ms = 2;                ///< how soon data that comes late is handed on
+constexpr std::size_t k_output_kept = 4096;     ///< bytes of the helper's last words kept for the error text
+constexpr int k_folders_up = 3;                 ///< the program's folder and two above it: tests and fuzz targets lie below the build folder
+constexpr int k_first_free_descriptor = 10;     ///< above the descriptors that the helper inherits, so that dup2 in the child never clobbers a source
+
+[[noreturn]] void throw_system_failure(const HelperTask& task, const std::string& what, int error) {
+  throw Error({.code = task.failed, .attempted = task.attempted, .problem = what + ": " + std::strerror(error)});
+}
+
+/// Closes a descriptor at the end of a scope.
+struct Descriptor {
+  int value = -1;
+  ~Descriptor() { reset(); }
+  void reset() {
+    if (value >= 0) close(value);
+    value = -1;
+  }
+};
+
+/// Moves a descriptor out of the range that the helper's own descriptors will have.
+int moved_up(int descriptor, const HelperTask& task) {
+  const int moved = fcntl(descriptor, F_DUPFD_CLOEXEC, k_first_free_descriptor);
+  const int error = errno;
+  close(descriptor);
+  if (moved < 0) throw_system_failure(task, "fcntl(F_DUPFD_CLOEXEC)", error);
+  return moved;
+}
+
+/// A started process; killed and reaped at the latest when the object goes.
+class Child {
+ public:
+  explicit Child(pid_t pid) : pid_(pid) {}
+  ~Child() { kill_and_reap(); }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  /// True once it has ended (and is reaped).
+  bool has_ended() {
+    if (pid_ > 0 && waitpid(pid_, &wait_status_, WNOHANG) == pid_) pid_ = -1;
+    return pid_ <= 0;
+  }
+  void kill_and_reap() {
+    if (pid_ <= 0) return;
+    kill(pid_, SIGKILL);
+    while (waitpid(pid_, &wait_status_, 0) < 0 && errno == EINTR) {
+    }
+    pid_ = -1;
+  }
+  int wait_status() const { return wait_status_; }
+
+ private:
+  pid_t pid_;
+  int wait_status_ = 0;
+};
+
+/// File actions and attributes of posix_spawn, released with the object.
+struct SpawnSetup {
+  SpawnSetup() {
+    posix_spawn_file_actions_init(&actions);
+    posix_spawnattr_init(&attributes);
+  }
+  ~SpawnSetup() {
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+  }
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_t attributes;
+};
+
+struct Pipe {
+  explicit Pipe(const HelperTask& task) {
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw_system_failure(task, "pipe2", errno);
+    read_end.value = moved_up(ends[0], task);
+    write_end.value = moved_up(ends[1], task);
+  }
+  Descriptor read_end, write_end;
+};
+
+/// What a helper gets later than its start. The read end of the pipe stays open here: writing to it must not raise SIGPIPE when the helper has died.
+class LateBlock {
+ public:
+  explicit LateBlock(const HelperTask& task) : task_(task), block_("sterna late", 0, task), ready_(task) {}
+  /// False as long as there is no data.
+  bool send(std::span<const std::byte> data) {
+    if (is_sent_ || data.empty()) return is_sent_;
+    block_.append(data);
+    const std::uint64_t size = data.size();
+    if (write(ready_.write_end.value, &size, sizeof size) != sizeof size) throw_system_failure(task_, "writing to a pipe", errno);
+    return is_sent_ = true;
+  }
+  int descriptor() const { return block_.descriptor(); }
+  int ready_descriptor() const { return ready_.read_end.value; }
+
+ private:
+  HelperTask task_;
+  SharedBlock block_;
+  Pipe ready_;
+  bool is_sent_ = false;
+};
+
+pid_t spawn(const HelperStart& start, int request, int reply, int output, const LateBlock* late) {
+  SpawnSetup setup;
+  posix_spawn_file_actions_addopen(&setup.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&setup.actions, output, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&setup.actions, output, STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&setup.actions, request, k_helper_request_fd);
+  posix_spawn_file_actions_adddup2(&setup.actions, reply, k_helper_reply_fd);
+  if (late) {
+    posix_spawn_file_actions_adddup2(&setup.actions, late->descriptor(), k_helper_late_fd);
+    posix_spawn_file_actions_adddup2(&setup.actions, late->ready_descriptor(), k_helper_late_ready_fd);
+  }
+  sigset_t none, all;
+  sigemptyset(&none);
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&setup.attributes, &none);
+  posix_spawnattr_setsigdefault(&setup.attributes, &all);
+  posix_spawnattr_setpgroup(&setup.attributes, 0);
+  posix_spawnattr_setflags(&setup.attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+  std::vector<std::string> words = {start.path};
+  words.insert(words.end(), start.arguments.begin(), start.arguments.end());
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  pid_t pid = -1;
+  const int error = posix_spawn(&pid, start.path.c_str(), &setup.actions, &setup.attributes, arguments.data(), environ);
+  if (error != 0) {
+    throw Error({.code = start.task.missing,
+                 .attempted = "starting " + start.task.helper,
+                 .problem = "cannot start " + start.path + ": " + std::strerror(error),
+                 .hint = "build the target " + std::filesystem::path(start.path).filename().string() + start.task.else_try});
+  }
+  return pid;
+}
+
+/// Reads what is there. False at the end of the stream.
+bool read_output(int descriptor, std::string& output) {
+  std::array<char, 4096> buffer;
+  const ssize_t n = read(descriptor, buffer.data(), buffer.size());
+  if (n < 0) return errno == EINTR || errno == EAGAIN;
+  output.append(buffer.data(), static_cast<std::size_t>(n));
+  if (output.size() > 2 * k_output_kept) output.erase(0, output.size() - k_output_kept);
+  return n > 0;
+}
+
+}  // namespace
+
+SharedBlock::SharedBlock(const char* name, std::size_t size, HelperTask task) : task_(std::move(task)) {
+  const int descriptor = memfd_create(name, MFD_CLOEXEC);
+  if (descriptor < 0) throw_system_failure(task_, "memfd_create", errno);
+  descriptor_ = moved_up(descriptor, task_);
+  if (ftruncate(descriptor_, static_cast<off_t>(size)) != 0) {
+    const int error = errno;
+    close(descriptor_);
+    throw_system_failure(task_, "reserving " + std::to_string(size) + " bytes in memory", error);
+  }
+}
+
+SharedBlock::~SharedBlock() {
+  if (data_) munmap(data_, size_);
+  close(descriptor_);
+}
+
+std::byte* SharedBlock::map() {
+  if (data_) munmap(data_, size_);
+  data_ = nullptr;
+  struct stat state {};
+  if (fstat(descriptor_, &state) != 0) throw_system_failure(task_, "fstat", errno);
+  size_ = static_cast<std::size_t>(state.st_size);
+  if (size_ == 0) return nullptr;
+  void* block = mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, descriptor_, 0);
+  if (block == MAP_FAILED) throw_system_failure(task_, "mmap of " + std::to_string(size_) + " bytes", errno);
+  data_ = static_cast<std::byte*>(block);
+  return data_;
+}
+
+void SharedBlock::append(std::span<const std::byte> data) {
+  while (!data.empty()) {
+    const ssize_t n = write(descriptor_, data.data(), data.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) throw_system_failure(task_, "writing " + std::to_string(data.size()) + " bytes to memory", errno);
+    data = data.subspan(static_cast<std::size_t>(n));
+  }
+}
+
+int above_helper_descriptors(int descriptor, const HelperTask& task) { return moved_up(descriptor, task); }
+
+HelperExit run_helper(const HelperStart& start, int request, int reply, const RunContext& context) {
+  using Clock = std::chrono::steady_clock;
+  Pipe words(start.task);
+  std::optional<LateBlock> late_block;
+  if (start.late) late_block.emplace(start.task);
+
+  HelperExit result;
+  const auto begin = Clock::now();
+  Child child(spawn(start, request, reply, words.write_end.value, late_block ? &*late_block : nullptr));
+  words.write_end.reset();
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+
+  // The end of the output is the end of the helper, unless it has closed its output; then it is waited for in small sleeps.
+  for (bool is_open = true; is_open || !child.has_ended();) {
+    const bool is_waiting = late_block && !late_block->send(start.late());
+    if (is_open) {
+      pollfd event{words.read_end.value, POLLIN, 0};
+      if (poll(&event, 1, is_waiting ? k_late_poll_ms : k_poll_ms) > 0) is_open = read_output(words.read_end.value, result.output);
+    } else {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    context.check_stop();
+    if (!is_automatic(start.time_limit) && seconds() > start.time_limit) {
+      result.is_time_over = true;
+      child.kill_and_reap();
+      break;
+    }
+  }
+  result.wait_status = child.wait_status();
+  result.seconds = seconds();
+  return result;
+}
+
+std::string find_helper(const std::string& name, const std::string& given_folder, const HelperTask& task) {
+  namespace fs = std::filesystem;
+  const auto is_executable = [](const fs::path& path) {
+    std::error_code ignored;  // a path that cannot be looked at is no executable
+    return fs::is_regular_file(path, ignored) && access(path.c_str(), X_OK) == 0;
+  };
+  std::vector<fs::path> candidates;
+  if (given_folder.empty()) {
+    fs::path folder = fs::read_symlink("/proc/self/exe").parent_path();
+    for (int i = 0; i < k_folders_up; ++i, folder = folder.parent_path()) candidates.push_back(folder / name);
+  } else {
+    candidates = {fs::path(given_folder) / name};
+  }
+  std::string looked_at;
+  for (const fs::path& candidate : candidates) {
+    if (is_executable(candidate)) return candidate.string();
+    looked_at += (looked_at.empty() ? "" : ", ") + candidate.string();
+  }
+  throw Error({.code = task.missing,
+               .attempted = "looking for " + task.helper + " " + name,
+               .problem = "it is not built in: no executable file at " + looked_at,
+               .hint = "build the target " + name + " (its library must be installed)" + task.else_try});
+}
+
+std::string last_words(const HelperExit& exit) {
+  std::string text = exit.output;
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
+  constexpr std::size_t k_quoted = 500;
+  if (text.size() > k_quoted) text.erase(0, text.size() - k_quoted);
+  return text.empty() ? "" : "; its last words: \"" + text + "\"";
+}
+
+}  // namespace sterna
