@@ -83,7 +83,7 @@ TEST(TauRead, OtherKindsOfNetcdf) {
     STERNA_NEEDS_TOOL(test::output_of_tool("nccopy", arguments), "nccopy of the package netcdf-bin");
     std::filesystem::copy_file(folder / "mesh.bmap", folder / "copy.bmap", std::filesystem::copy_options::overwrite_existing);
     test::expect_equal_meshes(read(copy), mesh);
-    if (arguments[1] == "netCDF-4") test::expect_survives_damage(copy, "damaged.grid", test::k_few_attempts);
+    if (arguments.size() == 7) test::expect_survives_damage(copy, "damaged.grid", test::k_few_attempts);
   }
 }
 

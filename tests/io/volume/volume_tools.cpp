@@ -229,7 +229,7 @@ void expect_survives_damage(const std::filesystem::path& victim, const std::stri
       EXPECT_TRUE(error.code() == ErrorCode::file_malformed || error.code() == ErrorCode::unsupported_format) << error.what();
     }
   };
-  const std::size_t step = std::max<std::size_t>(1, bytes.size() / n_attempts), step_of_changes = std::max<std::size_t>(1 + step / 8, bytes.size() / (8 * n_attempts));
+  const std::size_t step = std::max<std::size_t>(1, bytes.size() / n_attempts), step_of_changes = std::max<std::size_t>(1 + step / 8, bytes.size() / (4 * n_attempts));
   for (std::size_t n = 0; n < bytes.size(); n += step) attempt(bytes.substr(0, n), "cut to " + std::to_string(n) + " bytes");
   EXPECT_GT(n_refused, 0);
   constexpr std::string_view k_changes = "\x01\x80\xff\x10\x55";

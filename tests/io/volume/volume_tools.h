@@ -55,10 +55,10 @@ void expect_equal_meshes(const HybridMesh& back, const HybridMesh& mesh);
 std::optional<std::string> output_of_tool(const std::string& program, const std::vector<std::string>& arguments);
 
 /// The file `victim`, cut at many lengths and with many bytes changed, is read or refused with file_malformed or unsupported_format, under the name `name`
-/// (whose extension says the format). \param n_attempts lengths, and at most 8 times as many changes
+/// (whose extension says the format). \param n_attempts lengths, and some 4 times as many changes where these are few
 void expect_survives_damage(const std::filesystem::path& victim, const std::string& name, std::size_t n_attempts = 400);
 /// For files that a helper process reads, some 20 ms each.
-inline constexpr std::size_t k_few_attempts = 20;
+inline constexpr std::size_t k_few_attempts = 10;
 
 /// Runs f, which must throw an Error of that code whose text contains `text`.
 template <class F>
