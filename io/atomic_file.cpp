@@ -88,10 +88,6 @@ void AtomicFile::adopt() {
   size_ = static_cast<std::uint64_t>(written.st_size);
 }
 
-void AtomicFile::give_room() noexcept {
-  if (!temporary_.empty()) (void)!::truncate(temporary_.c_str(), 0);
-}
-
 void AtomicFile::commit() {
   if (::fsync(descriptor_) != 0) fail(errno, "syncing");
   const int descriptor = descriptor_;
@@ -122,7 +118,11 @@ void AtomicFile::fail(int error_number, std::string_view doing) {
 }
 
 void AtomicFile::discard() noexcept {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ >= 0) {
+    // Frees the disk also where a library has the file open: it needs room for what it must put there to close it. Nobody reads it any more, so a failure does no harm.
+    (void)!::ftruncate(descriptor_, 0);
+    ::close(descriptor_);
+  }
   descriptor_ = -1;
   if (!temporary_.empty()) ::unlink(temporary_.c_str());
   temporary_.clear();

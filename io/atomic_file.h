@@ -29,8 +29,6 @@ class AtomicFile {
   /// Where the contents are until commit(): for a library that writes a file of that name itself, in place of append(). Afterwards adopt() takes what it has written.
   const std::filesystem::path& temporary() const { return temporary_; }
   void adopt();
-  /// For a library that fails: frees the disk of what is written so far, so that what it must still put to close its file finds room.
-  void give_room() noexcept;
   /// Throws Error(write_failed) with the system's reason, e.g. errno of a library's failure; 0 = it has none.
   [[noreturn]] void fail(int error_number, std::string_view doing);
 

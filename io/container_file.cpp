@@ -102,7 +102,7 @@ bool is_hdf5(std::string_view bytes) { return bytes.starts_with("\x89HDF\r\n\x1a
 bool is_adf(std::string_view bytes) { return bytes.substr(0, 32).find("ADF Database Version ") == 4; }
 bool is_netcdf(std::string_view bytes) { return bytes.starts_with("CDF") || is_hdf5(bytes); }
 
-ContainerImage read_container(const std::filesystem::path& path, ContainerFormat format, const std::vector<std::string>& left_out, const RunContext& context) {
+ContainerImage read_container(const std::filesystem::path& path, ContainerFormat format, const std::vector<std::string>& left_out, const RunContext& context, const std::string& helper_folder) {
   const std::string source = path.string();
   const HelperTask task = task_of(source);
   const SourceFile file(path, task, context);
@@ -110,7 +110,7 @@ ContainerImage read_container(const std::filesystem::path& path, ContainerFormat
   std::vector<std::string> arguments = {library};
   arguments.insert(arguments.end(), left_out.begin(), left_out.end());
   const auto image = std::make_shared<SharedBlock>("sterna container", 0, task);
-  const HelperStart start{.task = task, .path = find_helper("sterna-read-container", {}, task), .arguments = std::move(arguments), .late = {}, .time_limit = k_automatic};
+  const HelperStart start{.task = task, .path = find_helper("sterna-read-container", helper_folder, task), .arguments = std::move(arguments), .late = {}, .time_limit = k_automatic};
   const HelperExit exit = run_helper(start, file.descriptor(), image->descriptor(), context);
   if (!exit.output.empty()) context.debug("sterna-read-container: " + exit.output);
   if (!exit.is_success()) throw_death(exit, library, source);

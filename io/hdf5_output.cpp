@@ -84,12 +84,6 @@ hid_t standard_type(NumberKind kind) {
 class Hdf5Writer {
  public:
   explicit Hdf5Writer(AtomicFile& file) : file_(file), library_file_(create(file)) {}
-  ~Hdf5Writer() {
-    if (is_complete_) return;
-    datasets_.clear();
-    file_.give_room();  // so that the library can close what it cannot leave open
-  }
-
   void write(const Hdf5OutputNode& root, const RunContext& context) {
     {
       const Handle group(file_, H5Gopen2(library_file_, "/", H5P_DEFAULT), H5Gclose, "creating the structure");
@@ -99,7 +93,6 @@ class Hdf5Writer {
         arrays_, [&](std::size_t array, std::uint64_t first_value, std::string_view bytes) { put(array, first_value, bytes); }, context);
     datasets_.clear();
     if (library_file_.close() < 0) file_.fail(system_reason(), "closing");
-    is_complete_ = true;
   }
 
  private:
@@ -178,7 +171,6 @@ class Hdf5Writer {
   Handle library_file_;
   std::vector<Handle> datasets_;
   std::vector<const OutputArray*> arrays_;
-  bool is_complete_ = false;
 };
 
 }  // namespace

@@ -1,7 +1,9 @@
 // HDF5 by libhdf5. Links by name and to other files are not followed, and a group or dataset that is reached a second time is a link too, so that no cycle is walked.
 #include <hdf5.h>
+#include <sys/mman.h>
 
 #include <array>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <set>
@@ -74,10 +76,27 @@ Type type_of(hid_t id) {
   return {};
 }
 
+/// The library asks for the real path of what it opens. A file that only memory holds (it was packed) has none: the library gets a copy of its bytes.
+hid_t open_file(const char* path, const Limits& limits) {
+  char* const real_path = realpath(path, nullptr);
+  if (real_path) {
+    std::free(real_path);
+    return H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  }
+  void* const bytes = mmap(nullptr, limits.file_size, PROT_READ | PROT_WRITE, MAP_PRIVATE, wire::k_file_fd, 0);
+  if (bytes == MAP_FAILED) throw std::bad_alloc();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "the file", "opening it");
+  constexpr std::size_t k_step = 1 << 20;  // it does not grow
+  if (H5Pset_fapl_core(access, k_step, false) < 0 || H5Pset_file_image(access, bytes, limits.file_size) < 0) fail("the file", "opening it");
+  const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, access);
+  munmap(bytes, limits.file_size);
+  return file;
+}
+
 class Hdf5Nodes {
  public:
   Hdf5Nodes(const char* path, const Limits& limits, Image& image)
-      : limits_(limits), image_(image), file_(std::make_shared<Handle>(H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "the head of the file", "opening it")) {}
+      : limits_(limits), image_(image), file_(std::make_shared<Handle>(open_file(path, limits), H5Fclose, "the head of the file", "opening it")) {}
 
   void add() {
     const Handle root(H5Gopen2(*file_, "/", H5P_DEFAULT), H5Gclose, "/", "opening the root");

@@ -51,5 +51,13 @@ TEST(SurfaceCgns, RoundTripInBothContainers) {
   }
 }
 
+TEST(SurfaceCgns, PackedByGzip) {
+  const auto folder = scratch();
+  const auto path = folder / "cube.cgns";
+  io::write_surface_file(test::cube(1), path, RunContext({.threads = 1}));
+  write_bytes(folder / "packed.cgns.gz", packed(bytes_of(path)));
+  EXPECT_EQ(read_surface(folder / "packed.cgns.gz").points, test::cube(1).points.raw());
+}
+
 }  // namespace
 }  // namespace sterna::test
