@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
@@ -52,7 +53,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), target_
                  .hint = "choose another name"});
   for (int i = 0; descriptor_ < 0; ++i) {
     temporary_ = target_.parent_path() / (".sterna-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".part");
-    descriptor_ = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, k_new_file_mode);
+    descriptor_ = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, k_new_file_mode);
     if (descriptor_ >= 0) break;
     const int error_number = errno;
     if (error_number == EEXIST && i < k_max_names) continue;
@@ -70,10 +71,39 @@ AtomicFile::~AtomicFile() { discard(); }
 void AtomicFile::append(std::string_view bytes) {
   write_at(size_, bytes);
   size_ += bytes.size();
-  if (size_ - n_sent_ < k_send_bytes) return;
+  send();
+}
+
+void AtomicFile::send() {
+  if (size_ < n_sent_ + k_send_bytes) return;
   // Begins what commit() waits for and reports on; a file system that cannot begin early does it all then.
   static_cast<void>(::sync_file_range(descriptor_, static_cast<off_t>(n_sent_), static_cast<off_t>(size_ - n_sent_), SYNC_FILE_RANGE_WRITE));
   n_sent_ = size_;
+}
+
+void AtomicFile::put(std::uint64_t offset, std::string_view bytes) {
+  write_at(offset, bytes);
+  size_ = std::max(size_, offset + bytes.size());
+  send();
+}
+
+void AtomicFile::get(std::uint64_t offset, std::span<char> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail(errno, "reading back");
+    if (n == 0) {
+      std::fill(bytes.begin(), bytes.end(), '\0');
+      return;
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+    offset += static_cast<std::uint64_t>(n);
+  }
+}
+
+void AtomicFile::resize(std::uint64_t n_bytes) {
+  if (::ftruncate(descriptor_, static_cast<off_t>(n_bytes)) != 0) fail(errno, "setting the size");
+  size_ = n_bytes;
 }
 
 void AtomicFile::overwrite(std::uint64_t offset, std::string_view bytes) { write_at(offset, bytes); }

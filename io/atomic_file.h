@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,11 @@ class AtomicFile {
   void overwrite(std::uint64_t offset, std::string_view bytes);
   std::uint64_t size() const { return size_; }
 
+  /// For a library that places its bytes itself: writes them anywhere, reads back what was written (zeros where nothing was), sets the end.
+  void put(std::uint64_t offset, std::string_view bytes);
+  void get(std::uint64_t offset, std::span<char> bytes);
+  void resize(std::uint64_t n_bytes);
+
   const std::filesystem::path& path() const { return path_; }  ///< as the caller named it
 
   /// Where the contents are until commit(): for a library that writes a file of that name itself, in place of append(). Afterwards adopt() takes what it has written.
@@ -36,6 +42,7 @@ class AtomicFile {
   void commit();
 
  private:
+  void send();
   void write_at(std::uint64_t offset, std::string_view bytes);
   void discard() noexcept;
 

@@ -3,12 +3,11 @@
 
 #include <hdf5.h>
 
-#include <cerrno>
-#include <charconv>
 #include <utility>
 
 #include "geom/base/error.h"
 #include "io/atomic_file.h"
+#include "io/hdf5_driver.h"
 
 namespace sterna::io {
 namespace {
@@ -31,25 +30,22 @@ class QuietLibrary {
   void* data_ = nullptr;
 };
 
-/// The system's reason for the last failure as the library quotes it ("errno = 28"); 0: the system had none.
-int system_reason() {
-  int error_number = 0;
+[[noreturn]] void fail(const AtomicFile& file, const char* doing) {
+  std::string text;
   const auto take = [](unsigned, const H5E_error2_t* error, void* data) -> herr_t {
-    const std::string_view text = error->desc ? error->desc : "";
-    constexpr std::string_view k_mark = "errno = ";
-    const std::size_t at = text.find(k_mark);
-    if (at != std::string_view::npos) std::from_chars(text.data() + at + k_mark.size(), text.data() + text.size(), *static_cast<int*>(data));
+    std::string& found = *static_cast<std::string*>(data);
+    if (found.empty() && error->desc) found = error->desc;
     return 0;
   };
-  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take, &error_number);
-  return error_number;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take, &text);
+  throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + file.path().string(), .problem = std::string(doing) + ": the HDF5 library says: " + text});
 }
 
 /// Closes what the library opened.
 class Handle {
  public:
-  Handle(AtomicFile& file, hid_t id, herr_t (*close)(hid_t), const char* doing) : id_(id), close_(close) {
-    if (id_ < 0) file.fail(system_reason(), doing);
+  Handle(const AtomicFile& file, hid_t id, herr_t (*close)(hid_t), const char* doing) : id_(id), close_(close) {
+    if (id_ < 0) fail(file, doing);
   }
   Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   ~Handle() {
@@ -83,7 +79,7 @@ hid_t standard_type(NumberKind kind) {
 
 class Hdf5Writer {
  public:
-  explicit Hdf5Writer(AtomicFile& file) : file_(file), library_file_(create(file)) {}
+  explicit Hdf5Writer(AtomicFile& file) : file_(file), driver_(file), library_file_(create(file, driver_)) {}
   void write(const Hdf5OutputNode& root, const RunContext& context) {
     {
       const Handle group(file_, H5Gopen2(library_file_, "/", H5P_DEFAULT), H5Gclose, "creating the structure");
@@ -92,25 +88,26 @@ class Hdf5Writer {
     stream_arrays(
         arrays_, [&](std::size_t array, std::uint64_t first_value, std::string_view bytes) { put(array, first_value, bytes); }, context);
     datasets_.clear();
-    if (library_file_.close() < 0) file_.fail(system_reason(), "closing");
+    require(library_file_.close(), "closing");
   }
 
  private:
+  /// The system's reason comes first: the library does not always hear of it.
   void require(herr_t status, const char* doing) const {
-    if (status < 0) file_.fail(system_reason(), doing);
+    driver_.rethrow();
+    if (status < 0) fail(file_, doing);
   }
 
   /// A group keeps and indexes the order of creation (CGNS lists children by it), and no times.
-  static void set_up_group(AtomicFile& file, hid_t plist) {
-    if (H5Pset_link_creation_order(plist, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) < 0 || H5Pset_obj_track_times(plist, false) < 0) file.fail(system_reason(), "creating the structure");
+  static void set_up_group(const AtomicFile& file, hid_t plist) {
+    if (H5Pset_link_creation_order(plist, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) < 0 || H5Pset_obj_track_times(plist, false) < 0) fail(file, "creating the structure");
   }
 
-  static Handle create(AtomicFile& file) {
+  static Handle create(const AtomicFile& file, Hdf5Driver& driver) {
     const Handle creation(file, H5Pcreate(H5P_FILE_CREATE), H5Pclose, "creating a file"), access(file, H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "creating a file");
     set_up_group(file, creation);
-    // Locks: nobody else knows the temporary file, and some network disks refuse them.
-    if (H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 || H5Pset_file_locking(access, false, true) < 0) file.fail(system_reason(), "creating a file");
-    return {file, H5Fcreate(file.temporary().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "creating a file"};
+    if (H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 || !driver.set_on(access)) fail(file, "creating a file");
+    return {file, H5Fcreate(file.path().c_str(), H5F_ACC_TRUNC, creation, access), H5Fclose, "creating a file"};
   }
 
   void add_children(hid_t group, const Hdf5OutputNode& node) {
@@ -167,7 +164,8 @@ class Hdf5Writer {
     require(H5Dwrite(datasets_[number], standard_type(array.kind), in_memory, in_file, H5P_DEFAULT, bytes.data()), "writing");
   }
 
-  AtomicFile& file_;
+  const AtomicFile& file_;
+  Hdf5Driver driver_;
   Handle library_file_;
   std::vector<Handle> datasets_;
   std::vector<const OutputArray*> arrays_;
@@ -185,7 +183,6 @@ void write_hdf5(const Hdf5OutputNode& root, const std::filesystem::path& path, c
   const QuietLibrary quiet;
   AtomicFile file(path);
   Hdf5Writer(file).write(root, context);
-  file.adopt();
   const StageTimer timer(context, "sync");
   file.commit();
 }
