@@ -8,6 +8,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/fuzz/container_input.h"
+
 namespace sterna::fuzz {
 namespace {
 
@@ -101,7 +103,7 @@ std::string joined(const Target& target, const std::filesystem::path& path) {
     for (const char* name : k_folder_files) bytes += (bytes.empty() ? "" : std::string(k_part_end)) + content(path / name);
     return bytes;
   }
-  bytes = content(path);
+  bytes = is_container(target) ? image_of(target, path) : content(path);
   for (const std::string_view ending : words(entry(k_companions, target.format->name))) {
     std::filesystem::path stem = path;
     std::string companion;
