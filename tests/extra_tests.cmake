@@ -49,3 +49,6 @@ foreach(source ${bench_sources})
   add_executable(${name} ${source})
   target_link_libraries(${name} PRIVATE sterna_test_support)
 endforeach()
+# Compares our evaluators with OpenCASCADE's own.
+target_include_directories(spline_bench SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
+target_link_libraries(spline_bench PRIVATE ${STERNA_OCCT})

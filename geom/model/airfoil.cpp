@@ -8,6 +8,7 @@
 #include "geom/base/error.h"
 #include "geom/model/airfoil_parts.h"
 #include "geom/model/curves.h"
+#include "geom/model/number_text.h"
 #include "geom/model/projection.h"
 #include "geom/model/spline.h"
 
@@ -127,7 +128,7 @@ AirfoilMeasures measure(const Airfoil& airfoil) {
 Airfoil with_trailing_edge(const Airfoil& airfoil, double thickness) {
   constexpr double k_thickest = 0.2;
   if (!(thickness >= 0.0) || !(thickness < k_thickest))
-    refuse("changing the trailing edge of airfoil " + airfoil.name, "a thickness of " + std::to_string(thickness) + " chords, must be 0 or more and below 0.2");
+    refuse("changing the trailing edge of airfoil " + airfoil.name, "a thickness of " + number_text(thickness) + " chords, must be 0 or more and below 0.2");
   const double old = airfoil.trailing_edge_thickness();
   Airfoil result = airfoil;
   const Uv first = airfoil.points.front(), last = airfoil.points.back(), nose = airfoil.points[airfoil.leading_edge];
@@ -188,17 +189,17 @@ Repaneled repaneled(const Airfoil& airfoil, int n_side) {
 }
 
 Repaneled repaneled_within(const Airfoil& airfoil, double tolerance) {
-  if (!(tolerance > 0.0)) refuse("repaneling airfoil " + airfoil.name, "the tolerance is " + std::to_string(tolerance) + " chords, must be positive");
+  if (!(tolerance > 0.0)) refuse("repaneling airfoil " + airfoil.name, "the tolerance is " + number_text(tolerance) + " chords, must be positive");
   constexpr int k_fewest = 8;
   for (int n = k_fewest; n <= k_max_side; n += std::max(1, n / 8)) {
     Repaneled result = repaneled(airfoil, n);
     if (result.error <= tolerance) return result;
   }
-  refuse("repaneling airfoil " + airfoil.name, "an error of " + std::to_string(tolerance) + " chords is not reached with " + std::to_string(k_max_side) + " points along a side");
+  refuse("repaneling airfoil " + airfoil.name, "an error of " + number_text(tolerance) + " chords is not reached with " + std::to_string(k_max_side) + " points along a side");
 }
 
 Airfoil rounded_plate(double thickness, int n_side) {
-  if (!(thickness > 0.0) || !(thickness < 0.5)) refuse("making a rounded plate", "a thickness of " + std::to_string(thickness) + " chords, must be between 0 and 0.5");
+  if (!(thickness > 0.0) || !(thickness < 0.5)) refuse("making a rounded plate", "a thickness of " + number_text(thickness) + " chords, must be between 0 and 0.5");
   if (n_side < 8 || n_side > k_max_side) refuse("making a rounded plate", std::to_string(n_side) + " points along a side, must be 8 .. " + std::to_string(k_max_side));
   constexpr double k_nose = 1.5;  // length of the half ellipse, in thicknesses
   const double a = k_nose * thickness, b = 0.5 * thickness;

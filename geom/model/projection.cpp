@@ -13,6 +13,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
+#include "geom/model/number_text.h"
 
 namespace sterna {
 namespace {
@@ -48,7 +49,7 @@ constexpr double k_golden = 0.6180339887498949;
 
 void check_range(Interval range) {
   if (!std::isfinite(range.from) || !std::isfinite(range.to) || !(range.from < range.to))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "preparing a projection", .problem = "the parameters [" + std::to_string(range.from) + ", " + std::to_string(range.to) + "] have no length"});
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "preparing a projection", .problem = "the parameters [" + number_text(range.from) + ", " + number_text(range.to) + "] have no length"});
 }
 
 double inside(double t, Interval range, bool wraps) {

@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "geom/base/error.h"
+#include "geom/model/number_text.h"
 
 namespace sterna {
 namespace {
@@ -115,7 +116,7 @@ RadialMap::RadialMap(const ScatteredDisplacements& data, const RadialMapOptions&
   const ScatteredDisplacements unique = merged(data, k_same_place * scale_, k_same_shift * largest);
   const std::size_t n = unique.at.size();
   if (n > k_max_points) refuse(std::to_string(n) + " points, at most " + std::to_string(k_max_points) + " can be solved", {}, "thin the table out: displacements are smooth, a few hundred points are plenty");
-  if (!is_thin_plate_ && !is_automatic(radius_) && !(radius_ > 0.0)) refuse("radius is " + std::to_string(radius_) + " m, must be positive");
+  if (!is_thin_plate_ && !is_automatic(radius_) && !(radius_ > 0.0)) refuse("radius is " + number_text(radius_) + " m, must be positive");
   radius_ = (is_automatic(radius_) ? scale_ : radius_) / scale_;
   for (const Point& p : unique.at) centres_.push_back((p - origin_) / scale_);
 
@@ -150,7 +151,7 @@ RadialMap::RadialMap(const ScatteredDisplacements& data, const RadialMapOptions&
   for (std::size_t i = 0; i < n; ++i) {
     const double miss = distance(point(unique.at[i]), unique.at[i] + unique.shift[i]);
     if (!(miss <= k_same_shift * largest + 1e-14 * scale_))
-      refuse("the system cannot be solved: a point is missed by " + std::to_string(miss) + " m", {{unique.at[i], "this point"}}, "thin out points that nearly coincide, or take a smaller radius");
+      refuse("the system cannot be solved: a point is missed by " + number_text(miss) + " m", {{unique.at[i], "this point"}}, "thin out points that nearly coincide, or take a smaller radius");
   }
 }
 

@@ -3,12 +3,13 @@
 #include <string>
 
 #include "geom/base/error.h"
+#include "geom/model/number_text.h"
 
 namespace sterna {
 
 FunctionMap::FunctionMap(std::function<Point(const Point&)> function, double step) : function_(std::move(function)), step_(step) {
   if (!(step > 0.0) || !std::isfinite(step))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "deforming by a function", .problem = "the step of its derivatives is " + std::to_string(step) + " m, must be positive"});
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "deforming by a function", .problem = "the step of its derivatives is " + number_text(step) + " m, must be positive"});
 }
 
 Point FunctionMap::point(const Point& p) const {

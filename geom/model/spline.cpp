@@ -7,6 +7,7 @@
 #include <string>
 
 #include "geom/base/error.h"
+#include "geom/model/number_text.h"
 #include "geom/model/nurbs_curve.h"
 #include "geom/model/nurbs_surface.h"
 
@@ -284,7 +285,7 @@ EndTangents ends_of(const SplineOptions& o, std::size_t row) {
 
 void check_seam(const Point& first, const Point& last, double length, std::string_view attempted) {
   if (distance(first, last) > k_closed * length)
-    refuse(attempted, "a closed spline whose last point does not repeat the first: they are " + std::to_string(distance(first, last)) + " m apart", {{first, "first"}, {last, "last"}});
+    refuse(attempted, "a closed spline whose last point does not repeat the first: they are " + number_text(distance(first, last)) + " m apart", {{first, "first"}, {last, "last"}});
 }
 
 // ---------------------------------------------------------------- rows of a grid
