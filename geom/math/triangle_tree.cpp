@@ -1,6 +1,6 @@
 // TriangleTree: nearest point, ray, winding number.
 //
-// Based on: C. Ericson, "Real-Time Collision Detection" (2005), sections 5.1 and 5.3, for the nearest point and the slab test; A. Van Oosterom,
+// Based on: C. Ericson, "Real-Time Collision Detection" (2005), section 5.3, for the slab test; A. Van Oosterom,
 // J. Strackee, IEEE Trans. Biomed. Eng. 30 (1983), for the solid angle; G. Barill et al., "Fast winding numbers for soups and clouds", ACM Trans. Graph.
 // 37 (2018), for the far field of a node.
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "geom/math/bvh.h"
+#include "geom/math/nearest.h"
 
 namespace sterna {
 namespace {
@@ -29,29 +30,6 @@ constexpr double k_distance_rounding = 16 * 0x1p-53;
 constexpr double k_ray_rounding = 64 * 0x1p-53;
 /// As in BoxTree::for_each_overlap.
 constexpr int k_stack = 64;
-
-Point nearest_on_segment(const Point& p, const Point& a, const Point& b) {
-  const Vec3 e = b - a;
-  const double length2 = norm2(e);
-  return length2 > 0.0 ? a + std::clamp(dot(p - a, e) / length2, 0.0, 1.0) * e : a;
-}
-
-/// A triangle without area is its edges.
-Point nearest_on_triangle(const Point& p, const Corners& t) {
-  const Vec3 u = t[1] - t[0];
-  const Vec3 v = t[2] - t[0];
-  const Vec3 normal = cross(u, v);
-  const double n2 = norm2(normal);
-  const Vec3 w = p - t[0];
-  const double beta = dot(cross(w, v), normal);
-  const double gamma = dot(cross(u, w), normal);
-  if (n2 > 0.0 && beta >= 0.0 && gamma >= 0.0 && beta + gamma <= n2) return t[0] + (beta / n2) * u + (gamma / n2) * v;
-  Point best = nearest_on_segment(p, t[0], t[1]);
-  for (const Point& q : {nearest_on_segment(p, t[1], t[2]), nearest_on_segment(p, t[2], t[0])}) {
-    if (norm2(q - p) < norm2(best - p)) best = q;
-  }
-  return best;
-}
 
 double squared(double x) { return x * x; }
 

@@ -1,0 +1,286 @@
+// An exchange removes some triangles and puts others into the same hole. It is made only if no new triangle turns away from the input triangle that it stands for,
+// leaves the reference by more than the tolerance, or (exactly) crosses any other triangle that those before it did not cross.
+#include "geom/boolean/strip_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geom/math/intersect.h"
+#include "geom/math/measures.h"
+#include "geom/math/nearest.h"
+
+namespace sterna {
+namespace {
+
+/// Smallest cell, as a power of two relative to nothing: below it lie only triangles without size.
+constexpr int k_least_exponent = -60;
+
+double min_angle_of(const Vec3& a, const Vec3& b, const Vec3& c) { return std::min({corner_angle(a, b, c), corner_angle(b, c, a), corner_angle(c, a, b)}); }
+
+bool contains(const std::vector<std::uint32_t>& list, std::uint32_t value) { return std::find(list.begin(), list.end(), value) != list.end(); }
+
+}  // namespace
+
+// ---- Grid ----
+
+int TriangleGrid::exponent_of(const Box& box) {
+  const double side = box.longest_side();
+  return side > 0.0 ? std::max(std::ilogb(side) + 1, k_least_exponent) : k_least_exponent;
+}
+
+std::array<TriangleGrid::Cell, 2> TriangleGrid::range_of(const Box& box, int exponent) {
+  std::array<Cell, 2> range{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    range[0][k] = static_cast<std::int64_t>(std::floor(std::ldexp(box.min[k], -exponent)));
+    range[1][k] = static_cast<std::int64_t>(std::floor(std::ldexp(box.max[k], -exponent)));
+  }
+  return range;
+}
+
+TriangleGrid::Level& TriangleGrid::level(int exponent) {
+  for (Level& known : levels_)
+    if (known.exponent == exponent) return known;
+  return levels_.emplace_back(Level{.exponent = exponent, .cells = {}});
+}
+
+void TriangleGrid::insert(std::uint32_t triangle, const Box& box) {
+  Level& home = level(exponent_of(box));
+  const auto [low, high] = range_of(box, home.exponent);
+  for (std::int64_t i = low[0]; i <= high[0]; ++i)
+    for (std::int64_t j = low[1]; j <= high[1]; ++j)
+      for (std::int64_t k = low[2]; k <= high[2]; ++k) home.cells[{i, j, k}].push_back(triangle);
+}
+
+void TriangleGrid::remove(std::uint32_t triangle, const Box& box) {
+  Level& home = level(exponent_of(box));
+  const auto [low, high] = range_of(box, home.exponent);
+  for (std::int64_t i = low[0]; i <= high[0]; ++i)
+    for (std::int64_t j = low[1]; j <= high[1]; ++j)
+      for (std::int64_t k = low[2]; k <= high[2]; ++k) {
+        auto& items = home.cells[{i, j, k}];
+        items.erase(std::find(items.begin(), items.end(), triangle));
+      }
+}
+
+// ---- Looking ----
+
+StripMesh::StripMesh(std::vector<Vec3> given_points, std::vector<StripTriangle> given_triangles, const StripLimits& limits, const TriangleTree& reference)
+    : points(std::move(given_points)), triangles(std::move(given_triangles)), is_alive(triangles.size(), 0), star(points.size()), limits_(limits), reference_(reference) {
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) insert(t);
+}
+
+std::array<Vec3, 3> StripMesh::corners(std::uint32_t t) const { return {points[triangles[t].v[0]], points[triangles[t].v[1]], points[triangles[t].v[2]]}; }
+
+double StripMesh::min_angle(const std::array<std::uint32_t, 3>& v) const { return min_angle_of(points[v[0]], points[v[1]], points[v[2]]); }
+
+Box StripMesh::box_of(std::uint32_t t) const {
+  Box box;
+  for (const Vec3& p : corners(t)) box.add(p);
+  return box;
+}
+
+std::optional<std::uint32_t> StripMesh::triangle_at(std::uint32_t a, std::uint32_t b) const {
+  for (const std::uint32_t t : star[a]) {
+    const auto& v = triangles[t].v;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (v[k] == a && v[(k + 1) % 3] == b) return t;
+  }
+  return std::nullopt;
+}
+
+std::uint32_t StripMesh::opposite(std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
+  for (const std::uint32_t v : triangles[t].v)
+    if (v != a && v != b) return v;
+  return a;
+}
+
+bool StripMesh::is_kept_edge(std::uint32_t a, std::uint32_t b) const {
+  const auto left = triangle_at(a, b), right = triangle_at(b, a);
+  if (!left || !right) return true;
+  const StripTriangle &s = triangles[*left], &t = triangles[*right];
+  return s.region != t.region || dot(s.normal, t.normal) < std::cos(limits_.max_bend);
+}
+
+std::vector<std::uint32_t> StripMesh::neighbours(std::uint32_t v) const {
+  std::vector<std::uint32_t> found;
+  for (const std::uint32_t t : star[v])
+    for (const std::uint32_t w : triangles[t].v)
+      if (w != v) found.push_back(w);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+std::vector<std::uint32_t> StripMesh::kept_neighbours(std::uint32_t v) const {
+  std::vector<std::uint32_t> found = neighbours(v);
+  std::erase_if(found, [&](std::uint32_t w) { return !is_kept_edge(v, w); });
+  return found;
+}
+
+std::size_t StripMesh::count_crossings(std::span<const std::uint32_t> set) const {
+  std::size_t n = 0;
+  std::vector<std::uint32_t> near;
+  for (const std::uint32_t t : set) {
+    const Box box = box_of(t);
+    near.clear();
+    grid_.for_each_near(box, [&](std::uint32_t other) { near.push_back(other); });
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+    for (const std::uint32_t other : near) {
+      if (other == t || !overlap(box, box_of(other))) continue;
+      if (other < t && std::find(set.begin(), set.end(), other) != set.end()) continue;  // counted from the other's side
+      if (triangles_cross(points, triangles[t].v, triangles[other].v)) ++n;
+    }
+  }
+  return n;
+}
+
+// ---- Exchanges ----
+
+void StripMesh::insert(std::uint32_t t) {
+  is_alive[t] = 1;
+  for (const std::uint32_t v : triangles[t].v) star[v].push_back(t);
+  grid_.insert(t, box_of(t));
+}
+
+void StripMesh::remove(std::uint32_t t) {
+  is_alive[t] = 0;
+  for (const std::uint32_t v : triangles[t].v) std::erase(star[v], t);
+  grid_.remove(t, box_of(t));
+}
+
+bool StripMesh::are_normals_sound(const Exchange& exchange) const {
+  const double least = std::cos(limits_.max_bend);
+  for (const StripTriangle& t : exchange.added) {
+    const Vec3 area = area_vector(points[t.v[0]], points[t.v[1]], points[t.v[2]]);
+    if (!(dot(area, t.normal) > least * norm(area))) return false;
+  }
+  return true;
+}
+
+bool StripMesh::is_near_reference(const Exchange& exchange, double tolerance) const {
+  const auto is_near = [&](const Vec3& p) { return reference_.nearest(p, tolerance).triangle.is_valid(); };
+  for (const StripTriangle& t : exchange.added) {
+    const Vec3 &a = points[t.v[0]], &b = points[t.v[1]], &c = points[t.v[2]];
+    if (!is_near((a + b + c) / 3.0) || !is_near(0.5 * (a + b)) || !is_near(0.5 * (b + c)) || !is_near(0.5 * (c + a))) return false;
+  }
+  return true;
+}
+
+void StripMesh::apply(const Exchange& exchange, std::vector<std::uint32_t>& added) {
+  for (const std::uint32_t t : exchange.removed) remove(t);
+  for (const StripTriangle& t : exchange.added) {
+    added.push_back(static_cast<std::uint32_t>(triangles.size()));
+    triangles.push_back(t);
+    is_alive.push_back(0);
+    insert(added.back());
+  }
+}
+
+void StripMesh::revert(const Exchange& exchange, const std::vector<std::uint32_t>& added) {
+  for (const std::uint32_t t : added) remove(t);
+  triangles.resize(triangles.size() - added.size());
+  is_alive.resize(triangles.size());
+  for (const std::uint32_t t : exchange.removed) insert(t);
+}
+
+bool StripMesh::exchange_without_crossing(const Exchange& exchange) {
+  std::vector<std::uint32_t> added;
+  apply(exchange, added);
+  const std::size_t n_new = count_crossings(added);
+  if (n_new == 0) return true;
+  revert(exchange, added);
+  if (count_crossings(exchange.removed) <= n_new) return false;
+  added.clear();
+  apply(exchange, added);
+  return true;
+}
+
+bool StripMesh::flip(std::uint32_t a, std::uint32_t b, double min_gain, double tolerance) {
+  const auto left = triangle_at(a, b), right = triangle_at(b, a);
+  if (!left || !right) return false;
+  const std::uint32_t c = opposite(*left, a, b), d = opposite(*right, a, b);
+  if (c == d || triangle_at(c, d) || triangle_at(d, c)) return false;
+  const StripTriangle &s = triangles[*left], &t = triangles[*right];
+  const Vec3 normal = normalized(s.normal + t.normal);
+  const Exchange exchange{{*left, *right}, {{{a, d, c}, s.region, normal}, {{d, b, c}, s.region, normal}}};
+  const double before = std::min(min_angle(*left), min_angle(*right));
+  const double after = std::min(min_angle(exchange.added[0].v), min_angle(exchange.added[1].v));
+  if (!(after > before + min_gain)) return false;
+  return are_normals_sound(exchange) && is_near_reference(exchange, tolerance) && exchange_without_crossing(exchange);
+}
+
+bool StripMesh::collapse(std::uint32_t from, std::uint32_t to, double least_angle, double longest, double tolerance) {
+  const auto left = triangle_at(from, to), right = triangle_at(to, from);
+  if (!left || !right) return false;
+  // Kept edges: along them, and not beyond the tolerance beside them.
+  const std::vector<std::uint32_t> kept = kept_neighbours(from);
+  if (!kept.empty()) {
+    if (kept.size() != 2 || !contains(kept, to)) return false;
+    const std::uint32_t other = kept[0] == to ? kept[1] : kept[0];
+    if (distance(points[from], nearest_on_segment(points[from], points[to], points[other])) > tolerance) return false;
+  }
+  // The link condition: only the two triangles vanish, the surface stays a closed manifold.
+  const std::vector<std::uint32_t> around_from = neighbours(from), around_to = neighbours(to);
+  std::vector<std::uint32_t> common;
+  std::set_intersection(around_from.begin(), around_from.end(), around_to.begin(), around_to.end(), std::back_inserter(common));
+  if (common.size() != 2 || around_from.size() == 3) return false;
+  Exchange exchange;
+  double before = std::numbers::pi, after = std::numbers::pi, nearest = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t t : star[from]) {
+    exchange.removed.push_back(t);
+    before = std::min(before, min_angle(t));
+    if (t == *left || t == *right) continue;
+    StripTriangle moved = triangles[t];
+    std::replace(moved.v.begin(), moved.v.end(), from, to);
+    after = std::min(after, min_angle(moved.v));
+    const std::array<Vec3, 3> c{points[moved.v[0]], points[moved.v[1]], points[moved.v[2]]};
+    nearest = std::min(nearest, distance(points[from], nearest_on_triangle(points[from], c)));
+    exchange.added.push_back(moved);
+  }
+  if (after < least_angle && after <= before) return false;
+  if (nearest > tolerance) return false;
+  for (const std::uint32_t v : around_from)
+    if (v != to && !contains(around_to, v) && distance(points[v], points[to]) > longest) return false;
+  return are_normals_sound(exchange) && is_near_reference(exchange, tolerance) && exchange_without_crossing(exchange);
+}
+
+std::optional<std::uint32_t> StripMesh::split(std::uint32_t a, std::uint32_t b) {
+  const auto left = triangle_at(a, b), right = triangle_at(b, a);
+  if (!left || !right) return std::nullopt;
+  const auto m = static_cast<std::uint32_t>(points.size());
+  points.push_back(0.5 * (points[a] + points[b]));
+  star.emplace_back();
+  const std::uint32_t c = opposite(*left, a, b), d = opposite(*right, a, b);
+  const StripTriangle &s = triangles[*left], &t = triangles[*right];
+  const Exchange exchange{{*left, *right}, {{{a, m, c}, s.region, s.normal}, {{m, b, c}, s.region, s.normal}, {{b, m, d}, t.region, t.normal}, {{m, a, d}, t.region, t.normal}}};
+  if (are_normals_sound(exchange) && exchange_without_crossing(exchange)) return m;
+  points.pop_back();
+  star.pop_back();
+  return std::nullopt;
+}
+
+bool StripMesh::move(std::uint32_t v, const Vec3& to, double tolerance) {
+  Exchange exchange;
+  exchange.removed = star[v];
+  double before = std::numbers::pi;
+  for (const std::uint32_t t : star[v]) {
+    exchange.added.push_back(triangles[t]);
+    before = std::min(before, min_angle(t));
+  }
+  const Vec3 home = points[v];
+  const std::size_t n_before = count_crossings(exchange.removed);
+  for (const std::uint32_t t : exchange.removed) grid_.remove(t, box_of(t));
+  points[v] = to;
+  for (const std::uint32_t t : exchange.removed) grid_.insert(t, box_of(t));
+  double after = std::numbers::pi;
+  for (const std::uint32_t t : exchange.removed) after = std::min(after, min_angle(t));
+  if (after > before && are_normals_sound(exchange) && is_near_reference(exchange, tolerance) && count_crossings(exchange.removed) <= n_before) return true;
+  for (const std::uint32_t t : exchange.removed) grid_.remove(t, box_of(t));
+  points[v] = home;
+  for (const std::uint32_t t : exchange.removed) grid_.insert(t, box_of(t));
+  return false;
+}
+
+}  // namespace sterna
