@@ -63,10 +63,8 @@ void add_set_option(CLI::App& command, OptionOverrides& overrides) {
 }
 
 /// One --kebab-name for each option of the schema, grouped by stage.
-void add_schema_options(CLI::App& command, OptionOverrides& overrides) {
-  surfmesh::StitchOptions surface;
-  volmesh::VolumeMeshOptions volume;
-  for (const Option& option : all_options(surface, volume)) {
+void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverrides& overrides) {
+  for (const Option& option : table) {
     const std::string name(option.name);
     std::string help = std::string(option.help) + "; " + option.default_text();
     if (const std::string range = option.range_text(); !range.empty()) help += "; " + range;
@@ -105,13 +103,28 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   command->add_option("-o,--output", mesh.outputs, "mesh file: " + io::list_formats_with(io::FormatUse::write_volume) + "; may be given several times")->required()->allow_extra_args(false)->take_all();
   command->add_option("--stats", mesh.stats, "write sizes, times and memory of this run as JSON")->type_name("FILE");
   command->add_option("--stages", mesh.stages, "keep surface, envelope, tetrahedra and mesh in this .sterna file; `sterna mesh case.sterna -o ...` continues behind the last step in it")->type_name("FILE");
-  add_schema_options(*command, mesh.options);
+  surfmesh::StitchOptions surface;
+  volmesh::VolumeMeshOptions volume;
+  add_schema_options(*command, all_options(surface, volume), mesh.options);
   add_set_option(*command, set);
   command->footer("Numbers take units: 2e-6, 0.5mm, 35deg, --unit inch.");
   command->final_callback([&] {
     mesh.options.insert(mesh.options.end(), set.begin(), set.end());
     request.execute = [&](const CommandContext& context) { return execute(mesh, context); };
     request.trouble = beside(mesh.outputs.front());
+  });
+}
+
+void add_union_command(CLI::App& app, UnionCommand& unite, Request& request) {
+  CLI::App* command = app.add_subcommand("union", "unite closed surfaces that stick in each other, or the crossing parts of one file, to one wall");
+  command->add_option("surfaces", unite.inputs, "surface files. `sterna formats` lists what is read")->required();
+  command->add_option("-o,--output", unite.output, "surface file: " + io::list_formats_with(io::FormatUse::write_surface))->required();
+  UnionOptions options;
+  add_schema_options(*command, sterna::options_of(options), unite.options);
+  command->add_option_function<std::string>("--unit", [&unite](const std::string& text) { unite.options.emplace_back("unit", text); }, "length of one unit of the files: mm, inch, 0.5mm ...");
+  command->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(unite, context); };
+    request.trouble = beside(unite.output);
   });
 }
 
@@ -219,6 +232,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   CommonSettings common;
   RunCommand run;
   MeshCommand mesh;
+  UnionCommand unite;
   CheckCommand check;
   InfoCommand info;
   ConvertCommand convert;
@@ -227,6 +241,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_common_options(app, common);
   add_run_command(app, run, request);
   add_mesh_command(app, mesh, set, request);
+  add_union_command(app, unite, request);
   add_check_command(app, check, request);
   add_info_command(app, info, request);
   add_convert_command(app, convert, request);

@@ -228,6 +228,21 @@ int execute(const MeshCommand& command, const CommandContext& context) {
   return k_exit_success;
 }
 
+int execute(const UnionCommand& command, const CommandContext& context) {
+  UnionOptions options;
+  surfmesh::StitchOptions reading;
+  OptionTable table = sterna::options_of(options);
+  table.push_back(find_option(sterna::options_of(reading), "unit", "union"));
+  set_options(table, command.options);
+  std::vector<UnionItem> items;
+  for (const std::string& name : command.inputs) items.emplace_back(InputPath{name, name});
+  const SurfaceValue united = unite_surfaces(items, reading.unit, options, context.run.part("union", 0.0, k_mesh_end));
+  write_surface(united, command.output, context.run.part("write", k_mesh_end, 1.0));
+  context.console.end_progress();
+  context.run.info("wrote " + command.output.string() + ": " + describe(united));
+  return k_exit_success;
+}
+
 int execute(const CheckCommand& command, const CommandContext& context) {
   const MeshValue mesh = read_mesh({command.input, command.input}, context.run.part("read", 0.0, 0.3));
   const CheckReport report = check(mesh.mesh, command.options.to_options(), context.run.part("check", 0.3, 1.0));

@@ -32,6 +32,12 @@ struct MeshCommand {
   std::filesystem::path stages;  ///< .sterna file that keeps the steps of the run; empty: none
 };
 
+struct UnionCommand {
+  std::vector<std::string> inputs;
+  std::filesystem::path output;
+  OptionOverrides options;
+};
+
 struct CheckCommand {
   std::string input;
   bool is_json = false;
@@ -52,6 +58,7 @@ struct ConvertCommand {
 /// Each throws Error; the caller prints it and turns its code into the exit status.
 int execute(const RunCommand& command, const CommandContext& context);
 int execute(const MeshCommand& command, const CommandContext& context);
+int execute(const UnionCommand& command, const CommandContext& context);
 int execute(const CheckCommand& command, const CommandContext& context);
 int execute(const InfoCommand& command, const CommandContext& context);
 int execute(const ConvertCommand& command, const CommandContext& context);

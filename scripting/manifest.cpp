@@ -66,7 +66,11 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
   if (mesh.origin) {
     surfmesh::StitchOptions surface = mesh.origin->surface_options;
     volmesh::VolumeMeshOptions volume = mesh.origin->options;
-    json["options"] = Json::parse(options_to_json(all_options(surface, volume)));
+    OptionTable options = all_options(surface, volume);
+    UnionOptions unite = mesh.origin->union_options.value_or(UnionOptions{});
+    if (mesh.origin->union_options)
+      for (Option& option : sterna::options_of(unite)) options.push_back(std::move(option));
+    json["options"] = Json::parse(options_to_json(options));
     if (!volume.sources.empty()) json["sources"] = sources_json(volume.sources);
   }
   json["patches"] = Json::array();

@@ -267,7 +267,9 @@ struct CloseState {
 void check_overrides(const OptionOverrides& overrides) {
   surfmesh::StitchOptions surface;
   volmesh::VolumeMeshOptions volume;
-  const OptionTable table = all_options(surface, volume);
+  UnionOptions unite;
+  OptionTable table = all_options(surface, volume);
+  for (Option& option : sterna::options_of(unite)) table.push_back(std::move(option));
   for (const auto& [name, text] : overrides) set_option_as_typed(find_option(table, name, "--set " + name), text);
 }
 

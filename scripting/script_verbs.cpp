@@ -32,6 +32,37 @@ ScriptValue read_surface(const ScriptCall& call) {
   return std::make_shared<const SurfaceValue>(read_wall(files, options, call.session.context.part("read_surface", 0.0, 1.0)));
 }
 
+constexpr std::string_view k_union_usage = "union{ body, \"sting.stl\", strip_width = 4 }";
+
+/// "unit" of reading a surface, for files that union reads.
+OptionTable unit_option(surfmesh::StitchOptions& options) {
+  OptionTable schema = sterna::options_of(options);
+  std::erase_if(schema, [](const Option& option) { return option.name != "unit"; });
+  return schema;
+}
+
+ScriptValue unite(const ScriptCall& call) {
+  const ScriptTable table = table_argument(call, 0, k_union_usage);
+  UnionOptions options;
+  surfmesh::StitchOptions reading;
+  const OptionTable schema = sterna::options_of(options), unit = unit_option(reading);
+  TableReader reader(table, call.attempted());
+  std::vector<UnionItem> items;
+  std::size_t number = 0;
+  for (const ScriptValue& item : reader.items()) {
+    ++number;
+    if (const auto* surface = std::get_if<SurfaceHandle>(&item)) items.emplace_back(*surface);
+    else if (const auto* name = std::get_if<std::string>(&item)) items.emplace_back(find_input(call, *name));
+    else reader.add_problem("entry " + std::to_string(number) + ": expected a surface or a file name, not " + std::string(type_text(item)));
+  }
+  if (number == 0) reader.add_problem("needs a surface or a file name");
+  reader.read_options(schema);
+  reader.read_options(unit);
+  apply_overrides(call, schema);
+  reader.finish();
+  return std::make_shared<const SurfaceValue>(unite_surfaces(items, reading.unit, options, call.session.context.part("union", 0.0, 1.0)));
+}
+
 constexpr std::string_view k_read_mesh_usage = "read_mesh \"mesh.su2\"";
 
 ScriptValue read_mesh_file(const ScriptCall& call) {
@@ -201,6 +232,11 @@ std::string surface_help() {
   surfmesh::StitchOptions options;
   return options_help(sterna::options_of(options));
 }
+std::string union_help() {
+  UnionOptions options;
+  surfmesh::StitchOptions reading;
+  return options_help(sterna::options_of(options)) + options_help(unit_option(reading));
+}
 std::string volume_help() {
   volmesh::VolumeMeshOptions options;
   return options_help(volmesh::options_of(options));
@@ -242,8 +278,9 @@ ScriptValue help(const ScriptCall& call) {
   return std::monostate{};
 }
 
-constexpr std::array<ScriptVerb, 5> k_verbs = {{
+constexpr std::array<ScriptVerb, 6> k_verbs = {{
     {"read_surface", k_read_surface_usage, "Reads surface files and joins them to one wall.", read_surface, surface_help, true},
+    {"union", k_union_usage, "Unites closed surfaces that stick in each other, or the crossing parts of one file, to one wall.", unite, union_help, true},
     {"read_mesh", k_read_mesh_usage, "Reads a volume mesh.", read_mesh_file, nullptr, true},
     {"volume_mesh", k_volume_mesh_usage, "Meshes the space around a wall: prism layers on it, tetrahedra to the farfield.", make_mesh, volume_help, true},
     {"sphere", k_sphere_usage, "A spherical farfield, for volume_mesh; with centre and size a source of small tetrahedra.", make_sphere, sphere_help},

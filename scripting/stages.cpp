@@ -162,6 +162,7 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
   value.inputs = wall.inputs;
   value.check = std::move(result.check);
   value.origin = MeshOrigin{.surface_options = wall.options,
+                            .union_options = wall.union_options,
                             .options = options,
                             .layer = std::move(result.layer),
                             .certificate = std::move(result.certificate),

@@ -19,6 +19,8 @@ namespace {
 
 // Shares of read_wall's progress; reading is bound by the disk, stitching by the intersection test.
 constexpr double k_read_end = 0.3;
+/// Of unite_surfaces; cutting and remeshing take most of its time.
+constexpr double k_union_read_end = 0.2;
 
 }  // namespace
 
@@ -42,6 +44,33 @@ SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchO
   // The unit is never silent: a factor of 1000 looks fine until the solver runs.
   context.info(describe(wall) + fmt::format(" (1 unit of the file = {:g} m)", options.unit));
   return wall;
+}
+
+SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const UnionOptions& options, const RunContext& context) {
+  SurfaceValue result;
+  result.options.unit = unit;
+  result.options.check_intersections = false;  // crossings are what union is for; it proves that its result has none
+  result.union_options = options;
+  std::vector<UnionPart> parts;
+  for (const UnionItem& item : items) {
+    SurfaceValue read;
+    if (const auto* file = std::get_if<InputPath>(&item)) {
+      const double n = static_cast<double>(items.size()), i = static_cast<double>(parts.size());
+      read = read_wall(std::span(file, 1), result.options, context.part("read", k_union_read_end * i / n, k_union_read_end * (i + 1) / n));
+    } else {
+      read = *std::get<SurfaceHandle>(item);
+    }
+    parts.push_back({read.inputs.empty() ? "" : std::filesystem::path(read.inputs.front().name).stem().string(), std::move(read.mesh)});
+    for (InputFile& input : read.inputs) result.inputs.push_back(std::move(input));
+  }
+  const StageTimer timer(context, "union");
+  UnionResult united = unite_meshes(parts, options, context.part("union", k_union_read_end, 1.0));
+  result.mesh = std::move(united.mesh);
+  result.report.n_triangles_read = 0;
+  for (const UnionPart& part : parts) result.report.n_triangles_read += static_cast<std::int64_t>(part.mesh.n_triangles());
+  result.report.n_components = united.report.n_components;
+  result.report.messages = std::move(united.report.messages);
+  return result;
 }
 
 MeshValue read_mesh(const InputPath& file, const RunContext& context) {

@@ -6,9 +6,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "geom/base/run_context.h"
+#include "geom/boolean/union_meshes.h"
 #include "geom/mesh/check.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "volmesh/volume_mesh.h"
@@ -27,11 +29,13 @@ struct SurfaceValue {
   surfmesh::StitchReport report;
   surfmesh::StitchOptions options;
   std::vector<InputFile> inputs;
+  std::optional<UnionOptions> union_options = {};  ///< of a surface that union made
 };
 
 /// How a volume mesh was made here; absent for one that was read from a file.
 struct MeshOrigin {
   surfmesh::StitchOptions surface_options;
+  std::optional<UnionOptions> union_options;
   volmesh::VolumeMeshOptions options;
   volmesh::LayerReport layer;
   volmesh::EnvelopeCertificate certificate;
@@ -63,6 +67,11 @@ struct InputPath {
 
 /// Reads the files and joins them to one surface. \throws Error of io and of surfmesh::stitch_surface.
 SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context);
+
+/// What union takes: a surface that was read, or a file, whose closed components may cross each other.
+using UnionItem = std::variant<SurfaceHandle, InputPath>;
+/// Files are read with `unit` (m). Parts have the names of their files. \throws Error of read_wall and of unite_meshes.
+SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const UnionOptions& options, const RunContext& context);
 
 /// Reads a volume mesh. \throws Error of io.
 MeshValue read_mesh(const InputPath& file, const RunContext& context);

@@ -9,6 +9,15 @@ local wall = read_surface{ "data/cessna.msh.gz",
   check_intersections = true,
 }
 
+-- Of one surface alone union only proves that it is a solid; here stand the parts that stick in each other: union{ wall, "sting.stl", unit = mm }.
+wall = union{ wall,
+  remesh = true,                    -- better triangles along the curves in which parts cross
+  strip_width = 4,                  -- so far from the curves, in local edge lengths
+  strip_growth = 1.3,               -- of edge lengths away from the curves
+  deviation = 0.01,                 -- from the input, in local edge lengths
+  keep_cavities = false,            -- hollows that the parts enclose
+}
+
 local mesh = volume_mesh{ wall,
   -- What the layers are asked to be; options can stand here or in the table of their stage, below.
   layers = 30,

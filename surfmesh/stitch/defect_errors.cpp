@@ -274,7 +274,7 @@ void throw_self_intersection(const WorkingSurface& surface, const CrossingPairs&
     if (info.places.size() < k_max_places) info.places.push_back({center(surface, t), facet_name(surface, t) + " has no area"});
     if (!is_shown[t]) add_facet(surface, t, info.geometry);
   }
-  info.hint = n_between > 0 ? "join the bodies with a boolean union in the program that made the file, or move them apart"
+  info.hint = n_between > 0 ? "unite the bodies with `sterna union` (union{...} in a script), or move them apart"
                             : "repair these facets in the program that made the file";
   throw Error(std::move(info));
 }

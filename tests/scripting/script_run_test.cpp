@@ -156,7 +156,10 @@ TEST(ScriptRun, ScriptOfEveryOptionNamesEveryOption) {
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   surfmesh::StitchOptions surface;
   volmesh::VolumeMeshOptions volume;
-  for (const Option& option : all_options(surface, volume)) {
+  UnionOptions unite;
+  OptionTable table = all_options(surface, volume);
+  for (Option& option : sterna::options_of(unite)) table.push_back(std::move(option));
+  for (const Option& option : table) {
     const std::string name(option.name);
     const std::string without_stage = name.starts_with("farfield_") ? name.substr(9) : name;
     EXPECT_NE(text.find(" " + without_stage + " = "), std::string::npos) << name;
