@@ -21,6 +21,8 @@ constexpr int k_sliver_sweeps = 4;
 /// An edge is long beyond this multiple of the local length, short below this share: a split leaves halves that are not short again.
 constexpr double k_long = 1.5;
 constexpr double k_short = 0.6;
+/// Vertices nearer than this share of the input's edges are one: parts meant to share a plane, off by rounding.
+constexpr double k_merge = 1e-3;
 /// rad; a collapse may leave an angle of this size though others were better: 15 degrees.
 constexpr double k_fair_angle = 0.26;
 /// rad; a flip must gain this much, so that equal diagonals are not flipped for ever.
@@ -177,8 +179,11 @@ class StripRemesher {
 
   bool collapse(Vertex from, Vertex to, double least_angle) {
     if (!may_change(from)) return false;
-    const double longest = k_long * std::max(local_[from].longest, local_[to].longest);
-    if (!mesh_.collapse(from, to, least_angle, std::max(longest, longest_around(from)), tolerance(from, to))) return false;
+    const CollapseLimits limits{.least_angle = least_angle,
+                                .longest = std::max(k_long * std::max(local_[from].longest, local_[to].longest), longest_around(from)),
+                                .tolerance = tolerance(from, to),
+                                .merge = k_merge * std::min(local_[from].shortest, local_[to].shortest)};
+    if (!mesh_.collapse(from, to, limits)) return false;
     ++n_collapsed_;
     return true;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 
 #include "geom/base/parallel.h"
 #include "geom/math/intersect.h"
@@ -149,6 +150,9 @@ void find_groups(SolidParts& all) {
   }
 }
 
+/// A component's name without its description.
+std::string short_name(const SolidParts& parts, std::uint32_t solid) { return parts.names[solid].substr(0, parts.names[solid].find(" (")); }
+
 }  // namespace
 
 double volume_of(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles) {
@@ -170,11 +174,15 @@ void add_crossing_places(ErrorInfo& info, const SolidParts& parts, const std::ve
     return std::array<Vec3, 3>{surface.points[v[0]], surface.points[v[1]], surface.points[v[2]]};
   };
   info.n_places = static_cast<std::int64_t>(crossings.size());
+  std::set<std::uint32_t> shown;  // one place for each facet, so that the list does not stay with one
   for (const auto& pair : crossings) {
     const std::uint32_t smaller = parts.facets[pair[0]].length.longest <= parts.facets[pair[1]].length.longest ? pair[0] : pair[1];
     const auto c = corners_of(smaller);
-    if (info.places.size() < k_max_places)
-      info.places.push_back({(c[0] + c[1] + c[2]) / 3.0, parts.names[parts.facets[pair[0]].solid] + " meets " + parts.names[parts.facets[pair[1]].solid]});
+    const std::uint32_t one = parts.facets[pair[0]].solid, other = parts.facets[pair[1]].solid;
+    if (info.places.size() < k_max_places && !shown.contains(pair[0]) && shown.insert(smaller).second) {
+      shown.insert(pair[0]);
+      info.places.push_back({(c[0] + c[1] + c[2]) / 3.0, one == other ? "triangles of " + short_name(parts, one) : short_name(parts, one) + " and " + short_name(parts, other)});
+    }
     if (info.geometry.triangles.size() >= k_max_geometry) break;
     for (const std::uint32_t tag : pair) {
       const auto n = static_cast<std::uint32_t>(info.geometry.points.size());

@@ -150,10 +150,13 @@ void StripMesh::remove(std::uint32_t t) {
   grid_.remove(t, box_of(t));
 }
 
-bool StripMesh::are_normals_sound(const Exchange& exchange) const {
+bool StripMesh::are_normals_sound(const Exchange& exchange, double negligible) const {
   const double least = std::cos(limits_.max_bend);
   for (const StripTriangle& t : exchange.added) {
-    const Vec3 area = area_vector(points[t.v[0]], points[t.v[1]], points[t.v[2]]);
+    const Vec3 &a = points[t.v[0]], &b = points[t.v[1]], &c = points[t.v[2]];
+    const Vec3 area = area_vector(a, b, c);
+    const double longest = std::sqrt(std::max({norm2(b - a), norm2(c - b), norm2(a - c)}));
+    if (2.0 * norm(area) < negligible * longest) continue;
     if (!(dot(area, t.normal) > least * norm(area))) return false;
   }
   return true;
@@ -185,13 +188,14 @@ void StripMesh::revert(const Exchange& exchange, const std::vector<std::uint32_t
   for (const std::uint32_t t : exchange.removed) insert(t);
 }
 
-bool StripMesh::exchange_without_crossing(const Exchange& exchange) {
+bool StripMesh::exchange_without_crossing(const Exchange& exchange, bool may_leave) {
   std::vector<std::uint32_t> added;
   apply(exchange, added);
   const std::size_t n_new = count_crossings(added);
   if (n_new == 0) return true;
   revert(exchange, added);
-  if (count_crossings(exchange.removed) <= n_new) return false;
+  const std::size_t n_old = count_crossings(exchange.removed);
+  if (n_old < n_new || (n_old == n_new && !may_leave)) return false;
   added.clear();
   apply(exchange, added);
   return true;
@@ -211,16 +215,19 @@ bool StripMesh::flip(std::uint32_t a, std::uint32_t b, double min_gain, double t
   return are_normals_sound(exchange) && is_near_reference(exchange, tolerance) && exchange_without_crossing(exchange);
 }
 
-bool StripMesh::collapse(std::uint32_t from, std::uint32_t to, double least_angle, double longest, double tolerance) {
+bool StripMesh::is_way_along_kept_edges(std::uint32_t from, std::uint32_t to, double tolerance) const {
+  const std::vector<std::uint32_t> kept = kept_neighbours(from);
+  if (kept.empty()) return true;
+  if (kept.size() != 2 || !contains(kept, to)) return false;
+  const std::uint32_t other = kept[0] == to ? kept[1] : kept[0];
+  return distance(points[from], nearest_on_segment(points[from], points[to], points[other])) <= tolerance;
+}
+
+bool StripMesh::collapse(std::uint32_t from, std::uint32_t to, const CollapseLimits& limits) {
   const auto left = triangle_at(from, to), right = triangle_at(to, from);
   if (!left || !right) return false;
-  // Kept edges: along them, and not beyond the tolerance beside them.
-  const std::vector<std::uint32_t> kept = kept_neighbours(from);
-  if (!kept.empty()) {
-    if (kept.size() != 2 || !contains(kept, to)) return false;
-    const std::uint32_t other = kept[0] == to ? kept[1] : kept[0];
-    if (distance(points[from], nearest_on_segment(points[from], points[to], points[other])) > tolerance) return false;
-  }
+  const bool is_merge = distance(points[from], points[to]) < limits.merge;
+  if (!is_merge && !is_way_along_kept_edges(from, to, limits.tolerance)) return false;
   // The link condition: only the two triangles vanish, the surface stays a closed manifold.
   const std::vector<std::uint32_t> around_from = neighbours(from), around_to = neighbours(to);
   std::vector<std::uint32_t> common;
@@ -239,11 +246,11 @@ bool StripMesh::collapse(std::uint32_t from, std::uint32_t to, double least_angl
     nearest = std::min(nearest, distance(points[from], nearest_on_triangle(points[from], c)));
     exchange.added.push_back(moved);
   }
-  if (after < least_angle && after <= before) return false;
-  if (nearest > tolerance) return false;
+  if (!is_merge && after < limits.least_angle && after <= before) return false;
+  if (nearest > limits.tolerance) return false;
   for (const std::uint32_t v : around_from)
-    if (v != to && !contains(around_to, v) && distance(points[v], points[to]) > longest) return false;
-  return are_normals_sound(exchange) && is_near_reference(exchange, tolerance) && exchange_without_crossing(exchange);
+    if (v != to && !contains(around_to, v) && distance(points[v], points[to]) > limits.longest) return false;
+  return are_normals_sound(exchange, is_merge ? limits.merge : 0.0) && is_near_reference(exchange, limits.tolerance) && exchange_without_crossing(exchange, is_merge);
 }
 
 std::optional<std::uint32_t> StripMesh::split(std::uint32_t a, std::uint32_t b) {

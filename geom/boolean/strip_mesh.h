@@ -50,6 +50,14 @@ struct StripLimits {
   double max_bend = 0.35;   ///< rad; edges whose input triangles bend by more are kept, and no triangle may turn further from its input
 };
 
+/// What a collapse must respect.
+struct CollapseLimits {
+  double least_angle = 0.0;  ///< rad; no triangle may get a smaller one, unless the worst of those that change gets better
+  double longest = 0.0;      ///< m, of new edges
+  double tolerance = 0.0;    ///< m, from the reference, and of kept lines from where they were
+  double merge = 0.0;        ///< m; two vertices nearer than this are one place: neither kept lines nor angles keep them apart
+};
+
 /// Vertices and triangles are never renumbered; dead ones stay as holes.
 class StripMesh {
  public:
@@ -77,9 +85,8 @@ class StripMesh {
   /// Each changes the mesh and returns true, or leaves it as it was. `tolerance` (m): farthest from the reference.
   /// Puts the other diagonal. \pre the edge is not kept
   bool flip(std::uint32_t a, std::uint32_t b, double min_gain, double tolerance);
-  /// Merges `from` into `to`, where `to` is. A vertex of kept edges moves along them only, one of a corner never. `least_angle`: no triangle may get a smaller angle
-  /// unless the worst of those that change does not get worse; `longest`: longest new edge.
-  bool collapse(std::uint32_t from, std::uint32_t to, double least_angle, double longest, double tolerance);
+  /// Puts `from` where `to` is and joins the two. A vertex of kept edges goes along them only, one of a corner nowhere.
+  bool collapse(std::uint32_t from, std::uint32_t to, const CollapseLimits& limits);
   /// New vertex in the middle of an edge; its number.
   std::optional<std::uint32_t> split(std::uint32_t a, std::uint32_t b);
   /// Moves a vertex without kept edges where that improves the smallest angle around it.
@@ -93,10 +100,13 @@ class StripMesh {
     std::vector<std::uint32_t> removed;
     std::vector<StripTriangle> added;
   };
-  bool are_normals_sound(const Exchange& exchange) const;
+  /// Triangles thinner than `negligible` (m) have no normal.
+  bool are_normals_sound(const Exchange& exchange, double negligible = 0.0) const;
+  /// Whether the kept edges at `from` let it go to `to`.
+  bool is_way_along_kept_edges(std::uint32_t from, std::uint32_t to, double tolerance) const;
   bool is_near_reference(const Exchange& exchange, double tolerance) const;
-  /// Makes it; unmakes it when it brings new crossings.
-  bool exchange_without_crossing(const Exchange& exchange);
+  /// Makes it; unmakes it when it brings new crossings, or leaves as many as there were (`may_leave`: that is enough).
+  bool exchange_without_crossing(const Exchange& exchange, bool may_leave = false);
   void apply(const Exchange& exchange, std::vector<std::uint32_t>& added);
   void revert(const Exchange& exchange, const std::vector<std::uint32_t>& added);
   void insert(std::uint32_t t);
