@@ -4,7 +4,7 @@
 #include "geom/cad/reference_data.h"
 #include "geom/cad/shape.h"
 #include "io/cad_file.h"
-#include "support/data.h"
+#include "tests/support/data.h"
 
 namespace sterna {
 namespace {
