@@ -28,7 +28,19 @@ std::string cut_text(std::string text, std::size_t n) {
 }
 
 /// Names of nodes for the patches; those with triangles and quads leave room for the suffix.
-std::vector<std::string> node_names(const HybridMesh& mesh, const FacesByPatch& faces, const RunContext& context) {
+/// ADF's nodes have names of ASCII: one underscore for each other character.
+std::string ascii_name(std::string_view utf8) {
+  std::string name;
+  for (const char c : utf8) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool continues_character = (byte & 0xC0U) == 0x80U;
+    if (byte < 0x80U) name += c;
+    else if (!continues_character) name += '_';
+  }
+  return name;
+}
+
+std::vector<std::string> node_names(const HybridMesh& mesh, const FacesByPatch& faces, bool is_adf, const RunContext& context) {
   std::set<std::string, std::less<>> taken(k_taken_names.begin(), k_taken_names.end());
   std::vector<std::string> names;
   for (const PatchId patch : mesh.patches.ids()) {
@@ -36,7 +48,7 @@ std::vector<std::string> node_names(const HybridMesh& mesh, const FacesByPatch& 
     if (faces.count(patch) == 0) continue;
     const bool has_both = !faces.triangles(patch).empty() && !faces.quads(patch).empty();
     const std::size_t limit = k_cgns_name - (has_both ? k_quad_suffix.size() : 0);
-    std::string stem = mesh.patches[patch].name;
+    std::string stem = is_adf ? ascii_name(mesh.patches[patch].name) : mesh.patches[patch].name;
     std::replace_if(stem.begin(), stem.end(), [](char c) { return c == '/' || std::iscntrl(static_cast<unsigned char>(c)) != 0; }, '_');
     while (stem.ends_with(' ')) stem.pop_back();
     while (stem.starts_with(' ')) stem.erase(0, 1);
@@ -63,7 +75,7 @@ std::vector<std::string> node_names(const HybridMesh& mesh, const FacesByPatch& 
 class CgnsWriter {
  public:
   CgnsWriter(const HybridMesh& mesh, bool is_adf, CgnsIntegers integers, const std::string& path, const RunContext& context)
-      : mesh_(mesh), cells_(mesh), faces_(mesh), names_(node_names(mesh, faces_, context)), is_adf_(is_adf) {
+      : mesh_(mesh), cells_(mesh), faces_(mesh), names_(node_names(mesh, faces_, is_adf, context)), is_adf_(is_adf) {
     const std::uint64_t n_faces = mesh.boundary_triangles.size() + mesh.boundary_quads.size();
     std::uint64_t largest = std::max<std::uint64_t>(mesh.points.size(), cells_.total() + n_faces);
     for (const CellKind kind : k_kinds_in_file) largest = std::max(largest, cells_.count(kind) * static_cast<std::uint64_t>(n_nodes(kind)));

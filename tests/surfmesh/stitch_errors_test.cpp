@@ -96,7 +96,7 @@ TEST(StitchErrors, CubesThatTouchInAVertexCross) {
   const ErrorInfo info = stitch_error({soup_of(cube()), shifted(soup_of(cube()), {1, 1, 1})});
   EXPECT_EQ(info.code, ErrorCode::self_intersection);
   EXPECT_THAT(info.attempted, HasSubstr("all between different bodies"));
-  EXPECT_THAT(info.hint, HasSubstr("boolean union"));
+  EXPECT_THAT(info.hint, HasSubstr("sterna union"));
 }
 
 TEST(StitchErrors, VertexWithTwoFans) {
