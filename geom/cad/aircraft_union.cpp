@@ -1,0 +1,85 @@
+#include "geom/cad/aircraft_union.h"
+
+#include <algorithm>
+
+#include "geom/model/components.h"
+
+namespace sterna::cad {
+namespace {
+
+constexpr const char* k_attempted = "uniting the components";
+/// Places that an error lists.
+constexpr std::size_t k_listed = 5;
+
+/// Numbers of a model in a part of it; parts number in the order in which they meet things.
+template <class Id, class T>
+class Renumbering {
+ public:
+  Renumbering(const Column<Id, T>& from, Column<Id, T>& to) : from_(from), to_(to), of_(from.size()) {}
+  Id operator()(Id old) {
+    Id& id = of_[old.index()];
+    if (!id.is_valid()) id = to_.push_back(from_[old]);
+    return id;
+  }
+
+ private:
+  const Column<Id, T>& from_;
+  Column<Id, T>& to_;
+  std::vector<Id> of_;
+};
+
+Model part_of(const Model& whole, const ModelSolid& solid) {
+  Model part;
+  part.source_unit = whole.source_unit;
+  Renumbering components(whole.components, part.components);
+  Renumbering corners(whole.corners, part.corners);
+  Renumbering edges(whole.edges, part.edges);
+  ModelSolid own{.name = solid.name, .faces = {}, .is_closed = solid.is_closed};
+  for (const FaceId f : solid.faces) {
+    ModelFace face = whole.faces[f];
+    face.component = components(face.component);
+    for (Border& border : face.borders)
+      for (EdgeUse& use : border) use.edge = edges(use.edge);
+    own.faces.push_back(part.faces.push_back(std::move(face)));
+  }
+  for (ModelEdge& edge : part.edges) {
+    edge.start = corners(edge.start);
+    edge.end = corners(edge.end);
+  }
+  part.solids.push_back(std::move(own));
+  return part;
+}
+
+}  // namespace
+
+std::vector<Model> split_solids(const Model& components) {
+  std::vector<bool> is_loose(components.faces.size(), true);
+  std::vector<Model> parts;
+  for (const ModelSolid& solid : components.solids) {
+    for (const FaceId f : solid.faces) is_loose[f.index()] = false;
+    parts.push_back(part_of(components, solid));
+  }
+  ErrorInfo info{.code = ErrorCode::open_surface, .attempted = k_attempted, .hint = "only closed solids have an inside"};
+  for (const FaceId f : components.faces.ids()) {
+    if (!is_loose[f.index()]) continue;
+    ++info.n_places;
+    const ModelFace& face = components.faces[f];
+    const EdgeUse& use = face.borders.front().front();
+    const Interval range = components.edges[use.edge].range;
+    if (info.places.size() < k_listed) info.places.push_back({face.surface->point(use.parameter->point(0.5 * (range.from + range.to))), "\"" + face.name + "\""});
+  }
+  if (info.n_places == 0) return parts;
+  info.problem = std::to_string(info.n_places) + " faces belong to no solid";
+  throw Error(std::move(info));
+}
+
+UniteResult unite_aircraft(const Model& components, const UniteOptions& options, const RunContext& context) {
+  const std::vector<Model> parts = split_solids(components);
+  return unite(parts, options, context);
+}
+
+UniteResult unite_aircraft(const Aircraft& aircraft, const UniteOptions& options, const RunContext& context) {
+  return unite_aircraft(make_components(aircraft, context), options, context);
+}
+
+}  // namespace sterna::cad

@@ -1,0 +1,112 @@
+// Table of aircraft files: components, how they unite, how long it takes, and what remains of area and volume after a STEP export.
+// usage: aircraft_union [--threads N] [--verbose] [--step FOLDER] FILE ...   (docs/aircraft_union.md holds its output for ../shared/data)
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "geom/cad/aircraft_union.h"
+#include "geom/cad/read_cad.h"
+#include "geom/cad/reference_data.h"
+#include "geom/cad/write_cad.h"
+#include "geom/model/components.h"
+#include "geom/model/cpacs.h"
+#include "geom/model/smx.h"
+
+using namespace sterna;
+
+namespace {
+
+struct Settings {
+  int threads = 0;
+  bool is_verbose = false;
+  double tolerance = k_automatic;
+  std::filesystem::path step_folder;
+};
+
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+double relative_change(double before, double after) { return before == after ? 0.0 : std::abs(after - before) / std::abs(before); }
+
+std::string tries_text(const std::vector<UniteTry>& tries) {
+  std::string text;
+  char number[32];
+  for (const UniteTry& one : tries) {
+    std::snprintf(number, sizeof number, "%s%.3g", text.empty() ? "" : ", ", one.tolerance);
+    text += number;
+  }
+  return text.empty() ? "-" : text;
+}
+
+std::set<std::string> names_of(const Model& model) {
+  std::set<std::string> names;
+  for (const ModelFace& face : model.faces) names.insert(face.name);
+  return names;
+}
+
+void print_row(const std::filesystem::path& path, const Settings& settings) {
+  Stopwatch watch;
+  const std::string file = path.filename().string();
+  const RunContext context({.threads = settings.threads, .log = [&](LogLevel level, std::string_view text) {
+                              if (settings.is_verbose && level != LogLevel::info) std::printf("    %.*s\n", static_cast<int>(text.size()), text.data()), std::fflush(stdout);
+                            }});
+  std::size_t n_components = 0, n_faces = 0;
+  try {
+    const Aircraft aircraft = path.extension() == ".smx" ? read_smx(path, RunContext()).aircraft : read_cpacs(path, RunContext()).aircraft;
+    const Model components = make_components(aircraft, context);
+    n_components = components.solids.size();
+    n_faces = components.faces.size();
+    const double load = watch.lap();
+    const UniteResult united = cad::unite_aircraft(components, {.tolerance = settings.tolerance}, context);
+    const double unite = watch.lap();
+    const ReferenceData before = cad::reference_data(united.model, context);
+    const double measure = watch.lap();
+    const std::string bytes = cad::cad_bytes(united.model, cad::CadFormat::step, file, {}, context);
+    const double write = watch.lap();
+    if (!settings.step_folder.empty()) std::ofstream(settings.step_folder / (path.stem().string() + ".step"), std::ios::binary) << bytes;
+    const CadFile again = cad::read_cad_bytes(bytes, cad::CadFormat::step, file, {}, context);
+    const double read = watch.lap();
+    const ReferenceData after = cad::reference_data(again.model, context);
+    const bool same_names = names_of(united.model) == names_of(again.model);
+    std::printf("| %s | %zu | %zu | %s | %zu | %zu | %zu | %.8g | %.8g | %s, %zu mended | %.1e | %.1e | %s | %.2f | %.2f | %.2f | %.2f | %.2f |\n", file.c_str(), n_components, n_faces, tries_text(united.report.tries).c_str(), united.report.n_bodies,
+                united.model.faces.size(), united.report.doubts.size(), before.total.area, before.total.volume, again.report.is_closed() ? "closed" : "OPEN", again.report.mended.size(), relative_change(before.total.area, after.total.area),
+                relative_change(before.total.volume, after.total.volume), same_names ? "kept" : "LOST", load, unite, measure, write, read);
+    if (settings.is_verbose)
+      for (const ErrorPlace& doubt : united.report.doubts) std::printf("    doubt at %s: %s\n", format_point(doubt.position).c_str(), doubt.what.c_str());
+  } catch (const Error& error) {
+    std::printf("| %s | %zu | %zu | %.2f s | %s |\n", file.c_str(), n_components, n_faces, watch.lap(), error.what());
+  }
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  std::vector<std::filesystem::path> files;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument == "--threads" && i + 1 < argc) settings.threads = std::stoi(argv[++i]);
+    else if (argument == "--tolerance" && i + 1 < argc) settings.tolerance = std::stod(argv[++i]);
+    else if (argument == "--step" && i + 1 < argc) settings.step_folder = argv[++i];
+    else if (argument == "--verbose") settings.is_verbose = true;
+    else files.emplace_back(argument);
+  }
+  std::puts("| file | components | faces | tolerances tried, m | bodies | faces of the union | doubts | area, m^2 | volume, m^3 | STEP again | area differs | volume differs | names | load, s | unite, s | measure, s | write, s | read, s |");
+  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+  for (const std::filesystem::path& file : files) print_row(file, settings);
+}
