@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geom/model/frame.h"
+#include "geom/model/model.h"
 #include "geom/model/nurbs_form.h"
 
 namespace sterna {
@@ -91,6 +92,7 @@ struct InletLip {
 
 struct Body {
   std::string name;
+  ComponentKind kind = ComponentKind::body;  ///< of those with an inlet lip: always a nacelle
   Placement placement;
   bool keeps_straight = false;  ///< longitudinal tangents after Akima: straight parts stay straight; else after Bessel
   bool is_linear = false;       ///< straight between frames (CPACS without guide curves)
@@ -103,6 +105,24 @@ struct Body {
 };
 
 // ---------------------------------------------------------------------------------------------------------------------- wings
+
+/// Trailing edge and leading edge flaps; the whole chord.
+enum class ControlKind { trailing_edge, leading_edge, all_moving };
+std::string_view to_string(ControlKind kind);
+
+/// Part of a wing's surface with a name of its own, behind (before) a border across sections, or all of the chord: where a control surface is.
+struct WingPatch {
+  struct Place {
+    double section = 0.0;  ///< number among all sections from tip to tip (both halves of a symmetric wing); fractions: between two
+    double upper = 1.0;    ///< where the border crosses the upper side: parameter of rows (section_rows.h), 0 trailing edge .. 1 leading edge
+    double lower = 1.0;
+    friend bool operator==(const Place&, const Place&) = default;
+  };
+  std::string name;
+  ControlKind kind = ControlKind::trailing_edge;
+  std::vector<Place> border;  ///< at least 2, ascending sections; straight between them in the parameters of the sides
+  friend bool operator==(const WingPatch&, const WingPatch&) = default;
+};
 
 struct WingSection {
   std::string name;
@@ -138,6 +158,7 @@ struct Wing {
   EndCap right_tip{CapShape::strip, 1.0};
   EndCap left_tip{CapShape::strip, 1.0};  ///< that of the last section when not symmetric
   std::optional<MeshCriterion> criterion;
+  std::vector<WingPatch> patches;  ///< see deflection.h; none overlaps another
   friend bool operator==(const Wing&, const Wing&) = default;
 };
 
@@ -167,11 +188,8 @@ struct CowlNacelle {
 
 // ---------------------------------------------------------------------------------------------------------------------- systems
 
-enum class ControlKind { trailing_edge, leading_edge, all_moving };
-std::string_view to_string(ControlKind kind);
-
 struct HingePoint {
-  double span = 0.0;   ///< of the wing: 0 right tip .. 1 left tip; beyond the ends: over the tip
+  double span = 0.0;   ///< of the wing's length along the middles of its chords: 0 right tip .. 1 left tip; beyond the ends: over the tip
   double chord = 0.0;  ///< fraction from the leading edge
   friend bool operator==(const HingePoint&, const HingePoint&) = default;
 };
@@ -179,8 +197,26 @@ struct ControlSurface {
   std::string name;
   std::string wing;
   ControlKind kind = ControlKind::trailing_edge;
-  std::vector<HingePoint> hinge;  ///< at least 2; segments between them are named <name>Segment0, 1, ... where there are several
+  std::vector<HingePoint> hinge;  ///< at least 2, ascending span; segments between them are named <name>Segment0, 1, ... where there are several
+  bool has_image = false;         ///< a second one on the wing's other half or its mirror image; else the file has that one too
   friend bool operator==(const ControlSurface&, const ControlSurface&) = default;
+};
+
+enum class ControlGap {
+  sealed,  ///< the wing's skin bends
+  open,    ///< a solid of its own behind a slot
+};
+/// What the image of a control surface on the wing's other half (or on the wing's mirror image) does.
+enum class OtherSide { none, same, opposite };
+/// A control surface that is turned; by no angle: a patch with its name.
+struct Deflection {
+  ControlSurface surface;
+  double angle = 0.0;   ///< radians; positive: trailing edge down (leading edge flaps: leading edge down; all-moving: nose up)
+  double fairing = k_automatic_fairing;  ///< sealed: metres along the span over which it returns to the wing beside its ends; must be positive
+  ControlGap gap = ControlGap::sealed;
+  OtherSide other_side = OtherSide::none;  ///< the image is called as make_components calls mirror images ("aileron" -> "aileronLeft")
+  static constexpr double k_automatic_fairing = -1.0;  ///< a tenth of the mean chord at its ends
+  friend bool operator==(const Deflection&, const Deflection&) = default;
 };
 struct ControlParticipation {
   std::string segment;
@@ -232,6 +268,7 @@ struct Aircraft {
   std::vector<Wing> wings;
   std::vector<CowlNacelle> nacelles;
   std::vector<ControlSurface> control_surfaces;
+  std::vector<Deflection> deflections;  ///< of these and of others; a control surface that is not among them gives its name to its patch
   std::vector<Control> controls;
   std::vector<JetEngine> engines;
   std::optional<SumoSettings> sumo;

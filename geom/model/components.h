@@ -22,7 +22,7 @@ struct BodyEnds {
 Model make_body(const Body& body, ComponentKind kind, const BodyEnds& ends = {}, const Transform& map = {});
 
 /// Upper and lower side between every pair of sections (wings that are cubic: between breaks), a trailing edge face where that is blunt, flat or round
-/// tips. Sections whose trailing edges are sharp and blunt in turn are all made sharp. Winglets are made without the blend.
+/// tips; patches cut out of these faces, on the same surfaces. Sections whose trailing edges are sharp and blunt in turn are all made sharp. Winglets are made without the blend.
 Model make_wing(const Wing& wing, const Transform& map = {});
 
 /// Rings of cowls and the center body, a closed solid each. Sections are splined around the axis through points every k_cowl_angles-th of a turn (a circle
@@ -30,7 +30,8 @@ Model make_wing(const Wing& wing, const Transform& map = {});
 Model make_nacelle(const CowlNacelle& nacelle, const Transform& map = {});
 
 /// All components of an aircraft side by side, mirror images included ("RightPod" -> "LeftPod", "pod" -> "podLeft"), each a
-/// solid of its own; not united. Engines name their fan faces and nozzles
+/// solid of its own; not united. Wings with their deflections (deflection.h); control surfaces that are not deflected give their name and the role control
+/// to the part of the skin where they are. Engines name their fan faces and nozzles
 /// <engine>Intake and <engine>Exhaust (numbered where there are several).
 Model make_components(const Aircraft& aircraft, const RunContext& context);
 

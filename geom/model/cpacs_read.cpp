@@ -293,6 +293,7 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
           surface.hinge.push_back({wing.is_symmetric ? 0.5 * along : along, xsi});
         }
         if (is_trailing && surface.hinge[0].chord == 0.0 && surface.hinge[1].chord == 0.0) surface.kind = ControlKind::all_moving;
+        surface.has_image = wing.is_symmetric || wing.has_mirror_image;
         std::sort(surface.hinge.begin(), surface.hinge.end(), [](const HingePoint& a, const HingePoint& b) { return a.span < b.span; });
         reading_.aircraft.control_surfaces.push_back(std::move(surface));
       }

@@ -1,5 +1,5 @@
-// Steps: rows of all sections with their place along the span -> places where a deflection begins, bends or ends -> rows there, between neighbours on
-// the straight panels -> every row turned by the deflections that reach it.
+// Steps: images on the other half -> checks -> places along the span where a deflection begins, bends or ends -> rows there -> every row turned by the
+// deflections that reach it -> patches where the hinge lines cross the rows' sides.
 #include "geom/model/deflection.h"
 
 #include <algorithm>
@@ -8,7 +8,9 @@
 #include <string>
 
 #include "geom/base/error.h"
+#include "geom/model/deform.h"
 #include "geom/model/section_rows.h"
+#include "geom/model/wing_span.h"
 
 namespace sterna {
 namespace {
@@ -27,33 +29,6 @@ constexpr std::size_t k_nose = k_wing_side_points;
   throw Error({.code = code, .attempted = "deflecting '" + d.surface.name + "'", .problem = problem, .hint = hint});
 }
 
-Point middle(const Row& row) { return 0.25 * (row.front() + row.back()) + 0.5 * row[k_nose]; }
-Vec3 chord_of(const Row& row) { return 0.5 * (row.front() + row.back()) - row[k_nose]; }
-
-/// All rows with their place along the span, in [0, 1].
-struct Span {
-  std::vector<Row> rows;
-  std::vector<double> at;
-  double length = 0.0;
-
-  explicit Span(std::vector<Row> all) : rows(std::move(all)), at{0.0} {
-    for (std::size_t i = 1; i < rows.size(); ++i) at.push_back(at.back() + distance(middle(rows[i - 1]), middle(rows[i])));
-    length = at.back();
-    for (double& s : at) s /= length;
-    at.back() = 1.0;
-  }
-  Row row_at(double s) const {
-    const auto above = std::upper_bound(at.begin() + 1, at.end() - 1, s);
-    const auto i = static_cast<std::size_t>(above - at.begin());
-    const double t = std::clamp((s - at[i - 1]) / (at[i] - at[i - 1]), 0.0, 1.0);
-    if (t == 0.0) return rows[i - 1];
-    if (t == 1.0) return rows[i];
-    Row row;
-    for (std::size_t k = 0; k < rows[i].size(); ++k) row.push_back((1.0 - t) * rows[i - 1][k] + t * rows[i][k]);
-    return row;
-  }
-};
-
 double smooth_step(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * t * (10.0 + t * (6.0 * t - 15.0));
@@ -65,11 +40,11 @@ struct Reach {
   double fade;  ///< of the span
 };
 
-Reach reach_of(const Deflection& d, const Span& span) {
+Reach reach_of(const Deflection& d, const WingSpan& span) {
   const double from = std::max(d.surface.hinge.front().span, 0.0), to = std::min(d.surface.hinge.back().span, 1.0);
-  const double chord = 0.5 * (norm(chord_of(span.row_at(from))) + norm(chord_of(span.row_at(to))));
+  const double chord = 0.5 * (norm(chord_vector(span.row(span.place_of(from)))) + norm(chord_vector(span.row(span.place_of(to)))));
   const double fairing = d.fairing == Deflection::k_automatic_fairing ? 0.1 * chord : d.fairing;
-  return {from, to, fairing / span.length};
+  return {from, to, fairing / span.length()};
 }
 
 double hinge_chord(const Deflection& d, double s) {
@@ -88,7 +63,7 @@ struct HingePlace {
   double thickness = 0.0;
 };
 HingePlace hinge_place(const Row& row, double fraction) {
-  const Vec3 chord = chord_of(row);
+  const Vec3 chord = chord_vector(row);
   const auto part = [&](const Point& p) { return dot(p - row[k_nose], chord) / norm2(chord); };
   const auto side = [&](bool is_upper) {
     for (std::size_t k = 0; k < k_nose; ++k) {  // from the trailing edge towards the nose
@@ -112,17 +87,17 @@ void check(const Wing& wing, const std::vector<Deflection>& deflections) {
     for (const HingePoint& h : d.surface.hinge)
       if (!(h.chord >= 0.0 && h.chord <= 1.0)) refuse(ErrorCode::bad_argument, d, "a hinge point lies at " + std::to_string(h.chord) + " of the chord; it must be within 0 and 1");
     if (d.fairing != Deflection::k_automatic_fairing && !(d.fairing > 0.0)) refuse(ErrorCode::bad_argument, d, "its fairing is " + std::to_string(d.fairing) + " m; it must be positive");
-    if (wing.is_cubic) refuse(ErrorCode::unsupported_format, d, "wing '" + wing.name + "' is cubic along its span; only wings that are straight between sections can be bent", "use straight panels between more sections");
   }
 }
 
-void check_overlaps(const std::vector<Deflection>& deflections, const Span& span) {
+void check_overlaps(const std::vector<Deflection>& deflections, const WingSpan& span) {
   for (std::size_t i = 0; i < deflections.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const Deflection &a = deflections[i], &b = deflections[k];
-      if (a.angle == 0.0 || b.angle == 0.0) continue;
       if (a.surface.kind != b.surface.kind && a.surface.kind != ControlKind::all_moving && b.surface.kind != ControlKind::all_moving) continue;
-      const Reach p = reach_of(a, span), q = reach_of(b, span);
+      Reach p = reach_of(a, span), q = reach_of(b, span);
+      for (const auto& [reach, deflection] : {std::pair{&p, &a}, std::pair{&q, &b}})
+        if (deflection->angle == 0.0) *reach = {reach->from + k_same_span, reach->to - k_same_span, 0.0};  // patches may touch
       if (p.from - p.fade < q.to + q.fade && q.from - q.fade < p.to + p.fade)
         refuse(ErrorCode::bad_argument, a, "with its fairings it overlaps '" + b.surface.name + "' along the span: " + std::to_string(p.from - p.fade) + " .. " + std::to_string(p.to + p.fade) + " and " +
                                                std::to_string(q.from - q.fade) + " .. " + std::to_string(q.to + q.fade) + " of it", "give a smaller fairing");
@@ -130,7 +105,7 @@ void check_overlaps(const std::vector<Deflection>& deflections, const Span& span
 }
 
 /// Turns the moving part of a row; points that do not move stay to the bit.
-void turn(Row& row, double s, const Deflection& d, const Span& span) {
+void turn(Row& row, double s, const Deflection& d, const WingSpan& span) {
   const Reach reach = reach_of(d, span);
   const double outside = std::max({reach.from - s, s - reach.to, 0.0});
   const double share = outside >= reach.fade * (1.0 - k_same_span) && outside > 0.0 ? 0.0 : 1.0 - smooth_step(reach.fade > 0.0 ? outside / reach.fade : 0.0);
@@ -140,10 +115,10 @@ void turn(Row& row, double s, const Deflection& d, const Span& span) {
   // The hinge line around here: of the straight part of it that s is on.
   std::size_t i = 0;
   while (i + 2 < d.surface.hinge.size() && s > d.surface.hinge[i + 1].span) ++i;
-  const auto place = [&](const HingePoint& h) { return hinge_place(span.row_at(std::clamp(h.span, 0.0, 1.0)), h.chord).point; };
+  const auto place = [&](const HingePoint& h) { return hinge_place(span.row(span.place_of(std::clamp(h.span, 0.0, 1.0))), h.chord).point; };
   Vec3 axis = normalized(place(d.surface.hinge[i + 1]) - place(d.surface.hinge[i]));
   if (std::abs(axis.y) >= std::abs(axis.z) ? axis.y < 0.0 : axis.z < 0.0) axis = -axis;  // positive about +y (a fin: +z) turns trailing edges down (right)
-  const Vec3 chord = chord_of(row);
+  const Vec3 chord = chord_vector(row);
   const double knee = k_knee * std::max(hinge.thickness / norm(chord), 1e-3);
   const double angle = share * (d.surface.kind == ControlKind::leading_edge ? -d.angle : d.angle);
   const Point nose = row[k_nose];
@@ -157,52 +132,142 @@ void turn(Row& row, double s, const Deflection& d, const Span& span) {
   }
 }
 
-}  // namespace
+/// With the images on the other half of a symmetric wing.
+std::vector<Deflection> with_images(const Wing& wing, const std::vector<Deflection>& deflections) {
+  std::vector<Deflection> all;
+  for (const Deflection& d : deflections) {
+    all.push_back(d);
+    if (!wing.is_symmetric || (d.other_side == OtherSide::none && !d.surface.has_image)) continue;
+    all.push_back(image_of(d));
+    std::vector<HingePoint>& hinge = all.back().surface.hinge;
+    std::reverse(hinge.begin(), hinge.end());
+    for (HingePoint& h : hinge) h.span = 1.0 - h.span;
+  }
+  return all;
+}
 
-Wing deflected(const Wing& wing, const std::vector<Deflection>& deflections) {
-  check(wing, deflections);
-  if (std::all_of(deflections.begin(), deflections.end(), [](const Deflection& d) { return d.angle == 0.0; })) return wing;
-  WingRows made = wing_rows(wing);
-  const Span span(std::move(made.rows));
-  check_overlaps(deflections, span);
-  std::vector<double> places = span.at;
+/// Where the wing gets rows, in fractions of the span, and whether it may have a kink there.
+struct Stop {
+  double at;
+  bool is_break;
+  bool is_own;  ///< a section of the wing
+};
+
+std::vector<Stop> stops_of(const WingSpan& span, const std::vector<Deflection>& deflections) {
+  std::vector<Stop> stops;
+  const std::vector<double> own = span.fractions();
+  for (std::size_t i = 0; i < own.size(); ++i) stops.push_back({own[i], span.made().is_break[i], true});
+  for (std::size_t i = 0; i + 1 < own.size(); ++i)
+    if (!(span.made().is_break[i] && span.made().is_break[i + 1]))
+      for (int k = 1; k < k_cubic_rows; ++k) stops.push_back({span.fraction_of(static_cast<double>(i) + static_cast<double>(k) / k_cubic_rows), false, false});
   for (const Deflection& d : deflections) {
     if (d.angle == 0.0) continue;
     const Reach reach = reach_of(d, span);
     constexpr int k_fade_steps = 4;  // the fade is a quintic: straight pieces of it
     for (int i = 0; i <= k_fade_steps; ++i) {
-      places.push_back(reach.from - reach.fade * i / k_fade_steps);
-      places.push_back(reach.to + reach.fade * i / k_fade_steps);
+      const bool is_break = i == 0 || i == k_fade_steps;
+      stops.push_back({reach.from - reach.fade * i / k_fade_steps, is_break, false});
+      stops.push_back({reach.to + reach.fade * i / k_fade_steps, is_break, false});
     }
-    for (const HingePoint& h : d.surface.hinge) places.push_back(h.span);
+    for (const HingePoint& h : d.surface.hinge) stops.push_back({h.span, true, false});
   }
-  std::erase_if(places, [](double s) { return s < 0.0 || s > 1.0; });
-  std::sort(places.begin(), places.end());
-  // Of places that coincide the sections' own ones stay.
-  std::vector<double> kept;
-  for (const double s : places) {
-    if (!kept.empty() && s - kept.back() <= k_same_span) {
-      if (std::binary_search(span.at.begin(), span.at.end(), s)) kept.back() = s;
+  std::erase_if(stops, [](const Stop& s) { return s.at < 0.0 || s.at > 1.0; });
+  std::stable_sort(stops.begin(), stops.end(), [](const Stop& a, const Stop& b) { return a.at < b.at; });
+  std::vector<Stop> kept;
+  for (const Stop& stop : stops) {
+    if (kept.empty() || stop.at - kept.back().at > k_same_span) {
+      kept.push_back(stop);
       continue;
     }
-    kept.push_back(s);
+    if (stop.is_own) kept.back().at = stop.at;  // of places that coincide the sections' own ones stay
+    kept.back().is_own = kept.back().is_own || stop.is_own;
+    kept.back().is_break = kept.back().is_break || stop.is_break;
   }
+  return kept;
+}
+
+Wing bent_wing(const Wing& wing, const WingSpan& span, const std::vector<Stop>& stops, const std::vector<Deflection>& deflections) {
   Wing bent = wing;
   bent.is_symmetric = false;
   bent.sections.clear();
   if (wing.is_symmetric) bent.left_tip = wing.left_tip;
-  for (const double s : kept) {
-    WingSection section{.name = "at " + std::to_string(s) + " of the span"};
-    section.loop = span.row_at(s);
+  for (const Stop& stop : stops) {
+    WingSection section{.name = "at " + std::to_string(stop.at) + " of the span"};
+    section.loop = span.row(span.place_of(stop.at));
     section.is_row = true;
-    section.is_break = true;
+    section.is_break = stop.is_break;
     for (const Deflection& d : deflections)
-      if (d.angle != 0.0) turn(section.loop, s, d, span);
+      if (d.angle != 0.0) turn(section.loop, stop.at, d, span);
     section.leading_edge = section.loop[k_nose];
-    section.chord = norm(chord_of(section.loop));
+    section.chord = norm(chord_vector(section.loop));
     bent.sections.push_back(std::move(section));
   }
   return bent;
+}
+
+/// The patch of a control surface; places are counted in `stops`, or in the wing's own rows where there are none.
+WingPatch patch_of(const Deflection& d, const WingSpan& span, const std::vector<Stop>& stops) {
+  const Reach reach = reach_of(d, span);
+  std::vector<double> at{reach.from, reach.to};
+  if (stops.empty()) {
+    for (const double s : span.fractions()) at.push_back(s);
+  } else {
+    for (const Stop& stop : stops) at.push_back(stop.at);
+  }
+  for (const HingePoint& h : d.surface.hinge) at.push_back(h.span);
+  std::erase_if(at, [&](double s) { return s < reach.from || s > reach.to; });
+  std::sort(at.begin(), at.end());
+  WingPatch patch{d.surface.name, d.surface.kind, {}};
+  double last = -1.0;
+  for (double s : at) {
+    double place = span.place_of(s);
+    for (std::size_t i = 0; i < stops.size(); ++i) {  // the place of `s` among the stops; those within rounding are the same
+      if (std::abs(s - stops[i].at) <= k_same_span) place = static_cast<double>(i), s = stops[i].at;
+      else if (i > 0 && s > stops[i - 1].at && s < stops[i].at) place = static_cast<double>(i - 1) + (s - stops[i - 1].at) / (stops[i].at - stops[i - 1].at);
+    }
+    if (stops.empty() && std::abs(place - std::round(place)) <= k_same_span) place = std::round(place);
+    if (place <= last) continue;
+    last = place;
+    const RowCrossing crossing = d.surface.kind == ControlKind::all_moving ? RowCrossing{} : row_crossing(span.row(span.place_of(s)), hinge_chord(d, s));
+    patch.border.push_back({place, crossing.upper, crossing.lower});
+  }
+  return patch;
+}
+
+}  // namespace
+
+Deflection image_of(const Deflection& deflection) {
+  Deflection image = deflection;
+  image.surface.name = image_name(deflection.surface.name);
+  image.surface.wing = deflection.surface.wing;
+  if (deflection.other_side != OtherSide::same) image.angle = deflection.other_side == OtherSide::opposite ? -deflection.angle : 0.0;
+  return image;
+}
+
+ControlSurface from_root(const Wing& wing, ControlSurface surface) {
+  if (surface.hinge.size() < 2) throw Error({.code = ErrorCode::bad_argument, .attempted = "placing control surface '" + surface.name + "'", .problem = "it has " + std::to_string(surface.hinge.size()) + " hinge points; at least 2 are needed"});
+  const WingSpan span(wing);
+  const double end = static_cast<double>(span.rows().size() - 1);
+  for (HingePoint& h : surface.hinge) {
+    const double place = span.place_from_root(wing, h.span);
+    // Beyond the ends (over the tip) lengths go on as they are.
+    h.span = place < 0.0 || place > end ? (place < 0.0 ? -1e-3 : 1.0 + 1e-3) : span.fraction_of(place);
+  }
+  std::sort(surface.hinge.begin(), surface.hinge.end(), [](const HingePoint& a, const HingePoint& b) { return a.span < b.span; });
+  return surface;
+}
+
+Wing deflected(const Wing& wing, const std::vector<Deflection>& deflections) {
+  if (deflections.empty()) return wing;
+  const std::vector<Deflection> all = with_images(wing, deflections);
+  check(wing, all);
+  const WingSpan span(wing);
+  check_overlaps(all, span);
+  const bool is_bent = std::any_of(all.begin(), all.end(), [](const Deflection& d) { return d.angle != 0.0; });
+  const std::vector<Stop> stops = is_bent ? stops_of(span, all) : std::vector<Stop>{};
+  Wing result = is_bent ? bent_wing(wing, span, stops, all) : wing;
+  for (const Deflection& d : all) result.patches.push_back(patch_of(d, span, stops));
+  return result;
 }
 
 }  // namespace sterna

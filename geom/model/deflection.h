@@ -1,25 +1,32 @@
-// Deflected control surfaces as geometry: the wing itself is bent behind (or before) its hinge line, without gaps.
+// Deflected control surfaces as geometry.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "geom/model/aircraft.h"
 
 namespace sterna {
 
-struct Deflection {
-  ControlSurface surface;
-  double angle = 0.0;   ///< radians; positive: trailing edge down (leading edge flaps: leading edge down; all-moving: nose up)
-  double fairing = k_automatic_fairing;  ///< metres along the span over which it returns to the wing beside its ends; must be positive
-  static constexpr double k_automatic_fairing = -1.0;  ///< a tenth of the mean chord at its ends
-};
+/// The same control surface with its hinge given from the root: span 0 at the root, 1 at the tip, of the length seen along the flow; chord as ever. The root of a
+/// symmetric wing is its middle (the result lies on the right half); of others the end nearer to y = 0 where they have a mirror image, else the end with the
+/// longer chord. Points may come in any order. \throws Error(bad_argument) for fewer than 2 points
+ControlSurface from_root(const Wing& wing, ControlSurface surface);
 
-/// The wing with sealed, blended control surfaces: between the hinge points every section is turned about the hinge line behind the hinge (before it; all of
-/// it), over a knee as wide as the section is thick there, so upper and lower side stay smooth; beside its ends the deflection fades over `fairing`.
-/// All other points stay (to the bit in sections of the wing, to rounding in those that are added). Deflections of no angle change nothing: then the result equals `wing`.
-/// The result has a section for every place where the shape changes, from tip to tip, and is not symmetric any more.
-/// \throws Error(bad_argument) for surfaces of other wings, hinge points out of order, angles beyond 60 degrees, deflections that overlap along the span on the
-/// same edge; Error(unsupported_format) for wings that are cubic along the span
+/// The wing with sealed, blended control surfaces and with their patches. Between the hinge points every section is turned about the hinge line behind the hinge
+/// (before it; all of it), over a knee as wide as the section is thick there, so upper and lower side stay smooth; beside its ends the deflection fades over
+/// `fairing`, within the wing's own patch. Points that do not turn stay (to the bit in sections of the wing, to rounding in those that are added; of wings that
+/// are cubic along the span: as well as k_cubic_rows rows between two sections say). Of symmetric wings `other_side` adds the image on the other half.
+/// Deflections of no angle only add patches: then the result equals `wing` apart from them; else it has a section for every place where the shape changes, from
+/// tip to tip, and is not symmetric any more.
+/// \throws Error(bad_argument) for surfaces of other wings, hinge points out of order, angles beyond 60 degrees, surfaces that overlap on the same edge (with
+/// their fairings, where they are deflected)
 Wing deflected(const Wing& wing, const std::vector<Deflection>& deflections);
+
+/// The deflection's image: its name as image_name says, its angle as `other_side` says (none: no angle); the hinge as it is.
+Deflection image_of(const Deflection& deflection);
+
+/// Rows between two sections of a cubic wing that is bent.
+inline constexpr int k_cubic_rows = 8;
 
 }  // namespace sterna

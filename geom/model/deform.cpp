@@ -164,6 +164,11 @@ std::string mirrored_name(const std::string& name) {
   return name + " mirrored";
 }
 
+std::string image_name(const std::string& name) {
+  const std::string other = mirrored_name(name);
+  return other.starts_with(name) ? name + "Left" : other;
+}
+
 Model mirrored(const Model& model, const Point& at, const Vec3& normal, const NameRule& rename) {
   Model result = transformed(model, mirroring(at, normal));
   const auto change = [&](std::string& name) {

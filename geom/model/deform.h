@@ -20,6 +20,8 @@ Model transformed(const Model& model, const Transform& transform);
 using NameRule = std::function<std::string(const std::string&)>;
 /// "left wing" -> "right wing", "Starboard" -> "Port" ...; a name without a side gets " mirrored".
 std::string mirrored_name(const std::string& name);
+/// The same for names that become patches of meshes, without blanks: a name without a side gets "Left" ("RightNacelle" -> "LeftNacelle", "pod" -> "podLeft").
+std::string image_name(const std::string& name);
 /// Mirror image in the plane through `at`; empty names stay empty. \throws Error(bad_argument) for a normal without a direction
 Model mirrored(const Model& model, const Point& at, const Vec3& normal, const NameRule& rename = mirrored_name);
 

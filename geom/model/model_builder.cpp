@@ -87,6 +87,15 @@ EdgeId ModelBuilder::straight_edge(CornerId start, CornerId end, std::string nam
   return edge(line, line->domain(), start, end, std::move(name));
 }
 
+SplitCurve ModelBuilder::split_curve(CurvePtr curve, std::vector<double> at, CornerId first, CornerId last, const std::string& name) {
+  SplitCurve split{std::move(curve), std::move(at), {first}, {}};
+  for (std::size_t i = 1; i < split.at.size(); ++i) {
+    split.corners.push_back(i + 1 == split.at.size() ? last : corner(split.curve->point(split.at[i])));
+    split.edges.push_back(edge(split.curve, {split.at[i - 1], split.at[i]}, split.corners[i - 1], split.corners[i], name));
+  }
+  return split;
+}
+
 EdgeId ModelBuilder::pole(CornerId at) { return model_.edges.push_back({.range = {0.0, 1.0}, .start = at, .end = at}); }
 
 EdgeUse ModelBuilder::use_along(const Surface& surface, EdgeId id, Uv from, Uv to, const std::string& what) {
@@ -114,8 +123,14 @@ EdgeUse ModelBuilder::use_along(const Surface& surface, EdgeId id, Uv from, Uv t
 
 FaceId ModelBuilder::patch(SurfacePtr surface, const ParameterBox& box, const std::array<EdgeId, 4>& sides, FaceRole role, const std::string& name) {
   const std::array<Uv, 5> corners{{{box.u.from, box.v.from}, {box.u.to, box.v.from}, {box.u.to, box.v.to}, {box.u.from, box.v.to}, {box.u.from, box.v.from}}};
+  std::vector<Side> around;
+  for (std::size_t i = 0; i < 4; ++i) around.push_back({sides[i], corners[i], corners[i + 1]});
+  return face(std::move(surface), around, role, name);
+}
+
+FaceId ModelBuilder::face(SurfacePtr surface, const std::vector<Side>& sides, FaceRole role, const std::string& name) {
   Border border;
-  for (std::size_t i = 0; i < 4; ++i) border.push_back(use_along(*surface, sides[i], corners[i], corners[i + 1], name + " (" + std::string(to_string(role)) + "), side " + std::to_string(i)));
+  for (std::size_t i = 0; i < sides.size(); ++i) border.push_back(use_along(*surface, sides[i].edge, sides[i].from, sides[i].to, name + " (" + std::string(to_string(role)) + "), side " + std::to_string(i)));
   return model_.faces.push_back({.surface = std::move(surface), .borders = {std::move(border)}, .component = component_, .role = role, .name = name});
 }
 

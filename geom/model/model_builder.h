@@ -14,6 +14,17 @@ namespace sterna {
 CurvePtr line_of_constant_u(const NurbsSurfaceForm& form, double at);
 CurvePtr line_of_constant_v(const NurbsSurfaceForm& form, double at);
 
+/// The curve S(from + t (to - from)), t in [0, 1], exactly: a spline of the sum of both degrees. \pre polynomial form, both points in its domain
+CurvePtr line_on_surface(const NurbsSurfaceForm& form, Uv from, Uv to);
+
+/// A curve cut into edges: edges[i] runs from corners[i] to corners[i + 1], over the parameters at[i] .. at[i + 1].
+struct SplitCurve {
+  CurvePtr curve;
+  std::vector<double> at;
+  std::vector<CornerId> corners;
+  std::vector<EdgeId> edges;
+};
+
 class ModelBuilder {
  public:
   /// All faces that are added belong to this component.
@@ -22,12 +33,21 @@ class ModelBuilder {
   CornerId corner(const Point& point);
   EdgeId edge(CurvePtr curve, Interval range, CornerId start, CornerId end, std::string name = {});
   EdgeId straight_edge(CornerId start, CornerId end, std::string name = {});
+  /// `at` ascends from the start to the end of the edges; corners between the first and the last are made.
+  SplitCurve split_curve(CurvePtr curve, std::vector<double> at, CornerId first, CornerId last, const std::string& name = {});
   /// A pole of a surface.
   EdgeId pole(CornerId at);
 
   /// Face on the part `box` of a surface; edges in the order v = from, u = to, v = to, u = from. The edges' directions are found from their points;
   /// they must run over the sides with proportional parameters (poles: any). \throws Error(internal) naming the side that an edge does not follow
   FaceId patch(SurfacePtr surface, const ParameterBox& box, const std::array<EdgeId, 4>& sides, FaceRole role, const std::string& name);
+  /// One side of a face: an edge that follows the straight line between two places of the parameter plane.
+  struct Side {
+    EdgeId edge;
+    Uv from, to;
+  };
+  /// Face with straight sides in the parameter plane, one after the other, the face on their left. Directions and errors as for patch.
+  FaceId face(SurfacePtr surface, const std::vector<Side>& sides, FaceRole role, const std::string& name);
   /// Face in the plane of its edges, which follow each other around it. \throws Error(bad_argument) when they do not lie in a plane, with the place
   FaceId plane(const std::vector<EdgeId>& border, FaceRole role, const std::string& name, const std::vector<EdgeId>& hole = {});
 

@@ -97,6 +97,29 @@ std::vector<double> airfoil_stations(std::size_t n) {
   return stations;
 }
 
+std::vector<double> row_parameters(std::size_t n) {
+  std::vector<double> parameters = airfoil_stations(n);
+  for (std::size_t k = n; k-- > 0;) parameters.push_back(2.0 - parameters[k]);
+  return parameters;
+}
+
+RowCrossing row_crossing(const std::vector<Point>& row, double fraction) {
+  if (fraction <= 0.0) return {1.0, 1.0};
+  if (fraction >= 1.0) return {0.0, 0.0};
+  const std::size_t n = row.size() / 2;
+  const CurvePtr curve = spline_curve(row, {.tangents = SplineTangents::not_a_knot, .at = row_parameters(n)});
+  const Vec3 chord = 0.5 * (row.front() + row.back()) - row[n];
+  const auto crossing = [&](bool is_upper) {
+    double behind = 0.0, before = 1.0;  // halving: the fraction falls from the trailing to the leading edge
+    for (int i = 0; i < 60; ++i) {
+      const double u = 0.5 * (behind + before);
+      (dot(curve->point(is_upper ? u : 2.0 - u) - row[n], chord) > fraction * norm2(chord) ? behind : before) = u;
+    }
+    return 0.5 * (behind + before);
+  };
+  return {crossing(true), crossing(false)};
+}
+
 std::vector<Point> section_loop(const WingSection& section, const std::optional<double>& trailing_edge) {
   std::vector<Point> loop = section.loop;
   if (loop.empty()) {
@@ -176,12 +199,56 @@ WingRows wing_rows(const Wing& wing) {
   }
   if (!result.is_blunt)
     for (std::vector<Point>& row : result.rows) row.front() = row.back() = 0.5 * (row.front() + row.back());
-  if (wing.is_symmetric)
+  for (const WingSection& section : wing.sections) result.is_break.push_back(section.is_break || !wing.is_cubic);
+  if (wing.is_symmetric) {
+    result.is_break.back() = true;
     for (std::size_t i = wing.sections.size() - 1; i-- > 0;) {
+      result.is_break.push_back(result.is_break[i]);
       result.rows.push_back(result.rows[i]);
       for (Point& p : result.rows.back()) p.y = -p.y;
     }
+  }
+  result.is_break.front() = result.is_break.back() = true;
+  result.is_sampled = std::all_of(wing.sections.begin(), wing.sections.end(), [](const WingSection& s) { return s.is_row; });
   return result;
+}
+
+double WingPanel::v(double place) const {
+  const double local = place - static_cast<double>(first_row), whole = std::floor(local);
+  const auto i = static_cast<std::size_t>(whole);
+  return local == whole ? v_of_row[i] : v_of_row[i] + (local - whole) * (v_of_row[i + 1] - v_of_row[i]);
+}
+
+WingPanel wing_panel(const std::vector<std::vector<Point>>& rows, std::size_t first_row, std::size_t last_row, bool is_sampled) {
+  const std::size_t n = last_row - first_row + 1;
+  PointGrid grid{rows.front().size(), n, {}};
+  for (std::size_t i = 0; i < grid.n_u; ++i)
+    for (std::size_t row = first_row; row <= last_row; ++row) grid.points.push_back(rows[row][i]);
+  const SplineOptions around{.tangents = SplineTangents::not_a_knot, .at = row_parameters(grid.n_u / 2)};
+  WingPanel panel{{}, first_row, {}};
+  if (is_sampled && n >= 4) {
+    for (std::size_t row = first_row; row <= last_row; ++row)
+      panel.v_of_row.push_back(row == first_row ? 0.0 : panel.v_of_row.back() + distance(rows[row - 1].front(), rows[row].front()) + distance(rows[row - 1][grid.n_u / 2], rows[row][grid.n_u / 2]));
+    const double length = panel.v_of_row.back();
+    for (double& v : panel.v_of_row) v /= length;
+    panel.form = spline_surface_form(grid, around, {.tangents = SplineTangents::not_a_knot, .at = panel.v_of_row});
+    return panel;
+  }
+  panel.form = spline_surface_form(grid, around, {.tangents = n == 2 ? SplineTangents::linear : SplineTangents::natural});
+  panel.v_of_row = panel.form.knots_v;  // natural and linear splines have a knot at every row
+  panel.v_of_row.erase(std::unique(panel.v_of_row.begin(), panel.v_of_row.end()), panel.v_of_row.end());
+  return panel;
+}
+
+std::vector<WingPanel> wing_panels(const WingRows& rows) {
+  std::vector<WingPanel> panels;
+  std::size_t from = 0;
+  for (std::size_t i = 1; i < rows.rows.size(); ++i) {
+    if (!rows.is_break[i]) continue;
+    panels.push_back(wing_panel(rows.rows, from, i, rows.is_sampled));
+    from = i;
+  }
+  return panels;
 }
 
 std::vector<Point> frame_row(const BodyFrame& frame, std::size_t m) {

@@ -16,6 +16,15 @@ struct AirfoilRow {
 inline constexpr std::size_t k_wing_side_points = 48;
 /// Fractions of a side from the trailing to the leading edge at which rows have their points: 0 .. 1, closer at the ends (cosine).
 std::vector<double> airfoil_stations(std::size_t n);
+/// Parameters of all points of a row: 0 trailing edge, 1 leading edge, 2 trailing edge again below. Surfaces are splined over them.
+std::vector<double> row_parameters(std::size_t n);
+/// Parameter in [0, 1] of each side where the row's spline lies at a fraction of the chord from the leading edge (0: 1, 1: 0).
+struct RowCrossing {
+  double upper = 1.0;
+  double lower = 1.0;
+};
+RowCrossing row_crossing(const std::vector<Point>& row, double fraction);
+
 /// Sections in component axes. `trailing_edge`: thickness in metres (the sides are turned about the leading edge until it fits), nothing: as it is.
 /// \throws Error(bad_argument) naming the section
 std::vector<Point> section_loop(const WingSection& section, const std::optional<double>& trailing_edge);
@@ -25,9 +34,23 @@ AirfoilRow airfoil_row(const std::vector<Point>& loop, std::size_t n, const std:
 /// (thinner than 1e-6 chord). \throws Error(bad_argument)
 struct WingRows {
   std::vector<std::vector<Point>> rows;
+  std::vector<bool> is_break;  ///< the wing may have a kink at the row; always at the ends
   bool is_blunt = true;
+  bool is_sampled = false;     ///< all rows come from a smooth wing (WingSection::is_row): ends of parts get no end condition of their own
 };
 WingRows wing_rows(const Wing& wing);
+
+/// The wing's skin between the rows of two neighbouring breaks: u as row_parameters, v along the span.
+struct WingPanel {
+  NurbsSurfaceForm form;
+  std::size_t first_row = 0;
+  std::vector<double> v_of_row;  ///< of first_row and those that follow
+  /// v of a place that is counted in rows from tip to tip: 2.5 half way between rows 2 and 3.
+  double v(double place) const;
+};
+WingPanel wing_panel(const std::vector<std::vector<Point>>& rows, std::size_t first_row, std::size_t last_row, bool is_sampled);
+/// One for each part between breaks, in order.
+std::vector<WingPanel> wing_panels(const WingRows& rows);
 
 /// Points of a frame in component axes: 2 m + 1, from the bottom over the right side to the top (index m) and back on the left; the last repeats the
 /// first. All equal where the frame is a point. \throws Error(bad_argument, unsupported_format) naming the frame

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/model/airfoil.h"
 #include "geom/model/analytic_surfaces.h"
 #include "geom/model/curves.h"
 #include "geom/model/model_builder.h"
@@ -75,17 +76,10 @@ class DuctBuilder {
   std::vector<std::array<EdgeId, 4>> rings_;
 };
 
-/// Symmetric section of NACA's 4-digit thickness form, closed trailing edge: 5 t (0.2969 sqrt x - 0.126 x - 0.3516 x2 + 0.2843 x3 - 0.1036 x4).
+/// NACA's symmetric 4-digit section of any thickness, closed at the trailing edge: its heights are proportional to the thickness.
 std::vector<Uv> symmetric_section(double thickness) {
-  constexpr int k_points = 40;
-  std::vector<Uv> points;
-  const auto half = [&](double x) { return 5.0 * thickness * (0.2969 * std::sqrt(x) + x * (-0.126 + x * (-0.3516 + x * (0.2843 - 0.1036 * x)))); };
-  for (int i = 0; i <= 2 * k_points; ++i) {
-    const double x = 0.5 + 0.5 * std::cos(std::numbers::pi * i / k_points);
-    const double y = i == 0 || i == 2 * k_points ? 0.0 : half(x);
-    points.push_back({x, i <= k_points ? y : -y});
-  }
-  points[k_points] = {0.0, 0.0};
+  std::vector<Uv> points = with_trailing_edge(naca_airfoil("0010", 40), 0.0).points;
+  for (Uv& p : points) p.v *= thickness / 0.1;
   return points;
 }
 

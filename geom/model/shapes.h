@@ -1,7 +1,8 @@
-// Parametric shapes with named options: boxes, cylinders, test sections, and the bodies and wings that nacelles and pylons are.
+// Parametric shapes with named options: boxes, cylinders, test sections, and the bodies and wings that nacelles, pylons, booms, fairings and stings are.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "geom/base/schema.h"
 #include "geom/model/aircraft.h"
@@ -99,5 +100,73 @@ struct Schema<PylonOptions> {
 };
 /// \throws Error(bad_argument) when the nacelle does not stand within the wing's span
 Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, const PylonOptions& options);
+
+/// Where a body stands whose axis leads from a point towards another; no roll. \throws Error(bad_argument) when they coincide
+Placement placement_along(const Point& from, const Point& to);
+
+/// Body of circular sections through profile points: u = x along the axis of `placement`, v = radius; ascending x, radius 0 (a point) only at the ends, which
+/// are flat where it is not. Smooth (Bessel), or straight between the points. \throws Error(bad_argument) naming the point
+Body body_of_revolution(const std::string& name, const Placement& placement, const std::vector<Uv>& profile, bool is_straight = false, ComponentKind kind = ComponentKind::body);
+
+/// Round tube between two points with half-elliptic ends within its length.
+struct BoomOptions {
+  double diameter = k_automatic;
+  double nose_length = k_automatic;
+  double tail_length = k_automatic;
+};
+template <>
+struct Schema<BoomOptions> {
+  using O = BoomOptions;
+  static constexpr std::string_view stage = "boom";
+  static constexpr std::array fields = {
+      Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "of the tube", .required = true},
+      Field<O>{.name = "nose_length", .member = &O::nose_length, .unit = Unit::metre, .min = 0.0, .help = "of the rounded front end; 0 = flat", .automatic = "one diameter"},
+      Field<O>{.name = "tail_length", .member = &O::tail_length, .unit = Unit::metre, .min = 0.0, .help = "of the rounded rear end; 0 = flat", .automatic = "two diameters"},
+  };
+};
+/// \throws Error(bad_argument) when both ends together are not shorter than the boom
+Body boom_body(const std::string& name, const Point& from, const Point& to, const BoomOptions& options);
+
+/// Streamlined body of superelliptic sections, pointed behind, round in front; its front stands at `position`.
+struct FairingOptions {
+  double length = k_automatic;
+  double width = k_automatic;
+  double height = k_automatic;
+  double thickest = 0.4;
+  double exponent = 2.5;
+};
+template <>
+struct Schema<FairingOptions> {
+  using O = FairingOptions;
+  static constexpr std::string_view stage = "fairing";
+  static constexpr std::array fields = {
+      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-9, .help = "along x", .required = true},
+      Field<O>{.name = "width", .member = &O::width, .unit = Unit::metre, .min = 1e-9, .help = "along y, of the largest section", .required = true},
+      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 1e-9, .help = "along z, of the largest section", .required = true},
+      Field<O>{.name = "thickest", .member = &O::thickest, .min = 0.1, .max = 0.8, .help = "where the largest section is, of the length"},
+      Field<O>{.name = "exponent", .member = &O::exponent, .min = 1.2, .max = 8.0, .help = "of the sections: 2 = ellipses, larger = nearer to rectangles"},
+  };
+};
+/// \throws Error(bad_argument)
+Body fairing_body(const std::string& name, const Point& position, const FairingOptions& options);
+
+/// Sting of a wind-tunnel model: a cylinder from within the model, then a cone; both ends flat.
+struct StingOptions {
+  double diameter = k_automatic;
+  double cone_start = k_automatic;
+  double end_diameter = k_automatic;
+};
+template <>
+struct Schema<StingOptions> {
+  using O = StingOptions;
+  static constexpr std::string_view stage = "sting";
+  static constexpr std::array fields = {
+      Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "of the cylinder", .required = true},
+      Field<O>{.name = "cone_start", .member = &O::cone_start, .unit = Unit::metre, .min = 0.0, .help = "distance of the cone from the front end; 0 = all of it is a cone", .automatic = "no cone"},
+      Field<O>{.name = "end_diameter", .member = &O::end_diameter, .unit = Unit::metre, .min = 1e-9, .help = "of the rear end", .automatic = "that of the cylinder"},
+  };
+};
+/// \throws Error(bad_argument)
+Body sting_body(const std::string& name, const Point& from, const Point& to, const StingOptions& options);
 
 }  // namespace sterna

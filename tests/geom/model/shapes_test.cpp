@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/cad/shape.h"
 #include "geom/model/components.h"
 #include "geom/model/model_measures.h"
 
@@ -95,6 +96,69 @@ TEST(Shapes, nacelle_and_pylon_join_a_wing) {
   expect_closed(solid);
   EXPECT_EQ(solid.components[ComponentId(0)].kind, ComponentKind::pylon);
   EXPECT_THROW(pylon_wing("pylon", wing, nacelle_body("far", {0.0, 50.0, 0.0}, n), {}), Error);
+}
+
+double volume_of(const Model& model) { return solid_measures(model, SolidId(0)).volume; }
+
+Model valid(const Body& body) {
+  const Model model = make_body(body, body.kind);
+  expect_closed(model);
+  for (const ErrorPlace& fault : cad::faults_of(*cad::shape_of(model, RunContext()))) ADD_FAILURE() << body.name << ": " << fault.what;
+  return model;
+}
+
+TEST(Shapes, a_boom_is_a_tube_with_half_ellipsoids) {
+  BoomOptions o;
+  o.diameter = 0.4;
+  for (const Point& to : {Point{5.0, 0.0, 0.0}, Point{3.0, 4.0, 0.0}, Point{0.0, 0.0, -5.0}, Point{-3.0, 0.0, 4.0}}) {
+    const Model boom = valid(boom_body("boom", {0.0, 0.0, 0.0}, to, o));
+    EXPECT_NEAR(volume_of(boom), pi * 0.04 * (5.0 - 1.2) + 2.0 / 3.0 * pi * 0.04 * (0.4 + 0.8), 1e-5);
+    EXPECT_EQ(boom.components[ComponentId(0)].kind, ComponentKind::boom);
+    double farthest = 0.0;
+    for (const ModelCorner& corner : boom.corners) farthest = std::max(farthest, dot(corner.point, to) / 5.0);
+    EXPECT_NEAR(farthest, 5.0, 1e-5);  // it ends where it was told to, as well as a spline is round
+  }
+  EXPECT_THROW(boom_body("short", {0, 0, 0}, {1, 0, 0}, o), Error);
+  EXPECT_THROW(boom_body("none", {0, 0, 0}, {0, 0, 0}, o), Error);
+}
+
+TEST(Shapes, a_body_of_revolution_has_the_volume_of_its_profile) {
+  // A cone and a cylinder are exact; a smooth profile r = 0.3 sin(pi x / 4) has pi 0.09 / 2 * 4.
+  EXPECT_NEAR(volume_of(valid(body_of_revolution("b", {}, {{0.0, 0.0}, {1.0, 0.5}, {3.0, 0.5}}, true))), pi * 0.25 * (1.0 / 3.0 + 2.0), 1e-5);
+  std::vector<Uv> profile;
+  for (int i = 0; i <= 24; ++i) profile.push_back({i / 6.0, i == 0 || i == 24 ? 0.0 : 0.3 * std::sin(pi * i / 24.0)});
+  EXPECT_NEAR(volume_of(valid(body_of_revolution("s", {}, profile))), pi * 0.09 * 2.0, 2e-3 * pi * 0.09 * 2.0);
+  for (const std::vector<Uv>& bad : {std::vector<Uv>{{0.0, 1.0}}, {{0.0, 1.0}, {1.0, 0.0}, {2.0, 1.0}}, {{0.0, 1.0}, {0.0, 2.0}}, {{0.0, -1.0}, {1.0, 1.0}}})
+    EXPECT_THROW(body_of_revolution("bad", {}, bad), Error);
+}
+
+TEST(Shapes, a_fairing_fills_its_box) {
+  FairingOptions o;
+  o.length = 6.0;
+  o.width = 2.0;
+  o.height = 1.0;
+  o.exponent = 2.0;
+  // Ellipses: half an ellipsoid in front, and pi / 4 w h (1 - t2)^2 behind: 8 / 15 of the cylinder.
+  const Model model = valid(fairing_body("belly", {1.0, 0.0, -1.0}, o));
+  EXPECT_NEAR(volume_of(model), pi / 4 * 2.0 * (0.4 * 6.0 * 2.0 / 3.0 + 0.6 * 6.0 * 8.0 / 15.0), 0.01);
+  EXPECT_EQ(model.components[ComponentId(0)].kind, ComponentKind::fairing);
+  o.exponent = 4.0;
+  EXPECT_GT(volume_of(valid(fairing_body("belly", {1.0, 0.0, -1.0}, o))), 1.1 * volume_of(model));
+}
+
+TEST(Shapes, a_sting_is_cylinder_and_cone_with_flat_ends) {
+  StingOptions o;
+  o.diameter = 0.1;
+  EXPECT_NEAR(volume_of(valid(sting_body("sting", {1.0, 0.0, 0.0}, {3.0, 0.0, 0.5}, o))), pi * 0.0025 * std::hypot(2.0, 0.5), 1e-7);
+  o.cone_start = 1.0;
+  o.end_diameter = 0.2;
+  const Model model = valid(sting_body("sting", {1.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, o));
+  EXPECT_NEAR(volume_of(model), pi * (0.0025 + 2.0 / 3.0 * (0.0025 + 0.005 + 0.01)), 1e-6);
+  int n_tails = 0;
+  for (const ModelFace& face : model.faces) n_tails += face.role == FaceRole::tail;
+  EXPECT_EQ(n_tails, 1);
+  o.cone_start = 5.0;
+  EXPECT_THROW(sting_body("sting", {1.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, o), Error);
 }
 
 }  // namespace
