@@ -19,6 +19,9 @@ namespace {
 constexpr double k_max_angle = std::numbers::pi / 3.0;
 /// Places along the span nearer than this part of it are one.
 constexpr double k_same_span = 1e-9;
+/// Hinge points nearer than this part of the span to a section, a tip or another surface's hinge point are meant to be there: files say them with few digits,
+/// and slivers between are of no use.
+constexpr double k_snap = 1e-4;
 /// Half width of the knee, in thicknesses of the section at the hinge; a turn by 60 degrees needs 0.5 not to fold.
 constexpr double k_knee = 1.0;
 
@@ -146,6 +149,17 @@ std::vector<Deflection> with_images(const Wing& wing, const std::vector<Deflecti
   return all;
 }
 
+/// Hinge points moved to the sections and to each other where they are meant to be.
+void snap(std::vector<Deflection>& deflections, const WingSpan& span) {
+  std::vector<double> targets = span.fractions();
+  for (Deflection& d : deflections)
+    for (HingePoint& h : d.surface.hinge) {
+      const auto nearest = std::min_element(targets.begin(), targets.end(), [&](double a, double b) { return std::abs(a - h.span) < std::abs(b - h.span); });
+      if (std::abs(*nearest - h.span) <= k_snap) h.span = *nearest;
+      else if (h.span > 0.0 && h.span < 1.0) targets.push_back(h.span);
+    }
+}
+
 /// Where the wing gets rows, in fractions of the span, and whether it may have a kink there.
 struct Stop {
   double at;
@@ -259,9 +273,11 @@ ControlSurface from_root(const Wing& wing, ControlSurface surface) {
 
 Wing deflected(const Wing& wing, const std::vector<Deflection>& deflections) {
   if (deflections.empty()) return wing;
-  const std::vector<Deflection> all = with_images(wing, deflections);
+  std::vector<Deflection> all = with_images(wing, deflections);
   check(wing, all);
   const WingSpan span(wing);
+  snap(all, span);
+  check(wing, all);
   check_overlaps(all, span);
   const bool is_bent = std::any_of(all.begin(), all.end(), [](const Deflection& d) { return d.angle != 0.0; });
   const std::vector<Stop> stops = is_bent ? stops_of(span, all) : std::vector<Stop>{};

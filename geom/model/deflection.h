@@ -16,7 +16,8 @@ ControlSurface from_root(const Wing& wing, ControlSurface surface);
 /// The wing with sealed, blended control surfaces and with their patches. Between the hinge points every section is turned about the hinge line behind the hinge
 /// (before it; all of it), over a knee as wide as the section is thick there, so upper and lower side stay smooth; beside its ends the deflection fades over
 /// `fairing`, within the wing's own patch. Points that do not turn stay (to the bit in sections of the wing, to rounding in those that are added; of wings that
-/// are cubic along the span: as well as k_cubic_rows rows between two sections say). Of symmetric wings `other_side` adds the image on the other half.
+/// are cubic along the span: as well as k_cubic_rows rows between two sections say). Hinge points within 1e-4 of the span of a
+/// section or of another surface's end are moved there. Of symmetric wings `other_side` adds the image on the other half.
 /// Deflections of no angle only add patches: then the result equals `wing` apart from them; else it has a section for every place where the shape changes, from
 /// tip to tip, and is not symmetric any more.
 /// \throws Error(bad_argument) for surfaces of other wings, hinge points out of order, angles beyond 60 degrees, surfaces that overlap on the same edge (with

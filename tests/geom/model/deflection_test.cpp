@@ -91,6 +91,19 @@ TEST(Deflection, no_angle_names_patches_of_the_same_wing) {
     }
 }
 
+TEST(Deflection, ends_near_a_section_are_there) {
+  Wing wing = straight_wing();
+  wing.sections.insert(wing.sections.begin() + 1, wing.sections[1]);
+  wing.sections[1].leading_edge = {0.0, 3.0, 0.0};
+  for (const ControlKind kind : {ControlKind::trailing_edge, ControlKind::all_moving}) {
+    const Wing named = deflected(wing, {{flap(0.25 - 3e-5, 0.5 + 1e-7, 0.7, kind)}});
+    EXPECT_EQ(named.patches.at(0).border.front().section, 1.0);
+    EXPECT_EQ(named.patches[0].border.back().section, 2.0);
+    const Model model = make_wing(named);
+    for (const FaceId f : model.faces.ids()) EXPECT_GT(face_measures(model, f).area, 0.02);
+  }
+}
+
 TEST(Deflection, a_patch_covers_its_part_of_the_planform) {
   const Model model = make_wing(deflected(straight_wing(), {{flap(0.1, 0.3, 0.7)}}));
   double area = 0.0;  // of the upper side, seen from above
