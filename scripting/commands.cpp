@@ -9,8 +9,8 @@
 #include <numbers>
 
 #include "geom/base/error.h"
-#include "geom/cad/reference_data.h"
 #include "geom/mesh/check.h"
+#include "geom/model/model_measures.h"
 #include "io/atomic_file.h"
 #include "io/cad_file.h"
 #include "io/format_table.h"
@@ -184,7 +184,7 @@ int print_cad_info(const InfoCommand& command, double unit, const CommandContext
   ReadCadOptions options;
   if (command.unit != InfoCommand{}.unit) options.unit = unit;
   const CadFile file = io::read_cad(command.input, options, context.run.part("read", 0.0, 0.8));
-  const ReferenceData data = cad::reference_data(file.model, context.run.part("measure", 0.8, 1.0));
+  const ModelMeasures data = model_measures(file.model, context.run.part("measure", 0.8, 1.0));
   context.console.print(command.input + ": " + to_text(file.report));
   context.console.print("  total    " + measures_text(data.total));
   for (const BodyMeasures& solid : data.solids) context.console.print(fmt::format("  solid    \"{}\", {}: {}", solid.name, solid.has_volume ? "closed" : "open", measures_text(solid)));

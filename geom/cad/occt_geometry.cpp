@@ -336,6 +336,13 @@ SurfacePtr surface_of(const Handle(Geom_Surface)& surface, const ParameterBox& b
       if (is_periodic_v) spline->SetVNotPeriodic();
     }
     NurbsSurfaceForm form = form_of(*spline);
+    if (!is_clamped(form.knots_u, form.degree_u) || !is_clamped(form.knots_v, form.degree_v)) {
+      spline = Handle(Geom_BSplineSurface)::DownCast(spline->Copy());
+      double u1 = 0.0, u2 = 0.0, v1 = 0.0, v2 = 0.0;
+      spline->Bounds(u1, u2, v1, v2);
+      spline->Segment(u1, u2, v1, v2);  // inserts the end knots that are missing
+      form = form_of(*spline);
+    }
     if (is_clamped(form.knots_u, form.degree_u) && is_clamped(form.knots_v, form.degree_v)) return std::make_shared<NurbsSurface>(std::move(form), is_periodic_u, is_periodic_v);
   }
   return std::make_shared<OcctSurface>(surface, box);
@@ -378,7 +385,13 @@ static Handle(Geom_Surface) analytic_of(const Surface& surface) {
   if (const auto* round = dynamic_cast<const CylinderSurface*>(&surface)) return new Geom_CylindricalSurface(axes_of(round->frame()), round->radius());
   if (const auto* round = dynamic_cast<const ConeSurface*>(&surface)) return new Geom_ConicalSurface(axes_of(round->frame()), round->half_angle(), round->radius());
   if (const auto* round = dynamic_cast<const SphereSurface*>(&surface)) return new Geom_SphericalSurface(axes_of(round->frame()), round->radius());
-  if (const auto* round = dynamic_cast<const TorusSurface*>(&surface)) return new Geom_ToroidalSurface(axes_of(round->frame()), round->major_radius(), round->minor_radius());
+  if (const auto* round = dynamic_cast<const TorusSurface*>(&surface)) {
+    const Frame& f = round->frame();
+    if (round->major_radius() >= round->minor_radius()) return new Geom_ToroidalSurface(axes_of(f), round->major_radius(), round->minor_radius());
+    // A spindle: as a torus OpenCASCADE's STEP writer would approximate it; the revolved circle has the same parameters.
+    const gp_Ax2 circle(to_gp(f.origin + round->major_radius() * f.x), to_dir(cross(f.x, f.z)), to_dir(f.x));
+    return new Geom_SurfaceOfRevolution(new Geom_Circle(circle, round->minor_radius()), gp_Ax1(to_gp(f.origin), to_dir(cross(f.x, f.y))));
+  }
   if (const auto* swept = dynamic_cast<const RevolutionSurface*>(&surface)) {
     const Handle(Geom_Curve) profile = geom_of(*swept->profile());
     if (!profile.IsNull()) return new Geom_SurfaceOfRevolution(profile, gp_Ax1(to_gp(swept->axis_point()), to_dir(swept->axis())));

@@ -3,6 +3,8 @@
 
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepTools.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom_ToroidalSurface.hxx>
 #include <IGESCAFControl_Writer.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESData_IGESModel.hxx>
@@ -23,6 +25,7 @@
 #include <XCAFDoc_ShapeTool.hxx>
 #include <XSControl_WorkSession.hxx>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -36,10 +39,12 @@ namespace {
 constexpr const char* k_step_date = "1970-01-01T00:00:00";
 constexpr const char* k_iges_date = "19700101.000000";
 
-bool has_placements(const CadShape::Content& content) {
-  for (const TopoDS_Face& face : content.faces)
-    if (!face.Location().IsIdentity()) return true;
-  return false;
+/// Documents would take placed shapes for instances of an assembly; a spindle torus would be approximated.
+bool needs_own_shape(const CadShape::Content& content) {
+  return std::any_of(content.faces.begin(), content.faces.end(), [](const TopoDS_Face& face) {
+    const Handle(Geom_ToroidalSurface) torus = Handle(Geom_ToroidalSurface)::DownCast(BRep_Tool::Surface(face));
+    return !face.Location().IsIdentity() || (!torus.IsNull() && torus->MajorRadius() < torus->MinorRadius());
+  });
 }
 
 TCollection_ExtendedString extended(const std::string& text) { return TCollection_ExtendedString(text.c_str(), true); }
@@ -143,7 +148,7 @@ std::string iges_bytes(const Handle(TDocStd_Document) & document, const std::str
 
 std::string cad_bytes(const Model& model, CadFormat format, const std::string& name, const WriteCadOptions& options, const RunContext& context) {
   std::shared_ptr<const CadShape> shape = shape_of(model, context);
-  if (has_placements(shape->content())) {  // documents would take placed shapes for instances of an assembly
+  if (needs_own_shape(shape->content())) {
     Model bare = model;
     bare.shape.reset();
     shape = shape_of(bare, context);

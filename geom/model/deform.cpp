@@ -58,12 +58,12 @@ std::vector<double> samples_of(Interval range, std::vector<double> stops) {
 }
 
 /// The parameters that a face uses: the box of its outer border, as far as samples of it tell.
-ParameterBox used_box(const ModelFace& face) {
+ParameterBox used_box(const Model& model, const ModelFace& face) {
   if (face.borders.empty() || face.borders.front().empty()) return face.surface->domain();
   constexpr int k_border_samples = 16;
   Uv low{1e300, 1e300}, high{-1e300, -1e300};
   for (const EdgeUse& use : face.borders.front()) {
-    const Interval range = use.parameter->domain();
+    const Interval range = model.edges[use.edge].range;  // the parameter curve may go on beyond it
     for (int i = 0; i <= k_border_samples; ++i) {
       const Uv p = use.parameter->point(range.from + range.length() * i / k_border_samples);
       low = {std::min(low.u, p.u), std::min(low.v, p.v)};
@@ -85,8 +85,8 @@ std::vector<double> inside(const std::vector<double>& breaks, Interval range) {
   return result;
 }
 
-FaceStretch measure(const ModelFace& face, const SpaceMap& map) {
-  const ParameterBox box = used_box(face);
+FaceStretch measure(const Model& model, const ModelFace& face, const SpaceMap& map) {
+  const ParameterBox box = used_box(model, face);
   FaceStretch result;
   for (const double u : samples_of(box.u, inside(face.surface->breaks_u(), box.u))) {
     for (const double v : samples_of(box.v, inside(face.surface->breaks_v(), box.v))) {
@@ -102,7 +102,7 @@ FaceStretch measure(const ModelFace& face, const SpaceMap& map) {
 /// Refuses a map that folds space over on the model's faces; returns the largest stretching.
 double check_fold_over(const Model& model, const SpaceMap& map, const RunContext& context) {
   std::vector<FaceStretch> faces(model.faces.size());
-  parallel_for(context, faces.size(), [&](std::size_t f) { faces[f] = measure(model.faces.raw()[f], map); }, 1);
+  parallel_for(context, faces.size(), [&](std::size_t f) { faces[f] = measure(model, model.faces.raw()[f], map); }, 1);
   double stretch = 0.0;
   struct Fold {
     double determinant;

@@ -1,127 +1,122 @@
-// Integral over a trimmed face: by Green's theorem that of g(u, v) over the face is the border integral of G dv, G(u, v) = integral of g from a fixed u
-// to u. Each border piece between knots of v, and each inner integral between knots of u, has a Gauss rule of its own.
 #include "geom/model/model_measures.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
+
+#include "geom/base/parallel.h"
+#include "geom/model/face_quadrature.h"
 
 namespace sterna {
 namespace {
 
-/// Gauss-Legendre on [0, 1], exact to degree 9.
-constexpr std::array<double, 5> k_nodes = {0.046910077030668004, 0.23076534494715845, 0.5, 0.7692346550528415, 0.95308992296933200};
-constexpr std::array<double, 5> k_weights = {0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454};
-/// Pieces of a direction without knots: surfaces of sines and cosines are integrated to 1e-12 by so many.
-constexpr int k_plain_pieces = 12;
-/// Pieces of a border piece that is not a parameter line.
-constexpr int k_curved_pieces = 4;
+constexpr double k_far = std::numeric_limits<double>::infinity();
 
-struct Sums {
-  double area = 0.0, volume = 0.0, projected = 0.0;
-  Vec3 normal;
-  void add(double w, const Sums& s) {
-    area += w * s.area;
-    volume += w * s.volume;
-    projected += w * s.projected;
-    normal += w * s.normal;
+class BodySum {
+ public:
+  void add(const FaceMeasures& face) {
+    ++n_faces_;
+    area_ += face.area;
+    area_moment_ += face.area_moment;
+    const auto wider = [](const Point& a, const Point& b, const auto& pick) { return Point{pick(a.x, b.x), pick(a.y, b.y), pick(a.z, b.z)}; };
+    low_ = wider(low_, face.box.min, [](double a, double b) { return std::min(a, b); });
+    high_ = wider(high_, face.box.max, [](double a, double b) { return std::max(a, b); });
   }
+  void add_volume(const FaceMeasures& face) {
+    volume_ += face.volume;
+    volume_moment_ += face.volume_moment;
+  }
+  BodyMeasures measures(const std::string& name, bool has_volume, const Point& about) const {
+    BodyMeasures result{.name = name, .n_faces = n_faces_, .area = area_, .volume = has_volume ? volume_ : 0.0, .has_volume = has_volume};
+    if (has_volume && volume_ != 0.0)
+      result.centre = about + volume_moment_ / volume_;
+    else if (area_ > 0.0)
+      result.centre = about + area_moment_ / area_;
+    if (n_faces_ > 0) result.box = {low_, high_};
+    return result;
+  }
+
+ private:
+  std::size_t n_faces_ = 0;
+  double area_ = 0.0, volume_ = 0.0;
+  Vec3 area_moment_, volume_moment_;
+  Point low_{k_far, k_far, k_far}, high_{-k_far, -k_far, -k_far};
 };
 
-std::vector<double> pieces(const Interval& domain, std::vector<double> inner) {
-  if (inner.empty())
-    for (int i = 1; i < k_plain_pieces; ++i) inner.push_back(domain.from + domain.length() * i / k_plain_pieces);
-  inner.push_back(domain.from);
-  inner.push_back(domain.to);
-  std::sort(inner.begin(), inner.end());
-  inner.erase(std::unique(inner.begin(), inner.end()), inner.end());
-  return inner;
-}
-
-/// Knots with more between them: rational pieces are no polynomials, a rule of degree 9 needs a few for each.
-std::vector<double> refined(const std::vector<double>& knots) {
-  constexpr int k_pieces = 4;
-  std::vector<double> fine;
-  for (std::size_t i = 0; i + 1 < knots.size(); ++i)
-    for (int k = 0; k < k_pieces; ++k) fine.push_back(knots[i] + (knots[i + 1] - knots[i]) * k / k_pieces);
-  return fine;
-}
-
-/// Integral of the integrand along u from `from` to `to` at one v.
-Sums along_u(const Surface& surface, const std::vector<double>& breaks, double from, double to, double v) {
-  Sums total;
-  const double sign = to >= from ? 1.0 : -1.0;
-  const double low = std::min(from, to), high = std::max(from, to);
-  for (std::size_t i = 0; i + 1 < breaks.size(); ++i) {
-    const double a = i == 0 ? low : std::max(low, breaks[i]);                           // beyond the outermost knots the end pieces go on
-    const double b = i + 2 == breaks.size() ? high : std::min(high, breaks[i + 1]);
-    if (!(b > a)) continue;
-    for (std::size_t k = 0; k < k_nodes.size(); ++k) {
-      const SurfaceDerivatives d = surface.derivatives({a + k_nodes[k] * (b - a), v});
-      const Vec3 n = cross(d.du, d.dv);
-      total.add(sign * k_weights[k] * (b - a), {norm(n), dot(d.point, n) / 3.0, 0.5 * std::abs(n.z), n});
-    }
+Point middle_of(const Model& model) {
+  if (model.corners.size() == 0) return {};
+  Vec3 low{k_far, k_far, k_far}, high{-k_far, -k_far, -k_far};
+  for (const ModelCorner& corner : model.corners) {
+    const Point& p = corner.point;
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  return total;
+  return 0.5 * (low + high);
 }
 
 }  // namespace
 
-FaceMeasures face_measures(const Model& model, FaceId id) {
+FaceMeasures face_measures(const Model& model, FaceId id, const Point& about) {
   const ModelFace& face = model.faces[id];
-  const Surface& surface = *face.surface;
-  const ParameterBox domain = surface.domain();
-  std::vector<double> knots_u = surface.breaks_u(), knots_v = surface.breaks_v();
-  if (const std::optional<NurbsSurfaceForm> form = surface.exact_nurbs()) {
-    const bool is_rational = !form->weights.empty();
-    knots_u = is_rational ? refined(form->knots_u) : form->knots_u;
-    knots_v = is_rational ? refined(form->knots_v) : form->knots_v;
-  }
-  const std::vector<double> breaks_u = pieces(domain.u, knots_u), breaks_v = pieces(domain.v, knots_v);
-  Sums total;
-  for (const Border& border : face.borders)
-    for (const EdgeUse& use : border) {
-      const Interval range = use.parameter->domain();
-      const Uv start = use.parameter->point(range.from), end = use.parameter->point(range.to);
-      const auto* line = use.parameter.get();
-      const std::optional<NurbsCurveForm<Uv>> form = line->exact_nurbs();
-      const bool is_straight = form && form->poles.size() == 2;
-      if (is_straight && start.v == end.v) continue;  // dv = 0
-      std::vector<double> inner;
-      if (is_straight) {
-        for (const double v : breaks_v)
-          if (const double part = (v - start.v) / (end.v - start.v); part > 0.0 && part < 1.0) inner.push_back(range.from + part * range.length());
-        inner.push_back(range.from + 0.5 * range.length());  // never taken for a direction without knots
-      } else {
-        std::vector<double> knots = form ? form->knots : std::vector<double>{};
-        knots = pieces(range, knots);
-        for (std::size_t i = 0; i + 1 < knots.size(); ++i)
-          for (int k = 0; k < k_curved_pieces; ++k) inner.push_back(knots[i] + (knots[i + 1] - knots[i]) * k / k_curved_pieces);
-      }
-      const std::vector<double> steps = pieces(range, inner);
-      for (std::size_t i = 0; i + 1 < steps.size(); ++i)
-        for (std::size_t k = 0; k < k_nodes.size(); ++k) {
-          const double h = steps[i + 1] - steps[i];
-          const ParameterCurveDerivatives p = use.parameter->derivatives(steps[i] + k_nodes[k] * h);
-          const double weight = k_weights[k] * h * p.first.v * (use.is_reversed ? -1.0 : 1.0);
-          if (weight != 0.0) total.add(weight, along_u(surface, breaks_u, domain.u.from, p.point.u, p.point.v));
-        }
-    }
+  const FaceQuadrature q = integrate_face(model, id, about);
   const double sign = face.is_reversed ? -1.0 : 1.0;
-  return {total.area, sign * total.volume, sign * total.normal, total.projected};
+  return {q.sums.area, sign * q.sums.volume, sign * q.sums.normal, q.sums.projected, q.sums.area_moment, sign * q.sums.volume_moment, q.error, {q.low, q.high}};
 }
 
 SolidMeasures solid_measures(const Model& model, SolidId solid) {
   SolidMeasures sum;
   Vec3 vector;
+  const Point about = middle_of(model);
   for (const FaceId f : model.solids[solid].faces) {
-    const FaceMeasures m = face_measures(model, f);
+    const FaceMeasures m = face_measures(model, f, about);
     sum.area += m.area;
     sum.volume += m.volume;
     vector += m.vector_area;
   }
   sum.open = sum.area > 0.0 ? norm(vector) / sum.area : 0.0;
   return sum;
+}
+
+ModelMeasures model_measures(const Model& model, const RunContext& context) {
+  ModelMeasures result;
+  result.about = middle_of(model);
+  result.faces.resize(model.faces.size());
+  parallel_for(context, model.faces.size(), [&](std::size_t f) { result.faces.raw()[f] = face_measures(model, FaceId(f), result.about); }, 1);
+
+  std::vector<BodySum> components(model.components.size());
+  BodySum total;
+  for (const FaceId f : model.faces.ids()) {
+    components[model.faces[f].component.index()].add(result.faces[f]);
+    total.add(result.faces[f]);
+  }
+  std::vector<bool> has_volume(model.components.size(), true), is_closed(model.faces.size(), false);
+  for (const ModelSolid& solid : model.solids) {
+    BodySum sum;
+    for (const FaceId f : solid.faces) {
+      sum.add(result.faces[f]);
+      sum.add_volume(result.faces[f]);
+    }
+    if (solid.is_closed) {
+      const ComponentId owner = model.faces[solid.faces.front()].component;
+      const bool is_of_one = std::all_of(solid.faces.begin(), solid.faces.end(), [&](FaceId f) { return model.faces[f].component == owner; });
+      for (const FaceId f : solid.faces) {
+        total.add_volume(result.faces[f]);
+        components[owner.index()].add_volume(result.faces[f]);
+        is_closed[f.index()] = true;
+        if (!is_of_one) has_volume[model.faces[f].component.index()] = false;
+      }
+    }
+    result.solids.push_back(sum.measures(solid.name, solid.is_closed, result.about));
+  }
+  bool all_closed = model.solids.size() > 0;
+  for (const FaceId f : model.faces.ids()) {
+    if (is_closed[f.index()]) continue;
+    has_volume[model.faces[f].component.index()] = false;
+    all_closed = false;
+  }
+  for (const ComponentId c : model.components.ids()) result.components.push_back(components[c.index()].measures(model.components[c].name, has_volume[c.index()], result.about));
+  result.total = total.measures("total", all_closed, result.about);
+  return result;
 }
 
 }  // namespace sterna

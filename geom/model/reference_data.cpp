@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geom/model/model_measures.h"
 #include "geom/model/section_rows.h"
 
 namespace sterna {
@@ -61,15 +60,6 @@ WingReference wing_reference(const Wing& wing) {
   r.aerodynamic_chord_start = moment / r.area;
   r.aspect_ratio = r.span * r.span / r.area;
   return r;
-}
-
-std::vector<ComponentReference> component_references(const Model& model) {
-  std::vector<ComponentReference> references;
-  for (const SolidId s : model.solids.ids()) {
-    const SolidMeasures m = solid_measures(model, s);
-    references.push_back({model.solids[s].name, m.area, m.volume});
-  }
-  return references;
 }
 
 }  // namespace sterna

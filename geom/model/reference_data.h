@@ -2,10 +2,8 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "geom/model/aircraft.h"
-#include "geom/model/model.h"
 
 namespace sterna {
 
@@ -22,13 +20,5 @@ struct WingReference {
   double aspect_ratio = 0.0;
 };
 WingReference wing_reference(const Wing& wing);
-
-struct ComponentReference {
-  std::string name;
-  double wetted_area = 0.0;  ///< all faces, m2
-  double volume = 0.0;       ///< m3
-};
-/// Of every solid, in order.
-std::vector<ComponentReference> component_references(const Model& model);
 
 }  // namespace sterna

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "geom/cad/reference_data.h"
 #include "geom/cad/shape.h"
+#include "geom/model/model_measures.h"
 #include "io/cad_file.h"
 #include "tests/support/data.h"
 
@@ -55,7 +55,7 @@ TEST(ReadCad, LooseIgesFacesBecomeASolid) {
   EXPECT_FALSE(file.report.mended.empty());
   EXPECT_NEAR(file.report.unit, 0.0254, 1e-12);
   expect_consistent(file.model);
-  EXPECT_GT(cad::reference_data(file.model, RunContext()).total.volume, 0.0);
+  EXPECT_GT(model_measures(file.model, RunContext()).total.volume, 0.0);
 }
 
 TEST(ReadCad, AUnitThatIsNotPlausibleIsDoubtedAndCanBeOverruled) {
@@ -68,7 +68,7 @@ TEST(ReadCad, AUnitThatIsNotPlausibleIsDoubtedAndCanBeOverruled) {
   options.unit = 1.0;
   const CadFile in_metres = read("iea15_rotor_IEA_15MW_CFD.stp", options);
   EXPECT_TRUE(in_metres.report.warnings.empty());
-  const double ratio = cad::reference_data(in_metres.model, RunContext()).total.area / cad::reference_data(as_written.model, RunContext()).total.area;
+  const double ratio = model_measures(in_metres.model, RunContext()).total.area / model_measures(as_written.model, RunContext()).total.area;
   EXPECT_NEAR(ratio, 1e6, 1.0);
 }
 
@@ -100,7 +100,7 @@ TEST(ReadCad, AStepExportOfRealFilesReadsBackTheSame) {
     const auto path = test::scratch() / "out.step";
     io::write_cad(first.model, path, {}, RunContext());
     const CadFile again = io::read_cad(path, {}, RunContext());
-    const ReferenceData a = cad::reference_data(first.model, RunContext()), b = cad::reference_data(again.model, RunContext());
+    const ModelMeasures a = model_measures(first.model, RunContext()), b = model_measures(again.model, RunContext());
     EXPECT_NEAR(b.total.area, a.total.area, 1e-6 * a.total.area);
     EXPECT_NEAR(b.total.volume, a.total.volume, 1e-6 * a.total.volume);
     EXPECT_EQ(again.report.n_closed, first.report.n_closed);
@@ -112,12 +112,12 @@ TEST(ReadCad, ModelsRebuiltFromOurOwnSurfacesAreValid) {
   for (const char* name : {"netgen_parts_screw.step", "tigl_simplewing_simplewing.brep"}) {
     SCOPED_TRACE(name);
     CadFile file = read(name);
-    const ReferenceData before = cad::reference_data(file.model, RunContext());
+    const ModelMeasures before = model_measures(file.model, RunContext());
     file.model.shape.reset();
     const auto shape = cad::shape_of(file.model, RunContext());
     const auto faults = cad::faults_of(*shape);
     EXPECT_TRUE(faults.empty()) << faults.front().what << " " << format_point(faults.front().position);
-    const ReferenceData after = cad::reference_data(file.model, RunContext());
+    const ModelMeasures after = model_measures(file.model, RunContext());
     EXPECT_NEAR(after.total.area, before.total.area, 1e-6 * before.total.area);
     EXPECT_NEAR(after.total.volume, before.total.volume, 1e-6 * before.total.volume);
   }

@@ -4,8 +4,8 @@
 
 #include "cylinder.h"
 #include "geom/cad/read_cad.h"
-#include "geom/cad/reference_data.h"
 #include "geom/cad/write_cad.h"
+#include "geom/model/model_measures.h"
 
 namespace sterna {
 namespace {
@@ -20,7 +20,7 @@ TEST(CadShape, ACylinderOfOurSurfacesIsAValidSolid) {
   const auto shape = cad::shape_of(model, RunContext());
   const std::vector<ErrorPlace> faults = cad::faults_of(*shape);
   EXPECT_TRUE(faults.empty()) << faults.front().what;
-  const ReferenceData data = cad::reference_data(model, RunContext());
+  const ModelMeasures data = model_measures(model, RunContext());
   constexpr double pi = std::numbers::pi;
   EXPECT_NEAR(data.total.volume, pi * k_radius * k_radius * k_height, k_measured * data.total.volume);
   EXPECT_NEAR(data.total.area, 2.0 * pi * k_radius * (k_height + k_radius), k_measured * data.total.area);
@@ -32,7 +32,7 @@ TEST(CadShape, ACylinderOfOurSurfacesIsAValidSolid) {
 
 TEST(CadShape, EveryFormatKeepsTheSolidAndItsMeasures) {
   const Model model = test::cylinder(k_radius, k_height);
-  const ReferenceData before = cad::reference_data(model, RunContext());
+  const ModelMeasures before = model_measures(model, RunContext());
   for (const cad::CadFormat format : {cad::CadFormat::step, cad::CadFormat::iges, cad::CadFormat::brep}) {
     SCOPED_TRACE(std::string(to_string(format)));
     const std::string bytes = cad::cad_bytes(model, format, "can", {}, RunContext());
@@ -40,7 +40,7 @@ TEST(CadShape, EveryFormatKeepsTheSolidAndItsMeasures) {
     const CadFile file = cad::read_cad_bytes(bytes, format, "can.x", {}, RunContext());
     EXPECT_TRUE(file.report.is_closed()) << to_text(file.report);
     EXPECT_TRUE(file.report.faults.empty());
-    const ReferenceData after = cad::reference_data(file.model, RunContext());
+    const ModelMeasures after = model_measures(file.model, RunContext());
     EXPECT_NEAR(after.total.area, before.total.area, 1e-6 * before.total.area);
     EXPECT_NEAR(after.total.volume, before.total.volume, 1e-6 * before.total.volume);
   }

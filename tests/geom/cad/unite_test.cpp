@@ -4,7 +4,6 @@
 #include <set>
 
 #include "cylinder.h"
-#include "geom/cad/reference_data.h"
 
 namespace sterna {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "geom/model/components.h"
 #include "geom/model/cpacs.h"
+#include "geom/model/model_measures.h"
 #include "tests/support/data.h"
 
 namespace sterna {
@@ -52,14 +53,14 @@ TEST(ReferenceData, d150) {
   const WingReference r = wing_reference(aircraft.wings.at(0));
   EXPECT_NEAR(r.span, 33.91, 0.005 * 33.91);
   EXPECT_NEAR(r.projected_area, 122.4, 0.005 * 122.4);
-  const std::vector<ComponentReference> parts = component_references(make_components(aircraft, RunContext()));
+  const std::vector<BodyMeasures> parts = model_measures(make_components(aircraft, RunContext()), RunContext()).solids;
   ASSERT_EQ(parts.size(), 4u);
-  for (const ComponentReference& part : parts) {
+  for (const BodyMeasures& part : parts) {
     EXPECT_GT(part.volume, 0.0);
-    EXPECT_GT(part.wetted_area, 0.0);
+    EXPECT_GT(part.area, 0.0);
   }
-  EXPECT_GT(parts[1].wetted_area, 2.0 * r.area);  // both sides, and they are curved
-  EXPECT_LT(parts[1].wetted_area, 2.1 * r.area);
+  EXPECT_GT(parts[1].area, 2.0 * r.area);  // both sides, and they are curved
+  EXPECT_LT(parts[1].area, 2.1 * r.area);
 }
 
 }  // namespace

@@ -1,0 +1,32 @@
+// Integrals over a trimmed face, for model_measures.
+#pragma once
+
+#include <functional>
+
+#include "geom/model/model.h"
+
+namespace sterna {
+
+/// Sums of what model_measures integrates, du x dv as the normal.
+struct FaceSums {
+  double area = 0.0, volume = 0.0, projected = 0.0;
+  Vec3 normal, area_moment, volume_moment;
+  void add(double w, const FaceSums& s) {
+    area += w * s.area;
+    volume += w * s.volume;
+    projected += w * s.projected;
+    normal += w * s.normal;
+    area_moment += w * s.area_moment;
+    volume_moment += w * s.volume_moment;
+  }
+};
+
+struct FaceQuadrature {
+  FaceSums sums;
+  Point low, high;     ///< box of the samples inside and on the border
+  double error = 0.0;  ///< m2: change of the area, or of the volume over the largest distance, by the last refinement: an upper bound where the face is smooth
+};
+/// \pre the face has a border
+FaceQuadrature integrate_face(const Model& model, FaceId face, const Point& about);
+
+}  // namespace sterna
