@@ -94,7 +94,7 @@ TEST(ReadCad, TheNacelleAndTheWingAreConsistent) {
 
 TEST(ReadCad, AStepExportOfRealFilesReadsBackTheSame) {
   STERNA_NEEDS_SHARED_DATA();
-  for (const char* name : {"gmsh_parts_as1-tu-203.stp", "tigl_simplewing_simplewing.brep", "dealii_cad_wing.iges"}) {
+  for (const char* name : {"gmsh_parts_as1-tu-203.stp", "tigl_simplewing_simplewing.brep", "dealii_cad_wing.iges", "netgen_parts_screw.step"}) {
     SCOPED_TRACE(name);
     const CadFile first = read(name);
     const auto path = test::scratch() / "out.step";
