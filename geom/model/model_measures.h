@@ -23,7 +23,7 @@ struct FaceMeasures {
   double error = 0.0;        ///< m2: what the last refinement of the quadrature changed
   MeasureBox box;            ///< of samples of face and border: short of the face by the sagitta between samples, about 1e-3 of a curved face's size
 };
-/// Gauss quadrature over the knots of the surface within the face's border, any kind of surface, refined until it changes by less than 1e-10; where kinks
+/// Gauss quadrature over the knots of the surface within the face's border, any kind of surface, refined until it changes by less than 1e-8, about 1e-11 then; where kinks
 /// that no knot tells of hinder that, `error` says how far it came.
 /// Seams, poles and parameters beyond a period are as in Model; what the surface does outside of the border does not count.
 FaceMeasures face_measures(const Model& model, FaceId face, const Point& about = {});

@@ -12,10 +12,10 @@
 
 #include "geom/cad/aircraft_union.h"
 #include "geom/cad/read_cad.h"
-#include "geom/cad/reference_data.h"
 #include "geom/cad/write_cad.h"
 #include "geom/model/components.h"
 #include "geom/model/cpacs.h"
+#include "geom/model/model_measures.h"
 #include "geom/model/smx.h"
 
 using namespace sterna;
@@ -73,14 +73,14 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
     const double load = watch.lap();
     const UniteResult united = cad::unite_aircraft(components, {.tolerance = settings.tolerance}, context);
     const double unite = watch.lap();
-    const ReferenceData before = cad::reference_data(united.model, context);
+    const ModelMeasures before = model_measures(united.model, context);
     const double measure = watch.lap();
     const std::string bytes = cad::cad_bytes(united.model, cad::CadFormat::step, file, {}, context);
     const double write = watch.lap();
     if (!settings.step_folder.empty()) std::ofstream(settings.step_folder / (path.stem().string() + ".step"), std::ios::binary) << bytes;
     const CadFile again = cad::read_cad_bytes(bytes, cad::CadFormat::step, file, {}, context);
     const double read = watch.lap();
-    const ReferenceData after = cad::reference_data(again.model, context);
+    const ModelMeasures after = model_measures(again.model, context);
     const bool same_names = names_of(united.model) == names_of(again.model);
     std::printf("| %s | %zu | %zu | %s | %zu | %zu | %zu | %.8g | %.8g | %s, %zu mended | %.1e | %.1e | %s | %.2f | %.2f | %.2f | %.2f | %.2f |\n", file.c_str(), n_components, n_faces, tries_text(united.report.tries).c_str(), united.report.n_bodies,
                 united.model.faces.size(), united.report.doubts.size(), before.total.area, before.total.volume, again.report.is_closed() ? "closed" : "OPEN", again.report.mended.size(), relative_change(before.total.area, after.total.area),

@@ -4,11 +4,11 @@
 
 #include "cylinder.h"
 #include "geom/cad/read_cad.h"
-#include "geom/cad/reference_data.h"
 #include "geom/cad/write_cad.h"
 #include "geom/model/components.h"
 #include "geom/model/cpacs.h"
 #include "geom/model/model_builder.h"
+#include "geom/model/model_measures.h"
 #include "geom/model/smx.h"
 #include "tests/support/data.h"
 
@@ -68,7 +68,7 @@ TEST_P(UniteAircraft, IsOneClosedBodyAndTheSameFromStep) {
   const CadFile again = cad::read_cad_bytes(bytes, cad::CadFormat::step, "again.step", {}, RunContext());
   EXPECT_TRUE(again.report.is_closed());
   EXPECT_EQ(face_names(united.model), face_names(again.model));
-  const BodyMeasures before = cad::reference_data(united.model, RunContext()).total, after = cad::reference_data(again.model, RunContext()).total;
+  const BodyMeasures before = model_measures(united.model, RunContext()).total, after = model_measures(again.model, RunContext()).total;
   EXPECT_NEAR(after.area, before.area, 1e-6 * before.area);
   EXPECT_NEAR(after.volume, before.volume, 1e-6 * before.volume);
 }
