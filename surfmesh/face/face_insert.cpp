@@ -21,6 +21,8 @@ constexpr double k_unfolded_cosine = 0.766;
 constexpr double k_max_sag = 0.2;
 /// Unfolding goes on for triangles larger than this many times the wanted edge length only: smaller ones are as the user wanted them.
 constexpr double k_unfold_floor = 0.7;
+/// ... and no vertex is nearer to another than this part of the wanted edge length.
+constexpr double k_unfold_spacing = 0.3;
 /// Circumradius over that of an equilateral triangle with the wanted edges, above which a triangle gets a vertex.
 constexpr double k_size_threshold = 1.1;
 /// A new vertex may not be nearer to another than this part of the wanted length.
@@ -117,7 +119,8 @@ struct UnfoldTask {
       }
     }
     proposal.sample = sample(state.surface, proposal.at);
-    proposal.min_distance = 0.0;
+    // A part of the surface that is thinner than the wanted edges (a round tip that ends at a sharp trailing edge) cannot be followed: it stays a strip.
+    proposal.min_distance = k_unfold_spacing * gather(state, t).size;
     return true;
   }
   void inserted(const SurfaceTriangulation&, VertexId, const Proposal& proposal) const { state.size.push_back(wanted_size(state, proposal.at, proposal.sample.point)); }

@@ -141,8 +141,20 @@ void check_arguments(const FaceBorder& border) {
 
 FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeFunction& size, const FaceMeshOptions& options, const RunContext& context) {
   check_arguments(border);
-  const ParameterBox box = box_of(border);
-  FaceState state{surface, size, options, box, CurvatureSizes(surface, box, options.curvature_angle, options.min_edge, options.size_growth), {}, {}};
+  std::vector<std::vector<Uv>> loops;
+  for (const auto& loop : border.loops) {
+    loops.emplace_back();
+    for (const BorderPoint& p : loop) loops.back().push_back(p.uv);
+  }
+  const CurvatureLimits limits{.angle = options.curvature_angle, .min_edge = options.min_edge, .growth = options.size_growth};
+  CurvatureSizes curvature_sizes(surface, box_of(border), loops);
+  curvature_sizes.limit(limits);
+  return mesh_face(surface, border, size, curvature_sizes, options, context);
+}
+
+FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeFunction& size, const CurvatureSizes& curvature_sizes, const FaceMeshOptions& options, const RunContext& context) {
+  check_arguments(border);
+  FaceState state{surface, size, options, box_of(border), curvature_sizes, {}, {}};
   const SurfaceBorder plane_border = make_border(surface, border);
   const Vec2 scale{delaunay::scale_of_speed(state.curvature_sizes.mean_speed_u()), delaunay::scale_of_speed(state.curvature_sizes.mean_speed_v())};
   state.mesh = delaunay::triangulate_border(plane_border, scale, context);

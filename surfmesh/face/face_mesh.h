@@ -67,6 +67,9 @@ struct FaceMesh {
 /// \throws Error(self_intersection) where the border crosses or touches itself along a line in (u, v); Error(bad_argument) for an empty border or a size that is not
 /// positive; Error(overflow) when max_triangles is not enough, with the place and the size wanted there
 FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeFunction& size, const FaceMeshOptions& options, const RunContext& context);
+/// The same with the curvature's sizes at hand; `curvature_angle` does not count.
+class CurvatureSizes;
+FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeFunction& size, const CurvatureSizes& curvature_sizes, const FaceMeshOptions& options, const RunContext& context);
 
 }  // namespace sterna::surfmesh
 

@@ -41,6 +41,32 @@ std::pair<std::size_t, double> find_on_line(const std::vector<double>& line, dou
   return {i, length > 0.0 ? std::clamp((t - line[i]) / length, 0.0, 1.0) : 0.0};
 }
 
+/// Samples on the box's border lie inside of polygons that run along it: moved by so much of the box towards its middle before they are asked.
+constexpr double k_inwards = 1e-6;
+double inwards(double t, const Interval& range) { return t + k_inwards * (0.5 * (range.from + range.to) - t); }
+
+/// Area inside polygons of which the holes run against the first.
+double area_of(std::span<const std::vector<Uv>> loops) {
+  double sum = 0.0;
+  for (const std::vector<Uv>& loop : loops)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Uv &a = loop[i], &b = loop[(i + 1) % loop.size()];
+      sum += 0.5 * (a.u * b.v - a.v * b.u);
+    }
+  return std::abs(sum);
+}
+
+/// Where polygons cross the line of this u, ascending v.
+void find_crossings_of_row(std::span<const std::vector<Uv>> loops, double u, std::vector<double>& crossings) {
+  crossings.clear();
+  for (const std::vector<Uv>& loop : loops)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Uv &a = loop[i], &b = loop[(i + 1) % loop.size()];
+      if ((a.u <= u) != (b.u <= u)) crossings.push_back(a.v + (u - a.u) / (b.u - a.u) * (b.v - a.v));
+    }
+  std::sort(crossings.begin(), crossings.end());
+}
+
 }  // namespace
 
 double largest_curvature(const SurfaceDerivatives& d) {
@@ -54,23 +80,63 @@ double largest_curvature(const SurfaceDerivatives& d) {
   return std::abs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss));
 }
 
-CurvatureSizes::CurvatureSizes(const Surface& surface, const ParameterBox& box, double angle, double min_edge, double growth)
-    : u_(sample_line(surface.breaks_u(), box.u)), v_(sample_line(surface.breaks_v(), box.v)), size_(u_.size() * v_.size(), k_no_limit) {
+double CurvatureLimits::size_of(double curvature) const {
+  if (!(curvature > 0.0)) return k_no_limit;
+  const double radius = 1.0 / curvature;
+  // The chord of an arc, and the one whose arc rises by the error: l^2 = 8 R e - 4 e^2.
+  const double by_error = chord_error < radius ? std::sqrt(8.0 * radius * chord_error - 4.0 * chord_error * chord_error) : k_no_limit;
+  return std::max(min_edge, std::min(2.0 * std::sin(0.5 * angle) * radius, by_error));
+}
+
+CurvatureSizes::CurvatureSizes(const Surface& surface, const ParameterBox& box, std::span<const std::vector<Uv>> loops) {
+  const bool is_plane = surface.kind() == "plane";
+  if (is_plane) {
+    u_ = {box.u.from, box.u.to};
+    v_ = {box.v.from, box.v.to};
+  } else {
+    u_ = sample_line(surface.breaks_u(), box.u);
+    v_ = sample_line(surface.breaks_v(), box.v);
+  }
   const std::size_t n_u = u_.size(), n_v = v_.size();
-  std::vector<Point> points(n_u * n_v);
+  size_.assign(n_u * n_v, k_no_limit);
+  curvature_.assign(n_u * n_v, 0.0);
+  points_.resize(n_u * n_v);
+  is_inside_.assign(n_u * n_v, 0);
+  std::size_t n_fast_u = 0, n_fast_v = 0;
+  std::vector<double> crossings;
   for (std::size_t i = 0; i < n_u; ++i) {
+    find_crossings_of_row(loops, inwards(u_[i], box.u), crossings);
     for (std::size_t j = 0; j < n_v; ++j) {
+      const std::size_t k = i * n_v + j;
       const SurfaceDerivatives d = surface.derivatives({u_[i], v_[j]});
-      points[i * n_v + j] = d.point;
+      points_[k] = d.point;
+      const bool is_inside = loops.empty() || (std::upper_bound(crossings.begin(), crossings.end(), inwards(v_[j], box.v)) - crossings.begin()) % 2 == 1;
       // Some parametrisations have no finite speed on their border (a square root at a nose): such samples say nothing.
-      if (is_finite(d.du)) mean_speed_u_ += norm(d.du) / static_cast<double>(n_u * n_v);
-      if (is_finite(d.dv)) mean_speed_v_ += norm(d.dv) / static_cast<double>(n_u * n_v);
-      // The chord of an arc of radius 1 / curvature.
-      const double curvature = largest_curvature(d);
-      if (curvature > 0.0) size_[i * n_v + j] = std::max(min_edge, 2.0 * std::sin(0.5 * angle) / curvature);
+      if (is_finite(d.du)) {
+        mean_speed_u_ += norm(d.du);
+        ++n_fast_u;
+      }
+      if (is_finite(d.dv)) {
+        mean_speed_v_ += norm(d.dv);
+        ++n_fast_v;
+      }
+      if (!is_inside) continue;
+      is_inside_[k] = 1;
+      if (const double curvature = largest_curvature(d); std::isfinite(curvature)) curvature_[k] = curvature;
+      const double du = 0.5 * (u_[std::min(i + 1, n_u - 1)] - u_[i == 0 ? 0 : i - 1]), dv = 0.5 * (v_[std::min(j + 1, n_v - 1)] - v_[j == 0 ? 0 : j - 1]);
+      if (const double cell = norm(cross(d.du, d.dv)) * du * dv; std::isfinite(cell)) area_ += cell;
     }
   }
-  const auto carry = [&](std::size_t from, std::size_t to) { size_[to] = std::min(size_[to], size_[from] + growth * distance(points[from], points[to])); };
+  if (n_fast_u > 0) mean_speed_u_ /= static_cast<double>(n_fast_u);
+  if (n_fast_v > 0) mean_speed_v_ /= static_cast<double>(n_fast_v);
+  if (is_plane && !loops.empty()) area_ = area_of(loops) * mean_speed_u_ * mean_speed_v_;
+}
+
+void CurvatureSizes::limit(const CurvatureLimits& limits) {
+  const std::size_t n_u = u_.size(), n_v = v_.size();
+  for (std::size_t k = 0; k < size_.size(); ++k) size_[k] = limits.size_of(curvature_[k]);
+  curvature_ = {};
+  const auto carry = [&](std::size_t from, std::size_t to) { size_[to] = std::min(size_[to], size_[from] + limits.growth * distance(points_[from], points_[to])); };
   for (int round = 0; round < k_growth_rounds; ++round) {
     for (std::size_t i = 0; i < n_u; ++i)
       for (std::size_t j = 0; j < n_v; ++j) {

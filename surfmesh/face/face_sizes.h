@@ -1,6 +1,9 @@
 // What edge length the surface's curvature asks for, sampled once for a face on a grid in (u, v) and limited in growth.
 #pragma once
 
+#include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "geom/model/surface.h"
@@ -10,20 +13,44 @@ namespace sterna::surfmesh {
 /// Larger absolute principal curvature, 1/m; zero where the surface has no normal (poles).
 double largest_curvature(const SurfaceDerivatives& d);
 
+/// What curvature may ask for.
+struct CurvatureLimits {
+  double angle = 0.2;        ///< rad: an edge spans at most this angle
+  double chord_error = std::numeric_limits<double>::infinity();  ///< m: the middle of an edge is no farther from its arc
+  double min_edge = 0.0;     ///< m: never less
+  double growth = 0.3;       ///< change of the length by distance
+  /// Metres, for a radius of curvature; infinite for none.
+  double size_of(double curvature) const;
+};
+
 class CurvatureSizes {
  public:
-  /// Samples `box` of the surface, at least k_samples_per_piece times between its breaks. Edges span at most `angle` (rad); never below `min_edge`;
-  /// the length changes by `growth` times the distance at most.
-  CurvatureSizes(const Surface& surface, const ParameterBox& box, double angle, double min_edge, double growth);
+  /// Samples the curvature in `box`, at least k_samples_per_piece times between breaks. With `loops` (closed polygons in (u, v)) only samples inside them
+  /// (by parity) ask for something: what is trimmed away does not count. Sizes are infinite until they are limited.
+  CurvatureSizes(const Surface& surface, const ParameterBox& box, std::span<const std::vector<Uv>> loops = {});
+  /// Turns curvatures into sizes. \pre the first call
+  void limit(const CurvatureLimits& limits);
   /// Metres; infinite on a plane. Bilinear between samples.
   double operator()(Uv at) const;
+  /// Calls visit(point, size) for every sample inside.
+  template <class Visit>
+  void for_each_inside(const Visit& visit) const {
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (is_inside_[i] != 0) visit(points_[i], size_[i]);
+  }
+  /// Area inside, m^2: exact on planes, elsewhere from the samples, a few per cent off where the border is not the box.
+  double area() const { return area_; }
   /// Mean lengths of du and dv over the samples, metres by parameter.
   double mean_speed_u() const { return mean_speed_u_; }
   double mean_speed_v() const { return mean_speed_v_; }
 
  private:
   std::vector<double> u_, v_;
-  std::vector<double> size_;  ///< size_[i * v_.size() + j]
+  std::vector<double> curvature_;  ///< curvature_[i * v_.size() + j], 1/m; zero outside; empty once sizes are limited
+  std::vector<double> size_;
+  std::vector<Point> points_;
+  std::vector<std::uint8_t> is_inside_;
+  double area_ = 0.0;
   double mean_speed_u_ = 0.0;
   double mean_speed_v_ = 0.0;
 };

@@ -12,7 +12,7 @@ struct FaceState {
   const SizeFunction& user_size;
   const FaceMeshOptions& options;
   ParameterBox box;                        ///< of the border
-  CurvatureSizes curvature_sizes;
+  const CurvatureSizes& curvature_sizes;
   delaunay::SurfaceTriangulation mesh;
   Column<VertexId, double> size;           ///< metres, of every vertex of `mesh`
 };

@@ -137,7 +137,8 @@ SurfacePtr reparametrised(SurfacePtr surface, const ParameterBox& box, double po
 }
 
 surfmesh::FaceBorder box_border(const Surface& surface, const ParameterBox& box, double size, double curvature_angle) {
-  const surfmesh::CurvatureSizes curvature(surface, box, curvature_angle, 0.0, 0.3);
+  surfmesh::CurvatureSizes curvature(surface, box);
+  curvature.limit({.angle = curvature_angle});
   const Uv a{box.u.from, box.v.from}, b{box.u.to, box.v.from}, c{box.u.to, box.v.to}, d{box.u.from, box.v.to};
   const bool is_closed_u = distance(surface.point(a), surface.point(b)) + distance(surface.point(0.5 * (a + d)), surface.point(0.5 * (b + c))) < 1e-12;
   const bool is_closed_v = distance(surface.point(a), surface.point(d)) + distance(surface.point(0.5 * (a + b)), surface.point(0.5 * (c + d))) < 1e-12;

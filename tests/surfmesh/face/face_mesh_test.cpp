@@ -254,7 +254,8 @@ TEST(CurvatureSizes, OfRoundSurfaces) {
   const TorusSurface torus(Frame{}, 1.0, 0.2);
   EXPECT_NEAR(largest_curvature(torus.derivatives({1.0, 0.0})), 5.0, 1e-12);
   // The chord of the angle: 30 degrees of radius 2.
-  const CurvatureSizes sizes(sphere, sphere.domain(), 30.0 * k_deg, 0.0, 0.3);
+  CurvatureSizes sizes(sphere, sphere.domain());
+  sizes.limit({.angle = 30.0 * k_deg});
   EXPECT_NEAR(sizes({1.0, 0.3}), 4.0 * std::sin(15.0 * k_deg), 1e-7);
 }
 

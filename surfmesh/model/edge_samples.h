@@ -1,0 +1,24 @@
+// Edges of a model seen as polylines: where their lengths, curvatures and distances are measured, and the basis of cutting them.
+#pragma once
+
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/model/model.h"
+
+namespace sterna::surfmesh {
+
+struct EdgeSample {
+  double t = 0.0;
+  Point point;
+  double curvature = 0.0;  ///< of the curve, 1/m
+};
+struct EdgeSamples {
+  std::vector<EdgeSample> samples;  ///< both ends included; empty for degenerate edges
+  double length = 0.0;              ///< metres, of the polyline
+  double turning = 0.0;             ///< rad, between its segments
+};
+
+Column<EdgeId, EdgeSamples> sample_edges(const Model& model, const RunContext& context);
+
+}  // namespace sterna::surfmesh

@@ -1,0 +1,79 @@
+#include "surfmesh/model/face_outline.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sterna::surfmesh {
+namespace {
+
+/// Points of a use in its polygon: parameter curves that are lines need two.
+constexpr int k_polygon_points = 24;
+
+const EdgeUse& use_at(const Model& model, const EdgeUsePlace& place) { return model.faces[place.face].borders[place.border][place.place]; }
+
+/// Whole periods nearest to `jump`.
+double whole_periods(double jump, double period) { return std::round(jump / period) * period; }
+
+bool is_inside(const std::vector<Uv>& polygon, Uv at) {
+  bool inside = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Uv &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    if ((a.u <= at.u) != (b.u <= at.u) && a.v + (at.u - a.u) / (b.u - a.u) * (b.v - a.v) > at.v) inside = !inside;
+  }
+  return inside;
+}
+
+}  // namespace
+
+Uv parameters_at(const Model& model, const OutlineUse& use, double t) { return use_at(model, use.place).parameter->point(t) + use.shift; }
+
+FaceOutline outline_of(const Model& model, FaceId id) {
+  const ModelFace& face = model.faces[id];
+  const Surface& surface = *face.surface;
+  const ParameterBox domain = surface.domain();
+  const double period_u = surface.is_periodic_u() ? domain.u.length() : 0.0, period_v = surface.is_periodic_v() ? domain.v.length() : 0.0;
+  const auto moved_near = [&](Uv from, Uv to) {
+    return Uv{period_u > 0.0 ? whole_periods(to.u - from.u, period_u) : 0.0, period_v > 0.0 ? whole_periods(to.v - from.v, period_v) : 0.0};
+  };
+  FaceOutline outline;
+  for (std::uint32_t b = 0; b < face.borders.size(); ++b) {
+    std::vector<OutlineUse> uses;
+    std::vector<Uv> polygon;
+    Uv end;
+    for (std::uint32_t i = 0; i < face.borders[b].size(); ++i) {
+      const EdgeUse& use = face.borders[b][i];
+      const Interval range = model.edges[use.edge].range;  // the curve's domain may be larger
+      const auto at = [&](double share) { return use.parameter->point(use.is_reversed ? range.to - share * range.length() : range.from + share * range.length()); };
+      OutlineUse entry{{id, b, i}, {}, 0.0};
+      const Uv start = at(0.0);
+      if (i > 0) {
+        entry.shift = moved_near(start, end);
+        entry.gap = std::max(std::abs(start.u + entry.shift.u - end.u), std::abs(start.v + entry.shift.v - end.v));
+      }
+      for (int k = 0; k < k_polygon_points; ++k) polygon.push_back(at(static_cast<double>(k) / k_polygon_points) + entry.shift);
+      end = at(1.0) + entry.shift;
+      uses.push_back(entry);
+    }
+    if (!polygon.empty()) {
+      const Uv open = moved_near(end, polygon.front());
+      if (open.u != 0.0 || open.v != 0.0) outline.winding.push_back(b);
+    }
+    // Holes are brought into the period of the outer border.
+    if (b > 0 && !polygon.empty() && (period_u > 0.0 || period_v > 0.0) && !is_inside(outline.polygons.front(), polygon.front())) {
+      bool is_found = false;
+      for (int i = -1; i <= 1 && !is_found; ++i)
+        for (int j = -1; j <= 1 && !is_found; ++j) {
+          const Uv shift{i * period_u, j * period_v};
+          if (!is_inside(outline.polygons.front(), polygon.front() + shift)) continue;
+          for (Uv& p : polygon) p = p + shift;
+          for (OutlineUse& use : uses) use.shift = use.shift + shift;
+          is_found = true;
+        }
+    }
+    outline.borders.push_back(std::move(uses));
+    outline.polygons.push_back(std::move(polygon));
+  }
+  return outline;
+}
+
+}  // namespace sterna::surfmesh

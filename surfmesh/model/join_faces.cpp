@@ -1,0 +1,142 @@
+#include "surfmesh/model/join_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "geom/base/parallel.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+PatchKind kind_of(FaceRole role) {
+  switch (role) {
+    case FaceRole::inflow: return PatchKind::inflow;
+    case FaceRole::outflow: return PatchKind::outflow;
+    case FaceRole::symmetry: return PatchKind::symmetry;
+    case FaceRole::farfield: return PatchKind::farfield;
+    default: return PatchKind::wall;
+  }
+}
+
+/// A patch for each name and kind, in the order of the faces.
+Column<FaceId, PatchId> make_patches(const Model& model, TriMesh& mesh) {
+  std::map<std::pair<std::string, PatchKind>, PatchId> known;
+  Column<FaceId, PatchId> patch_of(model.faces.size());
+  for (const FaceId f : model.faces.ids()) {
+    const Patch patch{model.faces[f].name, kind_of(model.faces[f].role)};
+    const auto [at, is_new] = known.try_emplace({patch.name, patch.kind}, PatchId(static_cast<std::uint64_t>(mesh.patches.size())));
+    if (is_new) mesh.patches.push_back(patch);
+    patch_of[f] = at->second;
+  }
+  return patch_of;
+}
+
+struct EdgeEntry {
+  std::uint32_t low, high;
+  std::uint32_t triangle;
+  std::uint32_t corner;  ///< the edge runs from it
+  auto operator<=>(const EdgeEntry&) const = default;
+};
+
+}  // namespace
+
+SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const Column<FaceId, MeshedFace>& faces) {
+  SurfaceMesh result;
+  TriMesh& mesh = result.mesh;
+  const Column<FaceId, PatchId> patch_of = make_patches(model, mesh);
+  mesh.points.resize(numbers.n);
+  result.edge_places.resize(numbers.n);
+  result.places.resize(numbers.n);
+  for (const CornerId c : model.corners.ids())
+    if (topology.corner[c] == c && numbers.of_corner[c].is_valid()) mesh.points[numbers.of_corner[c]] = model.corners[c].point;
+  for (const EdgeId e : model.edges.ids())
+    for (std::size_t k = 0; k < cuts[e].t.size(); ++k) {
+      const VertexId v(numbers.first_of_edge[e] + static_cast<std::uint32_t>(k));
+      mesh.points[v] = cuts[e].points[k];
+      result.edge_places[v] = {e, cuts[e].t[k]};
+    }
+  for (const FaceId f : faces.ids()) {
+    const MeshedFace& face = faces[f];
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    const std::uint32_t n_border = face.mesh.n_border;
+    for (std::uint32_t i = 0; i < n_border; ++i)
+      if (VertexPlace& place = result.places[face.border_ids[i]]; !place.face.is_valid()) place = {f, face.mesh.uv[i]};
+    for (std::size_t i = n_border; i < face.mesh.points.size(); ++i) {
+      mesh.points.push_back(face.mesh.points[i]);
+      result.places.push_back({f, face.mesh.uv[i]});
+      result.edge_places.push_back({});
+    }
+    for (TriangleVertices v : face.mesh.triangles) {
+      for (VertexId& w : v) w = w.value() < n_border ? face.border_ids[w.index()] : VertexId(first + w.value() - n_border);
+      if (model.faces[f].is_reversed) std::swap(v[1], v[2]);
+      mesh.triangles.push_back(v);
+      mesh.triangle_patch.push_back(patch_of[f]);
+      result.triangle_face.push_back(f);
+    }
+  }
+  // Corners that only absorbed edges had, and poles' other numbers, belong to no triangle: they go.
+  Column<VertexId, VertexId> number(mesh.points.size());
+  for (const TriangleVertices& v : mesh.triangles)
+    for (const VertexId w : v) number[w] = w;
+  std::uint32_t n = 0;
+  for (const VertexId v : number.ids()) {
+    if (!number[v].is_valid()) continue;
+    number[v] = VertexId(n);
+    mesh.points[VertexId(n)] = mesh.points[v];
+    result.places[VertexId(n)] = result.places[v];
+    result.edge_places[VertexId(n)] = result.edge_places[v];
+    ++n;
+  }
+  mesh.points.resize(n);
+  result.places.resize(n);
+  result.edge_places.resize(n);
+  for (TriangleVertices& v : mesh.triangles)
+    for (VertexId& w : v) w = number[w];
+  return result;
+}
+
+JoinFaults check_joins(const Model& model, SurfaceMesh& surface, const RunContext& context) {
+  const TriMesh& mesh = surface.mesh;
+  std::vector<EdgeEntry> entries(3 * mesh.n_triangles());
+  JoinFaults faults;
+  parallel_for(context, mesh.n_triangles(), [&](std::size_t t) {
+    const TriangleVertices& v = mesh.triangles[TriangleId(static_cast<std::uint64_t>(t))];
+    for (std::uint32_t c = 0; c < 3; ++c) {
+      const std::uint32_t a = v[c].value(), b = v[(c + 1) % 3].value();
+      entries[3 * t + c] = {std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(t), c};
+    }
+  });
+  parallel_sort(context, entries, std::less<>{});
+  Column<FaceId, std::uint8_t> has_free_edge(model.faces.size(), 0);
+  const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
+  for (const EdgeId e : free_edges(model)) has_free_edge[uses[e].front().face] = 1;
+  const auto normal = [&](std::uint32_t t) {
+    const auto p = corners(mesh, TriangleId(t));
+    return cross(p[1] - p[0], p[2] - p[0]);
+  };
+  for (std::size_t i = 0; i < entries.size();) {
+    std::size_t end = i + 1;
+    while (end < entries.size() && entries[end].low == entries[i].low && entries[end].high == entries[i].high) ++end;
+    const auto from = [&](const EdgeEntry& e) { return mesh.triangles[TriangleId(e.triangle)][e.corner].value(); };
+    bool is_wrong = end - i > 2 || entries[i].low == entries[i].high;
+    if (end - i == 2) {
+      is_wrong = is_wrong || from(entries[i]) == from(entries[i + 1]);
+      const FaceId f = surface.triangle_face[TriangleId(entries[i].triangle)];
+      if (f == surface.triangle_face[TriangleId(entries[i + 1].triangle)])
+        surface.report.max_smooth_angle = std::max(surface.report.max_smooth_angle, angle_between(normal(entries[i].triangle), normal(entries[i + 1].triangle)));
+    }
+    if (end - i == 1) {
+      ++faults.n_free_edges;
+      is_wrong = is_wrong || has_free_edge[surface.triangle_face[TriangleId(entries[i].triangle)]] == 0;
+    }
+    if (is_wrong)
+      for (std::size_t k = i; k < end; ++k) faults.triangles.push_back(TriangleId(entries[k].triangle));
+    i = end;
+  }
+  std::sort(faults.triangles.begin(), faults.triangles.end());
+  faults.triangles.erase(std::unique(faults.triangles.begin(), faults.triangles.end()), faults.triangles.end());
+  return faults;
+}
+
+}  // namespace sterna::surfmesh

@@ -1,0 +1,141 @@
+#include "surfmesh/model/mesh_faces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geom/math/measures.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+constexpr double k_least_angle = 20.0 * std::numbers::pi / 180.0;
+constexpr double k_largest_angle = 130.0 * std::numbers::pi / 180.0;
+
+struct LabelledBorder {
+  FaceBorder border;
+  std::vector<VertexId> ids;
+};
+
+/// Each use gives its start and its cuts; its end is the start of the next. Absorbed edges give nothing, poles their corner at their start and, by the next use, at their end.
+LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const FaceOutline& outline) {
+  LabelledBorder result;
+  for (const auto& uses : outline.borders) {
+    std::vector<BorderPoint> loop;
+    for (const OutlineUse& entry : uses) {
+      const EdgeUse& use = model.faces[f].borders[entry.place.border][entry.place.place];
+      const ModelEdge& edge = model.edges[use.edge];
+      if (topology.is_point[use.edge] != 0 && !edge.is_degenerate()) continue;
+      const Interval range = edge.range;
+      const CornerId corner = topology.corner[use.is_reversed ? edge.end : edge.start];
+      loop.push_back({use.parameter->point(use.is_reversed ? range.to : range.from) + entry.shift, model.corners[corner].point});
+      result.ids.push_back(numbers.of_corner[corner]);
+      const EdgeCut& cut = cuts[use.edge];
+      for (std::size_t k = 0; k < cut.t.size(); ++k) {
+        const std::size_t i = use.is_reversed ? cut.t.size() - 1 - k : k;
+        loop.push_back({use.parameter->point(cut.t[i]) + entry.shift, cut.points[i]});
+        result.ids.push_back(VertexId(numbers.first_of_edge[use.edge] + static_cast<std::uint32_t>(i)));
+      }
+    }
+    if (!loop.empty()) result.border.loops.push_back(std::move(loop));
+  }
+  return result;
+}
+
+void measure(const Surface& surface, MeshedFace& face) {
+  const FaceMesh& mesh = face.mesh;
+  FaceMeshSummary& summary = face.summary;
+  std::vector<Vec3> normals(mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    const SurfaceDerivatives d = surface.derivatives(mesh.uv[i]);
+    const Vec3 normal = cross(d.du, d.dv);
+    constexpr double k_min_sine2 = 1e-16;
+    if (norm2(normal) > k_min_sine2 * norm2(d.du) * norm2(d.dv)) normals[i] = normalized(normal);
+    if (i >= mesh.n_border) continue;
+    if (const double off = distance(d.point, mesh.points[i]); off > face.edge_distance) {
+      face.edge_distance = off;
+      face.edge_distance_place = mesh.points[i];
+    }
+  }
+  summary.n_triangles = static_cast<std::int64_t>(mesh.triangles.size());
+  summary.min_angle = std::numbers::pi;
+  for (const TriangleVertices& v : mesh.triangles) {
+    const Point &a = mesh.points[v[0].index()], &b = mesh.points[v[1].index()], &c = mesh.points[v[2].index()];
+    const std::array<double, 3> angles{corner_angle(a, b, c), corner_angle(b, c, a), corner_angle(c, a, b)};
+    const auto [least, largest] = std::minmax_element(angles.begin(), angles.end());
+    if (*least < summary.min_angle) {
+      summary.min_angle = *least;
+      summary.worst_place = (a + b + c) / 3.0;
+    }
+    summary.max_angle = std::max(summary.max_angle, *largest);
+    if (*least < k_least_angle || *largest > k_largest_angle) ++summary.n_outside_20_130;
+    const Vec3 normal = cross(b - a, c - a);
+    for (const VertexId w : v) {
+      const Vec3& n = normals[w.index()];
+      if (norm2(n) == 0.0) continue;
+      if (const double angle = angle_between(normal, n); angle > summary.max_normal_angle) {
+        summary.max_normal_angle = angle;
+        summary.normal_place = mesh.points[w.index()];
+      }
+    }
+  }
+}
+
+}  // namespace
+
+BorderVertices number_border(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts) {
+  BorderVertices numbers{Column<CornerId, VertexId>(model.corners.size()), Column<EdgeId, std::uint32_t>(model.edges.size(), 0), 0, 0};
+  const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
+  Column<CornerId, std::uint8_t> is_used(model.corners.size(), 0);
+  for (const EdgeId e : model.edges.ids())
+    if (!uses[e].empty()) is_used[topology.corner[model.edges[e].start]] = is_used[topology.corner[model.edges[e].end]] = 1;
+  for (const CornerId c : model.corners.ids())
+    if (is_used[c] != 0) numbers.of_corner[c] = VertexId(numbers.n++);
+  numbers.n_corners = numbers.n;
+  for (const EdgeId e : model.edges.ids()) {
+    numbers.first_of_edge[e] = numbers.n;
+    numbers.n += static_cast<std::uint32_t>(cuts[e].t.size());
+  }
+  return numbers;
+}
+
+std::vector<VertexId> border_ids(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const FaceOutline& outline) {
+  return border_of(model, f, topology, cuts, numbers, outline).ids;
+}
+
+MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const SizeField& field,
+                         int max_triangles, const RunContext& context) {
+  const ModelFace& face = model.faces[f];
+  const FaceSizes& wanted = sizes.faces[f];
+  MeshedFace result;
+  result.summary.face = f;
+  result.summary.name = face.name;
+  const auto fail = [&](ErrorInfo info) {
+    info.attempted = "meshing face " + std::to_string(f.value()) + ", \"" + face.name + "\"";
+    result.failure = std::move(info);
+    return result;
+  };
+  if (!sizes.outlines[f].winding.empty())
+    return fail({.code = ErrorCode::geometry_failed, .problem = "a border runs around the period of its " + face.surface->kind() + " without a seam"});
+  LabelledBorder labelled = border_of(model, f, topology, cuts, numbers, sizes.outlines[f]);
+  if (labelled.border.loops.empty()) {
+    result.is_absorbed = true;
+    return result;
+  }
+  FaceMeshOptions options;
+  options.min_edge = 0.0;
+  options.size_growth = sizes.growth;
+  options.max_triangles = max_triangles;
+  const auto size = [&](const Point& p) { return field(p, wanted.max_edge); };
+  try {
+    result.mesh = mesh_face(*face.surface, labelled.border, size, *wanted.curvature, options, context);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled) throw;
+    return fail(error.info());
+  }
+  result.border_ids = std::move(labelled.ids);
+  measure(*face.surface, result);
+  return result;
+}
+
+}  // namespace sterna::surfmesh

@@ -1,0 +1,41 @@
+// Faces of a model meshed on their shared edges, in parallel; what cannot be meshed comes back as trouble with a place.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geom/base/error.h"
+#include "surfmesh/face/face_mesh.h"
+#include "surfmesh/model/edge_cuts.h"
+#include "surfmesh/model/model_sizes.h"
+
+namespace sterna::surfmesh {
+
+/// Numbers of the vertices on corners and edges: corners that are left, in their order, then the cuts of each edge.
+struct BorderVertices {
+  Column<CornerId, VertexId> of_corner;  ///< invalid where no edge ends
+  Column<EdgeId, std::uint32_t> first_of_edge;
+  std::uint32_t n_corners = 0;
+  std::uint32_t n = 0;
+};
+BorderVertices number_border(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts);
+
+struct MeshedFace {
+  FaceMesh mesh;
+  std::vector<VertexId> border_ids;     ///< of its first n_border vertices
+  std::optional<ErrorInfo> failure;     ///< instead of a mesh
+  bool is_absorbed = false;             ///< nothing is left of its border: no mesh
+  FaceMeshSummary summary;
+  double edge_distance = 0.0;           ///< metres: largest distance of a border point to the surface
+  Point edge_distance_place{};
+};
+
+/// Vertices of a face's border, in the order in which it is given to mesh_face.
+std::vector<VertexId> border_ids(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const FaceOutline& outline);
+
+/// Meshes face f. Failures that finer edges may cure come back; others are thrown with the face's name.
+MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const SizeField& field,
+                         int max_triangles, const RunContext& context);
+
+}  // namespace sterna::surfmesh

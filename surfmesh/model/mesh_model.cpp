@@ -1,0 +1,252 @@
+// The driver. Faces that cannot be meshed, edges with more than two triangles and triangles that cross are all signs of edges too long for what is there: sizes are
+// halved around such places and the faces concerned are meshed again, a few times.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <set>
+
+#include "geom/base/error.h"
+#include "geom/base/parallel.h"
+#include "geom/math/intersect.h"
+#include "geom/math/measures.h"
+#include "surfmesh/model/join_faces.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+constexpr const char* k_attempted = "meshing the model's surface";
+/// Rounds of meshing: each halves sizes at what is wrong, so a place is at 1/32 after the last.
+constexpr int k_max_rounds = 6;
+constexpr double k_repair_factor = 0.5;
+constexpr std::size_t k_shown_places = 10;
+
+struct Meshing {
+  const Model& model;
+  const SurfaceMeshOptions& options;
+  Column<EdgeId, EdgeSamples> edges;
+  ModelSizes sizes;
+  ModelTopology topology;
+  std::vector<AbsorbedPart> absorbed;
+  std::vector<SizeSource> repairs;
+  Column<EdgeId, EdgeCut> cuts;
+  Column<FaceId, MeshedFace> faces;
+  std::set<FaceId> to_mesh;
+
+  SizeField field() const {
+    std::vector<SizeSource> sources = sizes.sources;
+    sources.insert(sources.end(), repairs.begin(), repairs.end());
+    return SizeField(std::move(sources), sizes.growth, sizes.largest);
+  }
+};
+
+/// Cuts edges anew and meshes the faces whose edges changed, and those that are to be meshed again.
+SurfaceMesh mesh_round(Meshing& meshing, const SizeField& field, const RunContext& context) {
+  const Model& model = meshing.model;
+  Column<EdgeId, EdgeCut> cuts = cut_edges(model, meshing.edges, meshing.topology, meshing.sizes, field, context);
+  std::vector<FaceId> work;
+  for (const FaceId f : model.faces.ids()) {
+    bool is_concerned = meshing.cuts.empty() || meshing.to_mesh.contains(f);
+    for (const Border& border : model.faces[f].borders)
+      for (const EdgeUse& use : border) is_concerned = is_concerned || !(meshing.cuts[use.edge] == cuts[use.edge]);
+    if (is_concerned) work.push_back(f);
+  }
+  meshing.cuts = std::move(cuts);
+  const BorderVertices numbers = number_border(model, meshing.topology, meshing.cuts);
+  if (meshing.faces.empty()) meshing.faces.resize(model.faces.size());
+  parallel_for(context, work.size(), [&](std::size_t i) {
+    meshing.faces[work[i]] = mesh_one_face(model, work[i], meshing.topology, meshing.cuts, numbers, meshing.sizes, field, meshing.options.max_triangles, context);
+  }, 1);
+  // The others have their border's vertices under new numbers.
+  for (const FaceId f : model.faces.ids())
+    if (!std::binary_search(work.begin(), work.end(), f)) meshing.faces[f].border_ids = border_ids(model, f, meshing.topology, meshing.cuts, numbers, meshing.sizes.outlines[f]);
+  meshing.to_mesh.clear();
+  return join_faces(model, meshing.topology, meshing.cuts, numbers, meshing.faces);
+}
+
+void refine_at(Meshing& meshing, FaceId f, const Point& place, double size) {
+  meshing.repairs.push_back({place, k_repair_factor * size});
+  meshing.to_mesh.insert(f);
+}
+
+/// Half the sizes where faces failed. \return whether any did
+bool refine_failures(Meshing& meshing, const SizeField& field) {
+  bool is_any = false;
+  for (const FaceId f : meshing.model.faces.ids()) {
+    const MeshedFace& face = meshing.faces[f];
+    if (!face.failure) continue;
+    is_any = true;
+    const double cap = meshing.sizes.faces[f].max_edge;
+    for (const ErrorPlace& place : face.failure->places) refine_at(meshing, f, place.position, field(place.position, cap));
+    if (!face.failure->places.empty()) continue;
+    for (const Border& border : meshing.model.faces[f].borders)
+      for (const EdgeUse& use : border)
+        for (const EdgeSample& s : meshing.edges[use.edge].samples) refine_at(meshing, f, s.point, field(s.point, cap));
+  }
+  return is_any;
+}
+
+void refine_triangles(Meshing& meshing, const SurfaceMesh& mesh, const std::vector<TriangleId>& triangles) {
+  for (const TriangleId t : triangles) {
+    const auto p = corners(mesh.mesh, t);
+    const double size = std::min({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
+    const double longest = std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
+    refine_at(meshing, mesh.triangle_face[t], (p[0] + p[1] + p[2]) / 3.0, std::max(size, 0.5 * longest));
+  }
+}
+
+[[noreturn]] void throw_failures(const Meshing& meshing) {
+  ErrorInfo info{.code = ErrorCode::geometry_failed, .attempted = k_attempted};
+  for (const FaceId f : meshing.model.faces.ids()) {
+    const MeshedFace& face = meshing.faces[f];
+    if (!face.failure) continue;
+    if (face.failure->code == ErrorCode::overflow || face.failure->code == ErrorCode::bad_argument) info.code = face.failure->code;
+    ++info.n_places;
+    if (info.places.size() >= k_shown_places) continue;
+    Point place;
+    if (!face.failure->places.empty()) place = face.failure->places.front().position;
+    else if (const EdgeSamples& samples = meshing.edges[meshing.model.faces[f].borders.front().front().edge]; !samples.samples.empty()) place = samples.samples.front().point;
+    info.places.push_back({place, face.failure->attempted + ": " + face.failure->problem});
+    if (info.hint.empty()) info.hint = face.failure->hint;
+  }
+  info.problem = std::to_string(info.n_places) + " of " + std::to_string(meshing.model.faces.size()) + " faces cannot be meshed";
+  throw Error(std::move(info));
+}
+
+[[noreturn]] void throw_faults(const Meshing& meshing, const SurfaceMesh& mesh, const JoinFaults& faults) {
+  ErrorInfo info{.code = ErrorCode::non_manifold_surface, .attempted = k_attempted, .problem = "triangles of faces do not join: edges have one or more than two triangles, or two that run the same way"};
+  info.n_places = static_cast<std::int64_t>(faults.triangles.size());
+  for (std::size_t i = 0; i < std::min(k_shown_places, faults.triangles.size()); ++i) {
+    const auto p = corners(mesh.mesh, faults.triangles[i]);
+    info.places.push_back({(p[0] + p[1] + p[2]) / 3.0, "face \"" + meshing.model.faces[mesh.triangle_face[faults.triangles[i]]].name + "\""});
+  }
+  info.hint = "faces of the model may overlap, or an edge may have more than two faces";
+  throw Error(std::move(info));
+}
+
+/// Triangles of one solid that cross; `total` counts also those of different solids, which stand in each other.
+std::vector<TriangleId> crossing_triangles(const Model& model, const SurfaceMesh& mesh, const RunContext& context, std::int64_t& total) {
+  std::vector<std::array<std::uint32_t, 3>> triangles(mesh.mesh.n_triangles());
+  for (const TriangleId t : mesh.mesh.triangles.ids())
+    for (std::size_t k = 0; k < 3; ++k) triangles[t.index()][k] = mesh.mesh.triangles[t][k].value();
+  constexpr std::size_t k_limit = 100'000;
+  const CrossingPairs crossings = find_crossings(mesh.mesh.points.raw(), triangles, context, k_limit);
+  total = crossings.total;
+  Column<FaceId, SolidId> solid(model.faces.size());
+  for (const SolidId s : model.solids.ids())
+    for (const FaceId f : model.solids[s].faces) solid[f] = s;
+  std::vector<TriangleId> result;
+  for (const auto& pair : crossings.pairs) {
+    const TriangleId a(pair[0]), b(pair[1]);
+    if (solid[mesh.triangle_face[a]] != solid[mesh.triangle_face[b]]) continue;
+    result.push_back(a);
+    result.push_back(b);
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+void summarise(const Meshing& meshing, SurfaceMesh& mesh) {
+  SurfaceMeshReport& report = mesh.report;
+  report.absorbed = meshing.absorbed;
+  report.min_angle = std::numbers::pi;
+  std::int64_t n = 0, n_outside = 0;
+  for (const MeshedFace& face : meshing.faces) {
+    report.faces.push_back(face.summary);
+    if (face.is_absorbed) {
+      const EdgeSamples& edge = meshing.edges[meshing.model.faces[face.summary.face].borders.front().front().edge];
+      report.absorbed.push_back({"face " + face.summary.name + ", all of whose edges are points", edge.samples.empty() ? Point{} : edge.samples.front().point, edge.length});
+    }
+    n += face.summary.n_triangles;
+    n_outside += face.summary.n_outside_20_130;
+    if (face.summary.n_triangles > 0 && face.summary.min_angle < report.min_angle) {
+      report.min_angle = face.summary.min_angle;
+      report.worst_face = face.summary.face;
+    }
+    report.max_angle = std::max(report.max_angle, face.summary.max_angle);
+    if (face.edge_distance > report.max_edge_distance) {
+      report.max_edge_distance = face.edge_distance;
+      report.edge_distance_place = face.edge_distance_place;
+    }
+  }
+  if (n > 0) report.share_20_130 = 1.0 - static_cast<double>(n_outside) / static_cast<double>(n);
+  std::vector<float> least(mesh.mesh.n_triangles());
+  for (const TriangleId t : mesh.mesh.triangles.ids()) {
+    const auto p = corners(mesh.mesh, t);
+    least[t.index()] = static_cast<float>(std::min({corner_angle(p[0], p[1], p[2]), corner_angle(p[1], p[2], p[0]), corner_angle(p[2], p[0], p[1])}));
+  }
+  if (least.empty()) return;
+  const auto at = least.begin() + static_cast<std::ptrdiff_t>(least.size() / 100);
+  std::nth_element(least.begin(), at, least.end());
+  report.angle_quantile_1 = *at;
+}
+
+void check_options(const SurfaceMeshOptions& options) {
+  SurfaceMeshOptions copy = options;
+  for (const Option& option : options_of(copy))
+    if (option.kind != OptionKind::number || option.automatic.empty() || !is_automatic(std::get<double>(option.get()))) set_option(option, option.get());
+}
+
+}  // namespace
+
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
+  check_options(options);
+  Meshing meshing{model, options, sample_edges(model, context), {}, {}, {}, {}, {}, {}, {}};
+  meshing.sizes = sizes_of_model(model, meshing.edges, options, patches, context);
+  meshing.topology = absorb_short_edges(model, meshing.edges, meshing.sizes, meshing.absorbed);
+  SurfaceMesh mesh;
+  std::int64_t n_crossings = 0;
+  std::size_t n_crossing_before = static_cast<std::size_t>(-1);
+  for (int round = 1;; ++round) {
+    const SizeField field = meshing.field();
+    mesh = mesh_round(meshing, field, context);
+    mesh.report.n_rounds = round;
+    const bool is_last = round == k_max_rounds;
+    if (refine_failures(meshing, field)) {
+      if (is_last) throw_failures(meshing);
+      continue;
+    }
+    const JoinFaults faults = check_joins(model, mesh, context);
+    mesh.report.n_free_edges = faults.n_free_edges;
+    if (!faults.triangles.empty()) {
+      if (is_last) throw_faults(meshing, mesh, faults);
+      refine_triangles(meshing, mesh, faults.triangles);
+      continue;
+    }
+    if (!options.check_crossings) break;
+    const std::vector<TriangleId> crossing = crossing_triangles(model, mesh, context, n_crossings);
+    if (is_last || crossing.empty() || crossing.size() >= n_crossing_before) break;
+    n_crossing_before = crossing.size();
+    refine_triangles(meshing, mesh, crossing);
+  }
+  mesh.report.n_crossings = n_crossings;
+  if (n_crossings > 0) context.warn(std::to_string(n_crossings) + " pairs of triangles cross: parts of the model stand in each other, or its faces cross");
+  summarise(meshing, mesh);
+  return mesh;
+}
+
+std::string to_text(const SurfaceMeshReport& report) {
+  constexpr double k_deg = std::numbers::pi / 180.0;
+  const auto number = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return std::string(text);
+  };
+  std::int64_t n = 0;
+  for (const FaceMeshSummary& face : report.faces) n += face.n_triangles;
+  std::string text = std::to_string(n) + " triangles on " + std::to_string(report.faces.size()) + " faces; angles " + number(report.min_angle / k_deg) + " .. " + number(report.max_angle / k_deg) +
+                     " degrees, 1 % below " + number(report.angle_quantile_1 / k_deg) + ", " + number(100.0 * report.share_20_130) + " % within [20, 130]\n";
+  if (report.worst_face.is_valid()) {
+    const FaceMeshSummary& worst = report.faces[report.worst_face.index()];
+    text += "worst angle on \"" + worst.name + "\" at " + format_point(worst.worst_place) + "\n";
+  }
+  text += report.n_free_edges == 0 ? "closed" : "open: " + std::to_string(report.n_free_edges) + " free edges of triangles";
+  text += "; edges within " + number(report.max_edge_distance) + " m of their surfaces";
+  if (!report.absorbed.empty()) text += "; " + std::to_string(report.absorbed.size()) + " small parts absorbed, first: " + report.absorbed.front().what + " at " + format_point(report.absorbed.front().place);
+  if (report.n_crossings > 0) text += "; " + std::to_string(report.n_crossings) + " pairs of triangles cross";
+  return text + "\n";
+}
+
+}  // namespace sterna::surfmesh

@@ -1,0 +1,262 @@
+#include "surfmesh/model/model_sizes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/error.h"
+#include "geom/base/parallel.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+/// Component defaults (sumo.md section 2).
+constexpr double k_of_circumference = 0.08;
+constexpr double k_of_chord = 0.15;
+constexpr double k_of_longest_side = 0.02;
+constexpr double k_min_of_max = 0.02;
+
+double longest_side(const Box& box) { return box.empty() ? 0.0 : box.longest_side(); }
+
+struct ComponentMeasures {
+  Box box;
+  double area = 0.0;
+};
+
+double default_max_edge(const Component& component, const ComponentMeasures& m) {
+  const Vec3 size = m.box.max - m.box.min;
+  const double longest = longest_side(m.box);
+  if (!(longest > 0.0)) return 0.0;
+  switch (component.kind) {
+    case ComponentKind::body:
+    case ComponentKind::nacelle:
+    case ComponentKind::fairing:
+    case ComponentKind::boom:
+    case ComponentKind::sting: return k_of_circumference * m.area / longest;
+    case ComponentKind::wing:
+    case ComponentKind::pylon: {
+      // Half of the wetted area is the planform's; the span is the longer side across the flow.
+      const double span = std::max(size.y, size.z);
+      return k_of_chord * std::min(0.5 * m.area / std::max(span, 1e-12), longest);
+    }
+    default: return k_of_longest_side * longest;
+  }
+}
+
+/// Faces of no component share the defaults of the whole model.
+Column<ComponentId, double> default_sizes(const Model& model, const ModelSizes& sizes, const Column<EdgeId, EdgeSamples>& edges, double& of_model) {
+  Column<ComponentId, ComponentMeasures> measures(model.components.size());
+  ComponentMeasures all;
+  for (const FaceId f : model.faces.ids()) {
+    Box box;
+    sizes.faces[f].curvature->for_each_inside([&](const Point& p, double) { box.add(p); });
+    for (const Border& border : model.faces[f].borders)
+      for (const EdgeUse& use : border)
+        for (const EdgeSample& s : edges[use.edge].samples) box.add(s.point);
+    if (box.empty()) continue;
+    const auto add = [&](ComponentMeasures& m) {
+      m.box.add(box);
+      m.area += sizes.faces[f].curvature->area();
+    };
+    add(all);
+    if (model.faces[f].component.is_valid()) add(measures[model.faces[f].component]);
+  }
+  of_model = k_of_longest_side * longest_side(all.box);
+  Column<ComponentId, double> result(model.components.size(), of_model);
+  for (const ComponentId c : model.components.ids())
+    if (const double size = default_max_edge(model.components[c], measures[c]); size > 0.0) result[c] = size;
+  return result;
+}
+
+/// Meshes of a family are similar: where sizes grow from a fine place, they grow slower in the finer mesh.
+double change_by_distance(const SurfaceMeshOptions& options) { return (options.growth - 1.0) / options.refinement; }
+
+FaceSizes resolve(const std::string& name, double automatic_max, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches) {
+  double max_edge = options.max_edge, min_edge = options.min_edge, angle = options.curvature_angle, error = options.chord_error;
+  // The last rule that matches and says something counts.
+  for (const PatchSurfaceOptions& rule : patches) {
+    if (!matches_glob(name, rule.names)) continue;
+    if (!is_automatic(rule.max_edge)) max_edge = rule.max_edge;
+    if (!is_automatic(rule.min_edge)) min_edge = rule.min_edge;
+    if (!is_automatic(rule.curvature_angle)) angle = rule.curvature_angle;
+    if (!is_automatic(rule.chord_error)) error = rule.chord_error;
+  }
+  FaceSizes sizes;
+  sizes.max_edge = is_automatic(max_edge) ? automatic_max : max_edge;
+  sizes.limits.min_edge = std::min(sizes.max_edge, is_automatic(min_edge) ? k_min_of_max * sizes.max_edge : min_edge);
+  sizes.limits.angle = angle;
+  if (!is_automatic(error)) sizes.limits.chord_error = error;
+  sizes.max_edge /= options.refinement;
+  sizes.limits.min_edge /= options.refinement;
+  sizes.limits.angle /= options.refinement;
+  // The error of a chord falls with the square of its length.
+  sizes.limits.chord_error /= options.refinement * options.refinement;
+  sizes.limits.growth = change_by_distance(options);
+  return sizes;
+}
+
+void check_rules(const Model& model, std::span<const PatchSurfaceOptions> patches) {
+  for (const PatchSurfaceOptions& rule : patches) {
+    const bool is_used = std::any_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& f) { return matches_glob(f.name, rule.names); });
+    if (is_used) continue;
+    ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = "meshing the model's surface", .problem = "no face has a name like \"" + rule.names + "\""};
+    std::vector<std::string> names;
+    for (const ModelFace& f : model.faces) names.push_back(f.name);
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    info.hint = "names are";
+    constexpr std::size_t k_shown = 12;
+    for (std::size_t i = 0; i < std::min(k_shown, names.size()); ++i) info.hint += (i > 0 ? ", " : " ") + names[i];
+    if (names.size() > k_shown) info.hint += ", ... (" + std::to_string(names.size()) + " in all)";
+    throw Error(std::move(info));
+  }
+}
+
+ParameterBox box_of(const FaceOutline& outline) {
+  ParameterBox box{{1e300, -1e300}, {1e300, -1e300}};
+  for (const auto& polygon : outline.polygons)
+    for (const Uv& p : polygon) {
+      box.u = {std::min(box.u.from, p.u), std::max(box.u.to, p.u)};
+      box.v = {std::min(box.v.from, p.v), std::max(box.v.to, p.v)};
+    }
+  return box;
+}
+
+double distance_to_segment(const Point& p, const Point& a, const Point& b) {
+  const Vec3 along = b - a;
+  const double length2 = norm2(along);
+  const double t = length2 > 0.0 ? std::clamp(dot(p - a, along) / length2, 0.0, 1.0) : 0.0;
+  return distance(p, a + t * along);
+}
+
+double distance_between(const Box& a, const Box& b) {
+  Vec3 gap;
+  for (std::size_t k = 0; k < 3; ++k) gap[k] = std::max({0.0, a.min[k] - b.max[k], b.min[k] - a.max[k]});
+  return norm(gap);
+}
+
+/// Where two edges of a face run near to each other, edges are to be no longer than the face is wide there. Beside a corner that two edges share that is
+/// so only when they are nearer than k_narrow_corner of the distance from the corner: wider corners are filled by triangles as they are.
+void add_narrow_sources(const Model& model, FaceId f, const Column<EdgeId, EdgeSamples>& edges, const FaceSizes& sizes, double narrow, std::vector<SizeSource>& sources) {
+  constexpr double k_narrow_corner = 0.35;
+  constexpr double k_at_corner = 1e-6;  // of the edge's length: the corner itself has no distance to the other edge
+  constexpr double k_least_of_min_edge = 0.2;
+  const double reach = sizes.max_edge / narrow;
+  const double least = k_least_of_min_edge * sizes.limits.min_edge;
+  std::vector<EdgeId> used;
+  for (const Border& border : model.faces[f].borders)
+    for (const EdgeUse& use : border)
+      if (!edges[use.edge].samples.empty()) used.push_back(use.edge);
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::vector<Box> boxes(used.size());
+  for (std::size_t i = 0; i < used.size(); ++i)
+    for (const EdgeSample& s : edges[used[i]].samples) boxes[i].add(s.point);
+  for (std::size_t i = 0; i < used.size(); ++i)
+    for (std::size_t j = 0; j < used.size(); ++j) {
+      if (i == j || distance_between(boxes[i], boxes[j]) >= reach) continue;
+      const ModelEdge &a = model.edges[used[i]], &b = model.edges[used[j]];
+      const auto shares = [&](CornerId c) { return c == b.start || c == b.end; };
+      const std::vector<EdgeSample>& other = edges[used[j]].samples;
+      for (const EdgeSample& s : edges[used[i]].samples) {
+        double nearest = reach;
+        for (std::size_t k = 0; k + 1 < other.size(); ++k) nearest = std::min(nearest, distance_to_segment(s.point, other[k].point, other[k + 1].point));
+        if (nearest >= reach) continue;
+        double from_corner = std::numeric_limits<double>::infinity();
+        for (const CornerId c : {a.start, a.end})
+          if (shares(c)) from_corner = std::min(from_corner, distance(s.point, model.corners[c].point));
+        if (nearest >= k_narrow_corner * from_corner || from_corner <= k_at_corner * edges[used[i]].length) continue;
+        sources.push_back({s.point, std::max(least, narrow * nearest)});
+      }
+    }
+}
+
+/// What an edge asks for: its own curvature, that of its faces beside it, its length where that is short, and the lesser size of its faces.
+void add_edge_sources(const Model& model, const std::vector<EdgeUsePlace>& uses, const EdgeSamples& samples, const ModelSizes& sizes, std::vector<SizeSource>& sources) {
+  if (uses.empty() || samples.samples.empty()) return;
+  double least = sizes.largest;
+  CurvatureLimits limits = sizes.faces[uses.front().face].limits;
+  for (const EdgeUsePlace& place : uses) {
+    least = std::min(least, sizes.faces[place.face].max_edge);
+    limits.angle = std::min(limits.angle, sizes.faces[place.face].limits.angle);
+    limits.min_edge = std::min(limits.min_edge, sizes.faces[place.face].limits.min_edge);
+    limits.chord_error = std::min(limits.chord_error, sizes.faces[place.face].limits.chord_error);
+  }
+  if (samples.length < least) least = std::max(limits.min_edge, samples.length);
+  for (const EdgeSample& s : samples.samples) {
+    double size = std::min(least, limits.size_of(s.curvature));
+    for (const EdgeUsePlace& place : uses) {
+      const EdgeUse& use = model.faces[place.face].borders[place.border][place.place];
+      const double curvature = largest_curvature(model.faces[place.face].surface->derivatives(use.parameter->point(s.t)));
+      if (std::isfinite(curvature)) size = std::min(size, sizes.faces[place.face].limits.size_of(curvature));
+    }
+    sources.push_back({s.point, size});
+  }
+}
+
+}  // namespace
+
+bool matches_glob(std::string_view name, std::string_view glob) {
+  std::size_t n = 0, g = 0, star = std::string_view::npos, retry = 0;
+  while (n < name.size()) {
+    if (g < glob.size() && (glob[g] == '?' || (glob[g] != '*' && glob[g] == name[n]))) {
+      ++n;
+      ++g;
+    } else if (g < glob.size() && glob[g] == '*') {
+      star = g++;
+      retry = n;
+    } else if (star != std::string_view::npos) {
+      g = star + 1;
+      n = ++retry;
+    } else {
+      return false;
+    }
+  }
+  while (g < glob.size() && glob[g] == '*') ++g;
+  return g == glob.size();
+}
+
+ModelSizes sizes_of_model(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
+  check_rules(model, patches);
+  ModelSizes sizes;
+  sizes.growth = change_by_distance(options);
+  sizes.outlines.resize(model.faces.size());
+  sizes.faces.resize(model.faces.size());
+  parallel_for(context, model.faces.size(), [&](std::size_t i) {
+    const FaceId f(static_cast<std::uint64_t>(i));
+    sizes.outlines[f] = outline_of(model, f);
+    sizes.faces[f].curvature = std::make_unique<CurvatureSizes>(*model.faces[f].surface, box_of(sizes.outlines[f]), sizes.outlines[f].polygons);
+  }, 1);
+  double of_model = 0.0;
+  const Column<ComponentId, double> automatic = default_sizes(model, sizes, edges, of_model);
+  for (const FaceId f : model.faces.ids()) {
+    const ModelFace& face = model.faces[f];
+    std::unique_ptr<CurvatureSizes> curvature = std::move(sizes.faces[f].curvature);
+    sizes.faces[f] = resolve(face.name, face.component.is_valid() ? automatic[face.component] : of_model, options, patches);
+    sizes.faces[f].curvature = std::move(curvature);
+    sizes.largest = std::max(sizes.largest, sizes.faces[f].max_edge);
+  }
+  parallel_for(context, model.faces.size(), [&](std::size_t i) {
+    const FaceId f(static_cast<std::uint64_t>(i));
+    sizes.faces[f].curvature->limit(sizes.faces[f].limits);
+  }, 1);
+  for (const FaceId f : model.faces.ids())
+    sizes.faces[f].curvature->for_each_inside([&](const Point& p, double size) {
+      if (size < sizes.faces[f].max_edge) sizes.sources.push_back({p, size});
+    });
+  std::vector<std::vector<SizeSource>> of_faces(model.faces.size());
+  parallel_for(context, model.faces.size(), [&](std::size_t i) {
+    const FaceId f(static_cast<std::uint64_t>(i));
+    add_narrow_sources(model, f, edges, sizes.faces[f], options.narrow, of_faces[i]);
+  }, 1);
+  for (const auto& list : of_faces) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());
+  const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
+  std::vector<std::vector<SizeSource>> of_edges(model.edges.size());
+  parallel_for(context, model.edges.size(), [&](std::size_t i) {
+    const EdgeId e(static_cast<std::uint64_t>(i));
+    add_edge_sources(model, uses[e], edges[e], sizes, of_edges[i]);
+  }, 16);
+  for (const auto& list : of_edges) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());
+  return sizes;
+}
+
+}  // namespace sterna::surfmesh

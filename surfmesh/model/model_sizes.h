@@ -1,0 +1,36 @@
+// Wanted lengths of edges over a model: what options, rules for patches and component defaults say for each face, and what curvature and narrow places ask for.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "surfmesh/face/face_sizes.h"
+#include "surfmesh/model/edge_samples.h"
+#include "surfmesh/model/face_outline.h"
+#include "surfmesh/model/size_field.h"
+#include "surfmesh/model/surface_mesh.h"
+
+namespace sterna::surfmesh {
+
+struct FaceSizes {
+  double max_edge = 0.0;
+  CurvatureLimits limits;
+  std::unique_ptr<CurvatureSizes> curvature;  ///< of the surface within the face
+};
+
+struct ModelSizes {
+  Column<FaceId, FaceOutline> outlines;
+  Column<FaceId, FaceSizes> faces;
+  std::vector<SizeSource> sources;  ///< curvature of faces and edges, narrow faces, short edges, borders of finer patches
+  double growth = 0.2;              ///< change of length by distance
+  double largest = 0.0;             ///< max_edge of all faces
+};
+
+/// \throws Error(bad_argument) for a rule that no face's name matches
+ModelSizes sizes_of_model(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
+
+/// "*" any run of characters, "?" any one.
+bool matches_glob(std::string_view name, std::string_view glob);
+
+}  // namespace sterna::surfmesh

@@ -1,0 +1,119 @@
+// From a model to one watertight triangulation: sizes, edges cut once, faces meshed in parallel, joined (method.md section 0, recipes.md section 2).
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/base/schema.h"
+#include "geom/mesh/tri_mesh.h"
+#include "geom/model/deform.h"
+#include "geom/model/model.h"
+
+namespace sterna::surfmesh {
+
+struct SurfaceMeshOptions {
+  double max_edge = k_automatic;
+  double min_edge = k_automatic;
+  double curvature_angle = 12.0 * std::numbers::pi / 180.0;
+  double chord_error = k_automatic;
+  double growth = 1.2;
+  double refinement = 1.0;
+  double narrow = 2.0;
+  bool check_crossings = true;
+  int max_triangles = 200'000'000;
+};
+
+/// What faces (patches) whose names match ask for instead; not a number: as the options above say.
+struct PatchSurfaceOptions {
+  std::string names;                      ///< glob: "wing*", "*" any run of characters, "?" any one
+  double max_edge = k_automatic;          ///< m
+  double min_edge = k_automatic;          ///< m
+  double curvature_angle = k_automatic;   ///< rad
+  double chord_error = k_automatic;       ///< m
+};
+
+/// Where a vertex lies on an edge of the model; no edge: inside a face, or a corner.
+struct EdgePlace {
+  EdgeId edge;
+  double t = 0.0;
+};
+
+struct FaceMeshSummary {
+  FaceId face;
+  std::string name;
+  std::int64_t n_triangles = 0;
+  double min_angle = 0.0;             ///< rad
+  double max_angle = 0.0;
+  Point worst_place{};                ///< where the smallest angle is
+  std::int64_t n_outside_20_130 = 0;  ///< triangles with an angle outside [20, 130] degrees
+  double max_normal_angle = 0.0;      ///< rad: between a triangle and the surface at a corner of it
+  Point normal_place{};
+};
+
+/// A thing of the model that the mesh does not show.
+struct AbsorbedPart {
+  std::string what;    ///< "edge shorter than its tolerance", with the names of faces
+  Point place;
+  double size = 0.0;   ///< metres
+};
+
+struct SurfaceMeshReport {
+  std::vector<FaceMeshSummary> faces;  ///< as in the model
+  std::vector<AbsorbedPart> absorbed;
+  double min_angle = 0.0;              ///< rad
+  double max_angle = 0.0;
+  double angle_quantile_1 = 0.0;       ///< rad: 1 % of the triangles have a smaller least angle
+  double share_20_130 = 1.0;           ///< of the triangles: all angles within
+  FaceId worst_face;                   ///< where min_angle is
+  double max_edge_distance = 0.0;      ///< metres: from a vertex on an edge to a face of it
+  Point edge_distance_place{};
+  double max_smooth_angle = 0.0;       ///< rad: largest dihedral turn between two triangles of one face; what a feature angle has to exceed
+  std::int64_t n_free_edges = 0;       ///< of triangles: along free edges of the model
+  int n_rounds = 1;                    ///< of meshing; above 1 where places had to be refined to come out right
+  std::int64_t n_crossings = 0;        ///< pairs of triangles that cross and could not be refined away; only faces that cross in the model leave any
+};
+
+/// A surface mesh that remembers its model.
+struct SurfaceMesh {
+  TriMesh mesh;                                ///< a patch for each name of a face; vertices: corners, then edges', then inner ones
+  Column<VertexId, VertexPlace> places;        ///< vertices on edges: on the first face that uses them
+  Column<VertexId, EdgePlace> edge_places;
+  Column<TriangleId, FaceId> triangle_face;
+  SurfaceMeshReport report;
+};
+
+/// Meshes a whole model. Vertices inside faces are exactly on their surface, those on edges exactly on the edge's curve, corners are the model's.
+/// Normals point outwards as the model's faces say. Closed models give closed meshes; elsewhere boundary loops are the model's free edges.
+/// \throws Error(geometry_failed) naming the faces that cannot be meshed, with places; Error(bad_argument) for sizes that are not positive or a rule that no face's name
+/// matches; Error(overflow) beyond max_triangles; Error(self_intersection) where parts of the model cross
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
+
+/// Several lines for people.
+std::string to_text(const SurfaceMeshReport& report);
+
+}  // namespace sterna::surfmesh
+
+namespace sterna {
+
+template <>
+struct Schema<surfmesh::SurfaceMeshOptions> {
+  using O = surfmesh::SurfaceMeshOptions;
+  static constexpr std::string_view stage = "surface_mesh";
+  static constexpr std::array fields = {
+      Field<O>{.name = "max_edge", .member = &O::max_edge, .unit = Unit::metre, .min = 1e-9, .help = "longest edge wanted", .automatic = "8 % of the mean circumference of bodies, 15 % of the mean chord of wings, else 2 % of the component's longest side"},
+      Field<O>{.name = "min_edge", .member = &O::min_edge, .unit = Unit::metre, .min = 0.0, .help = "curvature and narrow places ask for no shorter edges", .automatic = "2 % of the longest edge"},
+      Field<O>{.name = "curvature_angle", .member = &O::curvature_angle, .unit = Unit::radian, .min = 0.001, .max = 1.6, .help = "an edge spans at most this angle of the surface"},
+      Field<O>{.name = "chord_error", .member = &O::chord_error, .unit = Unit::metre, .min = 1e-9, .help = "an edge's middle is at most this far from the surface", .automatic = "no limit"},
+      Field<O>{.name = "growth", .member = &O::growth, .min = 1.01, .max = 3.0, .help = "ratio of the lengths of edges that follow each other, at most"},
+      Field<O>{.name = "refinement", .member = &O::refinement, .min = 0.01, .max = 100.0, .help = "lengths, angles and growth - 1 are divided by it: 1.5 for the next finer mesh of a family"},
+      Field<O>{.name = "narrow", .member = &O::narrow, .min = 0.1, .max = 100.0, .help = "edges along narrow faces are at most this many times their width (never below a fifth of min_edge)"},
+      Field<O>{.name = "check_crossings", .member = &O::check_crossings, .help = "look for triangles that cross, and refine there"},
+      Field<O>{.name = "max_triangles", .member = &O::max_triangles, .min = 1, .max = 2e9, .help = "of one face; beyond it is an error"},
+  };
+};
+
+}  // namespace sterna
