@@ -118,9 +118,18 @@ struct WingPatch {
     double lower = 1.0;
     friend bool operator==(const Place&, const Place&) = default;
   };
+  /// The moving part is a solid of its own; what the wing keeps has a cut-out with a cove and side walls, and ends at the patch's border.
+  struct Slot {
+    std::vector<Place> hinge;      ///< where the hinge fraction crosses the sides, at the sections of the border
+    double from = 0.0, to = 0.0;   ///< sections between which the moving part stands, within the border's
+    bool is_flat = false;          ///< the moving part's nose
+    Transform motion;              ///< of the moving part, component axes
+    friend bool operator==(const Slot&, const Slot&) = default;
+  };
   std::string name;
   ControlKind kind = ControlKind::trailing_edge;
   std::vector<Place> border;  ///< at least 2, ascending sections; straight between them in the parameters of the sides
+  std::optional<Slot> slot;
   friend bool operator==(const WingPatch&, const WingPatch&) = default;
 };
 
@@ -214,8 +223,12 @@ struct Deflection {
   double angle = 0.0;   ///< radians; positive: trailing edge down (leading edge flaps: leading edge down; all-moving: nose up)
   double fairing = k_automatic_fairing;  ///< sealed: metres along the span over which it returns to the wing beside its ends; must be positive
   ControlGap gap = ControlGap::sealed;
+  double slot = k_automatic_slot;     ///< open: metres between the wing's cove and the moving part's nose
+  double end_gap = k_automatic_slot;  ///< open: metres along the span between the moving part and each end
+  bool has_flat_nose = false;         ///< open: else round about the hinge
   OtherSide other_side = OtherSide::none;  ///< the image is called as make_components calls mirror images ("aileron" -> "aileronLeft")
   static constexpr double k_automatic_fairing = -1.0;  ///< a tenth of the mean chord at its ends
+  static constexpr double k_automatic_slot = -1.0;     ///< a hundredth of the mean chord at its ends
   friend bool operator==(const Deflection&, const Deflection&) = default;
 };
 struct ControlParticipation {

@@ -22,6 +22,8 @@ constexpr double k_same_span = 1e-9;
 /// Hinge points nearer than this part of the span to a section, a tip or another surface's hinge point are meant to be there: files say them with few digits,
 /// and slivers between are of no use.
 constexpr double k_snap = 1e-4;
+/// Hinges of open surfaces nearer to an edge than this part of the chord leave no solid.
+constexpr double k_min_open_chord = 0.03;
 /// Half width of the knee, in thicknesses of the section at the hinge; a turn by 60 degrees needs 0.5 not to fold.
 constexpr double k_knee = 1.0;
 
@@ -41,14 +43,22 @@ double smooth_step(double t) {
 struct Reach {
   double from, to;
   double fade;  ///< of the span
+  double slot = 0.0;     ///< metres
+  double end_gap = 0.0;  ///< of the span
 };
 
 Reach reach_of(const Deflection& d, const WingSpan& span) {
   const double from = std::max(d.surface.hinge.front().span, 0.0), to = std::min(d.surface.hinge.back().span, 1.0);
   const double chord = 0.5 * (norm(chord_vector(span.row(span.place_of(from)))) + norm(chord_vector(span.row(span.place_of(to)))));
   const double fairing = d.fairing == Deflection::k_automatic_fairing ? 0.1 * chord : d.fairing;
+  const double slot = d.slot == Deflection::k_automatic_slot ? 0.01 * chord : d.slot, end_gap = d.end_gap == Deflection::k_automatic_slot ? 0.01 * chord : d.end_gap;
+  if (d.gap == ControlGap::open) return {from, to, 0.0, slot, end_gap / span.length()};
   return {from, to, fairing / span.length()};
 }
+
+bool is_open(const Deflection& d) { return d.gap == ControlGap::open; }
+/// The skin itself bends.
+bool is_bending(const Deflection& d) { return d.angle != 0.0 && !is_open(d); }
 
 double hinge_chord(const Deflection& d, double s) {
   const std::vector<HingePoint>& hinge = d.surface.hinge;
@@ -90,6 +100,13 @@ void check(const Wing& wing, const std::vector<Deflection>& deflections) {
     for (const HingePoint& h : d.surface.hinge)
       if (!(h.chord >= 0.0 && h.chord <= 1.0)) refuse(ErrorCode::bad_argument, d, "a hinge point lies at " + std::to_string(h.chord) + " of the chord; it must be within 0 and 1");
     if (d.fairing != Deflection::k_automatic_fairing && !(d.fairing > 0.0)) refuse(ErrorCode::bad_argument, d, "its fairing is " + std::to_string(d.fairing) + " m; it must be positive");
+    if (!is_open(d)) continue;
+    for (const auto& [value, what] : {std::pair{d.slot, "slot"}, std::pair{d.end_gap, "end gap"}})
+      if (value != Deflection::k_automatic_slot && !(value > 0.0)) refuse(ErrorCode::bad_argument, d, std::string("its ") + what + " is " + std::to_string(value) + " m; it must be positive");
+    if (d.surface.kind == ControlKind::all_moving) continue;
+    if (!(d.surface.hinge.front().span > 0.0 && d.surface.hinge.back().span < 1.0)) refuse(ErrorCode::bad_argument, d, "with an open gap it must end before the tips, where the wing goes on beside it");
+    for (const HingePoint& h : d.surface.hinge)
+      if (!(h.chord > k_min_open_chord && h.chord < 1.0 - k_min_open_chord)) refuse(ErrorCode::bad_argument, d, "with an open gap its hinge must lie within 0.03 and 0.97 of the chord, not at " + std::to_string(h.chord));
   }
 }
 
@@ -100,11 +117,20 @@ void check_overlaps(const std::vector<Deflection>& deflections, const WingSpan& 
       if (a.surface.kind != b.surface.kind && a.surface.kind != ControlKind::all_moving && b.surface.kind != ControlKind::all_moving) continue;
       Reach p = reach_of(a, span), q = reach_of(b, span);
       for (const auto& [reach, deflection] : {std::pair{&p, &a}, std::pair{&q, &b}})
-        if (deflection->angle == 0.0) *reach = {reach->from + k_same_span, reach->to - k_same_span, 0.0};  // patches may touch
+        if (is_open(*deflection)) *reach = {reach->from - reach->end_gap, reach->to + reach->end_gap, 0.0};  // something must be left between
+        else if (deflection->angle == 0.0) *reach = {reach->from + k_same_span, reach->to - k_same_span, 0.0};  // patches may touch
       if (p.from - p.fade < q.to + q.fade && q.from - q.fade < p.to + p.fade)
-        refuse(ErrorCode::bad_argument, a, "with its fairings it overlaps '" + b.surface.name + "' along the span: " + std::to_string(p.from - p.fade) + " .. " + std::to_string(p.to + p.fade) + " and " +
-                                               std::to_string(q.from - q.fade) + " .. " + std::to_string(q.to + q.fade) + " of it", "give a smaller fairing");
+        refuse(ErrorCode::bad_argument, a, "with its fairings or end gaps it overlaps '" + b.surface.name + "' along the span: " + std::to_string(p.from - p.fade) + " .. " + std::to_string(p.to + p.fade) + " and " +
+                                               std::to_string(q.from - q.fade) + " .. " + std::to_string(q.to + q.fade) + " of it", "give a smaller fairing or end gap");
     }
+}
+
+Point hinge_point(const HingePoint& h, const WingSpan& span) { return hinge_place(span.row(span.place_of(std::clamp(h.span, 0.0, 1.0))), h.chord).point; }
+
+/// Unit direction; positive angles about it turn trailing edges down: about +y (a fin: +z, to the right).
+Vec3 hinge_axis(const Point& a, const Point& b) {
+  const Vec3 axis = normalized(b - a);
+  return (std::abs(axis.y) >= std::abs(axis.z) ? axis.y < 0.0 : axis.z < 0.0) ? -axis : axis;
 }
 
 /// Turns the moving part of a row; points that do not move stay to the bit.
@@ -118,9 +144,7 @@ void turn(Row& row, double s, const Deflection& d, const WingSpan& span) {
   // The hinge line around here: of the straight part of it that s is on.
   std::size_t i = 0;
   while (i + 2 < d.surface.hinge.size() && s > d.surface.hinge[i + 1].span) ++i;
-  const auto place = [&](const HingePoint& h) { return hinge_place(span.row(span.place_of(std::clamp(h.span, 0.0, 1.0))), h.chord).point; };
-  Vec3 axis = normalized(place(d.surface.hinge[i + 1]) - place(d.surface.hinge[i]));
-  if (std::abs(axis.y) >= std::abs(axis.z) ? axis.y < 0.0 : axis.z < 0.0) axis = -axis;  // positive about +y (a fin: +z) turns trailing edges down (right)
+  const Vec3 axis = hinge_axis(hinge_point(d.surface.hinge[i], span), hinge_point(d.surface.hinge[i + 1], span));
   const Vec3 chord = chord_vector(row);
   const double knee = k_knee * std::max(hinge.thickness / norm(chord), 1e-3);
   const double angle = share * (d.surface.kind == ControlKind::leading_edge ? -d.angle : d.angle);
@@ -133,6 +157,33 @@ void turn(Row& row, double s, const Deflection& d, const WingSpan& span) {
     if (moving == 0.0) continue;
     p = rotation(hinge.point, axis, moving * angle).point(p);
   }
+}
+
+/// Where the wing ends before an open slot: as far from the middle of the hinge as the moving part's round nose, and the slot more.
+RowCrossing lip_of(const Deflection& d, const Row& row, const RowCrossing& hinge, double slot) {
+  const auto [upper, lower] = points_at(row, hinge);
+  const std::optional<RowCrossing> lip = row_at_distance(row, hinge, 0.5 * (upper + lower), 0.5 * distance(upper, lower) + slot, d.surface.kind == ControlKind::trailing_edge);
+  if (!lip) refuse(ErrorCode::bad_argument, d, "its slot of " + std::to_string(slot) + " m is larger than what is left of the section beyond the hinge");
+  return *lip;
+}
+
+/// Motion of the moving part; the hinge line must be straight within the slot.
+WingPatch::Slot slot_of(const Deflection& d, const WingSpan& span, const Reach& reach) {
+  /// A hinge line that bends by more than this part of the slot would let the moving part touch the wing.
+  constexpr double k_max_bend = 0.5;
+  std::vector<double> places = span.fractions();
+  for (const HingePoint& h : d.surface.hinge) places.push_back(h.span);
+  const auto at = [&](double s) { return hinge_point({s, hinge_chord(d, s)}, span); };
+  const Point from = at(reach.from), to = at(reach.to);
+  const Vec3 axis = hinge_axis(from, to);
+  if (d.surface.kind != ControlKind::all_moving)
+    for (double s : places) {
+      if (s <= reach.from || s >= reach.to) continue;
+      const Point p = at(s);
+      if (const double bend = norm(cross(p - from, axis)); bend > k_max_bend * reach.slot)
+        refuse(ErrorCode::bad_argument, d, "its hinge line bends by " + std::to_string(bend) + " m, the slot is " + std::to_string(reach.slot) + " m: the part could not turn", "give one control surface for each straight piece, or a wider slot");
+    }
+  return {{}, 0.0, 0.0, d.has_flat_nose, rotation(from, axis, d.surface.kind == ControlKind::leading_edge ? -d.angle : d.angle)};
 }
 
 /// With the images on the other half of a symmetric wing.
@@ -160,6 +211,10 @@ void snap(std::vector<Deflection>& deflections, const WingSpan& span) {
     }
 }
 
+/// Ends of the moving part of an open surface; at a tip there is no gap.
+double moving_from(const Reach& reach) { return reach.from > 0.0 ? reach.from + reach.end_gap : 0.0; }
+double moving_to(const Reach& reach) { return reach.to < 1.0 ? reach.to - reach.end_gap : 1.0; }
+
 /// Where the wing gets rows, in fractions of the span, and whether it may have a kink there.
 struct Stop {
   double at;
@@ -175,8 +230,10 @@ std::vector<Stop> stops_of(const WingSpan& span, const std::vector<Deflection>& 
     if (!(span.made().is_break[i] && span.made().is_break[i + 1]))
       for (int k = 1; k < k_cubic_rows; ++k) stops.push_back({span.fraction_of(static_cast<double>(i) + static_cast<double>(k) / k_cubic_rows), false, false});
   for (const Deflection& d : deflections) {
-    if (d.angle == 0.0) continue;
     const Reach reach = reach_of(d, span);
+    if (is_open(d) && d.surface.kind == ControlKind::all_moving)
+      for (const double s : {reach.from, moving_from(reach), moving_to(reach), reach.to}) stops.push_back({s, true, false});
+    if (!is_bending(d)) continue;
     constexpr int k_fade_steps = 4;  // the fade is a quintic: straight pieces of it
     for (int i = 0; i <= k_fade_steps; ++i) {
       const bool is_break = i == 0 || i == k_fade_steps;
@@ -211,12 +268,25 @@ Wing bent_wing(const Wing& wing, const WingSpan& span, const std::vector<Stop>& 
     section.is_row = true;
     section.is_break = stop.is_break;
     for (const Deflection& d : deflections)
-      if (d.angle != 0.0) turn(section.loop, stop.at, d, span);
+      if (is_bending(d)) turn(section.loop, stop.at, d, span);
     section.leading_edge = section.loop[k_nose];
     section.chord = norm(chord_vector(section.loop));
     bent.sections.push_back(std::move(section));
   }
   return bent;
+}
+
+/// Of a fraction of the span: its place among the stops (those within rounding are the same), or among the wing's own rows where there are none.
+double place_among(const WingSpan& span, const std::vector<Stop>& stops, double s) {
+  if (stops.empty()) {
+    const double place = span.place_of(s);
+    return std::abs(place - std::round(place)) <= k_same_span ? std::round(place) : place;
+  }
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    if (std::abs(s - stops[i].at) <= k_same_span) return static_cast<double>(i);
+    if (i > 0 && s < stops[i].at) return static_cast<double>(i - 1) + (s - stops[i - 1].at) / (stops[i].at - stops[i - 1].at);
+  }
+  return static_cast<double>(stops.size() - 1);
 }
 
 /// The patch of a control surface; places are counted in `stops`, or in the wing's own rows where there are none.
@@ -231,19 +301,23 @@ WingPatch patch_of(const Deflection& d, const WingSpan& span, const std::vector<
   for (const HingePoint& h : d.surface.hinge) at.push_back(h.span);
   std::erase_if(at, [&](double s) { return s < reach.from || s > reach.to; });
   std::sort(at.begin(), at.end());
-  WingPatch patch{d.surface.name, d.surface.kind, {}};
+  WingPatch patch{d.surface.name, d.surface.kind, {}, {}};
+  if (is_open(d)) patch.slot = slot_of(d, span, reach);
+  const bool has_lips = is_open(d) && d.surface.kind != ControlKind::all_moving;
   double last = -1.0;
-  for (double s : at) {
-    double place = span.place_of(s);
-    for (std::size_t i = 0; i < stops.size(); ++i) {  // the place of `s` among the stops; those within rounding are the same
-      if (std::abs(s - stops[i].at) <= k_same_span) place = static_cast<double>(i), s = stops[i].at;
-      else if (i > 0 && s > stops[i - 1].at && s < stops[i].at) place = static_cast<double>(i - 1) + (s - stops[i - 1].at) / (stops[i].at - stops[i - 1].at);
-    }
-    if (stops.empty() && std::abs(place - std::round(place)) <= k_same_span) place = std::round(place);
+  for (const double s : at) {
+    const double place = place_among(span, stops, s);
     if (place <= last) continue;
     last = place;
-    const RowCrossing crossing = d.surface.kind == ControlKind::all_moving ? RowCrossing{} : row_crossing(span.row(span.place_of(s)), hinge_chord(d, s));
-    patch.border.push_back({place, crossing.upper, crossing.lower});
+    const Row row = span.row(span.place_of(s));
+    const RowCrossing hinge = d.surface.kind == ControlKind::all_moving ? RowCrossing{} : row_crossing(row, hinge_chord(d, s));
+    const RowCrossing border = has_lips ? lip_of(d, row, hinge, reach.slot) : hinge;
+    patch.border.push_back({place, border.upper, border.lower});
+    if (patch.slot) patch.slot->hinge.push_back({place, hinge.upper, hinge.lower});
+  }
+  if (patch.slot) {
+    patch.slot->from = place_among(span, stops, moving_from(reach));
+    patch.slot->to = place_among(span, stops, moving_to(reach));
   }
   return patch;
 }
@@ -279,7 +353,7 @@ Wing deflected(const Wing& wing, const std::vector<Deflection>& deflections) {
   snap(all, span);
   check(wing, all);
   check_overlaps(all, span);
-  const bool is_bent = std::any_of(all.begin(), all.end(), [](const Deflection& d) { return d.angle != 0.0; });
+  const bool is_bent = std::any_of(all.begin(), all.end(), [](const Deflection& d) { return is_bending(d) || (is_open(d) && d.surface.kind == ControlKind::all_moving); });
   const std::vector<Stop> stops = is_bent ? stops_of(span, all) : std::vector<Stop>{};
   Wing result = is_bent ? bent_wing(wing, span, stops, all) : wing;
   for (const Deflection& d : all) result.patches.push_back(patch_of(d, span, stops));

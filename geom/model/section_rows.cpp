@@ -103,11 +103,39 @@ std::vector<double> row_parameters(std::size_t n) {
   return parameters;
 }
 
+namespace {
+
+CurvePtr curve_of(const std::vector<Point>& row) { return spline_curve(row, {.tangents = SplineTangents::not_a_knot, .at = row_parameters(row.size() / 2)}); }
+
+}  // namespace
+
+std::optional<RowCrossing> row_at_distance(const std::vector<Point>& row, const RowCrossing& from, const Point& center, double radius, bool is_forward) {
+  const CurvePtr curve = curve_of(row);
+  const auto find = [&](double start, bool is_upper) -> std::optional<double> {
+    const auto is_far = [&](double u) { return distance(curve->point(is_upper ? u : 2.0 - u), center) > radius; };
+    double near = start, far = is_forward ? 1.0 : 0.0;
+    if (!is_far(far)) return std::nullopt;
+    for (int i = 0; i < 60; ++i) {
+      const double u = 0.5 * (near + far);
+      (is_far(u) ? far : near) = u;
+    }
+    return 0.5 * (near + far);
+  };
+  const std::optional<double> upper = find(from.upper, true), lower = find(from.lower, false);
+  if (!upper || !lower) return std::nullopt;
+  return RowCrossing{*upper, *lower};
+}
+
+std::pair<Point, Point> points_at(const std::vector<Point>& row, const RowCrossing& crossing) {
+  const CurvePtr curve = curve_of(row);
+  return {curve->point(crossing.upper), curve->point(2.0 - crossing.lower)};
+}
+
 RowCrossing row_crossing(const std::vector<Point>& row, double fraction) {
   if (fraction <= 0.0) return {1.0, 1.0};
   if (fraction >= 1.0) return {0.0, 0.0};
   const std::size_t n = row.size() / 2;
-  const CurvePtr curve = spline_curve(row, {.tangents = SplineTangents::not_a_knot, .at = row_parameters(n)});
+  const CurvePtr curve = curve_of(row);
   const Vec3 chord = 0.5 * (row.front() + row.back()) - row[n];
   const auto crossing = [&](bool is_upper) {
     double behind = 0.0, before = 1.0;  // halving: the fraction falls from the trailing to the leading edge

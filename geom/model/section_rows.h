@@ -1,7 +1,9 @@
 // Cross sections of bodies and wings as rows of points that correspond to each other: what surfaces are splined through.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geom/model/aircraft.h"
@@ -24,6 +26,11 @@ struct RowCrossing {
   double lower = 1.0;
 };
 RowCrossing row_crossing(const std::vector<Point>& row, double fraction);
+
+/// Parameter of each side where the row's spline is as far from a point as `radius`, on the way from `from` to the leading (trailing) edge; nothing: nowhere.
+std::optional<RowCrossing> row_at_distance(const std::vector<Point>& row, const RowCrossing& from, const Point& center, double radius, bool is_forward);
+/// Points of both sides at a crossing.
+std::pair<Point, Point> points_at(const std::vector<Point>& row, const RowCrossing& crossing);
 
 /// Sections in component axes. `trailing_edge`: thickness in metres (the sides are turned about the leading edge until it fits), nothing: as it is.
 /// \throws Error(bad_argument) naming the section

@@ -1,18 +1,22 @@
 // Wings: rows of points through the sections -> a surface around the airfoil between sections, split at leading edge -> upper and lower faces over
-// shared edges, patches cut out of them -> trailing edge and tips.
+// shared edges, patches cut out of them -> trailing edge and tips -> coves and walls of open slots -> the moving parts.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 
 #include "geom/base/error.h"
 #include "geom/model/components.h"
+#include "geom/model/deform.h"
 #include "geom/model/model_builder.h"
+#include "geom/model/moving_part.h"
 #include "geom/model/nurbs_surface.h"
 #include "geom/model/nurbs_tools.h"
 #include "geom/model/section_rows.h"
 #include "geom/model/side_graph.h"
-#include "geom/model/spline.h"
+#include "geom/model/slot_faces.h"
+#include "geom/model/wing_sides.h"
 
 namespace sterna {
 namespace {
@@ -28,51 +32,45 @@ struct Station {
   CornerId leading() const { return upper.corners.back(); }
 };
 
-/// Upper and lower side between two breaks. u: 0 trailing edge .. 1 leading edge on both; v along the span.
-struct Panel : WingPanel {
-  NurbsSurfaceForm upper, lower;
-  SurfacePtr upper_surface, lower_surface;
+/// Edges around the cut-out of a slot, gathered while the sides are made.
+struct CutOut {
+  std::vector<double> places;          ///< where the lips have corners
+  std::vector<EdgeId> upper, lower;    ///< lips between them
+  std::array<SplitCurve, 2> upper_ends, lower_ends;  ///< across the chord at its first and last place
+  std::array<EdgeId, 2> thickness;     ///< of a blunt trailing edge there
 };
 
-double first_place(const WingPatch& patch) { return patch.border.front().section; }
-double last_place(const WingPatch& patch) { return patch.border.back().section; }
-
-/// Where a patch's border crosses the sides at a place within it.
-WingPatch::Place crossing_at(const WingPatch& patch, double place) {
-  std::size_t i = 1;
-  while (i + 1 < patch.border.size() && place > patch.border[i].section) ++i;
-  const WingPatch::Place &a = patch.border[i - 1], &b = patch.border[i];
-  if (place == a.section || place == b.section) return place == a.section ? a : b;
-  const double t = (place - a.section) / (b.section - a.section);
-  return {place, a.upper + t * (b.upper - a.upper), a.lower + t * (b.lower - a.lower)};
-}
-
-void add_sorted(std::vector<double>& values, double value) {
-  const auto at = std::lower_bound(values.begin(), values.end(), value);
-  if (at == values.end() || *at != value) values.insert(at, value);
-}
+/// Ends of a wing where a moving part was cut off: walls.
+struct CutEnds {
+  bool right = false, left = false;
+};
 
 class WingBuilder {
  public:
-  WingBuilder(const Wing& wing, const Transform& map)
-      : wing_(wing), map_(map * transform_of(wing.placement)), builder_({wing.name, wing.is_pylon ? ComponentKind::pylon : ComponentKind::wing}) {}
+  WingBuilder(const Wing& wing, const Transform& map, CutEnds cut = {})
+      : cut_(cut), wing_(wing), map_(map * transform_of(wing.placement)), builder_({wing.name, wing.is_pylon ? ComponentKind::pylon : ComponentKind::wing}) {}
   Model build();
 
  private:
   using Crossing = double WingPatch::Place::*;
   void make_rows();
   void make_panels();
-  Panel panel(std::size_t first_row, std::size_t last_row) const;
-  void make_part(const Panel& panel, double from_place, double to_place, const Station& from, const Station& to);
-  void make_side(const Panel& panel, Crossing side, double from_place, double to_place, const Station& from, const Station& to, const SplitCurve& leading, const SplitCurve& trailing);
-  Station station(const Panel& panel, double place);
+  void make_part(const WingSides& panel, double from_place, double to_place, const Station& from, const Station& to);
+  void make_side(const WingSides& panel, Crossing side, double from_place, double to_place, const Station& from, const Station& to, const SplitCurve& leading, const SplitCurve& trailing);
+  Station station(const WingSides& panel, double place);
   const WingPatch* patch_over(ControlKind kind, double from_place, double to_place) const;
   std::vector<double> patch_ends(ControlKind kind, double from_place, double to_place) const;
+  const WingPatch* slot_at(ControlKind kind, double place) const;
+  void keep_ends(Crossing side, std::size_t patch, bool is_last, const SplitCurve& across);
+  void make_cove(std::size_t patch);
   void tip(const Station& at, std::size_t section, std::size_t neighbour, const EndCap& cap);
 
+  CutEnds cut_;
   const Wing& wing_;
   Transform map_;
   ModelBuilder builder_;
+  std::vector<WingSides> panels_;
+  std::vector<CutOut> cut_outs_;  ///< of every patch
   std::vector<std::vector<Point>> rows_;
   std::vector<bool> is_break_;
   bool is_blunt_ = true;
@@ -101,18 +99,6 @@ void WingBuilder::make_rows() {
       refuse("two neighbouring sections, number " + std::to_string(i) + " and " + std::to_string(i + 1) + " along the whole span, stand in the same place");
 }
 
-Panel WingBuilder::panel(std::size_t first_row, std::size_t last_row) const {
-  Panel panel{wing_panel(rows_, first_row, last_row, is_sampled_), {}, {}, {}, {}};
-  const Interval v{panel.form.knots_v.front(), panel.form.knots_v.back()};
-  panel.upper = restricted(panel.form, {0.0, 1.0}, v);
-  panel.lower = reversed_u(restricted(panel.form, {1.0, 2.0}, v));
-  panel.lower.knots_u = panel.upper.knots_u;  // stations are mirrored: the same but for rounding
-  const std::string kind = last_row == first_row + 1 ? "linear-cubic spline" : "bicubic spline";
-  panel.upper_surface = std::make_shared<NurbsSurface>(panel.upper, false, false, kind);
-  panel.lower_surface = std::make_shared<NurbsSurface>(panel.lower, false, false, kind);
-  return panel;
-}
-
 /// The patch of a kind that lies over the whole of a range.
 const WingPatch* WingBuilder::patch_over(ControlKind kind, double from_place, double to_place) const {
   for (const WingPatch& patch : wing_.patches)
@@ -129,23 +115,43 @@ std::vector<double> WingBuilder::patch_ends(ControlKind kind, double from_place,
   return ends;
 }
 
-Station WingBuilder::station(const Panel& panel, double place) {
+/// The patch with an open slot within whose cut-out a place lies, not at its ends.
+const WingPatch* WingBuilder::slot_at(ControlKind kind, double place) const {
+  for (const WingPatch& patch : wing_.patches)
+    if (patch.kind == kind && patch.slot && first_place(patch) < place && last_place(patch) > place) return &patch;
+  return nullptr;
+}
+
+Station WingBuilder::station(const WingSides& panel, double place) {
   std::vector<double> upper{0.0, 1.0}, lower{0.0, 1.0};
   for (const WingPatch& patch : wing_.patches)
     if (patch.kind != ControlKind::all_moving && first_place(patch) <= place && last_place(patch) >= place) {
-      const WingPatch::Place crossing = crossing_at(patch, place);
+      const WingPatch::Place crossing = crossing_at(patch.border, place);
       add_sorted(upper, crossing.upper);
       add_sorted(lower, crossing.lower);
     }
+  const WingPatch *flap = slot_at(ControlKind::trailing_edge, place), *slat = slot_at(ControlKind::leading_edge, place);
+  const auto keep = [](std::vector<double>& at, double from, double to) { std::erase_if(at, [=](double u) { return u < from || u > to; }); };
+  const WingPatch::Place none{place, 0.0, 0.0}, all{place, 1.0, 1.0};
+  const WingPatch::Place from = flap ? crossing_at(flap->border, place) : none, to = slat ? crossing_at(slat->border, place) : all;
+  keep(upper, from.upper, to.upper);
+  keep(lower, from.lower, to.lower);
   const double v = panel.v(place);
   const CurvePtr upper_curve = line_of_constant_v(panel.upper, v), lower_curve = line_of_constant_v(panel.lower, v);
-  const CornerId leading = builder_.corner(upper_curve->point(1.0)), trailing = builder_.corner(upper_curve->point(0.0));
-  const CornerId below = is_blunt_ ? builder_.corner(lower_curve->point(0.0)) : trailing;
-  return {builder_.split_curve(upper_curve, upper, trailing, leading), builder_.split_curve(lower_curve, lower, below, leading), is_blunt_ ? builder_.straight_edge(trailing, below) : EdgeId()};
+  const CornerId trailing = builder_.corner(upper_curve->point(upper.front())), leading = builder_.corner(upper_curve->point(upper.back()));
+  const CornerId below = is_blunt_ || flap ? builder_.corner(lower_curve->point(lower.front())) : trailing, leading_below = slat ? builder_.corner(lower_curve->point(lower.back())) : leading;
+  return {builder_.split_curve(upper_curve, upper, trailing, leading), builder_.split_curve(lower_curve, lower, below, leading_below), is_blunt_ && !flap ? builder_.straight_edge(trailing, below) : EdgeId()};
+}
+
+void WingBuilder::keep_ends(Crossing side, std::size_t patch, bool is_last, const SplitCurve& across) {
+  const double lip = (is_last ? wing_.patches[patch].border.back() : wing_.patches[patch].border.front()).*side;
+  const SplitCurve kept = wing_.patches[patch].kind == ControlKind::trailing_edge ? pieces(across, 0.0, lip) : pieces(across, lip, 1.0);
+  CutOut& out = cut_outs_[patch];
+  (side == &WingPatch::Place::upper ? out.upper_ends : out.lower_ends)[is_last ? 1 : 0] = kept;
 }
 
 /// The faces of one side: what the patches leave, and theirs.
-void WingBuilder::make_side(const Panel& panel, Crossing side, double from_place, double to_place, const Station& from, const Station& to, const SplitCurve& leading, const SplitCurve& trailing) {
+void WingBuilder::make_side(const WingSides& panel, Crossing side, double from_place, double to_place, const Station& from, const Station& to, const SplitCurve& leading, const SplitCurve& trailing) {
   const bool is_upper = side == &WingPatch::Place::upper;
   const NurbsSurfaceForm& form = is_upper ? panel.upper : panel.lower;
   const SurfacePtr& surface = is_upper ? panel.upper_surface : panel.lower_surface;
@@ -154,17 +160,30 @@ void WingBuilder::make_side(const Panel& panel, Crossing side, double from_place
   SideGraph graph;
   const auto add = [&](const SplitCurve& split, bool is_across, double fixed, SideGraph::Mark left = {}, SideGraph::Mark right = {}) {
     const auto place = [&](double t) { return is_across ? Uv{t, fixed} : Uv{fixed, t}; };
-    for (std::size_t i = 0; i < split.edges.size(); ++i) graph.add(split.edges[i], place(split.at[i]), place(split.at[i + 1]), left, right);
-    for (std::size_t i = 0; i < split.at.size(); ++i) corners.emplace(std::pair(place(split.at[i]).u, place(split.at[i]).v), split.corners[i]);
+    for (std::size_t i = 0; i < split.edges.size(); ++i)
+      if (split.edges[i].is_valid()) graph.add(split.edges[i], place(split.at[i]), place(split.at[i + 1]), left, right);
+    for (std::size_t i = 0; i < split.at.size(); ++i)
+      if (split.corners[i].is_valid()) corners.emplace(std::pair(place(split.at[i]).u, place(split.at[i]).v), split.corners[i]);
   };
   const auto corner = [&](Uv at) {
     const auto [found, is_new] = corners.emplace(std::pair(at.u, at.v), CornerId());
     if (is_new) found->second = builder_.corner(surface->point(at));
     return found->second;
   };
-  add(is_upper ? from.upper : from.lower, true, panel.v(from_place));
+  const auto beside_slots = [&](const Station& station, double place) {  // a cut-out that begins at the station takes its part of it
+    const SplitCurve& split = is_upper ? station.upper : station.lower;
+    double low = 0.0, high = 1.0;
+    for (std::size_t k = 0; k < wing_.patches.size(); ++k) {
+      const WingPatch& patch = wing_.patches[k];
+      if (!patch.slot || patch.kind == ControlKind::all_moving || first_place(patch) >= to_place || last_place(patch) <= from_place || place < first_place(patch) || place > last_place(patch)) continue;
+      (patch.kind == ControlKind::trailing_edge ? low : high) = crossing_at(patch.border, place).*side;
+      if (place == first_place(patch) || place == last_place(patch)) keep_ends(side, k, place == last_place(patch), split);
+    }
+    return pieces(split, low, high);
+  };
+  add(beside_slots(from, from_place), true, panel.v(from_place));
   add(leading, false, 1.0);
-  add(is_upper ? to.upper : to.lower, true, panel.v(to_place));
+  add(beside_slots(to, to_place), true, panel.v(to_place));
   add(trailing, false, 0.0);
   for (const ControlKind kind : {ControlKind::trailing_edge, ControlKind::leading_edge}) {
     for (const double end : patch_ends(kind, from_place, to_place)) {  // the sides of the patches, across the span
@@ -172,13 +191,15 @@ void WingBuilder::make_side(const Panel& panel, Crossing side, double from_place
       const double edge_u = kind == ControlKind::trailing_edge ? 0.0 : 1.0;
       std::vector<double> at{edge_u};
       for (const WingPatch& patch : wing_.patches)
-        if (patch.kind == kind && first_place(patch) <= end && last_place(patch) >= end) add_sorted(at, crossing_at(patch, end).*side);
+        if (patch.kind == kind && first_place(patch) <= end && last_place(patch) >= end) add_sorted(at, crossing_at(patch.border, end).*side);
       if (at.size() == 1) continue;  // the border ends at the edge itself
       const double v = panel.v(end);
       SplitCurve across{line_of_constant_v(form, v), at, {}, {}};
       for (const double u : at) across.corners.push_back(corner({u, v}));
       for (std::size_t i = 1; i < at.size(); ++i) across.edges.push_back(builder_.edge(across.curve, {at[i - 1], at[i]}, across.corners[i - 1], across.corners[i]));
       add(across, true, v);
+      for (std::size_t k = 0; k < wing_.patches.size(); ++k)
+        if (const WingPatch& patch = wing_.patches[k]; patch.slot && patch.kind == kind && (first_place(patch) == end || last_place(patch) == end)) keep_ends(side, k, last_place(patch) == end, across);
     }
     for (std::size_t k = 0; k < wing_.patches.size(); ++k) {  // their borders, along the span
       const WingPatch& patch = wing_.patches[k];
@@ -187,8 +208,14 @@ void WingBuilder::make_side(const Panel& panel, Crossing side, double from_place
       for (const WingPatch::Place& p : patch.border)
         if (p.section > places.front() && p.section < places.back()) add_sorted(places, p.section);
       for (std::size_t i = 1; i < places.size(); ++i) {
-        const Uv a{crossing_at(patch, places[i - 1]).*side, panel.v(places[i - 1])}, b{crossing_at(patch, places[i]).*side, panel.v(places[i])};
+        const Uv a{crossing_at(patch.border, places[i - 1]).*side, panel.v(places[i - 1])}, b{crossing_at(patch.border, places[i]).*side, panel.v(places[i])};
         const EdgeId edge = builder_.edge(line_on_surface(form, a, b), {0.0, 1.0}, corner(a), corner(b), "hinge");
+        if (patch.slot) {
+          CutOut& out = cut_outs_[k];
+          (is_upper ? out.upper : out.lower).push_back(edge);
+          if (out.places.empty()) out.places.push_back(places.front());
+          if (is_upper) out.places.push_back(places[i]);
+        }
         if (kind == ControlKind::trailing_edge) graph.add(edge, a, b, k);
         else graph.add(edge, a, b, {}, k);
       }
@@ -202,11 +229,20 @@ void WingBuilder::make_side(const Panel& panel, Crossing side, double from_place
 }
 
 /// The faces between two stations of a panel.
-void WingBuilder::make_part(const Panel& panel, double from_place, double to_place, const Station& from, const Station& to) {
+void WingBuilder::make_part(const WingSides& panel, double from_place, double to_place, const Station& from, const Station& to) {
+  // Pieces within cut-outs have no edge, and no corner where they end at a station.
   const auto along = [&](const NurbsSurfaceForm& form, double u, const std::vector<double>& places, CornerId first, CornerId last, const char* name) {
-    std::vector<double> at;
-    for (const double place : places) at.push_back(panel.v(place));
-    return builder_.split_curve(line_of_constant_u(form, u), at, first, last, name);
+    const ControlKind kind = u == 0.0 ? ControlKind::trailing_edge : ControlKind::leading_edge;
+    SplitCurve line{line_of_constant_u(form, u), {}, {}, {}};
+    for (const double place : places) {
+      line.at.push_back(panel.v(place));
+      const bool is_first = line.at.size() == 1, is_last = line.at.size() == places.size();
+      line.corners.push_back(slot_at(kind, place) ? CornerId() : is_first ? first : is_last ? last : builder_.corner(line.curve->point(line.at.back())));
+      if (is_first) continue;
+      const std::size_t i = line.edges.size();
+      line.edges.push_back(slot_at(kind, 0.5 * (places[i] + place)) ? EdgeId() : builder_.edge(line.curve, {line.at[i], line.at[i + 1]}, line.corners[i], line.corners[i + 1], name));
+    }
+    return line;
   };
   const std::vector<double> behind = patch_ends(ControlKind::trailing_edge, from_place, to_place), before = patch_ends(ControlKind::leading_edge, from_place, to_place);
   const SplitCurve leading = along(panel.upper, 1.0, before, from.leading(), to.leading(), "leading edge");
@@ -215,27 +251,52 @@ void WingBuilder::make_part(const Panel& panel, double from_place, double to_pla
   make_side(panel, &WingPatch::Place::upper, from_place, to_place, from, to, leading, upper_trailing);
   make_side(panel, &WingPatch::Place::lower, from_place, to_place, from, to, leading, lower_trailing);
   if (!is_blunt_) return;
-  NurbsSurfaceForm base{1, panel.upper.degree_v, {0.0, 0.0, 1.0, 1.0}, panel.upper.knots_v, 2, panel.upper.n_v, {}, {}};
-  for (std::size_t j = 0; j < panel.upper.n_v; ++j) base.poles.push_back(panel.upper.poles[j]);
-  for (std::size_t j = 0; j < panel.lower.n_v; ++j) base.poles.push_back(panel.lower.poles[j]);
-  const auto surface = std::make_shared<NurbsSurface>(base);
+  const SurfacePtr surface = trailing_edge_surface(panel);
   EdgeId thickness = from.thickness;
-  for (std::size_t i = 1; i < behind.size(); ++i) {
-    const EdgeId next = i + 1 == behind.size() ? to.thickness : builder_.straight_edge(upper_trailing.corners[i], lower_trailing.corners[i]);
-    const WingPatch* patch = patch_over(ControlKind::trailing_edge, behind[i - 1], behind[i]);
-    if (!patch) patch = patch_over(ControlKind::all_moving, from_place, to_place);
-    const ParameterBox box{{0.0, 1.0}, {upper_trailing.at[i - 1], upper_trailing.at[i]}};
-    builder_.patch(surface, box, {thickness, lower_trailing.edges[i - 1], next, upper_trailing.edges[i - 1]}, FaceRole::trailing_edge, patch ? patch->name : wing_.name);
+  for (std::size_t i = 0; i < behind.size(); ++i) {
+    const EdgeId next = i == 0 ? from.thickness : i + 1 == behind.size() ? to.thickness : builder_.straight_edge(upper_trailing.corners[i], lower_trailing.corners[i]);
+    for (std::size_t k = 0; k < wing_.patches.size(); ++k)
+      for (const bool is_last : {false, true})
+        if (wing_.patches[k].slot && (is_last ? last_place(wing_.patches[k]) : first_place(wing_.patches[k])) == behind[i]) cut_outs_[k].thickness[is_last ? 1 : 0] = next;
+    if (i > 0 && upper_trailing.edges[i - 1].is_valid()) {
+      const WingPatch* patch = patch_over(ControlKind::trailing_edge, behind[i - 1], behind[i]);
+      if (!patch) patch = patch_over(ControlKind::all_moving, from_place, to_place);
+      const ParameterBox box{{0.0, 1.0}, {upper_trailing.at[i - 1], upper_trailing.at[i]}};
+      builder_.patch(surface, box, {thickness, lower_trailing.edges[i - 1], next, upper_trailing.edges[i - 1]}, FaceRole::trailing_edge, patch ? patch->name : wing_.name);
+    }
     thickness = next;
   }
+}
+
+/// The faces of a cut-out: cove and walls at both ends.
+void WingBuilder::make_cove(std::size_t k) {
+  const WingPatch& patch = wing_.patches[k];
+  const CutOut& out = cut_outs_[k];
+  std::vector<SlotStation> stations;
+  std::vector<SplitCurve> sections;
+  const Model& model = builder_.model();
+  for (std::size_t i = 0; i < out.places.size(); ++i) {
+    const auto corner = [&](const std::vector<EdgeId>& lip) { return i == 0 ? model.edges[lip[0]].start : model.edges[lip[i - 1]].end; };
+    SlotStation station{corner(out.upper), corner(out.lower), {}};
+    const HingeSection hinge = hinge_section(panel_at(panels_, out.places[i], i > 0), patch, out.places[i]);
+    station.bulge = Bulge{hinge.middle, hinge.ahead, 0.5 * (distance(model.corners[station.upper].point, hinge.middle) + distance(model.corners[station.lower].point, hinge.middle))};
+    stations.push_back(station);
+    sections.push_back(slot_section(builder_, station));
+  }
+  slot_strip(builder_, sections, stations, out.upper, out.lower, FaceRole::hinge, wing_.name);
+  const bool is_flap = patch.kind == ControlKind::trailing_edge;
+  for (const std::size_t end : {0u, 1u})
+    slot_wall(builder_, {out.upper_ends[end], out.lower_ends[end], !is_flap, is_flap && is_blunt_ ? std::optional(out.thickness[end]) : std::nullopt}, end == 0 ? sections.front() : sections.back(), FaceRole::control_side, wing_.name);
 }
 
 void WingBuilder::make_panels() {
   Station first, at;
   std::size_t from = 0;
+  cut_outs_.resize(wing_.patches.size());
   for (std::size_t i = 1; i < rows_.size(); ++i) {
     if (!is_break_[i]) continue;
-    const Panel part = panel(from, i);
+    panels_.push_back(wing_sides(wing_panel(rows_, from, i, is_sampled_)));
+    const WingSides& part = panels_.back();
     const std::vector<double> cuts = patch_ends(ControlKind::all_moving, static_cast<double>(from), static_cast<double>(i));
     if (from == 0) first = at = station(part, 0.0);
     for (std::size_t k = 1; k < cuts.size(); ++k) {
@@ -246,9 +307,16 @@ void WingBuilder::make_panels() {
     }
     from = i;
   }
+  for (std::size_t k = 0; k < wing_.patches.size(); ++k)
+    if (wing_.patches[k].slot && wing_.patches[k].kind != ControlKind::all_moving) make_cove(k);
   if (is_ring_) return;
-  tip(first, 0, 1, wing_.right_tip);
-  tip(at, rows_.size() - 1, rows_.size() - 2, wing_.left_tip);
+  const auto end = [&](const Station& station, std::size_t section, std::size_t neighbour, const EndCap& cap, bool is_cut) {
+    if (!is_cut) return tip(station, section, neighbour, cap);
+    const EdgeId trailing = is_blunt_ ? station.thickness : builder_.pole(station.upper.corners.front());
+    ruled_wall(builder_, station.upper, station.lower, trailing, builder_.pole(station.leading()), FaceRole::control_side, wing_.name);
+  };
+  end(first, 0, 1, wing_.right_tip, cut_.right);
+  end(at, rows_.size() - 1, rows_.size() - 2, wing_.left_tip, cut_.left);
 }
 
 /// Flat, or half ellipses between upper and lower side as rational quadratics: side, side + bulge, crest line, side + bulge, side. The bulge is the
@@ -299,11 +367,56 @@ void WingBuilder::tip(const Station& at, std::size_t section, std::size_t neighb
 Model WingBuilder::build() {
   make_rows();
   make_panels();
-  return builder_.closed_solid(wing_.name);
+  Model model = builder_.closed_solid(wing_.name);
+  for (const WingPatch& patch : wing_.patches)
+    if (patch.slot && patch.kind != ControlKind::all_moving) append(model, transformed(make_moving_part(wing_, patch, panels_, is_blunt_), map_ * patch.slot->motion * map_.inverse()));
+  return model;
+}
+
+/// The sections between two rows as a wing; patches that lie within it.
+Wing part_of(const Wing& wing, double from, double to) {
+  Wing part = wing;
+  part.sections = {wing.sections.begin() + static_cast<std::ptrdiff_t>(from), wing.sections.begin() + static_cast<std::ptrdiff_t>(to) + 1};
+  part.patches.clear();
+  for (WingPatch patch : wing.patches) {
+    if (first_place(patch) < from || last_place(patch) > to) continue;
+    for (WingPatch::Place& p : patch.border) p.section -= from;
+    if (patch.slot) {
+      for (WingPatch::Place& p : patch.slot->hinge) p.section -= from;
+      patch.slot->from -= from;
+      patch.slot->to -= from;
+    }
+    part.patches.push_back(std::move(patch));
+  }
+  return part;
+}
+
+/// Parts of a wing beside and between its open all-moving surfaces, and these.
+Model make_parts(const Wing& wing, std::vector<WingPatch> moving, const Transform& map) {
+  Model model;
+  const double end = static_cast<double>(wing.sections.size() - 1);
+  double from = 0.0;
+  std::sort(moving.begin(), moving.end(), [](const WingPatch& a, const WingPatch& b) { return first_place(a) < first_place(b); });
+  for (const WingPatch& patch : moving) {
+    if (first_place(patch) > from) append(model, WingBuilder(part_of(wing, from, first_place(patch)), map, {from > 0.0, true}).build());
+    Wing part = part_of(wing, patch.slot->from, patch.slot->to);
+    part.name = patch.name;
+    part.patches = {{patch.name, ControlKind::all_moving, {{0.0, 1.0, 1.0}, {static_cast<double>(part.sections.size() - 1), 1.0, 1.0}}, {}}};
+    const Transform whole = map * transform_of(wing.placement);
+    append(model, transformed(WingBuilder(part, map, {patch.slot->from > 0.0, patch.slot->to < end}).build(), whole * patch.slot->motion * whole.inverse()));
+    from = last_place(patch);
+  }
+  if (from < end) append(model, WingBuilder(part_of(wing, from, end), map, {from > 0.0, false}).build());
+  return model;
 }
 
 }  // namespace
 
-Model make_wing(const Wing& wing, const Transform& map) { return WingBuilder(wing, map).build(); }
+Model make_wing(const Wing& wing, const Transform& map) {
+  std::vector<WingPatch> moving;
+  for (const WingPatch& patch : wing.patches)
+    if (patch.slot && patch.kind == ControlKind::all_moving) moving.push_back(patch);
+  return moving.empty() ? WingBuilder(wing, map).build() : make_parts(wing, std::move(moving), map);
+}
 
 }  // namespace sterna

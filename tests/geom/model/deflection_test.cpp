@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "geom/base/error.h"
+#include "geom/cad/aircraft_union.h"
 #include "geom/cad/shape.h"
 #include "geom/model/components.h"
 #include "geom/model/model_measures.h"
@@ -241,6 +242,100 @@ TEST(Deflection, flap_aileron_slat_and_tip_at_once) {
   for (const char* name : {"Flap", "FlapLeft", "Aileron", "AileronLeft", "Slat", "SlatLeft", "Tip"}) EXPECT_GT(area_of(model, name, FaceRole::control), 0.3) << name;
 }
 
+Deflection open_flap(ControlSurface surface, double angle = 0.0) { return {.surface = std::move(surface), .angle = angle, .gap = ControlGap::open, .slot = 0.03, .end_gap = 0.05}; }
+
+double volume_of(const Model& model, std::size_t solid) { return solid_measures(model, SolidId(solid)).volume; }
+
+TEST(Deflection, an_open_gap_makes_a_solid_of_its_own_behind_a_cove) {
+  for (const std::optional<double> thickness : {std::optional<double>(0.0), std::optional<double>(0.02)})
+    for (const ControlKind kind : {ControlKind::trailing_edge, ControlKind::leading_edge})
+      for (const bool is_flat : {false, true}) {
+        Wing wing = straight_wing();
+        wing.trailing_edge = thickness;
+        const double clean = volume_of(make_wing(wing), 0);
+        // The clean sections without slots: of the wing beside and before (behind) the hinge, and of the flap.
+        Deflection d = open_flap(flap(0.1, 0.3, kind == ControlKind::leading_edge ? 0.2 : 0.7, kind));
+        d.has_flat_nose = is_flat;
+        const Model model = make_wing(deflected(wing, {d}));
+        EXPECT_TRUE(free_edges(model).empty());
+        ASSERT_EQ(model.solids.size(), 2u);
+        for (const SolidId s : model.solids.ids()) EXPECT_LT(solid_measures(model, s).open, 1e-8);
+        expect_valid(model);
+        EXPECT_EQ(model.components[ComponentId(1)].name, "Flap");
+        // Missing: the slots at both ends, the cove's circle of radius r + slot less the nose's half circle (a flat nose: all of it).
+        const double chordwise = kind == ControlKind::leading_edge ? 0.2 : 0.3;
+        const double r = 0.24 * std::sqrt(1.0 - (kind == ControlKind::leading_edge ? 0.8 : 0.3)) * (kind == ControlKind::leading_edge ? 0.8 : 0.3) * 2.0;
+        const double length = 2.4, part = volume_of(model, 1);
+        const double missing = clean - volume_of(model, 0) - part;
+        const double half_nose = 0.5 * M_PI * r * r * (length - 0.1), half_cove = 0.5 * M_PI * (r + 0.03) * (r + 0.03) * length;
+        EXPECT_GT(missing, 0.5 * (half_cove - half_nose));
+        EXPECT_LT(missing, half_cove - (is_flat ? 0.0 : half_nose) + 0.1 * 2.0 * chordwise * 2.0 * r);
+        EXPECT_NEAR(area_of(model, "Flap", FaceRole::control_side), area_of(model, "wing", FaceRole::control_side), 0.45 * area_of(model, "wing", FaceRole::control_side));
+        EXPECT_GT(area_of(model, "Flap", FaceRole::hinge), 2.0 * r * 2.3 * 0.99);
+        EXPECT_GT(area_of(model, "wing", FaceRole::hinge), 0.8 * area_of(model, "Flap", FaceRole::hinge));
+        EXPECT_EQ(area_of(model, "wing", FaceRole::control), 0.0);
+      }
+}
+
+TEST(Deflection, open_flaps_turn_rigidly_and_stay_clear_of_the_wing) {
+  Wing wing = straight_wing();
+  wing.sections.insert(wing.sections.begin() + 1, wing.sections[1]);  // the flap runs over a section
+  wing.sections[1].leading_edge = {0.0, 3.5, 0.0};
+  const Model straight = make_wing(deflected(wing, {open_flap(flap(0.1, 0.3, 0.7))}));
+  for (const double angle : {-20.0, 30.0}) {
+    const Model turned = make_wing(deflected(wing, {open_flap(flap(0.1, 0.3, 0.7), angle * k_degree)}));
+    expect_valid(turned);
+    EXPECT_NEAR(volume_of(turned, 1), volume_of(straight, 1), 1e-9);
+    EXPECT_NEAR(volume_of(turned, 0), volume_of(straight, 0), 1e-12);
+    if (angle > 0.0) {
+      EXPECT_EQ(cad::unite_aircraft(turned, {}, RunContext()).report.n_bodies, 2u);  // nothing touches
+    }
+    double lowest = 0.0, highest = 0.0;
+    for (const ModelCorner& corner : turned.corners)
+      if (corner.point.x > 1.9) {
+        lowest = std::min(lowest, corner.point.z);
+        highest = std::max(highest, corner.point.z);
+      }
+    EXPECT_NEAR(angle > 0.0 ? lowest : -highest, -0.6 * std::sin(std::abs(angle) * k_degree), 0.02);
+  }
+}
+
+TEST(Deflection, open_all_moving_surfaces_are_cut_off) {
+  for (const bool is_tip : {false, true}) {
+    const Model model = make_wing(deflected(straight_wing(), {open_flap(flap(is_tip ? -0.02 : 0.1, 0.3, 0.25, ControlKind::all_moving), 10.0 * k_degree)}));
+    EXPECT_TRUE(free_edges(model).empty());
+    ASSERT_EQ(model.solids.size(), is_tip ? 2u : 3u);
+    for (const SolidId s : model.solids.ids()) EXPECT_LT(solid_measures(model, s).open, 1e-8);
+    expect_valid(model);
+    EXPECT_GT(area_of(model, "Flap", FaceRole::control), 9.0);
+    EXPECT_NEAR(area_of(model, "Flap", FaceRole::control_side), area_of(model, "wing", FaceRole::control_side), 1e-9);
+    EXPECT_EQ(area_of(model, "Flap", FaceRole::tip) > 0.0, is_tip);
+  }
+}
+
+TEST(Deflection, open_and_sealed_surfaces_on_one_wing_with_their_images) {
+  ControlSurface aileron = flap(0.05, 0.2, 0.75), slat = flap(0.1, 0.45, 0.15, ControlKind::leading_edge), tab = flap(0.44, 0.48, 0.8);
+  aileron.name = "Aileron";
+  slat.name = "Slat";
+  tab.name = "Tab";
+  Deflection flaps = open_flap(flap(0.22, 0.42, 0.7), 0.5);
+  flaps.other_side = OtherSide::same;
+  const std::vector<Deflection> all{flaps, {.surface = aileron, .angle = 0.1, .fairing = 0.1, .other_side = OtherSide::opposite}, {.surface = slat, .angle = 0.3, .other_side = OtherSide::same}, {.surface = tab, .other_side = OtherSide::same}};
+  Wing swept = straight_wing();
+  swept.sections[0].leading_edge.x = 1.5;
+  swept.sections[0].chord = 1.2;
+  swept.sections[0].twist = -3.0 * k_degree;
+  swept.sections[0].dihedral = 5.0 * k_degree;
+  for (const Wing& wing : {straight_wing(), swept}) {
+    const Model model = make_wing(deflected(wing, all));
+    ASSERT_EQ(model.solids.size(), 3u);
+    for (const SolidId s : model.solids.ids()) EXPECT_LT(solid_measures(model, s).open, 1e-6);
+    expect_valid(model);
+    EXPECT_NEAR(volume_of(model, 1), volume_of(model, 2), 1e-9);
+    for (const char* name : {"Flap", "FlapLeft", "Aileron", "AileronLeft", "Slat", "SlatLeft", "Tab", "TabLeft"}) EXPECT_GT(area_of(model, name, FaceRole::control), 0.1) << name;
+  }
+}
+
 TEST(Deflection, ailerons_of_the_widebody_move_apart) {
   STERNA_NEEDS_SHARED_DATA();
   const Aircraft aircraft = read_smx(test::shared_data() / "smx/widebody.smx", RunContext()).aircraft;
@@ -249,9 +344,14 @@ TEST(Deflection, ailerons_of_the_widebody_move_apart) {
   for (const ControlSurface& surface : aircraft.control_surfaces)
     if (surface.wing == wing.name) deflections.push_back({surface, (deflections.empty() ? 15.0 : -15.0) * k_degree});
   ASSERT_EQ(deflections.size(), 2u);
-  const Model model = make_wing(deflected(wing, deflections));
-  EXPECT_TRUE(free_edges(model).empty());
-  EXPECT_LT(solid_measures(model, SolidId(0)).open, 1e-6);
+  for (const ControlGap gap : {ControlGap::sealed, ControlGap::open}) {
+    for (Deflection& d : deflections) d.gap = gap;
+    const Model model = make_wing(deflected(wing, deflections));
+    EXPECT_TRUE(free_edges(model).empty());
+    EXPECT_EQ(model.solids.size(), gap == ControlGap::open ? 3u : 1u);
+    for (const SolidId s : model.solids.ids()) EXPECT_LT(solid_measures(model, s).open, 1e-6);
+    expect_valid(model);
+  }
 }
 
 TEST(Deflection, what_cannot_be_is_refused_by_name) {
@@ -268,6 +368,15 @@ TEST(Deflection, what_cannot_be_is_refused_by_name) {
   EXPECT_THAT(error_of(wing, {{flap(0.1, 0.3, 0.7), 1.5}}), HasSubstr("at most 60"));
   EXPECT_THAT(error_of(wing, {{flap(0.3, 0.1, 0.7), 0.1}}), HasSubstr("do not ascend"));
   EXPECT_THAT(error_of(wing, {{flap(0.1, 0.3, 0.7), 0.1}, {flap(0.3, 0.4, 0.7), 0.2}}), HasSubstr("overlaps 'Flap'"));
+  EXPECT_THAT(error_of(wing, {open_flap(flap(-0.1, 0.3, 0.7))}), HasSubstr("before the tips"));
+  EXPECT_THAT(error_of(wing, {open_flap(flap(0.1, 0.3, 0.99))}), HasSubstr("0.03 and 0.97"));
+  EXPECT_THAT(error_of(wing, {open_flap(flap(0.1, 0.3, 0.7)), open_flap(flap(0.302, 0.4, 0.7))}), HasSubstr("overlaps 'Flap'"));
+  Deflection wide = open_flap(flap(0.1, 0.3, 0.7));
+  wide.slot = 2.0;
+  EXPECT_THAT(error_of(wing, {wide}), HasSubstr("larger than what is left"));
+  ControlSurface kinked = flap(0.1, 0.3, 0.7);
+  kinked.hinge.insert(kinked.hinge.begin() + 1, {0.2, 0.75});
+  EXPECT_THAT(error_of(wing, {open_flap(kinked)}), HasSubstr("hinge line bends"));
   ControlSurface other = flap(0.1, 0.3, 0.7);
   other.wing = "tail";
   EXPECT_THAT(error_of(wing, {{other, 0.1}}), HasSubstr("belongs to wing 'tail'"));
