@@ -167,23 +167,32 @@ RowCrossing lip_of(const Deflection& d, const Row& row, const RowCrossing& hinge
   return *lip;
 }
 
-/// Motion of the moving part; the hinge line must be straight within the slot.
-WingPatch::Slot slot_of(const Deflection& d, const WingSpan& span, const Reach& reach) {
-  /// A hinge line that bends by more than this part of the slot would let the moving part touch the wing.
-  constexpr double k_max_bend = 0.5;
-  std::vector<double> places = span.fractions();
-  for (const HingePoint& h : d.surface.hinge) places.push_back(h.span);
+/// The hinge of an open surface: straight in space between its ends.
+struct StraightHinge {
+  Point from, to;
+  Vec3 axis;
+};
+StraightHinge straight_hinge(const Deflection& d, const WingSpan& span, const Reach& reach) {
   const auto at = [&](double s) { return hinge_point({s, hinge_chord(d, s)}, span); };
   const Point from = at(reach.from), to = at(reach.to);
-  const Vec3 axis = hinge_axis(from, to);
-  if (d.surface.kind != ControlKind::all_moving)
-    for (double s : places) {
-      if (s <= reach.from || s >= reach.to) continue;
-      const Point p = at(s);
-      if (const double bend = norm(cross(p - from, axis)); bend > k_max_bend * reach.slot)
-        refuse(ErrorCode::bad_argument, d, "its hinge line bends by " + std::to_string(bend) + " m, the slot is " + std::to_string(reach.slot) + " m: the part could not turn", "give one control surface for each straight piece, or a wider slot");
-    }
-  return {{}, 0.0, 0.0, d.has_flat_nose, rotation(from, axis, d.surface.kind == ControlKind::leading_edge ? -d.angle : d.angle)};
+  return {from, to, hinge_axis(from, to)};
+}
+
+/// Where the straight hinge crosses a row, as a fraction of its chord; the middle between both sides must be near to it there.
+double straight_chord(const Deflection& d, const StraightHinge& hinge, const Row& row, double slot) {
+  /// Part of the slot that the middle of a section may be off the hinge; more, and the moving part would touch the wing.
+  constexpr double k_max_bend = 0.5;
+  Vec3 normal;
+  for (std::size_t i = 0; i + 1 < row.size(); ++i) normal += cross(row[i] - row[0], row[i + 1] - row[0]);
+  const Point& nose = row[k_nose];
+  const Point at = hinge.from + dot(nose - hinge.from, normal) / dot(hinge.to - hinge.from, normal) * (hinge.to - hinge.from);
+  const Vec3 chord = chord_vector(row);
+  const double fraction = dot(at - nose, chord) / norm2(chord), off = distance(hinge_place(row, fraction).point, at);
+  if (!(fraction > k_min_open_chord && fraction < 1.0 - k_min_open_chord && off <= k_max_bend * slot))
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "deflecting '" + d.surface.name + "'",
+                 .problem = "the straight line between the ends of its hinge leaves the middle of the wing's section by " + std::to_string(off) + " m at " + std::to_string(fraction) + " of the chord; its slot is " + std::to_string(slot) + " m",
+                 .places = {{at, "hinge line"}}, .hint = "give one control surface for each straight piece, or a wider slot"});
+  return fraction;
 }
 
 /// With the images on the other half of a symmetric wing.
@@ -302,7 +311,8 @@ WingPatch patch_of(const Deflection& d, const WingSpan& span, const std::vector<
   std::erase_if(at, [&](double s) { return s < reach.from || s > reach.to; });
   std::sort(at.begin(), at.end());
   WingPatch patch{d.surface.name, d.surface.kind, {}, {}};
-  if (is_open(d)) patch.slot = slot_of(d, span, reach);
+  const StraightHinge line = straight_hinge(d, span, reach);
+  if (is_open(d)) patch.slot = WingPatch::Slot{{}, 0.0, 0.0, d.has_flat_nose, rotation(line.from, line.axis, d.surface.kind == ControlKind::leading_edge ? -d.angle : d.angle)};
   const bool has_lips = is_open(d) && d.surface.kind != ControlKind::all_moving;
   double last = -1.0;
   for (const double s : at) {
@@ -310,7 +320,7 @@ WingPatch patch_of(const Deflection& d, const WingSpan& span, const std::vector<
     if (place <= last) continue;
     last = place;
     const Row row = span.row(span.place_of(s));
-    const RowCrossing hinge = d.surface.kind == ControlKind::all_moving ? RowCrossing{} : row_crossing(row, hinge_chord(d, s));
+    const RowCrossing hinge = d.surface.kind == ControlKind::all_moving ? RowCrossing{} : row_crossing(row, has_lips ? straight_chord(d, line, row, reach.slot) : hinge_chord(d, s));
     const RowCrossing border = has_lips ? lip_of(d, row, hinge, reach.slot) : hinge;
     patch.border.push_back({place, border.upper, border.lower});
     if (patch.slot) patch.slot->hinge.push_back({place, hinge.upper, hinge.lower});
