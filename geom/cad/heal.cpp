@@ -29,6 +29,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geom/cad/openings.h"
+
 namespace sterna::cad {
 namespace {
 
@@ -280,20 +282,23 @@ std::vector<double> sewing_tolerances(const ReadCadOptions& options, double size
   return tolerances;
 }
 
-/// Open shells and loose faces of all parts, joined where their edges meet.
-void sew_open_parts(LabelledShape& labelled, const ReadCadOptions& options, double size, double small, CadReport& report, const Message_ProgressRange& progress, const RunContext& context) {
+std::vector<TopoDS_Shape> open_shapes(const LabelledShape& labelled) {
   std::vector<TopoDS_Shape> open;
   for (const ShapePart& part : labelled.parts)
     if (count_free_edges({part.shape}) > 0) open.push_back(part.shape);
-  if (open.empty()) return;
+  return open;
+}
+
+/// Open shells and loose faces of all parts, joined where their edges meet by the first tolerance that leaves fewest free. `may_drop`: what is smaller than
+/// the tolerance goes.
+void sew_open_parts(LabelledShape& labelled, const std::vector<TopoDS_Shape>& open, const std::vector<double>& tolerances, bool may_drop, CadReport& report, const Message_ProgressRange& progress, const RunContext& context) {
   const int n_before = count_free_edges(open);
-  const std::vector<double> tolerances = sewing_tolerances(options, size, shortest_edge(open, small));
   Message_ProgressScope tries(progress, "sewing", static_cast<double>(std::max<std::size_t>(tolerances.size(), 1)));
   Handle(BRepBuilderAPI_Sewing) best;
   int n_best = n_before;
   for (const double tolerance : tolerances) {
     context.check_stop();
-    const Handle(BRepBuilderAPI_Sewing) sewing = new BRepBuilderAPI_Sewing(tolerance);
+    const Handle(BRepBuilderAPI_Sewing) sewing = new BRepBuilderAPI_Sewing(tolerance, true, may_drop);
     for (const TopoDS_Shape& shape : open)
       for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) sewing->Add(f.Current());
     sewing->Perform(tries.Next());
@@ -320,6 +325,19 @@ void sew_open_parts(LabelledShape& labelled, const ReadCadOptions& options, doub
   };
   for (TopExp_Explorer s(best->SewedShape(), TopAbs_SHELL); s.More(); s.Next()) add(s.Current());
   for (TopExp_Explorer f(best->SewedShape(), TopAbs_FACE, TopAbs_SHELL); f.More(); f.Next()) add(f.Current());
+}
+
+/// First by tolerances that are small against the model; then pairs of edges that share their ends but bulge apart, by the gap that is found between them.
+void join_faces(LabelledShape& labelled, const ReadCadOptions& options, double size, double small, CadReport& report, const Message_ProgressRange& progress, const RunContext& context) {
+  Message_ProgressScope steps(progress, "joining", 2.0);
+  std::vector<TopoDS_Shape> open = open_shapes(labelled);
+  const Message_ProgressRange first = steps.Next();
+  if (open.empty()) return;
+  sew_open_parts(labelled, open, sewing_tolerances(options, size, shortest_edge(open, small)), true, report, first, context);
+  if (!is_automatic(options.sew_tolerance)) return;
+  open = open_shapes(labelled);
+  constexpr double k_margin = 1.1;  // the gap is measured at samples
+  if (const double gap = k_margin * gap_of_pairs(open, small); gap > 0.0) sew_open_parts(labelled, open, {gap}, false, report, steps.Next(), context);
 }
 
 /// Closed shells become solids whose faces look outwards.
@@ -349,7 +367,8 @@ void heal(LabelledShape& labelled, const ReadCadOptions& options, CadReport& rep
   drop_doubled_faces(labelled, report);
   mend_invalid(labelled, size, report, steps.Next(), context);
   drop_small(labelled, small, report, context);
-  sew_open_parts(labelled, options, size, small, report, steps.Next(), context);
+  join_faces(labelled, options, size, small, report, steps.Next(), context);
+  if (options.cap) cap_openings(labelled, report);
   make_solids(labelled, report);
 }
 

@@ -90,16 +90,22 @@ void run_occt(const OcctTask& task, const RunContext& context, const std::functi
   context.check_stop();
   QuietMessenger messenger;
   const Handle(StopIndicator) indicator = new StopIndicator(context, task.time_limit);
+  const auto refuse_when_late = [&] {
+    context.check_stop();
+    if (indicator->is_late()) fail(task, "took longer than the limit of " + std::to_string(static_cast<int>(task.time_limit)) + " s", {});
+  };
   try {
     work(indicator->Start());
+  } catch (const Error&) {  // a translator that was stopped half way looks like one that failed
+    refuse_when_late();
+    throw;
   } catch (const Standard_Failure& failure) {
     const std::string name = failure.DynamicType()->Name();
     const std::string text = failure.GetMessageString() ? failure.GetMessageString() : "";
     context.check_stop();
     fail(task, "OpenCASCADE gave up with " + name + (text.empty() ? "" : " (" + text + ")"), messenger.words());
   }
-  context.check_stop();
-  if (indicator->is_late()) fail(task, "took longer than the limit of " + std::to_string(static_cast<int>(task.time_limit)) + " s", {});
+  refuse_when_late();
 }
 
 }  // namespace sterna::cad

@@ -8,6 +8,7 @@
 #include <TopoDS_Edge.hxx>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 
@@ -82,6 +83,51 @@ double length_of(const TopoDS_Edge& edge) {
   return properties.Mass();
 }
 
+/// Largest distance from its plane, as a share of its length, of an opening that counts as flat.
+constexpr double k_flat = 1e-4;
+
+/// Groups free edges by common corners.
+std::vector<CadOpening> openings_of(const Model& model, const std::vector<CadFreeEdge>& free) {
+  std::map<CornerId, std::vector<std::size_t>> at_corner;
+  for (std::size_t i = 0; i < free.size(); ++i)
+    for (const CornerId c : {model.edges[free[i].edge].start, model.edges[free[i].edge].end}) at_corner[c].push_back(i);
+  std::vector<bool> is_done(free.size(), false);
+  std::vector<CadOpening> openings;
+  for (std::size_t first = 0; first < free.size(); ++first) {
+    if (is_done[first]) continue;
+    CadOpening opening{.is_loop = true};
+    std::vector<std::size_t> queue{first};
+    is_done[first] = true;
+    std::vector<Point> samples;
+    while (!queue.empty()) {
+      const std::size_t i = queue.back();
+      queue.pop_back();
+      const ModelEdge& edge = model.edges[free[i].edge];
+      opening.edges.push_back(free[i].edge);
+      opening.length += free[i].length;
+      for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) samples.push_back(edge.curve->point(edge.range.from + share * edge.range.length()));
+      for (const CornerId c : {edge.start, edge.end}) {
+        if (at_corner[c].size() != 2) opening.is_loop = false;
+        for (const std::size_t next : at_corner[c])
+          if (!is_done[next]) {
+            is_done[next] = true;
+            queue.push_back(next);
+          }
+      }
+    }
+    std::sort(opening.edges.begin(), opening.edges.end());
+    for (const Point& p : samples) opening.place += p / static_cast<double>(samples.size());
+    // The plane through the middle and the two samples that span most.
+    const Point far = *std::max_element(samples.begin(), samples.end(), [&](const Point& a, const Point& b) { return distance(a, opening.place) < distance(b, opening.place); });
+    for (const Point& p : samples)
+      if (const Vec3 n = cross(far - opening.place, p - opening.place); norm(n) > norm(opening.normal)) opening.normal = n;
+    if (norm(opening.normal) > 0.0) opening.normal = opening.normal / norm(opening.normal);
+    opening.is_flat = std::all_of(samples.begin(), samples.end(), [&](const Point& p) { return std::abs(dot(p - opening.place, opening.normal)) <= k_flat * opening.length; });
+    openings.push_back(std::move(opening));
+  }
+  return openings;
+}
+
 void describe_result(const Model& model, CadReport& report) {
   report.n_faces = model.faces.size();
   std::vector<bool> is_loose(model.faces.size(), true);
@@ -95,6 +141,7 @@ void describe_result(const Model& model, CadReport& report) {
     const ModelEdge& edge = model.edges[e];
     report.free_edges.push_back({e, uses[e].front().face, edge.curve->point(0.5 * (edge.range.from + edge.range.to)), length_of(model.shape->content().edges[e.index()])});
   }
+  report.openings = openings_of(model, report.free_edges);
   report.faults = faults_of(*model.shape);
 }
 
@@ -147,6 +194,12 @@ std::string to_text(const CadReport& report) {
     for (std::size_t i = 0; i < std::min<std::size_t>(mends.size(), 3); ++i)
       text += (i == 0 ? ": " : ", ") + format_point(mends[i]->place) + (mends[i]->value > 0.0 ? " " + cad::number(mends[i]->value) + " m" : "");
     if (mends.size() > 3) text += " ...";
+  }
+  for (std::size_t i = 0; i < std::min(report.openings.size(), k_shown); ++i) {
+    const CadOpening& opening = report.openings[i];
+    text += "\n  opening: " + std::to_string(opening.edges.size()) + " edges, " + cad::number(opening.length) + " m, about " + format_point(opening.place);
+    if (!opening.is_loop) text += ", no single loop";
+    if (opening.is_flat) text += ", flat with normal " + format_point(opening.normal) + (opening.is_loop ? ": `cap = true` closes it" : "");
   }
   for (std::size_t i = 0; i < std::min(report.free_edges.size(), k_shown); ++i) {
     const CadFreeEdge& edge = report.free_edges[i];

@@ -19,6 +19,7 @@ struct ReadCadOptions {
   bool heal = true;
   double sew_tolerance = k_automatic;    ///< metres
   double small = k_automatic;            ///< metres
+  bool cap = false;
   double time_limit = 600.0;             ///< seconds
 };
 template <>
@@ -28,8 +29,9 @@ struct Schema<ReadCadOptions> {
   static constexpr std::array fields = {
       Field<T>{.name = "unit", .member = &T::unit, .unit = Unit::metre, .min = 1e-9, .max = 1e6, .help = "metres for 1 unit of the file's numbers, instead of what its header says", .automatic = "the header's unit; BREP, which has none: 1"},
       Field<T>{.name = "heal", .member = &T::heal, .help = "mend borders, orientation, gaps, small and doubled faces"},
-      Field<T>{.name = "sew_tolerance", .member = &T::sew_tolerance, .unit = Unit::metre, .min = 1e-9, .max = 1.0, .help = "largest gap between faces that is closed by joining their edges", .automatic = "tried up to 1e-5 of the longest side, the least that closes most"},
+      Field<T>{.name = "sew_tolerance", .member = &T::sew_tolerance, .unit = Unit::metre, .min = 1e-9, .max = 1.0, .help = "largest gap between faces that is closed by joining their edges", .automatic = "tried up to 1e-5 of the longest side, the least that closes most; edges with common ends also across 1 % of their length"},
       Field<T>{.name = "small", .member = &T::small, .unit = Unit::metre, .min = 0.0, .max = 1.0, .help = "edges, and strips of faces, shorter than this are dropped", .automatic = "1e-6 of the longest side"},
+      Field<T>{.name = "cap", .member = &T::cap, .help = "close flat openings of shells with plane faces, named after the component: ends of blades and ducts, planes of symmetry"},
       Field<T>{.name = "time_limit", .member = &T::time_limit, .unit = Unit::second, .min = 1.0, .max = 1e6, .help = "reading and mending give up after this"},
   };
 };
@@ -49,6 +51,16 @@ struct CadFreeEdge {
   double length = 0.0;
 };
 
+/// Free edges that hang together.
+struct CadOpening {
+  std::vector<EdgeId> edges;
+  bool is_loop = false;   ///< each corner has two of them
+  bool is_flat = false;   ///< in a plane, to 1e-4 of the length: `cap` would close a loop
+  Point place;            ///< middle of its corners
+  Vec3 normal;            ///< of the plane, where flat
+  double length = 0.0;    ///< of all edges, metres
+};
+
 struct CadReport {
   cad::CadFormat format = cad::CadFormat::step;
   std::string file_unit;            ///< as the file names it; "none" for BREP
@@ -60,6 +72,7 @@ struct CadReport {
   std::size_t n_named_faces = 0;
   std::vector<CadMend> mended;
   std::vector<CadFreeEdge> free_edges;
+  std::vector<CadOpening> openings;  ///< the free edges once more, by what hangs together
   std::vector<ErrorPlace> faults;   ///< what OpenCASCADE's check still objects to
   std::vector<std::string> warnings;
   bool is_closed() const { return n_open == 0 && n_closed > 0; }

@@ -1,4 +1,4 @@
-// Steps: the shape without placements, an extended document (XDE) that carries names, colours and layers, the format's writer, a header without date.
+// Steps: splines for what has no exact form, the shape without placements, an extended document (XDE) that carries names, colours and layers, the format's writer, a header without date.
 #include "geom/cad/write_cad.h"
 
 #include <APIHeaderSection_MakeHeader.hxx>
@@ -9,6 +9,7 @@
 #include <IGESControl_Controller.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <Interface_Static.hxx>
+#include <Precision.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Controller.hxx>
 #include <STEPCAFControl_Writer.hxx>
@@ -26,11 +27,13 @@
 #include <XSControl_WorkSession.hxx>
 
 #include <algorithm>
+#include <cstdio>
 #include <map>
 #include <sstream>
 
 #include "geom/cad/occt_call.h"
 #include "geom/cad/occt_shape.h"
+#include "geom/cad/refit.h"
 
 namespace sterna::cad {
 namespace {
@@ -144,9 +147,35 @@ std::string iges_bytes(const Handle(TDocStd_Document) & document, const std::str
   return stream.str();
 }
 
+/// Longest side of the box of the corners.
+double size_of(const Model& model) {
+  if (model.corners.size() == 0) return 0.0;
+  Point low = model.corners[CornerId(0)].point, high = low;
+  for (const ModelCorner& corner : model.corners) {
+    low = {std::min(low.x, corner.point.x), std::min(low.y, corner.point.y), std::min(low.z, corner.point.z)};
+    high = {std::max(high.x, corner.point.x), std::max(high.y, corner.point.y), std::max(high.z, corner.point.z)};
+  }
+  return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
+/// Share of the longest side that refitting may lose: a tenth of what sewing of other programs closes.
+constexpr double k_refit_share = 1e-6;
+
+Model exact_for_export(const Model& model, const std::string& name, const WriteCadOptions& options, const RunContext& context) {
+  const double tolerance = is_automatic(options.tolerance) ? std::max(k_refit_share * size_of(model), Precision::Confusion()) : options.tolerance;
+  RefitReport report;
+  Model exact = refitted(model, tolerance, report, context);
+  char error[32];
+  std::snprintf(error, sizeof error, "%.2g", report.error);
+  context.info("writing " + name + ": " + std::to_string(report.n_surfaces) + " surfaces and " + std::to_string(report.n_curves) + " curves have no exact form; splines within " + error + " m took their places");
+  return exact;
+}
+
 }  // namespace
 
-std::string cad_bytes(const Model& model, CadFormat format, const std::string& name, const WriteCadOptions& options, const RunContext& context) {
+std::string cad_bytes(const Model& original, CadFormat format, const std::string& name, const WriteCadOptions& options, const RunContext& context) {
+  const bool is_refitted = !original.shape && needs_refit(original);
+  const Model model = is_refitted ? exact_for_export(original, name, options, context) : original;
   std::shared_ptr<const CadShape> shape = shape_of(model, context);
   if (needs_own_shape(shape->content())) {
     Model bare = model;

@@ -1,5 +1,7 @@
 // Table of CAD files: what is in them, what was mended, whether they close, and what remains of area and volume after a STEP export.
-// usage: cad_table FILE ...   (docs/cad_files.md is its output for ../shared/data/cad)
+// usage: cad_table FILE ...   (docs/cad_files.md holds its output for ../shared/data/cad)
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -23,9 +25,23 @@ std::string mended_text(const CadReport& report) {
   return text.empty() ? "-" : text;
 }
 
-std::string closed_text(const CadReport& report) {
+/// With flat openings capped, where that closes it.
+bool closes_with_caps(const std::filesystem::path& path) {
+  ReadCadOptions options;
+  options.cap = true;
+  return io::read_cad(path, options, RunContext()).report.is_closed();
+}
+
+std::string closed_text(const std::filesystem::path& path, const CadReport& report) {
   if (report.is_closed()) return "closed";
-  return "open: " + std::to_string(report.free_edges.size()) + " free edges" + (report.free_edges.empty() ? "" : ", first at " + format_point(report.free_edges.front().place));
+  return std::string(closes_with_caps(path) ? "with caps; without: " : "open: ") + std::to_string(report.openings.size()) + " openings of " + std::to_string(report.free_edges.size()) + " edges" + (report.free_edges.empty() ? "" : ", first at " + format_point(report.free_edges.front().place));
+}
+
+/// Peak of the whole process: of one file only where the program is called for that file alone.
+double peak_megabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
 double relative_change(double before, double after) { return before == after ? 0.0 : std::abs(after - before) / std::abs(before); }
@@ -42,12 +58,11 @@ void print_row(const std::filesystem::path& path) {
   try {
     const CadFile file = io::read_cad(path, {}, RunContext());
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const auto measured = std::chrono::steady_clock::now();
+    const double megabytes = peak_megabytes();
     const ModelMeasures data = model_measures(file.model, RunContext());
-    if (std::getenv("CAD_TABLE_VERBOSE")) std::printf("measured in %.2f s\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - measured).count());
     const CadReport& r = file.report;
-    std::printf("| %s | %zu | %zu | %s | %zu / %zu | %s | %s | %zu | %.9g | %.9g | %.1e | %.2f |\n", path.filename().c_str(), r.n_faces, r.n_closed, r.file_unit.c_str(), r.n_named_parts, r.n_named_faces, mended_text(r).c_str(),
-                closed_text(r).c_str(), r.faults.size(), data.total.area, data.total.volume, step_change(file, data), seconds);
+    std::printf("| %s | %zu | %zu | %s | %zu / %zu | %s | %s | %zu | %.6g | %.6g | %.0e | %.2f | %.0f |\n", path.filename().c_str(), r.n_faces, r.n_closed, r.file_unit.c_str(), r.n_named_parts, r.n_named_faces, mended_text(r).c_str(),
+                closed_text(path, r).c_str(), r.faults.size(), data.total.area, data.total.volume, step_change(file, data), seconds, megabytes);
     if (std::getenv("CAD_TABLE_VERBOSE")) std::printf("%s\n", to_text(r).c_str());
   } catch (const Error& error) {
     std::printf("| %s | error: %s |\n", path.filename().c_str(), error.what());
@@ -58,7 +73,7 @@ void print_row(const std::filesystem::path& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::puts("| file | faces | solids | unit | names: parts / faces | mended | closed | faults left | area, m^2 | volume, m^3 | STEP again | seconds |");
-  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|");
+  std::puts("| file | faces | solids | unit | names: parts / faces | mended | closed | faults left | area, m^2 | volume, m^3 | STEP again | seconds | MB |");
+  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   for (int i = 1; i < argc; ++i) print_row(argv[i]);
 }
