@@ -20,6 +20,7 @@
 #include <TopoDS_Wire.hxx>
 
 #include <algorithm>
+#include <cmath>
 
 namespace sterna::cad {
 namespace {
@@ -75,6 +76,15 @@ double distance_of(const FreeEdge& a, const FreeEdge& b) {
   return largest;
 }
 
+/// Edges that run to and fro enclose nothing: the area of such a face is below this share of its border's square.
+constexpr double k_no_area = 1e-8;
+bool has_area(const TopoDS_Face& face) {
+  GProp_GProps area, border;
+  BRepGProp::SurfaceProperties(face, area);
+  BRepGProp::LinearProperties(face, border);
+  return std::abs(area.Mass()) > k_no_area * border.Mass() * border.Mass();
+}
+
 /// The faces of an open part and its caps as one shell, oriented alike.
 TopoDS_Shape shell_with(const TopoDS_Shape& part, const std::vector<TopoDS_Face>& caps) {
   BRep_Builder builder;
@@ -114,7 +124,7 @@ void cap_openings(LabelledShape& labelled, CadReport& report) {
     std::vector<TopoDS_Face> caps;
     for (TopExp_Explorer wire(ShapeAnalysis_FreeBounds(faces).GetClosedWires(), TopAbs_WIRE); wire.More(); wire.Next()) {
       BRepBuilderAPI_MakeFace maker(TopoDS::Wire(wire.Current()), true);
-      if (maker.IsDone()) caps.push_back(maker.Face());
+      if (maker.IsDone() && has_area(maker.Face())) caps.push_back(maker.Face());
     }
     if (caps.empty()) continue;
     const FaceLabel* of_shell = labelled.labels.Seek(TopExp_Explorer(part.shape, TopAbs_FACE).Current());
