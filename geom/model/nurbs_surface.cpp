@@ -14,6 +14,21 @@ constexpr std::string_view k_attempted = "making a NURBS surface";
 
 Point position(const Value& v) { return {v[0], v[1], v[2]}; }
 
+/// What the surface at a place depends on: basis functions of both directions, how many, and the first of their poles.
+struct Support {
+  BasisValues bu, bv;
+  std::size_t orders_u, orders_v;
+  const Lanes4* row;
+};
+template <int n_u, int n_v, bool has_derivatives>
+inline void find_support(Uv at, const KnotBasis& u, const KnotBasis& v, const Lanes4* poles, std::size_t stride, Support& support) {
+  u.evaluate<has_derivatives>(at.u, support.bu);
+  v.evaluate<has_derivatives>(at.v, support.bv);
+  support.orders_u = n_u > 0 ? n_u : static_cast<std::size_t>(u.degree()) + 1;
+  support.orders_v = n_v > 0 ? n_v : static_cast<std::size_t>(v.degree()) + 1;
+  support.row = poles + support.bu.first * stride + support.bv.first;
+}
+
 NurbsSurfaceForm checked(NurbsSurfaceForm form) {
   const auto count = [](int degree, const std::vector<double>& knots) { return static_cast<std::int64_t>(knots.size()) - degree - 1; };
   if (count(form.degree_u, form.knots_u) != static_cast<std::int64_t>(form.n_u) || count(form.degree_v, form.knots_v) != static_cast<std::int64_t>(form.n_v))
@@ -35,12 +50,9 @@ NurbsSurface::NurbsSurface(NurbsSurfaceForm form, bool is_periodic_u, bool is_pe
 
 template <int n_u, int n_v>
 Point NurbsSurface::point_of(Uv at) const {
-  BasisValues bu, bv;
-  basis_u_.evaluate<false>(at.u, bu);
-  basis_v_.evaluate<false>(at.v, bv);
-  const std::size_t orders_u = n_u > 0 ? n_u : static_cast<std::size_t>(basis_u_.degree()) + 1;
-  const std::size_t orders_v = n_v > 0 ? n_v : static_cast<std::size_t>(basis_v_.degree()) + 1;
-  const Lanes4* row = poles_.data() + bu.first * form_.n_v + bv.first;
+  Support support;
+  find_support<n_u, n_v, false>(at, basis_u_, basis_v_, poles_.data(), form_.n_v, support);
+  auto& [bu, bv, orders_u, orders_v, row] = support;
   Value sum{};
   for (std::size_t i = 0; i < orders_u; ++i, row += form_.n_v) {
     Value along{};
@@ -52,12 +64,9 @@ Point NurbsSurface::point_of(Uv at) const {
 
 template <int n_u, int n_v>
 SurfaceDerivatives NurbsSurface::derivatives_of(Uv at) const {
-  BasisValues bu, bv;
-  basis_u_.evaluate<true>(at.u, bu);
-  basis_v_.evaluate<true>(at.v, bv);
-  const std::size_t orders_u = n_u > 0 ? n_u : static_cast<std::size_t>(basis_u_.degree()) + 1;
-  const std::size_t orders_v = n_v > 0 ? n_v : static_cast<std::size_t>(basis_v_.degree()) + 1;
-  const Lanes4* row = poles_.data() + bu.first * form_.n_v + bv.first;
+  Support support;
+  find_support<n_u, n_v, true>(at, basis_u_, basis_v_, poles_.data(), form_.n_v, support);
+  auto& [bu, bv, orders_u, orders_v, row] = support;
   Value s{}, su{}, sv{}, suu{}, suv{}, svv{};
   for (std::size_t i = 0; i < orders_u; ++i, row += form_.n_v) {
     Value along{}, along_v{}, along_vv{};

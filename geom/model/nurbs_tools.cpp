@@ -123,18 +123,7 @@ NurbsSurfaceForm on_knots_u(const NurbsSurfaceForm& form, int degree, const std:
   return result;
 }
 
-NurbsSurfaceForm on_knots_v(const NurbsSurfaceForm& form, int degree, const std::vector<double>& knots) {
-  if (degree > form.degree_v + 1) return on_knots_v(on_knots_v(form, form.degree_v + 1, elevated_knots(form.knots_v, 1)), degree, knots);
-  const std::vector<Lanes4> old = weighted_poles(form.poles, form.weights, form.poles.size(), "changing the knots of a NURBS surface");
-  NurbsSurfaceForm result = form;
-  result.degree_v = degree;
-  result.knots_v = knots;
-  result.n_v = knots.size() - static_cast<std::size_t>(degree) - 1;
-  std::vector<Lanes4> poles(form.n_u * result.n_v);
-  for (std::size_t i = 0; i < form.n_u; ++i) convert_row(form.degree_v, form.knots_v, old.data() + i * form.n_v, 1, degree, knots, poles.data() + i * result.n_v, 1);
-  split_weights(poles, !form.weights.empty(), result.poles, result.weights);
-  return result;
-}
+NurbsSurfaceForm on_knots_v(const NurbsSurfaceForm& form, int degree, const std::vector<double>& knots) { return exchanged(on_knots_u(exchanged(form), degree, knots)); }
 
 std::vector<double> restricted_knots(int degree, const std::vector<double>& knots, Interval range) {
   const auto order = static_cast<std::size_t>(degree) + 1;
