@@ -70,6 +70,24 @@ void refine_at(Meshing& meshing, FaceId f, const Point& place, double size) {
   meshing.to_mesh.insert(f);
 }
 
+[[noreturn]] void throw_failures(const Meshing& meshing) {
+  ErrorInfo info{.code = ErrorCode::geometry_failed, .attempted = k_attempted};
+  for (const FaceId f : meshing.model.faces.ids()) {
+    const MeshedFace& face = meshing.faces[f];
+    if (!face.failure) continue;
+    if (face.failure->code == ErrorCode::overflow || face.failure->code == ErrorCode::bad_argument) info.code = face.failure->code;
+    ++info.n_places;
+    if (info.places.size() >= k_shown_places) continue;
+    Point place;
+    if (!face.failure->places.empty()) place = face.failure->places.front().position;
+    else if (const EdgeSamples& samples = meshing.edges[meshing.model.faces[f].borders.front().front().edge]; !samples.samples.empty()) place = samples.samples.front().point;
+    info.places.push_back({place, face.failure->attempted + ": " + face.failure->problem});
+    if (info.hint.empty()) info.hint = face.failure->hint;
+  }
+  info.problem = std::to_string(info.n_places) + " of " + std::to_string(meshing.model.faces.size()) + " faces cannot be meshed";
+  throw Error(std::move(info));
+}
+
 /// Half the sizes where faces failed. \return whether any did
 bool refine_failures(Meshing& meshing, const SizeField& field) {
   bool is_any = false;
@@ -77,6 +95,7 @@ bool refine_failures(Meshing& meshing, const SizeField& field) {
     const MeshedFace& face = meshing.faces[f];
     if (!face.failure) continue;
     is_any = true;
+    if (face.failure->code == ErrorCode::overflow) throw_failures(meshing);  // finer edges make it worse
     const double cap = meshing.sizes.faces[f].max_edge;
     for (const ErrorPlace& place : face.failure->places) refine_at(meshing, f, place.position, field(place.position, cap));
     if (!face.failure->places.empty()) continue;
@@ -94,24 +113,6 @@ void refine_triangles(Meshing& meshing, const SurfaceMesh& mesh, const std::vect
     const double longest = std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
     refine_at(meshing, mesh.triangle_face[t], (p[0] + p[1] + p[2]) / 3.0, std::max(size, 0.5 * longest));
   }
-}
-
-[[noreturn]] void throw_failures(const Meshing& meshing) {
-  ErrorInfo info{.code = ErrorCode::geometry_failed, .attempted = k_attempted};
-  for (const FaceId f : meshing.model.faces.ids()) {
-    const MeshedFace& face = meshing.faces[f];
-    if (!face.failure) continue;
-    if (face.failure->code == ErrorCode::overflow || face.failure->code == ErrorCode::bad_argument) info.code = face.failure->code;
-    ++info.n_places;
-    if (info.places.size() >= k_shown_places) continue;
-    Point place;
-    if (!face.failure->places.empty()) place = face.failure->places.front().position;
-    else if (const EdgeSamples& samples = meshing.edges[meshing.model.faces[f].borders.front().front().edge]; !samples.samples.empty()) place = samples.samples.front().point;
-    info.places.push_back({place, face.failure->attempted + ": " + face.failure->problem});
-    if (info.hint.empty()) info.hint = face.failure->hint;
-  }
-  info.problem = std::to_string(info.n_places) + " of " + std::to_string(meshing.model.faces.size()) + " faces cannot be meshed";
-  throw Error(std::move(info));
 }
 
 [[noreturn]] void throw_faults(const Meshing& meshing, const SurfaceMesh& mesh, const JoinFaults& faults) {

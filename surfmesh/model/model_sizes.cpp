@@ -134,9 +134,16 @@ double distance_between(const Box& a, const Box& b) {
   return norm(gap);
 }
 
+/// A sample of an edge where a face beside it is narrow.
+struct NarrowPlace {
+  EdgeId edge;
+  std::size_t sample = 0;
+  double size = 0.0;
+};
+
 /// Where two edges of a face run near to each other, edges are to be no longer than the face is wide there. Beside a corner that two edges share that is
 /// so only when they are nearer than k_narrow_corner of the distance from the corner: wider corners are filled by triangles as they are.
-void add_narrow_sources(const Model& model, FaceId f, const Column<EdgeId, EdgeSamples>& edges, const FaceSizes& sizes, double narrow, std::vector<SizeSource>& sources) {
+void add_narrow_places(const Model& model, FaceId f, const Column<EdgeId, EdgeSamples>& edges, const FaceSizes& sizes, double narrow, std::vector<NarrowPlace>& places) {
   constexpr double k_narrow_corner = 0.35;
   constexpr double k_at_corner = 1e-6;  // of the edge's length: the corner itself has no distance to the other edge
   constexpr double k_least_of_min_edge = 0.2;
@@ -157,7 +164,8 @@ void add_narrow_sources(const Model& model, FaceId f, const Column<EdgeId, EdgeS
       const ModelEdge &a = model.edges[used[i]], &b = model.edges[used[j]];
       const auto shares = [&](CornerId c) { return c == b.start || c == b.end; };
       const std::vector<EdgeSample>& other = edges[used[j]].samples;
-      for (const EdgeSample& s : edges[used[i]].samples) {
+      for (std::size_t n = 0; n < edges[used[i]].samples.size(); ++n) {
+        const EdgeSample& s = edges[used[i]].samples[n];
         double nearest = reach;
         for (std::size_t k = 0; k + 1 < other.size(); ++k) nearest = std::min(nearest, distance_to_segment(s.point, other[k].point, other[k + 1].point));
         if (nearest >= reach) continue;
@@ -165,14 +173,13 @@ void add_narrow_sources(const Model& model, FaceId f, const Column<EdgeId, EdgeS
         for (const CornerId c : {a.start, a.end})
           if (shares(c)) from_corner = std::min(from_corner, distance(s.point, model.corners[c].point));
         if (nearest >= k_narrow_corner * from_corner || from_corner <= k_at_corner * edges[used[i]].length) continue;
-        sources.push_back({s.point, std::max(least, narrow * nearest)});
+        places.push_back({used[i], n, std::max(least, narrow * nearest)});
       }
     }
 }
 
-/// What an edge asks for: its own curvature, that of its faces beside it, its length where that is short, and the lesser size of its faces.
-void add_edge_sources(const Model& model, const std::vector<EdgeUsePlace>& uses, const EdgeSamples& samples, const ModelSizes& sizes, std::vector<SizeSource>& sources) {
-  if (uses.empty() || samples.samples.empty()) return;
+/// What an edge asks for at its samples: its own curvature, that of its faces beside it, its length where that is short, and the lesser size of its faces.
+std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePlace>& uses, const EdgeSamples& samples, const ModelSizes& sizes) {
   double least = sizes.largest;
   CurvatureLimits limits = sizes.faces[uses.front().face].limits;
   for (const EdgeUsePlace& place : uses) {
@@ -182,6 +189,7 @@ void add_edge_sources(const Model& model, const std::vector<EdgeUsePlace>& uses,
     limits.chord_error = std::min(limits.chord_error, sizes.faces[place.face].limits.chord_error);
   }
   if (samples.length < least) least = std::max(limits.min_edge, samples.length);
+  std::vector<double> result;
   for (const EdgeSample& s : samples.samples) {
     double size = std::min(least, limits.size_of(s.curvature));
     for (const EdgeUsePlace& place : uses) {
@@ -189,7 +197,22 @@ void add_edge_sources(const Model& model, const std::vector<EdgeUsePlace>& uses,
       const double curvature = largest_curvature(model.faces[place.face].surface->derivatives(use.parameter->point(s.t)));
       if (std::isfinite(curvature)) size = std::min(size, sizes.faces[place.face].limits.size_of(curvature));
     }
-    sources.push_back({s.point, size});
+    result.push_back(size);
+  }
+  return result;
+}
+
+/// Sources at the samples and, where these are farther apart than the sizes, between them: else lengths would grow from sample to sample and shrink again.
+void add_sources_along(const Curve& curve, const std::vector<EdgeSample>& samples, const std::vector<double>& size, std::vector<SizeSource>& sources) {
+  constexpr double k_most_between = 4096.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    sources.push_back({samples[i].point, size[i]});
+    if (i + 1 == samples.size()) break;
+    const double n = std::min(k_most_between, std::ceil(distance(samples[i].point, samples[i + 1].point) / std::min(size[i], size[i + 1])));
+    for (double k = 1.0; k < n; k += 1.0) {
+      const double share = k / n;
+      sources.push_back({curve.point(samples[i].t + share * (samples[i + 1].t - samples[i].t)), size[i] + share * (size[i + 1] - size[i])});
+    }
   }
 }
 
@@ -243,17 +266,22 @@ ModelSizes sizes_of_model(const Model& model, const Column<EdgeId, EdgeSamples>&
     sizes.faces[f].curvature->for_each_inside([&](const Point& p, double size) {
       if (size < sizes.faces[f].max_edge) sizes.sources.push_back({p, size});
     });
-  std::vector<std::vector<SizeSource>> of_faces(model.faces.size());
+  std::vector<std::vector<NarrowPlace>> narrow(model.faces.size());
   parallel_for(context, model.faces.size(), [&](std::size_t i) {
     const FaceId f(static_cast<std::uint64_t>(i));
-    add_narrow_sources(model, f, edges, sizes.faces[f], options.narrow, of_faces[i]);
+    add_narrow_places(model, f, edges, sizes.faces[f], options.narrow, narrow[i]);
   }, 1);
-  for (const auto& list : of_faces) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());
+  Column<EdgeId, std::vector<NarrowPlace>> narrow_of_edge(model.edges.size());
+  for (const auto& list : narrow)
+    for (const NarrowPlace& place : list) narrow_of_edge[place.edge].push_back(place);
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
   std::vector<std::vector<SizeSource>> of_edges(model.edges.size());
   parallel_for(context, model.edges.size(), [&](std::size_t i) {
     const EdgeId e(static_cast<std::uint64_t>(i));
-    add_edge_sources(model, uses[e], edges[e], sizes, of_edges[i]);
+    if (uses[e].empty() || edges[e].samples.empty()) return;
+    std::vector<double> size = sizes_along(model, uses[e], edges[e], sizes);
+    for (const NarrowPlace& place : narrow_of_edge[e]) size[place.sample] = std::min(size[place.sample], place.size);
+    add_sources_along(*model.edges[e].curve, edges[e].samples, size, of_edges[i]);
   }, 16);
   for (const auto& list : of_edges) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());
   return sizes;

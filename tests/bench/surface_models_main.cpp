@@ -1,6 +1,6 @@
 // The surface mesher on whole models: CAD files, .smx and CPACS aircraft (united). One row each; processor time of the meshing alone.
-// usage: surface_models [-max METRES] [-angle DEGREES] [-growth G] [-refine F] [-narrow N] [-threads N] [-parts] [-out FOLDER] [-v] FILE ...
-//   -parts: aircraft are not united; -out: writes FOLDER/<stem>.vtu and .su2; -v: the worst faces too
+// usage: surface_models [-max METRES] [-angle DEGREES] [-growth G] [-refine F] [-narrow N] [-threads N] [-parts] [-nocheck] [-out FOLDER] [-v] FILE ...
+//   -parts: aircraft are not united; -nocheck: crossings are not looked for; -out: writes FOLDER/<stem>.vtu and .su2; -v: the worst faces too
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -12,7 +12,7 @@
 #include <string>
 
 #include "geom/base/error.h"
-#include "geom/cad/unite.h"
+#include "geom/cad/aircraft_union.h"
 #include "geom/math/measures.h"
 #include "geom/model/components.h"
 #include "geom/model/cpacs.h"
@@ -34,32 +34,12 @@ struct Settings {
   std::string folder;
 };
 
-/// Every solid of a model of components as a model of its own.
-std::vector<Model> parts_of(const Aircraft& aircraft, const RunContext& context) {
-  std::vector<Model> parts;
-  const auto add = [&](const Aircraft& one) {
-    const Model model = make_components(one, context);
-    for (const SolidId s : model.solids.ids()) {
-      Model part = model;
-      part.solids.clear();
-      part.faces.clear();
-      part.shape = nullptr;
-      ModelSolid solid = model.solids[s];
-      for (FaceId& f : solid.faces) f = part.faces.push_back(model.faces[f]);
-      part.solids.push_back(std::move(solid));
-      parts.push_back(std::move(part));
-    }
-  };
-  add(aircraft);
-  return parts;
-}
-
 Model read_model(const std::filesystem::path& path, const Settings& settings, const RunContext& context) {
   const std::string extension = path.extension().string();
   if (extension != ".smx" && extension != ".xml") return io::read_cad(path, {}, context).model;
   const Aircraft aircraft = extension == ".smx" ? read_smx(path, context).aircraft : read_cpacs(path, context).aircraft;
   if (settings.has_parts) return make_components(aircraft, context);
-  return cad::unite(parts_of(aircraft, context), {}, context).model;
+  return cad::unite_aircraft(aircraft, {}, context).model;
 }
 
 void print_row(const std::filesystem::path& path, const Settings& settings) {
@@ -70,6 +50,7 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
   try {
     const Model model = read_model(path, settings, context);
     const double reading = seconds();
+    if (settings.is_verbose) std::fprintf(stderr, "%s read, %zu faces\n", name.c_str(), model.faces.size());
     const bool is_closed = free_edges(model).empty();
     const std::clock_t clock = std::clock();
     try {
@@ -122,6 +103,7 @@ int main(int argc, char** argv) {
     else if (is("-refine")) settings.options.refinement = number();
     else if (is("-narrow")) settings.options.narrow = number();
     else if (is("-threads")) settings.threads = static_cast<int>(number());
+    else if (is("-limit")) settings.options.max_triangles = static_cast<int>(number());
     else if (is("-nocheck")) settings.options.check_crossings = false;
     else if (is("-parts")) settings.has_parts = true;
     else if (is("-v")) settings.is_verbose = true;
