@@ -11,8 +11,6 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Edges shorter than this part of the shortest wanted edge become points: in a mesh of such edges nobody sees them.
-constexpr double k_shortest = 0.05;
 /// A segment turns by this at most, however short an edge is: a hole stays a hexagon.
 constexpr double k_largest_turn = std::numbers::pi / 3.0;
 /// Halvings of a sampling interval at most, while its length is above the size there.
@@ -75,39 +73,43 @@ EdgeCut cut_at(const ModelEdge& edge, const std::vector<Station>& stations, std:
   return cut;
 }
 
-CornerId find(Column<CornerId, CornerId>& stands_for, CornerId c) {
-  while (stands_for[c] != c) c = stands_for[c] = stands_for[stands_for[c]];
-  return c;
+/// Place of a share of the length along the samples.
+double t_at_share(const EdgeSamples& samples, double share) {
+  const double wanted = share * samples.length;
+  double along = 0.0;
+  for (std::size_t i = 0; i + 1 < samples.samples.size(); ++i) {
+    const double step = distance(samples.samples[i].point, samples.samples[i + 1].point);
+    if (along + step >= wanted && step > 0.0) return samples.samples[i].t + (wanted - along) / step * (samples.samples[i + 1].t - samples.samples[i].t);
+    along += step;
+  }
+  return samples.samples.back().t;
+}
+
+/// Share of the length up to t.
+double share_at(const EdgeSamples& samples, double t) {
+  double along = 0.0;
+  for (std::size_t i = 0; i + 1 < samples.samples.size(); ++i) {
+    const EdgeSample &a = samples.samples[i], &b = samples.samples[i + 1];
+    const double step = distance(a.point, b.point);
+    if (t <= b.t) return (along + step * (b.t > a.t ? (t - a.t) / (b.t - a.t) : 0.0)) / samples.length;
+    along += step;
+  }
+  return 1.0;
+}
+
+/// The cut of the edge that stands for this one, at the same shares of the length.
+EdgeCut cut_like(const EdgeSamples& own, const EdgeSamples& other, const EdgeCut& cut, bool is_reversed) {
+  EdgeCut result;
+  for (std::size_t k = 0; k < cut.t.size(); ++k) {
+    const std::size_t i = is_reversed ? cut.t.size() - 1 - k : k;
+    const double share = share_at(other, cut.t[i]);
+    result.t.push_back(t_at_share(own, is_reversed ? 1.0 - share : share));
+    result.points.push_back(cut.points[i]);
+  }
+  return result;
 }
 
 }  // namespace
-
-ModelTopology absorb_short_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelSizes& sizes, std::vector<AbsorbedPart>& absorbed) {
-  ModelTopology topology{Column<CornerId, CornerId>(model.corners.size()), Column<EdgeId, std::uint8_t>(model.edges.size(), 0)};
-  for (const CornerId c : model.corners.ids()) topology.corner[c] = c;
-  const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
-  for (const EdgeId e : model.edges.ids()) {
-    const ModelEdge& edge = model.edges[e];
-    bool is_point = edge.is_degenerate();
-    if (!is_point && !uses[e].empty()) {
-      double shortest = sizes.largest;
-      for (const EdgeUsePlace& place : uses[e]) shortest = std::min(shortest, sizes.faces[place.face].limits.min_edge);
-      const double limit = std::max(k_shortest * shortest, edge.tolerance);
-      is_point = edges[e].length <= limit && (edge.start == edge.end || edges[e].length <= limit);
-      if (is_point) {
-        std::string names;
-        for (const EdgeUsePlace& place : uses[e]) names += (names.empty() ? "" : ", ") + model.faces[place.face].name;
-        absorbed.push_back({"short edge of " + names, edges[e].samples.front().point, edges[e].length});
-      }
-    }
-    if (!is_point) continue;
-    topology.is_point[e] = 1;
-    const CornerId a = find(topology.corner, edge.start), b = find(topology.corner, edge.end);
-    topology.corner[std::max(a, b)] = std::min(a, b);
-  }
-  for (const CornerId c : model.corners.ids()) topology.corner[c] = find(topology.corner, c);
-  return topology;
-}
 
 Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes, const SizeField& field, const RunContext& context) {
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
@@ -115,7 +117,7 @@ Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeS
   Column<EdgeId, std::size_t> n_segments(model.edges.size(), 1);
   parallel_for(context, model.edges.size(), [&](std::size_t i) {
     const EdgeId e(static_cast<std::uint64_t>(i));
-    if (topology.is_point[e] != 0 || uses[e].empty()) return;
+    if (topology.is_point[e] != 0 || uses[e].empty() || topology.same_as[e].edge != e) return;
     double cap = sizes.largest;
     for (const EdgeUsePlace& place : uses[e]) cap = std::min(cap, sizes.faces[place.face].max_edge);
     stations[e] = measure(model.edges[e], edges[e], cap, field);
@@ -145,6 +147,8 @@ Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeS
     const EdgeId e(static_cast<std::uint64_t>(i));
     if (!stations[e].empty() && n_segments[e] > 1) cuts[e] = cut_at(model.edges[e], stations[e], n_segments[e]);
   }, 4);
+  for (const EdgeId e : model.edges.ids())
+    if (const SameEdge& same = topology.same_as[e]; same.edge != e && topology.is_point[e] == 0) cuts[e] = cut_like(edges[e], edges[same.edge], cuts[same.edge], same.is_reversed);
   return cuts;
 }
 

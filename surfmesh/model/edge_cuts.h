@@ -5,20 +5,13 @@
 
 #include "surfmesh/model/edge_samples.h"
 #include "surfmesh/model/model_sizes.h"
+#include "surfmesh/model/model_topology.h"
 
 namespace sterna::surfmesh {
 
-/// Which corners and edges are still there: edges that are too short are points.
-struct ModelTopology {
-  Column<CornerId, CornerId> corner;      ///< the corner that stands for it
-  Column<EdgeId, std::uint8_t> is_point;  ///< degenerate, or absorbed
-};
-/// Absorbs edges shorter than their tolerance or than `k_shortest` of what is wanted there. Appends to `absorbed`.
-ModelTopology absorb_short_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelSizes& sizes, std::vector<AbsorbedPart>& absorbed);
-
 struct EdgeCut {
   std::vector<double> t;       ///< ascending, inside the edge's range: its ends are corners
-  std::vector<Point> points;   ///< curve->point(t)
+  std::vector<Point> points;   ///< curve->point(t); of an edge that is the same as another, that one's
   friend bool operator==(const EdgeCut&, const EdgeCut&) = default;
 };
 

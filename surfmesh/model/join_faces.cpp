@@ -51,7 +51,7 @@ SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const 
   for (const CornerId c : model.corners.ids())
     if (topology.corner[c] == c && numbers.of_corner[c].is_valid()) mesh.points[numbers.of_corner[c]] = model.corners[c].point;
   for (const EdgeId e : model.edges.ids())
-    for (std::size_t k = 0; k < cuts[e].t.size(); ++k) {
+    for (std::size_t k = 0; topology.same_as[e].edge == e && k < cuts[e].t.size(); ++k) {
       const VertexId v(numbers.first_of_edge[e] + static_cast<std::uint32_t>(k));
       mesh.points[v] = cuts[e].points[k];
       result.edge_places[v] = {e, cuts[e].t[k]};
@@ -60,6 +60,7 @@ SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const 
     const MeshedFace& face = faces[f];
     const auto first = static_cast<std::uint32_t>(mesh.points.size());
     const std::uint32_t n_border = face.mesh.n_border;
+    if (face.failure || topology.is_absorbed[f] != 0) continue;
     for (std::uint32_t i = 0; i < n_border; ++i)
       if (VertexPlace& place = result.places[face.border_ids[i]]; !place.face.is_valid()) place = {f, face.mesh.uv[i]};
     for (std::size_t i = n_border; i < face.mesh.points.size(); ++i) {

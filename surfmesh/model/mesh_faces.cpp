@@ -31,10 +31,11 @@ LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topo
       loop.push_back({use.parameter->point(use.is_reversed ? range.to : range.from) + entry.shift, model.corners[corner].point});
       result.ids.push_back(numbers.of_corner[corner]);
       const EdgeCut& cut = cuts[use.edge];
+      const SameEdge& same = topology.same_as[use.edge];
       for (std::size_t k = 0; k < cut.t.size(); ++k) {
         const std::size_t i = use.is_reversed ? cut.t.size() - 1 - k : k;
         loop.push_back({use.parameter->point(cut.t[i]) + entry.shift, cut.points[i]});
-        result.ids.push_back(VertexId(numbers.first_of_edge[use.edge] + static_cast<std::uint32_t>(i)));
+        result.ids.push_back(VertexId(numbers.first_of_edge[same.edge] + static_cast<std::uint32_t>(same.is_reversed ? cut.t.size() - 1 - i : i)));
       }
     }
     if (!loop.empty()) result.border.loops.push_back(std::move(loop));
@@ -94,7 +95,7 @@ BorderVertices number_border(const Model& model, const ModelTopology& topology, 
   numbers.n_corners = numbers.n;
   for (const EdgeId e : model.edges.ids()) {
     numbers.first_of_edge[e] = numbers.n;
-    numbers.n += static_cast<std::uint32_t>(cuts[e].t.size());
+    if (topology.same_as[e].edge == e) numbers.n += static_cast<std::uint32_t>(cuts[e].t.size());
   }
   return numbers;
 }
@@ -115,13 +116,10 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
     result.failure = std::move(info);
     return result;
   };
-  if (!sizes.outlines[f].winding.empty())
+  if (!sizes.outlines[f].winding.empty() && topology.is_absorbed[f] == 0)
     return fail({.code = ErrorCode::geometry_failed, .problem = "a border runs around the period of its " + face.surface->kind() + " without a seam"});
+  if (topology.is_absorbed[f] != 0) return result;
   LabelledBorder labelled = border_of(model, f, topology, cuts, numbers, sizes.outlines[f]);
-  if (labelled.border.loops.empty()) {
-    result.is_absorbed = true;
-    return result;
-  }
   FaceMeshOptions options;
   options.min_edge = 0.0;
   options.size_growth = sizes.growth;

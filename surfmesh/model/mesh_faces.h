@@ -25,7 +25,6 @@ struct MeshedFace {
   FaceMesh mesh;
   std::vector<VertexId> border_ids;     ///< of its first n_border vertices
   std::optional<ErrorInfo> failure;     ///< instead of a mesh
-  bool is_absorbed = false;             ///< nothing is left of its border: no mesh
   FaceMeshSummary summary;
   double edge_distance = 0.0;           ///< metres: largest distance of a border point to the surface
   Point edge_distance_place{};

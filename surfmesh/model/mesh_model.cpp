@@ -156,10 +156,6 @@ void summarise(const Meshing& meshing, SurfaceMesh& mesh) {
   std::int64_t n = 0, n_outside = 0;
   for (const MeshedFace& face : meshing.faces) {
     report.faces.push_back(face.summary);
-    if (face.is_absorbed) {
-      const EdgeSamples& edge = meshing.edges[meshing.model.faces[face.summary.face].borders.front().front().edge];
-      report.absorbed.push_back({"face " + face.summary.name + ", all of whose edges are points", edge.samples.empty() ? Point{} : edge.samples.front().point, edge.length});
-    }
     n += face.summary.n_triangles;
     n_outside += face.summary.n_outside_20_130;
     if (face.summary.n_triangles > 0 && face.summary.min_angle < report.min_angle) {
@@ -195,8 +191,9 @@ void check_options(const SurfaceMeshOptions& options) {
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
   check_options(options);
   Meshing meshing{model, options, sample_edges(model, context), {}, {}, {}, {}, {}, {}, {}};
-  meshing.sizes = sizes_of_model(model, meshing.edges, options, patches, context);
-  meshing.topology = absorb_short_edges(model, meshing.edges, meshing.sizes, meshing.absorbed);
+  meshing.sizes = sizes_of_faces(model, meshing.edges, options, patches, context);
+  meshing.topology = absorb_small_parts(model, meshing.edges, meshing.sizes, meshing.absorbed);
+  add_sources(model, meshing.edges, meshing.topology, options, meshing.sizes, context);
   SurfaceMesh mesh;
   std::int64_t n_crossings = 0;
   std::size_t n_crossing_before = static_cast<std::size_t>(-1);

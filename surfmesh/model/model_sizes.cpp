@@ -5,6 +5,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
+#include "surfmesh/model/model_topology.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -121,13 +122,6 @@ ParameterBox box_of(const FaceOutline& outline) {
   return box;
 }
 
-double distance_to_segment(const Point& p, const Point& a, const Point& b) {
-  const Vec3 along = b - a;
-  const double length2 = norm2(along);
-  const double t = length2 > 0.0 ? std::clamp(dot(p - a, along) / length2, 0.0, 1.0) : 0.0;
-  return distance(p, a + t * along);
-}
-
 double distance_between(const Box& a, const Box& b) {
   Vec3 gap;
   for (std::size_t k = 0; k < 3; ++k) gap[k] = std::max({0.0, a.min[k] - b.max[k], b.min[k] - a.max[k]});
@@ -218,6 +212,13 @@ void add_sources_along(const Curve& curve, const std::vector<EdgeSample>& sample
 
 }  // namespace
 
+double distance_to_segment(const Point& p, const Point& a, const Point& b) {
+  const Vec3 along = b - a;
+  const double length2 = norm2(along);
+  const double t = length2 > 0.0 ? std::clamp(dot(p - a, along) / length2, 0.0, 1.0) : 0.0;
+  return distance(p, a + t * along);
+}
+
 bool matches_glob(std::string_view name, std::string_view glob) {
   std::size_t n = 0, g = 0, star = std::string_view::npos, retry = 0;
   while (n < name.size()) {
@@ -238,7 +239,7 @@ bool matches_glob(std::string_view name, std::string_view glob) {
   return g == glob.size();
 }
 
-ModelSizes sizes_of_model(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
+ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
   check_rules(model, patches);
   ModelSizes sizes;
   sizes.growth = change_by_distance(options);
@@ -262,14 +263,19 @@ ModelSizes sizes_of_model(const Model& model, const Column<EdgeId, EdgeSamples>&
     const FaceId f(static_cast<std::uint64_t>(i));
     sizes.faces[f].curvature->limit(sizes.faces[f].limits);
   }, 1);
+  return sizes;
+}
+
+void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options, ModelSizes& sizes, const RunContext& context) {
   for (const FaceId f : model.faces.ids())
-    sizes.faces[f].curvature->for_each_inside([&](const Point& p, double size) {
-      if (size < sizes.faces[f].max_edge) sizes.sources.push_back({p, size});
-    });
+    if (topology.is_absorbed[f] == 0)
+      sizes.faces[f].curvature->for_each_inside([&](const Point& p, double size) {
+        if (size < sizes.faces[f].max_edge) sizes.sources.push_back({p, size});
+      });
   std::vector<std::vector<NarrowPlace>> narrow(model.faces.size());
   parallel_for(context, model.faces.size(), [&](std::size_t i) {
     const FaceId f(static_cast<std::uint64_t>(i));
-    add_narrow_places(model, f, edges, sizes.faces[f], options.narrow, narrow[i]);
+    if (topology.is_absorbed[f] == 0) add_narrow_places(model, f, edges, sizes.faces[f], options.narrow, narrow[i]);
   }, 1);
   Column<EdgeId, std::vector<NarrowPlace>> narrow_of_edge(model.edges.size());
   for (const auto& list : narrow)
@@ -278,13 +284,12 @@ ModelSizes sizes_of_model(const Model& model, const Column<EdgeId, EdgeSamples>&
   std::vector<std::vector<SizeSource>> of_edges(model.edges.size());
   parallel_for(context, model.edges.size(), [&](std::size_t i) {
     const EdgeId e(static_cast<std::uint64_t>(i));
-    if (uses[e].empty() || edges[e].samples.empty()) return;
+    if (uses[e].empty() || edges[e].samples.empty() || topology.is_point[e] != 0) return;
     std::vector<double> size = sizes_along(model, uses[e], edges[e], sizes);
     for (const NarrowPlace& place : narrow_of_edge[e]) size[place.sample] = std::min(size[place.sample], place.size);
     add_sources_along(*model.edges[e].curve, edges[e].samples, size, of_edges[i]);
   }, 16);
   for (const auto& list : of_edges) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());
-  return sizes;
 }
 
 }  // namespace sterna::surfmesh

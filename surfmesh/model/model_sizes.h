@@ -28,7 +28,13 @@ struct ModelSizes {
 };
 
 /// \throws Error(bad_argument) for a rule that no face's name matches
-ModelSizes sizes_of_model(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
+ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
+
+/// Fills `sources`; what is absorbed asks for nothing.
+struct ModelTopology;
+void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options, ModelSizes& sizes, const RunContext& context);
+
+double distance_to_segment(const Point& p, const Point& a, const Point& b);
 
 /// "*" any run of characters, "?" any one.
 bool matches_glob(std::string_view name, std::string_view glob);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "geom/base/error.h"
 #include "geom/math/intersect.h"
@@ -82,8 +83,8 @@ Model tube(double radius, double length, const EndCap& cap) {
   return make_body(body, ComponentKind::body);
 }
 
-Model lens_wing(bool is_cubic) {
-  Wing wing{.name = "W", .is_symmetric = true, .is_cubic = is_cubic, .trailing_edge = std::nullopt};
+Model lens_wing(bool is_cubic, std::optional<double> trailing_edge = std::nullopt) {
+  Wing wing{.name = "W", .is_symmetric = true, .is_cubic = is_cubic, .trailing_edge = trailing_edge};
   for (const double y : {4.0, 3.0, 1.5, 0.0}) {
     WingSection s{.name = "y", .leading_edge = {0.05 * y * y, y, 0.0}, .chord = 2.0 - 0.05 * y * y};
     for (int i = 0; i <= 200; ++i) s.points.push_back({0.5 + 0.5 * std::cos(2 * pi * i / 200), 0.1 * std::sin(2 * pi * i / 200)});
@@ -120,7 +121,7 @@ TEST(MeshModel, AreaAndVolumeConvergeWithOrderTwo) {
     Model model;
     double size, area, volume;  ///< area 0: not known
   };
-  for (const Case& c : {Case{"sphere", sphere(1.0), 0.25, 4 * pi, 4 * pi / 3}, Case{"cylinder", make_cylinder("c", {0, 0, 0}, {3, 0, 0}, 1.0), 0.25, 8 * pi, 3 * pi}, Case{"bicubic wing", lens_wing(true), 0.3, 0.0, 0.0}}) {
+  for (const Case& c : {Case{"sphere", sphere(1.0), 0.25, 4 * pi, 4 * pi / 3}, Case{"cylinder", make_cylinder("c", {0, 0, 0}, {3, 0, 0}, 1.0), 0.25, 8 * pi, 3 * pi}, Case{"bicubic wing", lens_wing(true), 0.4, 0.0, 0.0}}) {
     SCOPED_TRACE(c.name);
     std::vector<double> areas, volumes;
     for (const double factor : {1.0, 2.0, 4.0}) {
@@ -147,6 +148,27 @@ TEST(MeshModel, ComponentsHaveDefaults) {
     EXPECT_GT(mesh.mesh.n_triangles(), 400u);
     EXPECT_LT(mesh.mesh.n_triangles(), 200000u);
   }
+}
+
+TEST(MeshModel, TrailingEdgesThatAreAllButSharpBecomeLines) {
+  const auto mesh_of = [](double thickness) {
+    const Model model = lens_wing(false, thickness);
+    const SurfaceMesh mesh = mesh_model(model, edges_of(0.1), {}, k_context);
+    expect_sound(model, mesh);
+    std::int64_t n = 0;
+    for (const FaceMeshSummary& face : mesh.report.faces)
+      if (model.faces[face.face].role == FaceRole::trailing_edge) n += face.n_triangles;
+    return std::pair(n, mesh.report);
+  };
+  // min_edge is 2 mm; a twentieth of it counts as nothing.
+  const auto [n_blunt, blunt] = mesh_of(0.004);
+  EXPECT_GT(n_blunt, 1000);
+  EXPECT_TRUE(blunt.absorbed.empty());
+  const auto [n_sharp, sharp] = mesh_of(5e-5);
+  EXPECT_EQ(n_sharp, 0);
+  EXPECT_FALSE(sharp.absorbed.empty());
+  EXPECT_LE(sharp.max_edge_distance, 1e-4);
+  EXPECT_GT(sharp.share_20_130, 0.995) << to_text(sharp);
 }
 
 TEST(MeshModel, PatchesHaveSizesOfTheirOwnThatGrow) {
