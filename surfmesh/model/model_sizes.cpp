@@ -14,6 +14,8 @@ namespace {
 constexpr double k_of_circumference = 0.08;
 constexpr double k_of_chord = 0.15;
 constexpr double k_of_longest_side = 0.02;
+/// Of the root of a face's area.
+constexpr double k_of_face = 0.25;
 constexpr double k_min_of_max = 0.02;
 
 double longest_side(const Box& box) { return box.empty() ? 0.0 : box.longest_side(); }
@@ -255,7 +257,11 @@ ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>&
   for (const FaceId f : model.faces.ids()) {
     const ModelFace& face = model.faces[f];
     std::unique_ptr<CurvatureSizes> curvature = std::move(sizes.faces[f].curvature);
-    sizes.faces[f] = resolve(face.name, face.component.is_valid() ? automatic[face.component] : of_model, options, patches);
+    double by_default = face.component.is_valid() ? automatic[face.component] : of_model;
+    // Of a component that says nothing of itself only faces tell what is large and what is small: a farfield and a wing may be one part.
+    const bool is_unknown = !face.component.is_valid() || model.components[face.component].kind == ComponentKind::unknown;
+    if (const double side = std::sqrt(curvature->area()); is_unknown && side > 0.0) by_default = std::min(by_default, k_of_face * side);
+    sizes.faces[f] = resolve(face.name, by_default, options, patches);
     sizes.faces[f].curvature = std::move(curvature);
     sizes.largest = std::max(sizes.largest, sizes.faces[f].max_edge);
   }

@@ -104,7 +104,7 @@ struct Schema<surfmesh::SurfaceMeshOptions> {
   using O = surfmesh::SurfaceMeshOptions;
   static constexpr std::string_view stage = "surface_mesh";
   static constexpr std::array fields = {
-      Field<O>{.name = "max_edge", .member = &O::max_edge, .unit = Unit::metre, .min = 1e-9, .help = "longest edge wanted", .automatic = "8 % of the mean circumference of bodies, 15 % of the mean chord of wings, else 2 % of the component's longest side"},
+      Field<O>{.name = "max_edge", .member = &O::max_edge, .unit = Unit::metre, .min = 1e-9, .help = "longest edge wanted", .automatic = "8 % of the mean circumference of bodies, 15 % of the mean chord of wings, else 2 % of the component's longest side and a quarter of the root of each face's area"},
       Field<O>{.name = "min_edge", .member = &O::min_edge, .unit = Unit::metre, .min = 0.0, .help = "curvature and narrow places ask for no shorter edges", .automatic = "2 % of the longest edge"},
       Field<O>{.name = "curvature_angle", .member = &O::curvature_angle, .unit = Unit::radian, .min = 0.001, .max = 1.6, .help = "an edge spans at most this angle of the surface"},
       Field<O>{.name = "chord_error", .member = &O::chord_error, .unit = Unit::metre, .min = 1e-9, .help = "an edge's middle is at most this far from the surface", .automatic = "no limit"},
