@@ -158,7 +158,7 @@ struct Wing {
   std::string name;
   Placement placement;
   bool is_symmetric = false;
-  bool has_winglet = false;  ///< an elliptic arc replaces the part before the winglet's root
+  bool has_winglet = false;  ///< elliptic arcs replace the part before the winglet's root, where there is one (winglet_blend.h)
   bool has_mirror_image = false;  ///< a second one stands on the other side of y = 0 (a wing that does not reach it)
   bool is_pylon = false;
   bool is_cubic = false;     ///< along the span between breaks; else straight

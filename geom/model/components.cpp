@@ -82,7 +82,6 @@ Model make_components(const Aircraft& aircraft, const RunContext& context) {
   }
   for (const Wing& wing : aircraft.wings) {
     context.check_stop();
-    if (wing.has_winglet) context.info("wing '" + wing.name + "': winglets are joined straight, without sumo's elliptic blend");
     const std::vector<Deflection> deflections = deflections_of(aircraft, wing);
     append(model, make_wing(deflected(wing, deflections)));
     if (wing.has_mirror_image) {

@@ -236,7 +236,7 @@ std::vector<Stop> stops_of(const WingSpan& span, const std::vector<Deflection>& 
   const std::vector<double> own = span.fractions();
   for (std::size_t i = 0; i < own.size(); ++i) stops.push_back({own[i], span.made().is_break[i], true});
   for (std::size_t i = 0; i + 1 < own.size(); ++i)
-    if (!(span.made().is_break[i] && span.made().is_break[i + 1]))
+    if (const WingRows& made = span.made(); !(made.is_break[i] && made.is_break[i + 1]) && !made.is_sampled[i] && !made.is_sampled[i + 1])
       for (int k = 1; k < k_cubic_rows; ++k) stops.push_back({span.fraction_of(static_cast<double>(i) + static_cast<double>(k) / k_cubic_rows), false, false});
   for (const Deflection& d : deflections) {
     const Reach reach = reach_of(d, span);
@@ -268,7 +268,8 @@ std::vector<Stop> stops_of(const WingSpan& span, const std::vector<Deflection>& 
 
 Wing bent_wing(const Wing& wing, const WingSpan& span, const std::vector<Stop>& stops, const std::vector<Deflection>& deflections) {
   Wing bent = wing;
-  bent.is_symmetric = false;
+  bent.is_symmetric = bent.has_winglet = false;  // its rows hold the blend already
+  bent.is_cubic = std::any_of(stops.begin(), stops.end(), [](const Stop& s) { return !s.is_break; });
   bent.sections.clear();
   if (wing.is_symmetric) bent.left_tip = wing.left_tip;
   for (const Stop& stop : stops) {

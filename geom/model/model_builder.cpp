@@ -9,6 +9,7 @@
 #include "geom/model/curves.h"
 #include "geom/model/model_measures.h"
 #include "geom/model/nurbs_curve.h"
+#include "geom/model/nurbs_tools.h"
 
 namespace sterna {
 namespace {
@@ -54,15 +55,7 @@ CurvePtr curve_through_rows(const std::vector<Row>& rows, int row_degree, const 
 
 }  // namespace
 
-CurvePtr line_of_constant_u(const NurbsSurfaceForm& form, double at) {
-  std::vector<Row> rows(form.n_v);
-  for (std::size_t j = 0; j < form.n_v; ++j)
-    for (std::size_t i = 0; i < form.n_u; ++i) {
-      rows[j].poles.push_back(form.poles[i * form.n_v + j]);
-      if (!form.weights.empty()) rows[j].weights.push_back(form.weights[i * form.n_v + j]);
-    }
-  return curve_through_rows(rows, form.degree_u, form.knots_u, at, form.degree_v, form.knots_v);
-}
+CurvePtr line_of_constant_u(const NurbsSurfaceForm& form, double at) { return line_of_constant_v(exchanged(form), at); }
 
 CurvePtr line_of_constant_v(const NurbsSurfaceForm& form, double at) {
   std::vector<Row> rows(form.n_u);

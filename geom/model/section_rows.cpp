@@ -6,7 +6,9 @@
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/model/airfoil.h"
 #include "geom/model/spline.h"
+#include "geom/model/winglet_blend.h"
 
 namespace sterna {
 namespace {
@@ -151,10 +153,12 @@ RowCrossing row_crossing(const std::vector<Point>& row, double fraction) {
 std::vector<Point> section_loop(const WingSection& section, const std::optional<double>& trailing_edge) {
   std::vector<Point> loop = section.loop;
   if (loop.empty()) {
-    if (section.points.size() < 5) refuse(ErrorCode::bad_argument, "section '" + section.name + "' has " + std::to_string(section.points.size()) + " airfoil points; at least 5 are needed");
+    std::vector<Uv> points = section.points;
+    if (points.empty() && !section.naca.empty()) points = naca_airfoil(section.naca).points;
+    if (points.size() < 5) refuse(ErrorCode::bad_argument, "section '" + section.name + "' has " + std::to_string(points.size()) + " airfoil points; at least 5 are needed");
     const Transform place = transform_of({section.leading_edge, {section.dihedral, section.twist, section.yaw}});
     const double up = section.is_reversed ? -section.chord : section.chord;
-    for (const Uv p : section.points) loop.push_back(place.point({section.chord * p.u, 0.0, up * p.v}));
+    for (const Uv p : points) loop.push_back(place.point({section.chord * p.u, 0.0, up * p.v}));
     if (section.is_reversed) std::reverse(loop.begin(), loop.end());
   }
   if (!trailing_edge) return loop;
@@ -227,18 +231,28 @@ WingRows wing_rows(const Wing& wing) {
   }
   if (!result.is_blunt)
     for (std::vector<Point>& row : result.rows) row.front() = row.back() = 0.5 * (row.front() + row.back());
-  for (const WingSection& section : wing.sections) result.is_break.push_back(section.is_break || !wing.is_cubic);
+  for (const WingSection& section : wing.sections) {
+    result.is_break.push_back(section.is_break || !wing.is_cubic);
+    result.is_sampled.push_back(section.is_row);
+  }
+  if (wing.has_winglet) blend_winglets(result, !wing.is_symmetric);
   if (wing.is_symmetric) {
     result.is_break.back() = true;
-    for (std::size_t i = wing.sections.size() - 1; i-- > 0;) {
+    for (std::size_t i = result.rows.size() - 1; i-- > 0;) {
       result.is_break.push_back(result.is_break[i]);
+      result.is_sampled.push_back(result.is_sampled[i]);
       result.rows.push_back(result.rows[i]);
       for (Point& p : result.rows.back()) p.y = -p.y;
     }
   }
   result.is_break.front() = result.is_break.back() = true;
-  result.is_sampled = std::all_of(wing.sections.begin(), wing.sections.end(), [](const WingSection& s) { return s.is_row; });
   return result;
+}
+
+bool WingRows::is_sampled_between(std::size_t first_row, std::size_t last_row) const {
+  for (std::size_t i = first_row + 1; i < last_row; ++i)
+    if (!is_sampled[i]) return false;
+  return true;
 }
 
 double WingPanel::v(double place) const {
@@ -273,7 +287,7 @@ std::vector<WingPanel> wing_panels(const WingRows& rows) {
   std::size_t from = 0;
   for (std::size_t i = 1; i < rows.rows.size(); ++i) {
     if (!rows.is_break[i]) continue;
-    panels.push_back(wing_panel(rows.rows, from, i, rows.is_sampled));
+    panels.push_back(wing_panel(rows.rows, from, i, rows.is_sampled_between(from, i)));
     from = i;
   }
   return panels;

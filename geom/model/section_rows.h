@@ -43,8 +43,11 @@ struct WingRows {
   std::vector<std::vector<Point>> rows;
   std::vector<bool> is_break;  ///< the wing may have a kink at the row; always at the ends
   bool is_blunt = true;
-  bool is_sampled = false;     ///< all rows come from a smooth wing (WingSection::is_row): ends of parts get no end condition of their own
+  std::vector<bool> is_sampled;  ///< the row comes from a smooth wing (WingSection::is_row) or is made by a blend: parts of such rows get no end condition
+  /// All rows between two breaks are sampled.
+  bool is_sampled_between(std::size_t first_row, std::size_t last_row) const;
 };
+/// With the blend of a winglet (winglet_blend.h) where the wing asks for it.
 WingRows wing_rows(const Wing& wing);
 
 /// The wing's skin between the rows of two neighbouring breaks: u as row_parameters, v along the span.

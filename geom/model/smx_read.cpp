@@ -7,6 +7,7 @@
 #include <pugixml.hpp>
 
 #include "geom/base/error.h"
+#include "geom/model/airfoil.h"
 #include "geom/model/smx.h"
 #include "geom/model/xml_file.h"
 
@@ -225,8 +226,17 @@ WingSection SmxReader::section(const Node& node) {
   s.points = file_.pairs(node);
   drop_repeated(node, s.points);
   if (s.points.empty() && s.naca.empty()) file_.fail(node, "the section has neither airfoil points nor a 'naca' designation");
+  if (s.points.empty() && !s.naca.empty()) {
+    try {
+      naca_airfoil(s.naca);  // the sections are made from it
+    } catch (const Error& e) {
+      file_.fail(node, "attribute 'naca': " + e.info().problem);
+    }
+  }
   if (!s.points.empty() && s.points.size() < 5) file_.fail(node, "an airfoil needs 5 points; it has " + std::to_string(s.points.size()));
   check_turns(node, s.points);
+  if (s.n_approximation > 0) file_.tell(node, "the airfoil goes through its points; sumo approximates it by least squares with " + std::to_string(s.n_approximation) + " points (napprox)");
+  if (s.extend_leading_x || s.extend_leading_y || s.extend_trailing_x || s.extend_trailing_y) file_.tell(node, "the airfoil is not extended at its ends (extend_xle ...): sumo's rule is not documented");
   return s;
 }
 
@@ -235,6 +245,7 @@ Wing SmxReader::wing(const Node& node) {
   file_.tell_unknown(node, "name flags origin rotation akimatg", "WingSection Cap Caps WingCriterion MeshCriterion");
   wing.name = file_.required_text(node, "name");
   wing.placement = placement(node);
+  wing.trailing_edge = 0.0;  // sumo closes every airfoil, by turning its sides about the leading edge
   const std::string flags = file_.text(node, "flags");
   for (std::size_t at = 0; at < flags.size();) {
     const std::size_t end = std::min(flags.find(',', at), flags.size());

@@ -103,26 +103,18 @@ void add_shape(Node& node, const BodyFrame& frame) {
     set(child, "npoints", static_cast<std::int64_t>(frame.n_points));
     return child;
   };
+  const auto shape_with = [&](const char* tag, const char* attribute, double value) {
+    Node child = shape(tag);
+    set(child, attribute, value);
+  };
   switch (frame.shape) {
     case FrameShape::points: return add_pairs(node, frame.points);
     case FrameShape::loop:
       refuse("frame '" + frame.name + "' is a free loop; .smx has only half sections in planes x = const", "write the model as STEP instead");
-    case FrameShape::circle: {
-      Node child = shape("CircularShapeConstraint");
-      return set(child, "radius", frame.width);
-    }
-    case FrameShape::ellipse: {
-      Node child = shape("EllipticShapeConstraint");
-      return set(child, "exponent", frame.exponent);
-    }
-    case FrameShape::egg: {
-      Node child = shape("HuegelschaefferConstraint");
-      return set(child, "distortion", frame.distortion);
-    }
-    case FrameShape::double_ellipse: {
-      Node child = shape("DoubleEllipticConstraint");
-      return set(child, "offset", frame.offset);
-    }
+    case FrameShape::circle: return shape_with("CircularShapeConstraint", "radius", frame.width);
+    case FrameShape::ellipse: return shape_with("EllipticShapeConstraint", "exponent", frame.exponent);
+    case FrameShape::egg: return shape_with("HuegelschaefferConstraint", "distortion", frame.distortion);
+    case FrameShape::double_ellipse: return shape_with("DoubleEllipticConstraint", "offset", frame.offset);
     case FrameShape::isikveren: {
       Node child = shape("IsikverenShapeConstraint");
       set(child, "zp", frame.zp);

@@ -71,21 +71,17 @@ class WingBuilder {
   ModelBuilder builder_;
   std::vector<WingSides> panels_;
   std::vector<CutOut> cut_outs_;  ///< of every patch
-  std::vector<std::vector<Point>> rows_;
-  std::vector<bool> is_break_;
+  WingRows made_;
+  std::vector<std::vector<Point>>& rows_ = made_.rows;
   bool is_blunt_ = true;
   bool is_ring_ = false;
-  bool is_sampled_ = false;
 };
 
 void WingBuilder::make_rows() {
   const auto refuse = [&](const std::string& problem) { throw Error({.code = ErrorCode::bad_argument, .attempted = "making wing '" + wing_.name + "'", .problem = problem}); };
   if (wing_.sections.size() < 2) refuse("it has " + std::to_string(wing_.sections.size()) + " sections; at least 2 are needed");
-  WingRows made = wing_rows(wing_);
-  rows_ = std::move(made.rows);
-  is_blunt_ = made.is_blunt;
-  is_sampled_ = made.is_sampled;
-  is_break_ = std::move(made.is_break);
+  made_ = wing_rows(wing_);
+  is_blunt_ = made_.is_blunt;
   if (wing_.is_symmetric) {
     double off = 0.0;
     for (std::size_t k = 0; k < rows_.front().size(); ++k) off = std::max(off, distance(rows_.front()[k], rows_.back()[k]));
@@ -294,8 +290,8 @@ void WingBuilder::make_panels() {
   std::size_t from = 0;
   cut_outs_.resize(wing_.patches.size());
   for (std::size_t i = 1; i < rows_.size(); ++i) {
-    if (!is_break_[i]) continue;
-    panels_.push_back(wing_sides(wing_panel(rows_, from, i, is_sampled_)));
+    if (!made_.is_break[i]) continue;
+    panels_.push_back(wing_sides(wing_panel(rows_, from, i, made_.is_sampled_between(from, i))));
     const WingSides& part = panels_.back();
     const std::vector<double> cuts = patch_ends(ControlKind::all_moving, static_cast<double>(from), static_cast<double>(i));
     if (from == 0) first = at = station(part, 0.0);

@@ -9,9 +9,12 @@
 #include <set>
 
 #include "geom/base/error.h"
+#include "geom/cad/shape.h"
 #include "geom/model/cpacs.h"
 #include "geom/model/model_measures.h"
+#include "geom/model/section_rows.h"
 #include "geom/model/smx.h"
+#include "geom/model/winglet_blend.h"
 #include "tests/support/data.h"
 
 namespace sterna {
@@ -170,6 +173,49 @@ TEST(Components, cubic_wings_are_one_face_between_breaks) {
   const Model broken = make_wing(wing);
   expect_closed(broken);
   EXPECT_EQ(broken.faces.size(), 4u * 2u + 2u);
+}
+
+double turn_between(const Vec3& a, const Vec3& b) { return std::atan2(norm(cross(a, b)), dot(a, b)); }
+
+TEST(Components, winglets_join_round) {
+  STERNA_NEEDS_SHARED_DATA();
+  for (const char* name : {"smx/bjet.smx", "smx/torture.smx", "smx/widebody.smx"}) {
+    Wing wing = read_smx(test::shared_data() / name, RunContext()).aircraft.wings.at(0);
+    ASSERT_TRUE(wing.has_winglet);
+    const WingRows round = wing_rows(wing);
+    EXPECT_EQ(round.rows.size(), 2 * wing.sections.size() - 1 + 2 * k_winglet_rows) << name;
+    const Model model = make_wing(wing);
+    expect_closed(model, 1e-6);
+    for (const ErrorPlace& fault : cad::faults_of(*cad::shape_of(model, RunContext()))) ADD_FAILURE() << name << ": " << fault.what;
+    // The leading edge, seen along x, goes on in the same direction at both ends of the blend; without it, it bends by 30 degrees and more.
+    std::vector<Vec3> starts, ends;
+    for (const ModelEdge& edge : model.edges)
+      if (edge.name == "leading edge") {
+        const auto direction = [&](double t) {
+          const Vec3 d = edge.curve->derivatives(t).first;
+          return Vec3{0.0, d.y, d.z};
+        };
+        starts.push_back(direction(edge.range.from));
+        ends.push_back(direction(edge.range.to));
+      }
+    EXPECT_LT(turn_between(ends[0], starts[1]), 0.06) << name;
+    EXPECT_LT(turn_between(ends[1], starts[2]), 0.06) << name;
+    wing.has_winglet = false;
+    const double straight = solid_measures(make_wing(wing), SolidId(0)).area;
+    EXPECT_NEAR(solid_measures(model, SolidId(0)).area, straight, 0.02 * straight) << name;
+  }
+  const Wing plain = read_smx(test::shared_data() / "smx/delta.smx", RunContext()).aircraft.wings.at(0);
+  EXPECT_EQ(wing_rows(plain).rows.size(), 2 * plain.sections.size() - 1);  // it may look for one, but has none
+}
+
+TEST(Components, a_section_with_only_a_naca_designation_is_made) {
+  Wing wing{.name = "W", .trailing_edge = 0.0};
+  for (const double y : {3.0, 0.0}) wing.sections.push_back({.name = "s", .leading_edge = {0.0, y, 0.0}, .chord = 2.0, .naca = "0012"});
+  wing.right_tip = wing.left_tip = {CapShape::strip, 0.0};
+  const Model model = make_wing(wing);
+  expect_closed(model);
+  // Area of the 4-digit section: 5 t (0.2969 / 1.5 - 0.126 / 2 - 0.3516 / 3 + 0.2843 / 4 - 0.1015 / 5) on both sides, of the chord squared; less the wedge that closes it.
+  EXPECT_NEAR(solid_measures(model, SolidId(0)).volume, 3.0 * 4.0 * (2.0 * 0.6 * (0.2969 / 1.5 - 0.063 - 0.1172 + 0.071075 - 0.0203) - 0.00126), 3e-3);
 }
 
 TEST(Components, a_mirror_image_has_the_same_volume_and_the_other_name) {

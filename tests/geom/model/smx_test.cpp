@@ -1,5 +1,6 @@
 // Reader and writer of .smx: all files of sumo, the traps of the schema, and what is refused with its place.
 #include "geom/model/smx.h"
+#include "geom/model/components.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -169,6 +170,22 @@ TEST(Smx, what_smx_cannot_hold_is_refused_by_name) {
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ErrorCode::unsupported_format);
     EXPECT_THAT(e.what(), HasSubstr("frame 'odd' is a free loop"));
+  }
+}
+
+TEST(Smx, a_section_may_have_only_a_naca_designation) {
+  const auto wing = [](const std::string& naca) {
+    const std::string section = " chord='1' naca='" + naca + "'/>";
+    return "<Assembly><WingSkeleton name='W'><WingSection name='a' center='0 1 0'" + section + "<WingSection name='b' center='0 0 0'" + section + "</WingSkeleton></Assembly>";
+  };
+  const AircraftReading reading = read_text(wing("23012"));
+  EXPECT_TRUE(reading.messages.empty());
+  EXPECT_EQ(make_components(reading.aircraft, RunContext()).solids.size(), 1u);
+  try {
+    read_text(wing("9x"));
+    FAIL() << "no error";
+  } catch (const Error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("attribute 'naca'"));
   }
 }
 
