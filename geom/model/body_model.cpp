@@ -7,6 +7,7 @@
 #include "geom/model/components.h"
 #include "geom/model/model_builder.h"
 #include "geom/model/nurbs_surface.h"
+#include "geom/model/nurbs_tools.h"
 #include "geom/model/section_rows.h"
 #include "geom/model/spline.h"
 
@@ -40,6 +41,7 @@ class BodyBuilder {
               const std::array<CornerId, 2>& to_corners, FaceRole role, const std::string& name);
   std::array<EdgeId, 2> ring_edges(const NurbsSurfaceForm& form, double v, const std::array<CornerId, 2>& corners);
   void end(const Ring& ring, const EndCap& cap, FaceRole role, const std::string& name);
+  void strip(const Ring& ring, double height, FaceRole role, const std::string& name);
   void dome(const Ring& ring, double height, FaceRole role, const std::string& name);
   void lip(const Ring& ring);
 
@@ -157,8 +159,28 @@ void BodyBuilder::skin() {
 
 void BodyBuilder::end(const Ring& ring, const EndCap& cap, FaceRole role, const std::string& name) {
   const std::string& patch = name.empty() ? body_.name : name;
-  if (cap.height > 0.0) dome(ring, cap.height, role, patch);
+  if (cap.height > 0.0 && cap.shape == CapShape::strip) strip(ring, cap.height, role, patch);
+  else if (cap.height > 0.0) dome(ring, cap.height, role, patch);
   else builder_.plane({ring.halves[0], ring.halves[1]}, role, patch);
+}
+
+/// Half ellipses from the right to the left half, at every height of the ring, as rational quadratics: side, side + bulge, crest, side + bulge, side. The bulge is
+/// half the distance of both sides times the height, straight ahead; bottom and top are poles.
+void BodyBuilder::strip(const Ring& ring, double height, FaceRole role, const std::string& name) {
+  const NurbsCurveForm<Point> around = *builder_.model().edges[ring.halves[0]].curve->exact_nurbs();
+  const NurbsCurveForm<Point> right = restricted(around, {0.0, 0.5}), left = reversed(restricted(around, {0.5, 1.0}));
+  Vec3 ahead = unit_normal(ring.poles), mean;
+  for (const Vec3& v : ring.outwards) mean += v;
+  if (dot(ahead, mean) < 0.0) ahead = -ahead;
+  NurbsSurfaceForm form{3, 2, right.knots, {0.0, 0.0, 0.0, 0.5, 0.5, 1.0, 1.0, 1.0}, right.poles.size(), 5, {}, {}};
+  for (std::size_t i = 0; i < form.n_u; ++i) {
+    const Point &a = right.poles[i], &b = left.poles[i];
+    const Vec3 bulge = 0.5 * height * distance(a, b) * ahead;
+    form.poles.insert(form.poles.end(), {a, a + bulge, 0.5 * (a + b) + bulge, b + bulge, b});
+    form.weights.insert(form.weights.end(), {1.0, std::numbers::sqrt2 / 2.0, 1.0, std::numbers::sqrt2 / 2.0, 1.0});
+  }
+  const EdgeId bottom = builder_.pole(ring.corners[0]), top = builder_.pole(ring.corners[1]);
+  builder_.patch(std::make_shared<NurbsSurface>(form), {{0.0, 0.5}, {0.0, 1.0}}, {ring.halves[0], top, ring.halves[1], bottom}, role, name);
 }
 
 /// Quarter ellipses from the ring to a crown point, as rational quadratics: foot, foot + slope of the body, crown. All middle poles lie in the plane of

@@ -17,7 +17,7 @@ struct BodyEnds {
 };
 
 /// Smooth surface through the frames, right and left half; flat or domed ends, or an inlet lip down to a flat fan face. `map` places it in the aircraft
-/// (after the body's own placement) and may mirror it. A strip cap with a height is made a dome.
+/// (after the body's own placement) and may mirror it. Strip caps are half ellipses from the right to the left half.
 /// \throws Error(bad_argument) naming the frame that makes it impossible
 Model make_body(const Body& body, ComponentKind kind, const BodyEnds& ends = {}, const Transform& map = {});
 

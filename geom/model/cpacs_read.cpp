@@ -250,12 +250,24 @@ void Reader::wing(const Node& node, bool is_pylon) {
 
 /// Control surfaces: borders in fractions of their component segment's span, or of another element's.
 void Reader::devices(const Node& node, const Wing& wing, const std::vector<Element>& elements, bool is_turned) {
-  std::vector<double> span{0.0};  // along the mid chord, as the span of our wings is counted
+  std::vector<double> span{0.0};    // along the mid chord, as the span of our wings is counted
+  std::vector<double> across{0.0};  // the same seen along x, as eta is counted
   const auto middle = [&](std::size_t i) {
     const WingSection& s = wing.sections[is_turned ? elements.size() - 1 - i : i];
     return 0.5 * (s.loop.front() + s.leading_edge);
   };
-  for (std::size_t i = 1; i < elements.size(); ++i) span.push_back(span.back() + distance(middle(i - 1), middle(i)));
+  for (std::size_t i = 1; i < elements.size(); ++i) {
+    const Vec3 step = middle(i) - middle(i - 1);
+    span.push_back(span.back() + norm(step));
+    across.push_back(across.back() + std::hypot(step.y, step.z));
+  }
+  const auto span_at = [&](std::size_t from, std::size_t to, double eta) {
+    const double wanted = across[from] + eta * (across[to] - across[from]);
+    std::size_t i = 1;
+    while (i + 1 < across.size() && wanted > across[i]) ++i;
+    const double length = across[i] - across[i - 1];
+    return (span[i - 1] + (length > 0.0 ? (wanted - across[i - 1]) / length : 0.0) * (span[i] - span[i - 1])) / span.back();
+  };
   const auto index_of = [&](const Node& from, const std::string& uid) {
     for (std::size_t i = 0; i < elements.size(); ++i)
       if (file_.text(elements[i].node, "uID") == uid) return i;
@@ -288,7 +300,7 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
           Node reference = document_.find(XmlFile::child_text(border.child(hinge_eta), "referenceUID"));
           if (!reference || !reference.child("fromElementUID")) reference = segment;
           const std::size_t from = index_of(reference, XmlFile::child_text(reference, "fromElementUID")), to = index_of(reference, XmlFile::child_text(reference, "toElementUID"));
-          const double at = (span[from] + eta * (span[to] - span[from])) / span.back();
+          const double at = span_at(from, to, eta);
           const double along = is_turned ? 1.0 - at : at;
           surface.hinge.push_back({wing.is_symmetric ? 0.5 * along : along, xsi});
         }

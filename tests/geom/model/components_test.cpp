@@ -85,6 +85,12 @@ TEST(Components, a_tube_has_its_volume_flat_or_domed) {
   expect_closed(domed);
   EXPECT_NEAR(solid_measures(domed, SolidId(0)).volume, pi * 0.64 * 5.0 + 4.0 / 3.0 * pi * 0.512, 1e-4);  // half spheres
   EXPECT_EQ(domed.faces.size(), 6u);
+  body.nose = body.tail = {CapShape::strip, 1.0};
+  const Model strips = make_body(body, ComponentKind::body);
+  expect_closed(strips);
+  EXPECT_NEAR(solid_measures(strips, SolidId(0)).volume, pi * 0.64 * 5.0 + 4.0 / 3.0 * pi * 0.512, 2e-4);  // half spheres again, made across
+  EXPECT_EQ(strips.faces.size(), 4u);
+  for (const ErrorPlace& fault : cad::faults_of(*cad::shape_of(strips, RunContext()))) ADD_FAILURE() << fault.what;
 }
 
 TEST(Components, superellipses_double_ellipses_and_eggs_fill_their_box) {

@@ -1,5 +1,6 @@
 // Reader of CPACS: all real files, transformations and profiles by hand, refusals with their place.
 #include "geom/model/cpacs.h"
+#include "geom/model/components.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -105,6 +106,28 @@ TEST(Cpacs, what_is_left_out_is_named) {
   EXPECT_THAT(read_real("landingGears.xml").messages, Contains(HasSubstr("/landingGears")));
   EXPECT_THAT(read_real("nacelles.xml").messages, Contains(HasSubstr("guide curves are not supported")));
   EXPECT_THAT(read_real("boxWing.xml").messages, Contains(HasSubstr("the engine has no cowls")));
+}
+
+TEST(Cpacs, control_surfaces_become_patches_on_both_halves) {
+  STERNA_NEEDS_SHARED_DATA();
+  const Aircraft aircraft = read_real("simpletest-flaps.cpacs.xml").aircraft;
+  const Model model = make_components(aircraft, RunContext());
+  // The file: InnerLED from eta 0.1 to 0.41 (at its hinge) of the half span, 2 m; hinge at 0.08 .. 0.1 of the chord.
+  for (const auto& [name, side] : {std::pair{"InnerLED", 1.0}, std::pair{"InnerLEDLeft", -1.0}}) {
+    double low = 10.0, high = 0.0;
+    for (const ModelFace& face : model.faces) {
+      if (face.name != name) continue;
+      EXPECT_EQ(face.role, FaceRole::control);
+      for (const EdgeUse& use : face.borders.at(0))
+        for (const CornerId c : {model.edges[use.edge].start, model.edges[use.edge].end}) {
+          low = std::min(low, side * model.corners[c].point.y);
+          high = std::max(high, side * model.corners[c].point.y);
+        }
+    }
+    EXPECT_NEAR(low, 0.2, 1e-9) << name;
+    EXPECT_NEAR(high, 0.82, 1e-9) << name;
+  }
+  for (const char* flap : {"FlapInner", "FlapInnerLeft", "FlapOuter", "FlapOuterLeft"}) EXPECT_TRUE(std::any_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& f) { return f.name == flap; })) << flap;
 }
 
 /// A wing of two sections; `section` is put into the first one, `profiles` after the wing.
