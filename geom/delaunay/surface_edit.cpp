@@ -1,5 +1,6 @@
 // Changes of a surface triangulation one by one: flips to the criterion, moves, collapses. Each proves validity in the plane before it changes anything.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -97,16 +98,16 @@ bool find_pole_edge(const SurfaceTriangulation& surface, HalfedgeId h, PoleEdge&
 /// Flips the edges from w to the poles in the given order; all or none.
 bool flip_in_turn(Triangulation& mesh, VertexId w, const std::vector<VertexId>& poles, std::vector<HalfedgeId>& changed) {
   const std::size_t n_before = changed.size();
-  std::vector<HalfedgeId> done;
+  std::vector<std::array<VertexId, 2>> done;  // a flip moves the sides of its quad to other half-edges: edges are known by their ends
   for (const VertexId pole : poles) {
     const HalfedgeId h = find_edge(mesh, w, pole);
     if (!h.is_valid() || !is_flip_valid(mesh, h)) {
-      for (; !done.empty(); done.pop_back()) flip(mesh, done.back());
+      for (; !done.empty(); done.pop_back()) flip(mesh, find_edge(mesh, done.back()[0], done.back()[1]));
       changed.resize(n_before);
       return false;
     }
     flip(mesh, h);
-    done.push_back(h);
+    done.push_back({mesh.origin(h), mesh.target(h)});
     note_quad(mesh, h, changed);
   }
   return true;
