@@ -32,6 +32,19 @@ struct Station {
   CornerId leading() const { return upper.corners.back(); }
 };
 
+/// To rounding of a turned section, 1e-10 of its size: within what a planar face takes.
+bool is_planar(const std::vector<Point>& row) {
+  Vec3 normal;
+  double size = 0.0, off = 0.0;
+  for (std::size_t i = 0; i + 1 < row.size(); ++i) normal += cross(row[i] - row[0], row[i + 1] - row[0]);
+  normal = normalized(normal);
+  for (const Point& p : row) {
+    size = std::max({size, distance(p, row[0]), norm(p)});
+    off = std::max(off, std::abs(dot(p - row[0], normal)));
+  }
+  return off <= 1e-10 * size;
+}
+
 /// Edges around the cut-out of a slot, gathered while the sides are made.
 struct CutOut {
   std::vector<double> places;          ///< where the lips have corners
@@ -307,9 +320,10 @@ void WingBuilder::make_panels() {
     if (wing_.patches[k].slot && wing_.patches[k].kind != ControlKind::all_moving) make_cove(k);
   if (is_ring_) return;
   const auto end = [&](const Station& station, std::size_t section, std::size_t neighbour, const EndCap& cap, bool is_cut) {
-    if (!is_cut) return tip(station, section, neighbour, cap);
+    const bool is_flat = !(cap.height > 0.0) && is_planar(rows_[section]);  // a bent section need not be
+    if (!is_cut && (cap.height > 0.0 || is_flat)) return tip(station, section, neighbour, cap);
     const EdgeId trailing = is_blunt_ ? station.thickness : builder_.pole(station.upper.corners.front());
-    ruled_wall(builder_, station.upper, station.lower, trailing, builder_.pole(station.leading()), FaceRole::control_side, wing_.name);
+    ruled_wall(builder_, station.upper, station.lower, trailing, builder_.pole(station.leading()), is_cut ? FaceRole::control_side : FaceRole::tip, wing_.name);
   };
   end(first, 0, 1, wing_.right_tip, cut_.right);
   end(at, rows_.size() - 1, rows_.size() - 2, wing_.left_tip, cut_.left);

@@ -352,6 +352,22 @@ TEST(Deflection, ailerons_of_the_widebody_move_apart) {
   EXPECT_THROW(deflected(wing, deflections), Error);  // it reaches over a kink of the wing
 }
 
+TEST(Deflection, a_fairing_that_reaches_a_flat_tip_bends_it) {
+  Wing fin = straight_wing();
+  fin.is_symmetric = false;
+  fin.sections[0].leading_edge = {2.5, 6.0, 0.0};
+  fin.sections[0].chord = 1.0;
+  fin.right_tip = fin.left_tip = {CapShape::strip, 0.0};
+  for (const std::optional<double> thickness : {std::optional<double>(0.0), std::optional<double>(0.02)}) {
+    fin.trailing_edge = thickness;
+    const Model model = make_wing(deflected(fin, {{.surface = flap(0.01, 0.95, 0.7), .angle = 0.3}}));
+    EXPECT_TRUE(free_edges(model).empty());
+    EXPECT_LT(solid_measures(model, SolidId(0)).open, 1e-9);
+    expect_valid(model);
+    EXPECT_GT(area_of(model, "wing", FaceRole::tip), 0.1);
+  }
+}
+
 TEST(Deflection, rudder_of_the_bjet_with_an_open_gap) {
   STERNA_NEEDS_SHARED_DATA();
   const Aircraft aircraft = read_smx(test::shared_data() / "smx/bjet.smx", RunContext()).aircraft;
