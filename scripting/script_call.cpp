@@ -5,6 +5,9 @@
 #include <new>
 #include <span>
 
+#include "scripting/component_verbs.h"
+#include "scripting/geometry_verbs.h"
+#include "scripting/model_methods.h"
 #include "scripting/script_verbs.h"
 #include "scripting/stage_verbs.h"
 
@@ -25,10 +28,13 @@ constexpr const char* k_surface_type = "sterna.surface";
 constexpr const char* k_envelope_type = "sterna.envelope";
 constexpr const char* k_tetrahedra_type = "sterna.tetrahedra";
 constexpr const char* k_mesh_type = "sterna.mesh";
+constexpr const char* k_model_type = "sterna.model";
+constexpr const char* k_component_type = "sterna.component";
+constexpr const char* k_airfoil_type = "sterna.airfoil";
 constexpr const char* k_error_type = "sterna.error";
 constexpr const char* k_shape_type = "sterna.shape";
 
-// ---- Reading: only functions of Lua that never raise ------------------------------------------------------------------------------------
+// ---- Reading: only functions of Lua that never raise, and protected calls ------------------------------------------------------------------------------------
 
 ObjectBox* box_at(lua_State* state, int index) {
   if (lua_type(state, index) != LUA_TUSERDATA || !lua_getmetatable(state, index)) return nullptr;
@@ -88,7 +94,7 @@ ScriptValue read_value(lua_State* state, int index, int depth) {
         lua_pop(state, 1);
         return verb;
       }
-      break;
+      return FunctionHandle(std::make_shared<const ScriptFunction>(state, index));
     default: break;
   }
   return OpaqueValue{lua_typename(state, lua_type(state, index))};
@@ -165,6 +171,9 @@ void push_value(lua_State* state, const ScriptValue& value) {
   else if (std::holds_alternative<EnvelopeHandle>(value)) push_object(state, value, k_envelope_type);
   else if (std::holds_alternative<TetrahedraHandle>(value)) push_object(state, value, k_tetrahedra_type);
   else if (std::holds_alternative<MeshHandle>(value)) push_object(state, value, k_mesh_type);
+  else if (std::holds_alternative<ModelHandle>(value)) push_object(state, value, k_model_type);
+  else if (std::holds_alternative<ComponentHandle>(value)) push_object(state, value, k_component_type);
+  else if (std::holds_alternative<AirfoilHandle>(value)) push_object(state, value, k_airfoil_type);
   else if (std::holds_alternative<ErrorHandle>(value)) push_object(state, value, k_error_type);
   else lua_pushnil(state);
 }
@@ -227,6 +236,9 @@ void register_objects(lua_State* state) {
   register_type(state, k_envelope_type, k_describe_object, k_envelope_field, envelope_methods());
   register_type(state, k_tetrahedra_type, k_describe_object, k_tetrahedra_field, tetrahedra_methods());
   register_type(state, k_mesh_type, k_describe_object, k_mesh_field, mesh_methods());
+  register_type(state, k_model_type, k_describe_object, k_model_field, model_methods());
+  register_type(state, k_component_type, k_describe_object, k_component_field, component_methods());
+  register_type(state, k_airfoil_type, k_describe_object, k_airfoil_field, {});
   register_type(state, k_error_type, k_describe_object, k_error_field, {});
   luaL_newmetatable(state, k_shape_type);
   push_verb(state, k_describe_object);

@@ -14,6 +14,10 @@ std::string_view type_text(const ScriptValue& value) {
     std::string_view operator()(const EnvelopeHandle&) const { return "an envelope"; }
     std::string_view operator()(const TetrahedraHandle&) const { return "tetrahedra"; }
     std::string_view operator()(const MeshHandle&) const { return "a volume mesh"; }
+    std::string_view operator()(const ModelHandle&) const { return "a model"; }
+    std::string_view operator()(const ComponentHandle& v) const { return v->type_text(); }
+    std::string_view operator()(const AirfoilHandle&) const { return "an airfoil"; }
+    std::string_view operator()(const FunctionHandle&) const { return "a function"; }
     std::string_view operator()(const ErrorHandle&) const { return "an error"; }
     std::string_view operator()(const ScriptVerb*) const { return "a verb"; }
     std::string_view operator()(const OpaqueValue& v) const { return v.type_name; }

@@ -10,6 +10,9 @@
 #include <vector>
 
 #include "geom/base/error.h"
+#include "scripting/component_value.h"
+#include "scripting/models.h"
+#include "scripting/script_function.h"
 #include "scripting/stages.h"
 #include "scripting/verbs.h"
 
@@ -17,13 +20,13 @@ namespace sterna::scripting {
 
 struct ScriptTable;
 struct ScriptVerb;  // script_call.h
-/// A value that no verb takes (function, coroutine); known by its type's name only.
+/// A value that no verb takes (coroutine); known by its type's name only.
 struct OpaqueValue {
   std::string_view type_name;
 };
 using ErrorHandle = std::shared_ptr<const Error>;
-using ScriptValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::shared_ptr<const ScriptTable>, SurfaceHandle, EnvelopeHandle, TetrahedraHandle, MeshHandle, ErrorHandle,
-                                 const ScriptVerb*, OpaqueValue>;
+using ScriptValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::shared_ptr<const ScriptTable>, SurfaceHandle, EnvelopeHandle, TetrahedraHandle, MeshHandle, ModelHandle,
+                                 ComponentHandle, AirfoilHandle, ErrorHandle, FunctionHandle, const ScriptVerb*, OpaqueValue>;
 
 struct ScriptTable {
   std::vector<ScriptValue> items;             ///< entries 1, 2, ... n

@@ -1,10 +1,14 @@
 #include "scripting/script_verbs.h"
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 
 #include "geom/base/error.h"
 #include "scripting/check_options.h"
+#include "scripting/component_verbs.h"
+#include "scripting/geometry_verbs.h"
+#include "scripting/model_methods.h"
 #include "scripting/source_verbs.h"
 #include "scripting/stage_verbs.h"
 #include "scripting/stages.h"
@@ -32,7 +36,7 @@ ScriptValue read_surface(const ScriptCall& call) {
   return std::make_shared<const SurfaceValue>(read_wall(files, options, call.session.context.part("read_surface", 0.0, 1.0)));
 }
 
-constexpr std::string_view k_union_usage = "union{ body, \"sting.stl\", strip_width = 4 }";
+constexpr std::string_view k_union_usage = "union{ body, \"sting.stl\", strip_width = 4 }  or, of models,  union{ model, \"sting.step\", tolerance = 1e-6 }";
 
 /// "unit" of reading a surface, for files that union reads.
 OptionTable unit_option(surfmesh::StitchOptions& options) {
@@ -41,8 +45,17 @@ OptionTable unit_option(surfmesh::StitchOptions& options) {
   return schema;
 }
 
+/// Models, components and files of either make union one of exact geometry.
+bool has_model(const ScriptTable& table) {
+  return std::any_of(table.items.begin(), table.items.end(), [](const ScriptValue& item) {
+    const auto* name = std::get_if<std::string>(&item);
+    return std::holds_alternative<ModelHandle>(item) || std::holds_alternative<ComponentHandle>(item) || (name && is_model_file(*name));
+  });
+}
+
 ScriptValue unite(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_union_usage);
+  if (has_model(table)) return unite_models(call);
   UnionOptions options;
   surfmesh::StitchOptions reading;
   const OptionTable schema = sterna::options_of(options), unit = unit_option(reading);
@@ -172,6 +185,9 @@ ScriptValue describe_object(const ScriptCall& call) {
   if (const auto* envelope = std::get_if<EnvelopeHandle>(&object)) return describe(**envelope);
   if (const auto* tetrahedra = std::get_if<TetrahedraHandle>(&object)) return describe(**tetrahedra);
   if (const auto* mesh = std::get_if<MeshHandle>(&object)) return describe(**mesh);
+  if (const auto* model = std::get_if<ModelHandle>(&object)) return describe(**model);
+  if (const auto* component = std::get_if<ComponentHandle>(&object)) return describe(**component);
+  if (const auto* airfoil = std::get_if<AirfoilHandle>(&object)) return describe(**airfoil);
   if (const auto* error = std::get_if<ErrorHandle>(&object)) return std::string((*error)->what());
   std::string text;
   if (const auto* shape = std::get_if<TableHandle>(&object)) {
@@ -235,7 +251,8 @@ std::string surface_help() {
 std::string union_help() {
   UnionOptions options;
   surfmesh::StitchOptions reading;
-  return options_help(sterna::options_of(options)) + options_help(unit_option(reading));
+  UniteOptions models;
+  return options_help(sterna::options_of(options)) + options_help(unit_option(reading)) + "of models:\n" + options_help(sterna::options_of(models));
 }
 std::string volume_help() {
   volmesh::VolumeMeshOptions options;
@@ -248,8 +265,13 @@ std::string sphere_help() {
   return options_help(schema);
 }
 
+/// Global verbs first, then the methods of each kind of object.
+std::vector<std::span<const ScriptVerb>> all_verbs() {
+  return {script_verbs(), surface_methods(), envelope_methods(), tetrahedra_methods(), mesh_methods(), model_methods(), component_methods()};
+}
+
 const ScriptVerb* find_verb(std::string_view name) {
-  for (const std::span<const ScriptVerb> verbs : {script_verbs(), surface_methods(), envelope_methods(), tetrahedra_methods(), mesh_methods()})
+  for (const std::span<const ScriptVerb> verbs : all_verbs())
     for (const ScriptVerb& verb : verbs)
       if (verb.name == name || verb.name.substr(verb.name.find(':') + 1) == name) return &verb;
   return nullptr;
@@ -257,7 +279,7 @@ const ScriptVerb* find_verb(std::string_view name) {
 
 std::string list_of_verbs() {
   std::string text;
-  for (const std::span<const ScriptVerb> verbs : {script_verbs(), surface_methods(), envelope_methods(), tetrahedra_methods(), mesh_methods()})
+  for (const std::span<const ScriptVerb> verbs : all_verbs())
     for (const ScriptVerb& verb : verbs) text += std::string(verb.name) + ": " + std::string(verb.summary) + "\n  " + std::string(verb.usage) + "\n";
   return text + "numbers: mm, cm, inch, ft, deg. help(volume_mesh) prints the options of a verb.";
 }
@@ -280,7 +302,7 @@ ScriptValue help(const ScriptCall& call) {
 
 constexpr std::array<ScriptVerb, 6> k_verbs = {{
     {"read_surface", k_read_surface_usage, "Reads surface files and joins them to one wall.", read_surface, surface_help, true},
-    {"union", k_union_usage, "Unites closed surfaces that stick in each other, or the crossing parts of one file, to one wall.", unite, union_help, true},
+    {"union", k_union_usage, "Unites closed surfaces that stick in each other, or the crossing parts of one file, to one wall; or models to one model.", unite, union_help, true},
     {"read_mesh", k_read_mesh_usage, "Reads a volume mesh.", read_mesh_file, nullptr, true},
     {"volume_mesh", k_volume_mesh_usage, "Meshes the space around a wall: prism layers on it, tetrahedra to the farfield.", make_mesh, volume_help, true},
     {"sphere", k_sphere_usage, "A spherical farfield, for volume_mesh; with centre and size a source of small tetrahedra.", make_sphere, sphere_help},
@@ -307,6 +329,8 @@ std::span<const ScriptVerb> script_verbs() {
     std::vector<ScriptVerb> verbs(k_verbs.begin(), k_verbs.end());
     verbs.insert(verbs.end(), stage_verbs().begin(), stage_verbs().end());
     verbs.insert(verbs.end(), source_verbs().begin(), source_verbs().end());
+    verbs.insert(verbs.end(), geometry_verbs().begin(), geometry_verbs().end());
+    verbs.insert(verbs.end(), component_verbs().begin(), component_verbs().end());
     return verbs;
   }();
   return all;

@@ -7,7 +7,7 @@
 
 namespace sterna::scripting {
 
-/// Global verbs: read_surface, union, read_mesh, volume_mesh, sphere, help, and those of stage_verbs.h and source_verbs.h.
+/// Global verbs: read_surface, union, read_mesh, volume_mesh, sphere, help, and those of stage_verbs.h, source_verbs.h, geometry_verbs.h and component_verbs.h.
 std::span<const ScriptVerb> script_verbs();
 std::span<const ScriptVerb> surface_methods();
 std::span<const ScriptVerb> mesh_methods();

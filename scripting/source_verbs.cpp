@@ -7,6 +7,8 @@
 #include "geom/base/error.h"
 #include "geom/base/schema.h"
 #include "io/point_field.h"
+#include "scripting/geometry_tools.h"
+#include "scripting/geometry_verbs.h"
 
 namespace sterna::scripting {
 
@@ -43,7 +45,6 @@ struct Schema<scripting::SourceNumbers> {
 namespace sterna::scripting {
 namespace {
 
-using TableHandle = std::shared_ptr<const ScriptTable>;
 using volmesh::SizeSource;
 using volmesh::SourceKind;
 
@@ -63,19 +64,6 @@ constexpr std::array<KindOfSource, 6> k_kinds = {{
     {SourceKind::wake, "wake", 2, " size size_end length height spread ", "wake{ {1, 0, 0}, {2, 5, 0}, direction = {1, 0, 0.05}, length = 10, height = 0.2, spread = 0.05, size = 0.05 }"},
 }};
 constexpr std::string_view k_samples_usage = "size_samples{ \"sizes.vtu\", name = \"size\" }";
-
-std::optional<Vec3> point_of(const ScriptValue& value) {
-  const auto* table = std::get_if<TableHandle>(&value);
-  if (!table || (*table)->items.size() != 3 || !(*table)->fields.empty() || !(*table)->other_keys.empty()) return std::nullopt;
-  Vec3 p;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const ScriptValue& item = (*table)->items[axis];
-    if (const auto* number = std::get_if<double>(&item)) p[axis] = *number;
-    else if (const auto* whole = std::get_if<std::int64_t>(&item)) p[axis] = static_cast<double>(*whole);
-    else return std::nullopt;
-  }
-  return p;
-}
 
 /// The options that this kind takes; `numbers` must outlive them.
 OptionTable options_of(SourceNumbers& numbers, const KindOfSource& kind) {
@@ -139,6 +127,14 @@ const KindOfSource* kind_named(std::string_view verb) {
 
 ScriptValue make_source_of_verb(const ScriptCall& call) { return make_source(call, *kind_named(call.verb)); }
 
+/// box{...} and cylinder{...}: with `size` a source, without it a solid.
+bool has_size(const ScriptCall& call) {
+  const auto* table = call.arguments.empty() ? nullptr : std::get_if<TableHandle>(&call.arguments.front());
+  return table && (*table)->fields.contains("size");
+}
+ScriptValue make_box_or_source(const ScriptCall& call) { return has_size(call) ? make_source_of_verb(call) : make_box_model(call); }
+ScriptValue make_cylinder_or_source(const ScriptCall& call) { return has_size(call) ? make_source_of_verb(call) : make_cylinder_model(call); }
+
 /// Checked here, read by the verb that uses it.
 ScriptValue make_samples(const ScriptCall& call) {
   ScriptTable table;
@@ -172,8 +168,8 @@ std::string numbers_help() {
 constexpr std::array<ScriptVerb, 6> k_verbs = {{
     {"point", k_kinds[0].usage, "Small tetrahedra at a point, for the sources of volume_mesh.", make_source_of_verb, numbers_help<0>},
     {"line", k_kinds[1].usage, "Small tetrahedra within a distance of a line, for the sources of volume_mesh.", make_source_of_verb, numbers_help<1>},
-    {"box", k_kinds[2].usage, "Small tetrahedra in an axis-parallel box, for the sources of volume_mesh.", make_source_of_verb, numbers_help<2>},
-    {"cylinder", k_kinds[4].usage, "Small tetrahedra in a cylinder, for the sources of volume_mesh.", make_source_of_verb, numbers_help<4>},
+    {"box", k_kinds[2].usage, "Small tetrahedra in an axis-parallel box, for the sources of volume_mesh; without size a solid box.", make_box_or_source, numbers_help<2>},
+    {"cylinder", k_kinds[4].usage, "Small tetrahedra in a cylinder, for the sources of volume_mesh; without size a solid cylinder.", make_cylinder_or_source, numbers_help<4>},
     {"wake", k_kinds[5].usage, "Small tetrahedra behind a trailing edge, for the sources of volume_mesh.", make_source_of_verb, numbers_help<5>},
     {"size_samples", k_samples_usage, "Wanted edge lengths at the points of a VTU file, for the sources of volume_mesh.", make_samples},
 }};

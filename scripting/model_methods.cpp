@@ -1,0 +1,353 @@
+#include "scripting/model_methods.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "geom/model/deform.h"
+#include "geom/model/radial_map.h"
+#include "scripting/geometry_tools.h"
+#include "scripting/sampled_map.h"
+
+namespace sterna::scripting {
+
+struct RotateOptions {
+  double pitch = 0.0;
+  double yaw = 0.0;
+  double roll = 0.0;
+  double angle = 0.0;
+};
+struct ScaleOptions {
+  double factor = k_automatic;
+};
+
+}  // namespace sterna::scripting
+
+namespace sterna {
+
+template <>
+struct Schema<scripting::RotateOptions> {
+  using O = scripting::RotateOptions;
+  static constexpr std::string_view stage = "rotate";
+  static constexpr std::array fields = {
+      Field<O>{.name = "pitch", .member = &O::pitch, .unit = Unit::radian, .help = "nose up, about +y; after roll"},
+      Field<O>{.name = "yaw", .member = &O::yaw, .unit = Unit::radian, .help = "nose to starboard, about -z; last"},
+      Field<O>{.name = "roll", .member = &O::roll, .unit = Unit::radian, .help = "starboard wing down, about -x; first"},
+      Field<O>{.name = "angle", .member = &O::angle, .unit = Unit::radian, .help = "right-handed about `axis`, in place of the three others"},
+  };
+};
+template <>
+struct Schema<scripting::ScaleOptions> {
+  using O = scripting::ScaleOptions;
+  static constexpr std::string_view stage = "scale";
+  static constexpr std::array fields = {
+      Field<O>{.name = "factor", .member = &O::factor, .min = 1e-9, .max = 1e9, .help = "of all lengths", .required = true},
+  };
+};
+
+}  // namespace sterna
+
+namespace sterna::scripting {
+namespace {
+
+constexpr std::string_view k_move_usage = "model:move{ 0, 0, 1.5 }";
+constexpr std::string_view k_rotate_usage = "model:rotate{ about = {1.2, 0, 0}, pitch = 4*deg, yaw = 2*deg }  or  model:rotate{ axis = {0, 0, 1}, angle = 30*deg }";
+constexpr std::string_view k_scale_usage = "model:scale(0.1)  or  model:scale{ factor = 0.1, about = {0, 0, 0} }";
+constexpr std::string_view k_mirror_usage = "model:mirror{ normal = {0, 1, 0}, at = {0, 0, 0} }";
+constexpr std::string_view k_deform_usage = "model:deform{ function(x, y, z) return 0, 0, 0.02*y^2 end }  or  model:deform{ \"bend.dat\", kernel = \"thin_plate\" }  or  model:deform{ {{x, y, z, dx, dy, dz}, ...} }";
+constexpr std::string_view k_write_usage = "model:write(\"a.step\", \"a.igs\", \"a.brep\", \"a.smx\")  or  model:write{ \"a.step\", step_schema = \"ap242\" }";
+constexpr std::string_view k_rename_usage = "model:rename{ Body = \"fuselage\", [\"Main Wing\"] = \"wing\" }";
+
+/// The same model elsewhere; what it was described by does not describe it any more.
+ScriptValue changed(const ModelHandle& old, Model model, std::string_view by) {
+  ModelValue value = *old;
+  value.model = std::move(model);
+  if (value.description) value.without_description = "it was changed by " + std::string(by);
+  value.description.reset();
+  return std::make_shared<const ModelValue>(std::move(value));
+}
+
+ScriptValue move_model(const ScriptCall& call) {
+  const ModelHandle& model = self<ModelHandle>(call);
+  const ScriptTable table = table_argument(call, 1, k_move_usage);
+  TableReader reader(table, call.attempted());
+  // move{ {x, y, z} } as well as move{ x, y, z }
+  auto shift = table.items.size() == 1 ? point_of(table.items.front()) : point_of(std::make_shared<const ScriptTable>(ScriptTable{reader.items(), {}, {}}));
+  reader.items();
+  if (!shift) reader.add_problem("expected three numbers, dx, dy, dz in metres: " + std::string(k_move_usage));
+  reader.finish();
+  return changed(model, transformed(model->model, translation(*shift)), "move");
+}
+
+ScriptValue rotate_model(const ScriptCall& call) {
+  const ModelHandle& model = self<ModelHandle>(call);
+  const ScriptTable table = table_argument(call, 1, k_rotate_usage);
+  RotateOptions options;
+  const OptionTable schema = sterna::options_of(options);
+  TableReader reader(table, call.attempted());
+  const Point about = read_point(reader, "about").value_or(Point{});
+  const auto axis = read_point(reader, "axis");
+  reader.read_options(schema);
+  const bool has_attitude = table.fields.contains("pitch") || table.fields.contains("yaw") || table.fields.contains("roll");
+  const bool has_axis = table.fields.contains("axis") || table.fields.contains("angle");
+  if (has_attitude && has_axis) reader.add_problem("give pitch, yaw and roll, or axis and angle, not both");
+  else if (!has_attitude && !has_axis) reader.add_problem("needs pitch, yaw or roll, or axis and angle: " + std::string(k_rotate_usage));
+  else if (has_axis && !(axis && table.fields.contains("angle"))) reader.add_problem("axis and angle belong together: " + std::string(k_rotate_usage));
+  reader.finish();
+  const Transform turn = axis ? rotation(about, *axis, options.angle) : attitude(about, options.roll, options.pitch, options.yaw);
+  return changed(model, transformed(model->model, turn), "rotate");
+}
+
+ScriptValue scale_model(const ScriptCall& call) {
+  const ModelHandle& model = self<ModelHandle>(call);
+  ScriptTable table = table_argument(call, 1, k_scale_usage);
+  if (table.items.size() == 1 && !table.fields.contains("factor")) {
+    table.fields["factor"] = table.items.front();
+    table.items.clear();
+  }
+  ScaleOptions options;
+  const OptionTable schema = sterna::options_of(options);
+  TableReader reader(table, call.attempted());
+  const Point about = read_point(reader, "about").value_or(Point{});
+  reader.read_options(schema);
+  reader.require(schema);
+  reader.finish();
+  return changed(model, transformed(model->model, scaling(about, options.factor)), "scale");
+}
+
+ScriptValue mirror_model(const ScriptCall& call) {
+  const ModelHandle& model = self<ModelHandle>(call);
+  const ScriptTable table = table_argument(call, 1, k_mirror_usage);
+  TableReader reader(table, call.attempted());
+  const Vec3 normal = read_point(reader, "normal").value_or(Vec3{0.0, 1.0, 0.0});
+  const Point at = read_point(reader, "at").value_or(Point{});
+  if (norm(normal) == 0.0) reader.add_problem("normal: has no direction");
+  reader.finish();
+  return changed(model, mirrored(model->model, at, normal), "mirror");
+}
+
+// ---- Deforming -----------------------------------------------------------------------------------------------------------------------------
+
+std::shared_ptr<const SampledMap> map_of_function(const FunctionHandle& function, const Model& model, const SampledMapOptions& options, const ScriptCall& call) {
+  const auto displacement = [&](const Point& p) {
+    std::array<double, 3> d{};
+    function->call(std::array{p.x, p.y, p.z}, d);
+    return Vec3{d[0], d[1], d[2]};
+  };
+  auto map = std::make_shared<const SampledMap>(displacement, box_of(model), options);
+  call.session.context.info(fmt::format("deformation: a spline of {} samples, at most {:.3g} m off the function, which moves by up to {:.4g} m", map->n_samples(), map->error(), map->largest()));
+  return map;
+}
+
+std::optional<ScatteredDisplacements> displacements_of(const ScriptValue& value, const ScriptCall& call, TableReader& reader) {
+  if (const auto* name = std::get_if<std::string>(&value)) return read_displacements(find_input(call, *name).path);
+  const auto rows = rows_of(value, 6);
+  if (!rows) {
+    reader.add_problem("entry 1: expected a function of (x, y, z), a file, or a list of rows {x, y, z, dx, dy, dz}, not " + std::string(type_text(value)));
+    return std::nullopt;
+  }
+  ScatteredDisplacements data;
+  for (const std::vector<double>& row : *rows) {
+    data.at.push_back({row[0], row[1], row[2]});
+    data.shift.push_back({row[3], row[4], row[5]});
+  }
+  return data;
+}
+
+ScriptValue deform_model(const ScriptCall& call) {
+  const ModelHandle& model = self<ModelHandle>(call);
+  const ScriptTable table = table_argument(call, 1, k_deform_usage);
+  SampledMapOptions function_options;
+  RadialMapOptions radial_options;
+  const OptionTable function_schema = sterna::options_of(function_options), radial_schema = sterna::options_of(radial_options);
+  TableReader reader(table, call.attempted());
+  const std::vector<ScriptValue>& items = reader.items();
+  const auto* function = items.empty() ? nullptr : std::get_if<FunctionHandle>(&items.front());
+  std::optional<ScatteredDisplacements> data;
+  if (items.empty()) reader.add_problem("needs a function, a file or a list of displacements: " + std::string(k_deform_usage));
+  else if (!function) data = displacements_of(items.front(), call, reader);
+  refuse_items_beyond(reader, 1);
+  reader.read_options(function ? function_schema : radial_schema);
+  reader.finish();
+  SpaceMapPtr map;
+  if (function) map = map_of_function(*function, model->model, function_options, call);
+  else map = std::make_shared<RadialMap>(*data, radial_options);
+  return changed(model, deformed(model->model, map, call.session.context.part("deform", 0.0, 1.0)), "deform");
+}
+
+// ---- Names ---------------------------------------------------------------------------------------------------------------------------------
+
+ScriptValue rename_model(const ScriptCall& call) {
+  const ModelHandle& handle = self<ModelHandle>(call);
+  const ScriptTable table = table_argument(call, 1, k_rename_usage);
+  TableReader reader(table, call.attempted());
+  std::vector<std::string> known;
+  for (const Component& component : handle->model.components) known.push_back(component.name);
+  for (const ModelFace& face : handle->model.faces) known.push_back(face.name);
+  Model model = handle->model;
+  for (const auto& [from, value] : table.fields) {
+    reader.field(from);
+    const auto* to = std::get_if<std::string>(&value);
+    if (!to || to->empty()) reader.add_problem(from + ": expected the new name, not " + std::string(to ? "an empty text" : type_text(value)));
+    if (std::find(known.begin(), known.end(), from) == known.end()) {
+      const std::string nearest = nearest_name(from, known);
+      reader.add_problem("no component and no face is named \"" + from + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"));
+    }
+    if (!to) continue;
+    for (const ComponentId c : model.components.ids())
+      if (handle->model.components[c].name == from) model.components[c].name = *to;
+    for (const FaceId f : model.faces.ids())
+      if (handle->model.faces[f].name == from) model.faces[f].name = *to;
+    for (const SolidId s : model.solids.ids())
+      if (handle->model.solids[s].name == from) model.solids[s].name = *to;
+  }
+  reader.finish();
+  return changed(handle, std::move(model), "rename");
+}
+
+ScriptValue select_model(const ScriptCall& call) {
+  const ModelHandle& model = self<ModelHandle>(call);
+  const ScriptTable table = table_argument(call, 1, "model:select \"wing*\"");
+  TableReader reader(table, call.attempted());
+  const std::vector<ScriptValue>& items = reader.items();
+  const auto* pattern = items.size() == 1 ? std::get_if<std::string>(&items.front()) : nullptr;
+  if (!pattern) reader.add_problem("expected one name of components, '*' for any text: model:select \"wing*\"");
+  reader.finish();
+  return changed(model, select_components(model->model, *pattern, call.attempted()), "select");
+}
+
+// ---- Measures ------------------------------------------------------------------------------------------------------------------------------
+
+ScriptValue table_of(const PartMeasures& part) {
+  auto table = std::make_shared<ScriptTable>();
+  table->fields = {{"area", part.area}, {"projected_area", part.projected_area}, {"faces", static_cast<std::int64_t>(part.n_faces)}, {"is_closed", part.is_closed}};
+  if (part.is_closed) table->fields["volume"] = part.volume;
+  if (!part.kind.empty()) table->fields["kind"] = part.kind;
+  if (!part.box.empty()) {
+    auto box = std::make_shared<ScriptTable>();
+    box->items = {list_of(part.box.min), list_of(part.box.max)};
+    table->fields["box"] = TableHandle(box);
+  }
+  return table;
+}
+
+ScriptValue measure_verb(const ScriptCall& call) {
+  const ModelHandle& model = self<ModelHandle>(call);
+  const ModelMeasures m = measure_model(*model, call.session.context.part("measures", 0.0, 1.0));
+  auto result = std::make_shared<ScriptTable>(*std::get<TableHandle>(table_of(m.total)));
+  const auto add = [&](const char* name, const std::vector<PartMeasures>& parts) {
+    auto list = std::make_shared<ScriptTable>();
+    for (const PartMeasures& part : parts) list->fields[part.name] = table_of(part);
+    result->fields[name] = TableHandle(list);
+  };
+  add("components", m.components);
+  add("solids", m.solids);
+  auto wings = std::make_shared<ScriptTable>();
+  for (const WingReference& w : m.wings) wings->fields[w.name] = wing_table(w);
+  result->fields["wings"] = TableHandle(wings);
+  return result;
+}
+
+ScriptValue info_verb(const ScriptCall& call) {
+  const ModelHandle& model = self<ModelHandle>(call);
+  std::string text = describe(*model) + "\n" + measures_text(measure_model(*model, call.session.context.part("info", 0.0, 1.0)));
+  text += "\n  " + closedness_text(model->model, 10);
+  call.session.print(text);
+  return model;
+}
+
+// ---- Writing, fields -----------------------------------------------------------------------------------------------------------------------
+
+ScriptValue write_model_files(const ScriptCall& call) {
+  const ModelHandle& model = self<ModelHandle>(call);
+  ScriptTable table;
+  if (call.arguments.size() == 2) table = table_argument(call, 1, k_write_usage);
+  else table.items.assign(call.arguments.begin() + 1, call.arguments.end());
+  WriteCadOptions options;
+  RefitOptions refit;
+  TableReader reader(table, call.attempted());
+  std::vector<std::filesystem::path> names;
+  for (const ScriptValue& item : reader.items()) {
+    if (const auto* name = std::get_if<std::string>(&item)) names.emplace_back(*name);
+    else reader.add_problem("expected file names, not " + std::string(type_text(item)));
+  }
+  if (names.empty()) reader.add_problem("needs at least one file name: " + std::string(k_write_usage));
+  reader.read_options(sterna::options_of(options));
+  reader.read_options(sterna::options_of(refit));
+  reader.finish();
+  for (const auto& name : names) require_model_output(*model, name);
+  for (const auto& name : names) write_model(*model, name, options, refit, call.session.context.part("write", 0.0, 1.0));
+  return model;
+}
+
+std::string write_help() {
+  WriteCadOptions options;
+  RefitOptions refit;
+  return options_help(sterna::options_of(options)) + options_help(sterna::options_of(refit));
+}
+std::string deform_help() {
+  SampledMapOptions function;
+  RadialMapOptions radial;
+  return "of a function:\n" + options_help(sterna::options_of(function)) + "of displacements at points:\n" + options_help(sterna::options_of(radial));
+}
+template <class Options>
+std::string help_of() {
+  Options options;
+  return options_help(sterna::options_of(options));
+}
+
+template <class Column>
+ScriptValue names_of(const Column& column) {
+  auto names = std::make_shared<ScriptTable>();
+  std::vector<std::string> seen;
+  for (const auto& item : column)
+    if (std::find(seen.begin(), seen.end(), item.name) == seen.end()) {
+      seen.push_back(item.name);
+      names->items.emplace_back(item.name);
+    }
+  return TableHandle(names);
+}
+
+ScriptValue model_field(const ScriptCall& call) {
+  const ModelHandle& handle = self<ModelHandle>(call);
+  const auto* name = call.arguments.size() < 2 ? nullptr : std::get_if<std::string>(&call.arguments[1]);
+  if (name && name->find_first_of("*?") != std::string::npos) return changed(handle, select_components(handle->model, *name, call.attempted()), "select");
+  const Model& model = handle->model;
+  Fields fields = {{"components", names_of(model.components)},
+                   {"patches", names_of(model.faces)},
+                   {"solids", names_of(model.solids)},
+                   {"faces", static_cast<std::int64_t>(model.faces.size())},
+                   {"edges", static_cast<std::int64_t>(model.edges.size())},
+                   {"is_closed", !model.faces.empty() && free_edges(model).empty()},
+                   {"unit", model.source_unit},
+                   {"report", handle->report}};
+  const Box box = box_of(model);
+  if (!box.empty()) {
+    fields.emplace_back("length", box.max.x - box.min.x);
+    fields.emplace_back("min", list_of(box.min));
+    fields.emplace_back("max", list_of(box.max));
+  }
+  return select_field(call, std::move(fields), model_methods());
+}
+
+constexpr std::array<ScriptVerb, 10> k_methods = {{
+    {"model:write", k_write_usage, "Writes STEP, IGES, BREP, or, for models that are components as data, sumo's .smx.", write_model_files, write_help},
+    {"model:move", k_move_usage, "The model moved, metres.", move_model},
+    {"model:rotate", k_rotate_usage, "The model turned: x points aft, y to starboard, z up.", rotate_model, help_of<RotateOptions>},
+    {"model:scale", k_scale_usage, "The model larger or smaller.", scale_model, help_of<ScaleOptions>},
+    {"model:mirror", k_mirror_usage, "The mirror image, in the plane y = 0 unless said otherwise; left and right change in names.", mirror_model},
+    {"model:deform", k_deform_usage, "The model deformed, without refit: by a function that gives displacements, or by displacements at points.", deform_model, deform_help, true},
+    {"model:rename", k_rename_usage, "The model with other names of components, solids and patches.", rename_model},
+    {"model:select", "model:select \"wing*\"  or  model[\"wing*\"]", "The components of that name as a model.", select_model},
+    {"model:measures", "model:measures()", "Areas, volumes and boxes of the model, its solids and components, and reference data of its wings, as a table.", measure_verb},
+    {"model:info", "model:info()", "Prints the same, and where the model is open.", info_verb},
+}};
+
+}  // namespace
+
+const ScriptVerb k_model_field = {"model", "", "", model_field};
+
+std::span<const ScriptVerb> model_methods() { return k_methods; }
+
+}  // namespace sterna::scripting

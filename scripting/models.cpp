@@ -1,0 +1,211 @@
+#include "scripting/models.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "geom/base/error.h"
+#include "geom/base/hash.h"
+#include "geom/base/parallel.h"
+#include "geom/model/components.h"
+#include "geom/model/cpacs.h"
+#include "geom/model/sampled.h"
+#include "geom/model/smx.h"
+#include "geom/model/space_map.h"
+#include "geom/model/transformed.h"
+#include "io/cad_file.h"
+#include "scripting/summary.h"
+
+namespace sterna::scripting {
+namespace {
+
+/// Of the longest side: finer than any mesh needs, coarse enough for some ten intervals across a bent wing.
+constexpr double k_refit_share = 1e-6;
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string text = path.extension().string();
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+bool is_smx(const std::filesystem::path& path) { return extension_of(path) == ".smx"; }
+bool is_xml(const std::filesystem::path& path) { return extension_of(path) == ".xml"; }
+
+ModelValue value_of(AircraftReading reading, const InputPath& file, const RunContext& context) {
+  ModelValue value{.inputs = {{file.name, hash_file(file.path)}}};
+  value.model = make_components(reading.aircraft, context);
+  for (const std::string& message : reading.messages) value.report += (value.report.empty() ? "" : "\n") + message;
+  value.description = std::move(reading.aircraft);
+  context.info(file.name + ": " + describe(value));
+  return value;
+}
+
+// ---- Refitting -----------------------------------------------------------------------------------------------------------------------------
+
+bool needs_refit(const Surface& surface) {
+  const bool is_seen_through = dynamic_cast<const DeformedSurface*>(&surface) || dynamic_cast<const TransformedSurface*>(&surface);
+  return is_seen_through && !surface.exact_nurbs();
+}
+bool needs_refit(const Curve& curve) {
+  const bool is_seen_through = dynamic_cast<const DeformedCurve*>(&curve) || dynamic_cast<const TransformedCurve*>(&curve);
+  return is_seen_through && !curve.exact_nurbs();
+}
+
+}  // namespace
+
+bool is_model_file(const std::filesystem::path& path) { return io::is_cad_file(path) || is_smx(path) || is_xml(path); }
+
+bool is_model_output(const std::filesystem::path& path) { return is_smx(path) || (io::is_cad_file(path) && extension_of(path) != ".gz"); }
+
+ModelValue read_smx_model(const InputPath& file, const RunContext& context) { return value_of(read_smx(file.path, context), file, context); }
+ModelValue read_cpacs_model(const InputPath& file, const RunContext& context) { return value_of(read_cpacs(file.path, context), file, context); }
+
+ModelValue read_model(const InputPath& file, const ReadCadOptions& options, const RunContext& context) {
+  if (is_smx(file.path)) return read_smx_model(file, context);
+  if (is_xml(file.path)) return read_cpacs_model(file, context);
+  CadFile cad = io::read_cad(file.path, options, context);
+  ModelValue value{.without_description = "read from " + file.name, .inputs = {{file.name, hash_file(file.path)}}};
+  value.model = std::move(cad.model);
+  value.report = to_text(cad.report);
+  while (value.report.ends_with('\n')) value.report.pop_back();
+  context.info(file.name + ": " + value.report);
+  return value;
+}
+
+Model refitted(const Model& model, double tolerance, const RunContext& context) {
+  const bool is_clean = std::none_of(model.faces.begin(), model.faces.end(), [](const ModelFace& f) { return needs_refit(*f.surface); }) &&
+                        std::none_of(model.edges.begin(), model.edges.end(), [](const ModelEdge& e) { return !e.is_degenerate() && needs_refit(*e.curve); });
+  if (is_clean) return model;
+  if (is_automatic(tolerance)) tolerance = k_refit_share * box_of(model).longest_side();
+  Model result = model;
+  result.shape.reset();
+  // Each surface and curve once: what is shared stays shared.
+  std::map<const Surface*, std::size_t> surface_index;
+  std::vector<SurfacePtr> surfaces;
+  for (const ModelFace& face : model.faces)
+    if (needs_refit(*face.surface) && surface_index.try_emplace(face.surface.get(), surfaces.size()).second) surfaces.push_back(face.surface);
+  std::map<const Curve*, std::size_t> curve_index;
+  std::vector<CurvePtr> curves;
+  for (const ModelEdge& edge : model.edges)
+    if (!edge.is_degenerate() && needs_refit(*edge.curve) && curve_index.try_emplace(edge.curve.get(), curves.size()).second) curves.push_back(edge.curve);
+  std::vector<SampledSurface> new_surfaces(surfaces.size());
+  std::vector<SampledCurve> new_curves(curves.size());
+  parallel_for(context, surfaces.size(), [&](std::size_t i) { new_surfaces[i] = sample_surface(*surfaces[i], tolerance); }, 1);
+  parallel_for(context, curves.size(), [&](std::size_t i) { new_curves[i] = sample_curve(*curves[i], tolerance); }, 1);
+  double worst = 0.0;
+  for (const SampledSurface& s : new_surfaces) worst = std::max(worst, s.error);
+  for (const SampledCurve& c : new_curves) worst = std::max(worst, c.error);
+  for (ModelFace& face : result.faces)
+    if (const auto found = surface_index.find(face.surface.get()); found != surface_index.end()) {
+      face.surface = new_surfaces[found->second].surface;
+      face.tolerance += worst;
+    }
+  for (ModelEdge& edge : result.edges) {
+    if (edge.is_degenerate()) continue;
+    if (const auto found = curve_index.find(edge.curve.get()); found != curve_index.end()) edge.curve = new_curves[found->second].curve;
+    edge.tolerance += 2.0 * worst;  // a curve and a surface that were one may part to both sides
+  }
+  for (ModelCorner& corner : result.corners) corner.tolerance += 2.0 * worst;
+  context.info(fmt::format("{} deformed surfaces and {} curves became splines, at most {:.3g} m away (refit_tolerance {:.3g} m)", surfaces.size(), curves.size(), worst, tolerance));
+  return result;
+}
+
+void require_model_output(const ModelValue& value, const std::filesystem::path& path) {
+  const auto refuse = [&](const std::string& problem, const std::string& hint) {
+    throw Error({.code = ErrorCode::unsupported_format, .attempted = "writing " + path.string(), .problem = problem, .hint = hint});
+  };
+  if (!is_model_output(path)) refuse("models are not written in this format", "they are written as STEP (.step, .stp), IGES (.iges, .igs), BREP (.brep), sumo (.smx)");
+  if (is_smx(path) && !value.description)
+    refuse(".smx holds components as data, and this model has none (" + value.without_description + ")", "write it before, or as STEP");
+  if (!path.parent_path().empty() && !std::filesystem::is_directory(path.parent_path()))
+    throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + path.parent_path().string()});
+}
+
+void write_model(const ModelValue& value, const std::filesystem::path& path, const WriteCadOptions& options, const RefitOptions& refit, const RunContext& context) {
+  require_model_output(value, path);
+  if (is_smx(path)) {
+    write_smx(*value.description, path);
+    return;
+  }
+  io::write_cad(refitted(value.model, refit.refit_tolerance, context), path, options, context);
+}
+
+bool matches(const std::string& pattern, const std::string& name) {
+  // Greedy with one way back, to the last '*'.
+  std::size_t p = 0, n = 0, star = std::string::npos, mark = 0;
+  while (n < name.size()) {
+    if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n]) && pattern[p] != '*') ++p, ++n;
+    else if (p < pattern.size() && pattern[p] == '*') star = p++, mark = n;
+    else if (star != std::string::npos) p = star + 1, n = ++mark;
+    else return false;
+  }
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  return p == pattern.size();
+}
+
+Model select_faces(const Model& model, const std::function<bool(FaceId)>& is_chosen) {
+  Model result;
+  result.source_unit = model.source_unit;
+  std::map<std::uint64_t, ComponentId> components;
+  std::map<std::uint64_t, CornerId> corners;
+  std::map<std::uint64_t, EdgeId> edges;
+  std::map<std::uint64_t, FaceId> faces;
+  const auto corner = [&](CornerId id) {
+    const auto [place, is_new] = corners.try_emplace(id.value());
+    if (is_new) place->second = result.corners.push_back(model.corners[id]);
+    return place->second;
+  };
+  for (const FaceId f : model.faces.ids()) {
+    if (!is_chosen(f)) continue;
+    ModelFace face = model.faces[f];
+    const auto [component, is_new] = components.try_emplace(face.component.value());
+    if (is_new) component->second = result.components.push_back(model.components[face.component]);
+    face.component = component->second;
+    for (Border& border : face.borders)
+      for (EdgeUse& use : border) {
+        const auto [edge, is_new_edge] = edges.try_emplace(use.edge.value());
+        if (is_new_edge) {
+          ModelEdge copy = model.edges[use.edge];
+          copy.start = corner(copy.start);
+          copy.end = corner(copy.end);
+          edge->second = result.edges.push_back(copy);
+        }
+        use.edge = edge->second;
+      }
+    faces[f.value()] = result.faces.push_back(std::move(face));
+  }
+  for (const ModelSolid& solid : model.solids) {
+    ModelSolid kept{solid.name, {}, solid.is_closed};
+    for (const FaceId f : solid.faces)
+      if (const auto found = faces.find(f.value()); found != faces.end()) kept.faces.push_back(found->second);
+    kept.is_closed = solid.is_closed && kept.faces.size() == solid.faces.size();
+    if (!kept.faces.empty()) result.solids.push_back(std::move(kept));
+  }
+  return result;
+}
+
+Model select_components(const Model& model, const std::string& pattern, const std::string& attempted) {
+  Model result = select_faces(model, [&](FaceId f) { return matches(pattern, model.components[model.faces[f].component].name); });
+  if (!result.faces.empty()) return result;
+  std::vector<std::string> names;
+  std::string all;
+  for (const Component& component : model.components) {
+    names.push_back(component.name);
+    all += (all.empty() ? "" : ", ") + component.name;
+  }
+  const std::string nearest = nearest_name(pattern, names);
+  throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "no component is named \"" + pattern + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"), .hint = "components: " + all});
+}
+
+std::string describe(const ModelValue& value) {
+  const Model& model = value.model;
+  const auto n_closed = std::count_if(model.solids.begin(), model.solids.end(), [](const ModelSolid& s) { return s.is_closed; });
+  const auto counted = [](std::size_t n, std::string_view what) { return count_text(static_cast<std::int64_t>(n)) + " " + std::string(what) + (n == 1 ? "" : "s"); };
+  std::string text = "Model: " + counted(model.components.size(), "component") + ", " + counted(model.faces.size(), "face") + ", " + counted(static_cast<std::size_t>(n_closed), "closed solid");
+  if (const std::size_t n_free = free_edges(model).size(); n_free > 0) text += ", open along " + counted(n_free, "edge");
+  if (const Box box = box_of(model); !box.empty()) text += fmt::format(", {:.4g} x {:.4g} x {:.4g} m", box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z);
+  return text;
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,121 @@
+// Models (exact geometry) as values of scripts and commands: read, described, measured, selected, refitted, written.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/base/schema.h"
+#include "geom/cad/read_cad.h"
+#include "geom/cad/write_cad.h"
+#include "geom/mesh/tri_mesh.h"
+#include "geom/model/aircraft.h"
+#include "geom/model/airfoil.h"
+#include "geom/model/model.h"
+#include "geom/model/reference_data.h"
+#include "scripting/verbs.h"
+
+namespace sterna::scripting {
+
+using AirfoilHandle = std::shared_ptr<const Airfoil>;
+
+/// A model with where it came from.
+struct ModelValue {
+  Model model;
+  std::optional<Aircraft> description;  ///< components as data, in the model's place and shape
+  std::string without_description;      ///< why there is none: "rotate", "read from a.step"
+  std::vector<InputFile> inputs;
+  std::string report;                   ///< lines about how it was read or made; may be empty
+};
+using ModelHandle = std::shared_ptr<const ModelValue>;
+
+/// Whether the name is that of a file with a model: CAD, .smx or (CPACS) .xml.
+bool is_model_file(const std::filesystem::path& path);
+/// Whether a model can be written to a file of that name.
+bool is_model_output(const std::filesystem::path& path);
+
+/// Reads a CAD, .smx or CPACS file; components of the last two stand side by side. `options` count for CAD. What was found goes to the log.
+/// \throws Error of io::read_cad, read_smx, read_cpacs, make_components
+ModelValue read_model(const InputPath& file, const ReadCadOptions& options, const RunContext& context);
+/// The same for a file that must be of that kind.
+ModelValue read_smx_model(const InputPath& file, const RunContext& context);
+ModelValue read_cpacs_model(const InputPath& file, const RunContext& context);
+
+/// Beyond WriteCadOptions: how surfaces that no CAD format has (deformed ones) are made splines.
+struct RefitOptions {
+  double refit_tolerance = k_automatic;
+};
+
+/// The same model with every surface and curve in a form that CAD formats have: what has none becomes a spline within the tolerance (m; automatic: 1e-6 of the
+/// longest side); tolerances of faces and edges grow by the error found. The model itself where nothing is to be done. \throws Error(bad_argument) of sample_surface
+Model refitted(const Model& model, double tolerance, const RunContext& context);
+
+/// \throws Error(unsupported_format, write_failed) when a model cannot be written to a file of this name. Before the work.
+void require_model_output(const ModelValue& value, const std::filesystem::path& path);
+/// STEP, IGES, BREP by extension (refitted where needed), .smx where there is a description. \throws Error of io and geom
+void write_model(const ModelValue& value, const std::filesystem::path& path, const WriteCadOptions& options, const RefitOptions& refit, const RunContext& context);
+
+/// Box around the faces, from samples: within about a thousandth of its size.
+Box box_of(const Model& model);
+Box box_of(const Model& model, FaceId face);
+
+/// Faces for which it holds, with their edges and corners; components and solids of which none is left are gone, a solid that lost some is no longer closed.
+Model select_faces(const Model& model, const std::function<bool(FaceId)>& is_chosen);
+/// '*' stands for any text, '?' for any character.
+bool matches(const std::string& pattern, const std::string& name);
+/// The components whose names match, whole. \throws Error(bad_argument) naming those that exist where none does
+Model select_components(const Model& model, const std::string& pattern, const std::string& attempted);
+
+/// Of a component, a solid, or all.
+struct PartMeasures {
+  std::string name;
+  std::string kind;
+  std::size_t n_faces = 0;
+  double area = 0.0;            ///< wetted, m^2
+  double projected_area = 0.0;  ///< as seen from above, each side counted half: exact for closed convex shapes, m^2
+  double volume = 0.0;          ///< m^3
+  bool is_closed = false;       ///< without free edges: it has a volume
+  Box box;
+};
+struct ModelMeasures {
+  PartMeasures total;
+  std::vector<PartMeasures> components;
+  std::vector<PartMeasures> solids;
+  std::vector<WingReference> wings;  ///< of the description
+};
+ModelMeasures measure_model(const ModelValue& value, const RunContext& context);
+
+/// A border that only one face has.
+struct OpenEdge {
+  std::string face;
+  std::string component;
+  Point from, middle, to;
+  double length = 0.0;
+};
+std::vector<OpenEdge> open_edges(const Model& model);
+
+/// "Model: 12 components, 84 faces, 12 closed solids, 35.8 x 34.1 x 12.2 m"
+std::string describe(const ModelValue& value);
+/// Several lines: totals, solids, components, wings with their reference data.
+std::string measures_text(const ModelMeasures& measures);
+/// Several lines: closed or not, every open edge (at most `limit`) with its face and place.
+std::string closedness_text(const Model& model, std::size_t limit);
+
+}  // namespace sterna::scripting
+
+namespace sterna {
+
+template <>
+struct Schema<scripting::RefitOptions> {
+  using O = scripting::RefitOptions;
+  static constexpr std::string_view stage = "refit";
+  static constexpr std::array fields = {
+      Field<O>{.name = "refit_tolerance", .member = &O::refit_tolerance, .unit = Unit::metre, .min = 1e-12, .max = 1.0, .help = "largest distance between a deformed surface and the spline that a CAD file holds in its place", .automatic = "1e-6 of the longest side"},
+  };
+};
+
+}  // namespace sterna

@@ -1,0 +1,31 @@
+// A Lua function that a script hands to a verb, callable from C++ while that verb runs.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+struct lua_State;
+
+namespace sterna::scripting {
+
+/// Lives as long as the call whose argument it is; only the thread that runs the script may call it.
+class ScriptFunction {
+ public:
+  /// Of the function at `index` of the stack, which stays as it is. \throws Error(overflow) without memory
+  ScriptFunction(lua_State* state, int index);
+  ~ScriptFunction();
+  ScriptFunction(const ScriptFunction&) = delete;
+  ScriptFunction& operator=(const ScriptFunction&) = delete;
+
+  /// The first results.size() values that the function returns for these numbers.
+  /// \throws Error(script_failed) with file:line where it fails or returns something else than numbers, Error(cancelled), or the Error of a verb that it calls
+  void call(std::span<const double> arguments, std::span<double> results) const;
+
+ private:
+  lua_State* state_;
+  int reference_;
+};
+using FunctionHandle = std::shared_ptr<const ScriptFunction>;
+
+}  // namespace sterna::scripting
