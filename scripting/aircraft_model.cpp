@@ -86,8 +86,7 @@ ModelValue make_aircraft(const AircraftParts& parts, const RunContext& context) 
 
 ModelValue unite_solids(const std::vector<ModelHandle>& models, const UniteOptions& options, const RunContext& context) {
   ModelValue value = assemble(models, context);
-  AircraftUnion united = cad::unite_aircraft(refitted(value.model, k_automatic, context), options, context);
-  for (const ErrorPlace& doubt : united.report.doubts) context.warn("union, at " + format_point(doubt.position) + ": " + doubt.what);
+  UniteResult united = cad::unite_aircraft(refitted(value.model, k_automatic, context), options, context);
   value.report = fmt::format("union: volume {:.6g} m^3, parts have {:.6g} m^3 together; {} {}", united.report.volume, united.report.sum_of_volumes, united.report.n_bodies, united.report.n_bodies == 1 ? "body" : "bodies that do not touch");
   for (const UniteTry& attempt : united.report.tries)
     if (!attempt.problem.empty()) value.report += fmt::format("\n  tolerance {:.3g} m was not enough: {}", attempt.tolerance, attempt.problem);

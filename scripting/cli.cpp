@@ -9,11 +9,13 @@
 
 #include "geom/base/error.h"
 #include "geom/base/schema.h"
+#include "geom/cad/unite.h"
 #include "io/format_table.h"
 #include "scripting/commands.h"
 #include "scripting/console.h"
 #include "scripting/exit_status.h"
 #include "scripting/interrupt.h"
+#include "scripting/models.h"
 #include "scripting/verbs.h"
 
 namespace sterna::scripting {
@@ -116,11 +118,13 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
 }
 
 void add_union_command(CLI::App& app, UnionCommand& unite, Request& request) {
-  CLI::App* command = app.add_subcommand("union", "unite closed surfaces that stick in each other, or the crossing parts of one file, to one wall");
-  command->add_option("surfaces", unite.inputs, "surface files. `sterna formats` lists what is read")->required();
-  command->add_option("-o,--output", unite.output, "surface file: " + io::list_formats_with(io::FormatUse::write_surface))->required();
+  CLI::App* command = app.add_subcommand("union", "unite closed surfaces that stick in each other, or the crossing parts of one file, to one wall; or models to one model");
+  command->add_option("parts", unite.inputs, "surface files, or model files (STEP, IGES, BREP, sumo, CPACS). `sterna formats` lists what is read")->required();
+  command->add_option("-o,--output", unite.output, "surface file: " + io::list_formats_with(io::FormatUse::write_surface) + "; of models: STEP, IGES, BREP (.step, .iges, .brep)")->required();
   UnionOptions options;
+  UniteOptions models;
   add_schema_options(*command, sterna::options_of(options), unite.options);
+  add_schema_options(*command, sterna::options_of(models), unite.options);
   command->add_option_function<std::string>("--unit", [&unite](const std::string& text) { unite.options.emplace_back("unit", text); }, "length of one unit of the files: mm, inch, 0.5mm ...");
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(unite, context); };
@@ -129,8 +133,8 @@ void add_union_command(CLI::App& app, UnionCommand& unite, Request& request) {
 }
 
 void add_check_command(CLI::App& app, CheckCommand& check, Request& request) {
-  CLI::App* command = app.add_subcommand("check", "prove that a volume mesh tiles its domain and measure its quality; exit status 0 only if it is VALID");
-  command->add_option("mesh", check.input, "mesh file")->required();
+  CLI::App* command = app.add_subcommand("check", "prove that a volume mesh tiles its domain and measure its quality; exit status 0 only if it is VALID. Of a model (STEP ...): whether it is closed, and where not");
+  command->add_option("mesh", check.input, "mesh file, or model file")->required();
   command->add_flag("--json", check.is_json, "print the report as JSON");
   command->add_option("--findings-per-kind", check.options.findings_per_kind, "places listed for each kind of violation")->check(CLI::PositiveNumber);
   command->add_flag("--strict", check.options.strict, "exit status 3 also when a QUALITY gate FAILs");
@@ -142,8 +146,8 @@ void add_check_command(CLI::App& app, CheckCommand& check, Request& request) {
 }
 
 void add_info_command(CLI::App& app, InfoCommand& info, Request& request) {
-  CLI::App* command = app.add_subcommand("info", "say what a surface or mesh file holds: counts, patches, box, units");
-  command->add_option("file", info.input, "surface or mesh file")->required();
+  CLI::App* command = app.add_subcommand("info", "say what a surface, mesh or model file holds: counts, patches, box, units; of models areas, volumes, mean chords");
+  command->add_option("file", info.input, "surface, mesh or model file")->required();
   command->add_option("--unit", info.unit, "length of one unit of the file: mm, inch, 0.5mm ...");
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(info, context); };
@@ -152,11 +156,15 @@ void add_info_command(CLI::App& app, InfoCommand& info, Request& request) {
 }
 
 void add_convert_command(CLI::App& app, ConvertCommand& convert, Request& request) {
-  CLI::App* command = app.add_subcommand("convert", "write a surface or volume mesh in another format");
-  command->add_option("input", convert.input, "surface or mesh file")->required();
+  CLI::App* command = app.add_subcommand("convert", "write a surface, a volume mesh or a model in another format");
+  command->add_option("input", convert.input, "surface, mesh or model file (STEP, IGES, BREP, sumo .smx, CPACS .xml)")->required();
   command->add_option("output", convert.output, "file to write; `sterna formats` lists the formats")->required();
   command->add_option("--format", convert.settings.format, "format of the output by its name in `sterna formats`, e.g. \"STL text\"; default: by the extension")->type_name("NAME");
   command->add_flag("--surface", convert.settings.as_surface, "of a volume mesh write the boundary");
+  ReadCadOptions reading;
+  WriteCadOptions writing;
+  RefitOptions refit;
+  for (const OptionTable& table : {sterna::options_of(reading), sterna::options_of(writing), sterna::options_of(refit)}) add_schema_options(*command, table, convert.options);
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(convert, context); };
     request.trouble = beside(convert.output);

@@ -10,13 +10,12 @@
 
 #include "geom/base/error.h"
 #include "geom/mesh/check.h"
-#include "geom/model/model_measures.h"
 #include "io/atomic_file.h"
-#include "io/cad_file.h"
 #include "io/format_table.h"
 #include "io/surface_file.h"
 #include "io/trouble_vtu.h"
 #include "scripting/exit_status.h"
+#include "scripting/models.h"
 #include "scripting/script_run.h"
 #include "scripting/summary.h"
 #include "scripting/stages.h"
@@ -30,30 +29,6 @@ using Clock = std::chrono::steady_clock;
 // Shares of the progress of `sterna mesh`, from runs on surfaces of 10 k to 200 k triangles.
 constexpr double k_read_end = 0.05;
 constexpr double k_mesh_end = 0.90;
-
-/// Sets every option; all problems are reported together.
-void set_options(const OptionTable& table, const OptionOverrides& given) {
-  std::string problems;
-  std::size_t n_problems = 0;
-  for (const auto& [name, text] : given) {
-    try {
-      set_option_as_typed(find_option(table, name, "option " + name), text);
-    } catch (const Error& error) {
-      problems += "\n  - " + error.info().attempted + ": " + error.info().problem + (error.info().hint.empty() ? "" : " (" + error.info().hint + ")");
-      ++n_problems;
-    }
-  }
-  try {
-    require_options(table, "mesh");
-  } catch (const Error& error) {
-    problems += "\n  - " + error.info().problem;
-    ++n_problems;
-  }
-  if (n_problems == 0) return;
-  throw Error({.code = ErrorCode::bad_argument,
-               .attempted = "reading the options",
-               .problem = n_problems == 1 ? problems.substr(5) : std::to_string(n_problems) + " problems" + problems});
-}
 
 struct PatchSize {
   std::int64_t n_triangles = 0, n_quads = 0;
@@ -174,29 +149,34 @@ MeshValue make_mesh(const MeshCommand& command, const CommandContext& context) {
   return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_read_end, k_mesh_end));
 }
 
-std::string measures_text(const BodyMeasures& body) {
-  std::string text = fmt::format("{} faces, area {:.6g} m^2", body.n_faces, body.area);
-  if (body.has_volume) text += fmt::format(", volume {:.6g} m^3", body.volume);
-  return text + fmt::format(", centre {}, box {} to {}", format_point(body.centre), format_point(body.box.min), format_point(body.box.max));
-}
-
-int print_cad_info(const InfoCommand& command, double unit, const CommandContext& context) {
-  ReadCadOptions options;
-  if (command.unit != InfoCommand{}.unit) options.unit = unit;
-  const CadFile file = io::read_cad(command.input, options, context.run.part("read", 0.0, 0.8));
-  const ModelMeasures data = model_measures(file.model, context.run.part("measure", 0.8, 1.0));
-  context.console.print(command.input + ": " + to_text(file.report));
-  context.console.print("  total    " + measures_text(data.total));
-  for (const BodyMeasures& solid : data.solids) context.console.print(fmt::format("  solid    \"{}\", {}: {}", solid.name, solid.has_volume ? "closed" : "open", measures_text(solid)));
-  for (const BodyMeasures& component : data.components) context.console.print(fmt::format("  part     \"{}\": {}", component.name, measures_text(component)));
-  return k_exit_success;
-}
-
 std::string read_write(bool is_read, bool is_written) {
   return is_read && is_written ? "read, write" : is_read ? "read" : is_written ? "write" : "-";
 }
 
 }  // namespace
+
+void set_options(const OptionTable& table, const OptionOverrides& given) {
+  std::string problems;
+  std::size_t n_problems = 0;
+  for (const auto& [name, text] : given) {
+    try {
+      set_option_as_typed(find_option(table, name, "option " + name), text);
+    } catch (const Error& error) {
+      problems += "\n  - " + error.info().attempted + ": " + error.info().problem + (error.info().hint.empty() ? "" : " (" + error.info().hint + ")");
+      ++n_problems;
+    }
+  }
+  try {
+    require_options(table, "mesh");
+  } catch (const Error& error) {
+    problems += "\n  - " + error.info().problem;
+    ++n_problems;
+  }
+  if (n_problems == 0) return;
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = "reading the options",
+               .problem = n_problems == 1 ? problems.substr(5) : std::to_string(n_problems) + " problems" + problems});
+}
 
 int execute(const RunCommand& command, const CommandContext& context) {
   run_script({.script = command.script,
@@ -229,6 +209,7 @@ int execute(const MeshCommand& command, const CommandContext& context) {
 }
 
 int execute(const UnionCommand& command, const CommandContext& context) {
+  if (std::any_of(command.inputs.begin(), command.inputs.end(), [](const std::string& name) { return is_model_file(name); })) return unite_models(command, context);
   UnionOptions options;
   surfmesh::StitchOptions reading;
   OptionTable table = sterna::options_of(options);
@@ -244,6 +225,7 @@ int execute(const UnionCommand& command, const CommandContext& context) {
 }
 
 int execute(const CheckCommand& command, const CommandContext& context) {
+  if (is_model_file(command.input)) return check_model(command, context);
   const MeshValue mesh = read_mesh({command.input, command.input}, context.run.part("read", 0.0, 0.3));
   const CheckReport report = check(mesh.mesh, command.options.to_options(), context.run.part("check", 0.3, 1.0));
   context.console.print(command.is_json ? to_json(report) : to_text(report));
@@ -254,7 +236,7 @@ int execute(const InfoCommand& command, const CommandContext& context) {
   surfmesh::StitchOptions unit;
   const OptionTable schema = sterna::options_of(unit);
   set_option_as_typed(find_option(schema, "unit", "info"), command.unit);
-  if (io::is_cad_file(command.input)) return print_cad_info(command, unit.unit, context);
+  if (is_model_file(command.input)) return print_model_info(command, context);
   const InputPath input{command.input, command.input};
   const io::Format& format = io::format_of(input.path);
   context.console.print(fmt::format("{}: {}, 1 unit of the file = {:g} m", command.input, format.name, unit.unit));
@@ -267,6 +249,9 @@ int execute(const InfoCommand& command, const CommandContext& context) {
 }
 
 int execute(const ConvertCommand& command, const CommandContext& context) {
+  if (is_model_file(command.input)) return convert_model(command, context);
+  if (!command.options.empty())
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "convert", .problem = "option " + command.options.front().first + " is for models (STEP, IGES, BREP, sumo, CPACS); " + command.input + " is none"});
   const std::string what = convert({command.input, command.input}, command.output, command.settings, context.run);
   context.console.end_progress();
   context.run.info("wrote " + command.output.string() + ": " + what);
@@ -279,6 +264,14 @@ int list_formats(const CommandContext& context) {
   for (const io::Format& format : io::formats())
     context.console.print(fmt::format(k_row, format.name, read_write(format.read_surface != nullptr, format.write_surface != nullptr),
                                       read_write(format.read_volume != nullptr, format.write_volume != nullptr), format.carries_patch_names ? "yes" : "no", format.extensions));
+  constexpr const char* k_model_row = "{:<16} {:<25} {:<12} {}";
+  context.console.print("");
+  context.console.print(fmt::format(k_model_row, "format", "model (exact geometry)", "names", "extensions"));
+  context.console.print(fmt::format(k_model_row, "STEP", "read, write", "yes", ".step .stp"));
+  context.console.print(fmt::format(k_model_row, "IGES", "read, write", "layers", ".iges .igs"));
+  context.console.print(fmt::format(k_model_row, "BREP", "read, write", "no", ".brep .egads"));
+  context.console.print(fmt::format(k_model_row, "sumo", "read, write", "yes", ".smx"));
+  context.console.print(fmt::format(k_model_row, "CPACS", "read", "yes", ".xml"));
   return k_exit_success;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geom/base/run_context.h"
+#include "geom/base/schema.h"
 #include "scripting/check_options.h"
 #include "scripting/console.h"
 #include "scripting/convert.h"
@@ -53,7 +54,18 @@ struct ConvertCommand {
   std::string input;
   std::filesystem::path output;
   ConvertSettings settings;
+  OptionOverrides options;  ///< of models: --unit, --refit-tolerance ...
 };
+
+/// `sterna info` and `sterna check` of a model file (model_commands.cpp): what it holds with its reference data; whether it is closed, with every open edge.
+int print_model_info(const InfoCommand& command, const CommandContext& context);
+int check_model(const CheckCommand& command, const CommandContext& context);
+/// `sterna union` of models, and `sterna convert` of a model to a model. `options` are checked against each command's schema.
+int unite_models(const UnionCommand& command, const CommandContext& context);
+int convert_model(const ConvertCommand& command, const CommandContext& context);
+
+/// Sets every option; all problems are reported together. \throws Error(bad_argument)
+void set_options(const OptionTable& table, const OptionOverrides& given);
 
 /// Each throws Error; the caller prints it and turns its code into the exit status.
 int execute(const RunCommand& command, const CommandContext& context);

@@ -42,7 +42,8 @@ ScriptValue make_aircraft_verb(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_aircraft_usage);
   AircraftOptions o;
   UniteOptions unite;
-  const OptionTable schema = sterna::options_of(o), unite_schema = sterna::options_of(unite);
+  OptionTable schema = sterna::options_of(o);  // in one: `unite` is an option and the name of a stage
+  for (Option& option : sterna::options_of(unite)) schema.push_back(std::move(option));
   TableReader reader(table, call.attempted());
   AircraftParts parts;
   std::size_t number = 0;
@@ -54,9 +55,7 @@ ScriptValue make_aircraft_verb(const ScriptCall& call) {
   }
   if (number == 0) reader.add_problem("needs components: " + std::string(k_aircraft_usage));
   reader.read_options(schema);
-  reader.read_options(unite_schema);
   apply_overrides(call, schema);
-  apply_overrides(call, unite_schema);
   reader.finish();
   parts.name = o.name;
   const RunContext context = call.session.context.part("aircraft", 0.0, 1.0);

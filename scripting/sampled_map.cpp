@@ -114,7 +114,10 @@ SampledMap::SampledMap(const std::function<Vec3(const Point&)>& displacement, co
             p[axis] = 0.5 * (at[axis][i] + at[axis][i + 1]);
             p[a] = s;
             p[b] = t;
-            if (off(p) > tolerance) is_any = is_marked[axis][i] = 1;
+            if (off(p) > tolerance) {
+              is_any = true;
+              is_marked[axis][i] = 1;
+            }
           }
     }
     // What neither axis shows at its middles may still be wrong beside them; then the cell is split along all.
@@ -125,7 +128,10 @@ SampledMap::SampledMap(const std::function<Vec3(const Point&)>& displacement, co
             const std::array<std::size_t, 3> cell = {i, j, k};
             Point p;
             for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = at[axis][cell[axis]] + k_crooked[axis] * (at[axis][cell[axis] + 1] - at[axis][cell[axis]]);
-            if (off(p) > tolerance) is_any = is_marked[0][i] = is_marked[1][j] = is_marked[2][k] = 1;
+            if (off(p) > tolerance) {
+              is_any = true;
+              is_marked[0][i] = is_marked[1][j] = is_marked[2][k] = 1;
+            }
           }
     if (!is_any) return;
     std::size_t next = 1;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/cad/unite.h"
 #include "scripting/check_options.h"
 #include "scripting/component_verbs.h"
 #include "scripting/geometry_verbs.h"

@@ -1,0 +1,87 @@
+// The commands on files of models: STEP, IGES, BREP, sumo, CPACS.
+#include <fmt/format.h>
+
+#include "geom/base/error.h"
+#include "geom/cad/unite.h"
+#include "scripting/aircraft_model.h"
+#include "scripting/commands.h"
+#include "scripting/exit_status.h"
+#include "scripting/models.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr double k_read_end = 0.4;
+/// Open edges that `sterna info` lists; `sterna check` lists all.
+constexpr std::size_t k_listed_edges = 10;
+
+InputPath input_of(const std::string& name) { return {name, name}; }
+
+}  // namespace
+
+int print_model_info(const InfoCommand& command, const CommandContext& context) {
+  ReadCadOptions options;
+  if (command.unit != InfoCommand{}.unit) set_options(sterna::options_of(options), {{"unit", command.unit}});
+  const ModelValue value = read_model(input_of(command.input), options, context.run.part("read", 0.0, k_read_end));
+  const ModelMeasures measures = measure_model(value, context.run.part("measure", k_read_end, 1.0));
+  context.console.end_progress();
+  if (!value.report.empty()) context.console.print(command.input + ": " + value.report);
+  context.console.print(describe(value));
+  context.console.print(measures_text(measures));
+  context.console.print("  closed   " + closedness_text(value.model, k_listed_edges));
+  return k_exit_success;
+}
+
+int check_model(const CheckCommand& command, const CommandContext& context) {
+  if (command.is_json) throw Error({.code = ErrorCode::bad_argument, .attempted = "check", .problem = "--json is for volume meshes; " + command.input + " is a model"});
+  const ModelValue value = read_model(input_of(command.input), {}, context.run.part("read", 0.0, 1.0));
+  context.console.end_progress();
+  context.console.print(describe(value));
+  context.console.print("  " + closedness_text(value.model, value.model.edges.size()));
+  const bool is_closed = !value.model.faces.empty() && free_edges(value.model).empty();
+  context.console.print(is_closed ? "CLOSED" : "OPEN");
+  return is_closed ? k_exit_success : k_exit_invalid;
+}
+
+int unite_models(const UnionCommand& command, const CommandContext& context) {
+  for (const std::string& name : command.inputs)
+    if (!is_model_file(name))
+      throw Error({.code = ErrorCode::bad_argument, .attempted = "union", .problem = name + " is no model, the other files are", .hint = "unite models (STEP, IGES, BREP, sumo, CPACS) or surfaces (STL ...), not both"});
+  UniteOptions options;
+  ReadCadOptions reading;
+  OptionTable table = sterna::options_of(options);
+  table.push_back(find_option(sterna::options_of(reading), "unit", "union"));
+  set_options(table, command.options);
+  require_model_output({.without_description = "it is a union"}, command.output);
+  std::vector<ModelHandle> models;
+  const double n = static_cast<double>(command.inputs.size());
+  for (const std::string& name : command.inputs) {
+    const double i = static_cast<double>(models.size());
+    models.push_back(std::make_shared<const ModelValue>(read_model(input_of(name), reading, context.run.part("read", k_read_end * i / n, k_read_end * (i + 1) / n))));
+  }
+  ModelValue united = unite_solids(models, options, context.run.part("union", k_read_end, 0.95));
+  united.description.reset();  // the file has the union, not what went into it
+  write_model(united, command.output, {}, {}, context.run.part("write", 0.95, 1.0));
+  context.console.end_progress();
+  context.run.info("wrote " + command.output.string() + ": " + describe(united));
+  return k_exit_success;
+}
+
+int convert_model(const ConvertCommand& command, const CommandContext& context) {
+  if (!command.settings.format.empty() || command.settings.as_surface)
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "convert", .problem = "--format and --surface are for meshes; " + command.input + " is a model", .hint = "the extension of the output says the format: .step, .iges, .brep, .smx"});
+  ReadCadOptions reading;
+  WriteCadOptions writing;
+  RefitOptions refit;
+  OptionTable table = sterna::options_of(reading);
+  for (const OptionTable& other : {sterna::options_of(writing), sterna::options_of(refit)}) table.insert(table.end(), other.begin(), other.end());
+  set_options(table, command.options);
+  if (!is_model_output(command.output)) require_model_output({}, command.output);  // before the input is read
+  const ModelValue value = read_model(input_of(command.input), reading, context.run.part("read", 0.0, k_read_end));
+  write_model(value, command.output, writing, refit, context.run.part("write", k_read_end, 1.0));
+  context.console.end_progress();
+  context.run.info("wrote " + command.output.string() + ": " + describe(value));
+  return k_exit_success;
+}
+
+}  // namespace sterna::scripting
