@@ -1,4 +1,4 @@
-// Steps: components -> description; description -> components side by side; kinds and patch names that only scripts know put on; union where wanted.
+// Steps: components -> description; description -> components side by side; patch names that only scripts know put on; union where wanted.
 #include "scripting/aircraft_model.h"
 
 #include <fmt/format.h>
@@ -15,17 +15,10 @@
 namespace sterna::scripting {
 namespace {
 
-/// The name that make_components gives the mirror image.
-std::string image_name(const std::string& name) {
-  const std::string other = mirrored_name(name);
-  return other.starts_with(name) ? name + "Left" : other;
-}
-
-/// Kind, and names of fan face and nozzle, of a component and its mirror image.
+/// Names of fan face and nozzle of a component or its mirror image.
 void finish_component(Model& model, const ComponentValue& component, const std::string& name, bool is_image) {
   for (const ComponentId c : model.components.ids()) {
     if (model.components[c].name != name) continue;
-    model.components[c].kind = component.kind;
     for (ModelFace& face : model.faces) {
       if (face.component != c) continue;
       const auto rename = [&](const std::string& patch) {
@@ -51,8 +44,10 @@ void append_description(Aircraft& aircraft, const ComponentValue& component) {
     return;
   }
   aircraft.wings.push_back(std::get<Wing>(component.shape));
-  for (const Deflection& d : component.deflections)
+  for (const Deflection& d : component.deflections) {
     aircraft.control_surfaces.push_back(d.surface);
+    aircraft.deflections.push_back(d);
+  }
 }
 
 }  // namespace

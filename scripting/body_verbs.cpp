@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "geom/model/shapes.h"
 #include "scripting/component_verbs.h"
@@ -39,17 +38,8 @@ struct NacellePatches {
   std::string intake;
   std::string exhaust;
 };
-struct BoomOptions {
-  double diameter = k_automatic;
-  double end_diameter = k_automatic;
-  std::string nose = "round";
-  std::string tail = "round";
-};
-struct FairingOptions {
-  double length = k_automatic;
-  double width = k_automatic;
-  double height = k_automatic;
-  double exponent = 2.0;
+struct RevolutionOptions {
+  bool straight = false;
 };
 
 }  // namespace sterna::scripting
@@ -105,25 +95,11 @@ struct Schema<scripting::NacellePatches> {
   };
 };
 template <>
-struct Schema<scripting::BoomOptions> {
-  using O = scripting::BoomOptions;
-  static constexpr std::string_view stage = "boom";
+struct Schema<scripting::RevolutionOptions> {
+  using O = scripting::RevolutionOptions;
+  static constexpr std::string_view stage = "revolution";
   static constexpr std::array fields = {
-      Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "where it begins", .required = true},
-      Field<O>{.name = "end_diameter", .member = &O::end_diameter, .unit = Unit::metre, .min = 1e-9, .help = "where it ends", .automatic = "diameter"},
-      Field<O>{.name = "nose", .member = &O::nose, .help = "end at `from`; round adds half a ball", .choices = "round flat"},
-      Field<O>{.name = "tail", .member = &O::tail, .help = "end at `to`", .choices = "round flat"},
-  };
-};
-template <>
-struct Schema<scripting::FairingOptions> {
-  using O = scripting::FairingOptions;
-  static constexpr std::string_view stage = "fairing";
-  static constexpr std::array fields = {
-      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-9, .help = "along x, from `position` on", .required = true},
-      Field<O>{.name = "width", .member = &O::width, .unit = Unit::metre, .min = 1e-9, .help = "largest, along y", .required = true},
-      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 1e-9, .help = "largest, along z", .required = true},
-      Field<O>{.name = "exponent", .member = &O::exponent, .min = 1.0, .max = 20.0, .help = "of its superelliptic sections"},
+      Field<O>{.name = "straight", .member = &O::straight, .help = "straight between the points of the profile; else smooth"},
   };
 };
 
@@ -131,11 +107,6 @@ struct Schema<scripting::FairingOptions> {
 
 namespace sterna::scripting {
 namespace {
-
-/// Cross sections of the fairing between its domes: an ellipse along x is met to 1e-3 of its height.
-constexpr int k_fairing_frames = 15;
-/// Angle of the ellipse, from its tip, at which the domes begin.
-constexpr double k_fairing_dome = 0.35;
 
 /// The part that all bodies share: name, mirror image, position.
 struct BodyTable {
@@ -154,6 +125,7 @@ struct BodyTable {
   }
   Body body() const { return {.name = options.name, .placement = {position, {}}, .has_mirror_image = options.symmetric}; }
   ScriptValue value(Body body, ComponentKind kind) const {
+    body.kind = kind;
     return std::make_shared<ComponentValue>(ComponentValue{.kind = kind, .shape = std::move(body)});
   }
 };
@@ -161,12 +133,6 @@ struct BodyTable {
 EndCap cap(const std::string& shape, double height) { return {CapShape::dome, shape == "round" ? height : 0.0}; }
 
 BodyFrame point_frame(const Point& at, std::string name) { return {.name = std::move(name), .center = at, .shape = FrameShape::loop, .loop = {at}}; }
-
-BodyFrame circle_frame(double x, double diameter) {
-  std::string name = "x = " + std::to_string(x);
-  if (diameter == 0.0) return point_frame({x, 0.0, 0.0}, std::move(name));
-  return {.name = std::move(name), .center = {x, 0.0, 0.0}, .height = diameter, .width = diameter, .n_points = 11};
-}
 
 /// Points {y, z} of the right half about the middle, bottom to top, in metres, as a frame's own points.
 void set_points(BodyFrame& frame, const std::vector<std::vector<double>>& rows, TableReader& reader, const std::string& where) {
@@ -299,49 +265,42 @@ ScriptValue make_pylon_verb(const ScriptCall& call) {
 
 namespace {
 
-ScriptValue make_rod(const ScriptCall& call, std::string_view usage, ComponentKind kind, const BoomOptions& defaults) {
+/// boom{} and sting{}: a body from a point to another.
+template <class Options>
+ScriptValue make_rod(const ScriptCall& call, std::string_view usage, ComponentKind kind, Body (*make)(const std::string&, const Point&, const Point&, const Options&)) {
   BodyTable t(call, usage);
-  BoomOptions o = defaults;
+  Options o;
   const OptionTable schema = sterna::options_of(o);
   const auto from = read_point(t.reader, "from"), to = read_point(t.reader, "to");
   t.reader.read_options(t.schema);
   t.reader.read_options(schema);
   t.reader.require(schema);
   if (!from || !to) t.reader.add_problem("needs from = {x, y, z} and to = {x, y, z}: " + std::string(usage));
-  else if (!(distance(*from, *to) > 0.0)) t.reader.add_problem("from and to: are the same point");
   t.reader.finish();
-  const double length = distance(*from, *to);
-  const Vec3 along = (*to - *from) / length;
-  Body body = t.body();
-  // About the fixed axes x, y, z: the own x axis turns into the direction.
-  body.placement = {*from, {0.0, -std::asin(std::clamp(along.z, -1.0, 1.0)), std::atan2(along.y, along.x)}};
-  body.frames = {circle_frame(0.0, o.diameter), circle_frame(length, is_automatic(o.end_diameter) ? o.diameter : o.end_diameter)};
-  body.nose = cap(o.nose, 1.0);
-  body.tail = cap(o.tail, 1.0);
+  Body body = make(t.options.name, *from, *to, o);
+  body.has_mirror_image = t.options.symmetric;
   return t.value(std::move(body), kind);
 }
 
 }  // namespace
 
-ScriptValue make_boom_verb(const ScriptCall& call) { return make_rod(call, k_boom_usage, ComponentKind::boom, {}); }
-ScriptValue make_sting_verb(const ScriptCall& call) { return make_rod(call, k_sting_usage, ComponentKind::sting, {.nose = "flat", .tail = "flat"}); }
+ScriptValue make_boom_verb(const ScriptCall& call) { return make_rod<BoomOptions>(call, k_boom_usage, ComponentKind::boom, boom_body); }
+ScriptValue make_sting_verb(const ScriptCall& call) { return make_rod<StingOptions>(call, k_sting_usage, ComponentKind::sting, sting_body); }
 
 ScriptValue make_revolution_verb(const ScriptCall& call) {
   BodyTable t(call, k_revolution_usage, "body");
+  RevolutionOptions o;
+  const OptionTable schema = sterna::options_of(o);
   t.read_shared();
-  Body body = t.body();
+  t.reader.read_options(schema);
   const ScriptValue* profile = t.reader.field("profile");
   const auto rows = profile ? rows_of(*profile, 2) : std::nullopt;
-  if (!rows || rows->size() < 2) t.reader.add_problem("profile: needs a list {{x, radius}, ...} of at least 2 points, from the nose on");
-  else
-    for (std::size_t i = 0; i < rows->size(); ++i) {
-      const double x = (*rows)[i][0], r = (*rows)[i][1];
-      const bool is_end = i == 0 || i + 1 == rows->size();
-      if (i > 0 && !(x > (*rows)[i - 1][0])) t.reader.add_problem("profile: point " + std::to_string(i + 1) + " does not lie behind the one before");
-      if (r < 0.0 || (r == 0.0 && !is_end)) t.reader.add_problem("profile: the radius at point " + std::to_string(i + 1) + " must be positive (0 at the ends only)");
-      body.frames.push_back(circle_frame(x, 2.0 * std::max(r, 0.0)));
-    }
+  if (!rows) t.reader.add_problem("profile: needs a list {{x, radius}, ...}, from the nose on");
   t.reader.finish();
+  std::vector<Uv> points;
+  for (const std::vector<double>& row : *rows) points.push_back({row[0], row[1]});
+  Body body = body_of_revolution(t.options.name, {t.position, {}}, points, o.straight);
+  body.has_mirror_image = t.options.symmetric;
   return t.value(std::move(body), ComponentKind::body);
 }
 
@@ -353,15 +312,8 @@ ScriptValue make_fairing_verb(const ScriptCall& call) {
   t.reader.read_options(schema);
   t.reader.require(schema);
   t.reader.finish();
-  Body body = t.body();
-  // An ellipsoid along x, whose ends are domes.
-  for (int i = 0; i < k_fairing_frames; ++i) {
-    const double angle = k_fairing_dome + (std::numbers::pi - 2.0 * k_fairing_dome) * i / (k_fairing_frames - 1);
-    const double x = 0.5 * o.length * (1.0 - std::cos(angle)), part = std::sin(angle);
-    body.frames.push_back({.name = "frame " + std::to_string(i + 1), .center = {x, 0.0, 0.0}, .height = part * o.height, .width = part * o.width, .shape = FrameShape::ellipse, .n_points = 11, .exponent = o.exponent});
-  }
-  const double mean_radius = 0.25 * std::sin(k_fairing_dome) * (o.width + o.height);
-  body.nose = body.tail = {CapShape::dome, body.frames.front().center.x / mean_radius};
+  Body body = fairing_body(t.options.name, t.position, o);
+  body.has_mirror_image = t.options.symmetric;
   return t.value(std::move(body), ComponentKind::fairing);
 }
 
@@ -381,8 +333,8 @@ std::string fuselage_help() { return help_of<BodyOptions, FuselageOptions>() + "
 std::string nacelle_help() { return help_of<BodyOptions, NacelleOptions, NacellePatches>(); }
 std::string pylon_help() { return help_of<PylonOptions>(); }
 std::string boom_help() { return help_of<BodyOptions, BoomOptions>(); }
-std::string sting_help() { return help_of<BodyOptions, BoomOptions>(); }
+std::string sting_help() { return help_of<BodyOptions, StingOptions>(); }
 std::string fairing_help() { return help_of<BodyOptions, FairingOptions>(); }
-std::string revolution_help() { return help_of<BodyOptions>(); }
+std::string revolution_help() { return help_of<BodyOptions, RevolutionOptions>(); }
 
 }  // namespace sterna::scripting

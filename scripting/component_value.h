@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "geom/model/aircraft.h"
-#include "geom/model/deflection.h"
 #include "geom/model/model.h"
 
 namespace sterna::scripting {

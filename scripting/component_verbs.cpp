@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "geom/model/reference_data.h"
 #include "scripting/aircraft_model.h"
@@ -156,7 +157,9 @@ constexpr std::array<ScriptVerb, 9> k_verbs = {{
     {"sting", k_sting_usage, "What holds a model in a wind tunnel: a rod with flat ends, from within the model to outside.", make_sting_verb, sting_help},
     {"aircraft", k_aircraft_usage, "Components and models together, mirror images included, united to one closed surface.", make_aircraft_verb, aircraft_help, true},
 }};
-constexpr std::array<ScriptVerb, 3> k_methods = {{
+constexpr std::array<ScriptVerb, 5> k_methods = {{
+    {"wing:deflect", k_deflect_usage, "Deflects a control surface, as geometry: its hinge by parts of the span from the root and of the chord from the leading edge.", deflect_wing, deflect_help},
+    {"wing:control", k_control_usage, "Gives the place of a control surface a patch of its own, without deflecting it.", control_wing, control_help},
     {"component:at", "wing:at(0.4, 0.25)", "Point of a wing's chord line, by parts of the span from the root and of the chord from the leading edge.", point_on_wing},
     {"component:move", "wing:move{ 0.5, 0, 0 }", "Moves the component itself, metres.", move_component},
     {"component:model", "wing:model()", "The component alone, as a model, with its mirror image.", component_model},
@@ -181,6 +184,7 @@ std::string describe(const ComponentValue& component) {
     const Body& body = std::get<Body>(component.shape);
     text += fmt::format("{} frames, {:.4g} m long", body.frames.size(), body.frames.back().center.x - body.frames.front().center.x);
   }
+  for (const Deflection& d : component.deflections) text += d.angle == 0.0 ? fmt::format(", {}", d.surface.name) : fmt::format(", {} {:+.4g} deg", d.surface.name, d.angle * 180.0 / std::numbers::pi);
   return text + (component.has_mirror_image() ? ", and its mirror image" : "");
 }
 

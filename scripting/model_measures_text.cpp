@@ -16,11 +16,11 @@ namespace {
 constexpr int k_box_samples = 12;
 
 /// The parameters that the outer border of a face surrounds.
-ParameterBox used_box(const ModelFace& face) {
+ParameterBox used_box(const Model& model, const ModelFace& face) {
   if (face.borders.empty() || face.borders.front().empty()) return face.surface->domain();
   Uv low{1e300, 1e300}, high{-1e300, -1e300};
   for (const EdgeUse& use : face.borders.front()) {
-    const Interval range = use.parameter->domain();
+    const Interval range = model.edges[use.edge].range;
     for (int i = 0; i <= k_box_samples; ++i) {
       const Uv p = use.parameter->point(range.from + range.length() * i / k_box_samples);
       low = {std::min(low.u, p.u), std::min(low.v, p.v)};
@@ -58,7 +58,7 @@ std::string part_text(const PartMeasures& part) {
 Box box_of(const Model& model, FaceId f) {
   const ModelFace& face = model.faces[f];
   Box box;
-  const ParameterBox used = used_box(face);
+  const ParameterBox used = used_box(model, face);
   for (int i = 0; i <= k_box_samples; ++i)
     for (int j = 0; j <= k_box_samples; ++j)
       if (face.borders.size() == 1 && face.borders.front().size() <= 4) box.add(face.surface->point({used.u.from + used.u.length() * i / k_box_samples, used.v.from + used.v.length() * j / k_box_samples}));
@@ -132,7 +132,11 @@ std::vector<OpenEdge> open_edges(const Model& model) {
 
 std::string measures_text(const ModelMeasures& measures) {
   std::string text = "  total    " + part_text(measures.total);
-  for (const PartMeasures& solid : measures.solids) text += fmt::format("\n  solid    \"{}\", {}: {}", solid.name, solid.is_closed ? "closed" : "open", part_text(solid));
+  // Where every component is a solid of its own, one line for both.
+  const bool are_same = std::equal(measures.solids.begin(), measures.solids.end(), measures.components.begin(), measures.components.end(),
+                                   [](const PartMeasures& a, const PartMeasures& b) { return a.name == b.name && a.is_closed == b.is_closed; });
+  for (const PartMeasures& solid : measures.solids)
+    if (!are_same) text += fmt::format("\n  solid    \"{}\", {}: {}", solid.name, solid.is_closed ? "closed" : "open", part_text(solid));
   for (const PartMeasures& part : measures.components) text += fmt::format("\n  part     \"{}\", {}: {}", part.name, part.kind, part_text(part));
   for (const WingReference& wing : measures.wings)
     text += fmt::format("\n  wing     \"{}\": span {:.6g} m, area {:.6g} m^2, seen from above {:.6g} m^2, aspect ratio {:.4g}, mean chord geometric {:.6g} m, aerodynamic {:.6g} m from {}", wing.name, wing.span,

@@ -19,6 +19,8 @@ constexpr std::size_t k_first_intervals = 4;
 constexpr double k_tolerance_share = 1e-6;
 /// Room around the box, of its longest side: what lies a little outside (surfaces beyond their borders) is splined too.
 constexpr double k_margin = 0.02;
+/// Of neighbouring intervals. Splines through points further graded than (3 + sqrt 5) / 2 may swing without bound (Marsden, 1974); halves give 2 and some rounding.
+constexpr double k_ratio = 2.1;
 /// Where in a cell the final comparison is made: no simple fractions, so that a function which repeats itself evenly cannot hide.
 constexpr std::array<double, 3> k_crooked = {0.31, 0.43, 0.59};
 
@@ -46,20 +48,48 @@ class Kept {
   std::map<std::array<double, 3>, Vec3> values_;
 };
 
-/// Values on the stations, [(i * n_y + j) * n_z + k], become poles of splines, one axis after the other.
-std::vector<Vec3> splined(std::vector<Vec3> values, const Stations& at, std::size_t axis, std::vector<double>& knots) {
-  const std::array<std::size_t, 3> n = {at[0].size(), at[1].size(), at[2].size()};
-  const std::size_t stride = axis == 0 ? n[1] * n[2] : axis == 1 ? n[2] : 1;
-  const SplineOptions options{.tangents = SplineTangents::not_a_knot, .at = at[axis]};
-  std::vector<Point> line(n[axis]);
-  for (std::size_t start = 0; start < values.size(); ++start) {
-    if (start / stride % n[axis] != 0) continue;
-    for (std::size_t i = 0; i < n[axis]; ++i) line[i] = values[start + i * stride];
-    const NurbsCurveForm<Point> form = spline_form(line, options);
-    knots = form.knots;
-    for (std::size_t i = 0; i < n[axis]; ++i) values[start + i * stride] = form.poles[i];
+/// Halves marked intervals.
+std::vector<double> split(const std::vector<double>& at, const std::vector<char>& is_marked) {
+  std::vector<double> finer;
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+    finer.push_back(at[i]);
+    if (is_marked[i]) finer.push_back(0.5 * (at[i] + at[i + 1]));
   }
-  return values;
+  finer.push_back(at.back());
+  return finer;
+}
+
+/// Halves intervals until none is more than k_ratio times as long as the one beside it.
+std::vector<double> graded(std::vector<double> at) {
+  for (;;) {
+    std::vector<char> is_long(at.size() - 1, 0);
+    const auto length = [&](std::size_t i) { return at[i + 1] - at[i]; };
+    for (std::size_t i = 0; i + 1 < at.size(); ++i) is_long[i] = (i > 0 && length(i) > k_ratio * length(i - 1)) || (i + 2 < at.size() && length(i) > k_ratio * length(i + 1));
+    if (std::none_of(is_long.begin(), is_long.end(), [](char mark) { return mark != 0; })) return at;
+    at = split(at, is_long);
+  }
+}
+
+/// Values in a grid of sizes n, [(i * n_y + j) * n_z + k], whose lines along an axis become poles of splines; n follows, since splines may have more poles than points.
+std::vector<Vec3> splined(const std::vector<Vec3>& values, std::array<std::size_t, 3>& n, const std::vector<double>& at, std::size_t axis, std::vector<double>& knots) {
+  const SplineOptions options{.tangents = SplineTangents::not_a_knot, .at = at};
+  const std::array<std::size_t, 3> from = n;
+  const auto stride_of = [axis](const std::array<std::size_t, 3>& size) { return axis == 0 ? size[1] * size[2] : axis == 1 ? size[2] : 1; };
+  const std::size_t stride = stride_of(from), n_outer = values.size() / (from[axis] * stride);
+  std::vector<Vec3> poles;
+  std::vector<Point> line(from[axis]);
+  for (std::size_t outer = 0; outer < n_outer; ++outer)
+    for (std::size_t inner = 0; inner < stride; ++inner) {
+      for (std::size_t i = 0; i < from[axis]; ++i) line[i] = values[(outer * from[axis] + i) * stride + inner];
+      const NurbsCurveForm<Point> form = spline_form(line, options);
+      if (poles.empty()) {
+        knots = form.knots;
+        n[axis] = form.poles.size();
+        poles.resize(n_outer * n[axis] * stride);
+      }
+      for (std::size_t i = 0; i < n[axis]; ++i) poles[(outer * n[axis] + i) * stride + inner] = form.poles[i];
+    }
+  return poles;
 }
 
 }  // namespace
@@ -85,9 +115,10 @@ SampledMap::SampledMap(const std::function<Vec3(const Point&)>& displacement, co
           largest_ = std::max(largest_, norm(values.back()));
         }
     basis_.clear();
+    std::array<std::size_t, 3> sizes = {at[0].size(), at[1].size(), at[2].size()};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::vector<double> knots;
-      values = splined(std::move(values), at, axis, knots);
+      values = splined(values, sizes, at[axis], axis, knots);
       basis_.emplace_back(3, knots, false, "sampling the deformation");
     }
     poles_ = std::move(values);
@@ -136,13 +167,7 @@ SampledMap::SampledMap(const std::function<Vec3(const Point&)>& displacement, co
     if (!is_any) return;
     std::size_t next = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      std::vector<double> finer;
-      for (std::size_t i = 0; i + 1 < at[axis].size(); ++i) {
-        finer.push_back(at[axis][i]);
-        if (is_marked[axis][i]) finer.push_back(0.5 * (at[axis][i] + at[axis][i + 1]));
-      }
-      finer.push_back(at[axis].back());
-      at[axis] = std::move(finer);
+      at[axis] = graded(split(at[axis], is_marked[axis]));
       next *= at[axis].size();
     }
     if (next > static_cast<std::size_t>(options.max_samples))
