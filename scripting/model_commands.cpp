@@ -23,7 +23,7 @@ int print_model_info(const InfoCommand& command, const CommandContext& context) 
   ReadCadOptions options;
   if (command.unit != InfoCommand{}.unit) set_options(sterna::options_of(options), {{"unit", command.unit}});
   const ModelValue value = read_model(input_of(command.input), options, context.run.part("read", 0.0, k_read_end));
-  const ModelMeasures measures = measure_model(value, context.run.part("measure", k_read_end, 1.0));
+  const ModelReport measures = measure_model(value, context.run.part("measure", k_read_end, 1.0));
   context.console.end_progress();
   if (!value.report.empty()) context.console.print(command.input + ": " + value.report);
   context.console.print(describe(value));

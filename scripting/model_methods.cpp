@@ -234,7 +234,7 @@ ScriptValue table_of(const PartMeasures& part) {
 
 ScriptValue measure_verb(const ScriptCall& call) {
   const ModelHandle& model = self<ModelHandle>(call);
-  const ModelMeasures m = measure_model(*model, call.session.context.part("measures", 0.0, 1.0));
+  const ModelReport m = measure_model(*model, call.session.context.part("measures", 0.0, 1.0));
   auto result = std::make_shared<ScriptTable>(*std::get<TableHandle>(table_of(m.total)));
   const auto add = [&](const char* name, const std::vector<PartMeasures>& parts) {
     auto list = std::make_shared<ScriptTable>();

@@ -70,7 +70,7 @@ bool matches(const std::string& pattern, const std::string& name);
 /// The components whose names match, whole. \throws Error(bad_argument) naming those that exist where none does
 Model select_components(const Model& model, const std::string& pattern, const std::string& attempted);
 
-/// Of a component, a solid, or all.
+/// Of a component, a solid, or all: what model_measures finds, and the view from above.
 struct PartMeasures {
   std::string name;
   std::string kind;
@@ -81,13 +81,13 @@ struct PartMeasures {
   bool is_closed = false;       ///< without free edges: it has a volume
   Box box;
 };
-struct ModelMeasures {
+struct ModelReport {
   PartMeasures total;
   std::vector<PartMeasures> components;
   std::vector<PartMeasures> solids;
   std::vector<WingReference> wings;  ///< of the description
 };
-ModelMeasures measure_model(const ModelValue& value, const RunContext& context);
+ModelReport measure_model(const ModelValue& value, const RunContext& context);
 
 /// A border that only one face has.
 struct OpenEdge {
@@ -101,7 +101,7 @@ std::vector<OpenEdge> open_edges(const Model& model);
 /// "Model: 12 components, 84 faces, 12 closed solids, 35.8 x 34.1 x 12.2 m"
 std::string describe(const ModelValue& value);
 /// Several lines: totals, solids, components, wings with their reference data.
-std::string measures_text(const ModelMeasures& measures);
+std::string measures_text(const ModelReport& measures);
 /// Several lines: closed or not, every open edge (at most `limit`) with its face and place.
 std::string closedness_text(const Model& model, std::size_t limit);
 

@@ -1,4 +1,4 @@
--- Every option of every stage at its default, to copy from. help(read_surface) and help(volume_mesh) say what each one does, its unit and its range.
+-- Every option of every stage at its default, to copy from. help(read_surface), help(wing) and so on say what each one does, its unit and its range.
 --   ./run scripts/02_every_option.lua
 
 local wall = read_surface{ "data/cessna.msh.gz",
@@ -76,3 +76,98 @@ local mesh = volume_mesh{ wall,
 mesh:check{ intersections = true, quality = true, findings_per_kind = 10 }
 mesh:write "every_option.vtu"
 print(string.format("%d prisms, %d tetrahedra, %.1f %% of the area has its full height", mesh.prisms, mesh.tetrahedra, 100 * mesh.coverage))
+
+-- ---- Geometry ----------------------------------------------------------------------------------------------------------------------------
+
+local section = airfoil{ "naca23012",
+  trailing_edge = "automatic",        -- of the chord; automatic: as it is
+  points = 0,                         -- along each side; 0: as they are
+  within = "automatic",               -- as few points as keep so near, of the chord
+}
+
+local body = fuselage{
+  name = "fuselage",
+  symmetric = false,                  -- a mirror image on the other side of y = 0
+  position = { 0, 0, 0 },
+  along = "smooth",                   -- smooth, akima (straight parts stay straight), linear
+  nose = "round", nose_height = 1.0,  -- or "flat"; of the mean radius
+  tail = "round", tail_height = 1.0,
+  pitch = 0,
+  frames = {
+    { x = 0, diameter = 0.5 },
+    { x = 3, y = 0, z = 0, width = 2, height = 2, shape = "superellipse", exponent = 2.0 },
+    { x = 6, width = 2, height = 2.2, shape = "double_ellipse", offset = 0 },
+    { x = 9, width = 2, height = 2, shape = "egg", distortion = 0 },
+    { x = 12, diameter = 0.6 } },     -- or points = {{y, z}, ...}: the right half from the bottom to the top
+}
+
+local main_wing = wing{
+  name = "wing",
+  symmetric = true,
+  position = { 4, 0, -0.4 },
+  spanwise = "linear",                -- or "cubic"
+  sweep_at = 0.25,                    -- part of the chord
+  incidence = 0,
+  trailing_edge = "automatic",        -- metres; 0: sharp; automatic: as the airfoils have it
+  tip = "round", tip_height = 1.0,    -- or "flat"
+  root = "flat",
+  sections = {
+    { x = 0, y = 0, z = 0, chord = 3, airfoil = section, twist = 0, roll = "automatic", is_break = false, is_reversed = false },
+    { span = 5, chord = 1.5, sweep = 0, dihedral = 0 } },
+  winglet = { height = 0.6, cant = 80*deg, taper = 0.4, sweep = 35*deg, toe = 0, bend = 0.25 },
+}
+main_wing:control{ "flap", from = { 0.15, 0.75 }, to = { 0.5, 0.75 },
+  kind = "trailing_edge",             -- leading_edge, all_moving
+  other_side = "same",                -- opposite (ailerons), none
+}
+main_wing:deflect{ "aileron", from = { 0.6, 0.75 }, to = { 0.8, 0.75 }, angle = 5*deg,
+  gap = "sealed",                     -- or "open"
+  fairing = "automatic",              -- metres; automatic: a tenth of the mean chord
+  other_side = "opposite",
+}
+
+local engine = nacelle{ name = "engine", symmetric = true, position = { 3.6, 2, -1 }, length = 2, diameter = 1,
+  highlight_ratio = 0.82, fan_ratio = 0.78, fan_depth = 0.25, exit_ratio = 0.6, thickest = 0.35,
+  intake = "", exhaust = "",          -- names of patches; empty: the nacelle's
+}
+local carrier = pylon{ main_wing, engine, name = "pylon", thickness = 0.1, nacelle_from = 0.2, nacelle_to = 0.95, wing_from = 0.1, wing_to = 0.7 }
+local rod = boom{ name = "boom", symmetric = false, from = { 11, 0, 0 }, to = { 16, 0, 0.3 }, diameter = 0.4, nose_length = "automatic", tail_length = "automatic" }
+local bulge = fairing{ name = "fairing", position = { 4, 0, -0.8 }, length = 4, width = 1.6, height = 0.8, thickest = 0.4, exponent = 2.5 }
+local tank = body_of_revolution{ name = "tank", symmetric = true, position = { 5, 5, -1 }, profile = { {0, 0}, {0.5, 0.2}, {2, 0.2}, {3, 0} }, straight = false }
+local support = sting{ name = "sting", from = { 15.5, 0, 0.3 }, to = { 20, 0, 0.3 }, diameter = 0.2, cone_start = "automatic", end_diameter = "automatic" }
+
+local parts = aircraft{ body, main_wing, engine, carrier, rod, bulge, tank, support, name = "aircraft",
+  unite = false,                      -- default true: one closed surface
+  tolerance = "automatic",            -- of the union, metres: a ladder from 0 to 1e-4 of the longest side
+  time_limit = 600,                   -- seconds, for each try
+}
+
+local sheet = surface{ function(u, v) return u, v, 0.1*u*v end, u = { 0, 1 }, v = { 0, 1 }, name = "surface",
+  tolerance = 1e-5,                   -- metres between function and spline
+  periodic_u = false, periodic_v = false,
+  breaks_u = {}, breaks_v = {},       -- where the function has a kink
+  max_intervals = 400,
+}
+local block, rod_model = box{ {0, 0, 0}, {1, 1, 1}, name = "box" }, cylinder{ {0, 0, 0}, {1, 0, 0}, radius = 0.2, name = "cylinder" }
+local tunnel = test_section{ length = 60, width = 20, height = 15,
+  upstream = "automatic",             -- automatic: half its length before x = 0
+  contraction_length = 0, contraction_ratio = 1, diffuser_length = 0, diffuser_angle = 0,
+  inflow = "inflow", outflow = "outflow", wall = "tunnel",
+}
+
+local moved = parts:move{ 0, 0, 0.5 }:rotate{ about = { 5, 0, 0 }, pitch = 0, yaw = 0, roll = 0 }:rotate{ axis = { 0, 0, 1 }, angle = 0 }
+  :scale{ factor = 1, about = { 0, 0, 0 } }:mirror{ normal = { 0, 1, 0 }, at = { 0, 0, 0 } }
+local bent = moved:deform{ function(x, y, z) return 0, 0, 1e-3*y^2 end,
+  tolerance = "automatic",            -- between function and spline: 1e-6 of the longest side
+  max_samples = 200000,
+}
+bent = bent:deform{ { {0, 0, 0, 0, 0, 0}, {10, 0, 0, 0, 0, 0}, {5, 6, 0, 0, 0, 0.01}, {5, -6, 0, 0, 0, 0.01}, {5, 0, 3, 0, 0, 0} },
+  kernel = "thin_plate",              -- or "wendland_c2"
+  radius = "automatic", linear_part = true,
+}
+block:write{ "every_option.step",
+  step_schema = "ap214",              -- ap203, ap242
+  refit_tolerance = "automatic",      -- of deformed surfaces: 1e-6 of the longest side
+}
+local again = read_cad{ "every_option.step", unit = "automatic", heal = true, sew_tolerance = "automatic", small = "automatic", time_limit = 600 }
+print(parts, bent, sheet, again, union{ block, rod_model, tolerance = "automatic", time_limit = 600 }, assembly{ block, tunnel })

@@ -1,4 +1,5 @@
 // The program as a user runs it: exit status, what goes to stdout and to stderr, which files are left.
+#include <cstdio>
 #include <fstream>
 
 #include "scripting/exit_status.h"
@@ -164,6 +165,54 @@ TEST_F(CommandLine, ConvertTakesVolumesToVolumesAndTheirBoundaryWhenAsked) {
   for (const char* part : {"a volume mesh of 1 cells", "--surface"}) EXPECT_NE(refused.errors.find(part), std::string::npos) << refused.errors;
   ASSERT_EQ(sterna({"convert", "tet.su2", "tet.vtp", "--surface"}).status, k_exit_success);
   EXPECT_NE(sterna({"info", "tet.vtp"}).output.find("4 triangles"), std::string::npos);
+}
+
+TEST_F(CommandLine, ModelsAreConvertedUnitedDescribedAndChecked) {
+  write("parts.lua", "box{ {0,0,0}, {1,1,1} }:write 'a.step' box{ {0.5,0.25,0.25}, {2,0.75,0.75}, name='arm' }:write 'b.step' fuselage{ name='body', frames={ {x=0,diameter=1}, {x=3,diameter=1} } }:model():write 'body.smx' "
+                     "surface{ function(u, v) return u, v, u*v end, name = 'sheet' }:write 'sheet.brep'");
+  ASSERT_EQ(sterna({"run", "parts.lua", "-q"}).status, k_exit_success);
+  ASSERT_EQ(sterna({"union", "a.step", "b.step", "-o", "c.step"}).status, k_exit_success);
+  const ProcessResult info = sterna({"info", "c.step"});
+  for (const char* part : {"1 closed solid", "volume 1.25 m^3", "seen from above 1.5 m^2", "no open edge"}) EXPECT_NE(info.output.find(part), std::string::npos) << part << " in\n" << info.output;
+  const ProcessResult smx = sterna({"info", "body.smx"});
+  EXPECT_NE(smx.output.find("\"body\", body"), std::string::npos) << smx.output;
+  for (const char* name : {"c.iges", "c.brep", "c2.step"}) EXPECT_EQ(sterna({"convert", "c.step", name}).status, k_exit_success) << name;
+  EXPECT_EQ(sterna({"convert", "body.smx", "body.step", "--step-schema", "ap242"}).status, k_exit_success);
+  EXPECT_EQ(sterna({"check", "body.step"}).status, k_exit_success);
+  const ProcessResult open = sterna({"check", "sheet.brep"});
+  EXPECT_EQ(open.status, k_exit_invalid);
+  for (const char* part : {"4 open edges", "face \"sheet\"", "(1, 1, 1)", "OPEN"}) EXPECT_NE(open.output.find(part), std::string::npos) << part << " in\n" << open.output;
+  const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
+      {{"convert", "c.step", "c.smx"}, ".smx holds components as data"},
+      {{"convert", "c.step", "c.stl"}, "models are not written in this format"},
+      {{"convert", "c.step", "c.iges", "--surface"}, "--surface are for meshes"},
+      {{"convert", "box.stl", "box.obj", "--refit-tolerance", "1"}, "is for models"},
+      {{"union", "a.step", "box.stl", "-o", "d.step"}, "box.stl is no model"},
+      {{"union", "a.step", "b.step", "-o", "d.stl"}, "models are not written in this format"},
+      {{"union", "a.step", "b.step", "-o", "d.step", "--strip-width", "3"}, "strip_width"},
+      {{"check", "a.step", "--json"}, "--json is for volume meshes"},
+  };
+  for (const auto& [arguments, text] : refused) {
+    const ProcessResult result = sterna(arguments);
+    EXPECT_NE(result.status, k_exit_success) << text;
+    EXPECT_NE(result.errors.find(text), std::string::npos) << text << " in\n" << result.errors;
+  }
+}
+
+TEST_F(CommandLine, UnionOfSurfaceFiles) {
+  std::ifstream box(folder / "box.stl");
+  std::ofstream moved(folder / "moved.stl");
+  for (std::string line; std::getline(box, line);) {
+    double x = 0.0, y = 0.0, z = 0.0;
+    if (std::sscanf(line.c_str(), " vertex %lf %lf %lf", &x, &y, &z) == 3) moved << "vertex " << x + 0.5 << " " << 0.5 * y + 0.25 << " " << 0.5 * z + 0.25 << "\n";
+    else moved << line << "\n";
+  }
+  moved.close();
+  const ProcessResult united = sterna({"union", "box.stl", "moved.stl", "-o", "wall.stl", "--unit", "mm"});
+  EXPECT_EQ(united.status, k_exit_success) << united.errors;
+  const ProcessResult info = sterna({"info", "wall.stl"});
+  for (const char* part : {"closed", "longest side 0.0015 m"}) EXPECT_NE(info.output.find(part), std::string::npos) << info.output;
+  EXPECT_NE(sterna({"formats"}).output.find("CPACS"), std::string::npos);
 }
 
 }  // namespace

@@ -2,10 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
 
-#include "geom/base/parallel.h"
 #include "geom/model/model_measures.h"
 #include "scripting/models.h"
 
@@ -30,20 +28,11 @@ ParameterBox used_box(const Model& model, const ModelFace& face) {
   return {{low.u, high.u}, {low.v, high.v}};
 }
 
-void add_faces(PartMeasures& part, const Model& model, const std::vector<FaceId>& faces, const Column<FaceId, FaceMeasures>& measures, const std::vector<Box>& boxes) {
-  std::map<std::uint64_t, int> uses;
-  for (const FaceId f : faces) {
-    part.area += measures[f].area;
-    part.projected_area += measures[f].projected_z;
-    part.volume += measures[f].volume;
-    part.box.add(boxes[f.index()]);
-    for (const Border& border : model.faces[f].borders)
-      for (const EdgeUse& use : border)
-        if (!model.edges[use.edge].is_degenerate()) ++uses[use.edge.value()];
-  }
-  part.n_faces = faces.size();
-  part.is_closed = !faces.empty() && std::none_of(uses.begin(), uses.end(), [](const auto& use) { return use.second < 2; });
-  if (!part.is_closed) part.volume = 0.0;
+PartMeasures part_of(const BodyMeasures& body, std::string kind, const std::vector<FaceId>& faces, const Column<FaceId, FaceMeasures>& measures) {
+  PartMeasures part{.name = body.name, .kind = std::move(kind), .n_faces = body.n_faces, .area = body.area, .volume = body.volume, .is_closed = body.has_volume};
+  if (body.n_faces > 0) part.box = {body.box.min, body.box.max};
+  for (const FaceId f : faces) part.projected_area += measures[f].projected_z;
+  return part;
 }
 
 std::string part_text(const PartMeasures& part) {
@@ -78,35 +67,22 @@ Box box_of(const Model& model) {
   return box;
 }
 
-ModelMeasures measure_model(const ModelValue& value, const RunContext& context) {
+ModelReport measure_model(const ModelValue& value, const RunContext& context) {
   const Model& model = value.model;
-  Column<FaceId, FaceMeasures> measures(model.faces.size());
-  std::vector<Box> boxes(model.faces.size());
-  parallel_for(context, model.faces.size(), [&](std::size_t i) {
-    const FaceId f(static_cast<std::uint64_t>(i));
-    measures[f] = face_measures(model, f);
-    boxes[i] = box_of(model, f);
-  }, 1);
-  ModelMeasures result;
+  const ModelMeasures measures = model_measures(model, context);
   std::vector<FaceId> all;
   std::vector<std::vector<FaceId>> by_component(model.components.size());
   for (const FaceId f : model.faces.ids()) {
     all.push_back(f);
     by_component[model.faces[f].component.index()].push_back(f);
   }
-  result.total.name = "total";
-  add_faces(result.total, model, all, measures, boxes);
-  for (const ComponentId c : model.components.ids()) {
-    result.components.push_back({.name = model.components[c].name, .kind = std::string(to_string(model.components[c].kind))});
-    add_faces(result.components.back(), model, by_component[c.index()], measures, boxes);
-  }
-  for (const ModelSolid& solid : model.solids) {
-    result.solids.push_back({.name = solid.name});
-    add_faces(result.solids.back(), model, solid.faces, measures, boxes);
-  }
+  ModelReport report{.total = part_of(measures.total, {}, all, measures.faces)};
+  for (const ComponentId c : model.components.ids())
+    report.components.push_back(part_of(measures.components[c.index()], std::string(to_string(model.components[c].kind)), by_component[c.index()], measures.faces));
+  for (const SolidId s : model.solids.ids()) report.solids.push_back(part_of(measures.solids[s.index()], {}, model.solids[s].faces, measures.faces));
   if (value.description)
-    for (const Wing& wing : value.description->wings) result.wings.push_back(wing_reference(wing));
-  return result;
+    for (const Wing& wing : value.description->wings) report.wings.push_back(wing_reference(wing));
+  return report;
 }
 
 std::vector<OpenEdge> open_edges(const Model& model) {
@@ -130,7 +106,7 @@ std::vector<OpenEdge> open_edges(const Model& model) {
   return result;
 }
 
-std::string measures_text(const ModelMeasures& measures) {
+std::string measures_text(const ModelReport& measures) {
   std::string text = "  total    " + part_text(measures.total);
   // Where every component is a solid of its own, one line for both.
   const bool are_same = std::equal(measures.solids.begin(), measures.solids.end(), measures.components.begin(), measures.components.end(),

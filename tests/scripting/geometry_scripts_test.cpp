@@ -1,0 +1,211 @@
+// Geometry from scripts: every verb that makes a model or a component, the methods of models, and what they refuse. Volumes and areas against formulas.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include "geom/base/error.h"
+#include "scripting/script_run.h"
+#include "tests/support/data.h"
+
+namespace sterna::scripting {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class GeometryScripts : public testing::Test {
+ protected:
+  /// Runs the text as a script; returns what it printed.
+  std::string run(const std::string& text, int threads = 1) {
+    std::ofstream(folder_ / "case.lua") << text;
+    std::string printed;
+    run_script({.script = folder_ / "case.lua", .overrides = {}, .print = [&](std::string_view line) { printed += std::string(line) + "\n"; }, .on_mesh = {}}, RunContext({.threads = threads}));
+    return printed;
+  }
+  double number(const std::string& expression) { return std::stod(run("print(string.format('%.17g', " + expression + "))")); }
+  std::string error(const std::string& text) {
+    try {
+      run(text);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  std::string out(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
+
+  const std::filesystem::path folder_ = test::scratch();
+};
+
+constexpr double k_pi = std::numbers::pi;
+/// Volumes and areas of exact shapes: what the quadrature promises, with room for rounding.
+constexpr double k_exact = 1e-8;
+
+TEST_F(GeometryScripts, SolidsHaveTheirVolume) {
+  EXPECT_NEAR(number("box{ {0, 0, 0}, {1, 2, 3} }:measures().volume"), 6.0, 6.0 * k_exact);
+  EXPECT_NEAR(number("cylinder{ {0, 0, 0}, {0, 3, 4}, radius = 0.5 }:measures().volume"), 0.25 * k_pi * 5.0, 4.0 * k_exact);
+  EXPECT_NEAR(number("-test_section{ length = 6, width = 2, height = 1.5 }:measures().volume"), 18.0, 18.0 * k_exact);  // the fluid is inside
+  EXPECT_EQ(run("print(box{ {0, 0, 0}, {1, 2, 3}, name = 'block' })"), "Model: 1 component, 6 faces, 1 closed solid, 1 x 2 x 3 m\n");
+}
+
+TEST_F(GeometryScripts, ModelsAreMovedTurnedScaledAndMirrored) {
+  // x aft, y starboard, z up: pitch lifts the nose, yaw takes it to starboard, roll lowers the starboard wing.
+  const std::string nose = "local b = box{ {-1.01, -0.01, -0.01}, {-0.99, 0.01, 0.01} } ";
+  EXPECT_GT(number("(function() " + nose + "return b:rotate{ pitch = 10*deg }.min[3] end)()"), 0.15);
+  EXPECT_GT(number("(function() " + nose + "return b:rotate{ yaw = 10*deg }.min[2] end)()"), 0.15);
+  EXPECT_LT(number("box{ {-0.01, 0.99, -0.01}, {0.01, 1.01, 0.01} }:rotate{ roll = 10*deg }.max[3]"), -0.15);
+  EXPECT_NEAR(number("box{ {0, 0, 0}, {2, 1, 1} }:rotate{ axis = {0, 0, 1}, angle = 90*deg }.max[2]"), 2.0, 1e-12);
+  EXPECT_NEAR(number("box{ {0, 0, 0}, {1, 1, 1} }:move{ 1, 2, 3 }.max[3]"), 4.0, 1e-12);
+  EXPECT_NEAR(number("box{ {0, 0, 0}, {1, 2, 3} }:scale(0.1):measures().volume"), 0.006, 0.006 * k_exact);
+  EXPECT_EQ(run("local m = box{ {0, 1, 0}, {1, 2, 1}, name = 'left pod' }:mirror{} print(m.components[1], m.min[2], m:measures().volume > 0.999)"), "right pod\t-2.0\ttrue\n");
+}
+
+TEST_F(GeometryScripts, NamesAreChangedAndSelected) {
+  EXPECT_EQ(run("local m = assembly{ box{ {0,0,0}, {1,1,1} }, box{ {2,0,0}, {3,1,1} }, cylinder{ {5,0,0}, {6,0,0}, radius = 1 } } print(table.concat(m.components, ' ')) print(m['box*'], m:select('cyl?nder').faces) "
+                "print(table.concat(m:rename{ box2 = 'crate' }.patches, ' '))"),
+            "box box2 cylinder\nModel: 2 components, 12 faces, 2 closed solids, 3 x 1 x 1 m\t4\nbox crate cylinder\n");
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:rename{ boxx = 'a' }"), HasSubstr("no component and no face is named \"boxx\", did you mean \"box\"?"));
+  EXPECT_THAT(error("print(box{ {0,0,0}, {1,1,1} }['wing*'])"), AllOf(HasSubstr("no component is named \"wing*\""), HasSubstr("components: box")));
+}
+
+TEST_F(GeometryScripts, FunctionsDeformModels) {
+  // A shear keeps volumes; a stretch of z by 1 + y / 10 has the volume of its formula.
+  EXPECT_NEAR(number("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0.3*z, 0, 0 end }:measures().volume"), 1.0, 1e-6);
+  EXPECT_NEAR(number("box{ {0,0,0}, {1,2,1} }:deform{ function(x, y, z) return 0, 0, 0.1*y*z end, tolerance = 1e-9 }:measures().volume"), 2.2, 1e-7);
+  EXPECT_NEAR(number("box{ {0,0,0}, {1,2,1} }:deform{ { {0,0,0,0,0,0.5}, {1,0,0,0,0,0.5}, {0,1,0,0,0,0.5}, {0,0,1,0,0,0.5}, {1,1,1,0,0,0.5} } }.min[3]"), 0.5, 1e-9);
+  std::ofstream(folder_ / "bend.dat") << "# x y z dx dy dz\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n0 0 1 0 0 1\n";
+  EXPECT_NEAR(number("box{ {0,0,0}, {1,2,1} }:deform{ 'bend.dat', kernel = 'wendland_c2' }.min[3]"), 1.0, 1e-9);
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0 end }"), HasSubstr("must return 3 numbers here, but value 3 is nil"));
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return nosuch.x, 0, 0 end }"), AllOf(HasSubstr("case.lua:1"), HasSubstr("nosuch")));
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0, y > 0.3 and 1 or 0 end }"), HasSubstr("a kink or a step there?"));
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return -2*x, 0, 0 end }"), HasSubstr("space folds over"));
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0, 0 end, kernel = 'thin_plate' }"), HasSubstr("unknown key \"kernel\""));
+}
+
+TEST_F(GeometryScripts, AFunctionMayCallVerbsAndItsErrorIsTheirs) {
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) local b = box{ {0,0,0}, {1,1,1} } return 0, 0, box{ {0,0,0} } end }"), HasSubstr("expected two points"));
+  EXPECT_NEAR(number("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0, box{ {0,0,0}, {1,1,1} }.length end }.min[3]"), 1.0, 1e-9);
+}
+
+TEST_F(GeometryScripts, DeformedModelsAreTheSameForAnyNumberOfThreads) {
+  const std::string text = "local m = box{ {0,0,0}, {1,2,1} }:deform{ function(x, y, z) return 0.02*math.sin(3*y), 0, 0.1*y^3 end } print(string.format('%.17g', m:measures().volume)) m:write(" + out("bent.step") + ")";
+  std::string bytes;
+  for (const int threads : {1, 2, 7}) {
+    const std::string printed = run(text, threads);
+    std::ifstream file(folder_ / "bent.step", std::ios::binary);
+    const std::string now = printed + std::string(std::istreambuf_iterator<char>(file), {});
+    if (bytes.empty()) bytes = now;
+    EXPECT_EQ(now, bytes) << threads;
+  }
+}
+
+TEST_F(GeometryScripts, SurfacesOfFunctionsAreCheckedSplines) {
+  const std::string ball = "surface{ function(u, v) return math.cos(u)*math.cos(v), math.sin(u)*math.cos(v), math.sin(v) end, u = {0, 2*math.pi}, v = {-math.pi/2, math.pi/2}, periodic_u = true, tolerance = 1e-6, name = 'ball' }";
+  EXPECT_NEAR(number(ball + ":measures().volume"), 4.0 / 3.0 * k_pi, 2e-5);
+  EXPECT_NEAR(number("surface{ function(u, v) return u, v, 0 end, u = {0, 2}, v = {0, 3} }:measures().area"), 6.0, 1e-9);
+  EXPECT_EQ(run("print(surface{ function(u, v) return u, v, u*v end }.is_closed)"), "false\n");
+  EXPECT_THAT(error("surface{ function(u, v) return u, v end }"), HasSubstr("must return 3 numbers"));
+  EXPECT_THAT(error("surface{ 3 }"), HasSubstr("expected a function of (u, v) that returns x, y, z, not a number"));
+  EXPECT_THAT(error("surface{ function(u, v) return u, v, u > 0.3 and 1 or 0 end }"), HasSubstr("tolerance"));
+}
+
+TEST_F(GeometryScripts, Airfoils) {
+  EXPECT_NEAR(number("airfoil('naca2412').thickness"), 0.12, 5e-4);
+  EXPECT_NEAR(number("airfoil{ 'naca0012', trailing_edge = 0.01 }.trailing_edge"), 0.01, 1e-12);
+  EXPECT_EQ(run("print(#airfoil{ 'naca0012', points = 30 }.points)"), "61\n");
+  EXPECT_LT(number("#airfoil{ 'naca0012', within = 1e-4 }.points"), 100.0);
+  EXPECT_NEAR(number("airfoil{ {1, 0}, {0.7, 0.05}, {0.3, 0.08}, {0.1, 0.05}, {0, 0}, {0.1, -0.05}, {0.3, -0.08}, {0.7, -0.05}, {1, 0} }.thickness"), 0.16, 0.01);
+  EXPECT_THAT(error("airfoil 'naca99'"), HasSubstr("naca99"));
+  EXPECT_THAT(error("airfoil 'absent.dat'"), HasSubstr("absent.dat"));
+  EXPECT_THAT(error("airfoil{ 'naca0012', points = 30, within = 1e-4 }"), HasSubstr("give one of them"));
+}
+
+TEST_F(GeometryScripts, BodiesHaveTheSizesOfTheirFrames) {
+  // A tube with flat ends, straight.
+  EXPECT_NEAR(number("fuselage{ frames = { {x=0, diameter=2}, {x=5, diameter=2} }, nose='flat', tail='flat' }:model():measures().volume"), 5.0 * k_pi, 5e-4);
+  EXPECT_NEAR(number("fuselage{ frames = { {x=0, diameter=2}, {x=5, diameter=2} } }:model():measures().volume"), 5.0 * k_pi + 4.0 / 3.0 * k_pi, 2e-3);  // half balls
+  EXPECT_NEAR(number("fuselage{ along='linear', nose='flat', tail='flat', frames = { {x=0, width=2, height=1}, {x=4, width=2, height=1} } }:model():measures().volume"), 2.0 * k_pi, 1e-3);
+  EXPECT_NEAR(number("fuselage{ along='linear', nose='flat', tail='flat', frames = { {x=0, points={{0,-1},{0.8,-0.6},{1,0},{0.8,0.6},{0,1}}}, {x=4, diameter=2} } }:model().max[1]"), 4.0, 1e-9);
+  EXPECT_NEAR(number("body_of_revolution{ profile = {{0,0},{2,1},{4,1}}, straight = true }:model():measures().volume"), 2.0 * k_pi / 3.0 + 2.0 * k_pi, 1e-3);
+  EXPECT_NEAR(number("sting{ from={0,0,0}, to={2,0,0}, diameter=0.2 }:model():measures().volume"), 0.02 * k_pi, 1e-5);
+  EXPECT_EQ(run("local b = boom{ name='b', symmetric=true, from={0,1,0}, to={3,1,0.5}, diameter=0.2 } print(b) print(table.concat(b:model().components, ' ')) print(fairing{ length=2, width=1, height=1 }.kind)"),
+            "Boom \"b\": 7 frames, 3.041 m long, and its mirror image\nb bLeft\nfairing\n");
+}
+
+TEST_F(GeometryScripts, WingsFromFewNumbers) {
+  const std::string plain = "wing{ name='w', symmetric=true, sections={ {y=0, chord=2, airfoil='naca0012'}, {y=4, chord=1, sweep=30*deg, dihedral=5*deg} } }";
+  EXPECT_NEAR(number(plain + ".area"), 12.0 / std::cos(5.0 * k_pi / 180.0), 1e-3);  // dihedral is unrolled
+  EXPECT_NEAR(number(plain + ".projected_area"), 12.0, 1e-3);
+  // The quarter chord line is swept by 30 degrees over the panel's own length.
+  EXPECT_NEAR(number(plain + ":at(1, 0.25)[1]"), 0.5 + 4.0 / std::cos(5.0 * k_pi / 180.0) * std::tan(k_pi / 6.0), 1e-6);
+  EXPECT_NEAR(number(plain + ":at(0.5, 0.25)[2]"), 2.0, 1e-6);
+  EXPECT_NEAR(number("wing{ sections={ {chord=2, airfoil='naca0010'}, {z=3, chord=2} } }:model().max[3]"), 3.0, 0.11);                  // an upright fin with a round tip
+  EXPECT_LT(number("wing{ tip='flat', sections={ {chord=2, airfoil='naca0010'}, {z=3, chord=2} } }:model().max[2]"), 0.11);              // whose thickness is across
+  // Twist lifts the nose: the leading edge stays, the trailing edge goes down.
+  EXPECT_LT(number("wing{ sections={ {y=0, chord=1, airfoil='naca0012', twist=5*deg}, {y=2, twist=5*deg} } }:at(0.5, 1)[3]"), -0.08);
+  EXPECT_EQ(run("print(table.concat(wing{ symmetric=true, position={0,1,0}, sections={ {chord=1, airfoil='naca0012'}, {y=2} } }:model().components, ' '))"), "wing wingLeft\n");
+  EXPECT_EQ(run("local w = wing{ symmetric=true, spanwise='cubic', sections={ {chord=1, airfoil='naca0012'}, {y=2}, {y=4, chord=0.6} }, winglet={ height=0.5, bend=0.3 } } print(w:model().is_closed, w:at(1, 0)[3] > 0.4)"), "true\ttrue\n");
+}
+
+TEST_F(GeometryScripts, ControlSurfacesAreDeflectedOrNamed) {
+  const std::string wing = "local w = wing{ symmetric=true, sections={ {y=0, chord=1, airfoil='naca0012'}, {y=4, chord=1} } } ";
+  const std::string clean = run(wing + "print(w:model():measures().volume)");
+  EXPECT_EQ(run(wing + "w:control{ 'flap', from={0.2, 0.7}, to={0.5, 0.7} } local m = w:model() print(m.is_closed, table.concat(m.patches, ' '):find('flapLeft') ~= nil) print(m.faces)").substr(0, 9), "true\ttrue");
+  EXPECT_EQ(run(wing + "w:deflect{ 'aileron', from={0.6, 0.7}, to={0.9, 0.7}, angle=10*deg, other_side='opposite' } local m = w:model() print(m.is_closed, m.min[3] < -0.09, m.max[3] > 0.08) print(w)"),
+            "true\ttrue\ttrue\nWing \"wing\": 2 sections, span 8 m, area 8 m^2, mean aerodynamic chord 1 m, both halves, aileron +10 deg\n");
+  EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, angle=1*deg }"), HasSubstr("needs from and to, or hinge"));
+  EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, to={0.9, 0.7} }"), HasSubstr("needs angle"));
+  EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, to={0.9, 0.7}, angle=10 }"), HasSubstr("write degrees as 40*deg"));
+  EXPECT_THAT(error(wing + "w:control{ 'a', from={0.6, 0.7}, to={0.9, 0.7} } w:control{ 'a', from={0.1, 0.7}, to={0.2, 0.7} }"), HasSubstr("has a control surface \"a\" already"));
+  EXPECT_THAT(error("boom{ from={0,0,0}, to={1,0,0}, diameter=0.1 }:control{ 'a', from={0.6, 0.7}, to={0.9, 0.7} }"), HasSubstr("is for wings, not for a boom"));
+}
+
+TEST_F(GeometryScripts, AnAircraftIsUnitedAndWritten) {
+  const std::string parts = "local b = fuselage{ name='body', frames={ {x=0, diameter=0.6}, {x=2, diameter=1.2}, {x=6, diameter=1} } } "
+                            "local w = wing{ name='wing', symmetric=true, position={2, 0, 0.1}, sections={ {y=0, chord=1.5, airfoil='naca2412'}, {y=4, chord=0.8} } } "
+                            "local e = nacelle{ name='engine', symmetric=true, position={1.8, 2, -0.75}, length=1.2, diameter=0.6, intake='fan', exhaust='jet' } local p = pylon{ w, e } ";
+  EXPECT_EQ(run(parts + "local a = aircraft{ b, w, e, p } print(a.is_closed, #a.solids) print(table.concat(a.components, ' ')) a:write(" + out("a.step") + ") local r = read_cad " + out("a.step") +
+                " print(math.abs(r:measures().volume / a:measures().volume - 1) < 1e-6, math.abs(r:measures().area / a:measures().area - 1) < 1e-6)"),
+            "true\t1\nbody wing pylon pylonLeft engine engineLeft\ntrue\ttrue\n");
+  EXPECT_EQ(run(parts + "local a = aircraft{ b, w, e, p, unite=false } print(#a.solids, table.concat(a.patches, ' '))"), "6\tbody engine fan jet engineLeft fanLeft jetLeft wing pylon pylonLeft\n");
+  EXPECT_THAT(error(parts + "aircraft{ b, w, w }"), HasSubstr("two components are named \"wing\""));
+  EXPECT_THAT(error(parts + "aircraft{ b, 3 }"), HasSubstr("entry 2: expected a component (wing{...}, fuselage{...}) or a model, not a number"));
+  EXPECT_EQ(run(parts + "local m = aircraft{ b, name='x' } m:write(" + out("b.smx") + ") print(read_smx(" + out("b.smx") + "))").substr(0, 20), "Model: 1 component, ");
+  EXPECT_THAT(error(parts + "aircraft{ b, unite=false }:move{ 0, 0, 1 }:write(" + out("b.smx") + ")"), HasSubstr("it was changed by move"));
+  EXPECT_THAT(error(parts + "b:model():write(" + out("b.stl") + ")"), HasSubstr("models are not written in this format"));
+}
+
+TEST_F(GeometryScripts, UnionsOfModelsAndOfSurfaces) {
+  EXPECT_NEAR(number("union{ box{ {0,0,0}, {1,1,1} }, box{ {0.5,0.25,0.25}, {2,0.75,0.75}, name='arm' } }:measures().volume"), 1.25, 1e-9);
+  std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder_ / "box.stl");
+  EXPECT_THAT(error("union{ box{ {0,0,0}, {1,1,1} }, 'box.stl' }"), HasSubstr("union takes models (exact geometry) or triangulated surfaces, not both"));
+  EXPECT_THAT(error("union{ box{ {0,0,0}, {1,1,1} }, strip_width = 4 }"), HasSubstr("unknown key \"strip_width\""));
+  // The unit box and its image half a length on: a box of 1.5 x 1 x 1 with the seams of both.
+  std::ifstream box(folder_ / "box.stl");
+  std::ofstream moved(folder_ / "moved.stl");
+  for (std::string line; std::getline(box, line);) {
+    double x = 0.0, y = 0.0, z = 0.0;
+    if (std::sscanf(line.c_str(), " vertex %lf %lf %lf", &x, &y, &z) == 3) moved << "vertex " << x + 0.5 << " " << 0.5 * y + 0.25 << " " << 0.5 * z + 0.25 << "\n";
+    else moved << line << "\n";
+  }
+  moved.close();
+  EXPECT_EQ(run("local u = union{ read_surface 'box.stl', 'moved.stl' } print(u.is_closed, u.length)"), "true\t1.5\n");
+}
+
+TEST_F(GeometryScripts, HelpOfEveryVerbNamesItsOptions) {
+  const std::string text = run("for _, v in ipairs{ fuselage, wing, nacelle, pylon, boom, fairing, body_of_revolution, sting, aircraft, airfoil, surface, test_section, read_cad, union } do help(v) end help 'deflect' help 'deform' help()");
+  for (const char* part : {"sweep_at = 0.25", "highlight_ratio = 0.82", "nose_length = automatic", "cone_start", "periodic_u", "contraction_ratio", "sew_tolerance", "gap = sealed", "linear_part", "model:rotate", "wing:deflect"})
+    EXPECT_THAT(text, HasSubstr(part));
+}
+
+TEST_F(GeometryScripts, AllProblemsOfATableAreToldTogether) {
+  EXPECT_THAT(error("wing{ name='w', sections={ {y=0, chrod=2}, {y=1, chord=-1, airfoil='naca0012'} }, tip='pointed' }"),
+              AllOf(HasSubstr("3 problems in this table"), HasSubstr("tip: \"pointed\""), HasSubstr("section 1: 3 problems"), HasSubstr("unknown key \"chrod\", did you mean \"chord\"?"), HasSubstr("section 2: chord: -1 is not allowed")));
+  EXPECT_THAT(error("fuselage{ frames={ {x=0, diameter=1}, {diameter=1} } }"), AllOf(HasSubstr("frame 2: needs x")));
+  EXPECT_THAT(error("nacelle{ length=3 }"), HasSubstr("needs diameter"));
+  EXPECT_THAT(error("wing{ sections={ {y=0, chord=2, airfoil='naca0012', twist=5}, {y=1} } }"), AllOf(HasSubstr("twist: 5 is not allowed"), HasSubstr("write degrees as 40*deg")));
+}
+
+}  // namespace
+}  // namespace sterna::scripting
