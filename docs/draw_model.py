@@ -1,93 +1,93 @@
 #!/usr/bin/python3
-"""Draws a STEP file that a script wrote: faces coloured by name, edges of faces in black.
+"""Draws the surface mesh of a model that a script wrote: coloured by patch, edges between patches and sharp edges in black.
 
-usage: xvfb-run -a docs/draw_model.py airliner.step docs/airliner.png [azimuth elevation]      (Debian packages: python3-vtk9, python3-gmsh, xvfb)
+usage: build/release/tests/surface_models -out . airliner.step && xvfb-run -a docs/draw_model.py airliner.vtu docs/airliner.png [azimuth elevation]
+(Debian packages: python3-vtk9, xvfb)
 
-Triangles come from Gmsh (an independent reader of our STEP files), fine enough that facets do not show; names are those in the file. Faces of names that begin with
-"tunnel", "inflow" or "outflow" are drawn transparent.
+Patches that begin with "tunnel", "inflow" or "outflow" are drawn transparent; a mirror image ("...Left") has the colour of its original.
 """
 import math
 import sys
 
-import gmsh
 import numpy as np
 import vtk
-from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 SIZE = (1200, 700)
 COLOUR_STEP = 8             # of 256: coarse colours shrink the file and do not show
-ANGLE_STEPS = 40            # triangles in a full turn
+SHARP = 25.0                # degrees: edges of the surface itself
 SEE_THROUGH = ("tunnel", "inflow", "outflow")
 COLOURS = [(0.80, 0.82, 0.86), (0.55, 0.70, 0.88), (0.93, 0.69, 0.38), (0.60, 0.78, 0.55), (0.85, 0.55, 0.52), (0.72, 0.62, 0.82), (0.50, 0.75, 0.76), (0.88, 0.80, 0.50), (0.62, 0.62, 0.66)]
 
 
-def tessellate(path):
-    """[(name, points, triangles)] of every face, and polylines of every edge."""
-    gmsh.initialize()
-    gmsh.option.setNumber("General.Verbosity", 1)
-    gmsh.option.setString("Geometry.OCCTargetUnit", "M")
-    gmsh.model.occ.importShapes(path, highestDimOnly=False)
-    gmsh.model.occ.synchronize()
-    box = gmsh.model.getBoundingBox(-1, -1)
-    size = max(box[3] - box[0], box[4] - box[1], box[5] - box[2])
-    gmsh.option.setNumber("Mesh.MeshSizeFromCurvature", ANGLE_STEPS)
-    gmsh.option.setNumber("Mesh.MeshSizeMax", size / 40)
-    gmsh.option.setNumber("Mesh.MeshSizeMin", size / 4000)
-    gmsh.option.setNumber("Mesh.Algorithm", 1)
-    gmsh.model.mesh.generate(2)
-    tags, coordinates, _ = gmsh.model.mesh.getNodes()
-    index = np.zeros(int(tags.max()) + 1, dtype=np.int64)
-    index[tags.astype(np.int64)] = np.arange(len(tags))
-    points = coordinates.reshape(-1, 3)
-    faces, lines = [], []
-    for _, face in gmsh.model.getEntities(2):
-        name = gmsh.model.getEntityName(2, face).split("/")[-1] or "face"
-        kinds, _, nodes = gmsh.model.mesh.getElements(2, face)
-        for kind, corner in zip(kinds, nodes):
-            if kind == 2:
-                faces.append((name, index[corner.astype(np.int64)].reshape(-1, 3)))
-    for _, edge in gmsh.model.getEntities(1):
-        kinds, _, nodes = gmsh.model.mesh.getElements(1, edge)
-        for kind, corner in zip(kinds, nodes):
-            if kind == 1:
-                lines.append(index[corner.astype(np.int64)].reshape(-1, 2))
-    gmsh.finalize()
-    return points, faces, lines
+def read_patches(path):
+    """The triangles of each patch: [(name, vtkPolyData)]."""
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(path)
+    reader.Update()
+    grid = reader.GetOutput()
+    names = {}
+    fields = grid.GetFieldData()
+    for i in range(fields.GetNumberOfArrays()):
+        parts = fields.GetArrayName(i).split(":")
+        if parts[0] == "patch":
+            names[int(fields.GetArray(i).GetTuple1(0))] = parts[-1]
+    if not names:
+        sys.exit(f"{path}: no patches")
+    surface = vtk.vtkDataSetSurfaceFilter()
+    surface.SetInputData(grid)
+    surface.Update()
+    patches = []
+    for number, name in sorted(names.items()):
+        pick = vtk.vtkThreshold()
+        pick.SetInputData(surface.GetOutput())
+        pick.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_CELLS, "marker")
+        pick.SetThresholdFunction(vtk.vtkThreshold.THRESHOLD_BETWEEN)
+        pick.SetLowerThreshold(number)
+        pick.SetUpperThreshold(number)
+        part = vtk.vtkDataSetSurfaceFilter()
+        part.SetInputConnection(pick.GetOutputPort())
+        part.Update()
+        if part.GetOutput().GetNumberOfCells():
+            patches.append((name, part.GetOutput()))
+    return patches
 
 
-def cells_of(rows):
-    cells = vtk.vtkCellArray()
-    flat = np.hstack([np.full((len(rows), 1), rows.shape[1], dtype=np.int64), rows]).ravel()
-    cells.SetCells(len(rows), numpy_to_vtkIdTypeArray(flat, deep=True))
-    return cells
-
-
-def actor(points, rows, colour, is_line, opacity=1.0):
-    data = vtk.vtkPolyData()
-    vtk_points = vtk.vtkPoints()
-    vtk_points.SetData(numpy_to_vtk(points, deep=True))
-    data.SetPoints(vtk_points)
+def face_actor(data, colour, opacity):
+    normals = vtk.vtkPolyDataNormals()
+    normals.SetInputData(data)
+    normals.SetFeatureAngle(SHARP)
+    normals.ConsistencyOff()
     mapper = vtk.vtkPolyDataMapper()
-    if is_line:
-        data.SetLines(cells_of(rows))
-        mapper.SetInputData(data)
-        mapper.SetResolveCoincidentTopologyToPolygonOffset()
-        mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0, -4)
-    else:
-        data.SetPolys(cells_of(rows))
-        normals = vtk.vtkPolyDataNormals()
-        normals.SetInputData(data)
-        normals.SplittingOff()
-        normals.ConsistencyOff()
-        mapper.SetInputConnection(normals.GetOutputPort())
+    mapper.SetInputConnection(normals.GetOutputPort())
+    mapper.ScalarVisibilityOff()
     result = vtk.vtkActor()
     result.SetMapper(mapper)
     look = result.GetProperty()
     look.SetColor(colour)
     look.SetOpacity(opacity)
-    look.SetLineWidth(1.2)
-    look.SetAmbient(0.30 if not is_line else 1.0)
-    look.SetDiffuse(0.75 if not is_line else 0.0)
+    look.SetAmbient(0.30)
+    look.SetDiffuse(0.75)
+    return result
+
+
+def edge_actor(data):
+    edges = vtk.vtkFeatureEdges()
+    edges.SetInputData(data)
+    edges.SetFeatureAngle(SHARP)
+    edges.ManifoldEdgesOff()
+    edges.NonManifoldEdgesOff()
+    edges.ColoringOff()
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputConnection(edges.GetOutputPort())
+    mapper.ScalarVisibilityOff()
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    mapper.SetRelativeCoincidentTopologyLineOffsetParameters(0, -4)
+    result = vtk.vtkActor()
+    result.SetMapper(mapper)
+    result.GetProperty().SetColor(0.15, 0.15, 0.18)
+    result.GetProperty().SetLineWidth(1.2)
+    result.GetProperty().LightingOff()
     return result
 
 
@@ -95,17 +95,12 @@ def main():
     if len(sys.argv) < 3:
         sys.exit(__doc__)
     azimuth, elevation = (float(sys.argv[3]), float(sys.argv[4])) if len(sys.argv) > 4 else (35.0, 25.0)
-    points, faces, lines = tessellate(sys.argv[1])
-    # A mirror image has the colour of its original.
-    colours, actors = {}, []
-    shown = []
-    for name, rows in faces:
+    colours, actors, shown = {}, [], []
+    for name, data in read_patches(sys.argv[1]):
         colour = colours.setdefault(name.removesuffix("Left"), COLOURS[len(colours) % len(COLOURS)])
         is_wall = name.startswith(SEE_THROUGH)
-        actors.append(actor(points, rows, colour, False, 0.12 if is_wall else 1.0))
-        shown.append(points[rows.ravel()])
-    for rows in lines:
-        actors.append(actor(points, rows, (0.15, 0.15, 0.18), True))
+        actors += [face_actor(data, colour, 0.12 if is_wall else 1.0), edge_actor(data)]
+        shown.append(vtk_to_numpy(data.GetPoints().GetData()))
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     for item in actors:
@@ -145,7 +140,6 @@ def main():
     writer.SetFileName(sys.argv[2])
     writer.SetCompressionLevel(9)
     writer.Write()
-    print(", ".join(f"{name}" for name in colours))
 
 
 main()

@@ -6,7 +6,7 @@ local design = {
   length = 37.5, diameter = 4.0,                      -- fuselage
   wing_x = 12.6, span = 34, root_chord = 6.6, kink = 0.36, kink_chord = 3.9, tip_chord = 1.5, sweep = 25*deg, dihedral = 5*deg,
   aileron = 8*deg,
-  engine = { 10.6, 5.75, -2.35 },
+  engine = { 12.2, 5.75, -2.25 },
 }
 
 -- Circles that grow behind the nose and rise towards the tail; two alike and a third keep the cabin straight.
