@@ -8,12 +8,16 @@
 
 #include "geom/base/error.h"
 #include "geom/cad/aircraft_union.h"
+#include "geom/cad/refit.h"
 #include "geom/model/components.h"
 #include "geom/model/deform.h"
 #include "geom/model/model_builder.h"
 
 namespace sterna::scripting {
 namespace {
+
+/// Of the longest side: how near deformed surfaces are met before a union, as by write_cad.
+constexpr double k_refit_share = 1e-6;
 
 /// Names of fan face and nozzle of a component or its mirror image.
 void finish_component(Model& model, const ComponentValue& component, const std::string& name, bool is_image) {
@@ -81,7 +85,14 @@ ModelValue make_aircraft(const AircraftParts& parts, const RunContext& context) 
 
 ModelValue unite_solids(const std::vector<ModelHandle>& models, const UniteOptions& options, const RunContext& context) {
   ModelValue value = assemble(models, context);
-  UniteResult united = cad::unite_aircraft(refitted(value.model, k_automatic, context), options, context);
+  if (cad::needs_refit(value.model)) {
+    // The kernel that unites knows splines only.
+    const double tolerance = k_refit_share * box_of(value.model).longest_side();
+    cad::RefitReport refit;
+    value.model = cad::refitted(value.model, tolerance, refit, context);
+    context.info(fmt::format("{} deformed surfaces and {} curves became splines, at most {:.3g} m away, before they are united", refit.n_surfaces, refit.n_curves, refit.error));
+  }
+  UniteResult united = cad::unite_aircraft(value.model, options, context);
   value.report = fmt::format("union: volume {:.6g} m^3, parts have {:.6g} m^3 together; {} {}", united.report.volume, united.report.sum_of_volumes, united.report.n_bodies, united.report.n_bodies == 1 ? "body" : "bodies that do not touch");
   for (const UniteTry& attempt : united.report.tries)
     if (!attempt.problem.empty()) value.report += fmt::format("\n  tolerance {:.3g} m was not enough: {}", attempt.tolerance, attempt.problem);

@@ -24,7 +24,7 @@ Aircraft aircraft_of(const AircraftParts& parts);
 /// \throws Error of make_components
 ModelValue make_aircraft(const AircraftParts& parts, const RunContext& context);
 
-/// The union of all solids of these models, with a report of its tries and doubts in `report`; contacts that look hard are warnings of the log. \p models are refitted where they must be (refitted).
+/// The union of all solids of these models, with a report of its tries and doubts in `report`; contacts that look hard are warnings of the log.
 /// \throws Error of cad::unite
 ModelValue unite_solids(const std::vector<ModelHandle>& models, const UniteOptions& options, const RunContext& context);
 

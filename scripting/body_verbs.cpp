@@ -5,6 +5,7 @@
 #include <map>
 
 #include "geom/model/shapes.h"
+#include "scripting/component_value.h"
 #include "scripting/component_verbs.h"
 #include "scripting/geometry_tools.h"
 

@@ -9,13 +9,14 @@
 
 #include "geom/base/error.h"
 #include "geom/base/schema.h"
+#include "geom/cad/read_cad.h"
 #include "geom/cad/unite.h"
+#include "geom/cad/write_cad.h"
 #include "io/format_table.h"
 #include "scripting/commands.h"
 #include "scripting/console.h"
 #include "scripting/exit_status.h"
 #include "scripting/interrupt.h"
-#include "scripting/models.h"
 #include "scripting/verbs.h"
 
 namespace sterna::scripting {
@@ -163,8 +164,7 @@ void add_convert_command(CLI::App& app, ConvertCommand& convert, Request& reques
   command->add_flag("--surface", convert.settings.as_surface, "of a volume mesh write the boundary");
   ReadCadOptions reading;
   WriteCadOptions writing;
-  RefitOptions refit;
-  for (const OptionTable& table : {sterna::options_of(reading), sterna::options_of(writing), sterna::options_of(refit)}) add_schema_options(*command, table, convert.options);
+  for (const OptionTable& table : {sterna::options_of(reading), sterna::options_of(writing)}) add_schema_options(*command, table, convert.options);
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(convert, context); };
     request.trouble = beside(convert.output);

@@ -54,7 +54,7 @@ struct ConvertCommand {
   std::string input;
   std::filesystem::path output;
   ConvertSettings settings;
-  OptionOverrides options;  ///< of models: --unit, --refit-tolerance ...
+  OptionOverrides options;  ///< of models: --unit, --tolerance ...
 };
 
 /// `sterna info` and `sterna check` of a model file (model_commands.cpp): what it holds with its reference data; whether it is closed, with every open edge.

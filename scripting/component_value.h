@@ -2,7 +2,6 @@
 // scripts deflect and move it in statements: wing:deflect{...}.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -38,6 +37,5 @@ struct ComponentValue {
     }
   }
 };
-using ComponentHandle = std::shared_ptr<ComponentValue>;
 
 }  // namespace sterna::scripting

@@ -1,4 +1,5 @@
 // aircraft{}, and what all components have: methods, fields, a line of description.
+#include "scripting/component_value.h"
 #include "scripting/component_verbs.h"
 
 #include <fmt/format.h>

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "geom/model/deflection.h"
+#include "scripting/component_value.h"
 #include "scripting/component_verbs.h"
 #include "scripting/geometry_tools.h"
 

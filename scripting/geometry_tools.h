@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geom/model/frame.h"
+#include "geom/model/reference_data.h"
 #include "scripting/script_call.h"
 #include "scripting/table_reader.h"
 #include "scripting/verb_tools.h"

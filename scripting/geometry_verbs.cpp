@@ -12,6 +12,7 @@
 #include "geom/model/shapes.h"
 #include "scripting/aircraft_model.h"
 #include "scripting/geometry_tools.h"
+#include "scripting/script_function.h"
 
 namespace sterna::scripting {
 

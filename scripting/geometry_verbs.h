@@ -1,10 +1,10 @@
 // Verbs that make models: readers of CAD, sumo and CPACS files, airfoils, surfaces of functions, boxes, cylinders, test sections, assemblies, unions.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <span>
 
+#include "geom/model/airfoil.h"
 #include "scripting/script_call.h"
 #include "scripting/table_reader.h"
 

@@ -61,7 +61,7 @@ int unite_models(const UnionCommand& command, const CommandContext& context) {
   }
   ModelValue united = unite_solids(models, options, context.run.part("union", k_read_end, 0.95));
   united.description.reset();  // the file has the union, not what went into it
-  write_model(united, command.output, {}, {}, context.run.part("write", 0.95, 1.0));
+  write_model(united, command.output, {}, context.run.part("write", 0.95, 1.0));
   context.console.end_progress();
   context.run.info("wrote " + command.output.string() + ": " + describe(united));
   return k_exit_success;
@@ -72,13 +72,12 @@ int convert_model(const ConvertCommand& command, const CommandContext& context) 
     throw Error({.code = ErrorCode::bad_argument, .attempted = "convert", .problem = "--format and --surface are for meshes; " + command.input + " is a model", .hint = "the extension of the output says the format: .step, .iges, .brep, .smx"});
   ReadCadOptions reading;
   WriteCadOptions writing;
-  RefitOptions refit;
   OptionTable table = sterna::options_of(reading);
-  for (const OptionTable& other : {sterna::options_of(writing), sterna::options_of(refit)}) table.insert(table.end(), other.begin(), other.end());
+  for (Option& option : sterna::options_of(writing)) table.push_back(std::move(option));
   set_options(table, command.options);
   if (!is_model_output(command.output)) require_model_output({}, command.output);  // before the input is read
   const ModelValue value = read_model(input_of(command.input), reading, context.run.part("read", 0.0, k_read_end));
-  write_model(value, command.output, writing, refit, context.run.part("write", k_read_end, 1.0));
+  write_model(value, command.output, writing, context.run.part("write", k_read_end, 1.0));
   context.console.end_progress();
   context.run.info("wrote " + command.output.string() + ": " + describe(value));
   return k_exit_success;

@@ -8,7 +8,9 @@
 #include "geom/model/deform.h"
 #include "geom/model/radial_map.h"
 #include "scripting/geometry_tools.h"
+#include "scripting/models.h"
 #include "scripting/sampled_map.h"
+#include "scripting/script_function.h"
 
 namespace sterna::scripting {
 
@@ -265,7 +267,6 @@ ScriptValue write_model_files(const ScriptCall& call) {
   if (call.arguments.size() == 2) table = table_argument(call, 1, k_write_usage);
   else table.items.assign(call.arguments.begin() + 1, call.arguments.end());
   WriteCadOptions options;
-  RefitOptions refit;
   TableReader reader(table, call.attempted());
   std::vector<std::filesystem::path> names;
   for (const ScriptValue& item : reader.items()) {
@@ -274,17 +275,15 @@ ScriptValue write_model_files(const ScriptCall& call) {
   }
   if (names.empty()) reader.add_problem("needs at least one file name: " + std::string(k_write_usage));
   reader.read_options(sterna::options_of(options));
-  reader.read_options(sterna::options_of(refit));
   reader.finish();
   for (const auto& name : names) require_model_output(*model, name);
-  for (const auto& name : names) write_model(*model, name, options, refit, call.session.context.part("write", 0.0, 1.0));
+  for (const auto& name : names) write_model(*model, name, options, call.session.context.part("write", 0.0, 1.0));
   return model;
 }
 
 std::string write_help() {
   WriteCadOptions options;
-  RefitOptions refit;
-  return options_help(sterna::options_of(options)) + options_help(sterna::options_of(refit));
+  return options_help(sterna::options_of(options));
 }
 std::string deform_help() {
   SampledMapOptions function;

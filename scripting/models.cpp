@@ -8,21 +8,14 @@
 
 #include "geom/base/error.h"
 #include "geom/base/hash.h"
-#include "geom/base/parallel.h"
 #include "geom/model/components.h"
 #include "geom/model/cpacs.h"
-#include "geom/model/sampled.h"
 #include "geom/model/smx.h"
-#include "geom/model/space_map.h"
-#include "geom/model/transformed.h"
 #include "io/cad_file.h"
 #include "scripting/summary.h"
 
 namespace sterna::scripting {
 namespace {
-
-/// Of the longest side: finer than any mesh needs, coarse enough for some ten intervals across a bent wing.
-constexpr double k_refit_share = 1e-6;
 
 std::string extension_of(const std::filesystem::path& path) {
   std::string text = path.extension().string();
@@ -39,17 +32,6 @@ ModelValue value_of(AircraftReading reading, const InputPath& file, const RunCon
   value.description = std::move(reading.aircraft);
   context.info(file.name + ": " + describe(value));
   return value;
-}
-
-// ---- Refitting -----------------------------------------------------------------------------------------------------------------------------
-
-bool needs_refit(const Surface& surface) {
-  const bool is_seen_through = dynamic_cast<const DeformedSurface*>(&surface) || dynamic_cast<const TransformedSurface*>(&surface);
-  return is_seen_through && !surface.exact_nurbs();
-}
-bool needs_refit(const Curve& curve) {
-  const bool is_seen_through = dynamic_cast<const DeformedCurve*>(&curve) || dynamic_cast<const TransformedCurve*>(&curve);
-  return is_seen_through && !curve.exact_nurbs();
 }
 
 }  // namespace
@@ -73,44 +55,6 @@ ModelValue read_model(const InputPath& file, const ReadCadOptions& options, cons
   return value;
 }
 
-Model refitted(const Model& model, double tolerance, const RunContext& context) {
-  const bool is_clean = std::none_of(model.faces.begin(), model.faces.end(), [](const ModelFace& f) { return needs_refit(*f.surface); }) &&
-                        std::none_of(model.edges.begin(), model.edges.end(), [](const ModelEdge& e) { return !e.is_degenerate() && needs_refit(*e.curve); });
-  if (is_clean) return model;
-  if (is_automatic(tolerance)) tolerance = k_refit_share * box_of(model).longest_side();
-  Model result = model;
-  result.shape.reset();
-  // Each surface and curve once: what is shared stays shared.
-  std::map<const Surface*, std::size_t> surface_index;
-  std::vector<SurfacePtr> surfaces;
-  for (const ModelFace& face : model.faces)
-    if (needs_refit(*face.surface) && surface_index.try_emplace(face.surface.get(), surfaces.size()).second) surfaces.push_back(face.surface);
-  std::map<const Curve*, std::size_t> curve_index;
-  std::vector<CurvePtr> curves;
-  for (const ModelEdge& edge : model.edges)
-    if (!edge.is_degenerate() && needs_refit(*edge.curve) && curve_index.try_emplace(edge.curve.get(), curves.size()).second) curves.push_back(edge.curve);
-  std::vector<SampledSurface> new_surfaces(surfaces.size());
-  std::vector<SampledCurve> new_curves(curves.size());
-  parallel_for(context, surfaces.size(), [&](std::size_t i) { new_surfaces[i] = sample_surface(*surfaces[i], tolerance); }, 1);
-  parallel_for(context, curves.size(), [&](std::size_t i) { new_curves[i] = sample_curve(*curves[i], tolerance); }, 1);
-  double worst = 0.0;
-  for (const SampledSurface& s : new_surfaces) worst = std::max(worst, s.error);
-  for (const SampledCurve& c : new_curves) worst = std::max(worst, c.error);
-  for (ModelFace& face : result.faces)
-    if (const auto found = surface_index.find(face.surface.get()); found != surface_index.end()) {
-      face.surface = new_surfaces[found->second].surface;
-      face.tolerance += worst;
-    }
-  for (ModelEdge& edge : result.edges) {
-    if (edge.is_degenerate()) continue;
-    if (const auto found = curve_index.find(edge.curve.get()); found != curve_index.end()) edge.curve = new_curves[found->second].curve;
-    edge.tolerance += 2.0 * worst;  // a curve and a surface that were one may part to both sides
-  }
-  for (ModelCorner& corner : result.corners) corner.tolerance += 2.0 * worst;
-  context.info(fmt::format("{} deformed surfaces and {} curves became splines, at most {:.3g} m away (refit_tolerance {:.3g} m)", surfaces.size(), curves.size(), worst, tolerance));
-  return result;
-}
-
 void require_model_output(const ModelValue& value, const std::filesystem::path& path) {
   const auto refuse = [&](const std::string& problem, const std::string& hint) {
     throw Error({.code = ErrorCode::unsupported_format, .attempted = "writing " + path.string(), .problem = problem, .hint = hint});
@@ -122,13 +66,13 @@ void require_model_output(const ModelValue& value, const std::filesystem::path& 
     throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + path.parent_path().string()});
 }
 
-void write_model(const ModelValue& value, const std::filesystem::path& path, const WriteCadOptions& options, const RefitOptions& refit, const RunContext& context) {
+void write_model(const ModelValue& value, const std::filesystem::path& path, const WriteCadOptions& options, const RunContext& context) {
   require_model_output(value, path);
   if (is_smx(path)) {
     write_smx(*value.description, path);
     return;
   }
-  io::write_cad(refitted(value.model, refit.refit_tolerance, context), path, options, context);
+  io::write_cad(value.model, path, options, context);
 }
 
 bool matches(const std::string& pattern, const std::string& name) {

@@ -1,27 +1,23 @@
-// Models (exact geometry) as values of scripts and commands: read, described, measured, selected, refitted, written.
+// Models (exact geometry) as values of scripts and commands: read, described, measured, selected, written.
 #pragma once
 
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "geom/base/run_context.h"
-#include "geom/base/schema.h"
 #include "geom/cad/read_cad.h"
 #include "geom/cad/write_cad.h"
 #include "geom/mesh/tri_mesh.h"
 #include "geom/model/aircraft.h"
-#include "geom/model/airfoil.h"
 #include "geom/model/model.h"
 #include "geom/model/reference_data.h"
+#include "scripting/script_value.h"
 #include "scripting/verbs.h"
 
 namespace sterna::scripting {
-
-using AirfoilHandle = std::shared_ptr<const Airfoil>;
 
 /// A model with where it came from.
 struct ModelValue {
@@ -31,7 +27,6 @@ struct ModelValue {
   std::vector<InputFile> inputs;
   std::string report;                   ///< lines about how it was read or made; may be empty
 };
-using ModelHandle = std::shared_ptr<const ModelValue>;
 
 /// Whether the name is that of a file with a model: CAD, .smx or (CPACS) .xml.
 bool is_model_file(const std::filesystem::path& path);
@@ -45,19 +40,10 @@ ModelValue read_model(const InputPath& file, const ReadCadOptions& options, cons
 ModelValue read_smx_model(const InputPath& file, const RunContext& context);
 ModelValue read_cpacs_model(const InputPath& file, const RunContext& context);
 
-/// Beyond WriteCadOptions: how surfaces that no CAD format has (deformed ones) are made splines.
-struct RefitOptions {
-  double refit_tolerance = k_automatic;
-};
-
-/// The same model with every surface and curve in a form that CAD formats have: what has none becomes a spline within the tolerance (m; automatic: 1e-6 of the
-/// longest side); tolerances of faces and edges grow by the error found. The model itself where nothing is to be done. \throws Error(bad_argument) of sample_surface
-Model refitted(const Model& model, double tolerance, const RunContext& context);
-
 /// \throws Error(unsupported_format, write_failed) when a model cannot be written to a file of this name. Before the work.
 void require_model_output(const ModelValue& value, const std::filesystem::path& path);
-/// STEP, IGES, BREP by extension (refitted where needed), .smx where there is a description. \throws Error of io and geom
-void write_model(const ModelValue& value, const std::filesystem::path& path, const WriteCadOptions& options, const RefitOptions& refit, const RunContext& context);
+/// STEP, IGES, BREP by extension (what has no exact form becomes splines), .smx where there is a description. \throws Error of io and geom
+void write_model(const ModelValue& value, const std::filesystem::path& path, const WriteCadOptions& options, const RunContext& context);
 
 /// Box around the faces, from samples: within about a thousandth of its size.
 Box box_of(const Model& model);
@@ -106,16 +92,3 @@ std::string measures_text(const ModelReport& measures);
 std::string closedness_text(const Model& model, std::size_t limit);
 
 }  // namespace sterna::scripting
-
-namespace sterna {
-
-template <>
-struct Schema<scripting::RefitOptions> {
-  using O = scripting::RefitOptions;
-  static constexpr std::string_view stage = "refit";
-  static constexpr std::array fields = {
-      Field<O>{.name = "refit_tolerance", .member = &O::refit_tolerance, .unit = Unit::metre, .min = 1e-12, .max = 1.0, .help = "largest distance between a deformed surface and the spline that a CAD file holds in its place", .automatic = "1e-6 of the longest side"},
-  };
-};
-
-}  // namespace sterna

@@ -17,6 +17,8 @@ namespace {
 constexpr std::size_t k_first_intervals = 4;
 /// Of the longest side, when the user does not say.
 constexpr double k_tolerance_share = 1e-6;
+/// Intervals shorter than this part of the longest side are not halved again: no spline follows a step.
+constexpr double k_least_interval = 1e-9;
 /// Room around the box, of its longest side: what lies a little outside (surfaces beyond their borders) is splined too.
 constexpr double k_margin = 0.02;
 /// Of neighbouring intervals. Splines through points further graded than (3 + sqrt 5) / 2 may swing without bound (Marsden, 1974); halves give 2 and some rounding.
@@ -170,7 +172,10 @@ SampledMap::SampledMap(const std::function<Vec3(const Point&)>& displacement, co
       at[axis] = graded(split(at[axis], is_marked[axis]));
       next *= at[axis].size();
     }
-    if (next > static_cast<std::size_t>(options.max_samples))
+    double shortest = size;
+    for (const std::vector<double>& stations : at)
+      for (std::size_t i = 0; i + 1 < stations.size(); ++i) shortest = std::min(shortest, stations[i + 1] - stations[i]);
+    if (next > static_cast<std::size_t>(options.max_samples) || shortest < k_least_interval * size)
       refuse(fmt::format("a spline of {} samples is still {:.3g} m off the function, the tolerance is {:.3g} m", n, error_, tolerance), worst,
              "a kink or a step there? Make it smooth, allow a larger tolerance, or more max_samples");
   }

@@ -8,6 +8,7 @@
 #include "scripting/component_verbs.h"
 #include "scripting/geometry_verbs.h"
 #include "scripting/model_methods.h"
+#include "scripting/script_function.h"
 #include "scripting/script_verbs.h"
 #include "scripting/stage_verbs.h"
 

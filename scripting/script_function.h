@@ -1,7 +1,6 @@
 // A Lua function that a script hands to a verb, callable from C++ while that verb runs.
 #pragma once
 
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -26,6 +25,5 @@ class ScriptFunction {
   lua_State* state_;
   int reference_;
 };
-using FunctionHandle = std::shared_ptr<const ScriptFunction>;
 
 }  // namespace sterna::scripting

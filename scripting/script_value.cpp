@@ -1,5 +1,7 @@
 #include "scripting/script_value.h"
 
+#include "scripting/component_value.h"
+
 namespace sterna::scripting {
 
 std::string_view type_text(const ScriptValue& value) {

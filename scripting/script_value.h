@@ -10,13 +10,22 @@
 #include <vector>
 
 #include "geom/base/error.h"
-#include "scripting/component_value.h"
-#include "scripting/models.h"
-#include "scripting/script_function.h"
 #include "scripting/stages.h"
 #include "scripting/verbs.h"
 
+namespace sterna {
+struct Airfoil;  // geom/model/airfoil.h
+}
+
 namespace sterna::scripting {
+
+struct ModelValue;      // models.h
+struct ComponentValue;  // component_value.h
+class ScriptFunction;   // script_function.h
+using ModelHandle = std::shared_ptr<const ModelValue>;
+using ComponentHandle = std::shared_ptr<ComponentValue>;
+using AirfoilHandle = std::shared_ptr<const Airfoil>;
+using FunctionHandle = std::shared_ptr<const ScriptFunction>;
 
 struct ScriptTable;
 struct ScriptVerb;  // script_call.h

@@ -10,6 +10,7 @@
 #include "scripting/component_verbs.h"
 #include "scripting/geometry_verbs.h"
 #include "scripting/model_methods.h"
+#include "scripting/models.h"
 #include "scripting/source_verbs.h"
 #include "scripting/stage_verbs.h"
 #include "scripting/stages.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scripting/component_value.h"
 #include "scripting/component_verbs.h"
 #include "scripting/geometry_tools.h"
 #include "scripting/geometry_verbs.h"

@@ -167,7 +167,7 @@ bent = bent:deform{ { {0, 0, 0, 0, 0, 0}, {10, 0, 0, 0, 0, 0}, {5, 6, 0, 0, 0, 0
 }
 block:write{ "every_option.step",
   step_schema = "ap214",              -- ap203, ap242
-  refit_tolerance = "automatic",      -- of deformed surfaces: 1e-6 of the longest side
+  tolerance = "automatic",            -- of splines in place of deformed surfaces: 1e-6 of the longest side
 }
-local again = read_cad{ "every_option.step", unit = "automatic", heal = true, sew_tolerance = "automatic", small = "automatic", time_limit = 600 }
+local again = read_cad{ "every_option.step", unit = "automatic", heal = true, cap = false, sew_tolerance = "automatic", small = "automatic", time_limit = 600 }
 print(parts, bent, sheet, again, union{ block, rod_model, tolerance = "automatic", time_limit = 600 }, assembly{ block, tunnel })

@@ -186,7 +186,7 @@ TEST_F(CommandLine, ModelsAreConvertedUnitedDescribedAndChecked) {
       {{"convert", "c.step", "c.smx"}, ".smx holds components as data"},
       {{"convert", "c.step", "c.stl"}, "models are not written in this format"},
       {{"convert", "c.step", "c.iges", "--surface"}, "--surface are for meshes"},
-      {{"convert", "box.stl", "box.obj", "--refit-tolerance", "1"}, "is for models"},
+      {{"convert", "box.stl", "box.obj", "--step-schema", "ap203"}, "is for models"},
       {{"union", "a.step", "box.stl", "-o", "d.step"}, "box.stl is no model"},
       {{"union", "a.step", "b.step", "-o", "d.stl"}, "models are not written in this format"},
       {{"union", "a.step", "b.step", "-o", "d.step", "--strip-width", "3"}, "strip_width"},
