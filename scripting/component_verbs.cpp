@@ -38,6 +38,13 @@ struct Schema<scripting::AircraftOptions> {
 namespace sterna::scripting {
 namespace {
 
+/// Along the own axis, round ends included.
+double length_of(const Body& body) {
+  const auto cap = [](const EndCap& end, const BodyFrame& frame) { return frame.shape == FrameShape::loop ? 0.0 : end.height * 0.25 * (frame.width + frame.height); };
+  const double nose = body.lip ? 0.0 : cap(body.nose, body.frames.front());
+  return body.frames.back().center.x - body.frames.front().center.x + nose + cap(body.tail, body.frames.back());
+}
+
 constexpr std::string_view k_aircraft_usage = "aircraft{ body, main_wing, engine, pylon{ main_wing, engine }, unite = true }";
 
 ScriptValue make_aircraft_verb(const ScriptCall& call) {
@@ -142,7 +149,7 @@ ScriptValue component_field(const ScriptCall& call) {
         width = std::max(width, frame.width);
         height = std::max(height, frame.height);
       }
-    fields.insert(fields.end(), {{"length", body.frames.back().center.x - body.frames.front().center.x}, {"width", width}, {"height", height}});
+    fields.insert(fields.end(), {{"length", length_of(body)}, {"width", width}, {"height", height}});
   }
   return select_field(call, std::move(fields), component_methods());
 }
@@ -183,7 +190,7 @@ std::string describe(const ComponentValue& component) {
     if (wing->is_symmetric) text += ", both halves";
   } else {
     const Body& body = std::get<Body>(component.shape);
-    text += fmt::format("{} frames, {:.4g} m long", body.frames.size(), body.frames.back().center.x - body.frames.front().center.x);
+    text += fmt::format("{} frames, {:.4g} m long", body.frames.size(), length_of(body));
   }
   for (const Deflection& d : component.deflections) text += d.angle == 0.0 ? fmt::format(", {}", d.surface.name) : fmt::format(", {} {:+.4g} deg", d.surface.name, d.angle * 180.0 / std::numbers::pi);
   return text + (component.has_mirror_image() ? ", and its mirror image" : "");

@@ -73,9 +73,11 @@ local mesh = volume_mesh{ wall,
   },
 }
 
-mesh:check{ intersections = true, quality = true, findings_per_kind = 10 }
+mesh:check{ intersections = true, quality = true, findings_per_kind = 10, strict = false }
 mesh:write "every_option.vtu"
 print(string.format("%d prisms, %d tetrahedra, %.1f %% of the area has its full height", mesh.prisms, mesh.tetrahedra, 100 * mesh.coverage))
+
+local behind = wake{ {0, 0, 0}, {0, 5, 0}, direction = {1, 0, 0}, length = 10, height = 0, spread = 0, size = 0.1, size_end = 0.1 }   -- for sources, above
 
 -- ---- Geometry ----------------------------------------------------------------------------------------------------------------------------
 

@@ -30,6 +30,6 @@ print(all)
 
 local m = mounted:measures()
 print(string.format("volume %.6f m^3, wetted area %.5f m^2; tip at z = %.4f m", m.volume, m.area, m.components.wing.box[2][3]))
-print(string.format("tunnel: %.3f m^3 of air, %.2f %% of the cross section blocked at most", -tunnel:measures().volume - m.volume, 100 * 0.02 / (2.4 * 1.8)))
+print(string.format("tunnel: %.3f m^3 of air", -tunnel:measures().volume - m.volume))
 mounted:write("wind_tunnel_model.step")
 all:write("wind_tunnel.step")
