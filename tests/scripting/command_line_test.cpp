@@ -199,6 +199,20 @@ TEST_F(CommandLine, ModelsAreConvertedUnitedDescribedAndChecked) {
   }
 }
 
+TEST_F(CommandLine, SumoAndCpacsFilesBecomeStep) {
+  STERNA_NEEDS_SHARED_DATA();
+  const std::vector<std::pair<std::string, std::string>> files = {{"smx/delta.smx", "5 closed solids"}, {"cpacs/d150.xml", "4 closed solids"}};
+  for (const auto& [name, solids] : files) {
+    const std::string path = (test::shared_data() / name).string();
+    ASSERT_EQ(sterna({"convert", path, "a.step"}).status, k_exit_success) << name;
+    const ProcessResult check = sterna({"check", "a.step"});
+    EXPECT_EQ(check.status, k_exit_success) << name;
+    EXPECT_NE(check.output.find(solids), std::string::npos) << check.output;
+    EXPECT_NE(sterna({"info", path}).output.find("aspect ratio"), std::string::npos) << name;
+  }
+  EXPECT_EQ(sterna({"convert", (test::shared_data() / "smx/delta.smx").string(), "again.smx"}).status, k_exit_success);
+}
+
 TEST_F(CommandLine, UnionOfSurfaceFiles) {
   std::ifstream box(folder / "box.stl");
   std::ofstream moved(folder / "moved.stl");
