@@ -1,26 +1,27 @@
-// OpenCASCADE's general fuse with growing tolerances. Steps of a try: fuse, origins of the faces, model, proof. When no tolerance is enough, pairs are tried
-// one by one, to name the one that fails.
+// OpenCASCADE's general fuse with growing tolerances, after a look at the contacts. Steps of a try: intersections, fuse, origins of the faces, model, proof. When no
+// tolerance is enough, pairs that touch are tried one by one, to name the one that fails.
 #include "geom/cad/unite.h"
 
 #include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBndLib.hxx>
-#include <BRepExtrema_DistShapeShape.hxx>
-#include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
-#include <GProp_GProps.hxx>
+#include <Message_ProgressScope.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
+#include <cstdio>
+#include <functional>
 #include <optional>
 
+#include "geom/base/parallel.h"
+#include "geom/cad/near_pairs.h"
 #include "geom/cad/occt_call.h"
 #include "geom/cad/occt_shape.h"
+#include "geom/model/model_measures.h"
 
 namespace sterna::cad {
 namespace {
@@ -29,8 +30,11 @@ namespace {
 constexpr std::array<double, 5> k_ladder = {0.0, 1e-7, 1e-6, 1e-5, 1e-4};
 /// Volumes agree to this share of the sum: parts that only touch lose or gain by the tolerance of the fuse.
 constexpr double k_volume_share = 1e-4;
-/// Surfaces that meet at a smaller angle, radians, are nearly tangent: elements between them become slivers.
-constexpr double k_tangent_angle = 10.0 * std::numbers::pi / 180.0;
+/// Area of a part that the union may have more or less than samples tell, of the part's area: twice what sampling errs on wings and bodies. A lost
+/// face of a wing or a nacelle is more.
+constexpr double k_area_share = 0.05;
+/// Share of a try's progress that finding intersections is.
+constexpr double k_intersect_share = 0.9;
 /// Places that an error lists.
 constexpr std::size_t k_listed = 5;
 
@@ -38,7 +42,9 @@ struct Part {
   const Model* model;
   std::shared_ptr<const CadShape> shape;
   double volume = 0.0;
-  std::string name() const { return model->components.empty() ? std::string("unnamed") : model->components.raw().front().name; }
+  double area = 0.0;
+  PartExposure exposure;
+  std::string name() const { return part_name(*model); }
 };
 
 /// Where a face of the result came from.
@@ -55,12 +61,6 @@ struct Try {
   UniteTry outcome;
 };
 
-double volume_of(const TopoDS_Shape& shape) {
-  GProp_GProps volume;
-  BRepGProp::VolumeProperties(shape, volume, 1e-6);
-  return volume.Mass();
-}
-
 /// Result faces by the faces of the parts they are pieces of.
 Origins origins_of(BRepAlgoAPI_Fuse& fuse, const std::vector<Part>& parts) {
   Origins origins;
@@ -76,6 +76,16 @@ Origins origins_of(BRepAlgoAPI_Fuse& fuse, const std::vector<Part>& parts) {
     }
   }
   return origins;
+}
+
+/// Middles of the free edges.
+std::vector<ErrorPlace> open_places(const Model& model) {
+  std::vector<ErrorPlace> places;
+  for (const EdgeId e : free_edges(model)) {
+    const ModelEdge& edge = model.edges[e];
+    places.push_back({edge.curve->point(0.5 * (edge.range.from + edge.range.to)), "open edge"});
+  }
+  return places;
 }
 
 LabelledShape label(const TopoDS_Shape& shape, const Origins& origins, const std::vector<Part>& parts) {
@@ -109,27 +119,82 @@ std::string restore_origins(Try& result, const Origins& origins, const std::vect
   return {};
 }
 
-/// What is wrong with a result; empty: nothing.
-std::string objection(Try& result, const std::vector<Part>& parts) {
-  result.outcome.places = faults_of(*result.model.shape);
-  if (!result.outcome.places.empty()) return "the result is not valid: " + result.outcome.places.front().what;
-  const bool is_closed = !result.model.solids.empty() && std::all_of(result.model.solids.begin(), result.model.solids.end(), [](const ModelSolid& s) { return s.is_closed; });
-  if (!is_closed) {
-    for (const EdgeId e : free_edges(result.model)) {
-      const ModelEdge& edge = result.model.edges[e];
-      result.outcome.places.push_back({edge.curve->point(0.5 * (edge.range.from + edge.range.to)), "open edge"});
-    }
-    return "the result is not closed";
-  }
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+/// \returns what is wrong with the volume; empty: nothing
+std::string volume_objection(const std::vector<Part>& parts, double volume) {
   double sum = 0.0, largest = 0.0;
   for (const Part& part : parts) {
     sum += part.volume;
     largest = std::max(largest, part.volume);
   }
-  result.volume = volume_of(result.model.shape->content().shape);
-  if (result.volume < largest - k_volume_share * sum || result.volume > sum * (1.0 + k_volume_share))
-    return "the volume of the result, " + std::to_string(result.volume) + " m^3, is not between that of the largest part, " + std::to_string(largest) + ", and the sum, " + std::to_string(sum);
+  if (volume >= largest - k_volume_share * sum && volume <= sum * (1.0 + k_volume_share)) return {};
+  return "the volume of the result, " + number_text(volume) + " m^3, is not between that of the largest part, " + number_text(largest) + ", and the sum, " + number_text(sum);
+}
+
+/// The first part of which too much or too little is left.
+std::string area_objection(const Try& result, const std::vector<Part>& parts, const std::vector<FaceMeasures>& measures) {
+  std::vector<double> areas(parts.size(), 0.0);
+  for (std::size_t f = 0; f < measures.size(); ++f) areas[result.origin_of_face[f].part] += measures[f].area;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const PartExposure& exposure = parts[p].exposure;
+    const double least = (exposure.outside - k_area_share) * parts[p].area, most = (exposure.outside + exposure.unsure + k_area_share) * parts[p].area;
+    if (areas[p] < least || areas[p] > most)
+      return number_text(areas[p]) + " m^2 of \"" + parts[p].name() + "\" are left, but " + number_text(exposure.outside * parts[p].area) + " m^2 of it lie outside of the other parts";
+  }
   return {};
+}
+
+/// What is wrong with a result; empty: nothing.
+std::string objection(Try& result, const std::vector<Part>& parts, const RunContext& context) {
+  result.outcome.places = faults_of(*result.model.shape);
+  if (!result.outcome.places.empty()) return "the result is not valid: " + result.outcome.places.front().what;
+  const bool is_closed = !result.model.solids.empty() && std::all_of(result.model.solids.begin(), result.model.solids.end(), [](const ModelSolid& s) { return s.is_closed; });
+  if (!is_closed) {
+    result.outcome.places = open_places(result.model);
+    return "the result is not closed";
+  }
+  std::vector<FaceMeasures> measures(result.model.faces.size());
+  parallel_for(context, measures.size(), [&](std::size_t f) { measures[f] = face_measures(result.model, FaceId(static_cast<std::uint64_t>(f))); }, 1);
+  for (const FaceMeasures& face : measures) result.volume += face.volume;
+  const std::string volume = volume_objection(parts, result.volume);
+  return volume.empty() ? area_objection(result, parts, measures) : volume;
+}
+
+TopTools_ListOfShape list_of(std::span<const Part> parts) {
+  TopTools_ListOfShape list;
+  for (const Part& part : parts) list.Append(part.shape->content().shape);
+  return list;
+}
+
+/// A fuse whose intersections are known.
+void fuse_shapes(const std::vector<Part>& parts, double tolerance, const RunContext& context, const Message_ProgressRange& progress, const std::function<void(BRepAlgoAPI_Fuse&)>& take) {
+  Message_ProgressScope steps(progress, nullptr, 1.0);
+  const auto set_options = [&](auto& algorithm) {
+    algorithm.SetNonDestructive(true);
+    algorithm.SetRunParallel(context.threads() > 1);
+    if (tolerance > 0.0) algorithm.SetFuzzyValue(tolerance);
+  };
+  NearPairsFiller filler(context);
+  filler.SetArguments(list_of(parts));
+  set_options(filler);
+  {
+    const StageTimer timer(context, "unite/intersect");
+    filler.Perform(steps.Next(k_intersect_share));
+  }
+  context.check_stop();
+  const StageTimer timer(context, "unite/build");
+  BRepAlgoAPI_Fuse fuse(filler);
+  fuse.SetArguments(list_of(std::span(parts).first(1)));
+  fuse.SetTools(list_of(std::span(parts).subspan(1)));
+  set_options(fuse);
+  fuse.Build(steps.Next(1.0 - k_intersect_share));
+  context.check_stop();
+  take(fuse);
 }
 
 Try fuse_once(const std::vector<Part>& parts, double tolerance, const UniteOptions& options, const RunContext& context) {
@@ -137,24 +202,17 @@ Try fuse_once(const std::vector<Part>& parts, double tolerance, const UniteOptio
   result.outcome.tolerance = tolerance;
   try {
     run_occt({.attempted = "uniting the parts", .time_limit = options.time_limit}, context, [&](const Message_ProgressRange& progress) {
-      TopTools_ListOfShape first, others;
-      for (std::size_t p = 0; p < parts.size(); ++p) (p == 0 ? first : others).Append(parts[p].shape->content().shape);
-      BRepAlgoAPI_Fuse fuse;
-      fuse.SetArguments(first);
-      fuse.SetTools(others);
-      fuse.SetNonDestructive(true);
-      fuse.SetRunParallel(false);
-      if (tolerance > 0.0) fuse.SetFuzzyValue(tolerance);
-      fuse.Build(progress);
-      context.check_stop();
-      if (fuse.HasErrors() || !fuse.IsDone() || fuse.Shape().IsNull()) {
-        result.outcome.problem = "OpenCASCADE's fuse ended with an error";
-        return;
-      }
-      const Origins origins = origins_of(fuse, parts);
-      result.model = model_of(label(fuse.Shape(), origins, parts), "uniting the parts", context);
-      result.outcome.problem = restore_origins(result, origins, parts);
-      if (result.outcome.problem.empty()) result.outcome.problem = objection(result, parts);
+      fuse_shapes(parts, tolerance, context, progress, [&](BRepAlgoAPI_Fuse& fuse) {
+        if (fuse.HasErrors() || !fuse.IsDone() || fuse.Shape().IsNull()) {
+          result.outcome.problem = "OpenCASCADE's fuse ended with an error";
+          return;
+        }
+        const StageTimer timer(context, "unite/proof");
+        const Origins origins = origins_of(fuse, parts);
+        result.model = model_of(label(fuse.Shape(), origins, parts), "uniting the parts", context);
+        result.outcome.problem = restore_origins(result, origins, parts);
+        if (result.outcome.problem.empty()) result.outcome.problem = objection(result, parts, context);
+      });
     });
   } catch (const Error& error) {
     if (error.code() != ErrorCode::geometry_failed) throw;
@@ -190,17 +248,20 @@ std::optional<Try> climb(const std::vector<Part>& parts, const UniteOptions& opt
 std::vector<Part> take_parts(std::span<const Model> models, const RunContext& context) {
   std::vector<Part> parts;
   for (const Model& model : models) {
-    Part part{&model, shape_of(model, context)};
+    Part part{.model = &model, .shape = shape_of(model, context), .exposure = {}};
     const bool is_closed = !model.solids.empty() && std::all_of(model.solids.begin(), model.solids.end(), [](const ModelSolid& s) { return s.is_closed; });
     if (!is_closed) {
       ErrorInfo info{.code = ErrorCode::open_surface, .attempted = "uniting the parts", .problem = "\"" + part.name() + "\" is not closed", .hint = "only closed parts have an inside"};
-      for (const EdgeId e : free_edges(model)) {
-        const ModelEdge& edge = model.edges[e];
-        if (info.places.size() < k_listed) info.places.push_back({edge.curve->point(0.5 * (edge.range.from + edge.range.to)), "open edge"});
-      }
+      info.places = open_places(model);
+      info.n_places = static_cast<std::int64_t>(info.places.size());
+      info.places.resize(std::min(k_listed, info.places.size()));
       throw Error(std::move(info));
     }
-    run_occt({.attempted = "measuring \"" + part.name() + "\""}, context, [&](const Message_ProgressRange&) { part.volume = volume_of(part.shape->content().shape); });
+    for (const SolidId solid : model.solids.ids()) {
+      const SolidMeasures measures = solid_measures(model, solid);
+      part.volume += measures.volume;
+      part.area += measures.area;
+    }
     parts.push_back(part);
   }
   return parts;
@@ -214,6 +275,15 @@ bool is_near(const Part& a, const Part& b, double gap) {
   return !box_a.IsOut(box_b);
 }
 
+/// Two parts, with what of each lies outside of the other.
+std::vector<Part> alone(const Part& a, const Part& b, const RunContext& context) {
+  const std::array<Model, 2> models{*a.model, *b.model};
+  const ContactReport found = find_contacts(models, context);
+  std::vector<Part> pair{a, b};
+  for (std::size_t p = 0; p < 2; ++p) pair[p].exposure = found.exposures[p];
+  return pair;
+}
+
 /// \throws Error(geometry_failed): names the first pair that does not unite alone.
 [[noreturn]] void blame(const std::vector<Part>& parts, const UniteOptions& options, double size, const std::vector<UniteTry>& tries, const RunContext& context) {
   ErrorInfo info{.code = ErrorCode::geometry_failed, .attempted = "uniting " + std::to_string(parts.size()) + " parts"};
@@ -223,7 +293,7 @@ bool is_near(const Part& a, const Part& b, double gap) {
     for (std::size_t b = a + 1; b < parts.size() && info.problem.empty(); ++b) {
       if (!is_near(parts[a], parts[b], k_ladder.back() * size)) continue;
       pair_tries.clear();
-      if (climb({parts[a], parts[b]}, options, size, pair_tries, context)) continue;
+      if (climb(alone(parts[a], parts[b], context), options, size, pair_tries, context)) continue;
       blamed = &pair_tries.back();
       info.problem = "\"" + parts[a].name() + "\" and \"" + parts[b].name() + "\" do not unite: " + blamed->problem;
     }
@@ -239,58 +309,29 @@ bool is_near(const Part& a, const Part& b, double gap) {
   throw Error(std::move(info));
 }
 
-/// Outward normal of a face beside the middle of one of its edges.
-Vec3 normal_at(const Model& model, const EdgeUsePlace& place) {
-  const ModelFace& face = model.faces[place.face];
-  const EdgeUse& use = face.borders[place.border][place.place];
-  const Interval range = model.edges[use.edge].range;
-  const SurfaceDerivatives d = face.surface->derivatives(use.parameter->point(0.5 * (range.from + range.to)));
-  const Vec3 normal = normalized(cross(d.du, d.dv));
-  return face.is_reversed ? -normal : normal;
-}
-
-/// Joins between parts whose surfaces meet at a small angle, from outside (a thin gap) or by folding back (a knife edge).
-void doubt_tangent_joins(const Try& result, UniteReport& report) {
-  const auto uses = uses_of_edges(result.model);
-  for (const EdgeId e : result.model.edges.ids()) {
-    if (uses[e].size() != 2 || result.model.edges[e].is_degenerate()) continue;
-    const FaceId a = uses[e][0].face, b = uses[e][1].face;
-    if (result.origin_of_face[a.index()].part == result.origin_of_face[b.index()].part) continue;
-    const double angle = std::numbers::pi - angle_between(normal_at(result.model, uses[e][0]), normal_at(result.model, uses[e][1]));
-    if (angle > k_tangent_angle) continue;
-    const ModelEdge& edge = result.model.edges[e];
-    report.doubts.push_back({edge.curve->point(0.5 * (edge.range.from + edge.range.to)), "\"" + result.model.faces[a].name + "\" and \"" + result.model.faces[b].name + "\" meet at an angle of " +
-                                                                                              std::to_string(angle * 180.0 / std::numbers::pi) + " degrees"});
+void look_at_contacts(std::span<const Model> models, std::vector<Part>& parts, UniteReport& report, const RunContext& context) {
+  const StageTimer timer(context, "unite/contacts");
+  ContactReport found = find_contacts(models, context);
+  for (std::size_t p = 0; p < parts.size(); ++p) parts[p].exposure = found.exposures[p];
+  for (const PartContact& contact : found.contacts) {
+    const std::string doubt = doubt_of(contact, models);
+    if (doubt.empty()) continue;
+    context.warn("union: " + doubt + ", at " + format_point(contact.place));
+    report.doubts.push_back({contact.place, doubt});
   }
-}
-
-/// Bodies that stayed apart, with their distance to the first.
-void doubt_gaps(const Try& result, UniteReport& report, const RunContext& context) {
-  const CadShape::Content& content = result.model.shape->content();
-  if (content.solids.size() < 2) return;
-  run_occt({.attempted = "measuring gaps between bodies"}, context, [&](const Message_ProgressRange&) {
-    for (std::size_t s = 1; s < content.solids.size(); ++s) {
-      context.check_stop();
-      const BRepExtrema_DistShapeShape gap(content.solids[0], content.solids[s]);
-      if (!gap.IsDone() || gap.NbSolution() < 1) continue;
-      const gp_Pnt p = gap.PointOnShape1(1);
-      const auto name = [&](std::size_t solid) { return result.model.components[result.model.faces[result.model.solids.raw()[solid].faces.front()].component].name; };
-      report.doubts.push_back({{p.X(), p.Y(), p.Z()}, "\"" + name(0) + "\" and \"" + name(s) + "\" are apart by " + std::to_string(gap.Value()) + " m"});
-    }
-  });
+  report.contacts = std::move(found.contacts);
 }
 
 }  // namespace
 
 UniteResult unite(std::span<const Model> models, const UniteOptions& options, const RunContext& context) {
-  const std::vector<Part> parts = take_parts(models, context);
+  std::vector<Part> parts = take_parts(models, context);
   if (parts.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "uniting the parts", .problem = "there are none"});
   UniteReport report;
   for (const Part& part : parts) {
     report.sum_of_volumes += part.volume;
     report.largest_volume = std::max(report.largest_volume, part.volume);
   }
-  const double size = size_of(parts);
   if (parts.size() == 1) {
     report.volume = parts.front().volume;
     report.n_bodies = models.front().solids.size();
@@ -298,12 +339,12 @@ UniteResult unite(std::span<const Model> models, const UniteOptions& options, co
     model.shape = parts.front().shape;
     return {std::move(model), std::move(report)};
   }
+  look_at_contacts(models, parts, report, context);
+  const double size = size_of(parts);
   std::optional<Try> result = climb(parts, options, size, report.tries, context);
   if (!result) blame(parts, options, size, report.tries, context);
   report.volume = result->volume;
   report.n_bodies = result->model.solids.size();
-  doubt_tangent_joins(*result, report);
-  doubt_gaps(*result, report, context);
   return {std::move(result->model), std::move(report)};
 }
 

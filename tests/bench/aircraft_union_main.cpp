@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -40,6 +41,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+/// Of all threads: tells work from waiting on a busy machine.
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
 double relative_change(double before, double after) { return before == after ? 0.0 : std::abs(after - before) / std::abs(before); }
 
 std::string tries_text(const std::vector<UniteTry>& tries) {
@@ -71,8 +75,10 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
     n_components = components.solids.size();
     n_faces = components.faces.size();
     const double load = watch.lap();
+    const double cpu = cpu_seconds();
     const UniteResult united = cad::unite_aircraft(components, {.tolerance = settings.tolerance}, context);
     const double unite = watch.lap();
+    const double unite_cpu = cpu_seconds() - cpu;
     const ModelMeasures before = model_measures(united.model, context);
     const double measure = watch.lap();
     const std::string bytes = cad::cad_bytes(united.model, cad::CadFormat::step, file, {}, context);
@@ -82,9 +88,11 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
     const double read = watch.lap();
     const ModelMeasures after = model_measures(again.model, context);
     const bool same_names = names_of(united.model) == names_of(again.model);
-    std::printf("| %s | %zu | %zu | %s | %zu | %zu | %zu | %.8g | %.8g | %s, %zu mended | %.1e | %.1e | %s | %.2f | %.2f | %.2f | %.2f | %.2f |\n", file.c_str(), n_components, n_faces, tries_text(united.report.tries).c_str(), united.report.n_bodies,
+    std::printf("| %s | %zu | %zu | %s | %zu | %zu | %zu | %.8g | %.8g | %s, %zu mended | %.1e | %.1e | %s | %.2f | %.2f (%.2f) | %.2f | %.2f | %.2f |\n", file.c_str(), n_components, n_faces, tries_text(united.report.tries).c_str(), united.report.n_bodies,
                 united.model.faces.size(), united.report.doubts.size(), before.total.area, before.total.volume, again.report.is_closed() ? "closed" : "OPEN", again.report.mended.size(), relative_change(before.total.area, after.total.area),
-                relative_change(before.total.volume, after.total.volume), same_names ? "kept" : "LOST", load, unite, measure, write, read);
+                relative_change(before.total.volume, after.total.volume), same_names ? "kept" : "LOST", load, unite, unite_cpu, measure, write, read);
+    if (settings.is_verbose)
+      for (const StageTime& stage : context.times()) std::printf("    %6.2f s %s\n", stage.seconds, stage.stage.c_str());
     if (settings.is_verbose)
       for (const ErrorPlace& doubt : united.report.doubts) std::printf("    doubt at %s: %s\n", format_point(doubt.position).c_str(), doubt.what.c_str());
   } catch (const Error& error) {
@@ -106,7 +114,7 @@ int main(int argc, char** argv) {
     else if (argument == "--verbose") settings.is_verbose = true;
     else files.emplace_back(argument);
   }
-  std::puts("| file | components | faces | tolerances tried, m | bodies | faces of the union | doubts | area, m^2 | volume, m^3 | STEP again | area differs | volume differs | names | load, s | unite, s | measure, s | write, s | read, s |");
+  std::puts("| file | components | faces | tolerances tried, m | bodies | faces of the union | doubts | area, m^2 | volume, m^3 | STEP again | area differs | volume differs | names | load, s | unite, s (of processors) | measure, s | write, s | read, s |");
   std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   for (const std::filesystem::path& file : files) print_row(file, settings);
 }
