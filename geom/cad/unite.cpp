@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <functional>
 #include <optional>
@@ -58,6 +59,7 @@ struct Try {
   Model model;
   std::vector<Origin> origin_of_face;
   double volume = 0.0;
+  bool is_late = false;  ///< the time limit ended it
   UniteTry outcome;
 };
 
@@ -198,6 +200,8 @@ void fuse_shapes(const std::vector<Part>& parts, double tolerance, const RunCont
 }
 
 Try fuse_once(const std::vector<Part>& parts, double tolerance, const UniteOptions& options, const RunContext& context) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
   Try result;
   result.outcome.tolerance = tolerance;
   try {
@@ -216,6 +220,7 @@ Try fuse_once(const std::vector<Part>& parts, double tolerance, const UniteOptio
     });
   } catch (const Error& error) {
     if (error.code() != ErrorCode::geometry_failed) throw;
+    result.is_late = std::chrono::duration<double>(Clock::now() - start).count() > options.time_limit;
     result.outcome.problem = error.info().problem;  // a larger tolerance may do
     result.outcome.places = error.info().places;
   }
@@ -235,12 +240,25 @@ std::vector<double> tolerances(const UniteOptions& options, double size) {
   return result;
 }
 
+std::string names_of(const std::vector<Part>& parts) {
+  std::string names;
+  for (const Part& part : parts) names += (names.empty() ? "\"" : ", \"") + part.name() + "\"";
+  return names;
+}
+
+/// No larger tolerance makes it faster.
+Error late(const std::vector<Part>& parts, const UniteTry& outcome) {
+  return Error({.code = ErrorCode::geometry_failed, .attempted = "uniting " + names_of(parts), .problem = outcome.problem, .hint = "give it a larger time_limit"});
+}
+
+/// \throws Error(geometry_failed) for a try that takes too long
 std::optional<Try> climb(const std::vector<Part>& parts, const UniteOptions& options, double size, std::vector<UniteTry>& tries, const RunContext& context) {
   for (const double tolerance : tolerances(options, size)) {
     Try result = fuse_once(parts, tolerance, options, context);
     tries.push_back(result.outcome);
     if (result.outcome.problem.empty()) return result;
     context.debug("union with tolerance " + std::to_string(tolerance) + " m: " + result.outcome.problem);
+    if (result.is_late) throw late(parts, result.outcome);
   }
   return std::nullopt;
 }
@@ -285,9 +303,14 @@ std::vector<Part> alone(const Part& a, const Part& b, const RunContext& context)
 }
 
 /// \throws Error(geometry_failed): names the first pair that does not unite alone.
-[[noreturn]] void blame(const std::vector<Part>& parts, const UniteOptions& options, double size, const std::vector<UniteTry>& tries, const RunContext& context) {
+[[noreturn]] void blame(const std::vector<Part>& parts, const UniteOptions& options, double size, const UniteReport& report, const RunContext& context) {
   ErrorInfo info{.code = ErrorCode::geometry_failed, .attempted = "uniting " + std::to_string(parts.size()) + " parts"};
-  const UniteTry* blamed = &tries.back();
+  const UniteTry* blamed = &report.tries.back();
+  std::vector<ErrorPlace> contacts;  // where OpenCASCADE names no place
+  const auto add_contacts = [&](const auto& is_blamed) {
+    for (const PartContact& contact : report.contacts)
+      if (is_blamed(contact)) contacts.push_back({contact.place, "\"" + parts[contact.first].name() + "\" and \"" + parts[contact.second].name() + "\" meet"});
+  };
   std::vector<UniteTry> pair_tries;
   for (std::size_t a = 0; a < parts.size() && info.problem.empty() && parts.size() > 2; ++a)
     for (std::size_t b = a + 1; b < parts.size() && info.problem.empty(); ++b) {
@@ -295,16 +318,17 @@ std::vector<Part> alone(const Part& a, const Part& b, const RunContext& context)
       pair_tries.clear();
       if (climb(alone(parts[a], parts[b], context), options, size, pair_tries, context)) continue;
       blamed = &pair_tries.back();
+      add_contacts([&](const PartContact& contact) { return std::minmax(contact.first, contact.second) == std::minmax(a, b); });
       info.problem = "\"" + parts[a].name() + "\" and \"" + parts[b].name() + "\" do not unite: " + blamed->problem;
     }
   if (info.problem.empty()) {
-    std::string names;
-    for (const Part& part : parts) names += (names.empty() ? "\"" : ", \"") + part.name() + "\"";
-    info.problem = names + " do not unite: " + blamed->problem;
+    info.problem = names_of(parts) + " do not unite: " + blamed->problem;
+    add_contacts([](const PartContact& contact) { return contact.kind != ContactKind::apart; });
   }
   info.problem += "; tried up to a tolerance of " + std::to_string(blamed->tolerance) + " m";
-  info.n_places = static_cast<std::int64_t>(blamed->places.size());
-  info.places.assign(blamed->places.begin(), blamed->places.begin() + static_cast<std::ptrdiff_t>(std::min(k_listed, blamed->places.size())));
+  info.places = blamed->places.empty() ? contacts : blamed->places;
+  info.n_places = static_cast<std::int64_t>(info.places.size());
+  info.places.resize(std::min(k_listed, info.places.size()));
   info.hint = "move or turn one of them a little, so that surfaces neither coincide nor touch tangentially";
   throw Error(std::move(info));
 }
@@ -342,7 +366,7 @@ UniteResult unite(std::span<const Model> models, const UniteOptions& options, co
   look_at_contacts(models, parts, report, context);
   const double size = size_of(parts);
   std::optional<Try> result = climb(parts, options, size, report.tries, context);
-  if (!result) blame(parts, options, size, report.tries, context);
+  if (!result) blame(parts, options, size, report, context);
   report.volume = result->volume;
   report.n_bodies = result->model.solids.size();
   return {std::move(result->model), std::move(report)};

@@ -23,7 +23,7 @@ struct Schema<UniteOptions> {
   using T = UniteOptions;
   static constexpr std::array fields = {
       Field<T>{.name = "tolerance", .member = &T::tolerance, .unit = Unit::metre, .min = 0.0, .max = 1.0, .help = "points, edges and faces of different parts that are nearer than this coincide", .automatic = "0, then 1e-7, 1e-6, 1e-5, 1e-4 of the longest side until the union is valid"},
-      Field<T>{.name = "time_limit", .member = &T::time_limit, .unit = Unit::second, .min = 1.0, .max = 1e6, .help = "each try gives up after this"},
+      Field<T>{.name = "time_limit", .member = &T::time_limit, .unit = Unit::second, .min = 1.0, .max = 1e6, .help = "a try that takes longer ends the union"},
   };
 };
 
@@ -56,7 +56,7 @@ namespace cad {
 /// valid (OpenCASCADE's check), closed, its volume between that of the largest part and the sum of all, and of every part as much area is left as samples of it
 /// lie outside of the others. The same bytes for any number of threads.
 /// \pre every part is closed \throws Error(open_surface) naming a part that is not; Error(geometry_failed) after the last tolerance, naming the pair of components
-/// that alone does not unite, where there is one, with the place; Error(cancelled)
+/// that alone does not unite, where there is one, with the place, or past the time limit of a try; Error(cancelled)
 UniteResult unite(std::span<const Model> parts, const UniteOptions& options, const RunContext& context);
 
 }  // namespace cad

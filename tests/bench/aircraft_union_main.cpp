@@ -96,7 +96,9 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
     if (settings.is_verbose)
       for (const ErrorPlace& doubt : united.report.doubts) std::printf("    doubt at %s: %s\n", format_point(doubt.position).c_str(), doubt.what.c_str());
   } catch (const Error& error) {
-    std::printf("| %s | %zu | %zu | %.2f s | %s |\n", file.c_str(), n_components, n_faces, watch.lap(), error.what());
+    std::string text = error.what();
+    for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n')) text.replace(at, 1, ";");
+    std::printf("| %s | %zu | %zu | error after %.2f s: %s |\n", file.c_str(), n_components, n_faces, watch.lap(), text.c_str());
   }
   std::fflush(stdout);
 }

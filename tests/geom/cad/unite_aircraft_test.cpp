@@ -55,13 +55,13 @@ Model components_of(const std::string& file) {
   return make_components(path.extension() == ".smx" ? read_smx(path, RunContext()).aircraft : read_cpacs(path, RunContext()).aircraft, RunContext());
 }
 
-class UniteAircraft : public testing::TestWithParam<const char*> {};
+class UniteAircraft : public testing::TestWithParam<std::pair<const char*, std::size_t>> {};
 
-TEST_P(UniteAircraft, IsOneClosedBodyAndTheSameFromStep) {
+TEST_P(UniteAircraft, IsClosedAndTheSameFromStep) {
   STERNA_NEEDS_SHARED_DATA();
-  const Model components = components_of(GetParam());
+  const Model components = components_of(GetParam().first);
   const UniteResult united = cad::unite_aircraft(components, {}, RunContext());
-  EXPECT_EQ(united.report.n_bodies, 1u);
+  EXPECT_EQ(united.report.n_bodies, GetParam().second);
   EXPECT_TRUE(free_edges(united.model).empty());
   EXPECT_EQ(united.model.components.size(), components.components.size());
   const std::string bytes = cad::cad_bytes(united.model, cad::CadFormat::step, "again.step", {}, RunContext());
@@ -73,7 +73,9 @@ TEST_P(UniteAircraft, IsOneClosedBodyAndTheSameFromStep) {
   EXPECT_NEAR(after.volume, before.volume, 1e-6 * before.volume);
 }
 
-INSTANTIATE_TEST_SUITE_P(Corpus, UniteAircraft, testing::Values("cpacs/simpletest.cpacs.xml", "cpacs/canards.xml", "cpacs/onera_m6.xml"));
+// The others are in tests/bench/aircraft_union_main.cpp.
+INSTANTIATE_TEST_SUITE_P(Corpus, UniteAircraft, testing::Values(std::pair("smx/torture.smx", 1u), std::pair("smx/underwingnacelle.smx", 1u), std::pair("smx/delta.smx", 1u), std::pair("cpacs/simpletest.cpacs.xml", 1u),
+                                                                std::pair("cpacs/canards.xml", 1u), std::pair("cpacs/landingGears.xml", 2u), std::pair("cpacs/onera_m6.xml", 1u)));
 
 }  // namespace
 }  // namespace sterna
