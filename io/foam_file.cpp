@@ -17,12 +17,6 @@ constexpr std::size_t k_longest_header_value = 200;
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
 bool is_mark(char c) { return c == '(' || c == ')' || c == '{' || c == '}' || c == ';'; }
 
-FileBuffer load(const std::filesystem::path& path, const RunContext& context) {
-  const std::filesystem::path packed = path.string() + ".gz";
-  std::error_code status;  // of a file that cannot be looked at; load_file says what is wrong with it
-  return load_file(!std::filesystem::exists(path, status) && std::filesystem::exists(packed, status) ? packed : path, context);
-}
-
 template <class T>
 T take_bytes(const char* at, std::endian order) {
   std::array<char, sizeof(T)> raw;
@@ -33,7 +27,13 @@ T take_bytes(const char* at, std::endian order) {
 
 }  // namespace
 
-FoamFile::FoamFile(const std::filesystem::path& path, std::string_view object_class, const RunContext& context) : buffer_(load(path, context)), text_(buffer_.text()) {
+std::filesystem::path packed_or_plain(const std::filesystem::path& path) {
+  const std::filesystem::path packed = path.string() + ".gz";
+  std::error_code status;  // of a file that cannot be looked at; who opens it says what is wrong with it
+  return !std::filesystem::exists(path, status) && std::filesystem::exists(packed, status) ? packed : path;
+}
+
+FoamFile::FoamFile(const std::filesystem::path& path, std::string_view object_class, const RunContext& context) : buffer_(load_file(packed_or_plain(path), context)), text_(buffer_.text()) {
   read_header(object_class);
 }
 

@@ -14,6 +14,9 @@
 
 namespace sterna::io {
 
+/// `path`.gz where that is there and `path` is not, else `path`.
+std::filesystem::path packed_or_plain(const std::filesystem::path& path);
+
 /// All members that read throw Error file_malformed with the line (the byte inside binary lists).
 class FoamFile {
  public:

@@ -95,7 +95,8 @@ constexpr std::array k_formats = {
     Format{.name = "PLOT3D", .extensions = ".fmt .xyz .p3d", .read_surface = read_plot3d},
     Format{.name = "sterna", .extensions = ".sterna", .read_surface = read_surface_sterna, .write_surface = write_surface_sterna, .read_volume = read_volume_sterna,
            .write_volume = write_volume_sterna, .carries_patch_names = true},
-    Format{.name = "OpenFOAM", .extensions = ".foam .bin.foam polymesh", .read_volume = read_volume_foam, .write_volume = write_volume_foam, .carries_patch_names = true},
+    Format{.name = "OpenFOAM", .extensions = ".foam .bin.foam polymesh", .read_volume = read_volume_foam, .write_volume = write_volume_foam, .carries_patch_names = true,
+           .files = polymesh_files, .require_output = require_foam_output},
     Format{.name = "Edge", .extensions = ".bmsh .v2.bmsh", .read_volume = read_volume_edge, .write_volume = write_volume_edge, .carries_patch_names = true},
     Format{.name = "Edge text", .extensions = ".amsh", .read_volume = read_volume_edge, .carries_patch_names = true},
 };

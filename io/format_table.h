@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/hybrid_mesh.h"
@@ -19,6 +20,10 @@ using SurfaceReader = SurfaceSoup (*)(const std::filesystem::path&, const RunCon
 using SurfaceWriter = void (*)(const TriMesh&, const std::filesystem::path&, const RunContext&);
 using VolumeReader = HybridMesh (*)(const std::filesystem::path&, const RunContext&);
 using VolumeWriter = void (*)(const HybridMesh&, const std::filesystem::path&, const RunContext&);
+/// The files of a mesh that is more than one, in a fixed order.
+using FileList = std::vector<std::filesystem::path> (*)(const std::filesystem::path&);
+/// Throws Error(write_failed) where `path` must not be written; called before the work whose result it is to hold.
+using OutputTest = void (*)(const std::filesystem::path&);
 /// Whether a file that begins with these bytes (unpacked, at most k_sniffed_bytes) is of the format.
 using ContentTest = bool (*)(std::string_view head);
 
@@ -31,6 +36,8 @@ struct Format {
   VolumeReader read_volume = nullptr;
   VolumeWriter write_volume = nullptr;
   bool carries_patch_names = false;
+  FileList files = nullptr;
+  OutputTest require_output = nullptr;
 
   bool is_read() const { return read_surface || read_volume; }
 };

@@ -1,5 +1,6 @@
 // polyMesh reader: points, faces, their cells, patches; the cells are rebuilt from the faces.
 #include <algorithm>
+#include <cctype>
 #include <system_error>
 
 #include "geom/base/error.h"
@@ -91,12 +92,24 @@ void read_boundary(const std::filesystem::path& folder, std::uint64_t n_internal
 std::filesystem::path polymesh_folder(const std::filesystem::path& path) {
   if (!path.has_filename() && path.has_parent_path()) return polymesh_folder(path.parent_path());  // ends in a slash
   if (path.filename() == "polyMesh") return path;
-  std::error_code status;  // of a path that cannot be looked at; load_file says what is wrong with it
-  if (std::filesystem::is_regular_file(path, status)) return path.parent_path() / "constant" / "polyMesh";
-  return path / "constant" / "polyMesh";
+  std::error_code status;  // of a path that cannot be looked at; who opens it says what is wrong with it
+  if (std::filesystem::is_directory(path, status)) return path / "constant" / "polyMesh";
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const bool is_file = extension == ".foam" || std::filesystem::exists(path, status);
+  return (is_file ? path.parent_path() : path) / "constant" / "polyMesh";
+}
+
+std::vector<std::filesystem::path> polymesh_files(const std::filesystem::path& path) {
+  std::vector<std::filesystem::path> files;
+  for (const char* const name : {"points", "faces", "owner", "neighbour", "boundary"}) files.push_back(packed_or_plain(polymesh_folder(path) / name));
+  return files;
 }
 
 HybridMesh read_volume_foam(const std::filesystem::path& path, const RunContext& context) {
+  std::error_code status;
+  if (!std::filesystem::exists(path, status))  // the polyMesh beside it may be another mesh's
+    throw Error({.code = ErrorCode::file_not_found, .attempted = "reading " + path.string(), .problem = status ? status.message() : "there is no such file or folder"});
   const std::filesystem::path folder = polymesh_folder(path);
   HybridMesh mesh;
   {

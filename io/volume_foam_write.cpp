@@ -4,6 +4,7 @@
 #include <iterator>
 #include <limits>
 
+#include "geom/base/error.h"
 #include "io/atomic_folder.h"
 #include "io/cell_sections.h"
 #include "io/mesh_faces.h"
@@ -252,16 +253,41 @@ class FoamWriter {
   std::uint64_t n_internal_ = 0, n_faces_ = 0, n_face_nodes_ = 0;
 };
 
+/// The empty file by which ParaView opens a case; none where `path` names a folder.
+std::filesystem::path marker_of(const std::filesystem::path& path) {
+  std::error_code status;
+  if (!path.has_filename() || polymesh_folder(path) == path || std::filesystem::is_directory(path, status)) return {};
+  return polymesh_folder(path) == path / "constant" / "polyMesh" ? std::filesystem::path() : path;
+}
+
 }  // namespace
 
+void require_foam_output(const std::filesystem::path& path) {
+  const std::filesystem::path marker = marker_of(path);
+  std::error_code status;  // of what cannot be looked at: the writer says what is wrong with it
+  if (marker.empty() || std::filesystem::exists(marker, status) || !std::filesystem::exists(polymesh_folder(path), status)) return;
+  const std::filesystem::path folder = marker.has_parent_path() ? marker.parent_path() : ".";
+  std::vector<std::string> others;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, status))
+    if (entry.path().extension() == ".foam" && entry.is_regular_file(status)) others.push_back(entry.path().filename().string());
+  if (others.empty()) return;
+  throw Error({.code = ErrorCode::write_failed,
+               .attempted = "writing " + path.string(),
+               .problem = "the mesh beside it, " + polymesh_folder(path).string() + ", is that of " + *std::min_element(others.begin(), others.end()),
+               .hint = "OpenFOAM has one mesh in a case: write to a folder for each, or to constant/polyMesh to replace that one"});
+}
+
 void write_volume_foam(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
-  const std::filesystem::path folder_path = polymesh_folder(path);
+  require_foam_output(path);
+  const std::filesystem::path folder_path = polymesh_folder(path), marker = marker_of(path);
   std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const FoamWriter writer(mesh, folder_path, name.ends_with(".bin.foam"), context);
   AtomicFolder folder(folder_path, "faces");
   writer.write(folder);
   folder.commit();
+  std::error_code status;
+  if (!marker.empty() && !std::filesystem::exists(marker, status)) AtomicFile(marker).commit();
 }
 
 }  // namespace sterna::io

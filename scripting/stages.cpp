@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geom/base/error.h"
-#include "geom/base/hash.h"
 #include "geom/mesh/topology.h"
+#include "io/input_hash.h"
 #include "io/sterna_file.h"
 #include "scripting/layer_json.h"
 #include "scripting/manifest.h"
@@ -268,7 +268,7 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
   const StageTimer timer(context, "read");
   io::SternaContent content = io::read_sterna(file.path, context);
   StageContent result;
-  if (content.surface && !content.envelope) result.surface = surface_of(std::move(*content.surface), {{file.name, hash_file(file.path)}}, context);
+  if (content.surface && !content.envelope) result.surface = surface_of(std::move(*content.surface), {{file.name, io::hash_input(file.path)}}, context);
   if (content.envelope) {
     if (content.manifest.empty()) refuse(file, "found an envelope, but not the options that made it");
     const StageJson json(content.manifest, file);
@@ -285,7 +285,7 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
   if (content.mesh && count_cells(*content.mesh).total() > 0 && !(result.tetrahedra && content.mesh->tetrahedra.empty())) {
     MeshValue mesh;
     mesh.mesh = std::move(*content.mesh);
-    mesh.inputs.push_back({file.name, hash_file(file.path)});
+    mesh.inputs.push_back({file.name, io::hash_input(file.path)});
     result.mesh = std::make_shared<const MeshValue>(std::move(mesh));
   }
   return result;

@@ -5,8 +5,8 @@
 #include <cctype>
 
 #include "geom/base/error.h"
-#include "geom/base/hash.h"
 #include "io/format_table.h"
+#include "io/input_hash.h"
 #include "io/sterna_file.h"
 #include "io/surface_file.h"
 #include "io/volume_file.h"
@@ -33,7 +33,7 @@ SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchO
     const RunContext part = context.part("read", 0.0, k_read_end);
     for (const InputPath& file : files) {
       soups.push_back(io::read_surface_file(file.path, part));
-      wall.inputs.push_back({file.name, hash_file(file.path)});
+      wall.inputs.push_back({file.name, io::hash_input(file.path)});
       part.progress(static_cast<double>(soups.size()) / static_cast<double>(files.size()));
     }
   }
@@ -77,12 +77,13 @@ MeshValue read_mesh(const InputPath& file, const RunContext& context) {
   const StageTimer timer(context, "read");
   MeshValue value;
   value.mesh = io::read_volume_file(file.path, context.part("read", 0.0, 1.0));
-  value.inputs.push_back({file.name, hash_file(file.path)});
+  value.inputs.push_back({file.name, io::hash_input(file.path)});
   return value;
 }
 
 void require_mesh_output(const std::filesystem::path& path) {
-  io::format_to_write(path, io::FormatUse::write_volume);
+  const io::Format& format = io::format_to_write(path, io::FormatUse::write_volume);
+  if (format.require_output) format.require_output(path);
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!std::filesystem::is_directory(folder))
     throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + folder.string()});

@@ -20,7 +20,7 @@ namespace sterna::scripting {
 /// A file that went into a result, for its manifest.
 struct InputFile {
   std::string name;  ///< as the user wrote it
-  std::string hash;  ///< hash_file
+  std::string hash;  ///< io::hash_input
 };
 
 /// A surface with where it came from.

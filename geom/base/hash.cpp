@@ -2,9 +2,11 @@
 
 #include <xxhash.h>
 
+#include <cerrno>
 #include <cstdio>
-#include <fstream>
 #include <memory>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include "geom/base/error.h"
@@ -18,22 +20,9 @@ struct FreeState {
   void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
 };
 
-}  // namespace
-
-std::string hash_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw Error({.code = ErrorCode::file_not_found, .attempted = "reading " + path.string(), .problem = "the file cannot be opened"});
-  const std::unique_ptr<XXH3_state_t, FreeState> state(XXH3_createState());
-  XXH3_128bits_reset(state.get());
-  std::vector<char> piece(k_piece);
-  while (file) {
-    file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    XXH3_128bits_update(state.get(), piece.data(), static_cast<std::size_t>(file.gcount()));
-  }
-  if (file.bad()) throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + path.string(), .problem = "reading failed half-way"});
+std::string to_hex(const XXH128_hash_t& hash) {
   XXH128_canonical_t canonical;
-  XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state.get()));
+  XXH128_canonicalFromHash(&canonical, hash);
   std::string hex;
   for (const unsigned char byte : canonical.digest) {
     char digits[3];
@@ -41,6 +30,31 @@ std::string hash_file(const std::filesystem::path& path) {
     hex += digits;
   }
   return hex;
+}
+
+[[noreturn]] void fail(ErrorCode code, const std::filesystem::path& path, std::string problem) {
+  throw Error({.code = code, .attempted = "reading " + path.string(), .problem = std::move(problem)});
+}
+
+}  // namespace
+
+std::string hash_file(const std::filesystem::path& path) {
+  std::error_code ignored;  // of a path that cannot be looked at: fopen says why
+  if (std::filesystem::is_directory(path, ignored)) fail(ErrorCode::file_not_found, path, "this is a folder, not a file");
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
+  if (!file) fail(ErrorCode::file_not_found, path, "the file cannot be opened: " + std::generic_category().message(errno));
+  const std::unique_ptr<XXH3_state_t, FreeState> state(XXH3_createState());
+  XXH3_128bits_reset(state.get());
+  std::vector<char> piece(k_piece);
+  while (const std::size_t n = std::fread(piece.data(), 1, piece.size(), file.get())) XXH3_128bits_update(state.get(), piece.data(), n);
+  if (std::ferror(file.get())) fail(ErrorCode::file_malformed, path, "reading failed half-way: " + std::generic_category().message(errno));
+  return to_hex(XXH3_128bits_digest(state.get()));
+}
+
+std::string hash_files(std::span<const std::filesystem::path> paths) {
+  std::string lines;
+  for (const std::filesystem::path& path : paths) lines += hash_file(path) + "  " + path.filename().string() + "\n";
+  return to_hex(XXH3_128bits(lines.data(), lines.size()));
 }
 
 std::uint64_t hash_bytes(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }

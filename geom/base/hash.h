@@ -3,14 +3,19 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace sterna {
 
 /// XXH3, 128 bits, of a file's bytes as 32 lower-case hex digits; the same as `xxhsum -H2` prints. Reads in pieces, about 5 GB/s once cached.
-/// \throws Error(file_not_found) when it cannot be opened, Error(file_malformed) when reading fails half-way.
+/// \throws Error(file_not_found) when it cannot be opened or is a folder, Error(file_malformed) when reading fails half-way; with the system's reason.
 std::string hash_file(const std::filesystem::path& path);
+
+/// Of several files in one: the hash of the text that `xxhsum -H2 NAME NAME ...` prints in their folder (each line the file's hash, two blanks, its name). Their order counts.
+/// \throws Error as hash_file
+std::string hash_files(std::span<const std::filesystem::path> paths);
 
 /// XXH3, 64 bits, seed 0; the same on every machine. About 20 GB/s.
 std::uint64_t hash_bytes(std::string_view bytes);

@@ -92,7 +92,7 @@ int write_seeds(const Target& target, const std::filesystem::path& folder, std::
   const auto add_written = [&](const std::filesystem::path& name, const auto& write) {
     std::filesystem::create_directories(scratch);
     write(scratch / name);
-    seeds.add(target.is_folder() ? scratch / name / "constant" / "polyMesh" : scratch / name);
+    seeds.add(target.is_folder() ? scratch / "constant" / "polyMesh" : scratch / name);
     std::filesystem::remove_all(scratch);
   };
   for (const std::string_view extension : words(target.is_folder() ? ".foam .bin.foam" : std::string_view(target.extensions))) {

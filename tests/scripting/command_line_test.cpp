@@ -1,6 +1,7 @@
 // The program as a user runs it: exit status, what goes to stdout and to stderr, which files are left.
 #include <cstdio>
 #include <fstream>
+#include <sstream>
 
 #include "scripting/exit_status.h"
 #include "tests/support/data.h"
@@ -153,6 +154,34 @@ TEST_F(CommandLine, ConvertKeepsWhatItIs) {
   const ProcessResult volume = sterna({"convert", "box.obj", "box.foam"});  // OpenFOAM holds volumes only
   EXPECT_EQ(volume.status, k_exit_failed);
   EXPECT_NE(volume.errors.find("OpenFOAM is not written as a surface"), std::string::npos) << volume.errors;
+}
+
+TEST_F(CommandLine, OpenFoamCasesByEachOfTheirNames) {
+  write("tet.su2", "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nNMARK= 1\nMARKER_TAG= skin\nMARKER_ELEMS= 4\n5 0 2 1\n5 0 1 3\n5 1 2 3\n5 2 0 3\n");
+  std::filesystem::create_directories(folder / "old.foam");  // a case that is a folder, as samples are
+  ASSERT_EQ(sterna({"convert", "tet.su2", "new.foam"}).status, k_exit_success);
+  ASSERT_EQ(sterna({"convert", "tet.su2", "old.foam"}).status, k_exit_success);
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder / "new.foam"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "old.foam" / "constant" / "polyMesh" / "faces"));
+  for (const std::string name : {"new.foam", "constant/polyMesh", "constant/polyMesh/", "old.foam", "old.foam/", "old.foam/constant/polyMesh"}) {
+    SCOPED_TRACE(name);
+    const ProcessResult info = sterna({"info", name});
+    EXPECT_EQ(info.status, k_exit_success) << info.errors;
+    for (const char* part : {"OpenFOAM", "1 tetrahedron", "\"skin\""}) EXPECT_NE(info.output.find(part), std::string::npos) << info.output;
+    const ProcessResult check = sterna({"check", name});
+    EXPECT_EQ(check.status, k_exit_success) << check.errors;
+    ASSERT_EQ(sterna({"convert", name, "back.su2"}).status, k_exit_success);
+    std::filesystem::remove(folder / "back.su2");
+  }
+  write("manifest.lua", "local mesh = read_mesh{ \"new.foam\" }\nmesh:write(\"again.su2\")\n");
+  ASSERT_EQ(sterna({"run", "manifest.lua"}).status, k_exit_success);
+  std::stringstream manifest;
+  manifest << std::ifstream(folder / "again.su2.json").rdbuf();
+  EXPECT_NE(manifest.str().find("\"file\": \"new.foam\""), std::string::npos) << manifest.str();
+  // A second mesh would replace the first; this is told before any work.
+  const ProcessResult refused = sterna({"mesh", "box.stl", "-o", "second.foam"});
+  EXPECT_EQ(refused.status, k_exit_failed);
+  EXPECT_NE(refused.errors.find("is that of new.foam"), std::string::npos) << refused.errors;
 }
 
 TEST_F(CommandLine, ConvertTakesVolumesToVolumesAndTheirBoundaryWhenAsked) {

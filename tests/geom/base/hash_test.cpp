@@ -21,14 +21,39 @@ TEST(HashFile, MatchesXxhsumAndSeesEveryByte) {
   EXPECT_NE(hash_file(path), before);
 }
 
+TEST(HashFile, OfSeveralFilesIsThatOfTheListOfTheirs) {
+  const auto folder = test::scratch();
+  std::ofstream(folder / "a") << "";
+  std::ofstream(folder / "b") << "";
+  const std::string empty = "99aa06d3014798d86001c324468d497f";
+  std::ofstream(folder / "list") << empty << "  a\n" << empty << "  b\n";  // what `xxhsum -H2 a b` prints
+  const std::vector<std::filesystem::path> files{folder / "a", folder / "b"}, turned{folder / "b", folder / "a"};
+  EXPECT_EQ(hash_files(files), hash_file(folder / "list"));
+  EXPECT_NE(hash_files(turned), hash_files(files));
+}
+
 TEST(HashBytes, MatchesXxhsum) {
   EXPECT_EQ(hash_bytes(""), 0x2d06800538d394c2u);  // XXH3-64 of nothing, from the library's own specification
   EXPECT_NE(hash_bytes("a"), hash_bytes("b"));
 }
 
 TEST(HashFile, AMissingFileIsAnError) {
-  EXPECT_THROW(hash_file(test::scratch() / "absent"), Error);
-  EXPECT_THROW(hash_file(test::scratch()), Error);
+  const auto message = [](const std::filesystem::path& path) {
+    try {
+      return hash_file(path);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::file_not_found);
+      return std::string(error.what());
+    }
+  };
+  const auto folder = test::scratch();
+  EXPECT_NE(message(folder / "absent").find("No such file or directory"), std::string::npos) << message(folder / "absent");
+  EXPECT_NE(message(folder).find("this is a folder"), std::string::npos) << message(folder);
+}
+
+TEST(HashFile, AFileThatCannotBeReadGivesTheReason) {
+  // Opens like a file and fails to be read at its start.
+  EXPECT_THROW(hash_file("/proc/self/mem"), Error);
 }
 
 }  // namespace

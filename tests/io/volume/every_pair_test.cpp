@@ -40,8 +40,8 @@ HybridMesh through(const HybridMesh& mesh, const Variant& variant, const std::fi
   const RunContext context({.threads = 2, .log = [told](LogLevel level, std::string_view text) {
                               if (told && level == LogLevel::warning) told->emplace_back(text);
                             }});
-  // "polymesh" is the name of a folder, not an extension.
-  const std::filesystem::path path = variant.extension.starts_with('.') ? folder / ("mesh" + variant.extension) : folder / "case" / "constant" / variant.extension;
+  // "polymesh" is the name of a folder, not an extension; OpenFOAM has one mesh in a folder.
+  const std::filesystem::path path = variant.extension.starts_with('.') ? folder / variant.extension.substr(1) / ("mesh" + variant.extension) : folder / "case" / "constant" / variant.extension;
   std::filesystem::remove_all(path);
   std::filesystem::create_directories(path.parent_path());
   write_volume_file(mesh, path, context, variant.format->name);

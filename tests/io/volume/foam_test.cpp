@@ -21,8 +21,9 @@ TEST(Foam, RoundTripOfMixedMeshes) {
   const auto folder = test::scratch();
   for (const std::string name : {"text.foam", "binary.bin.foam"}) {
     SCOPED_TRACE(name);
+    std::filesystem::create_directories(folder / name);  // named as a file in it is
     for (const HybridMesh& mesh : {test::six_patch_mesh(), test::hexahedra_block(3), test::hexahedron_with_roof(), test::sphere_shell(4, {.n_layers = 5, .collapsed = {3, 50, 51}})})
-      test::expect_round_trip(mesh, folder / name, CellOrder::rotated);
+      test::expect_round_trip(mesh, folder / name / name, CellOrder::rotated);
   }
   test::expect_round_trip(test::six_patch_mesh(), folder / "a" / "case" / "constant" / "polyMesh", CellOrder::rotated);
 }
@@ -40,7 +41,7 @@ TEST(Foam, SamplesByteForByte) {
     EXPECT_EQ(read(samples / (body + ".foam") / "constant" / "polyMesh/").points, mesh.points);
     if (body == "mix4") continue;  // its cells are numbered by the generator: hexahedron, prism, pyramid, tetrahedron
     write(mesh, folder / "out.foam");
-    EXPECT_EQ(test::all_bytes(folder / "out.foam" / "constant"), test::all_bytes(samples / "pt.foam" / "constant"));
+    EXPECT_EQ(test::all_bytes(folder / "constant"), test::all_bytes(samples / "pt.foam" / "constant"));
   }
 }
 
@@ -62,7 +63,7 @@ TEST(Foam, CheckMeshFindsNothing) {
 }
 
 TEST(Foam, HostileFiles) {
-  const auto folder = test::scratch() / "case.foam", poly = folder / "constant" / "polyMesh";
+  const auto scratch = test::scratch(), folder = scratch / "case.foam", poly = scratch / "constant" / "polyMesh";
   write(test::hexahedron_with_roof(), folder);
   const auto wrong = [&](const std::string& file, const std::string& from, const std::string& to, const std::string& message, ErrorCode code = ErrorCode::file_malformed) {
     SCOPED_TRACE(file + ": " + to);
@@ -99,10 +100,10 @@ TEST(Foam, HostileFiles) {
 
 TEST(Foam, NeverCrashesOnDamagedFiles) {
   for (const std::string name : {"case.foam", "case.bin.foam"}) {
-    const auto folder = test::scratch() / name;
+    const auto scratch = test::scratch(), folder = scratch / name;
     write(test::hexahedron_with_roof(), folder);
     for (const std::string file : {"points", "faces", "owner", "neighbour", "boundary"}) {
-      const auto path = folder / "constant" / "polyMesh" / file;
+      const auto path = scratch / "constant" / "polyMesh" / file;
       const std::string bytes = test::bytes_of(path);
       for (std::size_t n = 0; n < 2 * bytes.size(); n += 11) {
         std::string damaged = n < bytes.size() ? bytes.substr(0, n) : bytes;
@@ -119,22 +120,46 @@ TEST(Foam, NeverCrashesOnDamagedFiles) {
   }
 }
 
+/// What ParaView opens and OpenFOAM's tools find: an empty file beside constant/.
+TEST(Foam, AFileIsACaseForParaViewAndFoldersStayCases) {
+  const auto scratch = test::scratch();
+  const auto poly_of = [](const std::filesystem::path& folder) { return folder / "constant" / "polyMesh"; };
+  write(test::hexahedra_block(2), scratch / "case.foam");
+  EXPECT_THAT(test::files_in(scratch), testing::ElementsAre("case.foam", "constant"));
+  EXPECT_EQ(std::filesystem::file_size(scratch / "case.foam"), 0u);
+  EXPECT_EQ(read(scratch / "case.foam").points, read(poly_of(scratch)).points);
+  test::expect_error(ErrorCode::file_not_found, "other.foam: there is no such file", [&] { read(scratch / "other.foam"); });
+  test::expect_error(ErrorCode::write_failed, "is that of case.foam", [&] { write(test::six_patch_mesh(), scratch / "other.foam"); });
+  EXPECT_EQ(read(scratch / "case.foam").points, test::hexahedra_block(2).points);
+  EXPECT_FALSE(std::filesystem::exists(scratch / "other.foam"));
+  write(test::six_patch_mesh(), scratch / "case.foam");
+  EXPECT_EQ(read(scratch / "case.foam").points, test::six_patch_mesh().points);
+
+  // A folder is a case whatever its name.
+  std::filesystem::create_directories(scratch / "old.foam");
+  write(test::hexahedra_block(2), scratch / "old.foam");
+  EXPECT_THAT(test::files_in(scratch / "old.foam"), testing::ElementsAre("constant"));
+  EXPECT_EQ(read(scratch / "old.foam").points, read(poly_of(scratch / "old.foam")).points);
+  write_volume_file(test::hexahedra_block(2), scratch / "plain", RunContext({.threads = 2}), "OpenFOAM");
+  EXPECT_THAT(test::files_in(scratch / "plain"), testing::ElementsAre("constant"));
+}
+
 TEST(Foam, TheOldFolderStaysUntilTheNewOneIsComplete) {
-  const auto folder = test::scratch() / "case.foam", poly = folder / "constant" / "polyMesh";
+  const auto scratch = test::scratch(), folder = scratch / "case.foam", poly = scratch / "constant" / "polyMesh";
   write(test::hexahedron_with_roof(), folder);
   std::ofstream(poly / "cellZones") << "of the old mesh";
-  const std::string bytes = test::all_bytes(folder);
+  const std::string bytes = test::all_bytes(scratch);
   {
     const test::FullDisk full(2000);
     test::expect_error(ErrorCode::write_failed, "", [&] { write(test::six_patch_mesh(), folder); });
   }
-  EXPECT_EQ(test::all_bytes(folder), bytes);
-  EXPECT_EQ(test::files_in(folder / "constant"), std::vector<std::string>{"polyMesh"});
+  EXPECT_EQ(test::all_bytes(scratch), bytes);
+  EXPECT_EQ(test::files_in(scratch / "constant"), std::vector<std::string>{"polyMesh"});
   write(test::hexahedra_block(2), folder);
   EXPECT_THAT(test::files_in(poly), testing::ElementsAre("boundary", "faces", "neighbour", "owner", "points"));
-  EXPECT_EQ(test::files_in(folder / "constant"), std::vector<std::string>{"polyMesh"});
+  EXPECT_EQ(test::files_in(scratch / "constant"), std::vector<std::string>{"polyMesh"});
 
-  const auto other = folder / "other" / "polyMesh";
+  const auto other = scratch / "other" / "polyMesh";
   std::filesystem::create_directories(other / "precious");
   test::expect_error(ErrorCode::write_failed, "something else", [&] { write(test::hexahedra_block(2), other); });
   EXPECT_TRUE(std::filesystem::exists(other / "precious"));
@@ -154,7 +179,7 @@ TEST(Foam, MeshesThatDoNotCloseAreRefused) {
   mesh = test::six_patch_mesh();
   mesh.points[NodeId(7)].x = std::numeric_limits<double>::quiet_NaN();
   test::expect_error(ErrorCode::mesh_invalid, "node 7 are not finite", [&] { write(mesh, path); });
-  EXPECT_FALSE(std::filesystem::exists(path / "constant" / "polyMesh"));
+  EXPECT_FALSE(std::filesystem::exists(path.parent_path() / "constant" / "polyMesh"));
 }
 
 TEST(Foam, NamesAreMappedWithAMessage) {

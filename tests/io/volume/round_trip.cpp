@@ -8,6 +8,7 @@
 
 #include "io/patch_names.h"
 #include "io/volume_file.h"
+#include "io/volume_foam.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/reader_checks.h"
 #include "tests/support/data.h"
@@ -114,7 +115,7 @@ void expect_same_after_reading(const HybridMesh& back, const HybridMesh& mesh, C
 }
 
 std::string all_bytes(const std::filesystem::path& path) {
-  if (!std::filesystem::is_directory(path)) return bytes_of(path);
+  if (!std::filesystem::is_directory(path)) return path.extension() == ".foam" ? all_bytes(io::polymesh_folder(path)) : bytes_of(path);
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
     if (entry.is_regular_file()) files.push_back(entry.path());

@@ -1,0 +1,13 @@
+#include "io/input_hash.h"
+
+#include "geom/base/hash.h"
+#include "io/format_table.h"
+
+namespace sterna::io {
+
+std::string hash_input(const std::filesystem::path& path) {
+  const Format& format = format_of(path);
+  return format.files ? hash_files(format.files(path)) : hash_file(path);
+}
+
+}  // namespace sterna::io
