@@ -1,10 +1,18 @@
 #include "tests/support/data.h"
 
+#include <cstdlib>
+#include <string_view>
+
 namespace sterna::test {
 
 std::filesystem::path corpus() { return std::filesystem::path(STERNA_SOURCE_DIR) / "tests" / "data"; }
 std::filesystem::path shared_data() { return std::filesystem::path(STERNA_SOURCE_DIR).parent_path() / "shared" / "data"; }
 bool has_shared_data() { return std::filesystem::is_directory(shared_data() / "surfaces"); }
+
+bool is_all_required() {
+  const char* const required = std::getenv("STERNA_REQUIRE_DATA");
+  return required && std::string_view(required) == "1";
+}
 
 std::filesystem::path scratch() {
   const auto* info = testing::UnitTest::GetInstance()->current_test_info();

@@ -15,14 +15,20 @@ bool has_shared_data();
 /// A fresh empty folder for the running test.
 std::filesystem::path scratch();
 
+/// STERNA_REQUIRE_DATA=1: nothing that a test needs may be absent, so no test may be skipped.
+bool is_all_required();
+
 }  // namespace sterna::test
 
-/// First line of every test that reads ../shared/data: skips where it is absent, fails where STERNA_REQUIRE_DATA=1 says that it must be there.
-#define STERNA_NEEDS_SHARED_DATA()                                                                             \
-  do {                                                                                                         \
-    if (!sterna::test::has_shared_data()) {                                                                    \
-      const char* required = std::getenv("STERNA_REQUIRE_DATA");                                               \
-      if (required && std::string_view(required) == "1") FAIL() << "STERNA_REQUIRE_DATA=1, but ../shared/data is absent"; \
-      GTEST_SKIP() << "needs ../shared/data, which is absent here";                                            \
-    }                                                                                                          \
+/// For what not every machine has (data, programs and modules of other packages): skips the test where `is_there` is false, fails it where is_all_required().
+/// \param what what is missing
+#define STERNA_NEEDS(is_there, what)                                                                     \
+  do {                                                                                                   \
+    if (!(is_there)) {                                                                                   \
+      if (sterna::test::is_all_required()) FAIL() << "STERNA_REQUIRE_DATA=1, but " << what << " is absent"; \
+      GTEST_SKIP() << what << " is absent here";                                                         \
+    }                                                                                                    \
   } while (false)
+
+/// First line of every test that reads ../shared/data.
+#define STERNA_NEEDS_SHARED_DATA() STERNA_NEEDS(sterna::test::has_shared_data(), "../shared/data")

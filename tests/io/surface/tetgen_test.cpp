@@ -1,7 +1,6 @@
 // TetGen itself as an independent reader of .smesh and .poly.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -69,11 +68,7 @@ void expect_filled(const TriMesh& mesh, const std::string& extension) {
 }
 
 TEST(TetGen, ReadsWhatIsWritten) {
-  if (!std::filesystem::exists(k_tetgen)) {
-    const char* const required = std::getenv("STERNA_REQUIRE_DATA");
-    if (required && std::string(required) == "1") FAIL() << "STERNA_REQUIRE_DATA=1, but " << k_tetgen << " is absent";
-    GTEST_SKIP() << "the Debian package tetgen is not installed";
-  }
+  STERNA_NEEDS(std::filesystem::exists(k_tetgen), "the Debian package tetgen");
   TriMesh cube = test::cube(3);
   cube.patches.push_back({"lid"});
   for (std::uint64_t t = 0; t < 7; ++t) cube.triangle_patch[TriangleId(t)] = PatchId(1);

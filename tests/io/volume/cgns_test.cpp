@@ -80,7 +80,7 @@ TEST(CgnsWrite, CgnscheckFindsNothing) {
       SCOPED_TRACE(name);
       write(mesh, folder / name);
       const auto output = test::output_of_tool("cgnscheck", {(folder / name).string()});
-      STERNA_NEEDS_TOOL(output, "cgnscheck of the package cgns-convert");
+      STERNA_NEEDS(output, "cgnscheck of the package cgns-convert");
       EXPECT_THAT(*output, testing::HasSubstr("checking complete"));
       EXPECT_THAT(*output, testing::Not(testing::HasSubstr("WARNING"))) << *output;
       EXPECT_THAT(*output, testing::Not(testing::HasSubstr("ERROR"))) << *output;
@@ -93,7 +93,7 @@ TEST(CgnsWrite, VtkFindsTheSame) {
   for (const HybridMesh& mesh : {test::mixed_mesh(), test::mesh_of_six_patches()}) {
     write(mesh, path);
     const auto report = test::read_independently("vtk-cgns", path);
-    STERNA_NEEDS_READER(report);
+    STERNA_NEEDS(report, "the Python module of the independent reader");
     test::expect_same_mesh(*report, mesh);
     for (const PatchId patch : mesh.patches.ids()) EXPECT_TRUE(report->has("patch." + mesh.patches[patch].name)) << report->output;
   }

@@ -59,9 +59,9 @@ TEST(Fluent, OpenFoamReadsTheSame) {
   write(mesh, folder / "mesh.fluent.msh");
   test::make_foam_case(folder / "case.foam");
   const auto converted = test::run_openfoam("fluent3DMeshToFoam", {"-case", "case.foam", "mesh.fluent.msh"}, folder);
-  STERNA_NEEDS_OPENFOAM(converted);
+  STERNA_NEEDS(converted, "the Debian package openfoam");
   const auto checked = test::run_openfoam("checkMesh", {"-case", "case.foam", "-allTopology"}, folder);
-  STERNA_NEEDS_OPENFOAM(checked);
+  STERNA_NEEDS(checked, "the Debian package openfoam");
   EXPECT_NE(checked->find("Mesh OK."), std::string::npos) << *converted << *checked;
   const HybridMesh back = read(folder / "case.foam");
   EXPECT_EQ(count_cells(back).prisms, count_cells(mesh).prisms);

@@ -101,17 +101,17 @@ TEST(FoamRealMesh, CheckMeshPassesAndLikesNoFaceOnlyAtRidgesOrWhereTheWallSays) 
   std::ofstream(folder / "case.lua") << script;
   test::make_foam_case(folder / "case.bin.foam");
   test::make_foam_case(folder / "text.foam");
-  STERNA_NEEDS_OPENFOAM(test::run_openfoam("checkMesh", {"-help"}, folder));
+  STERNA_NEEDS(test::run_openfoam("checkMesh", {"-help"}, folder), "the Debian package openfoam");
   const test::ProcessResult run = test::run_process(test::sterna_program(), {"--quiet", "run", "case.lua"}, folder);
   ASSERT_EQ(run.status, 0) << run.output << run.errors;
   const auto binary = test::run_openfoam("checkMesh", {"-case", "case.bin.foam", "-allTopology", "-allGeometry"}, folder);
-  STERNA_NEEDS_OPENFOAM(binary);
+  STERNA_NEEDS(binary, "the Debian package openfoam");
   EXPECT_GT(test::number_after(*binary, "prisms:"), 4000.0);
   // Its limit of the aspect ratio is 1000, and wide triangles under thin first cells come near it; quality is the mesh's own, and measured by `sterna check`.
   const std::vector<std::string> allowed = {"aspect ratio", "skewness", "face tets", "small determinant", "Concave cells", "interpolation weight", "volume ratio"};
   test::expect_clean(*binary, allowed);
   const auto output = test::run_openfoam("checkMesh", {"-case", "text.foam", "-allTopology", "-allGeometry", "-writeSets", "vtk"}, folder);
-  STERNA_NEEDS_OPENFOAM(output);
+  STERNA_NEEDS(output, "the Debian package openfoam");
   test::expect_clean(*output, allowed);
 
   const SternaContent content = read_sterna(folder / "case.sterna", RunContext({.threads = 2}));

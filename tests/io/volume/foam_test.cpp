@@ -52,7 +52,7 @@ TEST(Foam, CheckMeshFindsNothing) {
     test::make_foam_case(folder / name);
     write(mesh, folder / name);
     const auto output = test::run_openfoam("checkMesh", {"-case", name, "-allTopology", "-allGeometry"}, folder);
-    STERNA_NEEDS_OPENFOAM(output);
+    STERNA_NEEDS(output, "the Debian package openfoam");
     const CellCounts counts = count_cells(mesh);
     EXPECT_EQ(test::number_after(*output, "prisms:"), static_cast<double>(counts.prisms));
     EXPECT_EQ(test::number_after(*output, "pyramids:"), static_cast<double>(counts.pyramids));

@@ -50,10 +50,10 @@ TEST(MshVolume, IndependentReadersAgree) {
   for (const std::string name : {"mesh.msh", "mesh.bin.msh"}) {
     write(mesh, folder / name);
     const auto report = test::read_independently("meshio", folder / name);
-    STERNA_NEEDS_READER(report);
+    STERNA_NEEDS(report, "the Python module of the independent reader");
     test::expect_same_mesh(*report, mesh);
     const auto of_gmsh = test::read_independently("gmsh", folder / name);
-    STERNA_NEEDS_READER(of_gmsh);
+    STERNA_NEEDS(of_gmsh, "the Python module of the independent reader");
     test::expect_same_mesh(*of_gmsh, mesh);
   }
 }

@@ -13,7 +13,7 @@ namespace sterna::test {
 /// Makes the few files without which no tool of OpenFOAM starts.
 void make_foam_case(const std::filesystem::path& folder);
 
-/// Output of a tool run in a case ("checkMesh"); nullopt: OpenFOAM is not installed (a failure was added when STERNA_REQUIRE_DATA=1, else skip the test).
+/// Output of a tool run in a case ("checkMesh"); nullopt: OpenFOAM is not installed, see STERNA_NEEDS.
 std::optional<std::string> run_openfoam(const std::string& tool, const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 
 /// Topology, closedness, volumes and orientation are as they must be, and every other check passes but those of quality in `allowed`, by a part of their line.
@@ -26,9 +26,3 @@ std::vector<std::size_t> read_labels(const std::filesystem::path& path);
 double number_after(const std::string& output, const std::string& label);
 
 }  // namespace sterna::test
-
-/// Skips the test where OpenFOAM is not installed.
-#define STERNA_NEEDS_OPENFOAM(output)                                               \
-  do {                                                                              \
-    if (!(output)) GTEST_SKIP() << "the Debian package openfoam is not installed"; \
-  } while (false)

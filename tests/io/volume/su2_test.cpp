@@ -318,7 +318,7 @@ TEST(Su2Write, MeshioAgrees) {
   for (const HybridMesh& mesh : {prism_and_tet(), test::mixed_mesh(), test::hexahedron_with_roof(), test::sphere_shell(20, {.n_layers = 5, .collapsed = {3, 50, 51}})}) {
     write(mesh, path);
     const auto report = test::read_independently("meshio", path);
-    STERNA_NEEDS_READER(report);
+    STERNA_NEEDS(report, "the Python module of the independent reader");
     test::expect_same_mesh(*report, mesh);
   }
 }

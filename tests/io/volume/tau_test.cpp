@@ -48,7 +48,7 @@ TEST(Tau, NcdumpReadsIt) {
   const HybridMesh mesh = test::mesh_of_six_patches();
   write(mesh, file);
   const auto kind = test::output_of_tool("ncdump", {"-k", file.string()});
-  STERNA_NEEDS_TOOL(kind, "ncdump of the package netcdf-bin");
+  STERNA_NEEDS(kind, "ncdump of the package netcdf-bin");
   EXPECT_EQ(*kind, "64-bit offset\n");
   const std::string head = *test::output_of_tool("ncdump", {"-v", "marker,boundarymarker_of_surfaces", file.string()});
   const CellCounts counts = count_cells(mesh);
@@ -65,7 +65,7 @@ TEST(Tau, RoundTripInCdf5) {
   write_volume_tau(mesh, file, TauNetcdf::cdf5, RunContext({.threads = 2}));
   test::expect_equal_meshes(read(file), mesh);
   const auto kind = test::output_of_tool("ncdump", {"-k", file.string()});
-  STERNA_NEEDS_TOOL(kind, "ncdump of the package netcdf-bin");
+  STERNA_NEEDS(kind, "ncdump of the package netcdf-bin");
   EXPECT_EQ(*kind, "cdf5\n");
   EXPECT_THAT(*test::output_of_tool("ncdump", {"-v", "marker", file.string()}), testing::HasSubstr("marker = 1, 2, 3, 4, 5, 6 ;"));
 }
@@ -80,7 +80,7 @@ TEST(TauRead, OtherKindsOfNetcdf) {
     SCOPED_TRACE(arguments[1] + " " + std::to_string(arguments.size()));
     const auto copy = folder / "copy.grid";
     arguments.insert(arguments.end(), {file.string(), copy.string()});
-    STERNA_NEEDS_TOOL(test::output_of_tool("nccopy", arguments), "nccopy of the package netcdf-bin");
+    STERNA_NEEDS(test::output_of_tool("nccopy", arguments), "nccopy of the package netcdf-bin");
     std::filesystem::copy_file(folder / "mesh.bmap", folder / "copy.bmap", std::filesystem::copy_options::overwrite_existing);
     test::expect_equal_meshes(read(copy), mesh);
     if (arguments.size() == 7) test::expect_survives_damage(copy, "damaged.grid", test::k_few_attempts);
@@ -95,7 +95,7 @@ TEST(TauRead, HeapsOfManyNames) {
   text += "data:\n points_xc = 1 ;\n points_yc = 2 ;\n points_zc = 3 ;\n}\n";
   const auto folder = test::scratch();
   std::ofstream(folder / "many.cdl") << text;
-  STERNA_NEEDS_TOOL(test::output_of_tool("ncgen", {"-k", "nc4", "-o", (folder / "many.grid").string(), (folder / "many.cdl").string()}), "ncgen of the package netcdf-bin");
+  STERNA_NEEDS(test::output_of_tool("ncgen", {"-k", "nc4", "-o", (folder / "many.grid").string(), (folder / "many.cdl").string()}), "ncgen of the package netcdf-bin");
   EXPECT_EQ(read(folder / "many.grid").points.raw(), (std::vector<Point>{{1, 2, 3}}));
 }
 

@@ -23,7 +23,7 @@ struct IndependentReport {
   bool has(const std::string& key) const { return values.count(key) > 0; }
 };
 
-/// Reads `file` with "meshio" or "vtk" of Debian's python. nullopt: not installed (a failure was added when STERNA_REQUIRE_DATA=1, else skip the test).
+/// Reads `file` with "meshio" or "vtk" of Debian's python. nullopt: not installed, see STERNA_NEEDS.
 std::optional<IndependentReport> read_independently(const std::string& reader, const std::filesystem::path& file);
 
 /// The reader finds the same counts, bounds, volumes, markers as `mesh` has.
@@ -51,7 +51,7 @@ HybridMesh mesh_of_six_patches();
 /// `back`, read from a file, has the cells, coordinates to the bit, boundary faces (patch by patch, in order) and patches of `mesh`.
 void expect_equal_meshes(const HybridMesh& back, const HybridMesh& mesh);
 
-/// The output of a program of Debian's that reads files of ours. nullopt: not installed (a failure was added when STERNA_REQUIRE_DATA=1).
+/// The output of a program of Debian's that reads files of ours. nullopt: not installed, see STERNA_NEEDS.
 std::optional<std::string> output_of_tool(const std::string& program, const std::vector<std::string>& arguments);
 
 /// The file `victim`, cut at many lengths and with many bytes changed, is read or refused with file_malformed or unsupported_format, under the name `name`
@@ -87,15 +87,3 @@ void expect_round_trips(const std::filesystem::path& file, const Read& read, con
 }
 
 }  // namespace sterna::test
-
-/// Skips the test where the reader's Python module is not installed.
-#define STERNA_NEEDS_READER(report)                                                      \
-  do {                                                                                   \
-    if (!(report)) GTEST_SKIP() << "the Python module of the independent reader is not installed"; \
-  } while (false)
-
-/// Skips the test where a program is not installed.
-#define STERNA_NEEDS_TOOL(output, what)                         \
-  do {                                                          \
-    if (!(output)) GTEST_SKIP() << what " is not installed"; \
-  } while (false)

@@ -43,7 +43,7 @@ TEST(VtkHdfWrite, VtkFindsTheSame) {
   for (const HybridMesh& mesh : {test::mesh_of_six_patches(), test::hexahedron_with_roof(), test::sphere_shell(28, {.n_layers = 5, .collapsed = {3, 50, 51}})}) {
     write(mesh, path);
     const auto report = test::read_independently("vtk", path);
-    STERNA_NEEDS_READER(report);
+    STERNA_NEEDS(report, "the Python module of the independent reader");
     test::expect_same_mesh(*report, mesh);
     for (const PatchId patch : mesh.patches.ids())
       EXPECT_EQ(report->number("field.patch:" + std::string(to_string(mesh.patches[patch].kind)) + ":" + mesh.patches[patch].name), patch.value() + 1.0);

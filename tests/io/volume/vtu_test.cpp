@@ -23,7 +23,7 @@ TEST_P(VtuReaders, Agree) {
   for (const HybridMesh& mesh : {test::mixed_mesh(), test::hexahedron_with_roof(), test::sphere_shell(28, {.n_layers = 5, .collapsed = {3, 50, 51}})}) {
     write(mesh, path);
     const auto report = test::read_independently(GetParam(), path);
-    STERNA_NEEDS_READER(report);
+    STERNA_NEEDS(report, "the Python module of the independent reader");
     test::expect_same_mesh(*report, mesh);
     for (const PatchId patch : mesh.patches.ids())
       EXPECT_EQ(report->number("field.patch:" + std::string(to_string(mesh.patches[patch].kind)) + ":" + mesh.patches[patch].name), patch.value() + 1.0);
@@ -50,7 +50,7 @@ TEST_P(VtuReaders, ReadTrouble) {
   trouble.vertices = {3, 2, 1};
   write_trouble_vtu(trouble, path);
   const auto report = test::read_independently(GetParam(), path);
-  STERNA_NEEDS_READER(report);
+  STERNA_NEEDS(report, "the Python module of the independent reader");
   EXPECT_EQ(report->number("points"), 4);
   EXPECT_EQ(report->number("cells.triangle"), 2);
   EXPECT_EQ(report->number("cells.line"), 1);
@@ -64,7 +64,7 @@ TEST_P(VtuReaders, ReadSurfaces) {
   cube.triangle_patch[TriangleId(0)] = PatchId(1);
   write_surface_vtu(cube, path, RunContext({.threads = 2}));
   const auto report = test::read_independently(GetParam(), path);
-  STERNA_NEEDS_READER(report);
+  STERNA_NEEDS(report, "the Python module of the independent reader");
   EXPECT_EQ(report->number("cells.triangle"), static_cast<double>(cube.n_triangles()));
   EXPECT_NEAR(report->number("enclosed"), 1.0, 1e-14);  // outward, rounding of some 100 terms
   EXPECT_EQ(report->number("faces.1"), static_cast<double>(cube.n_triangles()) - 1.0);
@@ -119,7 +119,7 @@ TEST(Vtu, EveryPackingHasTheSameContent) {
       write(mesh, folder / name);
       test::expect_same_after_reading(read(folder / name), mesh, test::CellOrder::same);
       const auto report = test::read_independently("vtk", folder / name);
-      STERNA_NEEDS_READER(report);
+      STERNA_NEEDS(report, "the Python module of the independent reader");
       test::expect_same_mesh(*report, mesh);
     }
   }
