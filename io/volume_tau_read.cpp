@@ -1,4 +1,5 @@
 // TAU reader: points, cells by kind, surface elements with their markers, names of markers.
+#include <cmath>
 #include <map>
 
 #include "geom/base/parallel.h"
@@ -33,9 +34,10 @@ class TauReader {
 
  private:
   bool has(const std::string& variable) const { return image_.root().find(variable) != nullptr; }
+  static std::string where_of(const std::string& variable) { return "variable \"" + variable + "\""; }
   NumberArray data(const std::string& variable) const {
     NumberArray array = image_.data(image_.child(image_.root(), variable));
-    array.where = "variable \"" + variable + "\"";
+    array.where = where_of(variable);
     return array;
   }
 
@@ -43,7 +45,7 @@ class TauReader {
     std::array<NumberArray, 3> values;
     constexpr std::array<const char*, 3> k_names = {"points_xc", "points_yc", "points_zc"};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (!has(k_names[axis])) throw_malformed(image_.source(), "the variables", std::string("found no \"") + k_names[axis] + "\": this is no primary grid of TAU");
+      if (!has(k_names[axis])) throw_malformed(image_.source(), where_of(k_names[axis]), "there is none, so this is no primary grid of TAU");
       values[axis] = data(k_names[axis]);
       values[axis].require_reals(values[0].count(), "coordinates of the points");
     }
@@ -52,7 +54,8 @@ class TauReader {
     mesh_.points.resize(n);
     parallel_for(context_, n, [&](std::size_t i) {
       const Point p = {values[0].real(i), values[1].real(i), values[2].real(i)};
-      if (!is_finite(p)) throw_malformed(image_.source(), "point " + std::to_string(i), "its coordinates are not finite");
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (!std::isfinite(p[axis])) values[axis].fail("the coordinate of point " + std::to_string(i) + " is not finite");
       mesh_.points.raw()[i] = p;
     });
   }
@@ -91,7 +94,7 @@ class TauReader {
     constexpr const char* k_markers = "boundarymarker_of_surfaces";
     NumberArray markers;
     if (n > 0) {
-      if (!has(k_markers)) throw_malformed(image_.source(), "the variables", std::string("found no \"") + k_markers + "\"");
+      if (!has(k_markers)) throw_malformed(image_.source(), where_of(k_markers), "there is none, so the faces are of no patch");
       markers = data(k_markers);
       markers.require_integers(n, "markers of all triangles, then of all quads");
     }

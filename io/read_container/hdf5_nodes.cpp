@@ -87,7 +87,7 @@ hid_t open_file(const char* path, const Limits& limits) {
   if (bytes == MAP_FAILED) throw std::bad_alloc();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "the file", "opening it");
   constexpr std::size_t k_step = 1 << 20;  // it does not grow
-  if (H5Pset_fapl_core(access, k_step, false) < 0 || H5Pset_file_image(access, bytes, limits.file_size) < 0) fail("the file", "opening it");
+  if (H5Pset_fapl_core(access, k_step, false) < 0 || H5Pset_file_image(access, bytes, limits.file_size) < 0) fail("the head of the file", "opening it");
   const hid_t file = H5Fopen("unpacked", H5F_ACC_RDONLY, access);
   munmap(bytes, limits.file_size);
   if (file < 0) fail("the head of the file", "opening it");

@@ -51,10 +51,10 @@ class NetcdfNodes {
   void add() {
     root_ = image_.add({.parent = 0, .role = wire::Role::group, .name = ""});
     int n_attributes = 0, n_variables = 0;
-    require(nc_inq_natts(file_, &n_attributes), "the attributes");
+    require(nc_inq_natts(file_, &n_attributes), "the head of the file");
     for (int i = 0; i < n_attributes; ++i) add_attribute(i);
-    require(nc_inq_nvars(file_, &n_variables), "the variables");
-    if (!is_hdf5_) require(nc_inq_unlimdim(file_, &unlimited_), "the dimensions");
+    require(nc_inq_nvars(file_, &n_variables), "the head of the file");
+    if (!is_hdf5_) require(nc_inq_unlimdim(file_, &unlimited_), "the head of the file");
     for (int i = 0; i < n_variables; ++i) add_variable(i);
   }
 

@@ -12,6 +12,22 @@ bool has_number_behind(const std::string& text, std::string_view word) {
   return false;
 }
 
+/// Of containers: the path of a group, dataset or attribute; a variable or an attribute by its name or, where that cannot be read, its number. Where the library cannot even open the file,
+/// its head; where it dies or what it hands over makes no sense as a whole, it is named.
+bool names_node(std::string_view problem) {
+  constexpr std::string_view k_head = "the head of the file: ";
+  if (problem.starts_with(k_head)) return problem.find("library says: ") != std::string_view::npos || problem.find("ends before") != std::string_view::npos;
+  for (const std::string_view begin : {"variable ", "attribute "}) {
+    if (!problem.starts_with(begin) || problem.size() == begin.size()) continue;
+    const char first = problem[begin.size()];
+    return std::isdigit(static_cast<unsigned char>(first)) || (first == '"' && problem.find('"', begin.size() + 1) > begin.size() + 1);
+  }
+  for (const std::string_view whole : {"the file is empty", "the file: reading it needs more memory than ", "the file: the HDF5 library ", "the file: the NetCDF library ", "the file: the CGNS library ", "the file: sterna-read-container made no sense of it: ",
+                                       "the file: its arrays unpack to more than ", "the file: it leads to more groups and attributes than "})
+    if (problem.starts_with(whole)) return true;
+  return problem.starts_with('/') && problem.find(": ") != std::string_view::npos;
+}
+
 }  // namespace
 
 std::string flaw_of(const SurfaceSoup& soup) {
@@ -50,7 +66,8 @@ bool says_where(const Error& error, bool is_container) {
   const std::string text = error.what();
   for (const std::string_view word : {"line ", "byte ", "cell "})
     if (has_number_behind(text, word)) return true;
-  return is_container || text.find("the file is empty") != std::string::npos;
+  if (is_container) return names_node(error.info().problem);
+  return text.find("the file is empty") != std::string::npos;
 }
 
 }  // namespace sterna::test

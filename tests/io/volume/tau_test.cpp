@@ -130,6 +130,22 @@ TEST(TauRead, MistakesAreTold) {
   write(mesh, folder / "mesh.taumesh");
   test::expect_error(ErrorCode::file_malformed, "variable \"points_of_pyramids\": element 0 has point 99, expected 0 to 8", [&] { read(folder / "mesh.taumesh"); });
   test::expect_error(ErrorCode::file_malformed, "byte 0", [&] { read(test::write_text("text.grid", "NDIME= 3\n")); });
+  for (const std::string name : {"points_yc", "boundarymarker_of_surfaces"}) {
+    write(test::hexahedron_with_roof(), folder / "mesh.taumesh");
+    std::string bytes = test::bytes_of(folder / "mesh.taumesh");
+    ASSERT_NE(bytes.find(name), std::string::npos);
+    bytes[bytes.find(name)] = 'x';
+    std::ofstream(folder / "mesh.taumesh", std::ios::binary) << bytes;
+    test::expect_error(ErrorCode::file_malformed, "variable \"" + name + "\": there is none", [&] { read(folder / "mesh.taumesh"); });
+  }
+}
+
+TEST(TauWrite, AnInterfaceIsTold) {
+  HybridMesh mesh = test::hexahedron_with_roof();
+  mesh.patches[PatchId(1)] = {"inner", PatchKind::interface};
+  const auto path = test::scratch() / "mesh.grid";
+  EXPECT_THAT(test::warnings_of_writing(mesh, path), testing::ElementsAre("patch \"inner\" is an interface, for which TAU has no condition; it is written as an euler wall"));
+  EXPECT_EQ(read(path).patches[PatchId(1)], (Patch{"inner", PatchKind::slip}));
 }
 
 TEST(TauRead, NeverCrashesOnDamagedFiles) {
