@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -28,10 +29,27 @@ inline bool is_near(double t, const std::vector<double>& breaks, double step) {
   return false;
 }
 
-/// Central differences of step h and h/2 differ from the derivative by c h^2: the error falls fourfold (across a knot, where c jumps, more than twofold), or is rounding.
+/// Within a piece of an analytic function central differences of step h and h/2 differ from the derivative by c h^2 + O(h^4): the error falls fourfold, or is rounding.
+/// \pre no knot within 2 h: where c jumps it falls by as little as half
 inline void expect_second_order(const Vec3& exact, const Vec3& coarse, const Vec3& fine, double rounding, const char* what) {
+  constexpr double k_least_fall = 0.3;  // a quarter, and what O(h^4) adds
   const double e1 = norm(coarse - exact), e2 = norm(fine - exact);
-  EXPECT_LE(e2, 0.5 * e1 + rounding) << what << ": " << e1 << " -> " << e2;
+  EXPECT_LE(e2, k_least_fall * e1 + rounding) << what << ": " << e1 << " -> " << e2;
+}
+
+/// Breaks, and all knots where they are known: a spline's third derivative jumps there, which breaks do not tell.
+inline std::array<std::vector<double>, 2> knots_of(const Surface& s) {
+  std::array<std::vector<double>, 2> knots{s.breaks_u(), s.breaks_v()};
+  if (const auto form = s.exact_nurbs()) {
+    knots[0].insert(knots[0].end(), form->knots_u.begin(), form->knots_u.end());
+    knots[1].insert(knots[1].end(), form->knots_v.begin(), form->knots_v.end());
+  }
+  return knots;
+}
+inline std::vector<double> knots_of(const Curve& c) {
+  std::vector<double> knots = c.breaks();
+  if (const auto form = c.exact_nurbs()) knots.insert(knots.end(), form->knots.begin(), form->knots.end());
+  return knots;
 }
 
 inline void expect_derivatives(const Surface& s, int n = 60) {
@@ -42,9 +60,10 @@ inline void expect_derivatives(const Surface& s, int n = 60) {
   const double hu = 2e-3 * box.u.length(), hv = 2e-3 * box.v.length();
   // Rounding of a second difference: a few ulps of the coordinates over the smallest step squared.
   const double r1 = 1e-14 * size, r2 = 4e-14 * size;
+  const auto knots = knots_of(s);
   for (int k = 0; k < n; ++k) {
     const Uv at{box.u.from + unit(random) * box.u.length(), box.v.from + unit(random) * box.v.length()};
-    if (is_near(at.u, s.breaks_u(), hu) || is_near(at.v, s.breaks_v(), hv)) continue;
+    if (is_near(at.u, knots[0], hu) || is_near(at.v, knots[1], hv)) continue;
     const SurfaceDerivatives d = s.derivatives(at);
     EXPECT_LE(distance(d.point, s.point(at)), 1e-14 * size);
     Vec3 du[2], dv[2], duu[2], duv[2], dvv[2];
@@ -58,12 +77,11 @@ inline void expect_derivatives(const Surface& s, int n = 60) {
       duv[level] = (p(1, 1) - p(1, -1) - p(-1, 1) + p(-1, -1)) / (4 * a * b);
     }
     SCOPED_TRACE(s.kind() + " at " + std::to_string(at.u) + ", " + std::to_string(at.v));
-    // A spline's second difference across a knot is of first order: there only the first derivatives are compared at second order.
     expect_second_order(d.du, du[0], du[1], r1 / hu + 1e-9 * norm(d.du), "du");
     expect_second_order(d.dv, dv[0], dv[1], r1 / hv + 1e-9 * norm(d.dv), "dv");
-    expect_second_order(d.duu, duu[0], duu[1], r2 / (hu * hu) * 4 + 3e-2 * norm(d.duu), "duu");
-    expect_second_order(d.dvv, dvv[0], dvv[1], r2 / (hv * hv) * 4 + 3e-2 * norm(d.dvv), "dvv");
-    expect_second_order(d.duv, duv[0], duv[1], r2 / (hu * hv) * 4 + 1e-4 * norm(d.duv), "duv");
+    expect_second_order(d.duu, duu[0], duu[1], r2 / (hu * hu) * 4 + 1e-9 * norm(d.duu), "duu");
+    expect_second_order(d.dvv, dvv[0], dvv[1], r2 / (hv * hv) * 4 + 1e-9 * norm(d.dvv), "dvv");
+    expect_second_order(d.duv, duv[0], duv[1], r2 / (hu * hv) * 4 + 1e-9 * norm(d.duv), "duv");
   }
 }
 
@@ -102,9 +120,10 @@ inline void expect_derivatives(const Curve& c, int n = 60) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> unit(0.02, 0.98);
   const double h = 2e-3 * range.length();
+  const std::vector<double> knots = knots_of(c);
   for (int k = 0; k < n; ++k) {
     const double t = range.from + unit(random) * range.length();
-    if (is_near(t, c.breaks(), h)) continue;
+    if (is_near(t, knots, h)) continue;
     const CurveDerivatives d = c.derivatives(t);
     EXPECT_LE(distance(d.point, c.point(t)), 1e-14 * size);
     Vec3 first[2], second[2];
@@ -114,7 +133,7 @@ inline void expect_derivatives(const Curve& c, int n = 60) {
       second[level] = (c.point(t + a) - 2.0 * c.point(t) + c.point(t - a)) / (a * a);
     }
     expect_second_order(d.first, first[0], first[1], 1e-14 * size / h + 1e-9 * norm(d.first), "first");
-    expect_second_order(d.second, second[0], second[1], 2e-13 * size / (h * h) + 3e-2 * norm(d.second), "second");
+    expect_second_order(d.second, second[0], second[1], 2e-13 * size / (h * h) + 1e-9 * norm(d.second), "second");
   }
 }
 
