@@ -1,3 +1,4 @@
+// Formulas and constants are those of NASA TM-4741 as PDAS's public-domain naca456 has them; what of them is a table: naca_tables.h.
 // A section is a thickness y_t(x) laid at right angles on both sides of a mean line y_c(x). Each series says both; the designation says which.
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 // NASA's functions of the 6-series: epsilon and psi of Theodorsen's mapping of each family's profile on a circle, and their slopes, at 21 equal steps
-// of the angle phi from the leading (0) to the trailing edge (pi). Data of NASA TM X-3069 (1974) and TM-4741 (1996); Report 824 describes the method.
+// of the angle phi from the leading (0) to the trailing edge (pi). Report 824 (1945) describes the method; NASA TM X-3069 (1974) and TM-4741 (1996) the programs that use it.
+// The numbers were typed from naca456, the public-domain program of Public Domain Aeronautical Software (PDAS, R. Carmichael) after those reports, part of whose source was read for it.
+// They were not compared with the reports' own; tests/geom/model/airfoil_test.cpp compares the sections with published coordinates.
 #pragma once
 
 #include <array>
