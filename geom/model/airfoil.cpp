@@ -58,29 +58,6 @@ std::vector<double> spaced(const Curve& curve, double from, double to, int n) {
 
 }  // namespace
 
-namespace airfoil_parts {
-
-std::size_t least_x(const std::vector<Uv>& points) {
-  // Of equal ones the middle one: a vertical nose.
-  std::size_t first = 0, last = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    if (points[i].u < points[first].u) first = last = i;
-    else if (points[i].u == points[first].u) last = i;
-  }
-  return (first + last) / 2;
-}
-
-Airfoil make(std::string name, const std::vector<Uv>& points) {
-  Airfoil airfoil;
-  airfoil.name = std::move(name);
-  for (const Uv p : points)
-    if (airfoil.points.empty() || span_of(airfoil.points.back(), p) > k_same_point) airfoil.points.push_back(p);
-  airfoil.leading_edge = least_x(airfoil.points);
-  return airfoil;
-}
-
-}  // namespace airfoil_parts
-
 double Airfoil::trailing_edge_thickness() const { return span_of(points.front(), points.back()); }
 
 AirfoilCurves airfoil_curves(const Airfoil& airfoil) {

@@ -26,7 +26,7 @@ constexpr double k_longest_seconds = 60.0;  // of samples of a few kB, on a mach
 
 }  // namespace
 
-bool is_container(const Target& target) { return target.format->name == "CGNS" || target.format->name == "TAU" || target.format->name == "VTKHDF"; }
+bool is_container(const Target& target) { return target.format && (target.format->name == "CGNS" || target.format->name == "TAU" || target.format->name == "VTKHDF"); }
 
 std::string image_of(const Target& target, const std::filesystem::path& path) {
   const HelperTask task{.helper = "the reader of container files", .attempted = "making seeds", .else_try = {}, .missing = ErrorCode::internal, .failed = ErrorCode::internal};

@@ -28,6 +28,8 @@ std::string_view entry(std::span<const Companions> table, std::string_view forma
   return {};
 }
 
+std::string_view companions_of(const Target& target) { return target.format ? entry(k_companions, target.format->name) : std::string_view(); }
+
 void write(const std::filesystem::path& path, std::string_view bytes) {
   std::FILE* const file = std::fopen(path.c_str(), "wb");
   if (!file || std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size() || std::fclose(file) != 0) std::abort();
@@ -50,7 +52,10 @@ std::vector<std::string_view> words(std::string_view text) {
   return result;
 }
 
-std::string Target::name() const { return std::string(format->name) + (is_volume ? ":volume:" : ":surface:") + std::string(extension()); }
+std::string Target::name() const {
+  if (model) return std::string(model->name) + ":model:" + std::string(model->extension);
+  return std::string(format->name) + (is_volume ? ":volume:" : ":surface:") + std::string(extension());
+}
 
 std::vector<Target> all_targets() {
   std::vector<Target> targets;
@@ -66,6 +71,7 @@ std::vector<Target> all_targets() {
       else if (variants.empty() && entry(k_variants, same->format->name).empty()) same->extensions += " " + std::string(format.extensions);
     }
   }
+  for (const ModelReader& reader : model_readers()) targets.push_back({.format = nullptr, .extensions = std::string(reader.extension), .model = &reader});
   return targets;
 }
 
@@ -78,7 +84,7 @@ InputFiles::InputFiles(const Target& target) {
     for (const char* name : k_folder_files) parts_.push_back(path_ / name);
   } else {
     parts_.push_back(path_);
-    for (const std::string_view ending : words(entry(k_companions, target.format->name))) parts_.push_back(folder_ / ("x" + std::string(ending)));
+    for (const std::string_view ending : words(companions_of(target))) parts_.push_back(folder_ / ("x" + std::string(ending)));
   }
 }
 
@@ -104,7 +110,7 @@ std::string joined(const Target& target, const std::filesystem::path& path) {
     return bytes;
   }
   bytes = is_container(target) ? image_of(target, path) : content(path);
-  for (const std::string_view ending : words(entry(k_companions, target.format->name))) {
+  for (const std::string_view ending : words(companions_of(target))) {
     std::filesystem::path stem = path;
     std::string companion;
     for (int n_dots = 0; n_dots < 2 && companion.empty() && stem.has_extension(); ++n_dots) {  // wing.lb8.ugrid has wing.mapbc

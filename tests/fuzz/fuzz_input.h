@@ -8,19 +8,21 @@
 #include <vector>
 
 #include "io/format_table.h"
+#include "tests/fuzz/model_readers.h"
 
 namespace sterna::fuzz {
 
-/// A reader of the table of formats.
+/// A reader of the table of formats, or one of a model's files.
 struct Target {
-  const io::Format* format = nullptr;  ///< the first line with that reader
+  const io::Format* format = nullptr;  ///< the first line with that reader; null of a model's file
   bool is_volume = false;
   std::string extensions;  ///< of files that it reads alike; blank-separated
+  const ModelReader* model = nullptr;
 
   std::string_view extension() const { return std::string_view(extensions).substr(0, extensions.find(' ')); }
   bool is_folder() const { return !extensions.starts_with('.'); }
 
-  /// "UGRID:volume:.lb8.ugrid"
+  /// "UGRID:volume:.lb8.ugrid", "CPACS:model:.xml"
   std::string name() const;
 };
 

@@ -1,4 +1,4 @@
-// libFuzzer target for every reader of the table of formats. Whatever the bytes: a reader gives a sound mesh, or throws sterna::Error that says where and why.
+// libFuzzer target for every reader of the table of formats and of models' files. Whatever the bytes: a reader gives a sound mesh, or throws sterna::Error that says where and why.
 // The environment variable STERNA_FUZZ names the target ("UGRID:volume:.lb8.ugrid"). Beside libFuzzer's options:
 //   reader_fuzz --list                          prints the targets, one a line
 //   reader_fuzz --seeds FOLDER SAMPLES...       fills FOLDER with inputs of the target from our own writers and from the folders SAMPLES
@@ -78,8 +78,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t n) 
   static const RunContext context({.threads = 1});
   files.fill({reinterpret_cast<const char*>(bytes), n});
   try {
-    if (target.is_volume) check(target.format->read_volume(files.path(), context));
-    else check(target.format->read_surface(files.path(), context));
+    if (target.model) {
+      const std::string flaw = target.model->read(files.path(), context);
+      if (!flaw.empty()) report(flaw);
+    } else if (target.is_volume) {
+      check(target.format->read_volume(files.path(), context));
+    } else {
+      check(target.format->read_surface(files.path(), context));
+    }
   } catch (const Error& error) {
     check(error, target);
   }

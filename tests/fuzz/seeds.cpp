@@ -97,6 +97,7 @@ int write_seeds(const Target& target, const std::filesystem::path& folder, std::
   };
   for (const std::string_view extension : words(target.is_folder() ? ".foam .bin.foam" : std::string_view(target.extensions))) {
     const std::string name = "x" + std::string(extension);
+    if (target.model) break;
     for (const io::Format& format : io::formats()) {
       const std::vector<std::string_view> written = words(format.extensions);
       if (std::find(written.begin(), written.end(), extension) == written.end()) continue;
@@ -105,6 +106,7 @@ int write_seeds(const Target& target, const std::filesystem::path& folder, std::
     }
   }
   if (target.extension() == ".sterna") add_written("x.sterna", [&](const std::filesystem::path& path) { write_everything(path, context); });
+  if (target.model) add_written("x" + target.extensions, [&](const std::filesystem::path& path) { std::ofstream(path, std::ios::binary) << target.model->seed; });
   for (const std::filesystem::path& samples : sample_folders) {
     if (!std::filesystem::is_directory(samples)) continue;
     std::vector<std::filesystem::path> paths;
