@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "geom/base/error.h"
+#include "io/leftovers.h"
 
 namespace sterna::io {
 namespace {
@@ -51,6 +52,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), target_
                  .attempted = "writing " + path_.string(),
                  .problem = "there is something of that name that is not a regular file",
                  .hint = "choose another name"});
+  remove_leftovers(target_.parent_path());
   for (int i = 0; descriptor_ < 0; ++i) {
     temporary_ = target_.parent_path() / (".sterna-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".part");
     descriptor_ = ::open(temporary_.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, k_new_file_mode);
@@ -60,6 +62,7 @@ AtomicFile::AtomicFile(const std::filesystem::path& path) : path_(path), target_
     temporary_.clear();  // not ours
     fail(error_number, "creating a file");
   }
+  hold(descriptor_);
   if (exists && ::fchmod(descriptor_, old.st_mode & k_permission_bits) != 0) fail(errno, "keeping the permissions");
   struct stat created {};
   if (::fstat(descriptor_, &created) != 0) fail(errno, "looking at the file");
@@ -112,6 +115,7 @@ void AtomicFile::adopt() {
   ::close(descriptor_);  // a library may have put another file in its place
   descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor_ < 0) fail(errno, "opening the file again");
+  hold(descriptor_);
   if (::fchmod(descriptor_, mode_) != 0) fail(errno, "keeping the permissions");
   struct stat written {};
   if (::fstat(descriptor_, &written) != 0) fail(errno, "looking at the file");
@@ -120,10 +124,17 @@ void AtomicFile::adopt() {
 
 void AtomicFile::commit() {
   if (::fsync(descriptor_) != 0) fail(errno, "syncing");
-  const int descriptor = descriptor_;
+  const int descriptor = descriptor_, held = ::dup(descriptor_);  // held until it has its name
   descriptor_ = -1;
-  if (::close(descriptor) != 0) fail(errno, "closing");
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno, "renaming");
+  const auto do_or_fail = [&](int status, std::string_view doing) {
+    if (status == 0) return;
+    const int error_number = errno;
+    ::close(held);
+    fail(error_number, doing);
+  };
+  do_or_fail(::close(descriptor), "closing");
+  do_or_fail(::rename(temporary_.c_str(), target_.c_str()), "renaming");
+  ::close(held);
   temporary_.clear();
 }
 

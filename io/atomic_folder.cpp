@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "geom/base/error.h"
+#include "io/leftovers.h"
 
 namespace sterna::io {
 namespace {
@@ -46,6 +47,7 @@ AtomicFolder::AtomicFolder(const std::filesystem::path& path, std::string_view p
     std::filesystem::create_directories(target_.parent_path(), failure);
     if (failure) fail(failure.value(), "creating the folder above");
   }
+  remove_leftovers(target_.parent_path());
   for (int i = 0;; ++i) {
     temporary_ = target_.parent_path() / (".sterna-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".part");
     if (::mkdir(temporary_.c_str(), k_new_folder_mode) == 0) break;
@@ -54,6 +56,8 @@ AtomicFolder::AtomicFolder(const std::filesystem::path& path, std::string_view p
     temporary_.clear();  // not ours
     fail(error_number, "creating a folder");
   }
+  held_ = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (held_ >= 0) hold(held_);
 }
 
 AtomicFolder::~AtomicFolder() { discard(); }
@@ -92,6 +96,8 @@ void AtomicFolder::discard() noexcept {
   std::error_code ignored;  // a destructor cannot tell; what is left has a name that says what it is
   if (!temporary_.empty()) std::filesystem::remove_all(temporary_, ignored);
   temporary_.clear();
+  if (held_ >= 0) ::close(held_);
+  held_ = -1;
 }
 
 }  // namespace sterna::io

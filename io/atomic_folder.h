@@ -29,6 +29,7 @@ class AtomicFolder {
   std::filesystem::path path_;
   std::filesystem::path target_;     ///< links resolved
   std::filesystem::path temporary_;  ///< empty after commit
+  int held_ = -1;                    ///< says that it is being filled
 };
 
 }  // namespace sterna::io

@@ -1,4 +1,5 @@
 #include "io/atomic_file.h"
+#include "io/atomic_folder.h"
 
 #include <signal.h>
 #include <sys/resource.h>
@@ -117,6 +118,47 @@ TEST(AtomicFile, CancelLeavesTheOldFile) {
     EXPECT_EQ(bytes_of(path), "old");
     EXPECT_EQ(files_in(path.parent_path()), std::vector<std::string>{name});
   }
+}
+
+/// Sets a file's time of change back.
+void make_old(const std::filesystem::path& path) { std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now() - std::chrono::minutes(5)); }
+
+TEST(AtomicFile, RemovesWhatKilledRunsLeft) {
+  const auto folder = test::scratch();
+  for (const char* const name : {".sterna-1-0.part", ".sterna-99999-3.part", "mine.part", ".sterna-notes"}) {
+    std::ofstream(folder / name) << "old";
+    make_old(folder / name);
+  }
+  std::ofstream(folder / ".sterna-2-0.part") << "just begun by another process";
+  std::filesystem::create_directories(folder / ".sterna-3-0.part" / "deep");
+  make_old(folder / ".sterna-3-0.part");
+  {
+    AtomicFile file(folder / "a");
+    file.append("a");
+    file.commit();
+  }
+  EXPECT_EQ(test::files_in(folder), (std::vector<std::string>{".sterna-2-0.part", ".sterna-notes", "a", "mine.part"}));
+}
+
+TEST(AtomicFile, LeavesWhatOthersStillWrite) {
+  const auto folder = test::scratch();
+  AtomicFile slow(folder / "slow");
+  slow.append("half");
+  make_old(slow.temporary());
+  AtomicFolder slow_folder(folder / "polyMesh", "faces");
+  std::ofstream(slow_folder.file("faces")) << "half";
+  make_old(slow_folder.file("faces").parent_path());
+  {
+    AtomicFile quick(folder / "quick");
+    quick.commit();
+    AtomicFolder quick_folder(folder / "other", "faces");
+    quick_folder.commit();
+  }
+  slow.commit();
+  slow_folder.commit();
+  EXPECT_EQ(test::bytes_of(folder / "slow"), "half");
+  EXPECT_EQ(test::bytes_of(folder / "polyMesh" / "faces"), "half");
+  EXPECT_EQ(test::files_in(folder), (std::vector<std::string>{"other", "polyMesh", "quick", "slow"}));
 }
 
 }  // namespace
