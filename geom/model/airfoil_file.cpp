@@ -92,7 +92,8 @@ class Parser {
       if (name_.empty()) name_ = std::string(lines_[at_].text);
       if (lines_[at_].number > k_max_header_lines) fail(lines_[at_].number, "no line of two numbers in the first " + std::to_string(k_max_header_lines) + " lines");
     }
-    fail(0, lines_.empty() ? "the file is empty" : "it holds no points");
+    if (lines_.empty()) fail(0, "the file is empty");
+    fail(lines_.back().number, "the file ends here and holds no points");
   }
 
   void read_points() {
@@ -110,7 +111,7 @@ class Parser {
       }
       points_.push_back({{x, z}, line.number});
     }
-    if (points_.size() < k_fewest_points) fail(points_.empty() ? 0 : points_.back().line, std::to_string(points_.size()) + " points, at least " + std::to_string(k_fewest_points) + " are needed");
+    if (points_.size() < k_fewest_points) fail(points_.empty() ? lines_.back().number : points_.back().line, std::to_string(points_.size()) + " points, at least " + std::to_string(k_fewest_points) + " are needed");
     if (!counts_.empty() && counts_[0] + counts_[1] != points_.size())
       fail(points_.back().line, "the counts say " + std::to_string(counts_[0]) + " + " + std::to_string(counts_[1]) + " points, there are " + std::to_string(points_.size()));
   }

@@ -14,7 +14,9 @@ ScatteredDisplacements read_displacements(const std::filesystem::path& path) {
   if (!file) throw Error({.code = ErrorCode::file_not_found, .attempted = attempted, .problem = "the file does not exist or cannot be read"});
   ScatteredDisplacements data;
   std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
+  int n_lines = 0;
+  while (std::getline(file, line)) {
+    const int number = ++n_lines;
     const auto fail = [&](const std::string& problem) {
       throw Error({.code = ErrorCode::file_malformed, .attempted = attempted, .problem = "line " + std::to_string(number) + ": " + problem, .hint = "each line is: x y z dx dy dz, metres"});
     };
@@ -38,7 +40,7 @@ ScatteredDisplacements read_displacements(const std::filesystem::path& path) {
     data.at.push_back({values[0], values[1], values[2]});
     data.shift.push_back({values[3], values[4], values[5]});
   }
-  if (data.at.empty()) throw Error({.code = ErrorCode::file_malformed, .attempted = attempted, .problem = "it holds no points", .hint = "each line is: x y z dx dy dz, metres"});
+  if (data.at.empty()) throw Error({.code = ErrorCode::file_malformed, .attempted = attempted, .problem = n_lines == 0 ? "the file is empty" : "line " + std::to_string(n_lines) + ": the file ends here and holds no points", .hint = "each line is: x y z dx dy dz, metres"});
   return data;
 }
 

@@ -173,7 +173,8 @@ TEST(Airfoil, BadFilesAreRefusedWithTheLine) {
   const auto message = [](const std::string& text) { return message_of([&] { (void)parse_airfoil(text, "reading airfoil bad.dat"); }); };
   using testing::HasSubstr;
   EXPECT_THAT(message(""), HasSubstr("empty"));
-  EXPECT_THAT(message("name\nonly text\n"), HasSubstr("no points"));
+  EXPECT_THAT(message("name\nonly text\n"), HasSubstr("line 2: the file ends here and holds no points"));
+  EXPECT_THAT(message("n\n5 5\n# nothing\n"), HasSubstr("line 3: 0 points"));
   EXPECT_THAT(message("n\n1 0\n0.5 0.1\n0 0\n0.5 abc\n1 0\n"), testing::AllOf(HasSubstr("line 5"), HasSubstr("0.5 abc")));
   EXPECT_THAT(message("n\n1 0\n0.5 0.1\n0 0\n0.5 -0.1 3\n1 0\n"), testing::AllOf(HasSubstr("line 5"), HasSubstr("3 numbers")));
   EXPECT_THAT(message("n\n1 0\n0.5 0.1\n0 0\n0.5 nan\n1 0\n"), HasSubstr("line 5"));
