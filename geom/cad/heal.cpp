@@ -45,8 +45,8 @@ constexpr double k_small_share = 1e-6;
 constexpr double k_max_tolerance_share = 1e-4;
 /// Two faces are one where area, centre and box agree to this share of the face's size.
 constexpr double k_same_face = 1e-6;
-/// A step that removes small things may change the area by no more than this share.
-constexpr double k_area_change = 1e-6;
+/// A step that removes small things may change neither the area nor the volume by more than this share: what STEP has to keep.
+constexpr double k_extent_change = 1e-6;
 
 /// OpenCASCADE's keys for what it mends, in our words; what is not here is told by its key.
 constexpr std::array<std::pair<const char*, const char*>, 27> k_words = {{
@@ -202,13 +202,36 @@ bool has_small_faces(const TopoDS_Shape& shape, double small) {
   return false;
 }
 
-/// Takes the result of a step that drops small things, unless it changed the area: then the step harmed more than it mended.
+/// Every edge joins two faces, or a face with itself, and none is used more often.
+bool is_closed(const TopoDS_Shape& shape) {
+  TopTools_IndexedDataMapOfShapeListOfShape faces;
+  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
+  for (int e = 1; e <= faces.Extent(); ++e)
+    if (faces(e).Extent() != 2 && !BRep_Tool::Degenerated(TopoDS::Edge(faces.FindKey(e)))) return false;
+  return true;
+}
+
+/// About the middle of the box: a narrow gap far from the reference would count as volume. Nothing for what is open.
+double volume_of(const TopoDS_Shape& shape, const gp_Pnt& about) {
+  if (!is_closed(shape)) return 0.0;
+  GProp_GProps properties(about);
+  BRepGProp::VolumeProperties(shape, properties);
+  return std::abs(properties.Mass());
+}
+
+bool is_same_extent(double before, double after) { return std::abs(after - before) <= k_extent_change * before; }
+
+/// Takes the result of a step that drops small things, unless it changed area or volume: then the step harmed more than it mended. A strip along a long
+/// trailing edge is such a case: less of the area than it is of the volume of a thin wing.
 void accept(ShapePart& part, LabelledShape& labelled, const TopoDS_Shape& result, const Handle(ShapeBuild_ReShape) & changes, std::size_t n_notes_before, const char* what, CadReport& report) {
   if (result.IsNull()) return;
-  const double before = measure(part.shape).area, after = measure(result).area;
-  if (std::abs(after - before) > k_area_change * before) {
+  const Bnd_Box box = box_of(part.shape);
+  const gp_Pnt middle(0.5 * (box.CornerMin().XYZ() + box.CornerMax().XYZ()));
+  const bool is_same_area = is_same_extent(measure(part.shape).area, measure(result).area);
+  if (!is_same_area || !is_same_extent(volume_of(part.shape, middle), volume_of(result, middle))) {
+    const Point place = report.mended.size() > n_notes_before ? report.mended[n_notes_before].place : place_of(part.shape);
     report.mended.resize(n_notes_before);
-    report.warnings.push_back(std::string(what) + " near " + format_point(place_of(part.shape)) + " were kept: dropping them would change the area by more than 1e-6 of it");
+    report.warnings.push_back(std::string(what) + " near " + format_point(place) + " were kept: dropping them would change the " + (is_same_area ? "volume" : "area") + " by more than 1e-6 of it");
     return;
   }
   move_labels(labelled.labels, part.shape, [&](const TopoDS_Shape& face) { return changes->Apply(face); });
@@ -241,15 +264,6 @@ void drop_small(LabelledShape& labelled, double small, CadReport& report, const 
       accept(part, labelled, fixer.Shape(), changes, n_before, "small faces", report);
     }
   }
-}
-
-/// Every edge joins two faces, or a face with itself, and none is used more often.
-bool is_closed(const TopoDS_Shape& shape) {
-  TopTools_IndexedDataMapOfShapeListOfShape faces;
-  TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces);
-  for (int e = 1; e <= faces.Extent(); ++e)
-    if (faces(e).Extent() != 2 && !BRep_Tool::Degenerated(TopoDS::Edge(faces.FindKey(e)))) return false;
-  return true;
 }
 
 int count_free_edges(const std::vector<TopoDS_Shape>& shapes) {

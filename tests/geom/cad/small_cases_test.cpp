@@ -5,6 +5,8 @@
 
 #include "geom/cad/read_cad.h"
 #include "geom/cad/shape.h"
+#include "geom/cad/write_cad.h"
+#include "geom/model/model_builder.h"
 #include "geom/model/model_measures.h"
 #include "io/cad_file.h"
 #include "tests/support/data.h"
@@ -87,6 +89,41 @@ TEST(SmallCadCases, MillimetresBecomeMetres) {
   EXPECT_EQ(file.report.file_unit, "millimetre");
   EXPECT_NEAR(volume(file), 0.4 * 0.2 * 0.1, 1e-12);
   EXPECT_EQ(file.model.components[ComponentId(0)].name, "block 1");  // OpenCASCADE numbers the products that it writes
+}
+
+/// A wedge of chord 1 and the given span that ends in a strip.
+Model wedge(double span, double thickness, double strip) {
+  ModelBuilder builder({.name = "wedge"});
+  std::array<CornerId, 4> left, right;
+  const std::array<Point, 4> section = {Point{0, 0, -0.5 * thickness}, {1, 0, -0.5 * strip}, {1, 0, 0.5 * strip}, {0, 0, 0.5 * thickness}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    left[i] = builder.corner(section[i]);
+    right[i] = builder.corner(section[i] + Vec3{0, span, 0});
+  }
+  std::array<EdgeId, 4> along, round_left, round_right;
+  for (std::size_t i = 0; i < 4; ++i) {
+    along[i] = builder.straight_edge(left[i], right[i]);
+    round_left[i] = builder.straight_edge(left[i], left[(i + 1) % 4]);
+    round_right[i] = builder.straight_edge(right[i], right[(i + 1) % 4]);
+  }
+  constexpr std::array<const char*, 4> k_names = {"lower", "strip", "upper", "front"};
+  for (std::size_t i = 0; i < 4; ++i) builder.plane({round_left[i], along[(i + 1) % 4], round_right[i], along[i]}, FaceRole::wall, k_names[i]);
+  builder.plane({round_left.begin(), round_left.end()}, FaceRole::wall, "left");
+  builder.plane({round_right.begin(), round_right.end()}, FaceRole::wall, "right");
+  return builder.closed_solid("wedge");
+}
+
+TEST(SmallCadCases, MendingKeepsTheVolumeOfAThinWing) {
+  // The strip is 5e-7 of the area, and without it 2e-5 of the volume would be open.
+  const Model model = wedge(20.0, 0.02, 1e-6);
+  const BodyMeasures before = model_measures(model, RunContext()).total;
+  const CadFile again = cad::read_cad_bytes(cad::cad_bytes(model, cad::CadFormat::step, "wedge.step", {}, RunContext()), cad::CadFormat::step, "wedge.step", {}, RunContext());
+  const BodyMeasures after = model_measures(again.model, RunContext()).total;
+  EXPECT_TRUE(again.report.is_closed()) << to_text(again.report);
+  EXPECT_NEAR(after.area, before.area, 1e-6 * before.area) << to_text(again.report);
+  EXPECT_NEAR(after.volume, before.volume, 1e-6 * before.volume) << to_text(again.report);
+  ASSERT_FALSE(again.report.warnings.empty());
+  EXPECT_NE(again.report.warnings.back().find("were kept"), std::string::npos) << again.report.warnings.back();
 }
 
 TEST(SmallCadCases, AnAssemblyKeepsInstancesNamesAndColours) {
