@@ -1,5 +1,8 @@
 #include "geom/cad/aircraft_union.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "cylinder.h"
@@ -48,6 +51,37 @@ TEST(SplitSolids, LooseFacesAreRefusedWithTheirPlace) {
     EXPECT_EQ(error.n_places(), 3);
     EXPECT_NE(std::string(error.what()).find("\"open side\""), std::string::npos) << error.what();
   }
+}
+
+TEST(UniteHalves, ThatMeetInThePlaneOfSymmetryAreOneBody) {
+  // A swept wing: an edge along its root remains, no face does.
+  const auto section = [](double y, double chord, double x) {
+    WingSection s{.name = "s", .leading_edge = {x, y, 0.0}, .chord = chord};
+    for (int i = 0; i <= 80; ++i) {
+      const double a = 2.0 * std::numbers::pi * i / 80;
+      s.points.push_back({0.5 + 0.5 * std::cos(a), 0.06 * std::sin(a)});
+    }
+    return s;
+  };
+  Wing wing{.name = "RightWing", .sections = {section(-4.0, 1.0, 1.5), section(0.0, 2.0, 0.0)}, .trailing_edge = std::nullopt};
+  wing.right_tip = wing.left_tip = {CapShape::strip, 0.0};
+  wing.has_mirror_image = true;
+  Aircraft aircraft;
+  aircraft.wings.push_back(wing);
+  const Model halves = make_components(aircraft, RunContext());
+  ASSERT_EQ(halves.solids.size(), 2u);
+  const UniteResult united = cad::unite_aircraft(halves, {}, RunContext());
+  EXPECT_EQ(united.report.n_bodies, 1u);
+  ASSERT_EQ(united.model.solids.size(), 1u);
+  EXPECT_TRUE(united.model.solids[SolidId(0)].is_closed);
+  EXPECT_TRUE(free_edges(united.model).empty());
+  EXPECT_NEAR(united.report.volume, united.report.sum_of_volumes, 1e-9);
+  EXPECT_EQ(united.model.faces.size(), halves.faces.size() - 2);
+  for (const FaceId f : united.model.faces.ids()) {
+    const MeasureBox box = face_measures(united.model, f).box;
+    EXPECT_GT(std::max(std::abs(box.min.y), std::abs(box.max.y)), 1e-6) << "a face is left in the plane of symmetry";
+  }
+  EXPECT_EQ(face_names(united.model), (std::set<std::string>{"LeftWing", "RightWing"}));
 }
 
 Model components_of(const std::string& file) {
