@@ -9,6 +9,8 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "geom/cad/aircraft_union.h"
@@ -75,6 +77,12 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
     n_components = components.solids.size();
     n_faces = components.faces.size();
     const double load = watch.lap();
+    const auto seconds_of = [&](std::string_view stage) {
+      double seconds = 0.0;
+      for (const StageTime& one : context.times())
+        if (one.stage == stage) seconds += one.seconds;
+      return seconds;
+    };
     const double cpu = cpu_seconds();
     const UniteResult united = cad::unite_aircraft(components, {.tolerance = settings.tolerance}, context);
     const double unite = watch.lap();
@@ -88,9 +96,9 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
     const double read = watch.lap();
     const ModelMeasures after = model_measures(again.model, context);
     const bool same_names = names_of(united.model) == names_of(again.model);
-    std::printf("| %s | %zu | %zu | %s | %zu | %zu | %zu | %.8g | %.8g | %s, %zu mended | %.1e | %.1e | %s | %.2f | %.2f (%.2f) | %.2f | %.2f | %.2f |\n", file.c_str(), n_components, n_faces, tries_text(united.report.tries).c_str(), united.report.n_bodies,
+    std::printf("| %s | %zu | %zu | %s | %zu | %zu | %zu | %.8g | %.8g | %s, %zu mended | %.1e | %.1e | %s | %.2f | %.2f (%.2f) | %.2f | %.2f | %.2f | %.2f |\n", file.c_str(), n_components, n_faces, tries_text(united.report.tries).c_str(), united.report.n_bodies,
                 united.model.faces.size(), united.report.doubts.size(), before.total.area, before.total.volume, again.report.is_closed() ? "closed" : "OPEN", again.report.mended.size(), relative_change(before.total.area, after.total.area),
-                relative_change(before.total.volume, after.total.volume), same_names ? "kept" : "LOST", load, unite, unite_cpu, measure, write, read);
+                relative_change(before.total.volume, after.total.volume), same_names ? "kept" : "LOST", load, unite, unite_cpu, seconds_of("unite/contacts"), measure, write, read);
     if (settings.is_verbose)
       for (const StageTime& stage : context.times()) std::printf("    %6.2f s %s\n", stage.seconds, stage.stage.c_str());
     if (settings.is_verbose)
@@ -116,7 +124,7 @@ int main(int argc, char** argv) {
     else if (argument == "--verbose") settings.is_verbose = true;
     else files.emplace_back(argument);
   }
-  std::puts("| file | components | faces | tolerances tried, m | bodies | faces of the union | doubts | area, m^2 | volume, m^3 | STEP again | area differs | volume differs | names | load, s | unite, s (of processors) | measure, s | write, s | read, s |");
-  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+  std::puts("| file | components | faces | tolerances tried, m | bodies | faces of the union | doubts | area, m^2 | volume, m^3 | STEP again | area differs | volume differs | names | load, s | unite, s (of processors) | contacts of it, s | measure, s | write, s | read, s |");
+  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   for (const std::filesystem::path& file : files) print_row(file, settings);
 }
