@@ -1,21 +1,30 @@
 // The surface mesher on whole models: CAD files, .smx and CPACS aircraft (united). One row each; processor time of the meshing alone.
-// usage: surface_models [-max METRES] [-angle DEGREES] [-growth G] [-refine F] [-narrow N] [-threads N] [-parts] [-nocheck] [-out FOLDER] [-v] FILE ...
+// usage: surface_models [-max METRES] [-angle DEGREES] [-growth G] [-refine F] [-narrow N] [-threads N] [-parts] [-nocheck] [-out FOLDER] [-raw FOLDER] [-distance MESH] [-v] FILE ...
 //   -parts: aircraft are not united; -nocheck: crossings are not looked for; -out: writes FOLDER/<stem>.vtu and .su2; -v: the worst faces too
+//   -raw: writes FOLDER/<stem>.tri, the numbers of tools/compare_gmsh: int64 points, int64 triangles, points as 3 doubles, triangles as 3 int32
+//   -distance: of such meshes (given before FILE) how far triangles are from FILE's faces; FILE is then not meshed
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "geom/base/error.h"
+#include "geom/base/parallel.h"
 #include "geom/cad/aircraft_union.h"
 #include "geom/math/measures.h"
 #include "geom/model/components.h"
 #include "geom/model/cpacs.h"
+#include "geom/model/projection.h"
 #include "geom/model/smx.h"
 #include "io/cad_file.h"
 #include "io/surface_file.h"
@@ -31,7 +40,8 @@ struct Settings {
   surfmesh::SurfaceMeshOptions options;
   int threads = 0;
   bool has_parts = false, is_verbose = false;
-  std::string folder;
+  std::string folder, raw_folder;
+  std::vector<std::string> measured;
 };
 
 Model read_model(const std::filesystem::path& path, const Settings& settings, const RunContext& context) {
@@ -40,6 +50,118 @@ Model read_model(const std::filesystem::path& path, const Settings& settings, co
   const Aircraft aircraft = extension == ".smx" ? read_smx(path, context).aircraft : read_cpacs(path, context).aircraft;
   if (settings.has_parts) return make_components(aircraft, context);
   return cad::unite_aircraft(aircraft, {}, context).model;
+}
+
+void write_raw(const TriMesh& mesh, const std::filesystem::path& path) {
+  std::ofstream out(path, std::ios::binary);
+  const std::int64_t sizes[2] = {static_cast<std::int64_t>(mesh.n_vertices()), static_cast<std::int64_t>(mesh.n_triangles())};
+  out.write(reinterpret_cast<const char*>(sizes), sizeof sizes);
+  for (const Point& p : mesh.points) {
+    const double xyz[3] = {p.x, p.y, p.z};
+    out.write(reinterpret_cast<const char*>(xyz), sizeof xyz);
+  }
+  for (const TriangleVertices& t : mesh.triangles) {
+    const std::int32_t corners[3] = {static_cast<std::int32_t>(t[0].value()), static_cast<std::int32_t>(t[1].value()), static_cast<std::int32_t>(t[2].value())};
+    out.write(reinterpret_cast<const char*>(corners), sizeof corners);
+  }
+  out.close();
+  if (!out) throw Error({.code = ErrorCode::write_failed, .attempted = "to write a mesh", .problem = "cannot write " + path.string()});
+}
+
+struct RawMesh {
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<std::int32_t, 3>> triangles;
+};
+
+RawMesh read_raw(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::int64_t sizes[2] = {};
+  RawMesh mesh;
+  in.read(reinterpret_cast<char*>(sizes), sizeof sizes);
+  if (in) {
+    mesh.points.resize(static_cast<std::size_t>(sizes[0]));
+    mesh.triangles.resize(static_cast<std::size_t>(sizes[1]));
+    in.read(reinterpret_cast<char*>(mesh.points.data()), static_cast<std::streamsize>(mesh.points.size() * sizeof mesh.points[0]));
+    in.read(reinterpret_cast<char*>(mesh.triangles.data()), static_cast<std::streamsize>(mesh.triangles.size() * sizeof mesh.triangles[0]));
+  }
+  if (!in) throw Error({.code = ErrorCode::file_malformed, .attempted = "to read a mesh", .problem = path.string() + " is shorter than its sizes say"});
+  return mesh;
+}
+
+/// A face as a place to project to: its surface over the box of its borders in (u, v), untrimmed.
+struct FaceTarget {
+  SurfaceProjector projector;
+  Box box;
+};
+
+FaceTarget make_target(const Model& model, const ModelFace& face) {
+  constexpr int k_border_samples = 64, k_box_samples = 24;
+  constexpr double k_box_margin = 0.05;  // of the samples' longest side: what the surface does between them
+  Interval u{1e300, -1e300}, v{1e300, -1e300};
+  for (const Border& border : face.borders)
+    for (const EdgeUse& use : border)
+      for (int i = 0; i <= k_border_samples; ++i) {
+        const Interval range = model.edges[use.edge].range;
+        const Uv at = use.parameter->point(range.from + range.length() * i / k_border_samples);
+        u = {std::min(u.from, at.u), std::max(u.to, at.u)};
+        v = {std::min(v.from, at.v), std::max(v.to, at.v)};
+      }
+  const ParameterBox domain = face.surface->domain();
+  const auto fit = [](Interval used, const Interval& all, bool is_periodic) {
+    if (!is_periodic) return Interval{std::max(used.from, all.from), std::min(used.to, all.to)};
+    return Interval{used.from, std::min(used.to, used.from + all.length())};
+  };
+  u = fit(u, domain.u, face.surface->is_periodic_u());
+  v = fit(v, domain.v, face.surface->is_periodic_v());
+  Box box;
+  for (int i = 0; i <= k_box_samples; ++i)
+    for (int j = 0; j <= k_box_samples; ++j) box.add(face.surface->point({u.from + u.length() * i / k_box_samples, v.from + v.length() * j / k_box_samples}));
+  const double margin = k_box_margin * box.longest_side();
+  box.min = box.min - Vec3{margin, margin, margin};
+  box.max = box.max + Vec3{margin, margin, margin};
+  return {SurfaceProjector(face.surface, {u, v}), box};
+}
+
+double distance_to_box(const Point& p, const Box& box) {
+  const Vec3 d{std::max({box.min.x - p.x, 0.0, p.x - box.max.x}), std::max({box.min.y - p.y, 0.0, p.y - box.max.y}), std::max({box.min.z - p.z, 0.0, p.z - box.max.z})};
+  return norm(d);
+}
+
+double distance_to_faces(const Point& p, const std::vector<FaceTarget>& targets) {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < targets.size(); ++i) order.emplace_back(distance_to_box(p, targets[i].box), i);
+  std::sort(order.begin(), order.end());
+  double best = 1e300;
+  for (const auto& [bound, i] : order) {
+    if (bound >= best) break;
+    best = std::min(best, targets[i].projector.nearest(p).distance);
+  }
+  return best;
+}
+
+/// Largest and mean distance of middles of edges and of triangles, at most k_most triangles at even steps.
+void print_distances(const Model& model, const std::vector<std::string>& meshes, const RunContext& context) {
+  constexpr std::size_t k_most = 10'000;
+  std::vector<FaceTarget> targets;
+  for (const ModelFace& face : model.faces) targets.push_back(make_target(model, face));
+  for (const std::string& path : meshes) {
+    const RawMesh mesh = read_raw(path);
+    const std::size_t step = (mesh.triangles.size() + k_most - 1) / k_most, n = step == 0 ? 0 : mesh.triangles.size() / step;
+    std::vector<double> edges(n), middles(n);
+    parallel_for(context, n, [&](std::size_t i) {
+      Point p[3];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto& x = mesh.points[static_cast<std::size_t>(mesh.triangles[i * step][k])];
+        p[k] = {x[0], x[1], x[2]};
+      }
+      for (std::size_t k = 0; k < 3; ++k) edges[i] = std::max(edges[i], distance_to_faces(0.5 * (p[k] + p[(k + 1) % 3]), targets));
+      middles[i] = distance_to_faces((p[0] + p[1] + p[2]) / 3.0, targets);
+    }, 64);
+    double most = 0.0, sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) most = std::max({most, edges[i], middles[i]}), sum += middles[i];
+    std::printf("DISTANCE %s %zu %.6e %.6e\n", path.c_str(), n, most, sum / static_cast<double>(std::max<std::size_t>(n, 1)));
+    std::fflush(stdout);
+  }
 }
 
 void print_row(const std::filesystem::path& path, const Settings& settings) {
@@ -51,6 +173,7 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
     const Model model = read_model(path, settings, context);
     const double reading = seconds();
     if (settings.is_verbose) std::fprintf(stderr, "%s read, %zu faces\n", name.c_str(), model.faces.size());
+    if (!settings.measured.empty()) return print_distances(model, settings.measured, context);
     const bool is_closed = free_edges(model).empty();
     const std::clock_t clock = std::clock();
     try {
@@ -74,6 +197,7 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
         for (const auto& a : r.absorbed) std::printf("    absorbed %s %g m at %s\n", a.what.c_str(), a.size, format_point(a.place).c_str());
         std::printf("    edge distance %g at %s\n", r.max_edge_distance, format_point(r.edge_distance_place).c_str());
       }
+      if (!settings.raw_folder.empty()) write_raw(mesh.mesh, (std::filesystem::path(settings.raw_folder) / path.stem()).string() + ".tri");
       if (!settings.folder.empty()) {
         const std::filesystem::path stem = std::filesystem::path(settings.folder) / path.stem();
         io::write_surface_file(mesh.mesh, stem.string() + ".vtu", context);
@@ -108,6 +232,8 @@ int main(int argc, char** argv) {
     else if (is("-parts")) settings.has_parts = true;
     else if (is("-v")) settings.is_verbose = true;
     else if (is("-out") && i + 1 < argc) settings.folder = argv[++i];
+    else if (is("-raw") && i + 1 < argc) settings.raw_folder = argv[++i];
+    else if (is("-distance") && i + 1 < argc) settings.measured.push_back(argv[++i]);
     else print_row(argv[i], settings);
   }
 }
