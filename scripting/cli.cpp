@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <functional>
 
@@ -101,8 +102,8 @@ void add_run_command(CLI::App& app, RunCommand& run, Request& request) {
 }
 
 void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Request& request) {
-  CLI::App* command = app.add_subcommand("mesh", "mesh the space around a surface: prism layers and tetrahedra");
-  command->add_option("surfaces", mesh.inputs, "surface files; several are joined to one wall. `sterna formats` lists what is read")->required();
+  CLI::App* command = app.add_subcommand("mesh", "mesh the space around a surface or a model: prism layers and tetrahedra");
+  command->add_option("surfaces", mesh.inputs, "surface files; several are joined to one wall. Or model files (STEP, IGES, BREP, sumo, CPACS), whose faces are meshed first. `sterna formats` lists what is read")->required();
   command->add_option("-o,--output", mesh.outputs, "mesh file: " + io::list_formats_with(io::FormatUse::write_volume) + "; may be given several times")->required()->allow_extra_args(false)->take_all();
   command->add_option("--stats", mesh.stats, "write sizes, times and memory of this run as JSON")->type_name("FILE");
   command->add_option("--stages", mesh.stages, "keep surface, envelope, tetrahedra and mesh in this .sterna file; `sterna mesh case.sterna -o ...` continues behind the last step in it")->type_name("FILE");
@@ -110,11 +111,38 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   volmesh::VolumeMeshOptions volume;
   add_schema_options(*command, all_options(surface, volume), mesh.options);
   add_set_option(*command, set);
-  command->footer("Numbers take units: 2e-6, 0.5mm, 35deg, --unit inch.");
+  command->footer("Numbers take units: 2e-6, 0.5mm, 35deg, --unit inch. Of models, options of their surface: --set surface_mesh.max_edge=0.2; `sterna surface --help` lists them.");
   command->final_callback([&] {
     mesh.options.insert(mesh.options.end(), set.begin(), set.end());
     request.execute = [&](const CommandContext& context) { return execute(mesh, context); };
     request.trouble = beside(mesh.outputs.front());
+  });
+}
+
+/// A bare number of an angle is in degrees here; what could be either is left as it is, and refused.
+std::string with_degrees(const std::string& name, const std::string& text) {
+  constexpr double k_surely_degrees = 1.6;  // largest curvature_angle in radians
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (name != "curvature_angle" || error != std::errc() || end != text.data() + text.size()) return text;
+  if (value > k_surely_degrees) return text + "deg";
+  throw Error({.code = ErrorCode::bad_argument, .attempted = "option curvature_angle", .problem = text + " may be degrees or radians", .hint = "write " + text + "deg or " + text + "rad"});
+}
+
+void add_surface_command(CLI::App& app, SurfaceCommand& surface, OptionOverrides& set, Request& request) {
+  CLI::App* command = app.add_subcommand("surface", "mesh the faces of a model (STEP, IGES, BREP, sumo, CPACS): triangles, closed where the model is");
+  command->add_option("models", surface.inputs, "model files; several stand side by side. Components of sumo and CPACS files are united first")->required();
+  command->add_option("-o,--output", surface.outputs, "surface file: " + io::list_formats_with(io::FormatUse::write_surface) + "; may be given several times")->required()->allow_extra_args(false)->take_all();
+  surfmesh::SurfaceMeshOptions options;
+  ReadCadOptions reading;
+  add_schema_options(*command, model_surface_options(options, reading), surface.options);
+  add_set_option(*command, set);
+  command->footer("Numbers take units: 0.2, 5mm, 12deg; --curvature-angle 12 is degrees, too. Sizes by patch: surface_mesh{} of a Lua case.");
+  command->final_callback([&] {
+    for (auto& [name, text] : surface.options) text = with_degrees(name, text);
+    surface.options.insert(surface.options.end(), set.begin(), set.end());
+    request.execute = [&](const CommandContext& context) { return execute(surface, context); };
+    request.trouble = beside(surface.outputs.front());
   });
 }
 
@@ -240,6 +268,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   CommonSettings common;
   RunCommand run;
   MeshCommand mesh;
+  SurfaceCommand surface;
   UnionCommand unite;
   CheckCommand check;
   InfoCommand info;
@@ -249,6 +278,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_common_options(app, common);
   add_run_command(app, run, request);
   add_mesh_command(app, mesh, set, request);
+  add_surface_command(app, surface, set, request);
   add_union_command(app, unite, request);
   add_check_command(app, check, request);
   add_info_command(app, info, request);

@@ -15,6 +15,7 @@
 #include "io/surface_file.h"
 #include "io/trouble_vtu.h"
 #include "scripting/exit_status.h"
+#include "scripting/model_surface.h"
 #include "scripting/models.h"
 #include "scripting/script_run.h"
 #include "scripting/summary.h"
@@ -28,6 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 // Shares of the progress of `sterna mesh`, from runs on surfaces of 10 k to 200 k triangles.
 constexpr double k_read_end = 0.05;
+constexpr double k_surface_end = 0.2;  ///< of models
 constexpr double k_mesh_end = 0.90;
 
 struct PatchSize {
@@ -139,12 +141,25 @@ MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, c
   return steps.tetrahedra ? finish_mesh(*steps.tetrahedra, options, part) : finish_mesh(make_tetrahedra(*steps.envelope, options, part), options, part);
 }
 
+/// Of models: their faces are meshed first. --unit is then that of reading CAD; the options of joining triangulations are unknown.
+MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<InputPath>& inputs, const CommandContext& context) {
+  SurfaceRecipe recipe;
+  ReadCadOptions reading;
+  volmesh::VolumeMeshOptions volume_options;
+  OptionTable table = volmesh::options_of(volume_options);
+  for (Option& option : model_surface_options(recipe.options, reading)) table.push_back(std::move(option));
+  set_options(table, command.options);
+  const SurfaceValue wall = mesh_model_files(inputs, reading, recipe, context.run.part("surface", 0.0, k_surface_end));
+  return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_surface_end, k_mesh_end));
+}
+
 MeshValue make_mesh(const MeshCommand& command, const CommandContext& context) {
+  std::vector<InputPath> inputs;
+  for (const std::string& name : command.inputs) inputs.push_back({name, name});
+  if (std::any_of(inputs.begin(), inputs.end(), [](const InputPath& input) { return is_model_file(input.path); })) return make_mesh_of_models(command, inputs, context);
   surfmesh::StitchOptions surface_options;
   volmesh::VolumeMeshOptions volume_options;
   set_options(all_options(surface_options, volume_options), command.options);
-  std::vector<InputPath> inputs;
-  for (const std::string& name : command.inputs) inputs.push_back({name, name});
   const SurfaceValue wall = read_wall(inputs, surface_options, context.run.part("surface", 0.0, k_read_end));
   return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_read_end, k_mesh_end));
 }

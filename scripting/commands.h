@@ -7,10 +7,12 @@
 
 #include "geom/base/run_context.h"
 #include "geom/base/schema.h"
+#include "geom/cad/read_cad.h"
 #include "scripting/check_options.h"
 #include "scripting/console.h"
 #include "scripting/convert.h"
 #include "scripting/script_call.h"
+#include "surfmesh/model/surface_mesh.h"
 
 namespace sterna::scripting {
 
@@ -31,6 +33,12 @@ struct MeshCommand {
   OptionOverrides options;  ///< --layers 30 as {"layers", "30"} and --set stage.option=value, in the order of their precedence, the last wins
   std::filesystem::path stats;
   std::filesystem::path stages;  ///< .sterna file that keeps the steps of the run; empty: none
+};
+
+struct SurfaceCommand {
+  std::vector<std::string> inputs;
+  std::vector<std::filesystem::path> outputs;
+  OptionOverrides options;
 };
 
 struct UnionCommand {
@@ -64,12 +72,16 @@ int check_model(const CheckCommand& command, const CommandContext& context);
 int unite_models(const UnionCommand& command, const CommandContext& context);
 int convert_model(const ConvertCommand& command, const CommandContext& context);
 
+/// The options of `sterna surface`, and of `sterna mesh` of a model, but for those of the volume. The arguments must outlive the table.
+OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCadOptions& reading);
+
 /// Sets every option; all problems are reported together. \throws Error(bad_argument)
 void set_options(const OptionTable& table, const OptionOverrides& given);
 
 /// Each throws Error; the caller prints it and turns its code into the exit status.
 int execute(const RunCommand& command, const CommandContext& context);
 int execute(const MeshCommand& command, const CommandContext& context);
+int execute(const SurfaceCommand& command, const CommandContext& context);
 int execute(const UnionCommand& command, const CommandContext& context);
 int execute(const CheckCommand& command, const CommandContext& context);
 int execute(const InfoCommand& command, const CommandContext& context);

@@ -5,6 +5,7 @@
 
 #include "io/atomic_file.h"
 #include "scripting/layer_json.h"
+#include "scripting/model_surface.h"
 
 namespace sterna::scripting {
 namespace {
@@ -70,7 +71,11 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     UnionOptions unite = mesh.origin->union_options.value_or(UnionOptions{});
     if (mesh.origin->union_options)
       for (Option& option : sterna::options_of(unite)) options.push_back(std::move(option));
+    SurfaceRecipe recipe = mesh.origin->recipe.value_or(SurfaceRecipe{});
+    if (mesh.origin->recipe)
+      for (Option& option : sterna::options_of(recipe.options)) options.push_back(std::move(option));
     json["options"] = Json::parse(options_to_json(options));
+    if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
     if (!volume.sources.empty()) json["sources"] = sources_json(volume.sources);
   }
   json["patches"] = Json::array();

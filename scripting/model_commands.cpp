@@ -6,7 +6,9 @@
 #include "scripting/aircraft_model.h"
 #include "scripting/commands.h"
 #include "scripting/exit_status.h"
+#include "scripting/model_surface.h"
 #include "scripting/models.h"
+#include "scripting/summary.h"
 
 namespace sterna::scripting {
 namespace {
@@ -41,6 +43,26 @@ int check_model(const CheckCommand& command, const CommandContext& context) {
   const bool is_closed = !value.model.faces.empty() && free_edges(value.model).empty();
   context.console.print(is_closed ? "CLOSED" : "OPEN");
   return is_closed ? k_exit_success : k_exit_invalid;
+}
+
+OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCadOptions& reading) {
+  OptionTable table = sterna::options_of(surface);
+  for (Option& option : sterna::options_of(reading)) table.push_back(std::move(option));
+  return table;
+}
+
+int execute(const SurfaceCommand& command, const CommandContext& context) {
+  SurfaceRecipe recipe;
+  ReadCadOptions reading;
+  set_options(model_surface_options(recipe.options, reading), command.options);
+  for (const auto& output : command.outputs) require_surface_output(output);
+  std::vector<InputPath> inputs;
+  for (const std::string& name : command.inputs) inputs.push_back(input_of(name));
+  const SurfaceValue surface = mesh_model_files(inputs, reading, recipe, context.run.part("surface", 0.0, 0.95));
+  for (const auto& output : command.outputs) write_surface(surface, output, context.run.part("write", 0.95, 1.0));
+  context.console.end_progress();
+  for (const auto& output : command.outputs) context.run.info("wrote " + output.string() + ": " + describe(surface));
+  return k_exit_success;
 }
 
 int unite_models(const UnionCommand& command, const CommandContext& context) {

@@ -268,8 +268,10 @@ void check_overrides(const OptionOverrides& overrides) {
   surfmesh::StitchOptions surface;
   volmesh::VolumeMeshOptions volume;
   UnionOptions unite;
+  surfmesh::SurfaceMeshOptions surface_mesh;
   OptionTable table = all_options(surface, volume);
-  for (Option& option : sterna::options_of(unite)) table.push_back(std::move(option));
+  for (OptionTable more : {sterna::options_of(unite), sterna::options_of(surface_mesh)})
+    for (Option& option : more) table.push_back(std::move(option));
   for (const auto& [name, text] : overrides) set_option_as_typed(find_option(table, name, "--set " + name), text);
 }
 

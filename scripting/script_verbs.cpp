@@ -15,6 +15,7 @@
 #include "scripting/stage_verbs.h"
 #include "scripting/stages.h"
 #include "scripting/summary.h"
+#include "scripting/surface_verbs.h"
 #include "scripting/table_reader.h"
 #include "scripting/verb_tools.h"
 #include "scripting/verbs.h"
@@ -101,7 +102,7 @@ ScriptValue make_mesh(const ScriptCall& call) {
   TableReader reader(table, call.attempted());
   const std::vector<ScriptValue>& items = reader.items();
   const SurfaceHandle* wall = items.empty() ? nullptr : std::get_if<SurfaceHandle>(&items.front());
-  if (!wall) reader.add_problem("entry 1: expected a surface (from read_surface), not " + std::string(items.empty() ? "nothing" : type_text(items.front())));
+  if (!wall) reader.add_problem("entry 1: expected a surface (from surface_mesh or read_surface), not " + std::string(items.empty() ? "nothing" : type_text(items.front())));
   else if (items.size() > 1) reader.add_problem("takes one surface, not " + std::to_string(items.size()) + " (read_surface{ \"a.stl\", \"b.stl\" } joins files)");
   reader.read_options(schema);
   options.sources = read_sources(reader, call);
@@ -211,13 +212,18 @@ ScriptValue patch_names(const PatchColumn& patches) {
 
 ScriptValue surface_field(const ScriptCall& call) {
   const SurfaceValue& surface = *self<SurfaceHandle>(call);
-  return select_field(call,
-                      {{"triangles", static_cast<std::int64_t>(surface.mesh.n_triangles())},
-                       {"vertices", static_cast<std::int64_t>(surface.mesh.n_vertices())},
-                       {"length", body_length(surface.mesh)},
-                       {"is_closed", surface.report.is_closed},
-                       {"patches", patch_names(surface.mesh.patches)}},
-                      surface_methods());
+  Fields fields = {{"triangles", static_cast<std::int64_t>(surface.mesh.n_triangles())},
+                   {"vertices", static_cast<std::int64_t>(surface.mesh.n_vertices())},
+                   {"length", body_length(surface.mesh)},
+                   {"is_closed", surface.report.is_closed},
+                   {"patches", patch_names(surface.mesh.patches)}};
+  if (const auto& report = surface.mesh_report) {
+    fields.emplace_back("min_angle", report->min_angle);
+    fields.emplace_back("max_angle", report->max_angle);
+    fields.emplace_back("crossings", report->n_crossings);
+    fields.emplace_back("absorbed", static_cast<std::int64_t>(report->absorbed.size()));
+  }
+  return select_field(call, std::move(fields), surface_methods());
 }
 
 ScriptValue mesh_field(const ScriptCall& call) {
@@ -329,6 +335,7 @@ const ScriptVerb k_error_field = {"error", "", "", error_field};
 std::span<const ScriptVerb> script_verbs() {
   static const std::vector<ScriptVerb> all = [] {
     std::vector<ScriptVerb> verbs(k_verbs.begin(), k_verbs.end());
+    verbs.insert(verbs.end(), surface_verbs().begin(), surface_verbs().end());
     verbs.insert(verbs.end(), stage_verbs().begin(), stage_verbs().end());
     verbs.insert(verbs.end(), source_verbs().begin(), source_verbs().end());
     verbs.insert(verbs.end(), geometry_verbs().begin(), geometry_verbs().end());

@@ -31,7 +31,7 @@ ScriptValue make_envelope_verb(const ScriptCall& call) {
   volmesh::VolumeMeshOptions options;
   const OptionTable schema = envelope_options(options);
   TableReader reader(table, call.attempted());
-  const auto wall = entry<SurfaceHandle>(reader, 1, "a surface (from read_surface)");
+  const auto wall = entry<SurfaceHandle>(reader, 1, "a surface (from surface_mesh or read_surface)");
   require_entries(reader, 1);
   reader.read_options(schema);
   apply_overrides(call, schema);

@@ -11,6 +11,7 @@
 #include "io/sterna_file.h"
 #include "scripting/layer_json.h"
 #include "scripting/manifest.h"
+#include "scripting/model_surface.h"
 #include "scripting/summary.h"
 #include "volmesh/assemble.h"
 
@@ -82,7 +83,12 @@ std::string unfinished_json(const SurfaceValue& wall, const volmesh::VolumeMeshO
   volmesh::VolumeMeshOptions volume_options = options;
   Json json = {{"schema", "sterna-stage-1"}, {"program", "sterna " STERNA_VERSION}, {"inputs", Json::array()}};
   for (const InputFile& input : wall.inputs) json["inputs"].push_back({{"file", input.name}, {"xxh3_128", input.hash}});
-  json["options"] = Json::parse(options_to_json(all_options(surface_options, volume_options)));
+  OptionTable table = all_options(surface_options, volume_options);
+  SurfaceRecipe recipe = wall.recipe.value_or(SurfaceRecipe{});
+  if (wall.recipe)
+    for (Option& option : sterna::options_of(recipe.options)) table.push_back(std::move(option));
+  json["options"] = Json::parse(options_to_json(table));
+  if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
   json["sources"] = options.sources.size();
   json["stage"] = std::move(stage);
   return json.dump(2) + "\n";
@@ -118,6 +124,15 @@ class StageJson {
       const Json& value = json_.at(Json::json_pointer(pointer));
       set_option_from_text(option, value.is_string() ? value.get<std::string>() : value.dump());
     }
+  }
+
+  /// Of a wall that surface_mesh made.
+  std::optional<SurfaceRecipe> recipe() const {
+    if (!json_.contains(Json::json_pointer("/options/surface_mesh"))) return std::nullopt;
+    SurfaceRecipe result;
+    read_options(sterna::options_of(result.options));
+    if (json_.contains("surface_patches")) result.patches = patch_rules_of_json(json_.at("surface_patches").dump());
+    return result;
   }
 
   /// Finished runs list them, the others count them.
@@ -163,6 +178,7 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
   value.check = std::move(result.check);
   value.origin = MeshOrigin{.surface_options = wall.options,
                             .union_options = wall.union_options,
+                            .recipe = wall.recipe,
                             .options = options,
                             .layer = std::move(result.layer),
                             .certificate = std::move(result.certificate),
@@ -275,6 +291,7 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     auto wall = std::make_shared<SurfaceValue>(*surface_of(std::move(*content.surface), json.inputs(), context));
     volmesh::VolumeMeshOptions options;
     json.read_options(all_options(wall->options, options));
+    wall->recipe = json.recipe();
     result.surface = wall;
     volmesh::EnvelopeStage envelope{.envelope = envelope_of(std::move(*content.envelope), file), .feature_angle = json.get<double>("/stage/feature_angle")};
     result.envelope = std::make_shared<const EnvelopeValue>(EnvelopeValue{.wall = wall, .options = options, .stage = envelope, .n_sources_in_file = json.n_sources()});

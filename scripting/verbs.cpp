@@ -22,6 +22,14 @@ constexpr double k_read_end = 0.3;
 /// Of unite_surfaces; cutting and remeshing take most of its time.
 constexpr double k_union_read_end = 0.2;
 
+void require_output(const std::filesystem::path& path, io::FormatUse use) {
+  const io::Format& format = io::format_to_write(path, use);
+  if (format.require_output) format.require_output(path);
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder))
+    throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + folder.string()});
+}
+
 }  // namespace
 
 SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context) {
@@ -81,13 +89,8 @@ MeshValue read_mesh(const InputPath& file, const RunContext& context) {
   return value;
 }
 
-void require_mesh_output(const std::filesystem::path& path) {
-  const io::Format& format = io::format_to_write(path, io::FormatUse::write_volume);
-  if (format.require_output) format.require_output(path);
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  if (!std::filesystem::is_directory(folder))
-    throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + folder.string()});
-}
+void require_mesh_output(const std::filesystem::path& path) { require_output(path, io::FormatUse::write_volume); }
+void require_surface_output(const std::filesystem::path& path) { require_output(path, io::FormatUse::write_surface); }
 
 void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const RunContext& context) {
   const std::filesystem::path path = given.has_filename() ? given : given.parent_path();  // a folder may end in a slash

@@ -12,6 +12,7 @@
 #include "geom/base/run_context.h"
 #include "geom/boolean/union_meshes.h"
 #include "geom/mesh/check.h"
+#include "surfmesh/model/surface_mesh.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "volmesh/volume_mesh.h"
 
@@ -23,6 +24,12 @@ struct InputFile {
   std::string hash;  ///< io::hash_input
 };
 
+/// What surface_mesh was asked for.
+struct SurfaceRecipe {
+  surfmesh::SurfaceMeshOptions options;
+  std::vector<surfmesh::PatchSurfaceOptions> patches;  ///< the last that matches a face counts
+};
+
 /// A surface with where it came from.
 struct SurfaceValue {
   TriMesh mesh;
@@ -30,12 +37,15 @@ struct SurfaceValue {
   surfmesh::StitchOptions options;
   std::vector<InputFile> inputs;
   std::optional<UnionOptions> union_options = {};  ///< of a surface that union made
+  std::optional<SurfaceRecipe> recipe = {};        ///< of a surface that surface_mesh made
+  std::optional<surfmesh::SurfaceMeshReport> mesh_report = {};  ///< the same, unless it was read from a file
 };
 
 /// How a volume mesh was made here; absent for one that was read from a file.
 struct MeshOrigin {
   surfmesh::StitchOptions surface_options;
   std::optional<UnionOptions> union_options;
+  std::optional<SurfaceRecipe> recipe;
   volmesh::VolumeMeshOptions options;
   volmesh::LayerReport layer;
   volmesh::EnvelopeCertificate certificate;
@@ -82,6 +92,8 @@ void require_mesh_output(const std::filesystem::path& path);
 /// Writes the mesh and, once that is done, its manifest "<path>.json"; a .sterna file holds manifest, certificate and quality, too. Each file appears whole or not at all. \throws Error of io.
 void write_mesh(const MeshValue& mesh, const std::filesystem::path& path, const RunContext& context);
 
+/// \throws Error unsupported_format or write_failed when a surface cannot be written to a file of this name. Before the work.
+void require_surface_output(const std::filesystem::path& path);
 /// Writes a surface; format by extension. \throws Error of io.
 void write_surface(const SurfaceValue& surface, const std::filesystem::path& path, const RunContext& context);
 

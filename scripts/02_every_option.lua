@@ -173,3 +173,19 @@ block:write{ "every_option.step",
 }
 local again = read_cad{ "every_option.step", unit = "automatic", heal = true, cap = false, sew_tolerance = "automatic", small = "automatic", time_limit = 600 }
 print(parts, bent, sheet, again, union{ block, rod_model, tolerance = "automatic", time_limit = 600 }, assembly{ block, tunnel })
+
+-- The faces of a model as triangles: what volume_mesh takes. Several models stand side by side.
+local skin = surface_mesh{ block,
+  max_edge = "automatic",             -- metres; automatic: 8 % of the mean circumference of bodies, 15 % of the mean chord of wings
+  min_edge = "automatic",             -- 2 % of the longest edge
+  curvature_angle = 12*deg,           -- an edge spans at most this angle of the surface
+  chord_error = "automatic",          -- metres between an edge's middle and the surface; automatic: no limit
+  growth = 1.2,
+  refinement = 1.0,                   -- 1.5: the next finer mesh of a family
+  narrow = 2.0,                       -- edges along narrow faces, of their width
+  check_crossings = true,
+  max_triangles = 200000000,          -- of one face
+  patches = {                         -- by names of faces; of two patterns that match the one with more letters counts
+    ["box*"] = { max_edge = 0.1, min_edge = "automatic", curvature_angle = "automatic", chord_error = "automatic" } },
+}
+print(skin)

@@ -89,7 +89,8 @@ struct SurfaceMesh {
 /// Meshes a whole model. Vertices inside faces are exactly on their surface, those on edges exactly on the edge's curve, corners are the model's.
 /// Normals point outwards as the model's faces say. Closed models give closed meshes; elsewhere boundary loops are the model's free edges.
 /// \throws Error(geometry_failed) naming the faces that cannot be meshed, with places; Error(bad_argument) for sizes that are not positive or a rule that no face's name
-/// matches; Error(overflow) beyond max_triangles; Error(self_intersection) where parts of the model cross
+/// matches; Error(overflow) beyond max_triangles; Error(non_manifold_surface) where triangles of faces do not join. Triangles that cross are no error: they are
+/// counted in the report, with a warning
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
 
 /// Several lines for people.

@@ -1,0 +1,141 @@
+#include "scripting/model_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "geom/base/error.h"
+#include "geom/mesh/topology.h"
+#include "scripting/aircraft_model.h"
+#include "scripting/summary.h"
+
+namespace sterna {
+
+template <>
+struct Schema<surfmesh::PatchSurfaceOptions> {
+  using O = surfmesh::PatchSurfaceOptions;
+  static constexpr std::string_view stage = "patches";
+  static constexpr std::string_view as_all = "as of all patches";
+  static constexpr std::array fields = {
+      Field<O>{.name = "names", .member = &O::names, .help = "pattern of the names of faces"},
+      Field<O>{.name = "max_edge", .member = &O::max_edge, .unit = Unit::metre, .min = 1e-9, .help = "longest edge wanted", .automatic = as_all},
+      Field<O>{.name = "min_edge", .member = &O::min_edge, .unit = Unit::metre, .min = 0.0, .help = "curvature and narrow places ask for no shorter edges", .automatic = as_all},
+      Field<O>{.name = "curvature_angle", .member = &O::curvature_angle, .unit = Unit::radian, .min = 0.001, .max = 1.6, .help = "an edge spans at most this angle of the surface", .automatic = as_all},
+      Field<O>{.name = "chord_error", .member = &O::chord_error, .unit = Unit::metre, .min = 1e-9, .help = "an edge's middle is at most this far from the surface", .automatic = as_all},
+  };
+};
+
+}  // namespace sterna
+
+namespace sterna::scripting {
+namespace {
+
+/// Open edges and absorbed parts in the log; the report has all.
+constexpr std::size_t k_listed = 10;
+// Shares of mesh_model_files's progress.
+constexpr double k_read_end = 0.3;
+constexpr double k_unite_end = 0.5;
+
+bool is_description(const std::filesystem::path& path) { return path.extension() == ".smx" || path.extension() == ".xml"; }
+
+std::string indented(std::string text) {
+  while (text.ends_with('\n')) text.pop_back();
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 3) text.replace(at, 1, "\n  ");
+  return "  " + text;
+}
+
+}  // namespace
+
+OptionTable patch_rule_options(surfmesh::PatchSurfaceOptions& rule) {
+  OptionTable table = sterna::options_of(rule);
+  std::erase_if(table, [](const Option& option) { return option.name == "names"; });  // the key of the entry
+  return table;
+}
+
+std::string patch_rules_json(const std::vector<surfmesh::PatchSurfaceOptions>& rules) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (surfmesh::PatchSurfaceOptions rule : rules) {
+    nlohmann::ordered_json entry = {{"names", rule.names}};
+    for (const Option& option : patch_rule_options(rule))
+      if (const double value = std::get<double>(option.get()); !is_automatic(value)) entry[std::string(option.name)] = value;
+    list.push_back(std::move(entry));
+  }
+  return list.dump();
+}
+
+std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const std::string& text) {
+  const auto list = nlohmann::ordered_json::parse(text, nullptr, false);
+  const auto refuse = [] { throw Error({.code = ErrorCode::file_malformed, .attempted = "reading the options of a surface mesh", .problem = "surface_patches is no list of rules with names and numbers"}); };
+  if (!list.is_array()) refuse();
+  std::vector<surfmesh::PatchSurfaceOptions> rules;
+  for (const auto& entry : list) {
+    if (!entry.is_object() || !entry.contains("names") || !entry["names"].is_string()) refuse();
+    surfmesh::PatchSurfaceOptions& rule = rules.emplace_back();
+    rule.names = entry["names"].get<std::string>();
+    const OptionTable options = patch_rule_options(rule);
+    for (const auto& [name, value] : entry.items()) {
+      if (name == "names") continue;
+      if (!value.is_number()) refuse();
+      set_option(find_option(options, name, "reading the options of a surface mesh"), value.get<double>());
+    }
+  }
+  return rules;
+}
+
+void sort_rules(std::vector<surfmesh::PatchSurfaceOptions>& rules) {
+  const auto n_letters = [](const std::string& names) { return std::count_if(names.begin(), names.end(), [](char c) { return c != '*' && c != '?'; }); };
+  std::sort(rules.begin(), rules.end(), [&](const auto& a, const auto& b) { return std::pair(n_letters(a.names), a.names) < std::pair(n_letters(b.names), b.names); });
+}
+
+std::string surface_mesh_text(const Model& model, const SurfaceValue& surface) {
+  const surfmesh::SurfaceMeshReport& report = *surface.mesh_report;
+  std::string text = describe(surface) + "\n" + indented(to_text(report));
+  if (report.n_free_edges > 0) {
+    const std::vector<OpenEdge> open = open_edges(model);
+    for (std::size_t i = 0; i < std::min(k_listed, open.size()); ++i)
+      text += fmt::format("\n  open      along {:.4g} m of face \"{}\" about {}", open[i].length, open[i].face, format_point(open[i].middle));
+    if (open.size() > k_listed) text += fmt::format("\n  open      and {} more edges of the model", open.size() - k_listed);
+  }
+  for (std::size_t i = 0; i < std::min(k_listed, report.absorbed.size()); ++i)
+    text += fmt::format("\n  absorbed  {} at {}, {:.3g} m", report.absorbed[i].what, format_point(report.absorbed[i].place), report.absorbed[i].size);
+  if (report.absorbed.size() > k_listed) text += fmt::format("\n  absorbed  and {} more", report.absorbed.size() - k_listed);
+  return text;
+}
+
+SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const RunContext& context) {
+  const StageTimer timer(context, "surface_mesh");
+  const ModelValue all = assemble(models, context);
+  surfmesh::SurfaceMesh made = surfmesh::mesh_model(all.model, recipe.options, recipe.patches, context);
+  SurfaceValue surface{.inputs = all.inputs, .recipe = recipe};
+  surface.mesh = std::move(made.mesh);
+  const Topology topology(surface.mesh, context);
+  surface.report.n_triangles_read = static_cast<std::int64_t>(surface.mesh.n_triangles());
+  surface.report.n_vertices_read = static_cast<std::int64_t>(surface.mesh.n_vertices());
+  surface.report.n_components = static_cast<std::int64_t>(connected_components(surface.mesh, topology).count);
+  surface.report.is_closed = topology.n_boundary_halfedges() == 0;
+  surface.mesh_report = std::move(made.report);
+  context.info(surface_mesh_text(all.model, surface));
+  return surface;
+}
+
+SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context) {
+  for (const InputPath& file : files)
+    if (!is_model_file(file.path))
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "meshing the surface of " + file.name,
+                   .problem = "it is no model (STEP, IGES, BREP, sumo .smx, CPACS .xml)",
+                   .hint = "a triangulation is meshed as it is: sterna mesh " + file.name});
+  std::vector<ModelHandle> models;
+  const double n = static_cast<double>(files.size());
+  for (const InputPath& file : files) {
+    const double i = static_cast<double>(models.size());
+    auto model = std::make_shared<ModelValue>(read_model(file, reading, context.part("read", k_read_end * i / n, k_read_end * (i + 1) / n)));
+    if (is_description(file.path) && model->model.solids.size() > 1)
+      *model = unite_solids({std::make_shared<const ModelValue>(std::move(*model))}, {}, context.part("union", k_read_end, k_unite_end));
+    models.push_back(std::move(model));
+  }
+  return mesh_models(models, recipe, context.part("surface_mesh", k_unite_end, 1.0));
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,139 @@
+// From models to triangles as a user asks for it: surface_mesh{}, `sterna surface`, `sterna mesh` of a model.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "geom/base/error.h"
+#include "scripting/exit_status.h"
+#include "scripting/script_run.h"
+#include "tests/support/data.h"
+#include "tests/support/process.h"
+
+namespace sterna::scripting {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class SurfaceMeshVerb : public testing::Test {
+ protected:
+  /// Runs the text as a script; returns what it printed. The log is in log_.
+  std::string run(const std::string& text, const OptionOverrides& overrides = {}) {
+    std::ofstream(folder_ / "case.lua") << text;
+    std::string printed;
+    log_.clear();
+    const RunContext context({.threads = 1, .log = [&](LogLevel level, std::string_view line) { log_ += (level == LogLevel::warning ? "warning: " : "") + std::string(line) + "\n"; }});
+    run_script({.script = folder_ / "case.lua", .overrides = overrides, .print = [&](std::string_view line) { printed += std::string(line) + "\n"; }, .on_mesh = {}}, context);
+    return printed;
+  }
+  std::string error(const std::string& text) {
+    try {
+      run(text);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  test::ProcessResult sterna(const std::vector<std::string>& arguments) { return test::run_process(test::sterna_program(), arguments, folder_); }
+  std::string out(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
+  std::string text_of(const std::string& name) const {
+    std::ifstream file(folder_ / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  const std::filesystem::path folder_ = test::scratch();
+  std::string log_;
+};
+
+TEST_F(SurfaceMeshVerb, AClosedModelMakesAWallForVolumeMesh) {
+  EXPECT_EQ(run("local w = surface_mesh{ box{ {0,0,0}, {1,1,1}, name='block' }, max_edge=0.5 } "
+                "print(w.is_closed, w.crossings, w.absorbed, w.min_angle > 25*deg, table.concat(w.patches, ' '), w.length) "
+                "local m = volume_mesh{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=10 } } m:check() m:write(" + out("block.su2") + ") print(m.prisms == 3*w.triangles)")
+                .find("true\t0\t0\ttrue\tblock\t1"),
+            0u);
+  EXPECT_THAT(log_, AllOf(HasSubstr("closed, 1 patch"), HasSubstr("worst angle on \"block\" at (")));
+  const std::string manifest = text_of("block.su2.json");
+  EXPECT_THAT(manifest, AllOf(HasSubstr("\"surface_mesh\""), HasSubstr("\"max_edge\": 0.5"), Not(HasSubstr("surface_patches"))));
+}
+
+TEST_F(SurfaceMeshVerb, PatchesHaveSizesOfTheirOwnAndTheLongerPatternWins) {
+  const std::string model = "local m = assembly{ box{ {0,0,0}, {1,1,1}, name='wing' }, box{ {3,0,0}, {4,1,1}, name='wing_tip' } } local function n(o) o[1] = m o.max_edge = 0.5 return surface_mesh(o).triangles end ";
+  EXPECT_EQ(run(model + "local all, tip, both = n{}, n{ patches={ wing_tip={ max_edge=0.25 } } }, n{ patches={ ['wing*']={ max_edge=0.25 } } } "
+                        "print(tip > 1.5*all, both > 1.2*tip, n{ patches={ ['wing*']={ max_edge=0.25 }, wing_tip={ max_edge=0.5 } } } < both)"),
+            "true\ttrue\ttrue\n");
+  // Models as entries stand side by side, components too; --set wins.
+  EXPECT_EQ(run("print(table.concat(surface_mesh{ box{ {0,0,0}, {1,1,1} }, box{ {2,0,0}, {3,1,1} }, boom{ from={0,0,3}, to={2,0,3}, diameter=0.5 } }.patches, ' '))"), "box box2 boom\n");
+  EXPECT_EQ(run("print(surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_edge=0.1 }.triangles < 200)", {{"surface_mesh.max_edge", "0.5"}}), "true\n");
+}
+
+TEST_F(SurfaceMeshVerb, OpenSurfacesAndCrossingsAreTold) {
+  EXPECT_EQ(run("print(surface_mesh{ surface{ function(u, v) return u, v, 0.1*u*v end, u={0,1}, v={0,1}, name='sheet' }, max_edge=0.3 }.is_closed)"), "false\n");
+  EXPECT_THAT(log_, AllOf(HasSubstr("open: "), HasSubstr("along 1 m of face \"sheet\" about (0, 0.5, 0)")));
+  EXPECT_EQ(run("print(surface_mesh{ box{ {0,0,0}, {1,1,1} }, box{ {0.5,0.3,0.3}, {2,0.7,0.7} }, max_edge=0.4 }.crossings > 0)"), "true\n");
+  EXPECT_THAT(log_, HasSubstr("warning: "));
+  EXPECT_THAT(log_, HasSubstr("pairs of triangles cross"));
+}
+
+TEST_F(SurfaceMeshVerb, MistakesAreNamedTogether) {
+  const std::string block = "box{ {0,0,0}, {1,1,1}, name='block' }";
+  EXPECT_THAT(error("surface_mesh{ " + block + ", max_egde = 1 }"), HasSubstr("case.lua:1: surface_mesh: unknown key \"max_egde\", did you mean \"max_edge\"?"));
+  EXPECT_THAT(error("surface_mesh{ " + block + ", max_edge=-1, curvature_angle=12, patches={ block={ max_egde=1, leading_edge={ chordwise=0.004 } }, tip=3 } }"),
+              AllOf(HasSubstr("4 problems in this table"), HasSubstr("max_edge: -1 is not allowed"), HasSubstr("write degrees as 40*deg"),
+                    HasSubstr("patches[\"block\"]: 2 problems"), HasSubstr("unknown key \"max_egde\", did you mean \"max_edge\"?"), HasSubstr("unknown key \"leading_edge\""),
+                    HasSubstr("patches[\"tip\"]: expected a table of what these patches ask for instead, like { max_edge = 0.1 }, not a number")));
+  EXPECT_THAT(error("surface_mesh{ " + block + ", patches={ ['wing*']={ max_edge=1 } } }"), AllOf(HasSubstr("no face has a name like \"wing*\""), HasSubstr("block")));
+  EXPECT_THAT(error("surface_mesh{}"), HasSubstr("needs a model"));
+  EXPECT_THAT(error("surface_mesh{ 'a.step' }"), HasSubstr("entry 1: expected a model (from read_cad, aircraft ...) or a component, not a text"));
+  EXPECT_THAT(error("surface_mesh{ surface_mesh{ " + block + " } }"), HasSubstr("which is made of triangles already: volume_mesh takes it"));
+  EXPECT_THAT(error("volume_mesh{ " + block + ", first_height=1e-3 }"), HasSubstr("expected a surface (from surface_mesh or read_surface), not a model"));
+}
+
+TEST_F(SurfaceMeshVerb, AFileOfStepsKeepsTheOptions) {
+  run("local w = surface_mesh{ box{ {0,0,0}, {1,1,1}, name='block' }, max_edge=0.5, patches={ ['b*']={ max_edge=0.4, curvature_angle=20*deg } } } "
+      "local e = make_envelope{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=10 } } e:write(" + out("steps.sterna") + ") local t = tetrahedra{ e } prisms{ e, t }:write(" + out("a.su2") + ")");
+  run("local s = read_stages(" + out("steps.sterna") + ") prisms{ s.envelope, tetrahedra{ s.envelope } }:write(" + out("b.su2") + ")");
+  EXPECT_EQ(text_of("a.su2"), text_of("b.su2"));
+  const auto after_name = [](std::string text) { return text.substr(text.find("\"seed\"")); };
+  EXPECT_EQ(after_name(text_of("a.su2.json")), after_name(text_of("b.su2.json")));
+  EXPECT_THAT(text_of("b.su2.json"), AllOf(HasSubstr("\"surface_patches\""), HasSubstr("\"names\": \"b*\"")));
+}
+
+TEST_F(SurfaceMeshVerb, TheCommandLineMeshesModels) {
+  run("local b = box{ {0,0,0}, {1,1,1}, name='block' } b:write(" + out("block.step") + ") "
+      "aircraft{ fuselage{ name='body', frames={ {x=0, diameter=0.6}, {x=2, diameter=1}, {x=4, diameter=0.5} } }, "
+      "wing{ name='wing', symmetric=true, position={1.5,0,0}, sections={ {y=0, chord=1, airfoil='naca0012'}, {y=2, chord=0.6} } }, unite=false }:write(" + out("plane.smx") + ")");
+  EXPECT_THAT(sterna({"--help"}).output, HasSubstr("surface"));
+  EXPECT_THAT(sterna({"surface", "--help"}).output, AllOf(HasSubstr("--max-edge"), HasSubstr("--curvature-angle"), HasSubstr("--refinement"), HasSubstr("--cap")));
+  const test::ProcessResult made = sterna({"surface", "block.step", "-o", "wall.su2", "--max-edge", "0.5", "--curvature-angle", "12"});
+  EXPECT_EQ(made.status, k_exit_success) << made.errors;
+  EXPECT_THAT(made.errors, AllOf(HasSubstr("wrote wall.su2: TriMesh: "), HasSubstr("closed, 1 patch"), HasSubstr("worst angle on \"block\"")));
+  EXPECT_THAT(sterna({"info", "wall.su2"}).output, HasSubstr("\"block\", wall"));
+  // Components of sumo files are united: one closed surface without crossings.
+  const test::ProcessResult plane = sterna({"surface", "plane.smx", "-o", "plane.stl", "--set", "surface_mesh.curvature_angle=20deg"});
+  EXPECT_EQ(plane.status, k_exit_success) << plane.errors;
+  EXPECT_THAT(plane.errors, AllOf(HasSubstr("closed, "), Not(HasSubstr("triangles cross"))));
+  const test::ProcessResult mesh = sterna({"mesh", "block.step", "--layers", "3", "--first-height", "1e-3", "--set", "surface_mesh.max_edge=0.5", "-o", "m.su2"});
+  EXPECT_EQ(mesh.status, k_exit_success) << mesh.errors;
+  EXPECT_THAT(text_of("m.su2.json"), AllOf(HasSubstr("block.step"), HasSubstr("\"max_edge\": 0.5"), HasSubstr("\"VALID\"")));
+}
+
+TEST_F(SurfaceMeshVerb, TheCommandLineRefusesWhatItCannotMean) {
+  run("box{ {0,0,0}, {1,1,1}, name='block' }:write(" + out("block.step") + ")");
+  const std::vector<std::tuple<std::vector<std::string>, int, std::string>> cases = {
+      {{"surface", "block.step", "-o", "w.su2", "--curvature-angle", "0.2"}, k_exit_usage, "0.2 may be degrees or radians (write 0.2deg or 0.2rad)"},
+      {{"surface", "block.step", "-o", "w.su2", "--max-egde", "0.2"}, k_exit_usage, "there is no option of surface --max-egde, did you mean --max-edge?"},
+      {{"surface", "block.step", "-o", "w.su2", "--set", "surface_mesh.max_egde=1"}, k_exit_usage, "did you mean \"surface_mesh.max_edge\"?"},
+      {{"surface", "block.step", "-o", "w.docx"}, k_exit_failed, "w.docx"},
+      {{"surface", "wall.stl", "-o", "w.su2"}, k_exit_usage, "it is no model"},
+      {{"mesh", "block.step", "--first-height", "1e-3", "--split-angle", "40deg", "-o", "m.su2"}, k_exit_usage, "split_angle"},
+  };
+  for (const auto& [arguments, status, text] : cases) {
+    const test::ProcessResult result = sterna(arguments);
+    EXPECT_EQ(result.status, status) << text << "\n" << result.errors;
+    EXPECT_THAT(result.errors, HasSubstr(text));
+  }
+}
+
+}  // namespace
+}  // namespace sterna::scripting
