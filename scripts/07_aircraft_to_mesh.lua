@@ -4,13 +4,13 @@
 local body = fuselage{ name = "body", frames = {
   { x = 0.3, diameter = 0.5, z = -0.08 }, { x = 1.2, diameter = 1.1 }, { x = 2.4, diameter = 1.3 }, { x = 4.6, diameter = 1.25 },
   { x = 6.6, diameter = 0.8, z = 0.12 },  { x = 8.2, diameter = 0.35, z = 0.25 } } }
-local main_wing = wing{ name = "wing", symmetric = true, position = { 2.6, 0, -0.35 }, trailing_edge = 0.006, sections = {
+local main_wing = wing{ name = "wing", symmetric = true, position = { 2.6, 0, -0.35 }, trailing_edge = 0.010, sections = {
   { y = 0, chord = 1.7, airfoil = "naca2412", twist = 2*deg },
   { y = 5, chord = 0.9, sweep = 3*deg, dihedral = 5*deg } } }
-local tailplane = wing{ name = "tailplane", symmetric = true, position = { 7.3, 0, 0.25 }, trailing_edge = 0.004, sections = {
+local tailplane = wing{ name = "tailplane", symmetric = true, position = { 7.3, 0, 0.25 }, trailing_edge = 0.008, sections = {
   { y = 0, chord = 0.9, airfoil = "naca0010" },
   { y = 1.7, chord = 0.6, sweep = 8*deg } } }
-local fin = wing{ name = "fin", position = { 6.9, 0, 0.3 }, trailing_edge = 0.004, sections = {
+local fin = wing{ name = "fin", position = { 6.9, 0, 0.3 }, trailing_edge = 0.008, sections = {
   { chord = 1.3, airfoil = "naca0010" },
   { z = 1.5, chord = 0.7, sweep = 25*deg } } }
 local model = aircraft{ body, main_wing, tailplane, fin }
@@ -18,8 +18,8 @@ print(model)
 
 -- Without numbers edges are 8 % of the bodies' circumference and 15 % of the wings' chord, shorter where the surface is curved. Patches are the components.
 local wall = surface_mesh{ model,
-  curvature_angle = 16*deg,
-  min_edge = 8*mm,
+  curvature_angle = 18*deg,
+  min_edge = 15*mm,
   patches = { ["wing*"] = { max_edge = 0.15 }, fin = { max_edge = 0.12 } } }
 print(wall, table.concat(wall.patches, " "))
 assert(wall.is_closed and wall.crossings == 0)

@@ -121,7 +121,7 @@ TEST_F(SurfaceMeshVerb, TheCommandLineMeshesModels) {
 TEST_F(SurfaceMeshVerb, TheCommandLineRefusesWhatItCannotMean) {
   run("box{ {0,0,0}, {1,1,1}, name='block' }:write(" + out("block.step") + ")");
   const std::vector<std::tuple<std::vector<std::string>, int, std::string>> cases = {
-      {{"surface", "block.step", "-o", "w.su2", "--curvature-angle", "0.2"}, k_exit_usage, "0.2 may be degrees or radians (write 0.2deg or 0.2rad)"},
+      {{"surface", "block.step", "-o", "w.su2", "--curvature-angle", "0.2"}, k_exit_usage, "0.2 may be degrees or radians\n  try: write 0.2deg or 0.2rad"},
       {{"surface", "block.step", "-o", "w.su2", "--max-egde", "0.2"}, k_exit_usage, "there is no option of surface --max-egde, did you mean --max-edge?"},
       {{"surface", "block.step", "-o", "w.su2", "--set", "surface_mesh.max_egde=1"}, k_exit_usage, "did you mean \"surface_mesh.max_edge\"?"},
       {{"surface", "block.step", "-o", "w.docx"}, k_exit_failed, "w.docx"},
