@@ -12,6 +12,14 @@ using wire::ImageHeader;
 using wire::NodeRecord;
 using wire::Role;
 
+/// What the helper says where: a path, a variable or an attribute by name or number, or the whole file.
+bool is_place(std::string_view where) {
+  if (where.starts_with('/') || where == "the file" || where == "the head of the file") return true;
+  for (const std::string_view begin : {"variable ", "attribute "})
+    if (where.starts_with(begin) && where.size() > begin.size()) return (where[begin.size()] >= '0' && where[begin.size()] <= '9') || (where[begin.size()] == '"' && where.size() > begin.size() + 2);
+  return false;
+}
+
 /// The image as it lies in memory, every access checked. What breaks its rules is the helper's fault, not the user's; but only a file can have driven it there.
 class ImageReader {
  public:
@@ -48,6 +56,7 @@ class ImageReader {
 
   [[noreturn]] void throw_outcome() const {
     const std::string where(text(header_.where)), problem(text(header_.problem)), hint(text(header_.hint));
+    if (!is_place(where) || problem.empty()) fail("it was refused without a place or a reason");
     if (header_.outcome == wire::Outcome::unsupported) throw_unsupported(source_, where + ": " + problem, hint);
     throw_malformed(source_, where, problem, hint);
   }
