@@ -16,7 +16,7 @@ struct BodyOptions {
   bool symmetric = false;
 };
 struct FuselageOptions {
-  std::string along = "smooth";
+  std::string along = "monotone";
   std::string nose = "round";
   double nose_height = 1.0;
   std::string tail = "round";
@@ -61,7 +61,7 @@ struct Schema<scripting::FuselageOptions> {
   using O = scripting::FuselageOptions;
   static constexpr std::string_view stage = "fuselage";
   static constexpr std::array fields = {
-      Field<O>{.name = "along", .member = &O::along, .help = "between frames: smooth (Bessel), akima (straight parts stay straight), linear", .choices = "smooth akima linear"},
+      Field<O>{.name = "along", .member = &O::along, .help = "between frames: monotone (smooth, never beyond the frames), smooth (Bessel, sumo's), akima (sumo's, straight parts stay straight), linear", .choices = "monotone smooth akima linear"},
       Field<O>{.name = "nose", .member = &O::nose, .help = "end before the first frame, where that is no point", .choices = "round flat"},
       Field<O>{.name = "nose_height", .member = &O::nose_height, .min = 0.01, .max = 20.0, .help = "of a round nose, of the mean radius of the first frame"},
       Field<O>{.name = "tail", .member = &O::tail, .help = "end behind the last frame", .choices = "round flat"},
@@ -219,6 +219,7 @@ ScriptValue make_fuselage_verb(const ScriptCall& call) {
     if (!(body.frames[i].center.x > body.frames[i - 1].center.x)) t.reader.add_problem("frames: '" + body.frames[i].name + "' does not stand behind '" + body.frames[i - 1].name + "'; x must ascend");
   t.reader.finish();
   body.placement.rotation.y = o.pitch;
+  body.is_monotone = o.along == "monotone";
   body.keeps_straight = o.along == "akima";
   body.is_linear = o.along == "linear";
   body.nose = cap(o.nose, o.nose_height);

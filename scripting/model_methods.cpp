@@ -14,6 +14,9 @@
 
 namespace sterna::scripting {
 
+/// A full turn: more is degrees without `*deg`.
+inline constexpr double k_turn = 6.2831853071795865;
+
 struct RotateOptions {
   double pitch = 0.0;
   double yaw = 0.0;
@@ -33,10 +36,10 @@ struct Schema<scripting::RotateOptions> {
   using O = scripting::RotateOptions;
   static constexpr std::string_view stage = "rotate";
   static constexpr std::array fields = {
-      Field<O>{.name = "pitch", .member = &O::pitch, .unit = Unit::radian, .help = "nose up, about +y; after roll"},
-      Field<O>{.name = "yaw", .member = &O::yaw, .unit = Unit::radian, .help = "nose to starboard, about -z; last"},
-      Field<O>{.name = "roll", .member = &O::roll, .unit = Unit::radian, .help = "starboard wing down, about -x; first"},
-      Field<O>{.name = "angle", .member = &O::angle, .unit = Unit::radian, .help = "right-handed about `axis`, in place of the three others"},
+      Field<O>{.name = "pitch", .member = &O::pitch, .unit = Unit::radian, .min = -scripting::k_turn, .max = scripting::k_turn, .help = "nose up, about +y; after roll"},
+      Field<O>{.name = "yaw", .member = &O::yaw, .unit = Unit::radian, .min = -scripting::k_turn, .max = scripting::k_turn, .help = "nose to starboard, about -z; last"},
+      Field<O>{.name = "roll", .member = &O::roll, .unit = Unit::radian, .min = -scripting::k_turn, .max = scripting::k_turn, .help = "starboard wing down, about -x; first"},
+      Field<O>{.name = "angle", .member = &O::angle, .unit = Unit::radian, .min = -scripting::k_turn, .max = scripting::k_turn, .help = "right-handed about `axis`, in place of the three others"},
   };
 };
 template <>

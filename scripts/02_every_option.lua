@@ -91,7 +91,7 @@ local body = fuselage{
   name = "fuselage",
   symmetric = false,                  -- a mirror image on the other side of y = 0
   position = { 0, 0, 0 },
-  along = "smooth",                   -- smooth, akima (straight parts stay straight), linear
+  along = "monotone",                 -- monotone (never beyond the frames), smooth, akima (straight parts stay straight), linear
   nose = "round", nose_height = 1.0,  -- or "flat"; of the mean radius
   tail = "round", tail_height = 1.0,
   pitch = 0,

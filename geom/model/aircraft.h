@@ -95,6 +95,7 @@ struct Body {
   ComponentKind kind = ComponentKind::body;  ///< of those with an inlet lip: always a nacelle
   Placement placement;
   bool keeps_straight = false;  ///< longitudinal tangents after Akima: straight parts stay straight; else after Bessel
+  bool is_monotone = false;     ///< longitudinal tangents that never carry it beyond the two frames it runs between (scripts; .smx has no such bodies)
   bool is_linear = false;       ///< straight between frames (CPACS without guide curves)
   bool has_mirror_image = false;  ///< a second one stands on the other side of y = 0
   std::vector<BodyFrame> frames;  ///< ascending x; at least 2

@@ -132,7 +132,7 @@ void BodyBuilder::skin() {
     PointGrid grid{2 * k_half_points + 1, step + 1, {}};
     for (std::size_t i = 0; i < grid.n_u; ++i)
       for (std::size_t j = from; j <= from + step; ++j) grid.points.push_back(rows_[j][i]);
-    const SplineTangents along = step == 1 ? SplineTangents::linear : body_.keeps_straight ? SplineTangents::akima : SplineTangents::bessel;
+    const SplineTangents along = step == 1 ? SplineTangents::linear : body_.is_monotone ? SplineTangents::monotone : body_.keeps_straight ? SplineTangents::akima : SplineTangents::bessel;
     const NurbsSurfaceForm form = spline_surface_form(grid, around(), {.tangents = along});
     const auto corners_of = [&](std::size_t row) {
       const CornerId bottom = builder_.corner(rows_[row].front());

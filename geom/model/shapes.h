@@ -105,7 +105,7 @@ Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, 
 Placement placement_along(const Point& from, const Point& to);
 
 /// Body of circular sections through profile points: u = x along the axis of `placement`, v = radius; ascending x, radius 0 (a point) only at the ends, which
-/// are flat where it is not. Smooth (Bessel), or straight between the points. \throws Error(bad_argument) naming the point
+/// are flat where it is not. Smooth, nowhere thicker than the points say, or straight between the points. \throws Error(bad_argument) naming the point
 Body body_of_revolution(const std::string& name, const Placement& placement, const std::vector<Uv>& profile, bool is_straight = false, ComponentKind kind = ComponentKind::body);
 
 /// Round tube between two points with half-elliptic ends within its length.

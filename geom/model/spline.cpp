@@ -203,6 +203,34 @@ Tangents local_tangents(const Points& p, const Numbers& t, bool is_akima, bool c
   return m;
 }
 
+/// Fritsch and Butland's slope at an inner point (SIAM J. Sci. Stat. Comput. 5, 1984): nothing at an extremum, else the weighted harmonic mean of both slopes.
+double monotone_slope(double h_before, double h_after, double before, double after) {
+  if (!(before * after > 0.0)) return 0.0;
+  const double w_before = h_before + 2.0 * h_after, w_after = 2.0 * h_before + h_after;
+  return (w_before + w_after) / (w_before / before + w_after / after);
+}
+
+/// At an end: of the parabola through three points, cut back until the first segment is monotone.
+double monotone_end(double h_first, double h_second, double first, double second) {
+  const double slope = ((2.0 * h_first + h_second) * first - h_first * second) / (h_first + h_second);
+  if (!(slope * first > 0.0)) return 0.0;
+  return first * second <= 0.0 && std::abs(slope) > 3.0 * std::abs(first) ? 3.0 * first : slope;
+}
+
+Tangents monotone_tangents(const Points& p, const Numbers& t) {
+  const std::size_t n = p.size();
+  const Tangents d = slopes_of(p, t);
+  if (n == 2) return {d[0], d[0]};
+  const auto h = [&](std::size_t i) { return t[i + 1] - t[i]; };
+  Tangents m(n);
+  for (double Vec3::*c : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+    m[0].*c = monotone_end(h(0), h(1), d[0].*c, d[1].*c);
+    for (std::size_t i = 1; i + 1 < n; ++i) m[i].*c = monotone_slope(h(i - 1), h(i), d[i - 1].*c, d[i].*c);
+    m[n - 1].*c = monotone_end(h(n - 2), h(n - 3), d[n - 2].*c, d[n - 3].*c);
+  }
+  return m;
+}
+
 Tangents tangents_of(const Points& p, const Numbers& t, const SplineOptions& o, const EndTangents& ends) {
   switch (o.tangents) {
     case SplineTangents::natural:
@@ -211,6 +239,7 @@ Tangents tangents_of(const Points& p, const Numbers& t, const SplineOptions& o, 
     case SplineTangents::periodic: return periodic_tangents(p, t);
     case SplineTangents::akima: return local_tangents(p, t, true, is_closed(o));
     case SplineTangents::bessel: return local_tangents(p, t, false, is_closed(o));
+    case SplineTangents::monotone: return monotone_tangents(p, t);
     case SplineTangents::linear: break;
   }
   return slopes_of(p, t);

@@ -19,6 +19,7 @@ enum class SplineTangents {
   periodic,    ///< twice continuously differentiable, also across the seam; the last point repeats the first
   akima,       ///< Akima (1970): keeps straight segments straight; once continuously differentiable
   bessel,      ///< tangent of the parabola through three points; once continuously differentiable
+  monotone,    ///< Fritsch and Butland (1984), each coordinate for itself: never beyond the two points that a segment joins; once continuously differentiable
   linear,      ///< straight segments
 };
 

@@ -61,6 +61,30 @@ TEST_F(GeometryScripts, ModelsAreMovedTurnedScaledAndMirrored) {
   EXPECT_EQ(run("local m = box{ {0, 1, 0}, {1, 2, 1}, name = 'left pod' }:mirror{} print(m.components[1], math.abs(m.min[2] + 2) < 1e-12, m:measures().volume > 0.999)"), "right pod\ttrue\ttrue\n");
 }
 
+TEST_F(GeometryScripts, BodiesAreNowhereThickerThanTheirFrames) {
+  // Two short steps beside a long one: parabolas through three points would swell to twice the width.
+  EXPECT_NEAR(number("(function() local m = fuselage{ frames = { {x=0,diameter=0}, {x=2,diameter=4}, {x=20,diameter=4}, {x=30,diameter=0.5} } }:model() return m.max[2] - m.min[2] end)()"), 4.0, 1e-3);
+  EXPECT_NEAR(number("(function() local m = body_of_revolution{ profile = { {0,0}, {1,0.1}, {10,0.1}, {11,0} } }:model() return m.max[3] - m.min[3] end)()"), 0.2, 1e-4);
+}
+
+TEST_F(GeometryScripts, WhatSmxCannotHoldIsRefused) {
+  const std::string wing = "local w = wing{ name = 'w', symmetric = true, sections = { {y=0,chord=1,airfoil='naca0012'}, {y=3} }%s } %s aircraft{ w, unite = false }:write(" + out("w.smx") + ")";
+  const auto with = [&](const std::string& option, const std::string& then) {
+    std::string text = wing;
+    text.replace(text.find("%s"), 2, option);
+    text.replace(text.find("%s"), 2, then);
+    return text;
+  };
+  EXPECT_THAT(error(with("", "")), AllOf(HasSubstr("open at its trailing edge"), HasSubstr("trailing_edge = 0")));
+  EXPECT_THAT(error(with(", trailing_edge = 0", "w:deflect{ 'flap', from = {0.2, 0.7}, to = {0.6, 0.7}, angle = 30*deg }")), HasSubstr("control surface 'flap' is deflected"));
+  EXPECT_THAT(error("aircraft{ fuselage{ name='b', frames = { {x=0,diameter=1}, {x=2,diameter=2}, {x=4,diameter=1} } }, unite = false }:write(" + out("b.smx") + ")"), HasSubstr("never swells beyond its frames"));
+}
+
+TEST_F(GeometryScripts, WingsThatFoldBackAndTurnsInDegreesAreErrors) {
+  EXPECT_THAT(error("wing{ sections = { {y=0,chord=1,airfoil='naca0012'}, {y=3,chord=1.5}, {y=2} }, tip = 'flat' }:model()"), AllOf(HasSubstr("it folds back onto itself"), HasSubstr("order along the span")));
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:rotate{ pitch = 30 }"), HasSubstr("pitch"));
+}
+
 TEST_F(GeometryScripts, NamesAreChangedAndSelected) {
   EXPECT_EQ(run("local m = assembly{ box{ {0,0,0}, {1,1,1} }, box{ {2,0,0}, {3,1,1} }, cylinder{ {5,0,0}, {6,0,0}, radius = 1 } } print(table.concat(m.components, ' ')) print(m['box*'], m:select('cyl?nder').faces) "
                 "print(table.concat(m:rename{ box2 = 'crate' }.patches, ' '))"),
@@ -162,7 +186,7 @@ TEST_F(GeometryScripts, ControlSurfacesAreDeflectedOrNamed) {
 }
 
 TEST_F(GeometryScripts, AnAircraftIsUnitedAndWritten) {
-  const std::string parts = "local b = fuselage{ name='body', frames={ {x=0, diameter=0.6}, {x=2, diameter=1.2}, {x=6, diameter=1} } } "
+  const std::string parts = "local b = fuselage{ name='body', along='smooth', frames={ {x=0, diameter=0.6}, {x=2, diameter=1.2}, {x=6, diameter=1} } } "
                             "local w = wing{ name='wing', symmetric=true, position={2, 0, 0.1}, sections={ {y=0, chord=1.5, airfoil='naca2412'}, {y=4, chord=0.8} } } "
                             "local e = nacelle{ name='engine', symmetric=true, position={1.8, 2, -0.75}, length=1.2, diameter=0.6, intake='fan', exhaust='jet' } local p = pylon{ w, e } ";
   EXPECT_EQ(run(parts + "local a = aircraft{ b, w, e, p } print(a.is_closed, #a.solids) local c = a.components table.sort(c) print(table.concat(c, ' ')) a:write(" + out("a.step") + ") local r = read_cad " + out("a.step") +

@@ -101,8 +101,8 @@ TEST_F(SurfaceMeshVerb, AFileOfStepsKeepsTheOptions) {
 
 TEST_F(SurfaceMeshVerb, TheCommandLineMeshesModels) {
   run("local b = box{ {0,0,0}, {1,1,1}, name='block' } b:write(" + out("block.step") + ") "
-      "aircraft{ fuselage{ name='body', frames={ {x=0, diameter=0.6}, {x=2, diameter=1}, {x=4, diameter=0.5} } }, "
-      "wing{ name='wing', symmetric=true, position={1.5,0,0}, sections={ {y=0, chord=1, airfoil='naca0012'}, {y=2, chord=0.6} } }, unite=false }:write(" + out("plane.smx") + ")");
+      "aircraft{ fuselage{ name='body', along='akima', frames={ {x=0, diameter=0.6}, {x=2, diameter=1}, {x=4, diameter=0.5} } }, "
+      "wing{ name='wing', symmetric=true, trailing_edge=0, position={1.5,0,0}, sections={ {y=0, chord=1, airfoil='naca0012'}, {y=2, chord=0.6} } }, unite=false }:write(" + out("plane.smx") + ")");
   EXPECT_THAT(sterna({"--help"}).output, HasSubstr("surface"));
   EXPECT_THAT(sterna({"surface", "--help"}).output, AllOf(HasSubstr("--max-edge"), HasSubstr("--curvature-angle"), HasSubstr("--refinement"), HasSubstr("--cap")));
   const test::ProcessResult made = sterna({"surface", "block.step", "-o", "wall.su2", "--max-edge", "0.5", "--curvature-angle", "12"});

@@ -12,7 +12,7 @@
 namespace sterna {
 namespace {
 
-constexpr SplineTangents k_cubic[] = {SplineTangents::natural, SplineTangents::clamped, SplineTangents::not_a_knot, SplineTangents::akima, SplineTangents::bessel};
+constexpr SplineTangents k_cubic[] = {SplineTangents::natural, SplineTangents::clamped, SplineTangents::not_a_knot, SplineTangents::akima, SplineTangents::bessel, SplineTangents::monotone};
 
 std::vector<Point> helix(int n, double turns = 0.8) {
   std::vector<Point> points;
