@@ -7,6 +7,7 @@
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "surfmesh/face/face_passes.h"
+#include "surfmesh/face/face_sizes.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -149,14 +150,15 @@ FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeF
   const CurvatureLimits limits{.angle = options.curvature_angle, .min_edge = options.min_edge, .growth = options.size_growth};
   CurvatureSizes curvature_sizes(surface, box_of(border), loops);
   curvature_sizes.limit(limits);
-  return mesh_face(surface, border, size, curvature_sizes, options, context);
+  const SizeFunction with_curvature = [&](Uv at, const Point& point) { return std::min(size(at, point), curvature_sizes(at)); };
+  return mesh_face(surface, border, with_curvature, Vec2{curvature_sizes.mean_speed_u(), curvature_sizes.mean_speed_v()}, options, context);
 }
 
-FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeFunction& size, const CurvatureSizes& curvature_sizes, const FaceMeshOptions& options, const RunContext& context) {
+FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeFunction& size, Vec2 mean_speed, const FaceMeshOptions& options, const RunContext& context) {
   check_arguments(border);
-  FaceState state{surface, size, options, box_of(border), curvature_sizes, {}, {}};
+  FaceState state{surface, size, options, box_of(border), {}, {}};
   const SurfaceBorder plane_border = make_border(surface, border);
-  const Vec2 scale{delaunay::scale_of_speed(state.curvature_sizes.mean_speed_u()), delaunay::scale_of_speed(state.curvature_sizes.mean_speed_v())};
+  const Vec2 scale{delaunay::scale_of_speed(mean_speed.x), delaunay::scale_of_speed(mean_speed.y)};
   state.mesh = delaunay::triangulate_border(plane_border, scale, context);
   set_border_sizes(state, plane_border);
 

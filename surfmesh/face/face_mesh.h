@@ -8,6 +8,7 @@
 
 #include "geom/base/run_context.h"
 #include "geom/base/schema.h"
+#include "geom/math/predicates.h"
 #include "geom/mesh/tri_mesh.h"
 #include "geom/model/surface.h"
 
@@ -25,8 +26,8 @@ struct FaceBorder {
   std::vector<std::vector<BorderPoint>> loops;
 };
 
-/// Wanted length of edges at a point, metres; from many threads. Values below FaceMeshOptions::min_edge count as that.
-using SizeFunction = std::function<double(const Point&)>;
+/// Wanted length of edges at a place of the face and its point, metres; from many threads. Values below FaceMeshOptions::min_edge count as that.
+using SizeFunction = std::function<double(Uv, const Point&)>;
 
 struct FaceMeshOptions {
   double curvature_angle = 12.0 * std::numbers::pi / 180.0;  ///< rad: an edge spans at most this angle of the surface
@@ -67,9 +68,8 @@ struct FaceMesh {
 /// \throws Error(self_intersection) where the border crosses or touches itself along a line in (u, v); Error(bad_argument) for an empty border or a size that is not
 /// positive; Error(overflow) when max_triangles is not enough, with the place and the size wanted there
 FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeFunction& size, const FaceMeshOptions& options, const RunContext& context);
-/// The same with the curvature's sizes at hand; `curvature_angle` does not count.
-class CurvatureSizes;
-FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeFunction& size, const CurvatureSizes& curvature_sizes, const FaceMeshOptions& options, const RunContext& context);
+/// The same where `size` already holds what curvature asks for; `curvature_angle` does not count. `mean_speed`: mean lengths of du and dv, metres by parameter.
+FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeFunction& size, Vec2 mean_speed, const FaceMeshOptions& options, const RunContext& context);
 
 }  // namespace sterna::surfmesh
 

@@ -26,13 +26,13 @@ delaunay::SurfaceSample sample(const Surface& surface, Uv at) {
 }
 
 double wanted_size(const FaceState& state, Uv at, const Point& point) {
-  const double by_user = state.user_size(point);
-  if (!(by_user > 0.0)) {
-    ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = "meshing a face", .problem = "the wanted edge length is " + std::to_string(by_user) + " m; it has to be positive"};
+  const double size = state.wanted(at, point);
+  if (!(size > 0.0)) {
+    ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = "meshing a face", .problem = "the wanted edge length is " + std::to_string(size) + " m; it has to be positive"};
     info.places.push_back({point, "here"});
     throw Error(std::move(info));
   }
-  return std::max(state.options.min_edge, std::min(by_user, state.curvature_sizes(at)));
+  return std::max(state.options.min_edge, size);
 }
 
 Uv parameter_step(const delaunay::SurfaceFrame& frame, const Vec3& step) {

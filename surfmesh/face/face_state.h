@@ -3,23 +3,21 @@
 
 #include "geom/delaunay/surface_triangulation.h"
 #include "surfmesh/face/face_mesh.h"
-#include "surfmesh/face/face_sizes.h"
 
 namespace sterna::surfmesh {
 
 struct FaceState {
   const Surface& surface;
-  const SizeFunction& user_size;
+  const SizeFunction& wanted;
   const FaceMeshOptions& options;
   ParameterBox box;                        ///< of the border
-  const CurvatureSizes& curvature_sizes;
   delaunay::SurfaceTriangulation mesh;
   Column<VertexId, double> size;           ///< metres, of every vertex of `mesh`
 };
 
 delaunay::SurfaceSample sample(const Surface& surface, Uv at);
 
-/// The lesser of what the user and the curvature want at a place. \throws Error(bad_argument) when the user's is not positive
+/// What is wanted at a place, not below min_edge. \throws Error(bad_argument) when it is not positive
 double wanted_size(const FaceState& state, Uv at, const Point& point);
 
 /// Parameters, and the sample there, near `target`, by Newton's method on the tangent plane from `guess`; held within the box of the border.

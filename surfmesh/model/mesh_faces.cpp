@@ -124,9 +124,10 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
   options.min_edge = 0.0;
   options.size_growth = sizes.growth;
   options.max_triangles = max_triangles;
-  const auto size = [&](const Point& p) { return field(p, wanted.max_edge); };
+  const CurvatureSizes& curvature = *wanted.curvature;
+  const auto size = [&](Uv at, const Point& p) { return std::min(field(p, wanted.max_edge), curvature(at)); };
   try {
-    result.mesh = mesh_face(*face.surface, labelled.border, size, *wanted.curvature, options, context);
+    result.mesh = mesh_face(*face.surface, labelled.border, size, Vec2{curvature.mean_speed_u(), curvature.mean_speed_v()}, options, context);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
     return fail(error.info());

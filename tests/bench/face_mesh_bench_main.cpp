@@ -46,7 +46,7 @@ void measure(const test::FaceShape& shape, double factor, const char* vtk) {
   surfmesh::FaceMeshOptions options;
   options.curvature_angle = 0.6;
   const std::clock_t start = std::clock();
-  const surfmesh::FaceMesh mesh = surfmesh::mesh_face(*shape.surface, border, [&](const Point&) { return size; }, options, context);
+  const surfmesh::FaceMesh mesh = surfmesh::mesh_face(*shape.surface, border, [&](Uv, const Point&) { return size; }, options, context);
   const double seconds = seconds_since(start);
   const surfmesh::FaceMeshReport& r = mesh.report;
   const double deg = 180.0 / std::numbers::pi;

@@ -30,7 +30,7 @@ FaceMeshOptions coarse_curvature() {
 }
 
 FaceMesh mesh_shape(const test::FaceShape& shape, double size) {
-  return mesh_face(*shape.surface, test::box_border(*shape.surface, shape.box, size), [size](const Point&) { return size; }, coarse_curvature(), k_context);
+  return mesh_face(*shape.surface, test::box_border(*shape.surface, shape.box, size), [size](Uv, const Point&) { return size; }, coarse_curvature(), k_context);
 }
 
 double area_of(const FaceMesh& mesh) {
@@ -136,7 +136,7 @@ const PlaneSurface k_plane{Frame{}, {{-10, 10}, {-10, 10}}};
 
 TEST(FaceMesh, HolesStayOpen) {
   const FaceBorder border = plane_border({circle({0, 0}, 2.0, 120), circle({0.5, 0}, 0.5, 40), circle({-0.9, 0.3}, 0.3, 24)});
-  const FaceMesh mesh = mesh_face(k_plane, border, [](const Point&) { return 0.1; }, {}, k_context);
+  const FaceMesh mesh = mesh_face(k_plane, border, [](Uv, const Point&) { return 0.1; }, {}, k_context);
   expect_sound(mesh, k_plane, border);
   EXPECT_EQ(mesh.report.n_outside_20_130, 0);
   const auto polygon = [](int n, double r) { return 0.5 * n * r * r * std::sin(2 * std::numbers::pi / n); };
@@ -145,7 +145,7 @@ TEST(FaceMesh, HolesStayOpen) {
 
 TEST(FaceMesh, SizesGrowFromAFinePlace) {
   const FaceBorder border = plane_border({circle({0, 0}, 2.0, 60), circle({0, 0}, 0.05, 60)});
-  const FaceMesh mesh = mesh_face(k_plane, border, [](const Point& p) { return 0.005 + 0.2 * std::abs(norm(p) - 0.05); }, {}, k_context);
+  const FaceMesh mesh = mesh_face(k_plane, border, [](Uv, const Point& p) { return 0.005 + 0.2 * std::abs(norm(p) - 0.05); }, {}, k_context);
   expect_sound(mesh, k_plane, border);
   EXPECT_EQ(mesh.report.n_outside_20_130, 0) << mesh.report.min_angle / k_deg << " .. " << mesh.report.max_angle / k_deg << format_point(mesh.report.worst_place);
   EXPECT_LT(mesh.triangles.size(), 6000u);
@@ -153,7 +153,7 @@ TEST(FaceMesh, SizesGrowFromAFinePlace) {
 
 TEST(FaceMesh, BorderFinerThanTheInsideGrows) {
   const FaceBorder border = plane_border({circle({0, 0}, 1.0, 600)});
-  const FaceMesh mesh = mesh_face(k_plane, border, [](const Point&) { return 0.3; }, {}, k_context);
+  const FaceMesh mesh = mesh_face(k_plane, border, [](Uv, const Point&) { return 0.3; }, {}, k_context);
   expect_sound(mesh, k_plane, border);
   EXPECT_EQ(mesh.report.n_outside_20_130, 0);
   EXPECT_LT(mesh.triangles.size(), 6000u);
@@ -164,7 +164,7 @@ TEST(FaceMesh, CoarseBorderAndHugeSizesEnd) {
   for (const auto& loop : {std::vector<Uv>{{0, 0}, {1, 0}, {0, 1}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 0}, {1, 0}, {1, 1e-6}, {0, 1e-6}}}) {
     for (const double size : {100.0, 0.05}) {
       const FaceBorder border = plane_border({loop});
-      const FaceMesh mesh = mesh_face(k_plane, border, [size](const Point&) { return size; }, {}, k_context);
+      const FaceMesh mesh = mesh_face(k_plane, border, [size](Uv, const Point&) { return size; }, {}, k_context);
       expect_sound(mesh, k_plane, border);
       EXPECT_GE(mesh.triangles.size(), loop.size() - 2);
     }
@@ -181,7 +181,7 @@ TEST(FaceMesh, RandomStarPolygonsEndAndAreSound) {
       loop.push_back({r * std::cos(angle), r * std::sin(angle)});
     }
     const FaceBorder border = plane_border({loop});
-    expect_sound(mesh_face(k_plane, border, [](const Point&) { return 0.03; }, {}, k_context), k_plane, border);
+    expect_sound(mesh_face(k_plane, border, [](Uv, const Point&) { return 0.03; }, {}, k_context), k_plane, border);
   }
 }
 
@@ -189,7 +189,7 @@ TEST(FaceMesh, SphereWithPolesHasTheTopologyOfOne) {
   const SphereSurface sphere(Frame{}, 2.0);
   const ParameterBox box = sphere.domain();
   const FaceBorder border = test::box_border(sphere, box, 0.25);
-  const FaceMesh mesh = mesh_face(sphere, border, [](const Point&) { return 0.25; }, coarse_curvature(), k_context);
+  const FaceMesh mesh = mesh_face(sphere, border, [](Uv, const Point&) { return 0.25; }, coarse_curvature(), k_context);
   // Joined along its seam it is closed: equal points become one vertex.
   std::map<std::tuple<double, double, double>, int> number;
   for (const Point& p : mesh.points) number.emplace(std::tuple{p.x, p.y, p.z}, static_cast<int>(number.size()));
@@ -218,7 +218,7 @@ TEST(FaceMesh, SphereWithPolesHasTheTopologyOfOne) {
 TEST(FaceMesh, BordersThatCrossAreAnErrorInSpace) {
   const FaceBorder border = plane_border({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}});
   try {
-    mesh_face(k_plane, border, [](const Point&) { return 0.1; }, {}, k_context);
+    mesh_face(k_plane, border, [](Uv, const Point&) { return 0.1; }, {}, k_context);
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::self_intersection);
@@ -233,7 +233,7 @@ TEST(FaceMesh, LimitAndWrongSizesAreErrors) {
   options.max_triangles = 500;
   const auto code = [&](double size) {
     try {
-      mesh_face(k_plane, border, [size](const Point&) { return size; }, options, k_context);
+      mesh_face(k_plane, border, [size](Uv, const Point&) { return size; }, options, k_context);
     } catch (const Error& error) {
       return error.code();
     }
