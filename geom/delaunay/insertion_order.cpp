@@ -73,9 +73,9 @@ struct Place {
   std::uint32_t index;
 };
 
-}  // namespace
-
-std::vector<std::uint32_t> insertion_order(std::span<const Vec2> points) {
+/// Indices of points by (round, place on the curve, index).
+template <class Round>
+std::vector<std::uint32_t> sorted_along_curve(std::span<const Vec2> points, const Round& round_of) {
   const std::size_t n = points.size();
   if (n == 0) return {};
   Vec2 low = points[0], high = points[0];
@@ -86,21 +86,31 @@ std::vector<std::uint32_t> insertion_order(std::span<const Vec2> points) {
   const double side = std::max(high.x - low.x, high.y - low.y);
   const double cells = (1u << k_levels) - 1;
   const double scale = side > 0.0 ? cells / side : 0.0;
-  // Each round but the first has as many points as all before: the last half of them, the one before a quarter ...
-  const int n_bits = static_cast<int>(std::bit_width(n));
-  const int n_rounds = std::max(1, n_bits - static_cast<int>(k_first_round_bits));
   std::vector<Place> places(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const int before_last = std::min(std::countr_zero(scramble(i)), n_rounds - 1);
-    const std::uint64_t round = static_cast<std::uint64_t>(n_rounds - 1 - before_last);
     const auto x = static_cast<std::uint32_t>(std::clamp((points[i].x - low.x) * scale, 0.0, cells));
     const auto y = static_cast<std::uint32_t>(std::clamp((points[i].y - low.y) * scale, 0.0, cells));
-    places[i] = {round << (2 * k_levels) | hilbert_key(x, y), static_cast<std::uint32_t>(i)};
+    places[i] = {round_of(i) << (2 * k_levels) | hilbert_key(x, y), static_cast<std::uint32_t>(i)};
   }
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
   std::vector<std::uint32_t> order(n);
   for (std::size_t i = 0; i < n; ++i) order[i] = places[i].index;
   return order;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> insertion_order(std::span<const Vec2> points) {
+  // Each round but the first has as many points as all before: the last half of them, the one before a quarter ...
+  const int n_rounds = std::max(1, static_cast<int>(std::bit_width(points.size())) - static_cast<int>(k_first_round_bits));
+  return sorted_along_curve(points, [n_rounds](std::size_t i) {
+    const int before_last = std::min(std::countr_zero(scramble(i)), n_rounds - 1);
+    return static_cast<std::uint64_t>(n_rounds - 1 - before_last);
+  });
+}
+
+std::vector<std::uint32_t> order_along_curve(std::span<const Vec2> points) {
+  return sorted_along_curve(points, [](std::size_t) { return std::uint64_t{0}; });
 }
 
 }  // namespace sterna::delaunay

@@ -2,8 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -12,16 +11,18 @@
 
 namespace sterna::delaunay {
 
-/// Triangles by priority, in classes of a quarter of an octave; within a class first come, first served. All operations in constant time.
+/// Triangles by priority, in classes of an eighth of an octave; within a class first come, first served. All operations in constant time.
 class RefineQueue {
  public:
   struct Entry {
     TriangleId triangle;
     std::uint32_t stamp;  ///< of the triangle when it was put in: an entry of a triangle that has changed since is void
   };
+  RefineQueue() : classes_(k_classes) {}
   /// \pre priority > 0
   void push(double priority, Entry entry) {
-    const auto c = static_cast<std::size_t>(std::clamp(4.0 * std::log2(priority) + 0.5 * k_classes, 0.0, k_classes - 1.0));
+    // Exponent and the first three bits of the fraction.
+    const std::size_t c = std::bit_cast<std::uint32_t>(static_cast<float>(std::min(priority, 1e30))) >> 20;
     classes_[c].entries.push_back(entry);
     top_ = std::max(top_, c);
   }
@@ -40,12 +41,12 @@ class RefineQueue {
   }
 
  private:
-  static constexpr double k_classes = 256.0;
+  static constexpr std::size_t k_classes = 2048;
   struct Class {
     std::vector<Entry> entries;
     std::size_t first = 0;
   };
-  std::array<Class, static_cast<std::size_t>(k_classes)> classes_;
+  std::vector<Class> classes_;
   std::size_t top_ = 0;
 };
 
@@ -61,11 +62,13 @@ struct Proposal {
   Uv at;
   SurfaceSample sample;
   double min_distance = 0.0;  ///< metres: nearer to a vertex around its cavity it is refused
+  double size = 0.0;          ///< for the task to remember, not looked at
 };
 
 /// Inserts vertices until no triangle has a priority, proposals are refused, or the limit is met. A refused proposal is not made again before something
 /// beside its triangle has changed; so it ends.
-/// Task: double priority(surface, t), not positive when t is good or cannot be improved; never called for flat triangles;
+/// Task: void measure(surface, t): t is there, or has changed, or one of its corners is new; comes before any priority() of t and of its neighbours;
+///       double priority(surface, t), not positive when t is good or cannot be improved; never called for flat triangles;
 ///       bool propose(surface, t, Proposal&), false when it knows of none; void inserted(surface, p, proposal).
 /// Criterion: as for insert_vertex. `Flips`: flip to the 3-D criterion after each insertion.
 template <bool Flips, class Criterion, class Task>
@@ -74,21 +77,29 @@ RefineReport refine(SurfaceTriangulation& surface, const Criterion& criterion, T
   Triangulation& mesh = surface.mesh;
   RefineReport report;
   RefineQueue queue;
+  Column<TriangleId, std::uint32_t> waiting(mesh.cells.size(), 0);  // stamp + 1 of the entry that waits in the queue
   const auto consider = [&](TriangleId t) {
     if (surface.is_flat(t)) return;
+    const std::uint32_t stamp = mesh.cells[t].stamp;
+    if (waiting[t] == stamp + 1) return;
     const double priority = task.priority(surface, t);
-    if (priority > 0.0) queue.push(priority, {t, mesh.cells[t].stamp});
+    if (!(priority > 0.0)) return;
+    waiting[t] = stamp + 1;
+    queue.push(priority, {t, stamp});
   };
+  for (const TriangleId t : mesh.cells.ids())
+    if (!mesh.cells[t].is_dead) task.measure(surface, t);
   for (const TriangleId t : mesh.cells.ids())
     if (!mesh.cells[t].is_dead) consider(t);
   Cavity cavity;
-  std::vector<HalfedgeId> to_flip;
+  std::vector<HalfedgeId> to_flip, star;
   std::vector<TriangleId> touched;
   RefineQueue::Entry entry;
   Proposal proposal;
   while (queue.pop(entry)) {
     const TriangleId t = entry.triangle;
     if (mesh.cells[t].is_dead || mesh.cells[t].stamp != entry.stamp) continue;
+    waiting[t] = 0;
     if (!(task.priority(surface, t) > 0.0) || !task.propose(surface, t, proposal)) continue;
     if (report.n_inserted >= max_insertions) {
       report.is_limit_met = true;
@@ -97,23 +108,27 @@ RefineReport refine(SurfaceTriangulation& surface, const Criterion& criterion, T
     const InsertOutcome outcome = insert_vertex(surface, proposal.at, proposal.sample, t, proposal.min_distance, criterion, cavity);
     if (outcome != InsertOutcome::inserted) {
       ++(outcome == InsertOutcome::too_near ? report.n_too_near : outcome == InsertOutcome::beyond_border ? report.n_beyond_border : report.n_folded);
-      ++mesh.cells[t].stamp;  // other entries of the same triangle would make the same proposal
       continue;
     }
     if (++report.n_inserted % k_stop_interval == 0) context.check_stop();
     const VertexId p(static_cast<std::uint64_t>(mesh.uv.size() - 1));
     task.inserted(surface, p, proposal);
+    waiting.resize(mesh.cells.size(), 0);
+    touched.clear();
     if constexpr (Flips) {
       to_flip.clear();
       for (const TriangleId s : cavity.triangles) to_flip.push_back(halfedge(s, 0));
-      touched.clear();
       flip_around(surface, to_flip, touched);
-      for (const TriangleId s : touched) consider(s);
     }
-    for_star(mesh, p, [&](HalfedgeId h) {
+    star.clear();
+    for_star(mesh, p, [&](HalfedgeId h) { star.push_back(h); });
+    for (const TriangleId s : touched) task.measure(surface, s);
+    for (const HalfedgeId h : star) task.measure(surface, triangle_of(h));
+    for (const TriangleId s : touched) consider(s);
+    for (const HalfedgeId h : star) {
       consider(triangle_of(h));
       if (const HalfedgeId out = mesh.twin(next(h)); out.is_valid()) consider(triangle_of(out));
-    });
+    }
   }
   return report;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geom/base/error.h"
+#include "geom/delaunay/renumber.h"
 #include "geom/math/measures.h"
 #include "surfmesh/face/face_passes.h"
 #include "surfmesh/face/face_sizes.h"
@@ -93,6 +94,14 @@ void set_border_sizes(FaceState& state, const SurfaceBorder& border) {
   }
 }
 
+void bring_neighbours_together(FaceState& state) {
+  const Column<VertexId, VertexId> old_id = delaunay::renumber(state.mesh);
+  Column<VertexId, double> size;
+  size.reserve(old_id.size());
+  for (const VertexId v : old_id) size.push_back(state.size[v]);
+  state.size = std::move(size);
+}
+
 FaceMesh extract(const SurfaceTriangulation& mesh, std::uint32_t n_border) {
   FaceMesh result;
   result.n_border = n_border;
@@ -165,6 +174,7 @@ FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeF
   FaceMeshReport report;
   unfold(state, report, context);
   refine_by_size(state, report, context);
+  bring_neighbours_together(state);
   collapse_short_edges(state, report, context);
   smooth(state, report, context);
   refine_by_quality(state, report, context);

@@ -29,6 +29,7 @@
 #include "io/cad_file.h"
 #include "io/surface_file.h"
 #include "surfmesh/model/surface_mesh.h"
+#include "tests/support/triangle_quality.h"
 
 using namespace sterna;
 
@@ -185,8 +186,9 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
       if (r.worst_face.is_valid()) worst = r.faces[r.worst_face.index()].name + " " + format_point(r.faces[r.worst_face.index()].worst_place);
       double normal_angle = 0.0;
       for (const auto& face : r.faces) normal_angle = std::max(normal_angle, face.max_normal_angle);
-      std::printf("| %s | %zu | %s | %zu | %.2f | %.0f | %.2f | %.1f | %.3f | %.0f | %.1e | %lld | %zu | %d | %s | %.1f |\n", name.c_str(), model.faces.size(), is_closed ? "closed" : "open", mesh.mesh.n_triangles(), meshing,
-                  n / meshing * 1e-3, r.min_angle / k_deg, r.angle_quantile_1 / k_deg, 100.0 * r.share_20_130, normal_angle / k_deg, r.max_edge_distance, static_cast<long long>(r.n_crossings), r.absorbed.size(), r.n_rounds, worst.c_str(), reading);
+      const test::TriangleQuality q = test::measure_triangles(mesh.mesh.points.raw(), mesh.mesh.triangles.raw());
+      std::printf("| %s | %zu | %s | %zu | %.2f | %.0f | %.2f | %.1f | %.4f | %.1f | %.3f | %.0f | %.1e | %lld | %zu | %d | %s | %.1f |\n", name.c_str(), model.faces.size(), is_closed ? "closed" : "open", mesh.mesh.n_triangles(), meshing,
+                  n / meshing * 1e-3, r.min_angle / k_deg, r.angle_quantile_1 / k_deg, q.radius_ratio, 100.0 * q.share_of_six, 100.0 * r.share_20_130, normal_angle / k_deg, r.max_edge_distance, static_cast<long long>(r.n_crossings), r.absorbed.size(), r.n_rounds, worst.c_str(), reading);
       if (settings.is_verbose) {
         std::vector<surfmesh::FaceMeshSummary> faces = r.faces;
         std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.n_outside_20_130 > b.n_outside_20_130; });
@@ -216,8 +218,8 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
 
 int main(int argc, char** argv) {
   Settings settings;
-  std::puts("| file | faces | model | triangles | cpu s | k/s | min angle | 1 % | in [20, 130] % | normals | edges to faces, m | crossings | absorbed | rounds | worst | read s |");
-  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+  std::puts("| file | faces | model | triangles | cpu s | k/s | min angle | 1 % | radius ratio | six % | in [20, 130] % | normals | edges to faces, m | crossings | absorbed | rounds | worst | read s |");
+  std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   for (int i = 1; i < argc; ++i) {
     const auto number = [&] { return i + 1 < argc ? std::strtod(argv[++i], nullptr) : 0.0; };
     const auto is = [&](const char* option) { return std::strcmp(argv[i], option) == 0; };
