@@ -14,15 +14,16 @@ using delaunay::SurfaceTriangulation;
 constexpr double k_short = 0.5;
 /// Cotangent of 30 degrees: a collapse may make no smaller angle.
 constexpr double k_collapse_cotangent = 1.732;
-/// Cotangent of 42 degrees: a star with no smaller angle stays where it is.
-constexpr double k_good_cotangent = 1.11;
+/// Cotangent of 42 degrees: below it the smallest angle of a star has to grow, above it only the mean shape counts.
+constexpr double k_poor_cotangent = 1.11;
+/// Cotangent of 55 degrees: a star with no smaller angle stays where it is.
+constexpr double k_good_cotangent = 0.7;
 /// By this part of itself the worst cotangent of a star must fall, or the move is not worth it.
 constexpr double k_min_gain = 0.01;
+/// By so much the sum of shapes of a star must fall at least.
+constexpr double k_min_shape_gain = 0.002;
 /// Of the way to where the triangles would be equilateral: the whole of it, then half, are tried.
 constexpr double k_steps[] = {1.0, 0.4};
-
-/// Height of the equilateral triangle on an edge.
-double equilateral_height(const Vec3& along) { return 0.5 * std::numbers::sqrt3 * norm(along); }
 
 /// Worst cotangent of the star of v with v at `at`, infinite when a triangle would look against its normal there.
 double worst_of_star(const SurfaceTriangulation& mesh, VertexId v, const Point& at, const Vec3& normal) {
@@ -36,40 +37,81 @@ double worst_of_star(const SurfaceTriangulation& mesh, VertexId v, const Point& 
   return worst;
 }
 
-/// Mean of the places that would make each triangle of the star equilateral on its outer edge.
-Point ideal_place(const SurfaceTriangulation& mesh, VertexId v) {
-  const Point& at = mesh.points[v];
-  Vec3 sum{};
-  double n = 0.0;
+/// The triangles of a star that are not flat, by their outer edges.
+struct Ring {
+  struct Side {
+    Point x, y;
+    double length2;
+  };
+  std::vector<Side> sides;
+};
+
+void gather(const SurfaceTriangulation& mesh, VertexId v, Ring& ring) {
+  ring.sides.clear();
   delaunay::for_star(mesh.mesh, v, [&](HalfedgeId h) {
     if (mesh.is_flat(delaunay::triangle_of(h))) return;
     const Point &x = mesh.points[mesh.mesh.target(h)], &y = mesh.points[mesh.mesh.apex(h)];
-    const Vec3 middle = 0.5 * (x + y), along = y - x;
-    const double length2 = norm2(along);
-    if (length2 == 0.0) return;
-    Vec3 up = at - middle;
-    up -= (dot(up, along) / length2) * along;
-    sum += middle + equilateral_height(along) * normalized(up);
-    n += 1.0;
+    ring.sides.push_back({x, y, norm2(y - x)});
   });
+}
+
+struct StarQuality {
+  double worst = 0.0;  ///< cotangent
+  double shape = 0.0;  ///< sum of squared edges over area, 1 for each equilateral triangle
+};
+
+/// With the centre at `at`; infinite when a triangle would look against the normal there.
+StarQuality quality_of(const Ring& ring, const Point& at, const Vec3& normal) {
+  constexpr double k_shape = 0.5 / std::numbers::sqrt3;
+  StarQuality q;
+  for (const Ring::Side& side : ring.sides) {
+    const Vec3 a = side.x - at, b = side.y - at;
+    const Vec3 n = cross(a, b);
+    if (dot(n, normal) <= 0.0) return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    const double ab = dot(a, b), aa = norm2(a), bb = norm2(b), over_area = 1.0 / norm(n);
+    q.worst = std::max(q.worst, std::max({ab, aa - ab, bb - ab}) * over_area);
+    q.shape += k_shape * (aa + bb + side.length2) * over_area;
+  }
+  return q;
+}
+
+bool is_better(const StarQuality& before, const StarQuality& after) {
+  if (before.worst > k_poor_cotangent) return after.worst < (1.0 - k_min_gain) * before.worst;
+  return after.worst <= k_poor_cotangent && after.shape < before.shape - k_min_shape_gain;
+}
+
+/// Mean of the places that would make each triangle of the star equilateral on its outer edge.
+Point ideal_place(const Ring& ring, const Point& at) {
+  Vec3 sum{};
+  double n = 0.0;
+  for (const Ring::Side& side : ring.sides) {
+    if (side.length2 == 0.0) continue;
+    const Vec3 middle = 0.5 * (side.x + side.y), along = side.y - side.x;
+    Vec3 up = at - middle;
+    up -= (dot(up, along) / side.length2) * along;
+    sum += middle + (0.5 * std::numbers::sqrt3 * std::sqrt(side.length2)) * normalized(up);
+    n += 1.0;
+  }
   return n > 0.0 ? sum / n : at;
 }
 
 /// Tries to move v; true when it did.
-bool improve_place(FaceState& state, VertexId v) {
+bool improve_place(FaceState& state, VertexId v, Ring& ring) {
   SurfaceTriangulation& mesh = state.mesh;
   const delaunay::SurfaceFrame& frame = mesh.frames[v];
   if (norm2(frame.normal) == 0.0) return false;
   const Point at = mesh.points[v];
-  const double before = worst_of_star(mesh, v, at, frame.normal);
-  if (before <= k_good_cotangent) return false;
-  const Vec3 way = ideal_place(mesh, v) - at;
+  gather(mesh, v, ring);
+  const StarQuality before = quality_of(ring, at, frame.normal);
+  if (before.worst <= k_good_cotangent) return false;
+  const Vec3 way = ideal_place(ring, at) - at;
   const Uv step = parameter_step(frame, way), from = mesh.parameters(v);
   for (const double share : k_steps) {
     const Uv to = from + share * step;
     const delaunay::SurfaceSample there = sample(state.surface, to);
-    const double after = worst_of_star(mesh, v, there.point, there.frame.normal);
-    if (after < (1.0 - k_min_gain) * before && delaunay::move_vertex(mesh, v, to, there)) return true;
+    const StarQuality after = quality_of(ring, there.point, there.frame.normal);
+    if (!is_better(before, after)) continue;
+    if (delaunay::move_vertex(mesh, v, to, there)) return true;
   }
   return false;
 }
@@ -138,27 +180,44 @@ void remove_poor_vertices(FaceState& state, FaceMeshReport& report) {
 
 void smooth(FaceState& state, FaceMeshReport& report, const RunContext& context) {
   SurfaceTriangulation& mesh = state.mesh;
+  std::vector<std::uint8_t> is_active(mesh.points.size(), 0), has_moved(mesh.points.size(), 0);
+  const auto activate = [&](TriangleId t) {
+    for (const VertexId w : mesh.mesh.cells[t].vertex) is_active[w.index()] = 1;
+  };
+  for (const TriangleId t : mesh.mesh.cells.ids()) {
+    if (mesh.mesh.cells[t].is_dead || mesh.is_flat(t)) continue;
+    const auto& v = mesh.mesh.cells[t].vertex;
+    if (delaunay::worst_cotangent(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]) > k_good_cotangent) activate(t);
+  }
   std::vector<HalfedgeId> work;
   std::vector<TriangleId> touched;
-  // After the first sweep only vertices beside a change are looked at again.
-  std::vector<std::uint8_t> is_active(mesh.points.size(), 1);
+  Ring ring;
   for (int sweep = 0; sweep < state.options.smoothing_sweeps; ++sweep) {
     context.check_stop();
     std::int64_t n_moved = 0;
+    std::fill(has_moved.begin(), has_moved.end(), 0);
     for (std::uint32_t i = mesh.n_border; i < mesh.points.size(); ++i) {
       const VertexId v(i);
       if (is_active[i] == 0 || !mesh.mesh.outgoing[v].is_valid()) continue;
       is_active[i] = 0;
-      if (!improve_place(state, v)) continue;
+      if (!improve_place(state, v, ring)) continue;
       ++n_moved;
-      flip_at(state, v, work, touched, report);
-      is_active[i] = 1;
-      delaunay::for_star(mesh.mesh, v, [&](HalfedgeId h) { is_active[mesh.mesh.target(h).index()] = 1; });
-      for (const TriangleId t : touched)
-        for (const VertexId w : mesh.mesh.cells[t].vertex) is_active[w.index()] = 1;
+      has_moved[i] = 1;
     }
     report.n_moves += n_moved;
     if (n_moved == 0) break;
+    work.clear();
+    touched.clear();
+    for (const TriangleId t : mesh.mesh.cells.ids()) {
+      const delaunay::Cell& cell = mesh.mesh.cells[t];
+      if (cell.is_dead) continue;
+      if (!has_moved[cell.vertex[0].index()] && !has_moved[cell.vertex[1].index()] && !has_moved[cell.vertex[2].index()]) continue;
+      activate(t);
+      for (std::uint32_t c = 0; c < 3; ++c)
+        if (const HalfedgeId h = delaunay::halfedge(t, c); cell.twin[c].is_valid() && (h < cell.twin[c] || !has_moved[mesh.mesh.apex(cell.twin[c]).index()])) work.push_back(h);
+    }
+    report.n_flips += static_cast<std::int64_t>(delaunay::flip_around(mesh, work, touched));
+    for (const TriangleId t : touched) activate(t);
   }
 }
 

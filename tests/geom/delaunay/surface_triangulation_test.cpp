@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -9,6 +10,7 @@
 #include "geom/base/error.h"
 #include "geom/delaunay/check_triangulation.h"
 #include "geom/delaunay/refine.h"
+#include "geom/delaunay/renumber.h"
 #include "geom/math/measures.h"
 
 namespace sterna::delaunay {
@@ -143,6 +145,36 @@ TEST(SurfaceTriangulation, RandomEditsStayValid) {
   EXPECT_GT(n_collapsed, 20);
   EXPECT_GT(n_removed, 20);
   EXPECT_GT(n_split, 200);
+}
+
+TEST(SurfaceTriangulation, RenumberingKeepsTheTriangles) {
+  RandomInsertions r;
+  for (int i = 0; i < 2000; ++i) r.insert_any(0.02);
+  for (int i = 0; i < 50; ++i) remove_vertex(r.surface, r.any_inner_vertex());
+  const SurfaceTriangulation before = r.surface;
+  const Column<VertexId, VertexId> old_id = renumber(r.surface);
+  const SurfaceTriangulation& after = r.surface;
+  expect_disc(after, 48);
+  EXPECT_EQ(after.mesh.n_triangles(), before.mesh.n_triangles());
+  EXPECT_EQ(after.mesh.cells.size(), after.mesh.n_triangles());
+  EXPECT_LT(after.points.size(), before.points.size());
+  for (const VertexId v : after.points.ids()) {
+    EXPECT_EQ(after.points[v], before.points[old_id[v]]);
+    EXPECT_EQ(after.mesh.uv[v].x, before.mesh.uv[old_id[v]].x);
+    EXPECT_EQ(after.frames[v].normal, before.frames[old_id[v]].normal);
+    EXPECT_EQ(old_id[after.stands_for[v]], before.stands_for[old_id[v]]);
+    EXPECT_EQ(after.mesh.origin(after.mesh.outgoing[v]), v);
+    EXPECT_TRUE(!after.is_border(v) || old_id[v] == v);
+  }
+  const auto sorted = [](std::vector<TriangleVertices> triangles) {
+    for (TriangleVertices& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    std::sort(triangles.begin(), triangles.end());
+    return triangles;
+  };
+  std::vector<TriangleVertices> renamed = extract_triangles(after);
+  for (TriangleVertices& t : renamed)
+    for (VertexId& v : t) v = old_id[v];
+  EXPECT_EQ(sorted(renamed), sorted(extract_triangles(before)));
 }
 
 TEST(SurfaceTriangulation, SplittingTheBorderKeepsItsFlags) {

@@ -16,6 +16,7 @@
 #include "geom/model/analytic_surfaces.h"
 #include "surfmesh/face/face_sizes.h"
 #include "tests/support/face_shapes.h"
+#include "tests/support/triangle_quality.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -115,6 +116,20 @@ TEST_P(Shapes, AreTheSameEachTime) {
 
 INSTANTIATE_TEST_SUITE_P(FaceMesh, Shapes, testing::Range(0, static_cast<int>(test::face_shapes().size())),
                          [](const auto& info) { return test::face_shapes()[static_cast<std::size_t>(info.param)].name; });
+
+TEST(FaceMesh, TrianglesAreNearlyEquilateral) {
+  // Measured: radius ratio 0.992 to 0.996, 1 % of angles below 44 to 47 degrees, 88 to 95 % vertices of six neighbours. Before fronts advanced where there is most
+  // room these were 0.96, 41 and 60 %; the limits are halfway to where a front that loses its shape would lead.
+  for (const test::FaceShape& shape : test::face_shapes()) {
+    if (shape.name != "sphere" && shape.name != "bump" && shape.name != "torus" && shape.name != "wing") continue;
+    SCOPED_TRACE(shape.name);
+    const FaceMesh mesh = mesh_shape(shape, shape.size / 2.0);
+    const test::TriangleQuality q = test::measure_triangles(mesh.points, mesh.triangles);
+    EXPECT_GT(q.radius_ratio, 0.988);
+    EXPECT_GT(q.angle_quantile_1, shape.name == "wing" ? 41.5 : 43.5);
+    EXPECT_GT(q.share_of_six, 0.82);
+  }
+}
 
 /// A polygon in the plane z = 0.
 FaceBorder plane_border(const std::vector<std::vector<Uv>>& loops) {
