@@ -23,14 +23,14 @@ struct Station {
 };
 
 /// Sum of length / size along the edge, at stations near enough for the trapezoid rule.
-std::vector<Station> measure(const ModelEdge& edge, const EdgeSamples& samples, double cap, const SizeField& field) {
+std::vector<Station> measure(EdgeId e, const ModelEdge& edge, const EdgeSamples& samples, const SurfaceSizes& field) {
   std::vector<Station> stations{{samples.samples.front().t, 0.0}};
   struct End {
     double t;
     Point point;
     double size;
   };
-  const auto end_at = [&](double t, const Point& p) { return End{t, p, field(p, cap)}; };
+  const auto end_at = [&](double t, const Point& p) { return End{t, p, field.on_edge(e, t)}; };
   struct Piece {
     End a, b;
     int depth;
@@ -111,16 +111,14 @@ EdgeCut cut_like(const EdgeSamples& own, const EdgeSamples& other, const EdgeCut
 
 }  // namespace
 
-Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes, const SizeField& field, const RunContext& context) {
+Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceSizes& field, const RunContext& context) {
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
   Column<EdgeId, std::vector<Station>> stations(model.edges.size());
   Column<EdgeId, std::size_t> n_segments(model.edges.size(), 1);
   parallel_for(context, model.edges.size(), [&](std::size_t i) {
     const EdgeId e(static_cast<std::uint64_t>(i));
     if (topology.is_point[e] != 0 || uses[e].empty() || topology.same_as[e].edge != e) return;
-    double cap = sizes.largest;
-    for (const EdgeUsePlace& place : uses[e]) cap = std::min(cap, sizes.faces[place.face].max_edge);
-    stations[e] = measure(model.edges[e], edges[e], cap, field);
+    stations[e] = measure(e, model.edges[e], edges[e], field);
     const auto by_size = static_cast<std::size_t>(std::max(1.0, std::round(stations[e].back().metric)));
     const auto by_turning = static_cast<std::size_t>(std::max(1.0, std::ceil(edges[e].turning / k_largest_turn - 0.01)));
     const bool is_closed = topology.corner[model.edges[e].start] == topology.corner[model.edges[e].end];

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "surfmesh/model/edge_samples.h"
-#include "surfmesh/model/model_sizes.h"
 #include "surfmesh/model/model_topology.h"
+#include "surfmesh/model/surface_sizes.h"
 
 namespace sterna::surfmesh {
 
@@ -16,6 +16,6 @@ struct EdgeCut {
 };
 
 /// Lengths equal in the metric 1 / size; closed edges get three segments, two edges between the same corners more than one between them.
-Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes, const SizeField& field, const RunContext& context);
+Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceSizes& field, const RunContext& context);
 
 }  // namespace sterna::surfmesh

@@ -104,10 +104,9 @@ std::vector<VertexId> border_ids(const Model& model, FaceId f, const ModelTopolo
   return border_of(model, f, topology, cuts, numbers, outline).ids;
 }
 
-MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const SizeField& field,
+MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const SurfaceSizes& field,
                          int max_triangles, const RunContext& context) {
   const ModelFace& face = model.faces[f];
-  const FaceSizes& wanted = sizes.faces[f];
   MeshedFace result;
   result.summary.face = f;
   result.summary.name = face.name;
@@ -124,8 +123,8 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
   options.min_edge = 0.0;
   options.size_growth = sizes.growth;
   options.max_triangles = max_triangles;
-  const CurvatureSizes& curvature = *wanted.curvature;
-  const auto size = [&](Uv at, const Point& p) { return std::min(field(p, wanted.max_edge), curvature(at)); };
+  const CurvatureSizes& curvature = *sizes.faces[f].curvature;
+  const auto size = [&](Uv at, const Point& p) { return field.on_face(f, at, p); };
   try {
     result.mesh = mesh_face(*face.surface, labelled.border, size, Vec2{curvature.mean_speed_u(), curvature.mean_speed_v()}, options, context);
   } catch (const Error& error) {

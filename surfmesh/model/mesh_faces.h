@@ -9,6 +9,7 @@
 #include "surfmesh/face/face_mesh.h"
 #include "surfmesh/model/edge_cuts.h"
 #include "surfmesh/model/model_sizes.h"
+#include "surfmesh/model/surface_sizes.h"
 
 namespace sterna::surfmesh {
 
@@ -34,7 +35,7 @@ struct MeshedFace {
 std::vector<VertexId> border_ids(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const FaceOutline& outline);
 
 /// Meshes face f. Failures that finer edges may cure come back; others are thrown with the face's name.
-MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const SizeField& field,
+MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const SurfaceSizes& field,
                          int max_triangles, const RunContext& context);
 
 }  // namespace sterna::surfmesh

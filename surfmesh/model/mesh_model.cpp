@@ -34,17 +34,12 @@ struct Meshing {
   Column<FaceId, MeshedFace> faces;
   std::set<FaceId> to_mesh;
 
-  SizeField field() const {
-    std::vector<SizeSource> sources = sizes.sources;
-    sources.insert(sources.end(), repairs.begin(), repairs.end());
-    return SizeField(std::move(sources), sizes.growth, sizes.largest);
-  }
 };
 
 /// Cuts edges anew and meshes the faces whose edges changed, and those that are to be meshed again.
-SurfaceMesh mesh_round(Meshing& meshing, const SizeField& field, const RunContext& context) {
+SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunContext& context) {
   const Model& model = meshing.model;
-  Column<EdgeId, EdgeCut> cuts = cut_edges(model, meshing.edges, meshing.topology, meshing.sizes, field, context);
+  Column<EdgeId, EdgeCut> cuts = cut_edges(model, meshing.edges, meshing.topology, field, context);
   std::vector<FaceId> work;
   for (const FaceId f : model.faces.ids()) {
     bool is_concerned = meshing.cuts.empty() || meshing.to_mesh.contains(f);
@@ -89,7 +84,7 @@ void refine_at(Meshing& meshing, FaceId f, const Point& place, double size) {
 }
 
 /// Half the sizes where faces failed. \return whether any did
-bool refine_failures(Meshing& meshing, const SizeField& field) {
+bool refine_failures(Meshing& meshing, const SurfaceSizes& field) {
   bool is_any = false;
   for (const FaceId f : meshing.model.faces.ids()) {
     const MeshedFace& face = meshing.faces[f];
@@ -97,11 +92,12 @@ bool refine_failures(Meshing& meshing, const SizeField& field) {
     is_any = true;
     if (face.failure->code == ErrorCode::overflow) throw_failures(meshing);  // finer edges make it worse
     const double cap = meshing.sizes.faces[f].max_edge;
-    for (const ErrorPlace& place : face.failure->places) refine_at(meshing, f, place.position, field(place.position, cap));
+    const auto size_at = [&](const Point& p) { return std::min(cap, field.least_near(p)); };
+    for (const ErrorPlace& place : face.failure->places) refine_at(meshing, f, place.position, size_at(place.position));
     if (!face.failure->places.empty()) continue;
     for (const Border& border : meshing.model.faces[f].borders)
       for (const EdgeUse& use : border)
-        for (const EdgeSample& s : meshing.edges[use.edge].samples) refine_at(meshing, f, s.point, field(s.point, cap));
+        for (const EdgeSample& s : meshing.edges[use.edge].samples) refine_at(meshing, f, s.point, size_at(s.point));
   }
   return is_any;
 }
@@ -198,7 +194,7 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   std::int64_t n_crossings = 0;
   std::size_t n_crossing_before = static_cast<std::size_t>(-1);
   for (int round = 1;; ++round) {
-    const SizeField field = meshing.field();
+    const SurfaceSizes field(model, meshing.edges, meshing.topology, meshing.sizes, meshing.repairs, context);
     mesh = mesh_round(meshing, field, context);
     mesh.report.n_rounds = round;
     const bool is_last = round == k_max_rounds;

@@ -93,7 +93,7 @@ FaceSizes resolve(const std::string& name, double automatic_max, const SurfaceMe
   sizes.limits.angle /= options.refinement;
   // The error of a chord falls with the square of its length.
   sizes.limits.chord_error /= options.refinement * options.refinement;
-  sizes.limits.growth = change_by_distance(options);
+  sizes.limits.growth = std::numeric_limits<double>::infinity();  // SurfaceSizes carries them on
   return sizes;
 }
 
@@ -288,12 +288,14 @@ void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, c
     for (const NarrowPlace& place : list) narrow_of_edge[place.edge].push_back(place);
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
   std::vector<std::vector<SizeSource>> of_edges(model.edges.size());
+  sizes.edge_sizes.resize(model.edges.size());
   parallel_for(context, model.edges.size(), [&](std::size_t i) {
     const EdgeId e(static_cast<std::uint64_t>(i));
     if (uses[e].empty() || edges[e].samples.empty() || topology.is_point[e] != 0) return;
     std::vector<double> size = sizes_along(model, uses[e], edges[e], sizes);
     for (const NarrowPlace& place : narrow_of_edge[e]) size[place.sample] = std::min(size[place.sample], place.size);
     add_sources_along(*model.edges[e].curve, edges[e].samples, size, of_edges[i]);
+    sizes.edge_sizes[e] = std::move(size);
   }, 16);
   for (const auto& list : of_edges) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());
 }

@@ -22,7 +22,8 @@ struct FaceSizes {
 struct ModelSizes {
   Column<FaceId, FaceOutline> outlines;
   Column<FaceId, FaceSizes> faces;
-  std::vector<SizeSource> sources;  ///< curvature of faces and edges, narrow faces, short edges, borders of finer patches
+  Column<EdgeId, std::vector<double>> edge_sizes;  ///< m, at the samples of each edge: what its curvature, that of its faces beside it, narrow faces and its length ask for
+  std::vector<SizeSource> sources;  ///< the same in space, and the curvature of faces: where sizes may be small
   double growth = 0.2;              ///< change of length by distance
   double largest = 0.0;             ///< max_edge of all faces
 };
@@ -30,7 +31,7 @@ struct ModelSizes {
 /// \throws Error(bad_argument) for a rule that no face's name matches
 ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
 
-/// Fills `sources`; what is absorbed asks for nothing.
+/// Fills `edge_sizes` and `sources`; what is absorbed asks for nothing.
 struct ModelTopology;
 void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options, ModelSizes& sizes, const RunContext& context);
 

@@ -72,7 +72,7 @@ std::uint32_t SizeField::build(std::uint32_t first, std::uint32_t count) {
   return id;
 }
 
-double SizeField::operator()(const Point& p, double cap) const {
+double SizeField::operator()(const Point& p, double cap, double reach) const {
   if (nodes_.empty()) return cap;
   struct Entry {
     double bound;
@@ -81,14 +81,14 @@ double SizeField::operator()(const Point& p, double cap) const {
   std::array<Entry, 64> stack;  // median splits: the depth is the logarithm of at most 2^32 sources
   std::size_t n = 0;
   double best = cap;
-  const auto bound_of = [&](std::uint32_t i) { return nodes_[i].least + growth_ * distance_to_box(p, nodes_[i].low, nodes_[i].high); };
+  const auto bound_of = [&](std::uint32_t i) { return nodes_[i].least + growth_ * std::max(0.0, distance_to_box(p, nodes_[i].low, nodes_[i].high) - reach); };
   stack[n++] = {bound_of(0), 0};
   while (n > 0) {
     const Entry entry = stack[--n];
     if (entry.bound >= best) continue;
     const Node& node = nodes_[entry.node];
     if (node.right == 0) {
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) best = std::min(best, sources_[i].size + growth_ * distance(p, sources_[i].point));
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) best = std::min(best, sources_[i].size + growth_ * std::max(0.0, distance(p, sources_[i].point) - reach));
       continue;
     }
     const Entry left{bound_of(entry.node + 1), entry.node + 1}, right{bound_of(node.right), node.right};

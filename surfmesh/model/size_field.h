@@ -14,14 +14,14 @@ struct SizeSource {
   double size = 0.0;
 };
 
-/// size(p) = min over sources of size_i + growth |p - x_i|: the largest field below all sources whose change is limited, in space and so over any surface.
+/// size(p) = min over sources of size_i + growth |p - x_i|, through space: a lower bound of what SurfaceSizes carries along the surface.
 /// Sources nearer to each other than half of their size are thinned to the least of them.
 class SizeField {
  public:
   /// `growth`: change of length by distance, > 0. Only sources below `largest` matter.
   SizeField(std::vector<SizeSource> sources, double growth, double largest);
-  /// Metres; `cap` where no source asks for less. From many threads.
-  double operator()(const Point& p, double cap) const;
+  /// Metres; `cap` where no source asks for less; the least within `reach` of p. From many threads.
+  double operator()(const Point& p, double cap, double reach = 0.0) const;
   std::size_t n_sources() const { return sources_.size(); }
   double growth() const { return growth_; }
 
