@@ -183,8 +183,8 @@ local skin = surface_mesh{ block,
   growth = 1.2,
   refinement = 1.0,                   -- 1.5: the next finer mesh of a family
   narrow = 2.0,                       -- edges along narrow faces, of their width
-  check_crossings = true,
-  max_triangles = 200000000,          -- of one face
+  crossings = "error",                -- of triangles that finer ones do not part; warn keeps the mesh, ignore does not look
+  max_triangles = 100000000,
   patches = {                         -- by names of faces; of two patterns that match the one with more letters counts
     ["box*"] = { max_edge = 0.1, min_edge = "automatic", curvature_angle = "automatic", chord_error = "automatic" } },
 }

@@ -101,6 +101,7 @@ CurvatureSizes::CurvatureSizes(const Surface& surface, const ParameterBox& box, 
   size_.assign(n_u * n_v, k_no_limit);
   curvature_.assign(n_u * n_v, 0.0);
   points_.resize(n_u * n_v);
+  cell_.assign(n_u * n_v, 0.0);
   is_inside_.assign(n_u * n_v, 0);
   std::size_t n_fast_u = 0, n_fast_v = 0;
   std::vector<double> crossings;
@@ -124,7 +125,7 @@ CurvatureSizes::CurvatureSizes(const Surface& surface, const ParameterBox& box, 
       is_inside_[k] = 1;
       if (const double curvature = largest_curvature(d); std::isfinite(curvature)) curvature_[k] = curvature;
       const double du = 0.5 * (u_[std::min(i + 1, n_u - 1)] - u_[i == 0 ? 0 : i - 1]), dv = 0.5 * (v_[std::min(j + 1, n_v - 1)] - v_[j == 0 ? 0 : j - 1]);
-      if (const double cell = norm(cross(d.du, d.dv)) * du * dv; std::isfinite(cell)) area_ += cell;
+      if (const double cell = norm(cross(d.du, d.dv)) * du * dv; std::isfinite(cell)) area_ += cell_[k] = cell;
     }
   }
   if (n_fast_u > 0) mean_speed_u_ /= static_cast<double>(n_fast_u);

@@ -1,6 +1,7 @@
 // What edge length the surface's curvature asks for, sampled once for a face on a grid in (u, v) and limited in growth.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -38,6 +39,15 @@ class CurvatureSizes {
     for (std::size_t i = 0; i < points_.size(); ++i)
       if (is_inside_[i] != 0) visit(points_[i], size_[i]);
   }
+  /// Calls visit(size, area) for every sample inside with its share of area(), m^2.
+  template <class Visit>
+  void for_each_cell(const Visit& visit) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < points_.size(); ++i) sum += cell_[i];
+    if (!(sum > 0.0)) return visit(*std::min_element(size_.begin(), size_.end()), area_);
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (cell_[i] > 0.0) visit(size_[i], cell_[i] * area_ / sum);
+  }
   /// Area inside, m^2: exact on planes, elsewhere from the samples, a few per cent off where the border is not the box.
   double area() const { return area_; }
   /// Mean lengths of du and dv over the samples, metres by parameter.
@@ -49,6 +59,7 @@ class CurvatureSizes {
   std::vector<double> curvature_;  ///< curvature_[i * v_.size() + j], 1/m; zero outside; empty once sizes are limited
   std::vector<double> size_;
   std::vector<Point> points_;
+  std::vector<double> cell_;  ///< area around a sample, m^2; zero outside
   std::vector<std::uint8_t> is_inside_;
   double area_ = 0.0;
   double mean_speed_u_ = 0.0;

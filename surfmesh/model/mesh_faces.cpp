@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "geom/math/measures.h"
 
@@ -15,6 +16,7 @@ constexpr double k_largest_angle = 130.0 * std::numbers::pi / 180.0;
 struct LabelledBorder {
   FaceBorder border;
   std::vector<VertexId> ids;
+  std::vector<EdgeId> edges;  ///< of each point; corners: the edge that starts there
 };
 
 /// Each use gives its start and its cuts; its end is the start of the next. Absorbed edges give nothing, poles their corner at their start and, by the next use, at their end.
@@ -30,17 +32,73 @@ LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topo
       const CornerId corner = topology.corner[use.is_reversed ? edge.end : edge.start];
       loop.push_back({use.parameter->point(use.is_reversed ? range.to : range.from) + entry.shift, model.corners[corner].point});
       result.ids.push_back(numbers.of_corner[corner]);
+      result.edges.push_back(use.edge);
       const EdgeCut& cut = cuts[use.edge];
       const SameEdge& same = topology.same_as[use.edge];
       for (std::size_t k = 0; k < cut.t.size(); ++k) {
         const std::size_t i = use.is_reversed ? cut.t.size() - 1 - k : k;
         loop.push_back({use.parameter->point(cut.t[i]) + entry.shift, cut.points[i]});
         result.ids.push_back(VertexId(numbers.first_of_edge[same.edge] + static_cast<std::uint32_t>(same.is_reversed ? cut.t.size() - 1 - i : i)));
+        result.edges.push_back(use.edge);
       }
     }
     if (!loop.empty()) result.border.loops.push_back(std::move(loop));
   }
   return result;
+}
+
+/// What the model says that an edge's vertices may be off its faces.
+double tolerance_of(const Model& model, FaceId f, EdgeId e) {
+  const ModelEdge& edge = model.edges[e];
+  // Files write tolerances of zero; what doubles of that size can hold is no fault.
+  constexpr double k_rounding = 1e-12;
+  const Point& p = model.corners[edge.start].point;
+  return std::max({edge.tolerance, model.corners[edge.start].tolerance, model.corners[edge.end].tolerance, model.faces[f].tolerance, k_rounding * norm(p - Point{})});
+}
+
+/// Where a border passes a corner twice (a hole that touches the border), both get the same (u, v): files have them some rounding apart, and a gap of that width would
+/// be meshed. Poles and seams are far apart in (u, v).
+void merge_touching(const Model& model, FaceId f, LabelledBorder& labelled) {
+  constexpr double k_near = 1e-5;  // of the border's extent in (u, v)
+  const Surface& surface = *model.faces[f].surface;
+  ParameterBox box{{1e300, -1e300}, {1e300, -1e300}};
+  for (const auto& loop : labelled.border.loops)
+    for (const BorderPoint& p : loop) {
+      box.u = {std::min(box.u.from, p.uv.u), std::max(box.u.to, p.uv.u)};
+      box.v = {std::min(box.v.from, p.uv.v), std::max(box.v.to, p.uv.v)};
+    }
+  std::map<VertexId, std::vector<Uv>> met;
+  std::size_t i = 0;
+  for (auto& loop : labelled.border.loops)
+    for (BorderPoint& p : loop) {
+      const EdgeId e = labelled.edges[i];
+      std::vector<Uv>& places = met[labelled.ids[i++]];
+      const auto is_same = [&](const Uv& q) {
+        const Uv step = p.uv - q;
+        if (std::abs(step.u) > k_near * box.u.length() || std::abs(step.v) > k_near * box.v.length()) return false;
+        return distance(surface.point(p.uv), surface.point(q)) <= tolerance_of(model, f, e);
+      };
+      if (const auto near = std::find_if(places.begin(), places.end(), is_same); near != places.end()) p.uv = *near;
+      else places.push_back(p.uv);
+    }
+}
+
+/// Border points against the surface, edge by edge.
+void measure_border(const Model& model, const Surface& surface, const std::vector<EdgeId>& edges, MeshedFace& face) {
+  const FaceMesh& mesh = face.mesh;
+  std::map<EdgeId, LooseEdge> loose;
+  for (std::uint32_t i = 0; i < mesh.n_border; ++i) {
+    const double off = distance(surface.point(mesh.uv[i]), mesh.points[i]);
+    if (off > face.edge_distance) {
+      face.edge_distance = off;
+      face.edge_distance_place = mesh.points[i];
+    }
+    const double tolerance = tolerance_of(model, face.summary.face, edges[i]);
+    if (off <= tolerance) continue;
+    LooseEdge& entry = loose[edges[i]];
+    if (off > entry.distance) entry = {edges[i], face.summary.face, off, tolerance, mesh.points[i]};
+  }
+  for (const auto& [edge, entry] : loose) face.loose_edges.push_back(entry);
 }
 
 void measure(const Surface& surface, MeshedFace& face) {
@@ -52,11 +110,6 @@ void measure(const Surface& surface, MeshedFace& face) {
     const Vec3 normal = cross(d.du, d.dv);
     constexpr double k_min_sine2 = 1e-16;
     if (norm2(normal) > k_min_sine2 * norm2(d.du) * norm2(d.dv)) normals[i] = normalized(normal);
-    if (i >= mesh.n_border) continue;
-    if (const double off = distance(d.point, mesh.points[i]); off > face.edge_distance) {
-      face.edge_distance = off;
-      face.edge_distance_place = mesh.points[i];
-    }
   }
   summary.n_triangles = static_cast<std::int64_t>(mesh.triangles.size());
   summary.min_angle = std::numbers::pi;
@@ -71,14 +124,19 @@ void measure(const Surface& surface, MeshedFace& face) {
     summary.max_angle = std::max(summary.max_angle, *largest);
     if (*least < k_least_angle || *largest > k_largest_angle) ++summary.n_outside_20_130;
     const Vec3 normal = cross(b - a, c - a);
+    const double area = 0.5 * norm(normal);
+    summary.area += area;
+    double farthest = 0.0;
     for (const VertexId w : v) {
       const Vec3& n = normals[w.index()];
       if (norm2(n) == 0.0) continue;
-      if (const double angle = angle_between(normal, n); angle > summary.max_normal_angle) {
-        summary.max_normal_angle = angle;
-        summary.normal_place = mesh.points[w.index()];
-      }
+      const double angle = angle_between(normal, n);
+      farthest = std::max(farthest, angle);
+      if (angle <= summary.max_normal_angle) continue;
+      summary.max_normal_angle = angle;
+      summary.normal_place = mesh.points[w.index()];
     }
+    if (farthest > summary.curvature_angle) summary.area_above += area;
   }
 }
 
@@ -119,6 +177,7 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
     return fail({.code = ErrorCode::geometry_failed, .problem = "a border runs around the period of its " + face.surface->kind() + " without a seam"});
   if (topology.is_absorbed[f] != 0) return result;
   LabelledBorder labelled = border_of(model, f, topology, cuts, numbers, sizes.outlines[f]);
+  merge_touching(model, f, labelled);
   FaceMeshOptions options;
   options.min_edge = 0.0;
   options.size_growth = sizes.growth;
@@ -132,6 +191,8 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
     return fail(error.info());
   }
   result.border_ids = std::move(labelled.ids);
+  result.summary.curvature_angle = sizes.faces[f].limits.angle;
+  measure_border(model, *face.surface, labelled.edges, result);
   measure(*face.surface, result);
   return result;
 }

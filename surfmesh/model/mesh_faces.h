@@ -29,6 +29,7 @@ struct MeshedFace {
   FaceMeshSummary summary;
   double edge_distance = 0.0;           ///< metres: largest distance of a border point to the surface
   Point edge_distance_place{};
+  std::vector<LooseEdge> loose_edges;   ///< of this face
 };
 
 /// Vertices of a face's border, in the order in which it is given to mesh_face.

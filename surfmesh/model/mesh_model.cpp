@@ -9,8 +9,9 @@
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
-#include "geom/math/intersect.h"
 #include "geom/math/measures.h"
+#include "surfmesh/model/crossings.h"
+#include "surfmesh/model/estimate.h"
 #include "surfmesh/model/join_faces.h"
 
 namespace sterna::surfmesh {
@@ -60,8 +61,8 @@ SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunCon
   return join_faces(model, meshing.topology, meshing.cuts, numbers, meshing.faces);
 }
 
-void refine_at(Meshing& meshing, FaceId f, const Point& place, double size) {
-  meshing.repairs.push_back({place, k_repair_factor * size});
+void refine_at(Meshing& meshing, FaceId f, const Point& place, double size, double factor = k_repair_factor) {
+  meshing.repairs.push_back({place, factor * size});
   meshing.to_mesh.insert(f);
 }
 
@@ -102,13 +103,11 @@ bool refine_failures(Meshing& meshing, const SurfaceSizes& field) {
   return is_any;
 }
 
-void refine_triangles(Meshing& meshing, const SurfaceMesh& mesh, const std::vector<TriangleId>& triangles) {
-  for (const TriangleId t : triangles) {
-    const auto p = corners(mesh.mesh, t);
-    const double size = std::min({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
-    const double longest = std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
-    refine_at(meshing, mesh.triangle_face[t], (p[0] + p[1] + p[2]) / 3.0, std::max(size, 0.5 * longest));
-  }
+void refine_triangle(Meshing& meshing, const SurfaceMesh& mesh, TriangleId t, double factor) {
+  const auto p = corners(mesh.mesh, t);
+  const double size = std::min({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
+  const double longest = std::max({distance(p[0], p[1]), distance(p[1], p[2]), distance(p[2], p[0])});
+  refine_at(meshing, mesh.triangle_face[t], (p[0] + p[1] + p[2]) / 3.0, std::max(size, 0.5 * longest), factor);
 }
 
 [[noreturn]] void throw_faults(const Meshing& meshing, const SurfaceMesh& mesh, const JoinFaults& faults) {
@@ -122,27 +121,14 @@ void refine_triangles(Meshing& meshing, const SurfaceMesh& mesh, const std::vect
   throw Error(std::move(info));
 }
 
-/// Triangles of one solid that cross; `total` counts also those of different solids, which stand in each other.
-std::vector<TriangleId> crossing_triangles(const Model& model, const SurfaceMesh& mesh, const RunContext& context, std::int64_t& total) {
-  std::vector<std::array<std::uint32_t, 3>> triangles(mesh.mesh.n_triangles());
-  for (const TriangleId t : mesh.mesh.triangles.ids())
-    for (std::size_t k = 0; k < 3; ++k) triangles[t.index()][k] = mesh.mesh.triangles[t][k].value();
-  constexpr std::size_t k_limit = 100'000;
-  const CrossingPairs crossings = find_crossings(mesh.mesh.points.raw(), triangles, context, k_limit);
-  total = crossings.total;
-  Column<FaceId, SolidId> solid(model.faces.size());
-  for (const SolidId s : model.solids.ids())
-    for (const FaceId f : model.solids[s].faces) solid[f] = s;
-  std::vector<TriangleId> result;
-  for (const auto& pair : crossings.pairs) {
-    const TriangleId a(pair[0]), b(pair[1]);
-    if (solid[mesh.triangle_face[a]] != solid[mesh.triangle_face[b]]) continue;
-    result.push_back(a);
-    result.push_back(b);
-  }
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
-  return result;
+void report_crossings(const Model& model, const SurfaceMeshOptions& options, const MeshCrossings& crossings, SurfaceMesh& mesh, const RunContext& context) {
+  mesh.report.n_crossings = crossings.total;
+  if (crossings.total == 0) return;
+  mesh.report.crossings = crossing_faces(model, mesh, crossings);
+  ErrorInfo info = crossing_error(model, mesh, crossings, mesh.report.crossings);
+  if (options.crossings != "error") return context.warn(Error(std::move(info)).what());
+  info.hint += "; crossings = \"warn\" keeps the mesh as it is";
+  throw Error(std::move(info));
 }
 
 void summarise(const Meshing& meshing, SurfaceMesh& mesh) {
@@ -150,6 +136,7 @@ void summarise(const Meshing& meshing, SurfaceMesh& mesh) {
   report.absorbed = meshing.absorbed;
   report.min_angle = std::numbers::pi;
   std::int64_t n = 0, n_outside = 0;
+  double area = 0.0, area_above = 0.0, worst_excess = 0.0;
   for (const MeshedFace& face : meshing.faces) {
     report.faces.push_back(face.summary);
     n += face.summary.n_triangles;
@@ -163,7 +150,17 @@ void summarise(const Meshing& meshing, SurfaceMesh& mesh) {
       report.max_edge_distance = face.edge_distance;
       report.edge_distance_place = face.edge_distance_place;
     }
+    report.loose_edges.insert(report.loose_edges.end(), face.loose_edges.begin(), face.loose_edges.end());
+    area += face.summary.area;
+    area_above += face.summary.area_above;
+    const double excess = face.summary.max_normal_angle - face.summary.curvature_angle;
+    if (face.summary.n_triangles > 0 && excess > worst_excess) {
+      worst_excess = excess;
+      report.worst_normal_face = face.summary.face;
+    }
   }
+  if (area > 0.0) report.share_normals = 1.0 - area_above / area;
+  std::stable_sort(report.loose_edges.begin(), report.loose_edges.end(), [](const LooseEdge& a, const LooseEdge& b) { return a.distance * b.tolerance > b.distance * a.tolerance; });
   if (n > 0) report.share_20_130 = 1.0 - static_cast<double>(n_outside) / static_cast<double>(n);
   std::vector<float> least(mesh.mesh.n_triangles());
   for (const TriangleId t : mesh.mesh.triangles.ids()) {
@@ -188,15 +185,17 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   check_options(options);
   Meshing meshing{model, options, sample_edges(model, context), {}, {}, {}, {}, {}, {}, {}};
   meshing.sizes = sizes_of_faces(model, meshing.edges, options, patches, context);
+  check_estimate(model, meshing.sizes, meshing.edges, options);
   meshing.topology = absorb_small_parts(model, meshing.edges, meshing.sizes, meshing.absorbed);
   add_sources(model, meshing.edges, meshing.topology, options, meshing.sizes, context);
   SurfaceMesh mesh;
-  std::int64_t n_crossings = 0;
+  MeshCrossings crossings;
   std::size_t n_crossing_before = static_cast<std::size_t>(-1);
   for (int round = 1;; ++round) {
     const SurfaceSizes field(model, meshing.edges, meshing.topology, meshing.sizes, meshing.repairs, context);
     mesh = mesh_round(meshing, field, context);
     mesh.report.n_rounds = round;
+    check_count(mesh, options);
     const bool is_last = round == k_max_rounds;
     if (refine_failures(meshing, field)) {
       if (is_last) throw_failures(meshing);
@@ -206,18 +205,18 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
     mesh.report.n_free_edges = faults.n_free_edges;
     if (!faults.triangles.empty()) {
       if (is_last) throw_faults(meshing, mesh, faults);
-      refine_triangles(meshing, mesh, faults.triangles);
+      for (const TriangleId t : faults.triangles) refine_triangle(meshing, mesh, t, k_repair_factor);
       continue;
     }
-    if (!options.check_crossings) break;
-    const std::vector<TriangleId> crossing = crossing_triangles(model, mesh, context, n_crossings);
-    if (is_last || crossing.empty() || crossing.size() >= n_crossing_before) break;
-    n_crossing_before = crossing.size();
-    refine_triangles(meshing, mesh, crossing);
+    if (options.crossings == "ignore") break;
+    crossings = find_mesh_crossings(model, mesh, context);
+    const std::size_t n_crossing = crossings.refinable.size();
+    if (is_last || n_crossing == 0 || n_crossing >= n_crossing_before) break;
+    n_crossing_before = n_crossing;
+    for (const RefinableTriangle& r : crossings.refinable) refine_triangle(meshing, mesh, r.triangle, r.factor);
   }
-  mesh.report.n_crossings = n_crossings;
-  if (n_crossings > 0) context.warn(std::to_string(n_crossings) + " pairs of triangles cross: parts of the model stand in each other, or its faces cross");
   summarise(meshing, mesh);
+  report_crossings(model, options, crossings, mesh, context);
   return mesh;
 }
 
@@ -236,8 +235,17 @@ std::string to_text(const SurfaceMeshReport& report) {
     const FaceMeshSummary& worst = report.faces[report.worst_face.index()];
     text += "worst angle on \"" + worst.name + "\" at " + format_point(worst.worst_place) + "\n";
   }
+  if (report.worst_normal_face.is_valid()) {
+    const FaceMeshSummary& worst = report.faces[report.worst_normal_face.index()];
+    text += "normals within the curvature angle on " + number(100.0 * report.share_normals) + " % of the area; farthest off on \"" + worst.name + "\" at " + format_point(worst.normal_place) + ", " +
+            number(worst.max_normal_angle / k_deg) + " degrees for " + number(worst.curvature_angle / k_deg) + "\n";
+  }
   text += report.n_free_edges == 0 ? "closed" : "open: " + std::to_string(report.n_free_edges) + " free edges of triangles";
   text += "; edges within " + number(report.max_edge_distance) + " m of their surfaces";
+  if (!report.loose_edges.empty()) {
+    const LooseEdge& loose = report.loose_edges.front();
+    text += "; " + std::to_string(report.loose_edges.size()) + " edges beyond their tolerance, first: " + number(loose.distance) + " m for " + number(loose.tolerance) + " m beside \"" + report.faces[loose.face.index()].name + "\" at " + format_point(loose.place);
+  }
   if (!report.absorbed.empty()) text += "; " + std::to_string(report.absorbed.size()) + " small parts absorbed, first: " + report.absorbed.front().what + " at " + format_point(report.absorbed.front().place);
   if (report.n_crossings > 0) text += "; " + std::to_string(report.n_crossings) + " pairs of triangles cross";
   return text + "\n";

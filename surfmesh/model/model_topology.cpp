@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sterna::surfmesh {
 namespace {
@@ -61,6 +62,28 @@ double distance_of(const EdgeSamples& a, const EdgeSamples& b, double limit) {
   return largest;
 }
 
+/// Faces that are a line or a point: every edge is walked there and back, and there is nothing between (a seam's face has that too, but has an area).
+void absorb_lines(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses, const ModelSizes& sizes, ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
+  for (const FaceId f : model.faces.ids()) {
+    std::map<EdgeId, int> balance;
+    double length = 0.0, limit = 0.0;
+    EdgeId longest;
+    for (const Border& border : model.faces[f].borders)
+      for (const EdgeUse& use : border) {
+        if (topology.is_point[use.edge] != 0) continue;
+        const SameEdge same = find(topology, use.edge);
+        balance[same.edge] += use.is_reversed != same.is_reversed ? -1 : 1;
+        length += 0.5 * edges[use.edge].length;
+        limit = std::max(limit, limit_of(model.edges[use.edge], uses[use.edge], sizes));
+        if (!longest.is_valid() || edges[use.edge].length > edges[longest].length) longest = use.edge;
+      }
+    if (balance.empty() || topology.is_absorbed[f] != 0) continue;
+    if (std::any_of(balance.begin(), balance.end(), [](const auto& entry) { return entry.second != 0; }) || sizes.faces[f].curvature->area() > limit * length) continue;
+    topology.is_absorbed[f] = 1;
+    absorbed.push_back({"face " + model.faces[f].name + ", which is a line", edges[longest].samples[edges[longest].samples.size() / 2].point, sizes.faces[f].curvature->area() / length});
+  }
+}
+
 /// Faces whose border is two edges that are the same line within the limit.
 void absorb_strips(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses, const ModelSizes& sizes, ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
   for (const FaceId f : model.faces.ids()) {
@@ -97,6 +120,7 @@ ModelTopology absorb_small_parts(const Model& model, const Column<EdgeId, EdgeSa
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
   absorb_short_edges(model, edges, uses, sizes, topology, absorbed);
   absorb_strips(model, edges, uses, sizes, topology, absorbed);
+  absorb_lines(model, edges, uses, sizes, topology, absorbed);
   return topology;
 }
 

@@ -23,8 +23,8 @@ struct SurfaceMeshOptions {
   double growth = 1.2;
   double refinement = 1.0;
   double narrow = 2.0;
-  bool check_crossings = true;
-  int max_triangles = 200'000'000;
+  std::string crossings = "error";
+  int max_triangles = 100'000'000;
 };
 
 /// What faces (patches) whose names match ask for instead; not a number: as the options above say.
@@ -52,6 +52,9 @@ struct FaceMeshSummary {
   std::int64_t n_outside_20_130 = 0;  ///< triangles with an angle outside [20, 130] degrees
   double max_normal_angle = 0.0;      ///< rad: between a triangle and the surface at a corner of it
   Point normal_place{};
+  double curvature_angle = 0.0;       ///< rad: what it was to be at most
+  double area = 0.0;                  ///< m^2, of its triangles
+  double area_above = 0.0;            ///< m^2, of those whose normals are off by more
 };
 
 /// A thing of the model that the mesh does not show.
@@ -59,6 +62,24 @@ struct AbsorbedPart {
   std::string what;    ///< "edge shorter than its tolerance", with the names of faces
   Point place;
   double size = 0.0;   ///< metres
+};
+
+/// Two faces whose triangles cross, or one whose own do.
+struct CrossingFaces {
+  FaceId first, second;
+  std::int64_t n_pairs = 0;
+  Point place{};               ///< of the first pair
+  bool is_one_part = false;    ///< both of one solid, or of one sheet
+  bool is_closed = false;      ///< the parts of both
+};
+
+/// An edge whose vertices are farther from a face of it than the model's tolerances say.
+struct LooseEdge {
+  EdgeId edge;
+  FaceId face;
+  double distance = 0.0;   ///< m, the largest of its vertices
+  double tolerance = 0.0;  ///< m: the largest of the edge's, its corners' and the face's
+  Point place{};
 };
 
 struct SurfaceMeshReport {
@@ -71,10 +92,14 @@ struct SurfaceMeshReport {
   FaceId worst_face;                   ///< where min_angle is
   double max_edge_distance = 0.0;      ///< metres: from a vertex on an edge to a face of it
   Point edge_distance_place{};
+  std::vector<LooseEdge> loose_edges;  ///< by falling distance / tolerance
+  FaceId worst_normal_face;            ///< whose normals exceed the wanted angle by most; invalid where none does
+  double share_normals = 1.0;          ///< of the area: triangles within the curvature angle of the surface's normals at their corners
   double max_smooth_angle = 0.0;       ///< rad: largest dihedral turn between two triangles of one face; what a feature angle has to exceed
   std::int64_t n_free_edges = 0;       ///< of triangles: along free edges of the model
   int n_rounds = 1;                    ///< of meshing; above 1 where places had to be refined to come out right
-  std::int64_t n_crossings = 0;        ///< pairs of triangles that cross and could not be refined away; only faces that cross in the model leave any
+  std::int64_t n_crossings = 0;        ///< pairs of triangles that cross and could not be refined away
+  std::vector<CrossingFaces> crossings;  ///< by falling number; of the first 100 000 pairs
 };
 
 /// A surface mesh that remembers its model.
@@ -89,8 +114,8 @@ struct SurfaceMesh {
 /// Meshes a whole model. Vertices inside faces are exactly on their surface, those on edges exactly on the edge's curve, corners are the model's.
 /// Normals point outwards as the model's faces say. Closed models give closed meshes; elsewhere boundary loops are the model's free edges.
 /// \throws Error(geometry_failed) naming the faces that cannot be meshed, with places; Error(bad_argument) for sizes that are not positive or a rule that no face's name
-/// matches; Error(overflow) beyond max_triangles; Error(non_manifold_surface) where triangles of faces do not join. Triangles that cross are no error: they are
-/// counted in the report, with a warning
+/// matches; Error(overflow) beyond max_triangles, at once where sizes and areas say so; Error(non_manifold_surface) where triangles of faces do not join;
+/// Error(self_intersection) where triangles cross that finer ones do not part, unless options.crossings says otherwise
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
 
 /// Several lines for people.
@@ -112,8 +137,8 @@ struct Schema<surfmesh::SurfaceMeshOptions> {
       Field<O>{.name = "growth", .member = &O::growth, .min = 1.01, .max = 3.0, .help = "ratio of the lengths of edges that follow each other, at most"},
       Field<O>{.name = "refinement", .member = &O::refinement, .min = 0.01, .max = 100.0, .help = "lengths, angles and growth - 1 are divided by it: 1.5 for the next finer mesh of a family"},
       Field<O>{.name = "narrow", .member = &O::narrow, .min = 0.1, .max = 100.0, .help = "edges along narrow faces are at most this many times their width (never below a fifth of min_edge)"},
-      Field<O>{.name = "check_crossings", .member = &O::check_crossings, .help = "look for triangles that cross, and refine there"},
-      Field<O>{.name = "max_triangles", .member = &O::max_triangles, .min = 1, .max = 2e9, .help = "of one face; beyond it is an error"},
+      Field<O>{.name = "crossings", .member = &O::crossings, .help = "triangles that cross are refined; what still crosses is an error, or kept with a warning; ignore: not looked for", .choices = "error warn ignore"},
+      Field<O>{.name = "max_triangles", .member = &O::max_triangles, .min = 1, .max = 2e9, .help = "more than that are an error, at once where sizes and areas foretell it"},
   };
 };
 

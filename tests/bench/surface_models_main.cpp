@@ -1,6 +1,6 @@
 // The surface mesher on whole models: CAD files, .smx and CPACS aircraft (united). One row each; processor time of the meshing alone.
-// usage: surface_models [-max METRES] [-angle DEGREES] [-growth G] [-refine F] [-narrow N] [-threads N] [-parts] [-nocheck] [-out FOLDER] [-raw FOLDER] [-distance MESH] [-v] FILE ...
-//   -parts: aircraft are not united; -nocheck: crossings are not looked for; -out: writes FOLDER/<stem>.vtu and .su2; -v: the worst faces too
+// usage: surface_models [-max METRES] [-angle DEGREES] [-growth G] [-refine F] [-narrow N] [-threads N] [-parts] [-nocheck] [-strict] [-out FOLDER] [-raw FOLDER] [-distance MESH] [-v] FILE ...
+//   -parts: aircraft are not united; -nocheck: crossings are not looked for; -strict: they are errors, else counted; -out: writes FOLDER/<stem>.vtu and .su2; -v: the worst faces too
 //   -raw: writes FOLDER/<stem>.tri, the numbers of tools/compare_gmsh: int64 points, int64 triangles, points as 3 doubles, triangles as 3 int32
 //   -distance: of such meshes (given before FILE) how far triangles are from FILE's faces; FILE is then not meshed
 #include <algorithm>
@@ -218,6 +218,7 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
 
 int main(int argc, char** argv) {
   Settings settings;
+  settings.options.crossings = "warn";
   std::puts("| file | faces | model | triangles | cpu s | k/s | min angle | 1 % | radius ratio | six % | in [20, 130] % | normals | edges to faces, m | crossings | absorbed | rounds | worst | read s |");
   std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   for (int i = 1; i < argc; ++i) {
@@ -230,7 +231,8 @@ int main(int argc, char** argv) {
     else if (is("-narrow")) settings.options.narrow = number();
     else if (is("-threads")) settings.threads = static_cast<int>(number());
     else if (is("-limit")) settings.options.max_triangles = static_cast<int>(number());
-    else if (is("-nocheck")) settings.options.check_crossings = false;
+    else if (is("-nocheck")) settings.options.crossings = "ignore";
+    else if (is("-strict")) settings.options.crossings = "error";
     else if (is("-parts")) settings.has_parts = true;
     else if (is("-v")) settings.is_verbose = true;
     else if (is("-out") && i + 1 < argc) settings.folder = argv[++i];

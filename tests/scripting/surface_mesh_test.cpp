@@ -70,7 +70,9 @@ TEST_F(SurfaceMeshVerb, PatchesHaveSizesOfTheirOwnAndTheLongerPatternWins) {
 TEST_F(SurfaceMeshVerb, OpenSurfacesAndCrossingsAreTold) {
   EXPECT_EQ(run("print(surface_mesh{ surface{ function(u, v) return u, v, 0.1*u*v end, u={0,1}, v={0,1}, name='sheet' }, max_edge=0.3 }.is_closed)"), "false\n");
   EXPECT_THAT(log_, AllOf(HasSubstr("open: "), HasSubstr("along 1 m of face \"sheet\" about (0, 0.5, 0)")));
-  EXPECT_EQ(run("print(surface_mesh{ box{ {0,0,0}, {1,1,1} }, box{ {0.5,0.3,0.3}, {2,0.7,0.7} }, max_edge=0.4 }.crossings > 0)"), "true\n");
+  const std::string boxes = "surface_mesh{ box{ {0,0,0}, {1,1,1} }, box{ {0.5,0.3,0.3}, {2,0.7,0.7}, name='bar' }, max_edge=0.4";
+  EXPECT_THAT(error(boxes + " }"), AllOf(HasSubstr("pairs of triangles cross"), HasSubstr("\"bar\""), HasSubstr("union{")));
+  EXPECT_EQ(run("print(" + boxes + ", crossings='warn' }.crossings > 0)"), "true\n");
   EXPECT_THAT(log_, HasSubstr("warning: "));
   EXPECT_THAT(log_, HasSubstr("pairs of triangles cross"));
 }

@@ -243,7 +243,7 @@ TEST(SurfaceSizes, FamiliesOfMeshesAreSimilar) {
   for (const double refinement : {1.0, 1.5, 2.25}) {
     SurfaceMeshOptions options;
     options.refinement = refinement;
-    options.check_crossings = false;
+    options.crossings = "ignore";
     const auto n = static_cast<double>(mesh_model(model, options, {}, k_context).mesh.n_triangles());
     if (before > 0.0) {
       EXPECT_NEAR(n / before, 2.25, 0.15 * 2.25) << refinement;

@@ -1,0 +1,81 @@
+#include "surfmesh/model/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "geom/base/error.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+constexpr const char* k_attempted = "meshing the model's surface";
+constexpr std::size_t k_shown_faces = 5;
+/// Area of an equilateral triangle by the square of its edge, 3^(1/2) / 4.
+const double k_equilateral = std::sqrt(3.0) / 4.0;
+/// Estimates are above the triangles made by up to so much where the mesh does not reach the sizes it is asked for.
+constexpr double k_surely = 1.5;
+
+std::string rounded(double n) {
+  char text[32];
+  std::snprintf(text, sizeof text, n < 1e6 ? "%.0f" : "%.2g", n);
+  return text;
+}
+
+Point place_on(const Model& model, const Column<EdgeId, EdgeSamples>& edges, FaceId f) {
+  for (const Border& border : model.faces[f].borders)
+    for (const EdgeUse& use : border)
+      if (const auto& samples = edges[use.edge].samples; !samples.empty()) return samples[samples.size() / 2].point;
+  return model.corners[model.edges[model.faces[f].borders.front().front().edge].start].point;
+}
+
+}  // namespace
+
+double estimated_triangles(const ModelSizes& sizes, FaceId face) {
+  const FaceSizes& wanted = sizes.faces[face];
+  double n = 0.0;
+  wanted.curvature->for_each_cell([&](double by_curvature, double area) {
+    const double size = std::min(by_curvature, wanted.max_edge);
+    n += area / (k_equilateral * size * size);
+  });
+  return n;
+}
+
+void check_estimate(const Model& model, const ModelSizes& sizes, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options) {
+  struct Entry {
+    double n;
+    FaceId face;
+  };
+  std::vector<Entry> entries;
+  double total = 0.0;
+  for (const FaceId f : model.faces.ids()) {
+    double n = estimated_triangles(sizes, f), cuts = 0.0;
+    // A face has no fewer triangles than its border has edges, less two.
+    for (const Border& border : model.faces[f].borders)
+      for (const EdgeUse& use : border) cuts += edges[use.edge].length / sizes.faces[f].max_edge;
+    n = std::max(n, cuts);
+    entries.push_back({n, f});
+    total += n;
+  }
+  if (total <= k_surely * options.max_triangles) return;
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.n > b.n; });
+  ErrorInfo info{.code = ErrorCode::overflow, .attempted = k_attempted};
+  info.problem = "the wanted sizes ask for about " + rounded(total) + " triangles; max_triangles is " + std::to_string(options.max_triangles);
+  info.n_places = static_cast<std::int64_t>(entries.size());
+  for (std::size_t i = 0; i < std::min(k_shown_faces, entries.size()); ++i) {
+    const FaceId f = entries[i].face;
+    char size[32];
+    std::snprintf(size, sizeof size, "%.3g", sizes.faces[f].max_edge);
+    info.places.push_back({place_on(model, edges, f), "\"" + model.faces[f].name + "\" (face " + std::to_string(f.value()) + "): about " + rounded(entries[i].n) + " with edges of " + size + " m at most"});
+  }
+  info.hint = "a larger max_edge, min_edge or curvature_angle; are the model's units right?";
+  throw Error(std::move(info));
+}
+
+void check_count(const SurfaceMesh& mesh, const SurfaceMeshOptions& options) {
+  const std::size_t n = mesh.mesh.n_triangles();
+  if (n <= static_cast<std::size_t>(options.max_triangles)) return;
+  throw Error({.code = ErrorCode::overflow, .attempted = k_attempted, .problem = std::to_string(n) + " triangles are more than max_triangles, " + std::to_string(options.max_triangles), .hint = "a larger max_edge, min_edge or curvature_angle, or a larger max_triangles"});
+}
+
+}  // namespace sterna::surfmesh

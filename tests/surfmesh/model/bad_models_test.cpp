@@ -1,0 +1,217 @@
+// Models that are wrong, or hard: each gives a sound mesh or an error with faces and places.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "geom/base/error.h"
+#include "geom/cad/unite.h"
+#include "geom/math/intersect.h"
+#include "geom/math/measures.h"
+#include "geom/model/analytic_surfaces.h"
+#include "geom/model/curves.h"
+#include "geom/model/model_builder.h"
+#include "geom/model/shapes.h"
+#include "io/cad_file.h"
+#include "surfmesh/model/surface_mesh.h"
+#include "tests/support/data.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const RunContext k_context{};
+
+SurfaceMeshOptions edges_of(double size, const std::string& crossings = "error") {
+  SurfaceMeshOptions options;
+  options.max_edge = size;
+  options.crossings = crossings;
+  return options;
+}
+
+Model both(Model a, const Model& b) {
+  append(a, b);
+  return a;
+}
+
+ErrorInfo failure_of(const Model& model, const SurfaceMeshOptions& options) {
+  try {
+    mesh_model(model, options, {}, k_context);
+  } catch (const Error& error) {
+    return error.info();
+  }
+  ADD_FAILURE() << "no error";
+  return {};
+}
+
+/// No edge with more than two triangles or two of the same sense; edges with one only where the model is open.
+void expect_joined(const Model& model, const SurfaceMesh& surface) {
+  std::map<std::pair<VertexId, VertexId>, int> edges;
+  for (const TriangleVertices& v : surface.mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NE(v[k], v[(k + 1) % 3]);
+      ++edges[{v[k], v[(k + 1) % 3]}];
+    }
+  std::int64_t n_free = 0;
+  for (const auto& [edge, n] : edges) {
+    EXPECT_EQ(n, 1);
+    if (!edges.contains({edge.second, edge.first})) ++n_free;
+  }
+  EXPECT_EQ(n_free, surface.report.n_free_edges);
+  EXPECT_EQ(n_free == 0, free_edges(model).empty());
+}
+
+TEST(BadModels, SolidsThatStandInEachOtherAreToBeUnited) {
+  const Model a = make_box("left", {0, 0, 0}, {1, 1, 1}), b = make_box("right", {0.5, 0.3, 0.3}, {2, 0.7, 0.7});
+  const Model model = both(a, b);
+  const ErrorInfo info = failure_of(model, edges_of(0.2));
+  EXPECT_EQ(info.code, ErrorCode::self_intersection);
+  ASSERT_EQ(info.places.size(), 4u);  // the four long sides of the bar through the side x = 1
+  for (const ErrorPlace& place : info.places) {
+    EXPECT_NEAR(place.position.x, 1.0, 1e-12);
+    EXPECT_THAT(place.what, AllOf(HasSubstr("\"left\""), HasSubstr("\"right\"")));
+  }
+  EXPECT_THAT(info.hint, AllOf(HasSubstr("union{"), HasSubstr("crossings = \"warn\""), Not(HasSubstr("mend"))));
+  EXPECT_FALSE(info.geometry.triangles.empty());
+  // The same with a warning; and as advised.
+  const SurfaceMesh kept = mesh_model(model, edges_of(0.2, "warn"), {}, k_context);
+  EXPECT_GT(kept.report.n_crossings, 0);
+  EXPECT_EQ(kept.report.crossings.size(), 4u);
+  const std::vector<Model> parts{a, b};
+  const SurfaceMesh united = mesh_model(cad::unite(parts, {}, k_context).model, edges_of(0.2), {}, k_context);
+  EXPECT_EQ(united.report.n_crossings, 0);
+  EXPECT_EQ(united.report.n_free_edges, 0);
+}
+
+TEST(BadModels, SolidsThatTouchAreToBeUnitedAtOnce) {
+  // Finer triangles do not part what coincides: one round, also on curved faces.
+  const Model boxes = both(make_box("left", {0, 0, 0}, {1, 1, 1}), make_box("right", {1, 0.1, 0.2}, {2, 0.9, 0.7}));
+  const Model tubes = both(make_cylinder("outer", {0, 0, 0}, {3, 0, 0}, 0.5), make_cylinder("inner", {1, 0, 0}, {2, 0, 0}, 0.5));
+  for (const Model* model : {&boxes, &tubes}) {
+    EXPECT_EQ(failure_of(*model, edges_of(0.2)).code, ErrorCode::self_intersection);
+    EXPECT_EQ(mesh_model(*model, edges_of(0.2, "warn"), {}, k_context).report.n_rounds, 1);
+  }
+}
+
+TEST(BadModels, SolidsThatOnlyRunNearToEachOtherArePartedByFinerTriangles) {
+  // A rod in a hole 4 mm wider: facets of 0.35 m would cross.
+  SurfaceMeshOptions options = edges_of(0.35);
+  options.curvature_angle = 0.7;
+  const Model rod = make_cylinder("rod", {-1, 0, 0}, {1, 0, 0}, 0.5), ring = make_cylinder("pipe", {-0.9, 0, 0}, {0.9, 0, 0}, 0.504);
+  // Only the skins of both: the pipe's ends would be crossed by the rod.
+  Model model = both(rod, ring);
+  Column<FaceId, ModelFace> faces;
+  for (const ModelFace& face : model.faces)
+    if (face.surface->kind() != "plane") faces.push_back(face);
+  model.faces = faces;
+  model.solids.clear();
+  const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
+  EXPECT_GT(mesh.report.n_rounds, 1);
+  EXPECT_EQ(mesh.report.n_crossings, 0);
+  expect_joined(model, mesh);
+}
+
+TEST(BadModels, AnOpenPartInAnotherOneCannotBeUnited) {
+  Model sheet = make_box("sheet", {-1, -1, 0.5}, {2, 2, 0.6});
+  Column<FaceId, ModelFace> faces;
+  faces.push_back(sheet.faces[FaceId(std::uint64_t{0})]);
+  sheet.faces = faces;
+  sheet.solids.clear();
+  const ErrorInfo info = failure_of(both(make_box("box", {0, 0, 0}, {1, 1, 1}), sheet), edges_of(0.2));
+  EXPECT_EQ(info.code, ErrorCode::self_intersection);
+  EXPECT_THAT(info.hint, AllOf(HasSubstr("open"), Not(HasSubstr("union{"))));
+}
+
+TEST(BadModels, AbsurdSizesEndAtOnceWithTheirCount) {
+  const ErrorInfo info = failure_of(make_box("crate", {0, 0, 0}, {1, 1, 1}), edges_of(1e-5));
+  EXPECT_EQ(info.code, ErrorCode::overflow);
+  // 6 m^2 of triangles of 0.433e-10 m^2.
+  EXPECT_THAT(info.problem, AllOf(HasSubstr("1.4e+11"), HasSubstr("max_triangles")));
+  EXPECT_THAT(info.places.front().what, HasSubstr("crate"));
+  EXPECT_THAT(info.hint, HasSubstr("units"));
+}
+
+TEST(BadModels, FacesThatAreALineAreAbsorbed) {
+  // afem_f16 has sixteen of them: borders that go along a line and back on the other side of a surface without width.
+  ModelBuilder builder({.name = "thread"});
+  const CornerId a = builder.corner({0, 0, 0}), b = builder.corner({1, 0, 0});
+  const EdgeId edge = builder.straight_edge(a, b);
+  Model model = make_box("box", {2, 0, 0}, {3, 1, 1});
+  Model thread = builder.model();
+  const auto surface = std::make_shared<CylinderSurface>(Frame{.origin = {0, 0, 0}, .x = {0, 1, 0}, .y = {0, 0, 1}, .z = {1, 0, 0}}, 1e-12, ParameterBox{{0.0, 2.0 * std::numbers::pi}, {0.0, 1.0}});
+  ModelFace face{.surface = surface, .name = "thread"};
+  const auto line = [&](double u) { return std::make_shared<ParameterLine>(Uv{u, 0.0}, Uv{0.0, 1.0}, Interval{0.0, 1.0}); };
+  face.borders.push_back({{edge, false, line(0.0)}, {edge, true, line(std::numbers::pi)}});
+  thread.faces.push_back(face);
+  append(model, thread);
+  const SurfaceMesh mesh = mesh_model(model, edges_of(0.2), {}, k_context);
+  expect_joined(model, mesh);
+  ASSERT_EQ(mesh.report.absorbed.size(), 1u);
+  EXPECT_THAT(mesh.report.absorbed.front().what, AllOf(HasSubstr("thread"), HasSubstr("line")));
+}
+
+TEST(BadModels, EdgesOffTheirFacesAreNamed) {
+  // A side of the box is moved away from its edges by more than any tolerance.
+  Model model = make_box("box", {0, 0, 0}, {1, 1, 1});
+  EXPECT_TRUE(mesh_model(model, edges_of(0.25), {}, k_context).report.loose_edges.empty());
+  const Model moved = make_box("box", {-1e-4, 0, 0}, {1.0001, 1, 1});
+  for (const FaceId f : model.faces.ids())
+    if (std::abs(model.faces[f].surface->derivatives({}).du.x) + std::abs(model.faces[f].surface->derivatives({}).dv.x) < 1e-12) model.faces[f].surface = moved.faces[f].surface;
+  const SurfaceMesh mesh = mesh_model(model, edges_of(0.25), {}, k_context);
+  ASSERT_EQ(mesh.report.loose_edges.size(), 8u);
+  for (const LooseEdge& loose : mesh.report.loose_edges) {
+    EXPECT_NEAR(loose.distance, 1e-4, 1e-6);
+    EXPECT_LT(loose.tolerance, 1e-5);
+  }
+  EXPECT_THAT(to_text(mesh.report), HasSubstr("8 edges beyond their tolerance"));
+}
+
+TEST(BadModels, NormalsAreMeasuredAgainstTheCurvatureAngle) {
+  const Model model = make_cylinder("c", {0, 0, 0}, {3, 0, 0}, 1.0);
+  SurfaceMeshOptions options = edges_of(0.5);
+  options.curvature_angle = 0.3;
+  const SurfaceMesh fine = mesh_model(model, options, {}, k_context);
+  EXPECT_EQ(fine.report.share_normals, 1.0);
+  EXPECT_FALSE(fine.report.worst_normal_face.is_valid());
+  // No edge may be shorter than 0.5 m: it spans 0.5 rad.
+  options.curvature_angle = 0.05;
+  options.min_edge = 0.5;
+  const SurfaceMesh coarse = mesh_model(model, options, {}, k_context);
+  EXPECT_LT(coarse.report.share_normals, 0.5);
+  ASSERT_TRUE(coarse.report.worst_normal_face.is_valid());
+  EXPECT_THAT(to_text(coarse.report), HasSubstr("normals within the curvature angle on"));
+}
+
+TEST(BadModels, HolesThatTouchTheBorderAndLinesForFacesInFiles) {
+  STERNA_NEEDS_SHARED_DATA();
+  // Two holes touch the rim of a tube in a point each; sixteen faces of the F-16 are lines.
+  for (const auto& [file, n_absorbed] : {std::pair{"gmsh_parts_PeriodicFaceWithLargeTolerance.brep", 0u}, std::pair{"afem_f16_F-16.stp", 16u}}) {
+    SCOPED_TRACE(file);
+    const Model model = io::read_cad(test::shared_data() / "cad" / file, {}, k_context).model;
+    SurfaceMeshOptions options = edges_of(n_absorbed > 0 ? 0.3 : 1.0, "ignore");
+    options.curvature_angle = 0.4;
+    const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
+    expect_joined(model, mesh);
+    EXPECT_EQ(mesh.report.absorbed.size(), n_absorbed);
+  }
+}
+
+TEST(BadModels, ASurfaceThatFoldsIsNamedWithItsPlace) {
+  STERNA_NEEDS_SHARED_DATA();
+  // The lip of the nacelle: du and dv are parallel at y = -0.511 and the normal turns over.
+  SurfaceMeshOptions options = edges_of(0.1);
+  options.curvature_angle = 0.4;
+  const ErrorInfo info = failure_of(io::read_cad(test::shared_data() / "cad" / "tigl_nacelle_nacelle.stp", {}, k_context).model, options);
+  EXPECT_EQ(info.code, ErrorCode::self_intersection);
+  EXPECT_NEAR(std::abs(info.places.front().position.y), 0.511, 0.005);
+  EXPECT_THAT(info.places.front().what, HasSubstr("folds"));
+  EXPECT_THAT(info.hint, AllOf(HasSubstr("mend"), Not(HasSubstr("union{"))));
+}
+
+}  // namespace
+}  // namespace sterna::surfmesh
