@@ -22,7 +22,7 @@ bool triangles_intersect(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>
 /// \pre indices in range, coordinates finite.
 bool triangles_cross(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b);
 
-/// All crossing pairs (i < j) by triangles_cross, sorted; parallel over a BoxTree, 1.6e5 to 4.4e5 triangles/s/core measured on clean surfaces. At most `limit` pairs are returned (the first in order), `total` counts all.
+/// All crossing pairs (i < j) by triangles_cross, sorted; parallel over a tree of boxes, about 1e6 triangles/s/core measured on clean surfaces. At most `limit` pairs are returned (the first in order), `total` counts all.
 struct CrossingPairs {
   std::vector<std::array<std::uint32_t, 2>> pairs;
   std::int64_t total = 0;

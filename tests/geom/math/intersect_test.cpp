@@ -309,6 +309,28 @@ TEST(FindCrossings, MatchesBruteForceForAnyThreadCountAndLimit) {
   }
 }
 
+/// Neighbours that fold over each other, in space and all in one plane: what tells them apart cheaply must never hide a crossing.
+TEST(FindCrossings, MatchesBruteForceOnCrumpledSurfaces) {
+  std::mt19937 random(5);
+  for (const bool is_flat : {false, true}) {
+    for (const double noise : {0.02, 0.2}) {
+      SCOPED_TRACE((is_flat ? "flat, noise " : "round, noise ") + std::to_string(noise));
+      Soup soup = soup_of(test::sphere(6));
+      std::uniform_real_distribution<double> shift(-noise, noise);
+      for (Vec3& p : soup.points) {
+        p += Vec3{shift(random), shift(random), shift(random)};
+        if (is_flat) p.z = 0.25;
+      }
+      std::vector<std::array<std::uint32_t, 2>> expected;
+      for (std::uint32_t i = 0; i < soup.triangles.size(); ++i)
+        for (std::uint32_t j = i + 1; j < soup.triangles.size(); ++j)
+          if (triangles_cross(soup.points, soup.triangles[i], soup.triangles[j])) expected.push_back({i, j});
+      EXPECT_TRUE(expected.size() > 30 || (!is_flat && noise < 0.1)) << expected.size();
+      EXPECT_EQ(find_crossings(soup.points, soup.triangles, RunContext()).pairs, expected);
+    }
+  }
+}
+
 TEST(FindCrossings, CleanSurfacesHaveNoneAndInterpenetratingOnesDo) {
   const RunContext context({.threads = 2});
   for (TriMesh mesh : {test::sphere(8), test::cube(6)}) {
@@ -346,7 +368,7 @@ TEST(FindCrossings, RejectsIndicesOutOfRangeAndPointsThatAreNotFinite) {
 TEST(FindCrossings, StopsWhenCancelled) {
   std::stop_source source;
   source.request_stop();
-  const Soup soup = soup_of(test::sphere(4));
+  const Soup soup = soup_of(test::sphere(6));
   try {
     find_crossings(soup.points, soup.triangles, RunContext({.stop = source.get_token()}));
     FAIL();
