@@ -21,9 +21,7 @@ constexpr double k_good_cotangent = 0.7;
 /// By this part of itself the worst cotangent of a star must fall, or the move is not worth it.
 constexpr double k_min_gain = 0.01;
 /// By so much the sum of shapes of a star must fall at least.
-constexpr double k_min_shape_gain = 0.002;
-/// Of the way to where the triangles would be equilateral: the whole of it, then half, are tried.
-constexpr double k_steps[] = {1.0, 0.4};
+constexpr double k_min_shape_gain = 0.003;
 
 /// Worst cotangent of the star of v with v at `at`, infinite when a triangle would look against its normal there.
 double worst_of_star(const SurfaceTriangulation& mesh, VertexId v, const Point& at, const Vec3& normal) {
@@ -89,31 +87,64 @@ Point ideal_place(const Ring& ring, const Point& at) {
     const Vec3 middle = 0.5 * (side.x + side.y), along = side.y - side.x;
     Vec3 up = at - middle;
     up -= (dot(up, along) / side.length2) * along;
-    sum += middle + (0.5 * std::numbers::sqrt3 * std::sqrt(side.length2)) * normalized(up);
+    const double height2 = norm2(up);
+    sum += middle;
+    if (height2 > 0.0) sum += std::sqrt(0.75 * side.length2 / height2) * up;
     n += 1.0;
   }
   return n > 0.0 ? sum / n : at;
 }
 
+/// One step of Newton's method on the sum of shapes, which is convex in the tangent plane (a square over a linear function for each triangle).
+struct ShapeStep {
+  Vec3 step;          ///< metres, along the surface
+  double gain = 0.0;  ///< by which the sum would fall
+};
+
+ShapeStep shape_step(const Ring& ring, const Point& at, const delaunay::SurfaceFrame& frame) {
+  constexpr double k_shape = 0.5 / std::numbers::sqrt3;
+  const Vec3 t1 = normalized(frame.du), t2 = cross(frame.normal, t1);
+  double g1 = 0.0, g2 = 0.0, h11 = 0.0, h12 = 0.0, h22 = 0.0;
+  for (const Ring::Side& side : ring.sides) {
+    const Vec3 a = side.x - at, b = side.y - at;
+    const double a1 = dot(a, t1), a2 = dot(a, t2), b1 = dot(b, t1), b2 = dot(b, t2);
+    const double r = 1.0 / (a1 * b2 - a2 * b1);  // of twice the area
+    if (!(r > 0.0)) return {};
+    // q: squared edges, and its gradient; w: gradient of twice the area; f = q r.
+    const double f = r * (a1 * a1 + a2 * a2 + b1 * b1 + b2 * b2 + side.length2);
+    const double q1 = -2.0 * (a1 + b1), q2 = -2.0 * (a2 + b2), w1 = a2 - b2, w2 = b1 - a1;
+    g1 += r * (q1 - f * w1);
+    g2 += r * (q2 - f * w2);
+    h11 += r * (4.0 - 2.0 * r * w1 * (q1 - f * w1));
+    h12 += r * r * (2.0 * f * w1 * w2 - q1 * w2 - q2 * w1);
+    h22 += r * (4.0 - 2.0 * r * w2 * (q2 - f * w2));
+  }
+  const double det = h11 * h22 - h12 * h12;
+  if (!(det > 0.0)) return {};
+  const double d1 = (h12 * g2 - h22 * g1) / det, d2 = (h12 * g1 - h11 * g2) / det;
+  return {d1 * t1 + d2 * t2, -0.5 * k_shape * (g1 * d1 + g2 * d2)};
+}
+
 /// Tries to move v; true when it did.
 bool improve_place(FaceState& state, VertexId v, Ring& ring) {
   SurfaceTriangulation& mesh = state.mesh;
-  const delaunay::SurfaceFrame& frame = mesh.frames[v];
+  const delaunay::SurfaceFrame frame = mesh.frames[v];
   if (norm2(frame.normal) == 0.0) return false;
   const Point at = mesh.points[v];
   gather(mesh, v, ring);
   const StarQuality before = quality_of(ring, at, frame.normal);
   if (before.worst <= k_good_cotangent) return false;
-  const Vec3 way = ideal_place(ring, at) - at;
-  const Uv step = parameter_step(frame, way), from = mesh.parameters(v);
-  for (const double share : k_steps) {
-    const Uv to = from + share * step;
+  const Uv from = mesh.parameters(v);
+  const auto move_by = [&](const Vec3& way) {
+    const Uv to = from + parameter_step(frame, way);
     const delaunay::SurfaceSample there = sample(state.surface, to);
-    const StarQuality after = quality_of(ring, there.point, there.frame.normal);
-    if (!is_better(before, after)) continue;
-    if (delaunay::move_vertex(mesh, v, to, there)) return true;
+    return is_better(before, quality_of(ring, there.point, there.frame.normal)) && delaunay::move_vertex(mesh, v, to, there);
+  };
+  if (before.worst <= k_poor_cotangent) {
+    const ShapeStep shape = shape_step(ring, at, frame);
+    return shape.gain > k_min_shape_gain && move_by(shape.step);
   }
-  return false;
+  return move_by(ideal_place(ring, at) - at) || move_by(shape_step(ring, at, frame).step);
 }
 
 int valence(const SurfaceTriangulation& mesh, VertexId v) {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "geom/base/error.h"
 #include "geom/delaunay/renumber.h"
-#include "geom/math/measures.h"
 #include "surfmesh/face/face_passes.h"
 #include "surfmesh/face/face_sizes.h"
 
@@ -112,6 +112,7 @@ FaceMesh extract(const SurfaceTriangulation& mesh, std::uint32_t n_border) {
     number[v] = VertexId(static_cast<std::uint64_t>(result.points.size()));
     result.points.push_back(mesh.points[v]);
     result.uv.push_back(mesh.parameters(v));
+    result.normals.push_back(mesh.frames[v].normal);
   }
   result.triangles = delaunay::extract_triangles(mesh);
   for (TriangleVertices& triangle : result.triangles)
@@ -119,25 +120,27 @@ FaceMesh extract(const SurfaceTriangulation& mesh, std::uint32_t n_border) {
   return result;
 }
 
-void measure(const SurfaceTriangulation& mesh, FaceMeshReport& report) {
-  report.min_angle = std::numbers::pi;
-  for (const TriangleVertices& v : delaunay::extract_triangles(mesh)) {
-    const Point &a = mesh.points[v[0]], &b = mesh.points[v[1]], &c = mesh.points[v[2]];
-    const std::array<double, 3> angles{corner_angle(a, b, c), corner_angle(b, c, a), corner_angle(c, a, b)};
-    const auto [least, largest] = std::minmax_element(angles.begin(), angles.end());
-    if (*least < report.min_angle) {
-      report.min_angle = *least;
+/// Angles by their cotangents: all that is asked for is which is the least and which the largest.
+void measure(const FaceMesh& mesh, FaceMeshReport& report) {
+  static const double k_steep = 1.0 / std::tan(k_least_angle), k_flat = 1.0 / std::tan(k_largest_angle);
+  double steepest = -std::numeric_limits<double>::infinity(), flattest = std::numeric_limits<double>::infinity();
+  for (const TriangleVertices& v : mesh.triangles) {
+    const Point &a = mesh.points[v[0].index()], &b = mesh.points[v[1].index()], &c = mesh.points[v[2].index()];
+    const Vec3 ab = b - a, bc = c - b, ca = a - c, normal = cross(ab, bc);
+    const double area = norm(normal);
+    const auto [low, high] = std::minmax({-dot(ab, ca), -dot(bc, ab), -dot(ca, bc)});
+    // Without area: one angle is zero, another pi.
+    const double steep = area > 0.0 ? high / area : std::numeric_limits<double>::infinity(), flat = area > 0.0 ? low / area : -std::numeric_limits<double>::infinity();
+    if (steep > steepest) {
+      steepest = steep;
       report.worst_place = (a + b + c) / 3.0;
     }
-    report.max_angle = std::max(report.max_angle, *largest);
-    if (*least < k_least_angle || *largest > k_largest_angle) ++report.n_outside_20_130;
-    const Vec3 normal = cross(b - a, c - a);
-    for (const VertexId w : v)
-      if (dot(normal, mesh.frames[w].normal) < 0.0) {
-        ++report.n_folded;
-        break;
-      }
+    flattest = std::min(flattest, flat);
+    if (steep > k_steep || flat < k_flat) ++report.n_outside_20_130;
+    if (dot(normal, mesh.normals[v[0].index()]) < 0.0 || dot(normal, mesh.normals[v[1].index()]) < 0.0 || dot(normal, mesh.normals[v[2].index()]) < 0.0) ++report.n_folded;
   }
+  report.min_angle = std::atan2(1.0, steepest);
+  report.max_angle = std::atan2(1.0, flattest);
 }
 
 void check_arguments(const FaceBorder& border) {
@@ -180,11 +183,11 @@ FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeF
   refine_by_quality(state, report, context);
   remove_poor_vertices(state, report);
   smooth(state, report, context);
-  measure(state.mesh, report);
 
   std::uint32_t n_border = 0;
   for (const auto& loop : border.loops) n_border += static_cast<std::uint32_t>(loop.size());
   FaceMesh result = extract(state.mesh, n_border);
+  measure(result, report);
   result.report = report;
   return result;
 }

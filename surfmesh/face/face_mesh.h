@@ -57,6 +57,7 @@ struct FaceMeshReport {
 struct FaceMesh {
   std::vector<Point> points;               ///< border: as given; the others exactly S(uv)
   std::vector<Uv> uv;
+  std::vector<Vec3> normals;               ///< of the surface, unit; zero where it has none (poles)
   std::vector<TriangleVertices> triangles; ///< counter-clockwise in (u, v): normals along du x dv
   std::uint32_t n_border = 0;
   FaceMeshReport report;

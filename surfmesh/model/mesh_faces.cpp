@@ -5,13 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "geom/math/measures.h"
-
 namespace sterna::surfmesh {
 namespace {
-
-constexpr double k_least_angle = 20.0 * std::numbers::pi / 180.0;
-constexpr double k_largest_angle = 130.0 * std::numbers::pi / 180.0;
 
 struct LabelledBorder {
   FaceBorder border;
@@ -101,43 +96,35 @@ void measure_border(const Model& model, const Surface& surface, const std::vecto
   for (const auto& [edge, entry] : loose) face.loose_edges.push_back(entry);
 }
 
-void measure(const Surface& surface, MeshedFace& face) {
+void measure(MeshedFace& face) {
   const FaceMesh& mesh = face.mesh;
   FaceMeshSummary& summary = face.summary;
-  std::vector<Vec3> normals(mesh.points.size());
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    const SurfaceDerivatives d = surface.derivatives(mesh.uv[i]);
-    const Vec3 normal = cross(d.du, d.dv);
-    constexpr double k_min_sine2 = 1e-16;
-    if (norm2(normal) > k_min_sine2 * norm2(d.du) * norm2(d.dv)) normals[i] = normalized(normal);
-  }
   summary.n_triangles = static_cast<std::int64_t>(mesh.triangles.size());
-  summary.min_angle = std::numbers::pi;
+  summary.min_angle = mesh.report.min_angle;
+  summary.max_angle = mesh.report.max_angle;
+  summary.worst_place = mesh.report.worst_place;
+  summary.n_outside_20_130 = mesh.report.n_outside_20_130;
+  // By cosines; only the largest angle is asked for.
+  const double allowed = std::cos(summary.curvature_angle);
+  double least = 1.0;
   for (const TriangleVertices& v : mesh.triangles) {
     const Point &a = mesh.points[v[0].index()], &b = mesh.points[v[1].index()], &c = mesh.points[v[2].index()];
-    const std::array<double, 3> angles{corner_angle(a, b, c), corner_angle(b, c, a), corner_angle(c, a, b)};
-    const auto [least, largest] = std::minmax_element(angles.begin(), angles.end());
-    if (*least < summary.min_angle) {
-      summary.min_angle = *least;
-      summary.worst_place = (a + b + c) / 3.0;
-    }
-    summary.max_angle = std::max(summary.max_angle, *largest);
-    if (*least < k_least_angle || *largest > k_largest_angle) ++summary.n_outside_20_130;
     const Vec3 normal = cross(b - a, c - a);
-    const double area = 0.5 * norm(normal);
-    summary.area += area;
-    double farthest = 0.0;
+    const double length = norm(normal);
+    summary.area += 0.5 * length;
+    bool is_above = false;
     for (const VertexId w : v) {
-      const Vec3& n = normals[w.index()];
-      if (norm2(n) == 0.0) continue;
-      const double angle = angle_between(normal, n);
-      farthest = std::max(farthest, angle);
-      if (angle <= summary.max_normal_angle) continue;
-      summary.max_normal_angle = angle;
+      const Vec3& n = mesh.normals[w.index()];
+      if (norm2(n) == 0.0 || length == 0.0) continue;
+      const double cosine = dot(normal, n) / length;
+      is_above = is_above || cosine < allowed;
+      if (cosine >= least) continue;
+      least = cosine;
       summary.normal_place = mesh.points[w.index()];
     }
-    if (farthest > summary.curvature_angle) summary.area_above += area;
+    if (is_above) summary.area_above += 0.5 * length;
   }
+  summary.max_normal_angle = std::acos(std::max(-1.0, least));
 }
 
 }  // namespace
@@ -193,7 +180,7 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
   result.border_ids = std::move(labelled.ids);
   result.summary.curvature_angle = sizes.faces[f].limits.angle;
   measure_border(model, *face.surface, labelled.edges, result);
-  measure(*face.surface, result);
+  measure(result);
   return result;
 }
 
