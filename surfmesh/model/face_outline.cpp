@@ -23,6 +23,48 @@ bool is_inside(const std::vector<Uv>& polygon, Uv at) {
   return inside;
 }
 
+/// Loops that run around the period become one polygon, there and back; a single one ends at the border of the domain on its left. The others of them are empty.
+void close_around(const Surface& surface, const std::vector<Uv>& ends, FaceOutline& outline) {
+  const std::size_t first = outline.winding.front();
+  std::vector<Uv>& polygon = outline.polygons[first];
+  const Uv start = polygon.front(), end = ends[first];
+  polygon.push_back(end);
+  if (outline.winding.size() == 1) {
+    const ParameterBox domain = surface.domain();
+    const bool is_along_u = std::abs(end.u - start.u) > std::abs(end.v - start.v);
+    const double pole = is_along_u ? (end.u > start.u ? domain.v.to : domain.v.from) : (end.v > start.v ? domain.u.from : domain.u.to);
+    polygon.push_back(is_along_u ? Uv{end.u, pole} : Uv{pole, end.v});
+    polygon.push_back(is_along_u ? Uv{start.u, pole} : Uv{pole, start.v});
+  }
+  for (std::size_t k = 1; k < outline.winding.size(); ++k) {
+    std::vector<Uv>& other = outline.polygons[outline.winding[k]];
+    const Uv around = end - start;
+    const Uv away = end - other.front();
+    const double periods = std::round((away.u * around.u + away.v * around.v) / (around.u * around.u + around.v * around.v));
+    for (const Uv& p : other) polygon.push_back(p + periods * around);
+    polygon.push_back(ends[outline.winding[k]] + periods * around);
+    other.clear();
+  }
+}
+
+/// Holes are brought into the period of the outer border.
+void move_holes_inside(FaceOutline& outline, double period_u, double period_v) {
+  const std::size_t outer = outline.winding.empty() ? 0 : outline.winding.front();
+  for (std::size_t b = 0; b < outline.polygons.size(); ++b) {
+    std::vector<Uv>& polygon = outline.polygons[b];
+    if (b == outer || polygon.empty() || is_inside(outline.polygons[outer], polygon.front())) continue;
+    bool is_found = false;
+    for (int i = -1; i <= 1 && !is_found; ++i)
+      for (int j = -1; j <= 1 && !is_found; ++j) {
+        const Uv shift{i * period_u, j * period_v};
+        if (!is_inside(outline.polygons[outer], polygon.front() + shift)) continue;
+        for (Uv& p : polygon) p = p + shift;
+        for (OutlineUse& use : outline.borders[b]) use.shift = use.shift + shift;
+        is_found = true;
+      }
+  }
+}
+
 }  // namespace
 
 Uv parameters_at(const Model& model, const OutlineUse& use, double t) { return use_at(model, use.place).parameter->point(t) + use.shift; }
@@ -36,6 +78,7 @@ FaceOutline outline_of(const Model& model, FaceId id) {
     return Uv{period_u > 0.0 ? whole_periods(to.u - from.u, period_u) : 0.0, period_v > 0.0 ? whole_periods(to.v - from.v, period_v) : 0.0};
   };
   FaceOutline outline;
+  std::vector<Uv> ends;
   for (std::uint32_t b = 0; b < face.borders.size(); ++b) {
     std::vector<OutlineUse> uses;
     std::vector<Uv> polygon;
@@ -58,21 +101,12 @@ FaceOutline outline_of(const Model& model, FaceId id) {
       const Uv open = moved_near(end, polygon.front());
       if (open.u != 0.0 || open.v != 0.0) outline.winding.push_back(b);
     }
-    // Holes are brought into the period of the outer border.
-    if (b > 0 && !polygon.empty() && (period_u > 0.0 || period_v > 0.0) && !is_inside(outline.polygons.front(), polygon.front())) {
-      bool is_found = false;
-      for (int i = -1; i <= 1 && !is_found; ++i)
-        for (int j = -1; j <= 1 && !is_found; ++j) {
-          const Uv shift{i * period_u, j * period_v};
-          if (!is_inside(outline.polygons.front(), polygon.front() + shift)) continue;
-          for (Uv& p : polygon) p = p + shift;
-          for (OutlineUse& use : uses) use.shift = use.shift + shift;
-          is_found = true;
-        }
-    }
+    ends.push_back(end);
     outline.borders.push_back(std::move(uses));
     outline.polygons.push_back(std::move(polygon));
   }
+  if (!outline.winding.empty()) close_around(surface, ends, outline);
+  if (period_u > 0.0 || period_v > 0.0) move_holes_inside(outline, period_u, period_v);
   return outline;
 }
 

@@ -5,20 +5,18 @@
 #include <cmath>
 #include <map>
 
+#include "geom/math/measures.h"
+#include "surfmesh/model/own_seam.h"
+
 namespace sterna::surfmesh {
 namespace {
-
-struct LabelledBorder {
-  FaceBorder border;
-  std::vector<VertexId> ids;
-  std::vector<EdgeId> edges;  ///< of each point; corners: the edge that starts there
-};
 
 /// Each use gives its start and its cuts; its end is the start of the next. Absorbed edges give nothing, poles their corner at their start and, by the next use, at their end.
 LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const FaceOutline& outline) {
   LabelledBorder result;
   for (const auto& uses : outline.borders) {
     std::vector<BorderPoint> loop;
+    Uv end;
     for (const OutlineUse& entry : uses) {
       const EdgeUse& use = model.faces[f].borders[entry.place.border][entry.place.place];
       const ModelEdge& edge = model.edges[use.edge];
@@ -26,6 +24,7 @@ LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topo
       const Interval range = edge.range;
       const CornerId corner = topology.corner[use.is_reversed ? edge.end : edge.start];
       loop.push_back({use.parameter->point(use.is_reversed ? range.to : range.from) + entry.shift, model.corners[corner].point});
+      end = use.parameter->point(use.is_reversed ? range.from : range.to) + entry.shift;
       result.ids.push_back(numbers.of_corner[corner]);
       result.edges.push_back(use.edge);
       const EdgeCut& cut = cuts[use.edge];
@@ -37,7 +36,9 @@ LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topo
         result.edges.push_back(use.edge);
       }
     }
-    if (!loop.empty()) result.border.loops.push_back(std::move(loop));
+    if (loop.empty()) continue;
+    result.border.loops.push_back(std::move(loop));
+    result.loop_ends.push_back(end);
   }
   return result;
 }
@@ -52,22 +53,26 @@ double tolerance_of(const Model& model, FaceId f, EdgeId e) {
 }
 
 /// Where a border passes a corner twice (a hole that touches the border), both get the same (u, v): files have them some rounding apart, and a gap of that width would
-/// be meshed. Poles and seams are far apart in (u, v).
-void merge_touching(const Model& model, FaceId f, LabelledBorder& labelled) {
+/// be meshed. Of points that follow each other there only the first stays. Poles and seams are far apart in (u, v).
+LabelledBorder merge_touching(const Model& model, FaceId f, const LabelledBorder& given) {
   constexpr double k_near = 1e-5;  // of the border's extent in (u, v)
   const Surface& surface = *model.faces[f].surface;
   ParameterBox box{{1e300, -1e300}, {1e300, -1e300}};
-  for (const auto& loop : labelled.border.loops)
+  for (const auto& loop : given.border.loops)
     for (const BorderPoint& p : loop) {
       box.u = {std::min(box.u.from, p.uv.u), std::max(box.u.to, p.uv.u)};
       box.v = {std::min(box.v.from, p.uv.v), std::max(box.v.to, p.uv.v)};
     }
+  LabelledBorder result;
+  result.loop_ends = given.loop_ends;
   std::map<VertexId, std::vector<Uv>> met;
   std::size_t i = 0;
-  for (auto& loop : labelled.border.loops)
-    for (BorderPoint& p : loop) {
-      const EdgeId e = labelled.edges[i];
-      std::vector<Uv>& places = met[labelled.ids[i++]];
+  for (const auto& loop : given.border.loops) {
+    std::vector<BorderPoint> kept;
+    for (BorderPoint p : loop) {
+      const EdgeId e = given.edges[i];
+      const VertexId id = given.ids[i++];
+      std::vector<Uv>& places = met[id];
       const auto is_same = [&](const Uv& q) {
         const Uv step = p.uv - q;
         if (std::abs(step.u) > k_near * box.u.length() || std::abs(step.v) > k_near * box.v.length()) return false;
@@ -75,7 +80,26 @@ void merge_touching(const Model& model, FaceId f, LabelledBorder& labelled) {
       };
       if (const auto near = std::find_if(places.begin(), places.end(), is_same); near != places.end()) p.uv = *near;
       else places.push_back(p.uv);
+      if (!kept.empty() && kept.back().uv == p.uv && result.ids.back() == id) continue;
+      kept.push_back(p);
+      result.ids.push_back(id);
+      result.edges.push_back(e);
     }
+    while (kept.size() > 1 && kept.back().uv == kept.front().uv && result.ids.back() == result.ids[result.ids.size() - kept.size()]) {
+      kept.pop_back();
+      result.ids.pop_back();
+      result.edges.pop_back();
+    }
+    result.border.loops.push_back(std::move(kept));
+  }
+  return result;
+}
+
+/// The face's border, ready to be meshed.
+LabelledBorder labelled_border(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const SurfaceSizes& field) {
+  LabelledBorder labelled = merge_touching(model, f, border_of(model, f, topology, cuts, numbers, sizes.outlines[f]));
+  add_own_seam(*model.faces[f].surface, [&](Uv at, const Point& p) { return field.on_face(f, at, p); }, labelled);
+  return labelled;
 }
 
 /// Border points against the surface, edge by edge.
@@ -146,7 +170,7 @@ BorderVertices number_border(const Model& model, const ModelTopology& topology, 
 }
 
 std::vector<VertexId> border_ids(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const FaceOutline& outline) {
-  return border_of(model, f, topology, cuts, numbers, outline).ids;
+  return merge_touching(model, f, border_of(model, f, topology, cuts, numbers, outline)).ids;
 }
 
 MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const SurfaceSizes& field,
@@ -160,11 +184,8 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
     result.failure = std::move(info);
     return result;
   };
-  if (!sizes.outlines[f].winding.empty() && topology.is_absorbed[f] == 0)
-    return fail({.code = ErrorCode::geometry_failed, .problem = "a border runs around the period of its " + face.surface->kind() + " without a seam"});
   if (topology.is_absorbed[f] != 0) return result;
-  LabelledBorder labelled = border_of(model, f, topology, cuts, numbers, sizes.outlines[f]);
-  merge_touching(model, f, labelled);
+  LabelledBorder labelled;
   FaceMeshOptions options;
   options.min_edge = 0.0;
   options.size_growth = sizes.growth;
@@ -172,11 +193,13 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
   const CurvatureSizes& curvature = *sizes.faces[f].curvature;
   const auto size = [&](Uv at, const Point& p) { return field.on_face(f, at, p); };
   try {
+    labelled = labelled_border(model, f, topology, cuts, numbers, sizes, field);
     result.mesh = mesh_face(*face.surface, labelled.border, size, Vec2{curvature.mean_speed_u(), curvature.mean_speed_v()}, options, context);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
     return fail(error.info());
   }
+  free_own_seam(labelled, result.mesh);
   result.border_ids = std::move(labelled.ids);
   result.summary.curvature_angle = sizes.faces[f].limits.angle;
   measure_border(model, *face.surface, labelled.edges, result);

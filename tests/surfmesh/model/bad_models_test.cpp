@@ -155,6 +155,79 @@ TEST(BadModels, FacesThatAreALineAreAbsorbed) {
   EXPECT_THAT(mesh.report.absorbed.front().what, AllOf(HasSubstr("thread"), HasSubstr("line")));
 }
 
+/// A closed tube about x whose skin has two circles for borders and no seam; `n` edges in each circle.
+Model tube_without_seam(int n) {
+  const double pi = std::numbers::pi;
+  const auto skin = std::make_shared<CylinderSurface>(Frame{.origin = {0, 0, 0}, .x = {0, 1, 0}, .y = {0, 0, 1}, .z = {1, 0, 0}}, 0.5, ParameterBox{{0.0, 2 * pi}, {0.0, 3.0}});
+  Model model;
+  model.components.push_back({"tube", ComponentKind::body});
+  ModelFace side{.surface = skin, .component = ComponentId(std::uint64_t{0}), .name = "side"};
+  const auto at = [](int k) { return CornerId(static_cast<std::uint64_t>(k)); };
+  for (int end = 0; end < 2; ++end) {
+    const double x = 3.0 * end;
+    ModelFace cap{.surface = std::make_shared<PlaneSurface>(Frame{.origin = {x, 0, 0}, .x = {0, 1, 0}, .y = {0, 0, 1}, .z = {1, 0, 0}}, ParameterBox{{-1, 1}, {-1, 1}}), .is_reversed = end == 0, .component = ComponentId(std::uint64_t{0}), .name = end == 0 ? "front" : "back"};
+    const auto circle = std::make_shared<EllipseCurve>(Point{x, 0, 0}, Vec3{0, 0.5, 0}, Vec3{0, 0, 0.5}, Interval{0.0, 2 * pi});
+    Border around, inside;
+    for (int k = 0; k < n; ++k) {
+      const Interval range{2 * pi * k / n, 2 * pi * (k + 1) / n};
+      model.corners.push_back({circle->point(range.from), 1e-9});
+      const EdgeId edge = model.edges.push_back({circle, range, at(end * n + k), at(end * n + (k + 1) % n), 1e-9, ""});
+      // The front runs with u, the back against it: the face lies on the left of both.
+      around.push_back({edge, end == 1, std::make_shared<ParameterLine>(Uv{0.0, x}, Uv{1.0, 0.0}, range)});
+      inside.push_back({edge, false, std::make_shared<ParameterArc>(Uv{0, 0}, Uv{0.5, 0}, Uv{0, 0.5}, range)});
+    }
+    if (end == 1) std::reverse(around.begin(), around.end());
+    side.borders.push_back(around);
+    cap.borders.push_back(inside);
+    model.faces.push_back(cap);
+  }
+  model.faces.push_back(side);
+  model.solids.push_back({"tube", {FaceId(std::uint64_t{0}), FaceId(std::uint64_t{1}), FaceId(std::uint64_t{2})}, true});
+  return model;
+}
+
+TEST(BadModels, FacesAroundAPeriodNeedNoSeam) {
+  for (const int n : {1, 3}) {
+    SCOPED_TRACE(n);
+    const Model model = tube_without_seam(n);
+    SurfaceMeshOptions options = edges_of(0.2);
+    options.curvature_angle = 0.3;
+    const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
+    expect_joined(model, mesh);
+    EXPECT_EQ(mesh.report.n_free_edges, 0);
+    EXPECT_EQ(mesh.report.share_20_130, 1.0) << to_text(mesh.report);
+    double volume = 0.0;
+    for (const TriangleVertices& v : mesh.mesh.triangles) volume += dot(mesh.mesh.points[v[0]], cross(mesh.mesh.points[v[1]], mesh.mesh.points[v[2]])) / 6.0;
+    // A prism of 16 sides has 1 - sin(2 pi / 16) / (2 pi / 16) = 2.6 % less than the cylinder.
+    EXPECT_NEAR(volume, std::numbers::pi * 0.25 * 3.0, 0.035 * 2.356);
+    // The seam's vertices are the face's own: on no edge, and on the surface.
+    for (const VertexId v : mesh.mesh.points.ids()) EXPECT_LT(distance(model.faces[mesh.places[v].face].surface->point(mesh.places[v].at), mesh.mesh.points[v]), 1e-12);
+  }
+}
+
+TEST(BadModels, ACapOfASphereNeedsNeitherSeamNorPole) {
+  const auto surface = std::make_shared<SphereSurface>(Frame{}, 1.0);
+  Model model;
+  model.components.push_back({"cap", ComponentKind::body});
+  for (const double v : {0.5, -0.3}) {
+    model.corners.push_back({surface->point({0.0, v}), 1e-9});
+    const CornerId corner(static_cast<std::uint64_t>(model.corners.size() - 1));
+    const double r = std::cos(v);
+    const EdgeId edge = model.edges.push_back({std::make_shared<EllipseCurve>(Point{0, 0, std::sin(v)}, Vec3{r, 0, 0}, Vec3{0, r, 0}, Interval{0.0, 2 * std::numbers::pi}), {0.0, 2 * std::numbers::pi}, corner, corner, 1e-9, ""});
+    // To the north of the one, to the south of the other.
+    model.faces.push_back({.surface = surface, .borders = {{{edge, v < 0.0, std::make_shared<ParameterLine>(Uv{0.0, v}, Uv{1.0, 0.0}, Interval{0.0, 2 * std::numbers::pi})}}}, .component = ComponentId(std::uint64_t{0}), .name = v > 0.0 ? "north" : "south"});
+  }
+  SurfaceMeshOptions options = edges_of(0.15);
+  options.curvature_angle = 0.3;
+  const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
+  expect_joined(model, mesh);
+  EXPECT_GT(mesh.report.share_20_130, 0.99) << to_text(mesh.report);
+  for (const FaceMeshSummary& face : mesh.report.faces) {
+    // 2 pi (1 - sin v) of a sphere of radius one.
+    EXPECT_NEAR(face.area, 2 * std::numbers::pi * (1.0 - (face.name == "north" ? std::sin(0.5) : std::sin(0.3))), 0.05) << face.name;
+  }
+}
+
 TEST(BadModels, EdgesOffTheirFacesAreNamed) {
   // A side of the box is moved away from its edges by more than any tolerance.
   Model model = make_box("box", {0, 0, 0}, {1, 1, 1});
