@@ -120,9 +120,12 @@ void measure_border(const Model& model, const Surface& surface, const std::vecto
   for (const auto& [edge, entry] : loose) face.loose_edges.push_back(entry);
 }
 
-void measure(MeshedFace& face) {
+}  // namespace
+
+void measure_face(MeshedFace& face) {
   const FaceMesh& mesh = face.mesh;
   FaceMeshSummary& summary = face.summary;
+  summary.area = summary.area_above = 0.0;
   summary.n_triangles = static_cast<std::int64_t>(mesh.triangles.size());
   summary.min_angle = mesh.report.min_angle;
   summary.max_angle = mesh.report.max_angle;
@@ -150,8 +153,6 @@ void measure(MeshedFace& face) {
   }
   summary.max_normal_angle = std::acos(std::max(-1.0, least));
 }
-
-}  // namespace
 
 BorderVertices number_border(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts) {
   BorderVertices numbers{Column<CornerId, VertexId>(model.corners.size()), Column<EdgeId, std::uint32_t>(model.edges.size(), 0), 0, 0};
@@ -203,7 +204,7 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
   result.border_ids = std::move(labelled.ids);
   result.summary.curvature_angle = sizes.faces[f].limits.angle;
   measure_border(model, *face.surface, labelled.edges, result);
-  measure(result);
+  measure_face(result);
   return result;
 }
 

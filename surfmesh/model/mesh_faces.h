@@ -39,4 +39,7 @@ std::vector<VertexId> border_ids(const Model& model, FaceId f, const ModelTopolo
 MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const SurfaceSizes& field,
                          int max_triangles, const RunContext& context);
 
+/// Angles (of the mesh's report), normals and areas of a face's triangles into its summary.
+void measure_face(MeshedFace& face);
+
 }  // namespace sterna::surfmesh

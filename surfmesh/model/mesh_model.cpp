@@ -11,6 +11,7 @@
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
 #include "surfmesh/model/crossings.h"
+#include "surfmesh/model/doubled_edges.h"
 #include "surfmesh/model/estimate.h"
 #include "surfmesh/model/join_faces.h"
 
@@ -201,7 +202,12 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
       if (is_last) throw_failures(meshing);
       continue;
     }
-    const JoinFaults faults = check_joins(model, mesh, context);
+    JoinFaults faults = check_joins(model, mesh, context);
+    if (!faults.triangles.empty() && split_doubled_edges(model, mesh, faults.triangles, meshing.faces) > 0) {
+      mesh = join_faces(model, meshing.topology, meshing.cuts, number_border(model, meshing.topology, meshing.cuts), meshing.faces);
+      mesh.report.n_rounds = round;
+      faults = check_joins(model, mesh, context);
+    }
     mesh.report.n_free_edges = faults.n_free_edges;
     if (!faults.triangles.empty()) {
       if (is_last) throw_faults(meshing, mesh, faults);

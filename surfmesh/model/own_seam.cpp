@@ -240,6 +240,7 @@ void free_own_seam(LabelledBorder& labelled, FaceMesh& mesh) {
     number[v] = VertexId(static_cast<std::uint64_t>(result.points.size()));
     result.points.push_back(mesh.points[v.index()]);
     result.uv.push_back(mesh.uv[v.index()]);
+    result.normals.push_back(mesh.normals[v.index()]);
   }
   for (TriangleVertices triangle : mesh.triangles) {
     for (VertexId& v : triangle) v = number[same_as[v]];

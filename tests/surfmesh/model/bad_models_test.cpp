@@ -228,6 +228,27 @@ TEST(BadModels, ACapOfASphereNeedsNeitherSeamNorPole) {
   }
 }
 
+TEST(BadModels, TipsOfTwoHalvesAreNotClosedByOneAndTheSameEdge) {
+  // A pointed cone of two halves: the last triangle of both would have the same three corners (found on the core of simpletest-pylon-nacelle).
+  const double pi = std::numbers::pi, slope = 0.2;
+  const auto surface = std::make_shared<ConeSurface>(Frame{}, slope, std::atan(slope), ParameterBox{{0.0, 2 * pi}, {-1.0 / std::cos(std::atan(slope)), 0.0}});
+  ASSERT_LT(distance(surface->point({0.0, surface->domain().v.from}), {0, 0, -1}), 1e-12);
+  ModelBuilder builder({.name = "cone", .kind = ComponentKind::body});
+  const CornerId tip = builder.corner({0, 0, -1}), right = builder.corner({slope, 0, 0}), left = builder.corner({-slope, 0, 0});
+  const EdgeId to_right = builder.straight_edge(tip, right), to_left = builder.straight_edge(tip, left);
+  const auto circle = std::make_shared<EllipseCurve>(Point{}, Vec3{slope, 0, 0}, Vec3{0, slope, 0}, Interval{0.0, 2 * pi});
+  const EdgeId front = builder.edge(circle, {0.0, pi}, right, left), back = builder.edge(circle, {pi, 2 * pi}, left, right);
+  const Interval v = surface->domain().v;
+  builder.patch(surface, {{0.0, pi}, v}, {builder.pole(tip), to_left, front, to_right}, FaceRole::skin, "front");
+  builder.patch(surface, {{pi, 2 * pi}, v}, {builder.pole(tip), to_right, back, to_left}, FaceRole::skin, "back");
+  builder.plane({front, back}, FaceRole::skin, "base");
+  const Model model = builder.closed_solid("cone");
+  const SurfaceMesh mesh = mesh_model(model, edges_of(0.1), {}, k_context);
+  expect_joined(model, mesh);
+  EXPECT_EQ(mesh.report.n_free_edges, 0);
+  EXPECT_EQ(mesh.report.n_rounds, 1);
+}
+
 TEST(BadModels, EdgesOffTheirFacesAreNamed) {
   // A side of the box is moved away from its edges by more than any tolerance.
   Model model = make_box("box", {0, 0, 0}, {1, 1, 1});
