@@ -11,8 +11,8 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Rad: between the normals of a triangle and of what becomes of it.
-constexpr double k_largest_turn = std::numbers::pi / 3.0;
+/// Rad: between a new triangle and the surface at the new vertex. At a pointed tip each covers a quarter of the turn, so 45 degrees and the tip's slope are the rule.
+constexpr double k_largest_turn = 75.0 * std::numbers::pi / 180.0;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 Edge edge_of(VertexId a, VertexId b) { return {std::min(a, b).value(), std::max(a, b).value()}; }
@@ -46,8 +46,8 @@ bool split(const Surface& surface, const InnerEdge& edge, FaceMesh& mesh) {
   mesh.normals.push_back(norm2(normal) > 0.0 ? normalized(normal) : Vec3{});
   for (const std::size_t t : edge.triangles)
     for (const VertexId old : {edge.a, edge.b}) {
-      const Vec3 before = normal_of(mesh, mesh.triangles[t]), after = normal_of(mesh, with(mesh.triangles[t], old, middle));
-      if (norm2(after) > 0.0 && angle_between(before, after) <= k_largest_turn) continue;
+      const Vec3 after = normal_of(mesh, with(mesh.triangles[t], old, middle));
+      if (norm2(after) > 0.0 && norm2(normal) > 0.0 && angle_between(normal, after) <= k_largest_turn) continue;
       mesh.points.pop_back();
       mesh.uv.pop_back();
       mesh.normals.pop_back();

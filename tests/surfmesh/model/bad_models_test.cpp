@@ -230,7 +230,7 @@ TEST(BadModels, ACapOfASphereNeedsNeitherSeamNorPole) {
 
 TEST(BadModels, TipsOfTwoHalvesAreNotClosedByOneAndTheSameEdge) {
   // A pointed cone of two halves: the last triangle of both would have the same three corners (found on the core of simpletest-pylon-nacelle).
-  const double pi = std::numbers::pi, slope = 0.2;
+  const double pi = std::numbers::pi, slope = 0.4;  // failed at any size
   const auto surface = std::make_shared<ConeSurface>(Frame{}, slope, std::atan(slope), ParameterBox{{0.0, 2 * pi}, {-1.0 / std::cos(std::atan(slope)), 0.0}});
   ASSERT_LT(distance(surface->point({0.0, surface->domain().v.from}), {0, 0, -1}), 1e-12);
   ModelBuilder builder({.name = "cone", .kind = ComponentKind::body});
