@@ -125,22 +125,6 @@ bool flip_pole_edge(SurfaceTriangulation& surface, HalfedgeId flat, std::vector<
   return flip_in_turn(surface.mesh, edge.w, edge.poles, changed);
 }
 
-/// What the star of `a` without the triangles at `b` becomes when a is joined to b: the worst cotangent; infinite when a triangle would be invalid.
-double worst_after_collapse(const SurfaceTriangulation& surface, VertexId a, VertexId b) {
-  const Triangulation& mesh = surface.mesh;
-  double worst = 0.0;
-  bool is_allowed = true;
-  for_star(mesh, a, [&](HalfedgeId h) {
-    if (!is_allowed) return;
-    const VertexId x = mesh.target(h), y = mesh.apex(h);
-    if (mesh.is_constrained(h) || surface.is_flat(triangle_of(h))) is_allowed = false;
-    if (!is_allowed || x == b || y == b) return;
-    is_allowed = mesh.turn(b, x, y) > 0 && normal_cosine(surface, b, x, y) >= k_min_normal_cosine;
-    worst = std::max(worst, worst_cotangent(surface.points[b], surface.points[x], surface.points[y]));
-  });
-  return is_allowed ? worst : std::numeric_limits<double>::infinity();
-}
-
 void join(Triangulation& mesh, HalfedgeId h) {
   const HalfedgeId g = mesh.twin(h);
   const VertexId a = mesh.origin(h), b = mesh.target(h);
@@ -228,9 +212,29 @@ bool move_vertex(SurfaceTriangulation& surface, VertexId v, Uv to, const Surface
   return true;
 }
 
+double worst_after_collapse(const SurfaceTriangulation& surface, HalfedgeId h) {
+  const Triangulation& mesh = surface.mesh;
+  const VertexId a = mesh.origin(h), b = mesh.target(h);
+  double worst = 0.0;
+  bool is_allowed = true;
+  for_star(mesh, a, [&](HalfedgeId out) {
+    if (!is_allowed) return;
+    const VertexId x = mesh.target(out), y = mesh.apex(out);
+    if (mesh.is_constrained(out)) is_allowed = false;
+    if (!is_allowed || x == b || y == b) return;
+    is_allowed = mesh.turn(b, x, y) > 0;
+    // Beside a pole: flat ones count for nothing, before and after.
+    if (surface.stands_for[b] == surface.stands_for[x] || surface.stands_for[x] == surface.stands_for[y] || surface.stands_for[y] == surface.stands_for[b]) return;
+    is_allowed = is_allowed && normal_cosine(surface, b, x, y) >= k_min_normal_cosine;
+    worst = std::max(worst, worst_cotangent(surface.points[b], surface.points[x], surface.points[y]));
+  });
+  return is_allowed ? worst : std::numeric_limits<double>::infinity();
+}
+
 bool collapse_edge(SurfaceTriangulation& surface, HalfedgeId h, double worst_allowed) {
-  const VertexId a = surface.mesh.origin(h);
-  if (surface.is_border(a) || !(worst_after_collapse(surface, a, surface.mesh.target(h)) <= worst_allowed)) return false;
+  if (surface.is_border(surface.mesh.origin(h))) return false;
+  const double worst = worst_after_collapse(surface, h);
+  if (!std::isfinite(worst) || worst > worst_allowed) return false;
   join(surface.mesh, h);
   return true;
 }
@@ -240,7 +244,7 @@ bool remove_vertex(SurfaceTriangulation& surface, VertexId v) {
   double best = std::numeric_limits<double>::infinity();
   HalfedgeId best_edge;
   for_star(surface.mesh, v, [&](HalfedgeId h) {
-    const double worst = worst_after_collapse(surface, v, surface.mesh.target(h));
+    const double worst = worst_after_collapse(surface, h);
     if (worst < best) {
       best = worst;
       best_edge = h;

@@ -103,6 +103,8 @@ std::size_t flip_around(SurfaceTriangulation& surface, std::vector<HalfedgeId>& 
 /// Moves inner vertex v when its star stays valid in the plane. \return false: nothing changed
 bool move_vertex(SurfaceTriangulation& surface, VertexId v, Uv to, const SurfaceSample& sample);
 
+/// Worst cotangent of the star of the origin of `h`, an inner vertex, once it is joined to its target; infinite when collapse_edge would refuse whatever is allowed.
+double worst_after_collapse(const SurfaceTriangulation& surface, HalfedgeId h);
 /// Joins the origin of `h`, an inner vertex, to its target, when the triangles left are valid in the plane, look along the surface and have no cotangent above
 /// `worst_allowed`. \return false: nothing changed
 bool collapse_edge(SurfaceTriangulation& surface, HalfedgeId h, double worst_allowed);

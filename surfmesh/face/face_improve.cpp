@@ -14,6 +14,8 @@ using delaunay::SurfaceTriangulation;
 constexpr double k_short = 0.5;
 /// Cotangent of 30 degrees: a collapse may make no smaller angle.
 constexpr double k_collapse_cotangent = 1.732;
+/// Cotangent of 25 degrees: a vertex with a smaller angle goes when its neighbours can do better without it.
+constexpr double k_steep_cotangent = 2.14;
 /// Cotangent of 42 degrees: below it the smallest angle of a star has to grow, above it only the mean shape counts.
 constexpr double k_poor_cotangent = 1.11;
 /// Cotangent of 55 degrees: a star with no smaller angle stays where it is.
@@ -192,20 +194,25 @@ void collapse_short_edges(FaceState& state, FaceMeshReport& report, const RunCon
 
 void remove_poor_vertices(FaceState& state, FaceMeshReport& report) {
   SurfaceTriangulation& mesh = state.mesh;
-  std::vector<HalfedgeId> edges;
+  std::vector<HalfedgeId> edges, work;
+  std::vector<TriangleId> touched;
   for (std::uint32_t i = mesh.n_border; i < mesh.points.size(); ++i) {
     const VertexId v(i);
     if (!mesh.mesh.outgoing[v].is_valid()) continue;
-    const int n = valence(mesh, v);
-    if (n > 4) continue;
     const double before = worst_of_star(mesh, v, mesh.points[v], mesh.frames[v].normal);
-    edges.clear();
-    delaunay::for_star(mesh.mesh, v, [&](HalfedgeId h) { edges.push_back(h); });
-    for (const HalfedgeId h : edges) {
-      if (!delaunay::collapse_edge(mesh, h, std::min(before, k_collapse_cotangent))) continue;
-      ++report.n_collapses;
-      break;
-    }
+    if (before < k_steep_cotangent && valence(mesh, v) > 4) continue;
+    // To whichever neighbour leaves the best triangles.
+    double best = (1.0 - k_min_gain) * before;
+    VertexId target;
+    delaunay::for_star(mesh.mesh, v, [&](HalfedgeId h) {
+      const double after = delaunay::worst_after_collapse(mesh, h);
+      if (!(after < best)) return;
+      best = after;
+      target = mesh.mesh.target(h);
+    });
+    if (!target.is_valid() || !delaunay::collapse_edge(mesh, delaunay::find_edge(mesh.mesh, v, target), best)) continue;
+    ++report.n_collapses;
+    if (!mesh.is_border(target)) flip_at(state, target, work, touched, report);
   }
 }
 

@@ -72,6 +72,12 @@ SurfaceBorder make_border(const Surface& surface, const FaceBorder& border) {
     result.loops.push_back(std::move(vertices));
     first += n;
   }
+  // At a pole derivatives are zero but for rounding: whatever normal came out of them says nothing.
+  std::vector<bool> is_pole(result.uv.size(), false);
+  for (std::size_t i = 0; i < result.uv.size(); ++i)
+    if (result.stands_for[i].index() != i) is_pole[i] = is_pole[result.stands_for[i].index()] = true;
+  for (std::size_t i = 0; i < result.uv.size(); ++i)
+    if (is_pole[i]) result.samples[i].frame.normal = {};
   return result;
 }
 
@@ -183,6 +189,7 @@ FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeF
   refine_by_quality(state, report, context);
   remove_poor_vertices(state, report);
   smooth(state, report, context);
+  remove_poor_vertices(state, report);
 
   std::uint32_t n_border = 0;
   for (const auto& loop : border.loops) n_border += static_cast<std::uint32_t>(loop.size());
