@@ -9,8 +9,6 @@
 namespace sterna::delaunay {
 namespace {
 
-/// Cosine of 60 degrees: method.md section 0, how far a flipped triangle's normal may be from the surface's.
-constexpr double k_min_normal_cosine = 0.5;
 /// Sum of the cotangents of the angles opposite to an edge above which it stays: 0 would be exactly pi; rounding must not flip to and fro.
 constexpr double k_flip_margin = -1e-9;
 /// By this part of itself the worst cotangent must fall at least.

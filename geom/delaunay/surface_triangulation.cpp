@@ -122,7 +122,7 @@ bool split_edge(SurfaceTriangulation& surface, HalfedgeId h, double t, const Sur
   surface.frames.push_back(sample.frame);
   surface.stands_for.push_back(p);
   mesh.outgoing.push_back(HalfedgeId{});
-  insert(mesh, p, {Location::Kind::on_edge, h}, SphereCriterion{&surface.points}, cavity);
+  insert(mesh, p, {Location::Kind::on_edge, h}, SphereCriterion{&surface.points, &surface.frames}, cavity);
   return true;
 }
 

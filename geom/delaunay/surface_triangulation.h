@@ -62,17 +62,25 @@ double scale_of_speed(double speed);
 /// \throws Error(self_intersection) with the place in space where borders cross or touch along an edge; Error(bad_argument) when nothing is inside
 SurfaceTriangulation triangulate_border(const SurfaceBorder& border, Vec2 scale, const RunContext& context);
 
-/// The empty sphere about the circumcentre in 3-space, through the corners. A flat triangle is never in conflict.
+/// Cosine of 60 degrees: method.md section 0, how far a triangle's normal, and that of its neighbours, may be from the surface's.
+inline constexpr double k_min_normal_cosine = 0.5;
+
+/// The empty sphere about the circumcentre in 3-space, through the corners. A flat triangle is never in conflict, nor is one where the surface looks elsewhere than at the
+/// vertex: on the other side of a nose or a thin edge it is near in space only.
 struct SphereCriterion {
   static constexpr bool k_needs_normals = true;  ///< insert_vertex looks at the normals of the new triangles
   const Column<VertexId, Point>* points;
+  const Column<VertexId, SurfaceFrame>* frames;
   bool conflicts(const Triangulation& mesh, TriangleId t, VertexId p) const {
     const auto& corner = mesh.cells[t].vertex;
     const Point& a = (*points)[corner[0]];
     const Vec3 u = (*points)[corner[1]] - a, v = (*points)[corner[2]] - a, q = (*points)[p] - a;
     const Vec3 w = cross(u, v);
     // Centre - a = (|v|^2 w x u + |u|^2 v x w) / (2 |w|^2); p is inside when |q|^2 < 2 q . (centre - a).
-    return norm2(q) * norm2(w) < dot(q, norm2(v) * cross(w, u) + norm2(u) * cross(v, w));
+    if (norm2(q) * norm2(w) >= dot(q, norm2(v) * cross(w, u) + norm2(u) * cross(v, w))) return false;
+    const Vec3& normal = (*frames)[p].normal;
+    const auto is_beside = [&](VertexId c) { return dot((*frames)[c].normal, normal) >= k_min_normal_cosine || norm2((*frames)[c].normal) == 0.0; };
+    return norm2(normal) == 0.0 || (is_beside(corner[0]) && is_beside(corner[1]) && is_beside(corner[2]));
   }
 };
 
@@ -133,20 +141,18 @@ InsertOutcome insert_vertex(SurfaceTriangulation& surface, Uv at, const SurfaceS
   if (location.kind == Location::Kind::on_edge && mesh.is_constrained(location.halfedge)) return InsertOutcome::beyond_border;
   const VertexId p = mesh.uv.push_back(place);
   surface.points.push_back(sample.point);
+  surface.frames.push_back(sample.frame);
   const auto take_back = [&](InsertOutcome outcome) {
     mesh.uv.raw().pop_back();
     surface.points.raw().pop_back();
+    surface.frames.raw().pop_back();
     return outcome;
   };
   grow_cavity(mesh, p, location, criterion, cavity);
   const double min_distance2 = min_distance * min_distance;
   for (const Cavity::BorderEdge& edge : cavity.border)
     if (norm2(surface.points[edge.from] - sample.point) < min_distance2) return take_back(InsertOutcome::too_near);
-  surface.frames.push_back(sample.frame);
-  if (Criterion::k_needs_normals && !looks_along_surface(surface, p, cavity)) {
-    surface.frames.raw().pop_back();
-    return take_back(InsertOutcome::folded);
-  }
+  if (Criterion::k_needs_normals && !looks_along_surface(surface, p, cavity)) return take_back(InsertOutcome::folded);
   mesh.outgoing.push_back(HalfedgeId{});
   surface.stands_for.push_back(p);
   fill_cavity(mesh, p, cavity);

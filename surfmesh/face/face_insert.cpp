@@ -251,7 +251,7 @@ void unfold(FaceState& state, FaceMeshReport& report, const RunContext& context)
 void refine_by_size(FaceState& state, FaceMeshReport& report, const RunContext& context) {
   for (const bool is_front : {true, false}) {
     SizeTask task{state, is_front};
-    const delaunay::RefineReport done = delaunay::refine<true>(state.mesh, delaunay::SphereCriterion{&state.mesh.points}, task, insertions_left(state), context);
+    const delaunay::RefineReport done = delaunay::refine<true>(state.mesh, delaunay::SphereCriterion{&state.mesh.points, &state.mesh.frames}, task, insertions_left(state), context);
     count(state, done, report);
     report.n_first_pass += static_cast<std::int64_t>(done.n_inserted);
   }
@@ -260,7 +260,7 @@ void refine_by_size(FaceState& state, FaceMeshReport& report, const RunContext& 
 void refine_by_quality(FaceState& state, FaceMeshReport& report, const RunContext& context) {
   if (state.options.min_angle <= 0.0) return;
   QualityTask task{state, 1.0 / std::tan(state.options.min_angle)};
-  const delaunay::RefineReport done = delaunay::refine<true>(state.mesh, delaunay::SphereCriterion{&state.mesh.points}, task, insertions_left(state), context);
+  const delaunay::RefineReport done = delaunay::refine<true>(state.mesh, delaunay::SphereCriterion{&state.mesh.points, &state.mesh.frames}, task, insertions_left(state), context);
   count(state, done, report);
   report.n_second_pass += static_cast<std::int64_t>(done.n_inserted);
 }

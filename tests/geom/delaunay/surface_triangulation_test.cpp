@@ -74,7 +74,7 @@ struct RandomInsertions {
     std::uniform_real_distribution<double> uniform(0.0, 2.0);
     const double x = uniform(random), y = uniform(random);
     const Uv at{1000.0 * x, y / 1000.0};
-    const InsertOutcome outcome = insert_vertex(surface, at, wave(at), any_triangle(), min_distance, SphereCriterion{&surface.points}, cavity);
+    const InsertOutcome outcome = insert_vertex(surface, at, wave(at), any_triangle(), min_distance, SphereCriterion{&surface.points, &surface.frames}, cavity);
     n_inserted += outcome == InsertOutcome::inserted ? 1 : 0;
     return outcome;
   }
@@ -109,7 +109,8 @@ TEST(SurfaceTriangulation, RefusedInsertionsChangeNothing) {
   const std::size_t n = mesh.surface.points.size();
   for (int i = 0; i < 200; ++i) EXPECT_NE(mesh.insert_any(100.0), InsertOutcome::inserted);
   const Uv beyond{3000.0, 0.001};
-  EXPECT_EQ(insert_vertex(mesh.surface, beyond, wave(beyond), mesh.any_triangle(), 0.0, SphereCriterion{&mesh.surface.points}, mesh.cavity), InsertOutcome::beyond_border);
+  const SphereCriterion criterion{&mesh.surface.points, &mesh.surface.frames};
+  EXPECT_EQ(insert_vertex(mesh.surface, beyond, wave(beyond), mesh.any_triangle(), 0.0, criterion, mesh.cavity), InsertOutcome::beyond_border);
   EXPECT_EQ(extract_triangles(mesh.surface), before);
   EXPECT_EQ(mesh.surface.points.size(), n);
   EXPECT_EQ(mesh.surface.mesh.uv.size(), n);
@@ -222,14 +223,30 @@ TEST(SphereCriterion, IsTheCircleInAPlane) {
     points.push_back({});
   }
   mesh.cells.push_back(Cell{.vertex = {VertexId(0u), VertexId(1u), VertexId(2u)}, .twin = {}});
+  Column<VertexId, SurfaceFrame> frames(4, SurfaceFrame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   for (int k = 0; k < 10000; ++k) {
     for (const VertexId v : points.ids()) {
       mesh.uv[v] = {uniform(random), uniform(random)};
       points[v] = {mesh.uv[v].x, mesh.uv[v].y, 0.0};
     }
     const int turn = mesh.turn(VertexId(0u), VertexId(1u), VertexId(2u));
-    EXPECT_EQ(SphereCriterion{&points}.conflicts(mesh, TriangleId(0), VertexId(3u)), turn * incircle(mesh.uv[VertexId(0u)], mesh.uv[VertexId(1u)], mesh.uv[VertexId(2u)], mesh.uv[VertexId(3u)]) > 0);
+    const bool is_inside = SphereCriterion{&points, &frames}.conflicts(mesh, TriangleId(0), VertexId(3u));
+    EXPECT_EQ(is_inside, turn * incircle(mesh.uv[VertexId(0u)], mesh.uv[VertexId(1u)], mesh.uv[VertexId(2u)], mesh.uv[VertexId(3u)]) > 0);
   }
+}
+
+TEST(SphereCriterion, LeavesTheOtherSideOfAThinPartAlone) {
+  Triangulation mesh;
+  mesh.cells.push_back(Cell{{VertexId(0u), VertexId(1u), VertexId(2u)}, {}, {}, false, 0});
+  const Column<VertexId, Point> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.4, 0.4, -0.01}};
+  Column<VertexId, SurfaceFrame> frames(4, SurfaceFrame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  const auto conflicts = [&] { return SphereCriterion{&points, &frames}.conflicts(mesh, TriangleId(0), VertexId(3u)); };
+  EXPECT_TRUE(conflicts());
+  frames[VertexId(3u)].normal = {0, 0, -1};
+  EXPECT_FALSE(conflicts());
+  // A pole has no normal: nothing is known.
+  frames[VertexId(3u)].normal = {};
+  EXPECT_TRUE(conflicts());
 }
 
 TEST(WorstCotangent, OfKnownTriangles) {
