@@ -62,11 +62,11 @@ double scale_of_speed(double speed);
 /// \throws Error(self_intersection) with the place in space where borders cross or touch along an edge; Error(bad_argument) when nothing is inside
 SurfaceTriangulation triangulate_border(const SurfaceBorder& border, Vec2 scale, const RunContext& context);
 
-/// Cosine of 60 degrees: method.md section 0, how far a triangle's normal, and that of its neighbours, may be from the surface's.
+/// Cosine of 60 degrees: method.md section 0, how far a flipped triangle's normal may be from the surface's.
 inline constexpr double k_min_normal_cosine = 0.5;
 
-/// The empty sphere about the circumcentre in 3-space, through the corners. A flat triangle is never in conflict, nor is one where the surface looks elsewhere than at the
-/// vertex: on the other side of a nose or a thin edge it is near in space only.
+/// The empty sphere about the circumcentre in 3-space, through the corners. A flat triangle is never in conflict, nor is one with a corner where the surface looks away
+/// from where it looks at the vertex: on the other side of a nose or a thin edge it is near in space only. (60 in place of 90 degrees leaves leading edges stuck.)
 struct SphereCriterion {
   static constexpr bool k_needs_normals = true;  ///< insert_vertex looks at the normals of the new triangles
   const Column<VertexId, Point>* points;
@@ -79,8 +79,7 @@ struct SphereCriterion {
     // Centre - a = (|v|^2 w x u + |u|^2 v x w) / (2 |w|^2); p is inside when |q|^2 < 2 q . (centre - a).
     if (norm2(q) * norm2(w) >= dot(q, norm2(v) * cross(w, u) + norm2(u) * cross(v, w))) return false;
     const Vec3& normal = (*frames)[p].normal;
-    const auto is_beside = [&](VertexId c) { return dot((*frames)[c].normal, normal) >= k_min_normal_cosine || norm2((*frames)[c].normal) == 0.0; };
-    return norm2(normal) == 0.0 || (is_beside(corner[0]) && is_beside(corner[1]) && is_beside(corner[2]));
+    return dot((*frames)[corner[0]].normal, normal) >= 0.0 && dot((*frames)[corner[1]].normal, normal) >= 0.0 && dot((*frames)[corner[2]].normal, normal) >= 0.0;
   }
 };
 
