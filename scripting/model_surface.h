@@ -27,6 +27,8 @@ SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOpt
 /// \pre surface.mesh_report
 std::string surface_mesh_text(const Model& model, const SurfaceValue& surface);
 
+/// The same options, those of bands in stages of their own: leading_edge = { chordwise = 0.004 } is leading_edge_chordwise.
+OptionTable with_edge_tables(OptionTable table);
 /// What one entry of patches = { ["wing*"] = { max_edge = 0.1 } } takes. `rule` must outlive the table.
 OptionTable patch_rule_options(surfmesh::PatchSurfaceOptions& rule);
 /// A list of objects with the options that each rule sets, for manifests; and back. \throws Error(file_malformed, bad_argument)

@@ -48,7 +48,7 @@ std::vector<surfmesh::PatchSurfaceOptions> read_rules(TableReader& reader) {
 ScriptValue make_surface_mesh(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_surface_mesh_usage);
   SurfaceRecipe recipe;
-  const OptionTable schema = sterna::options_of(recipe.options);
+  const OptionTable schema = with_edge_tables(sterna::options_of(recipe.options));
   TableReader reader(table, call.attempted());
   std::vector<ModelHandle> models;
   const std::vector<ScriptValue>& items = reader.items();
@@ -61,7 +61,7 @@ ScriptValue make_surface_mesh(const ScriptCall& call) {
   if (items.empty()) reader.add_problem("needs a model: " + std::string(k_surface_mesh_usage));
   reader.read_options(schema);
   recipe.patches = read_rules(reader);
-  apply_overrides(call, schema);
+  apply_overrides(call, sterna::options_of(recipe.options));
   reader.finish();
   return std::make_shared<const SurfaceValue>(mesh_models(models, recipe, call.session.context.part("surface_mesh", 0.0, 1.0)));
 }

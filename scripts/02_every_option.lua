@@ -185,7 +185,16 @@ local skin = surface_mesh{ block,
   narrow = 2.0,                       -- edges along narrow faces, of their width
   crossings = "error",                -- of triangles that finer ones do not part; warn keeps the mesh, ignore does not look
   max_triangles = 100000000,
+  -- Bands of stretched triangles along the edges of wings; a block has none, so nothing is asked for. Also in tables: leading_edge = { chordwise = 0.004, stretch = 8 }.
+  leading_edge_chordwise = "automatic",   -- metres, first cell; automatic: no band, or the longest edge by the stretch
+  leading_edge_stretch = "automatic",     -- longest cell along : first cell across, up to 50; automatic: no band, or 10
+  leading_edge_growth = 1.2,
+  trailing_edge_chordwise = "automatic",
+  trailing_edge_stretch = "automatic",
+  trailing_edge_growth = 1.2,
+  trailing_edge_cells = "automatic",      -- across the base of blunt trailing edges
   patches = {                         -- by names of faces; of two patterns that match the one with more letters counts
-    ["box*"] = { max_edge = 0.1, min_edge = "automatic", curvature_angle = "automatic", chord_error = "automatic" } },
+    ["box*"] = { max_edge = 0.1, min_edge = "automatic", curvature_angle = "automatic", chord_error = "automatic",
+      leading_edge = { chordwise = "automatic", stretch = "automatic", growth = "automatic" }, trailing_edge = { chordwise = "automatic", stretch = "automatic", growth = "automatic", cells = "automatic" } } },
 }
 print(skin)

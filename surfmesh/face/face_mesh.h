@@ -60,6 +60,7 @@ struct FaceMesh {
   std::vector<Vec3> normals;               ///< of the surface, unit; zero where it has none (poles)
   std::vector<TriangleVertices> triangles; ///< counter-clockwise in (u, v): normals along du x dv
   std::uint32_t n_border = 0;
+  std::size_t n_band = 0;                  ///< so many of the triangles, the last ones, were laid in rows (band_rows.h); `report` is not about them
   FaceMeshReport report;
 };
 

@@ -58,6 +58,62 @@ std::vector<Station> measure(EdgeId e, const ModelEdge& edge, const EdgeSamples&
   return stations;
 }
 
+/// The part of samples between two parameters, which become its ends.
+EdgeSamples part_of(const ModelEdge& edge, const EdgeSamples& whole, double from, double to) {
+  EdgeSamples part;
+  part.samples.push_back({from, edge.curve->point(from), 0.0});
+  for (const EdgeSample& s : whole.samples)
+    if (s.t > from && s.t < to) part.samples.push_back(s);
+  part.samples.push_back({to, edge.curve->point(to), 0.0});
+  return part;
+}
+
+/// The parameter on the way to `end` whose point is `step` metres from that of `from`; `end` when none is.
+double t_at_step(const Curve& curve, double from, double end, double step) {
+  const Point start = curve.point(from);
+  constexpr int k_halvings = 60, k_widenings = 40;
+  double near = from, far = end;
+  // A first bracket near the start, so that a curve that comes back is not met behind its bend.
+  double ahead = end - from;
+  for (int i = 0; i < k_widenings && distance(curve.point(from + 0.5 * ahead), start) >= step; ++i) ahead *= 0.5;
+  far = from + ahead;
+  if (distance(curve.point(far), start) < step) return end;
+  for (int i = 0; i < k_halvings; ++i) {
+    const double middle = 0.5 * (near + far);
+    (distance(curve.point(middle), start) < step ? near : far) = middle;
+  }
+  return 0.5 * (near + far);
+}
+
+/// Where rows of a band meet an edge that leaves it, from the corner on.
+std::vector<double> row_places(EdgeId e, const ModelEdge& edge, const EdgeSamples& samples, std::size_t end, const CrossingEnd& crossing, const SurfaceSizes& field) {
+  constexpr double k_share_of_edge = 0.45;  // the other end may have rows, too
+  constexpr int k_step_iterations = 4;      // each gains a digit or two: an edge turns little in a step
+  const double start = end == 0 ? edge.range.from : edge.range.to, stop = end == 0 ? edge.range.to : edge.range.from;
+  const double spacing = std::min(crossing.longest, field.on_edge(e, start));
+  std::vector<double> places;
+  double t = start, height = 0.0, along = 0.0;
+  while (places.size() < k_max_rows) {
+    const CurveDerivatives d = edge.curve->derivatives(t);
+    const double speed2 = norm2(d.first), curvature = speed2 > 0.0 ? norm(cross(d.first, d.second)) / (speed2 * std::sqrt(speed2)) : 0.0;
+    height = crossing.law.next_height(height, std::isfinite(curvature) ? curvature : 0.0);
+    // Heights are across the rows, which run like the band's edges: along this edge they take longer steps, by the chord of the step itself.
+    Vec3 chord = normalized(d.first);
+    double step = height, next = t;
+    for (int i = 0; i < k_step_iterations; ++i) {
+      step = height / std::max(k_steep_sine, std::min(norm(cross(chord, crossing.along[0])), norm(cross(chord, crossing.along[1]))));
+      next = t_at_step(*edge.curve, t, stop, step);
+      chord = normalized(edge.curve->point(next) - edge.curve->point(t));
+    }
+    along += step;
+    if (height > k_isotropic_height * spacing || along > k_share_of_edge * samples.length) break;
+    t = next;
+    if (t == stop) break;
+    places.push_back(t);
+  }
+  return places;
+}
+
 EdgeCut cut_at(const ModelEdge& edge, const std::vector<Station>& stations, std::size_t n_segments) {
   EdgeCut cut;
   std::size_t i = 0;
@@ -97,6 +153,35 @@ double share_at(const EdgeSamples& samples, double t) {
   return 1.0;
 }
 
+EdgeCut cut_evenly(const ModelEdge& edge, const EdgeSamples& samples, std::size_t n_segments) {
+  EdgeCut cut;
+  for (std::size_t k = 1; k < n_segments; ++k) {
+    cut.t.push_back(t_at_share(samples, static_cast<double>(k) / static_cast<double>(n_segments)));
+    cut.points.push_back(edge.curve->point(cut.t.back()));
+  }
+  return cut;
+}
+
+/// Rows at both ends of what was cut between them: the last of each is where that begins.
+void add_rows(const ModelEdge& edge, const std::array<std::vector<double>, 2>& rows, EdgeCut& cut) {
+  std::vector<double> t = rows[0];
+  t.insert(t.end(), cut.t.begin(), cut.t.end());
+  t.insert(t.end(), rows[1].rbegin(), rows[1].rend());
+  cut = {std::move(t), {}, {rows[0].size(), rows[1].size()}};
+  for (const double at : cut.t) cut.points.push_back(edge.curve->point(at));
+}
+
+/// The cut of the other long side of a strip, at the same shares of the length.
+EdgeCut cut_by_shares(const ModelEdge& edge, const EdgeSamples& own, const EdgeSamples& other, const EdgeCut& cut, bool is_against) {
+  EdgeCut result;
+  for (std::size_t k = 0; k < cut.t.size(); ++k) {
+    const double share = share_at(other, cut.t[is_against ? cut.t.size() - 1 - k : k]);
+    result.t.push_back(t_at_share(own, is_against ? 1.0 - share : share));
+    result.points.push_back(edge.curve->point(result.t.back()));
+  }
+  return result;
+}
+
 /// The cut of the edge that stands for this one, at the same shares of the length.
 EdgeCut cut_like(const EdgeSamples& own, const EdgeSamples& other, const EdgeCut& cut, bool is_reversed) {
   EdgeCut result;
@@ -106,20 +191,35 @@ EdgeCut cut_like(const EdgeSamples& own, const EdgeSamples& other, const EdgeCut
     result.t.push_back(t_at_share(own, is_reversed ? 1.0 - share : share));
     result.points.push_back(cut.points[i]);
   }
+  result.n_rows = {cut.n_rows[is_reversed ? 1 : 0], cut.n_rows[is_reversed ? 0 : 1]};
   return result;
 }
 
 }  // namespace
 
-Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceSizes& field, const RunContext& context) {
+Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands, const SurfaceSizes& field, const RunContext& context) {
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
   Column<EdgeId, std::vector<Station>> stations(model.edges.size());
   Column<EdgeId, std::size_t> n_segments(model.edges.size(), 1);
+  Column<EdgeId, std::array<std::vector<double>, 2>> rows(model.edges.size());
   parallel_for(context, model.edges.size(), [&](std::size_t i) {
     const EdgeId e(static_cast<std::uint64_t>(i));
     if (topology.is_point[e] != 0 || uses[e].empty() || topology.same_as[e].edge != e) return;
-    stations[e] = measure(e, model.edges[e], edges[e], field);
-    const auto by_size = static_cast<std::size_t>(std::max(1.0, std::round(stations[e].back().metric)));
+    Interval between = model.edges[e].range;
+    for (const std::size_t end : {0u, 1u})
+      if (bands.crossings[e][end].is_any && !bands.edges[e]) {
+        rows[e][end] = row_places(e, model.edges[e], edges[e], end, bands.crossings[e][end], field);
+        if (!rows[e][end].empty()) (end == 0 ? between.from : between.to) = rows[e][end].back();
+      }
+    const bool has_rows = !rows[e][0].empty() || !rows[e][1].empty();
+    stations[e] = measure(e, model.edges[e], has_rows ? part_of(model.edges[e], edges[e], between.from, between.to) : edges[e], field);
+    constexpr double k_whole = 0.02;  // of a segment: so much more than wanted is as wanted
+    const double metric = stations[e].back().metric;
+    const auto by_size = static_cast<std::size_t>(std::max(1.0, bands.edges[e] ? std::ceil(metric - k_whole) : std::round(metric)));
+    if (bands.n_short[e] > 0) {
+      n_segments[e] = bands.n_short[e];
+      return;
+    }
     const auto by_turning = static_cast<std::size_t>(std::max(1.0, std::ceil(edges[e].turning / k_largest_turn - 0.01)));
     const bool is_closed = topology.corner[model.edges[e].start] == topology.corner[model.edges[e].end];
     n_segments[e] = std::max({by_size, by_turning, is_closed ? k_closed_segments : 1});
@@ -133,18 +233,27 @@ Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeS
   };
   std::vector<Pair> single;
   for (const EdgeId e : model.edges.ids()) {
-    if (stations[e].empty() || n_segments[e] > 1) continue;
+    if (stations[e].empty() || n_segments[e] > 1 || bands.n_short[e] > 0 || !rows[e][0].empty() || !rows[e][1].empty()) continue;
     const CornerId a = topology.corner[model.edges[e].start], b = topology.corner[model.edges[e].end];
     single.push_back({std::min(a, b), std::max(a, b), edges[e].length, e});
   }
   std::sort(single.begin(), single.end());
   for (std::size_t i = 1; i < single.size(); ++i)
     if (single[i].a == single[i - 1].a && single[i].b == single[i - 1].b) n_segments[single[i].edge] = 2;
+  for (const std::optional<BaseStrip>& strip : bands.strips)
+    if (strip) n_segments[strip->long_edge[0]] = std::max(n_segments[strip->long_edge[0]], n_segments[strip->long_edge[1]]);
   Column<EdgeId, EdgeCut> cuts(model.edges.size());
   parallel_for(context, model.edges.size(), [&](std::size_t i) {
     const EdgeId e(static_cast<std::uint64_t>(i));
+    if (bands.n_short[e] > 0) {
+      cuts[e] = cut_evenly(model.edges[e], edges[e], bands.n_short[e]);
+      return;
+    }
     if (!stations[e].empty() && n_segments[e] > 1) cuts[e] = cut_at(model.edges[e], stations[e], n_segments[e]);
+    if (!rows[e][0].empty() || !rows[e][1].empty()) add_rows(model.edges[e], rows[e], cuts[e]);
   }, 4);
+  for (const std::optional<BaseStrip>& strip : bands.strips)
+    if (strip) cuts[strip->long_edge[1]] = cut_by_shares(model.edges[strip->long_edge[1]], edges[strip->long_edge[1]], edges[strip->long_edge[0]], cuts[strip->long_edge[0]], strip->is_against);
   for (const EdgeId e : model.edges.ids())
     if (const SameEdge& same = topology.same_as[e]; same.edge != e && topology.is_point[e] == 0) cuts[e] = cut_like(edges[e], edges[same.edge], cuts[same.edge], same.is_reversed);
   return cuts;

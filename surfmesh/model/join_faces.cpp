@@ -68,12 +68,14 @@ SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const 
       result.places.push_back({f, face.mesh.uv[i]});
       result.edge_places.push_back({});
     }
-    for (TriangleVertices v : face.mesh.triangles) {
+    for (std::size_t t = 0; t < face.mesh.triangles.size(); ++t) {
+      TriangleVertices v = face.mesh.triangles[t];
       for (VertexId& w : v) w = w.value() < n_border ? face.border_ids[w.index()] : VertexId(first + w.value() - n_border);
       if (model.faces[f].is_reversed) std::swap(v[1], v[2]);
       mesh.triangles.push_back(v);
       mesh.triangle_patch.push_back(patch_of[f]);
       result.triangle_face.push_back(f);
+      result.is_band.push_back(t + face.mesh.n_band >= face.mesh.triangles.size() ? 1 : 0);
     }
   }
   // Corners that only absorbed edges had, and poles' other numbers, belong to no triangle: they go.

@@ -30,13 +30,15 @@ struct MeshedFace {
   double edge_distance = 0.0;           ///< metres: largest distance of a border point to the surface
   Point edge_distance_place{};
   std::vector<LooseEdge> loose_edges;   ///< of this face
+  BandMeasures bands;
+  std::vector<std::string> notes;       ///< rows or strips that had to be left out
 };
 
 /// Vertices of a face's border, in the order in which it is given to mesh_face.
 std::vector<VertexId> border_ids(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const FaceOutline& outline);
 
 /// Meshes face f. Failures that finer edges may cure come back; others are thrown with the face's name.
-MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const SurfaceSizes& field,
+MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const WingBands& bands, const SurfaceSizes& field,
                          int max_triangles, const RunContext& context);
 
 /// Angles (of the mesh's report), normals and areas of a face's triangles into its summary.

@@ -30,6 +30,7 @@ struct Meshing {
   Column<EdgeId, EdgeSamples> edges;
   ModelSizes sizes;
   ModelTopology topology;
+  WingBands bands;
   std::vector<AbsorbedPart> absorbed;
   std::vector<SizeSource> repairs;
   Column<EdgeId, EdgeCut> cuts;
@@ -41,7 +42,7 @@ struct Meshing {
 /// Cuts edges anew and meshes the faces whose edges changed, and those that are to be meshed again.
 SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunContext& context) {
   const Model& model = meshing.model;
-  Column<EdgeId, EdgeCut> cuts = cut_edges(model, meshing.edges, meshing.topology, field, context);
+  Column<EdgeId, EdgeCut> cuts = cut_edges(model, meshing.edges, meshing.topology, meshing.bands, field, context);
   std::vector<FaceId> work;
   for (const FaceId f : model.faces.ids()) {
     bool is_concerned = meshing.cuts.empty() || meshing.to_mesh.contains(f);
@@ -53,7 +54,7 @@ SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunCon
   const BorderVertices numbers = number_border(model, meshing.topology, meshing.cuts);
   if (meshing.faces.empty()) meshing.faces.resize(model.faces.size());
   parallel_for(context, work.size(), [&](std::size_t i) {
-    meshing.faces[work[i]] = mesh_one_face(model, work[i], meshing.topology, meshing.cuts, numbers, meshing.sizes, field, meshing.options.max_triangles, context);
+    meshing.faces[work[i]] = mesh_one_face(model, work[i], meshing.topology, meshing.cuts, numbers, meshing.sizes, meshing.bands, field, meshing.options.max_triangles, context);
   }, 1);
   // The others have their border's vertices under new numbers.
   for (const FaceId f : model.faces.ids())
@@ -132,17 +133,35 @@ void report_crossings(const Model& model, const SurfaceMeshOptions& options, con
   throw Error(std::move(info));
 }
 
+BandSummary summarise_bands(const Meshing& meshing) {
+  BandSummary summary;
+  summary.notes = meshing.bands.notes;
+  for (const auto& band : meshing.bands.edges) summary.n_edges += band ? 1 : 0;
+  for (const FaceId f : meshing.model.faces.ids()) {
+    const MeshedFace& face = meshing.faces[f];
+    summary.notes.insert(summary.notes.end(), face.notes.begin(), face.notes.end());
+    if (face.bands.n_triangles == 0) continue;
+    summary.n_triangles += face.bands.n_triangles;
+    if (meshing.bands.strips[f]) ++summary.n_strips;
+    double& stretch = meshing.bands.strips[f] ? summary.max_strip_stretch : summary.max_stretch;
+    stretch = std::max(stretch, face.bands.max_stretch);
+    summary.max_growth = std::max(summary.max_growth, face.bands.max_growth);
+  }
+  return summary;
+}
+
 void summarise(const Meshing& meshing, SurfaceMesh& mesh) {
   SurfaceMeshReport& report = mesh.report;
   report.absorbed = meshing.absorbed;
+  report.bands = summarise_bands(meshing);
   report.min_angle = std::numbers::pi;
   std::int64_t n = 0, n_outside = 0;
   double area = 0.0, area_above = 0.0, worst_excess = 0.0;
   for (const MeshedFace& face : meshing.faces) {
     report.faces.push_back(face.summary);
-    n += face.summary.n_triangles;
+    n += face.summary.n_triangles - face.summary.n_band;
     n_outside += face.summary.n_outside_20_130;
-    if (face.summary.n_triangles > 0 && face.summary.min_angle < report.min_angle) {
+    if (face.summary.n_triangles > face.summary.n_band && face.summary.min_angle < report.min_angle) {
       report.min_angle = face.summary.min_angle;
       report.worst_face = face.summary.face;
     }
@@ -163,10 +182,11 @@ void summarise(const Meshing& meshing, SurfaceMesh& mesh) {
   if (area > 0.0) report.share_normals = 1.0 - area_above / area;
   std::stable_sort(report.loose_edges.begin(), report.loose_edges.end(), [](const LooseEdge& a, const LooseEdge& b) { return a.distance * b.tolerance > b.distance * a.tolerance; });
   if (n > 0) report.share_20_130 = 1.0 - static_cast<double>(n_outside) / static_cast<double>(n);
-  std::vector<float> least(mesh.mesh.n_triangles());
+  std::vector<float> least;
   for (const TriangleId t : mesh.mesh.triangles.ids()) {
+    if (mesh.is_band[t] != 0) continue;
     const auto p = corners(mesh.mesh, t);
-    least[t.index()] = static_cast<float>(std::min({corner_angle(p[0], p[1], p[2]), corner_angle(p[1], p[2], p[0]), corner_angle(p[2], p[0], p[1])}));
+    least.push_back(static_cast<float>(std::min({corner_angle(p[0], p[1], p[2]), corner_angle(p[1], p[2], p[0]), corner_angle(p[2], p[0], p[1])})));
   }
   if (least.empty()) return;
   const auto at = least.begin() + static_cast<std::ptrdiff_t>(least.size() / 100);
@@ -184,11 +204,13 @@ void check_options(const SurfaceMeshOptions& options) {
 
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
   check_options(options);
-  Meshing meshing{model, options, sample_edges(model, context), {}, {}, {}, {}, {}, {}, {}};
+  Meshing meshing{model, options, sample_edges(model, context), {}, {}, {}, {}, {}, {}, {}, {}};
   meshing.sizes = sizes_of_faces(model, meshing.edges, options, patches, context);
   check_estimate(model, meshing.sizes, meshing.edges, options);
   meshing.topology = absorb_small_parts(model, meshing.edges, meshing.sizes, meshing.absorbed);
-  add_sources(model, meshing.edges, meshing.topology, options, meshing.sizes, context);
+  meshing.bands = find_wing_bands(model, meshing.edges, meshing.sizes, meshing.topology);
+  meshing.sizes.is_overruled = [&](FaceId f, const Point& p) { return meshing.bands.covers(meshing.edges, f, p); };
+  add_sources(model, meshing.edges, meshing.topology, options, meshing.sizes, context, &meshing.bands);
   SurfaceMesh mesh;
   MeshCrossings crossings;
   std::size_t n_crossing_before = static_cast<std::size_t>(-1);
@@ -223,6 +245,7 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   }
   summarise(meshing, mesh);
   report_crossings(model, options, crossings, mesh, context);
+  for (const std::string& note : mesh.report.bands.notes) context.warn(note);
   return mesh;
 }
 
@@ -246,6 +269,11 @@ std::string to_text(const SurfaceMeshReport& report) {
     text += "normals within the curvature angle on " + number(100.0 * report.share_normals) + " % of the area; farthest off on \"" + worst.name + "\" at " + format_point(worst.normal_place) + ", " +
             number(worst.max_normal_angle / k_deg) + " degrees for " + number(worst.curvature_angle / k_deg) + "\n";
   }
+  if (const BandSummary& bands = report.bands; bands.n_triangles > 0) {
+    text += "bands: " + std::to_string(bands.n_triangles) + " triangles beside " + std::to_string(bands.n_edges) + " edges and on " + std::to_string(bands.n_strips) + " bases of trailing edges, not counted in the angles above; stretched up to " +
+            number(bands.max_stretch) + " (bases " + number(bands.max_strip_stretch) + "), growing by up to " + number(bands.max_growth) + "\n";
+  }
+  for (const std::string& note : report.bands.notes) text += note + "\n";
   text += report.n_free_edges == 0 ? "closed" : "open: " + std::to_string(report.n_free_edges) + " free edges of triangles";
   text += "; edges within " + number(report.max_edge_distance) + " m of their surfaces";
   if (!report.loose_edges.empty()) {

@@ -6,6 +6,7 @@
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "surfmesh/model/model_topology.h"
+#include "surfmesh/model/wing_bands.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -73,6 +74,32 @@ Column<ComponentId, double> default_sizes(const Model& model, const ModelSizes& 
 /// Meshes of a family are similar: where sizes grow from a fine place, they grow slower in the finer mesh.
 double change_by_distance(const SurfaceMeshOptions& options) { return (options.growth - 1.0) / options.refinement; }
 
+/// What is said of bands: rules overrule the options for all, member by member.
+void resolve_bands(const std::string& name, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, FaceSizes& sizes) {
+  sizes.leading = {options.leading_edge_chordwise, options.leading_edge_stretch, options.leading_edge_growth, {}};
+  sizes.trailing = {options.trailing_edge_chordwise, options.trailing_edge_stretch, options.trailing_edge_growth, {}};
+  sizes.trailing_cells = options.trailing_edge_cells;
+  const auto overrule = [](double& value, double said) {
+    if (is_automatic(said)) return false;
+    value = said;
+    return true;
+  };
+  for (const PatchSurfaceOptions& rule : patches) {
+    if (!matches_glob(name, rule.names)) continue;
+    if (overrule(sizes.leading.chordwise, rule.leading_edge_chordwise) | overrule(sizes.leading.stretch, rule.leading_edge_stretch)) sizes.leading.rule = rule.names;
+    if (overrule(sizes.trailing.chordwise, rule.trailing_edge_chordwise) | overrule(sizes.trailing.stretch, rule.trailing_edge_stretch)) sizes.trailing.rule = rule.names;
+    overrule(sizes.leading.growth, rule.leading_edge_growth);
+    overrule(sizes.trailing.growth, rule.trailing_edge_growth);
+    overrule(sizes.trailing_cells, rule.trailing_edge_cells);
+  }
+  // The next mesh of a family: lengths by the factor, so many more cells, and of the growth the root that belongs to it (quality.md section 1).
+  for (BandWish* wish : {&sizes.leading, &sizes.trailing}) {
+    wish->chordwise /= options.refinement;
+    wish->growth = std::pow(wish->growth, 1.0 / options.refinement);
+  }
+  sizes.trailing_cells *= options.refinement;
+}
+
 FaceSizes resolve(const std::string& name, double automatic_max, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches) {
   double max_edge = options.max_edge, min_edge = options.min_edge, angle = options.curvature_angle, error = options.chord_error;
   // The last rule that matches and says something counts.
@@ -94,6 +121,7 @@ FaceSizes resolve(const std::string& name, double automatic_max, const SurfaceMe
   // The error of a chord falls with the square of its length.
   sizes.limits.chord_error /= options.refinement * options.refinement;
   sizes.limits.growth = std::numeric_limits<double>::infinity();  // SurfaceSizes carries them on
+  resolve_bands(name, options, patches, sizes);
   return sizes;
 }
 
@@ -272,16 +300,20 @@ ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>&
   return sizes;
 }
 
-void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options, ModelSizes& sizes, const RunContext& context) {
-  for (const FaceId f : model.faces.ids())
-    if (topology.is_absorbed[f] == 0)
-      sizes.faces[f].curvature->for_each_inside([&](const Point& p, double size) {
-        if (size < sizes.faces[f].max_edge) sizes.sources.push_back({p, size});
-      });
+void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options, ModelSizes& sizes, const RunContext& context, const WingBands* bands) {
+  std::vector<std::vector<SizeSource>> of_faces(model.faces.size());
+  parallel_for(context, model.faces.size(), [&](std::size_t i) {
+    const FaceId f(static_cast<std::uint64_t>(i));
+    if (topology.is_absorbed[f] != 0) return;
+    sizes.faces[f].curvature->for_each_inside([&](const Point& p, double size) {
+      if (size < sizes.faces[f].max_edge && !(sizes.is_overruled && sizes.is_overruled(f, p))) of_faces[i].push_back({p, size});
+    });
+  }, 1);
+  for (const auto& list : of_faces) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());
   std::vector<std::vector<NarrowPlace>> narrow(model.faces.size());
   parallel_for(context, model.faces.size(), [&](std::size_t i) {
     const FaceId f(static_cast<std::uint64_t>(i));
-    if (topology.is_absorbed[f] == 0) add_narrow_places(model, f, edges, sizes.faces[f], options.narrow, narrow[i]);
+    if (topology.is_absorbed[f] == 0 && !(bands && bands->is_strip_in_band(f))) add_narrow_places(model, f, edges, sizes.faces[f], options.narrow, narrow[i]);
   }, 1);
   Column<EdgeId, std::vector<NarrowPlace>> narrow_of_edge(model.edges.size());
   for (const auto& list : narrow)
@@ -294,6 +326,7 @@ void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, c
     if (uses[e].empty() || edges[e].samples.empty() || topology.is_point[e] != 0) return;
     std::vector<double> size = sizes_along(model, uses[e], edges[e], sizes);
     for (const NarrowPlace& place : narrow_of_edge[e]) size[place.sample] = std::min(size[place.sample], place.size);
+    if (bands) bands->overrule(edges, uses[e], e, sizes.largest, size);
     add_sources_along(*model.edges[e].curve, edges[e].samples, size, of_edges[i]);
     sizes.edge_sizes[e] = std::move(size);
   }, 16);

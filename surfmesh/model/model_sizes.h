@@ -1,8 +1,10 @@
 // Wanted lengths of edges over a model: what options, rules for patches and component defaults say for each face, and what curvature and narrow places ask for.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "surfmesh/face/face_sizes.h"
@@ -13,8 +15,19 @@
 
 namespace sterna::surfmesh {
 
+/// What a face asks for along its leading or trailing edges; not a number: not said.
+struct BandWish {
+  double chordwise = k_automatic;  ///< m, first cell
+  double stretch = k_automatic;    ///< longest cell along : first cell across
+  double growth = 1.2;
+  std::string rule;                ///< names that asked; empty: the options for all
+  bool is_any() const { return !is_automatic(chordwise) || !is_automatic(stretch); }
+};
+
 struct FaceSizes {
   double max_edge = 0.0;
+  BandWish leading, trailing;
+  double trailing_cells = k_automatic;  ///< across a blunt trailing edge
   CurvatureLimits limits;
   std::unique_ptr<CurvatureSizes> curvature;  ///< of the surface within the face
 };
@@ -25,15 +38,17 @@ struct ModelSizes {
   Column<EdgeId, std::vector<double>> edge_sizes;  ///< m, at the samples of each edge: what its curvature, that of its faces beside it, narrow faces and its length ask for
   std::vector<SizeSource> sources;  ///< the same in space, and the curvature of faces: where sizes may be small
   double growth = 0.2;              ///< change of length by distance
+  std::function<bool(FaceId, const Point&)> is_overruled;  ///< what a face asks for at a place does not count: bands answer for it
   double largest = 0.0;             ///< max_edge of all faces
 };
 
 /// \throws Error(bad_argument) for a rule that no face's name matches
 ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
 
-/// Fills `edge_sizes` and `sources`; what is absorbed asks for nothing.
+/// Fills `edge_sizes` and `sources`; what is absorbed, or within a band, asks for nothing.
 struct ModelTopology;
-void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options, ModelSizes& sizes, const RunContext& context);
+struct WingBands;
+void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options, ModelSizes& sizes, const RunContext& context, const WingBands* bands = nullptr);
 
 double distance_to_segment(const Point& p, const Point& a, const Point& b);
 

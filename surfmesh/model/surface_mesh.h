@@ -25,6 +25,13 @@ struct SurfaceMeshOptions {
   double narrow = 2.0;
   std::string crossings = "error";
   int max_triangles = 100'000'000;
+  double leading_edge_chordwise = k_automatic;
+  double leading_edge_stretch = k_automatic;
+  double leading_edge_growth = 1.2;
+  double trailing_edge_chordwise = k_automatic;
+  double trailing_edge_stretch = k_automatic;
+  double trailing_edge_growth = 1.2;
+  double trailing_edge_cells = k_automatic;
 };
 
 /// What faces (patches) whose names match ask for instead; not a number: as the options above say.
@@ -34,6 +41,13 @@ struct PatchSurfaceOptions {
   double min_edge = k_automatic;          ///< m
   double curvature_angle = k_automatic;   ///< rad
   double chord_error = k_automatic;       ///< m
+  double leading_edge_chordwise = k_automatic;   ///< m
+  double leading_edge_stretch = k_automatic;
+  double leading_edge_growth = k_automatic;
+  double trailing_edge_chordwise = k_automatic;  ///< m
+  double trailing_edge_stretch = k_automatic;
+  double trailing_edge_growth = k_automatic;
+  double trailing_edge_cells = k_automatic;
 };
 
 /// Where a vertex lies on an edge of the model; no edge: inside a face, or a corner.
@@ -46,6 +60,7 @@ struct FaceMeshSummary {
   FaceId face;
   std::string name;
   std::int64_t n_triangles = 0;
+  std::int64_t n_band = 0;            ///< of them in bands and strips, which the angles here say nothing of
   double min_angle = 0.0;             ///< rad
   double max_angle = 0.0;
   Point worst_place{};                ///< where the smallest angle is
@@ -82,10 +97,21 @@ struct LooseEdge {
   Point place{};
 };
 
+/// Bands along leading and trailing edges, and strips on blunt trailing edges.
+struct BandSummary {
+  std::int64_t n_edges = 0;        ///< of the model with rows beside them
+  std::int64_t n_strips = 0;       ///< bases
+  std::int64_t n_triangles = 0;
+  double max_stretch = 0.0;        ///< of cells in rows: length along : length across
+  double max_strip_stretch = 0.0;  ///< of cells on bases
+  double max_growth = 0.0;         ///< largest ratio of rows that follow each other
+  std::vector<std::string> notes;  ///< wishes that could not be met, and where rows had to be left out
+};
+
 struct SurfaceMeshReport {
   std::vector<FaceMeshSummary> faces;  ///< as in the model
   std::vector<AbsorbedPart> absorbed;
-  double min_angle = 0.0;              ///< rad
+  double min_angle = 0.0;              ///< rad; these four of isotropic triangles, those of bands apart
   double max_angle = 0.0;
   double angle_quantile_1 = 0.0;       ///< rad: 1 % of the triangles have a smaller least angle
   double share_20_130 = 1.0;           ///< of the triangles: all angles within
@@ -100,6 +126,7 @@ struct SurfaceMeshReport {
   int n_rounds = 1;                    ///< of meshing; above 1 where places had to be refined to come out right
   std::int64_t n_crossings = 0;        ///< pairs of triangles that cross and could not be refined away
   std::vector<CrossingFaces> crossings;  ///< by falling number; of the first 100 000 pairs
+  BandSummary bands;
 };
 
 /// A surface mesh that remembers its model.
@@ -108,6 +135,7 @@ struct SurfaceMesh {
   Column<VertexId, VertexPlace> places;        ///< vertices on edges: on the first face that uses them
   Column<VertexId, EdgePlace> edge_places;
   Column<TriangleId, FaceId> triangle_face;
+  Column<TriangleId, std::uint8_t> is_band;    ///< laid in rows, possibly stretched
   SurfaceMeshReport report;
 };
 
@@ -139,6 +167,13 @@ struct Schema<surfmesh::SurfaceMeshOptions> {
       Field<O>{.name = "narrow", .member = &O::narrow, .min = 0.1, .max = 100.0, .help = "edges along narrow faces are at most this many times their width (never below a fifth of min_edge)"},
       Field<O>{.name = "crossings", .member = &O::crossings, .help = "triangles that cross are refined; what still crosses is an error, or kept with a warning; ignore: not looked for", .choices = "error warn ignore"},
       Field<O>{.name = "max_triangles", .member = &O::max_triangles, .min = 1, .max = 2e9, .help = "more than that are an error, at once where sizes and areas foretell it"},
+      Field<O>{.name = "leading_edge_chordwise", .member = &O::leading_edge_chordwise, .unit = Unit::metre, .min = 1e-9, .help = "first cell beside leading edges of wings, in a band of stretched triangles", .automatic = "no band, or the longest edge by the stretch"},
+      Field<O>{.name = "leading_edge_stretch", .member = &O::leading_edge_stretch, .min = 1.0, .max = 50.0, .help = "longest cell along : first cell across", .automatic = "no band, or 10"},
+      Field<O>{.name = "leading_edge_growth", .member = &O::leading_edge_growth, .min = 1.01, .max = 1.2, .help = "ratio of rows that follow each other"},
+      Field<O>{.name = "trailing_edge_chordwise", .member = &O::trailing_edge_chordwise, .unit = Unit::metre, .min = 1e-9, .help = "first cell beside trailing edges of wings, on both sides", .automatic = "no band, or the longest edge by the stretch"},
+      Field<O>{.name = "trailing_edge_stretch", .member = &O::trailing_edge_stretch, .min = 1.0, .max = 50.0, .help = "longest cell along : first cell across", .automatic = "no band, or 10"},
+      Field<O>{.name = "trailing_edge_growth", .member = &O::trailing_edge_growth, .min = 1.01, .max = 1.2, .help = "ratio of rows that follow each other"},
+      Field<O>{.name = "trailing_edge_cells", .member = &O::trailing_edge_cells, .min = 1.0, .max = 100.0, .help = "cells across the base of blunt trailing edges (rounded to a whole number)", .automatic = "as sizes say; with a band its first cell"},
   };
 };
 

@@ -214,7 +214,7 @@ struct SurfaceSizes::Builder {
     const double cap = sizes.faces[f].max_edge;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const double length = norm(normals[n]);
-      const double asked = nodes[n].is_inside ? in_space(nodes[n].point, std::min(cap, curvature(nodes[n].uv))) : cap;
+      const double asked = nodes[n].is_inside ? in_space(nodes[n].point, sizes.is_overruled && sizes.is_overruled(f, nodes[n].point) ? cap : std::min(cap, curvature(nodes[n].uv))) : cap;
       const Vec3 normal = length > 0.0 ? normals[n] / length : Vec3{};
       graph.add_node(nodes[n].point, {normal, normal}, asked, nodes[n].is_inside);
     }

@@ -80,9 +80,9 @@ TEST_F(SurfaceMeshVerb, OpenSurfacesAndCrossingsAreTold) {
 TEST_F(SurfaceMeshVerb, MistakesAreNamedTogether) {
   const std::string block = "box{ {0,0,0}, {1,1,1}, name='block' }";
   EXPECT_THAT(error("surface_mesh{ " + block + ", max_egde = 1 }"), HasSubstr("case.lua:1: surface_mesh: unknown key \"max_egde\", did you mean \"max_edge\"?"));
-  EXPECT_THAT(error("surface_mesh{ " + block + ", max_edge=-1, curvature_angle=12, patches={ block={ max_egde=1, leading_edge={ chordwise=0.004 } }, tip=3 } }"),
+  EXPECT_THAT(error("surface_mesh{ " + block + ", max_edge=-1, curvature_angle=12, patches={ block={ max_egde=1, leading_edge={ chordwse=0.004 } }, tip=3 } }"),
               AllOf(HasSubstr("4 problems in this table"), HasSubstr("max_edge: -1 is not allowed"), HasSubstr("write degrees as 40*deg"),
-                    HasSubstr("patches[\"block\"]: 2 problems"), HasSubstr("unknown key \"max_egde\", did you mean \"max_edge\"?"), HasSubstr("unknown key \"leading_edge\""),
+                    HasSubstr("patches[\"block\"]: 2 problems"), HasSubstr("unknown key \"max_egde\", did you mean \"max_edge\"?"), HasSubstr("unknown key \"leading_edge.chordwse\""),
                     HasSubstr("patches[\"tip\"]: expected a table of what these patches ask for instead, like { max_edge = 0.1 }, not a number")));
   EXPECT_THAT(error("surface_mesh{ " + block + ", patches={ ['wing*']={ max_edge=1 } } }"), AllOf(HasSubstr("no face has a name like \"wing*\""), HasSubstr("block")));
   EXPECT_THAT(error("surface_mesh{}"), HasSubstr("needs a model"));

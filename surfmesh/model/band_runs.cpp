@@ -1,0 +1,75 @@
+#include "surfmesh/model/band_runs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sterna::surfmesh {
+namespace {
+
+bool goes_straight(const std::vector<BorderPoint>& loop, std::size_t i) {
+  const std::size_t n = loop.size();
+  const Vec3 before = loop[i].point - loop[(i + n - 1) % n].point, after = loop[(i + 1) % n].point - loop[i].point;
+  return dot(before, after) > std::cos(k_largest_kink) * norm(before) * norm(after);
+}
+
+}  // namespace
+
+std::vector<BandRun> band_runs(FaceId f, const LabelledBorder& labelled, const WingBands& bands, const CurvatureLimits& limits) {
+  std::vector<BandRun> runs;
+  if (bands.is_empty() || bands.strips[f] || labelled.segments.empty()) return runs;
+  for (std::size_t l = 0; l < labelled.border.loops.size(); ++l) {
+    const auto& loop = labelled.border.loops[l];
+    const auto& segments = labelled.segments[l];
+    const std::size_t n = loop.size();
+    const auto band_at = [&](std::size_t i) -> const BandEdge* {
+      const EdgeId e = segments[i % n].edge;
+      return e.is_valid() && bands.edges[e] ? &*bands.edges[e] : nullptr;
+    };
+    const auto begins = [&](std::size_t i) {
+      if (!band_at(i)) return false;
+      if (!segments[i % n].is_first) return false;
+      const BandEdge* before = band_at(i + n - 1);
+      return !before || before->kind != band_at(i)->kind || !goes_straight(loop, i % n);
+    };
+    bool is_any = false;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!begins(i)) continue;
+      is_any = true;
+      BandRun run{.loop = l, .first = i, .n_points = 1};
+      const BandEdge& band = *band_at(i);
+      run.law = {band.first, band.growth, limits};
+      while (run.n_points <= n && band_at(i + run.n_points - 1) && (run.n_points == 1 || !begins(i + run.n_points - 1))) {
+        run.law.first = std::min(run.law.first, band_at(i + run.n_points - 1)->first);
+        ++run.n_points;
+      }
+      // A band that goes on beyond the face has columns on the edges that leave it there.
+      const std::size_t last = i + run.n_points - 1;
+      if (const BorderSegment& before = segments[(i + n - 1) % n]; before.edge.is_valid() && bands.crossings[before.edge][before.is_forward ? 1 : 0].is_any) run.n_before = before.n_rows_at_end;
+      if (const BorderSegment& after = segments[last % n]; after.edge.is_valid() && bands.crossings[after.edge][after.is_forward ? 0 : 1].is_any) run.n_after = after.n_rows_at_start;
+      runs.push_back(run);
+    }
+    // All around: it begins anywhere.
+    if (!is_any && n > 0 && band_at(0)) runs.push_back({.loop = l, .first = 0, .n_points = n + 1, .law = {band_at(0)->first, band_at(0)->growth, limits}});
+  }
+  return runs;
+}
+
+std::optional<BandedFace> mesh_base(const Model& model, FaceId f, const LabelledBorder& labelled, const BaseStrip& strip) {
+  if (labelled.border.loops.size() != 1 || labelled.segments.empty()) return std::nullopt;
+  const auto& segments = labelled.segments.front();
+  const std::size_t n = segments.size();
+  std::array<std::size_t, 2> first{n, n}, count{};
+  for (std::size_t i = 0; i < n; ++i)
+    for (const std::size_t s : {0u, 1u})
+      if (segments[i].place == strip.long_use[s]) {
+        if (segments[i].is_first) first[s] = i;
+        ++count[s];
+      }
+  if (first[0] == n || first[1] == n || count[0] != count[1]) return std::nullopt;
+  const std::size_t from_first_to_second = (first[1] + n - first[0] - count[0]) % n, from_second_to_first = (first[0] + n - first[1] - count[1]) % n;
+  const StripSides sides{.first_long = first[0], .n_along = count[0], .n_across = strip.n_cells, .is_end_pointed = from_first_to_second == 0, .is_start_pointed = from_second_to_first == 0};
+  return mesh_strip(*model.faces[f].surface, labelled.border, sides);
+}
+
+}  // namespace sterna::surfmesh
