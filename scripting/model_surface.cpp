@@ -23,6 +23,8 @@ struct Schema<surfmesh::PatchSurfaceOptions> {
       Field<O>{.name = "min_edge", .member = &O::min_edge, .unit = Unit::metre, .min = 0.0, .help = "curvature and narrow places ask for no shorter edges", .automatic = as_all},
       Field<O>{.name = "curvature_angle", .member = &O::curvature_angle, .unit = Unit::radian, .min = 0.001, .max = 1.6, .help = "an edge spans at most this angle of the surface", .automatic = as_all},
       Field<O>{.name = "chord_error", .member = &O::chord_error, .unit = Unit::metre, .min = 1e-9, .help = "an edge's middle is at most this far from the surface", .automatic = as_all},
+      Field<O>{.name = "leading_edge_factor", .member = &O::leading_edge_factor, .min = 0.01, .max = 1.0, .help = "of the longest edge, at leading edges", .automatic = as_all},
+      Field<O>{.name = "trailing_edge_factor", .member = &O::trailing_edge_factor, .min = 0.01, .max = 1.0, .help = "of the longest edge, at trailing edges", .automatic = as_all},
       Field<O>{.name = "leading_edge_chordwise", .member = &O::leading_edge_chordwise, .unit = Unit::metre, .min = 1e-9, .help = "first cell beside leading edges", .automatic = as_all},
       Field<O>{.name = "leading_edge_stretch", .member = &O::leading_edge_stretch, .min = 1.0, .max = 50.0, .help = "longest cell along : first cell across", .automatic = as_all},
       Field<O>{.name = "leading_edge_growth", .member = &O::leading_edge_growth, .min = 1.01, .max = 1.2, .help = "ratio of rows that follow each other", .automatic = as_all},

@@ -14,6 +14,7 @@
 #include "surfmesh/model/doubled_edges.h"
 #include "surfmesh/model/estimate.h"
 #include "surfmesh/model/join_faces.h"
+#include "surfmesh/model/proximity.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -203,14 +204,20 @@ void check_options(const SurfaceMeshOptions& options) {
 }  // namespace
 
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
+  return mesh_model(model, options, patches, SpaceSizes{}, context);
+}
+
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked, const RunContext& context) {
   check_options(options);
   Meshing meshing{model, options, sample_edges(model, context), {}, {}, {}, {}, {}, {}, {}, {}};
   meshing.sizes = sizes_of_faces(model, meshing.edges, options, patches, context);
+  add_place_sizes(model, meshing.edges, options, asked, meshing.sizes);
   check_estimate(model, meshing.sizes, meshing.edges, options);
   meshing.topology = absorb_small_parts(model, meshing.edges, meshing.sizes, meshing.absorbed);
   meshing.bands = find_wing_bands(model, meshing.edges, meshing.sizes, meshing.topology);
-  meshing.sizes.is_overruled = [&](FaceId f, const Point& p) { return meshing.bands.covers(meshing.edges, f, p); };
+  meshing.sizes.is_covered = [&](FaceId f, const Point& p) { return meshing.bands.covers(meshing.edges, f, p); };
   add_sources(model, meshing.edges, meshing.topology, options, meshing.sizes, context, &meshing.bands);
+  if (looks_for_gaps(options)) add_gap_sources(model, SurfaceSizes(model, meshing.edges, meshing.topology, meshing.sizes, {}, context, true), options, meshing.sizes, context);
   SurfaceMesh mesh;
   MeshCrossings crossings;
   std::size_t n_crossing_before = static_cast<std::size_t>(-1);

@@ -102,6 +102,7 @@ void resolve_bands(const std::string& name, const SurfaceMeshOptions& options, s
 
 FaceSizes resolve(const std::string& name, double automatic_max, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches) {
   double max_edge = options.max_edge, min_edge = options.min_edge, angle = options.curvature_angle, error = options.chord_error;
+  double leading = options.leading_edge_factor, trailing = options.trailing_edge_factor;
   // The last rule that matches and says something counts.
   for (const PatchSurfaceOptions& rule : patches) {
     if (!matches_glob(name, rule.names)) continue;
@@ -109,8 +110,13 @@ FaceSizes resolve(const std::string& name, double automatic_max, const SurfaceMe
     if (!is_automatic(rule.min_edge)) min_edge = rule.min_edge;
     if (!is_automatic(rule.curvature_angle)) angle = rule.curvature_angle;
     if (!is_automatic(rule.chord_error)) error = rule.chord_error;
+    if (!is_automatic(rule.leading_edge_factor)) leading = rule.leading_edge_factor;
+    if (!is_automatic(rule.trailing_edge_factor)) trailing = rule.trailing_edge_factor;
   }
   FaceSizes sizes;
+  sizes.leading_factor = leading;
+  sizes.trailing_factor = trailing;
+  sizes.has_tip_strips = options.tip_strips;
   sizes.max_edge = is_automatic(max_edge) ? automatic_max : max_edge;
   sizes.limits.min_edge = std::min(sizes.max_edge, is_automatic(min_edge) ? k_min_of_max * sizes.max_edge : min_edge);
   sizes.limits.angle = angle;
@@ -122,6 +128,9 @@ FaceSizes resolve(const std::string& name, double automatic_max, const SurfaceMe
   sizes.limits.chord_error /= options.refinement * options.refinement;
   sizes.limits.growth = std::numeric_limits<double>::infinity();  // SurfaceSizes carries them on
   resolve_bands(name, options, patches, sizes);
+  // A band answers for its edge; the factor would but shorten its cells along the edge.
+  if (sizes.leading.is_any()) sizes.leading_factor = 1.0;
+  if (sizes.trailing.is_any()) sizes.trailing_factor = 1.0;
   return sizes;
 }
 
@@ -203,7 +212,7 @@ void add_narrow_places(const Model& model, FaceId f, const Column<EdgeId, EdgeSa
 }
 
 /// What an edge asks for at its samples: its own curvature, that of its faces beside it, its length where that is short, and the lesser size of its faces.
-std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePlace>& uses, const EdgeSamples& samples, const ModelSizes& sizes) {
+std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePlace>& uses, const EdgeSamples& samples, const ModelSizes& sizes, double intersection_factor) {
   double least = sizes.largest;
   CurvatureLimits limits = sizes.faces[uses.front().face].limits;
   for (const EdgeUsePlace& place : uses) {
@@ -212,6 +221,8 @@ std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePla
     limits.min_edge = std::min(limits.min_edge, sizes.faces[place.face].limits.min_edge);
     limits.chord_error = std::min(limits.chord_error, sizes.faces[place.face].limits.chord_error);
   }
+  const auto component_of = [&](const EdgeUsePlace& place) { return model.faces[place.face].component; };
+  if (std::any_of(uses.begin(), uses.end(), [&](const EdgeUsePlace& place) { return component_of(place) != component_of(uses.front()); })) least = std::max(limits.min_edge, intersection_factor * least);
   if (samples.length < least) least = std::max(limits.min_edge, samples.length);
   std::vector<double> result;
   for (const EdgeSample& s : samples.samples) {
@@ -300,13 +311,18 @@ ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>&
   return sizes;
 }
 
+void add_place_sizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, const SpaceSizes& asked, ModelSizes& sizes) {
+  sizes.places = PlaceSizes(model, edges, sizes, asked, options.refinement);
+  for (const SizeSource& s : asked.samples) sizes.in_space.push_back({s.point, s.size / options.refinement});
+}
+
 void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options, ModelSizes& sizes, const RunContext& context, const WingBands* bands) {
   std::vector<std::vector<SizeSource>> of_faces(model.faces.size());
   parallel_for(context, model.faces.size(), [&](std::size_t i) {
     const FaceId f(static_cast<std::uint64_t>(i));
     if (topology.is_absorbed[f] != 0) return;
     sizes.faces[f].curvature->for_each_inside([&](const Point& p, double size) {
-      if (size < sizes.faces[f].max_edge && !(sizes.is_overruled && sizes.is_overruled(f, p))) of_faces[i].push_back({p, size});
+      if (size < sizes.faces[f].max_edge && !(sizes.is_covered && sizes.is_covered(f, p))) of_faces[i].push_back({p, size});
     });
   }, 1);
   for (const auto& list : of_faces) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());
@@ -321,14 +337,17 @@ void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, c
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
   std::vector<std::vector<SizeSource>> of_edges(model.edges.size());
   sizes.edge_sizes.resize(model.edges.size());
+  const auto ask_along = [&](EdgeId e, std::vector<double> size, std::vector<SizeSource>& list) {
+    add_sources_along(*model.edges[e].curve, edges[e].samples, size, list);
+    sizes.edge_sizes[e] = std::move(size);
+  };
   parallel_for(context, model.edges.size(), [&](std::size_t i) {
     const EdgeId e(static_cast<std::uint64_t>(i));
     if (uses[e].empty() || edges[e].samples.empty() || topology.is_point[e] != 0) return;
-    std::vector<double> size = sizes_along(model, uses[e], edges[e], sizes);
+    std::vector<double> size = sizes_along(model, uses[e], edges[e], sizes, options.intersection_factor);
     for (const NarrowPlace& place : narrow_of_edge[e]) size[place.sample] = std::min(size[place.sample], place.size);
     if (bands) bands->overrule(edges, uses[e], e, sizes.largest, size);
-    add_sources_along(*model.edges[e].curve, edges[e].samples, size, of_edges[i]);
-    sizes.edge_sizes[e] = std::move(size);
+    ask_along(e, std::move(size), of_edges[i]);
   }, 16);
   for (const auto& list : of_edges) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include "geom/mesh/tri_mesh.h"
 #include "geom/model/deform.h"
 #include "geom/model/model.h"
+#include "surfmesh/model/size_field.h"
 
 namespace sterna::surfmesh {
 
@@ -23,6 +25,12 @@ struct SurfaceMeshOptions {
   double growth = 1.2;
   double refinement = 1.0;
   double narrow = 2.0;
+  double leading_edge_factor = 0.5;
+  double trailing_edge_factor = 0.5;
+  bool tip_strips = true;
+  double intersection_factor = 0.5;
+  double gap_cells = 0.0;
+  double thickness_factor = k_automatic;
   std::string crossings = "error";
   int max_triangles = 100'000'000;
   double leading_edge_chordwise = k_automatic;
@@ -48,6 +56,16 @@ struct PatchSurfaceOptions {
   double trailing_edge_stretch = k_automatic;
   double trailing_edge_growth = k_automatic;
   double trailing_edge_cells = k_automatic;
+  double leading_edge_factor = k_automatic;
+  double trailing_edge_factor = k_automatic;
+};
+
+/// Lengths of edges asked for in space, whatever face is there. They are divided by `refinement`, too.
+struct SpaceSizes {
+  /// m, for a point and the change of length by distance: growing with it, infinite where nothing is asked for. From many threads.
+  std::function<double(const Point&, double)> regions;
+  std::function<double(const Point&)> function;  ///< m, > 0; called by the thread that called mesh_model alone; may jump
+  std::vector<SizeSource> samples;               ///< least lengths at points
 };
 
 /// Where a vertex lies on an edge of the model; no edge: inside a face, or a corner.
@@ -145,6 +163,7 @@ struct SurfaceMesh {
 /// matches; Error(overflow) beyond max_triangles, at once where sizes and areas say so; Error(non_manifold_surface) where triangles of faces do not join;
 /// Error(self_intersection) where triangles cross that finer ones do not part, unless options.crossings says otherwise
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked, const RunContext& context);
 
 /// Several lines for people.
 std::string to_text(const SurfaceMeshReport& report);
@@ -165,6 +184,12 @@ struct Schema<surfmesh::SurfaceMeshOptions> {
       Field<O>{.name = "growth", .member = &O::growth, .min = 1.01, .max = 3.0, .help = "ratio of the lengths of edges that follow each other, at most"},
       Field<O>{.name = "refinement", .member = &O::refinement, .min = 0.01, .max = 100.0, .help = "lengths, angles and growth - 1 are divided by it: 1.5 for the next finer mesh of a family"},
       Field<O>{.name = "narrow", .member = &O::narrow, .min = 0.1, .max = 100.0, .help = "edges along narrow faces are at most this many times their width (never below a fifth of min_edge)"},
+      Field<O>{.name = "leading_edge_factor", .member = &O::leading_edge_factor, .min = 0.01, .max = 1.0, .help = "of the longest edge, at leading edges of wings made of sections; one from half of the chord on"},
+      Field<O>{.name = "trailing_edge_factor", .member = &O::trailing_edge_factor, .min = 0.01, .max = 1.0, .help = "of the longest edge, at trailing edges of such wings"},
+      Field<O>{.name = "tip_strips", .member = &O::tip_strips, .help = "of such wings 0.4 of the longest edge within 3 % of the span from tips, 0.6 within 6 %"},
+      Field<O>{.name = "intersection_factor", .member = &O::intersection_factor, .min = 0.01, .max = 1.0, .help = "of the longest edge of their faces, along edges in which components of a union meet"},
+      Field<O>{.name = "gap_cells", .member = &O::gap_cells, .min = 0.0, .max = 20.0, .help = "edges that fit across a gap between faces that look at each other; 0: gaps are not looked for"},
+      Field<O>{.name = "thickness_factor", .member = &O::thickness_factor, .min = 0.1, .max = 100.0, .help = "edges are at most this many times as long as the part is thick", .automatic = "no limit"},
       Field<O>{.name = "crossings", .member = &O::crossings, .help = "triangles that cross are refined; what still crosses is an error, or kept with a warning; ignore: not looked for", .choices = "error warn ignore"},
       Field<O>{.name = "max_triangles", .member = &O::max_triangles, .min = 1, .max = 2e9, .help = "more than that are an error, at once where sizes and areas foretell it"},
       Field<O>{.name = "leading_edge_chordwise", .member = &O::leading_edge_chordwise, .unit = Unit::metre, .min = 1e-9, .help = "first cell beside leading edges of wings, in a band of stretched triangles", .automatic = "no band, or the longest edge by the stretch"},

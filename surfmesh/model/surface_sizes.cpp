@@ -44,21 +44,32 @@ struct SurfaceSizes::Builder {
   const ModelTopology& topology;
   const ModelSizes& sizes;
   const RunContext& context;
+  bool keeps_grids;
   SizeField in_space;
   Column<EdgeId, std::vector<Stop>> stops;
   SizeGraph graph;
 
+  /// In parallel where what the user asks for may be asked from any thread.
+  template <class Body>
+  void for_each(std::size_t n, std::size_t chunk, const Body& body) const {
+    if (!sizes.places.is_serial()) return parallel_for(context, n, body, chunk);
+    for (std::size_t i = 0; i < n; ++i) {
+      context.check_stop();
+      body(i);
+    }
+  }
+
   void run() {
     const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
     stops.resize(model.edges.size());
-    parallel_for(context, model.edges.size(), [&](std::size_t i) {
+    for_each(model.edges.size(), 4, [&](std::size_t i) {
       const EdgeId e(static_cast<std::uint64_t>(i));
       if (topology.is_point[e] != 0 || uses[e].empty()) return;
       place_stops(e, uses[e]);
       for (Stop& stop : stops[e]) stop.normals = normals_at(uses[e], stop.t);
-    }, 4);
+    });
     field.faces_.resize(model.faces.size());
-    parallel_for(context, model.faces.size(), [&](std::size_t i) { divide_face(FaceId(static_cast<std::uint64_t>(i))); }, 1);
+    for_each(model.faces.size(), 1, [&](std::size_t i) { divide_face(FaceId(static_cast<std::uint64_t>(i))); });
     add_edges_to_graph();
     Column<FaceId, std::uint32_t> first_node(model.faces.size(), 0);
     for (const FaceId f : model.faces.ids()) first_node[f] = add_face_to_graph(f);
@@ -74,7 +85,8 @@ struct SurfaceSizes::Builder {
   void place_stops(EdgeId e, const std::vector<EdgeUsePlace>& uses) {
     const ModelEdge& edge = model.edges[e];
     const std::vector<EdgeSample>& samples = edges[e].samples;
-    const std::vector<double>& asked = sizes.edge_sizes[e];
+    const std::vector<double> nothing(samples.size(), sizes.largest);
+    const std::vector<double>& asked = sizes.edge_sizes[e].empty() ? nothing : sizes.edge_sizes[e];
     double cap = sizes.largest;
     for (const EdgeUsePlace& use : uses) cap = std::min(cap, sizes.faces[use.face].max_edge);
     struct End {
@@ -83,7 +95,12 @@ struct SurfaceSizes::Builder {
       double asked;
       double spacing;
     };
-    const auto end_at = [&](double t, const Point& p, double by_edge) { return End{t, p, in_space(p, std::min(cap, by_edge)), k_station_sizes * field.bound_(p, cap)}; };
+    const auto end_at = [&](double t, const Point& p, double by_edge) {
+      double asked_here = std::min(cap, by_edge);
+      for (const EdgeUsePlace& use : uses) asked_here = std::min(asked_here, sizes.places(use.face, p));
+      asked_here = in_space(p, asked_here);
+      return End{t, p, asked_here, k_station_sizes * std::min(asked_here, field.bound_(p, cap))};
+    };
     struct Piece {
       End a, b;
       int depth;
@@ -167,8 +184,8 @@ struct SurfaceSizes::Builder {
       }
     }
     const double cap = sizes.faces[f].max_edge;
-    const FaceGrid::Bounds bounds{.at = [&, cap](const Point& p) { return field.bound_(p, cap); },
-                                  .is_level_within = [&, cap](const Point& p, double reach) { return field.bound_(p, cap, reach) >= cap; },
+    const FaceGrid::Bounds bounds{.at = [&, f](const Point& p) { return field.bound_(p, sizes.places(f, p)); },
+                                  .is_level_within = [&, f, cap](const Point& p, double reach) { return sizes.places.is_level_within(f, p, reach) && field.bound_(p, cap, reach) >= cap; },
                                   .largest = cap};
     field.faces_[f].grid = FaceGrid(*model.faces[f].surface, box, loops, bounds);
   }
@@ -214,7 +231,12 @@ struct SurfaceSizes::Builder {
     const double cap = sizes.faces[f].max_edge;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const double length = norm(normals[n]);
-      const double asked = nodes[n].is_inside ? in_space(nodes[n].point, sizes.is_overruled && sizes.is_overruled(f, nodes[n].point) ? cap : std::min(cap, curvature(nodes[n].uv))) : cap;
+      double asked = cap;
+      if (nodes[n].is_inside) {
+        asked = sizes.places(f, nodes[n].point);
+        if (!sizes.is_covered || !sizes.is_covered(f, nodes[n].point)) asked = std::min(asked, curvature(nodes[n].uv));
+        asked = in_space(nodes[n].point, asked);
+      }
       const Vec3 normal = length > 0.0 ? normals[n] / length : Vec3{};
       graph.add_node(nodes[n].point, {normal, normal}, asked, nodes[n].is_inside);
     }
@@ -280,16 +302,17 @@ struct SurfaceSizes::Builder {
       ++cell.n_segments;
       face.segments.push_back(crossings[i].segment);
     }
-    face.grid.forget_nodes();
+    if (!keeps_grids) face.grid.forget_nodes();
   }
 };
 
-SurfaceSizes::SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes, std::vector<SizeSource> in_space, const RunContext& context)
+SurfaceSizes::SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes, std::vector<SizeSource> in_space, const RunContext& context, bool keeps_grids)
     : bound_({}, sizes.growth, sizes.largest), growth_(sizes.growth), largest_(sizes.largest) {
+  in_space.insert(in_space.end(), sizes.in_space.begin(), sizes.in_space.end());
   std::vector<SizeSource> all = sizes.sources;
   all.insert(all.end(), in_space.begin(), in_space.end());
   bound_ = SizeField(std::move(all), sizes.growth, sizes.largest);
-  Builder builder{*this, model, edges, topology, sizes, context, SizeField(std::move(in_space), sizes.growth, sizes.largest), {}, {}};
+  Builder builder{*this, model, edges, topology, sizes, context, keeps_grids, SizeField(std::move(in_space), sizes.growth, sizes.largest), {}, {}};
   builder.run();
 }
 

@@ -21,8 +21,8 @@ namespace sterna::surfmesh {
 /// Away from where it is asked for within about 5 % of the formula. Linear in the number of triangles that such sizes make, but for the order of the carrying.
 class SurfaceSizes {
  public:
-  /// `in_space`: sources that count on all faces within their reach. The model's other sources must be in `sizes`.
-  SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes, std::vector<SizeSource> in_space, const RunContext& context);
+  /// `in_space`: sources that count on all faces within their reach, besides those of `sizes`. With `keeps_grids` the nodes of grid() stay.
+  SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes, std::vector<SizeSource> in_space, const RunContext& context, bool keeps_grids = false);
 
   /// Metres, from many threads. \pre the face is not absorbed
   double on_face(FaceId face, Uv at, const Point& point) const;
@@ -31,6 +31,8 @@ class SurfaceSizes {
   /// No place near `point` is wanted finer: the same formula with distances through space.
   double least_near(const Point& point) const { return bound_(point, largest_); }
   std::size_t n_cells() const;
+  /// Empty for absorbed faces.
+  const FaceGrid& grid(FaceId face) const { return faces_[face].grid; }
 
  private:
   struct Segment {

@@ -1,5 +1,5 @@
 // The surface mesher on whole models: CAD files, .smx and CPACS aircraft (united). One row each; processor time of the meshing alone.
-// usage: surface_models [-max METRES] [-angle DEGREES] [-growth G] [-refine F] [-narrow N] [-threads N] [-parts] [-nocheck] [-strict] [-out FOLDER] [-raw FOLDER] [-distance MESH] [-v] FILE ...
+// usage: surface_models [-max METRES] [-angle DEGREES] [-growth G] [-refine F] [-narrow N] [-gaps CELLS] [-thickness FACTOR] [-intersection FACTOR] [-wing FACTOR] [-nostrips] [-threads N] [-parts] [-nocheck] [-strict] [-out FOLDER] [-raw FOLDER] [-distance MESH] [-v] FILE ...
 //   -parts: aircraft are not united; -nocheck: crossings are not looked for; -strict: they are errors, else counted; -out: writes FOLDER/<stem>.vtu and .su2; -v: the worst faces too
 //   -raw: writes FOLDER/<stem>.tri, the numbers of tools/compare_gmsh: int64 points, int64 triangles, points as 3 doubles, triangles as 3 int32
 //   -distance: of such meshes (given before FILE) how far triangles are from FILE's faces; FILE is then not meshed
@@ -229,6 +229,11 @@ int main(int argc, char** argv) {
     else if (is("-growth")) settings.options.growth = number();
     else if (is("-refine")) settings.options.refinement = number();
     else if (is("-narrow")) settings.options.narrow = number();
+    else if (is("-gaps")) settings.options.gap_cells = number();
+    else if (is("-thickness")) settings.options.thickness_factor = number();
+    else if (is("-intersection")) settings.options.intersection_factor = number();
+    else if (is("-wing")) settings.options.leading_edge_factor = settings.options.trailing_edge_factor = number();
+    else if (is("-nostrips")) settings.options.tip_strips = false;
     else if (is("-threads")) settings.threads = static_cast<int>(number());
     else if (is("-limit")) settings.options.max_triangles = static_cast<int>(number());
     else if (is("-nocheck")) settings.options.crossings = "ignore";

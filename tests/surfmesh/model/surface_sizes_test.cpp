@@ -38,6 +38,7 @@ struct Field {
     options.min_edge = 1e-4 * largest;
     options.narrow = 100.0;
     sizes = sizes_of_faces(model, edges, options, {}, k_context);
+    add_place_sizes(model, edges, options, {}, sizes);
     std::vector<AbsorbedPart> absorbed;
     topology = absorb_small_parts(model, edges, sizes, absorbed);
     add_sources(model, edges, topology, options, sizes, k_context);
