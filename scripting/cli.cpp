@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdio>
 #include <functional>
+#include <sstream>
 
 #include "geom/base/error.h"
 #include "geom/base/schema.h"
@@ -129,6 +130,30 @@ std::string with_degrees(const std::string& name, const std::string& text) {
   throw Error({.code = ErrorCode::bad_argument, .attempted = "option curvature_angle", .problem = text + " may be degrees or radians", .hint = "write " + text + "deg or " + text + "rad"});
 }
 
+/// --patch "wing*:max_edge=0.1,curvature_angle=8": of two patterns that match the one with more letters counts.
+void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--patch",
+          [&patches](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              const std::size_t equals = text.find('='), colon = text.rfind(':', equals);
+              if (equals == std::string::npos || colon == std::string::npos || colon == 0) throw CLI::ValidationError("--patch", "\"" + text + "\" is not NAMES:OPTION=VALUE,OPTION=VALUE");
+              auto& [names, options] = patches.emplace_back(text.substr(0, colon), OptionOverrides{});
+              std::istringstream list(text.substr(colon + 1));
+              for (std::string entry; std::getline(list, entry, ',');) {
+                const std::size_t at = entry.find('=');
+                if (at == std::string::npos || at == 0) throw CLI::ValidationError("--patch", "\"" + entry + "\" is not OPTION=VALUE");
+                options.emplace_back(entry.substr(0, at), entry.substr(at + 1));
+              }
+            }
+          },
+          "what faces with such names ask for instead, e.g. --patch \"wing*:max_edge=0.1,curvature_angle=8\": max_edge, min_edge, curvature_angle, chord_error, leading_edge_factor, trailing_edge_factor; may be given several times")
+      ->type_name("NAMES:OPTION=VALUE,...")
+      ->allow_extra_args(false)
+      ->take_all();
+}
+
 void add_surface_command(CLI::App& app, SurfaceCommand& surface, OptionOverrides& set, Request& request) {
   CLI::App* command = app.add_subcommand("surface", "mesh the faces of a model (STEP, IGES, BREP, sumo, CPACS): triangles, closed where the model is");
   command->add_option("models", surface.inputs, "model files; several stand side by side. Components of sumo and CPACS files are united first")->required();
@@ -137,8 +162,13 @@ void add_surface_command(CLI::App& app, SurfaceCommand& surface, OptionOverrides
   ReadCadOptions reading;
   add_schema_options(*command, model_surface_options(options, reading), surface.options);
   add_set_option(*command, set);
-  command->footer("Numbers take units: 0.2, 5mm, 12deg; --curvature-angle 12 is degrees, too. Sizes by patch: surface_mesh{} of a Lua case.");
+  add_patch_option(*command, surface.patches);
+  command->add_option("--source", surface.sources, "shorter edges in a region, e.g. --source \"line 0 0 0 8 0 0 size=0.02 radius=0.5\"; point, line, box, sphere, cylinder, wake; may be given several times")
+      ->type_name("SOURCE")->allow_extra_args(false)->take_all();
+  command->footer("Numbers take units: 0.2, 5mm, 12deg; --curvature-angle 12 is degrees, too.");
   command->final_callback([&] {
+    for (auto& [names, options] : surface.patches)
+      for (auto& [name, text] : options) text = with_degrees(name, text);
     for (auto& [name, text] : surface.options) text = with_degrees(name, text);
     surface.options.insert(surface.options.end(), set.begin(), set.end());
     request.execute = [&](const CommandContext& context) { return execute(surface, context); };

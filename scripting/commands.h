@@ -38,6 +38,8 @@ struct MeshCommand {
 struct SurfaceCommand {
   std::vector<std::string> inputs;
   std::vector<std::filesystem::path> outputs;
+  std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, what it asks for
+  std::vector<std::string> sources;                              ///< source_of_text
   OptionOverrides options;
 };
 

@@ -76,6 +76,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
       for (Option& option : sterna::options_of(recipe.options)) options.push_back(std::move(option));
     json["options"] = Json::parse(options_to_json(options));
     if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
+    if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
     if (!volume.sources.empty()) json["sources"] = sources_json(volume.sources);
   }
   json["patches"] = Json::array();

@@ -8,6 +8,7 @@
 #include "scripting/exit_status.h"
 #include "scripting/model_surface.h"
 #include "scripting/models.h"
+#include "scripting/source_verbs.h"
 #include "scripting/summary.h"
 
 namespace sterna::scripting {
@@ -55,6 +56,13 @@ int execute(const SurfaceCommand& command, const CommandContext& context) {
   SurfaceRecipe recipe;
   ReadCadOptions reading;
   set_options(model_surface_options(recipe.options, reading), command.options);
+  for (const auto& [names, options] : command.patches) {
+    surfmesh::PatchSurfaceOptions& rule = recipe.patches.emplace_back();
+    rule.names = names;
+    set_options(patch_rule_options(rule), options);
+  }
+  sort_rules(recipe.patches);
+  for (const std::string& source : command.sources) recipe.sources.push_back(source_of_text(source));
   for (const auto& output : command.outputs) require_surface_output(output);
   std::vector<InputPath> inputs;
   for (const std::string& name : command.inputs) inputs.push_back(input_of(name));

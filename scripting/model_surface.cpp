@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <nlohmann/json.hpp>
 
 #include "geom/base/error.h"
 #include "geom/mesh/topology.h"
 #include "scripting/aircraft_model.h"
 #include "scripting/summary.h"
+#include "volmesh/tetra/size_sources.h"
 
 namespace sterna {
 
@@ -47,6 +51,66 @@ constexpr double k_read_end = 0.3;
 constexpr double k_unite_end = 0.5;
 
 bool is_description(const std::filesystem::path& path) { return path.extension() == ".smx" || path.extension() == ".xml"; }
+
+/// sumo's own normal angle: what files say that leave it alone.
+constexpr double k_sumo_angle = 30.0 * std::numbers::pi / 180.0;
+constexpr double k_same_angle = 1e-3;
+
+/// What an .smx file says of its components' triangles, unless sumo found it by itself; for those that have faces of their name.
+std::vector<surfmesh::PatchSurfaceOptions> rules_of(const Aircraft& aircraft, const Model& model) {
+  std::vector<surfmesh::PatchSurfaceOptions> rules;
+  const auto add = [&](const std::string& name, const std::optional<MeshCriterion>& criterion) {
+    if (!criterion || criterion->is_automatic || std::none_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return face.name == name; })) return;
+    surfmesh::PatchSurfaceOptions rule{.names = name};
+    if (criterion->max_edge) rule.max_edge = *criterion->max_edge;
+    if (criterion->min_edge) rule.min_edge = *criterion->min_edge;
+    if (criterion->max_normal_angle && std::abs(*criterion->max_normal_angle - k_sumo_angle) > k_same_angle) rule.curvature_angle = *criterion->max_normal_angle;
+    if (criterion->is_wing) {
+      rule.leading_edge_factor = std::clamp(criterion->leading_edge_factor, 0.01, 1.0);
+      rule.trailing_edge_factor = std::clamp(criterion->trailing_edge_factor, 0.01, 1.0);
+    }
+    rules.push_back(std::move(rule));
+  };
+  for (const Body& body : aircraft.bodies) add(body.name, body.criterion);
+  for (const Wing& wing : aircraft.wings) add(wing.name, wing.criterion);
+  return rules;
+}
+
+/// The user's rules win over those of files.
+void put_first(std::vector<surfmesh::PatchSurfaceOptions> rules, SurfaceRecipe& recipe) { recipe.patches.insert(recipe.patches.begin(), rules.begin(), rules.end()); }
+
+surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size) {
+  surfmesh::SpaceSizes asked{.regions = {}, .function = size, .samples = {}};
+  std::vector<volmesh::SizeSource> regions;
+  for (const volmesh::SizeSource& source : recipe.sources) {
+    if (const std::string problem = problem_of(source, recipe.options.growth); !problem.empty())
+      throw Error({.code = ErrorCode::bad_argument, .attempted = "reading the sources of a surface mesh", .problem = std::string(to_string(source.kind)) + ": " + problem});
+    if (source.kind != volmesh::SourceKind::samples) regions.push_back(source);
+    for (std::size_t i = 0; i < source.points.size(); ++i) asked.samples.push_back({source.points[i], source.sizes[i]});
+  }
+  if (!regions.empty())
+    asked.regions = [regions = std::move(regions)](const Point& p, double slope) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const volmesh::SizeSource& source : regions) least = std::min(least, size_of(source, p, slope));
+      return least;
+    };
+  return asked;
+}
+
+/// Samples by their number only.
+std::string sources_text(const std::vector<volmesh::SizeSource>& sources, bool has_function) {
+  if (sources.empty() && !has_function) return {};
+  const auto point = [](const Vec3& p) { return nlohmann::ordered_json{p.x, p.y, p.z}; };
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const volmesh::SizeSource& s : sources) {
+    if (s.kind == volmesh::SourceKind::samples) list.push_back({{"kind", to_string(s.kind)}, {"points", s.points.size()}});
+    else
+      list.push_back({{"kind", to_string(s.kind)}, {"from", point(s.from)}, {"to", point(s.to)}, {"direction", point(s.direction)}, {"radius", s.radius}, {"length", s.length},
+                      {"height", s.height}, {"spread", s.spread}, {"size", s.size}, {"size_end", s.size_end}});
+  }
+  if (has_function) list.push_back({{"kind", "function"}});
+  return list.dump();
+}
 
 std::string indented(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
@@ -119,11 +183,15 @@ std::string surface_mesh_text(const Model& model, const SurfaceValue& surface) {
   return text;
 }
 
-SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const RunContext& context) {
+SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size, const RunContext& context) {
   const StageTimer timer(context, "surface_mesh");
   const ModelValue all = assemble(models, context);
-  surfmesh::SurfaceMesh made = surfmesh::mesh_model(all.model, recipe.options, recipe.patches, context);
+  SurfaceRecipe recipe = asked;
+  for (const ModelHandle& model : models)
+    if (model->description) put_first(rules_of(*model->description, all.model), recipe);
+  surfmesh::SurfaceMesh made = surfmesh::mesh_model(all.model, recipe.options, recipe.patches, space_sizes(recipe, size), context);
   SurfaceValue surface{.inputs = all.inputs, .recipe = recipe};
+  surface.recipe->sources_text = sources_text(recipe.sources, static_cast<bool>(size));
   surface.mesh = std::move(made.mesh);
   const Topology topology(surface.mesh, context);
   surface.report.n_triangles_read = static_cast<std::int64_t>(surface.mesh.n_triangles());
@@ -143,15 +211,19 @@ SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOpt
                    .problem = "it is no model (STEP, IGES, BREP, sumo .smx, CPACS .xml)",
                    .hint = "a triangulation is meshed as it is: sterna mesh " + file.name});
   std::vector<ModelHandle> models;
+  SurfaceRecipe with_files = recipe;
   const double n = static_cast<double>(files.size());
   for (const InputPath& file : files) {
     const double i = static_cast<double>(models.size());
     auto model = std::make_shared<ModelValue>(read_model(file, reading, context.part("read", k_read_end * i / n, k_read_end * (i + 1) / n)));
-    if (is_description(file.path) && model->model.solids.size() > 1)
+    if (is_description(file.path) && model->model.solids.size() > 1) {
+      const std::optional<Aircraft> description = model->description;  // a union has none
       *model = unite_solids({std::make_shared<const ModelValue>(std::move(*model))}, {}, context.part("union", k_read_end, k_unite_end));
+      if (description) put_first(rules_of(*description, model->model), with_files);
+    }
     models.push_back(std::move(model));
   }
-  return mesh_models(models, recipe, context.part("surface_mesh", k_unite_end, 1.0));
+  return mesh_models(models, with_files, {}, context.part("surface_mesh", k_unite_end, 1.0));
 }
 
 }  // namespace sterna::scripting

@@ -1,6 +1,7 @@
 // The surface of models as a triangulation: what surface_mesh{}, `sterna surface` and `sterna mesh model.step` share.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,7 +18,9 @@ namespace sterna::scripting {
 /// Meshes the models, side by side where there are several. The log says what was made: triangles, patches, closed or open and where, the worst angle with its
 /// face, absorbed parts, crossings (a warning). Patches have the faces' names.
 /// \throws Error of surfmesh::mesh_model
-SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const RunContext& context);
+/// What .smx files say of their components' triangles (maxlen, minlen, maxphi other than sumo's 30 degrees, lerfactor, terfactor; not where defaults="true") counts as rules before the recipe's.
+/// `size`: lengths of edges by place, called by this thread alone. \throws also Error(bad_argument) for a source that volmesh::problem_of objects to
+SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size, const RunContext& context);
 
 /// Reads files of models and meshes their surface. Components of .smx and CPACS files are united first; CAD stays as it is. `reading` counts for CAD.
 /// \throws Error of read_model, unite_solids, mesh_models; bad_argument for a file that is no model

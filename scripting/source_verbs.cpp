@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <sstream>
 
 #include "geom/base/error.h"
 #include "geom/base/schema.h"
@@ -31,7 +32,7 @@ struct Schema<scripting::SourceNumbers> {
   using O = scripting::SourceNumbers;
   static constexpr std::string_view stage = "source";
   static constexpr std::array fields = {
-      Field<O>{.name = "size", .member = &O::size, .unit = Unit::metre, .min = 1e-12, .help = "edge length of tetrahedra inside", .required = true},
+      Field<O>{.name = "size", .member = &O::size, .unit = Unit::metre, .min = 1e-12, .help = "edge length inside", .required = true},
       Field<O>{.name = "size_end", .member = &O::size_end, .unit = Unit::metre, .min = 1e-12, .help = "edge length at its far end", .automatic = "size"},
       Field<O>{.name = "radius", .member = &O::radius, .unit = Unit::metre, .min = 0.0, .help = "everything nearer is inside", .automatic = "0"},
       Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-12, .help = "how far it is swept along its direction", .required = true},
@@ -166,17 +167,50 @@ std::string numbers_help() {
 }
 
 constexpr std::array<ScriptVerb, 6> k_verbs = {{
-    {"point", k_kinds[0].usage, "Small tetrahedra at a point, for the sources of volume_mesh.", make_source_of_verb, numbers_help<0>},
-    {"line", k_kinds[1].usage, "Small tetrahedra within a distance of a line, for the sources of volume_mesh.", make_source_of_verb, numbers_help<1>},
-    {"box", k_kinds[2].usage, "Small tetrahedra in an axis-parallel box, for the sources of volume_mesh; without size a solid box.", make_box_or_source, numbers_help<2>},
-    {"cylinder", k_kinds[4].usage, "Small tetrahedra in a cylinder, for the sources of volume_mesh; without size a solid cylinder.", make_cylinder_or_source, numbers_help<4>},
-    {"wake", k_kinds[5].usage, "Small tetrahedra behind a trailing edge, for the sources of volume_mesh.", make_source_of_verb, numbers_help<5>},
-    {"size_samples", k_samples_usage, "Wanted edge lengths at the points of a VTU file, for the sources of volume_mesh.", make_samples},
+    {"point", k_kinds[0].usage, "Short edges at a point, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<0>},
+    {"line", k_kinds[1].usage, "Short edges within a distance of a line, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<1>},
+    {"box", k_kinds[2].usage, "Short edges in an axis-parallel box, for the sources of volume_mesh and surface_mesh; without size a solid box.", make_box_or_source, numbers_help<2>},
+    {"cylinder", k_kinds[4].usage, "Short edges in a cylinder, for the sources of volume_mesh and surface_mesh; without size a solid cylinder.", make_cylinder_or_source, numbers_help<4>},
+    {"wake", k_kinds[5].usage, "Short edges behind a trailing edge, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<5>},
+    {"size_samples", k_samples_usage, "Wanted edge lengths at the points of a VTU file, for the sources of volume_mesh and surface_mesh.", make_samples},
 }};
 
 }  // namespace
 
 std::span<const ScriptVerb> source_verbs() { return k_verbs; }
+
+SizeSource source_of_text(const std::string& text) {
+  const std::string attempted = "source \"" + text + "\"";
+  std::istringstream words(text);
+  std::string verb;
+  words >> verb;
+  const KindOfSource* kind = kind_named(verb);
+  if (kind == nullptr) {
+    std::string names;
+    for (const KindOfSource& known : k_kinds) names += (names.empty() ? "" : ", ") + std::string(known.verb);
+    throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "\"" + verb + "\" is no source", .hint = "there are " + names + "; such as \"sphere 0 0 0 radius=1 size=0.1\""});
+  }
+  ScriptTable table;
+  std::vector<double> numbers;
+  const auto point_at = [](double x, double y, double z) { return std::make_shared<const ScriptTable>(ScriptTable{.items = {x, y, z}, .fields = {}, .other_keys = {}}); };
+  for (std::string word; words >> word;) {
+    const std::size_t equals = word.find('=');
+    if (equals == std::string::npos) {
+      numbers.push_back(parse_number_with_unit(word));
+      continue;
+    }
+    std::vector<double> values;
+    std::istringstream list(word.substr(equals + 1));
+    for (std::string value; std::getline(list, value, ',');) values.push_back(parse_number_with_unit(value));
+    ScriptValue& field = table.fields[word.substr(0, equals)];
+    if (values.size() == 1) field = values.front();
+    else if (values.size() == 3) field = point_at(values[0], values[1], values[2]);
+    else throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + ": expected one number, or three for a direction"});
+  }
+  if (numbers.size() % 3 != 0) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "coordinates come in threes, not " + std::to_string(numbers.size())});
+  for (std::size_t i = 0; i < numbers.size(); i += 3) table.items.push_back(point_at(numbers[i], numbers[i + 1], numbers[i + 2]));
+  return source_of(table, *kind, attempted);
+}
 
 ScriptValue make_sphere_source(const ScriptCall& call) { return make_source(call, *kind_named("sphere")); }
 

@@ -17,5 +17,8 @@ ScriptValue make_sphere_source(const ScriptCall& call);
 
 /// The entry "sources" of a table: a list of what the verbs above made, or one. Notes problems with the reader.
 std::vector<volmesh::SizeSource> read_sources(TableReader& reader, const ScriptCall& call);
+/// A source of the command line, "line 0 0 0 8 0 0 size=0.02 radius=0.5": the verb's name, its points, its named numbers. Numbers take units.
+/// \throws Error(bad_argument, unknown_option)
+volmesh::SizeSource source_of_text(const std::string& text);
 
 }  // namespace sterna::scripting

@@ -89,6 +89,7 @@ std::string unfinished_json(const SurfaceValue& wall, const volmesh::VolumeMeshO
     for (Option& option : sterna::options_of(recipe.options)) table.push_back(std::move(option));
   json["options"] = Json::parse(options_to_json(table));
   if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
+  if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
   json["sources"] = options.sources.size();
   json["stage"] = std::move(stage);
   return json.dump(2) + "\n";
@@ -132,6 +133,7 @@ class StageJson {
     SurfaceRecipe result;
     read_options(sterna::options_of(result.options));
     if (json_.contains("surface_patches")) result.patches = patch_rules_of_json(json_.at("surface_patches").dump());
+    if (json_.contains("surface_sources")) result.sources_text = json_.at("surface_sources").dump();
     return result;
   }
 

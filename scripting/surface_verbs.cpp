@@ -1,9 +1,12 @@
 #include "scripting/surface_verbs.h"
 
 #include <array>
+#include <functional>
 
 #include "scripting/geometry_tools.h"
 #include "scripting/model_surface.h"
+#include "scripting/script_function.h"
+#include "scripting/source_verbs.h"
 
 namespace sterna::scripting {
 namespace {
@@ -45,6 +48,22 @@ std::vector<surfmesh::PatchSurfaceOptions> read_rules(TableReader& reader) {
   return rules;
 }
 
+/// size = function(x, y, z) return 0.1 + 0.05*x end
+std::function<double(const Point&)> read_size_function(TableReader& reader) {
+  const ScriptValue* value = reader.field("size");
+  if (value == nullptr) return {};
+  const auto* function = std::get_if<FunctionHandle>(value);
+  if (function == nullptr) {
+    reader.add_problem("size: expected a function of x, y, z that returns the length of edges there in metres, not " + std::string(type_text(*value)) + "; max_edge is a number");
+    return {};
+  }
+  return [function = *function](const Point& p) {
+    std::array<double, 1> result{};
+    function->call(std::array{p.x, p.y, p.z}, result);
+    return result[0];
+  };
+}
+
 ScriptValue make_surface_mesh(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_surface_mesh_usage);
   SurfaceRecipe recipe;
@@ -61,15 +80,18 @@ ScriptValue make_surface_mesh(const ScriptCall& call) {
   if (items.empty()) reader.add_problem("needs a model: " + std::string(k_surface_mesh_usage));
   reader.read_options(schema);
   recipe.patches = read_rules(reader);
+  recipe.sources = read_sources(reader, call);
+  const std::function<double(const Point&)> size = read_size_function(reader);
   apply_overrides(call, sterna::options_of(recipe.options));
   reader.finish();
-  return std::make_shared<const SurfaceValue>(mesh_models(models, recipe, call.session.context.part("surface_mesh", 0.0, 1.0)));
+  return std::make_shared<const SurfaceValue>(mesh_models(models, recipe, size, call.session.context.part("surface_mesh", 0.0, 1.0)));
 }
 
 std::string surface_mesh_help() {
   surfmesh::SurfaceMeshOptions options;
   surfmesh::PatchSurfaceOptions rule;
-  return options_help(sterna::options_of(options)) + "patches = { [\"wing*\"] = { ... } }, of faces with such names; of two patterns that match the one with more letters counts:\n" + options_help(patch_rule_options(rule));
+  return options_help(sterna::options_of(options)) + "patches = { [\"wing*\"] = { ... } }, of faces with such names; of two patterns that match the one with more letters counts:\n" + options_help(patch_rule_options(rule)) +
+         "sources = { line{ {0,0,0}, {8,0,0}, size = 0.02 }, ... }: shorter edges there. size = function(x, y, z) return 0.1 end: edges at most that long\n";
 }
 
 constexpr std::array<ScriptVerb, 1> k_verbs = {{

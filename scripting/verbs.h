@@ -28,6 +28,8 @@ struct InputFile {
 struct SurfaceRecipe {
   surfmesh::SurfaceMeshOptions options;
   std::vector<surfmesh::PatchSurfaceOptions> patches;  ///< the last that matches a face counts
+  std::vector<volmesh::SizeSource> sources;            ///< in space
+  std::string sources_text;                            ///< the same, and whether there was a function, as JSON: what manifests keep; empty for none
 };
 
 /// A surface with where it came from.

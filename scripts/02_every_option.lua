@@ -183,6 +183,14 @@ local skin = surface_mesh{ block,
   growth = 1.2,
   refinement = 1.0,                   -- 1.5: the next finer mesh of a family
   narrow = 2.0,                       -- edges along narrow faces, of their width
+  leading_edge_factor = 0.5,          -- of the longest edge, at leading edges of wings made of sections
+  trailing_edge_factor = 0.5,
+  tip_strips = true,                  -- 0.4 and 0.6 of the longest edge beside tips of wings
+  intersection_factor = 0.5,          -- of the longest edge, where components of a union meet
+  gap_cells = 0,                      -- edges that fit across gaps; 0: gaps are not looked for
+  thickness_factor = "automatic",     -- edges by the thickness of the part; automatic: no limit
+  sources = { line{ {0, 0, 0}, {0.5, 0, 0}, size = 0.05, radius = 0.1 } },
+  size = function(x, y, z) return 0.2 end,  -- metres: edges are at most that long
   crossings = "error",                -- of triangles that finer ones do not part; warn keeps the mesh, ignore does not look
   max_triangles = 100000000,
   -- Bands of stretched triangles along the edges of wings; a block has none, so nothing is asked for. Also in tables: leading_edge = { chordwise = 0.004, stretch = 8 }.
@@ -195,6 +203,7 @@ local skin = surface_mesh{ block,
   trailing_edge_cells = "automatic",      -- across the base of blunt trailing edges
   patches = {                         -- by names of faces; of two patterns that match the one with more letters counts
     ["box*"] = { max_edge = 0.1, min_edge = "automatic", curvature_angle = "automatic", chord_error = "automatic",
+      leading_edge_factor = "automatic", trailing_edge_factor = "automatic",
       leading_edge = { chordwise = "automatic", stretch = "automatic", growth = "automatic" }, trailing_edge = { chordwise = "automatic", stretch = "automatic", growth = "automatic", cells = "automatic" } } },
 }
 print(skin)

@@ -91,6 +91,47 @@ TEST_F(SurfaceMeshVerb, MistakesAreNamedTogether) {
   EXPECT_THAT(error("volume_mesh{ " + block + ", first_height=1e-3 }"), HasSubstr("expected a surface (from surface_mesh or read_surface), not a model"));
 }
 
+TEST_F(SurfaceMeshVerb, SourcesAndFunctionsMakeShorterEdges) {
+  const std::string model = "local m = box{ {0,0,0}, {4,4,4}, name='block' } local function n(o) o[1] = m o.max_edge = 1 return surface_mesh(o) end ";
+  EXPECT_EQ(run(model + "local plain = n{}.triangles "
+                        "print(n{ sources={ sphere{ {0,0,0}, radius=0.5, size=0.05 } } }.triangles > 5*plain, n{ sources={ point{ {0,0,9}, size=0.05 } } }.triangles == plain, "
+                        "n{ size=function(x, y, z) return 0.1 + z end }.triangles > 5*plain)"),
+            "true\ttrue\ttrue\n");
+  EXPECT_THAT(error(model + "n{ sources={ 3 }, size=0.2 }"), AllOf(HasSubstr("2 problems"), HasSubstr("sources, entry 1: expected a source"), HasSubstr("size: expected a function of x, y, z")));
+  EXPECT_THAT(error(model + "n{ sources={ sphere{ {0,0,0}, raduis=0.5, size=0.05 } } }"), HasSubstr("unknown key \"raduis\", did you mean \"radius\"?"));
+  EXPECT_THAT(error(model + "n{ size=function(x, y, z) return -z end }"), HasSubstr("the function of sizes gives"));
+  EXPECT_THAT(error(model + "n{ size=function(x, y, z) return nil + 1 end }"), HasSubstr("case.lua:1"));
+  EXPECT_THAT(run("help(surface_mesh)"), AllOf(HasSubstr("gap_cells"), HasSubstr("sources = {")));
+  // Manifests keep them, files of steps too.
+  run("local w = surface_mesh{ box{ {0,0,0}, {1,1,1}, name='block' }, max_edge=0.5, sources={ point{ {0,0,0}, size=0.2 } } } "
+      "volume_mesh{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=10 } }:write(" + out("s.su2") + ")");
+  EXPECT_THAT(text_of("s.su2.json"), AllOf(HasSubstr("\"surface_sources\""), HasSubstr("\"kind\": \"point\"")));
+}
+
+TEST_F(SurfaceMeshVerb, TheCommandLineTakesPatchesAndSources) {
+  run("assembly{ box{ {0,0,0}, {1,1,1}, name='wing' }, box{ {3,0,0}, {4,1,1}, name='body' } }:write(" + out("two.step") + ")");
+  const auto triangles = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"surface", "two.step", "-o", "w.su2", "--max-edge", "0.5"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const test::ProcessResult result = sterna(arguments);
+    EXPECT_EQ(result.status, k_exit_success) << result.errors;
+    const std::string text = text_of("w.su2");
+    return std::stoi(text.substr(text.find("NELEM=") + 6));
+  };
+  const int plain = triangles({}), wing = triangles({"--patch", "wing*:max_edge=0.1", "--patch", "*:curvature_angle=20,min_edge=1mm"}), source = triangles({"--source", "line 3 0 0 4 0 0 size=0.05 radius=50mm"});
+  EXPECT_GT(wing, 5 * plain);
+  EXPECT_GT(source, 3 * plain);
+  for (const auto& [arguments, text] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+           {{"--patch", "wing*:max_egde=0.1"}, "did you mean \"max_edge\"?"}, {{"--patch", "wing"}, "is not NAMES:OPTION=VALUE"}, {{"--patch", "tail:max_edge=0.1"}, "no face has a name like \"tail\""},
+           {{"--source", "ball 0 0 0 size=1"}, "\"ball\" is no source"}, {{"--source", "point 0 0 size=1"}, "coordinates come in threes"}, {{"--source", "sphere 0 0 0 size=1 raduis=2"}, "did you mean \"radius\"?"}}) {
+    std::vector<std::string> all = {"surface", "two.step", "-o", "w.su2"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const test::ProcessResult result = sterna(all);
+    EXPECT_NE(result.status, k_exit_success) << text;
+    EXPECT_THAT(result.errors, HasSubstr(text));
+  }
+}
+
 TEST_F(SurfaceMeshVerb, AFileOfStepsKeepsTheOptions) {
   run("local w = surface_mesh{ box{ {0,0,0}, {1,1,1}, name='block' }, max_edge=0.5, patches={ ['b*']={ max_edge=0.4, curvature_angle=20*deg } } } "
       "local e = make_envelope{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=10 } } e:write(" + out("steps.sterna") + ") local t = tetrahedra{ e } prisms{ e, t }:write(" + out("a.su2") + ")");

@@ -1,0 +1,174 @@
+// What places ask for: sources of the user, gaps, thin parts, factors of wings, strips at tips, intersections.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "geom/base/error.h"
+#include "geom/model/components.h"
+#include "geom/model/model_builder.h"
+#include "geom/model/shapes.h"
+#include "surfmesh/model/surface_mesh.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+const RunContext k_context{};
+
+SurfaceMeshOptions edges_of(double size) {
+  SurfaceMeshOptions options;
+  options.max_edge = size;
+  options.min_edge = 1e-3 * size;
+  options.curvature_angle = 0.5;
+  options.narrow = 100.0;
+  options.leading_edge_factor = options.trailing_edge_factor = options.intersection_factor = 1.0;
+  options.tip_strips = false;
+  return options;
+}
+
+/// Mean length of edges of triangles whose middle is within.
+double mean_edge(const SurfaceMesh& mesh, const std::function<bool(const Point&)>& is_within) {
+  double sum = 0.0, n = 0.0;
+  for (const TriangleId t : mesh.mesh.triangles.ids()) {
+    const TriangleVertices& v = mesh.mesh.triangles[t];
+    const Point &a = mesh.mesh.points[v[0]], &b = mesh.mesh.points[v[1]], &c = mesh.mesh.points[v[2]];
+    if (!is_within((a + b + c) / 3.0)) continue;
+    sum += distance(a, b) + distance(b, c) + distance(c, a);
+    n += 3.0;
+  }
+  return n > 0.0 ? sum / n : std::numeric_limits<double>::infinity();
+}
+
+SurfaceMesh meshed(const Model& model, const SurfaceMeshOptions& options, const SpaceSizes& asked = {}, const RunContext& context = k_context) { return mesh_model(model, options, {}, asked, context); }
+
+/// A plate with 10 m sides.
+Model slab(double low, double high) { return make_box("slab", {0, 0, low}, {10, 10, high}); }
+
+TEST(PlaceSizes, SourcesOfTheUserAreMetAndGrow) {
+  SpaceSizes asked;
+  asked.regions = [](const Point& p, double slope) { return 0.05 + slope * std::max(0.0, distance(p, {5, 5, 1}) - 0.5); };
+  SurfaceMeshOptions options = edges_of(1.0);
+  const Model model = slab(0, 1);
+  const SurfaceMesh mesh = meshed(model, options, asked);
+  const auto at = [](double from, double to) { return [=](const Point& p) { return p.z > 0.99 && distance(p, {5, 5, 1}) > from && distance(p, {5, 5, 1}) < to; }; };
+  EXPECT_NEAR(mean_edge(mesh, at(0.0, 0.4)), 0.05, 0.01);
+  EXPECT_NEAR(mean_edge(mesh, at(1.9, 2.1)), 0.05 + 0.2 * 1.5, 0.07);
+  EXPECT_GT(mean_edge(mesh, [](const Point& p) { return p.z < 0.01 && distance(p, {0, 0, 0}) < 2.0; }), 0.75);
+  // The next finer mesh has half the lengths there, too.
+  options.refinement = 2.0;
+  EXPECT_NEAR(mean_edge(meshed(model, options, asked), at(0.0, 0.4)), 0.025, 0.005);
+}
+
+TEST(PlaceSizes, FunctionsMayJumpAndSamplesCount) {
+  SpaceSizes asked;
+  asked.function = [](const Point& p) { return p.x < 3.0 ? 0.1 : 5.0; };
+  asked.samples = {{{9.0, 9.0, 1.0}, 0.02}};
+  const Model model = slab(0, 1);
+  const SurfaceMesh mesh = meshed(model, edges_of(1.0), asked);
+  EXPECT_NEAR(mean_edge(mesh, [](const Point& p) { return p.z > 0.99 && p.x < 2.5; }), 0.1, 0.02);
+  EXPECT_NEAR(mean_edge(mesh, [](const Point& p) { return p.z > 0.99 && distance(p, {5.0, 5.0, 1.0}) < 0.5; }), 0.5, 0.1);
+  EXPECT_LT(mean_edge(mesh, [](const Point& p) { return distance(p, {9.0, 9.0, 1.0}) < 0.05; }), 0.035);
+  asked.function = [](const Point&) { return -1.0; };
+  EXPECT_THROW(meshed(model, edges_of(1.0), asked), Error);
+}
+
+TEST(PlaceSizes, GapsHaveTheirCells) {
+  Model model = slab(0, 1);
+  append(model, slab(1.3, 2.3));
+  SurfaceMeshOptions options = edges_of(1.0);
+  const auto in_gap = [](const Point& p) { return p.z > 0.99 && p.z < 1.31 && p.x > 1 && p.x < 9 && p.y > 1 && p.y < 9; };
+  EXPECT_GT(mean_edge(meshed(model, options), in_gap), 0.7);
+  options.gap_cells = 2.0;
+  const SurfaceMesh mesh = meshed(model, options);
+  EXPECT_NEAR(mean_edge(mesh, in_gap), 0.15, 0.03);
+  // Around the rim sizes grow again, and inside the plates nothing counts as a gap.
+  EXPECT_GT(mean_edge(mesh, [](const Point& p) { return (p.z < 0.01 || p.z > 2.29) && p.x > 3 && p.x < 7 && p.y > 3 && p.y < 7; }), 0.7);
+}
+
+TEST(PlaceSizes, ThinPartsHaveShortEdges) {
+  const Model model = slab(0, 0.2);
+  SurfaceMeshOptions options = edges_of(1.0);
+  const auto inner = [](const Point& p) { return p.x > 1 && p.x < 9 && p.y > 1 && p.y < 9; };
+  EXPECT_GT(mean_edge(meshed(model, options), inner), 0.6);
+  options.thickness_factor = 1.5;
+  EXPECT_NEAR(mean_edge(meshed(model, options), inner), 0.3, 0.06);
+  options.min_edge = 0.5;  // a limit for what thin parts ask for
+  EXPECT_GT(mean_edge(meshed(model, options), inner), 0.4);
+}
+
+Model wing(bool is_blunt) {
+  Wing wing{.name = "W", .is_symmetric = false, .is_cubic = false, .trailing_edge = is_blunt ? std::optional(0.02) : std::nullopt};
+  for (const double y : {10.0, 0.0}) {
+    WingSection s{.name = "y", .leading_edge = {0.0, y, 0.0}, .chord = 2.0};
+    for (int i = 0; i <= 100; ++i) s.points.push_back({0.5 + 0.5 * std::cos(2 * pi * i / 100), 0.1 * std::sin(2 * pi * i / 100)});
+    wing.sections.push_back(s);
+  }
+  return make_wing(wing);
+}
+
+TEST(PlaceSizes, WingsAreFinerAtTheirEdgesAndTips) {
+  for (const bool is_blunt : {true, false}) {
+    SCOPED_TRACE(is_blunt);
+    const Model model = wing(is_blunt);
+    SurfaceMeshOptions options = edges_of(0.2);
+    options.curvature_angle = 1.5;
+    const auto strip = [](double from, double to) { return [=](const Point& p) { return p.x > from && p.x < to && p.y > 3 && p.y < 7 && std::abs(p.z) > 0.02; }; };
+    const double plain = mean_edge(meshed(model, options), strip(1.8, 1.9));
+    EXPECT_GT(plain, 0.14);
+    options.trailing_edge_factor = 0.4;
+    const SurfaceMesh trailing = meshed(model, options);
+    EXPECT_LT(mean_edge(trailing, strip(1.8, 1.9)), 0.7 * plain);
+    EXPECT_GT(mean_edge(trailing, strip(0.9, 1.1)), 0.8 * plain);
+    options.trailing_edge_factor = 1.0;
+    options.leading_edge_factor = 0.4;
+    const SurfaceMesh leading = meshed(model, options);
+    EXPECT_LT(mean_edge(leading, strip(0.1, 0.2)), 0.7 * plain);
+    EXPECT_GT(mean_edge(leading, strip(1.8, 1.9)), 0.8 * plain);
+    // Rules for patches overrule.
+    const std::vector<PatchSurfaceOptions> rules = {{.names = "W", .leading_edge_factor = 1.0}};
+    EXPECT_GT(mean_edge(mesh_model(model, options, rules, k_context), strip(0.1, 0.2)), 0.8 * plain);
+    options.leading_edge_factor = 1.0;
+    options.tip_strips = true;
+    const SurfaceMesh tips = meshed(model, options);
+    const auto along = [](double from, double to) { return [=](const Point& p) { return p.y > from && p.y < to && p.x > 0.5 && p.x < 1.5; }; };
+    EXPECT_LT(mean_edge(tips, along(9.75, 9.99)), 0.6 * 0.2);
+    EXPECT_GT(mean_edge(tips, along(4.0, 6.0)), 0.8 * plain);
+  }
+}
+
+TEST(PlaceSizes, ComponentsMeetInShorterEdges) {
+  // A box of two components: its faces at x = 0 belong to another one.
+  Model model = make_box("body", {0, 0, 0}, {4, 4, 4});
+  const ComponentId other = model.components.push_back({.name = "other", .kind = ComponentKind::unknown});
+  for (const FaceId f : model.faces.ids())
+    if (model.faces[f].surface->point({0.0, 0.0}).x < 1e-9 && distance(model.faces[f].surface->point({0.1, 0.1}), model.faces[f].surface->point({0.0, 0.0})) > 0.0 && std::abs(model.faces[f].surface->point({0.1, 0.1}).x) < 1e-9)
+      model.faces[f].component = other;
+  SurfaceMeshOptions options = edges_of(0.5);
+  const auto rim = [](const Point& p) { return p.x > 0.0 && p.x < 0.3 && p.y > 1.0 && p.y < 3.0; };
+  const double plain = mean_edge(meshed(model, options), rim);
+  options.intersection_factor = 0.4;
+  EXPECT_LT(mean_edge(meshed(model, options), rim), 0.65 * plain);
+}
+
+TEST(PlaceSizes, SameForAnyThreads) {
+  Model model = wing(true);
+  append(model, make_box("slab", {0, 3, 0.3}, {2, 7, 0.5}));
+  SurfaceMeshOptions options;
+  options.max_edge = 0.2;
+  options.gap_cells = 2.0;
+  options.thickness_factor = 2.0;
+  SpaceSizes asked;
+  asked.regions = [](const Point& p, double slope) { return 0.02 + slope * distance(p, {1, 5, 0.1}); };
+  std::vector<Point> first;
+  for (const int threads : {1, 2, 7}) {
+    const SurfaceMesh mesh = meshed(model, options, asked, RunContext({.threads = threads}));
+    if (first.empty()) first = mesh.mesh.points.raw();
+    EXPECT_EQ(first, mesh.mesh.points.raw());
+  }
+}
+
+}  // namespace
+}  // namespace sterna::surfmesh
