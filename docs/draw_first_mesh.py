@@ -12,30 +12,21 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
+from drawing import add_view, look, new_window, patch_markers, read_mesh, write_picture
+
 SIZE = (1200, 700)          # pixels
 SPLIT = 0.6                 # part of the width that the left view takes
-COLOUR_STEP = 8             # of 256: coarse colours shrink the file and do not show
 WING_STATION = -2.9         # m along y: half way out on the wing
 PRISM_COLOUR = (0.98, 0.78, 0.42)
 TET_COLOUR = (0.62, 0.76, 0.90)
 WALL_COLOUR = (0.90, 0.90, 0.92)
 
 
-def read_mesh(path):
-    reader = vtk.vtkXMLUnstructuredGridReader()
-    reader.SetFileName(path)
-    reader.Update()
-    if reader.GetErrorCode() or reader.GetOutput().GetNumberOfCells() == 0:
-        sys.exit(f"{path}: not a readable VTU")
-    return reader.GetOutput()
-
-
 def farfield_marker(grid):
-    fields = grid.GetFieldData()
-    for i in range(fields.GetNumberOfArrays()):
-        if fields.GetArrayName(i).startswith("patch:farfield:"):
-            return int(fields.GetArray(i).GetTuple1(0))
-    sys.exit("the mesh has no farfield patch")
+    found = [marker for marker, kind, _ in patch_markers(grid) if kind == "farfield"]
+    if not found:
+        sys.exit("the mesh has no farfield patch")
+    return found[0]
 
 
 def cell_ranges(grid):
@@ -79,22 +70,6 @@ def actor(part, colour, edge_colour, line_width):
     return result
 
 
-def view(window, left, right, actors, position, focus, height):
-    renderer = vtk.vtkRenderer()
-    renderer.SetViewport(left, 0, right, 1)
-    renderer.SetBackground(1, 1, 1)
-    for item in actors:
-        renderer.AddActor(item)
-    camera = renderer.GetActiveCamera()
-    camera.ParallelProjectionOn()
-    camera.SetFocalPoint(focus)
-    camera.SetPosition(position)
-    camera.SetViewUp(0, 0, 1)
-    camera.SetParallelScale(0.5 * height)
-    renderer.ResetCameraClippingRange()
-    window.AddRenderer(renderer)
-
-
 def cut(grid, low, high, is_tet, is_prism, y, box):
     """The actors of the cells that the plane y cuts inside box = (x0, x1, z0, z1)."""
     inside = (low[:, 1] <= y) & (high[:, 1] > y) & (low[:, 0] > box[0]) & (high[:, 0] < box[1]) & (low[:, 2] > box[2]) & (high[:, 2] < box[3])
@@ -112,27 +87,13 @@ def main():
     wall = (marker > 0) & (marker != farfield_marker(grid))
     is_tet, is_prism = kind == vtk.VTK_TETRA, kind == vtk.VTK_WEDGE
 
-    window = vtk.vtkRenderWindow()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(8)
-    window.SetSize(*SIZE)
+    window = new_window(SIZE)
     wall_actor = actor(pick(grid, wall), WALL_COLOUR, (0.58, 0.59, 0.61), 0.5)
-    view(window, 0, SPLIT, [wall_actor] + cut(grid, low, high, is_tet, is_prism, 0.0, (-2, 9.5, -2, 4)), (-6, -18, 8), (3.6, -1, 0.45), 8.0)
-    view(window, SPLIT, 1, cut(grid, low, high, is_tet, is_prism, WING_STATION, (-1, 6, -2, 3)), (2.55, -30, 0.9), (2.55, 0, 0.9), 3.1)
-    window.Render()
-
-    shot = vtk.vtkWindowToImageFilter()
-    shot.SetInput(window)
-    shot.ReadFrontBufferOff()
-    shot.Update()
-    image = shot.GetOutput()
-    colours = vtk_to_numpy(image.GetPointData().GetScalars())
-    image.GetPointData().SetScalars(numpy_to_vtk(np.where(colours >= 252, 255, colours // COLOUR_STEP * COLOUR_STEP).astype(np.uint8), deep=True))
-    writer = vtk.vtkPNGWriter()
-    writer.SetInputData(image)
-    writer.SetFileName(sys.argv[2])
-    writer.SetCompressionLevel(9)
-    writer.Write()
+    left = add_view(window, (0, 0, SPLIT, 1), [wall_actor] + cut(grid, low, high, is_tet, is_prism, 0.0, (-2, 9.5, -2, 4)))
+    look(left, (-6, -18, 8), (3.6, -1, 0.45), 8.0)
+    right = add_view(window, (SPLIT, 0, 1, 1), cut(grid, low, high, is_tet, is_prism, WING_STATION, (-1, 6, -2, 3)))
+    look(right, (2.55, -30, 0.9), (2.55, 0, 0.9), 3.1)
+    write_picture(window, sys.argv[2])
 
 
 main()

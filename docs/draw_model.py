@@ -6,15 +6,15 @@ usage: build/release/tests/surface_models -out . airliner.step && xvfb-run -a do
 
 Patches that begin with "tunnel", "inflow" or "outflow" are drawn transparent; a mirror image ("...Left") has the colour of its original.
 """
-import math
 import sys
 
 import numpy as np
 import vtk
-from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtk.util.numpy_support import vtk_to_numpy
+
+from drawing import add_view, look_at_all, new_window, patch_markers, read_mesh, write_picture
 
 SIZE = (1200, 700)
-COLOUR_STEP = 8             # of 256: coarse colours shrink the file and do not show
 SHARP = 25.0                # degrees: edges of the surface itself
 SEE_THROUGH = ("tunnel", "inflow", "outflow")
 COLOURS = [(0.80, 0.82, 0.86), (0.55, 0.70, 0.88), (0.93, 0.69, 0.38), (0.60, 0.78, 0.55), (0.85, 0.55, 0.52), (0.72, 0.62, 0.82), (0.50, 0.75, 0.76), (0.88, 0.80, 0.50), (0.62, 0.62, 0.66)]
@@ -22,23 +22,15 @@ COLOURS = [(0.80, 0.82, 0.86), (0.55, 0.70, 0.88), (0.93, 0.69, 0.38), (0.60, 0.
 
 def read_patches(path):
     """The triangles of each patch: [(name, vtkPolyData)]."""
-    reader = vtk.vtkXMLUnstructuredGridReader()
-    reader.SetFileName(path)
-    reader.Update()
-    grid = reader.GetOutput()
-    names = {}
-    fields = grid.GetFieldData()
-    for i in range(fields.GetNumberOfArrays()):
-        parts = fields.GetArrayName(i).split(":")
-        if parts[0] == "patch":
-            names[int(fields.GetArray(i).GetTuple1(0))] = parts[-1]
+    grid = read_mesh(path)
+    names = patch_markers(grid)
     if not names:
         sys.exit(f"{path}: no patches")
     surface = vtk.vtkDataSetSurfaceFilter()
     surface.SetInputData(grid)
     surface.Update()
     patches = []
-    for number, name in sorted(names.items()):
+    for number, _, name in names:
         pick = vtk.vtkThreshold()
         pick.SetInputData(surface.GetOutput())
         pick.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_CELLS, "marker")
@@ -101,45 +93,9 @@ def main():
         is_wall = name.startswith(SEE_THROUGH)
         actors += [face_actor(data, colour, 0.12 if is_wall else 1.0), edge_actor(data)]
         shown.append(vtk_to_numpy(data.GetPoints().GetData()))
-    renderer = vtk.vtkRenderer()
-    renderer.SetBackground(1, 1, 1)
-    for item in actors:
-        renderer.AddActor(item)
-    everything = np.vstack(shown)
-    middle = 0.5 * (everything.min(axis=0) + everything.max(axis=0))
-    a, e = math.radians(azimuth), math.radians(elevation)
-    # From ahead (-x) and starboard, above.
-    towards = np.array([-math.cos(a) * math.cos(e), math.sin(a) * math.cos(e), math.sin(e)])
-    right = np.cross([0.0, 0.0, 1.0], towards)
-    right /= np.linalg.norm(right)
-    up = np.cross(towards, right)
-    across, high = (everything - middle) @ right, (everything - middle) @ up
-    focus = middle + 0.5 * (across.max() + across.min()) * right + 0.5 * (high.max() + high.min()) * up
-    camera = renderer.GetActiveCamera()
-    camera.ParallelProjectionOn()
-    camera.SetFocalPoint(focus)
-    camera.SetPosition(focus + 1000.0 * towards)
-    camera.SetViewUp(0, 0, 1)
-    camera.SetParallelScale(0.53 * max(high.max() - high.min(), (across.max() - across.min()) * SIZE[1] / SIZE[0]))
-    renderer.ResetCameraClippingRange()
-    window = vtk.vtkRenderWindow()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(8)
-    window.SetSize(*SIZE)
-    window.AddRenderer(renderer)
-    window.Render()
-    shot = vtk.vtkWindowToImageFilter()
-    shot.SetInput(window)
-    shot.ReadFrontBufferOff()
-    shot.Update()
-    image = shot.GetOutput()
-    pixels = vtk_to_numpy(image.GetPointData().GetScalars())
-    image.GetPointData().SetScalars(numpy_to_vtk(np.where(pixels >= 252, 255, pixels // COLOUR_STEP * COLOUR_STEP).astype(np.uint8), deep=True))
-    writer = vtk.vtkPNGWriter()
-    writer.SetInputData(image)
-    writer.SetFileName(sys.argv[2])
-    writer.SetCompressionLevel(9)
-    writer.Write()
+    window = new_window(SIZE)
+    look_at_all(add_view(window, (0, 0, 1, 1), actors), np.vstack(shown), azimuth, elevation, SIZE[0] / SIZE[1])
+    write_picture(window, sys.argv[2])
 
 
 main()
