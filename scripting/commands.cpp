@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "geom/base/error.h"
@@ -173,9 +174,14 @@ std::string read_write(bool is_read, bool is_written) {
 void set_options(const OptionTable& table, const OptionOverrides& given) {
   std::string problems;
   std::size_t n_problems = 0;
+  std::map<std::string, std::pair<std::string, OptionValue>> before;  // what options were set to, by full name
   for (const auto& [name, text] : given) {
     try {
-      set_option_as_typed(find_option(table, name, "option " + name), text);
+      const Option& option = find_option(table, name, "option " + name);
+      set_option_as_typed(option, text);
+      const auto [same, is_new] = before.try_emplace(std::string(option.stage) + "." + std::string(option.name), text, option.get());
+      if (!is_new && same->second.second != option.get())
+        throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + name, .problem = same->first + " is given twice, as " + same->second.first + " and as " + text});
     } catch (const Error& error) {
       problems += "\n  - " + error.info().attempted + ": " + error.info().problem + (error.info().hint.empty() ? "" : " (" + error.info().hint + ")");
       ++n_problems;
@@ -224,12 +230,18 @@ int execute(const MeshCommand& command, const CommandContext& context) {
 }
 
 int execute(const UnionCommand& command, const CommandContext& context) {
+  for (const std::string& name : command.inputs) {
+    std::error_code none;  // of files that are not there: they are no input, or not yet an output
+    if (std::filesystem::equivalent(name, command.output, none))
+      throw Error({.code = ErrorCode::bad_argument, .attempted = "union", .problem = "the output " + command.output.string() + " is one of the inputs, which it would replace", .hint = "give it another name"});
+  }
   if (std::any_of(command.inputs.begin(), command.inputs.end(), [](const std::string& name) { return is_model_file(name); })) return unite_models(command, context);
   UnionOptions options;
   surfmesh::StitchOptions reading;
   OptionTable table = sterna::options_of(options);
   table.push_back(find_option(sterna::options_of(reading), "unit", "union"));
   set_options(table, command.options);
+  require_surface_output(command.output);
   std::vector<UnionItem> items;
   for (const std::string& name : command.inputs) items.emplace_back(InputPath{name, name});
   const SurfaceValue united = unite_surfaces(items, reading.unit, options, context.run.part("union", 0.0, k_mesh_end));

@@ -30,7 +30,7 @@ struct RunCommand {
 struct MeshCommand {
   std::vector<std::string> inputs;
   std::vector<std::filesystem::path> outputs;
-  OptionOverrides options;  ///< --layers 30 as {"layers", "30"} and --set stage.option=value, in the order of their precedence, the last wins
+  OptionOverrides options;  ///< --layers 30 as {"layers", "30"} and --set stage.option=value
   std::filesystem::path stats;
   std::filesystem::path stages;  ///< .sterna file that keeps the steps of the run; empty: none
 };
@@ -77,7 +77,7 @@ int convert_model(const ConvertCommand& command, const CommandContext& context);
 /// The options of `sterna surface`, and of `sterna mesh` of a model, but for those of the volume. The arguments must outlive the table.
 OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCadOptions& reading);
 
-/// Sets every option; all problems are reported together. \throws Error(bad_argument)
+/// Sets every option; all problems are reported together, also options that are given twice with different values. \throws Error(bad_argument)
 void set_options(const OptionTable& table, const OptionOverrides& given);
 
 /// Each throws Error; the caller prints it and turns its code into the exit status.

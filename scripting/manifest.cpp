@@ -77,6 +77,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     json["options"] = Json::parse(options_to_json(options));
     if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
     if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
+    if (mesh.origin->smooth_angle) json["wall"] = {{"max_smooth_angle", *mesh.origin->smooth_angle}};
     if (!volume.sources.empty()) json["sources"] = sources_json(volume.sources);
   }
   json["patches"] = Json::array();

@@ -251,6 +251,7 @@ ScriptValue measure_verb(const ScriptCall& call) {
   auto wings = std::make_shared<ScriptTable>();
   for (const WingReference& w : m.wings) wings->fields[w.name] = wing_table(w);
   result->fields["wings"] = TableHandle(wings);
+  if (!m.no_wings.empty()) call.session.context.warn(call.attempted() + ": no reference data of wings, which components as data have: " + m.no_wings);
   return result;
 }
 
@@ -280,7 +281,10 @@ ScriptValue write_model_files(const ScriptCall& call) {
   reader.read_options(sterna::options_of(options));
   reader.finish();
   for (const auto& name : names) require_model_output(*model, name);
-  for (const auto& name : names) write_model(*model, name, options, call.session.context.part("write", 0.0, 1.0));
+  for (const auto& name : names) {
+    write_model(*model, name, options, call.session.context.part("write", 0.0, 1.0));
+    call.session.context.info("wrote " + name.string() + ": " + describe(*model));
+  }
   return model;
 }
 

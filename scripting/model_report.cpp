@@ -82,6 +82,8 @@ ModelReport measure_model(const ModelValue& value, const RunContext& context) {
   for (const SolidId s : model.solids.ids()) report.solids.push_back(part_of(measures.solids[s.index()], {}, model.solids[s].faces, measures.faces));
   if (value.description)
     for (const Wing& wing : value.description->wings) report.wings.push_back(wing_reference(wing));
+  else if (std::any_of(model.components.begin(), model.components.end(), [](const Component& c) { return c.kind == ComponentKind::wing; }))
+    report.no_wings = value.without_description;
   return report;
 }
 
@@ -117,6 +119,7 @@ std::string measures_text(const ModelReport& measures) {
   for (const WingReference& wing : measures.wings)
     text += fmt::format("\n  wing     \"{}\": span {:.6g} m, area {:.6g} m^2, seen from above {:.6g} m^2, aspect ratio {:.4g}, mean chord geometric {:.6g} m, aerodynamic {:.6g} m from {}", wing.name, wing.span,
                         wing.area, wing.projected_area, wing.aspect_ratio, wing.mean_geometric_chord, wing.mean_aerodynamic_chord, format_point(wing.aerodynamic_chord_start));
+  if (!measures.no_wings.empty()) text += "\n  wing     no reference data, which components as data have: " + measures.no_wings;
   return text;
 }
 

@@ -192,6 +192,8 @@ SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRe
   surfmesh::SurfaceMesh made = surfmesh::mesh_model(all.model, recipe.options, recipe.patches, space_sizes(recipe, size), context);
   SurfaceValue surface{.inputs = all.inputs, .recipe = recipe};
   surface.recipe->sources_text = sources_text(recipe.sources, static_cast<bool>(size));
+  surface.smooth_angle = made.report.max_smooth_angle;
+  surface.model_wall = std::make_shared<const surfmesh::ModelWall>(all.model, made);
   surface.mesh = std::move(made.mesh);
   const Topology topology(surface.mesh, context);
   surface.report.n_triangles_read = static_cast<std::int64_t>(surface.mesh.n_triangles());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <sstream>
 
 #include "geom/base/error.h"
 #include "geom/base/hash.h"
@@ -27,11 +28,28 @@ bool is_xml(const std::filesystem::path& path) { return extension_of(path) == ".
 
 ModelValue value_of(AircraftReading reading, const InputPath& file, const RunContext& context) {
   ModelValue value{.inputs = {{file.name, hash_file(file.path)}}};
-  value.model = make_components(reading.aircraft, context);
+  try {
+    value.model = make_components(reading.aircraft, context);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::bad_argument) throw;
+    ErrorInfo info = error.info();  // what is wrong with a component's description is wrong with the file
+    info.code = ErrorCode::file_malformed;
+    info.attempted = file.name + ": " + info.attempted;
+    throw Error(std::move(info));
+  }
   for (const std::string& message : reading.messages) value.report += (value.report.empty() ? "" : "\n") + message;
   value.description = std::move(reading.aircraft);
   context.info(file.name + ": " + describe(value));
   return value;
+}
+
+/// The lines of a report that the reader has not told yet: warnings went to the log when they were found.
+std::string without_warnings(const std::string& report) {
+  std::string text;
+  std::istringstream lines(report);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with("  warning: ")) text += (text.empty() ? "" : "\n") + line;
+  return text;
 }
 
 }  // namespace
@@ -49,8 +67,7 @@ ModelValue read_model(const InputPath& file, const ReadCadOptions& options, cons
   CadFile cad = io::read_cad(file.path, options, context);
   ModelValue value{.without_description = "read from " + file.name, .inputs = {{file.name, hash_file(file.path)}}};
   value.model = std::move(cad.model);
-  value.report = to_text(cad.report);
-  while (value.report.ends_with('\n')) value.report.pop_back();
+  value.report = without_warnings(to_text(cad.report));
   context.info(file.name + ": " + value.report);
   return value;
 }

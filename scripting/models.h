@@ -72,6 +72,7 @@ struct ModelReport {
   std::vector<PartMeasures> components;
   std::vector<PartMeasures> solids;
   std::vector<WingReference> wings;  ///< of the description
+  std::string no_wings;              ///< why there are none although there are wings; else empty
 };
 ModelReport measure_model(const ModelValue& value, const RunContext& context);
 

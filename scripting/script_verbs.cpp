@@ -142,7 +142,10 @@ ScriptValue make_sphere(const ScriptCall& call) {
 
 ScriptValue write_surface_files(const ScriptCall& call) {
   const SurfaceHandle& surface = self<SurfaceHandle>(call);
-  for (const auto& name : output_names(call)) write_surface(*surface, name, call.session.context);
+  for (const auto& name : output_names(call)) {
+    write_surface(*surface, name, call.session.context);
+    call.session.context.info("wrote " + name.string() + ": " + describe(*surface));
+  }
   return surface;
 }
 
@@ -150,7 +153,10 @@ ScriptValue write_mesh_files(const ScriptCall& call) {
   const MeshHandle& mesh = self<MeshHandle>(call);
   const auto names = output_names(call);
   for (const auto& name : names) require_mesh_output(name);
-  for (const auto& name : names) write_mesh(*mesh, name, call.session.context);
+  for (const auto& name : names) {
+    write_mesh(*mesh, name, call.session.context);
+    call.session.context.info("wrote " + name.string() + " and " + name.string() + ".json");
+  }
   return mesh;
 }
 
@@ -220,9 +226,11 @@ ScriptValue surface_field(const ScriptCall& call) {
   if (const auto& report = surface.mesh_report) {
     fields.emplace_back("min_angle", report->min_angle);
     fields.emplace_back("max_angle", report->max_angle);
+    fields.emplace_back("share_20_130", report->share_20_130);
     fields.emplace_back("crossings", report->n_crossings);
     fields.emplace_back("absorbed", static_cast<std::int64_t>(report->absorbed.size()));
   }
+  if (surface.smooth_angle) fields.emplace_back("smooth_angle", *surface.smooth_angle);
   return select_field(call, std::move(fields), surface_methods());
 }
 

@@ -106,6 +106,7 @@ ScriptValue read_stages_verb(const ScriptCall& call) {
 /// The envelope's points on the connectivity of the wall.
 SurfaceValue surface_of(const EnvelopeValue& envelope) {
   SurfaceValue surface = *envelope.wall;
+  surface.mesh_report.reset();  // of the wall
   for (const VertexId v : surface.mesh.points.ids()) surface.mesh.points[v] = envelope.stage.envelope.point(envelope.wall->mesh, v);
   return surface;
 }

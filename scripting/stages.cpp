@@ -90,6 +90,7 @@ std::string unfinished_json(const SurfaceValue& wall, const volmesh::VolumeMeshO
   json["options"] = Json::parse(options_to_json(table));
   if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
   if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
+  if (wall.smooth_angle) json["wall"] = {{"max_smooth_angle", *wall.smooth_angle}};
   json["sources"] = options.sources.size();
   json["stage"] = std::move(stage);
   return json.dump(2) + "\n";
@@ -137,6 +138,12 @@ class StageJson {
     return result;
   }
 
+  /// Of a wall that surface_mesh made, in this run or an earlier one. Radians.
+  std::optional<double> smooth_angle() const {
+    if (!json_.contains(Json::json_pointer("/wall/max_smooth_angle"))) return std::nullopt;
+    return get<double>("/wall/max_smooth_angle");
+  }
+
   /// Finished runs list them, the others count them.
   std::size_t n_sources() const {
     const auto found = json_.find("sources");
@@ -181,6 +188,7 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
   value.origin = MeshOrigin{.surface_options = wall.options,
                             .union_options = wall.union_options,
                             .recipe = wall.recipe,
+                            .smooth_angle = wall.smooth_angle,
                             .options = options,
                             .layer = std::move(result.layer),
                             .certificate = std::move(result.certificate),
@@ -193,6 +201,14 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
                             .tetra_engine_seconds = result.tetra_engine_seconds,
                             .tetra_engine_peak_bytes = result.tetra_engine_peak_bytes};
   return value;
+}
+
+/// The options with what is known of the wall.
+volmesh::VolumeMeshOptions knowing(const SurfaceValue& wall, volmesh::VolumeMeshOptions options) {
+  if (wall.smooth_angle) options.smooth_angle = *wall.smooth_angle;
+  if (wall.model_wall)
+    options.true_surface = [model_wall = wall.model_wall](const Point& p, TriangleId triangle, const std::array<double, 3>& weights) { return model_wall->nearest(p, triangle, weights); };
+  return options;
 }
 
 /// The options of some stages of a volume mesh.
@@ -254,13 +270,13 @@ OptionTable tetrahedra_options(volmesh::VolumeMeshOptions& options) { return opt
 OptionTable finish_options(volmesh::VolumeMeshOptions& options) { return options_of_stages(options, {"improve"}); }
 
 EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context) {
-  return {.wall = wall, .options = options, .stage = volmesh::make_envelope(wall->mesh, options, context)};
+  return {.wall = wall, .options = options, .stage = volmesh::make_envelope(wall->mesh, knowing(*wall, options), context)};
 }
 
 TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::VolumeMeshOptions& options, const RunContext& context) {
   if (envelope.n_sources_in_file > 0 && options.sources.empty())
     context.warn("the run that made this envelope had " + std::to_string(envelope.n_sources_in_file) + " sources of the size field; a file does not keep them: give them again");
-  return {.wall = envelope.wall, .n_wall_triangles = n_triangles(*envelope.wall), .options = options, .stage = volmesh::make_tetrahedra(envelope.wall->mesh, envelope.stage, options, context)};
+  return {.wall = envelope.wall, .n_wall_triangles = n_triangles(*envelope.wall), .options = options, .stage = volmesh::make_tetrahedra(envelope.wall->mesh, envelope.stage, knowing(*envelope.wall, options), context)};
 }
 
 MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::VolumeMeshOptions& options, const RunContext& context) {
@@ -268,7 +284,7 @@ MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::VolumeMe
 }
 
 MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const std::filesystem::path& stages, const RunContext& context) {
-  if (stages.empty()) return mesh_value(wall, n_triangles(wall), options, volmesh::volume_mesh(wall.mesh, options, context));
+  if (stages.empty()) return mesh_value(wall, n_triangles(wall), options, volmesh::volume_mesh(wall.mesh, knowing(wall, options), context));
   require_stage_output(stages);
   FinishedParts parts;
   const volmesh::StageWatch watch{.enveloped = [&](const volmesh::EnvelopeStage& stage) { write_envelope(wall, options, stage, stages, context.part("stages", 0.0, 0.0)); },
@@ -277,7 +293,7 @@ MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOp
                                         write_filled(wall, n_triangles(wall), options, stage, stages, context.part("stages", 0.0, 0.0));
                                         parts = {.split_wall = stage.split_wall, .envelope = stored(stage.envelope.envelope), .tetrahedra = stored(stage), .json = stage_json(stage, n_triangles(wall))};
                                       }};
-  MeshValue mesh = mesh_value(wall, n_triangles(wall), options, volmesh::volume_mesh(wall.mesh, options, watch, context));
+  MeshValue mesh = mesh_value(wall, n_triangles(wall), options, volmesh::volume_mesh(wall.mesh, knowing(wall, options), watch, context));
   write_finished(wall, parts, mesh, stages, context.part("stages", 1.0, 1.0));
   return mesh;
 }
@@ -294,6 +310,7 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     volmesh::VolumeMeshOptions options;
     json.read_options(all_options(wall->options, options));
     wall->recipe = json.recipe();
+    wall->smooth_angle = json.smooth_angle();
     result.surface = wall;
     volmesh::EnvelopeStage envelope{.envelope = envelope_of(std::move(*content.envelope), file), .feature_angle = json.get<double>("/stage/feature_angle")};
     result.envelope = std::make_shared<const EnvelopeValue>(EnvelopeValue{.wall = wall, .options = options, .stage = envelope, .n_sources_in_file = json.n_sources()});

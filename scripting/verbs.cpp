@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 
 #include "geom/base/error.h"
+#include "io/atomic_file.h"
 #include "io/format_table.h"
 #include "io/input_hash.h"
 #include "io/sterna_file.h"
@@ -13,6 +15,7 @@
 #include "scripting/layer_json.h"
 #include "scripting/manifest.h"
 #include "scripting/summary.h"
+#include "scripting/surface_manifest.h"
 
 namespace sterna::scripting {
 namespace {
@@ -28,6 +31,7 @@ void require_output(const std::filesystem::path& path, io::FormatUse use) {
   const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   if (!std::filesystem::is_directory(folder))
     throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + folder.string()});
+  if (!format.require_output) io::AtomicFile probe(path);  // says why nothing can be written there; gone at once
 }
 
 }  // namespace
@@ -42,6 +46,9 @@ SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchO
     for (const InputPath& file : files) {
       soups.push_back(io::read_surface_file(file.path, part));
       wall.inputs.push_back({file.name, io::hash_input(file.path)});
+      const auto known = read_surface_manifest(file, wall.inputs.back().hash, part);
+      if (!known || wall.inputs.size() == 1) wall.smooth_angle = known ? std::optional(known->smooth_angle) : std::nullopt;
+      else if (wall.smooth_angle) wall.smooth_angle = std::max(*wall.smooth_angle, known->smooth_angle);
       part.progress(static_cast<double>(soups.size()) / static_cast<double>(files.size()));
     }
   }
@@ -110,6 +117,7 @@ void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const
 
 void write_surface(const SurfaceValue& surface, const std::filesystem::path& path, const RunContext& context) {
   io::write_surface_file(surface.mesh, path, context);
+  if (surface.mesh_report) write_surface_manifest(surface, path);
 }
 
 OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::VolumeMeshOptions& volume) {

@@ -12,6 +12,7 @@
 #include "geom/base/run_context.h"
 #include "geom/boolean/union_meshes.h"
 #include "geom/mesh/check.h"
+#include "surfmesh/model/model_wall.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "volmesh/volume_mesh.h"
@@ -41,6 +42,8 @@ struct SurfaceValue {
   std::optional<UnionOptions> union_options = {};  ///< of a surface that union made
   std::optional<SurfaceRecipe> recipe = {};        ///< of a surface that surface_mesh made
   std::optional<surfmesh::SurfaceMeshReport> mesh_report = {};  ///< the same, unless it was read from a file
+  std::optional<double> smooth_angle = {};                      ///< rad, the same or as the manifest beside the file says: the largest turn where the surface is smooth
+  std::shared_ptr<const surfmesh::ModelWall> model_wall = {};   ///< of a surface that surface_mesh made in this run: where new vertices belong
 };
 
 /// How a volume mesh was made here; absent for one that was read from a file.
@@ -48,6 +51,7 @@ struct MeshOrigin {
   surfmesh::StitchOptions surface_options;
   std::optional<UnionOptions> union_options;
   std::optional<SurfaceRecipe> recipe;
+  std::optional<double> smooth_angle;  ///< of the wall
   volmesh::VolumeMeshOptions options;
   volmesh::LayerReport layer;
   volmesh::EnvelopeCertificate certificate;
@@ -77,7 +81,7 @@ struct InputPath {
   std::filesystem::path path;
 };
 
-/// Reads the files and joins them to one surface. \throws Error of io and of surfmesh::stitch_surface.
+/// Reads the files and joins them to one surface; manifests beside them say how far smooth places turn. \throws Error of io and of surfmesh::stitch_surface.
 SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context);
 
 /// What union takes: a surface that was read, or a file, whose closed components may cross each other.
@@ -96,7 +100,7 @@ void write_mesh(const MeshValue& mesh, const std::filesystem::path& path, const 
 
 /// \throws Error unsupported_format or write_failed when a surface cannot be written to a file of this name. Before the work.
 void require_surface_output(const std::filesystem::path& path);
-/// Writes a surface; format by extension. \throws Error of io.
+/// Writes a surface; format by extension; of one that surface_mesh made also its manifest "<path>.json". \throws Error of io.
 void write_surface(const SurfaceValue& surface, const std::filesystem::path& path, const RunContext& context);
 
 /// The options of reading a surface and of all stages of the volume mesh, for `--set stage.option=value`. The arguments must outlive the table.

@@ -122,7 +122,8 @@ SplitLayer split_layer(const LayerBase& base, const Envelope& envelope, const Tr
   if (options.true_surface) {
     parallel_for(context, wall_part.points.size(), [&](std::size_t i) {
       Point& p = wall->points[VertexId(base.wall.n_vertices() + i)];
-      p = options.true_surface(p, base.wall.triangle_patch[wall_part.triangle(tets.splits.origins[wall_part.points[i]])]);
+      const Origin& origin = tets.splits.origins[wall_part.points[i]];
+      p = options.true_surface(p, wall_part.triangle(origin), origin.weights);
     });
   }
   auto split_outer = std::make_unique<TriMesh>(split_mesh(outer_part, tets.splits, node2vertex));

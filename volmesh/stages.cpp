@@ -1,6 +1,5 @@
 #include "volmesh/stages.h"
 
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -215,8 +214,7 @@ MeshingSite::MeshingSite(const TriMesh& wall, const VolumeMeshOptions& user_opti
         return layer_base;
       }()),
       collider([&] {
-        options.envelope.feature_angle = feature_angle_of(base, options.envelope, context);
-        context.info("feature angle " + std::to_string(options.envelope.feature_angle * 180.0 / std::numbers::pi) + " deg");
+        options.envelope.feature_angle = decide_feature_angle(base, options.envelope, options.smooth_angle, context);
         const StageTimer timer(context, "preflight");
         Collider of_wall(base, &outer, context);
         require_clear_input(of_wall, context);

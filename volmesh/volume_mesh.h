@@ -30,6 +30,7 @@ struct VolumeMeshOptions {
   std::vector<SizeSource> sources;  ///< of the size field
   TetraOptions tetrahedra;
   ImproveOptions improve;
+  double smooth_angle = k_automatic;  ///< rad: largest dihedral turn of the wall where it is smooth, where its maker knows it; decides the default feature angle
   TrueSurface true_surface;         ///< where new wall vertices go when boundary triangles are split; empty: they stay on their triangle
 };
 

@@ -96,10 +96,13 @@ SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const 
   result.edge_places.resize(n);
   for (TriangleVertices& v : mesh.triangles)
     for (VertexId& w : v) w = number[w];
+  result.corner_vertices.resize(model.corners.size());
+  for (const CornerId c : model.corners.ids())
+    if (const VertexId v = numbers.of_corner[topology.corner[c]]; v.is_valid()) result.corner_vertices[c] = number[v];
   return result;
 }
 
-JoinFaults check_joins(const Model& model, SurfaceMesh& surface, const RunContext& context) {
+JoinFaults check_joins(const Model& model, const SurfaceMesh& surface, const RunContext& context) {
   const TriMesh& mesh = surface.mesh;
   std::vector<EdgeEntry> entries(3 * mesh.n_triangles());
   JoinFaults faults;
@@ -114,21 +117,12 @@ JoinFaults check_joins(const Model& model, SurfaceMesh& surface, const RunContex
   Column<FaceId, std::uint8_t> has_free_edge(model.faces.size(), 0);
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
   for (const EdgeId e : free_edges(model)) has_free_edge[uses[e].front().face] = 1;
-  const auto normal = [&](std::uint32_t t) {
-    const auto p = corners(mesh, TriangleId(t));
-    return cross(p[1] - p[0], p[2] - p[0]);
-  };
   for (std::size_t i = 0; i < entries.size();) {
     std::size_t end = i + 1;
     while (end < entries.size() && entries[end].low == entries[i].low && entries[end].high == entries[i].high) ++end;
     const auto from = [&](const EdgeEntry& e) { return mesh.triangles[TriangleId(e.triangle)][e.corner].value(); };
     bool is_wrong = end - i > 2 || entries[i].low == entries[i].high;
-    if (end - i == 2) {
-      is_wrong = is_wrong || from(entries[i]) == from(entries[i + 1]);
-      const FaceId f = surface.triangle_face[TriangleId(entries[i].triangle)];
-      if (f == surface.triangle_face[TriangleId(entries[i + 1].triangle)])
-        surface.report.max_smooth_angle = std::max(surface.report.max_smooth_angle, angle_between(normal(entries[i].triangle), normal(entries[i + 1].triangle)));
-    }
+    if (end - i == 2) is_wrong = is_wrong || from(entries[i]) == from(entries[i + 1]);
     if (end - i == 1) {
       ++faults.n_free_edges;
       is_wrong = is_wrong || has_free_edge[surface.triangle_face[TriangleId(entries[i].triangle)]] == 0;

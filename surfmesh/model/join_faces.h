@@ -16,7 +16,6 @@ struct JoinFaults {
   std::vector<TriangleId> triangles;  ///< ascending
   std::int64_t n_free_edges = 0;
 };
-/// Also measures the largest smooth dihedral angle into the report.
-JoinFaults check_joins(const Model& model, SurfaceMesh& mesh, const RunContext& context);
+JoinFaults check_joins(const Model& model, const SurfaceMesh& mesh, const RunContext& context);
 
 }  // namespace sterna::surfmesh

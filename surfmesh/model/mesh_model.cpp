@@ -15,6 +15,7 @@
 #include "surfmesh/model/estimate.h"
 #include "surfmesh/model/join_faces.h"
 #include "surfmesh/model/proximity.h"
+#include "surfmesh/model/smooth_angle.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -24,6 +25,13 @@ constexpr const char* k_attempted = "meshing the model's surface";
 constexpr int k_max_rounds = 6;
 constexpr double k_repair_factor = 0.5;
 constexpr std::size_t k_shown_places = 10;
+constexpr double k_angle_class = 10.0 * std::numbers::pi / 180.0;  ///< of SurfaceMeshReport::least_angles
+
+std::string number_text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
 
 struct Meshing {
   const Model& model;
@@ -184,12 +192,20 @@ void summarise(const Meshing& meshing, SurfaceMesh& mesh) {
   std::stable_sort(report.loose_edges.begin(), report.loose_edges.end(), [](const LooseEdge& a, const LooseEdge& b) { return a.distance * b.tolerance > b.distance * a.tolerance; });
   if (n > 0) report.share_20_130 = 1.0 - static_cast<double>(n_outside) / static_cast<double>(n);
   std::vector<float> least;
+  double twice_area = 0.0;
   for (const TriangleId t : mesh.mesh.triangles.ids()) {
     if (mesh.is_band[t] != 0) continue;
     const auto p = corners(mesh.mesh, t);
-    least.push_back(static_cast<float>(std::min({corner_angle(p[0], p[1], p[2]), corner_angle(p[1], p[2], p[0]), corner_angle(p[2], p[0], p[1])})));
+    const double angle = std::min({corner_angle(p[0], p[1], p[2]), corner_angle(p[1], p[2], p[0]), corner_angle(p[2], p[0], p[1])});
+    least.push_back(static_cast<float>(angle));
+    ++report.least_angles[std::min(report.least_angles.size() - 1, static_cast<std::size_t>(angle / k_angle_class))];
+    // 2 r / R = 16 A^2 / (a b c (a + b + c))
+    const double a = distance(p[1], p[2]), b = distance(p[2], p[0]), c = distance(p[0], p[1]), twice = norm(cross(p[1] - p[0], p[2] - p[0]));
+    twice_area += twice;
+    if (twice > 0.0) report.mean_radius_ratio += twice * 4.0 * twice * twice / (a * b * c * (a + b + c));
   }
   if (least.empty()) return;
+  if (twice_area > 0.0) report.mean_radius_ratio /= twice_area;
   const auto at = least.begin() + static_cast<std::ptrdiff_t>(least.size() / 100);
   std::nth_element(least.begin(), at, least.end());
   report.angle_quantile_1 = *at;
@@ -199,6 +215,11 @@ void check_options(const SurfaceMeshOptions& options) {
   SurfaceMeshOptions copy = options;
   for (const Option& option : options_of(copy))
     if (option.kind != OptionKind::number || option.automatic.empty() || !is_automatic(std::get<double>(option.get()))) set_option(option, option.get());
+  if (options.min_edge > options.max_edge)  // false where either is automatic
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "min_edge = " + number_text(options.min_edge) + " m is above max_edge = " + number_text(options.max_edge) + " m",
+                 .hint = "curvature and narrow places ask for no edges below min_edge; leave it automatic for 2 % of max_edge"});
 }
 
 }  // namespace
@@ -253,20 +274,24 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   summarise(meshing, mesh);
   report_crossings(model, options, crossings, mesh, context);
   for (const std::string& note : mesh.report.bands.notes) context.warn(note);
+  const SmoothAngle smooth = measure_smooth_angle(model, meshing.faces, context);
+  mesh.report.max_smooth_angle = smooth.angle;
+  mesh.report.smooth_angle_place = smooth.place;
   return mesh;
 }
 
 std::string to_text(const SurfaceMeshReport& report) {
   constexpr double k_deg = std::numbers::pi / 180.0;
-  const auto number = [](double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return std::string(text);
-  };
+  const auto number = number_text;
   std::int64_t n = 0;
   for (const FaceMeshSummary& face : report.faces) n += face.n_triangles;
   std::string text = std::to_string(n) + " triangles on " + std::to_string(report.faces.size()) + " faces; angles " + number(report.min_angle / k_deg) + " .. " + number(report.max_angle / k_deg) +
-                     " degrees, 1 % below " + number(report.angle_quantile_1 / k_deg) + ", " + number(100.0 * report.share_20_130) + " % within [20, 130]\n";
+                     " degrees, " + number(100.0 * report.share_20_130) + " % of the triangles within [20, 130]; mean radius ratio " +
+                     number(report.mean_radius_ratio) + "\n";
+  text += "least angles";
+  for (std::size_t i = 0; i < report.least_angles.size(); ++i)
+    if (report.least_angles[i] > 0) text += " " + std::to_string(10 * i) + "-" + std::to_string(10 * (i + 1)) + ": " + std::to_string(report.least_angles[i]) + ",";
+  text += " 1 % below " + number(report.angle_quantile_1 / k_deg) + " degrees\n";
   if (report.worst_face.is_valid()) {
     const FaceMeshSummary& worst = report.faces[report.worst_face.index()];
     text += "worst angle on \"" + worst.name + "\" at " + format_point(worst.worst_place) + "\n";
@@ -287,6 +312,7 @@ std::string to_text(const SurfaceMeshReport& report) {
     const LooseEdge& loose = report.loose_edges.front();
     text += "; " + std::to_string(report.loose_edges.size()) + " edges beyond their tolerance, first: " + number(loose.distance) + " m for " + number(loose.tolerance) + " m beside \"" + report.faces[loose.face.index()].name + "\" at " + format_point(loose.place);
   }
+  text += "; smooth places turn by up to " + number(report.max_smooth_angle / k_deg) + " degrees an edge, at " + format_point(report.smooth_angle_place);
   if (!report.absorbed.empty()) text += "; " + std::to_string(report.absorbed.size()) + " small parts absorbed, first: " + report.absorbed.front().what + " at " + format_point(report.absorbed.front().place);
   if (report.n_crossings > 0) text += "; " + std::to_string(report.n_crossings) + " pairs of triangles cross";
   return text + "\n";

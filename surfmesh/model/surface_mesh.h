@@ -1,6 +1,7 @@
 // From a model to one watertight triangulation: sizes, edges cut once, faces meshed in parallel, joined (method.md section 0, recipes.md section 2).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <numbers>
@@ -131,6 +132,8 @@ struct SurfaceMeshReport {
   std::vector<AbsorbedPart> absorbed;
   double min_angle = 0.0;              ///< rad; these four of isotropic triangles, those of bands apart
   double max_angle = 0.0;
+  double mean_radius_ratio = 0.0;      ///< 2 r / R, 1 = equilateral: by area
+  std::array<std::int64_t, 6> least_angles{};  ///< triangles by their least angle: below 10 degrees, below 20, ... up to 60
   double angle_quantile_1 = 0.0;       ///< rad: 1 % of the triangles have a smaller least angle
   double share_20_130 = 1.0;           ///< of the triangles: all angles within
   FaceId worst_face;                   ///< where min_angle is
@@ -139,7 +142,8 @@ struct SurfaceMeshReport {
   std::vector<LooseEdge> loose_edges;  ///< by falling distance / tolerance
   FaceId worst_normal_face;            ///< whose normals exceed the wanted angle by most; invalid where none does
   double share_normals = 1.0;          ///< of the area: triangles within the curvature angle of the surface's normals at their corners
-  double max_smooth_angle = 0.0;       ///< rad: largest dihedral turn between two triangles of one face; what a feature angle has to exceed
+  double max_smooth_angle = 0.0;       ///< rad: largest turn between two triangles where the model has no crease; what a feature angle has to exceed
+  Point smooth_angle_place{};
   std::int64_t n_free_edges = 0;       ///< of triangles: along free edges of the model
   int n_rounds = 1;                    ///< of meshing; above 1 where places had to be refined to come out right
   std::int64_t n_crossings = 0;        ///< pairs of triangles that cross and could not be refined away
@@ -152,6 +156,7 @@ struct SurfaceMesh {
   TriMesh mesh;                                ///< a patch for each name of a face; vertices: corners, then edges', then inner ones
   Column<VertexId, VertexPlace> places;        ///< vertices on edges: on the first face that uses them
   Column<VertexId, EdgePlace> edge_places;
+  Column<CornerId, VertexId> corner_vertices;  ///< of the model's corners; invalid where no triangle has it
   Column<TriangleId, FaceId> triangle_face;
   Column<TriangleId, std::uint8_t> is_band;    ///< laid in rows, possibly stretched
   SurfaceMeshReport report;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <string>
 
 #include "geom/base/parallel.h"
 #include "geom/base/schema.h"
@@ -13,6 +15,8 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr double k_deg = std::numbers::pi / 180.0;
+/// Above the largest smooth turn: single precision and scripts that move the wall change angles a little.
+constexpr double k_above_smooth = 1.0 * k_deg;
 constexpr std::size_t k_lowest = 20, k_highest = 60;  ///< degrees: flatter edges occur on any coarse curved surface, sharper ones are features on all
 constexpr std::size_t k_window = 2;                   ///< bins to either side that are counted with a bin: single edges do not end a gap
 /// A window with at most this share of all edges is empty: some badly shaped triangles are found on every surface.
@@ -39,10 +43,13 @@ Histogram histogram_of(const LayerBase& base, const RunContext& context) {
       });
 }
 
-}  // namespace
+std::string degrees_text(double angle) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f deg", angle / k_deg);
+  return text;
+}
 
-double feature_angle_of(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context) {
-  if (!is_automatic(options.feature_angle)) return options.feature_angle;
+double middle_of_gap(const LayerBase& base, const RunContext& context) {
   const Histogram counts = histogram_of(base, context);
   std::int64_t n_edges = 0;
   for (const std::int64_t n : counts) n_edges += n;
@@ -59,6 +66,30 @@ double feature_angle_of(const LayerBase& base, const EnvelopeOptions& options, c
     begin = end;
   }
   return 0.5 * static_cast<double>(best_begin + best_end) * k_deg;  // bin i is [i, i + 1) degrees
+}
+
+}  // namespace
+
+double feature_angle_of(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context) {
+  return is_automatic(options.feature_angle) ? middle_of_gap(base, context) : options.feature_angle;
+}
+
+double decide_feature_angle(const LayerBase& base, const EnvelopeOptions& options, double smooth_angle, const RunContext& context) {
+  if (!is_automatic(options.feature_angle)) {
+    context.info("feature angle " + degrees_text(options.feature_angle) + ", as given");
+    return options.feature_angle;
+  }
+  if (!is_automatic(smooth_angle)) {
+    const double angle = std::max(static_cast<double>(k_lowest) * k_deg, smooth_angle + k_above_smooth);
+    if (angle <= static_cast<double>(k_highest) * k_deg) {
+      context.info("feature angle " + degrees_text(angle) + ": the surface mesh turns by up to " + degrees_text(smooth_angle) + " where the model is smooth");
+      return angle;
+    }
+    context.info("the surface mesh turns by " + degrees_text(smooth_angle) + " where the model is smooth, too much for a feature angle");
+  }
+  const double angle = middle_of_gap(base, context);
+  context.info("feature angle " + degrees_text(angle) + ", the gap in the histogram of dihedral angles");
+  return angle;
 }
 
 }  // namespace sterna::volmesh

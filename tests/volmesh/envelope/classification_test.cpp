@@ -168,6 +168,22 @@ TEST(FeatureAngle, GapOfTheHistogram) {
   EXPECT_EQ(feature_angle_of(base, options, k_context), 0.5);  // the user's value wins
 }
 
+TEST(FeatureAngle, FollowsTheLargestSmoothTurnWhereItIsKnown) {
+  const TriMesh mesh = test::cube(4);
+  const LayerBase base(mesh, k_context);
+  std::string log;
+  const RunContext context({.log = [&](LogLevel, std::string_view line) { log += std::string(line) + "\n"; }});
+  const auto decided = [&](double smooth, EnvelopeOptions options = {}) { return decide_feature_angle(base, options, smooth, context) / k_deg; };
+  EXPECT_NEAR(decided(5.0 * k_deg), 20.0, 1e-9);   // flatter edges are no features on any coarse surface
+  EXPECT_NEAR(decided(33.0 * k_deg), 34.0, 1e-9);  // a degree above
+  EXPECT_NE(log.find("turns by up to 33.0 deg where the model is smooth"), std::string::npos) << log;
+  EXPECT_NEAR(decided(75.0 * k_deg), 40.5, 1.0);   // no angle up to 60 is above it: the gap counts
+  EXPECT_NEAR(decided(k_automatic), 40.5, 1.0);
+  EnvelopeOptions options;
+  options.feature_angle = 0.5;
+  EXPECT_EQ(decided(33.0 * k_deg, options) * k_deg, 0.5);
+}
+
 TEST(FeatureAngle, RealSurfacesGiveSensibleAngles) {
   STERNA_NEEDS_SHARED_DATA();
   for (const char* name : {"pygeo_bwb.stl", "caturbs_wing_wing.stl", "wing_body_79k.stl", "pmp_fandisk.off", "flow360_airplane_airplaneGeometry.stl"}) {

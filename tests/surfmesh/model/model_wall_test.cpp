@@ -1,0 +1,92 @@
+// What a surface mesh still knows of its model: where points on its triangles belong, and how far it turns at smooth places.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "geom/math/measures.h"
+#include "geom/mesh/topology.h"
+#include "geom/model/components.h"
+#include "geom/model/shapes.h"
+#include "surfmesh/model/model_wall.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+constexpr double k_deg = std::numbers::pi / 180.0;
+const RunContext k_context{};
+
+SurfaceMeshOptions options_with(double max_edge, double curvature_angle) {
+  SurfaceMeshOptions options;
+  options.max_edge = max_edge;
+  options.curvature_angle = curvature_angle;
+  return options;
+}
+
+TEST(ModelWall, PointsOnTrianglesGoToTheSurfaceAndThoseOnRimsToTheRim) {
+  const Model model = make_cylinder("can", {0, 0, 0}, {2, 0, 0}, 1.0);
+  const SurfaceMesh surface = mesh_model(model, options_with(0.5, 0.5), {}, k_context);
+  const ModelWall wall(model, surface);
+  const auto distance_to_can = [](const Point& p) {
+    const double radial = std::hypot(p.y, p.z) - 1.0, axial = std::min(std::abs(p.x), std::abs(p.x - 2.0));
+    return std::min(std::abs(radial), axial);
+  };
+  const auto is_on_rim = [](const Point& p) { return std::abs(std::hypot(p.y, p.z) - 1.0) < 1e-9 && std::min(std::abs(p.x), std::abs(p.x - 2.0)) < 1e-9; };
+  int n_rim = 0;
+  for (const TriangleId t : surface.mesh.triangles.ids()) {
+    const auto p = corners(surface.mesh, t);
+    const std::array<double, 3> inner{0.5, 0.3, 0.2};
+    const Point in_face = 0.5 * p[0] + 0.3 * p[1] + 0.2 * p[2];
+    const Point moved = wall.nearest(in_face, t, inner);
+    EXPECT_LT(distance_to_can(moved), 1e-12);
+    EXPECT_LT(distance(moved, in_face), 0.1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t a = (k + 1) % 3, b = (k + 2) % 3;
+      std::array<double, 3> weights{};
+      weights[a] = 0.25;
+      weights[b] = 0.75;
+      const Point on_edge = wall.nearest(0.25 * p[a] + 0.75 * p[b], t, weights);
+      EXPECT_LT(distance_to_can(on_edge), 1e-12);
+      // A triangle's edge on the rim is an arc of less than 60 degrees; other edges between points of the rim run across the cap.
+      if (!is_on_rim(p[a]) || !is_on_rim(p[b]) || p[a].x != p[b].x || distance(p[a], p[b]) > 0.6) continue;
+      EXPECT_TRUE(is_on_rim(on_edge)) << format_point(on_edge);
+      ++n_rim;
+    }
+  }
+  EXPECT_GT(n_rim, 40);  // each of the two circles from both sides
+}
+
+TEST(SmoothAngle, IsThatOfTheSkinAndNotOfTheRim) {
+  const Model can = make_cylinder("can", {0, 0, 0}, {2, 0, 0}, 1.0);
+  // Edges of a regular polygon turn by its angle; the curvature angle bounds it. The rims turn by 90 degrees.
+  for (const double angle : {10.0 * k_deg, 20.0 * k_deg}) {
+    const SurfaceMeshReport report = mesh_model(can, options_with(1.0, angle), {}, k_context).report;
+    EXPECT_GT(report.max_smooth_angle, 0.5 * angle);
+    EXPECT_LT(report.max_smooth_angle, 1.5 * angle);
+    EXPECT_NEAR(std::hypot(report.smooth_angle_place.y, report.smooth_angle_place.z), 1.0, 0.05);
+  }
+  const SurfaceMeshReport box = mesh_model(make_box("box", {0, 0, 0}, {1, 1, 1}), options_with(0.3, 0.2), {}, k_context).report;
+  EXPECT_LT(box.max_smooth_angle, 1e-7);  // acos of rounded values
+}
+
+TEST(SmoothAngle, CountsAcrossEdgesWhereFacesJoinSmoothly) {
+  Body body{.name = "Pod"};
+  for (const double x : {0.0, 0.7, 2.0}) body.frames.push_back({.name = "x", .center = {x, 0.0, 0.0}, .height = 1.0, .width = 1.0});
+  body.nose = body.tail = {CapShape::dome, 1.0};
+  const Model pod = make_body(body, ComponentKind::body);
+  ASSERT_GT(pod.faces.size(), 2u);
+  const SurfaceMesh surface = mesh_model(pod, options_with(0.2, 15.0 * k_deg), {}, k_context);
+  // Nothing on it is a crease, so the largest turn of all edges is the smooth one.
+  const Topology topology(surface.mesh, k_context);
+  const auto normal = [&](HalfedgeId h) {
+    const auto p = corners(surface.mesh, triangle_of(h));
+    return cross(p[1] - p[0], p[2] - p[0]);
+  };
+  double largest = 0.0;
+  for (std::size_t i = 0; i < topology.n_halfedges(); ++i) largest = std::max(largest, angle_between(normal(HalfedgeId(i)), normal(topology.twin(HalfedgeId(i)))));
+  EXPECT_NEAR(surface.report.max_smooth_angle, largest, 1e-9);
+  EXPECT_LT(largest, 40.0 * k_deg);
+}
+
+}  // namespace
+}  // namespace sterna::surfmesh
