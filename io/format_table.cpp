@@ -191,7 +191,7 @@ const Format& format_to_write(const std::filesystem::path& path, FormatUse use, 
   std::vector<const Format*> candidates;
   if (name.empty()) {
     candidates = formats_of_name(path);
-    if (candidates.empty()) throw_unknown_extension(attempted, "a volume mesh is written as " + list_formats_with(FormatUse::write_volume) + "; a surface also as " + list_formats_with(FormatUse::write_surface));
+    if (candidates.empty()) throw_unknown_extension(attempted, "a " + what + " is written as " + list_formats_with(use));
   } else {
     for (const Format& format : k_formats)
       if (equal_ignoring_case(format.name, name)) candidates.push_back(&format);

@@ -73,10 +73,16 @@ void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverr
     const std::string name(option.name);
     std::string help = std::string(option.help) + "; " + option.default_text();
     if (const std::string range = option.range_text(); !range.empty()) help += "; " + range;
-    CLI::Option* added = command.add_option_function<std::string>(
-        "--" + kebab(name), [&overrides, name](const std::string& text) { overrides.emplace_back(name, text.empty() ? "true" : text); }, help);
+    // Given twice, both are kept: set_options refuses them where they differ.
+    CLI::Option* added = command.add_option_function<std::vector<std::string>>(
+        "--" + kebab(name),
+        [&overrides, name](const std::vector<std::string>& texts) {
+          for (const std::string& text : texts) overrides.emplace_back(name, text.empty() ? "true" : text);
+        },
+        help);
     added->group("Options of stage " + std::string(option.stage));
     added->type_name(option.kind == OptionKind::boolean ? "[true|false]" : option.kind == OptionKind::text ? "TEXT" : "NUMBER");
+    added->allow_extra_args(false)->take_all();
     if (option.kind == OptionKind::boolean) added->expected(0, 1);
   }
 }

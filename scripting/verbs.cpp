@@ -138,7 +138,7 @@ void set_option_as_typed(const Option& option, std::string_view text) {
       info.problem = std::string(option.name) + ": \"" + std::string(text) + "\" is neither a number nor a unit of length (m, mm, cm, inch, ft)";
       throw Error(std::move(info));
     }
-    info.hint = "angles are in radians; write degrees as 40deg";
+    if (text.find("deg") == std::string_view::npos) info.hint = "angles are in radians; write degrees as 40deg";
     throw Error(std::move(info));
   }
 }

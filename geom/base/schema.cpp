@@ -87,7 +87,7 @@ void check_range(const Option& option, double value) {
     return;
   }
   if (value < option.min || value > option.max || std::isinf(value))
-    reject(option, number_text(value) + (option.unit == Unit::radian ? " rad" : ""), std::string(kind_text(option.kind)) + " in " + option.range_text());
+    reject(option, number_text(value) + (option.unit == Unit::radian ? " rad (" + display_text(value, option.unit) + ")" : ""), std::string(kind_text(option.kind)) + " in " + option.range_text());
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
