@@ -321,6 +321,9 @@ ScriptValue make_fairing_verb(const ScriptCall& call) {
 
 namespace {
 
+constexpr const char* k_ends_help = "  from = {x, y, z}, to = {x, y, z}\n      required: its ends\n";
+constexpr const char* k_position_help = "  position = {x, y, z}\n      of the whole; {0, 0, 0}\n";
+
 template <class... Options>
 std::string help_of() {
   std::string text;
@@ -331,12 +334,15 @@ std::string help_of() {
 
 }  // namespace
 
-std::string fuselage_help() { return help_of<BodyOptions, FuselageOptions>() + "each frame:\n" + help_of<FrameOptions>(); }
-std::string nacelle_help() { return help_of<BodyOptions, NacelleOptions, NacellePatches>(); }
+std::string fuselage_help() {
+  return help_of<BodyOptions, FuselageOptions>() + k_position_help + "  frames = { {...}, {...} }\n      required: two at least, from the nose to the tail\neach frame:\n" + help_of<FrameOptions>() +
+         "  points = {{y, z}, ...}\n      of the shape \"points\": the right half from the bottom to the top\n  zp, a0, a1, b1\n      of the shape \"isikveren\", numbers\n";
+}
+std::string nacelle_help() { return help_of<BodyOptions, NacelleOptions, NacellePatches>() + k_position_help; }
 std::string pylon_help() { return help_of<PylonOptions>(); }
-std::string boom_help() { return help_of<BodyOptions, BoomOptions>(); }
-std::string sting_help() { return help_of<BodyOptions, StingOptions>(); }
-std::string fairing_help() { return help_of<BodyOptions, FairingOptions>(); }
-std::string revolution_help() { return help_of<BodyOptions, RevolutionOptions>(); }
+std::string boom_help() { return help_of<BodyOptions, BoomOptions>() + k_ends_help; }
+std::string sting_help() { return help_of<BodyOptions, StingOptions>() + k_ends_help; }
+std::string fairing_help() { return help_of<BodyOptions, FairingOptions>() + k_position_help; }
+std::string revolution_help() { return help_of<BodyOptions, RevolutionOptions>() + k_position_help + "  profile = {{x, radius}, ...}\n      required: from the nose on\n"; }
 
 }  // namespace sterna::scripting

@@ -102,7 +102,8 @@ ScriptValue control_wing(const ScriptCall& call) { return change_wing(call, fals
 
 std::string control_help() {
   ControlOptions control;
-  return options_help(sterna::options_of(control));
+  return options_help(sterna::options_of(control)) + "  from = {span, chord}, to = {span, chord}\n      ends of the hinge: part of the span from the root, part of the chord from the leading edge\n" +
+         "  hinge = {{span, chord}, ...}\n      in place of from and to: a hinge of several straight pieces\n";
 }
 std::string deflect_help() {
   DeflectOptions deflect;

@@ -307,7 +307,11 @@ std::string wing_help() {
   WingOptions wing;
   WingSectionOptions section;
   WingletOptions winglet;
-  return options_help(sterna::options_of(wing)) + "each section, from the root to the tip, with its airfoil:\n" + options_help(sterna::options_of(section)) + "winglet:\n" + options_help(sterna::options_of(winglet));
+  constexpr const char* k_position = "  position = {x, y, z}\n      ";
+  constexpr const char* k_airfoil = "  airfoil = \"naca23012\", a file's name, or airfoil{...}\n      ";
+  return options_help(sterna::options_of(wing)) + k_position + "of the whole wing; {0, 0, 0}\n  sections = { {...}, {...} }\n      required: two at least, from the root to the tip\n  winglet = {...}\n      goes on from the last section; none\n" +
+         "each section:\n" + options_help(sterna::options_of(section)) + k_position + "of the leading edge, in place of x, y, z and span\n" + k_airfoil + "that of the section before; the first one needs it\n" + "winglet:\n" +
+         options_help(sterna::options_of(winglet)) + k_airfoil + "of its tip; that of the wing's tip\n";
 }
 
 }  // namespace sterna::scripting

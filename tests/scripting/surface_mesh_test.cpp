@@ -1,9 +1,11 @@
 // From models to triangles as a user asks for it: surface_mesh{}, `sterna surface`, `sterna mesh` of a model.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "geom/base/error.h"
+#include "io/volume_file.h"
 #include "scripting/exit_status.h"
 #include "scripting/script_run.h"
 #include "tests/support/data.h"
@@ -169,6 +171,11 @@ TEST_F(SurfaceMeshVerb, TheCommandLineRefusesWhatItCannotMean) {
       {{"surface", "block.step", "-o", "w.su2", "--set", "surface_mesh.max_egde=1"}, k_exit_usage, "did you mean \"surface_mesh.max_edge\"?"},
       {{"surface", "block.step", "-o", "w.docx"}, k_exit_failed, "w.docx"},
       {{"surface", "wall.stl", "-o", "w.su2"}, k_exit_usage, "it is no model"},
+      {{"surface", "block.step", "-o", "w.su2", "--max-edge", "0.2", "--max-edge", "0.3"}, k_exit_usage, "surface_mesh.max_edge is given twice, as 0.2 and as 0.3"},
+      {{"surface", "block.step", "-o", "w.su2", "--max-edge", "0.2", "--set", "surface_mesh.max_edge=0.3"}, k_exit_usage, "given twice"},
+      {{"surface", "block.step", "-o", "w.su2", "--max-edge", "0.2", "--min-edge", "0.3"}, k_exit_usage, "min_edge = 0.3 m is above max_edge = 0.2 m"},
+      {{"surface", "nothing.step", "-o", "/proc/w.su2"}, k_exit_failed, "writing /proc/w.su2"},
+      {{"union", "block.step", "block.step", "-o", "block.step"}, k_exit_usage, "is one of the inputs"},
       {{"mesh", "block.step", "--first-height", "1e-3", "--split-angle", "40deg", "-o", "m.su2"}, k_exit_usage, "split_angle"},
   };
   for (const auto& [arguments, status, text] : cases) {
@@ -176,6 +183,42 @@ TEST_F(SurfaceMeshVerb, TheCommandLineRefusesWhatItCannotMean) {
     EXPECT_EQ(result.status, status) << text << "\n" << result.errors;
     EXPECT_THAT(result.errors, HasSubstr(text));
   }
+}
+
+TEST_F(SurfaceMeshVerb, TheFeatureAngleFollowsFromTheSurfaceMeshAlsoThroughAFile) {
+  const std::string wall = "local w = surface_mesh{ cylinder{ {0,0,0}, {2,0,0}, radius=1, name='can' }, max_edge=0.6, curvature_angle=30*deg } ";
+  const std::string make = "local e = make_envelope{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=20 } } print(e.feature_angle / deg) ";
+  // Arcs of at most 30 degrees: a degree more than they turn.
+  const double angle = std::stod(run(wall + "w:write(" + out("wall.su2") + ") " + make));
+  EXPECT_GT(angle, 20.0);
+  EXPECT_LT(angle, 40.0);
+  EXPECT_THAT(log_, AllOf(HasSubstr("smooth places turn by up to"), HasSubstr("where the model is smooth"), HasSubstr("least angles ")));
+  EXPECT_THAT(text_of("wall.su2.json"), AllOf(HasSubstr("\"schema\": \"sterna-surface-1\""), HasSubstr("\"max_smooth_angle\""), HasSubstr("\"max_edge\": 0.6"), HasSubstr("\"mean_radius_ratio\"")));
+  const std::string read = "local w = read_surface(" + out("wall.su2") + ") ";
+  EXPECT_NEAR(std::stod(run(read + make)), angle, 1e-9);
+  EXPECT_EQ(run(read + "print(w.smooth_angle > 10*deg)"), "true\n");
+  // The user's own value wins; a manifest of another state of the file does not count.
+  EXPECT_EQ(std::lround(std::stod(run(read + "local e = make_envelope{ w, layers=3, first_height=1e-3, feature_angle=50*deg, farfield=sphere{ radius=20 } } print(e.feature_angle / deg)"))), 50);
+  std::ofstream(folder_ / "wall.su2", std::ios::app) << "% edited\n";
+  EXPECT_EQ(run(read + "print(pcall(function() return w.smooth_angle end))").substr(0, 5), "false");
+  EXPECT_THAT(log_, HasSubstr("does not count"));
+}
+
+TEST_F(SurfaceMeshVerb, SplitsOfTheBoundaryPutNewVerticesOnTheModel) {
+  run("local w = surface_mesh{ cylinder{ {0,0,0}, {2,0,0}, radius=1, name='can' }, max_edge=0.6, curvature_angle=30*deg } "
+      "volume_mesh{ w, layers=4, first_height=1e-3, farfield=sphere{ radius=15 }, sources={ sphere{ {3,0,0}, radius=1, size=0.1 } }, tetrahedra={ boundary_splits='always', radius_edge=1.6 } }:write(" + out("can.su2") + ")");
+  EXPECT_THAT(text_of("can.su2.json"), HasSubstr("boundary_triangles_added_by_splits"));
+  const HybridMesh mesh = io::read_volume_file(folder_ / "can.su2", RunContext{});
+  int n_wall = 0;
+  for (const auto& triangle : mesh.boundary_triangles) {
+    if (mesh.patches[triangle.patch].name != "can") continue;
+    for (const auto node : triangle.nodes) {
+      const Point& p = mesh.points[node];
+      EXPECT_LT(std::min({std::abs(std::hypot(p.y, p.z) - 1.0), std::abs(p.x), std::abs(p.x - 2.0)}), 1e-9) << format_point(p);
+      ++n_wall;
+    }
+  }
+  EXPECT_GT(n_wall, 1000);
 }
 
 }  // namespace
