@@ -219,9 +219,7 @@ ScriptValue make_fuselage_verb(const ScriptCall& call) {
     if (!(body.frames[i].center.x > body.frames[i - 1].center.x)) t.reader.add_problem("frames: '" + body.frames[i].name + "' does not stand behind '" + body.frames[i - 1].name + "'; x must ascend");
   t.reader.finish();
   body.placement.rotation.y = o.pitch;
-  body.is_monotone = o.along == "monotone";
-  body.keeps_straight = o.along == "akima";
-  body.is_linear = o.along == "linear";
+  body.tangents = o.along == "monotone" ? BodyTangents::monotone : o.along == "akima" ? BodyTangents::akima : o.along == "linear" ? BodyTangents::linear : BodyTangents::bessel;
   body.nose = cap(o.nose, o.nose_height);
   body.tail = cap(o.tail, o.tail_height);
   return t.value(std::move(body), ComponentKind::body);

@@ -90,13 +90,19 @@ struct InletLip {
   friend bool operator==(const InletLip&, const InletLip&) = default;
 };
 
+/// How a body runs along its frames, as SplineTangents. Between two frames all of them are straight.
+enum class BodyTangents {
+  bessel,    ///< .smx, CPACS
+  akima,     ///< .smx: straight parts stay straight
+  monotone,  ///< never beyond the two frames it runs between
+  linear,    ///< straight between frames, with an edge at each
+};
+
 struct Body {
   std::string name;
   ComponentKind kind = ComponentKind::body;  ///< of those with an inlet lip: always a nacelle
   Placement placement;
-  bool keeps_straight = false;  ///< longitudinal tangents after Akima: straight parts stay straight; else after Bessel
-  bool is_monotone = false;     ///< longitudinal tangents that never carry it beyond the two frames it runs between (scripts; .smx has no such bodies)
-  bool is_linear = false;       ///< straight between frames (CPACS without guide curves)
+  BodyTangents tangents = BodyTangents::bessel;  ///< from frame to frame
   bool has_mirror_image = false;  ///< a second one stands on the other side of y = 0
   std::vector<BodyFrame> frames;  ///< ascending x; at least 2
   std::optional<InletLip> lip;

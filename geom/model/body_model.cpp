@@ -52,6 +52,16 @@ class BodyBuilder {
   std::vector<std::vector<Point>> rows_;
 };
 
+SplineTangents spline_tangents(BodyTangents tangents) {
+  switch (tangents) {
+    case BodyTangents::bessel: return SplineTangents::bessel;
+    case BodyTangents::akima: return SplineTangents::akima;
+    case BodyTangents::monotone: return SplineTangents::monotone;
+    case BodyTangents::linear: return SplineTangents::linear;
+  }
+  return SplineTangents::linear;
+}
+
 Point middle_of(const std::vector<Point>& points) {
   Point sum;
   for (const Point& p : points) sum += p;
@@ -123,7 +133,7 @@ SplineOptions around() {
 
 void BodyBuilder::skin() {
   const std::size_t n = rows_.size();
-  const std::size_t step = body_.is_linear ? 1 : n - 1;  // frames of one surface
+  const std::size_t step = body_.tangents == BodyTangents::linear ? 1 : n - 1;  // frames of one surface
   std::array<EdgeId, 2> edges{};
   std::array<CornerId, 2> corners{};
   NurbsSurfaceForm first, last;
@@ -132,7 +142,7 @@ void BodyBuilder::skin() {
     PointGrid grid{2 * k_half_points + 1, step + 1, {}};
     for (std::size_t i = 0; i < grid.n_u; ++i)
       for (std::size_t j = from; j <= from + step; ++j) grid.points.push_back(rows_[j][i]);
-    const SplineTangents along = step == 1 ? SplineTangents::linear : body_.is_monotone ? SplineTangents::monotone : body_.keeps_straight ? SplineTangents::akima : SplineTangents::bessel;
+    const SplineTangents along = step == 1 ? SplineTangents::linear : spline_tangents(body_.tangents);
     const NurbsSurfaceForm form = spline_surface_form(grid, around(), {.tangents = along});
     const auto corners_of = [&](std::size_t row) {
       const CornerId bottom = builder_.corner(rows_[row].front());

@@ -28,7 +28,7 @@ Placement placement_along(const Point& from, const Point& to) {
 Body body_of_revolution(const std::string& name, const Placement& placement, const std::vector<Uv>& profile, bool is_straight, ComponentKind kind) {
   const std::string attempted = "making body of revolution '" + name + "'";
   if (profile.size() < 2) refuse(attempted, "its profile has " + std::to_string(profile.size()) + " points; at least 2 are needed");
-  Body body{.name = name, .kind = kind, .placement = placement, .is_monotone = true, .is_linear = is_straight};
+  Body body{.name = name, .kind = kind, .placement = placement, .tangents = is_straight ? BodyTangents::linear : BodyTangents::monotone};
   for (std::size_t i = 0; i < profile.size(); ++i) {
     const std::string point = "point " + std::to_string(i + 1) + " of its profile (x = " + number_text(profile[i].u) + ", radius " + number_text(profile[i].v) + ")";
     const bool is_end = i == 0 || i + 1 == profile.size();

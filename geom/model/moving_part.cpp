@@ -110,10 +110,4 @@ Model PartBuilder::build() {
 
 Model make_moving_part(const Wing& wing, const WingPatch& patch, const std::vector<WingSides>& panels, bool is_blunt) { return PartBuilder(wing, patch, panels, is_blunt).build(); }
 
-const WingSides& panel_at(const std::vector<WingSides>& panels, double place, bool is_before) {
-  std::size_t i = 0;
-  while (i + 1 < panels.size() && (is_before ? place > static_cast<double>(panels[i + 1].first_row) : place >= static_cast<double>(panels[i + 1].first_row))) ++i;
-  return panels[i];
-}
-
 }  // namespace sterna

@@ -11,7 +11,4 @@ namespace sterna {
 /// The flap (leading edge flap) of a patch with a slot: its part of the wing's own skin, a nose, walls at both ends; not moved yet.
 Model make_moving_part(const Wing& wing, const WingPatch& patch, const std::vector<WingSides>& panels, bool is_blunt);
 
-/// The panel that a place is in; at a border between two: the one before it where `is_before`.
-const WingSides& panel_at(const std::vector<WingSides>& panels, double place, bool is_before);
-
 }  // namespace sterna

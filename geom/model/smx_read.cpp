@@ -160,7 +160,7 @@ Body SmxReader::body(const Node& node) {
   Body body;
   body.name = file_.required_text(node, "name");
   body.placement = placement(node);
-  body.keeps_straight = file_.boolean(node, "akimatg", false);
+  body.tangents = file_.boolean(node, "akimatg", false) ? BodyTangents::akima : BodyTangents::bessel;
   for (const Node child : node.children("BodyFrame")) body.frames.push_back(frame(child));
   if (body.frames.size() < 2) file_.fail(node, "a body needs 2 frames; it has " + std::to_string(body.frames.size()));
   if (body.frames.size() < 4) file_.tell(node, "sumo wants 4 frames; there are " + std::to_string(body.frames.size()));

@@ -126,12 +126,12 @@ void add_shape(Node& node, const BodyFrame& frame) {
 }
 
 void add_body(Node& root, const Body& body) {
-  if (body.is_linear) refuse("body '" + body.name + "' is straight between its frames; .smx has only smooth bodies", "write the model as STEP instead");
-  if (body.is_monotone && body.frames.size() > 2)
+  if (body.tangents == BodyTangents::linear) refuse("body '" + body.name + "' is straight between its frames; .smx has only smooth bodies", "write the model as STEP instead");
+  if (body.tangents == BodyTangents::monotone && body.frames.size() > 2)
     refuse("body '" + body.name + "' never swells beyond its frames; the bodies of .smx do", "make it with along = \"smooth\" or \"akima\", which .smx has, or write the model as STEP");
   if (body.has_mirror_image) refuse("body '" + body.name + "' has a mirror image; .smx wants it as a body of its own", "add the image as a body of its own");
   Node node = root.append_child("BodySkeleton");
-  set(node, "akimatg", body.keeps_straight);
+  set(node, "akimatg", body.tangents == BodyTangents::akima);
   set(node, "name", body.name);
   set(node, "origin", body.placement.origin);
   set(node, "rotation", body.placement.rotation);

@@ -69,6 +69,7 @@ class WingBuilder {
  private:
   using Crossing = double WingPatch::Place::*;
   void make_rows();
+  void refuse_fold_back() const;
   void make_panels();
   void make_part(const WingSides& panel, double from_place, double to_place, const Station& from, const Station& to);
   void make_side(const WingSides& panel, Crossing side, double from_place, double to_place, const Station& from, const Station& to, const SplitCurve& leading, const SplitCurve& trailing);
@@ -97,18 +98,7 @@ void WingBuilder::make_rows() {
   if (wing_.sections.size() < 2) refuse("it has " + std::to_string(wing_.sections.size()) + " sections; at least 2 are needed");
   made_ = wing_rows(wing_);
   is_blunt_ = made_.is_blunt;
-  // A panel that runs back over the one before it: sections out of order.
-  for (std::size_t i = 2; i < rows_.size(); ++i) {
-    const Vec3 before = rows_[i - 1][k_side_points] - rows_[i - 2][k_side_points], after = rows_[i][k_side_points] - rows_[i - 1][k_side_points];
-    const Vec3 a{0.0, before.y, before.z}, b{0.0, after.y, after.z};
-    if (!(norm(a) > 0.0 && norm(b) > 0.0 && dot(a, b) < -k_fold * norm(a) * norm(b))) continue;
-    // The chord of the panel before where this one ends: a joined wing may run back beside it.
-    const double t = std::max(0.0, 1.0 - norm(b) / norm(a));
-    const auto between = [&](std::size_t k) { return rows_[i - 2][k].x + t * (rows_[i - 1][k].x - rows_[i - 2][k].x); };
-    if (rows_[i][k_side_points].x < between(0) && between(k_side_points) < rows_[i][0].x)
-      throw Error({.code = ErrorCode::bad_argument, .attempted = "making wing '" + wing_.name + "'", .problem = "it folds back onto itself: the panel before and the one behind a section lie over each other",
-                   .places = {{map_.point(rows_[i - 1][k_side_points]), "leading edge of that section"}}, .hint = "give the sections in their order along the span"});
-  }
+  refuse_fold_back();
   if (wing_.is_symmetric) {
     double off = 0.0;
     for (std::size_t k = 0; k < rows_.front().size(); ++k) off = std::max(off, distance(rows_.front()[k], rows_.back()[k]));
@@ -120,6 +110,21 @@ void WingBuilder::make_rows() {
   for (std::size_t i = 1; i < rows_.size(); ++i)
     if (distance(rows_[i].front(), rows_[i - 1].front()) + distance(rows_[i][k_side_points], rows_[i - 1][k_side_points]) == 0.0)
       refuse("two neighbouring sections, number " + std::to_string(i) + " and " + std::to_string(i + 1) + " along the whole span, stand in the same place");
+}
+
+/// A panel that runs back over the one before it: sections out of order. \pre rows in component axes
+void WingBuilder::refuse_fold_back() const {
+  for (std::size_t i = 2; i < rows_.size(); ++i) {
+    const Vec3 before = rows_[i - 1][k_side_points] - rows_[i - 2][k_side_points], after = rows_[i][k_side_points] - rows_[i - 1][k_side_points];
+    const Vec3 a{0.0, before.y, before.z}, b{0.0, after.y, after.z};
+    if (!(norm(a) > 0.0 && norm(b) > 0.0 && dot(a, b) < -k_fold * norm(a) * norm(b))) continue;
+    // The chord of the panel before where this one ends: a joined wing may run back beside it.
+    const double t = std::max(0.0, 1.0 - norm(b) / norm(a));
+    const auto between = [&](std::size_t k) { return rows_[i - 2][k].x + t * (rows_[i - 1][k].x - rows_[i - 2][k].x); };
+    if (rows_[i][k_side_points].x < between(0) && between(k_side_points) < rows_[i][0].x)
+      throw Error({.code = ErrorCode::bad_argument, .attempted = "making wing '" + wing_.name + "'", .problem = "it folds back onto itself: the panel before and the one behind a section lie over each other",
+                   .places = {{map_.point(rows_[i - 1][k_side_points]), "leading edge of that section"}}, .hint = "give the sections in their order along the span"});
+  }
 }
 
 /// The patch of a kind that lies over the whole of a range.

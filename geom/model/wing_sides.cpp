@@ -19,6 +19,12 @@ WingSides wing_sides(WingPanel panel) {
   return sides;
 }
 
+const WingSides& panel_at(const std::vector<WingSides>& panels, double place, bool is_before) {
+  std::size_t i = 0;
+  while (i + 1 < panels.size() && (is_before ? place > static_cast<double>(panels[i + 1].first_row) : place >= static_cast<double>(panels[i + 1].first_row))) ++i;
+  return panels[i];
+}
+
 SurfacePtr trailing_edge_surface(const WingSides& sides) {
   NurbsSurfaceForm base{1, sides.upper.degree_v, {0.0, 0.0, 1.0, 1.0}, sides.upper.knots_v, 2, sides.upper.n_v, {}, {}};
   for (const NurbsSurfaceForm* side : {&sides.upper, &sides.lower})

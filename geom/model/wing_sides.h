@@ -15,6 +15,8 @@ struct WingSides : WingPanel {
   SurfacePtr upper_surface, lower_surface;
 };
 WingSides wing_sides(WingPanel panel);
+/// The panel that a place is in; at a border between two: the one before it where `is_before`.
+const WingSides& panel_at(const std::vector<WingSides>& panels, double place, bool is_before);
 
 /// Ruled between both sides at the trailing edge: u from the upper to the lower one.
 SurfacePtr trailing_edge_surface(const WingSides& sides);

@@ -125,6 +125,28 @@ TEST(Spline, AkimaKeepsStraightSegmentsStraight) {
   EXPECT_GT(wiggle, 1e-3);
 }
 
+TEST(Spline, MonotoneTangentsNeverCarryACoordinateBeyondItsTwoPoints) {
+  // Uneven steps, a plateau and turns in each coordinate: Bessel's tangents swing beyond all of them.
+  const std::vector<Point> points{{0, 0, 1}, {0.1, 1, 1}, {0.2, 1.05, 1}, {3, 1.05, 0.2}, {3.1, 0.2, 0.1}, {3.1, 0.1, 4}, {5, 0.1, 4.1}};
+  const std::vector<double> t = spline_parameters(points, SplineParameters::chord_length);
+  const CurvePtr monotone = spline_curve(points, {.tangents = SplineTangents::monotone}), bessel = spline_curve(points, {.tangents = SplineTangents::bessel});
+  double beyond_of_bessel = 0.0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    for (int k = 0; k <= 100; ++k) {
+      const double at = t[i] + (t[i + 1] - t[i]) * k / 100.0;
+      const Point p = monotone->point(at), q = bessel->point(at);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double low = std::min(points[i][c], points[i + 1][c]), high = std::max(points[i][c], points[i + 1][c]);
+        EXPECT_GE(p[c], low - 1e-14) << "segment " << i << " coordinate " << c;
+        EXPECT_LE(p[c], high + 1e-14) << "segment " << i << " coordinate " << c;
+        beyond_of_bessel = std::max({beyond_of_bessel, low - q[c], q[c] - high});
+      }
+    }
+  EXPECT_GT(beyond_of_bessel, 0.01);
+  // Smooth all the same.
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) EXPECT_LE(norm(monotone->derivatives(t[i] - 1e-9).first - monotone->derivatives(t[i] + 1e-9).first), 1e-5) << i;
+}
+
 TEST(Spline, CornersStaySharpAndPiecesAreIndependent) {
   const std::vector<Point> points{{0, 0, 0}, {1, 0.1, 0}, {2, 0, 0}, {2, 1, 0.2}, {2, 2, 0}};
   for (const SplineTangents tangents : {SplineTangents::natural, SplineTangents::not_a_knot, SplineTangents::akima, SplineTangents::bessel}) {
