@@ -27,7 +27,6 @@ std::string cut_text(std::string text, std::size_t n) {
   return text;
 }
 
-/// Names of nodes for the patches; those with triangles and quads leave room for the suffix.
 /// ADF's nodes have names of ASCII: one underscore for each other character.
 std::string ascii_name(std::string_view utf8) {
   std::string name;
@@ -40,6 +39,7 @@ std::string ascii_name(std::string_view utf8) {
   return name;
 }
 
+/// Names of nodes for the patches; those with triangles and quads leave room for the suffix.
 std::vector<std::string> node_names(const HybridMesh& mesh, const FacesByPatch& faces, bool is_adf, const RunContext& context) {
   std::set<std::string, std::less<>> taken(k_taken_names.begin(), k_taken_names.end());
   std::vector<std::string> names;
