@@ -31,6 +31,17 @@ std::filesystem::path temporary_file() {
   return name;
 }
 
+/// Whether the process catches SIGINT, or blocks it to wait for it, by now; before that Ctrl-C just ends it.
+bool takes_interrupt(pid_t process) {
+  std::ifstream status("/proc/" + std::to_string(process) + "/status");
+  for (std::string word, value; status >> word;) {
+    if (word == "State:" && status >> value && value == "Z") return true;  // it has ended
+    if (word == "State:" && status >> value && value == "Z") return true;  // it has ended
+    if ((word == "SigBlk:" || word == "SigCgt:") && status >> value && (std::stoull(value, nullptr, 16) >> (SIGINT - 1) & 1u) != 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 ProcessResult run_process(const std::filesystem::path& program, const std::vector<std::string>& arguments, const std::filesystem::path& folder, double interrupt_after) {
@@ -49,14 +60,18 @@ ProcessResult run_process(const std::filesystem::path& program, const std::vecto
     execv(argv[0], argv.data());
     _exit(127);
   }
+  Clock::time_point interrupted = start;
   if (interrupt_after >= 0.0) {
+    while (!takes_interrupt(child)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::this_thread::sleep_for(std::chrono::duration<double>(interrupt_after));
     kill(child, SIGINT);
+    interrupted = Clock::now();
   }
   int status = 0;
   if (waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid failed");
   ProcessResult result;
   result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  result.seconds_after_interrupt = std::chrono::duration<double>(Clock::now() - interrupted).count();
   result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.output = contents(output);
   result.errors = contents(errors);

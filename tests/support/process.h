@@ -14,9 +14,10 @@ struct ProcessResult {
   std::string output;  ///< stdout
   std::string errors;  ///< stderr
   double seconds = 0.0;
+  double seconds_after_interrupt = 0.0;  ///< all of them without one
 };
 
-/// Runs `program` in `folder` and waits. With interrupt_after >= 0 it gets SIGINT after so many seconds.
+/// Runs `program` in `folder` and waits. With interrupt_after >= 0 it gets SIGINT so many seconds after it began to wait for one.
 ProcessResult run_process(const std::filesystem::path& program, const std::vector<std::string>& arguments, const std::filesystem::path& folder, double interrupt_after = -1.0);
 
 /// build/.../sterna
