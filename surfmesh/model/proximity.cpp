@@ -59,6 +59,15 @@ std::optional<double> hit(const Point& p, const Vec3& way, double reach, const F
   return t;
 }
 
+/// The same size all over a facet, as near as sizes are long.
+void add_over(const Facet& facet, const SizeSource& source, std::vector<SizeSource>& sources) {
+  constexpr double k_most = 32.0;
+  const double longest = std::max({distance(facet.p[0], facet.p[1]), distance(facet.p[1], facet.p[2]), distance(facet.p[2], facet.p[0])});
+  const double n = std::clamp(std::ceil(longest / source.size), 1.0, k_most);
+  for (double i = 0.5; i < n; i += 1.0)
+    for (double k = 0.5; i + k <= n; k += 1.0) sources.push_back({facet.p[0] + (i / n) * (facet.p[1] - facet.p[0]) + (k / n) * (facet.p[2] - facet.p[0]), source.size});
+}
+
 }  // namespace
 
 bool looks_for_gaps(const SurfaceMeshOptions& options) { return options.gap_cells > 0.0 || !is_automatic(options.thickness_factor); }
@@ -107,11 +116,10 @@ void add_gap_sources(const Model& model, const SurfaceSizes& field, const Surfac
   Column<FaceId, std::vector<SizeSource>> sources(model.faces.size());
   for (std::size_t i = 0; i < facets.size(); ++i)
     for (const Found& f : found[i]) {
-      sources[facets[i].face].push_back(f.own);
+      add_over(facets[i], f.own, sources[facets[i].face]);
       sources[f.other].push_back(f.opposite);
-      sizes.sources.push_back(f.own);
-      sizes.sources.push_back(f.opposite);
     }
+  for (const auto& list : sources) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());
   for (const FaceId f : model.faces.ids()) sizes.places.set_sources(f, std::move(sources[f]));
 }
 

@@ -185,7 +185,7 @@ struct SurfaceSizes::Builder {
     }
     const double cap = sizes.faces[f].max_edge;
     const FaceGrid::Bounds bounds{.at = [&, f](const Point& p) { return field.bound_(p, sizes.places(f, p)); },
-                                  .is_level_within = [&, f, cap](const Point& p, double reach) { return sizes.places.is_level_within(f, p, reach) && field.bound_(p, cap, reach) >= cap; },
+                                  .is_level_within = [&, f, cap](const Point& p, double reach) { return !keeps_grids && sizes.places.is_level_within(f, p, reach) && field.bound_(p, cap, reach) >= cap; },
                                   .largest = cap};
     field.faces_[f].grid = FaceGrid(*model.faces[f].surface, box, loops, bounds);
   }

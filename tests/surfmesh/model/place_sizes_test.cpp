@@ -103,7 +103,11 @@ Model wing(bool is_blunt) {
   Wing wing{.name = "W", .is_symmetric = false, .is_cubic = false, .trailing_edge = is_blunt ? std::optional(0.02) : std::nullopt};
   for (const double y : {10.0, 0.0}) {
     WingSection s{.name = "y", .leading_edge = {0.0, y, 0.0}, .chord = 2.0};
-    for (int i = 0; i <= 100; ++i) s.points.push_back({0.5 + 0.5 * std::cos(2 * pi * i / 100), 0.1 * std::sin(2 * pi * i / 100)});
+    for (int i = 0; i <= 100; ++i) {
+      // Two arcs that meet at 20 degrees at both ends.
+      const double along = std::cos(2 * pi * i / 100), side = i <= 50 ? 1.0 : -1.0;
+      s.points.push_back({0.5 + 0.5 * along, side * 0.05 * (1.0 - along * along)});
+    }
     wing.sections.push_back(s);
   }
   return make_wing(wing);
