@@ -223,12 +223,20 @@ class FaceGridBuilder {
 };
 
 FaceGrid::FaceGrid(const Surface& surface, const ParameterBox& box, std::span<const std::vector<Uv>> loops, const Bounds& bounds) : box_(box) {
+  const ParameterBox domain = surface.domain();
+  period_ = {surface.is_periodic_u() ? domain.u.length() : 0.0, surface.is_periodic_v() ? domain.v.length() : 0.0};
   FaceGridBuilder(*this, surface, loops, bounds).run();
 }
 
 FaceGrid::Place FaceGrid::find(Uv at) const {
-  const auto share = [](const Interval& range, double t) { return range.length() > 0.0 ? std::clamp((t - range.from) / range.length(), 0.0, 1.0) : 0.0; };
-  Place place{0, share(box_.u, at.u), share(box_.v, at.v)};
+  const auto share = [](const Interval& range, double period, double t) {
+    if (period > 0.0 && (t > range.to || t < range.from)) {
+      const double moved = t - std::floor((t - range.from) / period) * period;
+      if (moved <= range.to) t = moved;
+    }
+    return range.length() > 0.0 ? std::clamp((t - range.from) / range.length(), 0.0, 1.0) : 0.0;
+  };
+  Place place{0, share(box_.u, period_.u, at.u), share(box_.v, period_.v, at.v)};
   std::uint32_t entry = tree_.front();
   while ((entry & k_is_leaf) == 0) {
     double& x = (entry & k_is_v) != 0 ? place.t : place.s;

@@ -50,7 +50,7 @@ class FaceGrid {
     std::uint32_t cell = 0;
     double s = 0.0, t = 0.0;  ///< in [0, 1] within the cell
   };
-  /// Places beyond the box are held to it.
+  /// Places beyond the box are moved into it by whole periods, or held to it.
   Place find(Uv at) const;
   /// Frees what look-ups do not need.
   void forget_nodes();
@@ -59,6 +59,7 @@ class FaceGrid {
   friend class FaceGridBuilder;
   static constexpr std::uint32_t k_is_leaf = 0x8000'0000u, k_is_v = 0x4000'0000u, k_index = 0x3fff'ffffu;
   ParameterBox box_;
+  Uv period_;  ///< zero: not periodic
   std::vector<std::uint32_t> tree_;  ///< k_is_leaf | cell, or k_is_v (halved in v) | first of two children
   std::vector<FaceGridCell> leaves_;
   std::vector<FaceGridNode> nodes_;

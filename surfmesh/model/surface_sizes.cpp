@@ -183,6 +183,15 @@ struct SurfaceSizes::Builder {
         box.v = {std::min(box.v.from, at.v), std::max(box.v.to, at.v)};
       }
     }
+    // Borders that run around a period are closed by a seam that no edge of the model is.
+    if (!outline.winding.empty()) {
+      loops = outline.polygons;
+      for (const auto& loop : loops)
+        for (const Uv at : loop) {
+          box.u = {std::min(box.u.from, at.u), std::max(box.u.to, at.u)};
+          box.v = {std::min(box.v.from, at.v), std::max(box.v.to, at.v)};
+        }
+    }
     const double cap = sizes.faces[f].max_edge;
     const FaceGrid::Bounds bounds{.at = [&, f](const Point& p) { return field.bound_(p, sizes.places(f, p)); },
                                   .is_level_within = [&, f, cap](const Point& p, double reach) { return !keeps_grids && sizes.places.is_level_within(f, p, reach) && field.bound_(p, cap, reach) >= cap; },
