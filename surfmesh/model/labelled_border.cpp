@@ -8,6 +8,14 @@
 
 namespace sterna::surfmesh {
 
+double tolerance_of(const Model& model, FaceId f, EdgeId e) {
+  const ModelEdge& edge = model.edges[e];
+  // Files write tolerances of zero; what doubles of that size can hold is no fault.
+  constexpr double k_rounding = 1e-12;
+  const Point& p = model.corners[edge.start].point;
+  return std::max({edge.tolerance, model.corners[edge.start].tolerance, model.corners[edge.end].tolerance, model.faces[f].tolerance, k_rounding * norm(p - Point{})});
+}
+
 /// Each use gives its start and its cuts; its end is the start of the next. Absorbed edges give nothing, poles their corner at their start and, by the next use, at their end.
 LabelledBorder label_border(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const FaceOutline& outline) {
   LabelledBorder result;

@@ -32,6 +32,9 @@ struct LabelledBorder {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;  ///< points that are one: the second goes
 };
 
+/// What the model says that an edge's vertices may be off its faces, metres.
+double tolerance_of(const Model& model, FaceId f, EdgeId e);
+
 LabelledBorder label_border(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const FaceOutline& outline);
 
 /// Where a border passes a corner twice (a hole that touches the border), both get the same (u, v): files have them some rounding apart, and a gap of that width would

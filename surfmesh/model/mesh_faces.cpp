@@ -12,15 +12,6 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// What the model says that an edge's vertices may be off its faces.
-double tolerance_of(const Model& model, FaceId f, EdgeId e) {
-  const ModelEdge& edge = model.edges[e];
-  // Files write tolerances of zero; what doubles of that size can hold is no fault.
-  constexpr double k_rounding = 1e-12;
-  const Point& p = model.corners[edge.start].point;
-  return std::max({edge.tolerance, model.corners[edge.start].tolerance, model.corners[edge.end].tolerance, model.faces[f].tolerance, k_rounding * norm(p - Point{})});
-}
-
 /// The face's border, ready to be meshed.
 LabelledBorder labelled_border(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const SurfaceSizes& field) {
   LabelledBorder labelled = merge_touching(model, f, label_border(model, f, topology, cuts, numbers, sizes.outlines[f]));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
 #include "geom/model/components.h"
