@@ -29,7 +29,7 @@ struct RowLaw {
 struct BandRun {
   std::size_t loop = 0, first = 0, n_points = 0;
   std::size_t n_before = 0, n_after = 0;
-  RowLaw law;
+  RowLaw law{};
 };
 
 /// What triangles of bands are like.

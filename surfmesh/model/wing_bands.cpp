@@ -43,9 +43,9 @@ struct Side {
 };
 
 struct Look {
-  Vec3 normal;    ///< outwards
+  Vec3 normal;    ///< as the model has it
   Vec3 inwards;   ///< along the surface, from the edge into the face
-  double curvature = 0.0;  ///< in that direction
+  Vec3 bend;      ///< 1/m: curvature in that direction, towards its centre
   bool is_valid = false;
 };
 
@@ -64,13 +64,15 @@ Look look(const Model& model, const Side& side, double share) {
   result.inwards = normalized(cross(unit, tangent));
   result.normal = face.is_reversed ? -unit : unit;
   const Uv w = parameter_step({d.du, d.dv, unit}, result.inwards);
-  const double second = std::abs(dot(w.u * w.u * d.duu + 2.0 * w.u * w.v * d.duv + w.v * w.v * d.dvv, unit));
-  result.curvature = std::isfinite(second) ? second : 0.0;
+  const double second = dot(w.u * w.u * d.duu + 2.0 * w.u * w.v * d.duv + w.v * w.v * d.dvv, unit);
+  if (std::isfinite(second)) result.bend = second * unit;
   return result;
 }
 
+/// The same for the faces of a solid and those of the fluid around it, whose normals look the other way.
 struct Shape {
-  int n_smooth = 0, n_sharp = 0, n_base = 0;
+  int n_smooth = 0, n_sharp = 0;
+  int n_base = 0;           ///< convex ones less concave ones
   double looks = 0.0;       ///< mean x of where the edge looks
   double curvature = 0.0;   ///< mean across, the lesser side's
 };
@@ -86,11 +88,11 @@ Shape shape_of(const Model& model, const Side& a, const Side& b) {
     const double turn = angle_between(p.normal, q.normal);
     const bool is_convex = dot(p.normal, q.inwards) < 0.0;
     if (turn < k_smooth_turn) ++shape.n_smooth;
-    if (is_convex && turn > k_sharp_turn) ++shape.n_sharp;
-    if (is_convex && turn > k_base_turn_from && turn < k_base_turn_to) ++shape.n_base;
-    const Vec3 ahead = turn < k_smooth_turn ? p.normal + q.normal : -1.0 * (p.inwards + q.inwards);
+    if (turn > k_sharp_turn) ++shape.n_sharp;
+    if (turn > k_base_turn_from && turn < k_base_turn_to) shape.n_base += is_convex ? 1 : -1;
+    const Vec3 ahead = turn < k_smooth_turn ? -1.0 * (p.bend + q.bend) : -1.0 * (p.inwards + q.inwards);
     if (norm2(ahead) > 0.0) shape.looks += normalized(ahead).x;
-    shape.curvature += std::min(p.curvature, q.curvature);
+    shape.curvature += std::min(norm(p.bend), norm(q.bend));
   }
   if (n > 0) {
     shape.looks /= n;
@@ -187,15 +189,16 @@ std::optional<BaseStrip> strip_of(const Finding& finding, FaceId f) {
   const double length = 0.5 * (uses[a].length + uses[b].length);
   strip.width = area_of(finding, f) / length;
   double looks = 0.0;
+  int n_base = 0;
   for (const Use& use : {uses[a], uses[b]}) {
     const std::vector<Side>& sides = finding.sides[use.edge];
     const Side* other = other_side(sides, f);
     if (!other || !may_be_wing(model, other->place.face)) return std::nullopt;
-    if (shape_of(model, sides[0], sides[1]).n_base < k_agreeing) return std::nullopt;
+    n_base += shape_of(model, sides[0], sides[1]).n_base;
     if (face.role != FaceRole::trailing_edge && strip.width > k_strip_width * area_of(finding, other->place.face) / use.length) return std::nullopt;
-    looks += 0.5 * look(model, other == &sides[0] ? sides[1] : sides[0], 0.5).normal.x;
+    looks -= 0.5 * look(model, *other, 0.5).inwards.x;
   }
-  if (looks < k_looks_along) return std::nullopt;
+  if (std::abs(n_base) < 2 * k_agreeing || looks < k_looks_along) return std::nullopt;
   for (std::size_t i = 0; i < uses.size(); ++i) {
     if (i == a || i == b) continue;
     if (k_strip_length * uses[i].length > std::min(uses[a].length, uses[b].length)) return std::nullopt;
@@ -410,7 +413,7 @@ void set_spacing(Finding& finding) {
         const CurvatureLimits& limits = finding.of(side).limits;
         longest = std::min(longest, limits.size_of(s.curvature));
         if (finding.is_strip(side)) continue;
-        if (const Look l = look(finding.model, side, (s.t - range.from) / range.length()); l.is_valid) first = std::min(first, limits.size_of(l.curvature));
+        if (const Look l = look(finding.model, side, (s.t - range.from) / range.length()); l.is_valid) first = std::min(first, limits.size_of(norm(l.bend)));
         room = std::min(room, room_beside(finding, e, side.place.face, s.point));
       }
       const double way = std::min(ways[finding.corner({e, 0})] + along, ways[finding.corner({e, 1})] + samples.length - along);

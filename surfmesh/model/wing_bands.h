@@ -28,8 +28,8 @@ struct BandEdge {
   double first = 0.0;              ///< m, height of the first row
   double growth = 1.2;
   double longest = 0.0;            ///< m: segments are no longer
-  std::vector<double> spacing;     ///< m, wanted at the edge's samples
-  std::vector<double> reach;       ///< m: so far from its samples rows grow
+  std::vector<double> spacing{};   ///< m, wanted at the edge's samples
+  std::vector<double> reach{};     ///< m: so far from its samples rows grow
   std::array<bool, 2> is_ending{}; ///< the band ends at the edge's start, end: stretch decays there
 };
 
@@ -47,7 +47,7 @@ struct BaseStrip {
   std::array<std::size_t, 2> long_use{};  ///< places in the face's only border
   std::array<EdgeId, 2> long_edge;        ///< the second is cut at the shares of the first
   bool is_against = false;                ///< the edges' parameters run against each other
-  std::vector<EdgeId> short_edges;
+  std::vector<EdgeId> short_edges{};
   double width = 0.0;                     ///< m, mean
 };
 
