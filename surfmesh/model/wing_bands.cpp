@@ -185,7 +185,7 @@ std::optional<BaseStrip> strip_of(const Finding& finding, FaceId f) {
     a = shortest == 0 ? 1 : 0;
     b = shortest == 2 ? 1 : 2;
   }
-  BaseStrip strip{.long_use = {uses[a].at, uses[b].at}, .long_edge = {uses[a].edge, uses[b].edge}};
+  BaseStrip strip{.long_edge = {uses[a].edge, uses[b].edge}};
   const double length = 0.5 * (uses[a].length + uses[b].length);
   strip.width = area_of(finding, f) / length;
   double looks = 0.0;

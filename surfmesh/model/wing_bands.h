@@ -41,10 +41,9 @@ struct CrossingEnd {
   bool is_any = false;        ///< a band goes on here
 };
 
-/// A base: loop positions follow from the uses of its long and short sides.
+/// A base between two long sides.
 struct BaseStrip {
   std::size_t n_cells = 0;
-  std::array<std::size_t, 2> long_use{};  ///< places in the face's only border
   std::array<EdgeId, 2> long_edge;        ///< the second is cut at the shares of the first
   bool is_against = false;                ///< the edges' parameters run against each other
   std::vector<EdgeId> short_edges{};
