@@ -15,12 +15,49 @@ bool goes_straight(const std::vector<BorderPoint>& loop, std::size_t i) {
 
 }  // namespace
 
-std::vector<BandRun> band_runs(FaceId f, const LabelledBorder& labelled, const WingBands& bands, const CurvatureLimits& limits) {
+BorderSegments segments_of(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const LabelledBorder& labelled) {
+  BorderSegments result;
+  std::size_t first = 0;
+  for (const auto& loop : labelled.border.loops) {
+    const std::size_t n = loop.size();
+    std::vector<BorderSegment> segments(n);
+    std::size_t start = 0;
+    const auto is_corner = [&](std::size_t i) { return labelled.ids[first + i % n].value() < numbers.n_corners; };
+    while (start < n && !is_corner(start)) ++start;
+    BorderSegment current;
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t i = (start + k) % n;
+      const EdgeId own = labelled.edges[first + i];
+      const bool is_first = is_corner(i);
+      if (is_first || !own.is_valid()) {
+        current = {};
+        if (own.is_valid() && !model.edges[own].is_degenerate() && topology.is_point[own] == 0) {
+          current.edge = topology.same_as[own].edge;
+          // Vertices of an edge are numbered along its parameter; one alone, or none, leaves its corners to tell.
+          const VertexId id = labelled.ids[first + i], next = labelled.ids[first + (i + 1) % n], second = labelled.ids[first + (i + 2) % n];
+          const VertexId from = numbers.of_corner[topology.corner[model.edges[current.edge].start]];
+          const bool has_two = cuts[current.edge].t.size() > 1;
+          current.is_forward = has_two ? next < second : id == from;
+          const auto& rows = cuts[current.edge].n_rows;
+          current.n_rows_at_start = rows[current.is_forward ? 0 : 1];
+          current.n_rows_at_end = rows[current.is_forward ? 1 : 0];
+        }
+      }
+      segments[i] = current;
+      segments[i].is_first = is_first;
+    }
+    result.push_back(std::move(segments));
+    first += n;
+  }
+  return result;
+}
+
+std::vector<BandRun> band_runs(FaceId f, const LabelledBorder& labelled, const BorderSegments& all, const WingBands& bands, const CurvatureLimits& limits) {
   std::vector<BandRun> runs;
-  if (bands.is_empty() || bands.strips[f] || labelled.segments.empty()) return runs;
+  if (bands.is_empty() || bands.strips[f]) return runs;
   for (std::size_t l = 0; l < labelled.border.loops.size(); ++l) {
     const auto& loop = labelled.border.loops[l];
-    const auto& segments = labelled.segments[l];
+    const auto& segments = all[l];
     const std::size_t n = loop.size();
     const auto band_at = [&](std::size_t i) -> const BandEdge* {
       const EdgeId e = segments[i % n].edge;
@@ -55,21 +92,21 @@ std::vector<BandRun> band_runs(FaceId f, const LabelledBorder& labelled, const W
   return runs;
 }
 
-std::optional<BandedFace> mesh_base(const Model& model, FaceId f, const LabelledBorder& labelled, const BaseStrip& strip) {
-  if (labelled.border.loops.size() != 1 || labelled.segments.empty()) return std::nullopt;
-  const auto& segments = labelled.segments.front();
+std::optional<BandedFace> mesh_base(const Surface& surface, const LabelledBorder& labelled, const BorderSegments& all, const BaseStrip& strip) {
+  if (labelled.border.loops.size() != 1) return std::nullopt;
+  const auto& segments = all.front();
   const std::size_t n = segments.size();
   std::array<std::size_t, 2> first{n, n}, count{};
   for (std::size_t i = 0; i < n; ++i)
     for (const std::size_t s : {0u, 1u})
-      if (segments[i].place == strip.long_use[s]) {
+      if (segments[i].edge == strip.long_edge[s]) {
         if (segments[i].is_first) first[s] = i;
         ++count[s];
       }
   if (first[0] == n || first[1] == n || count[0] != count[1]) return std::nullopt;
   const std::size_t from_first_to_second = (first[1] + n - first[0] - count[0]) % n, from_second_to_first = (first[0] + n - first[1] - count[1]) % n;
   const StripSides sides{.first_long = first[0], .n_along = count[0], .n_across = strip.n_cells, .is_end_pointed = from_first_to_second == 0, .is_start_pointed = from_second_to_first == 0};
-  return mesh_strip(*model.faces[f].surface, labelled.border, sides);
+  return mesh_strip(surface, labelled.border, sides);
 }
 
 }  // namespace sterna::surfmesh

@@ -12,9 +12,93 @@
 namespace sterna::surfmesh {
 namespace {
 
+/// Each use gives its start and its cuts; its end is the start of the next. Absorbed edges give nothing, poles their corner at their start and, by the next use, at their end.
+LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const FaceOutline& outline) {
+  LabelledBorder result;
+  for (const auto& uses : outline.borders) {
+    std::vector<BorderPoint> loop;
+    Uv end;
+    for (const OutlineUse& entry : uses) {
+      const EdgeUse& use = model.faces[f].borders[entry.place.border][entry.place.place];
+      const ModelEdge& edge = model.edges[use.edge];
+      if (topology.is_point[use.edge] != 0 && !edge.is_degenerate()) continue;
+      const Interval range = edge.range;
+      const CornerId corner = topology.corner[use.is_reversed ? edge.end : edge.start];
+      loop.push_back({use.parameter->point(use.is_reversed ? range.to : range.from) + entry.shift, model.corners[corner].point});
+      end = use.parameter->point(use.is_reversed ? range.from : range.to) + entry.shift;
+      result.ids.push_back(numbers.of_corner[corner]);
+      result.edges.push_back(use.edge);
+      const EdgeCut& cut = cuts[use.edge];
+      const SameEdge& same = topology.same_as[use.edge];
+      for (std::size_t k = 0; k < cut.t.size(); ++k) {
+        const std::size_t i = use.is_reversed ? cut.t.size() - 1 - k : k;
+        loop.push_back({use.parameter->point(cut.t[i]) + entry.shift, cut.points[i]});
+        result.ids.push_back(VertexId(numbers.first_of_edge[same.edge] + static_cast<std::uint32_t>(same.is_reversed ? cut.t.size() - 1 - i : i)));
+        result.edges.push_back(use.edge);
+      }
+    }
+    if (loop.empty()) continue;
+    result.border.loops.push_back(std::move(loop));
+    result.loop_ends.push_back(end);
+  }
+  return result;
+}
+
+/// What the model says that an edge's vertices may be off its faces.
+double tolerance_of(const Model& model, FaceId f, EdgeId e) {
+  const ModelEdge& edge = model.edges[e];
+  // Files write tolerances of zero; what doubles of that size can hold is no fault.
+  constexpr double k_rounding = 1e-12;
+  const Point& p = model.corners[edge.start].point;
+  return std::max({edge.tolerance, model.corners[edge.start].tolerance, model.corners[edge.end].tolerance, model.faces[f].tolerance, k_rounding * norm(p - Point{})});
+}
+
+/// Where a border passes a corner twice (a hole that touches the border), both get the same (u, v): files have them some rounding apart, and a gap of that width would
+/// be meshed. Of points that follow each other there only the first stays. Poles and seams are far apart in (u, v).
+LabelledBorder merge_touching(const Model& model, FaceId f, const LabelledBorder& given) {
+  constexpr double k_near = 1e-5;  // of the border's extent in (u, v)
+  const Surface& surface = *model.faces[f].surface;
+  ParameterBox box{{1e300, -1e300}, {1e300, -1e300}};
+  for (const auto& loop : given.border.loops)
+    for (const BorderPoint& p : loop) {
+      box.u = {std::min(box.u.from, p.uv.u), std::max(box.u.to, p.uv.u)};
+      box.v = {std::min(box.v.from, p.uv.v), std::max(box.v.to, p.uv.v)};
+    }
+  LabelledBorder result;
+  result.loop_ends = given.loop_ends;
+  std::map<VertexId, std::vector<Uv>> met;
+  std::size_t i = 0;
+  for (const auto& loop : given.border.loops) {
+    std::vector<BorderPoint> kept;
+    for (BorderPoint p : loop) {
+      const EdgeId e = given.edges[i];
+      const VertexId id = given.ids[i++];
+      std::vector<Uv>& places = met[id];
+      const auto is_same = [&](const Uv& q) {
+        const Uv step = p.uv - q;
+        if (std::abs(step.u) > k_near * box.u.length() || std::abs(step.v) > k_near * box.v.length()) return false;
+        return distance(surface.point(p.uv), surface.point(q)) <= tolerance_of(model, f, e);
+      };
+      if (const auto near = std::find_if(places.begin(), places.end(), is_same); near != places.end()) p.uv = *near;
+      else places.push_back(p.uv);
+      if (!kept.empty() && kept.back().uv == p.uv && result.ids.back() == id) continue;
+      kept.push_back(p);
+      result.ids.push_back(id);
+      result.edges.push_back(e);
+    }
+    while (kept.size() > 1 && kept.back().uv == kept.front().uv && result.ids.back() == result.ids[result.ids.size() - kept.size()]) {
+      kept.pop_back();
+      result.ids.pop_back();
+      result.edges.pop_back();
+    }
+    result.border.loops.push_back(std::move(kept));
+  }
+  return result;
+}
+
 /// The face's border, ready to be meshed.
 LabelledBorder labelled_border(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const SurfaceSizes& field) {
-  LabelledBorder labelled = merge_touching(model, f, label_border(model, f, topology, cuts, numbers, sizes.outlines[f]));
+  LabelledBorder labelled = merge_touching(model, f, border_of(model, f, topology, cuts, numbers, sizes.outlines[f]));
   add_own_seam(*model.faces[f].surface, [&](Uv at, const Point& p) { return field.on_face(f, at, p); }, labelled);
   return labelled;
 }
@@ -95,7 +179,7 @@ BorderVertices number_border(const Model& model, const ModelTopology& topology, 
 }
 
 std::vector<VertexId> border_ids(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const FaceOutline& outline) {
-  return merge_touching(model, f, label_border(model, f, topology, cuts, numbers, outline)).ids;
+  return merge_touching(model, f, border_of(model, f, topology, cuts, numbers, outline)).ids;
 }
 
 MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const WingBands& bands, const SurfaceSizes& field,
@@ -119,10 +203,11 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
   const auto size = [&](Uv at, const Point& p) { return field.on_face(f, at, p); };
   try {
     labelled = labelled_border(model, f, topology, cuts, numbers, sizes, field);
-    if (std::optional<BandedFace> strip = bands.strips[f] ? mesh_base(model, f, labelled, *bands.strips[f]) : std::nullopt) {
+    const BorderSegments segments = segments_of(model, topology, cuts, numbers, labelled);
+    if (std::optional<BandedFace> strip = bands.strips[f] ? mesh_base(*face.surface, labelled, segments, *bands.strips[f]) : std::nullopt) {
       result.mesh = std::move(strip->mesh);
       result.bands = strip->bands;
-    } else if (const std::vector<BandRun> runs = band_runs(f, labelled, bands, sizes.faces[f].limits); !runs.empty()) {
+    } else if (const std::vector<BandRun> runs = band_runs(f, labelled, segments, bands, sizes.faces[f].limits); !runs.empty()) {
       BandedFace banded = mesh_banded_face(*face.surface, labelled.border, runs, size, speed, options, context);
       result.mesh = std::move(banded.mesh);
       result.bands = banded.bands;
@@ -130,9 +215,6 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
     } else {
       result.mesh = mesh_face(*face.surface, labelled.border, size, speed, options, context);
     }
-    const bool has_band = std::any_of(labelled.edges.begin(), labelled.edges.end(), [&](EdgeId e) { return !bands.is_empty() && e.is_valid() && bands.edges[topology.same_as[e].edge]; });
-    if (has_band && !labelled.seam.empty())
-      result.notes.push_back("no rows are laid on \"" + face.name + "\": its border runs around the period of its " + face.surface->kind() + " without a seam");
     if (bands.strips[f] && result.mesh.n_band == 0)
       result.notes.push_back("the base of \"" + face.name + "\" near " + format_point(labelled.border.loops.front().front().point) + " could not be laid out as a strip of cells: it is meshed like other faces");
   } catch (const Error& error) {

@@ -2,10 +2,21 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
-#include "surfmesh/model/labelled_border.h"
+#include "surfmesh/face/face_mesh.h"
+#include "surfmesh/model/face_outline.h"
 
 namespace sterna::surfmesh {
+
+/// A face's border as mesh_face takes it, with what each of its points (all loops in order) is in the model.
+struct LabelledBorder {
+  FaceBorder border;
+  std::vector<VertexId> ids;     ///< of the joined mesh; invalid on a seam of the face's own
+  std::vector<EdgeId> edges;     ///< corners: the edge that starts there; invalid likewise
+  std::vector<Uv> loop_ends;     ///< where each loop arrives: its first place, or that moved by periods
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> seam;  ///< points that are one: the second goes
+};
 
 /// Joins the two loops that run around the period (or the one, to the pole on its left) to one loop by a seam: there and back, a period apart, straight in (u, v),
 /// cut by `size`; moves holes between. Nothing where all loops close.
