@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "geom/base/error.h"
 #include "geom/cad/unite.h"
@@ -292,6 +293,60 @@ TEST(BadModels, HolesThatTouchTheBorderAndLinesForFacesInFiles) {
     const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
     expect_joined(model, mesh);
     EXPECT_EQ(mesh.report.absorbed.size(), n_absorbed);
+  }
+}
+
+/// Every free edge of the model is a chain of boundary edges of the mesh through its vertices in order, and there are no others.
+void expect_loops_of_free_edges(const Model& model, const SurfaceMesh& surface) {
+  const TriMesh& mesh = surface.mesh;
+  std::set<std::pair<VertexId, VertexId>> boundary;
+  for (const TriangleVertices& v : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const auto at = boundary.find({v[(k + 1) % 3], v[k]}); at != boundary.end()) boundary.erase(at);
+      else boundary.insert({v[k], v[(k + 1) % 3]});
+  std::map<EdgeId, std::map<double, VertexId>> along;
+  std::map<std::array<double, 3>, std::vector<VertexId>> corners;
+  for (const VertexId v : mesh.points.ids()) {
+    const EdgePlace& place = surface.edge_places[v];
+    const Point& p = mesh.points[v];
+    if (place.edge.is_valid()) along[place.edge][place.t] = v;
+    else corners[{p.x, p.y, p.z}].push_back(v);
+  }
+  std::size_t n = 0;
+  for (const EdgeId e : free_edges(model)) {
+    const auto at = [&](CornerId c) {
+      const Point& p = model.corners[c].point;
+      return corners[{p.x, p.y, p.z}];
+    };
+    std::vector<std::vector<VertexId>> chain{at(model.edges[e].start)};
+    for (const auto& [t, v] : along[e]) chain.push_back({v});
+    chain.push_back(at(model.edges[e].end));
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i, ++n) {
+      bool is_found = false;
+      for (const VertexId a : chain[i])
+        for (const VertexId b : chain[i + 1]) is_found = is_found || boundary.contains({a, b}) || boundary.contains({b, a});
+      EXPECT_TRUE(is_found) << "edge " << e.value() << " segment " << i;
+    }
+  }
+  EXPECT_EQ(n, boundary.size());
+  EXPECT_EQ(static_cast<std::int64_t>(n), surface.report.n_free_edges);
+}
+
+TEST(BadModels, LoopsOfOpenModelsAreTheFreeEdges) {
+  STERNA_NEEDS_SHARED_DATA();
+  struct Case {
+    const char* file;
+    double max_edge;
+  };
+  for (const Case& c : {Case{"gmsh_parts_sewfaces.step", 0.002}, Case{"pythonocc_example_45_faces.iges", 0.004}, Case{"ucrm_igs_final_surface.igs", 0.1}, Case{"tigl_nacelle_nacelle.stp", 0.2}, Case{"gmsh_parts_PeriodicFaceWithLargeTolerance.brep", 1.0}}) {
+    SCOPED_TRACE(c.file);
+    const Model model = io::read_cad(test::shared_data() / "cad" / c.file, {}, k_context).model;
+    SurfaceMeshOptions options = edges_of(c.max_edge, "ignore");
+    options.curvature_angle = 0.5;
+    const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
+    ASSERT_TRUE(mesh.report.absorbed.empty());
+    expect_joined(model, mesh);
+    expect_loops_of_free_edges(model, mesh);
   }
 }
 
