@@ -122,7 +122,7 @@ main_wing:control{ "flap", from = { 0.15, 0.75 }, to = { 0.5, 0.75 },
   kind = "trailing_edge",             -- leading_edge, all_moving
   other_side = "same",                -- opposite (ailerons), none
 }
-main_wing:deflect{ "aileron", from = { 0.6, 0.75 }, to = { 0.8, 0.75 }, angle = 5*deg,
+main_wing:deflect{ "aileron", hinge = { { 0.6, 0.75 }, { 0.8, 0.75 } }, angle = 5*deg,   -- in place of from and to: places of a hinge
   gap = "sealed",                     -- or "open"
   fairing = "automatic",              -- metres; automatic: a tenth of the mean chord
   other_side = "opposite",

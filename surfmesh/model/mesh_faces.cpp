@@ -49,8 +49,10 @@ double tolerance_of(const Model& model, FaceId f, EdgeId e) {
   const ModelEdge& edge = model.edges[e];
   // Files write tolerances of zero; what doubles of that size can hold is no fault.
   constexpr double k_rounding = 1e-12;
-  const Point& p = model.corners[edge.start].point;
-  return std::max({edge.tolerance, model.corners[edge.start].tolerance, model.corners[edge.end].tolerance, model.faces[f].tolerance, k_rounding * norm(p - Point{})});
+  double extent = 0.0;
+  for (const Point& p : {model.corners[edge.start].point, model.corners[edge.end].point, edge.is_degenerate() ? Point{} : edge.curve->point(0.5 * (edge.range.from + edge.range.to))})
+    extent = std::max(extent, norm(p - Point{}));
+  return std::max({edge.tolerance, model.corners[edge.start].tolerance, model.corners[edge.end].tolerance, model.faces[f].tolerance, k_rounding * extent});
 }
 
 /// Where a border passes a corner twice (a hole that touches the border), both get the same (u, v): files have them some rounding apart, and a gap of that width would

@@ -312,7 +312,8 @@ std::string to_text(const SurfaceMeshReport& report) {
     const LooseEdge& loose = report.loose_edges.front();
     text += "; " + std::to_string(report.loose_edges.size()) + " edges beyond their tolerance, first: " + number(loose.distance) + " m for " + number(loose.tolerance) + " m beside \"" + report.faces[loose.face.index()].name + "\" at " + format_point(loose.place);
   }
-  text += "; smooth places turn by up to " + number(report.max_smooth_angle / k_deg) + " degrees an edge, at " + format_point(report.smooth_angle_place);
+  constexpr double k_flat = 1e-6;  // rad: as good as nothing
+  if (report.max_smooth_angle > k_flat) text += "; smooth places turn by up to " + number(report.max_smooth_angle / k_deg) + " degrees an edge, at " + format_point(report.smooth_angle_place);
   if (!report.absorbed.empty()) text += "; " + std::to_string(report.absorbed.size()) + " small parts absorbed, first: " + report.absorbed.front().what + " at " + format_point(report.absorbed.front().place);
   if (report.n_crossings > 0) text += "; " + std::to_string(report.n_crossings) + " pairs of triangles cross";
   return text + "\n";

@@ -228,7 +228,7 @@ TEST_F(GeometryScripts, AllProblemsOfATableAreToldTogether) {
               AllOf(HasSubstr("3 problems in this table"), HasSubstr("tip: \"pointed\""), HasSubstr("section 1: 3 problems"), HasSubstr("unknown key \"chrod\", did you mean \"chord\"?"), HasSubstr("section 2: chord: -1 is not allowed")));
   EXPECT_THAT(error("fuselage{ frames={ {x=0, diameter=1}, {diameter=1} } }"), AllOf(HasSubstr("frame 2: needs x")));
   EXPECT_THAT(error("nacelle{ length=3 }"), HasSubstr("needs diameter"));
-  EXPECT_THAT(error("wing{ sections={ {y=0, chord=2, airfoil='naca0012', twist=5}, {y=1} } }"), AllOf(HasSubstr("twist: 5 rad is not allowed"), HasSubstr("write degrees as 40*deg")));
+  EXPECT_THAT(error("wing{ sections={ {y=0, chord=2, airfoil='naca0012', twist=5}, {y=1} } }"), AllOf(HasSubstr("twist: 5 rad (286.479 deg) is not allowed"), HasSubstr("write degrees as 40*deg")));
 }
 
 }  // namespace

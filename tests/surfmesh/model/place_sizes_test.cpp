@@ -118,7 +118,7 @@ TEST(PlaceSizes, WingsAreFinerAtTheirEdgesAndTips) {
     SCOPED_TRACE(is_blunt);
     const Model model = wing(is_blunt);
     SurfaceMeshOptions options = edges_of(0.2);
-    options.min_edge = 0.15;  // the nose's curvature asks for nothing here
+    options.min_edge = 0.15;
     const auto strip = [](double from, double to) { return [=](const Point& p) { return p.x > from && p.x < to && p.y > 3 && p.y < 7 && std::abs(p.z) > 0.02; }; };
     const double plain = mean_edge(meshed(model, options), strip(1.8, 1.9));
     EXPECT_GT(plain, 0.14);
@@ -127,13 +127,15 @@ TEST(PlaceSizes, WingsAreFinerAtTheirEdgesAndTips) {
     EXPECT_LT(mean_edge(trailing, strip(1.8, 1.9)), 0.7 * plain);
     EXPECT_GT(mean_edge(trailing, strip(0.9, 1.1)), 0.8 * plain);
     options.trailing_edge_factor = 1.0;
-    options.leading_edge_factor = 0.4;
+    // The nose is a round of millimetres, which has short edges anyhow: what is asked for shows behind it.
+    const double behind_nose = mean_edge(meshed(model, options), strip(0.3, 0.4));
+    options.leading_edge_factor = 0.2;
     const SurfaceMesh leading = meshed(model, options);
-    EXPECT_LT(mean_edge(leading, strip(0.1, 0.2)), 0.7 * plain);
+    EXPECT_LT(mean_edge(leading, strip(0.3, 0.4)), 0.75 * behind_nose);
     EXPECT_GT(mean_edge(leading, strip(1.8, 1.9)), 0.8 * plain);
     // Rules for patches overrule.
-    const std::vector<PatchSurfaceOptions> rules = {{.names = "W", .leading_edge_factor = 1.0}};
-    EXPECT_GT(mean_edge(mesh_model(model, options, rules, k_context), strip(0.1, 0.2)), 0.8 * plain);
+    const std::vector<PatchSurfaceOptions> rules = {{.names = "W*", .leading_edge_factor = 1.0}};
+    EXPECT_NEAR(mean_edge(mesh_model(model, options, rules, k_context), strip(0.3, 0.4)), behind_nose, 0.02 * behind_nose);
     options.leading_edge_factor = 1.0;
     options.tip_strips = true;
     const SurfaceMesh tips = meshed(model, options);
