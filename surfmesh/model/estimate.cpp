@@ -72,8 +72,26 @@ void check_estimate(const Model& model, const ModelSizes& sizes, const Column<Ed
   throw Error(std::move(info));
 }
 
+void check_band_estimate(const Model& model, const WingBands& bands, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options) {
+  for (const EdgeId e : model.edges.ids()) {
+    if (!bands.edges[e]) continue;
+    // A column has two triangles in each row on each side.
+    const double n = 2.0 * edges[e].length / bands.edges[e]->longest;
+    if (n <= options.max_triangles) continue;
+    char first[32];
+    std::snprintf(first, sizeof first, "%.3g", bands.edges[e]->first);
+    const Point place = edges[e].samples[edges[e].samples.size() / 2].point;
+    throw Error({.code = ErrorCode::overflow, .attempted = k_attempted,
+                 .problem = "a band with a first cell of " + std::string(first) + " m asks for more than " + rounded(n) + " triangles; max_triangles is " + std::to_string(options.max_triangles),
+                 .places = {{place, bands.edges[e]->kind == BandKind::leading ? "leading edge" : "trailing edge"}}, .hint = "a larger chordwise or stretch; are the units right?"});
+  }
+}
+
 void check_count(const SurfaceMesh& mesh, const SurfaceMeshOptions& options) {
   const std::size_t n = mesh.mesh.n_triangles();
+  if (n == 0)
+    throw Error({.code = ErrorCode::bad_argument, .attempted = k_attempted, .problem = "no triangle is left: edges and faces of the model are shorter than a twentieth of min_edge, and were absorbed",
+                 .hint = "a smaller min_edge or max_edge; are the model's units right?"});
   if (n <= static_cast<std::size_t>(options.max_triangles)) return;
   throw Error({.code = ErrorCode::overflow, .attempted = k_attempted, .problem = std::to_string(n) + " triangles are more than max_triangles, " + std::to_string(options.max_triangles), .hint = "a larger max_edge, min_edge or curvature_angle, or a larger max_triangles"});
 }

@@ -25,6 +25,8 @@ constexpr const char* k_attempted = "meshing the model's surface";
 constexpr int k_max_rounds = 6;
 constexpr double k_repair_factor = 0.5;
 constexpr std::size_t k_shown_places = 10;
+/// Above it volume_mesh takes no feature angle from the mesh.
+constexpr double k_largest_smooth_turn = std::numbers::pi / 3.0;
 constexpr double k_angle_class = 10.0 * std::numbers::pi / 180.0;  ///< of SurfaceMeshReport::least_angles
 
 std::string number_text(double value) {
@@ -236,6 +238,7 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   check_estimate(model, meshing.sizes, meshing.edges, options);
   meshing.topology = absorb_small_parts(model, meshing.edges, meshing.sizes, meshing.absorbed);
   meshing.bands = find_wing_bands(model, meshing.edges, meshing.sizes, meshing.topology);
+  check_band_estimate(model, meshing.bands, meshing.edges, options);
   meshing.sizes.is_covered = [&](FaceId f, const Point& p) { return meshing.bands.covers(meshing.edges, f, p); };
   add_sources(model, meshing.edges, meshing.topology, options, meshing.sizes, context, &meshing.bands);
   if (looks_for_gaps(options)) add_gap_sources(model, SurfaceSizes(model, meshing.edges, meshing.topology, meshing.sizes, {}, context, true), options, meshing.sizes, context);
@@ -277,6 +280,9 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   const SmoothAngle smooth = measure_smooth_angle(model, meshing.faces, context);
   mesh.report.max_smooth_angle = smooth.angle;
   mesh.report.smooth_angle_place = smooth.place;
+  if (smooth.angle > k_largest_smooth_turn)
+    context.warn("the mesh turns by " + number_text(std::round(smooth.angle * 180.0 / std::numbers::pi)) + " degrees at " + format_point(smooth.place) +
+                 ", where the model is smooth: layers will take it for an edge (shorter edges there: max_edge, min_edge, curvature_angle; or the model folds)");
   return mesh;
 }
 

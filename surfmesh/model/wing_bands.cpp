@@ -238,6 +238,10 @@ void find_strips(Finding& finding) {
     for (const EdgeId e : strip->short_edges) finding.bands.n_short[e] = std::max(finding.bands.n_short[e], strip->n_cells);
     finding.bands.strips[f] = std::move(strip);
   }
+  const bool is_asked = std::any_of(finding.sizes.faces.begin(), finding.sizes.faces.end(), [](const FaceSizes& face) { return !is_automatic(face.trailing_cells); });
+  const bool is_found = std::any_of(finding.bands.strips.begin(), finding.bands.strips.end(), [](const std::optional<BaseStrip>& strip) { return strip.has_value(); });
+  if (is_asked && !is_found && finding.bands.notes.empty())
+    finding.bands.notes.push_back("trailing_edge cells: no face of the model is the base of a blunt trailing edge (four sides, narrow, looking aft); sharp ones have no cells");
   // A short side that two strips share has the finer one's cells; neighbours along the span follow.
   for (bool is_changed = true; is_changed;) {
     is_changed = false;
@@ -294,7 +298,7 @@ void find_edges(Finding& finding) {
     for (const Side& side : sides)
       if (const auto& strip = finding.bands.strips[side.place.face]) band.longest = std::min(band.longest, k_largest_stretch * strip->width / static_cast<double>(strip->n_cells));
     finding.bands.edges[e] = std::move(band);
-    finding.bands.is_empty_ = false;
+    finding.bands.is_unused = false;
     for (const Side& side : sides)
       if (!finding.is_strip(side)) finding.bands.bands_of_face[side.place.face].push_back(e);
   }
@@ -452,7 +456,7 @@ void note_missing(Finding& finding) {
 
 bool WingBands::covers(const Column<EdgeId, EdgeSamples>& samples, FaceId f, const Point& p) const {
   if (strips[f]) return true;
-  if (is_empty_) return false;
+  if (is_unused) return false;
   for (const EdgeId e : bands_of_face[f]) {
     const std::vector<EdgeSample>& s = samples[e].samples;
     const std::vector<double>& reach = edges[e]->reach;
@@ -470,7 +474,7 @@ void WingBands::overrule(const Column<EdgeId, EdgeSamples>& samples, const std::
   } else if (n_short[e] > 0) {
     // The side of a strip of cells; where the strip goes on beyond it, it asks for nothing.
     sizes.assign(sizes.size(), is_short_ending[e] != 0 ? samples[e].length / static_cast<double>(n_short[e]) : largest);
-  } else if (!is_empty_) {
+  } else if (!is_unused) {
     for (std::size_t k = 0; k < sizes.size(); ++k)
       if (std::all_of(uses.begin(), uses.end(), [&](const EdgeUsePlace& place) { return covers(samples, place.face, samples[e].samples[k].point); })) sizes[k] = largest;
   }

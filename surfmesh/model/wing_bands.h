@@ -58,7 +58,7 @@ struct WingBands {
   Column<EdgeId, std::uint8_t> is_short_ending;           ///< no strip goes on beyond this short side
   std::vector<std::string> notes;                         ///< wishes that could not be met, with the faces' names
 
-  bool is_empty() const { return is_empty_; }
+  bool is_empty() const { return is_unused; }
   bool is_strip_in_band(FaceId f) const { return strips[f] && edges[strips[f]->long_edge[0]]; }
   /// What face f asks for at p, a place on or beside it, does not count: a band's rows answer for it.
   bool covers(const Column<EdgeId, EdgeSamples>& samples, FaceId f, const Point& p) const;
@@ -66,7 +66,7 @@ struct WingBands {
   /// Sizes at the samples of an edge as bands have them.
   void overrule(const Column<EdgeId, EdgeSamples>& samples, const std::vector<EdgeUsePlace>& uses, EdgeId e, double largest, std::vector<double>& sizes) const;
 
-  bool is_empty_ = true;
+  bool is_unused = true;
   Column<FaceId, std::vector<EdgeId>> bands_of_face;
 };
 
