@@ -32,21 +32,23 @@ void sort_by_patch(const std::vector<Face>& faces, std::size_t n_patches, std::s
 CellSections::CellSections(const HybridMesh& mesh) : mesh_(&mesh) {
   const LayerBlock& layers = mesh.layers;
   for (std::size_t c = 0; c < layers.n_columns() && all_columns_are_prisms_; ++c) all_columns_are_prisms_ = layers.n_collapsed(c) == 0;
-  if (all_columns_are_prisms_) return;
+  if (all_columns_are_prisms_) {
+    numbers_[static_cast<std::size_t>(CellKind::prism)] = LayerNumbers(layers, layers.n_columns(), [](std::uint64_t i) { return i; });
+    return;
+  }
   constexpr std::array<CellKind, 3> k_kind_of_collapsed = {CellKind::prism, CellKind::pyramid, CellKind::tetrahedron};
   for (std::size_t c = 0; c < layers.n_columns(); ++c) {
     const std::size_t n = static_cast<std::size_t>(layers.n_collapsed(c));
     if (n < 3) columns_[static_cast<std::size_t>(k_kind_of_collapsed[n])].push_back(static_cast<std::uint32_t>(c));
   }
-}
-
-std::uint64_t CellSections::n_columns(CellKind kind) const {
-  if (all_columns_are_prisms_) return kind == CellKind::prism ? mesh_->layers.n_columns() : 0;
-  return columns_[static_cast<std::size_t>(kind)].size();
+  for (const CellKind kind : k_kind_of_collapsed) {
+    const std::vector<std::uint32_t>& columns = columns_[static_cast<std::size_t>(kind)];
+    numbers_[static_cast<std::size_t>(kind)] = LayerNumbers(layers, columns.size(), [&](std::uint64_t i) { return columns[i]; });
+  }
 }
 
 std::uint64_t CellSections::count(CellKind kind) const {
-  const std::uint64_t in_columns = n_columns(kind) * static_cast<std::uint64_t>(mesh_->layers.n_layers);
+  const std::uint64_t in_columns = numbers_[static_cast<std::size_t>(kind)].size();
   switch (kind) {
     case CellKind::tetrahedron: return in_columns + mesh_->tetrahedra.size();
     case CellKind::pyramid: return in_columns + mesh_->pyramids.size();

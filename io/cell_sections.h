@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geom/mesh/hybrid_mesh.h"
+#include "io/layer_numbers.h"
 
 namespace sterna::io {
 
@@ -25,16 +26,15 @@ class CellSections {
   /// Calls f(nodes in CGNS order, layer) for the cells [begin, end) of a kind; layer counts from 1 at the wall, 0 = an explicit cell.
   template <class F>
   void for_each(CellKind kind, std::uint64_t begin, std::uint64_t end, const F& f) const {
-    const std::uint64_t n_layers = static_cast<std::uint64_t>(mesh_->layers.n_layers);
-    const std::uint64_t n_in_columns = n_columns(kind) * n_layers;
+    const LayerNumbers& numbers = numbers_[static_cast<std::size_t>(kind)];
+    const std::uint64_t n_in_columns = numbers.size();
     std::uint64_t i = begin;
     if (i < n_in_columns && i < end) {
-      std::uint64_t column = i / n_layers;
-      std::uint64_t layer = i % n_layers;
+      auto [column, layer] = numbers.at(i);
       for (; i < end && i < n_in_columns; ++i) {
         const Cell cell = mesh_->layers.cell(column_at(kind, column), static_cast<int>(layer));
         f(cell.span(), static_cast<int>(layer) + 1);
-        if (++layer == n_layers) {
+        if (++layer == numbers.n_layers(column)) {
           layer = 0;
           ++column;
         }
@@ -44,7 +44,6 @@ class CellSections {
   }
 
  private:
-  std::uint64_t n_columns(CellKind kind) const;
   std::size_t column_at(CellKind kind, std::uint64_t i) const {
     return all_columns_are_prisms_ ? i : columns_[static_cast<std::size_t>(kind)][i];
   }
@@ -61,6 +60,7 @@ class CellSections {
   const HybridMesh* mesh_;
   bool all_columns_are_prisms_ = true;
   std::array<std::vector<std::uint32_t>, 4> columns_;  ///< by kind; empty where all columns are prisms
+  std::array<LayerNumbers, 4> numbers_;                ///< by kind: of the cells in columns
 };
 
 /// Boundary faces by patch, in mesh order within each: what marker-oriented formats need.

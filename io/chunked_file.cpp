@@ -126,14 +126,14 @@ void ChunkedWriter::add_memory(std::string_view name, NumberType type, std::uint
   pack(name, type, n_components, n_values, [bytes, size = size_of(type)](std::uint64_t begin, std::uint64_t, char*) { return bytes + begin * size; }, context);
 }
 
-void ChunkedWriter::finish() {
+void ChunkedWriter::finish(std::uint32_t version) {
   std::string directory;
   append_number(directory, n_arrays_);
   directory += directory_;
   const std::uint64_t place = file_.size();
   file_.append(directory);
   std::string head(k_magic);
-  append_number(head, k_chunked_version);
+  append_number(head, version);
   append_number(head, k_byte_order_mark);
   append_number(head, place);
   append_number(head, std::uint64_t{directory.size()});
@@ -150,7 +150,7 @@ ChunkedReader::ChunkedReader(const FileBuffer& buffer) : buffer_(buffer) {
   head.require(1, k_head_bytes - k_magic.size(), "the head");
   const auto version = head.take<std::uint32_t>();
   if (version == 0 || version > k_chunked_version)
-    throw_unsupported(buffer.source, "the file has version " + std::to_string(version) + " of the container, this program reads " + std::to_string(k_chunked_version), "read it with a later sterna");
+    throw_unsupported(buffer.source, "the file has version " + std::to_string(version) + " of the container, this program reads up to " + std::to_string(k_chunked_version), "read it with a later sterna");
   if (head.take<std::uint32_t>() != k_byte_order_mark) head.fail("found another byte order, expected little endian");
   const auto place = head.take<std::uint64_t>(), n_bytes = head.take<std::uint64_t>(), hash = head.take<std::uint64_t>(), file_bytes = head.take<std::uint64_t>();
   const auto head_hash = head.take<std::uint64_t>();

@@ -17,7 +17,9 @@ namespace sterna::io {
 enum class NumberType : std::uint8_t { u8 = 1, u32 = 2, i64 = 3, f64 = 4 };
 std::size_t size_of(NumberType type);
 
-inline constexpr std::uint32_t k_chunked_version = 1;
+/// Latest version that is read. A writer marks a file with the first version whose readers understand all that must not be passed over in it.
+inline constexpr std::uint32_t k_chunked_version = 2;
+inline constexpr std::uint32_t k_first_chunked_version = 1;
 /// Values of a chunk take this many bytes at most: enough to pack well, few enough for the cache of a core, and 64 buffers with three times as much fit into 100 MB.
 inline constexpr std::uint64_t k_chunk_bytes = 3u << 17;
 
@@ -35,8 +37,8 @@ class ChunkedWriter {
   /// The bytes of values that lie in memory as in the file.
   void add_memory(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const void* values, const RunContext& context);
 
-  /// Writes the directory, and where it is to the head. Does not commit.
-  void finish();
+  /// Writes the directory, and where it is to the head. Does not commit. \pre version <= k_chunked_version
+  void finish(std::uint32_t version = k_first_chunked_version);
 
  private:
   /// Where the bytes of [begin, end) are: filled into `room`, or where they lie.

@@ -50,15 +50,15 @@ MeshFaces::MeshFaces(const HybridMesh& mesh, const RunContext& context) : mesh_(
 
 void MeshFaces::number_cells() {
   const LayerBlock& layers = mesh_->layers;
-  n_layers_ = static_cast<std::uint64_t>(layers.n_layers);
   for (std::size_t c = 0; c < layers.n_columns(); ++c) n_live_ += layers.n_collapsed(c) < 3 ? 1 : 0;
   if (n_live_ < layers.n_columns()) {
     live_.reserve(n_live_);
     for (std::size_t c = 0; c < layers.n_columns(); ++c)
       if (layers.n_collapsed(c) < 3) live_.push_back(static_cast<std::uint32_t>(c));
   }
-  if (n_layers_ == 0) n_live_ = 0;
-  n_column_cells_ = n_live_ * n_layers_;
+  if (layers.n_layers == 0) n_live_ = 0;
+  cells_ = LayerNumbers(layers, n_live_, [&](std::uint64_t live) { return column_of(live); });
+  n_column_cells_ = cells_.size();
   const std::array<std::uint64_t, 4> counts = {mesh_->prisms.size(), mesh_->pyramids.size(), mesh_->hexahedra.size(), mesh_->tetrahedra.size()};
   for (std::size_t k = 0; k < blocks_.size(); ++k) {
     blocks_[k] = {.kind = k_explicit_kinds[k], .first_cell = n_column_cells_ + n_explicit_, .n_cells = counts[k], .first_slot = 0};
@@ -134,7 +134,7 @@ const MeshFaces::ExplicitBlock& MeshFaces::block_of(std::uint64_t cell) const {
 CellKind MeshFaces::kind(std::uint64_t cell) const {
   if (cell >= n_column_cells_) return block_of(cell).kind;
   constexpr std::array<CellKind, 3> k_kind_of_collapsed = {CellKind::prism, CellKind::pyramid, CellKind::tetrahedron};
-  return k_kind_of_collapsed[static_cast<std::size_t>(mesh_->layers.n_collapsed(column_of(cell / n_layers_)))];
+  return k_kind_of_collapsed[static_cast<std::size_t>(mesh_->layers.n_collapsed(column_of(cells_.at(cell).i)))];
 }
 
 std::span<const NodeId> MeshFaces::explicit_nodes(CellKind kind, std::uint64_t i) const {
@@ -167,19 +167,18 @@ std::size_t MeshFaces::faces_of(std::uint64_t cell, std::array<CellFace, k_most_
     }
     return n;
   }
-  const std::uint64_t live = cell / n_layers_;
-  const int layer = static_cast<int>(cell % n_layers_);
+  const auto [live, layer_number] = cells_.at(cell);
+  const int layer = static_cast<int>(layer_number);
   const std::size_t column = column_of(live);
   faces[0] = cap(column, layer, false);
   faces[0].neighbour = layer == 0 ? partner_[live] : static_cast<std::uint32_t>(cell - 1);
   faces[1] = cap(column, layer + 1, true);
-  faces[1].neighbour = static_cast<std::uint64_t>(layer) + 1 == n_layers_ ? partner_[n_live_ + live] : static_cast<std::uint32_t>(cell + 1);
+  faces[1].neighbour = layer_number + 1 == cells_.n_layers(live) ? partner_[n_live_ + live] : static_cast<std::uint32_t>(cell + 1);
   for (std::size_t k = 0; k < 3; ++k) {
     faces[2 + k] = side(column, k, layer);
     const std::uint32_t beside = beside_[3 * live + k];
     if (faces[2 + k].size == 0) continue;
-    faces[2 + k].neighbour = beside < n_live_ ? static_cast<std::uint32_t>(beside * n_layers_ + static_cast<std::uint64_t>(layer))
-                                              : partner_[first_open_ + (beside - n_live_) * n_layers_ + static_cast<std::uint64_t>(layer)];
+    faces[2 + k].neighbour = beside < n_live_ ? static_cast<std::uint32_t>(cells_.first(beside) + layer_number) : partner_[first_open_ + open_faces_.first(beside - n_live_) + layer_number];
   }
   return 5;
 }
@@ -189,14 +188,16 @@ CellFace MeshFaces::loose_face(Slot slot) const {
   if (slot < 2 * n_live_) {
     const bool is_top = slot >= n_live_;
     const std::uint64_t live = is_top ? slot - n_live_ : slot;
-    face = cap(column_of(live), is_top ? mesh_->layers.n_layers : 0, is_top);
-    face.neighbour = static_cast<std::uint32_t>(live * n_layers_ + (is_top ? n_layers_ - 1 : 0));
+    const std::uint64_t n_layers = cells_.n_layers(live);
+    face = cap(column_of(live), is_top ? static_cast<int>(n_layers) : 0, is_top);
+    face.neighbour = static_cast<std::uint32_t>(cells_.first(live) + (is_top ? n_layers - 1 : 0));
     return face;
   }
   if (slot < blocks_[0].first_slot) {
-    const std::uint64_t open = open_sides_[(slot - first_open_) / n_layers_], layer = (slot - first_open_) % n_layers_;
+    const auto [i, layer] = open_faces_.at(slot - first_open_);
+    const std::uint64_t open = open_sides_[i];
     face = side(column_of(open / 3), open % 3, static_cast<int>(layer));
-    face.neighbour = static_cast<std::uint32_t>(open / 3 * n_layers_ + layer);
+    face.neighbour = static_cast<std::uint32_t>(cells_.first(open / 3) + layer);
     return face;
   }
   if (slot < first_boundary_) {
@@ -218,7 +219,8 @@ CellFace MeshFaces::loose_face(Slot slot) const {
 
 void MeshFaces::match_loose_faces(const RunContext& context) {
   first_open_ = 2 * n_live_;
-  n_slots_ = first_open_ + open_sides_.size() * n_layers_;
+  open_faces_ = LayerNumbers(mesh_->layers, open_sides_.size(), [&](std::uint64_t i) { return column_of(open_sides_[i] / 3); });
+  n_slots_ = first_open_ + open_faces_.size();
   for (ExplicitBlock& block : blocks_) {
     block.first_slot = n_slots_;
     n_slots_ += block.n_cells * cell_faces(block.kind).size();

@@ -10,6 +10,7 @@
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/hybrid_mesh.h"
+#include "io/layer_numbers.h"
 
 namespace sterna::io {
 
@@ -88,14 +89,15 @@ class MeshFaces {
   void count_internal(const RunContext& context);
 
   const HybridMesh* mesh_;
-  std::uint64_t n_layers_ = 0;
   std::uint64_t n_live_ = 0;         ///< columns with cells
   std::vector<std::uint32_t> live_;  ///< their numbers; empty: all
+  LayerNumbers cells_;               ///< of live columns
   std::uint64_t n_column_cells_ = 0;
   std::uint64_t n_explicit_ = 0;
   std::array<ExplicitBlock, 4> blocks_{};
   std::vector<std::uint32_t> beside_;      ///< per live column and side: live column, n_live_ + number of an open side, or k_boundary for none
   std::vector<std::uint64_t> open_sides_;  ///< 3 * live column + side
+  LayerNumbers open_faces_;                ///< of open sides
   Slot first_open_ = 0, first_boundary_ = 0, n_slots_ = 0;
   std::vector<std::uint32_t> partner_;     ///< per slot
   std::vector<Count> internal_before_;     ///< per k_count_interval cells

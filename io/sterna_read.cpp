@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geom/base/error.h"
 #include "io/chunked_file.h"
@@ -134,9 +135,10 @@ class PartReader {
     return mesh;
   }
 
-  StoredEnvelope envelope(std::size_t n) const {
+  StoredEnvelope envelope(std::size_t n_vertices) const {
     StoredEnvelope envelope;
     envelope.direction.raw() = points(part::k_direction);
+    const std::size_t n = std::min(envelope.direction.size(), n_vertices);  // of walls with layers alone
     require_size(part::k_direction, envelope.direction.size(), n);
     envelope.height.raw() = reals(part::k_height, n);
     envelope.target.raw() = reals(part::k_target, n);
@@ -164,14 +166,30 @@ class PartReader {
     block.n_layers = static_cast<int>(n_layers);
     block.first_node = items<std::uint32_t>(part::k_first_node, NumberType::u32, 1);
     block.is_collapsed = bytes(part::k_is_collapsed, block.n_lines());
+    if (file_.has(part::k_line_layers)) block.line_layers = line_layers(block.n_lines(), block.n_layers);
     for (std::size_t k = 0; k < block.n_lines(); ++k) {
       if (block.is_collapsed[k] > 1) file_.fail(part::k_is_collapsed, "value " + std::to_string(k) + " is " + std::to_string(block.is_collapsed[k]) + ", expected 0 or 1");
-      const std::uint64_t last = block.first_node[k] + (block.is_collapsed[k] ? 0 : static_cast<std::uint64_t>(n_layers));
+      const std::uint64_t last = std::uint64_t{block.first_node[k]} + static_cast<std::uint64_t>(block.n_steps(k));
       if (last >= n_points) file_.fail(part::k_first_node, "line " + std::to_string(k) + " ends at node " + std::to_string(last) + ", there are " + std::to_string(n_points));
     }
     block.base = items<std::array<std::uint32_t, 3>>(part::k_base, NumberType::u32, 3);
     require_below(part::k_base, block.base, block.n_lines());
+    for (std::size_t c = 0; c < (block.is_uniform() ? 0 : block.n_columns()); ++c)
+      for (const std::uint32_t line : block.base[c])
+        if (block.layers_of_line(line) != block.layers_of_column(c)) file_.fail(part::k_line_layers, "the lines of column " + std::to_string(c) + " have different numbers of layers");
     return block;
+  }
+
+  std::vector<std::uint16_t> line_layers(std::size_t n_lines, int most) const {
+    const auto numbers = items<std::uint32_t>(part::k_line_layers, NumberType::u32, 1);
+    require_size(part::k_line_layers, numbers.size(), n_lines);
+    std::vector<std::uint16_t> result(n_lines);
+    for (std::size_t i = 0; i < n_lines; ++i) {
+      if (numbers[i] < 1 || numbers[i] > static_cast<std::uint32_t>(most) || numbers[i] > std::numeric_limits<std::uint16_t>::max())
+        file_.fail(part::k_line_layers, "value " + std::to_string(i) + " is " + std::to_string(numbers[i]) + ", expected 1 to " + std::to_string(most));
+      result[i] = static_cast<std::uint16_t>(numbers[i]);
+    }
+    return result;
   }
 
   LayerRequest request(std::size_t n_lines) const {
@@ -182,6 +200,8 @@ class PartReader {
     result.target_height = reals(part::k_request_target, n_lines);
     result.reasons = strings(part::k_request_reasons);
     result.reason = bytes(part::k_request_reason, n_lines);
+    if (file_.has(part::k_request_first_height)) result.line_first_height = reals(part::k_request_first_height, n_lines);
+    if (file_.has(part::k_request_max_growth)) result.line_max_growth = reals(part::k_request_max_growth, n_lines);
     for (std::size_t i = 0; i < result.reason.size(); ++i)
       if (result.reason[i] >= result.reasons.size()) file_.fail(part::k_request_reason, "value " + std::to_string(i) + " is " + std::to_string(result.reason[i]) + ", there are " + std::to_string(result.reasons.size()) + " reasons");
     return result;
@@ -198,6 +218,16 @@ class PartReader {
     return result;
   }
 
+  std::vector<PeriodicSides> periodic(std::size_t n_patches) const {
+    const auto patches = items<std::array<PatchId, 2>>(part::k_periodic_patches, NumberType::u32, 2);
+    require_below(part::k_periodic_patches, patches, n_patches);
+    const std::vector<Vec3> translations = points(part::k_periodic_translations);
+    require_size(part::k_periodic_translations, translations.size(), patches.size());
+    std::vector<PeriodicSides> result;
+    for (std::size_t i = 0; i < patches.size(); ++i) result.push_back({patches[i][0], patches[i][1], translations[i]});
+    return result;
+  }
+
   HybridMesh mesh() const {
     HybridMesh mesh;
     mesh.points.raw() = points(part::k_points);
@@ -211,6 +241,7 @@ class PartReader {
     mesh.tetrahedra = cells<4>(part::k_tetrahedra, n);
     mesh.boundary_triangles = faces<BoundaryTriangle>(part::k_triangles, part::k_triangle_patch, mesh);
     mesh.boundary_quads = faces<BoundaryQuad>(part::k_quads, part::k_quad_patch, mesh);
+    if (file_.has(part::k_periodic_patches)) mesh.periodic = periodic(mesh.patches.size());
     return mesh;
   }
 

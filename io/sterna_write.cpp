@@ -48,8 +48,10 @@ class PartWriter {
   }
 
   void add_envelope(const StoredEnvelope& envelope, const TriMesh& surface) {
+    // Of the walls with layers alone: fewer where the surface has other patches.
+    const std::size_t n_lines = std::min(envelope.height.size(), surface.n_vertices());
     for (const std::size_t n : {envelope.direction.size(), envelope.height.size(), envelope.target.size(), envelope.eq1.size(), envelope.cap.size(), envelope.limit.size()})
-      require_size(n, surface.n_vertices(), "values of an envelope");
+      require_size(n, n_lines, "values of an envelope");
     reals(part::k_direction, 3, envelope.direction.raw());
     reals(part::k_height, 1, envelope.height.raw());
     reals(part::k_target, 1, envelope.target.raw());
@@ -78,18 +80,36 @@ class PartWriter {
     faces(part::k_triangles, part::k_triangle_patch, mesh.boundary_triangles);
     faces(part::k_quads, part::k_quad_patch, mesh.boundary_quads);
     text(part::k_patches, joined(mesh.patches));
+    if (!mesh.periodic.empty()) add_periodic(mesh.periodic);
   }
 
   void text(std::string_view name, std::string_view value) { writer_.add_memory(name, NumberType::u8, 1, value.size(), value.data(), context_); }
-  void finish() { writer_.finish(); }
+  void finish() { writer_.finish(version_); }
 
  private:
+  void add_periodic(const std::vector<PeriodicSides>& periodic) {
+    std::vector<std::array<PatchId, 2>> patches;
+    std::vector<Vec3> translations;
+    for (const PeriodicSides& sides : periodic) {
+      patches.push_back({sides.first, sides.second});
+      translations.push_back(sides.translation);
+    }
+    ids(part::k_periodic_patches, 2, patches);
+    require_finite(translations);
+    reals(part::k_periodic_translations, 3, translations);
+  }
+
   void add_layers(const HybridMesh& mesh) {
     const LayerBlock& layers = mesh.layers;
     integer(part::k_n_layers, layers.n_layers);
     ids(part::k_base, 3, layers.base);
     ids(part::k_first_node, 1, layers.first_node);
     bytes(part::k_is_collapsed, layers.is_collapsed);
+    if (!layers.is_uniform()) {
+      require_size(layers.line_layers.size(), layers.n_lines(), "numbers of layers of lines");
+      ids(part::k_line_layers, 1, std::vector<std::uint32_t>(layers.line_layers.begin(), layers.line_layers.end()));
+      version_ = part::k_line_layers_version;
+    }
     const LayerRequest& request = mesh.request;
     if (!request.is_known()) return;
     const std::array<double, 2> numbers = {request.first_height, request.max_growth};
@@ -97,6 +117,11 @@ class PartWriter {
     reals(part::k_request_target, 1, request.target_height);
     bytes(part::k_request_reason, request.reason);
     text(part::k_request_reasons, joined(request.reasons));
+    for (const auto& [name, values] : {std::pair(part::k_request_first_height, &request.line_first_height), std::pair(part::k_request_max_growth, &request.line_max_growth)}) {
+      if (values->empty()) continue;
+      require_size(values->size(), layers.n_lines(), "requests of lines");
+      reals(name, 1, *values);
+    }
   }
 
   template <class T>
@@ -140,6 +165,7 @@ class PartWriter {
   }
 
   ChunkedWriter writer_;
+  std::uint32_t version_ = k_first_chunked_version;
   RunContext context_;
 };
 

@@ -65,9 +65,9 @@ class CgnsReader {
   }
 
  private:
-  /// A volume needs a base of three dimensions; a surface is looked for in one of two dimensions first.
-  const CgnsNode& find_base() const {
-    const CgnsNode* found = nullptr;
+  /// A surface is looked for in a base of two dimensions first, a volume in one of three; a file without such a base holds a surface alone, which is read as one.
+  const CgnsNode& find_base() {
+    const CgnsNode *found = nullptr, *surface = nullptr;
     int n_bases = 0;
     for (const CgnsNode& node : tree_.root().children) {
       if (node.label != "CGNSBase_t") continue;
@@ -78,8 +78,13 @@ class CgnsReader {
       if (space != 3) continue;
       if (contents_ == Contents::boundary && cell == 2) return node;
       if (cell == 3 && !found) found = &node;
+      if (cell == 2 && !surface) surface = &node;
     }
-    if (!found) throw_unsupported(tree_.source(), "found no base of three dimensions (" + std::to_string(n_bases) + " bases)");
+    if (!found && surface) {
+      contents_ = Contents::boundary;
+      return *surface;
+    }
+    if (!found) throw_unsupported(tree_.source(), "found no base of two or three dimensions in space (" + std::to_string(n_bases) + " bases)");
     return *found;
   }
 

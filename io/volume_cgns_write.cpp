@@ -5,6 +5,7 @@
 #include <set>
 
 #include "geom/base/error.h"
+#include "geom/mesh/periodic.h"
 #include "io/cell_sections.h"
 #include "io/cgns_elements.h"
 #include "io/cgns_output.h"
@@ -17,7 +18,7 @@ constexpr std::string_view k_quad_suffix = "_quad";
 constexpr float k_hdf5_version = 3.4f;  ///< its fixed-type sections are those of every version since
 constexpr float k_adf_version = 2.54f;
 /// Names of nodes beside sections, conditions and families.
-constexpr std::array<const char*, 11> k_taken_names = {"Zone", "ZoneType", "ZoneBC", "GridCoordinates", "DataClass", "DimensionalUnits", "PENTA_6", "PYRA_5", "HEXA_8", "TETRA_4", "."};
+constexpr std::array<const char*, 12> k_taken_names = {"ZoneGridConnectivity", "Zone", "ZoneType", "ZoneBC", "GridCoordinates", "DataClass", "DimensionalUnits", "PENTA_6", "PYRA_5", "HEXA_8", "TETRA_4", "."};
 
 /// At most n bytes of UTF-8 text, cut before a character.
 std::string cut_text(std::string text, std::size_t n) {
@@ -122,6 +123,7 @@ class CgnsWriter {
       families.push_back(family(patch));
     }
     if (!conditions.children.empty()) zone.children.push_back(std::move(conditions));
+    if (!mesh_.periodic.empty()) zone.children.push_back(connectivity());
     base.children.push_back(std::move(zone));
     for (CgnsOutputNode& family : families) base.children.push_back(std::move(family));
     base.children.push_back(text_node("DataClass", "DataClass_t", "Dimensional"));
@@ -212,6 +214,39 @@ class CgnsWriter {
     }
     node.children.push_back(text_node("FamilyName", "FamilyName_t", names_[patch.index()]));
     return node;
+  }
+
+  /// Periodic sides, seen from each of the two: their nodes in the same order, and the way to the other. CGNS has 32 bits for that.
+  CgnsOutputNode connectivity() const {
+    CgnsOutputNode all = cgns_node("ZoneGridConnectivity", "ZoneGridConnectivity_t");
+    for (const PeriodicSides& sides : mesh_.periodic) {
+      const PeriodicMatch match = match_periodic(mesh_, sides.first, sides.second, periodic_tolerance(mesh_));
+      for (const std::size_t from : {std::size_t{0}, std::size_t{1}}) {
+        std::vector<std::uint64_t> own, others;
+        for (const auto& pair : match.nodes) {
+          own.push_back(pair[from].value() + 1ull);
+          others.push_back(pair[1 - from].value() + 1ull);
+        }
+        const auto vector_node = [](const char* name, const Vec3& v, bool is_angle = false) {
+          CgnsOutputNode node = cgns_node(name, "DataArray_t", output_numbers<float>(NumberKind::f4, {3}, {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}));
+          node.children.push_back(cgns_node("DimensionalExponents", "DimensionalExponents_t", output_numbers<float>(NumberKind::f4, {5}, {0, is_angle ? 0.0f : 1.0f, 0, 0, is_angle ? 1.0f : 0.0f})));
+          return node;
+        };
+        CgnsOutputNode periodic = cgns_node("Periodic", "Periodic_t");
+        periodic.children.push_back(vector_node("RotationCenter", {}));
+        periodic.children.push_back(vector_node("RotationAngle", {}, true));
+        periodic.children.push_back(vector_node("Translation", from == 0 ? sides.translation : -sides.translation));
+        CgnsOutputNode property = cgns_node("GridConnectivityProperty", "GridConnectivityProperty_t");
+        property.children.push_back(std::move(periodic));
+        CgnsOutputNode node = text_node(names_[(from == 0 ? sides.first : sides.second).index()], "GridConnectivity_t", "Zone");
+        node.children.push_back(text_node("GridConnectivityType", "GridConnectivityType_t", "Abutting1to1"));
+        node.children.push_back(cgns_node("PointList", "IndexArray_t", sizes({1, own.size()}, own)));
+        node.children.push_back(cgns_node("PointListDonor", "IndexArray_t", sizes({1, others.size()}, others)));
+        node.children.push_back(std::move(property));
+        all.children.push_back(std::move(node));
+      }
+    }
+    return all;
   }
 
   CgnsOutputNode family(PatchId patch) const {

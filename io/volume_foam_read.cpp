@@ -4,6 +4,7 @@
 #include <system_error>
 
 #include "geom/base/error.h"
+#include "geom/mesh/periodic.h"
 #include "io/face_mesh.h"
 #include "io/foam_file.h"
 #include "io/orientation.h"
@@ -16,10 +17,12 @@ namespace {
 struct FoamPatch {
   Patch patch;
   std::uint64_t first_face = 0, n_faces = 0;
+  std::string neighbour;  ///< of a cyclic one
 };
 
 PatchKind kind_of(std::string_view type, const std::vector<std::string>& groups, std::string_view name) {
   if (type == "wall") return PatchKind::wall;
+  if (type == "cyclic") return PatchKind::interface;
   if (type == "symmetry" || type == "symmetryPlane") return PatchKind::symmetry;
   for (const PatchKind kind : {PatchKind::slip, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface})
     if (std::find(groups.begin(), groups.end(), to_string(kind)) != groups.end()) return kind;
@@ -55,6 +58,7 @@ FoamPatch read_patch(FoamFile& file) {
     const std::vector<std::string> words = read_value(file);
     if (key == "type" && !words.empty()) type = words[0];
     if (key == "inGroups") groups = words;
+    if (key == "neighbourPatch" && words.size() == 1) patch.neighbour = words[0];
     if (key == "nFaces") {
       patch.n_faces = number_in(file, words, "nFaces");
       has_number = true;
@@ -66,25 +70,45 @@ FoamPatch read_patch(FoamFile& file) {
   }
   if (!has_first || !has_number || type.empty()) file.fail("patch " + quoted_excerpt(patch.patch.name) + " has no type, nFaces or startFace");
   patch.patch.kind = kind_of(type, groups, patch.patch.name);
+  if (type != "cyclic") patch.neighbour.clear();
   return patch;
 }
 
-/// Patches with the faces from n_internal to n_faces, without gap.
-void read_boundary(const std::filesystem::path& folder, std::uint64_t n_internal, FaceMesh& faces, HybridMesh& mesh, const RunContext& context) {
+/// Patches with the faces from n_internal to n_faces, without gap. Returns the neighbours of cyclic ones, by patch.
+std::vector<std::string> read_boundary(const std::filesystem::path& folder, std::uint64_t n_internal, FaceMesh& faces, HybridMesh& mesh, const RunContext& context) {
   FoamFile file(folder / "boundary", "polyBoundaryMesh", context);
   const std::uint64_t n = file.count("the number of patches", 20);  // "a{type b;nFaces 1;startFace 1;}" is longer
   file.expect("(");
   std::uint64_t next = n_internal;
+  std::vector<std::string> neighbours;
   for (std::uint64_t i = 0; i < n; ++i) {
     const FoamPatch patch = read_patch(file);
     if (patch.n_faces > 0 && patch.first_face != next) file.fail("patch " + quoted_excerpt(patch.patch.name) + " starts at face " + std::to_string(patch.first_face) + ", expected " + std::to_string(next));
     if (patch.n_faces > faces.n_faces() - next) file.fail("patch " + quoted_excerpt(patch.patch.name) + " ends behind the last face, " + std::to_string(faces.n_faces() - 1));
     const PatchId id = mesh.patches.push_back(patch.patch);
+    neighbours.push_back(patch.neighbour);
     std::fill_n(faces.patch.begin() + static_cast<std::ptrdiff_t>(next), patch.n_faces, id);
     next += patch.n_faces;
   }
   file.expect(")");
   if (next != faces.n_faces()) file.fail("the patches end at face " + std::to_string(next) + " of " + std::to_string(faces.n_faces()));
+  return neighbours;
+}
+
+/// Pairs of cyclic patches that are one another's image, moved; others (turned, or of other faces) are told of.
+void find_periodic(const std::vector<std::string>& neighbours, HybridMesh& mesh, const RunContext& context) {
+  for (const PatchId patch : mesh.patches.ids()) {
+    const auto other = std::ranges::find(mesh.patches, neighbours[patch.index()], &Patch::name);
+    if (neighbours[patch.index()].empty() || other == mesh.patches.end()) continue;
+    const PatchId second(static_cast<std::size_t>(other - mesh.patches.begin()));
+    if (second <= patch) continue;
+    try {
+      mesh.periodic.push_back({patch, second, match_periodic(mesh, patch, second, periodic_tolerance(mesh)).translation});
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::bad_argument) throw;
+      context.warn("cyclic patches \"" + mesh.patches[patch].name + "\" and \"" + mesh.patches[second].name + "\" are taken as two patches: " + error.info().problem);
+    }
+  }
 }
 
 }  // namespace
@@ -137,11 +161,12 @@ HybridMesh read_volume_foam(const std::filesystem::path& path, const RunContext&
   faces.patch.resize(n_faces);
   for (const std::uint32_t cell : faces.owner) faces.n_cells = std::max<std::uint64_t>(faces.n_cells, cell + 1ull);
   for (std::uint64_t f = 0; f < n_internal; ++f) faces.n_cells = std::max<std::uint64_t>(faces.n_cells, faces.neighbour[f] + 1ull);
-  read_boundary(folder, n_internal, faces, mesh, context);
+  const std::vector<std::string> cyclic = read_boundary(folder, n_internal, faces, mesh, context);
   context.progress(0.6);
   add_cells_and_boundary(faces, mesh, folder.string(), context);
   context.progress(0.9);
   orient_mesh(mesh, context);
+  find_periodic(cyclic, mesh, context);
   return mesh;
 }
 

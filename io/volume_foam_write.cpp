@@ -3,8 +3,10 @@
 #include <cctype>
 #include <iterator>
 #include <limits>
+#include <map>
 
 #include "geom/base/error.h"
+#include "geom/mesh/periodic.h"
 #include "io/atomic_folder.h"
 #include "io/cell_sections.h"
 #include "io/mesh_faces.h"
@@ -21,6 +23,33 @@ constexpr std::size_t k_max_label_text = 11;                             // with
 constexpr std::size_t k_max_face_text = 2 + 4 * k_max_label_text + 2;    // "4(1 2 3 4)\n"
 constexpr std::size_t k_max_point_text = 3 * (k_max_real_text + 1) + 3;  // "(1 2 3)\n"
 
+/// The second of two periodic sides in OpenFOAM's order: its faces as those of the first, each from the node on that is the partner of the first one's first.
+struct CyclicSide {
+  std::vector<std::uint32_t> triangles, quads;
+  std::vector<std::uint8_t> triangle_begins, quad_begins;  ///< number of that node
+};
+
+/// \pre `match` of these sides
+CyclicSide order_cyclic(const HybridMesh& mesh, const FacesByPatch& faces, PatchId first, const PeriodicMatch& match) {
+  const auto n_triangles = static_cast<std::uint32_t>(mesh.boundary_triangles.size());
+  const auto nodes_of = [&](std::uint32_t face) {
+    return face < n_triangles ? std::span<const NodeId>(mesh.boundary_triangles[face].nodes) : std::span<const NodeId>(mesh.boundary_quads[face - n_triangles].nodes);
+  };
+  const auto node_partner = [&](NodeId node) { return std::ranges::lower_bound(match.nodes, node, {}, [](const auto& pair) { return pair[0]; })->at(1); };
+  std::vector<std::array<std::uint32_t, 2>> pairs = match.faces;
+  std::ranges::sort(pairs);
+  CyclicSide side;
+  const auto add = [&](std::uint32_t face, std::uint32_t offset, std::vector<std::uint32_t>& others, std::vector<std::uint8_t>& begins) {
+    const std::uint32_t other = std::ranges::lower_bound(pairs, face, {}, [](const auto& pair) { return pair[0]; })->at(1);
+    const std::span<const NodeId> nodes = nodes_of(other);
+    others.push_back(other - offset);
+    begins.push_back(static_cast<std::uint8_t>(std::ranges::find(nodes, node_partner(nodes_of(face)[0])) - nodes.begin()));
+  };
+  for (const std::uint32_t t : faces.triangles(first)) add(t, 0, side.triangles, side.triangle_begins);
+  for (const std::uint32_t q : faces.quads(first)) add(n_triangles + q, n_triangles, side.quads, side.quad_begins);
+  return side;
+}
+
 class FoamWriter {
  public:
   FoamWriter(const HybridMesh& mesh, const std::filesystem::path& path, bool is_binary, const RunContext& context)
@@ -32,6 +61,11 @@ class FoamWriter {
     require_count(mesh.points.size(), k_max_label, "points", "OpenFOAM with 32-bit labels", path_);
     require_count(n_faces_, k_max_label, "faces", "OpenFOAM with 32-bit labels", path_);
     require_count(is_binary ? n_face_nodes_ : 0, k_max_label, "nodes of faces", "OpenFOAM's binary list with 32-bit labels", path_);
+    for (const PeriodicSides& sides : mesh.periodic) {
+      neighbour_[sides.first] = sides.second;
+      neighbour_[sides.second] = sides.first;
+      cyclic_.emplace(sides.second, order_cyclic(mesh, by_patch_, sides.first, match_periodic(mesh, sides.first, sides.second, periodic_tolerance(mesh))));
+    }
   }
 
   void write(const AtomicFolder& folder) const {
@@ -125,15 +159,28 @@ class FoamWriter {
   template <class Put>
   void add_boundary(std::vector<OutputSection>& sections, std::size_t max_bytes, const Put& put) const {
     for (const PatchId patch : mesh_.patches.ids()) {
-      const auto add = [&](std::span<const std::uint32_t> which, auto get) {
-        sections.push_back({.n_items = which.size(), .format = [which, get, put, max_bytes](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
+      const auto add = [&](std::span<const std::uint32_t> which, std::span<const std::uint8_t> begins, auto get) {
+        sections.push_back({.n_items = which.size(), .format = [which, begins, get, put, max_bytes](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
                               char* at = out.reserve((end - begin) * max_bytes);
-                              for (std::uint64_t i = begin; i < end; ++i) at = get(at, which[i], put);
+                              for (std::uint64_t i = begin; i < end; ++i) at = get(at, which[i], begins.empty() ? 0u : begins[i], put);
                               out.end_at(at);
                             }});
       };
-      add(by_patch_.triangles(patch), [this](char* at, std::uint32_t i, const Put& p) { return p(at, std::span<const NodeId>(mesh_.boundary_triangles[i].nodes), faces_.cell_of_triangle(i)); });
-      add(by_patch_.quads(patch), [this](char* at, std::uint32_t i, const Put& p) { return p(at, std::span<const NodeId>(mesh_.boundary_quads[i].nodes), faces_.cell_of_quad(i)); });
+      const auto cyclic = cyclic_.find(patch);
+      const bool is_plain = cyclic == cyclic_.end();
+      const std::span<const std::uint8_t> none;
+      add(is_plain ? by_patch_.triangles(patch) : std::span<const std::uint32_t>(cyclic->second.triangles), is_plain ? none : std::span<const std::uint8_t>(cyclic->second.triangle_begins),
+          [this](char* at, std::uint32_t i, std::uint32_t first, const Put& p) {
+            std::array<NodeId, 3> nodes = mesh_.boundary_triangles[i].nodes;
+            std::rotate(nodes.begin(), nodes.begin() + first, nodes.end());
+            return p(at, std::span<const NodeId>(nodes), faces_.cell_of_triangle(i));
+          });
+      add(is_plain ? by_patch_.quads(patch) : std::span<const std::uint32_t>(cyclic->second.quads), is_plain ? none : std::span<const std::uint8_t>(cyclic->second.quad_begins),
+          [this](char* at, std::uint32_t i, std::uint32_t first, const Put& p) {
+            std::array<NodeId, 4> nodes = mesh_.boundary_quads[i].nodes;
+            std::rotate(nodes.begin(), nodes.begin() + first, nodes.end());
+            return p(at, std::span<const NodeId>(nodes), faces_.cell_of_quad(i));
+          });
     }
   }
 
@@ -235,7 +282,9 @@ class FoamWriter {
     for (const PatchId patch : mesh_.patches.ids()) {
       const std::uint64_t n_faces = by_patch_.count(patch);
       if (n_faces == 0) continue;
-      entries += "    " + names[patch.index()] + "\n    {\n        type " + type_of(patch) + ";\n        nFaces " + std::to_string(n_faces) + ";\n        startFace " + std::to_string(first) + ";\n    }\n";
+      const auto neighbour = neighbour_.find(patch);
+      const std::string type = neighbour == neighbour_.end() ? type_of(patch) : "cyclic;\n        neighbourPatch " + names[neighbour->second.index()];
+      entries += "    " + names[patch.index()] + "\n    {\n        type " + type + ";\n        nFaces " + std::to_string(n_faces) + ";\n        startFace " + std::to_string(first) + ";\n    }\n";
       first += n_faces;
       ++n;
     }
@@ -250,6 +299,8 @@ class FoamWriter {
   RunContext context_;
   MeshFaces faces_;
   FacesByPatch by_patch_;
+  std::map<PatchId, PatchId> neighbour_;     ///< of periodic sides
+  std::map<PatchId, CyclicSide> cyclic_;     ///< of the second ones
   std::uint64_t n_internal_ = 0, n_faces_ = 0, n_face_nodes_ = 0;
 };
 

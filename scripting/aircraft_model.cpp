@@ -8,16 +8,13 @@
 
 #include "geom/base/error.h"
 #include "geom/cad/aircraft_union.h"
-#include "geom/cad/refit.h"
 #include "geom/model/components.h"
 #include "geom/model/deform.h"
 #include "geom/model/model_builder.h"
+#include "scripting/fluid_model.h"
 
 namespace sterna::scripting {
 namespace {
-
-/// Of the longest side: how near deformed surfaces are met before a union, as by write_cad.
-constexpr double k_refit_share = 1e-6;
 
 /// Names of fan face and nozzle of a component or its mirror image.
 void finish_component(Model& model, const ComponentValue& component, const std::string& name, bool is_image) {
@@ -25,13 +22,16 @@ void finish_component(Model& model, const ComponentValue& component, const std::
     if (model.components[c].name != name) continue;
     for (ModelFace& face : model.faces) {
       if (face.component != c) continue;
-      const auto rename = [&](const std::string& patch) {
-        if (!patch.empty()) face.name = is_image ? image_name(patch) : patch;
+      // An engine that is told to be there takes in the fluid at its fan face: flow out of the domain.
+      const auto rename = [&](const std::string& patch, PatchKind kind) {
+        if (patch.empty()) return;
+        face.name = is_image ? image_name(patch) : patch;
+        face.kind = kind;
       };
-      if (face.role == FaceRole::fan_face) rename(component.intake);
+      if (face.role == FaceRole::fan_face) rename(component.intake, PatchKind::outflow);
       if ((face.role == FaceRole::tail || face.role == FaceRole::nozzle) && component.kind == ComponentKind::nacelle) {
         face.role = FaceRole::nozzle;
-        rename(component.exhaust);
+        rename(component.exhaust, PatchKind::inflow);
       }
     }
   }
@@ -85,19 +85,14 @@ ModelValue make_aircraft(const AircraftParts& parts, const RunContext& context) 
 
 ModelValue unite_solids(const std::vector<ModelHandle>& models, const UniteOptions& options, const RunContext& context) {
   ModelValue value = assemble(models, context);
-  if (cad::needs_refit(value.model)) {
-    // The kernel that unites knows splines only.
-    const double tolerance = k_refit_share * box_of(value.model).longest_side();
-    cad::RefitReport refit;
-    value.model = cad::refitted(value.model, tolerance, refit, context);
-    context.info(fmt::format("{} deformed surfaces and {} curves became splines, at most {:.3g} m away, before they are united", refit.n_surfaces, refit.n_curves, refit.error));
-  }
+  refit_for_cad(value.model, context);  // the kernel that unites knows splines only
   UniteResult united = cad::unite_aircraft(value.model, options, context);
   value.report = fmt::format("union: volume {:.6g} m^3, parts have {:.6g} m^3 together; {} {}", united.report.volume, united.report.sum_of_volumes, united.report.n_bodies, united.report.n_bodies == 1 ? "body" : "bodies that do not touch");
   for (const UniteTry& attempt : united.report.tries)
     if (!attempt.problem.empty()) value.report += fmt::format("\n  tolerance {:.3g} m was not enough: {}", attempt.tolerance, attempt.problem);
   context.info(value.report);
   value.model = std::move(united.model);
+  value.parts.clear();
   return value;
 }
 
@@ -123,6 +118,9 @@ ModelValue assemble(const std::vector<ModelHandle>& models, const RunContext& co
         if (solid.name == from) solid.name = to;
     }
     append(value.model, model);
+    for (ModelPart& part : parts_of(*handle)) value.parts.push_back(std::move(part));
+    value.sizes.insert(value.sizes.end(), handle->sizes.begin(), handle->sizes.end());
+    value.layers.insert(value.layers.end(), handle->layers.begin(), handle->layers.end());
     value.inputs.insert(value.inputs.end(), handle->inputs.begin(), handle->inputs.end());
   }
   return value;

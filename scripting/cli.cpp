@@ -2,8 +2,10 @@
 #include "scripting/cli.h"
 
 #include <CLI/CLI.hpp>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdio>
 #include <functional>
@@ -14,11 +16,18 @@
 #include "geom/cad/read_cad.h"
 #include "geom/cad/unite.h"
 #include "geom/cad/write_cad.h"
+#include "geom/mesh/half.h"
 #include "io/format_table.h"
+#include "scripting/cli_scripts.h"
 #include "scripting/commands.h"
 #include "scripting/console.h"
 #include "scripting/exit_status.h"
+#include "scripting/farfield_verbs.h"
 #include "scripting/interrupt.h"
+#include "scripting/line_editor.h"
+#include "scripting/pentagrow_command.h"
+#include "scripting/prompt.h"
+#include "scripting/script_manual.h"
 #include "scripting/verbs.h"
 
 namespace sterna::scripting {
@@ -26,6 +35,7 @@ namespace {
 
 /// More threads are a slip of the keyboard: far above any machine, far below what the system refuses.
 constexpr int k_max_threads = 1024;
+constexpr int k_max_tasks = 1000000;
 
 /// Options that every command has.
 struct CommonSettings {
@@ -33,12 +43,14 @@ struct CommonSettings {
   int threads = 0;
   std::uint64_t seed = 1;
   std::filesystem::path dump_directory;
+  bool only_options = false;
 };
 
 /// What the command line asks for: one command, and where the picture of a failure goes.
 struct Request {
   std::function<int(const CommandContext&)> execute;
   std::filesystem::path trouble;  ///< beside the output, or beside the input of commands that write nothing
+  bool is_prompt = false;
 };
 
 std::string kebab(std::string_view name) {
@@ -93,36 +105,51 @@ void add_common_options(CLI::App& app, CommonSettings& common) {
   app.add_flag("-q,--quiet", common.console.is_quiet, "no log and no progress, only results, warnings and errors");
   app.add_flag("-v,--verbose", common.console.is_verbose, "more log");
   app.add_option("--log", common.console.log_file, "write every log line with its time to this file")->type_name("FILE");
+  app.add_flag("--show-options", common.only_options, "print the options that mesh, surface, half, union or convert would use, as JSON, and stop");
   app.add_option("--dump-dir", common.dump_directory, "where VTU pictures of failures go; default: beside the output")->type_name("FOLDER")->check(CLI::ExistingDirectory);
 }
 
 std::filesystem::path beside(const std::filesystem::path& file) { return file.string() + ".trouble.vtu"; }
 
+void add_cache_options(CLI::App& command, CacheChoice& cache) {
+  command.add_option("--cache", cache.folder, "keep results of stages in this folder, and take them from there where all that they depend on is the same: equal bytes in less time")->type_name("FOLDER");
+  command.add_option("--cache-limit", cache.limit, "bytes in that folder, above which the results go that were not used for longest; 20e9 unless given")->check(CLI::PositiveNumber)->type_name("BYTES");
+}
+
+void add_cache_command(CLI::App& app, CacheCommand& cache, Request& request) {
+  CLI::App* command = app.add_subcommand("cache", "say what a cache holds, or empty it");
+  command->add_option("--folder", cache.folder, "the folder that --cache named")->required()->type_name("FOLDER");
+  command->add_flag("--list", cache.is_listed, "every entry by itself");
+  command->add_flag("--clear", cache.is_cleared, "remove all entries");
+  command->final_callback([&] { request.execute = [&](const CommandContext& context) { return execute(cache, context); }; });
+}
+
 void add_run_command(CLI::App& app, RunCommand& run, Request& request) {
   CLI::App* command = app.add_subcommand("run", "run a Lua case");
   command->add_option("script", run.script, "case.lua; input files are looked for in the current folder, then beside it; outputs go to the current folder")->required();
+  add_script_arguments(*command, run.arguments);
   add_set_option(*command, run.overrides);
+  command->add_option("--tasks", run.tasks, "cases of a series at a time, whatever the script says")->check(CLI::Range(1, k_max_tasks));
+  command->add_option("--series-case", run.series_case, "")->group("");  // hidden: what series{} gives its workers
+  add_cache_options(*command, run.cache);
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(run, context); };
     request.trouble = beside(run.script.filename());
   });
 }
 
-void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Request& request) {
-  CLI::App* command = app.add_subcommand("mesh", "mesh the space around a surface or a model: prism layers and tetrahedra");
-  command->add_option("surfaces", mesh.inputs, "surface files; several are joined to one wall. Or model files (STEP, IGES, BREP, sumo, CPACS), whose faces are meshed first. `sterna formats` lists what is read")->required();
-  command->add_option("-o,--output", mesh.outputs, "mesh file: " + io::list_formats_with(io::FormatUse::write_volume) + "; may be given several times")->required()->allow_extra_args(false)->take_all();
-  command->add_option("--stats", mesh.stats, "write sizes, times and memory of this run as JSON")->type_name("FILE");
-  command->add_option("--stages", mesh.stages, "keep surface, envelope, tetrahedra and mesh in this .sterna file; `sterna mesh case.sterna -o ...` continues behind the last step in it")->type_name("FILE");
-  surfmesh::StitchOptions surface;
-  volmesh::VolumeMeshOptions volume;
-  add_schema_options(*command, all_options(surface, volume), mesh.options);
-  add_set_option(*command, set);
-  command->footer("Numbers take units: 2e-6, 0.5mm, 35deg, --unit inch. Of models, options of their surface: --set surface_mesh.max_edge=0.2; `sterna surface --help` lists them.");
-  command->final_callback([&] {
-    mesh.options.insert(mesh.options.end(), set.begin(), set.end());
-    request.execute = [&](const CommandContext& context) { return execute(mesh, context); };
-    request.trouble = beside(mesh.outputs.front());
+void add_script_commands(CLI::App& app, CheckScriptCommand& check, Request& request) {
+  CLI::App* command = app.add_subcommand("check-script", "find mistakes in a Lua case without meshing or writing: unknown verbs and keys, wrong types, units and ranges, missing files");
+  command->add_option("script", check.script.script, "case.lua")->required();
+  add_script_arguments(*command, check.script.arguments);
+  add_set_option(*command, check.script.overrides);
+  command->final_callback([&] { request.execute = [&](const CommandContext& context) { return execute(check, context); }; });
+  app.add_subcommand("prompt", "Lua with the verbs, a statement at a time; what `sterna` alone does on a terminal. Statements may come through a pipe")->final_callback([&] { request.is_prompt = true; });
+  app.add_subcommand("manual", "print the reference of verbs, objects, options and commands (docs/lua.md)")->final_callback([&] {
+    request.execute = [&](const CommandContext& context) {
+      context.console.print(manual_text(commands_markdown(app)));
+      return k_exit_success;
+    };
   });
 }
 
@@ -137,7 +164,7 @@ std::string with_degrees(const std::string& name, const std::string& text) {
 }
 
 /// --patch "wing*:max_edge=0.1,curvature_angle=8": of two patterns that match the one with more letters counts.
-void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches) {
+void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help) {
   command
       .add_option_function<std::vector<std::string>>(
           "--patch",
@@ -154,10 +181,46 @@ void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, Opti
               }
             }
           },
-          "what faces with such names ask for instead, e.g. --patch \"wing*:max_edge=0.1,curvature_angle=8\": max_edge, min_edge, curvature_angle, chord_error, leading_edge_factor, trailing_edge_factor; may be given several times")
+          help)
       ->type_name("NAMES:OPTION=VALUE,...")
       ->allow_extra_args(false)
       ->take_all();
+}
+
+void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Request& request) {
+  CLI::App* command = app.add_subcommand("mesh", "mesh the space around a surface or a model: prism layers and tetrahedra");
+  command->add_option("surfaces", mesh.inputs, "surface files; several are joined to one wall. Or model files (STEP, IGES, BREP, sumo, CPACS), whose faces are meshed first. `sterna formats` lists what is read")->required();
+  command->add_option("-o,--output", mesh.outputs, "mesh file: " + io::list_formats_with(io::FormatUse::write_volume) + "; may be given several times")->required()->allow_extra_args(false)->take_all();
+  command->add_option("--stats", mesh.stats, "write sizes, times and memory of this run as JSON")->type_name("FILE");
+  command->add_option("--stages", mesh.stages, "keep surface, envelope, tetrahedra and mesh in this .sterna file; `sterna mesh case.sterna -o ...` continues behind the last step in it")->type_name("FILE");
+  command->add_option("--disc", mesh.discs, "an actuator disc in the fluid, e.g. --disc \"prop center=-0.4,0,0 axis=1,0,0 radius=1.2 inner_radius=0.25 edge=5cm\"; may be given several times")
+      ->type_name("DISC")->allow_extra_args(false)->take_all();
+  command->add_option("--periodic", mesh.periodic, "two flat sides that are each other's image, moved, e.g. --periodic left,right: the mesh matches there node by node; may be given several times")
+      ->type_name("FIRST,SECOND")->allow_extra_args(false)->take_all();
+  command
+      ->add_option_function<std::string>(
+          "--farfield",
+          [&mesh](const std::string& text) {
+            for (auto& [name, value] : farfield_of_text(text)) mesh.options.emplace_back(std::move(name), std::move(value));
+          },
+          "what is put around the bodies: \"sphere radius=100 edge=20\", \"box -10 -5 -5 20 5 5 edge=2 x_min=inflow x_max=outflow,edge:0.5\", \"cylinder -10 0 0 20 0 0 radius=5 edge=1\", \"none\", or the file of a closed surface")
+      ->type_name("SHAPE");
+  command->add_flag("--half", mesh.is_half, "mesh the half of the surface beside a plane, by default y = 0 on the side of y > 0; others with --set half.axis=z --set half.at=0.5 --set half.keep=-");
+  surfmesh::StitchOptions surface;
+  volmesh::VolumeMeshOptions volume;
+  add_schema_options(*command, all_options(surface, volume), mesh.options);
+  add_set_option(*command, set);
+  add_cache_options(*command, mesh.cache);
+  add_patch_option(*command, mesh.patches,
+                   "what patches with such names ask for instead, e.g. --patch \"tunnel*:layers=20,first_height=2e-5\": kind (slip, symmetry, inflow, outflow, farfield, interface, wall), layers, first_height, max_growth, total_height, max_thickness, blend; of models also what `sterna surface --patch` takes: max_edge ...; may be given several times");
+  command->footer("Numbers take units: 2e-6, 0.5mm, 35deg, --unit inch. Heights may be found from the flow: --first-height \"y_plus 1 mach=0.78 altitude=11000 length=4.2\", --total-height \"boundary_layer factor=1.3 reynolds=6e6 length=1\"; `sterna run` a script with help(y_plus). Of models, options of their surface: --set surface_mesh.max_edge=0.2; `sterna surface --help` lists them.");
+  command->final_callback([&] {
+    for (auto& [names, options] : mesh.patches)
+      for (auto& [name, text] : options) text = with_degrees(name, text);
+    for (const auto& [name, value] : set) (name.starts_with("half.") ? mesh.half : mesh.options).emplace_back(name, value);
+    request.execute = [&](const CommandContext& context) { return execute(mesh, context); };
+    request.trouble = beside(mesh.outputs.front());
+  });
 }
 
 void add_surface_command(CLI::App& app, SurfaceCommand& surface, OptionOverrides& set, Request& request) {
@@ -168,7 +231,9 @@ void add_surface_command(CLI::App& app, SurfaceCommand& surface, OptionOverrides
   ReadCadOptions reading;
   add_schema_options(*command, model_surface_options(options, reading), surface.options);
   add_set_option(*command, set);
-  add_patch_option(*command, surface.patches);
+  add_cache_options(*command, surface.cache);
+  add_patch_option(*command, surface.patches,
+                   "what faces with such names ask for instead, e.g. --patch \"wing*:max_edge=0.1,curvature_angle=8\": max_edge, min_edge, curvature_angle, chord_error, leading_edge_factor, trailing_edge_factor; and what `sterna mesh --patch` takes, which is kept for it: kind, layers, first_height ...; may be given several times");
   command->add_option("--source", surface.sources, "shorter edges in a region, e.g. --source \"line 0 0 0 8 0 0 size=0.02 radius=0.5\"; point, line, box, sphere, cylinder, wake; may be given several times")
       ->type_name("SOURCE")->allow_extra_args(false)->take_all();
   command->footer("Numbers take units: 0.2, 5mm, 12deg; --curvature-angle 12 is degrees, too.");
@@ -179,6 +244,19 @@ void add_surface_command(CLI::App& app, SurfaceCommand& surface, OptionOverrides
     surface.options.insert(surface.options.end(), set.begin(), set.end());
     request.execute = [&](const CommandContext& context) { return execute(surface, context); };
     request.trouble = beside(surface.outputs.front());
+  });
+}
+
+void add_half_command(CLI::App& app, HalfCommand& half, Request& request) {
+  CLI::App* command = app.add_subcommand("half", "cut a surface at a plane and write the half beside it, its rim closed and in the plane");
+  command->add_option("surface", half.input, "surface file. `sterna formats` lists what is read")->required();
+  command->add_option("-o,--output", half.output, "surface file: " + io::list_formats_with(io::FormatUse::write_surface))->required();
+  HalfOptions options;
+  add_schema_options(*command, sterna::options_of(options), half.options);
+  command->add_option_function<std::string>("--unit", [&half](const std::string& text) { half.options.emplace_back("unit", text); }, "length of one unit of the file: mm, inch, 0.5mm ...");
+  command->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(half, context); };
+    request.trouble = beside(half.output);
   });
 }
 
@@ -235,17 +313,34 @@ void add_convert_command(CLI::App& app, ConvertCommand& convert, Request& reques
   });
 }
 
+void add_pentagrow_command(CLI::App& app, PentagrowCommand& pentagrow, Request& request) {
+  CLI::App* command = app.add_subcommand("pentagrow", "mesh the space around a surface as a configuration of pentagrow says, with its names of files; also as the program pentagrow beside sterna");
+  command->add_option("surface", pentagrow.surface, "surface file")->required();
+  command->add_option("config", pentagrow.config, "configuration: Key = value in each line; without it, pentagrow's defaults");
+  command->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(pentagrow, context); };
+    request.trouble = beside("hybrid");
+  });
+}
+
 int execute_request(const Request& request, const CommonSettings& common) {
-  const InterruptGuard interrupt;
+  InterruptGuard interrupt;
   Console console(common.console);
-  const RunContext context({.threads = common.threads,
-                            .seed = common.seed,
-                            .stop = interrupt.token(),
-                            .dump_directory = common.dump_directory,
-                            .log = [&](LogLevel level, std::string_view text) { console.log(level, text); },
-                            .progress = [&](const ProgressState& state) { console.progress(state); }});
+  const RunSettings settings{.threads = common.threads,
+                             .seed = common.seed,
+                             .stop = interrupt.token(),
+                             .dump_directory = common.dump_directory,
+                             .log = [&](LogLevel level, std::string_view text) { console.log(level, text); },
+                             .progress = [&](const ProgressState& state) { console.progress(state); }};
+  if (request.is_prompt)
+    return run_prompt({.script = {.script = "prompt", .overrides = {}, .print = [&](std::string_view text) { console.print(text); }, .on_mesh = {}}, .run = settings, .history_file = default_history_file()}, console,
+                      interrupt);
+  const RunContext context(settings);
   try {
-    return request.execute({console, context});
+    return request.execute({console, context, common.only_options, [&](bool is_left) { interrupt.leave_to_work(is_left); }});
+  } catch (const OptionsShown& shown) {
+    console.print(shown.json);
+    return k_exit_success;
   } catch (const Error& error) {
     const std::filesystem::path trouble = common.dump_directory.empty() ? request.trouble : common.dump_directory / request.trouble.filename();
     console.end_progress();
@@ -303,25 +398,37 @@ int parse_and_execute(int argc, const char* const* argv) {
   app.footer(k_exit_status_help);
   CommonSettings common;
   RunCommand run;
+  CheckScriptCommand check_script;
   MeshCommand mesh;
   SurfaceCommand surface;
+  HalfCommand half;
+  CacheCommand cache;
   UnionCommand unite;
   CheckCommand check;
   InfoCommand info;
   ConvertCommand convert;
+  PentagrowCommand pentagrow;
   OptionOverrides set;
   Request request;
   add_common_options(app, common);
   add_run_command(app, run, request);
+  add_script_commands(app, check_script, request);
   add_mesh_command(app, mesh, set, request);
   add_surface_command(app, surface, set, request);
+  add_half_command(app, half, request);
+  add_cache_command(app, cache, request);
   add_union_command(app, unite, request);
   add_check_command(app, check, request);
   add_info_command(app, info, request);
   add_convert_command(app, convert, request);
+  add_pentagrow_command(app, pentagrow, request);
   app.add_subcommand("formats", "list the file formats")->final_callback([&] { request.execute = list_formats; });
+  // Alone and at a terminal the program is a prompt.
+  constexpr std::array k_prompt = {"sterna", "prompt"};
+  const bool is_alone = argc == 1 && ::isatty(STDIN_FILENO) != 0;
   try {
-    app.parse(argc, argv);
+    if (is_alone) app.parse(static_cast<int>(k_prompt.size()), k_prompt.data());
+    else app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     if (const std::string wrong = misspelling(app, argc, argv); !wrong.empty()) {
@@ -339,7 +446,9 @@ int parse_and_execute(int argc, const char* const* argv) {
 int run_command_line(int argc, const char* const* argv) noexcept {
   // Before the console stands, and for what no Error describes, stderr is all there is.
   try {
-    return parse_and_execute(argc, argv);
+    std::vector<const char*> arguments(argv, argv + argc);
+    if (argc > 0 && std::filesystem::path(argv[0]).filename() == "pentagrow") arguments.insert(arguments.begin() + 1, "pentagrow");
+    return parse_and_execute(static_cast<int>(arguments.size()), arguments.data());
   } catch (const Error& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return exit_status_of(error.code());

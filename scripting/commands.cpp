@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <chrono>
 #include <limits>
 #include <map>
@@ -11,14 +12,23 @@
 
 #include "geom/base/error.h"
 #include "geom/mesh/check.h"
+#include "geom/mesh/half.h"
 #include "io/atomic_file.h"
 #include "io/format_table.h"
 #include "io/surface_file.h"
 #include "io/trouble_vtu.h"
+#include "scripting/disc_verbs.h"
 #include "scripting/exit_status.h"
+#include "scripting/farfield_verbs.h"
+#include "scripting/flow_verbs.h"
+#include "scripting/half_verbs.h"
+#include "scripting/layer_options.h"
 #include "scripting/model_surface.h"
 #include "scripting/models.h"
+#include "scripting/patch_rules.h"
+#include "scripting/periodic_sides.h"
 #include "scripting/script_run.h"
+#include "scripting/series/case_worker.h"
 #include "scripting/summary.h"
 #include "scripting/stages.h"
 #include "scripting/verbs.h"
@@ -126,8 +136,13 @@ StageContent steps_of(const MeshCommand& command, const CommandContext& context)
 }
 
 /// From the last step on. Options that are given win over those of the file.
-MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, const CommandContext& context) {
+MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, const Reuse& reuse, const CommandContext& context) {
   if (!command.stages.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "mesh", .problem = "--stages keeps the steps of a whole run; this one continues from " + command.inputs.front()});
+  if (!command.discs.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "mesh", .problem = "--disc belongs to a step that is done already in " + command.inputs.front(), .hint = "mesh the surface anew"});
+  if (!command.periodic.empty())
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "mesh", .problem = "--periodic belongs to a step that is done already in " + command.inputs.front(), .hint = "mesh the surface anew"});
+  if (!command.patches.empty())
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "option --patch", .problem = "belongs to a step that is done already in " + command.inputs.front(), .hint = "mesh the surface anew"});
   volmesh::VolumeMeshOptions options = steps.envelope->options, all;
   OptionTable open = finish_options(options);
   if (!steps.tetrahedra)
@@ -136,33 +151,97 @@ MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, c
   for (const auto& [name, text] : command.options)
     if (const Option& option = find_option(known, name, "option " + name); std::none_of(open.begin(), open.end(), [&](const Option& o) { return o.name == option.name; }))
       throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + name, .problem = "belongs to a step that is done already in " + command.inputs.front(), .hint = "mesh the surface anew"});
-  set_options(open, command.options);
+  set_options(open, command.options, context);
   const RunContext part = context.run.part("volume_mesh", k_read_end, k_mesh_end);
   context.run.info("continuing behind the " + std::string(steps.tetrahedra ? "tetrahedra" : "envelope") + " of " + command.inputs.front());
-  return steps.tetrahedra ? finish_mesh(*steps.tetrahedra, options, part) : finish_mesh(make_tetrahedra(*steps.envelope, options, part), options, part);
+  return steps.tetrahedra ? finish_mesh(*steps.tetrahedra, options, part, reuse) : finish_mesh(make_tetrahedra(*steps.envelope, options, part, reuse), options, part, reuse);
+}
+
+std::vector<volmesh::ActuatorDisc> discs_of(const MeshCommand& command) {
+  std::vector<volmesh::ActuatorDisc> discs;
+  for (const std::string& text : command.discs) discs.push_back(disc_of_text(text));
+  return discs;
+}
+
+std::vector<volmesh::PeriodicNames> periodic_of(const MeshCommand& command) {
+  std::vector<volmesh::PeriodicNames> pairs;
+  for (const std::string& text : command.periodic) pairs.push_back(periodic_of_text(text));
+  return pairs;
+}
+
+/// Reads the file of the shape "surface", where one is named, and notes it with the wall's inputs.
+void read_farfield_of(volmesh::VolumeMeshOptions& options, SurfaceValue& wall, const RunContext& context) {
+  const SurfaceHandle surface = read_farfield(options.farfield, [](const std::string& name) { return InputPath{name, name}; }, context);
+  if (!surface) return;
+  options.farfield_surface = std::shared_ptr<const TriMesh>(surface, &surface->mesh);
+  wall.inputs.insert(wall.inputs.end(), surface->inputs.begin(), surface->inputs.end());
+}
+
+/// With --half: the half of what was read.
+void halve(const MeshCommand& command, SurfaceValue& wall, const CommandContext& context) {
+  if (!command.is_half) {
+    if (!command.half.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + command.half.front().first, .problem = "is given without --half"});
+    return;
+  }
+  HalfOptions options;
+  set_options(sterna::options_of(options), command.half, context);
+  wall = half_surface(wall, options, context.run);
+}
+
+/// Whether the command line names the option, alone or with its stage.
+bool is_given(const MeshCommand& command, std::string_view stage, std::string_view name) {
+  return std::ranges::any_of(command.options, [&](const auto& option) {
+    return option.first == name ? stage != "surface_mesh" : option.first == std::string(stage) + "." + std::string(name);
+  });
+}
+
+/// What follows from the options together, and what heights were found from flow conditions.
+void complete_options(volmesh::VolumeMeshOptions& options, const MeshCommand& command, const RunContext& context) {
+  choose_solve_for(options, [&](std::string_view name) { return is_given(command, "envelope", name); }, "reading the options");
+  for (const auto& [name, text] : command.options)
+    if (is_flow_text(text)) context.info(name + ": " + quantity_of_text(text).text);
+  for (const auto& [names, of_patch] : command.patches)
+    for (const auto& [name, text] : of_patch)
+      if (is_flow_text(text)) context.info(name + " of " + names + ": " + quantity_of_text(text).text);
 }
 
 /// Of models: their faces are meshed first. --unit is then that of reading CAD; the options of joining triangulations are unknown.
-MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<InputPath>& inputs, const CommandContext& context) {
+MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<InputPath>& inputs, const Reuse& reuse, const CommandContext& context) {
   SurfaceRecipe recipe;
   ReadCadOptions reading;
   volmesh::VolumeMeshOptions volume_options;
-  OptionTable table = volmesh::options_of(volume_options);
+  volume_options.patches = layer_rules_of(command.patches, &recipe.patches);
+  OptionTable table = volmesh::required_options_of(volume_options);
   for (Option& option : model_surface_options(recipe.options, reading)) table.push_back(std::move(option));
-  set_options(table, command.options);
-  const SurfaceValue wall = mesh_model_files(inputs, reading, recipe, context.run.part("surface", 0.0, k_surface_end));
-  return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_surface_end, k_mesh_end));
+  set_options(table, command.options, context);
+  if (is_given(command, "family", "refinement") && !is_given(command, "surface_mesh", "refinement")) recipe.options.refinement = volume_options.family.refinement;
+  complete_options(volume_options, command, context.run);
+  volume_options.discs = discs_of(command);
+  volume_options.periodic = periodic_of(command);
+  SurfaceValue wall = mesh_model_files(inputs, reading, recipe, context.run.part("surface", 0.0, k_surface_end), reuse);
+  halve(command, wall, context);
+  read_farfield_of(volume_options, wall, context.run);
+  return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_surface_end, k_mesh_end), reuse);
 }
 
-MeshValue make_mesh(const MeshCommand& command, const CommandContext& context) {
+MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const CommandContext& context) {
   std::vector<InputPath> inputs;
   for (const std::string& name : command.inputs) inputs.push_back({name, name});
-  if (std::any_of(inputs.begin(), inputs.end(), [](const InputPath& input) { return is_model_file(input.path); })) return make_mesh_of_models(command, inputs, context);
+  if (std::any_of(inputs.begin(), inputs.end(), [](const InputPath& input) { return is_model_file(input.path); })) return make_mesh_of_models(command, inputs, reuse, context);
   surfmesh::StitchOptions surface_options;
   volmesh::VolumeMeshOptions volume_options;
-  set_options(all_options(surface_options, volume_options), command.options);
-  const SurfaceValue wall = read_wall(inputs, surface_options, context.run.part("surface", 0.0, k_read_end));
-  return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_read_end, k_mesh_end));
+  volume_options.patches = layer_rules_of(command.patches);
+  surface_options.allow_open = command.is_half;
+  OptionTable table = volmesh::required_options_of(volume_options);
+  for (Option& option : sterna::options_of(surface_options)) table.push_back(std::move(option));
+  set_options(table, command.options, context);
+  complete_options(volume_options, command, context.run);
+  volume_options.discs = discs_of(command);
+  volume_options.periodic = periodic_of(command);
+  SurfaceValue wall = read_wall(inputs, surface_options, context.run.part("surface", 0.0, k_read_end));
+  halve(command, wall, context);
+  read_farfield_of(volume_options, wall, context.run);
+  return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_read_end, k_mesh_end), reuse);
 }
 
 std::string read_write(bool is_read, bool is_written) {
@@ -171,7 +250,7 @@ std::string read_write(bool is_read, bool is_written) {
 
 }  // namespace
 
-void set_options(const OptionTable& table, const OptionOverrides& given) {
+void set_options(const OptionTable& table, const OptionOverrides& given, const CommandContext& context) {
   std::string problems;
   std::size_t n_problems = 0;
   std::map<std::string, std::pair<std::string, OptionValue>> before;  // what options were set to, by full name
@@ -193,26 +272,63 @@ void set_options(const OptionTable& table, const OptionOverrides& given) {
     problems += "\n  - " + error.info().problem;
     ++n_problems;
   }
+  if (n_problems == 0 && context.only_options) throw OptionsShown{options_to_json(table)};
   if (n_problems == 0) return;
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = "reading the options",
                .problem = n_problems == 1 ? problems.substr(5) : std::to_string(n_problems) + " problems" + problems});
 }
 
+std::unique_ptr<const StageCache> cache_of(const CacheChoice& choice) {
+  if (choice.folder.empty()) return nullptr;
+  return std::make_unique<const StageCache>(CacheSettings{.folder = choice.folder, .limit = choice.limit});
+}
+
+/// "polar/3"
+CaseAddress case_of_text(const std::string& text) {
+  const std::size_t slash = text.rfind('/');
+  CaseAddress address{.series = text.substr(0, slash)};
+  const char* end = text.data() + text.size();
+  if (slash == std::string::npos || std::from_chars(text.data() + slash + 1, end, address.index).ptr != end || address.index == 0)
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "--series-case " + text, .problem = "it is not NAME/INDEX"});
+  return address;
+}
+
+/// All of the command line that can change what a script does: a worker gets the same.
+std::vector<std::string> worker_words(const RunCommand& command, const RunContext& run) {
+  std::vector<std::string> words;
+  for (const auto& [name, value] : command.overrides) words.push_back("--set=" + name + "=" + value);
+  words.push_back("--seed=" + std::to_string(run.seed()));
+  for (const auto& [name, value] : command.arguments) words.push_back(name + "=" + value);
+  return words;
+}
+
 int execute(const RunCommand& command, const CommandContext& context) {
-  run_script({.script = command.script,
-              .overrides = command.overrides,
-              .print = [&](std::string_view text) { context.console.print(text); },
-              .on_mesh = [&](const MeshValue& mesh) { context.run.info(summary_text(mesh)); }},
-             context.run);
-  return k_exit_success;
+  const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
+  SeriesSettings series{.program = std::filesystem::read_symlink("/proc/self/exe"), .words = worker_words(command, context.run), .worker = {}, .stops_itself = context.stops_itself, .tasks = command.tasks};
+  if (!command.series_case.empty()) {
+    become_worker();
+    series.worker = case_of_text(command.series_case);
+  }
+  const ScriptOutcome outcome = run_script({.script = command.script,
+                                            .overrides = command.overrides,
+                                            .print = [&](std::string_view text) { context.console.print(text); },
+                                            .on_mesh = [&](const MeshValue& mesh) { context.run.info(summary_text(mesh)); },
+                                            .cache = cache.get(),
+                                            .series = series,
+                                            .arguments = command.arguments},
+                                           context.run);
+  if (outcome.n_failed_cases > 0) return k_exit_failed;
+  return outcome.n_invalid_cases > 0 ? k_exit_invalid : k_exit_success;
 }
 
 int execute(const MeshCommand& command, const CommandContext& context) {
   for (const auto& output : command.outputs) require_mesh_output(output);
   const Clock::time_point start = Clock::now();
   const StageContent steps = steps_of(command, context);
-  const MeshValue mesh = steps.envelope ? continue_mesh(steps, command, context) : make_mesh(command, context);
+  const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
+  const Reuse reuse{.cache = cache.get(), .lines = nullptr};
+  const MeshValue mesh = steps.envelope ? continue_mesh(steps, command, reuse, context) : make_mesh(command, reuse, context);
   const RunContext write_part = context.run.part("write", k_mesh_end, 1.0);
   for (const auto& output : command.outputs) write_mesh(mesh, output, write_part);
   const RunMeasure measure{.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count(), .stages = context.run.times(), .threads = context.run.threads()};
@@ -229,6 +345,39 @@ int execute(const MeshCommand& command, const CommandContext& context) {
   return k_exit_success;
 }
 
+int execute(const CacheCommand& command, const CommandContext& context) {
+  std::map<std::string, std::pair<std::size_t, std::uint64_t>> stages;
+  std::pair<std::size_t, std::uint64_t> all;
+  for (const CacheEntry& entry : StageCache::entries(command.folder)) {
+    const std::string stage = entry.stage.empty() ? "damaged" : entry.stage;
+    if (command.is_listed) context.console.print(fmt::format("{:>14} bytes  {:<14} {}", entry.bytes, stage, entry.file.string()));
+    for (auto* sum : {&stages[stage], &all}) {
+      ++sum->first;
+      sum->second += entry.bytes;
+    }
+  }
+  for (const auto& [stage, sum] : stages) context.console.print(fmt::format("{:<14} {:>8} entries  {:>10.3f} MB", stage, sum.first, static_cast<double>(sum.second) * 1e-6));
+  context.console.print(fmt::format("{:<14} {:>8} entries  {:>10.3f} MB", "all", all.first, static_cast<double>(all.second) * 1e-6));
+  if (command.is_cleared) context.console.print(fmt::format("removed {} entries", StageCache::clear(command.folder)));
+  return k_exit_success;
+}
+
+int execute(const HalfCommand& command, const CommandContext& context) {
+  require_surface_output(command.output);
+  HalfOptions options;
+  surfmesh::StitchOptions reading;
+  OptionTable table = sterna::options_of(options);
+  table.push_back(find_option(sterna::options_of(reading), "unit", "half"));
+  set_options(table, command.options, context);
+  reading.allow_open = true;
+  const std::array files = {InputPath{command.input, command.input}};
+  const SurfaceValue half = half_surface(read_wall(files, reading, context.run.part("read", 0.0, 0.5)), options, context.run.part("half", 0.5, k_mesh_end));
+  write_surface(half, command.output, context.run.part("write", k_mesh_end, 1.0));
+  context.console.end_progress();
+  context.run.info("wrote " + command.output.string() + ": " + describe(half));
+  return k_exit_success;
+}
+
 int execute(const UnionCommand& command, const CommandContext& context) {
   for (const std::string& name : command.inputs) {
     std::error_code none;  // of files that are not there: they are no input, or not yet an output
@@ -240,7 +389,7 @@ int execute(const UnionCommand& command, const CommandContext& context) {
   surfmesh::StitchOptions reading;
   OptionTable table = sterna::options_of(options);
   table.push_back(find_option(sterna::options_of(reading), "unit", "union"));
-  set_options(table, command.options);
+  set_options(table, command.options, context);
   require_surface_output(command.output);
   std::vector<UnionItem> items;
   for (const std::string& name : command.inputs) items.emplace_back(InputPath{name, name});
@@ -251,9 +400,20 @@ int execute(const UnionCommand& command, const CommandContext& context) {
   return k_exit_success;
 }
 
+namespace {
+
+[[noreturn]] void refuse_to_check_surface(const std::string& input, const std::string& what) {
+  throw Error({.code = ErrorCode::unsupported_format, .attempted = "checking " + input, .problem = what, .hint = "check proves volume meshes. `sterna info " + input + "` says what the surface holds and whether it is closed, `sterna mesh " + input + " ...` meshes the space around it"});
+}
+
+}  // namespace
+
 int execute(const CheckCommand& command, const CommandContext& context) {
   if (is_model_file(command.input)) return check_model(command, context);
+  if (const io::Format& format = io::format_of(command.input); !format.read_volume) refuse_to_check_surface(command.input, std::string(format.name) + " holds surfaces only");
   const MeshValue mesh = read_mesh({command.input, command.input}, context.run.part("read", 0.0, 0.3));
+  if (count_cells(mesh.mesh).total() == 0 && !mesh.mesh.boundary_triangles.empty())
+    refuse_to_check_surface(command.input, "it holds a surface of " + count_text(static_cast<std::int64_t>(mesh.mesh.boundary_triangles.size())) + " triangles and no cells");
   const CheckReport report = check(mesh.mesh, command.options.to_options(), context.run.part("check", 0.3, 1.0));
   context.console.print(command.is_json ? to_json(report) : to_text(report));
   return command.options.accepts(report) ? k_exit_success : k_exit_invalid;

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "geom/base/run_context.h"
 #include "geom/base/schema.h"
 #include "geom/cad/read_cad.h"
+#include "scripting/cache/stage_cache.h"
 #include "scripting/check_options.h"
 #include "scripting/console.h"
 #include "scripting/convert.h"
@@ -20,19 +23,37 @@ namespace sterna::scripting {
 struct CommandContext {
   Console& console;
   const RunContext& run;
+  bool only_options = false;  ///< --show-options: the command ends when its options are set
+  std::function<void(bool)> stops_itself = {};  ///< see SeriesSettings
+};
+
+/// --cache and --cache-limit.
+struct CacheChoice {
+  std::filesystem::path folder;  ///< empty: no cache
+  double limit = k_cache_limit;  ///< bytes
 };
 
 struct RunCommand {
   std::filesystem::path script;
   OptionOverrides overrides;  ///< --set
+  CacheChoice cache;
+  int tasks = 0;              ///< --tasks: cases of a series at a time; 0 = as the script says
+  std::string series_case;    ///< --series-case NAME/INDEX: this process is a worker
+  OptionOverrides arguments;  ///< NAME=VALUE
 };
 
 struct MeshCommand {
   std::vector<std::string> inputs;
   std::vector<std::filesystem::path> outputs;
   OptionOverrides options;  ///< --layers 30 as {"layers", "30"} and --set stage.option=value
+  std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, what it asks for
   std::filesystem::path stats;
   std::filesystem::path stages;  ///< .sterna file that keeps the steps of the run; empty: none
+  std::vector<std::string> discs;  ///< disc_of_text
+  std::vector<std::string> periodic;  ///< periodic_of_text
+  bool is_half = false;          ///< the half of the surface
+  OptionOverrides half;          ///< --set half.axis=z; only with is_half
+  CacheChoice cache;
 };
 
 struct SurfaceCommand {
@@ -40,6 +61,19 @@ struct SurfaceCommand {
   std::vector<std::filesystem::path> outputs;
   std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, what it asks for
   std::vector<std::string> sources;                              ///< source_of_text
+  OptionOverrides options;
+  CacheChoice cache;
+};
+
+struct CacheCommand {
+  std::filesystem::path folder;
+  bool is_cleared = false;
+  bool is_listed = false;
+};
+
+struct HalfCommand {
+  std::string input;
+  std::filesystem::path output;
   OptionOverrides options;
 };
 
@@ -77,13 +111,23 @@ int convert_model(const ConvertCommand& command, const CommandContext& context);
 /// The options of `sterna surface`, and of `sterna mesh` of a model, but for those of the volume. The arguments must outlive the table.
 OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCadOptions& reading);
 
-/// Sets every option; all problems are reported together, also options that are given twice with different values. \throws Error(bad_argument)
-void set_options(const OptionTable& table, const OptionOverrides& given);
+/// Thrown with --show-options once all options of a command are set. No error.
+struct OptionsShown {
+  std::string json;
+};
+
+/// Sets every option; all problems are reported together, also options that are given twice with different values. \throws Error(bad_argument); OptionsShown
+void set_options(const OptionTable& table, const OptionOverrides& given, const CommandContext& context);
+
+/// Null without a folder. \throws Error(write_failed) when the folder cannot be made
+std::unique_ptr<const StageCache> cache_of(const CacheChoice& choice);
 
 /// Each throws Error; the caller prints it and turns its code into the exit status.
 int execute(const RunCommand& command, const CommandContext& context);
 int execute(const MeshCommand& command, const CommandContext& context);
 int execute(const SurfaceCommand& command, const CommandContext& context);
+int execute(const HalfCommand& command, const CommandContext& context);
+int execute(const CacheCommand& command, const CommandContext& context);
 int execute(const UnionCommand& command, const CommandContext& context);
 int execute(const CheckCommand& command, const CommandContext& context);
 int execute(const InfoCommand& command, const CommandContext& context);

@@ -155,22 +155,22 @@ ScriptValue component_field(const ScriptCall& call) {
 }
 
 constexpr std::array<ScriptVerb, 9> k_verbs = {{
-    {"fuselage", k_fuselage_usage, "A body through frames: circles, superellipses, double ellipses, eggs, points.", make_fuselage_verb, fuselage_help},
-    {"wing", k_wing_usage, "A wing, tail or fin through sections from the root to the tip.", make_wing_verb, wing_help},
-    {"nacelle", k_nacelle_usage, "A nacelle with inlet lip, fan face and nozzle; its front stands at `position`.", make_nacelle_verb, nacelle_help},
-    {"pylon", k_pylon_usage, "A pylon between a wing and a body under or over it; a mirror image stands where the body has one.", make_pylon_verb, pylon_help},
-    {"boom", k_boom_usage, "A round rod from a point to another.", make_boom_verb, boom_help},
-    {"fairing", k_fairing_usage, "A smooth bulge: an ellipsoid along x with superelliptic sections.", make_fairing_verb, fairing_help},
-    {"body_of_revolution", k_revolution_usage, "A body around the x axis through a profile of radii.", make_revolution_verb, revolution_help},
-    {"sting", k_sting_usage, "What holds a model in a wind tunnel: a rod with flat ends, from within the model to outside.", make_sting_verb, sting_help},
-    {"aircraft", k_aircraft_usage, "Components and models together, mirror images included, united to one closed surface.", make_aircraft_verb, aircraft_help, true},
+    {"fuselage", k_fuselage_usage, "A body through frames: circles, superellipses, double ellipses, eggs, points.", make_fuselage_verb, fuselage_help, false, "component"},
+    {"wing", k_wing_usage, "A wing, tail or fin through sections from the root to the tip.", make_wing_verb, wing_help, false, "component"},
+    {"nacelle", k_nacelle_usage, "A nacelle with inlet lip, fan face and nozzle; its front stands at `position`.", make_nacelle_verb, nacelle_help, false, "component"},
+    {"pylon", k_pylon_usage, "A pylon between a wing and a body under or over it; a mirror image stands where the body has one.", make_pylon_verb, pylon_help, false, "component"},
+    {"boom", k_boom_usage, "A round rod from a point to another.", make_boom_verb, boom_help, false, "component"},
+    {"fairing", k_fairing_usage, "A smooth bulge: an ellipsoid along x with superelliptic sections.", make_fairing_verb, fairing_help, false, "component"},
+    {"body_of_revolution", k_revolution_usage, "A body around the x axis through a profile of radii.", make_revolution_verb, revolution_help, false, "component"},
+    {"sting", k_sting_usage, "What holds a model in a wind tunnel: a rod with flat ends, from within the model to outside.", make_sting_verb, sting_help, false, "component"},
+    {"aircraft", k_aircraft_usage, "Components and models together, mirror images included, united to one closed surface.", make_aircraft_verb, aircraft_help, true, "model"},
 }};
 constexpr std::array<ScriptVerb, 5> k_methods = {{
-    {"wing:deflect", k_deflect_usage, "Deflects a control surface, as geometry: its hinge by parts of the span from the root and of the chord from the leading edge.", deflect_wing, deflect_help},
-    {"wing:control", k_control_usage, "Gives the place of a control surface a patch of its own, without deflecting it.", control_wing, control_help},
-    {"component:at", "wing:at(0.4, 0.25)", "Point of a wing's chord line, by parts of the span from the root and of the chord from the leading edge.", point_on_wing},
-    {"component:move", "wing:move{ 0.5, 0, 0 }", "Moves the component itself, metres.", move_component},
-    {"component:model", "wing:model()", "The component alone, as a model, with its mirror image.", component_model},
+    {"wing:deflect", k_deflect_usage, "Deflects a control surface, as geometry: its hinge by parts of the span from the root and of the chord from the leading edge.", deflect_wing, deflect_help, false, "self"},
+    {"wing:control", k_control_usage, "Gives the place of a control surface a patch of its own, without deflecting it.", control_wing, control_help, false, "self"},
+    {"component:at", "main_wing:at(0.4, 0.25)", "Point of a wing's chord line, by parts of the span from the root and of the chord from the leading edge.", point_on_wing},
+    {"component:move", "body:move{ 0.5, 0, 0 }", "Moves the component itself, metres.", move_component, nullptr, false, "self"},
+    {"component:model", "main_wing:model()", "The component alone, as a model, with its mirror image.", component_model, nullptr, false, "model"},
 }};
 
 }  // namespace

@@ -1,12 +1,16 @@
 #include "scripting/geometry_tools.h"
 
 #include "scripting/aircraft_model.h"
+#include "scripting/cache/content_key.h"
+#include "scripting/component_value.h"
+#include "scripting/quantity.h"
 
 namespace sterna::scripting {
 
 std::optional<double> number_of(const ScriptValue& value) {
   if (const auto* number = std::get_if<double>(&value)) return *number;
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+  if (const auto* quantity = std::get_if<QuantityHandle>(&value); quantity && (*quantity)->is_length()) return (*quantity)->metres;
   return std::nullopt;
 }
 
@@ -81,9 +85,24 @@ std::optional<InputPath> single_file(const ScriptCall& call, TableReader& reader
   return files.front();
 }
 
+std::optional<PatchKind> read_patch_kind(const ScriptValue& value, const std::string& key, TableReader& reader) {
+  std::string known;
+  for (const PatchKind kind : {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface}) {
+    if (const auto* text = std::get_if<std::string>(&value); text && *text == to_string(kind)) return kind;
+    known += (known.empty() ? "" : ", ") + std::string(to_string(kind));
+  }
+  const auto* text = std::get_if<std::string>(&value);
+  reader.add_problem(key + ": expected the kind of a patch (" + known + "), not " + (text ? "\"" + *text + "\"" : std::string(type_text(value))));
+  return std::nullopt;
+}
+
 ModelHandle model_of(const ScriptValue& value, const ScriptCall& call) {
   if (const auto* model = std::get_if<ModelHandle>(&value)) return *model;
-  if (const auto* component = std::get_if<ComponentHandle>(&value)) return std::make_shared<const ModelValue>(make_aircraft({.components = {*component}}, call.session.context));
+  if (const auto* component = std::get_if<ComponentHandle>(&value)) {
+    ModelValue model = make_aircraft({.components = {*component}}, call.session.context);
+    model.provenance = key_of(**component);
+    return std::make_shared<const ModelValue>(std::move(model));
+  }
   return nullptr;
 }
 

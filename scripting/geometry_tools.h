@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geom/mesh/tri_mesh.h"
 #include "geom/model/frame.h"
 #include "geom/model/reference_data.h"
 #include "scripting/script_call.h"
@@ -34,6 +35,9 @@ void refuse_items_beyond(TableReader& reader, std::size_t n);
 
 /// The file "name" beside the script or in the current folder, for verbs that take one file.
 std::optional<InputPath> single_file(const ScriptCall& call, TableReader& reader);
+
+/// "wall", "slip", "inflow", ...; notes a problem where it is none.
+std::optional<PatchKind> read_patch_kind(const ScriptValue& value, const std::string& key, TableReader& reader);
 
 /// The model of a value: a model itself, or a component made one. Null where it is neither.
 ModelHandle model_of(const ScriptValue& value, const ScriptCall& call);

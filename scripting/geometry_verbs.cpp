@@ -106,7 +106,7 @@ ScriptValue read_description(const ScriptCall& call) {
 
 // ---- Airfoils ------------------------------------------------------------------------------------------------------------------------------
 
-constexpr std::string_view k_airfoil_usage = "airfoil \"naca23012\"  or  airfoil{ \"rae2822.dat\", trailing_edge = 0.002 }  or  airfoil{ {{1, 0}, {0.5, 0.06}, {0, 0}, ...} }";
+constexpr std::string_view k_airfoil_usage = "airfoil \"naca23012\"  or  airfoil{ \"naca0012\", trailing_edge = 0.002 }  or  airfoil{ {{1, 0.001}, {0.5, 0.06}, {0, 0}, {0.5, -0.06}, {1, -0.001}} }";
 
 Airfoil airfoil_of_points(const std::vector<std::vector<double>>& rows) {
   std::string text = "points of the script\n";
@@ -246,12 +246,10 @@ ScriptValue make_surface(const ScriptCall& call) {
   return std::make_shared<const ModelValue>(std::move(value));
 }
 
-// ---- Solids, tunnels, assemblies -----------------------------------------------------------------------------------------------------------
+// ---- Solids --------------------------------------------------------------------------------------------------------------------------------
 
-constexpr std::string_view k_box_usage = "box{ {-1, -2, -1}, {9, 2, 3}, name = \"block\" }; with `size` it is a source of small tetrahedra";
-constexpr std::string_view k_cylinder_usage = "cylinder{ {0, 0, 0}, {8, 0, 0}, radius = 1, name = \"tank\" }; with `size` it is a source of small tetrahedra";
-constexpr std::string_view k_test_section_usage = "test_section{ length = 6, width = 2.1, height = 1.5, contraction_length = 2, contraction_ratio = 6 }";
-constexpr std::string_view k_assembly_usage = "assembly{ model, sting }";
+constexpr std::string_view k_box_usage = "box{ {-1, -2, -1}, {9, 2, 3}, name = \"block\" }  or, as a source,  box{ {-1, -2, -1}, {9, 2, 3}, size = 0.05 }";
+constexpr std::string_view k_cylinder_usage = "cylinder{ {0, 0, 0}, {8, 0, 0}, radius = 1, name = \"tank\" }  or, as a source,  cylinder{ {0, 0, 0}, {8, 0, 0}, radius = 1, size = 0.05 }";
 
 /// Two points {x, y, z} as entries 1 and 2.
 std::array<Point, 2> two_points(TableReader& reader, std::string_view usage) {
@@ -285,55 +283,18 @@ ScriptValue make_solid(const ScriptCall& call, bool is_round) {
   return std::make_shared<const ModelValue>(std::move(value));
 }
 
-ScriptValue make_test_section_verb(const ScriptCall& call) {
-  const ScriptTable table = table_argument(call, 0, k_test_section_usage);
-  TestSectionOptions options;
-  const OptionTable schema = sterna::options_of(options);
-  TableReader reader(table, call.attempted());
-  reader.read_options(schema);
-  apply_overrides(call, schema);
-  reader.require(schema);
-  reader.finish();
-  ModelValue value{.without_description = "it is a test section"};
-  value.model = make_test_section(options);
-  return std::make_shared<const ModelValue>(std::move(value));
-}
-
-/// All entries as models; notes what is none.
-std::vector<ModelHandle> model_items(const ScriptCall& call, TableReader& reader) {
-  std::vector<ModelHandle> models;
-  std::size_t number = 0;
-  for (const ScriptValue& item : reader.items()) {
-    ++number;
-    if (ModelHandle model = model_of(item, call)) models.push_back(std::move(model));
-    else reader.add_problem("entry " + std::to_string(number) + ": expected a model or a component, not " + std::string(type_text(item)));
-  }
-  if (number == 0) reader.add_problem("needs a model or a component");
-  return models;
-}
-
-ScriptValue make_assembly(const ScriptCall& call) {
-  const ScriptTable table = table_argument(call, 0, k_assembly_usage);
-  TableReader reader(table, call.attempted());
-  const std::vector<ModelHandle> models = model_items(call, reader);
-  reader.finish();
-  return std::make_shared<const ModelValue>(assemble(models, call.session.context));
-}
-
 template <class Options>
 std::string help_of() {
   Options options;
   return options_help(sterna::options_of(options));
 }
 
-constexpr std::array<ScriptVerb, 7> k_verbs = {{
-    {"read_cad", k_read_cad_usage, "Reads a STEP, IGES or BREP file, mends it and says what it found.", read_cad_verb, help_of<ReadCadOptions>, true},
-    {"read_smx", k_read_smx_usage, "Reads a geometry file of sumo: its components side by side.", read_description<read_smx_model>, nullptr, true},
-    {"read_cpacs", k_read_cpacs_usage, "Reads a CPACS file: its components side by side.", read_description<read_cpacs_model>, nullptr, true},
-    {"airfoil", k_airfoil_usage, "A wing section: by NACA designation, from a file (Selig or Lednicer), or from points.", make_airfoil, help_of<AirfoilOptions>},
-    {"surface", k_surface_usage, "A surface given by a function; a spline that is checked between its samples stands for it.", make_surface, help_of<SurfaceOptions>},
-    {"test_section", k_test_section_usage, "Wind tunnel around the x axis, with contraction and diffuser where they are given.", make_test_section_verb, help_of<TestSectionOptions>},
-    {"assembly", k_assembly_usage, "Models and components side by side, as one model.", make_assembly},
+constexpr std::array<ScriptVerb, 5> k_verbs = {{
+    {"read_cad", k_read_cad_usage, "Reads a STEP, IGES or BREP file, mends it and says what it found.", read_cad_verb, help_of<ReadCadOptions>, true, "model"},
+    {"read_smx", k_read_smx_usage, "Reads a geometry file of sumo: its components side by side.", read_description<read_smx_model>, nullptr, true, "model"},
+    {"read_cpacs", k_read_cpacs_usage, "Reads a CPACS file: its components side by side.", read_description<read_cpacs_model>, nullptr, true, "model"},
+    {"airfoil", k_airfoil_usage, "A wing section: by NACA designation, from a file (Selig or Lednicer), or from points.", make_airfoil, help_of<AirfoilOptions>, false, "airfoil"},
+    {"surface", k_surface_usage, "A surface given by a function; a spline that is checked between its samples stands for it.", make_surface, help_of<SurfaceOptions>, false, "model"},
 }};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Verbs that make models: readers of CAD, sumo and CPACS files, airfoils, surfaces of functions, boxes, cylinders, test sections, assemblies, unions.
+// Verbs that make models: readers of CAD, sumo and CPACS files, airfoils, surfaces of functions, boxes, cylinders, unions.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace sterna::scripting {
 
-/// read_cad, read_smx, read_cpacs, airfoil, surface, test_section, assembly.
+/// read_cad, read_smx, read_cpacs, airfoil, surface.
 std::span<const ScriptVerb> geometry_verbs();
 extern const ScriptVerb k_airfoil_field;
 std::string describe(const Airfoil& airfoil);

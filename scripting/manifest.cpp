@@ -4,8 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "io/atomic_file.h"
+#include "scripting/disc_verbs.h"
 #include "scripting/layer_json.h"
 #include "scripting/model_surface.h"
+#include "scripting/patch_rules.h"
+#include "scripting/periodic_sides.h"
 
 namespace sterna::scripting {
 namespace {
@@ -47,6 +50,20 @@ Json quality_json(const CheckReport& report) {
   return {{"verdict", to_string(report.quality_state())}, {"measures", std::move(measures)}};
 }
 
+/// Sides of the mesh that match, and how well where that was checked.
+Json periodic_sides_json(const MeshValue& mesh) {
+  Json list = Json::array();
+  for (const PeriodicSides& sides : mesh.mesh.periodic) {
+    const std::string &first = mesh.mesh.patches[sides.first].name, &second = mesh.mesh.patches[sides.second].name;
+    Json entry = {{"first", first}, {"second", second}, {"translation", {sides.translation.x, sides.translation.y, sides.translation.z}}};
+    if (mesh.check)
+      for (const PeriodicMatchReport& match : mesh.check->periodic)
+        if (match.first == first && match.second == second) entry.update({{"nodes", match.n_nodes}, {"faces", match.n_faces}, {"worst_distance", match.worst}});
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
 Json improvement_json(const volmesh::ImproveReport& report) {
   Json remaining = Json::array();
   for (const ErrorPlace& place : report.remaining) remaining.push_back({{"at", {place.position.x, place.position.y, place.position.z}}, {"what", place.what}});
@@ -78,10 +95,14 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
     if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
     if (mesh.origin->smooth_angle) json["wall"] = {{"max_smooth_angle", *mesh.origin->smooth_angle}};
+    if (!volume.patches.empty()) json["patch_rules"] = Json::parse(layer_rules_json(volume.patches));
     if (!volume.sources.empty()) json["sources"] = sources_json(volume.sources);
+    if (!volume.discs.empty()) json["actuator_discs"] = Json::parse(discs_json(volume.discs));
+    if (!volume.periodic.empty()) json["periodic"] = Json::parse(periodic_json(volume.periodic));
   }
   json["patches"] = Json::array();
   for (const Patch& patch : mesh.mesh.patches) json["patches"].push_back({{"name", patch.name}, {"kind", to_string(patch.kind)}});
+  if (!mesh.mesh.periodic.empty()) json["periodic_sides"] = periodic_sides_json(mesh);
   json["mesh"] = cells_json(mesh.mesh);
   if (mesh.origin) {
     json["layer"] = Json::parse(layer_json(mesh.origin->layer));

@@ -8,6 +8,7 @@
 #include "scripting/exit_status.h"
 #include "scripting/model_surface.h"
 #include "scripting/models.h"
+#include "scripting/patch_rules.h"
 #include "scripting/source_verbs.h"
 #include "scripting/summary.h"
 
@@ -24,7 +25,7 @@ InputPath input_of(const std::string& name) { return {name, name}; }
 
 int print_model_info(const InfoCommand& command, const CommandContext& context) {
   ReadCadOptions options;
-  if (command.unit != InfoCommand{}.unit) set_options(sterna::options_of(options), {{"unit", command.unit}});
+  if (command.unit != InfoCommand{}.unit) set_options(sterna::options_of(options), {{"unit", command.unit}}, context);
   const ModelValue value = read_model(input_of(command.input), options, context.run.part("read", 0.0, k_read_end));
   const ModelReport measures = measure_model(value, context.run.part("measure", k_read_end, 1.0));
   context.console.end_progress();
@@ -55,18 +56,15 @@ OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCad
 int execute(const SurfaceCommand& command, const CommandContext& context) {
   SurfaceRecipe recipe;
   ReadCadOptions reading;
-  set_options(model_surface_options(recipe.options, reading), command.options);
-  for (const auto& [names, options] : command.patches) {
-    surfmesh::PatchSurfaceOptions& rule = recipe.patches.emplace_back();
-    rule.names = names;
-    set_options(patch_rule_options(rule), options);
-  }
-  sort_rules(recipe.patches);
+  set_options(model_surface_options(recipe.options, reading), command.options, context);
+  const std::vector<volmesh::PatchRule> layers = layer_rules_of(command.patches, &recipe.patches);
   for (const std::string& source : command.sources) recipe.sources.push_back(source_of_text(source));
   for (const auto& output : command.outputs) require_surface_output(output);
   std::vector<InputPath> inputs;
   for (const std::string& name : command.inputs) inputs.push_back(input_of(name));
-  const SurfaceValue surface = mesh_model_files(inputs, reading, recipe, context.run.part("surface", 0.0, 0.95));
+  const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
+  SurfaceValue surface = mesh_model_files(inputs, reading, recipe, context.run.part("surface", 0.0, 0.95), {.cache = cache.get(), .lines = nullptr});
+  add_layer_rules(layers, surface);
   for (const auto& output : command.outputs) write_surface(surface, output, context.run.part("write", 0.95, 1.0));
   context.console.end_progress();
   for (const auto& output : command.outputs) context.run.info("wrote " + output.string() + ": " + describe(surface));
@@ -81,7 +79,7 @@ int unite_models(const UnionCommand& command, const CommandContext& context) {
   ReadCadOptions reading;
   OptionTable table = sterna::options_of(options);
   table.push_back(find_option(sterna::options_of(reading), "unit", "union"));
-  set_options(table, command.options);
+  set_options(table, command.options, context);
   require_model_output({.without_description = "it is a union"}, command.output);
   std::vector<ModelHandle> models;
   const double n = static_cast<double>(command.inputs.size());
@@ -104,7 +102,7 @@ int convert_model(const ConvertCommand& command, const CommandContext& context) 
   WriteCadOptions writing;
   OptionTable table = sterna::options_of(reading);
   for (Option& option : sterna::options_of(writing)) table.push_back(std::move(option));
-  set_options(table, command.options);
+  set_options(table, command.options, context);
   if (!is_model_output(command.output)) require_model_output({}, command.output);  // before the input is read
   const ModelValue value = read_model(input_of(command.input), reading, context.run.part("read", 0.0, k_read_end));
   write_model(value, command.output, writing, context.run.part("write", k_read_end, 1.0));

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 
+#include "geom/base/glob.h"
 #include "geom/model/deform.h"
 #include "geom/model/radial_map.h"
 #include "scripting/geometry_tools.h"
 #include "scripting/models.h"
 #include "scripting/sampled_map.h"
+#include "scripting/script_check.h"
 #include "scripting/script_function.h"
 
 namespace sterna::scripting {
@@ -60,49 +62,36 @@ constexpr std::string_view k_move_usage = "model:move{ 0, 0, 1.5 }";
 constexpr std::string_view k_rotate_usage = "model:rotate{ about = {1.2, 0, 0}, pitch = 4*deg, yaw = 2*deg }  or  model:rotate{ axis = {0, 0, 1}, angle = 30*deg }";
 constexpr std::string_view k_scale_usage = "model:scale(0.1)  or  model:scale{ factor = 0.1, about = {0, 0, 0} }";
 constexpr std::string_view k_mirror_usage = "model:mirror{ normal = {0, 1, 0}, at = {0, 0, 0} }";
-constexpr std::string_view k_deform_usage = "model:deform{ function(x, y, z) return 0, 0, 0.02*y^2 end }  or  model:deform{ \"bend.dat\", kernel = \"thin_plate\" }  or  model:deform{ {{x, y, z, dx, dy, dz}, ...} }";
-constexpr std::string_view k_write_usage = "model:write(\"a.step\", \"a.igs\", \"a.brep\", \"a.smx\")  or  model:write{ \"a.step\", step_schema = \"ap242\" }";
-constexpr std::string_view k_rename_usage = "model:rename{ Body = \"fuselage\", [\"Main Wing\"] = \"wing\" }";
+constexpr std::string_view k_deform_usage = "model:deform{ function(x, y, z) return 0, 0, 0.02*y^2 end }  or  model:deform{ {{0, 0, 0, 0, 0, 0}, {1, 0, 0, 0, 0, 0}, {0, 1, 0, 0, 0, 0.1}, {1, 1, 0, 0, 0, 0.1}, {0, 0, 1, 0, 0, 0}}, kernel = \"thin_plate\" }";
+constexpr std::string_view k_write_usage = "model:write(\"a.step\", \"a.igs\", \"a.brep\")  or  model:write{ \"a.step\", step_schema = \"ap242\" }";
+constexpr std::string_view k_kinds_usage = "model:kinds{ [\"Body*\"] = \"slip\" }";
+constexpr std::string_view k_rename_usage = "model:rename{ Body = \"fuselage\" }";
 
-/// The same model elsewhere; what it was described by does not describe it any more.
-ScriptValue changed(const ModelHandle& old, Model model, std::string_view by) {
-  ModelValue value = *old;
-  value.model = std::move(model);
+/// What a model was described by does not describe it any more.
+ScriptValue without_description(ModelValue value, std::string_view by) {
   if (value.description) value.without_description = "it was changed by " + std::string(by);
   value.description.reset();
   return std::make_shared<const ModelValue>(std::move(value));
 }
 
-ScriptValue move_model(const ScriptCall& call) {
-  const ModelHandle& model = self<ModelHandle>(call);
-  const ScriptTable table = table_argument(call, 1, k_move_usage);
-  TableReader reader(table, call.attempted());
-  // move{ {x, y, z} } as well as move{ x, y, z }
-  auto shift = table.items.size() == 1 ? point_of(table.items.front()) : point_of(std::make_shared<const ScriptTable>(ScriptTable{reader.items(), {}, {}}));
-  reader.items();
-  if (!shift) reader.add_problem("expected three numbers, dx, dy, dz in metres: " + std::string(k_move_usage));
-  reader.finish();
-  return changed(model, transformed(model->model, translation(*shift)), "move");
+/// Another geometry: one part, where it is.
+ScriptValue changed(const ModelHandle& old, Model model, std::string_view by) {
+  ModelValue value = *old;
+  value.model = std::move(model);
+  value.parts.clear();
+  return without_description(std::move(value), by);
 }
 
-ScriptValue rotate_model(const ScriptCall& call) {
-  const ModelHandle& model = self<ModelHandle>(call);
-  const ScriptTable table = table_argument(call, 1, k_rotate_usage);
-  RotateOptions options;
-  const OptionTable schema = sterna::options_of(options);
-  TableReader reader(table, call.attempted());
-  const Point about = read_point(reader, "about").value_or(Point{});
-  const auto axis = read_point(reader, "axis");
-  reader.read_options(schema);
-  const bool has_attitude = table.fields.contains("pitch") || table.fields.contains("yaw") || table.fields.contains("roll");
-  const bool has_axis = table.fields.contains("axis") || table.fields.contains("angle");
-  if (has_attitude && has_axis) reader.add_problem("give pitch, yaw and roll, or axis and angle, not both");
-  else if (!has_attitude && !has_axis) reader.add_problem("needs pitch, yaw or roll, or axis and angle: " + std::string(k_rotate_usage));
-  else if (has_axis && !(axis && table.fields.contains("angle"))) reader.add_problem("axis and angle belong together: " + std::string(k_rotate_usage));
-  reader.finish();
-  const Transform turn = axis ? rotation(about, *axis, options.angle) : attitude(about, options.roll, options.pitch, options.yaw);
-  return changed(model, transformed(model->model, turn), "rotate");
+/// The same model elsewhere.
+ScriptValue moved(const ModelHandle& old, const Transform& motion, std::string_view by) {
+  ModelValue value = *old;
+  value.parts = parts_of(*old);  // which knows what it was made of; its copies do not
+  move_parts(motion, value);
+  return without_description(std::move(value), by);
 }
+
+ScriptValue move_model(const ScriptCall& call) { return moved(self<ModelHandle>(call), read_shift(call, k_move_usage), "move"); }
+ScriptValue rotate_model(const ScriptCall& call) { return moved(self<ModelHandle>(call), read_turn(call, k_rotate_usage), "rotate"); }
 
 ScriptValue scale_model(const ScriptCall& call) {
   const ModelHandle& model = self<ModelHandle>(call);
@@ -129,7 +118,10 @@ ScriptValue mirror_model(const ScriptCall& call) {
   const Point at = read_point(reader, "at").value_or(Point{});
   if (norm(normal) == 0.0) reader.add_problem("normal: has no direction");
   reader.finish();
-  return changed(model, mirrored(model->model, at, normal), "mirror");
+  ModelValue value = *model;
+  value.parts = parts_of(*model);
+  mirror_parts(at, normal, value);
+  return without_description(std::move(value), "mirror");
 }
 
 // ---- Deforming -----------------------------------------------------------------------------------------------------------------------------
@@ -195,7 +187,7 @@ ScriptValue rename_model(const ScriptCall& call) {
     reader.field(from);
     const auto* to = std::get_if<std::string>(&value);
     if (!to || to->empty()) reader.add_problem(from + ": expected the new name, not " + std::string(to ? "an empty text" : type_text(value)));
-    if (std::find(known.begin(), known.end(), from) == known.end()) {
+    if (std::find(known.begin(), known.end(), from) == known.end() && !is_stand_in(call, handle)) {
       const std::string nearest = nearest_name(from, known);
       reader.add_problem("no component and no face is named \"" + from + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"));
     }
@@ -208,7 +200,37 @@ ScriptValue rename_model(const ScriptCall& call) {
       if (handle->model.solids[s].name == from) model.solids[s].name = *to;
   }
   reader.finish();
-  return changed(handle, std::move(model), "rename");
+  ModelValue renamed = *handle;
+  for (surfmesh::PatchSurfaceOptions& rule : renamed.sizes)
+    if (const auto field = table.fields.find(rule.names); field != table.fields.end()) rule.names = std::get<std::string>(field->second);
+  for (volmesh::PatchRule& rule : renamed.layers)
+    if (const auto field = table.fields.find(rule.names); field != table.fields.end()) rule.names = std::get<std::string>(field->second);
+  renamed.model = std::move(model);
+  return without_description(std::move(renamed), "rename");
+}
+
+ScriptValue set_kinds(const ScriptCall& call) {
+  const ModelHandle& handle = self<ModelHandle>(call);
+  const ScriptTable table = table_argument(call, 1, k_kinds_usage);
+  TableReader reader(table, call.attempted());
+  ModelValue value = *handle;
+  // Patterns that spell out more come later, so that they win.
+  std::vector<std::string> patterns;
+  for (const auto& [pattern, kind] : table.fields) patterns.push_back(pattern);
+  std::stable_sort(patterns.begin(), patterns.end(), [](const std::string& a, const std::string& b) { return n_spelled_out(a) < n_spelled_out(b); });
+  for (const std::string& pattern : patterns) {
+    const std::optional<PatchKind> kind = read_patch_kind(*reader.field(pattern), pattern, reader);
+    bool is_used = false;
+    for (ModelFace& face : value.model.faces) {
+      if (!matches_glob(face.name, pattern)) continue;
+      is_used = true;
+      face.kind = kind;
+    }
+    if (!is_used && !is_stand_in(call, handle)) reader.add_problem("no face has a name like \"" + pattern + "\"");
+  }
+  if (patterns.empty()) reader.add_problem("expected names of faces: " + std::string(k_kinds_usage));
+  reader.finish();
+  return std::make_shared<const ModelValue>(std::move(value));
 }
 
 ScriptValue select_model(const ScriptCall& call) {
@@ -239,6 +261,7 @@ ScriptValue table_of(const PartMeasures& part) {
 
 ScriptValue measure_verb(const ScriptCall& call) {
   const ModelHandle& model = self<ModelHandle>(call);
+  finish_checks(call);
   const ModelReport m = measure_model(*model, call.session.context.part("measures", 0.0, 1.0));
   auto result = std::make_shared<ScriptTable>(*std::get<TableHandle>(table_of(m.total)));
   const auto add = [&](const char* name, const std::vector<PartMeasures>& parts) {
@@ -257,6 +280,7 @@ ScriptValue measure_verb(const ScriptCall& call) {
 
 ScriptValue info_verb(const ScriptCall& call) {
   const ModelHandle& model = self<ModelHandle>(call);
+  finish_checks(call);
   std::string text = describe(*model) + "\n" + measures_text(measure_model(*model, call.session.context.part("info", 0.0, 1.0)));
   text += "\n  " + closedness_text(model->model, 10);
   call.session.print(text);
@@ -274,13 +298,15 @@ ScriptValue write_model_files(const ScriptCall& call) {
   TableReader reader(table, call.attempted());
   std::vector<std::filesystem::path> names;
   for (const ScriptValue& item : reader.items()) {
-    if (const auto* name = std::get_if<std::string>(&item)) names.emplace_back(*name);
+    if (const auto* name = std::get_if<std::string>(&item)) names.push_back(output_path(call, *name));
     else reader.add_problem("expected file names, not " + std::string(type_text(item)));
   }
   if (names.empty()) reader.add_problem("needs at least one file name: " + std::string(k_write_usage));
   reader.read_options(sterna::options_of(options));
+  for (const auto& name : names) note_output(call, name);
+  for (const auto& name : names)
+    if (!is_stand_in(call, model) || name.extension() != ".smx") require_model_output(*model, name);
   reader.finish();
-  for (const auto& name : names) require_model_output(*model, name);
   for (const auto& name : names) {
     write_model(*model, name, options, call.session.context.part("write", 0.0, 1.0));
     call.session.context.info("wrote " + name.string() + ": " + describe(*model));
@@ -318,6 +344,7 @@ ScriptValue names_of(const Column& column) {
 ScriptValue model_field(const ScriptCall& call) {
   const ModelHandle& handle = self<ModelHandle>(call);
   const auto* name = call.arguments.size() < 2 ? nullptr : std::get_if<std::string>(&call.arguments[1]);
+  if (name && is_stand_in(call, handle) && name->find_first_of("*?") != std::string::npos) return handle;
   if (name && name->find_first_of("*?") != std::string::npos) return changed(handle, select_components(handle->model, *name, call.attempted()), "select");
   const Model& model = handle->model;
   Fields fields = {{"components", names_of(model.components)},
@@ -337,20 +364,51 @@ ScriptValue model_field(const ScriptCall& call) {
   return select_field(call, std::move(fields), model_methods());
 }
 
-constexpr std::array<ScriptVerb, 10> k_methods = {{
-    {"model:write", k_write_usage, "Writes STEP, IGES, BREP, or, for models that are components as data, sumo's .smx.", write_model_files, write_help},
-    {"model:move", k_move_usage, "The model moved, metres.", move_model},
-    {"model:rotate", k_rotate_usage, "The model turned: x points aft, y to starboard, z up.", rotate_model, help_of<RotateOptions>},
-    {"model:scale", k_scale_usage, "The model larger or smaller.", scale_model, help_of<ScaleOptions>},
-    {"model:mirror", k_mirror_usage, "The mirror image, in the plane y = 0 unless said otherwise; left and right change in names.", mirror_model},
-    {"model:deform", k_deform_usage, "The model deformed, without refit: by a function that gives displacements, or by displacements at points.", deform_model, deform_help, true},
-    {"model:rename", k_rename_usage, "The model with other names of components, solids and patches.", rename_model},
-    {"model:select", "model:select \"wing*\"  or  model[\"wing*\"]", "The components of that name as a model.", select_model},
-    {"model:measures", "model:measures()", "Areas, volumes and boxes of the model, its solids and components, and reference data of its wings, as a table.", measure_verb},
-    {"model:info", "model:info()", "Prints the same, and where the model is open.", info_verb},
+constexpr std::array<ScriptVerb, 11> k_methods = {{
+    {"model:write", k_write_usage, "Writes STEP, IGES, BREP, or, for models that are components as data, sumo's .smx.", write_model_files, write_help, true, "self"},
+    {"model:move", k_move_usage, "The model moved, metres.", move_model, nullptr, true, "model"},
+    {"model:rotate", k_rotate_usage, "The model turned: x points aft, y to starboard, z up.", rotate_model, rotate_help, true, "model"},
+    {"model:scale", k_scale_usage, "The model larger or smaller.", scale_model, help_of<ScaleOptions>, true, "model"},
+    {"model:mirror", k_mirror_usage, "The mirror image, in the plane y = 0 unless said otherwise; left and right change in names.", mirror_model, nullptr, true, "model"},
+    {"model:deform", k_deform_usage, "The model deformed, without refit: by a function that gives displacements, or by displacements at points.", deform_model, deform_help, true, "model"},
+    {"model:rename", k_rename_usage, "The model with other names of components, solids and patches.", rename_model, nullptr, true, "model"},
+    {"model:kinds", k_kinds_usage, "The model with other kinds of patches: wall, slip, symmetry, inflow, outflow, farfield, interface.", set_kinds, nullptr, true, "model"},
+    {"model:select", "model:select \"Body*\"  or  model[\"Body*\"]", "The components of that name as a model.", select_model, nullptr, true, "model"},
+    {"model:measures", "model:measures()", "Areas, volumes and boxes of the model, its solids and components, and reference data of its wings, as a table.", measure_verb, nullptr, true, "table"},
+    {"model:info", "model:info()", "Prints the same, and where the model is open.", info_verb, nullptr, true},
 }};
 
 }  // namespace
+
+Transform read_shift(const ScriptCall& call, std::string_view usage) {
+  const ScriptTable table = table_argument(call, 1, usage);
+  TableReader reader(table, call.attempted());
+  // move{ {x, y, z} } as well as move{ x, y, z }
+  auto shift = table.items.size() == 1 ? point_of(table.items.front()) : point_of(std::make_shared<const ScriptTable>(ScriptTable{reader.items(), {}, {}}));
+  reader.items();
+  if (!shift) reader.add_problem("expected three numbers, dx, dy, dz in metres: " + std::string(usage));
+  reader.finish();
+  return translation(*shift);
+}
+
+Transform read_turn(const ScriptCall& call, std::string_view usage) {
+  const ScriptTable table = table_argument(call, 1, usage);
+  RotateOptions options;
+  const OptionTable schema = sterna::options_of(options);
+  TableReader reader(table, call.attempted());
+  const Point about = read_point(reader, "about").value_or(Point{});
+  const auto axis = read_point(reader, "axis");
+  reader.read_options(schema);
+  const bool has_attitude = table.fields.contains("pitch") || table.fields.contains("yaw") || table.fields.contains("roll");
+  const bool has_axis = table.fields.contains("axis") || table.fields.contains("angle");
+  if (has_attitude && has_axis) reader.add_problem("give pitch, yaw and roll, or axis and angle, not both");
+  else if (!has_attitude && !has_axis) reader.add_problem("needs pitch, yaw or roll, or axis and angle: " + std::string(usage));
+  else if (has_axis && !(axis && table.fields.contains("angle"))) reader.add_problem("axis and angle belong together: " + std::string(usage));
+  reader.finish();
+  return axis ? rotation(about, *axis, options.angle) : attitude(about, options.roll, options.pitch, options.yaw);
+}
+
+std::string rotate_help() { return help_of<RotateOptions>(); }
 
 const ScriptVerb k_model_field = {"model", "", "", model_field};
 

@@ -9,8 +9,14 @@
 #include <nlohmann/json.hpp>
 
 #include "geom/base/error.h"
+#include "geom/base/glob.h"
 #include "geom/mesh/topology.h"
 #include "scripting/aircraft_model.h"
+#include "scripting/cache/cached_surface.h"
+#include "scripting/cache/content_key.h"
+#include "scripting/fluid_model.h"
+#include "scripting/mesh_parts.h"
+#include "scripting/patch_rules.h"
 #include "scripting/summary.h"
 #include "volmesh/tetra/size_sources.h"
 
@@ -79,6 +85,12 @@ std::vector<surfmesh::PatchSurfaceOptions> rules_of(const Aircraft& aircraft, co
 /// The user's rules win over those of files.
 void put_first(std::vector<surfmesh::PatchSurfaceOptions> rules, SurfaceRecipe& recipe) { recipe.patches.insert(recipe.patches.begin(), rules.begin(), rules.end()); }
 
+/// Those that a face is named like: a boolean may have left nothing of others.
+std::vector<surfmesh::PatchSurfaceOptions> present(std::vector<surfmesh::PatchSurfaceOptions> rules, const Model& model) {
+  std::erase_if(rules, [&](const surfmesh::PatchSurfaceOptions& rule) { return std::none_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return matches_glob(face.name, rule.names); }); });
+  return rules;
+}
+
 surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size) {
   surfmesh::SpaceSizes asked{.regions = {}, .function = size, .samples = {}};
   std::vector<volmesh::SizeSource> regions;
@@ -118,6 +130,31 @@ std::string indented(std::string text) {
   return "  " + text;
 }
 
+SurfaceValue mesh_anew(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size, const RunContext& context, const Reuse& reuse) {
+  const ModelValue all = fluid_of(assemble(models, context), context);
+  SurfaceRecipe recipe = asked;
+  put_first(present(all.sizes, all.model), recipe);
+  for (const ModelHandle& model : models)
+    if (model->description) put_first(rules_of(*model->description, all.model), recipe);
+  PartsMesh made = mesh_parts(all, recipe, space_sizes(recipe, size), cached_part_mesher(reuse), context);
+  SurfaceValue surface{.inputs = all.inputs, .recipe = recipe};
+  surface.parts = std::move(made.parts);
+  surface.recipe->sources_text = sources_text(recipe.sources, static_cast<bool>(size));
+  for (const volmesh::PatchRule& rule : all.layers)
+    if (std::any_of(all.model.faces.begin(), all.model.faces.end(), [&](const ModelFace& face) { return face.name == rule.names; })) surface.layers.push_back(rule);
+  surface.smooth_angle = made.mesh.report.max_smooth_angle;
+  surface.model_wall = std::make_shared<const surfmesh::ModelWall>(all.model, made.mesh);
+  surface.mesh = std::move(made.mesh.mesh);
+  const Topology topology(surface.mesh, context);
+  surface.report.n_triangles_read = static_cast<std::int64_t>(surface.mesh.n_triangles());
+  surface.report.n_vertices_read = static_cast<std::int64_t>(surface.mesh.n_vertices());
+  surface.report.n_components = static_cast<std::int64_t>(connected_components(surface.mesh, topology).count);
+  surface.report.is_closed = topology.n_boundary_halfedges() == 0;
+  surface.mesh_report = std::move(made.mesh.report);
+  context.info(surface_mesh_text(all.model, surface));
+  return surface;
+}
+
 }  // namespace
 
 OptionTable with_edge_tables(OptionTable table) {
@@ -135,37 +172,21 @@ OptionTable patch_rule_options(surfmesh::PatchSurfaceOptions& rule) {
 
 std::string patch_rules_json(const std::vector<surfmesh::PatchSurfaceOptions>& rules) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (surfmesh::PatchSurfaceOptions rule : rules) {
-    nlohmann::ordered_json entry = {{"names", rule.names}};
-    for (const Option& option : patch_rule_options(rule))
-      if (const double value = std::get<double>(option.get()); !is_automatic(value)) entry[std::string(option.name)] = value;
-    list.push_back(std::move(entry));
-  }
+  for (surfmesh::PatchSurfaceOptions rule : rules) list.push_back(nlohmann::ordered_json::parse(rule_json(rule.names, patch_rule_options(rule))));
   return list.dump();
 }
 
 std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const std::string& text) {
-  const auto list = nlohmann::ordered_json::parse(text, nullptr, false);
-  const auto refuse = [] { throw Error({.code = ErrorCode::file_malformed, .attempted = "reading the options of a surface mesh", .problem = "surface_patches is no list of rules with names and numbers"}); };
-  if (!list.is_array()) refuse();
   std::vector<surfmesh::PatchSurfaceOptions> rules;
-  for (const auto& entry : list) {
-    if (!entry.is_object() || !entry.contains("names") || !entry["names"].is_string()) refuse();
-    surfmesh::PatchSurfaceOptions& rule = rules.emplace_back();
-    rule.names = entry["names"].get<std::string>();
-    const OptionTable options = patch_rule_options(rule);
-    for (const auto& [name, value] : entry.items()) {
-      if (name == "names") continue;
-      if (!value.is_number()) refuse();
-      set_option(find_option(options, name, "reading the options of a surface mesh"), value.get<double>());
-    }
-  }
+  read_rules_json(text, "reading the options of a surface mesh", [&](const std::string& names) {
+    rules.push_back({.names = names});
+    return patch_rule_options(rules.back());
+  });
   return rules;
 }
 
 void sort_rules(std::vector<surfmesh::PatchSurfaceOptions>& rules) {
-  const auto n_letters = [](const std::string& names) { return std::count_if(names.begin(), names.end(), [](char c) { return c != '*' && c != '?'; }); };
-  std::sort(rules.begin(), rules.end(), [&](const auto& a, const auto& b) { return std::pair(n_letters(a.names), a.names) < std::pair(n_letters(b.names), b.names); });
+  std::sort(rules.begin(), rules.end(), [](const auto& a, const auto& b) { return std::pair(n_spelled_out(a.names), a.names) < std::pair(n_spelled_out(b.names), b.names); });
 }
 
 std::string surface_mesh_text(const Model& model, const SurfaceValue& surface) {
@@ -183,29 +204,18 @@ std::string surface_mesh_text(const Model& model, const SurfaceValue& surface) {
   return text;
 }
 
-SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size, const RunContext& context) {
+SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size, const RunContext& context, const Reuse& reuse) {
   const StageTimer timer(context, "surface_mesh");
-  const ModelValue all = assemble(models, context);
-  SurfaceRecipe recipe = asked;
-  for (const ModelHandle& model : models)
-    if (model->description) put_first(rules_of(*model->description, all.model), recipe);
-  surfmesh::SurfaceMesh made = surfmesh::mesh_model(all.model, recipe.options, recipe.patches, space_sizes(recipe, size), context);
-  SurfaceValue surface{.inputs = all.inputs, .recipe = recipe};
-  surface.recipe->sources_text = sources_text(recipe.sources, static_cast<bool>(size));
-  surface.smooth_angle = made.report.max_smooth_angle;
-  surface.model_wall = std::make_shared<const surfmesh::ModelWall>(all.model, made);
-  surface.mesh = std::move(made.mesh);
-  const Topology topology(surface.mesh, context);
-  surface.report.n_triangles_read = static_cast<std::int64_t>(surface.mesh.n_triangles());
-  surface.report.n_vertices_read = static_cast<std::int64_t>(surface.mesh.n_vertices());
-  surface.report.n_components = static_cast<std::int64_t>(connected_components(surface.mesh, topology).count);
-  surface.report.is_closed = topology.n_boundary_halfedges() == 0;
-  surface.mesh_report = std::move(made.report);
-  context.info(surface_mesh_text(all.model, surface));
-  return surface;
+  const auto make = [&](const std::function<double(const Point&)>& asked_size) { return mesh_anew(models, asked, asked_size, context, reuse); };
+  // In whatever thread asks first, so with no threads of its own.
+  const auto all = [models, stop = context.stop_token(), seed = context.seed()] {
+    const RunContext quiet({.threads = 1, .seed = seed, .stop = stop});
+    return fluid_of(assemble(models, quiet), quiet).model;
+  };
+  return cached_surface(models, asked, size, make, all, reuse, context);
 }
 
-SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context) {
+SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context, const Reuse& reuse) {
   for (const InputPath& file : files)
     if (!is_model_file(file.path))
       throw Error({.code = ErrorCode::bad_argument,
@@ -220,12 +230,14 @@ SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOpt
     auto model = std::make_shared<ModelValue>(read_model(file, reading, context.part("read", k_read_end * i / n, k_read_end * (i + 1) / n)));
     if (is_description(file.path) && model->model.solids.size() > 1) {
       const std::optional<Aircraft> description = model->description;  // a union has none
+      const std::optional<ContentKey> of_file = model->provenance.key();
       *model = unite_solids({std::make_shared<const ModelValue>(std::move(*model))}, {}, context.part("union", k_read_end, k_unite_end));
+      model->provenance = KeyMaker("united").add(*of_file).key();
       if (description) put_first(rules_of(*description, model->model), with_files);
     }
     models.push_back(std::move(model));
   }
-  return mesh_models(models, with_files, {}, context.part("surface_mesh", k_unite_end, 1.0));
+  return mesh_models(models, with_files, {}, context.part("surface_mesh", k_unite_end, 1.0), reuse);
 }
 
 }  // namespace sterna::scripting

@@ -10,6 +10,7 @@
 #include "geom/base/run_context.h"
 #include "geom/base/schema.h"
 #include "geom/cad/read_cad.h"
+#include "scripting/cache/reuse.h"
 #include "scripting/models.h"
 #include "scripting/verbs.h"
 
@@ -20,11 +21,11 @@ namespace sterna::scripting {
 /// \throws Error of surfmesh::mesh_model
 /// What .smx files say of their components' triangles (maxlen, minlen, maxphi other than sumo's 30 degrees, lerfactor, terfactor; not where defaults="true") counts as rules before the recipe's.
 /// `size`: lengths of edges by place, called by this thread alone. \throws also Error(bad_argument) for a source that volmesh::problem_of objects to
-SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size, const RunContext& context);
+SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size, const RunContext& context, const Reuse& reuse = {});
 
 /// Reads files of models and meshes their surface. Components of .smx and CPACS files are united first; CAD stays as it is. `reading` counts for CAD.
 /// \throws Error of read_model, unite_solids, mesh_models; bad_argument for a file that is no model
-SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context);
+SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context, const Reuse& reuse = {});
 
 /// Several lines: the report of the mesher with the places where the surface is open and what was absorbed.
 /// \pre surface.mesh_report

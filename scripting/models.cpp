@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <cctype>
-#include <map>
 #include <sstream>
 
 #include "geom/base/error.h"
+#include "geom/base/glob.h"
 #include "geom/base/hash.h"
 #include "geom/model/components.h"
 #include "geom/model/cpacs.h"
 #include "geom/model/smx.h"
 #include "io/cad_file.h"
+#include "scripting/cache/content_key.h"
 #include "scripting/summary.h"
 
 namespace sterna::scripting {
@@ -28,6 +29,7 @@ bool is_xml(const std::filesystem::path& path) { return extension_of(path) == ".
 
 ModelValue value_of(AircraftReading reading, const InputPath& file, const RunContext& context) {
   ModelValue value{.inputs = {{file.name, hash_file(file.path)}}};
+  value.provenance = KeyMaker("read_description").add(file.path.filename().string()).add(value.inputs.front().hash).key();
   try {
     value.model = make_components(reading.aircraft, context);
   } catch (const Error& error) {
@@ -66,6 +68,8 @@ ModelValue read_model(const InputPath& file, const ReadCadOptions& options, cons
   if (is_xml(file.path)) return read_cpacs_model(file, context);
   CadFile cad = io::read_cad(file.path, options, context);
   ModelValue value{.without_description = "read from " + file.name, .inputs = {{file.name, hash_file(file.path)}}};
+  ReadCadOptions named = options;
+  value.provenance = KeyMaker("read_cad").add(file.path.filename().string()).add(value.inputs.front().hash).add(sterna::options_of(named)).key();
   value.model = std::move(cad.model);
   value.report = without_warnings(to_text(cad.report));
   context.info(file.name + ": " + value.report);
@@ -92,62 +96,8 @@ void write_model(const ModelValue& value, const std::filesystem::path& path, con
   io::write_cad(value.model, path, options, context);
 }
 
-bool matches(const std::string& pattern, const std::string& name) {
-  // Greedy with one way back, to the last '*'.
-  std::size_t p = 0, n = 0, star = std::string::npos, mark = 0;
-  while (n < name.size()) {
-    if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n]) && pattern[p] != '*') ++p, ++n;
-    else if (p < pattern.size() && pattern[p] == '*') star = p++, mark = n;
-    else if (star != std::string::npos) p = star + 1, n = ++mark;
-    else return false;
-  }
-  while (p < pattern.size() && pattern[p] == '*') ++p;
-  return p == pattern.size();
-}
-
-Model select_faces(const Model& model, const std::function<bool(FaceId)>& is_chosen) {
-  Model result;
-  result.source_unit = model.source_unit;
-  std::map<std::uint64_t, ComponentId> components;
-  std::map<std::uint64_t, CornerId> corners;
-  std::map<std::uint64_t, EdgeId> edges;
-  std::map<std::uint64_t, FaceId> faces;
-  const auto corner = [&](CornerId id) {
-    const auto [place, is_new] = corners.try_emplace(id.value());
-    if (is_new) place->second = result.corners.push_back(model.corners[id]);
-    return place->second;
-  };
-  for (const FaceId f : model.faces.ids()) {
-    if (!is_chosen(f)) continue;
-    ModelFace face = model.faces[f];
-    const auto [component, is_new] = components.try_emplace(face.component.value());
-    if (is_new) component->second = result.components.push_back(model.components[face.component]);
-    face.component = component->second;
-    for (Border& border : face.borders)
-      for (EdgeUse& use : border) {
-        const auto [edge, is_new_edge] = edges.try_emplace(use.edge.value());
-        if (is_new_edge) {
-          ModelEdge copy = model.edges[use.edge];
-          copy.start = corner(copy.start);
-          copy.end = corner(copy.end);
-          edge->second = result.edges.push_back(copy);
-        }
-        use.edge = edge->second;
-      }
-    faces[f.value()] = result.faces.push_back(std::move(face));
-  }
-  for (const ModelSolid& solid : model.solids) {
-    ModelSolid kept{solid.name, {}, solid.is_closed};
-    for (const FaceId f : solid.faces)
-      if (const auto found = faces.find(f.value()); found != faces.end()) kept.faces.push_back(found->second);
-    kept.is_closed = solid.is_closed && kept.faces.size() == solid.faces.size();
-    if (!kept.faces.empty()) result.solids.push_back(std::move(kept));
-  }
-  return result;
-}
-
 Model select_components(const Model& model, const std::string& pattern, const std::string& attempted) {
-  Model result = select_faces(model, [&](FaceId f) { return matches(pattern, model.components[model.faces[f].component].name); });
+  Model result = select_faces(model, [&](FaceId f) { return matches_glob(model.components[model.faces[f].component].name, pattern); });
   if (!result.faces.empty()) return result;
   std::vector<std::string> names;
   std::string all;

@@ -14,6 +14,8 @@
 #include "geom/model/aircraft.h"
 #include "geom/model/model.h"
 #include "geom/model/reference_data.h"
+#include "geom/model/select_faces.h"
+#include "scripting/model_parts.h"
 #include "scripting/script_value.h"
 #include "scripting/verbs.h"
 
@@ -26,6 +28,10 @@ struct ModelValue {
   std::string without_description;      ///< why there is none: "rotate", "read from a.step"
   std::vector<InputFile> inputs;
   std::string report;                   ///< lines about how it was read or made; may be empty
+  std::vector<surfmesh::PatchSurfaceOptions> sizes = {};  ///< of its faces by name, as the verb that made it was told; count before the user's rules where a face has the name
+  std::vector<volmesh::PatchRule> layers = {};                     ///< of its patches, the same; volume_mesh takes them over
+  std::vector<ModelPart> parts = {};    ///< of the model, in its order; empty: one part, in its place. Whoever gives the model other faces clears them
+  Provenance provenance = {};                                      ///< what it was made of, for caches
 };
 
 /// Whether the name is that of a file with a model: CAD, .smx or (CPACS) .xml.
@@ -49,10 +55,6 @@ void write_model(const ModelValue& value, const std::filesystem::path& path, con
 Box box_of(const Model& model);
 Box box_of(const Model& model, FaceId face);
 
-/// Faces for which it holds, with their edges and corners; components and solids of which none is left are gone, a solid that lost some is no longer closed.
-Model select_faces(const Model& model, const std::function<bool(FaceId)>& is_chosen);
-/// '*' stands for any text, '?' for any character.
-bool matches(const std::string& pattern, const std::string& name);
 /// The components whose names match, whole. \throws Error(bad_argument) naming those that exist where none does
 Model select_components(const Model& model, const std::string& pattern, const std::string& attempted);
 

@@ -5,12 +5,13 @@
 #include <new>
 #include <span>
 
-#include "scripting/component_verbs.h"
-#include "scripting/geometry_verbs.h"
-#include "scripting/model_methods.h"
+#include "scripting/cache/script_key.h"
+#include "scripting/quantity.h"
+#include "scripting/script_check.h"
 #include "scripting/script_function.h"
+#include "scripting/script_objects.h"
+#include "scripting/script_sandbox.h"
 #include "scripting/script_verbs.h"
-#include "scripting/stage_verbs.h"
 
 namespace sterna::scripting {
 namespace {
@@ -25,14 +26,8 @@ struct ObjectBox {
   ScriptValue value;
 };
 const char k_box_tag = 0;
-constexpr const char* k_surface_type = "sterna.surface";
-constexpr const char* k_envelope_type = "sterna.envelope";
-constexpr const char* k_tetrahedra_type = "sterna.tetrahedra";
-constexpr const char* k_mesh_type = "sterna.mesh";
-constexpr const char* k_model_type = "sterna.model";
-constexpr const char* k_component_type = "sterna.component";
-constexpr const char* k_airfoil_type = "sterna.airfoil";
-constexpr const char* k_error_type = "sterna.error";
+/// Key in the metatable of a table that can be called as a verb: that verb.
+const char k_verb_tag = 0;
 constexpr const char* k_shape_type = "sterna.shape";
 
 // ---- Reading: only functions of Lua that never raise, and protected calls ------------------------------------------------------------------------------------
@@ -47,6 +42,14 @@ ObjectBox* box_at(lua_State* state, int index) {
 int call_verb(lua_State* state);
 
 ScriptValue read_value(lua_State* state, int index, int depth);
+
+const ScriptVerb* verb_of_table(lua_State* state, int index) {
+  if (!lua_getmetatable(state, index)) return nullptr;
+  lua_rawgetp(state, -1, &k_verb_tag);
+  const auto* verb = static_cast<const ScriptVerb*>(lua_touserdata(state, -1));
+  lua_pop(state, 2);
+  return verb;
+}
 
 std::shared_ptr<const ScriptTable> read_table(lua_State* state, int index, int depth) {
   auto table = std::make_shared<ScriptTable>();
@@ -85,7 +88,9 @@ ScriptValue read_value(lua_State* state, int index, int depth) {
       const char* text = lua_tolstring(state, index, &size);
       return std::string(text, size);
     }
-    case LUA_TTABLE: return read_table(state, index, depth);
+    case LUA_TTABLE:
+      if (const ScriptVerb* verb = verb_of_table(state, index)) return verb;
+      return read_table(state, index, depth);
     case LUA_TUSERDATA:
       if (const ObjectBox* box = box_at(state, index)) return box->value;
       break;
@@ -122,14 +127,39 @@ ErrorHandle placed(const Error& error, const ScriptCall& call) {
   return make_error(std::move(info));
 }
 
+/// Whether a script's own pcall waits for the error.
+bool is_protected(lua_State* state) {
+  lua_Debug record;
+  for (int level = 1; lua_getstack(state, level, &record); ++level) {
+    lua_getinfo(state, "f", &record);
+    const bool is_pcall = is_protected_call(lua_tocfunction(state, -1));
+    lua_pop(state, 1);
+    if (is_pcall) return true;
+  }
+  return false;
+}
+
+/// Of a script that is only checked: notes what is wrong and goes on with something that stands for the result, unless the script wants to know.
+bool goes_on(lua_State* state, const ScriptVerb& verb, const ScriptCall& call, ErrorHandle error) {
+  if (!call.session.check || verb.gives.empty() || error->code() == ErrorCode::cancelled || is_protected(state)) return false;
+  call.session.check->problems.push_back(std::move(error));
+  call.session.value = stand_in(call, verb.gives);
+  return true;
+}
+
 bool run_verb(lua_State* state, ScriptSession& session, const ScriptVerb& verb) noexcept {
-  ScriptCall call{.session = session, .where = where_of(state), .verb = verb.name, .arguments = {}};
+  ScriptCall call{.session = session, .where = where_of(state), .verb = verb.name, .arguments = {}, .is_heavy = verb.is_heavy};
   try {
     for (int i = 1; i <= lua_gettop(state); ++i) call.arguments.push_back(read_value(state, i, 0));
-    session.value = verb.run(call);
+    session.value = with_provenance(verb.run(call), call);
+    return true;
+  } catch (const ChecksDone&) {
+    session.value = stand_in(call, verb.gives);
     return true;
   } catch (const Error& error) {
-    session.value = placed(error, call);
+    ErrorHandle of_user = placed(error, call);
+    if (goes_on(state, verb, call, of_user)) return true;
+    session.value = std::move(of_user);
   } catch (const std::bad_alloc&) {
     session.value = make_error({.code = ErrorCode::overflow, .attempted = call.attempted(), .problem = "not enough memory"});
   } catch (const std::exception& error) {
@@ -168,19 +198,20 @@ void push_value(lua_State* state, const ScriptValue& value) {
   else if (const auto* number = std::get_if<double>(&value)) lua_pushnumber(state, *number);
   else if (const auto* text = std::get_if<std::string>(&value)) lua_pushlstring(state, text->data(), text->size());
   else if (const auto* table = std::get_if<std::shared_ptr<const ScriptTable>>(&value)) push_table(state, **table);
-  else if (std::holds_alternative<SurfaceHandle>(value)) push_object(state, value, k_surface_type);
-  else if (std::holds_alternative<EnvelopeHandle>(value)) push_object(state, value, k_envelope_type);
-  else if (std::holds_alternative<TetrahedraHandle>(value)) push_object(state, value, k_tetrahedra_type);
-  else if (std::holds_alternative<MeshHandle>(value)) push_object(state, value, k_mesh_type);
-  else if (std::holds_alternative<ModelHandle>(value)) push_object(state, value, k_model_type);
-  else if (std::holds_alternative<ComponentHandle>(value)) push_object(state, value, k_component_type);
-  else if (std::holds_alternative<AirfoilHandle>(value)) push_object(state, value, k_airfoil_type);
-  else if (std::holds_alternative<ErrorHandle>(value)) push_object(state, value, k_error_type);
+  else if (const ObjectKind* kind = kind_of(value)) push_object(state, value, kind->type);
   else lua_pushnil(state);
+}
+
+/// In a worker whose case is over nothing runs any more, even where the script catches the error that ends it.
+bool take_end_of_case(ScriptSession& session) noexcept {
+  if (!session.series.is_case_over) return false;
+  session.value = session.cancelled;
+  return true;
 }
 
 int call_verb(lua_State* state) {
   ScriptSession& session = session_of(state);
+  if (take_end_of_case(session)) raise_failure(state);
   const auto& verb = *static_cast<const ScriptVerb*>(lua_touserdata(state, lua_upvalueindex(1)));
   if (verb.is_heavy) lua_gc(state, LUA_GCCOLLECT);
   if (!run_verb(state, session, verb)) raise_failure(state);
@@ -204,17 +235,18 @@ int collect_object(lua_State* state) {
   return 0;
 }
 
-void register_type(lua_State* state, const char* type, const ScriptVerb& describe, const ScriptVerb& field, std::span<const ScriptVerb> methods) {
-  luaL_newmetatable(state, type);
+void register_type(lua_State* state, const ObjectKind& kind) {
+  const std::span<const ScriptVerb> methods = kind.methods();
+  luaL_newmetatable(state, kind.type);
   lua_pushboolean(state, 1);
   lua_rawsetp(state, -2, &k_box_tag);
   lua_pushstring(state, "locked");  // getmetatable must not hand out __gc
   lua_setfield(state, -2, "__metatable");
   lua_pushcfunction(state, collect_object);
   lua_setfield(state, -2, "__gc");
-  push_verb(state, describe);
+  push_verb(state, k_describe_object);
   lua_setfield(state, -2, "__tostring");
-  lua_pushlightuserdata(state, const_cast<ScriptVerb*>(&field));
+  lua_pushlightuserdata(state, const_cast<ScriptVerb*>(kind.field));
   lua_createtable(state, 0, static_cast<int>(methods.size()));
   for (const ScriptVerb* method = methods.data(); method != methods.data() + methods.size(); ++method) {
     push_verb(state, *method);
@@ -225,6 +257,51 @@ void register_type(lua_State* state, const char* type, const ScriptVerb& describ
   lua_pop(state, 1);
 }
 
+// ---- Arithmetic with lengths that know where they come from: 1.3 * boundary_layer{...} is a plain number ------------------------------------------
+
+/// Pushes the operand as a number; others as they are, so that Lua complains about them. May raise.
+void push_operand(lua_State* state, int index) {
+  const ObjectBox* box = box_at(state, index);
+  const QuantityHandle* quantity = box ? std::get_if<QuantityHandle>(&box->value) : nullptr;
+  if (!quantity) lua_pushvalue(state, index);
+  else if (!(*quantity)->is_length()) luaL_error(state, "flow conditions are no number");
+  else lua_pushnumber(state, (*quantity)->metres);
+}
+
+int calculate(lua_State* state) {
+  const int operation = static_cast<int>(lua_tointeger(state, lua_upvalueindex(1)));
+  push_operand(state, 1);
+  if (operation != LUA_OPUNM) push_operand(state, 2);
+  lua_arith(state, operation);
+  return 1;
+}
+
+int compare(lua_State* state) {
+  push_operand(state, 1);
+  push_operand(state, 2);
+  lua_pushboolean(state, lua_compare(state, -2, -1, static_cast<int>(lua_tointeger(state, lua_upvalueindex(1)))));
+  return 1;
+}
+
+void register_arithmetic(lua_State* state, const char* type) {
+  luaL_getmetatable(state, type);
+  const auto add = [state](const char* event, lua_CFunction function, int operation) {
+    lua_pushinteger(state, operation);
+    lua_pushcclosure(state, function, 1);
+    lua_setfield(state, -2, event);
+  };
+  add("__add", calculate, LUA_OPADD);
+  add("__sub", calculate, LUA_OPSUB);
+  add("__mul", calculate, LUA_OPMUL);
+  add("__div", calculate, LUA_OPDIV);
+  add("__pow", calculate, LUA_OPPOW);
+  add("__unm", calculate, LUA_OPUNM);
+  add("__eq", compare, LUA_OPEQ);
+  add("__lt", compare, LUA_OPLT);
+  add("__le", compare, LUA_OPLE);
+  lua_pop(state, 1);
+}
+
 }  // namespace
 
 void push_verb(lua_State* state, const ScriptVerb& verb) {
@@ -232,15 +309,23 @@ void push_verb(lua_State* state, const ScriptVerb& verb) {
   lua_pushcclosure(state, call_verb, 1);
 }
 
+void push_verb_table(lua_State* state, const ScriptVerb& verb, const ScriptVerb& field) {
+  lua_newtable(state);
+  lua_newtable(state);
+  lua_pushlightuserdata(state, const_cast<ScriptVerb*>(&verb));
+  lua_rawsetp(state, -2, &k_verb_tag);
+  push_verb(state, verb);
+  lua_setfield(state, -2, "__call");
+  push_verb(state, field);
+  lua_setfield(state, -2, "__index");
+  lua_pushstring(state, "locked");
+  lua_setfield(state, -2, "__metatable");
+  lua_setmetatable(state, -2);
+}
+
 void register_objects(lua_State* state) {
-  register_type(state, k_surface_type, k_describe_object, k_surface_field, surface_methods());
-  register_type(state, k_envelope_type, k_describe_object, k_envelope_field, envelope_methods());
-  register_type(state, k_tetrahedra_type, k_describe_object, k_tetrahedra_field, tetrahedra_methods());
-  register_type(state, k_mesh_type, k_describe_object, k_mesh_field, mesh_methods());
-  register_type(state, k_model_type, k_describe_object, k_model_field, model_methods());
-  register_type(state, k_component_type, k_describe_object, k_component_field, component_methods());
-  register_type(state, k_airfoil_type, k_describe_object, k_airfoil_field, {});
-  register_type(state, k_error_type, k_describe_object, k_error_field, {});
+  for (const ObjectKind* kind = object_kinds().data(); kind != object_kinds().data() + object_kinds().size(); ++kind) register_type(state, *kind);
+  register_arithmetic(state, object_kind("quantity")->type);
   luaL_newmetatable(state, k_shape_type);
   push_verb(state, k_describe_object);
   lua_setfield(state, -2, "__tostring");
@@ -249,6 +334,9 @@ void register_objects(lua_State* state) {
 
 ScriptSession& session_of(lua_State* state) noexcept { return **static_cast<ScriptSession**>(lua_getextraspace(state)); }
 void set_session(lua_State* state, ScriptSession& session) noexcept { *static_cast<ScriptSession**>(lua_getextraspace(state)) = &session; }
+
+void push_script_value(lua_State* state, const ScriptValue& value) { push_value(state, value); }
+ScriptValue script_value_at(lua_State* state, int index) { return read_value(state, lua_absindex(state, index), 0); }
 
 void raise_failure(lua_State* state) {
   push_value(state, session_of(state).value);

@@ -4,6 +4,7 @@
 #include <lua.hpp>
 
 #include "geom/base/error.h"
+#include "scripting/cache/content_key.h"
 #include "scripting/script_call.h"
 
 namespace sterna::scripting {
@@ -37,6 +38,25 @@ int call_kept(lua_State* state) {
   return 0;
 }
 
+struct ValueExchange {
+  int reference;
+  const ScriptValue* argument;
+};
+
+int call_kept_with_value(lua_State* state) {
+  const auto& exchange = *static_cast<const ValueExchange*>(lua_touserdata(state, 1));
+  lua_rawgeti(state, LUA_REGISTRYINDEX, exchange.reference);
+  push_script_value(state, *exchange.argument);
+  lua_call(state, 1, 1);
+  return 1;
+}
+
+/// Takes the top value off the stack at the end of a scope.
+struct PopAtEnd {
+  lua_State* state;
+  ~PopAtEnd() { lua_pop(state, 1); }
+};
+
 }  // namespace
 
 ScriptFunction::ScriptFunction(lua_State* state, int index) : state_(state) {
@@ -57,12 +77,30 @@ void ScriptFunction::call(std::span<const double> arguments, std::span<double> r
   Exchange exchange{reference_, arguments.data(), static_cast<int>(arguments.size()), results.data(), static_cast<int>(results.size())};
   lua_pushcfunction(state_, call_kept);
   lua_pushlightuserdata(state_, &exchange);
-  if (lua_pcall(state_, 1, 0, 0) == LUA_OK) return;
+  if (lua_pcall(state_, 1, 0, 0) != LUA_OK) fail();
+  if (session_of(state_).cache != nullptr) {
+    answers_.insert(answers_.end(), arguments.begin(), arguments.end());
+    answers_.insert(answers_.end(), results.begin(), results.end());
+  }
+}
+
+ScriptValue ScriptFunction::call(const ScriptValue& argument) const {
+  ValueExchange exchange{reference_, &argument};
+  lua_pushcfunction(state_, call_kept_with_value);
+  lua_pushlightuserdata(state_, &exchange);
+  if (lua_pcall(state_, 1, 1, 0) != LUA_OK) fail();
+  const PopAtEnd pop{state_};
+  return script_value_at(state_, -1);
+}
+
+void ScriptFunction::fail() const {
   const Error error = error_on_top(state_);
   lua_pop(state_, 1);
   ErrorInfo info = error.info();
   if (info.attempted.empty()) info.attempted = "calling a function of the script";
   throw Error(std::move(info));
 }
+
+ContentKey ScriptFunction::key() const { return KeyMaker("function").add(answers_).key(); }
 
 }  // namespace sterna::scripting

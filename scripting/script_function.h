@@ -4,6 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "scripting/cache/provenance.h"
+#include "scripting/script_value.h"
+
 struct lua_State;
 
 namespace sterna::scripting {
@@ -20,10 +23,17 @@ class ScriptFunction {
   /// The first results.size() values that the function returns for these numbers.
   /// \throws Error(script_failed) with file:line where it fails or returns something else than numbers, Error(cancelled), or the Error of a verb that it calls
   void call(std::span<const double> arguments, std::span<double> results) const;
+  /// What it returns for this value. \throws Error(script_failed) with file:line where it fails, Error(cancelled), or the Error of a verb that it calls
+  ScriptValue call(const ScriptValue& argument) const;
+
+  /// Of all arguments that it was called with through this object, and all that it returned.
+  ContentKey key() const;
 
  private:
+  [[noreturn]] void fail() const;
   lua_State* state_;
   int reference_;
+  mutable std::vector<double> answers_;  ///< with their arguments; empty unless results are cached
 };
 
 }  // namespace sterna::scripting

@@ -1,6 +1,7 @@
 #include "scripting/script_value.h"
 
 #include "scripting/component_value.h"
+#include "scripting/quantity.h"
 
 namespace sterna::scripting {
 
@@ -20,6 +21,7 @@ std::string_view type_text(const ScriptValue& value) {
     std::string_view operator()(const ComponentHandle& v) const { return v->type_text(); }
     std::string_view operator()(const AirfoilHandle&) const { return "an airfoil"; }
     std::string_view operator()(const FunctionHandle&) const { return "a function"; }
+    std::string_view operator()(const QuantityHandle& v) const { return v->type_text(); }
     std::string_view operator()(const ErrorHandle&) const { return "an error"; }
     std::string_view operator()(const ScriptVerb*) const { return "a verb"; }
     std::string_view operator()(const OpaqueValue& v) const { return v.type_name; }

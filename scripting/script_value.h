@@ -21,11 +21,13 @@ namespace sterna::scripting {
 
 struct ModelValue;      // models.h
 struct ComponentValue;  // component_value.h
+struct QuantityValue;   // quantity.h
 class ScriptFunction;   // script_function.h
 using ModelHandle = std::shared_ptr<const ModelValue>;
 using ComponentHandle = std::shared_ptr<ComponentValue>;
 using AirfoilHandle = std::shared_ptr<const Airfoil>;
 using FunctionHandle = std::shared_ptr<const ScriptFunction>;
+using QuantityHandle = std::shared_ptr<const QuantityValue>;
 
 struct ScriptTable;
 struct ScriptVerb;  // script_call.h
@@ -35,7 +37,7 @@ struct OpaqueValue {
 };
 using ErrorHandle = std::shared_ptr<const Error>;
 using ScriptValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::shared_ptr<const ScriptTable>, SurfaceHandle, EnvelopeHandle, TetrahedraHandle, MeshHandle, ModelHandle,
-                                 ComponentHandle, AirfoilHandle, ErrorHandle, FunctionHandle, const ScriptVerb*, OpaqueValue>;
+                                 ComponentHandle, AirfoilHandle, ErrorHandle, FunctionHandle, QuantityHandle, const ScriptVerb*, OpaqueValue>;
 
 struct ScriptTable {
   std::vector<ScriptValue> items;             ///< entries 1, 2, ... n

@@ -8,15 +8,32 @@
 #include "geom/cad/unite.h"
 #include "scripting/check_options.h"
 #include "scripting/component_verbs.h"
+#include "scripting/disc_verbs.h"
+#include "scripting/envelope_steps.h"
+#include "scripting/farfield_verbs.h"
+#include "scripting/flow_verbs.h"
 #include "scripting/geometry_verbs.h"
+#include "scripting/half_verbs.h"
+#include "scripting/layer_options.h"
 #include "scripting/model_methods.h"
 #include "scripting/models.h"
+#include "scripting/patch_rules.h"
+#include "scripting/periodic_sides.h"
+#include "scripting/quantity.h"
+#include "scripting/script_args.h"
+#include "scripting/script_check.h"
+#include "scripting/script_help.h"
+#include "scripting/script_objects.h"
+#include "scripting/series/series_verbs.h"
 #include "scripting/source_verbs.h"
 #include "scripting/stage_verbs.h"
 #include "scripting/stages.h"
+#include "scripting/su2_verbs.h"
 #include "scripting/summary.h"
+#include "scripting/surface_motion.h"
 #include "scripting/surface_verbs.h"
 #include "scripting/table_reader.h"
+#include "scripting/tunnel_verbs.h"
 #include "scripting/verb_tools.h"
 #include "scripting/verbs.h"
 
@@ -25,7 +42,7 @@ namespace {
 
 // ---- read_surface, read_mesh -------------------------------------------------------------------------------------------------------------
 
-constexpr std::string_view k_read_surface_usage = "read_surface{ \"wing.stl\", \"body.stl\", unit = mm, split_angle = 40*deg }  or  read_surface \"wing.stl\"";
+constexpr std::string_view k_read_surface_usage = "read_surface{ \"wing.stl\", unit = mm, split_angle = 40*deg }  or  read_surface \"wing.stl\"";
 
 ScriptValue read_surface(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_read_surface_usage);
@@ -39,7 +56,7 @@ ScriptValue read_surface(const ScriptCall& call) {
   return std::make_shared<const SurfaceValue>(read_wall(files, options, call.session.context.part("read_surface", 0.0, 1.0)));
 }
 
-constexpr std::string_view k_union_usage = "union{ body, \"sting.stl\", strip_width = 4 }  or, of models,  union{ model, \"sting.step\", tolerance = 1e-6 }";
+constexpr std::string_view k_union_usage = "union{ wall, \"sting.stl\", strip_width = 4 }  or, of models,  union{ model, \"sting.step\", tolerance = 1e-6 }";
 
 /// "unit" of reading a surface, for files that union reads.
 OptionTable unit_option(surfmesh::StitchOptions& options) {
@@ -93,11 +110,12 @@ ScriptValue read_mesh_file(const ScriptCall& call) {
 // ---- volume_mesh, sphere -----------------------------------------------------------------------------------------------------------------
 
 constexpr std::string_view k_volume_mesh_usage =
-    "volume_mesh{ wall, layers = 32, first_height = 1e-6, farfield = sphere{ radius = 100 }, envelope = { max_growth = 1.3 }, stages = \"case.sterna\" }";
+    "volume_mesh{ wall, layers = 32, first_height = 1e-6, farfield = sphere{ radius = 100 }, patches = { [\"Body*\"] = { first_height = 1e-5 } }, stages = \"case.sterna\" }";
 
 ScriptValue make_mesh(const ScriptCall& call) {
-  const ScriptTable table = table_argument(call, 0, k_volume_mesh_usage);
   volmesh::VolumeMeshOptions options;
+  std::vector<InputFile> farfield_inputs;
+  const ScriptTable table = with_farfield(call, table_argument(call, 0, k_volume_mesh_usage), options.farfield_surface, farfield_inputs);
   const OptionTable schema = volmesh::options_of(options);
   TableReader reader(table, call.attempted());
   const std::vector<ScriptValue>& items = reader.items();
@@ -106,43 +124,37 @@ ScriptValue make_mesh(const ScriptCall& call) {
   else if (items.size() > 1) reader.add_problem("takes one surface, not " + std::to_string(items.size()) + " (read_surface{ \"a.stl\", \"b.stl\" } joins files)");
   reader.read_options(schema);
   options.sources = read_sources(reader, call);
+  options.discs = read_interfaces(reader, call);
+  options.periodic = read_periodic(reader);
   std::filesystem::path stages;
   if (const ScriptValue* value = reader.field("stages")) {
-    if (const auto* name = std::get_if<std::string>(value)) stages = *name;
+    if (const auto* name = std::get_if<std::string>(value)) stages = output_path(call, *name);
     else reader.add_problem("stages: expected the name of a .sterna file, not " + std::string(type_text(*value)));
   }
+  options.patches = read_layer_rules(reader);
   apply_overrides(call, schema);
-  reader.require(schema);
+  choose_solve_for(options, reader, call);
+  volmesh::VolumeMeshOptions known = options;
+  if (wall) known.patches.insert(known.patches.end(), (*wall)->layers.begin(), (*wall)->layers.end());  // the surface's own may give the first height
+  reader.require(volmesh::required_options_of(known));
   reader.finish();
-  auto mesh = std::make_shared<const MeshValue>(make_volume_mesh(**wall, options, stages, call.session.context.part("volume_mesh", 0.0, 1.0)));
+  SurfaceValue given = **wall;
+  given.inputs.insert(given.inputs.end(), farfield_inputs.begin(), farfield_inputs.end());
+  auto mesh = std::make_shared<const MeshValue>(make_volume_mesh(given, options, stages, call.session.context.part("volume_mesh", 0.0, 1.0), call.session.reuse()));
   if (call.session.on_mesh) call.session.on_mesh(*mesh);
   return mesh;
 }
 
 constexpr std::string_view k_sphere_usage = "sphere{ radius = 100, edge = 20 }  or, as a source,  sphere{ {0, 0, 0}, radius = 1, size = 0.1 }";
 
-ScriptValue make_sphere(const ScriptCall& call) {
-  const ScriptTable table = table_argument(call, 0, k_sphere_usage);
-  if (!table.items.empty() || table.fields.contains("size")) return make_sphere_source(call);
-  volmesh::FarfieldOptions options;
-  OptionTable schema = sterna::options_of(options);
-  constexpr std::string_view k_prefix = "farfield_";
-  for (Option& option : schema) option.name.remove_prefix(k_prefix.size());
-  TableReader reader(table, call.attempted());
-  reader.read_options(schema);
-  reader.finish();
-  auto shape = std::make_shared<ScriptTable>();
-  shape->fields["shape"] = std::string("sphere");
-  for (const Option& option : schema)
-    if (const double value = std::get<double>(option.get()); !is_automatic(value)) shape->fields[std::string(option.name)] = value;
-  return shape;
-}
-
 // ---- Methods and fields --------------------------------------------------------------------------------------------------------------------
 
 ScriptValue write_surface_files(const ScriptCall& call) {
   const SurfaceHandle& surface = self<SurfaceHandle>(call);
-  for (const auto& name : output_names(call)) {
+  const auto names = output_names(call);
+  for (const auto& name : names) require_surface_output(name);
+  finish_checks(call);
+  for (const auto& name : names) {
     write_surface(*surface, name, call.session.context);
     call.session.context.info("wrote " + name.string() + ": " + describe(*surface));
   }
@@ -153,6 +165,7 @@ ScriptValue write_mesh_files(const ScriptCall& call) {
   const MeshHandle& mesh = self<MeshHandle>(call);
   const auto names = output_names(call);
   for (const auto& name : names) require_mesh_output(name);
+  finish_checks(call);
   for (const auto& name : names) {
     write_mesh(*mesh, name, call.session.context);
     call.session.context.info("wrote " + name.string() + " and " + name.string() + ".json");
@@ -197,6 +210,7 @@ ScriptValue describe_object(const ScriptCall& call) {
   if (const auto* model = std::get_if<ModelHandle>(&object)) return describe(**model);
   if (const auto* component = std::get_if<ComponentHandle>(&object)) return describe(**component);
   if (const auto* airfoil = std::get_if<AirfoilHandle>(&object)) return describe(**airfoil);
+  if (const auto* quantity = std::get_if<QuantityHandle>(&object)) return (*quantity)->text;
   if (const auto* error = std::get_if<ErrorHandle>(&object)) return std::string((*error)->what());
   std::string text;
   if (const auto* shape = std::get_if<TableHandle>(&object)) {
@@ -272,64 +286,23 @@ std::string union_help() {
 }
 std::string volume_help() {
   volmesh::VolumeMeshOptions options;
-  return options_help(volmesh::options_of(options));
-}
-std::string sphere_help() {
-  volmesh::FarfieldOptions options;
-  OptionTable schema = sterna::options_of(options);
-  for (Option& option : schema) option.name.remove_prefix(std::string_view("farfield_").size());
-  return options_help(schema);
-}
-
-/// Global verbs first, then the methods of each kind of object.
-std::vector<std::span<const ScriptVerb>> all_verbs() {
-  return {script_verbs(), surface_methods(), envelope_methods(), tetrahedra_methods(), mesh_methods(), model_methods(), component_methods()};
-}
-
-const ScriptVerb* find_verb(std::string_view name) {
-  for (const std::span<const ScriptVerb> verbs : all_verbs())
-    for (const ScriptVerb& verb : verbs)
-      if (verb.name == name || verb.name.substr(verb.name.find(':') + 1) == name) return &verb;
-  return nullptr;
-}
-
-std::string list_of_verbs() {
-  std::string text;
-  for (const std::span<const ScriptVerb> verbs : all_verbs())
-    for (const ScriptVerb& verb : verbs) text += std::string(verb.name) + ": " + std::string(verb.summary) + "\n  " + std::string(verb.usage) + "\n";
-  return text + "numbers: mm, cm, inch, ft, deg. help(volume_mesh) prints the options of a verb.";
-}
-
-ScriptValue help(const ScriptCall& call) {
-  if (call.arguments.empty() || std::holds_alternative<std::monostate>(call.arguments.front())) {
-    call.session.print(list_of_verbs());
-    return std::monostate{};
-  }
-  const ScriptVerb* verb = nullptr;
-  if (const auto* value = std::get_if<const ScriptVerb*>(&call.arguments.front())) verb = *value;
-  if (const auto* name = std::get_if<std::string>(&call.arguments.front())) verb = find_verb(*name);
-  if (!verb) reject(call, "there is no help on this", "help() lists the verbs");
-  std::string text = std::string(verb->name) + ": " + std::string(verb->summary) + "\n  " + std::string(verb->usage);
-  if (verb->options_help) text += "\noptions (name = default [unit] (range)):\n" + verb->options_help();
-  if (text.back() == '\n') text.pop_back();
-  call.session.print(text);
-  return std::monostate{};
+  return options_help(volmesh::options_of(options)) + layer_rules_help() +
+         "periodic = { { \"left\", \"right\" }, ... }: flat sides that are each other's image, moved; the mesh matches there node by node and face by face\n";
 }
 
 constexpr std::array<ScriptVerb, 6> k_verbs = {{
-    {"read_surface", k_read_surface_usage, "Reads surface files and joins them to one wall.", read_surface, surface_help, true},
-    {"union", k_union_usage, "Unites closed surfaces that stick in each other, or the crossing parts of one file, to one wall; or models to one model.", unite, union_help, true},
-    {"read_mesh", k_read_mesh_usage, "Reads a volume mesh.", read_mesh_file, nullptr, true},
-    {"volume_mesh", k_volume_mesh_usage, "Meshes the space around a wall: prism layers on it, tetrahedra to the farfield.", make_mesh, volume_help, true},
-    {"sphere", k_sphere_usage, "A spherical farfield, for volume_mesh; with centre and size a source of small tetrahedra.", make_sphere, sphere_help},
-    {"help", "help(volume_mesh)", "Prints what a verb does and its options.", help},
+    {"read_surface", k_read_surface_usage, "Reads surface files and joins them to one wall.", read_surface, surface_help, true, "surface"},
+    {"union", k_union_usage, "Unites closed surfaces that stick in each other, or the crossing parts of one file, to one wall; or models to one model.", unite, union_help, true, "model or surface"},
+    {"read_mesh", k_read_mesh_usage, "Reads a volume mesh.", read_mesh_file, nullptr, true, "mesh"},
+    {"volume_mesh", k_volume_mesh_usage, "Meshes the space around a wall: prism layers on it, tetrahedra to the farfield.", make_mesh, volume_help, true, "mesh"},
+    {"sphere", k_sphere_usage, "A spherical farfield, for volume_mesh; with centre and size a source of small tetrahedra.", make_sphere, sphere_help, false, "source"},
+    {"help", "help(volume_mesh)  or  help(wall)  or  help \"mesh:write\"  or  help \"first_height\"", "Prints what a verb does and its options; of an object its methods and fields; of an option the verbs that take it.", print_help},
 }};
-constexpr std::array<ScriptVerb, 1> k_surface_methods = {{
-    {"surface:write", "wall:write \"wall.vtu\"", "Writes a surface.", write_surface_files},
-}};
-constexpr std::array<ScriptVerb, 2> k_mesh_methods = {{
-    {"mesh:check", "mesh:check()", "Proves that the mesh tiles its domain and prints the verdict; an INVALID mesh is an error that names the places.", check_mesh, check_help},
-    {"mesh:write", "mesh:write(\"mesh.su2\", \"mesh.vtu\")", "Writes the mesh, each file with a manifest <file>.json beside it.", write_mesh_files},
+constexpr ScriptVerb k_write_surface = {"surface:write", "wall:write \"wall.vtu\"", "Writes a surface.", write_surface_files, nullptr, true, "self"};
+constexpr std::array<ScriptVerb, 3> k_mesh_methods = {{
+    {"mesh:check", "mesh:check()", "Proves that the mesh tiles its domain and prints the verdict; an INVALID mesh is an error that names the places.", check_mesh, check_help, true, "self"},
+    {"mesh:write", "mesh:write(\"mesh.su2\", \"mesh.vtu\")", "Writes the mesh, each file with a manifest <file>.json beside it.", write_mesh_files, nullptr, true, "self"},
+    {"mesh:su2_config", k_su2_config_usage, "Writes a configuration of SU2 for the mesh: markers, flow, reference values and settings to start from.", write_su2_config, su2_config_help, true, "self"},
 }};
 constexpr std::array<ScriptUnit, 5> k_units = {{{"mm", 1e-3}, {"cm", 1e-2}, {"inch", 0.0254}, {"ft", 0.3048}, {"deg", std::numbers::pi / 180.0}}};
 
@@ -346,13 +319,28 @@ std::span<const ScriptVerb> script_verbs() {
     verbs.insert(verbs.end(), surface_verbs().begin(), surface_verbs().end());
     verbs.insert(verbs.end(), stage_verbs().begin(), stage_verbs().end());
     verbs.insert(verbs.end(), source_verbs().begin(), source_verbs().end());
+    verbs.insert(verbs.end(), disc_verbs().begin(), disc_verbs().end());
     verbs.insert(verbs.end(), geometry_verbs().begin(), geometry_verbs().end());
     verbs.insert(verbs.end(), component_verbs().begin(), component_verbs().end());
+    verbs.insert(verbs.end(), half_verbs().begin(), half_verbs().end());
+    verbs.insert(verbs.end(), family_verbs().begin(), family_verbs().end());
+    verbs.insert(verbs.end(), flow_verbs().begin(), flow_verbs().end());
+    verbs.insert(verbs.end(), tunnel_verbs().begin(), tunnel_verbs().end());
+    verbs.insert(verbs.end(), series_verbs().begin(), series_verbs().end());
+    verbs.insert(verbs.end(), envelope_step_verbs().begin(), envelope_step_verbs().end());
+    verbs.insert(verbs.end(), argument_verbs().begin(), argument_verbs().end());
     return verbs;
   }();
   return all;
 }
-std::span<const ScriptVerb> surface_methods() { return k_surface_methods; }
+std::span<const ScriptVerb> surface_methods() {
+  static const std::vector<ScriptVerb> all = [] {
+    std::vector<ScriptVerb> verbs = {k_write_surface};
+    verbs.insert(verbs.end(), surface_motions().begin(), surface_motions().end());
+    return verbs;
+  }();
+  return all;
+}
 std::span<const ScriptVerb> mesh_methods() { return k_mesh_methods; }
 std::span<const ScriptUnit> script_units() { return k_units; }
 

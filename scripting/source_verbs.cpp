@@ -6,8 +6,10 @@
 #include <sstream>
 
 #include "geom/base/error.h"
+#include "geom/base/number_with_unit.h"
 #include "geom/base/schema.h"
 #include "io/point_field.h"
+#include "scripting/farfield_verbs.h"
 #include "scripting/geometry_tools.h"
 #include "scripting/geometry_verbs.h"
 
@@ -66,6 +68,22 @@ constexpr std::array<KindOfSource, 6> k_kinds = {{
 }};
 constexpr std::string_view k_samples_usage = "size_samples{ \"sizes.vtu\", name = \"size\" }";
 
+/// "line takes two points, size, radius"
+std::string keys_text(const KindOfSource& kind) {
+  std::string text = std::string(kind.verb) + " takes " + (kind.n_points == 2 ? "two points" : "a point");
+  std::istringstream numbers{std::string(kind.numbers)};
+  for (std::string name; numbers >> name;) text += ", " + name;
+  return kind.kind == SourceKind::wake ? text + ", direction" : text;
+}
+
+/// The dimension of what is said under that key of a source: a direction is none, anything else a length unless its option says otherwise.
+Unit unit_of_key(const std::string& key) {
+  SourceNumbers numbers;
+  for (const Option& option : sterna::options_of(numbers))
+    if (option.name == key) return option.unit;
+  return key == "direction" ? Unit::none : Unit::metre;
+}
+
 /// The options that this kind takes; `numbers` must outlive them.
 OptionTable options_of(SourceNumbers& numbers, const KindOfSource& kind) {
   OptionTable table = sterna::options_of(numbers);
@@ -73,12 +91,12 @@ OptionTable options_of(SourceNumbers& numbers, const KindOfSource& kind) {
   return table;
 }
 
-SizeSource source_of(const ScriptTable& table, const KindOfSource& kind, const std::string& attempted) {
+SizeSource source_of(ScriptTable table, const KindOfSource& kind, const std::string& attempted) {
+  table.fields.erase("shape");  // the verb's own note, no key of the user's
   SizeSource source{.kind = kind.kind};
   SourceNumbers numbers;
   const OptionTable options = options_of(numbers, kind);
   TableReader reader(table, attempted);
-  reader.field("shape");
   const std::vector<ScriptValue>& points = reader.items();
   const auto first = points.empty() ? std::nullopt : point_of(points[0]);
   const auto second = points.size() < 2 ? std::nullopt : point_of(points[1]);
@@ -94,7 +112,13 @@ SizeSource source_of(const ScriptTable& table, const KindOfSource& kind, const s
   }
   reader.read_options(options);
   reader.require(options);
-  reader.finish();
+  try {
+    reader.finish();
+  } catch (const Error& error) {
+    ErrorInfo info = error.info();
+    info.hint = keys_text(kind);
+    throw Error(std::move(info));
+  }
   const auto or_zero = [](double value) { return is_automatic(value) ? 0.0 : value; };
   source.size = numbers.size;
   source.size_end = or_zero(numbers.size_end);
@@ -128,13 +152,13 @@ const KindOfSource* kind_named(std::string_view verb) {
 
 ScriptValue make_source_of_verb(const ScriptCall& call) { return make_source(call, *kind_named(call.verb)); }
 
-/// box{...} and cylinder{...}: with `size` a source, without it a solid.
+/// box{...} and cylinder{...}: with `size` a source, with `edge` or `sides` a farfield, without these a solid.
 bool has_size(const ScriptCall& call) {
   const auto* table = call.arguments.empty() ? nullptr : std::get_if<TableHandle>(&call.arguments.front());
   return table && (*table)->fields.contains("size");
 }
-ScriptValue make_box_or_source(const ScriptCall& call) { return has_size(call) ? make_source_of_verb(call) : make_box_model(call); }
-ScriptValue make_cylinder_or_source(const ScriptCall& call) { return has_size(call) ? make_source_of_verb(call) : make_cylinder_model(call); }
+ScriptValue make_box_or_source(const ScriptCall& call) { return has_size(call) ? make_source_of_verb(call) : is_farfield(call) ? make_farfield_box(call) : make_box_model(call); }
+ScriptValue make_cylinder_or_source(const ScriptCall& call) { return has_size(call) ? make_source_of_verb(call) : is_farfield(call) ? make_farfield_cylinder(call) : make_cylinder_model(call); }
 
 /// Checked here, read by the verb that uses it.
 ScriptValue make_samples(const ScriptCall& call) {
@@ -167,12 +191,12 @@ std::string numbers_help() {
 }
 
 constexpr std::array<ScriptVerb, 6> k_verbs = {{
-    {"point", k_kinds[0].usage, "Short edges at a point, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<0>},
-    {"line", k_kinds[1].usage, "Short edges within a distance of a line, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<1>},
-    {"box", k_kinds[2].usage, "Short edges in an axis-parallel box, for the sources of volume_mesh and surface_mesh; without size a solid box.", make_box_or_source, numbers_help<2>},
-    {"cylinder", k_kinds[4].usage, "Short edges in a cylinder, for the sources of volume_mesh and surface_mesh; without size a solid cylinder.", make_cylinder_or_source, numbers_help<4>},
-    {"wake", k_kinds[5].usage, "Short edges behind a trailing edge, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<5>},
-    {"size_samples", k_samples_usage, "Wanted edge lengths at the points of a VTU file, for the sources of volume_mesh and surface_mesh.", make_samples},
+    {"point", k_kinds[0].usage, "Short edges at a point, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<0>, false, "source"},
+    {"line", k_kinds[1].usage, "Short edges within a distance of a line, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<1>, false, "source"},
+    {"box", k_kinds[2].usage, "Short edges in an axis-parallel box, for the sources of volume_mesh and surface_mesh; with edge or sides a farfield; else a solid box.", make_box_or_source, numbers_help<2>, false, "model"},
+    {"cylinder", k_kinds[4].usage, "Short edges in a cylinder, for the sources of volume_mesh and surface_mesh; with edge or sides a farfield; else a solid cylinder.", make_cylinder_or_source, numbers_help<4>, false, "model"},
+    {"wake", k_kinds[5].usage, "Short edges behind a trailing edge, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<5>, false, "source"},
+    {"size_samples", k_samples_usage, "Wanted edge lengths at the points of a VTU file, for the sources of volume_mesh and surface_mesh.", make_samples, nullptr, false, "source"},
 }};
 
 }  // namespace
@@ -196,13 +220,14 @@ SizeSource source_of_text(const std::string& text) {
   for (std::string word; words >> word;) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos) {
-      numbers.push_back(parse_number_with_unit(word));
+      numbers.push_back(parse_number_with_unit(word, Unit::metre));
       continue;
     }
+    const std::string key = word.substr(0, equals);
     std::vector<double> values;
     std::istringstream list(word.substr(equals + 1));
-    for (std::string value; std::getline(list, value, ',');) values.push_back(parse_number_with_unit(value));
-    ScriptValue& field = table.fields[word.substr(0, equals)];
+    for (std::string value; std::getline(list, value, ',');) values.push_back(parse_number_with_unit(value, unit_of_key(key)));
+    ScriptValue& field = table.fields[key];
     if (values.size() == 1) field = values.front();
     else if (values.size() == 3) field = point_at(values[0], values[1], values[2]);
     else throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + ": expected one number, or three for a direction"});

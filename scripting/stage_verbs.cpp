@@ -3,6 +3,12 @@
 #include <algorithm>
 #include <array>
 
+#include "scripting/disc_verbs.h"
+#include "scripting/farfield_verbs.h"
+#include "scripting/layer_options.h"
+#include "scripting/patch_rules.h"
+#include "scripting/periodic_sides.h"
+#include "scripting/script_check.h"
 #include "scripting/source_verbs.h"
 #include "scripting/stages.h"
 #include "scripting/verb_tools.h"
@@ -27,34 +33,46 @@ void require_entries(TableReader& reader, std::size_t n) {
 constexpr std::string_view k_envelope_usage = "make_envelope{ wall, layers = 35, first_height = 2e-6, max_growth = 1.35 }";
 
 ScriptValue make_envelope_verb(const ScriptCall& call) {
-  const ScriptTable table = table_argument(call, 0, k_envelope_usage);
   volmesh::VolumeMeshOptions options;
+  std::vector<InputFile> farfield_inputs;
+  const ScriptTable table = with_farfield(call, table_argument(call, 0, k_envelope_usage), options.farfield_surface, farfield_inputs);
   const OptionTable schema = envelope_options(options);
   TableReader reader(table, call.attempted());
   const auto wall = entry<SurfaceHandle>(reader, 1, "a surface (from surface_mesh or read_surface)");
   require_entries(reader, 1);
   reader.read_options(schema);
+  options.discs = read_interfaces(reader, call);
+  options.periodic = read_periodic(reader);
+  options.patches = read_layer_rules(reader);
   apply_overrides(call, schema);
-  reader.require(schema);
+  choose_solve_for(options, reader, call);
+  volmesh::VolumeMeshOptions known = options;
+  if (wall) known.patches.insert(known.patches.end(), wall->layers.begin(), wall->layers.end());  // the surface's own may give the first height
+  reader.require(volmesh::required_options_of(known));
   reader.finish();
-  return std::make_shared<const EnvelopeValue>(make_envelope(wall, options, call.session.context.part("make_envelope", 0.0, 1.0)));
+  auto given = std::make_shared<SurfaceValue>(*wall);
+  given->inputs.insert(given->inputs.end(), farfield_inputs.begin(), farfield_inputs.end());
+  return std::make_shared<const EnvelopeValue>(make_envelope(given, options, call.session.context.part("make_envelope", 0.0, 1.0), call.session.reuse()));
 }
 
-constexpr std::string_view k_tetrahedra_usage = "tetrahedra{ env, engine = \"tetgen\", radius_edge = 1.2, wall_perpendicularity = 0.1, sources = { box{...} } }";
+constexpr std::string_view k_tetrahedra_usage = "tetrahedra{ env, engine = \"tetgen\", radius_edge = 1.2, wall_perpendicularity = 0.1, sources = { box{ {1, 0, 0}, {3, 1, 1}, size = 0.3 } } }";
 
 ScriptValue make_tetrahedra_verb(const ScriptCall& call) {
-  const ScriptTable table = table_argument(call, 0, k_tetrahedra_usage);
+  std::shared_ptr<const TriMesh> farfield_surface;
+  std::vector<InputFile> farfield_inputs;
+  const ScriptTable table = with_farfield(call, table_argument(call, 0, k_tetrahedra_usage), farfield_surface, farfield_inputs);
   TableReader reader(table, call.attempted());
   const auto envelope = entry<EnvelopeHandle>(reader, 1, "an envelope (from make_envelope or read_stages)");
   require_entries(reader, 1);
   volmesh::VolumeMeshOptions options = envelope ? envelope->options : volmesh::VolumeMeshOptions();
+  if (farfield_surface) options.farfield_surface = farfield_surface;
   const OptionTable schema = tetrahedra_options(options);
   reader.read_options(schema);
   if (table.fields.contains("sources")) options.sources.clear();
   for (const volmesh::SizeSource& source : read_sources(reader, call)) options.sources.push_back(source);
   apply_overrides(call, schema);
   reader.finish();
-  return std::make_shared<const TetrahedraValue>(make_tetrahedra(*envelope, options, call.session.context.part("tetrahedra", 0.0, 1.0)));
+  return std::make_shared<const TetrahedraValue>(make_tetrahedra(*envelope, options, call.session.context.part("tetrahedra", 0.0, 1.0), call.session.reuse()));
 }
 
 constexpr std::string_view k_prisms_usage = "prisms{ env, tets, improve_rounds = 30 }";
@@ -79,7 +97,7 @@ ScriptValue make_prisms_verb(const ScriptCall& call) {
   refuse_layer_options(reader);
   apply_overrides(call, schema);
   reader.finish();
-  auto mesh = std::make_shared<const MeshValue>(finish_mesh(*tets, options, call.session.context.part("prisms", 0.0, 1.0)));
+  auto mesh = std::make_shared<const MeshValue>(finish_mesh(*tets, options, call.session.context.part("prisms", 0.0, 1.0), call.session.reuse()));
   if (call.session.on_mesh) call.session.on_mesh(*mesh);
   return mesh;
 }
@@ -107,13 +125,17 @@ ScriptValue read_stages_verb(const ScriptCall& call) {
 SurfaceValue surface_of(const EnvelopeValue& envelope) {
   SurfaceValue surface = *envelope.wall;
   surface.mesh_report.reset();  // of the wall
+  surface.parts.clear();
   for (const VertexId v : surface.mesh.points.ids()) surface.mesh.points[v] = envelope.stage.envelope.point(envelope.wall->mesh, v);
   return surface;
 }
 
 ScriptValue write_envelope_files(const ScriptCall& call) {
   const EnvelopeHandle& envelope = self<EnvelopeHandle>(call);
-  for (const auto& name : output_names(call)) {
+  const auto names = output_names(call);
+  finish_checks(call);
+  if (envelope->step == volmesh::EnvelopeStep::classified) reject(call, "classes have no heights to write", "write the value of envelope.initial");
+  for (const auto& name : names) {
     if (name.extension() == ".sterna") write_stage(*envelope, name, call.session.context);
     else write_surface(surface_of(*envelope), name, call.session.context);
   }
@@ -122,7 +144,10 @@ ScriptValue write_envelope_files(const ScriptCall& call) {
 
 ScriptValue write_tetrahedra_files(const ScriptCall& call) {
   const TetrahedraHandle& tetrahedra = self<TetrahedraHandle>(call);
-  for (const auto& name : output_names(call)) write_stage(*tetrahedra, name, call.session.context);
+  const auto names = output_names(call);
+  for (const auto& name : names) require_stage_output(name);
+  finish_checks(call);
+  for (const auto& name : names) write_stage(*tetrahedra, name, call.session.context);
   return tetrahedra;
 }
 
@@ -133,6 +158,7 @@ ScriptValue envelope_field(const ScriptCall& call) {
                       {{"wall", envelope.wall},
                        {"vertices", static_cast<std::int64_t>(heights.size())},
                        {"collapsed", static_cast<std::int64_t>(std::count(heights.begin(), heights.end(), 0.0))},
+                       {"step", std::string(to_string(envelope.step))},
                        {"feature_angle", envelope.stage.feature_angle}},
                       envelope_methods());
 }
@@ -144,6 +170,11 @@ ScriptValue tetrahedra_field(const ScriptCall& call) {
                       tetrahedra_methods());
 }
 
+std::string envelope_help() {
+  volmesh::VolumeMeshOptions options;
+  return options_help(envelope_options(options)) + layer_rules_help();
+}
+
 template <OptionTable (*Options)(volmesh::VolumeMeshOptions&)>
 std::string help_of() {
   volmesh::VolumeMeshOptions options;
@@ -151,16 +182,16 @@ std::string help_of() {
 }
 
 constexpr std::array<ScriptVerb, 4> k_verbs = {{
-    {"make_envelope", k_envelope_usage, "The first step of volume_mesh by hand: the envelope of the layer.", make_envelope_verb, help_of<envelope_options>, true},
-    {"tetrahedra", k_tetrahedra_usage, "The second: the layer under an envelope, and tetrahedra around it to the farfield.", make_tetrahedra_verb, help_of<tetrahedra_options>, true},
-    {"prisms", k_prisms_usage, "The last: joins layer and tetrahedra to a checked mesh.", make_prisms_verb, help_of<finish_options>, true},
-    {"read_stages", k_read_stages_usage, "What a .sterna file holds, as fields surface, envelope, tetrahedra, mesh: any of them can be continued.", read_stages_verb, nullptr, true},
+    {"make_envelope", k_envelope_usage, "The first step of volume_mesh by hand: the envelope of the layer.", make_envelope_verb, envelope_help, true, "envelope"},
+    {"tetrahedra", k_tetrahedra_usage, "The second: the layer under an envelope, and tetrahedra around it to the farfield.", make_tetrahedra_verb, help_of<tetrahedra_options>, true, "tetrahedra"},
+    {"prisms", k_prisms_usage, "The last: joins layer and tetrahedra to a checked mesh.", make_prisms_verb, help_of<finish_options>, true, "mesh"},
+    {"read_stages", k_read_stages_usage, "What a .sterna file holds, as fields surface, envelope, tetrahedra, mesh: any of them can be continued.", read_stages_verb, nullptr, true, "stages"},
 }};
 constexpr std::array<ScriptVerb, 1> k_envelope_methods = {{
-    {"envelope:write", "env:write(\"case.sterna\", \"env.vtu\")", "Writes the envelope with all that is needed to continue (.sterna), or its surface alone.", write_envelope_files},
+    {"envelope:write", "env:write(\"case.sterna\", \"env.vtu\")", "Writes the envelope with all that is needed to continue (.sterna), or its surface alone.", write_envelope_files, nullptr, true, "self"},
 }};
 constexpr std::array<ScriptVerb, 1> k_tetrahedra_methods = {{
-    {"tetrahedra:write", "tets:write \"case.sterna\"", "Writes layer and tetrahedra with all that is needed to continue.", write_tetrahedra_files},
+    {"tetrahedra:write", "tets:write \"case.sterna\"", "Writes layer and tetrahedra with all that is needed to continue.", write_tetrahedra_files, nullptr, true, "self"},
 }};
 
 }  // namespace

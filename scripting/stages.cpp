@@ -4,16 +4,24 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "geom/base/error.h"
 #include "geom/mesh/topology.h"
 #include "io/input_hash.h"
 #include "io/sterna_file.h"
+#include "scripting/cache/cached_volume.h"
+#include "scripting/disc_verbs.h"
+#include "scripting/envelope_steps.h"
 #include "scripting/layer_json.h"
+#include "scripting/layer_options.h"
 #include "scripting/manifest.h"
 #include "scripting/model_surface.h"
+#include "scripting/patch_rules.h"
+#include "scripting/periodic_sides.h"
 #include "scripting/summary.h"
 #include "volmesh/assemble.h"
+#include "volmesh/layer_choice.h"
 
 namespace sterna::scripting {
 namespace {
@@ -54,7 +62,7 @@ volmesh::Envelope envelope_of(io::StoredEnvelope file_envelope, const InputPath&
 HybridMesh layers_of(HybridMesh mesh, std::uint64_t n_boundary_points, const InputPath& file) {
   const std::size_t n_lines = mesh.layers.n_lines();
   std::size_t n_nodes = 0;
-  for (std::uint32_t line = 0; line < n_lines; ++line) n_nodes = std::max(n_nodes, mesh.layers.node(line, mesh.layers.n_layers).index() + 1);
+  for (std::uint32_t line = 0; line < n_lines; ++line) n_nodes = std::max(n_nodes, mesh.layers.top(line).index() + 1);
   if (n_boundary_points < n_lines || n_boundary_points - n_lines > mesh.points.size() - n_nodes)
     refuse(file, "found tetrahedra within " + std::to_string(n_boundary_points) + " points of a boundary, but a mesh of " + std::to_string(n_lines) + " lines and " + std::to_string(mesh.points.size()) + " nodes");
   mesh.points.raw().resize(n_nodes + (n_boundary_points - n_lines));
@@ -77,6 +85,29 @@ Json stage_json(const volmesh::FilledStage& filled, std::int64_t n_wall_triangle
   return json;
 }
 
+/// Of placed parts: the thickness that their layers have at most where nobody says so, by their own lengths, which do not change with their attitude or what is beside them.
+std::vector<volmesh::PatchRule> thickness_rules(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options) {
+  std::vector<volmesh::PatchRule> rules;
+  if (!is_automatic(options.envelope.max_thickness)) return rules;
+  for (const volmesh::PlacedPart& part : wall.parts) {
+    const double thickness = volmesh::k_default_thickness_share * body_length(*part.own);
+    for (const Patch& patch : part.own->patches) {
+      const auto known = std::ranges::find_if(rules, [&](const volmesh::PatchRule& rule) { return rule.names == patch.name; });
+      if (known == rules.end()) rules.push_back({.names = patch.name, .max_thickness = thickness});
+      else known->max_thickness = std::max(known->max_thickness, thickness);
+    }
+  }
+  return rules;
+}
+
+/// What is asked of patches: by default of placed parts, by the makers of the wall, by the user; what comes later wins.
+std::vector<volmesh::PatchRule> rules_of(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options) {
+  std::vector<volmesh::PatchRule> rules = thickness_rules(wall, options);
+  rules.insert(rules.end(), wall.layers.begin(), wall.layers.end());
+  rules.insert(rules.end(), options.patches.begin(), options.patches.end());
+  return rules;
+}
+
 /// What a run that is not ready knows of itself; a finished one has its manifest.
 std::string unfinished_json(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, Json stage) {
   surfmesh::StitchOptions surface_options = wall.options;
@@ -91,7 +122,10 @@ std::string unfinished_json(const SurfaceValue& wall, const volmesh::VolumeMeshO
   if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
   if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
   if (wall.smooth_angle) json["wall"] = {{"max_smooth_angle", *wall.smooth_angle}};
+  if (const std::vector<volmesh::PatchRule> rules = rules_of(wall, options); !rules.empty()) json["patch_rules"] = Json::parse(layer_rules_json(rules));
   json["sources"] = options.sources.size();
+  if (!options.discs.empty()) json["actuator_discs"] = Json::parse(discs_json(options.discs));
+  if (!options.periodic.empty()) json["periodic"] = Json::parse(periodic_json(options.periodic));
   json["stage"] = std::move(stage);
   return json.dump(2) + "\n";
 }
@@ -128,6 +162,10 @@ class StageJson {
     }
   }
 
+  std::vector<volmesh::PatchRule> patch_rules() const { return json_.contains("patch_rules") ? layer_rules_of_json(json_.at("patch_rules").dump()) : std::vector<volmesh::PatchRule>{}; }
+
+  volmesh::EnvelopeStep step() const { return json_.contains(Json::json_pointer("/stage/step")) ? volmesh::envelope_step_of(get<std::string>("/stage/step")) : volmesh::EnvelopeStep::finished; }
+
   /// Of a wall that surface_mesh made.
   std::optional<SurfaceRecipe> recipe() const {
     if (!json_.contains(Json::json_pointer("/options/surface_mesh"))) return std::nullopt;
@@ -142,6 +180,16 @@ class StageJson {
   std::optional<double> smooth_angle() const {
     if (!json_.contains(Json::json_pointer("/wall/max_smooth_angle"))) return std::nullopt;
     return get<double>("/wall/max_smooth_angle");
+  }
+
+  std::vector<volmesh::ActuatorDisc> discs() const {
+    const auto found = json_.find("actuator_discs");
+    return found == json_.end() ? std::vector<volmesh::ActuatorDisc>() : discs_of_json(found->dump());
+  }
+
+  std::vector<volmesh::PeriodicNames> periodic() const {
+    const auto found = json_.find("periodic");
+    return found == json_.end() ? std::vector<volmesh::PeriodicNames>() : periodic_of_json(found->dump());
   }
 
   /// Finished runs list them, the others count them.
@@ -203,14 +251,6 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
   return value;
 }
 
-/// The options with what is known of the wall.
-volmesh::VolumeMeshOptions knowing(const SurfaceValue& wall, volmesh::VolumeMeshOptions options) {
-  if (wall.smooth_angle) options.smooth_angle = *wall.smooth_angle;
-  if (wall.model_wall)
-    options.true_surface = [model_wall = wall.model_wall](const Point& p, TriangleId triangle, const std::array<double, 3>& weights) { return model_wall->nearest(p, triangle, weights); };
-  return options;
-}
-
 /// The options of some stages of a volume mesh.
 OptionTable options_of_stages(volmesh::VolumeMeshOptions& options, std::initializer_list<std::string_view> stages) {
   OptionTable table = volmesh::options_of(options);
@@ -222,10 +262,13 @@ std::int64_t n_triangles(const SurfaceValue& surface) { return static_cast<std::
 
 // ---- Writing -------------------------------------------------------------------------------------------------------------------------------
 
-void write_envelope(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const volmesh::EnvelopeStage& stage, const std::filesystem::path& path, const RunContext& context) {
+void write_envelope(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const volmesh::EnvelopeStage& stage, const std::filesystem::path& path, const RunContext& context,
+                    volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished) {
   const StageTimer timer(context, "write");
   const io::StoredEnvelope envelope = stored(stage.envelope);
-  io::write_sterna({.surface = &wall.mesh, .envelope = &envelope, .manifest = unfinished_json(wall, options, stage_json(stage, n_triangles(wall)))}, path, context);
+  Json json = stage_json(stage, n_triangles(wall));
+  if (step != volmesh::EnvelopeStep::finished) json["step"] = volmesh::to_string(step);
+  io::write_sterna({.surface = &wall.mesh, .envelope = &envelope, .manifest = unfinished_json(wall, options, std::move(json))}, path, context);
 }
 
 void write_filled(const SurfaceValue& wall, std::int64_t n_wall_triangles, const volmesh::VolumeMeshOptions& options, const volmesh::FilledStage& stage, const std::filesystem::path& path,
@@ -265,35 +308,49 @@ void write_finished(const SurfaceValue& wall, const FinishedParts& parts, const 
 
 }  // namespace
 
-OptionTable envelope_options(volmesh::VolumeMeshOptions& options) { return options_of_stages(options, {"envelope", "farfield"}); }
+OptionTable envelope_options(volmesh::VolumeMeshOptions& options) { return options_of_stages(options, {"family", "envelope", "farfield"}); }
 OptionTable tetrahedra_options(volmesh::VolumeMeshOptions& options) { return options_of_stages(options, {"prisms", "farfield", "size", "tetrahedra"}); }
 OptionTable finish_options(volmesh::VolumeMeshOptions& options) { return options_of_stages(options, {"improve"}); }
 
-EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context) {
-  return {.wall = wall, .options = options, .stage = volmesh::make_envelope(wall->mesh, knowing(*wall, options), context)};
+volmesh::VolumeMeshOptions knowing(const SurfaceValue& wall, volmesh::VolumeMeshOptions options) {
+  if (wall.smooth_angle) options.smooth_angle = *wall.smooth_angle;
+  options.parts = wall.parts;
+  options.patches = rules_of(wall, options);
+  if (wall.model_wall)
+    options.true_surface = [model_wall = wall.model_wall](const Point& p, TriangleId triangle, const std::array<double, 3>& weights) { return model_wall->nearest(p, triangle, weights); };
+  return options;
 }
 
-TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::VolumeMeshOptions& options, const RunContext& context) {
+EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse) {
+  warn_of_other_member(*wall, options, context);
+  return {.wall = wall, .options = options, .stage = cached_envelope(wall->mesh, knowing(*wall, options), reuse, context)};
+}
+
+TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse) {
+  require_ready(envelope, options, context);
   if (envelope.n_sources_in_file > 0 && options.sources.empty())
     context.warn("the run that made this envelope had " + std::to_string(envelope.n_sources_in_file) + " sources of the size field; a file does not keep them: give them again");
-  return {.wall = envelope.wall, .n_wall_triangles = n_triangles(*envelope.wall), .options = options, .stage = volmesh::make_tetrahedra(envelope.wall->mesh, envelope.stage, knowing(*envelope.wall, options), context)};
+  const SurfaceValue& wall = *envelope.wall;
+  return {.wall = envelope.wall, .n_wall_triangles = n_triangles(wall), .options = options, .stage = cached_tetrahedra(wall.mesh, envelope.stage, knowing(wall, options), true_surface_key(wall), reuse, context)};
 }
 
-MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::VolumeMeshOptions& options, const RunContext& context) {
-  return mesh_value(*tetrahedra.wall, tetrahedra.n_wall_triangles, options, volmesh::finish_mesh(tetrahedra.wall->mesh, tetrahedra.stage, options, context));
+MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse) {
+  return mesh_value(*tetrahedra.wall, tetrahedra.n_wall_triangles, options, cached_finish(tetrahedra.wall->mesh, tetrahedra.stage, knowing(*tetrahedra.wall, options), reuse, context));
 }
 
-MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const std::filesystem::path& stages, const RunContext& context) {
-  if (stages.empty()) return mesh_value(wall, n_triangles(wall), options, volmesh::volume_mesh(wall.mesh, knowing(wall, options), context));
+MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const std::filesystem::path& stages, const RunContext& context, const Reuse& reuse) {
+  warn_of_other_member(wall, options, context);
+  if (stages.empty()) return mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall.mesh, knowing(wall, options), {}, true_surface_key(wall), reuse, context));
   require_stage_output(stages);
   FinishedParts parts;
-  const volmesh::StageWatch watch{.enveloped = [&](const volmesh::EnvelopeStage& stage) { write_envelope(wall, options, stage, stages, context.part("stages", 0.0, 0.0)); },
+  const volmesh::StageWatch watch{.envelope = {},
+                                  .enveloped = [&](const volmesh::EnvelopeStage& stage) { write_envelope(wall, options, stage, stages, context.part("stages", 0.0, 0.0)); },
                                   .filled =
                                       [&](const volmesh::FilledStage& stage) {
                                         write_filled(wall, n_triangles(wall), options, stage, stages, context.part("stages", 0.0, 0.0));
                                         parts = {.split_wall = stage.split_wall, .envelope = stored(stage.envelope.envelope), .tetrahedra = stored(stage), .json = stage_json(stage, n_triangles(wall))};
                                       }};
-  MeshValue mesh = mesh_value(wall, n_triangles(wall), options, volmesh::volume_mesh(wall.mesh, knowing(wall, options), watch, context));
+  MeshValue mesh = mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall.mesh, knowing(wall, options), watch, true_surface_key(wall), reuse, context));
   write_finished(wall, parts, mesh, stages, context.part("stages", 1.0, 1.0));
   return mesh;
 }
@@ -309,11 +366,14 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     auto wall = std::make_shared<SurfaceValue>(*surface_of(std::move(*content.surface), json.inputs(), context));
     volmesh::VolumeMeshOptions options;
     json.read_options(all_options(wall->options, options));
+    options.discs = json.discs();
+    options.periodic = json.periodic();
+    options.patches = json.patch_rules();
     wall->recipe = json.recipe();
     wall->smooth_angle = json.smooth_angle();
     result.surface = wall;
     volmesh::EnvelopeStage envelope{.envelope = envelope_of(std::move(*content.envelope), file), .feature_angle = json.get<double>("/stage/feature_angle")};
-    result.envelope = std::make_shared<const EnvelopeValue>(EnvelopeValue{.wall = wall, .options = options, .stage = envelope, .n_sources_in_file = json.n_sources()});
+    result.envelope = std::make_shared<const EnvelopeValue>(EnvelopeValue{.wall = wall, .options = options, .stage = envelope, .step = json.step(), .n_sources_in_file = json.n_sources()});
     if (content.tetrahedra && content.mesh)
       result.tetrahedra = std::make_shared<const TetrahedraValue>(TetrahedraValue{
           .wall = wall, .n_wall_triangles = json.get<std::int64_t>("/stage/wall_triangles"), .options = options, .stage = filled_of(json, std::move(envelope), content, file)});
@@ -329,7 +389,8 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
 
 void write_stage(const EnvelopeValue& envelope, const std::filesystem::path& path, const RunContext& context) {
   require_stage_output(path);
-  write_envelope(*envelope.wall, envelope.options, envelope.stage, path, context);
+  if (envelope.step == volmesh::EnvelopeStep::classified) throw Error({.code = ErrorCode::bad_argument, .attempted = "writing " + path.string(), .problem = "classes alone are not kept", .hint = "write the value of envelope.initial"});
+  write_envelope(*envelope.wall, envelope.options, envelope.stage, path, context, envelope.step);
 }
 
 void write_stage(const TetrahedraValue& tetrahedra, const std::filesystem::path& path, const RunContext& context) {
@@ -343,10 +404,22 @@ void require_stage_output(const std::filesystem::path& path) {
   require_mesh_output(path);
 }
 
+namespace {
+
+std::string describe_classes(const volmesh::Classification& classes) {
+  const auto count = [&](bool volmesh::VertexClass::*flag) { return count_text(std::count_if(classes.vertex.begin(), classes.vertex.end(), [&](const volmesh::VertexClass& v) { return v.*flag; })); };
+  return fmt::format("Classification: {} vertices, {} on ridges, {} corners, {} convex, {} concave, feature angle {:.4g} deg", count_text(static_cast<std::int64_t>(classes.vertex.size())), count(&volmesh::VertexClass::is_ridge),
+                     count(&volmesh::VertexClass::is_corner), count(&volmesh::VertexClass::is_convex), count(&volmesh::VertexClass::is_concave), classes.feature_angle * 180.0 / std::numbers::pi);
+}
+
+}  // namespace
+
 std::string describe(const EnvelopeValue& envelope) {
+  if (envelope.classes) return describe_classes(*envelope.classes);
   const auto& heights = envelope.stage.envelope.height;
   const auto n_collapsed = std::count(heights.begin(), heights.end(), 0.0);
-  return fmt::format("Envelope: {} vertices, {} collapsed, {} layers, up to {:.6g} m tall", count_text(static_cast<std::int64_t>(heights.size())), count_text(n_collapsed), envelope.options.envelope.layers,
+  return fmt::format("Envelope{}: {} vertices, {} collapsed, {}, up to {:.6g} m tall", envelope.step == volmesh::EnvelopeStep::finished ? "" : ", " + std::string(to_string(envelope.step)), count_text(static_cast<std::int64_t>(heights.size())), count_text(n_collapsed),
+                     envelope.options.patches.empty() ? fmt::format("{} layers", volmesh::effective_options(envelope.options, RunContext()).envelope.layers) : "layers by patch",
                      heights.size() == 0 ? 0.0 : *std::max_element(heights.begin(), heights.end()));
 }
 

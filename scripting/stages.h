@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "scripting/cache/reuse.h"
 #include "scripting/verbs.h"
+#include "volmesh/envelope/steps.h"
 #include "volmesh/stages.h"
 
 namespace sterna::scripting {
@@ -15,6 +17,8 @@ struct EnvelopeValue {
   SurfaceHandle wall;
   volmesh::VolumeMeshOptions options;
   volmesh::EnvelopeStage stage;
+  volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished;  ///< of make_envelope by hand (envelope_steps.h): what has been done to it
+  std::shared_ptr<const volmesh::Classification> classes = {};   ///< of the step "classified", which has nothing else
   std::size_t n_sources_in_file = 0;  ///< of the run that wrote the file that this was read from; `options` do not have them
 };
 
@@ -34,14 +38,17 @@ OptionTable envelope_options(volmesh::VolumeMeshOptions& options);
 OptionTable tetrahedra_options(volmesh::VolumeMeshOptions& options);
 OptionTable finish_options(volmesh::VolumeMeshOptions& options);
 
+/// The options with what the wall itself knows: turns where it is smooth, rules for its patches, the model that it is of.
+volmesh::VolumeMeshOptions knowing(const SurfaceValue& wall, volmesh::VolumeMeshOptions options);
+
 /// \throws Error of volmesh::make_envelope, make_tetrahedra, finish_mesh.
-EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context);
-TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::VolumeMeshOptions& options, const RunContext& context);
-MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::VolumeMeshOptions& options, const RunContext& context);
+EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse = {});
+TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse = {});
+MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse = {});
 
 /// make_volume_mesh() that leaves surface, envelope, tetrahedra and at last the mesh, its manifest, certificate and quality in a .sterna file, which is replaced
 /// as each step ends; nothing is written without a name.
-MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const std::filesystem::path& stages, const RunContext& context);
+MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const std::filesystem::path& stages, const RunContext& context, const Reuse& reuse = {});
 
 /// What a .sterna file holds; null where it does not. An envelope in a file with tetrahedra is the one that their layer has, of its wall with splits.
 struct StageContent {

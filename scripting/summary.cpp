@@ -98,8 +98,8 @@ std::string summary_text(const MeshValue& mesh) {
   const CellCounts cells = count_cells(mesh.mesh);
   const volmesh::LayerReport& layer = mesh.origin->layer;
   std::string text = fmt::format("  wall        {} triangles, body length {:.6g} m\n", count_text(mesh.origin->n_wall_triangles), layer.body_length);
-  text += fmt::format("  mesh        {} nodes: {} prisms in {} layers, {} pyramids, {} tetrahedra\n", count_text(n_nodes(mesh)), count_text(cells.prisms),
-                      mesh.origin->options.envelope.layers, count_text(cells.pyramids), count_text(cells.tetrahedra));
+  text += fmt::format("  mesh        {} nodes: {} prisms in {}{} layers, {} pyramids, {} tetrahedra\n", count_text(n_nodes(mesh)), count_text(cells.prisms),
+                      mesh.mesh.layers.is_uniform() ? "" : "up to ", mesh.mesh.layers.n_layers, count_text(cells.pyramids), count_text(cells.tetrahedra));
   if (mesh.origin->n_split_triangles > 0)
     text += fmt::format("  splits      {} more triangles on wall and farfield, made for the tetrahedra\n", count_text(mesh.origin->n_split_triangles));
   text += fmt::format("  layer       {:.2f} % of the area at its full height, mean height {:.4g} m\n", 100.0 * layer.coverage, layer.mean_height);
@@ -144,7 +144,7 @@ std::string stats_json(const MeshValue& mesh, const RunMeasure& measure) {
   json["schema"] = "sterna-stats-1";
   json["program"] = "sterna " STERNA_VERSION;
   json["triangles"] = mesh.origin->n_wall_triangles;
-  json["layers"] = mesh.origin->options.envelope.layers;
+  json["layers"] = mesh.mesh.layers.n_layers;
   json["nodes"] = n_nodes(mesh);
   json["prisms"] = cells.prisms;
   json["pyramids"] = cells.pyramids;

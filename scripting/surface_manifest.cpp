@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/math/measures.h"
+#include "scripting/patch_rules.h"
 #include "io/atomic_file.h"
 #include "io/input_hash.h"
 #include "scripting/model_surface.h"
@@ -51,6 +53,38 @@ Json quality_json(const surfmesh::SurfaceMeshReport& report) {
   return json;
 }
 
+[[noreturn]] void refuse(const InputPath& file, const std::string& problem) {
+  throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + file.name + ".json", .problem = problem, .hint = "delete it, or write the surface anew"});
+}
+
+/// Normals point into the fluid: inwards all in all.
+bool encloses_fluid(const TriMesh& mesh) {
+  if (mesh.points.empty()) return false;
+  const Point origin = mesh.points[VertexId(0)];
+  double volume = 0.0;
+  for (const TriangleId t : mesh.triangles.ids()) {
+    const auto [a, b, c] = corners(mesh, t);
+    volume += tet_volume(origin, a, b, c);
+  }
+  return volume < 0.0;
+}
+
+std::map<std::string, PatchKind> kinds_of(const Json& json, const InputPath& file) {
+  std::map<std::string, PatchKind> kinds;
+  const Json list = json.value("patches", Json::array());
+  for (const Json& patch : list) {
+    const bool is_sound = patch.is_object() && patch.contains("name") && patch["name"].is_string() && patch.contains("kind") && patch["kind"].is_string();
+    bool is_known = false;
+    for (const PatchKind kind : {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface}) {
+      if (!is_sound || patch["kind"].get<std::string>() != to_string(kind)) continue;
+      kinds[patch["name"].get<std::string>()] = kind;
+      is_known = true;
+    }
+    if (!is_known) refuse(file, "an entry of its patches has no name, or no kind of patch");
+  }
+  return kinds;
+}
+
 }  // namespace
 
 std::string surface_manifest_json(const SurfaceValue& surface, const std::filesystem::path& written) {
@@ -65,7 +99,8 @@ std::string surface_manifest_json(const SurfaceValue& surface, const std::filesy
   for (const PatchId patch : surface.mesh.triangle_patch) ++n_triangles[patch];
   for (const PatchId patch : surface.mesh.patches.ids())
     json["patches"].push_back({{"name", surface.mesh.patches[patch].name}, {"kind", to_string(surface.mesh.patches[patch].kind)}, {"triangles", n_triangles[patch]}});
-  json["mesh"] = {{"vertices", surface.mesh.n_vertices()}, {"triangles", surface.mesh.n_triangles()}, {"closed", surface.report.is_closed}, {"free_edges", report.n_free_edges}};
+  if (!surface.layers.empty()) json["layers"] = Json::parse(layer_rules_json(surface.layers));
+  json["mesh"] = {{"vertices", surface.mesh.n_vertices()}, {"triangles", surface.mesh.n_triangles()}, {"closed", surface.report.is_closed}, {"free_edges", report.n_free_edges}, {"encloses_fluid", encloses_fluid(surface.mesh)}};
   json["quality"] = quality_json(report);
   return json.dump(2) + "\n";
 }
@@ -87,8 +122,10 @@ std::optional<KnownSurface> read_surface_manifest(const InputPath& file, const s
   }
   const Json::json_pointer pointer("/quality/max_smooth_angle/degrees");
   if (!json.contains(pointer) || !json.at(pointer).is_number() || !(json.at(pointer).get<double>() >= 0.0 && json.at(pointer).get<double>() <= 180.0))
-    throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + file.name + ".json", .problem = "its quality.max_smooth_angle.degrees is no angle", .hint = "delete it, or write the surface anew"});
-  return KnownSurface{json.at(pointer).get<double>() / k_degrees};
+    refuse(file, "its quality.max_smooth_angle.degrees is no angle");
+  const Json::json_pointer inside("/mesh/encloses_fluid");
+  const bool encloses = json.contains(inside) && json.at(inside).is_boolean() && json.at(inside).get<bool>();
+  return KnownSurface{json.at(pointer).get<double>() / k_degrees, kinds_of(json, file), encloses, layer_rules_of_json(json.value("layers", Json::array()).dump())};
 }
 
 }  // namespace sterna::scripting

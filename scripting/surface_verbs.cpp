@@ -5,46 +5,32 @@
 
 #include "scripting/geometry_tools.h"
 #include "scripting/model_surface.h"
+#include "scripting/patch_rules.h"
 #include "scripting/script_function.h"
 #include "scripting/source_verbs.h"
+#include "volmesh/patch_layers.h"
 
 namespace sterna::scripting {
 namespace {
 
-constexpr std::string_view k_surface_mesh_usage = "surface_mesh{ model, max_edge = 0.4, curvature_angle = 12*deg, growth = 1.2, patches = { [\"wing*\"] = { max_edge = 0.15 } } }";
+constexpr std::string_view k_surface_mesh_usage = "surface_mesh{ model, max_edge = 0.4, curvature_angle = 12*deg, growth = 1.2, patches = { [\"Body*\"] = { max_edge = 0.15 } } }";
 
-/// One entry of `patches`; notes problems.
-void add_rule(std::vector<surfmesh::PatchSurfaceOptions>& rules, const std::string& names, const ScriptValue& value, TableReader& reader) {
-  const std::string where = "patches[\"" + names + "\"]";
-  const auto* table = std::get_if<TableHandle>(&value);
-  if (!table || (*table)->fields.empty()) {
-    reader.add_problem(where + ": expected a table of what these patches ask for instead, like { max_edge = 0.1 }, not " + std::string(table ? "one without named entries" : type_text(value)));
-    return;
-  }
-  surfmesh::PatchSurfaceOptions rule{.names = names};
-  const OptionTable schema = patch_rule_options(rule);
-  TableReader entries(**table, where);
-  entries.read_options(schema);
-  try {
-    entries.finish();
-  } catch (const Error& error) {
-    reader.add_problem(where + ": " + error.info().problem);
-    return;
-  }
-  rules.push_back(std::move(rule));
-}
+/// What patches ask for: of their triangles, and of the layers that volume_mesh puts on them.
+struct SurfaceRules {
+  std::vector<surfmesh::PatchSurfaceOptions> sizes;
+  std::vector<volmesh::PatchRule> layers;
+};
 
-std::vector<surfmesh::PatchSurfaceOptions> read_rules(TableReader& reader) {
-  std::vector<surfmesh::PatchSurfaceOptions> rules;
-  const ScriptValue* value = reader.field("patches");
-  if (!value) return rules;
-  const auto* table = std::get_if<TableHandle>(value);
-  if (!table || !(*table)->items.empty() || !(*table)->other_keys.empty()) {
-    reader.add_problem("patches: expected a table by names of faces, { [\"wing*\"] = { max_edge = 0.1 } }" + (table ? "; its keys are texts" : ", not " + std::string(type_text(*value))));
-    return rules;
-  }
-  for (const auto& [names, entry] : (*table)->fields) add_rule(rules, names, entry, reader);
-  sort_rules(rules);
+SurfaceRules read_rules(TableReader& reader) {
+  SurfaceRules rules;
+  read_patch_rules(reader, "max_edge = 0.1", [&](const std::string& names) {
+    rules.sizes.push_back({.names = names});
+    rules.layers.push_back({.names = names});
+    return surface_and_layer_options(rules.sizes.back(), rules.layers.back());
+  });
+  keep_set_rules(rules.layers);
+  sort_rules(rules.sizes);
+  volmesh::sort_rules(rules.layers);
   return rules;
 }
 
@@ -79,23 +65,27 @@ ScriptValue make_surface_mesh(const ScriptCall& call) {
   }
   if (items.empty()) reader.add_problem("needs a model: " + std::string(k_surface_mesh_usage));
   reader.read_options(schema);
-  recipe.patches = read_rules(reader);
+  SurfaceRules rules = read_rules(reader);
+  recipe.patches = std::move(rules.sizes);
   recipe.sources = read_sources(reader, call);
   const std::function<double(const Point&)> size = read_size_function(reader);
   apply_overrides(call, sterna::options_of(recipe.options));
   reader.finish();
-  return std::make_shared<const SurfaceValue>(mesh_models(models, recipe, size, call.session.context.part("surface_mesh", 0.0, 1.0)));
+  auto surface = std::make_shared<SurfaceValue>(mesh_models(models, recipe, size, call.session.context.part("surface_mesh", 0.0, 1.0), call.session.reuse()));
+  add_layer_rules(rules.layers, *surface);
+  return std::shared_ptr<const SurfaceValue>(std::move(surface));
 }
 
 std::string surface_mesh_help() {
   surfmesh::SurfaceMeshOptions options;
   surfmesh::PatchSurfaceOptions rule;
-  return options_help(sterna::options_of(options)) + "patches = { [\"wing*\"] = { ... } }, of faces with such names; of two patterns that match the one with more letters counts:\n" + options_help(patch_rule_options(rule)) +
+  volmesh::PatchRule layers;
+  return options_help(sterna::options_of(options)) + "patches = { [\"wing*\"] = { ... } }, of faces with such names; of two patterns that match the one with more letters counts:\n" + options_help(surface_and_layer_options(rule, layers)) +
          "sources = { line{ {0,0,0}, {8,0,0}, size = 0.02 }, ... }: shorter edges there. size = function(x, y, z) return 0.1 end: edges at most that long\n";
 }
 
 constexpr std::array<ScriptVerb, 1> k_verbs = {{
-    {"surface_mesh", k_surface_mesh_usage, "Triangles on the faces of models, closed where the models are: the wall that volume_mesh takes.", make_surface_mesh, surface_mesh_help, true},
+    {"surface_mesh", k_surface_mesh_usage, "Triangles on the faces of models, closed where the models are: the wall that volume_mesh takes.", make_surface_mesh, surface_mesh_help, true, "surface"},
 }};
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "geom/base/error.h"
+#include "scripting/quantity.h"
+#include "scripting/script_check.h"
 
 namespace sterna::scripting {
 namespace {
@@ -29,7 +31,10 @@ std::string short_name(const Option& option) {
 
 TableReader::TableReader(const ScriptTable& table, std::string attempted) : table_(table), attempted_(std::move(attempted)) {}
 
-void TableReader::read_options(const OptionTable& options) {
+TableReader::TableReader(const ScriptTable& table, const Attempt& attempted) : table_(table), attempted_(attempted), check_(attempted.check), ends_with_checks_(attempted.ends_with_checks) {}
+
+std::size_t TableReader::read_options(const OptionTable& options) {
+  const std::size_t n_before = given_.size();
   for (const Option& option : options) {
     known_.emplace_back(option.name);
     if (std::find(known_.begin(), known_.end(), option.stage) == known_.end()) known_.emplace_back(option.stage);
@@ -47,6 +52,7 @@ void TableReader::read_options(const OptionTable& options) {
       add_problem(key + ": expected a table of the options of this stage, not " + std::string(type_text(value)));
     }
   }
+  return given_.size() - n_before;
 }
 
 void TableReader::read_stage(const OptionTable& options, const std::string& stage, const ScriptTable& table) {
@@ -54,8 +60,6 @@ void TableReader::read_stage(const OptionTable& options, const std::string& stag
   for (const Option& option : options)
     if (option.stage == stage) known.push_back(short_name(option));
   for (const auto& [key, value] : table.fields) {
-    // The value of sphere{} carries its shape; a sphere is the only farfield so far.
-    if (stage == "farfield" && key == "shape") continue;
     const auto it = std::find_if(options.begin(), options.end(), [&, name = std::string_view(key)](const Option& o) { return o.stage == stage && (o.name == name || short_name(o) == name); });
     if (it == options.end()) add_unknown(stage + "." + key, known);
     else set(*it, stage + "." + key, value);
@@ -75,7 +79,9 @@ void TableReader::set(const Option& option, const std::string& key, const Script
     else if (text) set_option(option, *text);
     else if (const auto* number = std::get_if<double>(&value); number && is_automatic(*number)) add_problem(key + ": is not a number (0/0 or the like)");
     else if (number) set_option(option, *number);
+    else if (const auto* quantity = std::get_if<QuantityHandle>(&value); quantity && (*quantity)->is_length() && option.kind == OptionKind::number && option.unit == Unit::metre) set_option(option, (*quantity)->metres);
     else add_problem(key + ": " + std::string(type_text(value)) + " is not allowed here (" + std::string(option.help) + ")");
+    if (check_) check_->options.push_back({attempted_, std::string(option.stage) + "." + std::string(option.name), option.get()});
   } catch (const Error& error) {
     const bool is_angle_in_degrees = option.unit == Unit::radian && !std::holds_alternative<std::string>(value);
     add_problem(key + ": " + (is_angle_in_degrees ? error.info().problem + " (angles are in radians; write degrees as 40*deg)" : joined(error.info())));
@@ -118,6 +124,7 @@ void TableReader::finish() {
     if (!asked_.contains(key)) add_unknown(key, known_);
   if (!are_items_asked_ && !table_.items.empty()) add_problem("entry 1: every entry of this table needs a name");
   for (const std::string& key : table_.other_keys) add_problem("key " + key + ": keys are names");
+  if (problems_.empty() && ends_with_checks_) throw ChecksDone{};
   if (problems_.empty()) return;
   std::string text;
   if (problems_.size() == 1) {

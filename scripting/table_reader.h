@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geom/base/schema.h"
+#include "scripting/script_call.h"
 #include "scripting/script_value.h"
 
 namespace sterna::scripting {
@@ -16,10 +17,16 @@ class TableReader {
  public:
   /// \p attempted starts the message: "case.lua:5: volume_mesh".
   TableReader(const ScriptTable& table, std::string attempted);
+  /// Of a verb's own table: where the run only checks (script_check.h), the options are noted and finish() ends a heavy verb.
+  TableReader(const ScriptTable& table, const Attempt& attempted);
 
   /// Sets the options that the table names, flat ("layers = 30") or in a table by stage ("envelope = { layers = 30 }"; there the stage's
   /// name may be left off: "farfield = { radius = 50 }" for farfield_radius).
-  void read_options(const OptionTable& options);
+  /// Returns how many were named.
+  std::size_t read_options(const OptionTable& options);
+  /// Whether the table names the option, alone or in its stage's table. \pre read_options
+  bool is_given(std::string_view stage, std::string_view name) const { return given_.contains(std::string(stage) + "." + std::string(name)); }
+  bool has_problems() const { return !problems_.empty(); }
   /// Number of unnamed entries; from now on they count as asked for.
   const std::vector<ScriptValue>& items();
   /// A named entry that is no option, or nullptr; from now on it counts as asked for.
@@ -29,7 +36,7 @@ class TableReader {
   /// Notes a problem of the caller's own.
   void add_problem(std::string problem);
 
-  /// \throws Error(bad_argument; unknown_option when all problems are unknown keys) with every problem of the table.
+  /// \throws Error(bad_argument; unknown_option when all problems are unknown keys) with every problem of the table; ChecksDone where it ends the verb.
   void finish();
 
  private:
@@ -39,6 +46,8 @@ class TableReader {
 
   const ScriptTable& table_;
   std::string attempted_;
+  ScriptCheck* check_ = nullptr;
+  bool ends_with_checks_ = false;
   std::vector<std::string> known_;     ///< keys that the verb takes, for suggestions
   std::set<std::string> asked_;        ///< keys that were read
   std::set<std::string> given_;        ///< options that have a value already, to find contradictions

@@ -1,5 +1,6 @@
 #include "scripting/verb_tools.h"
 
+#include "scripting/script_check.h"
 #include "scripting/verbs.h"
 
 namespace sterna::scripting {
@@ -20,10 +21,28 @@ ScriptTable table_argument(const ScriptCall& call, std::size_t index, std::strin
 
 InputPath find_input(const ScriptCall& call, const std::string& name) {
   const std::filesystem::path path = name;
+  if (const std::filesystem::path own = (call.session.output_folder / path).lexically_normal(); call.session.series.written.contains(own)) return {name, own};
   const std::filesystem::path beside_script = call.session.script.parent_path() / path;
   std::error_code ignored;  // a name that cannot even be looked up is reported by the reader, with its reason
-  if (path.is_relative() && !std::filesystem::exists(path, ignored) && std::filesystem::exists(beside_script, ignored)) return {name, beside_script};
+  if (path.is_relative() && !std::filesystem::exists(path, ignored) && std::filesystem::exists(beside_script, ignored)) {
+    note_input(call.session.series, beside_script);
+    return {name, beside_script};
+  }
+  note_input(call.session.series, path);
+  check_input(call, {name, path});
   return {name, path};
+}
+
+std::filesystem::path output_path(const ScriptCall& call, const std::string& name) {
+  const std::filesystem::path& folder = call.session.output_folder;
+  if (folder.empty()) return name;
+  const std::filesystem::path path = (folder / name).lexically_normal();
+  if (std::filesystem::path(name).is_relative()) {
+    std::error_code failure;  // the writer says why there is no such folder
+    std::filesystem::create_directories(path.parent_path(), failure);
+    call.session.series.written.insert(path);
+  }
+  return path;
 }
 
 std::vector<InputPath> file_names(const ScriptCall& call, TableReader& reader) {
@@ -41,7 +60,7 @@ std::vector<InputPath> file_names(const ScriptCall& call, TableReader& reader) {
 std::vector<std::filesystem::path> output_names(const ScriptCall& call) {
   std::vector<std::filesystem::path> names;
   const auto add = [&](const ScriptValue& value) {
-    if (const auto* name = std::get_if<std::string>(&value)) names.emplace_back(*name);
+    if (const auto* name = std::get_if<std::string>(&value)) names.push_back(output_path(call, *name));
     else reject(call, "expected file names, not " + std::string(type_text(value)));
   };
   for (std::size_t i = 1; i < call.arguments.size(); ++i) {
@@ -52,6 +71,7 @@ std::vector<std::filesystem::path> output_names(const ScriptCall& call) {
       for (const ScriptValue& item : (*table)->items) add(item);
   }
   if (names.empty()) reject(call, "needs at least one file name");
+  for (const auto& name : names) note_output(call, name);
   return names;
 }
 

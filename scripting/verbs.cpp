@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 #include "geom/base/error.h"
 #include "io/atomic_file.h"
@@ -12,8 +13,10 @@
 #include "io/sterna_file.h"
 #include "io/surface_file.h"
 #include "io/volume_file.h"
+#include "scripting/flow_verbs.h"
 #include "scripting/layer_json.h"
 #include "scripting/manifest.h"
+#include "scripting/quantity.h"
 #include "scripting/summary.h"
 #include "scripting/surface_manifest.h"
 
@@ -40,6 +43,7 @@ SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchO
   SurfaceValue wall;
   wall.options = options;
   std::vector<SurfaceSoup> soups;
+  std::map<std::string, PatchKind> kinds;
   {
     const StageTimer timer(context, "read");
     const RunContext part = context.part("read", 0.0, k_read_end);
@@ -49,13 +53,20 @@ SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchO
       const auto known = read_surface_manifest(file, wall.inputs.back().hash, part);
       if (!known || wall.inputs.size() == 1) wall.smooth_angle = known ? std::optional(known->smooth_angle) : std::nullopt;
       else if (wall.smooth_angle) wall.smooth_angle = std::max(*wall.smooth_angle, known->smooth_angle);
+      if (known) {
+        if (known->encloses_fluid && options.fluid == "automatic") wall.options.fluid = "inside";
+        kinds.insert(known->kinds.begin(), known->kinds.end());
+        wall.layers.insert(wall.layers.end(), known->layers.begin(), known->layers.end());
+      }
       part.progress(static_cast<double>(soups.size()) / static_cast<double>(files.size()));
     }
   }
   const StageTimer timer(context, "stitch");
-  surfmesh::StitchResult stitched = surfmesh::stitch_surface(soups, options, context.part("stitch", k_read_end, 1.0));
+  surfmesh::StitchResult stitched = surfmesh::stitch_surface(soups, wall.options, context.part("stitch", k_read_end, 1.0));
   wall.mesh = std::move(stitched.mesh);
   wall.report = std::move(stitched.report);
+  for (Patch& patch : wall.mesh.patches)
+    if (const auto kind = kinds.find(patch.name); kind != kinds.end()) patch.kind = kind->second;
   // The unit is never silent: a factor of 1000 looks fine until the solver runs.
   context.info(describe(wall) + fmt::format(" (1 unit of the file = {:g} m)", options.unit));
   return wall;
@@ -127,6 +138,7 @@ OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::VolumeMeshOpt
 }
 
 void set_option_as_typed(const Option& option, std::string_view text) {
+  if (is_flow_text(text) && option.kind == OptionKind::number && option.unit == Unit::metre) return set_option(option, quantity_of_text(std::string(text)).metres);
   const bool is_bare_unit = option.kind == OptionKind::number && option.unit == Unit::metre && !text.empty() &&
                             std::isalpha(static_cast<unsigned char>(text.front())) && text != "automatic";
   try {
@@ -135,7 +147,7 @@ void set_option_as_typed(const Option& option, std::string_view text) {
     if (option.unit != Unit::radian && !is_bare_unit) throw;
     ErrorInfo info = error.info();
     if (is_bare_unit) {
-      info.problem = std::string(option.name) + ": \"" + std::string(text) + "\" is neither a number nor a unit of length (m, mm, cm, inch, ft)";
+      info.problem = std::string(option.name) + ": \"" + std::string(text) + "\" is neither a number nor a unit of length (m, mm, cm, inch, in, ft)";
       throw Error(std::move(info));
     }
     if (text.find("deg") == std::string_view::npos) info.hint = "angles are in radians; write degrees as 40deg";

@@ -12,9 +12,12 @@
 #include "geom/base/run_context.h"
 #include "geom/boolean/union_meshes.h"
 #include "geom/mesh/check.h"
+#include "scripting/cache/provenance.h"
 #include "surfmesh/model/model_wall.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "surfmesh/stitch/stitch_surface.h"
+#include "volmesh/patch_rule.h"
+#include "volmesh/placed_part.h"
 #include "volmesh/volume_mesh.h"
 
 namespace sterna::scripting {
@@ -43,7 +46,10 @@ struct SurfaceValue {
   std::optional<SurfaceRecipe> recipe = {};        ///< of a surface that surface_mesh made
   std::optional<surfmesh::SurfaceMeshReport> mesh_report = {};  ///< the same, unless it was read from a file
   std::optional<double> smooth_angle = {};                      ///< rad, the same or as the manifest beside the file says: the largest turn where the surface is smooth
+  std::vector<volmesh::PatchRule> layers = {};                           ///< what the model's makers said of the layer on patches, in order: the last of a name counts, the user's own come after
   std::shared_ptr<const surfmesh::ModelWall> model_wall = {};   ///< of a surface that surface_mesh made in this run: where new vertices belong
+  std::vector<volmesh::PlacedPart> parts = {};  ///< that were meshed or read elsewhere and moved to where they are; in ascending order of their triangles
+  std::optional<ContentKey> model_wall_key = {};                ///< of what model_wall knows, for caches
 };
 
 /// How a volume mesh was made here; absent for one that was read from a file.

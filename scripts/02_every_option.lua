@@ -5,6 +5,7 @@ local wall = read_surface{ "data/cessna.msh.gz",
   unit = ft,                        -- metres per unit of the file: mm, cm, inch, ft or a number; default 1
   split_angle = 60*deg,             -- default: patches as the file names them
   weld_tolerance = "automatic",     -- metres
+  fluid = "automatic",               -- or outside, inside: of the outermost surface (a tunnel, a complete domain)
   allow_open = false,
   check_intersections = true,
 }
@@ -21,11 +22,15 @@ wall = union{ wall,
 local mesh = volume_mesh{ wall,
   -- What the layers are asked to be; options can stand here or in the table of their stage, below.
   layers = 30,
-  first_height = 1e-6 * wall.length,
+  first_height = 1e-6 * wall.length,  -- or of flow conditions: y_plus{ ... }, below
+  refinement = 1.0,                 -- of a mesh family: coarse, medium, fine or a number; the same for surface_mesh
 
   envelope = {
     max_growth = 1.4,
+    total_height = "automatic",     -- metres, of all layers together: with it one of layers and max_growth is left out and follows
+    solve_for = "none",             -- layers, max_growth: follows from total_height and the other; by itself the one that is left out
     max_thickness = "automatic",
+    max_relative_height = "automatic",  -- total height over the length of the wall's edges there; automatic: no limit
     feature_angle = 35*deg,
     height_gradient = 0.5,
     height_sweeps = 20,
@@ -43,15 +48,44 @@ local mesh = volume_mesh{ wall,
   prisms = {
     wall_perpendicularity = 0.1,
   },
-  farfield = sphere{
-    radius = 50 * wall.length,
+  patches = {                         -- what patches with such names ask for instead; of two patterns that match the one with more letters counts
+    ["*"] = {
+      kind = "as_read",               -- wall, slip, symmetry, inflow, outflow, farfield, interface; only walls carry layers
+      layers = -1,                    -- walls that are connected get the largest number asked for; 0: none; -1: as above
+      first_height = "automatic",     -- here and below: as above
+      max_growth = "automatic",
+      total_height = "automatic",     -- max_growth follows, or layers where max_growth is given
+      max_thickness = "automatic",
+      blend = "automatic",            -- metres from the border with walls that ask for something else; automatic: by their layers and edges
+    },
+  },
+  farfield = {                         -- or sphere{ radius = 100 }, box{ {-10, -5, -5}, {20, 5, 5}, edge = 2 }, cylinder{...}, a surface, a file, "none"
+    shape = "sphere",               -- automatic, sphere, box, cylinder, surface, none
+    radius = 50 * wall.length,      -- sphere, cylinder
     edge = 10 * wall.length,
+    center_x = "automatic",         -- sphere: of the wall's box, in the plane of a half model
+    center_y = "automatic",
+    center_z = "automatic",
+    from_x = "automatic",           -- box: corners; cylinder: centres of its ends
+    from_y = "automatic",
+    from_z = "automatic",
+    to_x = "automatic",
+    to_y = "automatic",
+    to_z = "automatic",
+    sides = "",                     -- "x_min=inflow x_max=outflow,name:exit,edge:0.5 symmetry=slip"
+    surface = "",                   -- file of the closed surface, for the shape "surface"
+  },
+  ends = {                             -- patches on which layers end (symmetry planes, slip walls), triangulated anew around them
+    ends_growth = 1.3,                 -- ratio of neighbouring edges away from the layer
+    ends_min_angle = 25*deg,           -- goal for their angles
+    ends_max_triangles = 2e7,          -- of one patch; beyond it is an error
   },
   size = {
     size_growth = 1.3,                 -- of neighbouring tetrahedra
     size_max = "automatic",           -- longest edge; automatic: no limit
   },
   sources = {},                        -- smaller tetrahedra: box{ {-1, -2, -1}, {9, 2, 3}, size = 0.05 }, point, line, sphere, cylinder, wake, size_samples
+  interfaces = {},                     -- actuator_disc{ name = "prop", center = {-0.4, 0, 0}, axis = {1, 0, 0}, radius = 1.2, inner_radius = 0.25, edge = 0.05 }
   tetrahedra = {
     engine = "automatic",           -- or "tetgen", "hxt"
     radius_edge = 1.2,              -- TetGen
@@ -76,6 +110,37 @@ local mesh = volume_mesh{ wall,
 mesh:check{ intersections = true, quality = true, findings_per_kind = 10, strict = false }
 mesh:write "every_option.vtu"
 print(string.format("%d prisms, %d tetrahedra, %.1f %% of the area has its full height", mesh.prisms, mesh.tetrahedra, 100 * mesh.coverage))
+
+-- Heights from flow conditions: y_plus{...} as a first_height, boundary_layer{...} as a total_height.
+local cruise = flow{ mach = 0.78, altitude = 11000, length = 1.6,
+  temperature_offset = 0,           -- ISA+15: 15
+}                                     -- others: speed, temperature, pressure, density, viscosity, reynolds
+local tunnel_flow = flow{ speed = 60, temperature = 293, pressure = 101325, length = 0.3 }
+local water = flow{ speed = 5, density = 1000, viscosity = 1e-3, length = 2 }
+print(cruise, tunnel_flow, water, y_plus{ y_plus = 1, reynolds = 5e6, length = 7 })
+print(y_plus{ 1, cruise, at = "cell_centre", law = "schlichting" }, boundary_layer{ cruise, factor = 1.3, thickness_law = "fifth_root" })
+for _, member in ipairs(family{ levels = 3, factor = 1.5, medium = 2 }) do print(member.name, member.refinement) end
+
+mesh:su2_config{ "every_option.cfg", cruise,
+  mesh = "every_option.su2",
+  solver = "automatic",             -- EULER, NAVIER_STOKES, RANS
+  turbulence = "SA",                -- SST
+  alpha = 2*deg, beta = 0,
+  reference_area = 16, reference_length = 1.6, moment_origin = { 2, 0, 0 },  -- or reference = an aircraft or a wing
+  wing = "",                        -- of the reference; empty: the largest
+  half = "automatic",               -- yes, no
+  wall_temperature = "automatic",   -- kelvin; automatic: adiabatic
+  monitor = "",                     -- patches whose forces count; empty: walls
+  iterations = 5000,
+  cfl = 10,
+  boundaries = {},                  -- by patches: { prop = { thrust = 800 } }, or pressure_jump = 120, temperature_jump = 0; of openings pressure = 1e5, total_pressure = 1.1e5, total_temperature = 300
+}
+
+-- A half model: volume_mesh{ side, ... } puts half a sphere and the symmetry plane around it.
+local side = half{ wall, axis = "y", at = 0, keep = "+",
+  tolerance = "automatic",          -- vertices this near are moved into the plane: 1e-6 of the longest side
+  snap = 0.1,                       -- those this near, in their shortest edges, are moved along an edge: no slivers
+}
 
 local behind = wake{ {0, 0, 0}, {0, 5, 0}, direction = {1, 0, 0}, length = 10, height = 0, spread = 0, size = 0.1, size_end = 0.1 }   -- for sources, above
 
@@ -155,6 +220,18 @@ local tunnel = test_section{ length = 60, width = 20, height = 15,
   upstream = "automatic",             -- automatic: half its length before x = 0
   contraction_length = 0, contraction_ratio = 1, diffuser_length = 0, diffuser_angle = 0,
   inflow = "inflow", outflow = "outflow", wall = "tunnel",
+  position = { 0, 0, 0 },             -- where the model stands; a round section has a diameter in place of width and height
+  max_edge = 2,                       -- of all patches; automatic: a twelfth of the shortest side
+  walls = { kind = "wall", max_edge = 3, -- all walls: kind, sizes, and their own layer, which volume_mesh takes over
+    layers = 20, first_height = 20e-6, max_growth = 1.3, max_thickness = 0.2, blend = 0.5 },
+  ceiling = "slip",                   -- floor, ceiling, left, right: one of them
+  patches = { inflow = { max_edge = 4 } },
+}
+local half_block = half{ box{ {0, -1, 0}, {1, 1, 1} },
+  axis = "y", at = 0,                 -- the plane
+  keep = "+",                         -- or "-": the side of smaller y
+  tolerance = "automatic",            -- 1e-6 of the longest side: so near to the plane is in it
+  time_limit = 600,
 }
 
 local moved = parts:move{ 0, 0, 0.5 }:rotate{ about = { 5, 0, 0 }, pitch = 0, yaw = 0, roll = 0 }:rotate{ axis = { 0, 0, 1 }, angle = 0 }
@@ -172,7 +249,7 @@ block:write{ "every_option.step",
   tolerance = "automatic",            -- of splines in place of deformed surfaces: 1e-6 of the longest side
 }
 local again = read_cad{ "every_option.step", unit = "automatic", heal = true, cap = false, sew_tolerance = "automatic", small = "automatic", time_limit = 600 }
-print(parts, bent, sheet, again, union{ block, rod_model, tolerance = "automatic", time_limit = 600 }, assembly{ block, tunnel })
+print(parts, bent, sheet, again, union{ block, rod_model, tolerance = "automatic", time_limit = 600 }, assembly{ block, tunnel, unite = true }, half_block)
 
 -- The faces of a model as triangles: what volume_mesh takes. Several models stand side by side.
 local skin = surface_mesh{ block,
@@ -207,3 +284,15 @@ local skin = surface_mesh{ block,
       leading_edge = { chordwise = "automatic", stretch = "automatic", growth = "automatic" }, trailing_edge = { chordwise = "automatic", stretch = "automatic", growth = "automatic", cells = "automatic" } } },
 }
 print(skin)
+
+-- A row of bodies: two sides of the tunnel are each other's image, node by node.
+local stub = cylinder{ {-0.4, 0, 0}, {0.4, 0, 0}, radius = 0.3, name = "stub" }
+local row = test_section{ length = 4, width = 2, height = 2, walls = "slip", max_edge = 0.5 }
+print(volume_mesh{ surface_mesh{ stub, row, max_edge = 0.3, growth = 1.4 }, layers = 4, first_height = 2e-3, periodic = { { "tunnel_left", "tunnel_right" } } })
+
+-- Cases, each in a process and a folder of its own.
+local here = jobs{ tasks = 2, threads = 1 }
+local cluster = slurm{ partition = "cfd", tasks = 64, threads = 2, time = "02:00:00" }   -- run = cluster there
+local heights = series{ "heights", over = { height = { 0.5, 1.0 } }, run = here, cache = false, retry = false,  -- retry: also cases that failed
+  case = function(p) return surface_mesh{ box{ {0, 0, 0}, {1, 1, p.height} }, max_edge = 0.5 }:write "box.stl".triangles end }
+print(heights.done, heights.failed)

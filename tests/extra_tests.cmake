@@ -29,9 +29,16 @@ if(STERNA_SANITIZE STREQUAL "" OR STERNA_SANITIZE STREQUAL "thread")
   endforeach()
 endif()
 
+# Other programs accept our meshes, and the tool that asks them tells good from bad.
+add_test(NAME accept_mesh COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tools/accept_mesh_test.py ${CMAKE_SOURCE_DIR}/tools/accept_mesh $<TARGET_FILE:sterna>
+         ${CMAKE_CURRENT_SOURCE_DIR}/data/scripts/box.stl)
+set_tests_properties(accept_mesh PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
+
 # The program itself is run by the tests of scripting/, and every script of scripts/ by a test of its own, in a folder of its own.
 add_dependencies(test_scripting sterna)
+add_dependencies(test_scripting_manual sterna)
 add_dependencies(test_io_volume sterna)
+add_dependencies(test_scripting_series sterna)
 file(GLOB scripts CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/scripts/*.lua)
 foreach(script ${scripts})
   get_filename_component(name ${script} NAME_WE)

@@ -1,32 +1,46 @@
 #include "volmesh/assemble.h"
 
 #include <algorithm>
+#include <span>
 
 #include "geom/base/parallel.h"
 
 namespace sterna::volmesh {
 
-FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const TriMesh& outer) {
+namespace {
+
+/// Number of each outer vertex as a point of the boundary: its line, or behind all lines.
+std::vector<std::uint32_t> outer_points(const ClosedOuter& outer, std::size_t n_lines) {
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(outer.mesh.n_vertices());
+  auto next = static_cast<std::uint32_t>(n_lines);
+  for (const VertexId v : outer.mesh.points.ids()) numbers.push_back(outer.line[v].is_valid() ? outer.line[v].value() : next++);
+  return numbers;
+}
+
+}  // namespace
+
+FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const ClosedOuter& outer) {
   FillBoundary boundary;
   const LayerBlock& layers = extrusion.layers;
   const std::size_t n_lines = layers.n_lines();
-  boundary.points.reserve(n_lines + outer.n_vertices());
-  boundary.point2node.reserve(n_lines + outer.n_vertices());
+  boundary.points.reserve(n_lines + outer.mesh.n_vertices());
+  boundary.point2node.reserve(n_lines + outer.mesh.n_vertices());
   for (std::uint32_t line = 0; line < n_lines; ++line) {
-    const NodeId top = layers.node(line, layers.n_layers);
+    const NodeId top = layers.top(line);
     boundary.points.push_back(extrusion.points[top.index()]);
     boundary.point2node.push_back(top);
   }
-  for (const VertexId v : outer.points.ids()) {
-    boundary.points.push_back(outer.points[v]);
-    boundary.point2node.push_back(NodeId(extrusion.points.size() + v.index()));
+  const std::vector<std::uint32_t> point = outer_points(outer, n_lines);
+  for (const VertexId v : outer.mesh.points.ids()) {
+    if (outer.line[v].is_valid()) continue;
+    boundary.point2node.push_back(NodeId(extrusion.points.size() + (point[v.index()] - n_lines)));
+    boundary.points.push_back(outer.mesh.points[v]);
   }
-  boundary.triangles.reserve(base.wall.n_triangles() + outer.n_triangles());
+  boundary.triangles.reserve(base.wall.n_triangles() + outer.mesh.n_triangles());
   for (const TriangleVertices& v : base.wall.triangles) boundary.triangles.push_back({v[0].value(), v[1].value(), v[2].value()});
-  const std::uint32_t shift = static_cast<std::uint32_t>(n_lines);
-  for (const TriangleVertices& v : outer.triangles)
-    boundary.triangles.push_back({v[0].value() + shift, v[1].value() + shift, v[2].value() + shift});
-  for (const TriMesh* mesh : {&base.wall, &outer}) {
+  for (const TriangleVertices& v : outer.mesh.triangles) boundary.triangles.push_back({point[v[0].index()], point[v[1].index()], point[v[2].index()]});
+  for (const TriMesh* mesh : {&base.wall, &outer.mesh}) {
     const auto first = static_cast<std::uint32_t>(boundary.patch_names.size());
     for (const Patch& patch : mesh->patches) boundary.patch_names.push_back(patch.name);
     for (const PatchId patch : mesh->triangle_patch) boundary.triangle_patch.push_back(first + patch.value());
@@ -38,34 +52,67 @@ namespace {
 
 std::size_t n_layer_nodes(const LayerBlock& layers) {
   std::size_t n = 0;
-  for (std::uint32_t line = 0; line < layers.n_lines(); ++line) n = std::max(n, layers.node(line, layers.n_layers).index() + 1);
+  for (std::uint32_t line = 0; line < layers.n_lines(); ++line) n = std::max(n, layers.top(line).index() + 1);
   return n;
 }
 
-/// The first patch of the outer boundary.
-std::uint32_t outer_patch_of(const HybridMesh& layers) {
-  std::uint32_t patch = static_cast<std::uint32_t>(layers.patches.size());
-  for (std::size_t t = layers.layers.n_columns(); t < layers.boundary_triangles.size(); ++t) patch = std::min(patch, layers.boundary_triangles[t].patch.value());
-  return patch;
+/// The line whose top each node of the layer is; k_no_line for nodes below.
+constexpr std::uint32_t k_no_line = 0xffffffffu;
+std::vector<std::uint32_t> lines_of_tops(const LayerBlock& layers, std::size_t n_nodes) {
+  std::vector<std::uint32_t> lines(n_nodes, k_no_line);
+  for (std::uint32_t line = 0; line < layers.n_lines(); ++line) lines[layers.top(line).index()] = line;
+  return lines;
 }
 
-/// Corners of a boundary triangle, normal into the fluid, counted from the first node of the outer boundary.
-TriangleVertices outer_corners(const sterna::BoundaryTriangle& face, std::size_t first_node) {
-  const auto corner = [&](std::size_t k) { return VertexId(face.nodes[k].index() - first_node); };
-  return {corner(0), corner(2), corner(1)};
+/// Triangles of the outer boundary stand on tops and on nodes of their own; the sides of cells with a collapsed line have nodes below.
+bool is_outer(const sterna::BoundaryTriangle& face, std::span<const std::uint32_t> line_of_top) {
+  return std::ranges::all_of(face.nodes, [&](NodeId node) { return node.index() >= line_of_top.size() || line_of_top[node.index()] != k_no_line; });
+}
+
+/// Boundary triangles of the outer boundary, ascending.
+std::vector<std::size_t> outer_faces(const HybridMesh& layers, std::span<const std::uint32_t> line_of_top) {
+  std::vector<std::size_t> faces;
+  for (std::size_t t = layers.layers.n_columns(); t < layers.boundary_triangles.size(); ++t)
+    if (is_outer(layers.boundary_triangles[t], line_of_top)) faces.push_back(t);
+  return faces;
+}
+
+void add_sides(const LayerBase& base, std::span<const RimEdge> rim, std::size_t n_wall_patches, HybridMesh& mesh) {
+  const LayerBlock& layers = mesh.layers;
+  for (const RimEdge& edge : rim) {
+    const std::uint32_t a = base.topology.from(edge.halfedge).value(), b = base.topology.to(edge.halfedge).value();
+    const bool a_down = layers.is_collapsed[a] != 0, b_down = layers.is_collapsed[b] != 0;
+    const PatchId patch(n_wall_patches + edge.patch.index());
+    for (int j = 0, n = layers.layers_of_line(a); j < n && !(a_down && b_down); ++j) {
+      const NodeId a0 = layers.node(a, j), a1 = layers.node(a, j + 1), b0 = layers.node(b, j), b1 = layers.node(b, j + 1);
+      if (a_down) mesh.boundary_triangles.push_back({{a0, b0, b1}, patch});
+      else if (b_down) mesh.boundary_triangles.push_back({{a0, b0, a1}, patch});
+      else mesh.boundary_quads.push_back({{a0, b0, b1, a1}, patch});
+    }
+  }
 }
 
 }  // namespace
 
-TriMesh outer_of(const HybridMesh& layers) {
-  const std::size_t first_node = n_layer_nodes(layers.layers), n_wall = layers.layers.n_columns();
-  TriMesh outer;
-  for (std::size_t i = first_node; i < layers.points.size(); ++i) outer.points.push_back(layers.points.raw()[i]);
-  const std::uint32_t first_patch = outer_patch_of(layers);
-  for (std::size_t p = first_patch; p < layers.patches.size(); ++p) outer.patches.push_back(layers.patches.raw()[p]);
-  for (std::size_t t = n_wall; t < layers.boundary_triangles.size(); ++t) {
-    outer.triangles.push_back(outer_corners(layers.boundary_triangles[t], first_node));
-    outer.triangle_patch.push_back(PatchId(layers.boundary_triangles[t].patch.value() - first_patch));
+ClosedOuter outer_of(const HybridMesh& layers, std::size_t n_wall_patches) {
+  const std::size_t first_node = n_layer_nodes(layers.layers);
+  const std::vector<std::uint32_t> line_of_top = lines_of_tops(layers.layers, first_node);
+  ClosedOuter outer;
+  for (std::size_t p = n_wall_patches; p < layers.patches.size(); ++p) outer.mesh.patches.push_back(layers.patches.raw()[p]);
+  std::vector<VertexId> vertex(layers.points.size());
+  for (std::size_t i = first_node; i < layers.points.size(); ++i) {
+    vertex[i] = outer.mesh.points.push_back(layers.points.raw()[i]);
+    outer.line.push_back({});
+  }
+  for (const std::size_t t : outer_faces(layers, line_of_top)) {
+    const sterna::BoundaryTriangle& face = layers.boundary_triangles[t];
+    for (const NodeId node : face.nodes) {
+      if (vertex[node.index()].is_valid()) continue;
+      vertex[node.index()] = outer.mesh.points.push_back(layers.points[node]);
+      outer.line.push_back(VertexId(line_of_top[node.index()]));
+    }
+    outer.mesh.triangles.push_back({vertex[face.nodes[0].index()], vertex[face.nodes[2].index()], vertex[face.nodes[1].index()]});
+    outer.mesh.triangle_patch.push_back(PatchId(face.patch.index() - n_wall_patches));
   }
   return outer;
 }
@@ -74,42 +121,52 @@ FillBoundary boundary_of(const HybridMesh& layers) {
   FillBoundary boundary;
   const LayerBlock& block = layers.layers;
   const std::size_t first_node = n_layer_nodes(block), n_columns = block.n_columns();
-  for (std::uint32_t line = 0; line < block.n_lines(); ++line) boundary.point2node.push_back(block.node(line, block.n_layers));
+  for (std::uint32_t line = 0; line < block.n_lines(); ++line) boundary.point2node.push_back(block.top(line));
   for (std::size_t i = first_node; i < layers.points.size(); ++i) boundary.point2node.push_back(NodeId(i));
   for (const NodeId node : boundary.point2node) boundary.points.push_back(layers.points[node]);
   boundary.triangles = block.base;
-  const auto shift = static_cast<std::uint32_t>(block.n_lines());
-  for (std::size_t t = n_columns; t < layers.boundary_triangles.size(); ++t) {
-    const TriangleVertices v = outer_corners(layers.boundary_triangles[t], first_node);
-    boundary.triangles.push_back({v[0].value() + shift, v[1].value() + shift, v[2].value() + shift});
-  }
   for (const Patch& patch : layers.patches) boundary.patch_names.push_back(patch.name);
-  for (const sterna::BoundaryTriangle& face : layers.boundary_triangles) boundary.triangle_patch.push_back(face.patch.value());
+  for (std::size_t t = 0; t < n_columns; ++t) boundary.triangle_patch.push_back(layers.boundary_triangles[t].patch.value());
+  const std::vector<std::uint32_t> line_of_top = lines_of_tops(block, first_node);
+  const auto point = [&](NodeId node) {
+    return node.index() < first_node ? line_of_top[node.index()] : static_cast<std::uint32_t>(block.n_lines() + node.index() - first_node);
+  };
+  for (const std::size_t t : outer_faces(layers, line_of_top)) {
+    const sterna::BoundaryTriangle& face = layers.boundary_triangles[t];
+    boundary.triangles.push_back({point(face.nodes[0]), point(face.nodes[2]), point(face.nodes[1])});
+    boundary.triangle_patch.push_back(face.patch.value());
+  }
   return boundary;
 }
 
-HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const TriMesh& outer) {
+HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const ClosedOuter& outer, std::span<const RimEdge> rim) {
   HybridMesh mesh;
   mesh.layers = std::move(extrusion.layers);
-  const std::size_t n_layer_nodes = extrusion.points.size();
+  const std::size_t n_lines = mesh.layers.n_lines(), n_layer_nodes = extrusion.points.size();
+  const std::vector<std::uint32_t> point = outer_points(outer, n_lines);
   std::vector<Point> points = std::move(extrusion.points);
-  points.insert(points.end(), outer.points.begin(), outer.points.end());
+  for (const VertexId v : outer.mesh.points.ids())
+    if (!outer.line[v].is_valid()) points.push_back(outer.mesh.points[v]);
   mesh.points = Column<NodeId, Point>(std::move(points));
 
   mesh.patches = base.wall.patches;
   const std::size_t n_wall_patches = mesh.patches.size();
-  for (const Patch& patch : outer.patches) mesh.patches.push_back(patch);
+  for (const Patch& patch : outer.mesh.patches) mesh.patches.push_back(patch);
   const auto add_reversed = [&](const std::array<NodeId, 3>& n, PatchId patch) { mesh.boundary_triangles.push_back({{n[0], n[2], n[1]}, patch}); };
-  mesh.boundary_triangles.reserve(base.wall.n_triangles() + outer.n_triangles());
+  mesh.boundary_triangles.reserve(base.wall.n_triangles() + outer.mesh.n_triangles());
   for (const TriangleId t : base.wall.triangles.ids()) {
     const TriangleVertices& v = base.wall.triangles[t];
     add_reversed({mesh.layers.node(v[0].value(), 0), mesh.layers.node(v[1].value(), 0), mesh.layers.node(v[2].value(), 0)}, base.wall.triangle_patch[t]);
   }
-  for (const TriangleId t : outer.triangles.ids()) {
-    const TriangleVertices& v = outer.triangles[t];
-    const auto node = [&](std::size_t k) { return NodeId(n_layer_nodes + v[k].index()); };
-    add_reversed({node(0), node(1), node(2)}, PatchId(n_wall_patches + outer.triangle_patch[t].index()));
+  for (const TriangleId t : outer.mesh.triangles.ids()) {
+    const TriangleVertices& v = outer.mesh.triangles[t];
+    const auto node = [&](std::size_t k) {
+      const std::uint32_t p = point[v[k].index()];
+      return p < n_lines ? mesh.layers.top(p) : NodeId(n_layer_nodes + (p - n_lines));
+    };
+    add_reversed({node(0), node(1), node(2)}, PatchId(n_wall_patches + outer.mesh.triangle_patch[t].index()));
   }
+  add_sides(base, rim, n_wall_patches, mesh);
   return mesh;
 }
 

@@ -1,7 +1,11 @@
 // Joins layer, tetrahedra and outer boundary to one HybridMesh, and prepares the boundary that the tetrahedra fill.
 #pragma once
 
+#include <span>
+
 #include "geom/mesh/hybrid_mesh.h"
+#include "volmesh/domain_parts.h"
+#include "volmesh/ends/close_ends.h"
 #include "volmesh/prisms/extrude.h"
 #include "volmesh/tetra/tetra.h"
 
@@ -16,14 +20,15 @@ struct FillBoundary {
   std::vector<std::uint32_t> triangle_patch;  ///< index into patch_names; a triangle on top of the layer has that of its wall triangle
   std::vector<NodeId> point2node;  ///< layer nodes first; outer nodes follow the layer's
 };
-FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const TriMesh& outer);
+FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const ClosedOuter& outer);
 /// The same of what assemble_layers() made of them. Uses columns and boundary triangles, nodes up to the last of the outer boundary.
 FillBoundary boundary_of(const HybridMesh& layers);
-/// The outer boundary that assemble_layers() got.
-TriMesh outer_of(const HybridMesh& layers);
+/// The outer boundary that assemble_layers() got, up to the numbering of its vertices. \p n_wall_patches: how many patches carry layers
+ClosedOuter outer_of(const HybridMesh& layers, std::size_t n_wall_patches);
 
-/// All of the mesh but its tetrahedra. Nodes: lines of the layer, outer boundary. Patches: the wall's, then the outer ones.
-HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const TriMesh& outer);
+/// All of the mesh but its tetrahedra. Nodes: lines of the layer, outer boundary. Patches: the wall's, then the outer ones. Boundary triangles: the wall's, the outer ones,
+/// sides of cells beside a collapsed line; quadrilaterals: sides of cells on the rim.
+HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const ClosedOuter& outer, std::span<const RimEdge> rim);
 /// \pre mesh of assemble_layers(), `boundary` of the same. \post Steiner points follow its nodes.
 void add_tetrahedra(const FillBoundary& boundary, const TetraResult& tets, HybridMesh& mesh, const RunContext& context);
 

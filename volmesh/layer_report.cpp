@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 
+#include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
 #include "volmesh/prisms/layer_line.h"
@@ -11,6 +12,7 @@
 namespace sterna::volmesh {
 namespace {
 
+constexpr int k_digits = 4;                   ///< of lengths in texts
 constexpr double k_full_height_share = 0.9;   ///< of h_target that counts as covered
 constexpr double k_suspicious_share = 0.5;    ///< of the area compressed: more likely a mistake in the settings than a difficult shape
 
@@ -25,9 +27,9 @@ struct Areas {
 class Classifier {
  public:
   Classifier(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope)
-      : base_(base), envelope_(envelope), compressed_below_(options.layers * options.first_height) {}
+      : base_(base), envelope_(envelope), scale_(scale_of(base, options)) {}
   bool is_full(VertexId v) const { return envelope_.height[v] >= k_full_height_share * envelope_.target[v]; }
-  bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < compressed_below_; }
+  bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < scale_.compressed(v); }
   void add(VertexId v, double area, Areas& areas) const {
     areas.all += area;
     if (is_full(v)) areas.full += area;
@@ -35,12 +37,12 @@ class Classifier {
     if (is_compressed(v)) areas.compressed += area;
     if (envelope_.is_collapsed(v)) areas.collapsed += area;
   }
-  double compressed_below() const { return compressed_below_; }
+  const EnvelopeScale& scale() const { return scale_; }
 
  private:
   const LayerBase& base_;
   const Envelope& envelope_;
-  double compressed_below_;  ///< m
+  EnvelopeScale scale_;
 };
 
 std::vector<std::pair<std::string, double>> shares_of(const Areas& areas) {
@@ -64,12 +66,6 @@ std::vector<PatchCoverage> cover_patches(const LayerBase& base, const Classifier
   return patches;
 }
 
-std::string in_metres(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g m", x);
-  return text;
-}
-
 std::string vertex_text(const LayerBase& base, const Envelope& envelope, VertexId v) {
   const Patch& patch = base.wall.patches[base.wall.triangle_patch[triangle_of(base.topology.outgoing(v).front())]];
   return "vertex " + std::to_string(v.value()) + " of patch " + patch.name + ": " + std::string(to_string(envelope.limit[v]));
@@ -85,19 +81,24 @@ void list_places(const LayerBase& base, const Envelope& envelope, const Classifi
   report.n_compressed = static_cast<std::int64_t>(compressed.size());
   std::stable_sort(compressed.begin(), compressed.end(), [&](VertexId a, VertexId b) { return envelope.height[a] < envelope.height[b]; });
   compressed.resize(std::min(compressed.size(), k_listed_compressed));
-  for (const VertexId v : compressed) report.compressed.push_back({base.wall.points[v], in_metres(envelope.height[v]) + ", " + vertex_text(base, envelope, v)});
+  for (const VertexId v : compressed) report.compressed.push_back({base.wall.points[v], in_metres(envelope.height[v], k_digits) + ", " + vertex_text(base, envelope, v)});
 }
 
 /// Layers that are thinner than their own first cells come from a wrong unit more often than from a difficult shape.
-void warn(const EnvelopeOptions& options, const Envelope& envelope, const Classifier& classifier, LayerReport& report) {
-  const double tallest = *std::max_element(envelope.target.begin(), envelope.target.end());
-  const bool is_target_low = tallest < classifier.compressed_below();
+void warn(const Envelope& envelope, const Classifier& classifier, LayerReport& report) {
+  // Where the target is tallest over what the first cells alone make.
+  const EnvelopeScale& scale = classifier.scale();
+  VertexId v(0);
+  for (const VertexId other : envelope.target.ids())
+    if (envelope.target[other] * scale.compressed(v) > envelope.target[v] * scale.compressed(other)) v = other;
+  const double tallest = envelope.target[v];
+  const bool is_target_low = tallest < scale.compressed(v);
   if (!is_target_low && report.compressed_area <= k_suspicious_share) return;
   char share[32];
   std::snprintf(share, sizeof share, "%.0f %%", 100.0 * report.compressed_area);
-  report.warnings.push_back("the layer is compressed on " + std::string(share) + " of the wall: " + std::to_string(options.layers) + " layers of first_height " +
-                            in_metres(options.first_height) + " are " + in_metres(classifier.compressed_below()) + " tall" +
-                            (is_target_low ? ", more than the tallest target of " + in_metres(tallest) : "") + " (body length " + in_metres(report.body_length) +
+  report.warnings.push_back("the layer is compressed on " + std::string(share) + " of the wall: " + std::to_string(scale.n(v)) + " layers of first_height " +
+                            in_metres(scale.h0(v), k_digits) + " are " + in_metres(scale.compressed(v), k_digits) + " tall" +
+                            (is_target_low ? ", more than the tallest target of " + in_metres(tallest, k_digits) : "") + " (body length " + in_metres(report.body_length, k_digits) +
                             "); are first_height and the surface in the same unit?");
 }
 
@@ -119,8 +120,9 @@ InterfaceReport report_interface(const LayerBase& base, const Classifier& classi
           std::array<Point, 3> top;
           double height = 0.0;
           for (std::size_t k = 0; k < 3; ++k) {
-            top[k] = node(v[k], layers.n_layers);
-            height += distance(top[k], node(v[k], layers.n_layers - 1)) / 3.0;
+            const int n_layers = layers.layers_of_line(v[k].value());
+            top[k] = node(v[k], n_layers);
+            height += distance(top[k], node(v[k], n_layers - 1)) / 3.0;
           }
           const double edge = (distance(top[0], top[1]) + distance(top[1], top[2]) + distance(top[2], top[0])) / 3.0;
           const double ratio = height / (k_regular_height * edge);
@@ -169,14 +171,20 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
   report.first_node = first_node_report(base, classify_vertices(base, options, context), options, envelope, extrusion, context);
   report.interface = report_interface(base, classifier, extrusion, context);
   report.reduced_curving = extrusion.curving_shares;
-  warn(options, envelope, classifier, report);
+  warn(envelope, classifier, report);
   return report;
 }
 
-LayerRequest layer_request(const EnvelopeOptions& options, const Envelope& envelope) {
+LayerRequest layer_request(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope) {
   LayerRequest request;
   request.first_height = options.first_height;
   request.max_growth = options.max_growth;
+  if (const LayerDemand& demand = base.demand; !demand.is_empty()) {
+    request.line_first_height = demand.first_height.raw();
+    request.line_max_growth = demand.max_growth.raw();
+    request.first_height = *std::min_element(demand.first_height.begin(), demand.first_height.end());
+    request.max_growth = *std::max_element(demand.max_growth.begin(), demand.max_growth.end());
+  }
   request.target_height = envelope.target.raw();
   for (std::size_t i = 0; i < k_height_limits; ++i) request.reasons.emplace_back(to_string(static_cast<HeightLimit>(i)));
   request.reason.reserve(envelope.limit.size());

@@ -10,6 +10,6 @@ namespace sterna::volmesh {
 LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion, const RunContext& context);
 
 /// What was asked of each line, for the gates of `check`.
-LayerRequest layer_request(const EnvelopeOptions& options, const Envelope& envelope);
+LayerRequest layer_request(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope);
 
 }  // namespace sterna::volmesh

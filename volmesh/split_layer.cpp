@@ -4,6 +4,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
+#include "volmesh/patch_layers.h"
 #include "volmesh/tetra/verify.h"
 
 namespace sterna::volmesh {
@@ -131,14 +132,16 @@ SplitLayer split_layer(const LayerBase& base, const Envelope& envelope, const Tr
   layer.envelope = split_envelope(envelope, wall_part, tets.splits, *wall);
   layer.wall = std::move(wall);
   layer.outer = std::move(split_outer);
-  layer.base = std::make_unique<const LayerBase>(*layer.wall, context);
+  auto split_base = std::make_unique<LayerBase>(*layer.wall, context);
+  split_base->demand = demand_of(*split_base, options.envelope, options.patches, context);
+  layer.base = std::move(split_base);
 
   layer.extrusion = extrude_prisms(*layer.base, options.envelope, options.prisms, layer.envelope, context);
   Collider collider(*layer.base, layer.outer.get(), context);
   require_clear_input(collider, context);
   layer.certificate = certify_envelope(*layer.base, collider, layer.envelope, context);
   require_proved(layer.certificate);
-  layer.boundary = fill_boundary(*layer.base, layer.extrusion, *layer.outer);
+  layer.boundary = fill_boundary(*layer.base, layer.extrusion, unlinked(*layer.outer));
   renumber(wall_part, outer_part, node2vertex, tets, context);
   layer.is_filled = is_proven(layer.boundary, tets, context);
   return layer;

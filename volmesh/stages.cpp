@@ -1,20 +1,33 @@
 #include "volmesh/stages.h"
 
+#include <algorithm>
+#include <functional>
+#include <iterator>
 #include <optional>
 #include <utility>
 
 #include "geom/base/alongside.h"
 #include "geom/base/error.h"
+#include "geom/base/glob.h"
+#include "geom/base/number_text.h"
+#include "geom/math/measures.h"
 #include "volmesh/assemble.h"
+#include "volmesh/ends/close_ends.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/feature_angle.h"
+#include "volmesh/envelope/periodic.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/untangle.h"
+#include "volmesh/joint_envelope.h"
+#include "volmesh/layer_choice.h"
 #include "volmesh/layer_report.h"
+#include "volmesh/outer/complete_boundary.h"
+#include "volmesh/patch_layers.h"
 #include "volmesh/prisms/extrude.h"
 #include "volmesh/prisms/layer_cells.h"
 #include "volmesh/repair_envelope.h"
 #include "volmesh/split_layer.h"
+#include "volmesh/tetra/preflight.h"
 #include "volmesh/tetra/size_supply.h"
 #include "volmesh/tetra/verify.h"
 #include "volmesh/visibility_report.h"
@@ -26,36 +39,64 @@ constexpr int k_max_clear_rounds = 10;
 constexpr std::size_t k_max_places = 10;
 constexpr int k_max_boundary_repairs = 3;
 
-VolumeMeshOptions sane(const TriMesh& wall, VolumeMeshOptions options) {
-  require_options(options_of(options), "volume_mesh");
+VolumeMeshOptions sane(const TriMesh& wall, VolumeMeshOptions options, const RunContext& context) {
+  require_options(required_options_of(options), "volume_mesh");
   if (wall.n_triangles() == 0)
     throw Error({.code = ErrorCode::empty_surface, .attempted = "volume_mesh", .problem = "the wall has no triangles"});
-  return options;
+  return effective_options(options, context);
 }
 
-void require_closed(const LayerBase& base) {
-  if (base.topology.n_boundary_halfedges() == 0) return;
-  ErrorInfo info{.code = ErrorCode::open_surface,
-                 .attempted = "volume_mesh",
-                 .problem = "the wall is open: " + std::to_string(base.topology.n_boundary_halfedges()) + " edges have one triangle",
-                 .n_places = static_cast<std::int64_t>(base.topology.n_boundary_halfedges()),
-                 .hint = "half models are not filled yet: mirror the wall and mesh the whole body, or close its holes"};
-  for (std::size_t i = 0; i < base.topology.n_halfedges() && info.places.size() < k_max_places; ++i)
-    if (base.topology.is_boundary(HalfedgeId(i))) info.places.push_back({base.wall.points[base.topology.from(HalfedgeId(i))], "an open edge starts here"});
-  throw Error(std::move(info));
+Domain domain_around(const TriMesh& surface, const VolumeMeshOptions& options, const RunContext& context) {
+  const StageTimer timer(context, "domain");
+  TriMesh given = surface;
+  std::vector<PatchRule> of_given;  // the others are meant for what is added
+  std::ranges::copy_if(options.patches, std::back_inserter(of_given), [&](const PatchRule& rule) {
+    return std::ranges::any_of(given.patches, [&](const Patch& patch) { return matches_glob(patch.name, rule.names); });
+  });
+  apply_patch_kinds(given, of_given);
+  TriMesh boundary = complete_boundary(given, {options.farfield, options.farfield_surface}, context);
+  apply_patch_kinds(boundary, options.patches);
+  const std::vector<PeriodicPatches> periodic = join_periodic_sides(boundary, options.periodic, context);
+  const Column<PatchId, PatchLayers> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
+  Column<PatchId, std::uint8_t> has_layer(boundary.patches.size(), 0);
+  for (const PatchId p : layers.ids()) has_layer[p] = layers[p].carries_layers() ? 1 : 0;
+  Domain domain = split_domain(boundary, has_layer, context, periodic);
+  if (domain.wall.n_triangles() == 0)
+    throw Error({.code = ErrorCode::empty_surface, .attempted = "volume_mesh", .problem = "no patch carries a layer", .hint = "at least one patch must be a wall with layers"});
+  domain.outer = with_discs(std::move(domain.outer), domain.wall, options.discs, options.size.size_growth, context);
+  if (!domain.links.empty()) {  // discs share nothing with the wall
+    domain.links.line.resize(domain.outer.n_vertices());
+    domain.links.surface.resize(domain.outer.n_triangles(), -1);
+  }
+  return domain;
+}
+
+/// The walls with layers, and what is asked of the layer on them.
+LayerBase base_of(const Domain& domain, const VolumeMeshOptions& options, const RunContext& context) {
+  LayerBase base(domain.wall, context, domain.constraints);
+  base.let_grow_alike(domain.partners);
+  base.demand = demand_of(base, options.envelope, options.patches, context);
+  return base;
+}
+
+/// The user's own true surface, asked with triangles of the wall.
+TrueSurface true_surface_of(const TrueSurface& of_surface, const Domain& domain) {
+  if (!of_surface) return {};
+  return [of_surface, &wall2surface = domain.wall2surface](const Point& p, TriangleId t, const std::array<double, 3>& weights) { return of_surface(p, wall2surface[t], weights); };
 }
 
 /// Extrusion may lower heights, and lowering may bring surfaces together that were clear before: alternate until neither changes anything. What still
 /// changes after some rounds collapses, so it ends. \pre, \post envelope valid and clear.
 Extrusion extrude_clear_of_collisions(const LayerBase& base, const VolumeMeshOptions& options, Collider& collider, Envelope& envelope,
                                       const RunContext& context) {
-  const EnvelopeScale scale = scale_of(options.envelope);
+  const EnvelopeScale scale = scale_of(base, options.envelope);
   Extruder extruder(base, options.envelope, options.prisms, context);
   for (int round = 0;; ++round) {
     const EnvelopeShape before = envelope;
     extruder.extrude(envelope);
     const std::vector<VertexId> repaired = difference(before, envelope, context).vertices;
-    if (repaired.empty() || !retract_collisions(base, options.envelope, collider, envelope, context, &repaired)) return extruder.take();
+    const bool is_equal = equalise_partners(base, options.envelope, &collider, envelope, context).empty();
+    if ((repaired.empty() || !retract_collisions(base, options.envelope, collider, envelope, context, &repaired)) && is_equal) return extruder.take();
     if (round < k_max_clear_rounds) continue;
     std::vector<VertexId> disturbed = difference(before, envelope, context).vertices;
     for (const VertexId v : disturbed) lower(envelope, v, 0.0, HeightLimit::prism, scale);
@@ -90,8 +131,31 @@ void add_cells(const LayerCertificate& cells, EnvelopeCertificate& certificate) 
                                   "layer " + std::to_string(cells.worst_layer) + " on wall triangle " + std::to_string(cells.worst_column)};
 }
 
-TetraBoundary domain_of(const FillBoundary& boundary, std::span<const Point> holes, SplitTaker take_splits) {
-  return {boundary.points, boundary.triangles, holes, true, boundary.patch_names, boundary.triangle_patch, std::move(take_splits)};
+/// \p is_clear: proved already; not where patches were triangulated anew.
+TetraBoundary boundary_for_engines(const FillBoundary& boundary, std::span<const Point> holes, bool is_clear, SplitTaker take_splits) {
+  return {boundary.points, boundary.triangles, holes, is_clear, boundary.patch_names, boundary.triangle_patch, std::move(take_splits)};
+}
+
+/// Edge lengths that the user's sources ask for on patches that are triangulated anew.
+std::function<double(const Point&)> end_sizes(const VolumeMeshOptions& options) {
+  const bool has_max = !is_automatic(options.size.size_max);
+  if (options.sources.empty() && !has_max) return {};
+  return [&options, has_max](const Point& p) {
+    const double slope = options.size.size_growth - 1.0;
+    double h = has_max ? options.size.size_max : 1e300;
+    for (const SizeSource& source : options.sources) {
+      h = std::min(h, size_of(source, p, slope));
+      for (std::size_t i = 0; i < source.points.size(); ++i) h = std::min(h, source.sizes[i] + slope * distance(source.points[i], p));
+    }
+    return h;
+  };
+}
+
+ClosedOuter closed_around(const MeshingSite& site, const Envelope& envelope, const RunContext& context) {
+  ClosedOuter outer = close_ends(site.domain, site.base, envelope, {site.options.ends, end_sizes(site.options)}, context);
+  outer.mesh = with_second_sides(std::move(outer.mesh), site.options.discs);
+  outer.line.resize(outer.mesh.n_vertices());
+  return outer;
 }
 
 /// Carries the splits of a result to the layer; where the layer must be lower with them, the volume inside the split boundary, kept now, is filled once more.
@@ -102,7 +166,7 @@ SplitLayer take_splits(const LayerBase& base, const Envelope& envelope, const Tr
   VolumeMeshOptions keeping = options;
   keeping.tetrahedra.boundary_splits = "never";
   const std::vector<Point> holes = find_cavity_points(*layer.wall, context);
-  const TetraBoundary domain = domain_of(layer.boundary, holes, {});
+  const TetraBoundary domain = boundary_for_engines(layer.boundary, holes, true, {});
   SizeSupply sizes(domain, options.sources, options.size, context);
   tets = fill(domain, sizes, keeping.tetrahedra, context);
   return layer;
@@ -116,8 +180,8 @@ void adopt(SplitLayer split, const VolumeMeshOptions& options, FillBoundary& bou
   knowledge.certificate = split.certificate;
   knowledge.report = report(*split.base, options.envelope, split.envelope, split.extrusion, context);
   filled.curving_shares = split.extrusion.curving_shares;
-  filled.layers = assemble_layers(*split.base, std::move(split.extrusion), *split.outer);
-  filled.layers.request = layer_request(options.envelope, split.envelope);
+  filled.layers = assemble_layers(*split.base, std::move(split.extrusion), unlinked(*split.outer), {});
+  filled.layers.request = layer_request(*split.base, options.envelope, split.envelope);
   filled.split_wall = *split.wall;
   filled.envelope.envelope = std::move(split.envelope);
   boundary = std::move(split.boundary);
@@ -148,9 +212,13 @@ FillBoundary lay_out(MeshingSite& site, Envelope& envelope, FilledStage& filled,
   }
   knowledge.report = report(site.base, site.options.envelope, envelope, extrusion, context);
   filled.curving_shares = extrusion.curving_shares;
-  FillBoundary boundary = fill_boundary(site.base, extrusion, site.outer);
-  filled.layers = assemble_layers(site.base, std::move(extrusion), site.outer);
-  filled.layers.request = layer_request(site.options.envelope, envelope);
+  const ClosedOuter outer = closed_around(site, envelope, context);
+  FillBoundary boundary = fill_boundary(site.base, extrusion, outer);
+  filled.layers = assemble_layers(site.base, std::move(extrusion), outer, site.domain.rim);
+  filled.layers.request = layer_request(site.base, site.options.envelope, envelope);
+  const std::size_t n_wall_patches = site.base.wall.patches.size();
+  for (const PeriodicEnds& sides : site.domain.periodic)
+    filled.layers.periodic.push_back({PatchId(n_wall_patches + sides.first.index()), PatchId(n_wall_patches + sides.second.index()), sides.translation});
   return boundary;
 }
 
@@ -163,7 +231,7 @@ void require_same(std::size_t found, std::size_t expected, const std::string& wh
 }
 
 /// That the layer stands on the wall, and that nothing but the outer boundary is beside it.
-void require_layers_on(const TriMesh& wall, const HybridMesh& layers) {
+void require_layers_on(const TriMesh& wall, const HybridMesh& layers, bool has_rims) {
   require_same(layers.layers.n_lines(), wall.n_vertices(), "lines of the layer");
   require_same(layers.layers.n_columns(), wall.n_triangles(), "columns of the layer");
   std::size_t n_wrong = 0, n_layer_nodes = 0;
@@ -171,20 +239,16 @@ void require_layers_on(const TriMesh& wall, const HybridMesh& layers) {
     for (std::size_t k = 0; k < 3; ++k) n_wrong += layers.layers.base[t.index()][k] != wall.triangles[t][k].value() ? 1 : 0;
   for (std::uint32_t line = 0; line < layers.layers.n_lines(); ++line) {
     n_wrong += layers.layers.first_node[line] != n_layer_nodes || layers.points[NodeId(n_layer_nodes)] != wall.points[VertexId(line)] ? 1 : 0;
-    n_layer_nodes = layers.layers.node(line, layers.layers.n_layers).index() + 1;
+    n_layer_nodes = layers.layers.top(line).index() + 1;
   }
   for (std::size_t t = wall.n_triangles(); t < layers.boundary_triangles.size(); ++t)
-    for (const NodeId node : layers.boundary_triangles[t].nodes) n_wrong += node.index() < n_layer_nodes ? 1 : 0;
+    for (const NodeId node : layers.boundary_triangles[t].nodes) n_wrong += !has_rims && node.index() < n_layer_nodes ? 1 : 0;
   require_same(n_wrong, 0, "lines, columns and outer triangles of the layer that are not where wall and outer boundary are");
-  require_same(layers.prisms.size() + layers.pyramids.size() + layers.hexahedra.size() + layers.tetrahedra.size() + layers.boundary_quads.size(), 0, "cells and quadrilaterals beside columns");
+  require_same(layers.prisms.size() + layers.pyramids.size() + layers.hexahedra.size() + layers.tetrahedra.size() + (has_rims ? 0 : layers.boundary_quads.size()), 0, "cells and quadrilaterals beside columns");
 }
 
 /// What make_tetrahedra() knew of the layer when it ended.
-LayerKnowledge know_again(const TriMesh& wall, FilledStage& filled, const VolumeMeshOptions& options, const RunContext& context) {
-  const TriMesh outer = outer_of(filled.layers);
-  const LayerBase base(wall, context);
-  require_closed(base);
-  Collider collider(base, &outer, context);
+LayerKnowledge know_again(const LayerBase& base, Collider& collider, bool has_rims, FilledStage& filled, const VolumeMeshOptions& options, const RunContext& context) {
   require_clear_input(collider, context);
   LayerKnowledge knowledge;
   knowledge.certificate = certify_envelope(base, collider, filled.envelope.envelope, context);
@@ -194,7 +258,13 @@ LayerKnowledge know_again(const TriMesh& wall, FilledStage& filled, const Volume
   knowledge.report = report(base, envelope_options, filled.envelope.envelope, extrusion, context);
   filled.layers.layers = std::move(extrusion.layers);
   filled.layers.points.raw() = std::move(extrusion.points);
-  filled.layers.request = layer_request(envelope_options, filled.envelope.envelope);
+  filled.layers.request = layer_request(base, envelope_options, filled.envelope.envelope);
+  if (has_rims) {
+    const FillBoundary boundary = boundary_of(filled.layers);
+    TetraBoundary for_engines = boundary_for_engines(boundary, {}, false, {});
+    for_engines.has_sheets = !options.discs.empty();
+    judge(preflight(for_engines, {}, context), for_engines, context);
+  }
   LayerProof proof = prove_layer(filled.layers, context);
   add_cells(proof.cells, knowledge.certificate);
   require_proved(knowledge.certificate);
@@ -204,26 +274,30 @@ LayerKnowledge know_again(const TriMesh& wall, FilledStage& filled, const Volume
 
 }  // namespace
 
-MeshingSite::MeshingSite(const TriMesh& wall, const VolumeMeshOptions& user_options, const RunContext& context)
-    : options(sane(wall, user_options)),
-      outer(farfield_sphere(wall, options.farfield, context)),
+MeshingSite::MeshingSite(const TriMesh& surface, const VolumeMeshOptions& user_options, const RunContext& context)
+    : options(sane(surface, user_options, context)),
+      given_envelope(options.envelope),
+      domain(domain_around(surface, options, context)),
       base([&] {
         const StageTimer timer(context, "topology");
-        LayerBase layer_base(wall, context);
-        require_closed(layer_base);
-        return layer_base;
+        return base_of(domain, options, context);
       }()),
       collider([&] {
         options.envelope.feature_angle = decide_feature_angle(base, options.envelope, options.smooth_angle, context);
+        options.true_surface = true_surface_of(options.true_surface, domain);
         const StageTimer timer(context, "preflight");
-        Collider of_wall(base, &outer, context);
+        Collider of_wall(base, &domain.outer, context, &domain.links);
         require_clear_input(of_wall, context);
         return of_wall;
       }()) {}
 
 EnvelopeStage make_envelope(MeshingSite& site, const RunContext& context) {
   const StageTimer timer(context, "envelope");
-  return {build_envelope(site.base, site.options.envelope, site.collider, context.part("envelope", 0.0, 0.15)), site.options.envelope.feature_angle};
+  const RunContext part = context.part("envelope", 0.0, 0.15);
+  const std::vector<WholePart> parts = whole_parts(site.domain, site.options.parts, context);
+  EnvelopeStage stage{parts.empty() ? build_envelope(site.base, site.options.envelope, site.collider, part) : joint_envelope(site, parts, part), site.options.envelope.feature_angle};
+  equalise_partners(site.base, site.options.envelope, &site.collider, stage.envelope, context);
+  return stage;
 }
 
 FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, LayerKnowledge& knowledge, const RunContext& context) {
@@ -237,9 +311,11 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, LayerKnowled
   for (int n_repairs = 0; !knowledge.check; ++n_repairs) {
     const StageTimer timer(context, "tetrahedra");
     std::optional<SplitLayer> split;
-    const SplitTaker taker = [&](TetraResult& of_engine) { split = take_splits(site.base, envelope, site.outer, options, of_engine, context); };
-    const std::vector<Point> holes = find_cavity_points(site.base.wall, context);
-    const TetraBoundary domain = domain_of(boundary, holes, taker);
+    SplitTaker taker;  // where layers end on other patches, and where sides are periodic, the boundary stays as it is
+    if (!site.domain.has_rims() && site.domain.periodic.empty()) taker = [&](TetraResult& of_engine) { split = take_splits(site.base, envelope, site.domain.outer, options, of_engine, context); };
+    const std::vector<Point> holes = find_cavity_points(site.domain.bodies, context);
+    TetraBoundary domain = boundary_for_engines(boundary, holes, !site.domain.has_rims(), taker);
+    domain.has_sheets = !options.discs.empty();
     SizeSupply sizes(domain, options.sources, options.size, context);
     Alongside<LayerProof> proof(context, [&sizes, &mesh = std::as_const(filled.layers)](const RunContext& side) {
       sizes.wait();  // the engine needs them sooner
@@ -298,6 +374,9 @@ VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const
     result.check = check(result.mesh, {}, context.part("check", 0.9, 1.0), &*knowledge.check);
   }
   require_valid(result.check);
+  for (const PeriodicMatchReport& sides : result.check.periodic)
+    context.info("periodic sides " + sides.first + " and " + sides.second + ": " + std::to_string(sides.n_nodes) + " nodes and " + std::to_string(sides.n_faces) + " faces match within " +
+                 number_text(sides.worst, 3) + " m");
   return result;
 }
 
@@ -306,21 +385,26 @@ EnvelopeStage make_envelope(const TriMesh& wall, const VolumeMeshOptions& option
   return make_envelope(site, context);
 }
 
-FilledStage make_tetrahedra(const TriMesh& wall, const EnvelopeStage& envelope, const VolumeMeshOptions& user_options, const RunContext& context) {
-  require_same(envelope.envelope.height.size(), wall.n_vertices(), "vertices of the envelope");
+FilledStage make_tetrahedra(const TriMesh& surface, const EnvelopeStage& envelope, const VolumeMeshOptions& user_options, const RunContext& context) {
   VolumeMeshOptions options = user_options;
   options.envelope.feature_angle = envelope.feature_angle;
-  MeshingSite site(wall, options, context);
+  MeshingSite site(surface, options, context);
+  require_same(envelope.envelope.height.size(), site.base.wall.n_vertices(), "vertices of the envelope");
   LayerKnowledge knowledge;
   return make_tetrahedra(site, envelope, knowledge, context);
 }
 
-VolumeMeshResult finish_mesh(const TriMesh& given_wall, FilledStage filled, const VolumeMeshOptions& user_options, const RunContext& context) {
-  const TriMesh& wall = filled.split_wall ? *filled.split_wall : given_wall;
-  const VolumeMeshOptions options = sane(wall, user_options);
-  require_same(filled.envelope.envelope.height.size(), wall.n_vertices(), "vertices of the envelope");
-  require_layers_on(wall, filled.layers);
-  LayerKnowledge knowledge = know_again(wall, filled, options, context);
+VolumeMeshResult finish_mesh(const TriMesh& surface, FilledStage filled, const VolumeMeshOptions& user_options, const RunContext& context) {
+  const VolumeMeshOptions options = sane(surface, user_options, context);
+  Domain domain;
+  if (filled.split_wall) domain.wall = *filled.split_wall;
+  else domain = domain_around(surface, options, context);
+  require_same(filled.envelope.envelope.height.size(), domain.wall.n_vertices(), "vertices of the envelope");
+  require_layers_on(domain.wall, filled.layers, domain.has_rims());
+  if (!domain.has_rims()) domain.outer = one_sided(outer_of(filled.layers, domain.wall.patches.size()).mesh);
+  const LayerBase base = base_of(domain, options, context);
+  Collider collider(base, &domain.outer, context, &domain.links);
+  LayerKnowledge knowledge = know_again(base, collider, domain.has_rims(), filled, options, context);
   const FillBoundary boundary = boundary_of(filled.layers);
   verify_tetrahedra({.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}}, filled.tets, context);
   return finish_mesh(std::move(filled), std::move(knowledge), options.improve, context);

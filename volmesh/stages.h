@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "volmesh/domain_parts.h"
 #include "volmesh/envelope/collide.h"
 #include "volmesh/envelope/envelope.h"
 #include "volmesh/volume_mesh.h"
@@ -32,8 +33,10 @@ struct FilledStage {
   std::int64_t n_split_triangles = 0;
 };
 
-/// Called when a step of volume_mesh() has ended; either may be empty.
+/// Called when a step of volume_mesh() has ended; any may be empty.
 struct StageWatch {
+  /// Makes the envelope by calling its argument, or has it from elsewhere: that of this wall and these options. It is proved like any other.
+  std::function<EnvelopeStage(const std::function<EnvelopeStage()>&)> envelope;
   std::function<void(const EnvelopeStage&)> enveloped;
   std::function<void(const FilledStage&)> filled;
 };
@@ -55,12 +58,13 @@ VolumeMeshResult finish_mesh(const TriMesh& wall, FilledStage filled, const Volu
 /// Wall and outer boundary with what every step needs of them.
 struct MeshingSite {
   /// \throws as volume_mesh() for what no step can repair
-  MeshingSite(const TriMesh& wall, const VolumeMeshOptions& user_options, const RunContext& context);
+  MeshingSite(const TriMesh& surface, const VolumeMeshOptions& user_options, const RunContext& context);
   MeshingSite(const MeshingSite&) = delete;
   MeshingSite& operator=(const MeshingSite&) = delete;
 
-  VolumeMeshOptions options;  ///< with the feature angle
-  TriMesh outer;
+  VolumeMeshOptions options;  ///< with the feature angle; its true_surface takes triangles of the wall
+  EnvelopeOptions given_envelope;  ///< without it, unless the user gave it
+  Domain domain;
   LayerBase base;
   Collider collider;
 };

@@ -10,7 +10,8 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& optio
 
 VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const StageWatch& watch, const RunContext& context) {
   MeshingSite site(wall, options, context);
-  EnvelopeStage envelope = make_envelope(site, context);
+  const auto make = [&] { return make_envelope(site, context); };
+  EnvelopeStage envelope = watch.envelope ? watch.envelope(make) : make();
   if (watch.enveloped) watch.enveloped(envelope);
   LayerKnowledge knowledge;
   FilledStage filled = make_tetrahedra(site, std::move(envelope), knowledge, context);

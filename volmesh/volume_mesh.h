@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,10 +11,17 @@
 #include "geom/mesh/check.h"
 #include "geom/mesh/hybrid_mesh.h"
 #include "geom/mesh/tri_mesh.h"
+#include "volmesh/actuator_disc.h"
 #include "volmesh/envelope/certificate.h"
+#include "volmesh/ends/end_surface.h"
+#include "volmesh/family_options.h"
 #include "volmesh/envelope/options.h"
-#include "volmesh/farfield.h"
 #include "volmesh/improve/improve.h"
+#include "volmesh/outer/farfield_options.h"
+#include "volmesh/outer/periodic_sides.h"
+#include "volmesh/part_envelope.h"
+#include "volmesh/patch_rule.h"
+#include "volmesh/placed_part.h"
 #include "volmesh/prisms/first_node.h"
 #include "volmesh/prisms/options.h"
 #include "volmesh/tetra/size_field.h"
@@ -23,19 +31,29 @@
 namespace sterna::volmesh {
 
 struct VolumeMeshOptions {
+  FamilyOptions family;
   EnvelopeOptions envelope;
+  std::vector<PatchRule> patches;   ///< what patches ask for instead; of several rules that match the last counts (sort_rules)
   PrismOptions prisms;
   FarfieldOptions farfield;
+  std::shared_ptr<const TriMesh> farfield_surface;  ///< for its shape "surface"
+  EndOptions ends;
   SizeFieldOptions size;
   std::vector<SizeSource> sources;  ///< of the size field
+  std::vector<ActuatorDisc> discs;  ///< in the fluid
+  std::vector<PeriodicNames> periodic;  ///< pairs of patches, also of those that are added, that are to match node by node and face by face
   TetraOptions tetrahedra;
   ImproveOptions improve;
   double smooth_angle = k_automatic;  ///< rad: largest dihedral turn of the wall where it is smooth, where its maker knows it; decides the default feature angle
+  std::vector<PlacedPart> parts;    ///< of the wall, that were meshed elsewhere and moved: their envelopes are made there, too, and moved (joint_envelope.h)
+  PartEnvelopeMaker part_envelope;  ///< makes these; empty: part_envelope()
   TrueSurface true_surface;         ///< where new wall vertices go when boundary triangles are split; empty: they stay on their triangle
 };
 
-/// All options of all stages, in stage order, for Lua, the command line, help and the manifest. `options` must outlive the table.
+/// All options of all stages but the rules of patches, in stage order, for Lua, the command line, help and the manifest. `options` must outlive the table.
 OptionTable options_of(VolumeMeshOptions& options);
+/// The same; first_height is not required where rules of patches give it, as then each patch with layers is asked for its own (layers_of_patches).
+OptionTable required_options_of(VolumeMeshOptions& options);
 
 /// Shares of a patch's area, by its triangles' corners. The rest has less than its full height, but its first height.
 struct PatchCoverage {

@@ -2,6 +2,7 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
@@ -55,6 +56,26 @@ std::string hash_files(std::span<const std::filesystem::path> paths) {
   std::string lines;
   for (const std::filesystem::path& path : paths) lines += hash_file(path) + "  " + path.filename().string() + "\n";
   return to_hex(XXH3_128bits(lines.data(), lines.size()));
+}
+
+struct ContentHash::State {
+  State() : xxh(XXH3_createState()) { XXH3_128bits_reset(xxh.get()); }
+  std::unique_ptr<XXH3_state_t, FreeState> xxh;
+};
+
+ContentHash::ContentHash() : state_(std::make_unique<State>()) {}
+ContentHash::~ContentHash() = default;
+ContentHash::ContentHash(ContentHash&&) noexcept = default;
+ContentHash& ContentHash::operator=(ContentHash&&) noexcept = default;
+
+void ContentHash::append(std::span<const std::byte> bytes) { XXH3_128bits_update(state_->xxh.get(), bytes.data(), bytes.size()); }
+
+std::array<std::uint8_t, 16> ContentHash::digest() const {
+  XXH128_canonical_t canonical;
+  XXH128_canonicalFromHash(&canonical, XXH3_128bits_digest(state_->xxh.get()));
+  std::array<std::uint8_t, 16> result{};
+  std::copy(std::begin(canonical.digest), std::end(canonical.digest), result.begin());
+  return result;
 }
 
 std::uint64_t hash_bytes(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }

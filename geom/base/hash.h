@@ -1,8 +1,11 @@
 // Content hashes for manifests and caches. Not for security.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,5 +22,22 @@ std::string hash_files(std::span<const std::filesystem::path> paths);
 
 /// XXH3, 64 bits, seed 0; the same on every machine. About 20 GB/s.
 std::uint64_t hash_bytes(std::string_view bytes);
+
+/// XXH3, 128 bits, of bytes that come piece by piece; how they are cut does not matter.
+class ContentHash {
+ public:
+  ContentHash();
+  ~ContentHash();
+  ContentHash(ContentHash&&) noexcept;
+  ContentHash& operator=(ContentHash&&) noexcept;
+
+  void append(std::span<const std::byte> bytes);
+  /// Of all bytes so far, the most significant one first; more may follow.
+  std::array<std::uint8_t, 16> digest() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace sterna

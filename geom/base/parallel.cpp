@@ -12,6 +12,7 @@
 
 #ifndef STERNA_STD_THREADS
 #include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
@@ -46,13 +47,18 @@ int resolve_threads(int threads) {
 
 #ifndef STERNA_STD_THREADS
 
+/// Threads that TBB may have in all when some pool wants more than the hardware has. Of all rules alive TBB takes the smallest, so that a
+/// pool's rule must not be its own count (a pool of 2 would hold one of 7 down): its arena keeps it to that. 256 is what TBB itself reserves for.
+constexpr std::size_t k_allowed_threads = 256;
+
 class ThreadPool {
  public:
-  ThreadPool(int count, bool is_of_run) : threads(count), arena(count) {
-    if (is_of_run) allowance.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count));
+  explicit ThreadPool(int count) : threads(count), arena(count) {
+    if (count > tbb::info::default_concurrency())
+      allowance.emplace(tbb::global_control::max_allowed_parallelism, std::max(static_cast<std::size_t>(count), k_allowed_threads));
   }
   int threads;
-  std::optional<tbb::global_control> allowance;  ///< TBB caps at the hardware's threads by default; 7 threads must be possible on 2 cores. The smallest of all rules
+  std::optional<tbb::global_control> allowance;  ///< only above the hardware's threads, TBB's own limit; 7 threads must be possible on 2 cores
   tbb::task_arena arena;
 };
 
@@ -66,7 +72,7 @@ static void run_chunks(ThreadPool& pool, std::size_t n_chunks, const std::functi
 
 class ThreadPool {
  public:
-  ThreadPool(int count, bool) : threads(count) {}
+  explicit ThreadPool(int count) : threads(count) {}
   int threads;
 };
 
@@ -82,8 +88,7 @@ static void run_chunks(ThreadPool& pool, std::size_t n_chunks, const std::functi
 
 #endif
 
-std::shared_ptr<ThreadPool> make_thread_pool(int threads) { return std::make_shared<ThreadPool>(resolve_threads(threads), true); }
-std::shared_ptr<ThreadPool> make_side_pool(int threads) { return std::make_shared<ThreadPool>(threads, false); }
+std::shared_ptr<ThreadPool> make_thread_pool(int threads) { return std::make_shared<ThreadPool>(resolve_threads(threads)); }
 int thread_count(const ThreadPool& pool) { return pool.threads; }
 
 void parallel_chunks(const RunContext& context, std::size_t n, std::size_t chunk, detail::RangeFunction f) {

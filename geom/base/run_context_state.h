@@ -9,10 +9,8 @@
 
 namespace sterna {
 
-/// The threads of a run; 0 = all of the machine.
+/// Threads of a run or beside one; 0 = all of the machine.
 std::shared_ptr<ThreadPool> make_thread_pool(int threads);
-/// Threads beside those of a run.
-std::shared_ptr<ThreadPool> make_side_pool(int threads);
 int thread_count(const ThreadPool& pool);
 
 struct RunContext::State {

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <sstream>
 
 #include "geom/base/error.h"
+#include "geom/base/number_with_unit.h"
 
 namespace sterna {
 namespace {
@@ -16,16 +18,38 @@ namespace {
 struct NamedScale {
   std::string_view name;
   double scale;
+  Unit dimension;
 };
 /// SI value of each unit that a number may carry; exact by definition (inch = 25.4 mm, ft = 12 inch).
-constexpr std::array<NamedScale, 8> k_units = {{{"mm", 1e-3},
-                                                {"cm", 1e-2},
-                                                {"inch", 0.0254},
-                                                {"in", 0.0254},
-                                                {"ft", 0.3048},
-                                                {"deg", std::numbers::pi / 180.0},
-                                                {"rad", 1.0},
-                                                {"m", 1.0}}};
+constexpr std::array<NamedScale, 9> k_units = {{{"m", 1.0, Unit::metre},
+                                                {"mm", 1e-3, Unit::metre},
+                                                {"cm", 1e-2, Unit::metre},
+                                                {"inch", 0.0254, Unit::metre},
+                                                {"in", 0.0254, Unit::metre},
+                                                {"ft", 0.3048, Unit::metre},
+                                                {"deg", std::numbers::pi / 180.0, Unit::radian},
+                                                {"rad", 1.0, Unit::radian},
+                                                {"s", 1.0, Unit::second}}};
+
+std::string_view dimension_text(Unit dimension) {
+  switch (dimension) {
+    case Unit::none: return "a number without a unit";
+    case Unit::metre: return "a length";
+    case Unit::radian: return "an angle";
+    case Unit::second: return "a time";
+    case Unit::byte: return "a number of bytes";
+  }
+  return "";
+}
+
+/// "a length (m, mm, cm, inch, in, ft)"
+std::string expected_text(Unit dimension) {
+  std::string units;
+  for (const NamedScale& known : k_units)
+    if (known.dimension == dimension) units += (units.empty() ? "" : ", ") + std::string(known.name);
+  const std::string what(dimension_text(dimension));
+  return units.empty() ? what : what + " (" + units + ")";
+}
 
 std::string number_text(double value) {
   if (is_automatic(value)) return "automatic";
@@ -72,6 +96,22 @@ std::vector<std::string> split(std::string_view text) {
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return words;
+}
+
+/// The number that a name stands for: choices "coarse=0.5 fine=2".
+std::optional<double> named_number(std::string_view choices, std::string_view name) {
+  for (const std::string& choice : split(choices)) {
+    const std::size_t equals = choice.find('=');
+    if (equals == name.size() && choice.compare(0, equals, name) == 0) return std::stod(choice.substr(equals + 1));
+  }
+  return std::nullopt;
+}
+
+/// "coarse, fine"
+std::string names_of_numbers(std::string_view choices) {
+  std::string text;
+  for (const std::string& choice : split(choices)) text += (text.empty() ? "" : ", ") + choice.substr(0, choice.find('='));
+  return text;
 }
 
 [[noreturn]] void reject(const Option& option, const std::string& given, const std::string& expected) {
@@ -127,6 +167,12 @@ std::string Option::default_text() const {
 }
 
 std::string Option::range_text() const {
+  if (!choices.empty() && kind == OptionKind::number) {
+    Option plain = *this;
+    plain.choices = {};
+    const std::string range = plain.range_text();
+    return (range.empty() ? "any number" : range) + ", or " + names_of_numbers(choices);
+  }
   if (!choices.empty()) {
     std::string text = "one of";
     for (const std::string& choice : split(choices)) text += (text.size() > 6 ? ", " : " ") + choice;
@@ -148,6 +194,10 @@ void set_option(const Option& option, const OptionValue& value) {
     const double number = std::get<double>(value);
     if (number == std::floor(number) && std::abs(number) < 1e15)
       return set_option(option, static_cast<std::int64_t>(number));
+  }
+  if (const auto* name = std::get_if<std::string>(&value); name && option.kind == OptionKind::number && !option.choices.empty()) {
+    if (const auto number = named_number(option.choices, *name)) return set_option(option, *number);
+    reject(option, value_text(value), expected + " or one of " + names_of_numbers(option.choices));
   }
   if (value.index() != option.default_value.index()) reject(option, value_text(value), expected);
   if (const double* number = std::get_if<double>(&value)) check_range(option, *number);
@@ -178,6 +228,21 @@ const Option& find_option(const OptionTable& table, std::string_view name, std::
                .hint = nearest.empty() ? "help lists the options" : "did you mean \"" + nearest + "\"?"});
 }
 
+namespace {
+
+/// parse_number_with_unit that says which option it was.
+double number_of_text(const Option& option, std::string_view text) {
+  try {
+    return parse_number_with_unit(text, option.unit);
+  } catch (const Error& error) {
+    ErrorInfo info = error.info();
+    info.attempted = "option " + std::string(option.stage) + "." + std::string(option.name);
+    throw Error(std::move(info));
+  }
+}
+
+}  // namespace
+
 void set_option_from_text(const Option& option, std::string_view text) {
   switch (option.kind) {
     case OptionKind::boolean:
@@ -193,7 +258,8 @@ void set_option_from_text(const Option& option, std::string_view text) {
     }
     case OptionKind::number:
       if (text == "automatic") return set_option(option, k_automatic);
-      return set_option(option, parse_number_with_unit(text));
+      if (!option.choices.empty() && !text.empty() && std::isalpha(static_cast<unsigned char>(text.front()))) return set_option(option, std::string(text));
+      return set_option(option, number_of_text(option, text));
   }
 }
 
@@ -223,12 +289,12 @@ std::string nearest_name(std::string_view name, std::span<const std::string> can
   return best;
 }
 
-double parse_number_with_unit(std::string_view text) {
+double parse_number_with_unit(std::string_view text, Unit expected) {
   const auto fail = [&]() -> double {
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "reading a number",
-                 .problem = "\"" + std::string(text) + "\" is not a number with an optional unit (m, mm, cm, inch, ft, deg, rad)",
-                 .hint = "write for example 2e-6, 0.5*mm or 35*deg"});
+                 .problem = "\"" + std::string(text) + "\" is not " + expected_text(expected),
+                 .hint = expected == Unit::radian ? "write for example 35*deg" : expected == Unit::metre ? "write for example 2e-6 or 0.5*mm" : "write for example 1.25"});
   };
   double number = 0.0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -238,8 +304,11 @@ double parse_number_with_unit(std::string_view text) {
   if (!unit.empty() && unit.front() == '*') unit.remove_prefix(1);
   while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
   if (unit.empty()) return result.ptr == text.data() + text.size() ? number : fail();
-  for (const NamedScale& known : k_units)
-    if (known.name == unit) return number * known.scale;
+  for (const NamedScale& known : k_units) {
+    if (known.name != unit) continue;
+    if (known.dimension == expected) return number * known.scale;
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "reading a number", .problem = "\"" + std::string(text) + "\" is " + std::string(dimension_text(known.dimension)) + ", expected " + expected_text(expected)});
+  }
   return fail();
 }
 

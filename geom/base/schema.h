@@ -34,7 +34,7 @@ struct Field {
   double max = k_unbounded;   ///< inclusive
   std::string_view help;
   std::string_view automatic = {};  ///< for doubles: what k_automatic means, e.g. "50 body lengths"; empty = must have a number
-  std::string_view choices = {};    ///< for strings: the allowed values, separated by blanks; empty = any
+  std::string_view choices = {};    ///< for strings: the allowed values, separated by blanks; empty = any. For numbers: names that stand for some: "coarse=0.5 fine=2"
   bool required = false;            ///< the user must give it
 };
 
@@ -155,10 +155,6 @@ void require_options(const OptionTable& table, std::string_view attempted);
 
 /// The candidate with the smallest edit distance, if it is small enough to be a likely misspelling; else empty.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
-
-/// Numbers with a unit suffix ("mm", "cm", "inch", "ft", "deg") in SI; both "2*mm" and "2mm".
-/// \throws Error(bad_argument)
-double parse_number_with_unit(std::string_view text);
 
 /// JSON object text {"envelope": {"layers": 30, ...}, ...} of all options of the table; NaN as "automatic".
 std::string options_to_json(const OptionTable& table);

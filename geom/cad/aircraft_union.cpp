@@ -1,6 +1,7 @@
 #include "geom/cad/aircraft_union.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "geom/model/components.h"
 
@@ -71,6 +72,28 @@ std::vector<Model> split_solids(const Model& components) {
   if (info.n_places == 0) return parts;
   info.problem = std::to_string(info.n_places) + " faces belong to no solid";
   throw Error(std::move(info));
+}
+
+std::vector<Model> unite_touching(std::span<const Model> solids, const UniteOptions& options, const RunContext& context) {
+  if (solids.size() < 2) return {solids.begin(), solids.end()};
+  std::vector<std::size_t> group(solids.size());  // the first of those that hang together
+  std::iota(group.begin(), group.end(), std::size_t{0});
+  for (const PartContact& contact : find_contacts(solids, context).contacts) {
+    if (contact.kind == ContactKind::apart) continue;
+    const std::size_t a = group[contact.first], b = group[contact.second];
+    for (std::size_t& g : group)
+      if (g == std::max(a, b)) g = std::min(a, b);
+  }
+  std::vector<Model> result;
+  for (std::size_t g = 0; g < solids.size(); ++g) {
+    std::vector<Model> members;
+    for (std::size_t i = 0; i < solids.size(); ++i)
+      if (group[i] == g) members.push_back(solids[i]);
+    if (members.size() == 1) result.push_back(std::move(members.front()));
+    if (members.size() < 2) continue;
+    for (Model& solid : split_solids(unite(members, options, context).model)) result.push_back(std::move(solid));
+  }
+  return result;
 }
 
 UniteResult unite_aircraft(const Model& components, const UniteOptions& options, const RunContext& context) {

@@ -16,6 +16,7 @@
 #include <numeric>
 #include <optional>
 
+#include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
 #include "geom/cad/occt_call.h"
 #include "geom/cad/occt_shape.h"
@@ -43,6 +44,7 @@ constexpr Vec3 k_ray{0.2872, 0.5417, 0.7900};
 constexpr double k_same_hit = 1e-12;
 /// Crossing pairs of facets that are looked at in one chunk.
 constexpr std::size_t k_chunk = 64;
+constexpr int k_digits = 4;  ///< of numbers in messages
 
 using Facet = std::array<Point, 3>;
 
@@ -426,12 +428,6 @@ void add_exposures(const std::vector<Skin>& skins, ContactReport& report, const 
   }
 }
 
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 }  // namespace
 
 std::string part_name(const Model& part) { return part.components.empty() ? std::string("unnamed") : part.components.raw().front().name; }
@@ -454,18 +450,18 @@ std::string doubt_of(const PartContact& contact, std::span<const Model> parts) {
   const std::string first = "\"" + part_name(parts[contact.first]) + "\"", second = "\"" + part_name(parts[contact.second]) + "\"";
   const std::string both = first + " and " + second;
   switch (contact.kind) {
-    case ContactKind::apart: return both + " are apart by " + number_text(contact.gap) + " m";
+    case ContactKind::apart: return both + " are apart by " + number_text(contact.gap, k_digits) + " m";
     case ContactKind::touching: return both + " only touch";
     case ContactKind::inside: return first + " lies inside " + second;
     case ContactKind::crossing: break;
   }
   std::string doubt;
   if (contact.angle < k_tangent_angle) {
-    const std::string angle = number_text(contact.angle * 180.0 / std::numbers::pi) + " degrees";
+    const std::string angle = number_text(contact.angle * 180.0 / std::numbers::pi, k_digits) + " degrees";
     doubt = contact.is_crevice ? both + " leave a crevice of " + angle : both + " are nearly tangent where they cross, at " + angle;
   }
   if (contact.share_inside > k_mostly_inside) {
-    const std::string share = number_text(100.0 * contact.share_inside) + " % of the surface of " + (contact.is_first_inside ? first : second) + " lies inside " + (contact.is_first_inside ? second : first);
+    const std::string share = number_text(100.0 * contact.share_inside, k_digits) + " % of the surface of " + (contact.is_first_inside ? first : second) + " lies inside " + (contact.is_first_inside ? second : first);
     doubt += (doubt.empty() ? "" : "; ") + share;
   }
   return doubt;

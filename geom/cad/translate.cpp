@@ -235,7 +235,18 @@ Translated translate_step(std::string_view bytes, const std::string& source, con
   return result;
 }
 
+/// Whether the last record is that of the terminate section: a file of the fixed format says in column 73 what section a record belongs to.
+bool has_iges_end(std::string_view bytes) {
+  constexpr std::size_t k_section_column = 72;
+  const std::size_t last = bytes.find_last_not_of(" \t\r\n");
+  if (last == std::string_view::npos) return false;
+  const std::size_t before = bytes.find_last_of("\r\n", last);
+  const std::string_view record = bytes.substr(before == std::string_view::npos ? 0 : before + 1, last + 1);
+  return record.size() > k_section_column && record[k_section_column] == 'T';
+}
+
 Translated translate_iges(std::string_view bytes, const std::string& source, const Message_ProgressRange& progress) {
+  if (!has_iges_end(bytes)) malformed(source, "an IGES file without its last section", "is it complete? the last line should have a T in column 73");
   IGESCAFControl_Reader reader;
   reader.SetNameMode(true);
   reader.SetColorMode(true);

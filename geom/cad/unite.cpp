@@ -2,130 +2,34 @@
 // tolerance is enough, pairs that touch are tried one by one, to name the one that fails.
 #include "geom/cad/unite.h"
 
-#include <BRepAlgoAPI_Fuse.hxx>
 #include <BRepBndLib.hxx>
-#include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
-#include <Message_ProgressScope.hxx>
-#include <TopLoc_Location.hxx>
-#include <TopTools_ListOfShape.hxx>
-#include <TopoDS.hxx>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <cstdio>
-#include <functional>
 #include <optional>
 
 #include "geom/base/parallel.h"
-#include "geom/cad/near_pairs.h"
-#include "geom/cad/occt_call.h"
 #include "geom/cad/occt_shape.h"
+#include "geom/cad/try_boolean.h"
 #include "geom/model/model_measures.h"
 
 namespace sterna::cad {
 namespace {
 
-/// Tolerances that are tried, as shares of the longest side: exact first, the last is a tenth of what a mesh of a wing's leading edge resolves.
-constexpr std::array<double, 5> k_ladder = {0.0, 1e-7, 1e-6, 1e-5, 1e-4};
+constexpr const char* k_attempted = "uniting the parts";
+
 /// Volumes agree to this share of the sum: parts that only touch lose or gain by the tolerance of the fuse.
 constexpr double k_volume_share = 1e-4;
 /// Area of a part that the union may have more or less than samples tell, of the part's area: twice what sampling errs on wings and bodies. A lost
 /// face of a wing or a nacelle is more.
 constexpr double k_area_share = 0.05;
-/// Share of a try's progress that finding intersections is.
-constexpr double k_intersect_share = 0.9;
 /// Places that an error lists.
 constexpr std::size_t k_listed = 5;
 
-struct Part {
-  const Model* model;
-  std::shared_ptr<const CadShape> shape;
-  double volume = 0.0;
-  double area = 0.0;
-  PartExposure exposure;
-  std::string name() const { return part_name(*model); }
-};
+using Part = BooleanPart;
 
-/// Where a face of the result came from.
-struct Origin {
-  std::size_t part = 0;
-  FaceId face;
-};
-using Origins = NCollection_DataMap<TopoDS_Shape, Origin, TopTools_ShapeMapHasher>;
-
-struct Try {
-  Model model;
-  std::vector<Origin> origin_of_face;
-  double volume = 0.0;
-  bool is_late = false;  ///< the time limit ended it
-  UniteTry outcome;
-};
-
-/// Result faces by the faces of the parts they are pieces of.
-Origins origins_of(BRepAlgoAPI_Fuse& fuse, const std::vector<Part>& parts) {
-  Origins origins;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    const std::vector<TopoDS_Face>& faces = parts[p].shape->content().faces;
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-      const auto add = [&](const TopoDS_Shape& piece) {
-        if (!origins.IsBound(piece)) origins.Bind(piece, {p, FaceId(static_cast<std::uint64_t>(f))});
-      };
-      const TopTools_ListOfShape& pieces = fuse.Modified(faces[f]);
-      for (const TopoDS_Shape& piece : pieces) add(piece);
-      if (pieces.IsEmpty() && !fuse.IsDeleted(faces[f])) add(faces[f]);
-    }
-  }
-  return origins;
-}
-
-/// Middles of the free edges.
-std::vector<ErrorPlace> open_places(const Model& model) {
-  std::vector<ErrorPlace> places;
-  for (const EdgeId e : free_edges(model)) {
-    const ModelEdge& edge = model.edges[e];
-    places.push_back({edge.curve->point(0.5 * (edge.range.from + edge.range.to)), "open edge"});
-  }
-  return places;
-}
-
-LabelledShape label(const TopoDS_Shape& shape, const Origins& origins, const std::vector<Part>& parts) {
-  LabelledShape labelled;
-  labelled.parts.push_back({.shape = shape, .component = parts.front().name(), .name = {}, .label = {}});
-  for (Origins::Iterator it(origins); it.More(); it.Next()) {
-    const Model& model = *parts[it.Value().part].model;
-    const ModelFace& face = model.faces[it.Value().face];
-    labelled.labels.Bind(it.Key(), {.name = face.name, .colour = face.colour, .layer = face.layer, .component = model.components[face.component].name});
-  }
-  return labelled;
-}
-
-/// Roles, kinds and the very surfaces of the parts.
-std::string restore_origins(Try& result, const Origins& origins, const std::vector<Part>& parts) {
-  const CadShape::Content& content = result.model.shape->content();
-  for (const FaceId f : result.model.faces.ids()) {
-    const Origin* origin = origins.Seek(content.faces[f.index()]);
-    if (!origin) return "a face of the result comes from no part";
-    const Model& model = *parts[origin->part].model;
-    const ModelFace& from = model.faces[origin->face];
-    ModelFace& face = result.model.faces[f];
-    face.role = from.role;
-    result.model.components[face.component].kind = model.components[from.component].kind;
-    TopLoc_Location place, from_place;
-    const Handle(Geom_Surface) surface = BRep_Tool::Surface(content.faces[f.index()], place);
-    const Handle(Geom_Surface) from_surface = BRep_Tool::Surface(parts[origin->part].shape->content().faces[origin->face.index()], from_place);
-    if (surface == from_surface && place.IsEqual(from_place)) face.surface = from.surface;
-    result.origin_of_face.push_back(*origin);
-  }
-  return {};
-}
-
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
+using Try = BooleanTry;
 
 /// \returns what is wrong with the volume; empty: nothing
 std::string volume_objection(const std::vector<Part>& parts, double volume) {
@@ -155,8 +59,7 @@ std::string area_objection(const Try& result, const std::vector<Part>& parts, co
 std::string objection(Try& result, const std::vector<Part>& parts, const RunContext& context) {
   result.outcome.places = faults_of(*result.model.shape);
   if (!result.outcome.places.empty()) return "the result is not valid: " + result.outcome.places.front().what;
-  const bool is_closed = !result.model.solids.empty() && std::all_of(result.model.solids.begin(), result.model.solids.end(), [](const ModelSolid& s) { return s.is_closed; });
-  if (!is_closed) {
+  if (!is_closed_model(result.model)) {
     result.outcome.places = open_places(result.model);
     return "the result is not closed";
   }
@@ -167,122 +70,9 @@ std::string objection(Try& result, const std::vector<Part>& parts, const RunCont
   return volume.empty() ? area_objection(result, parts, measures) : volume;
 }
 
-TopTools_ListOfShape list_of(std::span<const Part> parts) {
-  TopTools_ListOfShape list;
-  for (const Part& part : parts) list.Append(part.shape->content().shape);
-  return list;
-}
-
-/// A fuse whose intersections are known.
-void fuse_shapes(const std::vector<Part>& parts, double tolerance, const RunContext& context, const Message_ProgressRange& progress, const std::function<void(BRepAlgoAPI_Fuse&)>& take) {
-  Message_ProgressScope steps(progress, nullptr, 1.0);
-  const auto set_options = [&](auto& algorithm) {
-    algorithm.SetNonDestructive(true);
-    algorithm.SetRunParallel(context.threads() > 1);
-    if (tolerance > 0.0) algorithm.SetFuzzyValue(tolerance);
-  };
-  NearPairsFiller filler(context);
-  filler.SetArguments(list_of(parts));
-  set_options(filler);
-  {
-    const StageTimer timer(context, "unite/intersect");
-    filler.Perform(steps.Next(k_intersect_share));
-  }
-  context.check_stop();
-  const StageTimer timer(context, "unite/build");
-  BRepAlgoAPI_Fuse fuse(filler);
-  fuse.SetArguments(list_of(std::span(parts).first(1)));
-  fuse.SetTools(list_of(std::span(parts).subspan(1)));
-  set_options(fuse);
-  fuse.Build(steps.Next(1.0 - k_intersect_share));
-  context.check_stop();
-  take(fuse);
-}
-
-Try fuse_once(const std::vector<Part>& parts, double tolerance, const UniteOptions& options, const RunContext& context) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
-  Try result;
-  result.outcome.tolerance = tolerance;
-  try {
-    run_occt({.attempted = "uniting the parts", .time_limit = options.time_limit}, context, [&](const Message_ProgressRange& progress) {
-      fuse_shapes(parts, tolerance, context, progress, [&](BRepAlgoAPI_Fuse& fuse) {
-        if (fuse.HasErrors() || !fuse.IsDone() || fuse.Shape().IsNull()) {
-          result.outcome.problem = "OpenCASCADE's fuse ended with an error";
-          return;
-        }
-        const StageTimer timer(context, "unite/proof");
-        const Origins origins = origins_of(fuse, parts);
-        result.model = model_of(label(fuse.Shape(), origins, parts), "uniting the parts", context);
-        result.outcome.problem = restore_origins(result, origins, parts);
-        if (result.outcome.problem.empty()) result.outcome.problem = objection(result, parts, context);
-      });
-    });
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::geometry_failed) throw;
-    result.is_late = std::chrono::duration<double>(Clock::now() - start).count() > options.time_limit;
-    result.outcome.problem = error.info().problem;  // a larger tolerance may do
-    result.outcome.places = error.info().places;
-  }
-  return result;
-}
-
-double size_of(const std::vector<Part>& parts) {
-  double size = 0.0;
-  for (const Part& part : parts) size = std::max(size, longest_side(part.shape->content().shape));
-  return size;
-}
-
-std::vector<double> tolerances(const UniteOptions& options, double size) {
-  if (!is_automatic(options.tolerance)) return {options.tolerance};
-  std::vector<double> result;
-  for (const double share : k_ladder) result.push_back(share * size);
-  return result;
-}
-
-std::string names_of(const std::vector<Part>& parts) {
-  std::string names;
-  for (const Part& part : parts) names += (names.empty() ? "\"" : ", \"") + part.name() + "\"";
-  return names;
-}
-
-/// No larger tolerance makes it faster.
-Error late(const std::vector<Part>& parts, const UniteTry& outcome) {
-  return Error({.code = ErrorCode::geometry_failed, .attempted = "uniting " + names_of(parts), .problem = outcome.problem, .hint = "give it a larger time_limit"});
-}
-
-/// \throws Error(geometry_failed) for a try that takes too long
 std::optional<Try> climb(const std::vector<Part>& parts, const UniteOptions& options, double size, std::vector<UniteTry>& tries, const RunContext& context) {
-  for (const double tolerance : tolerances(options, size)) {
-    Try result = fuse_once(parts, tolerance, options, context);
-    tries.push_back(result.outcome);
-    if (result.outcome.problem.empty()) return result;
-    context.debug("union with tolerance " + std::to_string(tolerance) + " m: " + result.outcome.problem);
-    if (result.is_late) throw late(parts, result.outcome);
-  }
-  return std::nullopt;
-}
-
-std::vector<Part> take_parts(std::span<const Model> models, const RunContext& context) {
-  std::vector<Part> parts;
-  for (const Model& model : models) {
-    Part part{.model = &model, .shape = shape_of(model, context), .exposure = {}};
-    const bool is_closed = !model.solids.empty() && std::all_of(model.solids.begin(), model.solids.end(), [](const ModelSolid& s) { return s.is_closed; });
-    if (!is_closed) {
-      ErrorInfo info{.code = ErrorCode::open_surface, .attempted = "uniting the parts", .problem = "\"" + part.name() + "\" is not closed", .hint = "only closed parts have an inside"};
-      info.places = open_places(model);
-      info.n_places = static_cast<std::int64_t>(info.places.size());
-      info.places.resize(std::min(k_listed, info.places.size()));
-      throw Error(std::move(info));
-    }
-    for (const SolidId solid : model.solids.ids()) {
-      const SolidMeasures measures = solid_measures(model, solid);
-      part.volume += measures.volume;
-      part.area += measures.area;
-    }
-    parts.push_back(part);
-  }
-  return parts;
+  const BooleanTask task{.operation = BooleanOperation::fuse, .attempted = k_attempted, .stage = "unite", .tolerance = options.tolerance, .time_limit = options.time_limit};
+  return climb(task, parts, size, [&](Try& result) { result.outcome.problem = objection(result, parts, context); }, tries, context);
 }
 
 bool is_near(const Part& a, const Part& b, double gap) {
@@ -314,7 +104,7 @@ std::vector<Part> alone(const Part& a, const Part& b, const RunContext& context)
   std::vector<UniteTry> pair_tries;
   for (std::size_t a = 0; a < parts.size() && info.problem.empty() && parts.size() > 2; ++a)
     for (std::size_t b = a + 1; b < parts.size() && info.problem.empty(); ++b) {
-      if (!is_near(parts[a], parts[b], k_ladder.back() * size)) continue;
+      if (!is_near(parts[a], parts[b], k_boolean_ladder.back() * size)) continue;
       pair_tries.clear();
       if (climb(alone(parts[a], parts[b], context), options, size, pair_tries, context)) continue;
       blamed = &pair_tries.back();
@@ -349,8 +139,9 @@ void look_at_contacts(std::span<const Model> models, std::vector<Part>& parts, U
 }  // namespace
 
 UniteResult unite(std::span<const Model> models, const UniteOptions& options, const RunContext& context) {
-  std::vector<Part> parts = take_parts(models, context);
-  if (parts.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "uniting the parts", .problem = "there are none"});
+  std::vector<Part> parts;
+  for (const Model& model : models) parts.push_back(boolean_part(model, k_attempted, context));
+  if (parts.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = k_attempted, .problem = "there are none"});
   UniteReport report;
   for (const Part& part : parts) {
     report.sum_of_volumes += part.volume;

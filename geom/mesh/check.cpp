@@ -37,6 +37,7 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
       });
     check_volumes(mesh, slots, match, scan, context, report, findings);
     check_symmetry(mesh, context, findings);
+    check_periodic(mesh, report, findings);
     context.progress(0.5);
 
     std::optional<DualScan> dual;

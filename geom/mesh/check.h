@@ -32,7 +32,8 @@ enum class Violation {
   no_cells,               ///< tiling: the mesh has no cell at all
   negative_sub_volume,    ///< G4: a cell with a dual sub-volume that is not positive (exact)
   open_dual_cell,         ///< G4: a control volume whose faces do not close (floating point, limit Measure::dual_closure)
-  off_symmetry_plane,     ///< G20: a node of a symmetry patch off the patch's axis plane
+  off_symmetry_plane,     ///< G20: a node of a symmetry patch off the patch's plane
+  periodic_mismatch,      ///< G20: periodic sides that are not each other's image, node by node and face by face
 };
 std::string_view to_string(Violation v);
 /// "G1", "G2", "G3", "G4", "G20" or "tiling".
@@ -63,6 +64,14 @@ struct PatchCoverage {
   std::vector<std::pair<std::string, double>> lost;  ///< share of the area below full height by reason, largest first
 };
 
+/// Two sides that were found to be each other's image.
+struct PeriodicMatchReport {
+  std::string first, second;             ///< patches
+  Vec3 translation;                      ///< m, from the first to the second
+  std::int64_t n_nodes = 0, n_faces = 0; ///< of one side
+  double worst = 0.0;                    ///< m, largest distance of an image from its partner
+};
+
 struct CheckReport {
   CellCounts cells;
   std::int64_t n_nodes = 0;
@@ -76,6 +85,7 @@ struct CheckReport {
   Quality quality;
   std::vector<GateResult> gates;       ///< QUALITY, in the order of Measure; empty when quality was not asked for
   std::vector<PatchCoverage> coverage; ///< of wall patches under layers, where the mesh says what was asked for
+  std::vector<PeriodicMatchReport> periodic;  ///< those of HybridMesh::periodic that match
   bool is_complete = true;             ///< false: indices out of range or points not finite, so that nothing else could be checked
   bool intersections_checked = false;  ///< G2 was asked for and tried
   bool dual_checked = false;           ///< G4 was tried: faces conform

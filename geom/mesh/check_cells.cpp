@@ -23,7 +23,7 @@ class CellScanner {
       add_prisms(first_number, column);
       return;
     }
-    for (int j = 0; j < layers.n_layers; ++j) {
+    for (int j = 0, n = layers.layers_of_column(column); j < n; ++j) {
       const std::uint64_t number = first_number + static_cast<std::uint64_t>(j);
       const Cell cell = layers.cell(column, j);
       if (cell.kind == CellKind::pyramid) {

@@ -10,6 +10,7 @@
 #include "geom/math/bvh.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/check_parts.h"
+#include "geom/mesh/sheets.h"
 
 namespace sterna::check_parts {
 namespace {
@@ -25,7 +26,9 @@ struct BoundarySurface {
 BoundarySurface collect_boundary(const HybridMesh& mesh, const FaceSlots& slots) {
   BoundarySurface surface;
   surface.mesh.points = Column<VertexId, Point>(mesh.points.raw());
+  const SheetSides sheets = find_sheet_sides(mesh);  // their two sides bound nothing
   for (std::uint32_t slot = slots.first_boundary(); slot < slots.size(); ++slot) {
+    if (sheets.is_sheet(slot - slots.first_boundary())) continue;
     const Face face = slots.face(slot);
     for (std::size_t k = 2; k < face.size; ++k) {
       surface.mesh.triangles.push_back({VertexId(face.nodes[0].value()), VertexId(face.nodes[k - 1].value()), VertexId(face.nodes[k].value())});

@@ -2,6 +2,7 @@
 #include "geom/math/measures.h"
 #include "geom/math/predicates.h"
 #include "geom/mesh/check_parts.h"
+#include "geom/mesh/sheets.h"
 
 namespace sterna::check_parts {
 namespace {
@@ -38,10 +39,15 @@ CrossingCandidates collect_candidates(const HybridMesh& mesh, const FaceSlots& s
 }  // namespace
 
 CrossingCandidates crossing_candidates(const HybridMesh& mesh, const FaceSlots& slots, std::span<const std::uint32_t> doubled, std::span<const std::uint32_t> envelope) {
+  // The two sides of a sheet without thickness count once, and so do their nodes.
+  const SheetSides sheets = find_sheet_sides(mesh);
   CrossingCandidates candidates;
   for (std::uint32_t slot = slots.first_boundary(); slot < slots.size(); ++slot)
-    if (!std::binary_search(doubled.begin(), doubled.end(), slot)) add_face(mesh, slots, slot, candidates);
+    if (!std::binary_search(doubled.begin(), doubled.end(), slot) && !sheets.is_second(slot - slots.first_boundary())) add_face(mesh, slots, slot, candidates);
   for (const std::uint32_t slot : envelope) add_face(mesh, slots, slot, candidates);
+  if (sheets.empty()) return candidates;
+  for (auto& triangle : candidates.triangles)
+    for (std::uint32_t& node : triangle) node = sheets.twin[node];
   return candidates;
 }
 

@@ -13,7 +13,7 @@ std::pair<Point, std::string> describe_node(const HybridMesh& mesh, std::uint64_
   const LayerBlock& layers = mesh.layers;
   for (std::size_t k = 0; k < layers.n_lines(); ++k) {
     const std::uint64_t first = layers.first_node[k];
-    if (node < first || node > first + (layers.is_collapsed[k] ? 0u : static_cast<std::uint64_t>(layers.n_layers))) continue;
+    if (node < first || node > first + static_cast<std::uint64_t>(layers.n_steps(k))) continue;
     what += " (line " + std::to_string(k) + ", layer " + std::to_string(node - first) + ")";
     break;
   }

@@ -51,6 +51,13 @@ class IndexWalker {
                  std::to_string(layers.is_collapsed.size()) + " collapse flags");
       return;
     }
+    if (!layers.is_uniform() && layers.line_layers.size() != layers.n_lines()) {
+      add_unsafe("columns: " + std::to_string(layers.n_lines()) + " lines, numbers of layers for " + std::to_string(layers.line_layers.size()));
+      return;
+    }
+    for (const std::uint64_t k :
+         find_bad(context_, layers.line_layers.size(), [&](std::size_t line) { return layers.line_layers[line] < 1 || layers.line_layers[line] > layers.n_layers; }))
+      add_unsafe("line " + std::to_string(k) + ": " + std::to_string(layers.line_layers[k]) + " layers, expected 1 to " + std::to_string(layers.n_layers));
     for (const std::uint64_t k :
          find_bad(context_, layers.n_lines(), [&](std::size_t line) { return layers.is_collapsed[line] > 1 || end_of_line(line) > mesh_.points.size(); }))
       add_unsafe("line " + std::to_string(k) + ": nodes " + std::to_string(layers.first_node[k]) + " to " + std::to_string(end_of_line(k) - 1) + " of " +
@@ -60,6 +67,12 @@ class IndexWalker {
            return std::any_of(b.begin(), b.end(), [&](std::uint32_t line) { return line >= layers.n_lines(); });
          }))
       add_unsafe("column " + std::to_string(c) + ": line index out of range, " + std::to_string(layers.n_lines()) + " lines");
+    if (!is_safe_) return;
+    for (const std::uint64_t c : find_bad(context_, layers.is_uniform() ? 0 : layers.n_columns(), [&](std::size_t column) {
+           const auto& b = layers.base[column];
+           return layers.line_layers[b[0]] != layers.line_layers[b[1]] || layers.line_layers[b[0]] != layers.line_layers[b[2]];
+         }))
+      add_unsafe("column " + std::to_string(c) + ": its lines have different numbers of layers");
     if (!is_safe_) return;
     for (const std::uint64_t c : find_bad(context_, layers.n_columns(), [&](std::size_t column) { return has_repeated_node(layers.base[column]); }))
       findings_.add(Violation::bad_index,
@@ -130,7 +143,7 @@ class IndexWalker {
 
  private:
   std::uint64_t end_of_line(std::size_t k) const {
-    return std::uint64_t{mesh_.layers.first_node[k]} + 1 + (mesh_.layers.is_collapsed[k] ? 0u : static_cast<std::uint64_t>(mesh_.layers.n_layers));
+    return std::uint64_t{mesh_.layers.first_node[k]} + 1 + static_cast<std::uint64_t>(mesh_.layers.n_steps(k));
   }
 
   void add_unsafe(std::string what) {

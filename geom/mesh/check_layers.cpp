@@ -38,6 +38,35 @@ class Fans {
   std::vector<std::uint32_t> first_, triangles_;
 };
 
+/// Unit normals of the symmetry patches at the feet of lines that stand on them: the body goes on behind with its mirror image, so normals there are means with theirs.
+class MirrorFeet {
+ public:
+  explicit MirrorFeet(const HybridMesh& mesh) {
+    for (const BoundaryQuad& quad : mesh.boundary_quads) {
+      if (quad.patch.index() >= mesh.patches.size() || mesh.patches[quad.patch].kind != PatchKind::symmetry) continue;
+      const auto& p = mesh.points;
+      const Vec3 normal = normalized(cross(p[quad.nodes[2]] - p[quad.nodes[0]], p[quad.nodes[3]] - p[quad.nodes[1]]));
+      for (const NodeId node : quad.nodes) feet_.push_back({node, quad.patch, normal});
+    }
+    std::sort(feet_.begin(), feet_.end(), [](const Foot& a, const Foot& b) { return std::pair(a.node, a.patch) < std::pair(b.node, b.patch); });
+    feet_.erase(std::unique(feet_.begin(), feet_.end(), [](const Foot& a, const Foot& b) { return a.node == b.node && a.patch == b.patch; }), feet_.end());
+  }
+  /// The part of a normal at a node that lies in the planes that the node is on.
+  Vec3 mirrored(NodeId node, Vec3 normal) const {
+    for (auto foot = std::lower_bound(feet_.begin(), feet_.end(), node, [](const Foot& a, NodeId b) { return a.node < b; }); foot != feet_.end() && foot->node == node; ++foot)
+      normal = normal - dot(normal, foot->normal) * foot->normal;
+    return normalized(normal);
+  }
+
+ private:
+  struct Foot {
+    NodeId node;
+    PatchId patch;
+    Vec3 normal;
+  };
+  std::vector<Foot> feet_;
+};
+
 struct LayerScan {
   explicit LayerScan(const GateTable& limits)
       : growth(info_of(Measure::stack_growth), limits[Measure::stack_growth]),
@@ -55,9 +84,9 @@ struct LayerScan {
 
 class LineScanner {
  public:
-  /// `is_compressed` has one entry per line, which is set.
-  LineScanner(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const GateTable& limits, std::vector<std::uint8_t>& is_compressed)
-      : mesh_(mesh), lines_(lines), fans_(fans), is_compressed_(is_compressed), scan_(limits) {}
+  /// `is_compressed` has one entry per line, which is set where the mesh's request can be used.
+  LineScanner(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const MirrorFeet& feet, const GateTable& limits, bool is_request_usable, std::vector<std::uint8_t>& is_compressed)
+      : mesh_(mesh), lines_(lines), fans_(fans), feet_(feet), is_compressed_(is_compressed), is_request_usable_(is_request_usable), scan_(limits) {}
 
   LayerScan take() { return std::move(scan_); }
 
@@ -66,9 +95,9 @@ class LineScanner {
     read_fan(line, n);
     if (n == 0) return;
     read_heights(line, n);
-    if (n > 1) scan_.growth.add(worst_growth(), line, area_);
+    if (n > 1) scan_.growth.add(worst_growth() * growth_scale(line), line, area_);
     add_angle(line, n);
-    if (lines_.are_columns() && mesh_.request.is_known()) add_first_height(line, n);
+    if (lines_.are_columns() && is_request_usable_) add_first_height(line, n);
   }
 
  private:
@@ -98,7 +127,7 @@ class LineScanner {
         scan_.step.add(step, line);
       }
     }
-    vertex_normal_ = normalized(vertex_normal_);
+    vertex_normal_ = feet_.mirrored(lines_.node(line, 0), vertex_normal_);
     if (n_level > 0.0) scan_.step.add(0.0, line, n_level);
   }
 
@@ -126,6 +155,13 @@ class LineScanner {
     return worst;
   }
 
+  /// Where lines were asked for different growths, the limit is the largest of them: a line that was asked for less is measured as if its ratios were as much larger.
+  double growth_scale(std::uint32_t line) const {
+    const LayerRequest& request = mesh_.request;
+    if (!lines_.are_columns() || line >= request.line_max_growth.size()) return 1.0;
+    return request.max_growth / request.line_max_growth[line];
+  }
+
   void add_angle(std::uint32_t line, int n) {
     double steepest = 0.0;
     for (int j = 0; j < std::min(n, k_wall_cells); ++j) {
@@ -136,7 +172,7 @@ class LineScanner {
   }
 
   void add_first_height(std::uint32_t line, int n) {
-    const double asked = mesh_.request.first_height;
+    const double asked = mesh_.request.first_height_of(line);
     // Compressed, by the height along the normal, as the extrusion has it: what was asked for cannot be met.
     is_compressed_[line] = dot(point(line, n) - point(line, 0), vertex_normal_) < n * asked * (1.0 - k_height_slack);
     if (is_compressed_[line] != 0) return;
@@ -146,7 +182,9 @@ class LineScanner {
   const HybridMesh& mesh_;
   const LayerLines& lines_;
   const Fans& fans_;
+  const MirrorFeet& feet_;
   std::vector<std::uint8_t>& is_compressed_;
+  bool is_request_usable_;
   LayerScan scan_;
   std::vector<Vec3> normals_;
   std::vector<double> heights_;
@@ -202,6 +240,7 @@ bool is_request_usable(const HybridMesh& mesh) {
   const LayerRequest& request = mesh.request;
   const std::size_t n = mesh.layers.n_lines();
   return request.is_known() && request.target_height.size() == n && request.reason.size() == n &&
+         (request.line_first_height.empty() || request.line_first_height.size() == n) && (request.line_max_growth.empty() || request.line_max_growth.size() == n) &&
          std::all_of(request.reason.begin(), request.reason.end(), [&](std::uint8_t r) { return r < request.reasons.size(); });
 }
 
@@ -262,11 +301,13 @@ void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatc
     return;
   }
   const Fans fans(lines);
+  const MirrorFeet feet(mesh);
+  const bool is_usable = lines.are_columns() && is_request_usable(mesh);
   std::vector<std::uint8_t> is_compressed(lines.n_lines(), 0);
   const LayerScan scan = parallel_reduce(
       context, lines.n_lines(), LayerScan(limits),
       [&](std::size_t begin, std::size_t end) {
-        LineScanner scanner(mesh, lines, fans, limits, is_compressed);
+        LineScanner scanner(mesh, lines, fans, feet, limits, is_usable, is_compressed);
         for (std::size_t k = begin; k < end; ++k) scanner.add(static_cast<std::uint32_t>(k));
         return scanner.take();
       },
@@ -285,7 +326,7 @@ void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatc
   put(scan.growth.result(line));
   put(scan.angle.result(line));
   put(scan.step.result(line));
-  if (!lines.are_columns() || !is_request_usable(mesh)) {
+  if (!is_usable) {
     for (const Measure measure : {Measure::first_height, Measure::coverage, Measure::collapsed}) put(not_checked(measure, limits, k_no_request));
     return;
   }

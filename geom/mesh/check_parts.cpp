@@ -10,10 +10,11 @@ Point mean_of(const HybridMesh& mesh, const Nodes& nodes, std::size_t n) {
   return sum / static_cast<double>(n);
 }
 
-/// Columns before `end` whose cells are of the kind that has `n_collapsed` collapsed lines.
-std::uint64_t n_columns_of_kind(const LayerBlock& layers, std::size_t end, int n_collapsed) {
+/// Cells in the columns before `end`, of the kind that has `n_collapsed` collapsed lines.
+std::uint64_t n_cells_of_kind(const LayerBlock& layers, std::size_t end, int n_collapsed) {
   std::uint64_t n = 0;
-  for (std::size_t c = 0; c < end; ++c) n += layers.n_collapsed(c) == n_collapsed;
+  for (std::size_t c = 0; c < end; ++c)
+    if (layers.n_collapsed(c) == n_collapsed) n += static_cast<std::uint64_t>(layers.layers_of_column(c));
   return n;
 }
 
@@ -65,12 +66,12 @@ std::string CellNumbers::name(std::uint64_t number) const {
   const auto of_kind = [](CellKind kind, std::uint64_t n) { return std::string(to_string(kind)) + " " + std::to_string(n); };
   const LayerBlock& layers = mesh_.layers;
   const auto n_layers = static_cast<std::uint64_t>(std::max(layers.n_layers, 0));
-  const auto in_columns = [&](int n_collapsed) { return n_columns_of_kind(layers, layers.n_columns(), n_collapsed) * n_layers; };
+  const auto in_columns = [&](int n_collapsed) { return n_cells_of_kind(layers, layers.n_columns(), n_collapsed); };
   if (number < first_[0]) {
     const std::uint64_t column = number / n_layers, layer = number % n_layers;
     const int n_collapsed = layers.n_collapsed(column);
     const CellKind kind = n_collapsed == 0 ? CellKind::prism : n_collapsed == 1 ? CellKind::pyramid : CellKind::tetrahedron;
-    return of_kind(kind, n_columns_of_kind(layers, column, n_collapsed) * n_layers + layer) + " (column " + std::to_string(column) + ", layer " +
+    return of_kind(kind, n_cells_of_kind(layers, column, n_collapsed) + layer) + " (column " + std::to_string(column) + ", layer " +
            std::to_string(layer) + ")";
   }
   if (number < first_[1]) return of_kind(CellKind::prism, in_columns(0) + number - first_[0]);
@@ -96,11 +97,11 @@ FaceSlots::FaceSlots(const HybridMesh& mesh, const CellNumbers& cells, std::vect
 Face FaceSlots::column_cap(std::uint32_t i) const {
   const LayerBlock& layers = mesh_.layers;
   const std::size_t column = i / 2;
-  if (layers.n_layers < 1 || layers.n_collapsed(column) == 3) return {};
+  const int n_layers = layers.layers_of_column(column);
+  if (n_layers < 1 || layers.n_collapsed(column) == 3) return {};
   const auto& b = layers.base[column];
   if (i % 2 == 0) return {{layers.node(b[0], 0), layers.node(b[2], 0), layers.node(b[1], 0)}, 3};
-  const int top = layers.n_layers;
-  return {{layers.node(b[0], top), layers.node(b[1], top), layers.node(b[2], top)}, 3};
+  return {{layers.top(b[0]), layers.top(b[1]), layers.top(b[2])}, 3};
 }
 
 std::vector<std::uint32_t> FaceSlots::column_tops() const {
@@ -114,6 +115,7 @@ Face FaceSlots::column_side(std::uint32_t i) const {
   const LayerBlock& layers = mesh_.layers;
   const OpenSide side = open_sides_[i / static_cast<std::uint32_t>(layers.n_layers)];
   const int layer = static_cast<int>(i % static_cast<std::uint32_t>(layers.n_layers));
+  if (layer >= layers.layers_of_column(side.column)) return {};
   const std::uint32_t u = layers.base[side.column][side.corner];
   const std::uint32_t v = layers.base[side.column][(side.corner + 1u) % 3];
   const NodeId u0 = layers.node(u, layer), u1 = layers.node(u, layer + 1), v0 = layers.node(v, layer), v1 = layers.node(v, layer + 1);
@@ -152,7 +154,7 @@ Point FaceSlots::center(std::uint32_t slot) const {
 
 std::uint64_t FaceSlots::owner(std::uint32_t slot) const {
   const auto n_layers = static_cast<std::uint64_t>(std::max(mesh_.layers.n_layers, 0));
-  if (slot < first_[k_sides]) return (slot / 2) * n_layers + (slot % 2 == 0 ? 0 : n_layers - 1);
+  if (slot < first_[k_sides]) return (slot / 2) * n_layers + (slot % 2 == 0 ? 0 : static_cast<std::uint64_t>(mesh_.layers.layers_of_column(slot / 2)) - 1);
   if (slot < first_[k_prisms]) {
     const std::uint32_t i = slot - first_[k_sides];
     return open_sides_[i / n_layers].column * n_layers + i % n_layers;

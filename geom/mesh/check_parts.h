@@ -17,7 +17,7 @@
 
 namespace sterna::check_parts {
 
-inline constexpr std::size_t k_n_violations = static_cast<std::size_t>(Violation::off_symmetry_plane) + 1;
+inline constexpr std::size_t k_n_violations = static_cast<std::size_t>(Violation::periodic_mismatch) + 1;
 
 /// Appends `more` to `all`; the combine function of every list that is gathered chunk by chunk.
 template <class T>
@@ -51,7 +51,7 @@ class Findings {
   std::vector<Finding> kept_;
 };
 
-/// Numbers the cells: column * n_layers + layer (fully collapsed columns hold numbers without cells), then prisms, pyramids, hexahedra, tetrahedra.
+/// Numbers the cells: column * n_layers + layer (fully collapsed columns, and those of fewer than n_layers layers, hold numbers without cells), then prisms, pyramids, hexahedra, tetrahedra.
 class CellNumbers {
  public:
   explicit CellNumbers(const HybridMesh& mesh);
@@ -235,6 +235,8 @@ void check_cover(const HybridMesh& mesh, const FaceSlots& slots, const RunContex
 DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const DualScan* ahead, const GateTable& limits, const RunContext& context, Findings& findings);
 /// off_symmetry_plane (G20).
 void check_symmetry(const HybridMesh& mesh, const RunContext& context, Findings& findings);
+/// Each of HybridMesh::periodic, within periodic_tolerance(); fills the report's list of those that match.
+void check_periodic(const HybridMesh& mesh, CheckReport& report, Findings& findings);
 /// Gates of layers: G8, G10 - G13, and the coverage by patch. G9 is measured face by face at the interface.
 void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const GateTable& limits, const RunContext& context, CheckReport& report);
 void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, const GateTable& limits,

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/base/number_text.h"
 #include "geom/mesh/check_parts.h"
 
 namespace sterna {
@@ -18,7 +19,7 @@ std::string_view title_of(std::string_view gate) {
   if (gate == "G2") return "no intersections";
   if (gate == "G3") return "valid cells";
   if (gate == "G4") return "dual sub-volumes, closure";
-  if (gate == "G20") return "symmetry planes";
+  if (gate == "G20") return "symmetry, periodic sides";
   return "volumes and cover";
 }
 
@@ -164,6 +165,8 @@ std::string_view to_string(Violation v) {
       return "open_dual_cell";
     case Violation::off_symmetry_plane:
       return "off_symmetry_plane";
+    case Violation::periodic_mismatch:
+      return "periodic_mismatch";
   }
   return "";
 }
@@ -179,6 +182,7 @@ std::string_view gate_of(Violation v) {
     case Violation::open_dual_cell:
       return "G4";
     case Violation::off_symmetry_plane:
+    case Violation::periodic_mismatch:
       return "G20";
     case Violation::volume_mismatch:
     case Violation::overlapping_parts:
@@ -217,6 +221,9 @@ std::string to_text(const CheckReport& report) {
     text += format("  volume: layer %.9g m^3 (error %.1e), tetrahedra %.9g m^3 (error %.1e), total %.9g m^3\n", report.layer_volume, report.layer_volume_error,
                    report.tet_volume, report.tet_volume_error, report.total_volume);
   }
+  for (const PeriodicMatchReport& sides : report.periodic)
+    text += "  periodic: " + sides.first + " and " + sides.second + ", " + n(sides.n_nodes) + " nodes, " + n(sides.n_faces) + " faces, " + format_point(sides.translation) + " m apart, within " +
+            number_text(sides.worst, 3) + " m\n";
   if (report.quality_measured) {
     const Quality& q = report.quality;
     text += format("  prisms: worst scaled Jacobian %.3g at ", q.min_wedge_quality) + format_point(q.worst_prism) +
@@ -273,6 +280,10 @@ std::string to_json(const CheckReport& report) {
                     {"tetrahedra_error", report.tet_volume_error},
                     {"total", report.total_volume},
                     {"dual", report.dual_checked ? Json(report.dual_volume) : Json(nullptr)}};
+  json["periodic"] = Json::array();
+  for (const PeriodicMatchReport& sides : report.periodic)
+    json["periodic"].push_back(
+        {{"first", sides.first}, {"second", sides.second}, {"translation", to_array(sides.translation)}, {"nodes", sides.n_nodes}, {"faces", sides.n_faces}, {"worst_distance", sides.worst}});
   json["measures"] = Json::array();
   for (const GateResult& gate : report.gates) json["measures"].push_back(to_json(gate));
   json["coverage"] = Json::array();

@@ -16,7 +16,7 @@ constexpr double k_root_margin = 10 * 0x1p-53;
 }  // namespace
 
 const std::vector<PrismMeasures>& ColumnScan::measure(std::size_t column) {
-  const auto n = static_cast<std::size_t>(mesh_.layers.n_layers);
+  const auto n = static_cast<std::size_t>(mesh_.layers.layers_of_column(column));
   for (std::size_t k = 0; k < 3; ++k) lines_[k].read(mesh_, mesh_.layers.base[column][k]);
   measures_.resize(n);
   const Packed zero = all(0.0);

@@ -46,7 +46,8 @@ void LineDual::reset() {
 
 // (own, b, c) is seen counter-clockwise from above. Outward faces: own c b (bottom), own b b1 own1, c own own1 c1, own1 b1 c1 (top).
 void LineDual::add_column(std::uint32_t column, const LineVectors& b, const LineVectors& c, Slot& to_b, Slot& to_c) {
-  const auto n = static_cast<std::size_t>(mesh_.layers.n_layers);
+  const auto n = static_cast<std::size_t>(mesh_.layers.layers_of_column(column));
+  const auto per_column = static_cast<std::uint64_t>(mesh_.layers.n_layers);  // numbers, not cells
   for (std::size_t j = 0; j < n; j += k_width) {
     const Vec3x4 a0 = own_.at(j), a1 = own_.at(j + 1);
     const Vec3x4 b0 = b.at(j) - a0, b1 = b.at(j + 1) - a1;
@@ -96,15 +97,14 @@ void LineDual::add_column(std::uint32_t column, const LineVectors& b, const Line
     is_suspect |= !(lowest > bound);
 
     for (std::size_t k = 0; k < k_width && j + k < n; ++k)
-      if (is_suspect[k]) suspects_.push_back(std::uint64_t{column} * n + j + k);
+      if (is_suspect[k]) suspects_.push_back(std::uint64_t{column} * per_column + j + k);
   }
 }
 
 // Edges along the layer, then the two upright ones, four layers at a time.
-void LineDual::finish() {
+void LineDual::finish(std::size_t n_layers) {
   constexpr double k_infinity = std::numeric_limits<double>::infinity();
-  const auto n = static_cast<std::size_t>(mesh_.layers.n_layers);
-  for (std::size_t j = 0; j < n; j += k_width) {
+  for (std::size_t j = 0; j < n_layers; j += k_width) {
     Packed area_sum = all(0.0), weighted = all(0.0), largest = all(0.0), smallest = all(k_infinity), longest = all(0.0), shortest = all(k_infinity);
     Vec3x4 closure{};
     const auto add_face = [&](const Vec3x4& normal, const Vec3x4& edge, Packed length) {
@@ -153,7 +153,7 @@ void LineDual::finish() {
 }
 
 std::span<const NodeMetrics> LineDual::measure(std::uint32_t line) {
-  const auto n = static_cast<std::size_t>(mesh_.layers.n_layers);
+  const auto n = static_cast<std::size_t>(mesh_.layers.layers_of_line(line));
   if (n < 2) return {};
   reset();
   own_.read(mesh_, line);
@@ -166,7 +166,7 @@ std::span<const NodeMetrics> LineDual::measure(std::uint32_t line) {
     Slot &to_b = slot_of(b), &to_c = slot_of(c);
     add_column(column, neighbours_[static_cast<std::size_t>(&to_b - slots_.data())], neighbours_[static_cast<std::size_t>(&to_c - slots_.data())], to_b, to_c);
   }
-  finish();
+  finish(n);
   return {metrics_.data() + 1, n - 1};
 }
 

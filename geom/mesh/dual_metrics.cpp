@@ -153,7 +153,7 @@ class DualWalk {
       return all;
     };
   }
-  std::uint32_t n_nodes(std::size_t line) const { return mesh_.layers.is_collapsed[line] ? 1u : static_cast<std::uint32_t>(mesh_.layers.n_layers) + 1u; }
+  std::uint32_t n_nodes(std::size_t line) const { return static_cast<std::uint32_t>(mesh_.layers.n_steps(line)) + 1u; }
 
   const HybridMesh& mesh_;
   const RunContext& context_;

@@ -137,7 +137,8 @@ void NodeDual::add_cell(CellKind kind, std::span<const NodeId> nodes, std::uint6
 
 void NodeDual::add_columns(std::uint32_t line, std::uint32_t layer) {
   const LayerBlock& layers = mesh_.layers;
-  const auto n = static_cast<std::uint32_t>(layers.n_layers);
+  const auto n = static_cast<std::uint32_t>(layers.layers_of_line(line));
+  const auto per_column = static_cast<std::uint32_t>(layers.n_layers);  // numbers, not cells
   const bool is_collapsed = layers.is_collapsed[line] != 0;
   const std::uint32_t begin = is_collapsed || layer == 0 ? 0 : layer - 1;
   const std::uint32_t end = is_collapsed ? n : std::min(layer + 1, n);
@@ -148,7 +149,7 @@ void NodeDual::add_columns(std::uint32_t line, std::uint32_t layer) {
       if (cell.kind == CellKind::tetrahedron) {
         add_tet(cell.span());
       } else {
-        add_cell(cell.kind, cell.span(), std::uint64_t{column} * n + j);
+        add_cell(cell.kind, cell.span(), std::uint64_t{column} * per_column + j);
       }
     }
   }
@@ -185,7 +186,8 @@ NodeMetrics NodeDual::result(std::uint32_t line) const {
   const LayerBlock& layers = mesh_.layers;
   const bool has_line = line != NodeId::k_invalid && layers.is_collapsed[line] == 0;
   const std::uint32_t bottom = has_line ? layers.first_node[line] : 0;
-  const auto is_stack = [&](const Edge& edge) { return edge.is_stack || (has_line && edge.other >= bottom && edge.other - bottom <= static_cast<std::uint32_t>(layers.n_layers)); };
+  const auto n_steps = has_line ? static_cast<std::uint32_t>(layers.layers_of_line(line)) : 0u;
+  const auto is_stack = [&](const Edge& edge) { return edge.is_stack || (has_line && edge.other >= bottom && edge.other - bottom <= n_steps); };
   for (const Edge& edge : edges_) {
     const Vec3 along = mesh_.points.raw()[edge.other] - origin_;
     const double length = norm(along);
@@ -205,7 +207,7 @@ NodeMetrics NodeDual::result(std::uint32_t line) const {
   metrics.closure = all_area > 0.0 ? norm(closure) / all_area : k_infinity;
   metrics.volume = sum_ / 6.0;
   metrics.relative_face_area_ratio = k_nan;
-  if (has_line && node_ - bottom < static_cast<std::uint32_t>(layers.n_layers)) {
+  if (has_line && node_ - bottom < n_steps) {
     double height = distance(mesh_.points.raw()[node_ + 1], origin_);
     if (node_ > bottom) height += distance(mesh_.points.raw()[node_ - 1], origin_);
     metrics.relative_face_area_ratio = metrics.face_area_ratio * 0.5 * height / longest;

@@ -34,7 +34,7 @@ std::vector<std::uint8_t> find_regular_lines(const LayerBlock& layers, const Lin
 class LineDual {
  public:
   LineDual(const HybridMesh& mesh, const LineRings& rings);
-  /// Metrics of layers 1 .. n_layers - 1 of a regular line; valid until the next call.
+  /// Metrics of layers 1 .. n - 1 of a regular line of n layers; valid until the next call.
   std::span<const NodeMetrics> measure(std::uint32_t line);
   std::vector<std::uint64_t> take_suspects() { return std::move(suspects_); }
 
@@ -47,11 +47,11 @@ class LineDual {
   Slot& slot_of(std::uint32_t line);
   void add_column(std::uint32_t column, const lanes::LineVectors& b, const lanes::LineVectors& c, Slot& to_b, Slot& to_c);
   void reset();
-  void finish();
+  void finish(std::size_t n_layers);
 
   const HybridMesh& mesh_;
   const LineRings& rings_;
-  std::size_t n_padded_;
+  std::size_t n_padded_;  ///< of the longest line
   lanes::LineVectors own_;
   std::vector<lanes::LineVectors> neighbours_;  ///< by slot
   std::vector<Slot> slots_;

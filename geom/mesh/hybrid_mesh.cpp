@@ -65,8 +65,8 @@ Cell LayerBlock::cell(std::size_t column, int layer) const {
 
 CellCounts count_cells(const HybridMesh& mesh) {
   CellCounts counts;
-  const std::int64_t n = mesh.layers.n_layers;
   for (std::size_t c = 0; c < mesh.layers.n_columns(); ++c) {
+    const std::int64_t n = mesh.layers.layers_of_column(c);
     switch (mesh.layers.n_collapsed(c)) {
       case 0: counts.prisms += n; break;
       case 1: counts.pyramids += n; break;

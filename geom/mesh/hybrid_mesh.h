@@ -36,17 +36,27 @@ struct LocalFace {
 /// The SIDS face table of a kind: tet 021 013 123 203, pyramid 0321 014 124 234 304, prism 0143 1254 2035 021 345, hex 0321 0154 1265 2376 0473 4567.
 std::span<const LocalFace> cell_faces(CellKind kind);
 
-/// Layers as columns. Line k stands on one wall node; its nodes are consecutive: first_node[k] + j, j = 0 (wall) .. n_layers (envelope),
-/// unless it is collapsed: then the wall node is its only node. A column over base triangle (a, b, c) of lines has n_layers cells:
-/// prisms; pyramids where one line is collapsed; tets where two are; no cells where all three are.
+/// Layers as columns. Line k stands on one wall node; its nodes are consecutive: first_node[k] + j, j = 0 (wall) .. layers_of_line(k) (envelope),
+/// unless it is collapsed: then the wall node is its only node. A column over base triangle (a, b, c) of lines has layers_of_column() cells:
+/// prisms; pyramids where one line is collapsed; tets where two are; no cells where all three are. Lines of a column have the same number of layers,
+/// collapsed or not, so walls that are connected have one number; others may differ.
 struct LayerBlock {
-  int n_layers = 0;
+  int n_layers = 0;                                ///< of every line; the largest where lines differ
+  std::vector<std::uint16_t> line_layers;          ///< per line, at least 1; empty: n_layers everywhere
   std::vector<std::array<std::uint32_t, 3>> base;  ///< lines of each base triangle, normal into the fluid
   std::vector<std::uint32_t> first_node;           ///< wall node of each line
   std::vector<std::uint8_t> is_collapsed;          ///< per line
 
   std::size_t n_lines() const { return first_node.size(); }
   std::size_t n_columns() const { return base.size(); }
+  bool is_uniform() const { return line_layers.empty(); }
+  /// Layers of the columns around a line, also where it is collapsed.
+  int layers_of_line(std::size_t line) const { return line_layers.empty() ? n_layers : line_layers[line]; }
+  int layers_of_column(std::size_t column) const { return line_layers.empty() ? n_layers : line_layers[base[column][0]]; }
+  /// Cells along a line: none where it is collapsed.
+  int n_steps(std::size_t line) const { return is_collapsed[line] ? 0 : layers_of_line(line); }
+  /// Last node of a line: on the envelope, or the wall node where it is collapsed.
+  NodeId top(std::uint32_t line) const { return NodeId(first_node[line] + static_cast<std::uint32_t>(n_steps(line))); }
   /// Node of layer j (0 = wall) on line k.
   NodeId node(std::uint32_t line, int j) const {
     return NodeId(first_node[line] + (is_collapsed[line] ? 0u : static_cast<std::uint32_t>(j)));
@@ -61,12 +71,16 @@ struct LayerBlock {
 
 /// What was asked of the layer: its first height, growth and coverage are measured against it. Unknown for a mesh that was read from a file.
 struct LayerRequest {
-  double first_height = 0.0;          ///< m; 0 = nothing is known
-  double max_growth = 0.0;            ///< largest ratio of heights of consecutive cells
+  double first_height = 0.0;          ///< m; 0 = nothing is known; the smallest where lines differ
+  double max_growth = 0.0;            ///< largest ratio of heights of consecutive cells; the largest where lines differ
+  std::vector<double> line_first_height;  ///< per line; empty: first_height everywhere
+  std::vector<double> line_max_growth;    ///< per line; empty: max_growth everywhere
   std::vector<double> target_height;  ///< m, of the whole layer, per line
   std::vector<std::uint8_t> reason;   ///< per line: why it is lower than its target, index of `reasons`
   std::vector<std::string> reasons;   ///< for people
   bool is_known() const { return first_height > 0.0; }
+  double first_height_of(std::size_t line) const { return line_first_height.empty() ? first_height : line_first_height[line]; }
+  double max_growth_of(std::size_t line) const { return line_max_growth.empty() ? max_growth : line_max_growth[line]; }
 };
 
 struct BoundaryTriangle {
@@ -86,6 +100,12 @@ struct CellCounts {
   std::int64_t total() const { return tetrahedra + pyramids + prisms + hexahedra; }
 };
 
+/// Two patches of which the second is the first, moved: flow that leaves through one comes in through the other. Node by node and face by face (geom/mesh/periodic.h).
+struct PeriodicSides {
+  PatchId first, second;
+  Vec3 translation;  ///< m, from the first to the second
+};
+
 /// Plain struct of columns. Cells come in this order: those of `layers`, column by column, layer by layer; then prisms, pyramids,
 /// hexahedra, tetrahedra. A mesh read from a file has its cells in the explicit arrays and no layers.
 struct HybridMesh {
@@ -99,6 +119,7 @@ struct HybridMesh {
   std::vector<BoundaryTriangle> boundary_triangles;
   std::vector<BoundaryQuad> boundary_quads;
   Column<PatchId, Patch> patches;
+  std::vector<PeriodicSides> periodic;
 };
 
 CellCounts count_cells(const HybridMesh& mesh);
@@ -111,7 +132,7 @@ template <class F>
 void for_each_cell(const HybridMesh& mesh, const F& f) {
   for (std::size_t c = 0; c < mesh.layers.n_columns(); ++c) {
     if (mesh.layers.n_collapsed(c) == 3) continue;
-    for (int j = 0; j < mesh.layers.n_layers; ++j) f(mesh.layers.cell(c, j));
+    for (int j = 0, n = mesh.layers.layers_of_column(c); j < n; ++j) f(mesh.layers.cell(c, j));
   }
   const auto explicit_block = [&](CellKind kind, const auto& cells) {
     Cell cell;

@@ -66,8 +66,9 @@ struct LineVectors {
   }
   /// Points of a standing line; beyond its end the last one is repeated.
   void read(const HybridMesh& mesh, std::uint32_t line) {
-    const auto n_nodes = static_cast<std::size_t>(mesh.layers.n_layers) + 1;
-    const std::size_t n = padded_size(mesh.layers.n_layers);
+    const int n_layers = mesh.layers.layers_of_line(line);
+    const auto n_nodes = static_cast<std::size_t>(n_layers) + 1;
+    const std::size_t n = padded_size(n_layers);
     const Point* points = mesh.points.raw().data() + mesh.layers.first_node[line];
     x.resize(n);
     y.resize(n);

@@ -25,7 +25,7 @@ class LayerLines {
   /// Patch of each wall triangle; invalid where the boundary has no such face.
   PatchId patch(std::size_t triangle) const { return patches_[triangle]; }
   int n_layers(std::uint32_t line) const {
-    if (layers_ != nullptr) return layers_->is_collapsed[line] ? 0 : layers_->n_layers;
+    if (layers_ != nullptr) return layers_->n_steps(line);
     return static_cast<int>(first_[line + 1] - first_[line]) - 1;
   }
   NodeId node(std::uint32_t line, int j) const {

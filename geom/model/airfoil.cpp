@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/base/number_text.h"
 #include "geom/model/airfoil_parts.h"
 #include "geom/model/curves.h"
-#include "geom/model/number_text.h"
 #include "geom/model/projection.h"
 #include "geom/model/spline.h"
 

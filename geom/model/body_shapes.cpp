@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "geom/base/error.h"
-#include "geom/model/number_text.h"
+#include "geom/base/number_text.h"
 #include "geom/model/shapes.h"
 
 namespace sterna {

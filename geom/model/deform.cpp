@@ -7,8 +7,8 @@
 #include <map>
 
 #include "geom/base/error.h"
+#include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
-#include "geom/model/number_text.h"
 #include "geom/model/transformed.h"
 
 namespace sterna {

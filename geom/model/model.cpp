@@ -14,6 +14,17 @@ constexpr std::array<std::string_view, 22> k_face_roles = {"unknown", "skin",   
 std::string_view to_string(ComponentKind kind) { return k_component_kinds.at(static_cast<std::size_t>(kind)); }
 std::string_view to_string(FaceRole role) { return k_face_roles.at(static_cast<std::size_t>(role)); }
 
+PatchKind patch_kind(const ModelFace& face) {
+  if (face.kind) return *face.kind;
+  switch (face.role) {
+    case FaceRole::inflow: return PatchKind::inflow;
+    case FaceRole::outflow: return PatchKind::outflow;
+    case FaceRole::symmetry: return PatchKind::symmetry;
+    case FaceRole::farfield: return PatchKind::farfield;
+    default: return PatchKind::wall;
+  }
+}
+
 Column<EdgeId, std::vector<EdgeUsePlace>> uses_of_edges(const Model& model) {
   Column<EdgeId, std::vector<EdgeUsePlace>> uses(model.edges.size());
   for (const FaceId f : model.faces.ids()) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geom/base/ids.h"
+#include "geom/mesh/tri_mesh.h"
 #include "geom/model/curve.h"
 #include "geom/model/surface.h"
 
@@ -66,7 +67,10 @@ struct ModelFace {
   std::optional<std::array<float, 3>> colour;  ///< red, green, blue in [0, 1]
   std::string layer;
   double tolerance = 0.0;       ///< metres
+  std::optional<PatchKind> kind = {};  ///< of its patch in meshes; nothing: as its role says
 };
+/// What the fluid meets at a face: what it says, else inflow, outflow, symmetry, farfield where that is its role, else a wall.
+PatchKind patch_kind(const ModelFace& face);
 
 struct ModelSolid {
   std::string name;

@@ -242,6 +242,11 @@ void orient_outwards(Model& model, SolidId solid_id) {
     for (const FaceId f : solid.faces) model.faces[f].is_reversed = !model.faces[f].is_reversed;
 }
 
+void turn_inside_out(Model& model) {
+  for (ModelFace& face : model.faces) face.is_reversed = !face.is_reversed;
+  model.shape.reset();
+}
+
 void append(Model& model, const Model& part) {
   const auto shift = [](auto id, std::size_t by) { return id.is_valid() ? decltype(id)(static_cast<std::uint64_t>(id.index() + by)) : id; };
   const std::size_t n_corners = model.corners.size(), n_edges = model.edges.size(), n_faces = model.faces.size(), n_components = model.components.size();

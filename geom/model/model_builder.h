@@ -66,6 +66,9 @@ class ModelBuilder {
 /// Turns faces of a solid so that neighbours agree and the solid's volume is positive. \throws Error(internal) where an edge has not two uses or faces cannot agree
 void orient_outwards(Model& model, SolidId solid);
 
+/// Turns every face, and so what is fluid and what is body. The shape of OpenCASCADE is dropped.
+void turn_inside_out(Model& model);
+
 /// Appends `part`, with its ids shifted. Shapes of OpenCASCADE are dropped.
 void append(Model& model, const Model& part);
 

@@ -12,8 +12,8 @@
 #include <tuple>
 
 #include "geom/base/error.h"
+#include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
-#include "geom/model/number_text.h"
 
 namespace sterna {
 namespace {

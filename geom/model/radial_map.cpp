@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "geom/base/error.h"
-#include "geom/model/number_text.h"
+#include "geom/base/number_text.h"
 
 namespace sterna {
 namespace {

@@ -30,7 +30,10 @@ class DuctBuilder {
 
   Model build(const std::string& wall, FaceRole wall_role, const std::string& first, FaceRole first_role, const std::string& last, FaceRole last_role) {
     for (const DuctStation& s : stations_) add_station(s);
-    for (std::size_t i = 0; i + 1 < stations_.size(); ++i) add_walls(i, wall, wall_role);
+    constexpr std::array<const char*, 4> k_sides = {"_floor", "_right", "_ceiling", "_left"};
+    std::array<std::string, 4> names;
+    for (std::size_t k = 0; k < 4; ++k) names[k] = wall + k_sides[k];
+    for (std::size_t i = 0; i + 1 < stations_.size(); ++i) add_walls(i, names, wall_role);
     builder_.plane({rings_.front().begin(), rings_.front().end()}, first_role, first);
     builder_.plane({rings_.back().begin(), rings_.back().end()}, last_role, last);
     return builder_.closed_solid(wall);
@@ -50,7 +53,7 @@ class DuctBuilder {
     corners_.push_back(corners);
     rings_.push_back(ring);
   }
-  void add_walls(std::size_t i, const std::string& name, FaceRole role) {
+  void add_walls(std::size_t i, const std::array<std::string, 4>& names, FaceRole role) {
     const DuctStation &a = stations_[i], &b = stations_[i + 1];
     const double arm = a.is_level ? 0.5 * (b.x - a.x) : 0.0;
     std::array<std::vector<Point>, 4> poles;
@@ -65,7 +68,7 @@ class DuctBuilder {
       const std::size_t next = (k + 1) % 4;
       NurbsSurfaceForm form{1, 3, {0.0, 0.0, 1.0, 1.0}, k_bezier, 2, 4, poles[k], {}};
       form.poles.insert(form.poles.end(), poles[next].begin(), poles[next].end());
-      builder_.patch(std::make_shared<NurbsSurface>(form), {{0.0, 1.0}, {0.0, 1.0}}, {rings_[i][k], edges[next], rings_[i + 1][k], edges[k]}, role, name);
+      builder_.patch(std::make_shared<NurbsSurface>(form), {{0.0, 1.0}, {0.0, 1.0}}, {rings_[i][k], edges[next], rings_[i + 1][k], edges[k]}, role, names[k]);
     }
   }
 
@@ -124,11 +127,26 @@ Model make_cylinder(const std::string& name, const Point& from, const Point& to,
 }
 
 Model make_test_section(const TestSectionOptions& o) {
+  const std::string attempted = "making a test section";
   TestSectionOptions checked = o;
-  require_options(options_of(checked), "making a test section");
+  require_options(options_of(checked), attempted);
   const double start = is_automatic(o.upstream) ? -0.5 * o.length : -o.upstream;
+  const bool has_contraction = o.contraction_length > 0.0 && o.contraction_ratio > 1.0;
+  if (!is_automatic(o.diameter)) {
+    if (!is_automatic(o.width) || !is_automatic(o.height)) refuse(attempted, "it has a diameter, and width or height; a round one has its diameter alone");
+    if (has_contraction || o.diffuser_length > 0.0) refuse(attempted, "round sections have neither contraction nor diffuser");
+    Model model = make_cylinder(o.wall, {start, 0.0, 0.0}, {start + o.length, 0.0, 0.0}, 0.5 * o.diameter);
+    model.components.raw().front().kind = ComponentKind::tunnel;
+    for (ModelFace& face : model.faces) {
+      face.role = face.role == FaceRole::nose ? FaceRole::inflow : face.role == FaceRole::tail ? FaceRole::outflow : FaceRole::wall;
+      face.name = face.role == FaceRole::inflow ? o.inflow : face.role == FaceRole::outflow ? o.outflow : o.wall;
+    }
+    turn_inside_out(model);  // the fluid is inside
+    return model;
+  }
+  if (is_automatic(o.width) || is_automatic(o.height)) refuse(attempted, "it needs width and height, or the diameter of a round one");
   std::vector<DuctStation> stations;
-  if (o.contraction_length > 0.0 && o.contraction_ratio > 1.0) {
+  if (has_contraction) {
     const double scale = std::sqrt(o.contraction_ratio);
     stations.push_back({start - o.contraction_length, 0.5 * scale * o.width, 0.5 * scale * o.height, true});
   }
@@ -139,7 +157,7 @@ Model make_test_section(const TestSectionOptions& o) {
     stations.push_back({start + o.length + o.diffuser_length, 0.5 * o.width + wider, 0.5 * o.height + wider});
   }
   Model model = DuctBuilder(stations, {o.wall, ComponentKind::tunnel}).build(o.wall, FaceRole::wall, o.inflow, FaceRole::inflow, o.outflow, FaceRole::outflow);
-  for (ModelFace& face : model.faces) face.is_reversed = !face.is_reversed;  // the fluid is inside
+  turn_inside_out(model);  // the fluid is inside
   return model;
 }
 

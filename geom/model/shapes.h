@@ -16,11 +16,13 @@ Model make_box(const std::string& name, const Point& from, const Point& to);
 /// Solid cylinder between two points. \throws Error(bad_argument) when it has no length or radius
 Model make_cylinder(const std::string& name, const Point& from, const Point& to, double radius);
 
-/// Wind-tunnel test section around the x axis, the fluid inside; the model stands at the origin.
+/// Wind-tunnel test section around the x axis, the fluid inside; the model stands at the origin. Rectangular (width, height: walls <wall>_floor, <wall>_right at starboard,
+/// <wall>_ceiling and <wall>_left), or round (diameter: one wall).
 struct TestSectionOptions {
   double length = k_automatic;
   double width = k_automatic;
   double height = k_automatic;
+  double diameter = k_automatic;
   double upstream = k_automatic;
   double contraction_length = 0.0;
   double contraction_ratio = 1.0;
@@ -36,8 +38,9 @@ struct Schema<TestSectionOptions> {
   static constexpr std::string_view stage = "test_section";
   static constexpr std::array fields = {
       Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-9, .help = "of the straight part", .required = true},
-      Field<O>{.name = "width", .member = &O::width, .unit = Unit::metre, .min = 1e-9, .help = "along y", .required = true},
-      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 1e-9, .help = "along z", .required = true},
+      Field<O>{.name = "width", .member = &O::width, .unit = Unit::metre, .min = 1e-9, .help = "along y", .automatic = "needed, unless it is round"},
+      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 1e-9, .help = "along z", .automatic = "needed, unless it is round"},
+      Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "of a round section, without contraction and diffuser", .automatic = "it is rectangular"},
       Field<O>{.name = "upstream", .member = &O::upstream, .unit = Unit::metre, .help = "how far the straight part begins before x = 0", .automatic = "half its length"},
       Field<O>{.name = "contraction_length", .member = &O::contraction_length, .unit = Unit::metre, .min = 0.0, .help = "of a contraction before it; 0 = none"},
       Field<O>{.name = "contraction_ratio", .member = &O::contraction_ratio, .min = 1.0, .max = 100.0, .help = "of the areas at both ends of the contraction"},
@@ -45,7 +48,7 @@ struct Schema<TestSectionOptions> {
       Field<O>{.name = "diffuser_angle", .member = &O::diffuser_angle, .unit = Unit::radian, .min = 0.0, .max = 0.7853981633974483, .help = "of each wall of the diffuser against x"},
       Field<O>{.name = "inflow", .member = &O::inflow, .help = "name of the patch where air comes in"},
       Field<O>{.name = "outflow", .member = &O::outflow, .help = "name of the patch where it leaves"},
-      Field<O>{.name = "wall", .member = &O::wall, .help = "name of the walls' patch"},
+      Field<O>{.name = "wall", .member = &O::wall, .help = "name of the walls: tunnel_floor, tunnel_right (starboard), tunnel_ceiling, tunnel_left; tunnel where it is round"},
   };
 };
 /// \throws Error(bad_argument)

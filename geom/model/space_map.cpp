@@ -3,7 +3,7 @@
 #include <string>
 
 #include "geom/base/error.h"
-#include "geom/model/number_text.h"
+#include "geom/base/number_text.h"
 
 namespace sterna {
 

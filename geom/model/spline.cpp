@@ -7,7 +7,7 @@
 #include <string>
 
 #include "geom/base/error.h"
-#include "geom/model/number_text.h"
+#include "geom/base/number_text.h"
 #include "geom/model/nurbs_curve.h"
 #include "geom/model/nurbs_surface.h"
 

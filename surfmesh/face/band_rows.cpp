@@ -15,11 +15,13 @@
 #include "geom/delaunay/triangulation.h"
 #include "geom/math/measures.h"
 #include "geom/math/predicates.h"
-#include "surfmesh/face/face_state.h"
+#include "geom/delaunay/face_state.h"
 #include "surfmesh/face/point_grid.h"
 
 namespace sterna::surfmesh {
 namespace {
+
+using delaunay::sample;
 
 /// No row vertex is nearer to another border than this many lengths of its edges along the border: room for one triangle between.
 constexpr double k_clearance = 1.0;

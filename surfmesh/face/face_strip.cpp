@@ -5,10 +5,12 @@
 #include <numbers>
 
 #include "geom/math/predicates.h"
-#include "surfmesh/face/face_state.h"
+#include "geom/delaunay/face_state.h"
 
 namespace sterna::surfmesh {
 namespace {
+
+using delaunay::sample;
 
 /// The shape of a short side reaches so many times its length along the strip.
 constexpr double k_end_reach = 2.0;

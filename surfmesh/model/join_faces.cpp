@@ -9,22 +9,12 @@
 namespace sterna::surfmesh {
 namespace {
 
-PatchKind kind_of(FaceRole role) {
-  switch (role) {
-    case FaceRole::inflow: return PatchKind::inflow;
-    case FaceRole::outflow: return PatchKind::outflow;
-    case FaceRole::symmetry: return PatchKind::symmetry;
-    case FaceRole::farfield: return PatchKind::farfield;
-    default: return PatchKind::wall;
-  }
-}
-
 /// A patch for each name and kind, in the order of the faces.
 Column<FaceId, PatchId> make_patches(const Model& model, TriMesh& mesh) {
   std::map<std::pair<std::string, PatchKind>, PatchId> known;
   Column<FaceId, PatchId> patch_of(model.faces.size());
   for (const FaceId f : model.faces.ids()) {
-    const Patch patch{model.faces[f].name, kind_of(model.faces[f].role)};
+    const Patch patch{model.faces[f].name, patch_kind(model.faces[f])};
     const auto [at, is_new] = known.try_emplace({patch.name, patch.kind}, PatchId(static_cast<std::uint64_t>(mesh.patches.size())));
     if (is_new) mesh.patches.push_back(patch);
     patch_of[f] = at->second;

@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <set>
 
 #include "geom/base/error.h"
+#include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
 #include "surfmesh/model/crossings.h"
 #include "surfmesh/model/doubled_edges.h"
 #include "surfmesh/model/estimate.h"
 #include "surfmesh/model/join_faces.h"
+#include "surfmesh/model/mesh_report.h"
 #include "surfmesh/model/proximity.h"
 #include "surfmesh/model/smooth_angle.h"
 
@@ -27,13 +28,7 @@ constexpr double k_repair_factor = 0.5;
 constexpr std::size_t k_shown_places = 10;
 /// Above it volume_mesh takes no feature angle from the mesh.
 constexpr double k_largest_smooth_turn = std::numbers::pi / 3.0;
-constexpr double k_angle_class = 10.0 * std::numbers::pi / 180.0;  ///< of SurfaceMeshReport::least_angles
-
-std::string number_text(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+constexpr int k_digits = 4;  ///< of numbers in messages
 
 struct Meshing {
   const Model& model;
@@ -134,16 +129,6 @@ void refine_triangle(Meshing& meshing, const SurfaceMesh& mesh, TriangleId t, do
   throw Error(std::move(info));
 }
 
-void report_crossings(const Model& model, const SurfaceMeshOptions& options, const MeshCrossings& crossings, SurfaceMesh& mesh, const RunContext& context) {
-  mesh.report.n_crossings = crossings.total;
-  if (crossings.total == 0) return;
-  mesh.report.crossings = crossing_faces(model, mesh, crossings);
-  ErrorInfo info = crossing_error(model, mesh, crossings, mesh.report.crossings);
-  if (options.crossings != "error") return context.warn(Error(std::move(info)).what());
-  info.hint += "; crossings = \"warn\" keeps the mesh as it is";
-  throw Error(std::move(info));
-}
-
 BandSummary summarise_bands(const Meshing& meshing) {
   BandSummary summary;
   summary.notes = meshing.bands.notes;
@@ -166,12 +151,9 @@ void summarise(const Meshing& meshing, SurfaceMesh& mesh) {
   report.absorbed = meshing.absorbed;
   report.bands = summarise_bands(meshing);
   report.min_angle = std::numbers::pi;
-  std::int64_t n = 0, n_outside = 0;
   double area = 0.0, area_above = 0.0, worst_excess = 0.0;
   for (const MeshedFace& face : meshing.faces) {
     report.faces.push_back(face.summary);
-    n += face.summary.n_triangles - face.summary.n_band;
-    n_outside += face.summary.n_outside_20_130;
     if (face.summary.n_triangles > face.summary.n_band && face.summary.min_angle < report.min_angle) {
       report.min_angle = face.summary.min_angle;
       report.worst_face = face.summary.face;
@@ -191,26 +173,8 @@ void summarise(const Meshing& meshing, SurfaceMesh& mesh) {
     }
   }
   if (area > 0.0) report.share_normals = 1.0 - area_above / area;
-  std::stable_sort(report.loose_edges.begin(), report.loose_edges.end(), [](const LooseEdge& a, const LooseEdge& b) { return a.distance * b.tolerance > b.distance * a.tolerance; });
-  if (n > 0) report.share_20_130 = 1.0 - static_cast<double>(n_outside) / static_cast<double>(n);
-  std::vector<float> least;
-  double twice_area = 0.0;
-  for (const TriangleId t : mesh.mesh.triangles.ids()) {
-    if (mesh.is_band[t] != 0) continue;
-    const auto p = corners(mesh.mesh, t);
-    const double angle = std::min({corner_angle(p[0], p[1], p[2]), corner_angle(p[1], p[2], p[0]), corner_angle(p[2], p[0], p[1])});
-    least.push_back(static_cast<float>(angle));
-    ++report.least_angles[std::min(report.least_angles.size() - 1, static_cast<std::size_t>(angle / k_angle_class))];
-    // 2 r / R = 16 A^2 / (a b c (a + b + c))
-    const double a = distance(p[1], p[2]), b = distance(p[2], p[0]), c = distance(p[0], p[1]), twice = norm(cross(p[1] - p[0], p[2] - p[0]));
-    twice_area += twice;
-    if (twice > 0.0) report.mean_radius_ratio += twice * 4.0 * twice * twice / (a * b * c * (a + b + c));
-  }
-  if (least.empty()) return;
-  if (twice_area > 0.0) report.mean_radius_ratio /= twice_area;
-  const auto at = least.begin() + static_cast<std::ptrdiff_t>(least.size() / 100);
-  std::nth_element(least.begin(), at, least.end());
-  report.angle_quantile_1 = *at;
+  sort_loose_edges(report.loose_edges);
+  measure_triangles(mesh);
 }
 
 void check_options(const SurfaceMeshOptions& options) {
@@ -220,7 +184,7 @@ void check_options(const SurfaceMeshOptions& options) {
   if (options.min_edge > options.max_edge)  // false where either is automatic
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = k_attempted,
-                 .problem = "min_edge = " + number_text(options.min_edge) + " m is above max_edge = " + number_text(options.max_edge) + " m",
+                 .problem = "min_edge = " + number_text(options.min_edge, k_digits) + " m is above max_edge = " + number_text(options.max_edge, k_digits) + " m",
                  .hint = "curvature and narrow places ask for no edges below min_edge; leave it automatic for 2 % of max_edge"});
 }
 
@@ -281,14 +245,14 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   mesh.report.max_smooth_angle = smooth.angle;
   mesh.report.smooth_angle_place = smooth.place;
   if (smooth.angle > k_largest_smooth_turn)
-    context.warn("the mesh turns by " + number_text(std::round(smooth.angle * 180.0 / std::numbers::pi)) + " degrees at " + format_point(smooth.place) +
+    context.warn("the mesh turns by " + number_text(std::round(smooth.angle * 180.0 / std::numbers::pi), k_digits) + " degrees at " + format_point(smooth.place) +
                  ", where the model is smooth: layers will take it for an edge (shorter edges there: max_edge, min_edge, curvature_angle; or the model folds)");
   return mesh;
 }
 
 std::string to_text(const SurfaceMeshReport& report) {
   constexpr double k_deg = std::numbers::pi / 180.0;
-  const auto number = number_text;
+  const auto number = [](double value) { return number_text(value, k_digits); };
   std::int64_t n = 0;
   for (const FaceMeshSummary& face : report.faces) n += face.n_triangles;
   std::string text = std::to_string(n) + " triangles on " + std::to_string(report.faces.size()) + " faces; angles " + number(report.min_angle / k_deg) + " .. " + number(report.max_angle / k_deg) +

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
+#include "surfmesh/model/estimate.h"
 #include "surfmesh/model/model_topology.h"
 #include "surfmesh/model/wing_bands.h"
 
@@ -100,6 +104,28 @@ void resolve_bands(const std::string& name, const SurfaceMeshOptions& options, s
   sizes.trailing_cells *= options.refinement;
 }
 
+bool is_min_edge_given(const std::string& name, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches) {
+  return !is_automatic(options.min_edge) || std::any_of(patches.begin(), patches.end(), [&](const PatchSurfaceOptions& rule) { return !is_automatic(rule.min_edge) && matches_glob(name, rule.names); });
+}
+
+/// Where nobody gave a min_edge, the automatic one would end a chord error that is far too small, and the mesh would be another than asked for without a word.
+/// \throws Error(overflow) when what is asked for is more than max_triangles \post sizes of curvature are made for this question only
+void require_chord_error_in_reach(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, ModelSizes& sizes) {
+  double n = 0.0, least = std::numeric_limits<double>::infinity();
+  for (const FaceId f : model.faces.ids()) {
+    const CurvatureLimits& limits = sizes.faces[f].limits;
+    if (!std::isfinite(limits.chord_error) || is_min_edge_given(model.faces[f].name, options, patches)) continue;
+    sizes.faces[f].curvature->limit({.angle = std::numbers::pi, .chord_error = limits.chord_error, .min_edge = 0.0, .growth = limits.growth});
+    n += estimated_triangles(sizes, f);
+    least = std::min(least, limits.chord_error);
+  }
+  if (n <= options.max_triangles) return;
+  throw Error({.code = ErrorCode::overflow,
+               .attempted = "meshing the model's surface",
+               .problem = "chord_error = " + number_text(least) + " m asks for about " + number_text(n, 2) + " triangles; max_triangles is " + std::to_string(options.max_triangles),
+               .hint = "a larger chord_error, or a min_edge, where it ends; are the model's units right?"});
+}
+
 FaceSizes resolve(const std::string& name, double automatic_max, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches) {
   double max_edge = options.max_edge, min_edge = options.min_edge, angle = options.curvature_angle, error = options.chord_error;
   double leading = options.leading_edge_factor, trailing = options.trailing_edge_factor;
@@ -141,12 +167,7 @@ void check_rules(const Model& model, std::span<const PatchSurfaceOptions> patche
     ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = "meshing the model's surface", .problem = "no face has a name like \"" + rule.names + "\""};
     std::vector<std::string> names;
     for (const ModelFace& f : model.faces) names.push_back(f.name);
-    std::sort(names.begin(), names.end());
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-    info.hint = "names are";
-    constexpr std::size_t k_shown = 12;
-    for (std::size_t i = 0; i < std::min(k_shown, names.size()); ++i) info.hint += (i > 0 ? ", " : " ") + names[i];
-    if (names.size() > k_shown) info.hint += ", ... (" + std::to_string(names.size()) + " in all)";
+    info.hint = names_hint(names, rule.names);
     throw Error(std::move(info));
   }
 }
@@ -260,26 +281,6 @@ double distance_to_segment(const Point& p, const Point& a, const Point& b) {
   return distance(p, a + t * along);
 }
 
-bool matches_glob(std::string_view name, std::string_view glob) {
-  std::size_t n = 0, g = 0, star = std::string_view::npos, retry = 0;
-  while (n < name.size()) {
-    if (g < glob.size() && (glob[g] == '?' || (glob[g] != '*' && glob[g] == name[n]))) {
-      ++n;
-      ++g;
-    } else if (g < glob.size() && glob[g] == '*') {
-      star = g++;
-      retry = n;
-    } else if (star != std::string_view::npos) {
-      g = star + 1;
-      n = ++retry;
-    } else {
-      return false;
-    }
-  }
-  while (g < glob.size() && glob[g] == '*') ++g;
-  return g == glob.size();
-}
-
 ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
   check_rules(model, patches);
   ModelSizes sizes;
@@ -304,6 +305,7 @@ ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>&
     sizes.faces[f].curvature = std::move(curvature);
     sizes.largest = std::max(sizes.largest, sizes.faces[f].max_edge);
   }
+  require_chord_error_in_reach(model, options, patches, sizes);
   parallel_for(context, model.faces.size(), [&](std::size_t i) {
     const FaceId f(static_cast<std::uint64_t>(i));
     sizes.faces[f].curvature->limit(sizes.faces[f].limits);

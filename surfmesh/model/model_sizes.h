@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geom/base/glob.h"
 #include "surfmesh/face/face_sizes.h"
 #include "surfmesh/model/edge_samples.h"
 #include "surfmesh/model/face_outline.h"
@@ -59,8 +60,5 @@ void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, c
 void add_place_sizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, const SpaceSizes& asked, ModelSizes& sizes);
 
 double distance_to_segment(const Point& p, const Point& a, const Point& b);
-
-/// "*" any run of characters, "?" any one.
-bool matches_glob(std::string_view name, std::string_view glob);
 
 }  // namespace sterna::surfmesh

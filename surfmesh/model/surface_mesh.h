@@ -153,7 +153,7 @@ struct SurfaceMeshReport {
 
 /// A surface mesh that remembers its model.
 struct SurfaceMesh {
-  TriMesh mesh;                                ///< a patch for each name of a face; vertices: corners, then edges', then inner ones
+  TriMesh mesh;                                ///< a patch for each name of a face; vertices: corners, then edges', then inner ones, part by part where parts were joined (join_parts.h)
   Column<VertexId, VertexPlace> places;        ///< vertices on edges: on the first face that uses them
   Column<VertexId, EdgePlace> edge_places;
   Column<CornerId, VertexId> corner_vertices;  ///< of the model's corners; invalid where no triangle has it
@@ -187,7 +187,7 @@ struct Schema<surfmesh::SurfaceMeshOptions> {
       Field<O>{.name = "curvature_angle", .member = &O::curvature_angle, .unit = Unit::radian, .min = 0.001, .max = 1.6, .help = "an edge spans at most this angle of the surface"},
       Field<O>{.name = "chord_error", .member = &O::chord_error, .unit = Unit::metre, .min = 1e-9, .help = "an edge's middle is at most this far from the surface", .automatic = "no limit"},
       Field<O>{.name = "growth", .member = &O::growth, .min = 1.01, .max = 3.0, .help = "ratio of the lengths of edges that follow each other, at most"},
-      Field<O>{.name = "refinement", .member = &O::refinement, .min = 0.01, .max = 100.0, .help = "lengths, angles and growth - 1 are divided by it: 1.5 for the next finer mesh of a family"},
+      Field<O>{.name = "refinement", .member = &O::refinement, .min = 0.01, .max = 100.0, .help = "lengths, angles and growth - 1 are divided by it: 1.5 for the next finer mesh of a family; give volume_mesh the same", .choices = "extra_coarse=0.4444444444444444 coarse=0.6666666666666666 medium=1 fine=1.5 extra_fine=2.25"},
       Field<O>{.name = "narrow", .member = &O::narrow, .min = 0.1, .max = 100.0, .help = "edges along narrow faces are at most this many times their width (never below a fifth of min_edge)"},
       Field<O>{.name = "leading_edge_factor", .member = &O::leading_edge_factor, .min = 0.01, .max = 1.0, .help = "of the longest edge, at leading edges of wings made of sections; one from half of the chord on"},
       Field<O>{.name = "trailing_edge_factor", .member = &O::trailing_edge_factor, .min = 0.01, .max = 1.0, .help = "of the longest edge, at trailing edges of such wings"},

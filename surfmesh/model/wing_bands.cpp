@@ -11,7 +11,7 @@
 #include <map>
 #include <numbers>
 
-#include "surfmesh/face/face_state.h"
+#include "geom/delaunay/face_state.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -63,7 +63,7 @@ Look look(const Model& model, const Side& side, double share) {
   const Vec3 unit = normalized(normal);
   result.inwards = normalized(cross(unit, tangent));
   result.normal = face.is_reversed ? -unit : unit;
-  const Uv w = parameter_step({d.du, d.dv, unit}, result.inwards);
+  const Uv w = delaunay::parameter_step({d.du, d.dv, unit}, result.inwards);
   const double second = dot(w.u * w.u * d.duu + 2.0 * w.u * w.v * d.duv + w.v * w.v * d.dvv, unit);
   if (std::isfinite(second)) result.bend = second * unit;
   return result;

@@ -132,7 +132,7 @@ Orientation flood_orientation(const WorkingSurface& surface, const EdgeTable& ed
   return result;
 }
 
-void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation, StitchReport& report, const RunContext& context) {
+void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation, bool is_fluid_inside, StitchReport& report, const RunContext& context) {
   std::vector<Component> components = measure_components(surface, edges, orientation);
   find_nesting(surface, orientation, components, context);
   report.n_components = orientation.n_components;
@@ -142,7 +142,8 @@ void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orien
     std::int64_t n_minority = 0;
     for (const std::uint32_t t : component.facets) n_minority += orientation.is_flipped[t];
     const auto n = static_cast<std::int64_t>(component.facets.size());
-    const bool is_inside_out = component.is_closed ? (component.volume > 0.0) == (component.depth % 2 == 1) : component.area_as_read < 0.0;
+    const bool is_hollow = (component.depth % 2 == 1) != is_fluid_inside;  // the fluid, or what it does not reach, is inside of it
+    const bool is_inside_out = component.is_closed ? (component.volume > 0.0) == is_hollow : component.area_as_read < 0.0;
     const std::int64_t n_turned = is_inside_out ? n - n_minority : n_minority;
     // More than half turned: the file's sense was inside out, and the rest was inconsistent.
     if (2 * n_turned > n) {
@@ -155,7 +156,7 @@ void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orien
     report.n_flipped += n_turned;
     for (const std::uint32_t t : component.facets)
       if (is_inside_out != static_cast<bool>(orientation.is_flipped[t])) std::swap(surface.facets[t][1], surface.facets[t][2]);
-    if (component.depth % 2 == 1 && component.is_closed)
+    if (is_hollow && component.depth > 0 && component.is_closed)
       report.messages.push_back("component " + std::to_string(i + 1) + " (" + count_of(n, "facet", "facets") + " about " +
                                 format_point(surface.metres(component.box.center())) + ") lies inside component " + std::to_string(component.parent + 1) +
                                 ": taken as a cavity in it, which the outer flow does not reach");

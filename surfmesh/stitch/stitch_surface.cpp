@@ -79,7 +79,7 @@ StitchResult stitch_surface(const std::vector<SurfaceSoup>& soups, const StitchO
     const Orientation orientation = flood_orientation(surface, edges);
     throw_on_defects(surface, edges, defects, orientation, options, context);
     report.is_closed = defects.boundary.empty();
-    orient_outward(surface, edges, orientation, report, context);
+    orient_outward(surface, edges, orientation, options.fluid == "inside", report, context);
   }
   flip_flat_facets(surface, report);
   scale_to_metres(surface);

@@ -176,8 +176,7 @@ void compare(const std::string& file, const Settings& settings) {
   const Envelope start = build_envelope(base, options, context);
   const double build_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   const Column<VertexId, double> h_u = upper_heights(base, start);
-  const EnvelopeScale scale = scale_of(options);
-  const Task task{base, start, h_u, std::max(scale.h0, scale.h_min), settings.evaluations, settings.slack, context};
+  const Task task{base, start, h_u, scale_of(base, options).least_height(), settings.evaluations, settings.slack, context};
   const PaperProblem problem(base, start, h_u, task.h_l, NloptSettings{}.g1_min, context);
   const std::vector<double> z = problem.unknowns(start);
   std::vector<double> gradient(z.size());

@@ -74,7 +74,7 @@ void time_optimisers(Row& row, const LayerBase& base, EnvelopeOptions options, i
   options.optimiser = "none";
   const Envelope start = build_envelope(base, options, context);
   const Column<VertexId, double> h_u = upper_heights(base, start);
-  const double h_l = std::max(options.first_height, scale_of(options).h_min);
+  const double h_l = scale_of(base, options).least_height();
   const double n = static_cast<double>(base.wall.n_vertices()) * n_evaluations;
   for (const NloptMethod method : {NloptMethod::ccsaq, NloptMethod::mma}) {
     NloptReport report;

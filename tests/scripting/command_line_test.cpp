@@ -55,6 +55,8 @@ TEST_F(CommandLine, MisspeltNamesGetASuggestion) {
       {{"mash", "box.stl"}, "did you mean mesh?"},
       {{"--threads", "2", "covnert", "box.stl", "a.obj"}, "did you mean convert?"},
       {{"mesh", "box.stl", "--layres", "3", "-o", "m.su2"}, "there is no option of mesh --layres, did you mean --layers?"},
+      {{"mesh", "box.stl", "--first-height", "12deg", "-o", "m.su2"}, "\"12deg\" is an angle, expected a length"},
+      {{"mesh", "box.stl", "--first-height", "1e-3", "--split-angle", "2mm", "-o", "m.su2"}, "\"2mm\" is a length, expected an angle"},
       {{"mesh", "box.stl", "--first-height", "1e-3", "--unit", "parsec", "-o", "m.su2"}, "\"parsec\" is neither a number nor a unit of length"},
   };
   for (const auto& [arguments, text] : cases) {
@@ -64,6 +66,27 @@ TEST_F(CommandLine, MisspeltNamesGetASuggestion) {
   }
   std::filesystem::create_directory(folder / "parts");
   EXPECT_NE(sterna({"info", "parts"}).errors.find("it is a folder"), std::string::npos);
+}
+
+TEST_F(CommandLine, SurfacesInFormatsOfVolumesAreSurfaces) {
+  for (const char* name : {"wall.cgns", "wall.adf.cgns", "wall.su2", "wall.vtu", "wall.taumesh", "wall.msh", "wall.meshb", "wall.lb8.ugrid", "wall.vtkhdf"}) {
+    SCOPED_TRACE(name);
+    const ProcessResult written = sterna({"convert", "box.stl", name});
+    if (written.status != k_exit_success) {  // not every format of volumes takes surfaces
+      EXPECT_NE(written.errors.find("surface"), std::string::npos) << written.errors;
+      continue;
+    }
+    const ProcessResult info = sterna({"info", name});
+    EXPECT_EQ(info.status, k_exit_success) << info.errors;
+    EXPECT_NE(info.output.find("surface  12 triangles"), std::string::npos) << info.output;
+    const ProcessResult back = sterna({"convert", name, "back.off"});
+    EXPECT_EQ(back.status, k_exit_success) << back.errors;
+    const ProcessResult check = sterna({"check", name});
+    EXPECT_EQ(check.status, k_exit_failed) << check.output;
+    EXPECT_NE(check.errors.find("it holds a surface of 12 triangles and no cells"), std::string::npos) << check.errors;
+    EXPECT_NE(check.errors.find("sterna info"), std::string::npos);
+  }
+  EXPECT_NE(sterna({"check", "box.stl"}).errors.find("holds surfaces only"), std::string::npos);
 }
 
 TEST_F(CommandLine, AllWrongOptionsAreNamedTogether) {

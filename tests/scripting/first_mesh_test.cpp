@@ -73,6 +73,30 @@ TEST_F(FirstMesh, TheNativeFileHoldsWhatIsKnown) {
   EXPECT_EQ(sterna({"check", "box.sterna"}).status, k_exit_success);
 }
 
+TEST_F(FirstMesh, RulesForPatchesComeFromCommandLineAndScriptAndStayInTheManifest) {
+  const ProcessResult result = mesh_box("box.su2", {"--split-angle", "60deg", "--patch", "*:blend=0.2", "--patch", "*_1:layers=10,first_height=2mm"});
+  ASSERT_EQ(result.status, k_exit_success) << result.errors;
+  EXPECT_NE(result.errors.find("one number of layers: 10, the largest asked for"), std::string::npos) << result.errors;
+  const std::string manifest = contents(folder / "box.su2.json");
+  for (const char* part : {"\"patch_rules\"", "\"names\": \"*_1\"", "\"first_height\": 0.002", "\"blend\": 0.2", "\"VALID\""}) EXPECT_NE(manifest.find(part), std::string::npos) << part;
+
+  std::ofstream(folder / "case.lua") << "volume_mesh{ read_surface{ 'box.stl', split_angle = 60*deg }, layers = 8, first_height = 1e-3, farfield = sphere{ radius = 10 },\n"
+                                        "  patches = { ['*'] = { blend = 0.2 }, ['*_1'] = { layers = 10, first_height = 2*mm } }, stages = 'box.sterna' }:write 'script.su2'";
+  const ProcessResult script = sterna({"run", "case.lua"});
+  ASSERT_EQ(script.status, k_exit_success) << script.errors;
+  EXPECT_EQ(contents(folder / "script.su2"), contents(folder / "box.su2"));
+  const ProcessResult again = sterna({"mesh", "box.sterna", "-o", "again.su2"});
+  ASSERT_EQ(again.status, k_exit_success) << again.errors;
+  EXPECT_EQ(contents(folder / "again.su2"), contents(folder / "box.su2"));
+
+  for (const auto& [rule, text] : std::vector<std::pair<std::string, std::string>>{{"fuselage*:layers=3", "no patch has a name like \"fuselage*\""}, {"*:layres=3", "did you mean \"layers\"?"},
+                                                                                   {"*:layers=3.5", "layers"}, {"*:kind=slipp", "slip"}, {"*", "is not NAMES:OPTION=VALUE"}}) {
+    const ProcessResult refused = mesh_box("no.su2", {"--patch", rule});
+    EXPECT_NE(refused.status, k_exit_success) << rule;
+    EXPECT_NE(refused.errors.find(text), std::string::npos) << refused.errors;
+  }
+}
+
 /// Stopped behind each step, written, read, continued: the same files as of the run that was not stopped. A wing: layers meet, heights are lowered.
 TEST_F(FirstMesh, StepsAreContinuedToTheSameBytes) {
   STERNA_NEEDS_SHARED_DATA();

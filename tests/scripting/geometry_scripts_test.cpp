@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "geom/base/error.h"
-#include "scripting/script_run.h"
+#include "tests/scripting/script_fixture.h"
 #include "tests/support/data.h"
 
 namespace sterna::scripting {
@@ -15,28 +15,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-class GeometryScripts : public testing::Test {
- protected:
-  /// Runs the text as a script; returns what it printed.
-  std::string run(const std::string& text, int threads = 1) {
-    std::ofstream(folder_ / "case.lua") << text;
-    std::string printed;
-    run_script({.script = folder_ / "case.lua", .overrides = {}, .print = [&](std::string_view line) { printed += std::string(line) + "\n"; }, .on_mesh = {}}, RunContext({.threads = threads}));
-    return printed;
-  }
-  double number(const std::string& expression) { return std::stod(run("print(string.format('%.17g', " + expression + "))")); }
-  std::string error(const std::string& text) {
-    try {
-      run(text);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
-  }
-  std::string out(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
-
-  const std::filesystem::path folder_ = test::scratch();
-};
+class GeometryScripts : public ScriptFixture {};
 
 constexpr double k_pi = std::numbers::pi;
 /// Volumes and areas of exact shapes: what the quadrature promises, with room for rounding.
@@ -116,7 +95,7 @@ TEST_F(GeometryScripts, DeformedModelsAreTheSameForAnyNumberOfThreads) {
   const std::string text = "local m = box{ {0,0,0}, {1,2,1} }:deform{ function(x, y, z) return 0.02*math.sin(3*y), 0, 0.1*y^3 end } print(string.format('%.17g', m:measures().volume)) m:write(" + out("bent.step") + ")";
   std::string bytes;
   for (const int threads : {1, 2, 7}) {
-    const std::string printed = run(text, threads);
+    const std::string printed = run(text, {}, threads);
     std::ifstream file(folder_ / "bent.step", std::ios::binary);
     const std::string now = printed + std::string(std::istreambuf_iterator<char>(file), {});
     if (bytes.empty()) bytes = now;

@@ -45,7 +45,7 @@ TEST(ScriptMistakes, EachHasItsMessageAtFileAndLine) {
       for (const std::string& part : expected.parts) EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << "missing: " << part << "\nin: " << error.what();
     }
   }
-  EXPECT_GE(n_scripts, 15);
+  EXPECT_GE(n_scripts, 60);
 }
 
 }  // namespace

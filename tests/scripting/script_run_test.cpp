@@ -136,6 +136,15 @@ TEST(ScriptRun, MistakesInSourcesAreToldWhereTheyAre) {
   EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, sources = { size_samples 'absent.vtu' } }"), testing::HasSubstr("absent.vtu"));
 }
 
+TEST(ScriptRun, ActuatorDiscsAreCheckedWhereTheyAreMade) {
+  EXPECT_EQ(run_text("local d = actuator_disc{ name = 'prop', center = {-0.4, 0, 0}, radius = 120*cm } print(d.name, d.radius, d.center[1])"), "prop\t1.2\t-0.4\n");
+  const auto message = [](const std::string& text) { return std::string(error_of(text).what()); };
+  EXPECT_THAT(message("actuator_disc{ radius = 1 }"), testing::HasSubstr("center: is needed"));
+  EXPECT_THAT(message("actuator_disc{ center = {0, 0, 0} }"), testing::HasSubstr("radius"));
+  EXPECT_THAT(message("actuator_disc{ center = {0, 0, 0}, radius = 1, inner = 0.2 }"), testing::HasSubstr("unknown key \"inner\""));
+  EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, interfaces = { 3 } }"), testing::HasSubstr("interfaces, entry 1: expected actuator_disc"));
+}
+
 TEST(ScriptRun, OverridesOfTheCommandLineWin) {
   EXPECT_EQ(run_text("print(read_surface{ 'box.stl', unit = mm }.length)", {}, {{"surface.unit", "2"}}), "2.0\n");
   EXPECT_EQ(error_of("print 'started'", {}, {{"surface.unti", "2"}}).code(), ErrorCode::unknown_option);

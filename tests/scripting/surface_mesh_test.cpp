@@ -7,7 +7,7 @@
 #include "geom/base/error.h"
 #include "io/volume_file.h"
 #include "scripting/exit_status.h"
-#include "scripting/script_run.h"
+#include "tests/scripting/script_fixture.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"
 
@@ -18,34 +18,9 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-class SurfaceMeshVerb : public testing::Test {
+class SurfaceMeshVerb : public ScriptFixture {
  protected:
-  /// Runs the text as a script; returns what it printed. The log is in log_.
-  std::string run(const std::string& text, const OptionOverrides& overrides = {}) {
-    std::ofstream(folder_ / "case.lua") << text;
-    std::string printed;
-    log_.clear();
-    const RunContext context({.threads = 1, .log = [&](LogLevel level, std::string_view line) { log_ += (level == LogLevel::warning ? "warning: " : "") + std::string(line) + "\n"; }});
-    run_script({.script = folder_ / "case.lua", .overrides = overrides, .print = [&](std::string_view line) { printed += std::string(line) + "\n"; }, .on_mesh = {}}, context);
-    return printed;
-  }
-  std::string error(const std::string& text) {
-    try {
-      run(text);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
-  }
   test::ProcessResult sterna(const std::vector<std::string>& arguments) { return test::run_process(test::sterna_program(), arguments, folder_); }
-  std::string out(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
-  std::string text_of(const std::string& name) const {
-    std::ifstream file(folder_ / name);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
-
-  const std::filesystem::path folder_ = test::scratch();
-  std::string log_;
 };
 
 TEST_F(SurfaceMeshVerb, AClosedModelMakesAWallForVolumeMesh) {
@@ -100,7 +75,7 @@ TEST_F(SurfaceMeshVerb, SourcesAndFunctionsMakeShorterEdges) {
                         "n{ size=function(x, y, z) return 0.1 + z end }.triangles > 5*plain)"),
             "true\ttrue\ttrue\n");
   EXPECT_THAT(error(model + "n{ sources={ 3 }, size=0.2 }"), AllOf(HasSubstr("2 problems"), HasSubstr("sources, entry 1: expected a source"), HasSubstr("size: expected a function of x, y, z")));
-  EXPECT_THAT(error(model + "n{ sources={ sphere{ {0,0,0}, raduis=0.5, size=0.05 } } }"), HasSubstr("unknown key \"raduis\", did you mean \"radius\"?"));
+  EXPECT_THAT(error(model + "n{ sources={ sphere{ {0,0,0}, raduis=0.5, size=0.05 } } }"), AllOf(HasSubstr("unknown key \"raduis\", did you mean \"radius\"?"), HasSubstr("sphere takes a point, size, radius")));
   EXPECT_THAT(error(model + "n{ size=function(x, y, z) return -z end }"), HasSubstr("the function of sizes gives"));
   EXPECT_THAT(error(model + "n{ size=function(x, y, z) return nil + 1 end }"), HasSubstr("case.lua:1"));
   EXPECT_THAT(run("help(surface_mesh)"), AllOf(HasSubstr("gap_cells"), HasSubstr("sources = {")));
@@ -128,7 +103,8 @@ TEST_F(SurfaceMeshVerb, TheCommandLineTakesPatchesAndSources) {
   EXPECT_GT(source, 3 * plain);
   for (const auto& [arguments, text] : std::vector<std::pair<std::vector<std::string>, std::string>>{
            {{"--patch", "wing*:max_egde=0.1"}, "did you mean \"max_edge\"?"}, {{"--patch", "wing"}, "is not NAMES:OPTION=VALUE"}, {{"--patch", "tail:max_edge=0.1"}, "no face has a name like \"tail\""},
-           {{"--source", "ball 0 0 0 size=1"}, "\"ball\" is no source"}, {{"--source", "point 0 0 size=1"}, "coordinates come in threes"}, {{"--source", "sphere 0 0 0 size=1 raduis=2"}, "did you mean \"radius\"?"}}) {
+           {{"--source", "ball 0 0 0 size=1"}, "\"ball\" is no source"}, {{"--source", "point 0 0 size=1"}, "coordinates come in threes"}, {{"--source", "sphere 0 0 0 size=1 raduis=2"}, "did you mean \"radius\"?"},
+            {{"--source", "line 0 0 0 1 0 0 size=1 thickness=2"}, "line takes two points, size, radius"}, {{"--source", "point 0 0 0 size=12deg"}, "is an angle, expected a length"}, {{"--max-edge", "12deg"}, "is an angle, expected a length"}}) {
     std::vector<std::string> all = {"surface", "two.step", "-o", "w.su2"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     const test::ProcessResult result = sterna(all);

@@ -1,5 +1,6 @@
 #include "tests/support/hybrid_shapes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "geom/mesh/topology.h"
@@ -40,7 +41,7 @@ void add_quad(HybridMesh& mesh, NodeId a, NodeId b, NodeId c, NodeId d, PatchId 
 /// The layer's side above a boundary edge u -> v of the wall: quads, triangles at a collapsed end, nothing between two.
 void close_layer_side(HybridMesh& mesh, std::uint32_t u, std::uint32_t v, PatchId patch) {
   const LayerBlock& layers = mesh.layers;
-  for (int j = 0; j < layers.n_layers; ++j) {
+  for (int j = 0; j < layers.layers_of_line(u); ++j) {
     const NodeId u0 = layers.node(u, j), u1 = layers.node(u, j + 1), v0 = layers.node(v, j), v1 = layers.node(v, j + 1);
     if (!layers.is_collapsed[u] && !layers.is_collapsed[v]) add_quad(mesh, u0, v0, v1, u1, patch);
     if (layers.is_collapsed[u] && !layers.is_collapsed[v]) add_triangle(mesh, u0, v0, v1, patch);
@@ -75,11 +76,12 @@ HybridMesh extrude(const TriMesh& wall, const std::vector<Vec3>& rays, const She
 
   LayerBlock& layers = mesh.layers;
   layers.n_layers = options.n_layers;
+  layers.line_layers = options.line_layers;
   layers.is_collapsed.assign(wall.n_vertices(), 0);
   for (const std::uint32_t v : options.collapsed) layers.is_collapsed[v] = 1;
   for (const VertexId v : wall.points.ids()) {
     layers.first_node.push_back(static_cast<std::uint32_t>(mesh.points.size()));
-    const int n_up = layers.is_collapsed[v.index()] ? 0 : options.n_layers;
+    const int n_up = layers.n_steps(v.index());
     for (int j = 0; j <= n_up; ++j) {
       const double height = n_up == 0 ? 0.0 : options.layer_height * height_share(j, n_up, options.ratio);
       mesh.points.push_back(wall.points[v] + height * rays[v.index()]);
@@ -92,7 +94,7 @@ HybridMesh extrude(const TriMesh& wall, const std::vector<Vec3>& rays, const She
     for (const VertexId v : wall.points.ids()) mesh.points.push_back(wall.points[v] + height * rays[v.index()]);
   }
   const auto shell_node = [&](std::uint32_t line, int s) {
-    return s == 0 ? layers.node(line, options.n_layers) : NodeId(first_shell_node + static_cast<std::uint32_t>(s - 1) * n_lines + line);
+    return s == 0 ? layers.top(line) : NodeId(first_shell_node + static_cast<std::uint32_t>(s - 1) * n_lines + line);
   };
 
   for (const TriangleId t : wall.triangles.ids()) {
@@ -128,6 +130,22 @@ std::vector<Vec3> rays_from(const TriMesh& wall, const Point& center) {
 HybridMesh sphere_shell(int f, const ShellOptions& options) {
   const TriMesh wall = sphere(f);
   return extrude(wall, rays_from(wall, {}), options);
+}
+
+HybridMesh two_shells(int f, int n_first, int n_second, ShellOptions options) {
+  const TriMesh first = sphere(f);
+  TriMesh wall = first;
+  for (const Point& p : first.points) wall.points.push_back(p + Vec3{10.0, 0.0, 0.0});
+  const auto shifted = [&](VertexId v) { return VertexId(v.index() + first.n_vertices()); };
+  for (const TriangleVertices& v : first.triangles) wall.triangles.push_back({shifted(v[0]), shifted(v[1]), shifted(v[2])});
+  wall.patches.push_back({"second", PatchKind::wall});
+  wall.triangle_patch.raw().resize(wall.n_triangles(), PatchId(wall.patches.size() - 1));
+  std::vector<Vec3> rays = rays_from(first, {});
+  rays.insert(rays.end(), rays.begin(), rays.end());
+  options.n_layers = std::max(n_first, n_second);
+  options.line_layers.assign(first.n_vertices(), static_cast<std::uint16_t>(n_first));
+  options.line_layers.resize(wall.n_vertices(), static_cast<std::uint16_t>(n_second));
+  return extrude(wall, rays, options);
 }
 
 HybridMesh cube_shell(int n, const ShellOptions& options) {

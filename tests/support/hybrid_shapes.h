@@ -16,6 +16,7 @@ struct ShellOptions {
   int n_shells = 2;                      ///< shells of prisms, each split into three tets, between the layer and the outer boundary
   double outer_height = 2.0;             ///< of the outer boundary, in units of the rays; > layer_height
   std::vector<std::uint32_t> collapsed;  ///< wall vertices whose line has no height
+  std::vector<std::uint16_t> line_layers;  ///< per wall vertex, at most n_layers; empty: n_layers everywhere
 };
 
 /// Columns along straight rays from the wall, then split shells up to an outer surface of the wall's connectivity. Patches: the wall's own, "farfield" (outer),
@@ -28,6 +29,8 @@ std::vector<Vec3> rays_from(const TriMesh& wall, const Point& center);
 
 /// Layers and tets about an icosahedral unit sphere of 20 f^2 triangles: f = 1 gives 20 columns.
 HybridMesh sphere_shell(int f, const ShellOptions& options = {});
+/// Two such shells apart from each other, of n_first and n_second layers; lines of the first come first. `options` is about both.
+HybridMesh two_shells(int f, int n_first, int n_second, ShellOptions options = {});
 /// The same about the cube [0, 1]^3 of cube(n); its rays come from the centre, side faces are flat.
 HybridMesh cube_shell(int n, const ShellOptions& options = {});
 /// Plate [0, 1]^2 of n x n squares with vertical rays: an open wall, so that columns end on quads of the patch "side".

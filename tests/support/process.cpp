@@ -80,6 +80,52 @@ ProcessResult run_process(const std::filesystem::path& program, const std::vecto
   return result;
 }
 
+StartedProcess::StartedProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
+  std::vector<std::string> words = {program.string()};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  pid_ = fork();
+  if (pid_ < 0) throw std::runtime_error("fork failed");
+  if (pid_ > 0) return;
+  const int nothing = open("/dev/null", O_RDWR);
+  if (dup2(nothing, STDOUT_FILENO) < 0 || dup2(nothing, STDERR_FILENO) < 0 || chdir(folder.c_str()) != 0) _exit(126);
+  execv(argv[0], argv.data());
+  _exit(127);
+}
+
+StartedProcess::~StartedProcess() {
+  if (has_ended()) return;
+  signal(SIGKILL);
+  wait();
+}
+
+bool StartedProcess::has_ended() {
+  if (pid_ > 0 && waitpid(pid_, &status_, WNOHANG) == pid_) pid_ = -1;
+  return pid_ < 0;
+}
+
+void StartedProcess::signal(int number) const {
+  if (pid_ > 0) kill(pid_, number);
+}
+
+int StartedProcess::wait() {
+  if (pid_ > 0) waitpid(pid_, &status_, 0);
+  pid_ = -1;
+  return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+}
+
+std::vector<pid_t> children_of(pid_t process) {
+  std::vector<pid_t> pids;
+  std::error_code ended;  // it may end any time
+  for (std::filesystem::directory_iterator it("/proc/" + std::to_string(process) + "/task", ended), end; !ended && it != end; it.increment(ended)) {
+    std::ifstream children(it->path() / "children");
+    for (pid_t pid = 0; children >> pid;) pids.push_back(pid);
+  }
+  return pids;
+}
+
 std::filesystem::path sterna_program() { return std::filesystem::path(STERNA_BINARY_DIR) / "sterna"; }
 
 pid_t first_child() {

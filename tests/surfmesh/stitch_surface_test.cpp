@@ -53,6 +53,19 @@ TEST(Stitch, AllVertexOrdersAndFlippedSubsetsGiveTheSameSurface) {
   }
 }
 
+TEST(Stitch, WithTheFluidInsideTheOuterShellTurnsInwardsAndBodiesInItDoNot) {
+  TriMesh room = cube(2);
+  for (Point& p : room.points) p = 4.0 * (p - Point{0.5, 0.5, 0.5});
+  const TriMesh body = sphere(4, 0.5);
+  StitchOptions options;
+  options.fluid = "inside";
+  for (const bool is_turned : {false, true}) {
+    const auto [mesh, report] = surfmesh::stitch_surface({is_turned ? inside_out(soup_of(room)) : soup_of(room), is_turned ? inside_out(soup_of(body)) : soup_of(body)}, options, RunContext{});
+    EXPECT_NEAR(volume(mesh), volume(body) - 64.0, 1e-12);
+    EXPECT_EQ(report.n_components, 2);
+  }
+}
+
 TEST(Stitch, FlippedSubsetOfASphereIsTurnedAndSaid) {
   std::mt19937 random(5);
   SurfaceSoup soup = soup_of(sphere(6));

@@ -56,8 +56,8 @@ std::string_view to_string(BoundaryPart part) {
   return "";
 }
 
-Collider::Collider(const LayerBase& base, const TriMesh* outer, const RunContext& context)
-    : base_(base), outer_(outer), is_collapsed_(base.wall.n_vertices(), 0), tree_(base.wall, context), wall_(fixed_boxes(base.wall, tree_, context)) {
+Collider::Collider(const LayerBase& base, const TriMesh* outer, const RunContext& context, const OuterLinks* links)
+    : base_(base), outer_(outer), links_(links && !links->empty() ? links : nullptr), is_collapsed_(base.wall.n_vertices(), 0), tree_(base.wall, context), wall_(fixed_boxes(base.wall, tree_, context)) {
   const std::size_t n = base.wall.n_vertices();
   points_.resize(2 * n + (outer ? outer->n_vertices() : 0));
   parallel_for(context, n, [&](std::size_t i) { points_[i] = points_[n + i] = base.wall.points[VertexId(i)]; });
@@ -79,7 +79,13 @@ std::uint32_t Collider::top_point(VertexId v) const {
 
 Collider::Corners Collider::points_of(const BoundaryTriangle& triangle) const {
   if (triangle.part == BoundaryPart::wall) return values(base_.wall.triangles[TriangleId(triangle.index)]);
-  if (triangle.part == BoundaryPart::outer) return values(outer_->triangles[TriangleId(triangle.index)], 2 * base_.wall.n_vertices());
+  if (triangle.part == BoundaryPart::outer) {
+    const TriangleVertices& v = outer_->triangles[TriangleId(triangle.index)];
+    Corners points = values(v, 2 * base_.wall.n_vertices());
+    for (std::size_t k = 0; links_ && k < 3; ++k)
+      if (links_->line[v[k]].is_valid()) points[k] = links_->line[v[k]].value();
+    return points;
+  }
   if (triangle.part == BoundaryPart::top) {
     const TriangleVertices& v = base_.wall.triangles[TriangleId(triangle.index)];
     return {top_point(v[0]), top_point(v[1]), top_point(v[2])};
@@ -88,6 +94,16 @@ Collider::Corners Collider::points_of(const BoundaryTriangle& triangle) const {
   const VertexId a = base_.topology.from(h), b = base_.topology.to(h);
   if (triangle.index % 2 == 0) return {a.value(), b.value(), top_point(b)};
   return {a.value(), top_point(b), top_point(a)};
+}
+
+bool Collider::holds(std::uint32_t outer_triangle, VertexId v) const {
+  if (!links_) return false;
+  const std::int32_t surface = links_->surface[TriangleId(outer_triangle)];
+  return surface >= 0 && base_.constraint[v].is_on(static_cast<std::size_t>(surface));
+}
+
+bool Collider::is_held(const BoundaryTriangle& moving, std::uint32_t outer_triangle) const {
+  return links_ && std::ranges::any_of(moving_vertices(moving), [&](VertexId v) { return holds(outer_triangle, v); });
 }
 
 /// The triangles of top and sides that belong to a wall triangle and are there.
@@ -173,7 +189,9 @@ std::vector<BoundaryCrossing> Collider::crossings(const RunContext& context, con
     found.append(search_pairs<Found>(
         top, {&tree, &boxes},
         [&](std::uint32_t a, std::uint32_t b, Found& results) {
-          for_each_moving(TriangleId(a), [&](const BoundaryTriangle& first) { test(first, {part, b}, results); });
+          for_each_moving(TriangleId(a), [&](const BoundaryTriangle& first) {
+            if (part != BoundaryPart::outer || !is_held(first, b)) test(first, {part, b}, results);
+          });
         },
         context));
   };

@@ -30,10 +30,18 @@ struct Swallowing {
   double clear_share = 0.0;        ///< largest share of these heights, to 0.1 %, at which the point is outside
 };
 
+/// What an outer boundary shares with the wall.
+struct OuterLinks {
+  Column<VertexId, VertexId> line;           ///< of each outer vertex: the wall vertex at the same place; invalid away from the wall
+  Column<TriangleId, std::int32_t> surface;  ///< of each outer triangle: number of the constraint surface that it is part of, or -1
+  bool empty() const { return line.empty(); }
+};
+
 class Collider {
  public:
-  /// `outer` may be null; both must outlive this. Memory: about 150 bytes per wall triangle.
-  Collider(const LayerBase& base, const TriMesh* outer, const RunContext& context);
+  /// `outer` may be null; all must outlive this. With `links`, the outer boundary begins at the wall's rim; its triangles on a constraint surface do not count against
+  /// triangles of top and sides that have a vertex on that surface: they will be made anew around the layer. Memory: about 150 bytes per wall triangle.
+  Collider(const LayerBase& base, const TriMesh* outer, const RunContext& context, const OuterLinks* links = nullptr);
 
   /// Brings the top to where `shape` has it; with `stretched`, marked vertices to `stretch` times their height. Cheap where nothing moved.
   void move_top(const EnvelopeShape& shape, const RunContext& context, double stretch = 1.0, const Column<VertexId, std::uint8_t>* stretched = nullptr);
@@ -67,12 +75,15 @@ class Collider {
   void find_cells(const Box& box, std::vector<std::uint32_t>& found) const;
   void find_outer(const Box& box, std::vector<std::uint32_t>& found) const;
   const TriMesh* outer() const { return outer_; }
+  /// Whether an outer triangle is part of a constraint surface that the wall vertex is on.
+  bool holds(std::uint32_t outer_triangle, VertexId v) const;
 
  private:
   using Corners = std::array<std::uint32_t, 3>;  ///< points of points_
   bool is_down(VertexId v) const { return is_collapsed_[v] != 0; }
   std::uint32_t top_point(VertexId v) const;
   Corners points_of(const BoundaryTriangle& triangle) const;
+  bool is_held(const BoundaryTriangle& moving, std::uint32_t outer_triangle) const;
   template <class F>
   void for_each_moving(TriangleId t, const F& f) const;
   template <class RoleOf>
@@ -80,6 +91,7 @@ class Collider {
 
   const LayerBase& base_;
   const TriMesh* outer_;
+  const OuterLinks* links_;
   std::vector<Vec3> points_;  ///< of the wall, of the top, of the outer boundary
   Column<VertexId, std::uint8_t> is_collapsed_;
   std::vector<HalfedgeId> rim_;  ///< the wall's boundary, ascending

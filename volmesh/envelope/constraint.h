@@ -90,6 +90,8 @@ struct VertexConstraint {
 struct Constraints {
   Column<VertexId, VertexConstraint> vertex;
   std::vector<std::shared_ptr<const ConstraintSurface>> surfaces;
+  /// Bit k of a vertex: its layer could reach surface k (k < 64), so it keeps inside of it. Empty: every surface concerns every vertex.
+  Column<VertexId, std::uint64_t> near = {};
 };
 
 /// The part of `v` that the constraint allows; zero for fixed.

@@ -1,5 +1,8 @@
 #include "volmesh/envelope/envelope.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace sterna::volmesh {
 namespace {
 
@@ -22,13 +25,29 @@ std::string_view to_string(HeightLimit limit) {
   return "";
 }
 
-EnvelopeScale scale_of(const EnvelopeOptions& options) {
-  return {options.first_height, options.layers, k_min_height_share * options.layers * options.first_height};
+EnvelopeScale::EnvelopeScale(const LayerBase& base, const EnvelopeOptions& options)
+    : demand_(&base.demand),
+      first_height_(options.first_height),
+      max_growth_(options.max_growth),
+      total_height_(options.total_height),
+      max_thickness_(thickness_limit(options.max_thickness, options.total_height, base.body_length)),
+      layers_(options.layers) {
+  const auto least = [](int n, double h0) { return std::max(h0, k_min_height_share * n * h0); };
+  most_layers_ = layers_;
+  least_height_ = least(layers_, first_height_);
+  if (demand_->is_empty()) return;
+  most_layers_ = *std::max_element(demand_->layers.begin(), demand_->layers.end());
+  least_height_ = std::numeric_limits<double>::infinity();
+  for (const VertexId v : demand_->layers.ids()) least_height_ = std::min(least_height_, least(n(v), h0(v)));
 }
+
+double EnvelopeScale::h_min(VertexId v) const { return k_min_height_share * n(v) * h0(v); }
+
+EnvelopeScale scale_of(const LayerBase& base, const EnvelopeOptions& options) { return {base, options}; }
 
 void lower(Envelope& envelope, VertexId v, double height, HeightLimit reason, const EnvelopeScale& scale) {
   if (height >= envelope.height[v]) return;
-  envelope.height[v] = height < scale.h_min ? 0.0 : height;
+  envelope.height[v] = height < scale.h_min(v) ? 0.0 : height;
   envelope.limit[v] = reason;
 }
 

@@ -33,13 +33,39 @@ struct Envelope : EnvelopeShape {
   Column<VertexId, HeightLimit> limit;
 };
 
-/// Derived numbers that every step needs.
-struct EnvelopeScale {
-  double h0;         ///< m, first height
-  int n;             ///< layers
-  double h_min;      ///< m, 0.2 n h0: below it a vertex collapses (method.md §4)
+/// Share of the body length, when max_thickness is automatic.
+inline constexpr double k_default_thickness_share = 0.1;
+/// Largest thickness, m: what is asked, or the share of the body length, but never below a total height that is asked.
+inline double thickness_limit(double max_thickness, double total_height, double body_length) {
+  if (!is_automatic(max_thickness)) return max_thickness;
+  const double usual = k_default_thickness_share * body_length;
+  return total_height > usual ? total_height : usual;
+}
+
+/// What is asked of the layer at each vertex, and derived numbers that every step needs: the base's demand, or where it is empty the options.
+class EnvelopeScale {
+ public:
+  /// `base` must outlive this.
+  EnvelopeScale(const LayerBase& base, const EnvelopeOptions& options);
+
+  double h0(VertexId v) const { return demand_->is_empty() ? first_height_ : demand_->first_height[v]; }          ///< m, first height
+  int n(VertexId v) const { return demand_->is_empty() ? layers_ : demand_->layers[v]; }                          ///< layers
+  double max_growth(VertexId v) const { return demand_->is_empty() ? max_growth_ : demand_->max_growth[v]; }
+  double max_thickness(VertexId v) const { return demand_->is_empty() ? max_thickness_ : demand_->max_thickness[v]; }  ///< m
+  /// m, what all layers together are to have; automatic: eq. (1) of method.md.
+  double total_height(VertexId v) const { return demand_->is_empty() ? total_height_ : demand_->total_height.empty() ? k_automatic : demand_->total_height[v]; }
+  double compressed(VertexId v) const { return n(v) * h0(v); }  ///< m, n h0: a layer that is lower is equally spaced
+  double h_min(VertexId v) const;                               ///< m, 0.2 n h0: below it a vertex collapses (method.md §4)
+  int most_layers() const { return most_layers_; }
+  /// The smallest max(h0, h_min) of all vertices, m: what an optimiser may lower heights to.
+  double least_height() const { return least_height_; }
+
+ private:
+  const LayerDemand* demand_;
+  double first_height_, max_growth_, total_height_, max_thickness_, least_height_;
+  int layers_, most_layers_;
 };
-EnvelopeScale scale_of(const EnvelopeOptions& options);
+EnvelopeScale scale_of(const LayerBase& base, const EnvelopeOptions& options);
 
 /// Lowers a height (never raises), remembers why, and collapses below h_min.
 void lower(Envelope& envelope, VertexId v, double height, HeightLimit reason, const EnvelopeScale& scale);

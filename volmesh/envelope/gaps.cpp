@@ -46,8 +46,8 @@ double envelope_edge(const LayerBase& base, const Envelope& envelope, VertexId v
 
 class GapFinder {
  public:
-  GapFinder(const LayerBase& base, const Collider& collider, const Envelope& envelope, const RunContext& context)
-      : base_(base), collider_(collider), envelope_(envelope), edge_(base.wall.n_vertices()) {
+  GapFinder(const LayerBase& base, const Collider& collider, const Envelope& envelope, const Column<VertexId, std::uint32_t>* group, const RunContext& context)
+      : base_(base), collider_(collider), envelope_(envelope), group_(group), edge_(base.wall.n_vertices()) {
     parallel_for(context, edge_.size(), [&](std::size_t i) { edge_[VertexId(i)] = envelope_edge(base, envelope, VertexId(i)); });
   }
 
@@ -55,7 +55,7 @@ class GapFinder {
   void find(VertexId v, std::vector<std::uint32_t>& buffer, std::vector<GapHit>& hits) const {
     if (envelope_.is_collapsed(v)) return;
     const double reach = envelope_.height[v] + k_remaining_edges * edge_[v] / k_opposing_cosine;
-    find_outer(v, reach, buffer, hits);
+    if (!group_ || (*group_)[v] != 0) find_outer(v, reach, buffer, hits);
     const double look = how_far_to_look(v, reach, buffer);
     if (look == 0.0) return;
     const Vec3 segment = look * envelope_.direction[v];
@@ -71,7 +71,7 @@ class GapFinder {
       first = s;
       nearest = t;
     }
-    if (!nearest.is_valid()) return;
+    if (!nearest.is_valid() || is_shared_before(v, nearest)) return;
     // Across the gap an inclined line is longer than the gap that remains.
     const double edge = std::max(edge_[v], largest(edge_, nearest)) / cosine(v, nearest);
     add_hit(v, nearest, first * look, edge, height_against(v, nearest), hits);
@@ -89,6 +89,7 @@ class GapFinder {
     const Vec3 segment = reach * envelope_.direction[v];
     double first = 2.0;
     for (const std::uint32_t item : buffer) {
+      if (collider_.holds(item, v)) continue;
       const double s = segment_hit(base_.wall.points[v], segment, corners(*collider_.outer(), TriangleId(item)));
       if (s >= 0.0) first = std::min(first, s);
     }
@@ -103,6 +104,7 @@ class GapFinder {
     const TriangleVertices& own = base_.wall.triangles[t];
     return cosine(v, t) >= k_opposing_cosine && own[0] != v && own[1] != v && own[2] != v;
   }
+  bool is_shared_before(VertexId v, TriangleId t) const { return group_ && (*group_)[v] == (*group_)[base_.wall.triangles[t][0]]; }
   /// Extent along v's growth line of the layer on t.
   double height_against(VertexId v, TriangleId t) const { return largest(envelope_.height, t) / cosine(v, t); }
   Box box_along(VertexId v, double length) const {
@@ -119,7 +121,7 @@ class GapFinder {
     double look = 0.0;
     for (const std::uint32_t item : buffer) {
       const TriangleId t(item);
-      if (!opposes(v, t)) continue;
+      if (!opposes(v, t) || is_shared_before(v, t)) continue;
       look = std::max(look, std::max(reach, envelope_.height[v] + k_remaining_edges * largest(edge_, t) / cosine(v, t)) + height_against(v, t));
     }
     return look;
@@ -128,15 +130,17 @@ class GapFinder {
   const LayerBase& base_;
   const Collider& collider_;
   const Envelope& envelope_;
+  const Column<VertexId, std::uint32_t>* group_;  ///< may be null
   Column<VertexId, double> edge_;  ///< m, local envelope edge
 };
 
 }  // namespace
 
-void share_gaps(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context) {
-  const EnvelopeScale scale = scale_of(options);
+void share_gaps(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context,
+                const Column<VertexId, std::uint32_t>* group) {
+  const EnvelopeScale scale = scale_of(base, options);
   collider.move_top(envelope, context);
-  const GapFinder finder(base, collider, envelope, context);
+  const GapFinder finder(base, collider, envelope, group, context);
   using List = std::vector<GapHit>;
   const List hits = parallel_reduce(
       context, base.wall.n_vertices(), List{},

@@ -29,7 +29,7 @@ void log_result(const OptimiseReport& report, std::string_view optimiser, const 
 
 Envelope optimum(const LayerBase& base, const EnvelopeOptions& options, const Envelope& start, const RunContext& context) {
   const Column<VertexId, double> h_u = upper_heights(base, start);
-  const double h_l = std::max(options.first_height, scale_of(options).h_min);
+  const double h_l = scale_of(base, options).least_height();
   if (options.optimiser == "descent" || options.optimiser == "lbfgs") {
     OptimiseSettings settings;
     settings.method = options.optimiser == "descent" ? OptimiseMethod::descent : OptimiseMethod::lbfgs;

@@ -40,8 +40,9 @@ void seat(const LayerBase& base, VertexId v, Envelope& envelope) {
 bool is_inside(const LayerBase& base, VertexId v, const Vec3& growth) {
   const Point p = base.wall.points[v];
   for (std::size_t k = 0; k < base.surfaces.size(); ++k) {
-    if (base.constraint[v].is_on(k)) continue;
+    if (base.constraint[v].is_on(k) || !base.concerns(k, v)) continue;
     const double own = base.surfaces[k]->inside_distance(p);
+    if (own <= 0.0 && !base.near.empty()) continue;  // beyond the border of the surface that this is the plane of
     const double there = base.surfaces[k]->inside_distance(p + growth);
     if (there <= 0.0 || there < k_clearance_share * own) return false;
   }
@@ -50,7 +51,7 @@ bool is_inside(const LayerBase& base, VertexId v, const Vec3& growth) {
 
 void keep_inside(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context) {
   if (base.surfaces.empty()) return;
-  const EnvelopeScale scale = scale_of(options);
+  const EnvelopeScale scale = scale_of(base, options);
   parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
     const VertexId v(i);
     const Vec3 growth = envelope.height[v] * envelope.direction[v];
@@ -65,7 +66,7 @@ void keep_inside(const LayerBase& base, const EnvelopeOptions& options, Envelope
 }
 
 void seat_on_surfaces(const LayerBase& base, const EnvelopeOptions& options, Collider* collider, Envelope& envelope, const RunContext& context) {
-  const EnvelopeScale scale = scale_of(options);
+  const EnvelopeScale scale = scale_of(base, options);
   for (int round = 0;; ++round) {
     std::vector<VertexId> off;
     for (const VertexId v : base.constraint.ids())

@@ -1,6 +1,7 @@
 #include "volmesh/envelope/layer_base.h"
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "geom/base/parallel.h"
@@ -68,6 +69,7 @@ LayerBase::LayerBase(const TriMesh& mesh, const RunContext& context, Constraints
       body_length(sterna::body_length(mesh)),
       constraint(std::move(constraints.vertex)),
       surfaces(std::move(constraints.surfaces)),
+      near(std::move(constraints.near)),
       unit_normal(mesh.n_triangles()),
       area(mesh.n_triangles()),
       vertex_normal(mesh.n_vertices()),
@@ -85,38 +87,81 @@ LayerBase::LayerBase(const TriMesh& mesh, const RunContext& context, Constraints
   });
   parallel_for(context, mesh.n_vertices(), [&](std::size_t i) {
     const VertexId v(i);
-    Vec3 sum;
+    derive({&v, 1});
+  });
+}
+
+/// What depends on the triangles at a vertex, or at all vertices of a group, which get the same; of areas each its own.
+void LayerBase::derive(std::span<const VertexId> alike) {
+  Vec3 sum;
+  double length = 0.0, weights = 0.0;
+  std::vector<Vec3> normals;
+  for (const VertexId v : alike) {
+    const Point p = wall.points[v];
     double third = 0.0;
-    std::vector<Vec3> normals;
     for (const HalfedgeId h : topology.outgoing(v)) {
       const TriangleId t = triangle_of(h);
-      const Point p = mesh.points[v];
-      const double angle = corner_angle(p, mesh.points[topology.to(h)], mesh.points[topology.from(previous(h))]);
+      const double angle = corner_angle(p, wall.points[topology.to(h)], wall.points[topology.from(previous(h))]);
       sum += angle * unit_normal[t];
       third += area[t] / 3.0;
       normals.push_back(unit_normal[t]);
     }
     vertex_area[v] = third;
-    double length = 0.0, weights = 0.0;
     for (const VertexId other : topology.neighbours(v)) {
       const double weight = mirror_weight(v, other);
-      length += weight * distance(mesh.points[v], mesh.points[other]);
+      length += weight * distance(p, wall.points[other]);
       weights += weight;
     }
-    mean_edge[v] = weights > 0.0 ? length / weights : 0.0;
-    const VertexConstraint& own = constraint[v];
-    vertex_normal[v] = own.freedom == Freedom::fixed ? normalized(sum) : constrained(own, sum);
-    if (normals.empty()) return;
+  }
+  const VertexId first = alike.front();
+  const VertexConstraint& own = constraint[first];
+  mean_edge[first] = weights > 0.0 ? length / weights : 0.0;
+  vertex_normal[first] = own.freedom == Freedom::fixed ? normalized(sum) : constrained(own, sum);
+  if (!normals.empty()) {
     const Cap cap = best_seen(own, normals);
-    visible_direction[v] = cap.axis;
-    visibility[v] = cap.cosine;
-    if (norm2(vertex_normal[v]) == 0.0) vertex_normal[v] = cap.axis;
-    const double seen = worst_cosine(v, vertex_normal[v]);
+    visible_direction[first] = cap.axis;
+    visibility[first] = cap.cosine;
+    if (norm2(vertex_normal[first]) == 0.0) vertex_normal[first] = cap.axis;
+    const double seen = worst_cosine_of(normals, vertex_normal[first]);
     if (seen > cap.cosine) {  // caps beyond a right angle: the angle-weighted mean may see more
-      visible_direction[v] = vertex_normal[v];
-      visibility[v] = seen;
+      visible_direction[first] = vertex_normal[first];
+      visibility[first] = seen;
     }
-  });
+  }
+  for (const VertexId v : alike.subspan(1)) {
+    mean_edge[v] = mean_edge[first];
+    vertex_normal[v] = vertex_normal[first];
+    visible_direction[v] = visible_direction[first];
+    visibility[v] = visibility[first];
+  }
+}
+
+void LayerBase::let_grow_alike(const std::vector<std::array<VertexId, 2>>& partners) {
+  if (partners.empty()) return;
+  std::map<VertexId, VertexId> parent;
+  const auto root = [&](VertexId v) {
+    while (parent.at(v) != v) v = parent.at(v);
+    return v;
+  };
+  for (const auto& pair : partners)
+    for (const VertexId v : pair) parent.try_emplace(v, v);
+  for (const auto& [a, b] : partners) {
+    const VertexId ra = root(a), rb = root(b);
+    parent[std::max(ra, rb)] = std::min(ra, rb);
+  }
+  std::map<VertexId, std::vector<VertexId>> by_root;
+  for (const auto& entry : parent) by_root[root(entry.first)].push_back(entry.first);
+  group.assign(wall.n_vertices(), k_no_group);
+  groups.clear();
+  for (auto& entry : by_root) {
+    for (const VertexId v : entry.second) {
+      group[v] = static_cast<std::uint32_t>(groups.size());
+      // Lines of partners are the same to rounding; from here on to the bit.
+      if (constraint[v].freedom == Freedom::line) constraint[v].axis = constraint[entry.second.front()].axis;
+    }
+    groups.push_back(std::move(entry.second));
+    derive(groups.back());
+  }
 }
 
 double LayerBase::mirror_weight(VertexId v, VertexId other) const {

@@ -1,12 +1,16 @@
 // What the layer grows from: the wall with its derived geometry. Later also opened ridges and doubled sheets.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
+#include <vector>
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/topology.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/envelope/constraint.h"
+#include "volmesh/envelope/layer_demand.h"
 
 namespace sterna::volmesh {
 
@@ -20,6 +24,7 @@ struct LayerBase {
   double body_length;                          ///< m
   Column<VertexId, VertexConstraint> constraint;                    ///< what directions and envelope points obey; all free by default
   std::vector<std::shared_ptr<const ConstraintSurface>> surfaces;  ///< that VertexConstraint::on numbers
+  Column<VertexId, std::uint64_t> near;        ///< Constraints::near
   Column<TriangleId, Vec3> unit_normal;        ///< of each triangle
   Column<TriangleId, double> area;             ///< m^2
   Column<VertexId, Vec3> vertex_normal;        ///< unit, angle-weighted mean of the incident normals (Thuermer & Wuethrich 1998), within the constraint
@@ -28,12 +33,34 @@ struct LayerBase {
   Column<VertexId, double> mean_edge;          ///< m, l_j of eq. (1)
   Column<VertexId, double> vertex_area;        ///< m^2, a third of the incident triangles
 
+  /// Vertices that must grow alike (where walls end on periodic sides), each group ascending; and each vertex's group (empty: there are none), k_no_group where it grows by itself.
+  std::vector<std::vector<VertexId>> groups;
+  Column<VertexId, std::uint32_t> group;
+  static constexpr std::uint32_t k_no_group = 0xffffffffu;
+  /// Normals, directions and edges of these pairs become those of all their triangles together. Pairs may be chained (two directions of periodicity).
+  /// \pre constraints of partners are equal but for the sense of their axes
+  void let_grow_alike(const std::vector<std::array<VertexId, 2>>& partners);
+
+  LayerDemand demand;                          ///< what patches ask of the layer instead of the options (patch_layers.h); empty by default
+
+  bool concerns(std::size_t surface, VertexId v) const { return near.empty() || (surface < 64 && (near[v] >> surface & 1u) != 0); }
+
   /// Smallest cosine between d and the normals of v's triangles.
   double worst_cosine(VertexId v, const Vec3& d) const;
   /// Copies of the edge v-other that meet at v when the body is mirrored at the surfaces that v is on: 1, 2 or 4. With this weight in every mean
   /// around v, projected into the constraint, half a body gets what the whole body would.
   double mirror_weight(VertexId v, VertexId other) const;
+
+ private:
+  void derive(std::span<const VertexId> alike);
 };
+
+/// Calls f(w) for v and all that must grow like it, ascending.
+template <class F>
+void for_each_alike(const LayerBase& base, VertexId v, const F& f) {
+  if (base.group.empty() || base.group[v] == LayerBase::k_no_group) return f(v);
+  for (const VertexId w : base.groups[base.group[v]]) f(w);
+}
 
 /// Calls f(half-edge, other end) once for every edge at v: its outgoing half-edges and, on the boundary, the arriving one that has no twin.
 template <class F>

@@ -11,7 +11,10 @@ struct EnvelopeOptions {
   int layers = 30;
   double first_height = k_automatic;
   double max_growth = 1.4;
+  double total_height = k_automatic;
+  std::string solve_for = "none";
   double max_thickness = k_automatic;
+  double max_relative_height = k_automatic;
   double feature_angle = k_automatic;
   double height_gradient = 0.5;
   int height_sweeps = 20;
@@ -39,7 +42,10 @@ struct Schema<volmesh::EnvelopeOptions> {
       Field<O>{.name = "layers", .member = &O::layers, .min = 1, .max = 1000, .help = "number of prism layers"},
       Field<O>{.name = "first_height", .member = &O::first_height, .unit = Unit::metre, .min = 1e-12, .help = "height of the first cell at the wall", .required = true},
       Field<O>{.name = "max_growth", .member = &O::max_growth, .min = 1.0, .max = 3.0, .help = "largest ratio of heights of consecutive layers"},
-      Field<O>{.name = "max_thickness", .member = &O::max_thickness, .unit = Unit::metre, .min = 1e-12, .help = "largest total height of the layers", .automatic = "0.1 body lengths"},
+      Field<O>{.name = "total_height", .member = &O::total_height, .unit = Unit::metre, .min = 1e-12, .help = "height of all layers together; with it layers or max_growth is left out and follows", .automatic = "by the edges of the wall, so that the last cell is as tall as the edges of the tetrahedron above it"},
+      Field<O>{.name = "solve_for", .member = &O::solve_for, .help = "which of layers and max_growth follows from total_height; where one of them is left out, it is that one", .choices = "none layers max_growth"},
+      Field<O>{.name = "max_thickness", .member = &O::max_thickness, .unit = Unit::metre, .min = 1e-12, .help = "largest total height of the layers", .automatic = "0.1 body lengths, or total_height"},
+      Field<O>{.name = "max_relative_height", .member = &O::max_relative_height, .min = 0.01, .max = 1e6, .help = "largest total height of the layers over the mean length of the wall's edges there", .automatic = "no limit"},
       Field<O>{.name = "feature_angle", .member = &O::feature_angle, .unit = Unit::radian, .min = 0.01, .max = 3.1, .help = "an edge that bends by more is a feature edge", .automatic = "20 to 60 deg, the gap in the histogram of dihedral angles"},
       Field<O>{.name = "height_gradient", .member = &O::height_gradient, .min = 0.05, .max = 2.0, .help = "largest tangential slope of the target height"},
       Field<O>{.name = "height_sweeps", .member = &O::height_sweeps, .min = 0, .max = 1000, .help = "smoothing sweeps of the heights"},

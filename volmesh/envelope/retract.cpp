@@ -11,6 +11,7 @@ namespace {
 constexpr double k_pair_reserve = 0.98;  ///< of the largest share at which a pair of triangles is clear
 constexpr double k_clearance_factor = 0.95;  ///< once nothing collides: leaves a gap for tets between retracted layers
 constexpr int k_regrow_rounds = 6;
+constexpr std::uint8_t k_not_tried = 255;  ///< failures after which there are no more steps
 constexpr std::uint8_t k_first_step = 1;  ///< the largest step of regrowth rarely keeps the clearance
 
 void sort_unique(std::vector<VertexId>& vertices) {
@@ -95,8 +96,10 @@ std::vector<VertexId> apply_where_clear(const LayerBase& base, Collider& collide
   return apply_where_clear(base, collider, envelope, difference(envelope, proposal, context), context, clearance);
 }
 
-void regrow_clear(const LayerBase& base, Collider& collider, Envelope& envelope, const RunContext& context) {
-  Column<VertexId, std::uint8_t> n_failures(envelope.height.size(), k_first_step);
+void regrow_clear(const LayerBase& base, Collider& collider, Envelope& envelope, const RunContext& context, const std::vector<VertexId>* where) {
+  Column<VertexId, std::uint8_t> n_failures(envelope.height.size(), where ? k_not_tried : k_first_step);
+  if (where)
+    for (const VertexId v : *where) n_failures[v] = k_first_step;
   for (int round = 0; round < k_regrow_rounds; ++round) {
     ShapeChange change = raised(base, envelope, n_failures, context);
     if (change.vertices.empty()) return;
@@ -107,7 +110,7 @@ void regrow_clear(const LayerBase& base, Collider& collider, Envelope& envelope,
 
 bool retract_collisions(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context,
                         const std::vector<VertexId>* suspects) {
-  const EnvelopeScale scale = scale_of(options);
+  const EnvelopeScale scale = scale_of(base, options);
   std::vector<VertexId> around, retracted;
   const std::vector<VertexId>* looked_at = suspects;
   bool needs_clearance = false, has_changed = false;

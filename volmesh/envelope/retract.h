@@ -9,8 +9,10 @@ namespace sterna::volmesh {
 
 /// Shares the gap between opposing walls: where a growth line meets a wall that faces it, both heights are lowered, in proportion to what each asks for,
 /// until a gap of 0.2 of the longer of the two local envelope edges remains (half the gap, where it is narrower than 0.4 edges). Limits `cap` too.
+/// With `group`, only walls of different groups oppose each other, and vertices of group 0 know the outer boundary already: the rest was shared before.
 /// \post every macro-element valid.
-void share_gaps(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context);
+void share_gaps(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context,
+                const Column<VertexId, std::uint32_t>* group = nullptr);
 
 /// Lowers heights until the exact triangle tests find top and sides of the layer clear of each other, of the wall and of the outer boundary, with macro-elements
 /// made valid again after each sweep; what still collides after max_retract_sweeps collapses, so it ends. With `suspects`, the top is known to be clear
@@ -19,8 +21,8 @@ bool retract_collisions(const LayerBase& base, const EnvelopeOptions& options, C
                         const std::vector<VertexId>* suspects = nullptr);
 
 /// Raises heights that were lowered more than needed towards min(target, cap) where macro-elements stay valid and the top stays clear.
-/// \pre, \post clear, as after retract_collisions.
-void regrow_clear(const LayerBase& base, Collider& collider, Envelope& envelope, const RunContext& context);
+/// With `where`, only at these vertices. \pre, \post clear, as after retract_collisions.
+void regrow_clear(const LayerBase& base, Collider& collider, Envelope& envelope, const RunContext& context, const std::vector<VertexId>* where = nullptr);
 
 /// How much taller than wanted a changed height must still be clear, as a factor: room for the tetrahedra.
 inline constexpr double k_clearance = 1.06;

@@ -70,7 +70,7 @@ std::array<double, 2> edge_height_limits(const Point& p1, const Vec3& d1, const 
 // Only downwards: a lowered height is reached by a slope and not by a step.
 void level_steps(const LayerBase& base, const EnvelopeOptions& options, int sweeps, HeightLimit reason, Envelope& envelope,
                  const RunContext& context) {
-  const EnvelopeScale scale = scale_of(options);
+  const EnvelopeScale scale = scale_of(base, options);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     Column<VertexId, double> bound = envelope.height;
     parallel_for(context, bound.size(), [&](std::size_t i) {
@@ -86,7 +86,7 @@ void level_steps(const LayerBase& base, const EnvelopeOptions& options, int swee
 }
 
 void untangle_edges(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context) {
-  const EnvelopeScale scale = scale_of(options);
+  const EnvelopeScale scale = scale_of(base, options);
   const std::size_t n = base.wall.n_vertices();
   Column<VertexId, std::uint8_t> is_limited(n, 0);
   Column<VertexId, double> limit(n);
@@ -143,11 +143,11 @@ std::vector<VertexId> lower_elements(const LayerBase& base, const std::vector<Tr
 
 /// Surrounds collapsed vertices by a compressed ring (method.md §4), from which the height rises by at most k_step_gradient; returns what was lowered.
 std::vector<VertexId> surround_collapsed(const LayerBase& base, const std::vector<VertexId>& vertices, const EnvelopeScale& scale, Envelope& envelope) {
-  const double compressed = scale.n * scale.h0;
   std::vector<VertexId> all, front;
   for (const VertexId v : vertices) {
     if (!envelope.is_collapsed(v)) continue;
     for (const VertexId other : base.topology.neighbours(v)) {
+      const double compressed = scale.compressed(other);
       envelope.cap[other] = std::min(envelope.cap[other], compressed);
       if (envelope.height[other] <= compressed) continue;
       lower(envelope, other, compressed, envelope.limit[v], scale);
@@ -176,7 +176,7 @@ std::vector<VertexId> surround_collapsed(const LayerBase& base, const std::vecto
 
 std::vector<VertexId> unwarp(const LayerBase& base, const EnvelopeOptions& options, HeightLimit reason, Envelope& envelope, const RunContext& context,
                              const std::vector<VertexId>* suspects) {
-  const EnvelopeScale scale = scale_of(options);
+  const EnvelopeScale scale = scale_of(base, options);
   std::vector<VertexId> all, around;
   const std::vector<VertexId>* looked_at = suspects;
   std::vector<VertexId> may_be_down;

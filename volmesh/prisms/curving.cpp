@@ -39,13 +39,22 @@ Curving::Curving(const LayerBase& base, double wanted)
     : base_(base), wanted_(wanted), c_t_(base.wall.n_vertices(), wanted), limit_(base.wall.n_vertices(), wanted) {}
 
 void Curving::limit(VertexId v, double c_t) {
-  if (c_t >= limit_[v]) return;
-  if (limit_[v] == wanted_) limited_.push_back(v);
-  limit_[v] = c_t;
+  for_each_alike(base_, v, [&](VertexId w) {
+    if (c_t >= limit_[w]) return;
+    if (limit_[w] == wanted_) limited_.push_back(w);
+    limit_[w] = c_t;
+  });
 }
 
 std::vector<VertexId> Curving::smooth(const RunContext& context) {
-  const std::vector<VertexId> region = dilated(base_, limited_, 1 + k_sweeps);
+  std::vector<VertexId> region = dilated(base_, limited_, 1 + k_sweeps);
+  if (!base_.groups.empty()) {
+    std::vector<VertexId> alike;
+    for (const VertexId v : region) for_each_alike(base_, v, [&](VertexId w) { alike.push_back(w); });
+    std::sort(alike.begin(), alike.end());
+    alike.erase(std::unique(alike.begin(), alike.end()), alike.end());
+    region = std::move(alike);
+  }
   std::vector<double> before(region.size()), next(region.size());
   const auto sweep = [&](const auto& value) {
     parallel_for(context, region.size(), [&](std::size_t i) { next[i] = value(region[i]); });
@@ -63,6 +72,12 @@ std::vector<VertexId> Curving::smooth(const RunContext& context) {
       double sum = 0.0;
       for (const VertexId other : around) sum += c_t_[other];
       return std::min(limit_[v], 0.5 * (c_t_[v] + sum / static_cast<double>(around.size())));
+    });
+  if (!base_.groups.empty())
+    sweep([&](VertexId v) {
+      double least = c_t_[v];
+      for_each_alike(base_, v, [&](VertexId w) { least = std::min(least, c_t_[w]); });
+      return least;
     });
   std::vector<VertexId> changed;
   for (std::size_t i = 0; i < region.size(); ++i)

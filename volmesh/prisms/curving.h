@@ -16,8 +16,8 @@ class Curving {
   double operator[](VertexId v) const { return c_t_[v]; }
   /// From the next smooth() on c_t is at most `c_t` at v.
   void limit(VertexId v, double c_t);
-  /// The field from the limits: smallest limit of vertex and neighbours, then a few sweeps of averaging that never exceed a vertex's own limit. It only falls from
-  /// call to call. Returns the vertices where it changed, ascending.
+  /// The field from the limits: smallest limit of vertex and neighbours, then a few sweeps of averaging that never exceed a vertex's own limit; vertices that
+  /// must grow alike get the smallest of theirs. It only falls from call to call. Returns the vertices where it changed, ascending.
   std::vector<VertexId> smooth(const RunContext& context);
 
   /// Lines by their share of the wanted c_t: straight, up to 1/4, 1/2, 3/4, below 1.

@@ -40,22 +40,29 @@ void sort_unique(std::vector<T>& list) {
 Extruder::Extruder(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, const RunContext& context)
     : base_(base),
       envelope_options_(envelope_options),
-      scale_(scale_of(envelope_options)),
+      scale_(scale_of(base, envelope_options)),
       context_(context),
       curving_(base, options.wall_perpendicularity),
       placed_(base.wall.n_vertices()) {
   const std::size_t n = base.wall.n_vertices();
-  const std::size_t per_line = static_cast<std::size_t>(scale_.n) + 1;
-  layers_.n_layers = scale_.n;
+  layers_.n_layers = 0;
+  for (std::size_t i = 0; i < n; ++i) layers_.n_layers = std::max(layers_.n_layers, scale_.n(VertexId(i)));
+  for (std::size_t i = 0; i < n && layers_.is_uniform(); ++i)
+    if (scale_.n(VertexId(i)) != layers_.n_layers) layers_.line_layers.resize(n);
+  for (std::size_t i = 0; i < layers_.line_layers.size(); ++i) layers_.line_layers[i] = static_cast<std::uint16_t>(scale_.n(VertexId(i)));
   layers_.first_node.resize(n);
-  for (std::size_t i = 0; i < n; ++i) layers_.first_node[i] = NodeId(i * per_line).value();
+  std::uint64_t n_nodes = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    layers_.first_node[i] = NodeId(n_nodes).value();
+    n_nodes += static_cast<std::uint64_t>(scale_.n(VertexId(i))) + 1;
+  }
   layers_.is_collapsed.resize(n);
   layers_.base.resize(base.wall.n_triangles());
   for (const TriangleId t : IdRange<TriangleId>(base.wall.n_triangles())) {
     const TriangleVertices& v = base.wall.triangles[t];
     layers_.base[t.index()] = {v[0].value(), v[1].value(), v[2].value()};
   }
-  points_.resize(n * per_line);
+  points_.resize(n_nodes);
 }
 
 /// Places the lines whose height, direction or curving is not the one they were placed with; returns them, ascending.
@@ -95,7 +102,7 @@ Extruder::Columns Extruder::invalid_among(const Columns* some) const {
         Columns bad;
         for (std::size_t i = begin; i < end; ++i) {
           const std::size_t column = some ? (*some)[i] : i;
-          if (!is_column_certain(column_lines(layers_, points_, column), scale_.n)) bad.push_back(column);
+          if (!is_column_certain(column_lines(layers_, points_, column), layers_.layers_of_column(column))) bad.push_back(column);
         }
         return bad;
       },
@@ -104,7 +111,8 @@ Extruder::Columns Extruder::invalid_among(const Columns* some) const {
 
 /// Largest common share of the present c_t of its lines with which a column is valid, to 1/64; k_hopeless where straight lines are not either.
 double Extruder::valid_share_of_curving(const Envelope& envelope, std::size_t column) const {
-  const std::size_t per_line = static_cast<std::size_t>(scale_.n) + 1;
+  const int n = layers_.layers_of_column(column);
+  const std::size_t per_line = static_cast<std::size_t>(n) + 1;
   std::vector<Point> nodes(3 * per_line);
   LinePlacer placer(base_, scale_);
   const auto is_valid = [&](double share) {
@@ -115,7 +123,7 @@ double Extruder::valid_share_of_curving(const Envelope& envelope, std::size_t co
       lines.nodes[k] = nodes.data() + k * per_line;
       lines.is_collapsed[k] = envelope.is_collapsed(v);
     }
-    return is_column_certain(lines, scale_.n);
+    return is_column_certain(lines, n);
   };
   if (!is_valid(0.0)) return k_hopeless;
   double low = 0.0, high = 1.0;
@@ -200,7 +208,7 @@ void Extruder::extrude(Envelope& envelope) {
 Extrusion Extruder::take() {
   std::uint64_t next = 0;
   for (std::size_t i = 0; i < layers_.n_lines(); ++i) {
-    const std::size_t n_nodes = layers_.is_collapsed[i] ? 1 : static_cast<std::size_t>(scale_.n) + 1;
+    const std::size_t n_nodes = static_cast<std::size_t>(layers_.n_steps(i)) + 1;
     if (next != layers_.first_node[i]) std::copy_n(points_.begin() + layers_.first_node[i], n_nodes, points_.begin() + static_cast<std::ptrdiff_t>(next));
     layers_.first_node[i] = static_cast<std::uint32_t>(next);
     next += n_nodes;

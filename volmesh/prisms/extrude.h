@@ -49,7 +49,7 @@ class Extruder {
   EnvelopeScale scale_;
   RunContext context_;
   Curving curving_;
-  LayerBlock layers_;          ///< all lines have n + 1 nodes here, collapsed ones too
+  LayerBlock layers_;          ///< all lines have the nodes of all their layers here, collapsed ones too
   std::vector<Point> points_;
   /// What each line was placed with.
   struct Placed {

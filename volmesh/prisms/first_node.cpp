@@ -44,8 +44,8 @@ double share(double part, double whole) { return whole > 0.0 ? part / whole : 1.
 
 FirstNodeReport first_node_report(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, const Envelope& envelope,
                                   const Extrusion& extrusion, const RunContext& context) {
-  const double h0 = options.first_height;
-  const auto is_full = [&](VertexId v) { return normal_height(base, envelope, v) >= options.layers * h0; };
+  const EnvelopeScale scale = scale_of(base, options);
+  const auto is_full = [&](VertexId v) { return normal_height(base, envelope, v) >= scale.compressed(v); };
   const auto first_step = [&](VertexId v) {
     return extrusion.points[extrusion.layers.node(v.value(), 1).index()] - base.wall.points[v];
   };
@@ -60,7 +60,7 @@ FirstNodeReport first_node_report(const LayerBase& base, const Classification& c
             part.n_compressed += !envelope.is_collapsed(v);
             continue;
           }
-          const double deviation = std::abs(dot(first_step(v), base.vertex_normal[v]) / h0 - 1.0);
+          const double deviation = std::abs(dot(first_step(v), base.vertex_normal[v]) / scale.h0(v) - 1.0);
           ++part.n_full;
           part.n_good += deviation <= k_tolerance;
           part.note(deviation, base.wall.points[v]);
@@ -84,7 +84,7 @@ FirstNodeReport first_node_report(const LayerBase& base, const Classification& c
           if (!std::all_of(corners.begin(), corners.end(), is_full)) continue;
           double deviation = 0.0, mean = 0.0;
           for (const VertexId v : corners) {
-            const double relative = dot(first_step(v), base.unit_normal[t]) / h0 - 1.0;
+            const double relative = dot(first_step(v), base.unit_normal[t]) / scale.h0(v) - 1.0;
             deviation = std::max(deviation, std::abs(relative));
             mean += relative / 3.0;
           }

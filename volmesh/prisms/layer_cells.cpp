@@ -98,7 +98,7 @@ LayerCertificate certify_layer(const LayerBlock& layers, std::span<const Point> 
       context, layers.n_columns(), LayerCertificate{},
       [&](std::size_t begin, std::size_t end) {
         LayerCertificate part;
-        for (std::size_t c = begin; c < end; ++c) add_column(column_lines(layers, points, c), c, layers.n_layers, part);
+        for (std::size_t c = begin; c < end; ++c) add_column(column_lines(layers, points, c), c, layers.layers_of_column(c), part);
         return part;
       },
       [](LayerCertificate a, const LayerCertificate& b) {

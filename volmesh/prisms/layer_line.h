@@ -23,7 +23,7 @@ double first_height_factor(const LayerBase& base, VertexId v);
 class LinePlacer {
  public:
   LinePlacer(const LayerBase& base, const EnvelopeScale& scale);
-  /// Writes n + 1 nodes, or the wall point alone at a collapsed vertex. Nodes obey the vertex's constraint; the last is envelope.point() to the bit.
+  /// Writes scale.n(v) + 1 nodes, or the wall point alone at a collapsed vertex. Nodes obey the vertex's constraint; the last is envelope.point() to the bit.
   void place(const Envelope& envelope, VertexId v, double c_t, Point* nodes);
 
  private:

@@ -83,10 +83,11 @@ void check_coordinates(const TetraBoundary& boundary, const RunContext& context)
   }
 }
 
-void check_points_used(const TetraBoundary& boundary, const RunContext& context) {
+void check_points_used(const TetraBoundary& boundary, std::span<const std::array<std::uint32_t, 3>> sheets, const RunContext& context) {
   std::vector<std::uint8_t> is_used(boundary.points.size(), 0);
-  for (const auto& t : boundary.triangles) {
-    for (const std::uint32_t v : t) is_used[v] = 1;
+  for (const auto& triangles : {boundary.triangles, sheets}) {
+    for (const auto& t : triangles)
+      for (const std::uint32_t v : t) is_used[v] = 1;
   }
   const Offenders unused = find_all(context, is_used.size(), [&](std::size_t i) { return !is_used[i]; });
   if (!unused.empty()) throw_for_points(info(ErrorCode::bad_argument, std::to_string(unused.size()) + " points that no triangle uses"), boundary, unused, "is unused");
@@ -173,12 +174,15 @@ void add_triangle(TroubleGeometry& geometry, const TetraBoundary& boundary, std:
   geometry.triangles.push_back({first, first + 1, first + 2});
 }
 
-void check_boundary(const TetraBoundary& boundary, const RunContext& context) {
+void check_boundary(const TetraBoundary& boundary, const RunContext& context, std::span<const std::array<std::uint32_t, 3>> sheets) {
   check_counts_and_indices(boundary, context);
+  const TetraBoundary of_sheets{.points = boundary.points, .triangles = sheets, .hole_points = {}};
+  if (!sheets.empty()) check_counts_and_indices(of_sheets, context);
   check_coordinates(boundary, context);
-  check_points_used(boundary, context);
+  check_points_used(boundary, sheets, context);
   check_no_twin_points(boundary, context);
   check_triangles(boundary, context);
+  check_triangles(of_sheets, context);
   check_edges(boundary, context);
 }
 

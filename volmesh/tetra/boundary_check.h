@@ -8,9 +8,9 @@
 namespace sterna::volmesh {
 
 /// Indices in range, corners different and not collinear (exact), coordinates finite, every point used, no two points at one place, every edge of exactly two
-/// triangles of opposite sense. Not: self-intersections. Parallel, O(n log n).
+/// triangles of opposite sense. Not: self-intersections. Of sheets, facets inside the domain, all but the last. Parallel, O(n log n).
 /// \throws Error as fill() says.
-void check_boundary(const TetraBoundary& boundary, const RunContext& context);
+void check_boundary(const TetraBoundary& boundary, const RunContext& context, std::span<const std::array<std::uint32_t, 3>> sheets = {});
 
 /// "boundary triangle 12 of patch "wing" <what>" and its centroid.
 ErrorPlace place_of_triangle(const TetraBoundary& boundary, std::size_t triangle, const std::string& what);

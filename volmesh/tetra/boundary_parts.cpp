@@ -14,21 +14,21 @@ namespace {
 constexpr double k_inside_winding = 0.5;  ///< winding numbers come out as 0 or 1 within 0.05
 
 /// Number of the component of each vertex; components in order of their first triangle.
-std::vector<std::int32_t> number_components(const TetraBoundary& boundary, std::size_t& n_components) {
-  std::vector<std::uint32_t> parent(boundary.points.size());
+std::vector<std::int32_t> number_components(std::size_t n_points, std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t& n_components) {
+  std::vector<std::uint32_t> parent(n_points);
   std::iota(parent.begin(), parent.end(), 0u);
   const auto root = [&](std::uint32_t v) {
     while (parent[v] != v) v = parent[v] = parent[parent[v]];
     return v;
   };
-  for (const auto& t : boundary.triangles) {
+  for (const auto& t : triangles) {
     const std::uint32_t a = root(t[0]);
     parent[root(t[1])] = a;
     parent[root(t[2])] = a;
   }
-  std::vector<std::int32_t> number(boundary.points.size(), -1);
+  std::vector<std::int32_t> number(n_points, -1);
   n_components = 0;
-  for (const auto& t : boundary.triangles) {
+  for (const auto& t : triangles) {
     std::int32_t& n = number[root(t[0])];
     if (n < 0) n = static_cast<std::int32_t>(n_components++);
   }
@@ -70,10 +70,10 @@ class Shell {
 
 }  // namespace
 
-BoundaryParts find_parts(const TetraBoundary& boundary, const RunContext& context) {
+BoundaryParts find_parts(const TetraBoundary& boundary, std::span<const std::array<std::uint32_t, 3>> sheets, const RunContext& context) {
   BoundaryParts parts;
   std::size_t n_surfaces = 0;
-  const std::vector<std::int32_t> component = number_components(boundary, n_surfaces);
+  const std::vector<std::int32_t> component = number_components(boundary.points.size(), boundary.triangles, n_surfaces);
   std::vector<std::uint32_t> first_vertex(n_surfaces);
   parts.triangle2surface.resize(boundary.triangles.size());
   for (std::size_t t = boundary.triangles.size(); t-- > 0;) {
@@ -94,20 +94,35 @@ BoundaryParts find_parts(const TetraBoundary& boundary, const RunContext& contex
   if (outer.size() > 1) {
     for (const std::size_t s : outer) shells.emplace_back(boundary, parts, static_cast<std::int32_t>(s), context);
   }
-  for (std::size_t s = 0; s < n_surfaces; ++s) {
-    if (volumes[s] < 0.0) continue;
-    std::int32_t& region = parts.surface2region[s];
-    if (outer.size() == 1) region = 0;
+  const auto region_around = [&](std::uint32_t v, const std::string& what) {
+    std::int32_t region = outer.size() == 1 ? 0 : -1;
     for (std::size_t r = 0; r < shells.size(); ++r) {
       const bool is_smaller = region < 0 || volumes[outer[r]] > volumes[outer[static_cast<std::size_t>(region)]];
-      if (is_smaller && shells[r].contains(boundary.points[first_vertex[s]])) region = static_cast<std::int32_t>(r);
+      if (is_smaller && shells[r].contains(boundary.points[v])) region = static_cast<std::int32_t>(r);
     }
-    if (region >= 0) continue;
+    if (region >= 0) return region;
     throw Error({.code = ErrorCode::not_orientable,
                  .attempted = "looking for the regions of the domain",
-                 .problem = "a closed part of the boundary lies in no region",
-                 .places = {{boundary.points[first_vertex[s]], "point " + std::to_string(first_vertex[s])}},
+                 .problem = what + " lies in no region",
+                 .places = {{boundary.points[v], "point " + std::to_string(v)}},
                  .hint = "normals must point into the domain: out of the bodies, and inwards on what encloses them"});
+  };
+  for (std::size_t s = 0; s < n_surfaces; ++s)
+    if (volumes[s] >= 0.0) parts.surface2region[s] = region_around(first_vertex[s], "a closed part of the boundary");
+  if (sheets.empty()) return parts;
+
+  const std::vector<std::int32_t> sheet = number_components(boundary.points.size(), sheets, parts.n_sheet_surfaces);
+  parts.surface2region.resize(n_surfaces + parts.n_sheet_surfaces, -1);
+  for (const auto& t : sheets) {
+    const std::size_t surface = n_surfaces + static_cast<std::size_t>(sheet[t[0]]);
+    parts.triangle2surface.push_back(static_cast<std::int32_t>(surface));
+    std::int32_t& region = parts.surface2region[surface];
+    for (const std::uint32_t v : t)  // one that touches the boundary is in its region
+      if (region < 0 && component[v] >= 0) region = parts.surface2region[static_cast<std::size_t>(component[v])];
+  }
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    std::int32_t& region = parts.surface2region[static_cast<std::size_t>(parts.triangle2surface[boundary.triangles.size() + i])];
+    if (region < 0) region = region_around(sheets[i][0], "a sheet");
   }
   return parts;
 }

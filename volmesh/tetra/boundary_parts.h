@@ -1,7 +1,9 @@
 // The boundary as an engine with a boundary representation wants it: closed surfaces, and the regions of the domain that they bound.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geom/base/run_context.h"
@@ -9,16 +11,18 @@
 
 namespace sterna::volmesh {
 
-/// Surfaces are connected components of the boundary (over shared vertices), in order of their first triangle; regions are connected parts of the domain.
+/// Surfaces are connected components of the boundary (over shared vertices), in order of their first triangle, then those of the sheets; regions are connected parts of
+/// the domain.
 struct BoundaryParts {
-  std::vector<std::int32_t> triangle2surface;
+  std::vector<std::int32_t> triangle2surface;  ///< sheets' triangles last
   std::vector<std::int32_t> surface2region;  ///< regions in order of their first surface
+  std::size_t n_sheet_surfaces = 0;
   std::size_t n_surfaces() const { return surface2region.size(); }
 };
 
-/// A surface whose normals point inwards encloses a region; the others are bodies in the smallest region around them.
+/// A surface whose normals point inwards encloses a region; the others are bodies in the smallest region around them, as sheets are, which may touch the boundary.
 /// \pre check_boundary() passed, no self-intersection.
 /// \throws Error(not_orientable) when a body lies in no region, with its place.
-BoundaryParts find_parts(const TetraBoundary& boundary, const RunContext& context);
+BoundaryParts find_parts(const TetraBoundary& boundary, std::span<const std::array<std::uint32_t, 3>> sheets, const RunContext& context);
 
 }  // namespace sterna::volmesh

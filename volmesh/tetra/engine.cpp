@@ -27,18 +27,31 @@ double unit_scale(std::span<const Vec3> points) {
   return std::ldexp(1.0, -std::ilogb(largest));
 }
 
+/// Points and facets as they are sent.
+struct Sent {
+  explicit Sent(const EngineInput& input)
+      : points(input.joined ? std::span<const Vec3>(input.joined->points) : input.boundary.points),
+        facets(input.joined ? std::span<const std::array<std::uint32_t, 3>>(input.joined->facets) : input.boundary.triangles) {}
+  std::span<const Vec3> points;
+  std::span<const std::array<std::uint32_t, 3>> facets;
+};
+
 /// The request in shared memory, laid out as wire.h says.
 class Request {
  public:
   Request(const EngineInput& input, const TetraOptions& options, const RunContext& context)
       : scale_(unit_scale(input.boundary.points)), block_("sterna tetra request", size_of(input), engine_task()) {
-    const auto& [boundary, parts, sizes, splits] = input;
+    const Sent sent(input);
+    const BoundaryParts& parts = input.parts;
+    const std::span<const Vec3> hole_points = input.boundary.hole_points;
+    const SplitMode splits = input.splits;
     wire::RequestHeader header;
-    header.n_points = boundary.points.size();
-    header.n_holes = boundary.hole_points.size();
-    header.n_triangles = boundary.triangles.size();
+    n_points_ = header.n_points = sent.points.size();
+    header.n_holes = hole_points.size();
+    header.n_triangles = sent.facets.size();
     header.n_surfaces = parts.n_surfaces();
-    header.has_size_field = sizes ? 1 : 0;
+    header.n_sheet_surfaces = parts.n_sheet_surfaces;
+    header.has_size_field = input.sizes ? 1 : 0;
     header.memory_limit = static_cast<std::uint64_t>(options.memory_limit);
     header.scale = scale_;
     header.radius_edge = options.radius_edge;
@@ -52,26 +65,27 @@ class Request {
     put(&header, sizeof header);
     points_ = reinterpret_cast<Vec3*>(at);
     Vec3* const holes = points_ + header.n_points;
-    parallel_for(context, header.n_points, [&](std::size_t i) { points_[i] = scale_ * boundary.points[i]; });
-    for (std::size_t i = 0; i < header.n_holes; ++i) holes[i] = scale_ * boundary.hole_points[i];
+    parallel_for(context, header.n_points, [&](std::size_t i) { points_[i] = scale_ * sent.points[i]; });
+    for (std::size_t i = 0; i < header.n_holes; ++i) holes[i] = scale_ * hole_points[i];
     at = reinterpret_cast<std::byte*>(holes + header.n_holes);
-    put(boundary.triangles.data(), boundary.triangles.size_bytes());
+    put(sent.facets.data(), sent.facets.size_bytes());
     put(parts.triangle2surface.data(), sizeof(std::int32_t) * parts.triangle2surface.size());
     put(parts.surface2region.data(), sizeof(std::int32_t) * parts.surface2region.size());
   }
   const SharedBlock& block() const { return block_; }
-  const Vec3* points() const { return points_; }  ///< as the engine got them
+  std::span<const Vec3> points() const { return {points_, n_points_}; }  ///< as the engine got them
   double scale() const { return scale_; }
 
  private:
   static std::size_t size_of(const EngineInput& input) {
-    const TetraBoundary& boundary = input.boundary;
-    return sizeof(wire::RequestHeader) + sizeof(Vec3) * (boundary.points.size() + boundary.hole_points.size()) +
-           (sizeof(boundary.triangles[0]) + sizeof(std::int32_t)) * boundary.triangles.size() + sizeof(std::int32_t) * input.parts.n_surfaces();
+    const Sent sent(input);
+    return sizeof(wire::RequestHeader) + sizeof(Vec3) * (sent.points.size() + input.boundary.hole_points.size()) +
+           (sizeof(sent.facets[0]) + sizeof(std::int32_t)) * sent.facets.size() + sizeof(std::int32_t) * input.parts.n_surfaces();
   }
   double scale_;
   SharedBlock block_;
   Vec3* points_ = nullptr;
+  std::size_t n_points_ = 0;
 };
 
 /// TetGen's codes as terminatetetgen() in tetgen.h names them; the other engines have none.
@@ -129,8 +143,8 @@ std::optional<EngineFailure> judge_exit(EngineKind kind, const HelperExit& exit,
 }
 
 /// A mesh with more points than the user wants.
-std::optional<EngineFailure> judge_count(EngineKind kind, const wire::ReplyHeader& header, const TetraBoundary& boundary, const TetraOptions& options) {
-  const double n_new = static_cast<double>(header.n_points) - static_cast<double>(boundary.points.size());
+std::optional<EngineFailure> judge_count(EngineKind kind, const wire::ReplyHeader& header, const Request& request, const TetraOptions& options) {
+  const double n_new = static_cast<double>(header.n_points) - static_cast<double>(request.points().size());
   if (is_automatic(options.max_new_points) || n_new <= options.max_new_points) return std::nullopt;
   return failure(FailureKind::deterministic, kind, with_unit(n_new, "new points") + ", limit " + with_unit(options.max_new_points, ""),
                  "raise tetrahedra.max_new_points, or ask for larger tetrahedra");
@@ -174,16 +188,16 @@ void adopt_splits(const TetraBoundary& boundary, std::span<const std::array<std:
   result.splits = find_splits(boundary, points, renumbered, parents);
 }
 
-TetraResult read_result(EngineKind kind, const wire::ReplyHeader& header, const SharedBlock& reply, const std::byte* data, const TetraBoundary& boundary, const Request& request,
+TetraResult read_result(EngineKind kind, const wire::ReplyHeader& header, const SharedBlock& reply, const std::byte* data, const EngineInput& input, const Request& request,
                         const RunContext& context) {
-  const std::size_t n_boundary = boundary.points.size();
+  const std::size_t n_boundary = request.points().size();
   const std::size_t expected = sizeof header + sizeof(Vec3) * header.n_points + sizeof(std::array<std::uint32_t, 4>) * header.n_tetrahedra + sizeof(std::array<std::uint32_t, 4>) * header.n_triangles;
   if (reply.size() != expected) throw_invalid_reply(kind, std::to_string(reply.size()) + " bytes instead of " + std::to_string(expected));
   if (header.n_points < n_boundary) throw_invalid_reply(kind, std::to_string(header.n_points) + " points come back of " + std::to_string(n_boundary));
   const auto* points = reinterpret_cast<const Vec3*>(data + sizeof header);
   for (std::size_t i = 0; i < n_boundary; ++i) {
     if (points[i] == request.points()[i]) continue;
-    throw_invalid_reply(kind, "boundary point " + std::to_string(i) + " comes back in another place", {{boundary.points[i], "sent"}, {points[i] / request.scale(), "came back"}});
+    throw_invalid_reply(kind, "boundary point " + std::to_string(i) + " comes back in another place", {{request.points()[i] / request.scale(), "sent"}, {points[i] / request.scale(), "came back"}});
   }
   TetraResult result;
   result.engine = to_string(kind);
@@ -195,8 +209,9 @@ TetraResult read_result(EngineKind kind, const wire::ReplyHeader& header, const 
   if (header.n_tetrahedra > 0) std::memcpy(result.tetrahedra.data(), points + header.n_points, sizeof(result.tetrahedra[0]) * header.n_tetrahedra);
   if (header.n_triangles > 0) {
     const auto* triangles = reinterpret_cast<const std::array<std::uint32_t, 3>*>(data + sizeof header + sizeof(Vec3) * header.n_points + sizeof(result.tetrahedra[0]) * header.n_tetrahedra);
-    adopt_splits(boundary, {triangles, header.n_triangles}, {reinterpret_cast<const std::uint32_t*>(triangles + header.n_triangles), header.n_triangles}, result);
+    adopt_splits(input.boundary, {triangles, header.n_triangles}, {reinterpret_cast<const std::uint32_t*>(triangles + header.n_triangles), header.n_triangles}, result);
   }
+  if (input.joined) part_sheets(input.boundary, *input.joined, result);
   return result;
 }
 
@@ -245,8 +260,8 @@ EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraO
     header.magic = 0;
     if (reply.size() >= sizeof header) std::memcpy(&header, data, sizeof header);
     if (std::optional<EngineFailure> reason = judge_exit(kind, exit, header, options)) return failed(std::move(*reason));
-    if (std::optional<EngineFailure> reason = judge_count(kind, header, input.boundary, options)) return failed(std::move(*reason));
-    TetraResult result = read_result(kind, header, reply, data, input.boundary, request, context);
+    if (std::optional<EngineFailure> reason = judge_count(kind, header, request, options)) return failed(std::move(*reason));
+    TetraResult result = read_result(kind, header, reply, data, input, request, context);
     transfer.reset();
     const StageTimer timer(context, "tetrahedra/verify");
     verify(input.boundary, result, context);

@@ -7,6 +7,7 @@
 #include "geom/base/error.h"
 #include "geom/base/run_context.h"
 #include "volmesh/tetra/boundary_parts.h"
+#include "volmesh/tetra/sheets.h"
 #include "volmesh/tetra/tetra.h"
 
 namespace sterna::volmesh {
@@ -41,15 +42,16 @@ struct EngineOutcome {
   EngineFailure failure;
 };
 
-/// What an engine gets. `parts` are those of the boundary; there may be no sizes.
+/// What an engine gets. `parts` are those of the boundary, or of the joined one; there may be no sizes.
 struct EngineInput {
   const TetraBoundary& boundary;
   const BoundaryParts& parts;
   SizeSupply* sizes = nullptr;
   SplitMode splits = SplitMode::none;
+  const JoinedBoundary* joined = nullptr;  ///< of a boundary with sheets: the engine gets this one
 };
 
-/// \pre check_boundary() passed; splits with TetGen only. \post the result is proven, with splits for the boundary as split.
+/// \pre check_boundary() passed; splits with TetGen only, and without sheets. \post the result is proven, with splits for the boundary as split.
 /// \throws Error(cancelled) on a stop of the context (the helper is gone by then); Error(tetra_engine_failed) when the system has no memory for the request.
 EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraOptions& options, const RunContext& context);
 

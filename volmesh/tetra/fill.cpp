@@ -41,13 +41,14 @@ std::vector<Rung> rungs_of(const TetraBoundary& boundary, const TetraOptions& op
     if (options.engine == "hxt") throw_bad("two_pass", "true\" with engine \"hxt", "only TetGen has two passes: leave the engine automatic, or choose tetgen");
     rungs = {{EngineKind::tetgen, SplitMode::none, true}, {EngineKind::hxt}};
   }
+  if (boundary.has_sheets && options.boundary_splits == "always") throw_bad("boundary_splits", "always", "triangles beside sheets without thickness (actuator discs) cannot be split");
   if (options.boundary_splits == "always") {
     if (options.engine == "hxt") throw_bad("boundary_splits", "always", "HXT keeps the boundary: leave the engine automatic, or choose tetgen");
     if (!boundary.take_splits) throw_bad("boundary_splits", "always", "nothing here can take splits of the boundary");
     return {{EngineKind::tetgen, SplitMode::quality, options.two_pass}, {EngineKind::hxt}};
   }
   if (options.boundary_splits == "ladder") {
-    if (boundary.take_splits) rungs.push_back({EngineKind::tetgen, SplitMode::recovery});
+    if (boundary.take_splits && !boundary.has_sheets) rungs.push_back({EngineKind::tetgen, SplitMode::recovery});
   } else if (options.boundary_splits != "never") {
     throw_bad("boundary_splits", options.boundary_splits, "one of never, ladder, always");
   }
@@ -75,18 +76,19 @@ EngineOutcome taken(EngineOutcome outcome, const TetraBoundary& boundary) {
 }
 
 /// One run of an engine, or two.
-EngineOutcome run(const Rung& rung, const TetraBoundary& boundary, const BoundaryParts& parts, SizeSupply* sizes, const TetraOptions& options, const RunContext& context) {
-  if (!rung.is_two_pass) return run_engine(rung.engine, {boundary, parts, sizes, rung.splits}, options, context);
+EngineOutcome run(const Rung& rung, const TetraBoundary& boundary, const JoinedBoundary* joined, const BoundaryParts& parts, SizeSupply* sizes, const TetraOptions& options,
+                  const RunContext& context) {
+  if (!rung.is_two_pass) return run_engine(rung.engine, {boundary, parts, sizes, rung.splits, joined}, options, context);
   TetraOptions coarse = options;
   coarse.radius_edge = std::max(options.radius_edge, k_coarse_radius_edge);
-  EngineOutcome first = run_engine(rung.engine, {boundary, parts}, coarse, context);
+  EngineOutcome first = run_engine(rung.engine, {.boundary = boundary, .parts = parts, .joined = joined}, coarse, context);
   if (!first.result) return first;
   context.info("first pass: " + std::to_string(first.result->tetrahedra.size()) + " tetrahedra");
   const SizeSource samples = nodal_sizes(boundary, *first.result, context);
-  if (samples.points.empty()) return run_engine(rung.engine, {boundary, parts, sizes, rung.splits}, options, context);  // nothing in the volume to take sizes from
+  if (samples.points.empty()) return run_engine(rung.engine, {boundary, parts, sizes, rung.splits, joined}, options, context);  // nothing in the volume to take sizes from
   const SizeField field = sizes ? sizes->with(samples, boundary, context) : build_size_field(boundary, std::span(&samples, 1), {}, context);
   SizeSupply second_sizes(field);
-  EngineOutcome second = run_engine(rung.engine, {boundary, parts, &second_sizes, rung.splits}, options, context);
+  EngineOutcome second = run_engine(rung.engine, {boundary, parts, &second_sizes, rung.splits, joined}, options, context);
   if (!second.result) return second;
   second.result->is_two_pass = true;
   second.result->engine_seconds += first.result->engine_seconds;
@@ -96,12 +98,18 @@ EngineOutcome run(const Rung& rung, const TetraBoundary& boundary, const Boundar
 
 TetraResult fill_with(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, const RunContext& context) {
   const std::vector<Rung> rungs = rungs_of(boundary, options);
+  // A sheet's two sides are one for the engines.
+  std::optional<JoinedBoundary> joined;
+  if (boundary.has_sheets) joined.emplace(join_sheets(boundary, context));
+  const JoinedBoundary* const joined_sides = joined ? &*joined : nullptr;
   PreflightReport seen;
   const BoundaryParts parts = [&] {
     const StageTimer timer(context, "tetrahedra/boundary");
-    check_boundary(boundary, context);
+    const TetraBoundary closed = joined ? TetraBoundary{.points = joined->points, .triangles = joined->triangles(), .hole_points = boundary.hole_points} : boundary;
+    const auto sheets = joined ? joined->sheets() : std::span<const std::array<std::uint32_t, 3>>();
+    check_boundary(closed, context, sheets);
     if (!boundary.is_clear) judge(seen = preflight(boundary, {}, context), boundary, context);
-    return find_parts(boundary, context);
+    return find_parts(closed, sheets, context);
   }();
 
   // Of a boundary that is known to be clear, preflight can only say what engines find hard: that can wait until one has run.
@@ -119,7 +127,7 @@ TetraResult fill_with(const TetraBoundary& boundary, SizeSupply* sizes, const Te
       if (!may_follow(rung, failures, options)) continue;
       context.warn("trying " + text_of(rung));
     }
-    EngineOutcome outcome = taken(run(rung, boundary, parts, sizes, options, context), boundary);
+    EngineOutcome outcome = taken(run(rung, boundary, joined_sides, parts, sizes, options, context), boundary);
     if (look) judge(seen = look->take(), boundary, context);
     look.reset();
     if (outcome.result) {

@@ -61,13 +61,13 @@ void set_options(const wire::RequestHeader& header) {
 /// Surfaces with their nodes and triangles, and a volume for each region. Tags are 1-based.
 void set_boundary(const helper::Request& request) {
   const wire::RequestHeader& header = *request.header;
-  std::vector<int> point2surface(header.n_points, 0);
+  std::vector<int> point2surface(header.n_points, -1);
   std::vector<std::vector<std::size_t>> corners(header.n_surfaces);
   for (std::size_t t = 0; t < header.n_triangles; ++t) {
     const int surface = request.triangle2surface[t];
     for (std::size_t k = 0; k < 3; ++k) {
       const auto v = static_cast<std::size_t>(request.triangles[3 * t + k]);
-      point2surface[v] = surface;
+      if (point2surface[v] < 0) point2surface[v] = surface;  // a sheet's rim may be the boundary's
       corners[static_cast<std::size_t>(surface)].push_back(v + 1);
     }
   }
@@ -78,18 +78,23 @@ void set_boundary(const helper::Request& request) {
     tags[surface].push_back(v + 1);
     coordinates[surface].insert(coordinates[surface].end(), request.points + 3 * v, request.points + 3 * v + 3);
   }
-  std::vector<std::vector<int>> region2surfaces;
+  std::vector<std::vector<int>> region2surfaces, region2sheets;
+  const std::size_t n_closed = header.n_surfaces - header.n_sheet_surfaces;
   for (std::size_t s = 0; s < header.n_surfaces; ++s) {
     const int tag = static_cast<int>(s) + 1;
     gmsh::model::addDiscreteEntity(2, tag);
     gmsh::model::mesh::addNodes(2, tag, tags[s], coordinates[s]);
     gmsh::model::mesh::addElementsByType(tag, k_triangle, {}, corners[s]);
     const auto region = static_cast<std::size_t>(request.surface2region[s]);
-    if (region >= region2surfaces.size()) region2surfaces.resize(region + 1);
-    region2surfaces[region].push_back(tag);
+    auto& of_region = s < n_closed ? region2surfaces : region2sheets;
+    if (region >= of_region.size()) of_region.resize(region + 1);
+    of_region[region].push_back(tag);
   }
-  for (const std::vector<int>& surfaces : region2surfaces) gmsh::model::geo::addVolume({gmsh::model::geo::addSurfaceLoop(surfaces)});
+  std::vector<int> volumes;
+  for (const std::vector<int>& surfaces : region2surfaces) volumes.push_back(gmsh::model::geo::addVolume({gmsh::model::geo::addSurfaceLoop(surfaces)}));
   gmsh::model::geo::synchronize();
+  for (std::size_t region = 0; region < region2sheets.size(); ++region)
+    if (!region2sheets[region].empty()) gmsh::model::mesh::embed(2, region2sheets[region], 3, volumes[region]);
 }
 
 /// The size field alone says how long edges are: HXT would take the minimum with what it extends from the boundary.

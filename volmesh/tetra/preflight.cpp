@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
+#include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
 #include "geom/math/bvh.h"
 #include "geom/math/intersect.h"
 #include "volmesh/tetra/boundary_check.h"
+#include "volmesh/tetra/sheets.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 constexpr std::size_t k_chunk = 512;             ///< triangles per task: about 2 ms
 constexpr std::int64_t k_findings_kept = 1000;   ///< of each kind
 constexpr std::size_t k_places_named = 10;
+constexpr int k_digits = 3;                      ///< of numbers in messages
 /// A triangle flatter than this (height over longest edge) has no normal that could separate it from others.
 constexpr double k_flat = 1e-6;
 /// Rounding error of a distance to a plane over the largest coordinate, generously.
@@ -179,20 +181,14 @@ class Inspector {
   double largest_coordinate_ = 0.0;
 };
 
-std::string number_text(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
-}
-
 std::string text_of(const PreflightFinding& finding) {
   const std::string other = std::to_string(finding.triangles[1]);
   switch (finding.trouble) {
     case Trouble::crossing: return "crosses " + other;
     case Trouble::duplicate: return "is the same as " + other;
-    case Trouble::folded: return "is folded onto " + other + ", angle " + number_text(finding.value * 180.0 / std::numbers::pi) + " deg";
-    case Trouble::sliver: return "is a sliver, height over longest edge " + number_text(finding.value);
-    case Trouble::gap: return "is close to " + other + ", distance over edge " + number_text(finding.value);
+    case Trouble::folded: return "is folded onto " + other + ", angle " + number_text(finding.value * 180.0 / std::numbers::pi, k_digits) + " deg";
+    case Trouble::sliver: return "is a sliver, height over longest edge " + number_text(finding.value, k_digits);
+    case Trouble::gap: return "is close to " + other + ", distance over edge " + number_text(finding.value, k_digits);
   }
   return {};
 }
@@ -206,6 +202,13 @@ std::string_view to_string(Trouble trouble) {
 }
 
 PreflightReport preflight(const TetraBoundary& boundary, const PreflightLimits& limits, const RunContext& context) {
+  if (boundary.has_sheets) {
+    const JoinedBoundary joined = join_sheets(boundary, context);
+    PreflightReport report = preflight({.points = joined.points, .triangles = joined.facets, .hole_points = {}}, limits, context);
+    for (PreflightFinding& finding : report.findings)
+      for (std::uint32_t& t : finding.triangles) t = joined.facet2triangle[t];
+    return report;
+  }
   const Inspector inspector(boundary, limits, context);
   std::vector<Box> boxes(boundary.triangles.size());
   parallel_for(context, boxes.size(), [&](std::size_t t) { boxes[t] = inspector.box_of(static_cast<std::uint32_t>(t)); });

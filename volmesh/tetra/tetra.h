@@ -49,6 +49,10 @@ struct TetraBoundary {
   std::span<const std::string> patch_names = {};           ///< for messages; may be missing
   std::span<const std::uint32_t> triangle_patch = {};      ///< index into patch_names for each triangle; empty without them
   SplitTaker take_splits = {};                             ///< empty: no engine may split the triangles
+  /// Some triangles lie back to back on others: the two sides of sheets without thickness inside the domain (actuator discs). Their points at the same place are two,
+  /// but on a rim that ends free in the domain: there both sides share one, and every triangle has a corner that is not. A rim may also lie on edges of the
+  /// rest of the boundary, which has two points at each place there, too. All triangles together are closed and manifold by their indices.
+  bool has_sheets = false;
 };
 
 /// \post points of the boundary come first, in order, to the bit; every boundary triangle is a face of exactly one tet; every tet positive (exact);
@@ -89,6 +93,7 @@ class FillError : public Error {
 /// Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof, too many new points), the other engine is tried, then TetGen with
 /// leave to split triangles of the boundary where it cannot keep them (`boundary_splits` "ladder", and a boundary with take_splits). With "always" TetGen comes
 /// first and splits them where tetrahedra become better by it, too. A time or memory limit ends the call unless `fall_back_on_limits`. Every step is logged as a warning and kept in the result.
+/// Sheets are one layer of facets for the engines (sheets.h); what comes back is parted. No engine may split triangles then.
 /// With `two_pass` TetGen comes first and runs twice: a coarse mesh without sizes, then the mesh with the smoothed sizes at its nodes and the size field, the smaller ones.
 /// A stop of the context or the time limit kills the helper at once; it never outlives the call.
 /// \throws FillError when the engines have failed; Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface, non_manifold_surface, self_intersection,

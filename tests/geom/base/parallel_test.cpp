@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <condition_variable>
+#include <mutex>
 #include <random>
+#include <set>
+#include <thread>
 
 #include "geom/base/error.h"
 
@@ -16,6 +20,43 @@ TEST(Parallel, EveryIndexOnceForAnyThreadCount) {
     parallel_for(context, hits.size(), [&](std::size_t i) { ++hits[i]; }, 37);
     EXPECT_TRUE(std::all_of(hits.begin(), hits.end(), [](int h) { return h == 1; }));
   }
+}
+
+/// Different threads that took part in a loop whose chunks wait until `wanted` threads are inside it, or 20 s are over.
+std::size_t threads_inside(const RunContext& context, std::size_t wanted) {
+  std::mutex mutex;
+  std::condition_variable arrival;
+  std::set<std::thread::id> seen;
+  parallel_for(context, wanted, [&](std::size_t) {
+    std::unique_lock lock(mutex);
+    seen.insert(std::this_thread::get_id());
+    arrival.notify_all();
+    arrival.wait_for(lock, std::chrono::seconds(20), [&] { return seen.size() >= wanted; });
+  }, 1);
+  return seen.size();
+}
+
+TEST(Parallel, SevenThreadsRunBesideContextsOfFewer) {
+  const RunContext of_the_machine;
+  const RunContext two({.threads = 2});
+  const RunContext seven({.threads = 7});
+  const RunContext one({.threads = 1});
+  const RunContext five({.threads = 5});
+  EXPECT_EQ(threads_inside(seven, 7), 7u);
+  EXPECT_EQ(threads_inside(five, 5), 5u);
+  EXPECT_EQ(threads_inside(two, 2), 2u);
+}
+
+TEST(Parallel, AContextTakesNoMoreThreadsThanItsOwn) {
+  const RunContext seven({.threads = 7});
+  const RunContext two({.threads = 2});
+  std::mutex mutex;
+  std::set<std::thread::id> seen;
+  parallel_for(two, 200, [&](std::size_t) {
+    const std::scoped_lock lock(mutex);
+    seen.insert(std::this_thread::get_id());
+  }, 1);
+  EXPECT_LE(seen.size(), 2u);
 }
 
 TEST(Parallel, ReductionGivesTheSameBitsForAnyThreadCount) {

@@ -48,6 +48,27 @@ TEST(Schema, ValueOutsideItsRangeNamesValueAndLimit) {
   EXPECT_EQ(options.layers, EnvelopeOptions{}.layers);
 }
 
+TEST(Schema, AUnitOfAnotherDimensionIsAnError) {
+  EnvelopeOptions options;
+  const OptionTable table = options_of(options);
+  const auto message = [&](const char* name, const char* text) {
+    try {
+      set_option_from_text(find_option(table, name, "test"), text);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::bad_argument);
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_NE(message("first_height", "12deg").find("envelope.first_height: \"12deg\" is an angle, expected a length (m, mm, cm, inch, in, ft)"), std::string::npos) << message("first_height", "12deg");
+  EXPECT_NE(message("feature_angle", "3mm").find("is a length, expected an angle (deg, rad)"), std::string::npos);
+  EXPECT_NE(message("max_growth", "1.2m").find("expected a number without a unit"), std::string::npos);
+  EXPECT_NE(message("first_height", "12furlongs").find("is not a length"), std::string::npos);
+  EXPECT_EQ(message("feature_angle", "0.5 rad"), "none");
+  EXPECT_EQ(message("first_height", "0.1 inch"), "none");
+  EXPECT_DOUBLE_EQ(options.first_height, 0.00254);
+}
+
 TEST(Schema, RequiredOptionsAreNamedWhenMissing) {
   EnvelopeOptions options;
   EXPECT_THROW(require_options(options_of(options), "volume_mesh"), Error);

@@ -63,6 +63,31 @@ TEST(CheckValid, CollapsedLinesGivePyramidsTetsAndBareWall) {
   expect_valid_in_both_forms(plate_block(1, {.collapsed = {0, 1, 2, 3}}));
 }
 
+TEST(CheckValid, BodiesWithOwnNumbersOfLayers) {
+  const TriMesh wall = sphere(4);
+  const auto& v = wall.triangles[TriangleId(40)];
+  const auto n = static_cast<std::uint32_t>(sphere(4).n_vertices());
+  const std::vector<std::uint32_t> collapsed = {v[0].value(), v[1].value(), v[2].value(), n + v[0].value(), n + v[1].value()};
+  for (const auto& [first, second] : {std::pair(3, 7), std::pair(7, 3), std::pair(1, 9)}) {
+    const HybridMesh mesh = two_shells(4, first, second);
+    EXPECT_EQ(count_cells(mesh).prisms, 320 * (first + second));
+    expect_valid_in_both_forms(mesh);
+    const HybridMesh with_collapsed = two_shells(4, first, second, {.collapsed = collapsed});
+    EXPECT_GT(count_cells(with_collapsed).pyramids, 0);
+    expect_valid_in_both_forms(with_collapsed);
+  }
+}
+
+TEST(CheckValid, NumbersOfLayersThatLinesDisagreeOn) {
+  HybridMesh mesh = two_shells(2, 3, 7);
+  mesh.layers.line_layers[mesh.layers.base[0][0]] = 2;
+  EXPECT_NE(to_text(checked(mesh)).find("its lines have different numbers of layers"), std::string::npos);
+  mesh.layers.line_layers[mesh.layers.base[0][0]] = 8;
+  EXPECT_NE(to_text(checked(mesh)).find("8 layers, expected 1 to 7"), std::string::npos);
+  mesh.layers.line_layers.pop_back();
+  EXPECT_NE(to_text(checked(mesh)).find("numbers of layers for"), std::string::npos);
+}
+
 TEST(CheckValid, HexahedraAndPyramids) {
   for (const HybridMesh& mesh : {hexahedra_block(1), hexahedra_block(4), hexahedron_with_roof()}) {
     const CheckReport report = checked(mesh);
@@ -132,7 +157,7 @@ TEST(CheckReport, TextAndJsonNameTheGates) {
   const std::string text = to_text(report);
   EXPECT_EQ(text.substr(0, 6), "VALID,");
   EXPECT_NE(text.find("G4     dual sub-volumes, closure  pass"), std::string::npos) << text;
-  EXPECT_NE(text.find("G20    symmetry planes            pass"), std::string::npos) << text;
+  EXPECT_NE(text.find("G20    symmetry, periodic sides   pass"), std::string::npos) << text;
   const auto json = nlohmann::json::parse(to_json(report));
   EXPECT_EQ(json["schema"], "sterna-check-2");
   EXPECT_EQ(json["verdict"], "VALID");
@@ -149,7 +174,7 @@ TEST(CheckReport, TextAndJsonNameTheGates) {
 }
 
 TEST(CheckReport, EveryViolationHasANameAndAGate) {
-  for (int k = 0; k <= static_cast<int>(Violation::off_symmetry_plane); ++k) {
+  for (int k = 0; k <= static_cast<int>(Violation::periodic_mismatch); ++k) {
     EXPECT_FALSE(to_string(static_cast<Violation>(k)).empty());
     EXPECT_FALSE(gate_of(static_cast<Violation>(k)).empty());
   }

@@ -67,6 +67,13 @@ TEST(DualMetrics, AgreeAroundCollapsedLines) {
   }
 }
 
+TEST(DualMetrics, AgreeAboutBodiesWithOwnNumbersOfLayers) {
+  for (const HybridMesh& mesh : {two_shells(3, 2, 7), two_shells(3, 9, 1), two_shells(4, 6, 3, {.collapsed = {5, 6, 200}})}) {
+    expect_as_naive(mesh);
+    expect_as_naive(explicit_cells(mesh));
+  }
+}
+
 HybridMesh one_cell(const std::vector<Point>& points, const std::vector<std::array<std::size_t, 3>>& triangles, const std::vector<std::array<std::size_t, 4>>& quads) {
   HybridMesh mesh;
   mesh.points = Column<NodeId, Point>(points);

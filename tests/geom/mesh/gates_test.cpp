@@ -135,6 +135,25 @@ TEST(Gates, GrowthBeyondTheRequestWarnsAndWithoutRequestIsMeasuredAgainstTheDefa
   EXPECT_EQ(report.gate(Measure::stack_growth).places.front().what, "line 5, patch plate");
 }
 
+TEST(Gates, EachLineIsMeasuredAgainstWhatWasAskedOfIt) {
+  // Heights of 4 layers growing by 1.25: sum 5.765625 times the first; of 2 layers 2.25 times.
+  constexpr double k_first = 0.1 / 5.765625, k_second = 0.1 / 2.25;
+  HybridMesh mesh = two_shells(8, 4, 2, {.layer_height = 0.1, .ratio = 1.25});
+  ask_for(mesh, k_first, 0.1, 1.25);
+  EXPECT_GT(checked(mesh).gate(Measure::first_height).worst, 1.0);  // of the second body
+  for (std::size_t k = 0; k < mesh.layers.n_lines(); ++k) mesh.request.line_first_height.push_back(mesh.layers.layers_of_line(k) == 4 ? k_first : k_second);
+  EXPECT_LT(checked(mesh).gate(Measure::first_height).worst, 1e-4);  // rays lean a little from the normals of a sphere of facets
+  EXPECT_EQ(checked(mesh).gate(Measure::layer_step).worst, 0.0);
+  EXPECT_EQ(checked(mesh).gate(Measure::stack_growth).state, GateState::pass);
+  // The second body was asked for 1.2: its 1.25 is as 1.25 * 1.25 / 1.2 against the largest.
+  for (std::size_t k = 0; k < mesh.layers.n_lines(); ++k) mesh.request.line_max_growth.push_back(mesh.layers.layers_of_line(k) == 4 ? 1.25 : 1.2);
+  const CheckReport report = checked(mesh);
+  EXPECT_NEAR(report.gate(Measure::stack_growth).worst, 1.25 * 1.25 / 1.2, 1e-9);
+  EXPECT_EQ(report.gate(Measure::stack_growth).state, GateState::warn);
+  mesh.request.line_first_height.pop_back();
+  EXPECT_EQ(checked(mesh).gate(Measure::first_height).state, GateState::not_checked);
+}
+
 TEST(Gates, FirstHeightIsMeasuredAlongTheNormalWhereTheLayerIsNotCompressed) {
   HybridMesh mesh = regular_plate(3, {.n_layers = 3, .layer_height = 0.3, .ratio = 1.0});
   ask_for(mesh, 0.08, 0.3, 1.2);

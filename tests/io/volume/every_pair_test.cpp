@@ -7,11 +7,14 @@
 #include <map>
 #include <sstream>
 
+#include "geom/mesh/check.h"
 #include "io/format_table.h"
+#include "io/patch_names.h"
 #include "io/volume_file.h"
 #include "tests/io/volume/round_trip.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
+#include "tests/support/half_shapes.h"
 
 namespace sterna::io {
 namespace {
@@ -142,6 +145,48 @@ TEST(EveryVolumeFormat, KeepsCellsFacesAndNames) {
     expect_names(back, mesh, expect_same_content(back, content, precision_of(variant)), told);
     EXPECT_EQ(back.patches.size(), 6u);
     for (const PatchId patch : back.patches.ids()) EXPECT_EQ(std::count_if(mesh.patches.begin(), mesh.patches.end(), [&](const Patch& p) { return p.name == back.patches[patch].name; }), 1) << "plain names need no mapping: " << back.patches[patch].name;
+  }
+}
+
+/// What a patch is after a format that has conditions of its own, or names alone.
+PatchKind kind_after(const Format& format, const Patch& patch) {
+  const bool has_names_only = format.name.starts_with("SU2") || format.name.starts_with("Gmsh") || format.name.starts_with("MSH");
+  if (has_names_only) return kind_of_name(patch.name);
+  if (patch.kind != PatchKind::interface) return patch.kind;
+  // A disc: three have no condition for it and write a slip wall, with a warning; CGNS says UserDefined, which may be anything.
+  if (format.name == "TAU" || format.name == "Edge" || format.name.starts_with("UGRID")) return PatchKind::slip;
+  return format.name == "CGNS" ? kind_of_name(patch.name) : patch.kind;
+}
+
+/// Layers that end on patches of all kinds, with quads beside triangles, and triangles beside collapsed lines.
+TEST(EveryVolumeFormat, KeepsQuadsOfEveryKindOfPatch) {
+  const HybridMesh mesh = test::half_shell_of_all_kinds(5, {.has_collapsed_rim = true});
+  const Content content(mesh);
+  for (const Variant& variant : variants()) {
+    SCOPED_TRACE(variant.name());
+    std::vector<std::string> told;
+    const HybridMesh back = through(mesh, variant, test::scratch(), &told);
+    const std::vector<PatchId> patch_of = expect_same_content(back, content, 2.0 * precision_of(variant));  // coordinates are up to 3
+    expect_names(back, mesh, patch_of, told);
+    EXPECT_EQ(back.boundary_quads.size(), mesh.boundary_quads.size());
+    for (const PatchId patch : back.patches.ids()) {
+      const Patch& original = mesh.patches[patch_of[patch.index()]];
+      const PatchKind expected = kind_after(*variant.format, original);
+      EXPECT_EQ(to_string(back.patches[patch].kind), to_string(expected)) << original.name;
+    }
+  }
+}
+
+TEST(EveryVolumeFormat, KeepsBodiesWithOwnNumbersOfLayers) {
+  for (const HybridMesh& mesh : {test::two_shells(2, 2, 5), test::two_shells(2, 4, 1, {.collapsed = {0, 1, 44}})}) {
+    const Content content(mesh);
+    for (const Variant& variant : variants()) {
+      SCOPED_TRACE(variant.name());
+      std::vector<std::string> told;
+      const HybridMesh back = through(mesh, variant, test::scratch(), &told);
+      expect_names(back, mesh, expect_same_content(back, content, 16.0 * precision_of(variant)), told);  // the second body is at 10 to 14
+      if (precision_of(variant) == 0.0) { EXPECT_TRUE(check(back, {}, RunContext({.threads = 2})).is_valid()); }
+    }
   }
 }
 

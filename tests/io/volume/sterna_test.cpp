@@ -55,10 +55,13 @@ struct Everything {
 void expect_same(const HybridMesh& back, const HybridMesh& mesh) {
   EXPECT_EQ(back.points, mesh.points);
   EXPECT_EQ(back.layers.n_layers, mesh.layers.n_layers);
+  EXPECT_EQ(back.layers.line_layers, mesh.layers.line_layers);
   EXPECT_EQ(back.layers.base, mesh.layers.base);
   EXPECT_EQ(back.layers.first_node, mesh.layers.first_node);
   EXPECT_EQ(back.layers.is_collapsed, mesh.layers.is_collapsed);
   EXPECT_EQ(back.request.first_height, mesh.request.first_height);
+  EXPECT_EQ(back.request.line_first_height, mesh.request.line_first_height);
+  EXPECT_EQ(back.request.line_max_growth, mesh.request.line_max_growth);
   EXPECT_EQ(back.request.target_height, mesh.request.target_height);
   EXPECT_EQ(back.request.reason, mesh.request.reason);
   EXPECT_EQ(back.request.reasons, mesh.request.reasons);
@@ -114,6 +117,29 @@ TEST(Sterna, VerbsOfTheFormatTable) {
   test::expect_error(ErrorCode::file_malformed, "found nothing, expected a surface or a mesh", [&] { read_surface_file(folder / "empty.sterna", k_context); });
 }
 
+TEST(Sterna, OnlyLinesOfOwnNumbersOfLayersNeedTheSecondVersion) {
+  const auto path = test::scratch() / "mesh.sterna";
+  const auto version = [&] { return static_cast<int>(test::bytes_of(path)[16]); };
+  write_sterna(Everything().parts(), path, k_context);
+  EXPECT_EQ(version(), 1);
+  HybridMesh mesh = test::two_shells(2, 3, 7, {.collapsed = {3, 50}});
+  const std::size_t n = mesh.layers.n_lines();
+  mesh.request = {.first_height = 1e-6, .max_growth = 1.3, .target_height = std::vector<double>(n, 0.01), .reason = std::vector<std::uint8_t>(n, 0), .reasons = {"none"}};
+  for (std::size_t i = 0; i < n; ++i) {
+    mesh.request.line_first_height.push_back(1e-6 * static_cast<double>(i + 1));
+    mesh.request.line_max_growth.push_back(1.3 - 1e-4 * static_cast<double>(i));
+  }
+  write_sterna({.mesh = &mesh}, path, k_context);
+  EXPECT_EQ(version(), 2);
+  expect_same(*read_sterna(path, k_context).mesh, mesh);
+  mesh.layers.line_layers[5] = 6;
+  write_sterna({.mesh = &mesh}, path, k_context);
+  test::expect_error(ErrorCode::file_malformed, "have different numbers of layers", [&] { read_sterna(path, k_context); });
+  mesh.layers.line_layers[5] = 8;
+  write_sterna({.mesh = &mesh}, path, k_context);
+  test::expect_error(ErrorCode::file_malformed, "expected 1 to 7", [&] { read_sterna(path, k_context); });
+}
+
 TEST(Sterna, DamageIsFound) {
   const auto path = test::scratch() / "run.sterna";
   write_sterna(Everything().parts(), path, k_context);
@@ -131,9 +157,9 @@ TEST(Sterna, DamageIsFound) {
     damaged(text);
   }
   std::string later = bytes;
-  later[16] = 2;
+  later[16] = 3;
   std::ofstream(path, std::ios::binary) << later;
-  test::expect_error(ErrorCode::unsupported_format, "version 2 of the container", [&] { read_sterna(path, k_context); });
+  test::expect_error(ErrorCode::unsupported_format, "version 3 of the container", [&] { read_sterna(path, k_context); });
 }
 
 template <class T>

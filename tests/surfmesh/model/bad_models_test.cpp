@@ -18,9 +18,12 @@
 #include "io/cad_file.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "tests/support/data.h"
+#include "tests/support/model_meshes.h"
 
 namespace sterna::surfmesh {
 namespace {
+
+using test::expect_joined;
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -48,23 +51,6 @@ ErrorInfo failure_of(const Model& model, const SurfaceMeshOptions& options) {
   }
   ADD_FAILURE() << "no error";
   return {};
-}
-
-/// No edge with more than two triangles or two of the same sense; edges with one only where the model is open.
-void expect_joined(const Model& model, const SurfaceMesh& surface) {
-  std::map<std::pair<VertexId, VertexId>, int> edges;
-  for (const TriangleVertices& v : surface.mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_NE(v[k], v[(k + 1) % 3]);
-      ++edges[{v[k], v[(k + 1) % 3]}];
-    }
-  std::int64_t n_free = 0;
-  for (const auto& [edge, n] : edges) {
-    EXPECT_EQ(n, 1);
-    if (!edges.contains({edge.second, edge.first})) ++n_free;
-  }
-  EXPECT_EQ(n_free, surface.report.n_free_edges);
-  EXPECT_EQ(n_free == 0, free_edges(model).empty());
 }
 
 TEST(BadModels, SolidsThatStandInEachOtherAreToBeUnited) {

@@ -3,25 +3,25 @@
 
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <numbers>
 #include <optional>
 
 #include "geom/base/error.h"
 #include "geom/math/intersect.h"
 #include "geom/math/measures.h"
-#include "geom/model/analytic_surfaces.h"
 #include "geom/model/components.h"
-#include "geom/model/curves.h"
-#include "geom/model/model_builder.h"
 #include "geom/model/shapes.h"
 #include "io/cad_file.h"
 #include "surfmesh/model/model_sizes.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "tests/support/data.h"
+#include "tests/support/model_meshes.h"
 
 namespace sterna::surfmesh {
 namespace {
+
+using test::expect_sound;
+using test::make_ball;
 
 constexpr double pi = std::numbers::pi;
 constexpr double k_deg = pi / 180.0;
@@ -45,37 +45,6 @@ double volume_of(const TriMesh& mesh) {
   return volume;
 }
 
-/// What every mesh has to be; closed where the model is.
-void expect_sound(const Model& model, const SurfaceMesh& surface) {
-  const TriMesh& mesh = surface.mesh;
-  std::map<std::pair<VertexId, VertexId>, int> edges;
-  for (const TriangleVertices& v : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) ++edges[{v[k], v[(k + 1) % 3]}];
-  std::int64_t n_free = 0;
-  for (const auto& [edge, n] : edges) {
-    EXPECT_EQ(n, 1);
-    if (!edges.contains({edge.second, edge.first})) ++n_free;
-  }
-  EXPECT_EQ(n_free, surface.report.n_free_edges);
-  EXPECT_EQ(n_free == 0, free_edges(model).empty());
-  EXPECT_EQ(surface.report.n_crossings, 0);
-  ASSERT_EQ(surface.places.size(), mesh.n_vertices());
-  ASSERT_EQ(surface.edge_places.size(), mesh.n_vertices());
-  ASSERT_EQ(surface.triangle_face.size(), mesh.n_triangles());
-  const double length = bounding_box(mesh).longest_side();
-  for (const VertexId v : mesh.points.ids()) {
-    const VertexPlace& place = surface.places[v];
-    const EdgePlace& on = surface.edge_places[v];
-    ASSERT_TRUE(place.face.is_valid());
-    const double off = distance(model.faces[place.face].surface->point(place.at), mesh.points[v]);
-    EXPECT_LE(off, on.edge.is_valid() ? surface.report.max_edge_distance + 1e-12 * length : std::max(1e-9 * length, surface.report.max_edge_distance));
-    if (on.edge.is_valid()) {
-      EXPECT_EQ(model.edges[on.edge].curve->point(on.t), mesh.points[v]);
-    }
-  }
-  for (const TriangleId t : mesh.triangles.ids()) EXPECT_EQ(mesh.patches[mesh.triangle_patch[t]].name, model.faces[surface.triangle_face[t]].name);
-}
-
 Model tube(double radius, double length, const EndCap& cap) {
   Body body{.name = "Tube"};
   for (const double x : {0.0, 0.3, 0.7, 1.0}) body.frames.push_back({.name = "x", .center = {x * length, 0.0, 0.0}, .height = 2 * radius, .width = 2 * radius});
@@ -94,17 +63,6 @@ Model lens_wing(bool is_cubic, std::optional<double> trailing_edge = std::nullop
   return make_wing(wing);
 }
 
-/// A whole sphere: one face, a seam and two poles.
-Model sphere(double radius) {
-  ModelBuilder builder({.name = "ball", .kind = ComponentKind::body});
-  const auto surface = std::make_shared<SphereSurface>(Frame{}, radius);
-  const ParameterBox box = surface->domain();
-  const CornerId south = builder.corner(surface->point({box.u.from, box.v.from})), north = builder.corner(surface->point({box.u.from, box.v.to}));
-  const EdgeId seam = builder.edge(std::make_shared<EllipseCurve>(Point{}, Vec3{radius, 0, 0}, Vec3{0, 0, radius}, box.v), box.v, south, north);
-  builder.patch(surface, box, {builder.pole(south), seam, builder.pole(north), seam}, FaceRole::skin, "ball");
-  return builder.closed_solid("ball");
-}
-
 TEST(MeshModel, ABoxIsExact) {
   const Model model = make_box("box", {0, 0, 0}, {1, 2, 3});
   const SurfaceMesh mesh = mesh_model(model, edges_of(0.25), {}, k_context);
@@ -121,7 +79,7 @@ TEST(MeshModel, AreaAndVolumeConvergeWithOrderTwo) {
     Model model;
     double size, area, volume;  ///< area 0: not known
   };
-  for (const Case& c : {Case{"sphere", sphere(1.0), 0.25, 4 * pi, 4 * pi / 3}, Case{"cylinder", make_cylinder("c", {0, 0, 0}, {3, 0, 0}, 1.0), 0.25, 8 * pi, 3 * pi}, Case{"bicubic wing", lens_wing(true), 0.4, 0.0, 0.0}}) {
+  for (const Case& c : {Case{"sphere", make_ball(1.0), 0.25, 4 * pi, 4 * pi / 3}, Case{"cylinder", make_cylinder("c", {0, 0, 0}, {3, 0, 0}, 1.0), 0.25, 8 * pi, 3 * pi}, Case{"bicubic wing", lens_wing(true), 0.4, 0.0, 0.0}}) {
     SCOPED_TRACE(c.name);
     std::vector<double> areas, volumes;
     for (const double factor : {1.0, 2.0, 4.0}) {
@@ -238,6 +196,23 @@ TEST(MeshModel, CadFilesCloseAndKeepTheirVolume) {
     EXPECT_GT(volume_of(mesh.mesh), 0.0);
     EXPECT_GT(mesh.report.share_20_130, 0.98) << to_text(mesh.report);
   }
+}
+
+TEST(MeshModel, AChordErrorThatNeedsAbsurdlyManyTrianglesIsRefusedAtOnce) {
+  SurfaceMeshOptions options;
+  options.chord_error = 1e-9;
+  try {
+    mesh_model(make_ball(3.0), options, {}, k_context);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::overflow);
+    // 36 pi m^2 by 3^(1/2) / 4 x 8 R e
+    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("chord_error = 1e-09 m asks for about 1.1e+10 triangles"), testing::HasSubstr("min_edge")));
+  }
+  // Where a min_edge is given, that is what is wanted.
+  options.max_edge = 1.0;
+  options.min_edge = 0.5;
+  EXPECT_GT(mesh_model(make_ball(3.0), options, {}, k_context).mesh.n_triangles(), 100u);
 }
 
 TEST(SizeField, IsTheLeastOfItsSources) {

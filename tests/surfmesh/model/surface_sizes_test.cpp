@@ -12,6 +12,7 @@
 #include "geom/model/model_builder.h"
 #include "geom/model/shapes.h"
 #include "surfmesh/model/surface_mesh.h"
+#include "tests/support/model_meshes.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -102,16 +103,6 @@ Model tube(double radius, double length) {
   return builder.model();
 }
 
-Model ball(double radius) {
-  ModelBuilder builder({.name = "ball", .kind = ComponentKind::body});
-  const auto surface = std::make_shared<SphereSurface>(Frame{}, radius);
-  const ParameterBox box = surface->domain();
-  const CornerId south = builder.corner(surface->point({box.u.from, box.v.from})), north = builder.corner(surface->point({box.u.from, box.v.to}));
-  const EdgeId seam = builder.edge(std::make_shared<EllipseCurve>(Point{}, Vec3{radius, 0, 0}, Vec3{0, 0, radius}, box.v), box.v, south, north);
-  builder.patch(surface, box, {builder.pole(south), seam, builder.pole(north), seam}, FaceRole::skin, "ball");
-  return builder.closed_solid("ball");
-}
-
 constexpr FaceId k_first_face(0);
 
 TEST(SurfaceSizes, GrowFromAFineEdgeOverAPlane) {
@@ -168,7 +159,7 @@ TEST(SurfaceSizes, DistancesOnACylinderRunAroundIt) {
 }
 
 TEST(SurfaceSizes, DistancesOnASphereRunAroundIt) {
-  const Model model = ball(1.0);
+  const Model model = test::make_ball(1.0);
   Field field(model, 2.0, 1.5);
   const EdgeId seam = model.faces[k_first_face].borders[0][1].edge;
   field.ask(seam, field.edges[seam].samples.size() - 1, 0.01);  // the north pole
@@ -213,7 +204,7 @@ TEST(SurfaceSizes, SizesRunAroundTheEdgeOfABoxAndNotThroughIt) {
 }
 
 TEST(SurfaceSizes, ChangeNoFasterThanTheGrowthSays) {
-  const Model model = ball(1.0);
+  const Model model = test::make_ball(1.0);
   Field field(model, 0.3, 0.2);
   field.ask(model.faces[k_first_face].borders[0][1].edge, 3, 0.004);
   const SurfaceSizes made = field.made({{{0.0, 0.8, 0.6}, 0.01}});

@@ -46,6 +46,40 @@ TEST(VolumeMesh, CubeAndSphere) {
   expect_valid(test::sphere(6), thin_layers(test::sphere(6), 30));
 }
 
+TriMesh two_spheres() {
+  const TriMesh first = test::sphere(4);
+  TriMesh both = first;
+  for (const Point& p : first.points) both.points.push_back(0.5 * p + Vec3{4, 0, 0});
+  const auto shifted = [&](VertexId v) { return VertexId(v.index() + first.n_vertices()); };
+  for (const TriangleVertices& v : first.triangles) both.triangles.push_back({shifted(v[0]), shifted(v[1]), shifted(v[2])});
+  both.patches.push_back({"store", PatchKind::wall});
+  both.triangle_patch.raw().resize(both.n_triangles(), PatchId(both.patches.size() - 1));
+  return both;
+}
+
+TEST(VolumeMesh, BodiesApartHaveTheirOwnLayers) {
+  const TriMesh wall = two_spheres();
+  VolumeMeshOptions options = thin_layers(wall, 12);
+  options.patches = {{.names = "store", .layers = 5, .first_height = 1e-3}};
+  const VolumeMeshResult result = volume_mesh(wall, options, RunContext({.threads = 2}));
+  EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
+  const std::int64_t n_each = static_cast<std::int64_t>(wall.n_triangles()) / 2;
+  EXPECT_EQ(result.check.cells.prisms + result.check.cells.pyramids, n_each * (12 + 5));
+  EXPECT_EQ(result.mesh.layers.n_layers, 12);
+  EXPECT_EQ(result.mesh.layers.layers_of_line(0), 12);
+  EXPECT_EQ(result.mesh.layers.layers_of_line(wall.n_vertices() - 1), 5);
+  EXPECT_EQ(result.mesh.request.first_height_of(wall.n_vertices() - 1), 1e-3);
+  EXPECT_LT(result.check.gate(Measure::first_height).worst, 0.02);
+  EXPECT_EQ(result.layer.first_node.vertex_share, 1.0);
+  // Without a first height for all walls each patch needs its own.
+  options.envelope.first_height = k_automatic;
+  EXPECT_THROW(volume_mesh(wall, options, RunContext({.threads = 2})), Error);
+  // Other threads, the same nodes.
+  options = thin_layers(wall, 12);
+  options.patches = {{.names = "store", .layers = 5, .first_height = 1e-3}};
+  EXPECT_EQ(volume_mesh(wall, options, RunContext({.threads = 7})).mesh.points, result.mesh.points);
+}
+
 TEST(VolumeMesh, RazorSharpTrailingEdges) {
   for (const double angle : {0.5, 0.1, 0.01, 1e-3}) {
     SCOPED_TRACE(angle);
@@ -111,7 +145,7 @@ TEST(VolumeMesh, OpenWallsAreRefusedWithTheirEdges) {
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::open_surface);
-    EXPECT_NE(std::string(error.what()).find("3 edges have one triangle"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("1 rims with 3 edges"), std::string::npos) << error.what();
   }
 }
 

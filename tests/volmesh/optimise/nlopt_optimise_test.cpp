@@ -65,7 +65,7 @@ struct Case {
   explicit Case(TriMesh m) : mesh(std::make_unique<const TriMesh>(std::move(m))), base(*mesh, k_context) {}
   void finish() {
     h_u = upper_heights(base, start);
-    h_l = std::max(options.first_height, scale_of(options).h_min);
+    h_l = scale_of(base, options).least_height();
   }
 };
 

@@ -65,7 +65,7 @@ TEST(LayerLine, NodesAreTheLawsDistancesAlongTheNormalWhateverTheSlantAndTheCurv
     std::vector<double> t(n + 1);
     layer_parameters(h0, h_n, n, t.data());
     for (const double c_t : {0.0, 0.05, 0.2, 1.0}) {
-      LinePlacer placer(base, scale_of(layers_of(h0, n)));
+      LinePlacer placer(base, scale_of(base, layers_of(h0, n)));
       std::vector<Point> p(n + 1);
       placer.place(envelope, v, c_t, p.data());
       EXPECT_EQ(p[0], cube.points[v]);
@@ -87,7 +87,7 @@ TEST(LayerLine, ALineWithoutRoomForItsCellsIsEquallySpaced) {
   Envelope envelope = even_envelope(base, 0.012);
   envelope.direction[v] = leant({0, 0, 1}, 0.9);  // h > n h0, but not along the normal
   EXPECT_LT(normal_height(base, envelope, v), 0.01);
-  LinePlacer placer(base, scale_of(layers_of(1e-3, 10)));
+  LinePlacer placer(base, scale_of(base, layers_of(1e-3, 10)));
   std::vector<Point> p(11);
   placer.place(envelope, v, 0.1, p.data());
   for (std::size_t j = 0; j <= 10; ++j) EXPECT_NEAR(p[j].z - 1.0, 0.1 * static_cast<double>(j) * normal_height(base, envelope, v), 1e-14);
@@ -119,7 +119,7 @@ TEST(LayerLine, LinesOnAPlaneKeepItsCoordinateToTheBit) {
   const LayerBase base(cube, k_context, std::move(constraints));
   Envelope envelope = even_envelope(base, 0.1);
   envelope.direction[v] = constrained(base.constraint[v], Vec3{0.31, 0.17, 0.93});
-  LinePlacer placer(base, scale_of(layers_of(1e-3, 12)));
+  LinePlacer placer(base, scale_of(base, layers_of(1e-3, 12)));
   std::vector<Point> p(13);
   placer.place(envelope, v, 0.1, p.data());
   for (const Point& node : p) EXPECT_EQ(node.y, 0.5);
@@ -219,7 +219,7 @@ TEST(Extrude, ASecondCallFollowsTheEnvelopeAsIfItWereTheFirst) {
   const PrismOptions options{.wall_perpendicularity = 0.02};
   Extruder extruder(c.base, c.options, options, k_context);
   extruder.extrude(c.envelope);
-  const EnvelopeScale scale = scale_of(c.options);
+  const EnvelopeScale scale = scale_of(c.base, c.options);
   for (std::uint32_t i = 0; i < 40; ++i) lower(c.envelope, VertexId(i * 3), 0.1 - 0.001 * i, HeightLimit::gap, scale);
   lower(c.envelope, VertexId(50), 0.0, HeightLimit::gap, scale);
   lower(c.envelope, VertexId(51), 0.0, HeightLimit::gap, scale);

@@ -1,0 +1,182 @@
+// Steps: solids of the bodies, united where they touch; how each meets the container; those that reach its faces are cut off it in one boolean, which is judged; the
+// others are put beside the result; everything is turned so that normals point into the fluid.
+#include "geom/cad/fluid.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "geom/base/number_text.h"
+#include "geom/base/parallel.h"
+#include "geom/cad/aircraft_union.h"
+#include "geom/cad/find_contacts.h"
+#include "geom/cad/try_boolean.h"
+#include "geom/model/model_builder.h"
+#include "geom/model/model_measures.h"
+
+namespace sterna::cad {
+namespace {
+
+constexpr const char* k_attempted = "taking the bodies out of their container";
+/// Volumes agree to this share of the container's: as for unions.
+constexpr double k_volume_share = 1e-4;
+/// Area of a part that may be left more or less than samples tell, of the part's area: as for unions.
+constexpr double k_area_share = 0.05;
+/// A body with less of its area inside only touches the container from outside, as far as samples tell.
+constexpr double k_least_inside = 1e-3;
+/// Places that an error lists.
+constexpr std::size_t k_listed = 5;
+
+[[noreturn]] void fail(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places, const std::string& hint) {
+  ErrorInfo info{.code = code, .attempted = k_attempted, .problem = problem, .places = std::move(places), .hint = hint};
+  info.n_places = static_cast<std::int64_t>(info.places.size());
+  info.places.resize(std::min(k_listed, info.places.size()));
+  throw Error(std::move(info));
+}
+
+/// The container with its material outside: a solid of the fluid's shape.
+Model solid_container(const Model& container, const RunContext& context) {
+  if (container.solids.size() != 1)
+    fail(ErrorCode::bad_argument, "the container \"" + part_name(container) + "\" has " + std::to_string(container.solids.size()) + " solids", {}, "a container is one closed solid");
+  Model solid = container;
+  if (boolean_part(solid, k_attempted, context).volume < 0.0) turn_inside_out(solid);
+  return solid;
+}
+
+/// How the bodies meet the container: part 0 is the container, part i body i - 1.
+struct Meeting {
+  std::vector<std::size_t> cut, inside;  ///< parts
+  ContactReport contacts;
+};
+
+Meeting look_at(const std::vector<Model>& parts, FluidReport& report, const RunContext& context) {
+  const StageTimer timer(context, "fluid/contacts");
+  Meeting meeting{.cut = {}, .inside = {}, .contacts = find_contacts(parts, context)};
+  std::vector<ErrorPlace> outside;
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const PartContact* contact = nullptr;
+    for (const PartContact& c : meeting.contacts.contacts)
+      if (std::minmax(c.first, c.second) == std::minmax(std::size_t{0}, i)) contact = &c;
+    const std::string name = "\"" + part_name(parts[i]) + "\"";
+    if (contact && contact->kind == ContactKind::inside && contact->first == 0)
+      fail(ErrorCode::bad_argument, name + " fills the container \"" + part_name(parts[0]) + "\"", {{contact->place, "the container lies inside " + name}}, "nothing is left for the fluid: scale or move one of them");
+    const double share_inside = 1.0 - meeting.contacts.exposures[i].outside;
+    const bool is_outside = !contact || contact->kind == ContactKind::apart || share_inside < k_least_inside;
+    if (is_outside) outside.push_back({contact ? contact->place : parts[i].corners.raw().front().point, name + " lies outside"});
+    else if (contact->kind == ContactKind::inside) meeting.inside.push_back(i);
+    else meeting.cut.push_back(i);
+    if (!contact || contact->kind != ContactKind::crossing || contact->angle >= k_tangent_angle) continue;
+    report.doubts.push_back({contact->place, name + " and \"" + part_name(parts[0]) + "\" are nearly tangent where they cross"});
+    context.warn("fluid: " + report.doubts.back().what + ", at " + format_point(contact->place));
+  }
+  if (!outside.empty())
+    fail(ErrorCode::bad_argument, std::to_string(outside.size()) + (outside.size() == 1 ? " body lies" : " bodies lie") + " outside of the container \"" + part_name(parts[0]) + "\"", std::move(outside), "move the body into it, or the container around it");
+  return meeting;
+}
+
+/// Sets what is wrong with a cut, and its volume.
+void judge_cut(const std::vector<BooleanPart>& parts, BooleanTry& result, const RunContext& context) {
+  if (result.model.faces.empty()) return;  // a body fills the container
+  UniteTry& outcome = result.outcome;
+  outcome.places = faults_of(*result.model.shape);
+  if (!outcome.places.empty()) {
+    outcome.problem = "the result is not valid: " + outcome.places.front().what;
+    return;
+  }
+  if (!is_closed_model(result.model)) {
+    outcome.places = open_places(result.model);
+    outcome.problem = "the result is not closed";
+    return;
+  }
+  std::vector<FaceMeasures> measures(result.model.faces.size());
+  parallel_for(context, measures.size(), [&](std::size_t f) { measures[f] = face_measures(result.model, FaceId(static_cast<std::uint64_t>(f))); }, 1);
+  std::vector<double> areas(parts.size(), 0.0);
+  for (std::size_t f = 0; f < measures.size(); ++f) {
+    areas[result.origin_of_face[f].part] += measures[f].area;
+    result.volume += measures[f].volume;
+  }
+  double bodies = 0.0;
+  for (std::size_t p = 1; p < parts.size(); ++p) bodies += parts[p].volume;
+  const double all = parts.front().volume, slack = k_volume_share * all;
+  if (result.volume < all - bodies - slack || result.volume > all + slack) {
+    outcome.problem = "the fluid's volume, " + number_text(result.volume) + " m^3, is not between " + number_text(all - bodies) + " (container less bodies) and " + number_text(all);
+    return;
+  }
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const PartExposure& e = parts[p].exposure;
+    const double least = p == 0 ? e.outside : 1.0 - e.outside - e.unsure, most = p == 0 ? e.outside + e.unsure : 1.0 - e.outside;
+    if (areas[p] >= (least - k_area_share) * parts[p].area && areas[p] <= (most + k_area_share) * parts[p].area) continue;
+    outcome.problem = number_text(areas[p]) + " m^2 of \"" + parts[p].name() + "\" meet the fluid, but should " + number_text(least * parts[p].area) + " to " + number_text(most * parts[p].area);
+    return;
+  }
+}
+
+/// A corner of each solid's faces that came from bodies, or of any.
+std::vector<ErrorPlace> pieces_of(const Model& model, const std::vector<SolidMeasures>& measures) {
+  std::vector<ErrorPlace> places;
+  for (const SolidId s : model.solids.ids()) {
+    const ModelFace& face = model.faces[model.solids[s].faces.front()];
+    const ModelEdge& edge = model.edges[face.borders.front().front().edge];
+    places.push_back({model.corners[edge.start].point, "a part of " + number_text(measures[s.index()].volume) + " m^3, at face \"" + face.name + "\""});
+  }
+  return places;
+}
+
+/// \throws Error unless the fluid is in one piece
+void require_one_piece(const BooleanTry& result, const std::vector<BooleanPart>& parts) {
+  std::vector<BooleanPart> bodies(parts.begin() + 1, parts.end());
+  if (result.model.faces.empty())
+    fail(ErrorCode::bad_argument, names_of(bodies) + (bodies.size() == 1 ? " fills" : " fill") + " the container \"" + parts.front().name() + "\"", {}, "nothing is left for the fluid: scale or move one of them");
+  if (result.model.solids.size() == 1) return;
+  std::vector<SolidMeasures> measures;
+  for (const SolidId s : result.model.solids.ids()) measures.push_back(solid_measures(result.model, s));
+  fail(ErrorCode::bad_argument, names_of(bodies) + (bodies.size() == 1 ? " cuts" : " cut") + " the fluid in \"" + parts.front().name() + "\" into " + std::to_string(result.model.solids.size()) + " parts", pieces_of(result.model, measures),
+       "the fluid is to be one connected region: move the body off the walls, or let it end in one of them");
+}
+
+Model cut_off(const std::vector<Model>& models, const Meeting& meeting, const FluidOptions& options, FluidReport& report, const RunContext& context) {
+  std::vector<BooleanPart> parts;
+  const auto add = [&](std::size_t i) {
+    parts.push_back(boolean_part(models[i], k_attempted, context));
+    parts.back().exposure = meeting.contacts.exposures[i];
+  };
+  add(0);
+  for (const std::size_t i : meeting.cut) add(i);
+  const BooleanTask task{.operation = BooleanOperation::cut, .attempted = k_attempted, .stage = "fluid", .tolerance = options.tolerance, .time_limit = options.time_limit};
+  std::optional<BooleanTry> result = climb(task, parts, size_of(parts), [&](BooleanTry& t) { judge_cut(parts, t, context); }, report.tries, context);
+  if (!result) {
+    const UniteTry& last = report.tries.back();
+    std::vector<ErrorPlace> places = last.places;
+    for (const PartContact& c : meeting.contacts.contacts)
+      if (last.places.empty() && c.first == 0 && c.kind != ContactKind::apart) places.push_back({c.place, "\"" + part_name(models[c.second]) + "\" meets the container"});
+    fail(ErrorCode::geometry_failed, names_of(parts) + ": " + last.problem + "; tried up to a tolerance of " + std::to_string(last.tolerance) + " m", std::move(places),
+         "move or turn a body a little, so that it neither ends in a wall nor touches it tangentially");
+  }
+  require_one_piece(*result, parts);
+  return std::move(result->model);
+}
+
+}  // namespace
+
+FluidDomain fluid_domain(const Model& container, std::span<const Model> bodies, const FluidOptions& options, const RunContext& context) {
+  std::vector<Model> parts = {solid_container(container, context)};
+  std::vector<Model> solids;
+  for (const Model& body : bodies)
+    for (Model& solid : split_solids(body)) solids.push_back(std::move(solid));
+  for (Model& body : unite_touching(solids, {.tolerance = options.tolerance, .time_limit = options.time_limit}, context)) parts.push_back(std::move(body));
+  if (parts.size() == 1) fail(ErrorCode::bad_argument, "there are no bodies", {}, "a container alone is meshed as it is");
+  FluidDomain fluid;
+  const Meeting meeting = look_at(parts, fluid.report, context);
+  fluid.report.container_volume = boolean_part(parts.front(), k_attempted, context).volume;
+  for (const std::size_t i : meeting.cut) fluid.report.cut.push_back(part_name(parts[i]));
+  fluid.model = meeting.cut.empty() ? parts.front() : cut_off(parts, meeting, options, fluid.report, context);
+  turn_inside_out(fluid.model);
+  for (const std::size_t i : meeting.inside) {
+    fluid.report.inside.push_back(part_name(parts[i]));
+    append(fluid.model, parts[i]);
+  }
+  for (const SolidId s : fluid.model.solids.ids()) fluid.report.volume -= solid_measures(fluid.model, s).volume;
+  return fluid;
+}
+
+}  // namespace sterna::cad

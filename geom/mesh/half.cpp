@@ -1,0 +1,326 @@
+// Problem: cut a surface with a plane so that every decision is made once per vertex or edge, and neighbours agree.
+// 1. place_vertices: distances to the plane; those within the tolerance are zero, their vertices in the plane;
+// 2. snap_near_vertices: vertices with a cut close by on one of their edges move there, the sharpest such edge first, so that features stay where they are;
+// 3. cut: triangles by the signs of their corners; a crossed edge gets one vertex;
+// 4. require_rim: what is said in the header about the rim.
+#include "geom/mesh/half.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/error.h"
+#include "geom/math/measures.h"
+#include "geom/mesh/topology.h"
+
+namespace sterna {
+namespace {
+
+constexpr double k_tolerance_share = 1e-6;  ///< of the longest side: files keep 6 to 7 digits
+constexpr double k_max_turn_cosine = 0.94;  ///< 20 degrees: by more, a vertex that is moved into the plane would change the shape
+constexpr double k_min_kept_area = 0.2;     ///< of a triangle's area must be left when a vertex of it moves
+constexpr std::size_t k_max_places = 10;
+
+struct CutPlane {
+  std::size_t axis = 1;
+  double at = 0.0;
+  double side = 1.0;  ///< +1: larger coordinates are kept
+  double tolerance = 0.0;
+  std::string text() const {
+    std::string number = std::to_string(at);
+    number.erase(number.find_last_not_of('0') + 1);
+    if (number.ends_with('.')) number.pop_back();
+    return std::string(1, "xyz"[axis]) + " = " + (number == "-0" ? "0" : number) + " m";
+  }
+};
+
+CutPlane plane_of(const TriMesh& surface, const HalfOptions& options) {
+  HalfOptions copy = options;
+  for (const Option& option : options_of(copy)) set_option(option, option.get());  // refuses what is out of range
+  const double length = bounding_box(surface).longest_side();
+  return {.axis = static_cast<std::size_t>(options.axis.front() - 'x'),
+          .at = options.at,
+          .side = options.keep == "+" ? 1.0 : -1.0,
+          .tolerance = is_automatic(options.tolerance) ? k_tolerance_share * length : options.tolerance};
+}
+
+/// The surface while it is being cut: distances of zero are vertices in the plane, exactly.
+struct Cutting {
+  TriMesh mesh;
+  Column<VertexId, double> distance;  ///< metres, positive where it is kept
+};
+
+std::array<double, 3> distances(const Cutting& cutting, TriangleId t) {
+  const TriangleVertices& v = cutting.mesh.triangles[t];
+  return {cutting.distance[v[0]], cutting.distance[v[1]], cutting.distance[v[2]]};
+}
+bool is_in_plane(const std::array<double, 3>& d) { return d[0] == 0.0 && d[1] == 0.0 && d[2] == 0.0; }
+bool is_kept_in_part(const std::array<double, 3>& d) { return d[0] > 0.0 || d[1] > 0.0 || d[2] > 0.0; }
+
+Point crossing(const Point& a, const Point& b, double of_a, double of_b, const CutPlane& plane) {
+  const double t = of_a / (of_a - of_b);
+  Point p = a + t * (b - a);
+  p[plane.axis] = plane.at;
+  return p;
+}
+
+ErrorInfo error_at(const CutPlane& plane, ErrorCode code, std::string problem, std::string hint) {
+  return {.code = code, .attempted = "half at " + plane.text(), .problem = std::move(problem), .hint = std::move(hint)};
+}
+
+void add_place(ErrorInfo& info, const Point& p, std::string what) {
+  if (info.places.size() < k_max_places) info.places.push_back({p, std::move(what)});
+  ++info.n_places;
+}
+
+Cutting place_vertices(const TriMesh& surface, const CutPlane& plane) {
+  Cutting cutting{surface, {}};
+  cutting.distance.resize(surface.n_vertices());
+  for (const VertexId v : surface.points.ids()) {
+    const double d = plane.side * (surface.points[v][plane.axis] - plane.at);
+    cutting.distance[v] = std::abs(d) <= plane.tolerance ? 0.0 : d;
+    if (cutting.distance[v] == 0.0) cutting.mesh.points[v][plane.axis] = plane.at;
+  }
+  ErrorInfo info = error_at(plane, ErrorCode::mesh_invalid, "moving vertices by up to " + std::to_string(plane.tolerance) + " m into the plane turns triangles over", "lower the tolerance of half");
+  for (const TriangleId t : surface.triangles.ids()) {
+    const auto d = distances(cutting, t);
+    if (is_in_plane(d) || !is_kept_in_part(d) || (d[0] != 0.0 && d[1] != 0.0 && d[2] != 0.0)) continue;
+    const auto [a, b, c] = corners(surface, t);
+    const auto [p, q, r] = corners(cutting.mesh, t);
+    if (dot(area_vector(a, b, c), area_vector(p, q, r)) <= 0.0 && norm(area_vector(a, b, c)) > 0.0) add_place(info, a, "triangle " + std::to_string(t.value()));
+  }
+  if (info.n_places > 0) throw Error(std::move(info));
+  return cutting;
+}
+
+/// Cosine between the normals of the triangles at an edge: the smaller, the sharper; -1 on a boundary.
+double fold_cosine(const TriMesh& mesh, const Topology& topology, HalfedgeId h) {
+  const HalfedgeId twin = topology.twin(h);
+  if (!twin.is_valid()) return -1.0;
+  const auto [a, b, c] = corners(mesh, triangle_of(h));
+  const auto [p, q, r] = corners(mesh, triangle_of(twin));
+  return dot(normalized(cross(b - a, c - a)), normalized(cross(q - p, r - p)));
+}
+
+struct Move {
+  VertexId vertex;
+  Point to;
+  double share = 0.0;  ///< distance over the shortest edge
+  double fold = 1.0;   ///< of the edge that it moves along
+};
+
+/// Where a vertex would go, if it has a crossed edge with the cut near enough; one of a rim, which may lie in another plane, only along that.
+/// \return share above `limit` when not
+Move propose(const Cutting& cutting, const Topology& topology, VertexId v, const CutPlane& plane, double limit) {
+  Move best{.vertex = v, .to = {}, .share = 2.0 * limit, .fold = 2.0};
+  const double d = cutting.distance[v];
+  double shortest = 1e300;
+  for (const VertexId u : topology.neighbours(v)) shortest = std::min(shortest, distance(cutting.mesh.points[v], cutting.mesh.points[u]));
+  bool is_on_rim = false;
+  for (const HalfedgeId h : topology.outgoing(v)) is_on_rim |= topology.is_boundary(h) || topology.is_boundary(previous(h));
+  const auto consider = [&](HalfedgeId h, VertexId u) {
+    if (cutting.distance[u] * d >= 0.0 || (is_on_rim && !topology.is_boundary(h))) return;
+    const Point to = crossing(cutting.mesh.points[v], cutting.mesh.points[u], d, cutting.distance[u], plane);
+    const double share = distance(to, cutting.mesh.points[v]) / shortest;
+    const double fold = fold_cosine(cutting.mesh, topology, h);
+    if (share <= limit && (fold < best.fold || (fold == best.fold && share < best.share))) best = {v, to, share, fold};
+  };
+  for (const HalfedgeId h : topology.outgoing(v)) {
+    consider(h, topology.to(h));
+    if (topology.is_boundary(previous(h))) consider(previous(h), topology.from(previous(h)));
+  }
+  return best;
+}
+
+/// No triangle at the vertex turns or shrinks too much, nor comes to lie in the plane.
+bool is_move_harmless(const Cutting& cutting, const Topology& topology, const Move& move) {
+  for (const HalfedgeId h : topology.outgoing(move.vertex)) {
+    const Point& b = cutting.mesh.points[topology.to(h)];
+    const Point& c = cutting.mesh.points[topology.from(previous(h))];
+    if (cutting.distance[topology.to(h)] == 0.0 && cutting.distance[topology.from(previous(h))] == 0.0) return false;
+    const Vec3 before = area_vector(cutting.mesh.points[move.vertex], b, c), after = area_vector(move.to, b, c);
+    if (norm(after) < k_min_kept_area * norm(before) || dot(before, after) < k_max_turn_cosine * norm(before) * norm(after)) return false;
+  }
+  return true;
+}
+
+struct SnapReport {
+  std::size_t n_moved = 0;
+  double farthest = 0.0;  ///< m
+};
+
+/// The nearest first, each by its edges as they are then.
+SnapReport snap_near_vertices(Cutting& cutting, const Topology& topology, const CutPlane& plane, double limit) {
+  SnapReport report;
+  std::vector<Move> moves;
+  for (const VertexId v : cutting.mesh.points.ids()) {
+    if (cutting.distance[v] == 0.0 || topology.outgoing(v).empty()) continue;
+    if (const Move move = propose(cutting, topology, v, plane, limit); move.share <= limit) moves.push_back(move);
+  }
+  std::sort(moves.begin(), moves.end(), [](const Move& a, const Move& b) { return a.share < b.share || (a.share == b.share && a.vertex < b.vertex); });
+  for (const Move& before : moves) {
+    const Move move = propose(cutting, topology, before.vertex, plane, limit);
+    if (move.share > limit || !is_move_harmless(cutting, topology, move)) continue;
+    report.farthest = std::max(report.farthest, distance(move.to, cutting.mesh.points[move.vertex]));
+    ++report.n_moved;
+    cutting.mesh.points[move.vertex] = move.to;
+    cutting.distance[move.vertex] = 0.0;
+  }
+  return report;
+}
+
+/// Crossed edges, lower vertex first, in order: the new vertices.
+using EdgeList = std::vector<std::array<VertexId, 2>>;
+
+EdgeList crossed_edges(const Cutting& cutting) {
+  EdgeList edges;
+  for (const TriangleVertices& t : cutting.mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId a = t[k], b = t[(k + 1) % 3];
+      if (cutting.distance[a] * cutting.distance[b] < 0.0) edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+/// The part of each triangle that is kept: itself, a triangle, or two. Vertices beyond those of the mesh are crossed edges.
+class Cutter {
+ public:
+  Cutter(const Cutting& cutting, const CutPlane& plane) : cutting_(cutting), edges_(crossed_edges(cutting)), points_(cutting.mesh.points) {
+    for (const auto& [a, b] : edges_) points_.push_back(crossing(points_[a], points_[b], cutting.distance[a], cutting.distance[b], plane));
+    for (const TriangleId t : cutting.mesh.triangles.ids()) cut(t);
+  }
+
+  /// Kept vertices and patches alone.
+  TriMesh take() const {
+    TriMesh result;
+    Column<VertexId, VertexId> old2new(points_.size());
+    std::vector<std::uint8_t> is_used(points_.size(), 0), has_triangles(cutting_.mesh.patches.size(), 0);
+    for (const TriangleVertices& t : triangles_)
+      for (const VertexId v : t) is_used[v.index()] = 1;
+    for (const VertexId v : points_.ids())
+      if (is_used[v.index()]) old2new[v] = result.points.push_back(points_[v]);
+    for (const PatchId patch : triangle_patch_) has_triangles[patch.index()] = 1;
+    Column<PatchId, PatchId> old2new_patch(cutting_.mesh.patches.size());
+    for (const PatchId patch : cutting_.mesh.patches.ids())
+      if (has_triangles[patch.index()]) old2new_patch[patch] = result.patches.push_back(cutting_.mesh.patches[patch]);
+    for (TriangleVertices t : triangles_) {
+      for (VertexId& v : t) v = old2new[v];
+      result.triangles.push_back(t);
+    }
+    for (const PatchId patch : triangle_patch_) result.triangle_patch.push_back(old2new_patch[patch]);
+    return result;
+  }
+  std::size_t n_cut() const { return n_cut_; }
+
+ private:
+  VertexId on_edge(VertexId a, VertexId b) const {
+    const auto it = std::lower_bound(edges_.begin(), edges_.end(), std::array<VertexId, 2>{std::min(a, b), std::max(a, b)});
+    return VertexId(cutting_.mesh.n_vertices() + static_cast<std::size_t>(it - edges_.begin()));
+  }
+  void add(TriangleId of, VertexId a, VertexId b, VertexId c) {
+    triangles_.push_back({a, b, c});
+    triangle_patch_.push_back(cutting_.mesh.triangle_patch[of]);
+  }
+  void cut(TriangleId t) {
+    const auto d = distances(cutting_, t);
+    if (!is_kept_in_part(d)) return;
+    const TriangleVertices& v = cutting_.mesh.triangles[t];
+    // The polygon above the plane, in the triangle's sense; three or four corners.
+    std::array<VertexId, 4> corner;
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      if (d[k] >= 0.0) corner[n++] = v[k];
+      if (d[k] * d[next] < 0.0) corner[n++] = on_edge(v[k], v[next]);
+    }
+    n_cut_ += d[0] < 0.0 || d[1] < 0.0 || d[2] < 0.0 ? 1 : 0;
+    if (n == 3) return add(t, corner[0], corner[1], corner[2]);
+    // Four: by the shorter diagonal; of equal ones that of the smaller vertex, wherever the triangle begins.
+    const double first = distance2(corner[0], corner[2]), second = distance2(corner[1], corner[3]);
+    const bool is_first = first < second || (first == second && std::min(corner[0], corner[2]) < std::min(corner[1], corner[3]));
+    add(t, corner[0], corner[1], corner[is_first ? 2 : 3]);
+    add(t, corner[is_first ? 0 : 1], corner[2], corner[3]);
+  }
+  double distance2(VertexId a, VertexId b) const { return norm2(points_[b] - points_[a]); }
+
+  const Cutting& cutting_;
+  EdgeList edges_;
+  Column<VertexId, Point> points_;
+  std::vector<TriangleVertices> triangles_;
+  std::vector<PatchId> triangle_patch_;
+  std::size_t n_cut_ = 0;
+};
+
+void require_reach(const TriMesh& surface, const TriMesh& half, const CutPlane& plane) {
+  if (half.n_triangles() > 0) {
+    for (const Point& p : half.points)
+      if (p[plane.axis] == plane.at) return;
+  }
+  VertexId nearest(0);
+  const auto from_plane = [&](VertexId v) { return std::abs(surface.points[v][plane.axis] - plane.at); };
+  for (const VertexId v : surface.points.ids())
+    if (from_plane(v) < from_plane(nearest)) nearest = v;
+  ErrorInfo info = error_at(plane, ErrorCode::bad_argument,
+                            half.n_triangles() == 0 ? "nothing of the surface is on the side that is kept"
+                                                    : "the surface does not reach the plane: its nearest vertex is " + std::to_string(from_plane(nearest)) + " m away, the tolerance is " + std::to_string(plane.tolerance) + " m",
+                            "give axis, at and keep of the plane that the model ends on");
+  add_place(info, surface.points[nearest], "nearest vertex");
+  throw Error(std::move(info));
+}
+
+/// The edge lies in a plane of constant coordinate, to the bit, where the surface ends, and its triangle does not.
+bool is_in_some_plane(const TriMesh& half, const Box& box, const Topology& topology, HalfedgeId h) {
+  const Point &a = half.points[topology.from(h)], &b = half.points[topology.to(h)], &c = half.points[topology.from(previous(h))];
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a[k] == b[k] && a[k] != c[k] && (a[k] == box.min[k] || a[k] == box.max[k])) return true;
+  return false;
+}
+
+void require_rim(const TriMesh& half, const CutPlane& plane, const RunContext& context) {
+  const Topology topology(half, context);
+  const Box box = bounding_box(half);
+  std::vector<std::uint8_t> n_rim_edges(half.n_vertices(), 0);
+  ErrorInfo open = error_at(plane, ErrorCode::open_surface, "", "the surface has holes beside the plane: close them; a half model's rim has to be within the tolerance of the plane");
+  ErrorInfo touching = error_at(plane, ErrorCode::non_manifold_surface, "", "move the plane a little, or lower tolerance and snap");
+  std::size_t n_pinched = 0;
+  for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
+    const HalfedgeId h(i);
+    if (!topology.is_boundary(h)) continue;
+    const VertexId from = topology.from(h), to = topology.to(h);
+    const bool is_in_this = half.points[from][plane.axis] == plane.at && half.points[to][plane.axis] == plane.at;
+    if (!is_in_this && !is_in_some_plane(half, box, topology, h))
+      add_place(open, 0.5 * (half.points[from] + half.points[to]), "an edge with one triangle, " + std::to_string(std::abs(half.points[from][plane.axis] - plane.at)) + " m from the plane");
+    else if (++n_rim_edges[from.index()] == 2) {
+      ++n_pinched;
+      add_place(touching, half.points[from], "the rim touches itself");
+    }
+  }
+  if (open.n_places > 0) {
+    open.problem = "the rim is not closed in the plane: " + std::to_string(open.n_places) + " edges with one triangle lie neither in it nor in another plane x, y or z = constant where the surface ends";
+    throw Error(std::move(open));
+  }
+  for (const VertexId v : half.points.ids())
+    if (half.points[v][plane.axis] == plane.at && n_rim_edges[v.index()] == 0) add_place(touching, half.points[v], "the surface touches the plane from its side");
+  if (touching.n_places == 0) return;
+  touching.problem = std::to_string(n_pinched) + " vertices where the rim touches itself, " + std::to_string(static_cast<std::size_t>(touching.n_places) - n_pinched) + " where the surface touches the plane beside it";
+  throw Error(std::move(touching));
+}
+
+}  // namespace
+
+TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunContext& context) {
+  const CutPlane plane = plane_of(surface, options);
+  if (surface.n_triangles() == 0) throw Error(error_at(plane, ErrorCode::empty_surface, "the surface has no triangles", ""));
+  Cutting cutting = place_vertices(surface, plane);
+  const SnapReport snapped = options.snap > 0.0 ? snap_near_vertices(cutting, Topology(surface, context), plane, options.snap) : SnapReport{};
+  const Cutter cutter(cutting, plane);
+  TriMesh half = cutter.take();
+  require_reach(surface, half, plane);
+  require_rim(half, plane, context);
+  context.debug("half at " + plane.text() + ": " + std::to_string(half.n_triangles()) + " of " + std::to_string(surface.n_triangles()) + " triangles, " + std::to_string(cutter.n_cut()) +
+                " were cut; " + std::to_string(snapped.n_moved) + " vertices moved into the plane by up to " + std::to_string(snapped.farthest) + " m");
+  return half;
+}
+
+}  // namespace sterna

@@ -1,0 +1,32 @@
+// Periodic sides of a mesh: two patches of which one is the other, moved by a translation.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geom/mesh/hybrid_mesh.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna {
+
+/// Largest distance of a node's image from its partner, as a share of the size of the mesh (its box's longest side, or the body length where it is known).
+inline constexpr double k_periodic_share = 1e-10;
+
+struct PeriodicMatch {
+  Vec3 translation;                                ///< m, from the first patch to the second
+  std::vector<std::array<NodeId, 2>> nodes;        ///< partners, ascending by the first
+  std::vector<std::array<std::uint32_t, 2>> faces; ///< partners: boundary triangles, then quadrilaterals of the mesh (numbered behind the triangles)
+  double worst = 0.0;                              ///< m, largest distance of an image from its partner
+};
+
+/// k_periodic_share of the longest side of the mesh's box, m.
+double periodic_tolerance(const HybridMesh& mesh);
+
+/// Matches nodes and faces of two patches; the translation is that of the middles of their nodes. \p tolerance: metres. Serial, O(n log n).
+/// \throws Error(bad_argument) with places for an empty patch, a node or a face without partner, and a patch that is not flat within the tolerance
+PeriodicMatch match_periodic(const HybridMesh& mesh, PatchId first, PatchId second, double tolerance);
+/// Of a surface: nodes are its vertices.
+PeriodicMatch match_periodic(const TriMesh& surface, PatchId first, PatchId second, double tolerance);
+
+}  // namespace sterna

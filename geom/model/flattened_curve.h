@@ -1,0 +1,26 @@
+// A curve moved into a plane of constant x, y or z: the rim of a half model, which is in its plane to the last bit.
+#pragma once
+
+#include "geom/model/curve.h"
+
+namespace sterna {
+
+/// C(t) with one coordinate set to a value: exactly that value for any t.
+class FlattenedCurve final : public Curve {
+ public:
+  FlattenedCurve(CurvePtr base, std::size_t axis, double at) : base_(std::move(base)), axis_(axis), at_(at) {}
+  Interval domain() const override { return base_->domain(); }
+  bool is_periodic() const override { return base_->is_periodic(); }
+  Point point(double t) const override;
+  CurveDerivatives derivatives(double t) const override;
+  std::vector<double> breaks() const override { return base_->breaks(); }
+  std::optional<NurbsCurveForm<Point>> exact_nurbs() const override;
+  const CurvePtr& base() const { return base_; }
+
+ private:
+  CurvePtr base_;
+  std::size_t axis_;
+  double at_;
+};
+
+}  // namespace sterna

@@ -1,0 +1,44 @@
+// Numbers of what columns have layer by layer (cells, faces of a side), one column after the other: arithmetic where all columns have as many layers, a table of
+// beginnings where they differ.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "geom/mesh/hybrid_mesh.h"
+
+namespace sterna::io {
+
+class LayerNumbers {
+ public:
+  LayerNumbers() = default;
+  /// Of n columns, the i-th of them column_of(i) of the block.
+  template <class ColumnOf>
+  LayerNumbers(const LayerBlock& layers, std::uint64_t n, const ColumnOf& column_of) : per_column_(static_cast<std::uint64_t>(std::max(layers.n_layers, 0))), size_(n * per_column_) {
+    if (layers.is_uniform()) return;
+    first_.resize(n + 1, 0);
+    for (std::uint64_t i = 0; i < n; ++i) first_[i + 1] = first_[i] + static_cast<std::uint64_t>(layers.layers_of_column(column_of(i)));
+    size_ = first_.back();
+  }
+
+  std::uint64_t size() const { return size_; }
+  std::uint64_t first(std::uint64_t i) const { return first_.empty() ? i * per_column_ : first_[i]; }
+  std::uint64_t n_layers(std::uint64_t i) const { return first_.empty() ? per_column_ : first_[i + 1] - first_[i]; }
+
+  struct Place {
+    std::uint64_t i, layer;  ///< i-th column; layer 0 is at the wall
+  };
+  /// \pre number < size()
+  Place at(std::uint64_t number) const {
+    if (first_.empty()) return {number / per_column_, number % per_column_};
+    const auto i = static_cast<std::uint64_t>(std::upper_bound(first_.begin(), first_.end(), number) - first_.begin()) - 1;
+    return {i, number - first_[i]};
+  }
+
+ private:
+  std::uint64_t per_column_ = 0, size_ = 0;
+  std::vector<std::uint64_t> first_;  ///< empty: per_column_ everywhere
+};
+
+}  // namespace sterna::io

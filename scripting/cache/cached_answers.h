@@ -1,0 +1,113 @@
+// Caching what a script's function has a say in. A function enters a key by the values that it returned, and where it is asked depends on what it answered before. So an
+// entry keeps its questions: whoever looks for it asks the script's own function the same in the same order, as making the result would. All answers as they are kept: the
+// result is this one, as nothing else differs. One that differs leads to another entry, whose key holds the answers so far. The function is asked exactly what it would be
+// without a cache, so not even one that counts its calls can tell the difference.
+#pragma once
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "geom/base/vec3.h"
+#include "scripting/cache/content_key.h"
+#include "scripting/cache/stage_cache.h"
+
+namespace sterna::scripting {
+
+using SizeFunction = std::function<double(const Point&)>;
+
+/// What was asked of a function, and its answers.
+struct Transcript {
+  std::vector<Point> questions;
+  std::vector<double> answers;
+};
+
+/// A function whose first answers are known.
+class AskedFunction {
+ public:
+  AskedFunction(SizeFunction function, Transcript known) : function_(std::move(function)), transcript_(std::move(known)) {}
+  double operator()(const Point& p) {
+    if (n_asked_ < transcript_.questions.size()) {
+      if (transcript_.questions[n_asked_] == p) return transcript_.answers[n_asked_++];
+      is_as_known_ = false;  // cannot be, as what is asked follows from the answers. Were it so, the function itself is right
+      transcript_.questions.resize(n_asked_);
+      transcript_.answers.resize(n_asked_);
+    }
+    const double answer = function_(p);
+    transcript_.questions.push_back(p);
+    transcript_.answers.push_back(answer);
+    ++n_asked_;
+    return answer;
+  }
+  const Transcript& transcript() const { return transcript_; }
+  bool is_as_known() const { return is_as_known_; }
+
+ private:
+  SizeFunction function_;
+  Transcript transcript_;
+  std::size_t n_asked_ = 0;
+  bool is_as_known_ = true;
+};
+
+/// As cached() of stage_cache.h, of what `make` makes with the function. `key` becomes that of the result: with the function's answers in it; or nothing.
+/// \pre reuse.cache and key. The function's own errors come out.
+template <class T>
+T cached_by_answers(const Reuse& reuse, std::string_view stage, std::string_view what, std::optional<ContentKey>& key, const SizeFunction& function, const RunContext& context,
+                    const std::function<T(const SizeFunction&)>& make, const std::function<void(ByteSink&, const T&)>& write, const std::function<T(ByteSource&)>& read) {
+  const auto same = [](double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; };
+  Transcript known;      // what this run's function was asked so far
+  std::size_t n_of_key = 0;  // of them, those that are in the key
+  for (;;) {
+    Transcript stored;
+    std::optional<T> value;
+    const bool is_there = reuse.cache->find(
+        stage, *key,
+        [&](ByteSource& source) {
+          read_value(source, stored.questions);
+          read_value(source, stored.answers);
+          if (stored.questions.size() != stored.answers.size()) source.refuse();
+          value = read(source);
+        },
+        context);
+    if (!is_there) break;
+    std::size_t n_same = 0;
+    for (; n_same < stored.questions.size(); ++n_same) {
+      known.questions.push_back(stored.questions[n_same]);
+      known.answers.push_back(function(stored.questions[n_same]));
+      if (!same(known.answers.back(), stored.answers[n_same])) break;
+    }
+    KeyMaker next("answers");
+    next.add(*key).add(std::vector<double>(known.answers.begin() + static_cast<std::ptrdiff_t>(n_of_key), known.answers.end()));
+    key = next.key();
+    n_of_key = known.answers.size();
+    if (n_same < stored.questions.size()) continue;
+    report_reuse(reuse, stage, what, context);
+    return std::move(*value);
+  }
+  AskedFunction asked(function, std::move(known));
+  T value = make([&asked](const Point& p) { return asked(p); });
+  if (!asked.is_as_known()) {
+    context.warn(std::string(stage) + ": asked its function for other places than before: not kept");
+    key.reset();
+    return value;
+  }
+  const auto from = static_cast<std::ptrdiff_t>(n_of_key);
+  const Transcript& all = asked.transcript();
+  const std::vector<Point> questions(all.questions.begin() + from, all.questions.end());
+  const std::vector<double> answers(all.answers.begin() + from, all.answers.end());
+  reuse.cache->store(
+      stage, *key,
+      [&](ByteSink& sink) {
+        write_value(sink, questions);
+        write_value(sink, answers);
+        write(sink, value);
+      },
+      context);
+  key = KeyMaker("answers").add(*key).add(answers).key();
+  return value;
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,114 @@
+#include "scripting/cache/cached_volume.h"
+
+#include <string>
+
+#include "geom/base/error.h"
+#include "scripting/cache/content_key.h"
+#include "scripting/cache/stored_types.h"
+#include "scripting/summary.h"
+#include "volmesh/tetra/engine_process.h"
+
+namespace sterna::scripting {
+namespace {
+
+/// The engines' programs are built apart from this one.
+void add_engines(KeyMaker& maker, const volmesh::TetraOptions& options) {
+  for (const char* name : {"sterna-tet-tetgen", "sterna-tet-hxt"}) {
+    try {
+      maker.add(hash_file(volmesh::find_helper(name, options.helper_folder)));
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::tetra_engine_missing) throw;
+      maker.add("none");  // the other one may do
+    }
+  }
+}
+
+/// A time or memory limit decided on it: another run may make another mesh, so nobody else may get this one.
+bool is_same_everywhere(const volmesh::FilledStage& filled) { return filled.tets.is_reproducible; }
+bool is_same_mesh_everywhere(const volmesh::VolumeMeshResult& result) { return result.is_reproducible; }
+
+ContentKey envelope_key(const TriMesh& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context) {
+  return KeyMaker("make_envelope").add(key_of(wall)).add(envelope_options_key(options)).add(context.seed()).key();
+}
+
+std::string triangles_text(const TriMesh& wall) { return "of " + count_text(static_cast<std::int64_t>(wall.n_triangles())) + " triangles"; }
+
+/// The options with a maker of parts' envelopes that takes from the cache what it has.
+volmesh::VolumeMeshOptions with_part_envelopes(volmesh::VolumeMeshOptions options, const Reuse& reuse) {
+  if (!reuse.cache || options.parts.empty()) return options;
+  options.part_envelope = [reuse](const volmesh::PartEnvelopeTask& task, const RunContext& context) {
+    volmesh::EnvelopeOptions named = task.options;
+    const ContentKey key = KeyMaker("envelope of a part").add(task.wall).add(sterna::options_of(named)).add(task.rules).add(task.smooth_angle).add(context.seed()).key();
+    return cached<volmesh::PartEnvelope>(reuse, "envelope", triangles_text(task.wall) + " in their own frame", key, context, [&] { return volmesh::part_envelope(task, context); });
+  };
+  return options;
+}
+
+}  // namespace
+
+std::optional<ContentKey> true_surface_key(const SurfaceValue& wall) { return wall.model_wall ? wall.model_wall_key : ContentKey{}; }
+
+volmesh::EnvelopeStage cached_envelope(const TriMesh& wall, const volmesh::VolumeMeshOptions& options, const Reuse& reuse, const RunContext& context) {
+  const std::optional<ContentKey> key = reuse.cache ? std::optional(envelope_key(wall, options, context)) : std::nullopt;
+  return cached<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall), key, context, [&] { return volmesh::make_envelope(wall, with_part_envelopes(options, reuse), context); });
+}
+
+volmesh::FilledStage cached_tetrahedra(const TriMesh& wall, const volmesh::EnvelopeStage& envelope, const volmesh::VolumeMeshOptions& options, const std::optional<ContentKey>& true_surface, const Reuse& reuse,
+                                       const RunContext& context) {
+  std::optional<ContentKey> key;
+  if (reuse.cache && true_surface) {
+    volmesh::VolumeMeshOptions of_this_step = options;
+    of_this_step.improve = {};
+    KeyMaker maker("tetrahedra");
+    maker.add(key_of(wall)).add(key_of(envelope)).add(volume_options_key(of_this_step)).add(*true_surface).add(context.seed());
+    add_engines(maker, options.tetrahedra);
+    key = maker.key();
+  }
+  bool is_made = false;
+  auto filled = cached<volmesh::FilledStage>(reuse, "tetrahedra", triangles_text(wall), key, context, [&] {
+        is_made = true;
+        return volmesh::make_tetrahedra(wall, envelope, options, context);
+      },
+      is_same_everywhere);
+  if (!is_made) filled.tets.engine_seconds = filled.tets.engine_peak_bytes = 0.0;  // measured in another run
+  return filled;
+}
+
+volmesh::VolumeMeshResult cached_finish(const TriMesh& wall, const volmesh::FilledStage& filled, const volmesh::VolumeMeshOptions& options, const Reuse& reuse, const RunContext& context) {
+  std::optional<ContentKey> key;
+  if (reuse.cache) key = KeyMaker("prisms").add(key_of(wall)).add(key_of(filled)).add(volume_options_key(options)).add(context.seed()).key();
+  auto result = cached<volmesh::VolumeMeshResult>(reuse, "prisms", triangles_text(wall), key, context, [&] { return volmesh::finish_mesh(wall, filled, options, context); }, is_same_mesh_everywhere);
+  result.tetra_engine_seconds = filled.tets.engine_seconds;  // whoever joined the parts
+  result.tetra_engine_peak_bytes = filled.tets.engine_peak_bytes;
+  return result;
+}
+
+volmesh::VolumeMeshResult cached_volume_mesh(const TriMesh& wall, const volmesh::VolumeMeshOptions& options, const volmesh::StageWatch& watch, const std::optional<ContentKey>& true_surface, const Reuse& reuse,
+                                             const RunContext& context) {
+  if (!reuse.cache) return volmesh::volume_mesh(wall, options, watch, context);
+  volmesh::StageWatch with_envelope = watch;
+  with_envelope.envelope = [&](const std::function<volmesh::EnvelopeStage()>& make) {
+    return cached<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall), envelope_key(wall, options, context), context, make);
+  };
+  const auto make = [&] { return volmesh::volume_mesh(wall, with_part_envelopes(options, reuse), with_envelope, context); };
+  if (watch.enveloped || watch.filled) return make();
+  std::optional<ContentKey> key;
+  if (true_surface) {
+    KeyMaker maker("volume_mesh");
+    maker.add(key_of(wall)).add(volume_options_key(options)).add(*true_surface).add(context.seed());
+    add_engines(maker, options.tetrahedra);
+    key = maker.key();
+  }
+  bool is_made = false;
+  auto result = cached<volmesh::VolumeMeshResult>(
+      reuse, "volume_mesh", triangles_text(wall), key, context,
+      [&] {
+        is_made = true;
+        return make();
+      },
+      is_same_mesh_everywhere);
+  if (!is_made) result.tetra_engine_seconds = result.tetra_engine_peak_bytes = 0.0;  // measured in another run
+  return result;
+}
+
+}  // namespace sterna::scripting

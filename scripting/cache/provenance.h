@@ -1,0 +1,41 @@
+// Keys by content, and which values have one.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace sterna::scripting {
+
+/// 128 bits of XXH3.
+struct ContentKey {
+  std::array<std::uint8_t, 16> bytes{};
+  std::string hex() const;  ///< 32 digits
+  friend auto operator<=>(const ContentKey&, const ContentKey&) = default;
+};
+
+/// A key that the holder's copies do not have: whoever copies a value may change it. Moving keeps it.
+class Provenance {
+ public:
+  Provenance() = default;
+  Provenance(const Provenance&) noexcept {}
+  Provenance(Provenance&& other) noexcept = default;
+  Provenance& operator=(const Provenance&) noexcept {
+    key_.reset();
+    return *this;
+  }
+  Provenance& operator=(Provenance&& other) noexcept = default;
+  Provenance& operator=(const ContentKey& key) {
+    key_ = key;
+    return *this;
+  }
+  /// Nothing: what the value was made of is not known, and what is made of it cannot be cached.
+  const std::optional<ContentKey>& key() const { return key_; }
+
+ private:
+  std::optional<ContentKey> key_;
+};
+
+}  // namespace sterna::scripting

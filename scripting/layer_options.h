@@ -1,0 +1,27 @@
+// What verbs and commands do with the options of layers once they are read: which of layers and max_growth was left out beside a total height, and the members of a mesh family.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "scripting/script_call.h"
+#include "scripting/table_reader.h"
+#include "scripting/verbs.h"
+#include "volmesh/volume_mesh.h"
+
+namespace sterna::scripting {
+
+/// Sets solve_for by what was given. \p is_given: of options of the stage "envelope", by name. \throws Error(bad_argument) of volmesh::solved_for
+void choose_solve_for(volmesh::VolumeMeshOptions& options, const std::function<bool(std::string_view)>& is_given, std::string_view attempted);
+/// The same for a verb's table and the overrides of the command line; notes problems. \pre the options are read
+void choose_solve_for(volmesh::VolumeMeshOptions& options, TableReader& reader, const ScriptCall& call);
+
+/// Warns where surface and volume belong to different members of a family.
+void warn_of_other_member(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context);
+
+/// family{}
+std::span<const ScriptVerb> family_verbs();
+
+}  // namespace sterna::scripting

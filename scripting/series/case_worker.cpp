@@ -1,0 +1,162 @@
+#include "scripting/series/case_worker.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "geom/base/error.h"
+#include "geom/base/number_text.h"
+#include "geom/mesh/check.h"
+#include "io/atomic_file.h"
+#include "io/trouble_vtu.h"
+#include "scripting/script_function.h"
+#include "scripting/series/case_status.h"
+#include "scripting/series/value_json.h"
+#include "scripting/summary.h"
+
+namespace sterna::scripting {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+void write_text(const fs::path& path, const std::string& text) {
+  io::AtomicFile file(path);
+  file.append(text);
+  file.commit();
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
+}
+
+/// What is known of a mesh that a case made.
+struct MeshNote {
+  MeshFigures figures;
+  std::string check_json;  ///< empty where it was never checked
+};
+
+MeshNote note_of(const MeshValue& mesh) {
+  MeshNote note;
+  note.figures.cells = count_cells(mesh.mesh).total();
+  note.figures.verdict = "not checked";
+  if (!mesh.check) return note;
+  note.figures.verdict = mesh.check->is_valid() ? "VALID" : "INVALID";
+  if (mesh.check->quality_measured) {
+    note.figures.quality = quality_text(*mesh.check).substr(std::string_view("quality ").size());
+    note.figures.worst = worst_quality_text(*mesh.check);
+  }
+  note.check_json = to_json(*mesh.check);
+  return note;
+}
+
+/// The script as this run read it, with its modules.
+void copy_script(const ScriptSession& session, const fs::path& folder) {
+  fs::create_directories(folder / "script");
+  write_text(folder / "script" / session.script.filename(), session.series.script_text);
+  for (const auto& [name, source] : session.series.modules) write_text(folder / "script" / (name + ".lua"), source);
+}
+
+/// Everything that differs between two runs of the same case.
+void write_measure(const ScriptSession& session, double seconds, const fs::path& folder) {
+  nlohmann::ordered_json json = {{"schema", "sterna-case-measure-1"}, {"seconds", seconds}, {"threads", session.context.threads()}, {"host", host_name()}, {"peak_memory_bytes", peak_memory_bytes()}};
+  json["reused"] = session.reused;
+  json["stage_seconds"] = nlohmann::ordered_json::object();
+  for (const StageTime& stage : session.context.times()) json["stage_seconds"][stage.stage] = stage.seconds;
+  write_text(folder / k_measure_file, json.dump(2) + "\n");
+}
+
+/// Fills the status with what became of the function's error, and draws it.
+void note_failure(const Error& error, CaseStatus& status, const fs::path& folder) {
+  status.state = error.code() == ErrorCode::cancelled ? CaseState::killed : CaseState::failed;
+  status.message = status.state == CaseState::killed ? "stopped on request" : error.what();
+  status.code = to_string(error.code());
+  status.places = error.info().places;
+  if (status.state == CaseState::failed && !error.info().geometry.empty()) io::write_trouble_vtu(error.info().geometry, folder / "trouble.vtu");
+}
+
+void set_reference(const SeriesPlan& plan, const SeriesCase& c, SeriesSession& series) {
+  if (!plan.reference) return;
+  const SeriesCase& reference = plan.cases[*plan.reference];
+  series.reference = ReferenceCase{.folder = plan.folder_of(reference), .name = reference.name, .is_this = reference.index == c.index};
+  if (!series.reference->is_this) note_input(series, series.reference->folder / k_status_file);
+}
+
+}  // namespace
+
+ScriptValue argument_of(const SeriesCase& c) {
+  auto p = std::make_shared<ScriptTable>(c.parameters);
+  p->fields["name"] = c.name;
+  p->fields["index"] = static_cast<std::int64_t>(c.index);
+  return std::shared_ptr<const ScriptTable>(p);
+}
+
+void become_worker() {
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  // Another descriptor of that number, in a worker that was not started by a pool, loses nothing by it.
+  fcntl(k_series_lock_descriptor, F_SETFD, FD_CLOEXEC);
+}
+
+std::string worst_quality_text(const CheckReport& report) {
+  const GateState worst_state = report.quality_state();
+  for (const GateResult& gate : report.gates) {
+    if (gate.state != worst_state || gate.state == GateState::not_checked) continue;
+    const MeasureInfo& info = info_of(gate.measure);
+    return std::string(info.name) + " " + number_text(in_report_unit(info, gate.worst), 4);
+  }
+  return {};
+}
+
+void run_case(const ScriptCall& call, const SeriesPlan& plan, const SeriesCase& c) {
+  ScriptSession& session = call.session;
+  SeriesSession& series = session.series;
+  const Clock::time_point start = Clock::now();
+  const fs::path folder = plan.folder_of(c);
+  fs::create_directories(folder);
+  CaseStatus status{.state = CaseState::running, .key = case_key(plan, c, session), .process = getpid(), .host = host_name()};
+  status.found = clear_case_folder(folder, read_status(folder, session.context));
+  write_status(status, folder);
+  write_text(folder / "case.json", case_json(plan, c, session));
+
+  set_reference(plan, c, series);
+  series.is_case_running = true;
+  session.output_folder = folder;
+  std::optional<MeshNote> mesh;
+  const auto on_mesh = session.on_mesh;
+  session.on_mesh = [&](const MeshValue& made) {
+    if (on_mesh) on_mesh(made);
+    mesh = note_of(made);
+  };
+  try {
+    const ScriptValue value = plan.function->call(argument_of(c));
+    if (const auto* handle = std::get_if<MeshHandle>(&value)) mesh = note_of(**handle);
+    if (mesh) status.mesh = mesh->figures;
+    status.result = to_result(value);
+    status.state = CaseState::done;
+  } catch (const Error& error) {
+    note_failure(error, status, folder);
+    session.context.log(LogLevel::error, error.what());
+  }
+  session.on_mesh = on_mesh;
+  session.output_folder.clear();
+  series.is_case_running = false;
+
+  copy_script(session, folder);
+  if (mesh && !mesh->check_json.empty()) write_text(folder / "quality.json", mesh->check_json);
+  write_measure(session, std::chrono::duration<double>(Clock::now() - start).count(), folder);
+  status.inputs = series.inputs;
+  if (status.state != CaseState::killed) status.outputs = outputs_in(folder, status.found);
+  write_status(status, folder);
+  series.is_case_over = true;
+  series.is_case_done = status.state == CaseState::done;
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,164 @@
+#include "scripting/series/series_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "geom/base/error.h"
+#include "scripting/console.h"
+#include "scripting/series/value_json.h"
+#include "scripting/summary.h"
+
+namespace sterna::scripting {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+std::string verdict_of(const CaseStatus& status) {
+  if (status.state == CaseState::done) return status.mesh.verdict.empty() ? "no mesh" : status.mesh.verdict;
+  return std::string(to_string(status.state));
+}
+
+std::string quality_of(const CaseStatus& status) {
+  if (status.state != CaseState::done) return first_line(status.message);
+  return status.mesh.quality + (status.mesh.worst.empty() ? "" : ", " + status.mesh.worst);
+}
+
+std::string reused_of(const CaseResult& result) {
+  std::string text = result.is_kept ? "the case" : "";
+  // Many stages of one kind are counted: "3 surface_mesh".
+  std::map<std::string, int> kinds;
+  for (const std::string& stage : result.reused) ++kinds[stage.substr(0, stage.find(' '))];
+  for (const auto& [kind, n] : kinds) text += (text.empty() ? "" : ", ") + (n > 1 ? std::to_string(n) + " " : "") + kind;
+  return text;
+}
+
+Json case_json(const SeriesPlan& plan, const CaseResult& result) {
+  const CaseStatus& status = result.status;
+  Json json = {{"name", result.of->name}, {"index", result.of->index}, {"parameters", Json::parse(to_json(std::make_shared<const ScriptTable>(result.of->parameters)))}};
+  json["folder"] = plan.folder_of(*result.of).generic_string();
+  json["status"] = to_string(status.state);
+  if (status.state == CaseState::done) {
+    if (!status.mesh.verdict.empty()) {
+      json["verdict"] = status.mesh.verdict;
+      json["cells"] = status.mesh.cells;
+      json["quality"] = status.mesh.quality;
+      json["worst"] = status.mesh.worst;
+    }
+    if (status.result != "null") json["result"] = Json::parse(status.result);
+  } else {
+    json["error"] = {{"code", status.code}, {"message", status.message}};
+  }
+  json["outputs"] = Json::array();
+  for (const auto& [name, hash] : status.outputs) json["outputs"].push_back(name);
+  return json;
+}
+
+Json results_json(const SeriesPlan& plan, std::span<const CaseResult> results) {
+  std::array<std::size_t, 3> counts{};
+  Json json = {{"schema", "sterna-series-1"}, {"program", "sterna " STERNA_VERSION}, {"name", plan.name}, {"cases", Json::array()}};
+  for (const CaseResult& result : results) {
+    json["cases"].push_back(case_json(plan, result));
+    ++counts[result.status.state == CaseState::done ? 0 : result.status.state == CaseState::failed ? 1 : 2];
+  }
+  json["done"] = counts[0];
+  json["failed"] = counts[1];
+  json["killed"] = counts[2];
+  return json;
+}
+
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string plain_text(const ScriptTable& parameters, const std::string& name) {
+  const auto it = parameters.fields.find(name);
+  if (it == parameters.fields.end()) return {};
+  const auto* text = std::get_if<std::string>(&it->second);
+  return text ? *text : to_json(it->second);
+}
+
+}  // namespace
+
+void read_measure(const std::filesystem::path& folder, CaseResult& result) {
+  std::ifstream file(folder / k_measure_file, std::ios::binary);
+  const Json json = Json::parse(file, nullptr, false);
+  if (!json.is_object()) return;  // killed before it was measured
+  result.seconds = json.value("seconds", 0.0);
+  result.reused = json.value("reused", std::vector<std::string>{});
+}
+
+std::string outcome_text(const CaseStatus& status) {
+  if (status.state != CaseState::done) return std::string(to_string(status.state)) + ": " + first_line(status.message);
+  if (status.mesh.verdict.empty()) return "done";
+  return status.mesh.verdict + ", " + count_text(status.mesh.cells) + " cells" + (status.mesh.quality.empty() ? "" : ", quality " + status.mesh.quality);
+}
+
+std::string table_text(const SeriesPlan& plan, std::span<const CaseResult> results) {
+  using Row = std::array<std::string, 6>;
+  std::vector<Row> rows = {{"case", "verdict", "cells", "worst quality", "time", "reused"}};
+  for (const CaseResult& result : results)
+    rows.push_back({result.of->name, verdict_of(result.status), result.status.mesh.cells > 0 ? count_text(result.status.mesh.cells) : "", quality_of(result.status), duration_text(result.seconds), reused_of(result)});
+  std::array<std::size_t, 6> widths{};
+  for (const Row& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  constexpr std::size_t k_widest = 60;
+  std::string text = "series " + plan.name + ": " + std::to_string(results.size()) + " cases\n";
+  for (const Row& row : rows) {
+    std::string line = " ";
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const bool is_number = i == 2 || i == 4;
+      const std::size_t width = std::min(widths[i], k_widest);
+      line += " " + (is_number ? fmt::format("{:>{}}", row[i], width) : fmt::format("{:<{}}", row[i], width)) + " ";
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string table_csv(const SeriesPlan& plan, std::span<const CaseResult> results) {
+  std::set<std::string> parameters;
+  for (const SeriesCase& c : plan.cases)
+    for (const auto& [name, value] : c.parameters.fields)
+      if (name != "name") parameters.insert(name);
+  std::string text = "case";
+  for (const std::string& name : parameters) text += "," + csv_text(name);
+  text += ",status,verdict,cells,quality,worst,seconds,reused,error\n";
+  for (const CaseResult& result : results) {
+    const CaseStatus& status = result.status;
+    text += csv_text(result.of->name);
+    for (const std::string& name : parameters) text += "," + csv_text(plain_text(result.of->parameters, name));
+    text += "," + std::string(to_string(status.state)) + "," + status.mesh.verdict + "," + (status.mesh.verdict.empty() ? "" : std::to_string(status.mesh.cells)) + "," + csv_text(status.mesh.quality) + "," +
+            csv_text(status.mesh.worst) + "," + fmt::format("{:.3f}", result.seconds) + "," + csv_text(reused_of(result)) + "," + csv_text(first_line(status.message)) + "\n";
+  }
+  return text;
+}
+
+std::string table_json(const SeriesPlan& plan, std::span<const CaseResult> results) {
+  Json json = results_json(plan, results);
+  for (const CaseResult& result : results) json["measure"][result.of->name] = {{"seconds", result.seconds}, {"kept", result.is_kept}, {"reused", result.reused}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string result_json(const SeriesPlan& plan, std::span<const CaseResult> results) { return results_json(plan, results).dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+std::string result_json_of(const std::string& series_json, const std::filesystem::path& file) {
+  Json json = Json::parse(series_json, nullptr, false);
+  if (!json.is_object()) throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + file.string(), .problem = "it is not the table of a series"});
+  json.erase("measure");
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace sterna::scripting

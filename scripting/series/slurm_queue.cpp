@@ -1,0 +1,186 @@
+// Cases as arrays of jobs of Slurm. A job is the same program on the same script; what it has to say is in the folder of its case, so that the queue is asked only for
+// jobs that are gone without a word.
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "geom/base/error.h"
+#include "io/atomic_file.h"
+#include "scripting/series/case_runners.h"
+#include "scripting/series/child_process.h"
+
+namespace sterna::scripting {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds k_pause{100};        ///< between two looks at the folders of cases
+constexpr std::chrono::milliseconds k_queue_pause{2000}; ///< between two questions to the queue, which a whole cluster uses
+/// Looks at the queue that must miss a job before it counts as lost: its last files may be on their way through the network's file system.
+constexpr int k_misses = 2;
+constexpr std::size_t k_array_size = 1000;               ///< jobs of an array: clusters allow 1001 unless they say otherwise
+constexpr std::chrono::seconds k_cancel_patience{60};    ///< Slurm kills 30 s after it has asked
+constexpr const char* k_jobs_file = "jobs";              ///< in the folder slurm/: numbers of the arrays that may be in the queue
+
+/// For a POSIX shell: in single quotes.
+std::string quoted(const std::string& word) {
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  io::AtomicFile file(path);
+  file.append(text);
+  file.commit();
+}
+
+CommandResult run_or_throw(const std::vector<std::string>& words, const RunContext& context) {
+  CommandResult result = run_command(words, context);
+  if (result.status != 0)
+    throw Error({.code = ErrorCode::internal, .attempted = "running " + words.front(), .problem = "exit status " + std::to_string(result.status) + ": " + result.errors, .hint = "ask the cluster's manual for the options that it wants, and give them as slurm{ options = { ... } }"});
+  return result;
+}
+
+/// Line n of the list is job n: the number of the case, and its folder.
+std::string list_of(std::span<const CaseTask> tasks) {
+  std::string list;
+  for (const CaseTask& task : tasks) list += std::to_string(task.of->index) + " " + task.folder.string() + "\n";
+  return list;
+}
+
+std::string job_script(std::size_t n_tasks, const fs::path& list, const RunnerContext& runner) {
+  std::string text = "#!/bin/sh\n#SBATCH --job-name=" + runner.plan.name + "\n#SBATCH --array=1-" + std::to_string(n_tasks);
+  if (runner.tasks > 0) text += "%" + std::to_string(runner.tasks);
+  text += "\n#SBATCH --ntasks=1\n#SBATCH --no-requeue\n#SBATCH --output=/dev/null\n#SBATCH --cpus-per-task=" + std::to_string(runner.threads) + "\n";
+  text += "cd " + quoted(fs::current_path().string()) + " || exit 1\n";
+  text += "line=$(sed -n \"${SLURM_ARRAY_TASK_ID}p\" " + quoted(list.string()) + ")\n";
+  text += "exec";
+  for (const std::string& word : runner.worker) text += " " + quoted(word);
+  text += " --threads " + std::to_string(runner.threads) + " --series-case " + quoted(runner.plan.name) + "/\"${line%% *}\" >\"${line#* }/" + k_log_file + "\" 2>&1\n";
+  return text;
+}
+
+/// What the user says goes on the command line, where nothing needs quotes.
+std::vector<std::string> sbatch_command(const fs::path& script, const SeriesPlan& plan) {
+  std::vector<std::string> words = {"sbatch", "--parsable"};
+  if (!plan.slurm.partition.empty()) words.push_back("--partition=" + plan.slurm.partition);
+  if (!plan.slurm.time.empty()) words.push_back("--time=" + plan.slurm.time);
+  words.insert(words.end(), plan.sbatch_words.begin(), plan.sbatch_words.end());
+  words.push_back(script.string());
+  return words;
+}
+
+/// The jobs of an array that are not over, by their numbers in it.
+std::set<std::size_t> jobs_in_queue(const std::string& array, const RunContext& context) {
+  const CommandResult result = run_command({"squeue", "--noheader", "--array", "--jobs=" + array, "--format=%i %T"}, context);
+  std::set<std::size_t> jobs;
+  if (result.status != 0) {
+    if (result.errors.find("Invalid job id") != std::string::npos) return jobs;  // it is over and forgotten
+    throw Error({.code = ErrorCode::internal, .attempted = "running squeue", .problem = result.errors});
+  }
+  std::istringstream lines(result.output);
+  for (std::string id, state; lines >> id >> state;)
+    if (const std::size_t bar = id.find('_'); bar != std::string::npos && id.find_first_not_of("0123456789", bar + 1) == std::string::npos) jobs.insert(std::stoull(id.substr(bar + 1)));
+  return jobs;
+}
+
+class SlurmArray {
+ public:
+  SlurmArray(std::span<const CaseTask> tasks, std::size_t number, const RunnerContext& runner) : tasks_(tasks), runner_(runner), misses_(tasks.size(), 0), is_over_(tasks.size(), false) {
+    const fs::path folder = runner.plan.folder / "slurm", list = folder / ("cases-" + std::to_string(number)), script = folder / ("array-" + std::to_string(number) + ".sh");
+    for (const CaseTask& task : tasks) prepare(task, runner.run);
+    write_text(list, list_of(tasks));
+    write_text(script, job_script(tasks.size(), list, runner));
+    id_ = run_or_throw(sbatch_command(script, runner.plan), runner.run).output;
+    id_ = id_.substr(0, id_.find_first_of(";\n"));
+    write_text(folder / k_jobs_file, id_ + "\n");
+    runner.run.info("submitted " + std::to_string(tasks.size()) + " cases of " + runner.plan.name + " as job " + id_);
+  }
+
+  void wait() {
+    Clock::time_point asked = Clock::now();
+    while (n_over_ < tasks_.size()) {
+      if (runner_.run.stop_token().stop_requested()) cancel();
+      take_finished();
+      if (Clock::now() - asked >= k_queue_pause && n_over_ < tasks_.size()) {
+        settle_lost();
+        asked = Clock::now();
+      }
+      std::this_thread::sleep_for(k_pause);
+    }
+  }
+
+ private:
+  [[noreturn]] void cancel() {
+    run_command({"scancel", id_}, RunContext({.threads = 1}));  // with a run of its own: this one is stopped
+    runner_.run.check_stop();
+    throw Error({.code = ErrorCode::cancelled, .attempted = runner_.plan.name, .problem = "stopped on request"});
+  }
+
+  void end(std::size_t i, const CaseStatus& status) {
+    is_over_[i] = true;
+    ++n_over_;
+    runner_.on_end(tasks_[i], status);
+  }
+
+  void take_finished() {
+    for (std::size_t i = 0; i < tasks_.size(); ++i) {
+      if (is_over_[i]) continue;
+      const CaseStatus status = read_status(tasks_[i].folder, runner_.run);
+      if (status.key == tasks_[i].key && (status.is_final() || status.state == CaseState::killed)) end(i, status);
+    }
+  }
+
+  void settle_lost() {
+    const std::set<std::size_t> alive = jobs_in_queue(id_, runner_.run);
+    for (std::size_t i = 0; i < tasks_.size(); ++i) {
+      if (is_over_[i]) continue;
+      misses_[i] = alive.contains(i + 1) ? 0 : misses_[i] + 1;
+      if (misses_[i] >= k_misses) end(i, settle(tasks_[i], {.state = CaseState::killed, .key = tasks_[i].key, .message = "job " + id_ + "_" + std::to_string(i + 1) + " is gone from the queue and has left no result"}, runner_.run));
+    }
+  }
+
+  std::span<const CaseTask> tasks_;
+  const RunnerContext& runner_;
+  std::vector<int> misses_;
+  std::vector<bool> is_over_;
+  std::size_t n_over_ = 0;
+  std::string id_;
+};
+
+}  // namespace
+
+void run_on_slurm(std::span<const CaseTask> tasks, const RunnerContext& runner) {
+  const fs::path folder = runner.plan.folder / "slurm";
+  fs::create_directories(folder);
+  std::size_t number = 0;
+  for (std::size_t first = 0; first < tasks.size(); first += k_array_size) {
+    SlurmArray(tasks.subspan(first, std::min(k_array_size, tasks.size() - first)), ++number, runner).wait();
+    fs::remove(folder / k_jobs_file);
+  }
+}
+
+void cancel_left_jobs(const fs::path& folder, const RunContext& context) {
+  const fs::path file = folder / "slurm" / k_jobs_file;
+  std::string id;
+  if (!(std::ifstream(file) >> id)) return;
+  const Clock::time_point begin = Clock::now();
+  if (!jobs_in_queue(id, context).empty()) {
+    context.warn("job " + id + " of an earlier run of " + folder.string() + " is still in the queue: it is cancelled");
+    run_or_throw({"scancel", id}, context);
+  }
+  while (!jobs_in_queue(id, context).empty()) {
+    if (Clock::now() - begin > k_cancel_patience)
+      throw Error({.code = ErrorCode::internal, .attempted = "cancelling job " + id + " of an earlier run", .problem = "it is still in the queue after a minute", .hint = "scancel --signal=KILL " + id});
+    std::this_thread::sleep_for(k_queue_pause);
+  }
+  fs::remove(file);
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,35 @@
+-- Half models: one side of an aircraft, open at its plane of symmetry, whose rim lies in the plane to the last bit. A solver then needs half the cells.
+--   ./run scripts/09_half_model.lua
+
+local body = fuselage{ name = "body", frames = {
+  { x = 0.3, diameter = 0.5, z = -0.08 }, { x = 1.2, diameter = 1.1 }, { x = 2.4, diameter = 1.3 }, { x = 4.6, diameter = 1.25 },
+  { x = 6.6, diameter = 0.8, z = 0.12 },  { x = 8.2, diameter = 0.35, z = 0.25 } } }
+local main_wing = wing{ name = "wing", symmetric = true, position = { 2.6, 0, -0.35 }, trailing_edge = 0.010, sections = {
+  { y = 0, chord = 1.7, airfoil = "naca2412", twist = 2*deg },
+  { y = 5, chord = 0.9, sweep = 3*deg, dihedral = 5*deg } } }
+local fin = wing{ name = "fin", position = { 6.9, 0, 0.3 }, trailing_edge = 0.008, sections = {
+  { chord = 1.3, airfoil = "naca0010" },
+  { z = 1.5, chord = 0.7, sweep = 25*deg } } }
+local whole = aircraft{ body, main_wing, fin }
+
+local right = half(whole)                                            -- the side y > 0; half{ whole, keep = "-" } keeps the other
+print(right, right.report)
+assert(not right.is_closed and right.min[2] > -1e-6)                -- boxes of exact geometry are a little loose; its rim is exact
+
+local sizes = { curvature_angle = 20*deg, min_edge = 20*mm, patches = { ["wing*"] = { max_edge = 0.2 }, fin = { max_edge = 0.2 } } }
+local function mesh_of(model)
+  sizes[1] = model
+  return surface_mesh(sizes)
+end
+local wall, full = mesh_of(right), mesh_of(whole)
+print(string.format("half %d triangles, whole %d: %.1f %%", wall.triangles, full.triangles, 100 * wall.triangles / full.triangles))
+assert(wall.crossings == 0)
+
+-- Or the triangles are cut: a half with exactly the whole's triangles but for those across the plane.
+local cut = half(full)
+assert(math.abs(cut.triangles / full.triangles - 0.5) < 0.015)
+
+-- Half a farfield and the plane "symmetry" are added; the layer ends in the plane.
+local mesh = volume_mesh{ wall, layers = 20, first_height = 2e-5, farfield = sphere{ radius = 150 } }
+mesh:check()
+mesh:write("half_model.su2", "half_model.vtu")

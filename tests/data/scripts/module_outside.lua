@@ -1,0 +1,2 @@
+-- expect bad_argument require "../box": modules lie beside the script
+require "../box"

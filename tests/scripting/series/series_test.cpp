@@ -1,0 +1,279 @@
+// Series of small cases: folders, resuming, failures, locks, stops.
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <csignal>
+#include <set>
+#include <thread>
+
+#include "tests/scripting/series/series_fixture.h"
+
+namespace sterna::scripting {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Four cases, each with a mesh around a box; p.fail makes one of them fail.
+constexpr const char* k_small = R"lua(
+local wall = read_surface "box.stl"
+local size = require "sizes"
+local results = series{ "small",
+  over = { height = {0.01, 0.02}, layers = {2, 3} },
+  run = jobs{ 2, threads = 1 },
+  case = function(p)
+    print("case " .. p.name .. " is number " .. p.index)
+    if p.layers == 3 and p.height == 0.02 then error("no such thing") end
+    volume_mesh{ wall, layers = p.layers, first_height = p.height, farfield = sphere{ radius = size.radius } }:write "mesh.su2"
+    return { volume = p.height * 2, text = "x" }
+  end }
+print(#results.cases, results.failed, results.cases[1].result.volume, results.cases[1].verdict)
+)lua";
+
+class Series : public SeriesFixture {
+ protected:
+  void SetUp() override { prepare(folder_); }
+  void prepare(const std::filesystem::path& folder) {
+    std::filesystem::create_directories(folder);
+    std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder / "box.stl");
+    std::ofstream(folder / "sizes.lua") << "return { radius = 20 }";
+  }
+  /// Cases that ran, as the log tells.
+  static std::size_t n_run(const test::ProcessResult& result) {
+    std::size_t n = 0;
+    for (std::size_t at = 0; (at = result.errors.find("small ", at)) != std::string::npos; ++at) ++n;
+    std::size_t kept = 0;
+    for (std::size_t at = 0; (at = result.errors.find("of an earlier run", at)) != std::string::npos; ++at) ++kept;
+    return n - kept;
+  }
+};
+
+TEST_F(Series, EveryCaseHasAFolderWithAllThatBelongsToIt) {
+  const test::ProcessResult result = run(k_small);
+  EXPECT_EQ(result.status, 1) << result.errors;  // one case fails
+  EXPECT_THAT(result.output, HasSubstr("4\t1\t0.02\tVALID"));
+  EXPECT_THAT(result.output, HasSubstr("series small: 4 cases"));
+  const std::string folder = "small/height=0.01_layers=2/";
+  for (const char* name : {"case.json", "log.txt", "mesh.su2", "mesh.su2.json", "quality.json", "status.json", "measure.json", "script/case.lua", "script/sizes.lua"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / (folder + name))) << name;
+  EXPECT_EQ(text_of(folder + "script/case.lua"), k_small);
+  EXPECT_THAT(text_of(folder + "log.txt"), HasSubstr("case height=0.01_layers=2 is number 1"));
+  EXPECT_THAT(text_of(folder + "status.json"), HasSubstr("\"status\": \"done\""));
+  EXPECT_THAT(text_of(folder + "status.json"), HasSubstr("box.stl"));
+  const std::string failed = text_of("small/height=0.02_layers=3/status.json");
+  EXPECT_THAT(failed, HasSubstr("\"code\": \"script_failed\""));
+  EXPECT_THAT(failed, HasSubstr("case.lua:9: no such thing"));
+  EXPECT_THAT(text_of("small/series.json"), HasSubstr("\"failed\": 1"));
+  EXPECT_THAT(text_of("small/series.csv"), HasSubstr("case,height,layers,status,verdict,cells,quality,worst,seconds,reused,error\nheight=0.01_layers=2,0.01,2,done,VALID,"));
+}
+
+TEST_F(Series, WhatIsDoneIsTakenAsItIs) {
+  run(k_small);
+  const auto first = snapshot(folder_ / "small");
+  const test::ProcessResult again = run(k_small);
+  EXPECT_EQ(again.status, 1);
+  EXPECT_EQ(n_run(again), 0u) << again.errors;
+  EXPECT_EQ(difference(first, snapshot(folder_ / "small")), "");
+
+  // An output that was changed or lost is made again, a foreign file stays.
+  std::ofstream(folder_ / "small/height=0.01_layers=2/mesh.su2") << "damaged";
+  std::filesystem::remove(folder_ / "small/height=0.01_layers=3/mesh.su2.json");
+  std::ofstream(folder_ / "small/height=0.01_layers=3/notes.txt") << "mine";
+  EXPECT_EQ(n_run(run(k_small)), 2u);
+  EXPECT_EQ(text_of("small/height=0.01_layers=3/notes.txt"), "mine");
+  std::filesystem::remove(folder_ / "small/height=0.01_layers=3/notes.txt");
+  auto second = snapshot(folder_ / "small");
+  second.erase("height=0.01_layers=3/status.json");  // knows of the foreign file
+  auto expected = first;
+  expected.erase("height=0.01_layers=3/status.json");
+  EXPECT_EQ(difference(expected, second), "");
+}
+
+TEST_F(Series, WhatItWasMadeOfDecidesWhetherACaseRunsAgain) {
+  run(k_small);
+  EXPECT_EQ(n_run(run(k_small, {"--seed", "7"})), 4u);
+  EXPECT_EQ(n_run(run(k_small, {"--seed", "7", "--tasks", "1", "--threads", "2"})), 0u);
+  EXPECT_EQ(n_run(run(k_small, {"--seed", "7", "--set", "envelope.max_growth=1.3"})), 4u);
+  run(k_small);
+  std::ofstream(folder_ / "sizes.lua") << "return { radius = 21 }";
+  EXPECT_EQ(n_run(run(k_small)), 4u);
+  std::ofstream(folder_ / "box.stl", std::ios::app) << "\n";
+  EXPECT_EQ(n_run(run(k_small)), 4u);
+  const std::string retry = std::string(k_small).replace(std::string(k_small).find("over ="), 0, "retry = true, ");
+  EXPECT_EQ(n_run(run(retry)), 4u);  // another script
+  EXPECT_EQ(n_run(run(retry)), 1u);  // the failed one
+}
+
+TEST_F(Series, TasksAndThreadsDoNotChangeAByte) {
+  run(k_small);
+  const std::filesystem::path other = folder_ / "other";
+  prepare(other);
+  run(k_small, {"--tasks", "1", "--threads", "2"}, other);
+  EXPECT_EQ(difference(snapshot(folder_ / "small"), snapshot(other / "small")), "");
+}
+
+TEST_F(Series, ASecondSeriesKnowsTheFirst) {
+  const std::string script = R"lua(
+local first = series{ "first", over = { x = range(1, 3) }, cache = false, case = function(p) return { square = p.x^2 } end }
+local sum = 0
+for _, c in ipairs(first.cases) do sum = sum + c.result.square end
+local second = series{ "second", over = { y = {sum} }, case = function(p) return { y = p.y, first = first.cases[2].name } end }
+print(second.cases[1].result.y, second.cases[1].result.first)
+)lua";
+  const test::ProcessResult result = run(script);
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(result.output, HasSubstr("14.0\tx=2"));
+}
+
+TEST_F(Series, TheReferenceRunsFirstAndTheOthersWait) {
+  const std::string script = R"lua(
+series{ "s", over = { x = {1, 2, 3} }, run = jobs{ 2, threads = 1 }, reference = { x = 3 }, case = function(p)
+  if p.x == FAIL then error("broken") end
+  return p.x
+end }
+)lua";
+  const auto with = [&](const std::string& x) { return std::string(script).replace(script.find("FAIL"), 4, x); };
+  const test::ProcessResult good = run(with("0"));
+  EXPECT_EQ(good.status, 0) << good.errors;
+  EXPECT_LT(good.errors.find("x=3"), good.errors.find("x=1"));
+  EXPECT_THAT(text_of("s/x=1/status.json"), HasSubstr("s/x=3/status.json"));  // an input of the others
+  const test::ProcessResult bad = run(with("3"));
+  EXPECT_EQ(bad.status, 1);
+  EXPECT_THAT(bad.errors, HasSubstr("x=1: failed: the reference case x=3 gave no result"));
+}
+
+TEST_F(Series, ACaseReadsBackWhatItWrote) {
+  const std::string script = R"lua(
+local wall = read_surface "box.stl"
+series{ "s", over = { x = {1, 2} }, case = function(p)
+  wall:write "parts/copy.stl"
+  return read_surface("parts/copy.stl").triangles
+end }
+)lua";
+  const test::ProcessResult result = run(script);
+  EXPECT_EQ(result.status, 0) << result.errors;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "s/x=1/parts/copy.stl"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "parts"));
+}
+
+TEST_F(Series, NothingRunsInAWorkerAfterItsCase) {
+  const std::string script = R"lua(
+local wall = read_surface "box.stl"
+pcall(series, { "s", over = { x = {1} }, case = function(p) return p.x end })
+pcall(function() wall:write "after.stl" end)
+)lua";
+  run(script);
+  EXPECT_EQ(text_of("s/x=1/log.txt").find("after.stl"), std::string::npos);
+  EXPECT_THAT(text_of("s/x=1/status.json"), HasSubstr("done"));
+}
+
+// ---- Stopped and killed --------------------------------------------------------------------------------------------------------------------
+
+constexpr const char* k_endless = R"lua(
+series{ "small", over = { x = {1, 2, 3} }, run = jobs{ 2, threads = 1 }, case = function(p)
+  if p.x > 1 then while true do end end
+end }
+)lua";
+
+/// Waits until so many workers run.
+std::vector<pid_t> wait_for_workers(pid_t main, std::size_t n) {
+  for (;;) {
+    const std::vector<pid_t> workers = test::children_of(main);
+    if (workers.size() >= n) return workers;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+/// Not dead, nor a zombie that nobody has reaped.
+bool is_running(pid_t process) {
+  const std::string stat = contents("/proc/" + std::to_string(process) + "/stat");
+  const std::size_t name_end = stat.rfind(')');
+  return name_end != std::string::npos && stat.compare(name_end, 4, ") Z ") != 0;
+}
+
+bool wait_for(const std::filesystem::path& file, const std::string& text) {
+  for (int i = 0; i < 5000; ++i) {
+    if (contents(file).find(text) != std::string::npos) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return false;
+}
+
+TEST_F(Series, CtrlCStopsTheWorkersAndKeepsWhatIsDone) {
+  write(k_endless, folder_);
+  test::StartedProcess main(test::sterna_program(), {"run", "case.lua"}, folder_);
+  ASSERT_TRUE(wait_for(folder_ / "small/x=1/status.json", "done"));
+  ASSERT_TRUE(wait_for(folder_ / "small/x=3/status.json", "running"));
+  const std::vector<pid_t> workers = test::children_of(main.pid());
+  EXPECT_EQ(workers.size(), 2u);
+  const auto start = std::chrono::steady_clock::now();
+  main.signal(SIGINT);
+  EXPECT_EQ(main.wait(), 130);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1.5);  // 1 s, and a loaded machine
+  for (const pid_t worker : workers) EXPECT_FALSE(is_running(worker));
+  EXPECT_THAT(text_of("small/x=2/status.json"), HasSubstr("\"killed\": \"stopped on request\""));
+  EXPECT_THAT(text_of("small/x=1/status.json"), HasSubstr("done"));
+}
+
+TEST_F(Series, AKilledCaseDoesNotStopTheOthers) {
+  const std::string script = R"lua(
+series{ "small", over = { x = {1, 2, 3} }, run = jobs{ 1, threads = 1 }, case = function(p)
+  local wall = read_surface "box.stl"
+  wall:write "mark.stl"
+  if p.x == 2 and not pcall(read_surface, "go.stl") then while true do end end
+end }
+)lua";
+  write(script, folder_);
+  test::StartedProcess main(test::sterna_program(), {"run", "case.lua"}, folder_);
+  ASSERT_TRUE(wait_for(folder_ / "small/x=2/status.json", "running"));
+  kill(wait_for_workers(main.pid(), 1).front(), SIGKILL);
+  EXPECT_EQ(main.wait(), 1);
+  EXPECT_THAT(text_of("small/x=2/status.json"), HasSubstr("signal 9 (Killed)"));
+  EXPECT_THAT(text_of("small/x=3/status.json"), HasSubstr("done"));
+  std::filesystem::copy(folder_ / "box.stl", folder_ / "go.stl");  // nothing but case 2 and the others that would read it
+  const test::ProcessResult again = run(script);
+  EXPECT_EQ(again.status, 0) << again.errors;
+  EXPECT_EQ(n_run(again), 1u) << again.errors;
+}
+
+TEST_F(Series, WorkersEndWithTheirMainAndTheLockWithThem) {
+  write(k_endless, folder_);
+  test::StartedProcess main(test::sterna_program(), {"run", "case.lua"}, folder_);
+  ASSERT_TRUE(wait_for(folder_ / "small/x=3/status.json", "running"));
+  const std::vector<pid_t> workers = test::children_of(main.pid());
+
+  // While it runs, another run of it is refused; at once, saying why.
+  const test::ProcessResult second = run(k_endless);
+  EXPECT_EQ(second.status, 1);
+  EXPECT_THAT(second.errors, HasSubstr("another run is at work in it: process " + std::to_string(main.pid()) + " on "));
+  EXPECT_LT(second.seconds, 3.0);
+
+  main.signal(SIGKILL);
+  main.wait();
+  const std::string quick = std::string(k_endless).replace(std::string(k_endless).find("p.x > 1"), 7, "p.x > 9");
+  EXPECT_EQ(run(quick).status, 0);
+  for (const pid_t worker : workers) EXPECT_FALSE(is_running(worker));
+}
+
+// ---- Wrong scripts -------------------------------------------------------------------------------------------------------------------------
+
+TEST_F(Series, SaysWhatIsWrongWithItsTable) {
+  const test::ProcessResult result = run("series{ over = { alpha = print }, run = 2, reference = { a = 1 }, cases = function() end, cache = 7 }");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_THAT(result.errors, HasSubstr("case.lua:1: series: 6 problems in this table"));
+  EXPECT_THAT(result.errors, HasSubstr("needs its name first"));
+  EXPECT_THAT(result.errors, HasSubstr("over: alpha: a function cannot be a parameter"));
+  EXPECT_THAT(result.errors, HasSubstr("run: expected jobs{ 2 } or slurm{ partition = \"cfd\" }, not a number"));
+  EXPECT_THAT(result.errors, HasSubstr("case is missing"));
+  EXPECT_THAT(result.errors, HasSubstr("unknown key \"cases\", did you mean \"case\"?"));
+  EXPECT_THAT(result.errors, HasSubstr("cache: expected true, false or the name of a folder, not a number"));
+  EXPECT_THAT(run("series{ 'a', over = { x = {1, 2} }, reference = { x = 3 }, case = function() end }").errors, HasSubstr("reference: no case has these parameters: {\"x\":3}"));
+  EXPECT_THAT(run("series{ 'a/b', over = { x = {1} }, case = function() end }").errors, HasSubstr("\"a/b\" cannot be its name"));
+  EXPECT_THAT(run("local o = { 'a', over = { x = {1} }, case = function() end } series(o) series(o)").errors, HasSubstr("there is a series \"a\" already"));
+  EXPECT_THAT(run("series{ 'a', over = { x = {1} }, case = function() series{ 'b', over = { x = {1} }, case = function() end } end }").errors, HasSubstr("a case cannot hold a series of its own"));
+  EXPECT_THAT(run("jobs{ 2.5 }").errors, HasSubstr("tasks"));
+  EXPECT_THAT(run("slurm{ options = { mem = print } }").errors, HasSubstr("options.mem: expected a text, a number or true, not a function"));
+}
+
+}  // namespace
+}  // namespace sterna::scripting

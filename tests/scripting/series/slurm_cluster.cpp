@@ -1,0 +1,133 @@
+#include "tests/scripting/series/slurm_cluster.h"
+
+#include <pwd.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <thread>
+
+namespace sterna::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds k_patience{60};  ///< a loaded machine; it takes 4 s alone
+
+fs::path program(const std::string& name) {
+  for (const char* folder : {"/usr/sbin", "/usr/bin"})
+    if (fs::exists(fs::path(folder) / name)) return fs::path(folder) / name;
+  return {};
+}
+
+ProcessResult run(const std::string& name, const std::vector<std::string>& words, const fs::path& folder) { return run_process(program(name), words, folder); }
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  const std::string text = name.data();
+  return text.substr(0, text.find('.'));
+}
+
+void own_folder(const fs::path& path, const passwd& user) {
+  fs::create_directories(path);
+  if (chown(path.c_str(), user.pw_uid, user.pw_gid) != 0) throw std::runtime_error("chown " + path.string());
+}
+
+fs::path temporary_folder() {
+  std::string name = "/tmp/sterna_slurm_XXXXXX";
+  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+  return name;
+}
+
+/// Ends a daemon: asks first.
+void end(StartedProcess& process) {
+  process.signal(SIGTERM);
+  for (const auto begin = Clock::now(); !process.has_ended() && Clock::now() - begin < std::chrono::seconds(10);) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+}
+
+}  // namespace
+
+bool SlurmCluster::is_possible() {
+  for (const char* name : {"munged", "munge", "slurmctld", "slurmd", "sbatch", "squeue", "sinfo"})
+    if (program(name).empty()) return false;
+  return geteuid() == 0;
+}
+
+SlurmCluster::SlurmCluster() : folder_(temporary_folder()) {
+  try {
+    start_munge();
+    write_conf();
+    setenv("SLURM_CONF", (folder_ / "slurm.conf").c_str(), 1);
+    // In the foreground (-D), so that they are children of this process and end with it.
+    controller_ = std::make_unique<StartedProcess>(program("slurmctld"), std::vector<std::string>{"-D", "-f", (folder_ / "slurm.conf").string()}, folder_);
+    node_ = std::make_unique<StartedProcess>(program("slurmd"), std::vector<std::string>{"-D", "-f", (folder_ / "slurm.conf").string()}, folder_);
+    wait_until_idle();
+  } catch (...) {
+    stop();
+    throw;
+  }
+}
+
+SlurmCluster::~SlurmCluster() { stop(); }
+
+std::string SlurmCluster::queue() const { return run("squeue", {"--noheader"}, folder_).output; }
+
+void SlurmCluster::start_munge() {
+  if (run("munge", {"-n"}, folder_).status == 0) return;  // the machine has one
+  const passwd* user = getpwnam("munge");
+  if (!user) throw std::runtime_error("there is no user munge");
+  for (const char* path : {"/run/munge", "/var/log/munge", "/var/lib/munge", "/etc/munge"}) own_folder(path, *user);
+  if (!fs::exists("/etc/munge/munge.key")) {
+    if (run("mungekey", {"--create"}, folder_).status != 0) throw std::runtime_error("no key for munge");
+    own_folder("/etc/munge", *user);
+  }
+  munge_ = std::make_unique<StartedProcess>(program("runuser"), std::vector<std::string>{"-u", "munge", "--", program("munged").string(), "--foreground", "--force"}, folder_);
+  for (const auto begin = Clock::now(); run("munge", {"-n"}, folder_).status != 0;) {
+    if (Clock::now() - begin > k_patience || munge_->has_ended()) throw std::runtime_error("munged does not come up: " + contents("/var/log/munge/munged.log"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+}
+
+void SlurmCluster::write_conf() {
+  const std::string host = host_name(), f = folder_.string();
+  const int port = 20000 + 2 * (getpid() % 10000);  // another Slurm of this machine has the usual ones
+  fs::create_directories(folder_ / "ctld");
+  fs::create_directories(folder_ / "d");
+  std::ofstream(folder_ / "slurm.conf") << "ClusterName=test\nSlurmctldHost=" << host << "(127.0.0.1)\nSlurmctldPort=" << port << "\nSlurmdPort=" << port + 1
+                                        << "\nSlurmUser=root\nAuthType=auth/munge\nStateSaveLocation=" << f << "/ctld\nSlurmdSpoolDir=" << f << "/d\nSlurmctldPidFile=" << f << "/ctld.pid\nSlurmdPidFile=" << f
+                                        << "/d.pid\nSlurmctldLogFile=" << f << "/ctld.log\nSlurmdLogFile=" << f
+                                        << "/d.log\nProctrackType=proctrack/linuxproc\nTaskPlugin=task/none\nSchedulerType=sched/backfill\nSelectType=select/cons_tres\nSelectTypeParameters=CR_CPU\n"
+                                           "ReturnToService=2\nMpiDefault=none\nNodeName="
+                                        << host << " NodeAddr=127.0.0.1 CPUs=2 State=UNKNOWN\nPartitionName=cfd Nodes=" << host << " Default=YES MaxTime=INFINITE State=UP\n";
+}
+
+void SlurmCluster::wait_until_idle() {
+  for (const auto begin = Clock::now(); run("sinfo", {"--noheader", "--format=%T"}, folder_).output.find("idle") == std::string::npos;) {
+    if (Clock::now() - begin > k_patience || controller_->has_ended() || node_->has_ended())
+      throw std::runtime_error("Slurm does not come up:\n" + contents(folder_ / "ctld.log") + contents(folder_ / "d.log"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+}
+
+void SlurmCluster::stop() noexcept {
+  if (node_) end(*node_);
+  if (controller_) end(*controller_);
+  if (munge_) end(*munge_);
+  unsetenv("SLURM_CONF");
+  std::error_code ignored;  // what stays in /tmp does no harm
+  fs::remove_all(folder_, ignored);
+}
+
+}  // namespace sterna::test

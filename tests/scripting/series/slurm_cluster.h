@@ -1,0 +1,36 @@
+// A real Slurm on this machine for as long as a test needs it: controller and one node on 127.0.0.1, without systemd, as root (../shared/spec/slurm.md).
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "tests/support/process.h"
+
+namespace sterna::test {
+
+/// Sets SLURM_CONF for this process and all that it starts. All daemons end with the object.
+class SlurmCluster {
+ public:
+  /// Whether all is installed and this is root.
+  static bool is_possible();
+  /// \throws std::runtime_error with the daemons' words when it does not come up
+  SlurmCluster();
+  ~SlurmCluster();
+  SlurmCluster(const SlurmCluster&) = delete;
+  SlurmCluster& operator=(const SlurmCluster&) = delete;
+
+  /// What squeue says of all jobs; empty once there is none.
+  std::string queue() const;
+
+ private:
+  void start_munge();
+  void write_conf();
+  void wait_until_idle();
+  void stop() noexcept;
+
+  std::filesystem::path folder_;  ///< in /tmp: it holds sockets, whose names may have 107 letters
+  std::unique_ptr<StartedProcess> munge_, controller_, node_;
+};
+
+}  // namespace sterna::test

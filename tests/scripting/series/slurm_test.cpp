@@ -1,0 +1,94 @@
+// The wind-tunnel series on a real Slurm that the test starts on this machine, two jobs at a time.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "tests/scripting/series/series_fixture.h"
+#include "tests/scripting/series/slurm_cluster.h"
+#include "tests/scripting/series/tunnel_series.h"
+
+namespace sterna::scripting {
+namespace {
+
+using testing::HasSubstr;
+
+class SlurmSeries : public SeriesFixture {
+ protected:
+  static void wait_for_empty_queue(const test::SlurmCluster& cluster) {
+    for (int i = 0; i < 1500 && !cluster.queue().empty(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(cluster.queue(), "");
+  }
+  bool wait_for(const std::string& file, const std::string& text) const {
+    for (int i = 0; i < 1500; ++i) {
+      if (text_of(file).find(text) != std::string::npos) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    return false;
+  }
+  /// Meshes, manifests and quality of all cases, and the table.
+  std::map<std::string, std::string> results() const {
+    auto files = snapshot(folder_ / "polar");
+    std::erase_if(files, [](const auto& file) { return file.first.find("/script/") != std::string::npos || file.first.ends_with("case.json") || file.first.ends_with("status.json"); });
+    return files;
+  }
+};
+
+// One test, because Slurm takes seconds to come up.
+TEST_F(SlurmSeries, RunsAsJobsAndIsCancelledAndSurvivesLostJobs) {
+  STERNA_NEEDS_SHARED_DATA();
+  STERNA_NEEDS(test::SlurmCluster::is_possible(), "slurm-wlm with munge, or the right to start it,");
+  const test::SlurmCluster cluster;
+
+  // The whole series: the same bytes as in a pool.
+  const test::ProcessResult jobs = run(tunnel_series("run = slurm{ partition = 'cfd', tasks = 2, time = '00:20:00', options = { comment = 'a test', nice = 10 } },"));
+  EXPECT_EQ(jobs.status, 1) << jobs.errors;
+  EXPECT_THAT(jobs.output, HasSubstr("12\t2\t0"));
+  EXPECT_THAT(text_of("polar/slurm/array-1.sh"), HasSubstr("#SBATCH --array=1-14%2\n"));
+  const auto of_slurm = results();
+  std::filesystem::remove_all(folder_ / "polar");
+  run(tunnel_series("run = jobs{ 2, threads = 1 },"));
+  EXPECT_EQ(difference(of_slurm, results()), "");
+
+  // A job that is killed is reported; the others go on, and a second run makes only what is missing.
+  const std::string script = R"lua(
+series{ "s", over = { x = {1, 2, 3} }, run = slurm{ tasks = 2 }, case = function(p)
+  local wall = p.x == 2 and pcall(read_surface, "go.stl")
+  if p.x == 2 and not wall then while true do end end
+end }
+)lua";
+  write(script, folder_);
+  {
+    test::StartedProcess main(test::sterna_program(), {"run", "case.lua"}, folder_);
+    ASSERT_TRUE(wait_for("s/x=2/status.json", "\"pid\""));
+    const std::string status = text_of("s/x=2/status.json");
+    kill(std::stoi(status.substr(status.find("\"pid\": ") + 7)), SIGKILL);
+    EXPECT_EQ(main.wait(), 1);
+    EXPECT_THAT(text_of("s/x=2/status.json"), HasSubstr("is gone from the queue and has left no result"));
+    EXPECT_THAT(text_of("s/x=3/status.json"), HasSubstr("done"));
+  }
+  wait_for_empty_queue(cluster);
+
+  // Ctrl-C takes the jobs out of the queue. A main process that is killed leaves them there: the next run does it.
+  for (const int signal : {SIGINT, SIGKILL}) {
+    test::StartedProcess main(test::sterna_program(), {"run", "case.lua"}, folder_);
+    ASSERT_TRUE(wait_for("s/x=2/status.json", "running"));
+    const auto begin = std::chrono::steady_clock::now();
+    main.signal(signal);
+    main.wait();
+    if (signal != SIGINT) continue;
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 2.0);
+    wait_for_empty_queue(cluster);
+  }
+  std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder_ / "go.stl");
+  const test::ProcessResult last = run(script);
+  EXPECT_EQ(last.status, 0) << last.errors;
+  EXPECT_THAT(last.errors, HasSubstr("is still in the queue: it is cancelled"));
+  EXPECT_THAT(last.errors, HasSubstr("x=1: done, of an earlier run"));
+  wait_for_empty_queue(cluster);
+}
+
+}  // namespace
+}  // namespace sterna::scripting

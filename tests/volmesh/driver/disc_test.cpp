@@ -1,0 +1,75 @@
+// Actuator discs through the whole driver.
+#include <gmock/gmock.h>
+
+#include "geom/base/error.h"
+#include "geom/mesh/sheets.h"
+#include "tests/support/shapes.h"
+#include "volmesh/stages.h"
+
+namespace sterna::volmesh {
+namespace {
+
+const RunContext k_context({.threads = 2});
+
+VolumeMeshOptions options_with(std::vector<ActuatorDisc> discs) {
+  VolumeMeshOptions options;
+  options.envelope.layers = 10;
+  options.envelope.first_height = 1e-3;
+  options.farfield.farfield_radius = 20.0;
+  options.discs = std::move(discs);
+  return options;
+}
+
+/// Triangles of each patch by name.
+std::size_t n_triangles_of(const HybridMesh& mesh, const std::string& name) {
+  return static_cast<std::size_t>(std::ranges::count_if(mesh.boundary_triangles, [&](const auto& t) { return mesh.patches[t.patch].name == name; }));
+}
+
+TEST(Discs, PropellerInFrontOfABodyAndRingAroundIt) {
+  const TriMesh wall = test::sphere(8);
+  const std::vector<ActuatorDisc> discs = {{.name = "prop", .center = {-1.7, 0, 0}, .radius = 1.2}, {.name = "fan", .center = {0.2, 0, 0}, .radius = 2.4, .inner_radius = 1.5}};
+  for (const char* engine : {"hxt", "tetgen"}) {
+    SCOPED_TRACE(engine);
+    VolumeMeshOptions options = options_with(discs);
+    options.tetrahedra.engine = engine;
+    const VolumeMeshResult result = volume_mesh(wall, options, k_context);
+    EXPECT_TRUE(result.check.is_valid());
+    EXPECT_EQ(result.tetra_engine, engine);
+    for (const std::string name : {"prop", "fan"}) {
+      EXPECT_GT(n_triangles_of(result.mesh, name), 50u);
+      EXPECT_EQ(n_triangles_of(result.mesh, name), n_triangles_of(result.mesh, name + ".back"));
+    }
+    EXPECT_FALSE(find_sheet_sides(result.mesh).empty());
+    EXPECT_GT(result.layer.coverage, 0.99);
+  }
+}
+
+TEST(Discs, TheLayerKeepsClearOfADiscNearTheWall) {
+  VolumeMeshOptions options = options_with({{.name = "prop", .center = {-1.1, 0, 0}, .radius = 0.8}});
+  options.envelope.first_height = 0.02;
+  const VolumeMeshResult result = volume_mesh(test::sphere(8), options, k_context);
+  EXPECT_TRUE(result.check.is_valid());
+}
+
+TEST(Discs, StagesByHandGiveTheSameMesh) {
+  const TriMesh wall = test::sphere(6);
+  const VolumeMeshOptions options = options_with({{.name = "prop", .center = {-1.7, 0, 0}, .radius = 1.2}});
+  const VolumeMeshResult whole = volume_mesh(wall, options, k_context);
+  FilledStage filled = make_tetrahedra(wall, make_envelope(wall, options, k_context), options, k_context);
+  const VolumeMeshResult by_hand = finish_mesh(wall, std::move(filled), options, k_context);
+  EXPECT_EQ(whole.mesh.points, by_hand.mesh.points);
+  EXPECT_EQ(whole.mesh.tetrahedra, by_hand.mesh.tetrahedra);
+}
+
+TEST(Discs, ADiscThroughTheBodyIsAnErrorWithPlaces) {
+  try {
+    volume_mesh(test::sphere(6), options_with({{.name = "prop", .center = {0, 0, 0}, .radius = 1.2}}), k_context);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::self_intersection);
+    EXPECT_FALSE(error.info().places.empty());
+  }
+}
+
+}  // namespace
+}  // namespace sterna::volmesh

@@ -1,0 +1,49 @@
+// Actuator discs: flat sheets without thickness inside the fluid, two patches back to back, where a solver puts the thrust of a propeller.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/base/schema.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::volmesh {
+
+/// A disc, or a ring around a hub, free in the fluid.
+struct ActuatorDisc {
+  std::string name = "disc";     ///< patch on the upstream side; the downstream side is <name>.back
+  Point center;                  ///< m
+  Vec3 axis{1.0, 0.0, 0.0};      ///< the way the flow goes through; any length
+  double radius = 0.0;           ///< m
+  double inner_radius = 0.0;     ///< m; 0: a full disc
+  double edge = k_automatic;     ///< m, longest edge
+};
+
+inline constexpr double k_disc_edge = 1.0 / 12.0;  ///< of the radius: longest edge, where none is given
+
+/// Name of the downstream side's patch.
+std::string back_name(const ActuatorDisc& disc);
+
+/// Triangles of the disc in rings, shorter towards walls near by: edges as the size field has them there, `edge` at most (default: a twelfth of the radius). One
+/// patch of kind interface; normals against the axis. No triangle has all its corners on the rims, no edge inside joins two rims.
+/// \p walls: for sizes; \p growth: of the size field
+/// \throws Error(bad_argument) for numbers that make no disc
+TriMesh triangulate_disc(const ActuatorDisc& disc, const TriMesh& walls, double growth, const RunContext& context);
+
+/// The outer boundary with one side of each disc, the upstream one, behind its own triangles: what layers keep clear of.
+/// \p walls: those with layers, for sizes
+/// \throws Error(bad_argument) when two discs or a disc and a patch have the same name, Error(self_intersection) with places where a disc meets a wall, the outer boundary or
+/// another disc
+TriMesh with_discs(TriMesh outer, const TriMesh& walls, const std::vector<ActuatorDisc>& discs, double growth, const RunContext& context);
+
+/// The downstream sides too, behind all triangles and vertices that are there: vertices inside of a disc are two then, those on its rims stay one.
+/// \pre the upstream sides are there, by the names of their patches
+TriMesh with_second_sides(TriMesh outer, const std::vector<ActuatorDisc>& discs);
+
+/// Without the triangles that lie back to back on others of a smaller number; their vertices and patches stay. Of a mesh of with_second_sides() they are the last.
+TriMesh one_sided(TriMesh outer);
+/// Whether triangles of patches of kind interface lie back to back.
+bool has_sheets(const TriMesh& outer);
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,60 @@
+#include "volmesh/envelope/wall_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+namespace sterna::volmesh {
+namespace {
+
+/// Largest value at c for which the linear function over the triangle (a, b, c) rises by at most `slope` per metre, with values ha, hb given: from inside
+/// the triangle where the steepest rise comes from there (the eikonal update of Kimmel & Sethian 1998), else along the edges.
+double slope_bound(const Point& a, double ha, const Point& b, double hb, const Point& c, double slope) {
+  const double along_edges = std::min(ha + slope * distance(a, c), hb + slope * distance(b, c));
+  const Vec3 base = b - a;
+  const double length = norm(base);
+  if (length == 0.0) return along_edges;
+  const Vec3 x = base / length;
+  const double rise = (hb - ha) / length;  // the function's derivative along the edge a-b
+  if (std::abs(rise) >= slope) return along_edges;
+  const Vec3 to_c = c - a;
+  const double u = dot(to_c, x);
+  const double height = norm(to_c - u * x);
+  const double across = std::sqrt(slope * slope - rise * rise);
+  const double foot = u - height * rise / across;  // where the line of steepest rise through c meets a-b
+  const double value = ha + rise * u + across * height;
+  return foot > 0.0 && foot < length && value >= std::max(ha, hb) ? value : along_edges;
+}
+
+}  // namespace
+
+void limit_gradient(const LayerBase& base, double gradient, Column<VertexId, double>& height) {
+  using Entry = std::pair<double, std::uint32_t>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  Column<VertexId, std::uint8_t> is_final(height.size(), 0);
+  const auto& points = base.wall.points;
+  const auto offer = [&](VertexId v, double bound) {
+    if (is_final[v] || bound >= height[v]) return;
+    height[v] = bound;
+    queue.emplace(bound, v.value());
+  };
+  const auto offer_corner = [&](VertexId v, VertexId b, VertexId c) {
+    const double along_edge = height[v] + gradient * distance(points[v], points[c]);
+    offer(c, is_final[b] ? slope_bound(points[v], height[v], points[b], height[b], points[c], gradient) : along_edge);
+  };
+  for (const VertexId v : height.ids()) queue.emplace(height[v], v.value());
+  while (!queue.empty()) {
+    const VertexId v(queue.top().second);
+    queue.pop();
+    if (is_final[v]) continue;
+    is_final[v] = 1;
+    for (const HalfedgeId h : base.topology.outgoing(v)) {
+      const VertexId b = base.topology.to(h);
+      const VertexId c = base.topology.from(previous(h));
+      offer_corner(v, b, c);
+      offer_corner(v, c, b);
+    }
+  }
+}
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,29 @@
+// Members of a mesh family: the same mesh, finer or coarser.
+#pragma once
+
+#include "geom/base/schema.h"
+
+namespace sterna::volmesh {
+
+/// Ratios of edge lengths of neighbours in a family, and their names: 1.5 per direction, 3.4 times the nodes, as in the workshops since DPW-4.
+inline constexpr std::string_view k_family_names = "extra_coarse=0.4444444444444444 coarse=0.6666666666666666 medium=1 fine=1.5 extra_fine=2.25";
+
+struct FamilyOptions {
+  double refinement = 1.0;
+};
+
+}  // namespace sterna::volmesh
+
+namespace sterna {
+
+template <>
+struct Schema<volmesh::FamilyOptions> {
+  using O = volmesh::FamilyOptions;
+  static constexpr std::string_view stage = "family";
+  static constexpr std::array fields = {
+      Field<O>{.name = "refinement", .member = &O::refinement, .min = 0.01, .max = 100.0,
+               .help = "member f of a mesh family: first heights, sizes of tetrahedra, sources and farfield divided by f, f times the layers, growth to the power 1/f; give the surface the same", .choices = volmesh::k_family_names},
+  };
+};
+
+}  // namespace sterna

@@ -1,0 +1,91 @@
+// The plane of a flat patch.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "geom/math/measures.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::volmesh {
+
+/// The flat patch's plane: constant x, y or z where all its vertices have it nearly, else through their middle.
+struct FlatFit {
+  bool is_flat = false;
+  Point point;
+  Vec3 normal;
+  VertexId farthest;        ///< of the mesh
+  double distance = 0.0;    ///< of the farthest, m
+};
+
+/// Vertices of a patch, ascending. The mesh must outlive it.
+class PatchVertices {
+ public:
+  PatchVertices(const TriMesh& mesh, PatchId patch) : mesh_(mesh) {
+    for (const TriangleId t : mesh.triangles.ids()) {
+      if (mesh.triangle_patch[t] != patch) continue;
+      const auto [a, b, c] = corners(mesh, t);
+      normal_ += area_vector(a, b, c);
+      for (const VertexId v : mesh.triangles[t]) vertices_.push_back(v);
+    }
+    std::sort(vertices_.begin(), vertices_.end());
+    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  }
+  const std::vector<VertexId>& vertices() const { return vertices_; }
+
+  /// tolerance_at(point), m: how far a vertex may be off. Without triangles, or when they cancel out, not flat.
+  template <class Tolerance>
+  FlatFit fit(const Tolerance& tolerance_at) const {
+    FlatFit result;
+    if (norm2(normal_) == 0.0) return result;
+    const Vec3 n = normalized(normal_);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double value = most_common(axis);
+      const bool is_all = std::ranges::all_of(vertices_, [&](VertexId v) { return std::abs(mesh_.points[v][axis] - value) <= tolerance_at(mesh_.points[v]); });
+      if (!is_all) continue;
+      result.is_flat = true;
+      result.point = {};
+      result.point[axis] = value;
+      result.normal = {};
+      result.normal[axis] = n[axis] > 0.0 ? 1.0 : -1.0;
+      return result;
+    }
+    Point middle;
+    for (const VertexId v : vertices_) middle += mesh_.points[v];
+    middle = middle / static_cast<double>(vertices_.size());
+    result.point = middle;
+    result.normal = n;
+    result.is_flat = true;
+    for (const VertexId v : vertices_) {
+      const double d = std::abs(dot(n, mesh_.points[v] - middle));
+      if (d > tolerance_at(mesh_.points[v])) result.is_flat = false;
+      if (d < result.distance) continue;
+      result.distance = d;
+      result.farthest = v;
+    }
+    return result;
+  }
+
+ private:
+  double most_common(std::size_t axis) const {
+    std::vector<double> values;
+    for (const VertexId v : vertices_) values.push_back(mesh_.points[v][axis]);
+    std::sort(values.begin(), values.end());
+    double best = values.front();
+    std::size_t most = 0;
+    for (std::size_t begin = 0, end = 0; begin < values.size(); begin = end) {
+      while (end < values.size() && values[end] == values[begin]) ++end;
+      if (end - begin <= most) continue;
+      most = end - begin;
+      best = values[begin];
+    }
+    return most > 1 ? best : values[values.size() / 2];
+  }
+
+  const TriMesh& mesh_;
+  std::vector<VertexId> vertices_;
+  Vec3 normal_;
+};
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,84 @@
+// Estimates of a turbulent boundary layer on a flat plate, for meshes: the first height of a wanted y+, and the thickness that the layers have to cover.
+#pragma once
+
+#include <string>
+
+#include "geom/base/schema.h"
+#include "volmesh/flow/flow_state.h"
+
+namespace sterna::volmesh {
+
+struct FirstHeightOptions {
+  double y_plus = k_automatic;
+  std::string at = "node";
+  std::string law = "schlichting";
+};
+
+struct ThicknessOptions {
+  double factor = 1.0;
+  std::string thickness_law = "fifth_root";
+};
+
+/// Skin friction coefficient tau_w / (rho U^2 / 2) of a turbulent flat plate of this Reynolds number, incompressible, by the law of that name:
+///   schlichting          local, (2 lg Re - 0.65)^-2.3, Re up to 1e9 [H. Schlichting, Boundary-Layer Theory, 7th ed., ch. XXI]
+///   seventh_root         local, 0.026 Re^(-1/7) [F. M. White, Viscous Fluid Flow, from the 1/7 power law of the velocity]
+///   kays_crawford        local, 0.0574 Re^-0.2 (cf/2 = 0.0287 Re^-0.2), 5e5 .. 1e7 [W. M. Kays, M. E. Crawford, Convective Heat and Mass Transfer]
+///   prandtl              local, 0.0592 Re^-0.2, 5e5 .. 1e7 [L. Prandtl; Schlichting, ch. XXI]
+///   prandtl_schlichting  mean of the plate, 0.455 (lg Re)^-2.58, up to 1e9 [Schlichting, ch. XXI]
+///   ittc57               mean with a form allowance, 0.075 (lg Re - 2)^-2, the ship-model correlation line of 1957 [8th ITTC, Madrid 1957]
+/// The first two meet the spacings of the DPW-4 gridding guidelines within 2 %.
+/// \throws Error(bad_argument) for another name, and below k_least_reynolds or above k_largest_reynolds, where none of them means anything
+double skin_friction(const std::string& law, double reynolds);
+inline constexpr double k_least_reynolds = 1e4;
+inline constexpr double k_largest_reynolds = 1e11;
+
+struct FirstHeight {
+  double height = 0.0;               ///< m: what first_height is to be
+  double y_plus = 0.0;
+  double wall_distance = 0.0;        ///< m, that has the y+: the first node's, or half the first cell's height
+  double skin_friction = 0.0;
+  double friction_velocity = k_automatic;  ///< m/s; automatic where the speed is not known
+  FirstHeightOptions options;
+  FlowState flow;
+};
+/// y = y+ nu / u_tau with u_tau = U sqrt(cf/2), so y = y+ (L/Re) / sqrt(cf/2): free-stream values, which at an adiabatic wall in compressible flow give y+ a little
+/// below the wanted. Cell-centred solvers measure y+ at the middle of the first cell, node-centred ones at its upper nodes. \throws as skin_friction
+FirstHeight first_height(const FirstHeightOptions& options, const FlowState& flow);
+
+/// m, factor times the thickness (99 % of the speed) of a turbulent layer after the flow's length:
+///   fifth_root    0.37 L Re^-0.2 [Schlichting, ch. XXI]
+///   seventh_root  0.16 L Re^(-1/7) [White], better above Re 1e7
+/// \throws as skin_friction
+double layer_thickness(const ThicknessOptions& options, const FlowState& flow);
+
+/// "y+ 1 at the first node: 2.31e-06 m (cf 0.00263 by schlichting, u_tau 8.35 m/s; Re ...)"
+std::string describe(const FirstHeight& first);
+/// "turbulent boundary layer: 0.0123 m (fifth_root, times 1.3; Re ...)"
+std::string describe_thickness(const ThicknessOptions& options, const FlowState& flow);
+
+}  // namespace sterna::volmesh
+
+namespace sterna {
+
+template <>
+struct Schema<volmesh::FirstHeightOptions> {
+  using O = volmesh::FirstHeightOptions;
+  static constexpr std::string_view stage = "y_plus";
+  static constexpr std::array fields = {
+      Field<O>{.name = "y_plus", .member = &O::y_plus, .min = 1e-6, .max = 1e5, .help = "wanted dimensionless wall distance; the same as the first entry", .automatic = "the first entry"},
+      Field<O>{.name = "at", .member = &O::at, .help = "where the solver measures it: node-centred ones at the first node, cell-centred ones in the middle of the first cell", .choices = "node cell_centre"},
+      Field<O>{.name = "law", .member = &O::law, .help = "of skin friction on a flat plate: local at the length, or (the last two) mean over it", .choices = "schlichting seventh_root kays_crawford prandtl prandtl_schlichting ittc57"},
+  };
+};
+
+template <>
+struct Schema<volmesh::ThicknessOptions> {
+  using O = volmesh::ThicknessOptions;
+  static constexpr std::string_view stage = "boundary_layer";
+  static constexpr std::array fields = {
+      Field<O>{.name = "factor", .member = &O::factor, .min = 0.01, .max = 100.0, .help = "times the thickness: 1.2 to 1.5 leaves the edge of the boundary layer inside"},
+      Field<O>{.name = "thickness_law", .member = &O::thickness_law, .help = "0.37 L Re^-0.2 or 0.16 L Re^(-1/7)", .choices = "fifth_root seventh_root"},
+  };
+};
+
+}  // namespace sterna

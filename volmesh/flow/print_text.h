@@ -1,0 +1,20 @@
+// Private to volmesh: numbers in messages, as printf has them.
+#pragma once
+
+#include <cstdarg>
+#include <cstdio>
+#include <string>
+
+namespace sterna::volmesh {
+
+/// At most 500 characters.
+[[gnu::format(printf, 1, 2)]] inline std::string print_text(const char* format, ...) {
+  char text[512];
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+}  // namespace sterna::volmesh
