@@ -24,6 +24,7 @@ struct StoredEnvelope {
   Column<VertexId, double> eq1;           ///< m
   Column<VertexId, double> cap;           ///< m
   Column<VertexId, std::uint8_t> limit;   ///< number of volmesh::HeightLimit
+  std::vector<double> first_height = {};  ///< m, where it was asked for by place: one for each vertex of the surface; else empty
 };
 
 /// What an engine made between closed boundaries (volmesh::TetraResult): its own points, numbered behind those of the boundary.

@@ -145,6 +145,7 @@ class PartReader {
     envelope.eq1.raw() = reals(part::k_eq1, n);
     envelope.cap.raw() = reals(part::k_cap, n);
     envelope.limit.raw() = bytes(part::k_limit, n);
+    if (file_.has(part::k_first_height)) envelope.first_height = reals(part::k_first_height, n_vertices);
     return envelope;
   }
 

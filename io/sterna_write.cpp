@@ -58,6 +58,9 @@ class PartWriter {
     reals(part::k_eq1, 1, envelope.eq1.raw());
     reals(part::k_cap, 1, envelope.cap.raw());
     bytes(part::k_limit, envelope.limit.raw());
+    if (envelope.first_height.empty()) return;
+    require_size(envelope.first_height.size(), surface.n_vertices(), "first heights of an envelope");
+    reals(part::k_first_height, 1, envelope.first_height);
   }
 
   void add_tetrahedra(const StoredTetrahedra& tetrahedra) {

@@ -163,7 +163,7 @@ constexpr std::array<ScriptVerb, 9> k_verbs = {{
     {"fairing", k_fairing_usage, "A smooth bulge: an ellipsoid along x with superelliptic sections.", make_fairing_verb, fairing_help, false, "component"},
     {"body_of_revolution", k_revolution_usage, "A body around the x axis through a profile of radii.", make_revolution_verb, revolution_help, false, "component"},
     {"sting", k_sting_usage, "What holds a model in a wind tunnel: a rod with flat ends, from within the model to outside.", make_sting_verb, sting_help, false, "component"},
-    {"aircraft", k_aircraft_usage, "Components and models together, mirror images included, united to one closed surface.", make_aircraft_verb, aircraft_help, true, "model"},
+    {"aircraft", k_aircraft_usage, "Components and models together, mirror images included, united to one closed surface.", make_aircraft_verb, aircraft_help, true, "model", true},
 }};
 constexpr std::array<ScriptVerb, 5> k_methods = {{
     {"wing:deflect", k_deflect_usage, "Deflects a control surface, as geometry: its hinge by parts of the span from the root and of the chord from the leading edge.", deflect_wing, deflect_help, false, "self"},

@@ -108,6 +108,7 @@ ScriptValue make_initial(const ScriptCall& call) {
   SurfaceHandle wall = wall_of(reader, k_initial_usage);
   if (given.items.size() != 2 || !is_classified) reader.add_problem("entry 2: expected what envelope.classify gave: " + std::string(k_initial_usage));
   else if (wall && (*classes)->wall->mesh.n_vertices() != wall->mesh.n_vertices()) reader.add_problem("entry 2: is of another wall");
+  const FunctionHandle first_heights = read_first_heights(reader, call);
   reader.read_options(schema);
   if (table.fields.contains("interfaces")) options.discs = read_interfaces(reader, call);
   if (table.fields.contains("patches")) options.patches = read_layer_rules(reader);
@@ -117,6 +118,7 @@ ScriptValue make_initial(const ScriptCall& call) {
   if (wall) known.patches.insert(known.patches.end(), wall->layers.begin(), wall->layers.end());  // the surface's own may give the first height
   reader.require(volmesh::required_options_of(known));
   reader.finish();
+  set_first_heights(first_heights, *wall, options, call.session.context);
   const RunContext context = call.session.context.part("initial", 0.0, 1.0);
   EnvelopeValue value{.wall = with_inputs((*classes)->wall, inputs), .options = options, .stage = {}, .step = EnvelopeStep::initial};
   value.stage.feature_angle = (*classes)->stage.feature_angle;

@@ -290,9 +290,9 @@ std::string help_of() {
 }
 
 constexpr std::array<ScriptVerb, 5> k_verbs = {{
-    {"read_cad", k_read_cad_usage, "Reads a STEP, IGES or BREP file, mends it and says what it found.", read_cad_verb, help_of<ReadCadOptions>, true, "model"},
-    {"read_smx", k_read_smx_usage, "Reads a geometry file of sumo: its components side by side.", read_description<read_smx_model>, nullptr, true, "model"},
-    {"read_cpacs", k_read_cpacs_usage, "Reads a CPACS file: its components side by side.", read_description<read_cpacs_model>, nullptr, true, "model"},
+    {"read_cad", k_read_cad_usage, "Reads a STEP, IGES or BREP file, mends it and says what it found.", read_cad_verb, help_of<ReadCadOptions>, true, "model", true},
+    {"read_smx", k_read_smx_usage, "Reads a geometry file of sumo: its components side by side.", read_description<read_smx_model>, nullptr, true, "model", true},
+    {"read_cpacs", k_read_cpacs_usage, "Reads a CPACS file: its components side by side.", read_description<read_cpacs_model>, nullptr, true, "model", true},
     {"airfoil", k_airfoil_usage, "A wing section: by NACA designation, from a file (Selig or Lednicer), or from points.", make_airfoil, help_of<AirfoilOptions>, false, "airfoil"},
     {"surface", k_surface_usage, "A surface given by a function; a spline that is checked between its samples stands for it.", make_surface, help_of<SurfaceOptions>, false, "model"},
 }};

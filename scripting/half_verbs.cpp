@@ -69,7 +69,7 @@ ScriptValue make_half(const ScriptCall& call) {
 }
 
 constexpr std::array<ScriptVerb, 1> k_verbs = {{
-    {"half", k_usage, "The half of a model or a surface on one side of its plane of symmetry: open there, the rim in the plane to the last bit. Half models are taken as they are.", make_half, half_help, true, "model or surface"},
+    {"half", k_usage, "The half of a model or a surface on one side of its plane of symmetry: open there, the rim in the plane to the last bit. Half models are taken as they are.", make_half, half_help, true, "model or surface", true},
 }};
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "geom/base/error.h"
+#include "scripting/script_function.h"
 #include "scripting/verb_tools.h"
 #include "volmesh/layer_choice.h"
 
@@ -88,6 +89,26 @@ void choose_solve_for(volmesh::VolumeMeshOptions& options, TableReader& reader, 
   } catch (const Error& error) {
     reader.add_problem(error.info().problem + " (" + error.info().hint + ")");
   }
+}
+
+FunctionHandle read_first_heights(TableReader& reader, const ScriptCall& call) {
+  const FunctionHandle* function = reader.option_function("envelope", "first_height");
+  const bool is_overruled = std::ranges::any_of(call.session.overrides, [&](const auto& entry) { return is_option(entry.first, "first_height"); });
+  return function && !is_overruled ? *function : nullptr;
+}
+
+void set_first_heights(const FunctionHandle& function, const SurfaceValue& wall, volmesh::VolumeMeshOptions& options, const RunContext& context) {
+  if (!function) return;
+  std::vector<double> heights;
+  heights.reserve(wall.mesh.n_vertices());
+  for (const Point& p : wall.mesh.points) {
+    double height = 0.0;
+    function->call(std::array{p.x, p.y, p.z}, std::span(&height, 1));
+    heights.push_back(height);
+  }
+  options.first_heights = std::make_shared<const volmesh::FirstHeights>(wall.mesh, std::move(heights), context);
+  options.envelope.first_height = options.first_heights->least();
+  context.info(fmt::format("first heights by a function: {:.4g} m to {:.4g} m", options.first_heights->least(), options.first_heights->greatest()));
 }
 
 void warn_of_other_member(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context) {

@@ -96,6 +96,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
     if (mesh.origin->smooth_angle) json["wall"] = {{"max_smooth_angle", *mesh.origin->smooth_angle}};
     if (!volume.patches.empty()) json["patch_rules"] = Json::parse(layer_rules_json(volume.patches));
+    if (volume.first_heights) json["first_heights"] = {{"by", "a function of place"}, {"least", volume.first_heights->least()}, {"greatest", volume.first_heights->greatest()}};
     if (!volume.sources.empty()) json["sources"] = sources_json(volume.sources);
     if (!volume.discs.empty()) json["actuator_discs"] = Json::parse(discs_json(volume.discs));
     if (!volume.periodic.empty()) json["periodic"] = Json::parse(periodic_json(volume.periodic));

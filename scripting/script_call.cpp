@@ -5,6 +5,7 @@
 #include <new>
 #include <span>
 
+#include "scripting/cache/cached_model.h"
 #include "scripting/cache/script_key.h"
 #include "scripting/quantity.h"
 #include "scripting/script_check.h"
@@ -151,7 +152,7 @@ bool run_verb(lua_State* state, ScriptSession& session, const ScriptVerb& verb) 
   ScriptCall call{.session = session, .where = where_of(state), .verb = verb.name, .arguments = {}, .is_heavy = verb.is_heavy};
   try {
     for (int i = 1; i <= lua_gettop(state); ++i) call.arguments.push_back(read_value(state, i, 0));
-    session.value = with_provenance(verb.run(call), call);
+    session.value = with_provenance(cached_model(verb, call), call);
     return true;
   } catch (const ChecksDone&) {
     session.value = stand_in(call, verb.gives);

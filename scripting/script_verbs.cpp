@@ -122,6 +122,7 @@ ScriptValue make_mesh(const ScriptCall& call) {
   const SurfaceHandle* wall = items.empty() ? nullptr : std::get_if<SurfaceHandle>(&items.front());
   if (!wall) reader.add_problem("entry 1: expected a surface (from surface_mesh or read_surface), not " + std::string(items.empty() ? "nothing" : type_text(items.front())));
   else if (items.size() > 1) reader.add_problem("takes one surface, not " + std::to_string(items.size()) + " (read_surface{ \"a.stl\", \"b.stl\" } joins files)");
+  const FunctionHandle first_heights = read_first_heights(reader, call);
   reader.read_options(schema);
   options.sources = read_sources(reader, call);
   options.discs = read_interfaces(reader, call);
@@ -140,6 +141,7 @@ ScriptValue make_mesh(const ScriptCall& call) {
   reader.finish();
   SurfaceValue given = **wall;
   given.inputs.insert(given.inputs.end(), farfield_inputs.begin(), farfield_inputs.end());
+  set_first_heights(first_heights, given, options, call.session.context);
   auto mesh = std::make_shared<const MeshValue>(make_volume_mesh(given, options, stages, call.session.context.part("volume_mesh", 0.0, 1.0), call.session.reuse()));
   if (call.session.on_mesh) call.session.on_mesh(*mesh);
   return mesh;
@@ -292,7 +294,7 @@ std::string volume_help() {
 
 constexpr std::array<ScriptVerb, 6> k_verbs = {{
     {"read_surface", k_read_surface_usage, "Reads surface files and joins them to one wall.", read_surface, surface_help, true, "surface"},
-    {"union", k_union_usage, "Unites closed surfaces that stick in each other, or the crossing parts of one file, to one wall; or models to one model.", unite, union_help, true, "model or surface"},
+    {"union", k_union_usage, "Unites closed surfaces that stick in each other, or the crossing parts of one file, to one wall; or models to one model.", unite, union_help, true, "model or surface", true},
     {"read_mesh", k_read_mesh_usage, "Reads a volume mesh.", read_mesh_file, nullptr, true, "mesh"},
     {"volume_mesh", k_volume_mesh_usage, "Meshes the space around a wall: prism layers on it, tetrahedra to the farfield.", make_mesh, volume_help, true, "mesh"},
     {"sphere", k_sphere_usage, "A spherical farfield, for volume_mesh; with centre and size a source of small tetrahedra.", make_sphere, sphere_help, false, "source"},

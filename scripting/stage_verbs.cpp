@@ -40,6 +40,7 @@ ScriptValue make_envelope_verb(const ScriptCall& call) {
   TableReader reader(table, call.attempted());
   const auto wall = entry<SurfaceHandle>(reader, 1, "a surface (from surface_mesh or read_surface)");
   require_entries(reader, 1);
+  const FunctionHandle first_heights = read_first_heights(reader, call);
   reader.read_options(schema);
   options.discs = read_interfaces(reader, call);
   options.periodic = read_periodic(reader);
@@ -52,6 +53,7 @@ ScriptValue make_envelope_verb(const ScriptCall& call) {
   reader.finish();
   auto given = std::make_shared<SurfaceValue>(*wall);
   given->inputs.insert(given->inputs.end(), farfield_inputs.begin(), farfield_inputs.end());
+  set_first_heights(first_heights, *given, options, call.session.context);
   return std::make_shared<const EnvelopeValue>(make_envelope(given, options, call.session.context.part("make_envelope", 0.0, 1.0), call.session.reuse()));
 }
 

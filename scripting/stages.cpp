@@ -30,9 +30,11 @@ using Json = nlohmann::ordered_json;
 
 // ---- volmesh's values as a file has them ---------------------------------------------------------------------------------------------------
 
-io::StoredEnvelope stored(const volmesh::Envelope& envelope) {
+io::StoredEnvelope stored(const volmesh::Envelope& envelope, const TriMesh& surface, const volmesh::FirstHeights* first_heights) {
   io::StoredEnvelope result{.direction = envelope.direction, .height = envelope.height, .target = envelope.target, .eq1 = envelope.eq1, .cap = envelope.cap, .limit = {}};
   for (const volmesh::HeightLimit limit : envelope.limit) result.limit.push_back(static_cast<std::uint8_t>(limit));
+  if (first_heights)
+    for (const Point& p : surface.points) result.first_height.push_back(first_heights->at(p));
   return result;
 }
 
@@ -265,7 +267,7 @@ std::int64_t n_triangles(const SurfaceValue& surface) { return static_cast<std::
 void write_envelope(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const volmesh::EnvelopeStage& stage, const std::filesystem::path& path, const RunContext& context,
                     volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished) {
   const StageTimer timer(context, "write");
-  const io::StoredEnvelope envelope = stored(stage.envelope);
+  const io::StoredEnvelope envelope = stored(stage.envelope, wall.mesh, options.first_heights.get());
   Json json = stage_json(stage, n_triangles(wall));
   if (step != volmesh::EnvelopeStep::finished) json["step"] = volmesh::to_string(step);
   io::write_sterna({.surface = &wall.mesh, .envelope = &envelope, .manifest = unfinished_json(wall, options, std::move(json))}, path, context);
@@ -274,9 +276,10 @@ void write_envelope(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& 
 void write_filled(const SurfaceValue& wall, std::int64_t n_wall_triangles, const volmesh::VolumeMeshOptions& options, const volmesh::FilledStage& stage, const std::filesystem::path& path,
                   const RunContext& context) {
   const StageTimer timer(context, "write");
-  const io::StoredEnvelope envelope = stored(stage.envelope.envelope);
+  const TriMesh& surface = stage.split_wall ? *stage.split_wall : wall.mesh;
+  const io::StoredEnvelope envelope = stored(stage.envelope.envelope, surface, options.first_heights.get());
   const io::StoredTetrahedra tetrahedra = stored(stage);
-  io::write_sterna({.surface = stage.split_wall ? &*stage.split_wall : &wall.mesh,
+  io::write_sterna({.surface = &surface,
                     .envelope = &envelope,
                     .tetrahedra = &tetrahedra,
                     .mesh = &stage.layers,
@@ -314,7 +317,7 @@ OptionTable finish_options(volmesh::VolumeMeshOptions& options) { return options
 
 volmesh::VolumeMeshOptions knowing(const SurfaceValue& wall, volmesh::VolumeMeshOptions options) {
   if (wall.smooth_angle) options.smooth_angle = *wall.smooth_angle;
-  options.parts = wall.parts;
+  if (!options.first_heights) options.parts = wall.parts;  // else their layers depend on where they are
   options.patches = rules_of(wall, options);
   if (wall.model_wall)
     options.true_surface = [model_wall = wall.model_wall](const Point& p, TriangleId triangle, const std::array<double, 3>& weights) { return model_wall->nearest(p, triangle, weights); };
@@ -348,7 +351,7 @@ MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOp
                                   .filled =
                                       [&](const volmesh::FilledStage& stage) {
                                         write_filled(wall, n_triangles(wall), options, stage, stages, context.part("stages", 0.0, 0.0));
-                                        parts = {.split_wall = stage.split_wall, .envelope = stored(stage.envelope.envelope), .tetrahedra = stored(stage), .json = stage_json(stage, n_triangles(wall))};
+                                        parts = {.split_wall = stage.split_wall, .envelope = stored(stage.envelope.envelope, stage.split_wall ? *stage.split_wall : wall.mesh, options.first_heights.get()), .tetrahedra = stored(stage), .json = stage_json(stage, n_triangles(wall))};
                                       }};
   MeshValue mesh = mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall.mesh, knowing(wall, options), watch, true_surface_key(wall), reuse, context));
   write_finished(wall, parts, mesh, stages, context.part("stages", 1.0, 1.0));
@@ -369,6 +372,7 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     options.discs = json.discs();
     options.periodic = json.periodic();
     options.patches = json.patch_rules();
+    if (!content.envelope->first_height.empty()) options.first_heights = std::make_shared<const volmesh::FirstHeights>(wall->mesh, std::move(content.envelope->first_height), context);
     wall->recipe = json.recipe();
     wall->smooth_angle = json.smooth_angle();
     result.surface = wall;

@@ -85,7 +85,7 @@ class Configuration {
       if (facts_[p].n_faces == 0) continue;
       has_farfield_ = has_farfield_ || mesh.patches[p].kind == PatchKind::farfield;
       has_opening_ = has_opening_ || mesh.patches[p].kind == PatchKind::inflow || mesh.patches[p].kind == PatchKind::outflow;
-      n_symmetry_ += mesh.patches[p].kind == PatchKind::symmetry ? 1 : 0;
+      n_symmetry_ += mesh.patches[p].kind == PatchKind::symmetry && !is_periodic(p) ? 1 : 0;
     }
     is_tunnel_ = has_opening_ && !has_farfield_;
   }
@@ -93,6 +93,7 @@ class Configuration {
   std::string text() {
     find_half();
     sort_patches();
+    add_periodic();
     require_flow();
     require_reference();
     require_used_boundaries();
@@ -103,6 +104,16 @@ class Configuration {
 
  private:
   void add_problem(const std::string& text) { problems_ += (problems_.empty() ? "" : "; ") + text; }
+
+  bool is_periodic(PatchId p) const {
+    return std::ranges::any_of(mesh_.periodic, [&](const PeriodicSides& sides) { return sides.first == p || sides.second == p; });
+  }
+
+  /// What the patches of a pair are of themselves does not count: the flow goes out of one and comes in through the other. SU2 takes the centre and angles of a rotation, none here.
+  void add_periodic() {
+    for (const PeriodicSides& sides : mesh_.periodic)
+      periodic_.push_back(fmt::format("{}, {}, 0, 0, 0, 0, 0, 0, {}, {}, {}", names_[sides.first.index()], names_[sides.second.index()], number(sides.translation.x), number(sides.translation.y), number(sides.translation.z)));
+  }
 
   void find_half() {
     is_half_ = options_.half == "yes" || (options_.half == "automatic" && n_symmetry_ > 0);
@@ -124,7 +135,7 @@ class Configuration {
     std::istringstream words(options_.monitor);
     for (std::string word; words >> word;) patterns.push_back(word);
     for (const PatchId p : mesh_.patches.ids()) {
-      if (facts_[p].n_faces == 0) continue;
+      if (facts_[p].n_faces == 0 || is_periodic(p)) continue;
       const std::string& name = names_[p.index()];
       switch (mesh_.patches[p].kind) {
         case PatchKind::wall:
@@ -263,6 +274,7 @@ class Configuration {
     add("MARKER_OUTLET", outlets_);
     add("MARKER_SUPERSONIC_INLET", supersonic_inlets_);
     add("MARKER_SUPERSONIC_OUTLET", supersonic_outlets_);
+    add("MARKER_PERIODIC", periodic_);
     if (!discs_.empty()) text += "ACTDISK_TYPE= VARIABLES_JUMP\nACTDISK_JUMP= DIFFERENCE\n";
     add("MARKER_ACTDISK", discs_);
     add("MARKER_PLOTTING", monitored_);
@@ -297,7 +309,7 @@ class Configuration {
   bool is_viscous_ = false, has_farfield_ = false, has_opening_ = false, is_tunnel_ = false, is_half_ = false;
   int n_symmetry_ = 0;
   std::set<std::string> used_;
-  std::vector<std::string> walls_, euler_, symmetry_, farfield_, inlets_, outlets_, supersonic_inlets_, supersonic_outlets_, discs_, monitored_, unmonitored_;
+  std::vector<std::string> walls_, euler_, symmetry_, farfield_, inlets_, outlets_, supersonic_inlets_, supersonic_outlets_, discs_, periodic_, monitored_, unmonitored_;
 };
 
 }  // namespace

@@ -33,6 +33,18 @@ TableReader::TableReader(const ScriptTable& table, std::string attempted) : tabl
 
 TableReader::TableReader(const ScriptTable& table, const Attempt& attempted) : table_(table), attempted_(attempted), check_(attempted.check), ends_with_checks_(attempted.ends_with_checks) {}
 
+const FunctionHandle* TableReader::option_function(std::string_view stage, std::string_view name) {
+  const auto function_in = [&](const ScriptTable& table) {
+    const auto place = table.fields.find(std::string(name));
+    return place == table.fields.end() ? nullptr : std::get_if<FunctionHandle>(&place->second);
+  };
+  const FunctionHandle* function = function_in(table_);
+  if (const auto place = table_.fields.find(std::string(stage)); !function && place != table_.fields.end())
+    if (const auto* nested = std::get_if<std::shared_ptr<const ScriptTable>>(&place->second)) function = function_in(**nested);
+  if (function) functions_.insert(std::string(stage) + "." + std::string(name));
+  return function;
+}
+
 std::size_t TableReader::read_options(const OptionTable& options) {
   const std::size_t n_before = given_.size();
   for (const Option& option : options) {
@@ -72,6 +84,7 @@ void TableReader::set(const Option& option, const std::string& key, const Script
     add_problem(key + ": given twice");
     return;
   }
+  if (functions_.contains(std::string(option.stage) + "." + std::string(option.name)) && std::holds_alternative<FunctionHandle>(value)) return;
   try {
     if (const auto* flag = std::get_if<bool>(&value)) set_option(option, *flag);
     else if (const auto* whole = std::get_if<std::int64_t>(&value)) set_option(option, *whole);

@@ -262,7 +262,7 @@ std::string assembly_help() {
 
 constexpr std::array<ScriptVerb, 2> k_verbs = {{
     {"test_section", k_test_section_usage, "Wind tunnel around the x axis, rectangular or round, or a solid of yours: surface_mesh{ model, tunnel } makes the fluid between the two.", make_test_section_verb, test_section_help, true, "model"},
-    {"assembly", k_assembly_usage, "Models and components as one model: united where they touch. Surfaces: side by side.", make_assembly, assembly_help, true, "model or surface"},
+    {"assembly", k_assembly_usage, "Models and components as one model: united where they touch. Surfaces: side by side.", make_assembly, assembly_help, true, "model or surface", true},
 }};
 
 }  // namespace

@@ -101,6 +101,7 @@ VolumeMeshOptions refined(VolumeMeshOptions options) {
 
 VolumeMeshOptions effective_options(const VolumeMeshOptions& user_options, const RunContext& context) {
   VolumeMeshOptions options = refined(user_options);
+  if (options.first_heights && user_options.family.refinement != 1.0) options.first_heights = options.first_heights->refined(user_options.family.refinement, context);
   EnvelopeOptions& e = options.envelope;
   if (const double f = user_options.family.refinement; f != 1.0)
     context.info(print_text("refinement %.4g of a mesh family: %d layers instead of %d, growth %.4g instead of %.4g", f, e.layers, user_options.envelope.layers, e.max_growth, user_options.envelope.max_growth) +

@@ -9,7 +9,7 @@ namespace sterna::volmesh {
 
 PartEnvelope part_envelope(const PartEnvelopeTask& task, const RunContext& context) {
   LayerBase base(task.wall, context);
-  base.demand = demand_of(base, task.options, task.rules, context);
+  base.demand = demand_of(base, task.options, task.rules, nullptr, context);
   EnvelopeOptions options = task.options;
   options.feature_angle = decide_feature_angle(base, options, task.smooth_angle, context);
   Collider collider(base, nullptr, context);

@@ -30,9 +30,10 @@ bool is_same(double a, double b) { return a == b || (is_automatic(a) && is_autom
 /// What patches of one group ask for, all the same.
 struct Group {
   double first_height, max_growth, max_thickness;
+  const FirstHeights* by_place;  ///< not null: the first height at each place, not first_height
   double blend;  ///< m, automatic at first
   double total_height;  ///< m, automatic: by the edges
-  bool asks_as(const Group& other) const { return first_height == other.first_height && max_growth == other.max_growth && max_thickness == other.max_thickness && is_same(total_height, other.total_height); }
+  bool asks_as(const Group& other) const { return first_height == other.first_height && by_place == other.by_place && max_growth == other.max_growth && max_thickness == other.max_thickness && is_same(total_height, other.total_height); }
   bool operator==(const Group& other) const { return asks_as(other) && (blend == other.blend || (is_automatic(blend) && is_automatic(other.blend))); }
 };
 
@@ -124,19 +125,19 @@ void solve(const OwnWishes& own, const std::string& of_all, const std::string& p
 
 class Blender {
  public:
-  Blender(const LayerBase& base, const EnvelopeOptions& options, const Column<PatchId, PatchLayers>& asked, LayerDemand& demand, const RunContext& context)
+  Blender(const LayerBase& base, const EnvelopeOptions& options, const Column<PatchId, PatchLayers>& asked, const FirstHeights* by_place, LayerDemand& demand, const RunContext& context)
       : base_(base), demand_(demand), context_(context), group_of_patch_(asked.size(), -1) {
     std::vector<std::uint8_t> is_used(asked.size(), 0);
     for (const PatchId patch : base.wall.triangle_patch) is_used[patch.index()] = 1;
     for (const PatchId patch : asked.ids()) {
       const PatchLayers& layers = asked[patch];
       if (!layers.carries_layers() || !is_used[patch.index()]) continue;
-      const Group group{layers.first_height, layers.max_growth, thickness_limit(layers.max_thickness, layers.total_height, base.body_length), layers.blend, layers.total_height};
+      const Group group{layers.first_height, layers.max_growth, thickness_limit(layers.max_thickness, layers.total_height, base.body_length), layers.has_own_first_height ? nullptr : by_place, layers.blend, layers.total_height};
       const auto found = std::find(groups_.begin(), groups_.end(), group);
       group_of_patch_[patch.index()] = static_cast<int>(found - groups_.begin());
       if (found == groups_.end()) groups_.push_back(group);
     }
-    if (groups_.empty()) groups_.push_back({options.first_height, options.max_growth, thickness_limit(options.max_thickness, options.total_height, base.body_length), k_automatic, options.total_height});
+    if (groups_.empty()) groups_.push_back({options.first_height, options.max_growth, thickness_limit(options.max_thickness, options.total_height, base.body_length), by_place, k_automatic, options.total_height});
   }
 
   void blend() {
@@ -157,7 +158,7 @@ class Blender {
         const VertexId v(i);
         const double share = share_at(distance[v], reach[v]);
         weight[v] += share;
-        demand_.first_height[v] += share * std::log(groups_[g].first_height);
+        demand_.first_height[v] += share * std::log(first_height_at(groups_[g], v));
         demand_.max_growth[v] += share * groups_[g].max_growth;
         demand_.max_thickness[v] += share * std::log(groups_[g].max_thickness);
         if (!has_heights || share == 0.0) return;
@@ -178,7 +179,7 @@ class Blender {
       std::string names;
       for (const PatchId patch : base_.wall.patches.ids())
         if (group_of_patch_[patch.index()] == static_cast<int>(g)) names += (names.empty() ? "" : ", ") + base_.wall.patches[patch].name;
-      context_.info("layers of " + names + ": first height " + in_metres(groups_[g].first_height, k_digits) + (groups_[g].blend > 0.0 ? ", blended with its neighbours over " + in_metres(groups_[g].blend, k_digits) : ""));
+      context_.info("layers of " + names + ": first height " + (groups_[g].by_place ? "by place" : in_metres(groups_[g].first_height, k_digits)) + (groups_[g].blend > 0.0 ? ", blended with its neighbours over " + in_metres(groups_[g].blend, k_digits) : ""));
     }
   }
 
@@ -214,10 +215,13 @@ class Blender {
     }
   }
 
+  double first_height_at(const Group& group, VertexId v) const { return group.by_place ? group.by_place->at(base_.wall.points[v]) : group.first_height; }
+
   double height_at(const Group& group, VertexId v) const {
     if (!is_automatic(group.total_height)) return std::min(group.total_height, group.max_thickness);
     const int n = demand_.layers[v];
-    return std::min(layer_height(group.first_height, growth_for_edge(group.first_height, base_.mean_edge[v], group.max_growth, n), n), group.max_thickness);
+    const double h0 = first_height_at(group, v);
+    return std::min(layer_height(h0, growth_for_edge(h0, base_.mean_edge[v], group.max_growth, n), n), group.max_thickness);
   }
 
   Column<VertexId, double> distances_to(std::size_t group, double reach) const {
@@ -244,7 +248,7 @@ class Blender {
       // Without the way through logarithms: exactly what is asked.
       const Group* own = &groups_.front();
       for_each_group_at(v, [&](std::size_t g) { own = &groups_[g]; });
-      demand_.first_height[v] = own->first_height;
+      demand_.first_height[v] = first_height_at(*own, v);
       demand_.max_growth[v] = own->max_growth;
       demand_.max_thickness[v] = own->max_thickness;
       if (!demand_.total_height.empty()) demand_.total_height[v] = own->total_height;
@@ -297,7 +301,7 @@ Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& pat
       if (!is_automatic(rule.first_height)) layers.first_height = rule.first_height;
       if (!is_automatic(rule.max_growth)) layers.max_growth = rule.max_growth, own.growth = true;
       if (!is_automatic(rule.total_height)) layers.total_height = rule.total_height, own.height = true;
-      if (!is_automatic(rule.first_height)) own.first_height = true;
+      if (!is_automatic(rule.first_height)) layers.has_own_first_height = own.first_height = true;
       if (!is_automatic(rule.max_thickness)) layers.max_thickness = rule.max_thickness;
       if (!is_automatic(rule.blend)) layers.blend = rule.blend;
     }
@@ -314,16 +318,16 @@ Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& pat
   return result;
 }
 
-LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const RunContext& context) {
+LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place, const RunContext& context) {
   const Column<PatchId, PatchLayers> asked = layers_of_patches(base.wall.patches, options, rules);
   const auto is_as_all = [&](const PatchLayers& layers) {
-    return !layers.carries_layers() || (layers.layers == options.layers && layers.first_height == options.first_height && layers.max_growth == options.max_growth &&
+    return !layers.carries_layers() || (!(by_place && !layers.has_own_first_height) && layers.layers == options.layers && layers.first_height == options.first_height && layers.max_growth == options.max_growth &&
                                         is_same(layers.max_thickness, options.max_thickness) && is_same(layers.total_height, options.total_height));
   };
   LayerDemand demand;
   if (std::all_of(base.wall.triangle_patch.begin(), base.wall.triangle_patch.end(), [&](PatchId patch) { return is_as_all(asked[patch]); })) return demand;
   demand.layers = numbers_of_layers(base, asked, options.layers, context);
-  Blender blender(base, options, asked, demand, context);
+  Blender blender(base, options, asked, by_place, demand, context);
   blender.blend();
   blender.log();
   for (const std::vector<VertexId>& group : base.groups)

@@ -9,6 +9,7 @@
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/envelope/layer_base.h"
 #include "volmesh/envelope/options.h"
+#include "volmesh/first_heights.h"
 #include "volmesh/patch_rule.h"
 
 namespace sterna::volmesh {
@@ -23,6 +24,7 @@ void apply_patch_kinds(TriMesh& surface, std::span<const PatchRule> rules);
 struct PatchLayers {
   int layers = 0;              ///< 0: the patch carries none
   double first_height = k_automatic;   ///< m; a number where there are layers
+  bool has_own_first_height = false;   ///< a rule gives it
   double max_growth = 0.0;
   double total_height = k_automatic;   ///< m; automatic: by the wall's edges
   double max_thickness = k_automatic;  ///< m; automatic: a share of the body length
@@ -40,8 +42,9 @@ Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& pat
 /// number asked for; parts in which patches ask for several are logged.
 /// Vertices that must grow alike get the least of what theirs ask for.
 /// Triangles of patches without layers (which a base has no use for) ask for what the options say. Deterministic; about 1 s per million vertices and different patch.
+/// `by_place` may be null: else it gives the first heights of patches that no rule gives one for.
 /// \throws Error(bad_argument) as layers_of_patches
 /// \pre `options` are those that envelope and extrusion get
-LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const RunContext& context);
+LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place, const RunContext& context);
 
 }  // namespace sterna::volmesh

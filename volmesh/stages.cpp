@@ -75,7 +75,7 @@ Domain domain_around(const TriMesh& surface, const VolumeMeshOptions& options, c
 LayerBase base_of(const Domain& domain, const VolumeMeshOptions& options, const RunContext& context) {
   LayerBase base(domain.wall, context, domain.constraints);
   base.let_grow_alike(domain.partners);
-  base.demand = demand_of(base, options.envelope, options.patches, context);
+  base.demand = demand_of(base, options.envelope, options.patches, options.first_heights.get(), context);
   return base;
 }
 

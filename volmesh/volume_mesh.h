@@ -17,6 +17,7 @@
 #include "volmesh/family_options.h"
 #include "volmesh/envelope/options.h"
 #include "volmesh/improve/improve.h"
+#include "volmesh/first_heights.h"
 #include "volmesh/outer/farfield_options.h"
 #include "volmesh/outer/periodic_sides.h"
 #include "volmesh/part_envelope.h"
@@ -33,6 +34,7 @@ namespace sterna::volmesh {
 struct VolumeMeshOptions {
   FamilyOptions family;
   EnvelopeOptions envelope;
+  std::shared_ptr<const FirstHeights> first_heights;  ///< by place, where rules of patches say nothing else; null: envelope.first_height. With them that is the least of them
   std::vector<PatchRule> patches;   ///< what patches ask for instead; of several rules that match the last counts (sort_rules)
   PrismOptions prisms;
   FarfieldOptions farfield;

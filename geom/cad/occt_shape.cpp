@@ -22,7 +22,14 @@
 namespace sterna {
 
 CadShape::CadShape(std::unique_ptr<const Content> content) : content_(std::move(content)) {}
+CadShape::CadShape(std::function<std::shared_ptr<const CadShape>()> make) : make_(std::move(make)) {}
 CadShape::~CadShape() = default;
+
+const CadShape::Content& CadShape::content() const {
+  if (content_) return *content_;
+  std::call_once(is_made_, [&] { made_ = make_(); });
+  return made_->content();
+}
 
 namespace cad {
 namespace {

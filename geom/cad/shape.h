@@ -1,7 +1,9 @@
 // The bridge between a Model and OpenCASCADE: the same faces, edges and corners in both, by number.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "geom/base/error.h"
@@ -16,13 +18,19 @@ class CadShape {
  public:
   struct Content;  ///< occt_shape.h
   explicit CadShape(std::unique_ptr<const Content> content);
+  /// What `make` gives (never null) when it is first asked for: of a model whose geometry is known before its shape is. cad::shape_of asks.
+  explicit CadShape(std::function<std::shared_ptr<const CadShape>()> make);
   ~CadShape();
   CadShape(const CadShape&) = delete;
   CadShape& operator=(const CadShape&) = delete;
-  const Content& content() const { return *content_; }
+  /// \throws Error of `make`, at the first call
+  const Content& content() const;
 
  private:
   std::unique_ptr<const Content> content_;
+  std::function<std::shared_ptr<const CadShape>()> make_;
+  mutable std::once_flag is_made_;
+  mutable std::shared_ptr<const CadShape> made_;  ///< by make_
 };
 
 namespace cad {

@@ -158,7 +158,10 @@ class ShapeBuilder {
 }  // namespace
 
 std::shared_ptr<const CadShape> shape_of(const Model& model, const RunContext& context) {
-  if (model.shape) return model.shape;
+  if (model.shape) {
+    static_cast<void>(model.shape->content());  // where it is yet to be made: now, as that may use OpenCASCADE, which is not to be entered twice
+    return model.shape;
+  }
   std::shared_ptr<const CadShape> shape;
   run_occt({.attempted = k_attempted}, context, [&](const Message_ProgressRange&) { shape = std::make_shared<const CadShape>(ShapeBuilder(model).build()); });
   return shape;

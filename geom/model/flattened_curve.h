@@ -16,6 +16,8 @@ class FlattenedCurve final : public Curve {
   std::vector<double> breaks() const override { return base_->breaks(); }
   std::optional<NurbsCurveForm<Point>> exact_nurbs() const override;
   const CurvePtr& base() const { return base_; }
+  std::size_t axis() const { return axis_; }
+  double at() const { return at_; }
 
  private:
   CurvePtr base_;

@@ -23,6 +23,11 @@ void check_range(Interval range, const char* attempted) {
     refuse(attempted, "its parameters [" + std::to_string(range.from) + ", " + std::to_string(range.to) + "] have no length");
 }
 
+/// Length within which a vector counts as one of length 1 and stays as it is: dividing it again would move its last digits.
+constexpr double k_unit_length = 1e-15;
+
+Vec3 unit(const Vec3& v) { return std::abs(dot(v, v) - 1.0) <= k_unit_length ? v : normalized(v); }
+
 /// A curve's poles as the row v = const of a surface with `rows` of them.
 NurbsSurfaceForm rows_of(const NurbsCurveForm<Point>& a, const NurbsCurveForm<Point>& b, Interval range) {
   NurbsSurfaceForm form;
@@ -44,7 +49,7 @@ NurbsSurfaceForm rows_of(const NurbsCurveForm<Point>& a, const NurbsCurveForm<Po
 // ---------------------------------------------------------------- revolution
 
 RevolutionSurface::RevolutionSurface(CurvePtr profile, const Point& axis_point, const Vec3& axis, Interval angles)
-    : profile_(std::move(profile)), axis_point_(axis_point), axis_(normalized(axis)), angles_(angles) {
+    : profile_(std::move(profile)), axis_point_(axis_point), axis_(unit(axis)), angles_(angles) {
   check_range(angles, "making a surface of revolution");
   if (!(norm(axis_) > 0.0)) refuse("making a surface of revolution", "its axis has no direction");
   if (angles.length() > k_turn * (1.0 + k_whole_period)) refuse("making a surface of revolution", "it goes round by more than a turn: " + std::to_string(angles.length()) + " rad");

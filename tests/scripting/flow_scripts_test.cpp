@@ -1,9 +1,12 @@
 // Heights from flow conditions, total heights, families and SU2 configurations as users write them.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <set>
 #include <sstream>
 
+#include "geom/base/number_text.h"
+#include "io/sterna_file.h"
 #include "io/surface_file.h"
 #include "scripting/pentagrow_config.h"
 #include "scripting/su2_config.h"
@@ -53,6 +56,44 @@ TEST_F(FlowScripts, a_total_height_leaves_one_of_layers_and_growth_to_follow) {
   EXPECT_THAT(error(mesh + "layers = 20, total_height = 0.1 }"), HasSubstr("at most 10 layers have room"));
   run(mesh + "layers = 6, patches = { wall = { first_height = y_plus{ 100, reynolds = 1e6, length = 1 }, total_height = boundary_layer{ reynolds = 1e6, length = 2 } } } } print(m)");
   EXPECT_THAT(log_, HasSubstr("y+ 100"));
+}
+
+TEST_F(FlowScripts, first_heights_by_a_function_of_place) {
+  const std::string height = "local function h(x, y, z) return 0.01*1.5^x end ";
+  const std::string more = "layers = 4, max_growth = 1.2, farfield = sphere{ radius = 8 }, first_height = ";
+  run(height + "volume_mesh{ read_surface 'ball.off', " + more + "h }:write(" + out("by_place.sterna") + ", " + out("by_place.su2") + ")");
+  EXPECT_THAT(log_, HasSubstr("first heights by a function: 0.006667 m to 0.015 m"));
+  EXPECT_THAT(text_of("by_place.su2.json"), HasSubstr("a function of place"));
+  const HybridMesh mesh = *io::read_sterna(folder_ / "by_place.sterna", RunContext()).mesh;
+  ASSERT_GT(mesh.layers.n_lines(), 100u);
+  for (std::uint32_t line = 0; line < mesh.layers.n_lines(); ++line) {
+    const Point foot = mesh.points[mesh.layers.node(line, 0)], first = mesh.points[mesh.layers.node(line, 1)];
+    const double asked = 0.01 * std::pow(1.5, foot.x);
+    EXPECT_DOUBLE_EQ(mesh.request.first_height_of(line), asked);
+    EXPECT_NEAR(distance(foot, first), asked, 0.03 * asked) << format_point(foot);  // G11: 2 % along the vertex normal, and the line leans a little
+  }
+  // The steps by hand, also continued from a file, give the same; a constant function is the number; a rule's number wins, and so does the command line's.
+  run(height + "local w, ff = read_surface 'ball.off', sphere{ radius = 8 } make_envelope{ w, " + more + "h }:write(" + out("e.sterna") +
+      ") local e = read_stages(" + out("e.sterna") + ").envelope local t = tetrahedra{ e } t:write(" + out("t.sterna") + ") local s = read_stages(" + out("t.sterna") +
+      ") prisms{ s.envelope, s.tetrahedra }:write(" + out("steps.su2") + ")");
+  EXPECT_EQ(text_of("steps.su2"), text_of("by_place.su2"));
+  run("local w = read_surface 'ball.off' volume_mesh{ w, " + more + "0.01 }:write(" + out("number.su2") + ") volume_mesh{ w, " + more + "function() return 0.01 end }:write(" + out("constant.su2") + ")");
+  EXPECT_EQ(text_of("constant.su2"), text_of("number.su2"));
+  run("volume_mesh{ read_surface 'ball.off', patches = { wall = { first_height = 0.01 } }, " + more + "function(x) return 0.02 + 0.001*x end }:write(" + out("rule.su2") + ")");
+  EXPECT_EQ(text_of("rule.su2"), text_of("number.su2"));
+  run("volume_mesh{ read_surface 'ball.off', " + more + "function(x) return 0.02 + 0.001*x end }:write(" + out("line.su2") + ")", {{"envelope.first_height", "0.01"}});
+  EXPECT_EQ(text_of("line.su2"), text_of("number.su2"));
+  const std::string refined = height + "volume_mesh{ read_surface 'ball.off', refinement = 2, " + more + "h } ";
+  run(refined);
+  EXPECT_THAT(log_, HasSubstr("refinement 2"));
+}
+
+TEST_F(FlowScripts, wrong_functions_of_first_height_are_told_with_their_place) {
+  const std::string mesh = "\nvolume_mesh{ read_surface 'ball.off', farfield = sphere{ radius = 8 }, layers = 4, first_height = ";
+  EXPECT_THAT(error(mesh + "function(x, y, z) return x end }"), AllOf(HasSubstr("case.lua:2"), HasSubstr("no height"), HasSubstr("first height -")));
+  EXPECT_THAT(error(mesh + "function(x, y, z) return 'thin' end }"), AllOf(HasSubstr("case.lua:2"), HasSubstr("number")));
+  EXPECT_THAT(error(mesh + "function(x, y, z) error 'no idea' end }"), HasSubstr("no idea"));
+  EXPECT_THAT(error(mesh + "0.01, max_growth = function() return 1.2 end }"), HasSubstr("max_growth: a function is not allowed here"));
 }
 
 TEST_F(FlowScripts, members_of_a_family) {

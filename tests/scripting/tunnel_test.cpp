@@ -70,6 +70,8 @@ TEST_F(TunnelScripts, PeriodicSidesOfACascade) {
   EXPECT_THAT(manifest, AllOf(HasSubstr("\"periodic_sides\""), HasSubstr("\"worst_distance\""), HasSubstr("\"periodic\"")));
   EXPECT_THAT(run("read_mesh(" + out("row.sterna") + "):check()"), HasSubstr("periodic: tunnel_left and tunnel_right"));
   EXPECT_THAT(run("local s = read_stages(" + out("steps.sterna") + ") prisms{ s.envelope, s.tetrahedra }:check()"), HasSubstr("periodic: tunnel_left and tunnel_right"));
+  run("read_mesh(" + out("row.sterna") + "):su2_config{ " + out("row.cfg") + ", mesh = 'row.su2', flow{ mach = 0.3, altitude = 0, length = 0.8 }, reference_area = 1 }");
+  EXPECT_THAT(text_of("row.cfg"), HasSubstr("MARKER_PERIODIC= ( tunnel_left, tunnel_right, 0, 0, 0, 0, 0, 0, 0, 2, 0 )"));
   // A single pair needs no list; what is no pair, and what does not match, is refused.
   const std::string mesh = surface + "volume_mesh{ wall, layers = 6, first_height = 1e-3, periodic = ";
   EXPECT_THAT(error(mesh + "{ 'tunnel_left', 'tunnel_rigth' } }"), HasSubstr("did you mean \"tunnel_right\"?"));

@@ -40,7 +40,7 @@ struct Schema<volmesh::EnvelopeOptions> {
   static constexpr std::string_view stage = "envelope";
   static constexpr std::array fields = {
       Field<O>{.name = "layers", .member = &O::layers, .min = 1, .max = 1000, .help = "number of prism layers"},
-      Field<O>{.name = "first_height", .member = &O::first_height, .unit = Unit::metre, .min = 1e-12, .help = "height of the first cell at the wall", .required = true},
+      Field<O>{.name = "first_height", .member = &O::first_height, .unit = Unit::metre, .min = 1e-12, .help = "height of the first cell at the wall; in scripts also a function of x, y, z", .required = true},
       Field<O>{.name = "max_growth", .member = &O::max_growth, .min = 1.0, .max = 3.0, .help = "largest ratio of heights of consecutive layers"},
       Field<O>{.name = "total_height", .member = &O::total_height, .unit = Unit::metre, .min = 1e-12, .help = "height of all layers together; with it layers or max_growth is left out and follows", .automatic = "by the edges of the wall, so that the last cell is as tall as the edges of the tetrahedron above it"},
       Field<O>{.name = "solve_for", .member = &O::solve_for, .help = "which of layers and max_growth follows from total_height; where one of them is left out, it is that one", .choices = "none layers max_growth"},

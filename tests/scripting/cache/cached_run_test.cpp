@@ -85,12 +85,12 @@ TEST_F(CachedRun, OfACadFileEveryOutputHasTheSameBytesWithoutColdAndWarm) {
   EXPECT_THAT(without.at("a.su2.json"), HasSubstr("block.step"));
   expect_same(run(text, true), without, "cold");
   EXPECT_EQ(n_reused(), 0);
-  EXPECT_EQ(entries(), (std::map<std::string, int>{{"surface_mesh", 1}, {"envelope", 1}, {"volume_mesh", 1}}));
+  EXPECT_EQ(entries(), (std::map<std::string, int>{{"read_cad", 1}, {"surface_mesh", 1}, {"envelope", 1}, {"volume_mesh", 1}}));
   expect_same(run(text, true), without, "warm");
-  EXPECT_EQ(n_reused(), 2);
-  EXPECT_THAT(log_, AllOf(HasSubstr("surface_mesh of block: from the cache"), HasSubstr("volume_mesh of ")));
+  EXPECT_EQ(n_reused(), 3);
+  EXPECT_THAT(log_, AllOf(HasSubstr("read_cad of "), HasSubstr("surface_mesh of block: from the cache"), HasSubstr("volume_mesh of ")));
   expect_same(run(text, true, 2), without, "warm, two threads");
-  EXPECT_EQ(n_reused(), 2);
+  EXPECT_EQ(n_reused(), 3);
   // The same file under another path is the same, but manifests say what the user wrote.
   std::filesystem::create_directories(folder_ / "sub");
   std::filesystem::copy_file(folder_ / "block.step", folder_ / "sub" / "block.step");
@@ -138,6 +138,72 @@ TEST_F(CachedRun, NewVerticesOfAWallFromTheCacheLieOnTheModel) {
   EXPECT_THAT(log_, HasSubstr("surface_mesh of can: from the cache"));
   EXPECT_THAT(warm.at("a.su2.json"), HasSubstr("boundary_triangles_added_by_splits"));
   expect_same(warm, run(again, false), "wall from the cache");
+}
+
+// ---- Models --------------------------------------------------------------------------------------------------------------------------------
+
+/// Reading, uniting, moving, halving, meshing and writing, so that kept models are used in every way. FOUR is an engineer's change from case to case.
+const std::string k_models =
+    "local body = fuselage{ name='body', frames={ {x=0, height=0}, {x=1, height=1}, {x=4, height=1}, {x=6, height=0.1} } } "
+    "local w = wing{ name='wing', symmetric=true, position={2, 0, -0.1}, sections={ { y=0, chord=1.4, airfoil='naca0012' }, { y=3, chord=0.7, airfoil='naca0012' } } } "
+    "local plane = aircraft{ body, w } print(plane) "
+    "local tank = read_cad 'IN/tank.step' print(tank, tank.report) "
+    "local both = assembly{ plane, tank:move{ 2, 0, -3 } } local united = union{ tank, box{ {1, -0.2, -0.2}, {3, 0.2, 0.2}, name='bar' } } "
+    "local m = assembly{ both, united:move{ 0, 0, FOUR } }:rotate{ pitch=3*deg } print(m) "
+    "surface_mesh{ m, max_edge=0.7 }:write 'OUT/m.stl' ";
+
+TEST_F(CachedRun, ModelsComeBackAsTheyWere) {
+  run("cylinder{ {0,0,0}, {2,0,0}, radius=0.5, name='tank' }:write 'IN/tank.step'", false);
+  const auto text = [](const std::string& four) { return std::regex_replace(k_models, std::regex("FOUR"), four); };
+  const Files without = run(text("4"), false);
+  expect_same(run(text("4"), true), without, "cold");
+  const std::map<std::string, int> kept = entries();
+  for (const char* stage : {"aircraft", "read_cad", "union"}) EXPECT_EQ(kept.count(stage), 1u) << stage;
+  EXPECT_GE(kept.at("assembly"), 2);
+  expect_same(run(text("4"), true), without, "warm");
+  EXPECT_THAT(log_, AllOf(HasSubstr("aircraft: from the cache"), HasSubstr("read_cad of "), HasSubstr("union of "), HasSubstr("assembly of "), Not(HasSubstr("once more"))));
+  const Files other = run(text("5"), false);
+  EXPECT_FALSE(other.at("m.stl") == without.at("m.stl"));
+  expect_same(run(text("5"), true), other, "another place of the union");
+  EXPECT_THAT(log_, HasSubstr("union of "));
+}
+
+TEST_F(CachedRun, WhatOpenCascadeNeedsOfAKeptModelIsMadeWhenItIsAskedFor) {
+  run("cylinder{ {0,0,0}, {2,0,0}, radius=0.5, name='tank' }:write 'IN/tank.step'", false);
+  const std::string read = "local tank = read_cad 'IN/tank.step' ";
+  const auto text = [&](const std::string& name) { return read + "union{ tank, box{ {1, -0.2, -0.2}, {3, 0.2, 0.2}, name='" + name + "' } }:write('OUT/u.brep') tank:write('OUT/t.brep', 'OUT/t.step') half{ tank }:write 'OUT/h.brep' "; };
+  run(read, true);
+  for (const char* name : {"bar", "rod"}) {
+    const Files without = run(text(name), false);
+    expect_same(run(text(name), true), without, name);
+    EXPECT_THAT(log_, AllOf(HasSubstr("read_cad of "), HasSubstr("read_cad: once more")));
+    expect_same(run(text(name), true), without, std::string(name) + ", warm");
+    EXPECT_THAT(log_, HasSubstr("union of "));
+  }
+}
+
+TEST_F(CachedRun, ComponentsCountAsTheyAreAtTheCall) {
+  const std::string text =
+      "local w = wing{ name='w', sections={ { y=0, chord=1, airfoil='naca0012' }, { y=2, chord=1, airfoil='naca0012' } } } "
+      "local first = aircraft{ w } w:move{ 0, 0, 1 } local second = aircraft{ w } first:write 'OUT/first.brep' second:write 'OUT/second.brep' print(first.volume, second.volume)";
+  const Files without = run(text, false);
+  EXPECT_FALSE(without.at("first.brep") == without.at("second.brep"));
+  expect_same(run(text, true), without, "cold");
+  expect_same(run(text, true), without, "warm");
+  EXPECT_THAT(log_, HasSubstr("aircraft: from the cache"));
+}
+
+TEST_F(CachedRun, RealModelsComeBackAsTheyWere) {
+  STERNA_NEEDS_SHARED_DATA();
+  for (const char* file : {"cad/tigl_simplewing_simplewing.brep", "cad/onera_m6_su2_geom_oneram6.IGS", "cad/gmsh_t106_blade_mesh_T106_V3.step", "cpacs/simpletest-nacelle.xml"}) {
+    const std::string path = (test::shared_data() / file).string();
+    const std::string text = std::string("local m = ") + (path.ends_with(".xml") ? "read_cpacs" : "read_cad") + " '" + path + "' print(m) m:rotate{ pitch=2*deg }:write 'OUT/m.step'";
+    const Files without = run(text, false);
+    expect_same(run(text, true), without, std::string(file) + ", cold");
+    EXPECT_EQ(n_reused(), 0) << file;
+    expect_same(run(text, true), without, std::string(file) + ", warm");
+    EXPECT_EQ(n_reused(), 1) << file << "\n" << log_;
+  }
 }
 
 // ---- Functions -----------------------------------------------------------------------------------------------------------------------------

@@ -38,7 +38,7 @@ struct Layer {
   Extrusion extrusion;
 
   Layer(TriMesh w, const EnvelopeOptions& options, const std::vector<PatchRule>& rules = {}) : wall(std::move(w)), base(wall, k_context) {
-    base.demand = demand_of(base, options, rules, k_context);
+    base.demand = demand_of(base, options, rules, nullptr, k_context);
     envelope = build_envelope(base, options, k_context);
     extrusion = extrude_prisms(base, options, {}, envelope, k_context);
   }
@@ -100,9 +100,9 @@ TEST(DemandOf, IsEmptyWhereNothingDiffers) {
   const TriMesh room = test::cube_room(2);
   const LayerBase base(room, k_context);
   const EnvelopeOptions options = layers_of(1e-3, 9);
-  EXPECT_TRUE(demand_of(base, options, {}, k_context).is_empty());
-  EXPECT_TRUE(demand_of(base, options, std::vector<PatchRule>{{.names = "z*", .layers = 9, .first_height = 1e-3, .blend = 0.3}}, k_context).is_empty());
-  EXPECT_FALSE(demand_of(base, options, std::vector<PatchRule>{{.names = "z*", .layers = 10}}, k_context).is_empty());
+  EXPECT_TRUE(demand_of(base, options, {}, nullptr, k_context).is_empty());
+  EXPECT_TRUE(demand_of(base, options, std::vector<PatchRule>{{.names = "z*", .layers = 9, .first_height = 1e-3, .blend = 0.3}}, nullptr, k_context).is_empty());
+  EXPECT_FALSE(demand_of(base, options, std::vector<PatchRule>{{.names = "z*", .layers = 10}}, nullptr, k_context).is_empty());
 }
 
 TEST(DemandOf, BlendsLogarithmsOverTheStatedDistance) {
@@ -110,7 +110,7 @@ TEST(DemandOf, BlendsLogarithmsOverTheStatedDistance) {
   constexpr double k_blend = 0.25, k_floor = 1e-3, k_other = 1e-4;
   const TriMesh room = test::cube_room(k_n);
   const LayerBase base(room, k_context);
-  const LayerDemand demand = demand_of(base, layers_of(k_other, 9), std::vector<PatchRule>{{.names = "*", .blend = k_blend}, {.names = "z0", .first_height = k_floor, .max_growth = 1.2}}, k_context);
+  const LayerDemand demand = demand_of(base, layers_of(k_other, 9), std::vector<PatchRule>{{.names = "*", .blend = k_blend}, {.names = "z0", .first_height = k_floor, .max_growth = 1.2}}, nullptr, k_context);
   ASSERT_FALSE(demand.is_empty());
   // The share of the other group at x of the blend is k/(1 + k), k = (1 - x)^2 (1 + 2x); its slope is at most 0.86.
   const double steepest = 0.86 / (k_blend * k_n) * std::log(k_floor / k_other);
@@ -145,7 +145,7 @@ TEST(DemandOf, OneNumberOfLayersForWhatIsConnectedAndAnotherForWhatIsNot) {
   const LayerBase base(walls, k_context);
   std::vector<std::string> log;
   const RunContext context({.threads = 2, .log = [&](LogLevel, std::string_view text) { log.emplace_back(text); }});
-  const LayerDemand demand = demand_of(base, layers_of(1e-3, 9), std::vector<PatchRule>{{.names = "x1", .layers = 12}, {.names = "z*", .layers = 4}, {.names = "body", .layers = 30}}, context);
+  const LayerDemand demand = demand_of(base, layers_of(1e-3, 9), std::vector<PatchRule>{{.names = "x1", .layers = 12}, {.names = "z*", .layers = 4}, {.names = "body", .layers = 30}}, nullptr, context);
   for (const VertexId v : walls.points.ids()) EXPECT_EQ(demand.layers[v], v.index() < n_room ? 12 : 30);
   EXPECT_TRUE(std::any_of(log.begin(), log.end(), [](const std::string& line) { return line.find("12, the largest asked for (4 by z0, z1; 9 by") != std::string::npos; })) << log.size();
 }
