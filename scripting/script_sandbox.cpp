@@ -54,8 +54,8 @@ int print(lua_State* state) {
   return 0;
 }
 
-/// Leaves the module's source in session.value; false: its error.
-bool read_module(ScriptSession& session, const char* name) noexcept {
+/// Leaves the module's source in session.value; false: its error. \p where: "case.lua:5: "
+bool read_module(ScriptSession& session, const char* name, const char* where) noexcept {
   try {
     const std::string module = name;
     if (module.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos)
@@ -67,7 +67,9 @@ bool read_module(ScriptSession& session, const char* name) noexcept {
     session.value = session.series.modules[module] = read_script(path);
     return true;
   } catch (const Error& error) {
-    session.value = std::make_shared<const Error>(error);
+    ErrorInfo info = error.info();
+    info.attempted = where + info.attempted;
+    session.value = std::make_shared<const Error>(std::move(info));
     return false;
   }
 }
@@ -78,7 +80,8 @@ int require(lua_State* state) {
   if (lua_rawget(state, lua_upvalueindex(1)) != LUA_TNIL) return 1;
   lua_pop(state, 1);
   ScriptSession& session = session_of(state);
-  if (!read_module(session, name)) raise_failure(state);
+  luaL_where(state, 1);
+  if (!read_module(session, name, lua_tostring(state, -1))) raise_failure(state);
   const char* chunk = lua_pushfstring(state, "@%s.lua", name);
   const auto* source = std::get_if<std::string>(&session.value);
   if (luaL_loadbufferx(state, source->data(), source->size(), chunk, "t") != LUA_OK) return lua_error(state);
