@@ -40,13 +40,14 @@ struct SeriesPlan {
   SlurmOptions slurm;
   std::vector<std::string> sbatch_words;  ///< "--mem=8G": more options of sbatch
   SeriesOptions options;
+  std::string program_hash;     ///< of the workers' executable: another build may give other bytes
   std::filesystem::path cache;  ///< folder; empty: none
   FunctionHandle function;
 
   std::filesystem::path folder_of(const SeriesCase& c) const { return folder / c.name; }
 };
 
-/// Of all that decides what a case does, but for the files that it reads: script, parameters, name and index, the words of the command line, seed, version, the tables of
+/// Of all that decides what a case does, but for the files that it reads: script, parameters, name and index, the words of the command line, seed, version and build, the tables of
 /// earlier series. 16 hex digits.
 std::string case_key(const SeriesPlan& plan, const SeriesCase& c, const ScriptSession& session);
 

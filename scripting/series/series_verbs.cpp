@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "geom/base/error.h"
+#include "geom/base/hash.h"
 #include "geom/base/schema.h"
 #include "scripting/series/series_run.h"
 #include "scripting/series/value_json.h"
@@ -235,6 +236,7 @@ ScriptValue series_verb(const ScriptCall& call) {
   else reader.add_problem(value ? "case: expected a function, not " + std::string(type_text(*value)) : "case is missing: case = function(p) ... end");
   reader.read_options(sterna::options_of(plan.options));
   reader.finish();
+  if (const std::filesystem::path& program = call.session.series.settings.program; !program.empty()) plan.program_hash = hash_file(program);
   return run_series(call, plan);
 }
 
