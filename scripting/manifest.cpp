@@ -21,19 +21,6 @@ Json cells_json(const HybridMesh& mesh) {
       {"nodes", mesh.points.size()}, {"prisms", cells.prisms}, {"pyramids", cells.pyramids}, {"tetrahedra", cells.tetrahedra}, {"hexahedra", cells.hexahedra}};
 }
 
-/// What a source is made of; samples by their number only.
-Json sources_json(const std::vector<volmesh::SizeSource>& sources) {
-  const auto point = [](const Vec3& p) { return Json{p.x, p.y, p.z}; };
-  Json list = Json::array();
-  for (const volmesh::SizeSource& s : sources) {
-    if (s.kind == volmesh::SourceKind::samples) list.push_back({{"kind", to_string(s.kind)}, {"points", s.points.size()}});
-    else
-      list.push_back({{"kind", to_string(s.kind)}, {"from", point(s.from)}, {"to", point(s.to)}, {"direction", point(s.direction)}, {"radius", s.radius}, {"length", s.length},
-                      {"height", s.height}, {"spread", s.spread}, {"size", s.size}, {"size_end", s.size_end}});
-  }
-  return list;
-}
-
 /// Angles in degrees, as in reports; the whole report is what `sterna check --json` prints.
 Json quality_json(const CheckReport& report) {
   Json measures = Json::object();
@@ -97,7 +84,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     if (mesh.origin->smooth_angle) json["wall"] = {{"max_smooth_angle", *mesh.origin->smooth_angle}};
     if (!volume.patches.empty()) json["patch_rules"] = Json::parse(layer_rules_json(volume.patches));
     if (volume.first_heights) json["first_heights"] = {{"by", "a function of place"}, {"least", volume.first_heights->least()}, {"greatest", volume.first_heights->greatest()}};
-    if (!volume.sources.empty()) json["sources"] = sources_json(volume.sources);
+    if (!volume.sources.empty()) json["sources"] = Json::parse(sources_text(volume.sources, false));
     if (!volume.discs.empty()) json["actuator_discs"] = Json::parse(discs_json(volume.discs));
     if (!volume.periodic.empty()) json["periodic"] = Json::parse(periodic_json(volume.periodic));
   }

@@ -109,21 +109,6 @@ surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::functio
   return asked;
 }
 
-/// Samples by their number only.
-std::string sources_text(const std::vector<volmesh::SizeSource>& sources, bool has_function) {
-  if (sources.empty() && !has_function) return {};
-  const auto point = [](const Vec3& p) { return nlohmann::ordered_json{p.x, p.y, p.z}; };
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const volmesh::SizeSource& s : sources) {
-    if (s.kind == volmesh::SourceKind::samples) list.push_back({{"kind", to_string(s.kind)}, {"points", s.points.size()}});
-    else
-      list.push_back({{"kind", to_string(s.kind)}, {"from", point(s.from)}, {"to", point(s.to)}, {"direction", point(s.direction)}, {"radius", s.radius}, {"length", s.length},
-                      {"height", s.height}, {"spread", s.spread}, {"size", s.size}, {"size_end", s.size_end}});
-  }
-  if (has_function) list.push_back({{"kind", "function"}});
-  return list.dump();
-}
-
 std::string indented(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 3) text.replace(at, 1, "\n  ");
@@ -156,6 +141,20 @@ SurfaceValue mesh_anew(const std::vector<ModelHandle>& models, const SurfaceReci
 }
 
 }  // namespace
+
+std::string sources_text(const std::vector<volmesh::SizeSource>& sources, bool has_function) {
+  if (sources.empty() && !has_function) return {};
+  const auto point = [](const Vec3& p) { return nlohmann::ordered_json{p.x, p.y, p.z}; };
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const volmesh::SizeSource& s : sources) {
+    if (s.kind == volmesh::SourceKind::samples) list.push_back({{"kind", to_string(s.kind)}, {"points", s.points.size()}});
+    else
+      list.push_back({{"kind", to_string(s.kind)}, {"from", point(s.from)}, {"to", point(s.to)}, {"direction", point(s.direction)}, {"radius", s.radius}, {"length", s.length},
+                      {"height", s.height}, {"spread", s.spread}, {"size", s.size}, {"size_end", s.size_end}});
+  }
+  if (has_function) list.push_back({{"kind", "function"}});
+  return list.dump();
+}
 
 OptionTable with_edge_tables(OptionTable table) {
   for (Option& option : table)
