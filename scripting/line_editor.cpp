@@ -74,6 +74,9 @@ LineEditor::LineEditor(std::function<Completion(const std::string& text)> comple
   rl_completer_quote_characters = "\"'";
   using_history();
   stifle_history(k_kept_lines);
+  history_comment_char = '#';  // statements of several lines: in the file a time stamp parts one from the next
+  history_write_timestamps = 1;
+  history_multiline_entries = 1;
   if (!history_file_.empty()) read_history(history_file_.c_str());  // the first time there is none
 }
 

@@ -1,2 +1,3 @@
--- expect file_not_found missing_module.lua:2: shapes.lua: the script cannot be opened
+-- expect file_not_found missing_module.lua:3: reading 
+-- expect shapes.lua: the script cannot be opened
 require "shapes"
