@@ -100,8 +100,10 @@ void ReferenceUse::keep(KeptEnvelope envelope) {
 void ReferenceUse::note_carried(const TriMesh& mesh, const std::string& name) { carried_.push_back({triangles_key(mesh), name, false}); }
 
 CarriedPart* ReferenceUse::carried(const ContentKey& triangles) {
-  const auto found = std::find_if(carried_.begin(), carried_.end(), [&](const CarriedPart& part) { return part.triangles == triangles; });
-  return found == carried_.end() ? nullptr : &*found;
+  for (const bool is_told : {false, true})  // mirror images may have the same triangles: each is asked for once
+    for (CarriedPart& part : carried_)
+      if (part.triangles == triangles && part.has_envelope == is_told) return &part;
+  return nullptr;
 }
 
 void ReferenceUse::tell(const std::string& line, const Reuse& reuse, const RunContext& context) {

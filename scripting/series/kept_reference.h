@@ -75,7 +75,7 @@ class ReferenceUse {
   void keep(KeptPart part);
   void keep(KeptEnvelope envelope);  ///< once for each wall and options
   void note_carried(const TriMesh& mesh, const std::string& name);
-  /// The part with these triangles that took over the reference's; null: there is none.
+  /// The part with these triangles that took over the reference's, first one that nothing was told of yet; null: there is none.
   CarriedPart* carried(const ContentKey& triangles);
   std::vector<CarriedPart>& all_carried() { return carried_; }
 
