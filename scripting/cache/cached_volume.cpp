@@ -58,7 +58,7 @@ volmesh::EnvelopeStage cached_envelope(const TriMesh& wall, const volmesh::Volum
   const std::optional<ContentKey> key = reuse.cache ? std::optional(envelope_key(wall, options, context)) : std::nullopt;
   return cached_with_reference<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall), key, context, [&] {
     volmesh::EnvelopeStage stage = volmesh::make_envelope(wall, with_envelopes(options, reuse), context);
-    tell_other_envelopes(reuse, context);
+    tell_other_envelopes(options.parts, reuse, context);
     return stage;
   });
 }
@@ -101,7 +101,7 @@ volmesh::VolumeMeshResult cached_volume_mesh(const TriMesh& wall, const volmesh:
     const std::optional<ContentKey> key = reuse.cache ? std::optional(envelope_key(wall, options, context)) : std::nullopt;
     return cached_with_reference<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall), key, context, [&] {
       volmesh::EnvelopeStage stage = make();
-      tell_other_envelopes(reuse, context);
+      tell_other_envelopes(options.parts, reuse, context);
       return stage;
     });
   };

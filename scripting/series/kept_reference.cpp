@@ -51,14 +51,14 @@ void ReferenceUse::read(const RunContext& context) {
     throw Error({.code = ErrorCode::file_malformed,
                  .attempted = attempted,
                  .problem = file_.string() + " is damaged: " + problem,
-                 .hint = "run the series again: it makes the reference case anew"});
+                 .hint = "remove the file and run the series again: that makes the reference case anew"});
   };
   SealedFile file(file_);
   if (!file.is_open())
     throw Error({.code = ErrorCode::file_not_found,
                  .attempted = attempted,
                  .problem = file_.string() + ": " + std::generic_category().message(errno),
-                 .hint = "run the series again: it makes the reference case anew"});
+                 .hint = "remove the file and run the series again: that makes the reference case anew"});
   if (const std::string problem = file.problem(file_key(), context); !problem.empty()) refuse(problem);
   try {
     const std::unique_ptr<ByteSource> source = file.content();

@@ -114,26 +114,27 @@ surfmesh::SurfaceMesh mesh_from_reference(const PartTask& task, const Reuse& reu
 /// What may differ: heights follow what is asked for here, and the feature angle is of the wall.
 constexpr std::string_view k_free_options = " layers first_height max_growth total_height solve_for max_thickness max_relative_height feature_angle ";
 
-/// "envelope of wing: "
+/// "envelope of wing: "; notes that the part that took over triangles, if it is one, is being told of.
 std::string envelope_of(const TriMesh& wall, ReferenceUse& reference) {
   CarriedPart* carried = reference.carried(triangles_key(wall));
   if (carried) carried->has_envelope = true;
   return "envelope of " + (carried ? carried->name : wall.patches.raw().front().name) + ": ";
 }
 
-/// The reference's envelope that one of this wall may start from. Null where the reference has none with these triangles, where the wall is the reference's
-/// own, and, which is told, where options differ.
-const KeptEnvelope* find_start(const TriMesh& wall, volmesh::EnvelopeOptions options, const std::string& what, const Reuse& reuse, const RunContext& context) {
+/// The reference's envelope that one of this wall may start from. Null, and why is told, where it made none with these triangles, or options differ; null without a word where the wall is the
+/// reference's own, or (`has_carried` false) nothing on it took over triangles.
+const KeptEnvelope* find_start(const TriMesh& wall, volmesh::EnvelopeOptions options, const std::string& what, bool has_carried, const Reuse& reuse, const RunContext& context) {
   const ContentKey connectivity = connectivity_of(wall);
-  std::string names;
+  std::string against = "the reference made none of a wall with these triangles";
   for (const KeptEnvelope& kept : reuse.reference->envelopes(context)) {
     if (kept.wall != connectivity || kept.start.points.size() != wall.n_vertices()) continue;
     if (kept.start.points.raw() == wall.points.raw()) return nullptr;
     volmesh::EnvelopeOptions before = kept.options;
-    names = differing(sterna::options_of(before), sterna::options_of(options), k_free_options);
+    const std::string names = differing(sterna::options_of(before), sterna::options_of(options), k_free_options);
     if (names.empty()) return &kept;
+    against = "options differ from the reference's: " + names;
   }
-  if (!names.empty()) reuse.reference->tell(what + "made from scratch: options differ from the reference's: " + names, reuse, context);
+  if (has_carried) reuse.reference->tell(what + "made from scratch: " + against, reuse, context);
   return nullptr;
 }
 
@@ -146,8 +147,9 @@ volmesh::Envelope start_or_build(const KeptEnvelope& from, const std::string& na
 
 volmesh::PartEnvelope part_from_reference(const volmesh::PartEnvelopeTask& task, const Reuse& reuse, const volmesh::PartEnvelopeMaker& ordinary,
                                           const std::optional<ContentKey>& key, const RunContext& context) {
+  const bool has_carried = reuse.reference->carried(triangles_key(task.wall)) != nullptr;
   const std::string what = envelope_of(task.wall, *reuse.reference);
-  const KeptEnvelope* from = find_start(task.wall, task.options, what, reuse, context);
+  const KeptEnvelope* from = find_start(task.wall, task.options, what, has_carried, reuse, context);
   if (from == nullptr) return ordinary(task, context);
   const auto make = [&] {
     StartedEnvelope started;
@@ -171,7 +173,9 @@ volmesh::Envelope wall_from_reference(const volmesh::LayerBase& base, const volm
     return envelope;
   }
   const std::string what = envelope_of(base.wall, reference);
-  const KeptEnvelope* from = find_start(base.wall, options, what, reuse, context);
+  bool has_carried = false;  // the wall is what is left of a surface where layers grow: parts of it need not have its triangles
+  for (CarriedPart& part : reference.all_carried()) has_carried = part.has_envelope = true;
+  const KeptEnvelope* from = find_start(base.wall, options, what, has_carried, reuse, context);
   if (from == nullptr) return volmesh::build_envelope(base, options, collider, context);
   std::string outcome;
   volmesh::Envelope envelope = start_or_build(*from, reference.name(), base, options, collider, outcome, context);
@@ -206,12 +210,13 @@ volmesh::VolumeMeshOptions starting_envelopes(volmesh::VolumeMeshOptions options
   return options;
 }
 
-void tell_other_envelopes(const Reuse& reuse, const RunContext& context) {
+void tell_other_envelopes(const std::vector<volmesh::PlacedPart>& parts, const Reuse& reuse, const RunContext& context) {
   if (reuse.reference == nullptr) return;
-  for (CarriedPart& part : reuse.reference->all_carried()) {
-    if (part.has_envelope) continue;
-    part.has_envelope = true;
-    reuse.reference->tell("envelope of " + part.name + ": made from scratch: its layer is not made apart from what is around it", reuse, context);
+  for (const volmesh::PlacedPart& placed : parts) {
+    CarriedPart* part = placed.own ? reuse.reference->carried(triangles_key(*placed.own)) : nullptr;
+    if (part == nullptr || part->has_envelope) continue;
+    part->has_envelope = true;
+    reuse.reference->tell("envelope of " + part->name + ": made from scratch: its layer is not made apart from what is around it", reuse, context);
   }
 }
 

@@ -25,9 +25,8 @@ PartMesher starting_mesher(const Reuse& reuse, const PartMesher& ordinary,
 volmesh::VolumeMeshOptions starting_envelopes(volmesh::VolumeMeshOptions options, const Reuse& reuse, const volmesh::PartEnvelopeMaker& ordinary,
                                               const std::function<ContentKey(const volmesh::PartEnvelopeTask&, const RunContext&)>& key);
 
-/// Tells of every part that took over triangles, and whose envelope was asked for by nobody, why that did not start from the reference's. After an envelope was
-/// made.
-void tell_other_envelopes(const Reuse& reuse, const RunContext& context);
+/// Tells of every one of a wall's parts that took over triangles and whose envelope nobody asked for, why that did not start from the reference's. After the wall's envelope was made.
+void tell_other_envelopes(const std::vector<volmesh::PlacedPart>& parts, const Reuse& reuse, const RunContext& context);
 
 /// The key of a result that depends on the reference, too; as it is without one.
 std::optional<ContentKey> beside_reference(const std::optional<ContentKey>& key, const Reuse& reuse, const RunContext& context);

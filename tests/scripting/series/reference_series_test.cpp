@@ -70,7 +70,7 @@ TEST_F(ReferenceSeries, BentCasesKeepTrianglesAndStartTheirEnvelopeFromThere) {
   EXPECT_THAT(text_of("bend/bend=0.1_alpha=0/status.json"), HasSubstr("bend=0_alpha=0/reference.kept"));  // an input
   const std::string triangles = triangles_of(wall("bend=0_alpha=0"));
   EXPECT_GT(triangles.size(), 1000u);
-  for (const std::string name : {"bend=0.1_alpha=0", "bend=0.1_alpha=3"}) {  // in its place, and moved
+  for (const std::string& name : {std::string("bend=0.1_alpha=0"), std::string("bend=0.1_alpha=3")}) {  // in its place, and moved
     EXPECT_EQ(triangles_of(wall(name)), triangles) << name;
     EXPECT_NE(wall(name), wall("bend=0_alpha=0")) << name;
     EXPECT_THAT(reused(name), AllOf(HasSubstr(": topology of bend=0_alpha=0"), HasSubstr(": started from bend=0_alpha=0"))) << name;
@@ -93,7 +93,7 @@ TEST_F(ReferenceSeries, GivesTheSameBytesHoweverItIsRun) {
   std::filesystem::remove_all(cached / "bend");
   run(other_way_round, {"--tasks", "2", "--threads", "7"}, cached);  // warm
   EXPECT_EQ(difference(plain, results_only(snapshot(cached / "bend"))), "");
-  for (const std::string text : {told_cold, contents(cached / "bend/bend=0.1_alpha=3/measure.json")})
+  for (const std::string& text : {told_cold, contents(cached / "bend/bend=0.1_alpha=3/measure.json")})
     EXPECT_THAT(text, HasSubstr(": topology of bend=0_alpha=0"));
 }
 
