@@ -37,7 +37,8 @@ std::vector<surfmesh::PatchSurfaceOptions> rules_for(const Model& part, const Mo
 
 std::string name_of(const Model& part) { return part.components.size() == 0 ? part.faces.raw().front().name : part.components.raw().front().name; }
 
-PartsMesh mesh_in_place(const ModelValue& value, const SurfaceRecipe& recipe, const SpaceSizes& sizes, const RunContext& context) {
+PartsMesh mesh_in_place(const ModelValue& value, const SurfaceRecipe& recipe, const SpaceSizes& sizes, const PartMesher& mesher, const RunContext& context) {
+  if (mesher) return {mesher({value.model, recipe.options, recipe.patches, sizes, says_something(sizes), {}, {}}, context), {}};
   return {surfmesh::mesh_model(value.model, recipe.options, recipe.patches, sizes, context), {}};
 }
 
@@ -45,12 +46,12 @@ PartsMesh mesh_in_place(const ModelValue& value, const SurfaceRecipe& recipe, co
 
 surfmesh::SurfaceMesh mesh_part(const PartTask& task, const RunContext& context) { return surfmesh::mesh_model(task.model, task.options, task.patches, task.sizes, context); }
 
-PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const SpaceSizes& sizes, const PartMesher& mesher, const RunContext& context) {
+PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const SpaceSizes& sizes, const PartMesher& mesher, const RunContext& context, const PartMesher& in_place) {
   const std::vector<ModelPart> parts = parts_of(value);
-  if (value.parts.empty()) return mesh_in_place(value, recipe, sizes, context);
+  if (value.parts.empty()) return mesh_in_place(value, recipe, sizes, in_place, context);
   if (recipe.options.gap_cells > 0.0 && parts.size() > 1) {
     context.info("gap_cells: gaps between parts ask for sizes, so all parts are meshed together, where they are");
-    return mesh_in_place(value, recipe, sizes, context);
+    return mesh_in_place(value, recipe, sizes, in_place, context);
   }
   std::vector<PartTask> tasks;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -72,7 +73,7 @@ PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const
   std::optional<surfmesh::SurfaceMesh> joined = surfmesh::join_parts(value.model, placed, recipe.options, context);
   if (!joined) {
     context.info("triangles of different parts cross that finer ones may part: all parts are meshed together, where they are");
-    return mesh_in_place(value, recipe, sizes, context);
+    return mesh_in_place(value, recipe, sizes, in_place, context);
   }
   PartsMesh result{std::move(*joined), {}};
   std::uint32_t first_triangle = 0, first_vertex = 0;

@@ -37,7 +37,7 @@ struct PartsMesh {
 
 /// Meshes the parts of a model and joins them. A model of one part that was never moved is meshed as it is. Sizes by place (sources, functions) are asked where the parts are.
 /// All is meshed at once, in its place, which the log tells: with gap_cells for several parts, since gaps between them ask for sizes; and where triangles of two parts cross that
-/// finer ones part. `sizes` are in space. \throws Error of surfmesh::mesh_model, join_parts
-PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const surfmesh::SpaceSizes& sizes, const PartMesher& mesher, const RunContext& context);
+/// finer ones part. `sizes` are in space. \p in_place meshes what is meshed at once, as one part in its place; empty: mesh_part(). \throws Error of surfmesh::mesh_model, join_parts
+PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const surfmesh::SpaceSizes& sizes, const PartMesher& mesher, const RunContext& context, const PartMesher& in_place = {});
 
 }  // namespace sterna::scripting

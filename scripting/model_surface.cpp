@@ -17,6 +17,7 @@
 #include "scripting/fluid_model.h"
 #include "scripting/mesh_parts.h"
 #include "scripting/patch_rules.h"
+#include "scripting/series/start_from_reference.h"
 #include "scripting/summary.h"
 #include "volmesh/tetra/size_sources.h"
 
@@ -121,7 +122,7 @@ SurfaceValue mesh_anew(const std::vector<ModelHandle>& models, const SurfaceReci
   put_first(present(all.sizes, all.model), recipe);
   for (const ModelHandle& model : models)
     if (model->description) put_first(rules_of(*model->description, all.model), recipe);
-  PartsMesh made = mesh_parts(all, recipe, space_sizes(recipe, size), cached_part_mesher(reuse), context);
+  PartsMesh made = mesh_parts(all, recipe, space_sizes(recipe, size), cached_part_mesher(reuse), context, reuse.reference ? starting_mesher(reuse, mesh_part) : PartMesher());
   SurfaceValue surface{.inputs = all.inputs, .recipe = recipe};
   surface.parts = std::move(made.parts);
   surface.recipe->sources_text = sources_text(recipe.sources, static_cast<bool>(size));

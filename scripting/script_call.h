@@ -32,7 +32,7 @@ struct ScriptSession {
   std::function<void(std::string_view)> print;     ///< results
   std::function<void(const MeshValue&)> on_mesh;   ///< called for every volume mesh made; may be empty
   const StageCache* cache = nullptr;               ///< results of stages by their inputs' content; null: all is made anew
-  std::vector<std::string> reused = {};            ///< a line for each stage that came from the cache: "surface_mesh of body"
+  std::vector<std::string> reused = {};            ///< a line for each stage that came from the cache: "surface_mesh of body"; and for what started from a reference
   ErrorHandle cancelled;                           ///< prepared, because the hook that raises it must not allocate
   OptionOverrides arguments = {};                  ///< NAME=VALUE of the command line, for args
   ScriptCheck* check = nullptr;                    ///< not null: nothing is meshed or written, see script_check.h
@@ -42,7 +42,7 @@ struct ScriptSession {
 
   ScriptValue value;  ///< what a verb leaves for call_verb: its result or its error
 
-  Reuse reuse() { return {cache, &reused}; }
+  Reuse reuse() { return {cache, &reused, series.reference ? series.reference->use.get() : nullptr}; }
 };
 
 /// "case.lua:5: volume_mesh", the start of a message; the reader of the verb's table sees in it whether the verb is over when all is checked.

@@ -7,14 +7,14 @@
 
 namespace sterna::volmesh {
 
-PartEnvelope part_envelope(const PartEnvelopeTask& task, const RunContext& context) {
+PartEnvelope part_envelope(const PartEnvelopeTask& task, const RunContext& context, const WallEnvelopeMaker& make) {
   LayerBase base(task.wall, context);
   base.demand = demand_of(base, task.options, task.rules, nullptr, context);
   EnvelopeOptions options = task.options;
   options.feature_angle = decide_feature_angle(base, options, task.smooth_angle, context);
   Collider collider(base, nullptr, context);
   require_clear_input(collider, context);
-  return {build_envelope(base, options, collider, context), options.feature_angle};
+  return {make ? make(base, options, collider, context) : build_envelope(base, options, collider, context), options.feature_angle};
 }
 
 }  // namespace sterna::volmesh

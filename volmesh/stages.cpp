@@ -295,7 +295,11 @@ EnvelopeStage make_envelope(MeshingSite& site, const RunContext& context) {
   const StageTimer timer(context, "envelope");
   const RunContext part = context.part("envelope", 0.0, 0.15);
   const std::vector<WholePart> parts = whole_parts(site.domain, site.options.parts, context);
-  EnvelopeStage stage{parts.empty() ? build_envelope(site.base, site.options.envelope, site.collider, part) : joint_envelope(site, parts, part), site.options.envelope.feature_angle};
+  const auto of_wall = [&] {
+    const WallEnvelopeMaker& make = site.options.wall_envelope;
+    return make ? make(site.base, site.options.envelope, site.collider, part) : build_envelope(site.base, site.options.envelope, site.collider, part);
+  };
+  EnvelopeStage stage{parts.empty() ? of_wall() : joint_envelope(site, parts, part), site.options.envelope.feature_angle};
   equalise_partners(site.base, site.options.envelope, &site.collider, stage.envelope, context);
   return stage;
 }

@@ -49,6 +49,7 @@ struct VolumeMeshOptions {
   double smooth_angle = k_automatic;  ///< rad: largest dihedral turn of the wall where it is smooth, where its maker knows it; decides the default feature angle
   std::vector<PlacedPart> parts;    ///< of the wall, that were meshed elsewhere and moved: their envelopes are made there, too, and moved (joint_envelope.h)
   PartEnvelopeMaker part_envelope;  ///< makes these; empty: part_envelope()
+  WallEnvelopeMaker wall_envelope;  ///< makes the envelope of a wall without such parts; empty: build_envelope()
   TrueSurface true_surface;         ///< where new wall vertices go when boundary triangles are split; empty: they stay on their triangle
 };
 

@@ -7,6 +7,7 @@
 #include "scripting/cache/content_key.h"
 #include "scripting/cache/stage_cache.h"
 #include "scripting/cache/stored_types.h"
+#include "scripting/series/start_from_reference.h"
 #include "scripting/summary.h"
 
 namespace sterna::scripting {
@@ -23,6 +24,19 @@ std::optional<ContentKey> key_of(const std::vector<ModelHandle>& models, const S
     maker.add(*model->provenance.key());
   }
   return maker.add(scripting::key_of(asked)).add(has_function).add(context.seed()).key();
+}
+
+/// Of a part; nothing where it is not known what it was made of, or sizes depend on its place.
+std::optional<ContentKey> key_of(const PartTask& task, const RunContext& context) {
+  if (!task.model_key || task.has_sizes_by_place) return std::nullopt;
+  surfmesh::SurfaceMeshOptions options = task.options;
+  KeyMaker maker("surface of a part");
+  maker.add(*task.model_key).add(sterna::options_of(options)).add(task.patches).add(context.seed());
+  for (const Component& component : task.model.components) maker.add(component.name).add(component.kind);
+  for (const ModelEdge& edge : task.model.edges) maker.add(edge.name);
+  for (const ModelFace& face : task.model.faces) maker.add(face.name).add(face.role).add(face.kind);
+  for (const ModelSolid& solid : task.model.solids) maker.add(solid.name);
+  return maker.key();
 }
 
 /// Without inputs, which are the models', and without the model.
@@ -68,31 +82,39 @@ std::string names_of(const std::vector<ModelHandle>& models) {
 }
 
 PartMesher cached_part_mesher(const Reuse& reuse) {
-  return [reuse](const PartTask& task, const RunContext& context) {
-    std::optional<ContentKey> key;
-    if (reuse.cache && task.model_key && !task.has_sizes_by_place) {
-      surfmesh::SurfaceMeshOptions options = task.options;
-      KeyMaker maker("surface of a part");
-      maker.add(*task.model_key).add(sterna::options_of(options)).add(task.patches).add(context.seed());
-      for (const Component& component : task.model.components) maker.add(component.name).add(component.kind);
-      for (const ModelEdge& edge : task.model.edges) maker.add(edge.name);
-      for (const ModelFace& face : task.model.faces) maker.add(face.name).add(face.role).add(face.kind);
-      for (const ModelSolid& solid : task.model.solids) maker.add(solid.name);
-      key = maker.key();
-    }
+  const PartMesher ordinary = [reuse](const PartTask& task, const RunContext& context) {
+    const std::optional<ContentKey> key = reuse.cache ? key_of(task, context) : std::nullopt;
     const std::string what = task.model.components.size() == 0 ? std::string("of a part") : "of " + task.model.components.raw().front().name + " in its own frame";
     return cached<surfmesh::SurfaceMesh>(reuse, k_stage, what, key, context, [&] { return mesh_part(task, context); });
   };
+  return starting_mesher(reuse, ordinary, [](const PartTask& task, const RunContext& context) { return key_of(task, context); });
 }
 
 SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const SizeFunction& size, const std::function<SurfaceValue(const SizeFunction&)>& make,
                             const std::function<Model()>& all, const Reuse& reuse, const RunContext& context) {
-  std::optional<ContentKey> key = reuse.cache ? key_of(models, asked, static_cast<bool>(size), context) : std::nullopt;
+  ReferenceUse* reference = reuse.reference;
+  if (reference) reference->begin_surface();
+  std::optional<ContentKey> key = reuse.cache ? beside_reference(key_of(models, asked, static_cast<bool>(size), context), reuse, context) : std::nullopt;
   if (!reuse.cache || !key) return cached<SurfaceValue>(reuse, k_stage, {}, std::nullopt, context, [&] { return make(size); }, write_parts, std::function<SurfaceValue(ByteSource&)>());
   const std::string what = names_of(models);
-  const auto read = [&](ByteSource& source) { return read_parts(source, models, all); };
-  SurfaceValue surface = size ? cached_by_answers<SurfaceValue>(reuse, k_stage, what, key, size, context, make, write_parts, read)
-                              : cached<SurfaceValue>(reuse, k_stage, what, key, context, [&] { return make({}); }, write_parts, read);
+  const ReferenceUse::Mark mark = reference ? reference->mark() : ReferenceUse::Mark();
+  std::optional<ReferenceUse::Beside> found;
+  const auto write = [&](ByteSink& sink, const SurfaceValue& surface) {
+    write_parts(sink, surface);
+    if (reference) write_beside(sink, reference->since(mark));
+  };
+  const auto read = [&](ByteSource& source) {
+    SurfaceValue surface = read_parts(source, models, all);
+    if (reference) found = read_beside(source);
+    return surface;
+  };
+  const auto make_here = [&](const SizeFunction& asked_size) {
+    found.reset();  // of an entry that was not this one after all
+    return make(asked_size);
+  };
+  SurfaceValue surface = size ? cached_by_answers<SurfaceValue>(reuse, k_stage, what, key, size, context, make_here, write, read)
+                              : cached<SurfaceValue>(reuse, k_stage, what, key, context, [&] { return make_here({}); }, write, std::function<SurfaceValue(ByteSource&)>(read));
+  if (found) reference->take(std::move(*found), reuse, context);
   surface.model_wall_key = key;
   return surface;
 }

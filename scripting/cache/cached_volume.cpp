@@ -5,6 +5,7 @@
 #include "geom/base/error.h"
 #include "scripting/cache/content_key.h"
 #include "scripting/cache/stored_types.h"
+#include "scripting/series/start_from_reference.h"
 #include "scripting/summary.h"
 #include "volmesh/tetra/engine_process.h"
 
@@ -33,14 +34,19 @@ ContentKey envelope_key(const TriMesh& wall, const volmesh::VolumeMeshOptions& o
 
 std::string triangles_text(const TriMesh& wall) { return "of " + count_text(static_cast<std::int64_t>(wall.n_triangles())) + " triangles"; }
 
-/// The options with a maker of parts' envelopes that takes from the cache what it has.
-volmesh::VolumeMeshOptions with_part_envelopes(volmesh::VolumeMeshOptions options, const Reuse& reuse) {
-  if (!reuse.cache || options.parts.empty()) return options;
-  options.part_envelope = [reuse](const volmesh::PartEnvelopeTask& task, const RunContext& context) {
-    volmesh::EnvelopeOptions named = task.options;
-    const ContentKey key = KeyMaker("envelope of a part").add(task.wall).add(sterna::options_of(named)).add(task.rules).add(task.smooth_angle).add(context.seed()).key();
+ContentKey part_envelope_key(const volmesh::PartEnvelopeTask& task, const RunContext& context) {
+  volmesh::EnvelopeOptions named = task.options;
+  return KeyMaker("envelope of a part").add(task.wall).add(sterna::options_of(named)).add(task.rules).add(task.smooth_angle).add(context.seed()).key();
+}
+
+/// The options with makers of envelopes that take from the cache what it has, and start from a reference where there is one.
+volmesh::VolumeMeshOptions with_envelopes(volmesh::VolumeMeshOptions options, const Reuse& reuse) {
+  const volmesh::PartEnvelopeMaker ordinary = [reuse](const volmesh::PartEnvelopeTask& task, const RunContext& context) {
+    const std::optional<ContentKey> key = reuse.cache ? std::optional(part_envelope_key(task, context)) : std::nullopt;
     return cached<volmesh::PartEnvelope>(reuse, "envelope", triangles_text(task.wall) + " in their own frame", key, context, [&] { return volmesh::part_envelope(task, context); });
   };
+  if (reuse.reference) return starting_envelopes(std::move(options), reuse, ordinary, part_envelope_key);
+  if (reuse.cache && !options.parts.empty()) options.part_envelope = ordinary;
   return options;
 }
 
@@ -50,7 +56,11 @@ std::optional<ContentKey> true_surface_key(const SurfaceValue& wall) { return wa
 
 volmesh::EnvelopeStage cached_envelope(const TriMesh& wall, const volmesh::VolumeMeshOptions& options, const Reuse& reuse, const RunContext& context) {
   const std::optional<ContentKey> key = reuse.cache ? std::optional(envelope_key(wall, options, context)) : std::nullopt;
-  return cached<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall), key, context, [&] { return volmesh::make_envelope(wall, with_part_envelopes(options, reuse), context); });
+  return cached_with_reference<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall), key, context, [&] {
+    volmesh::EnvelopeStage stage = volmesh::make_envelope(wall, with_envelopes(options, reuse), context);
+    tell_other_envelopes(options.parts, reuse, context);
+    return stage;
+  });
 }
 
 volmesh::FilledStage cached_tetrahedra(const TriMesh& wall, const volmesh::EnvelopeStage& envelope, const volmesh::VolumeMeshOptions& options, const std::optional<ContentKey>& true_surface, const Reuse& reuse,
@@ -85,22 +95,27 @@ volmesh::VolumeMeshResult cached_finish(const TriMesh& wall, const volmesh::Fill
 
 volmesh::VolumeMeshResult cached_volume_mesh(const TriMesh& wall, const volmesh::VolumeMeshOptions& options, const volmesh::StageWatch& watch, const std::optional<ContentKey>& true_surface, const Reuse& reuse,
                                              const RunContext& context) {
-  if (!reuse.cache) return volmesh::volume_mesh(wall, options, watch, context);
+  if (!reuse.cache && !reuse.reference) return volmesh::volume_mesh(wall, options, watch, context);
   volmesh::StageWatch with_envelope = watch;
   with_envelope.envelope = [&](const std::function<volmesh::EnvelopeStage()>& make) {
-    return cached<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall), envelope_key(wall, options, context), context, make);
+    const std::optional<ContentKey> key = reuse.cache ? std::optional(envelope_key(wall, options, context)) : std::nullopt;
+    return cached_with_reference<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall), key, context, [&] {
+      volmesh::EnvelopeStage stage = make();
+      tell_other_envelopes(options.parts, reuse, context);
+      return stage;
+    });
   };
-  const auto make = [&] { return volmesh::volume_mesh(wall, with_part_envelopes(options, reuse), with_envelope, context); };
+  const auto make = [&] { return volmesh::volume_mesh(wall, with_envelopes(options, reuse), with_envelope, context); };
   if (watch.enveloped || watch.filled) return make();
   std::optional<ContentKey> key;
-  if (true_surface) {
+  if (reuse.cache && true_surface) {
     KeyMaker maker("volume_mesh");
     maker.add(key_of(wall)).add(volume_options_key(options)).add(*true_surface).add(context.seed());
     add_engines(maker, options.tetrahedra);
     key = maker.key();
   }
   bool is_made = false;
-  auto result = cached<volmesh::VolumeMeshResult>(
+  auto result = cached_with_reference<volmesh::VolumeMeshResult>(
       reuse, "volume_mesh", triangles_text(wall), key, context,
       [&] {
         is_made = true;

@@ -6,11 +6,13 @@
 
 namespace sterna::scripting {
 
-class StageCache;  // stage_cache.h
+class StageCache;    // stage_cache.h
+class ReferenceUse;  // series/kept_reference.h
 
 struct Reuse {
   const StageCache* cache = nullptr;          ///< null: everything is made anew
-  std::vector<std::string>* lines = nullptr;  ///< gets a line for each stage that came from the cache
+  std::vector<std::string>* lines = nullptr;  ///< gets a line for each stage that came from the cache, or started from a reference
+  ReferenceUse* reference = nullptr;          ///< of the series whose case runs; null: there is none
 };
 
 }  // namespace sterna::scripting

@@ -18,6 +18,7 @@
 #include "io/trouble_vtu.h"
 #include "scripting/script_function.h"
 #include "scripting/series/case_status.h"
+#include "scripting/series/kept_reference.h"
 #include "scripting/series/value_json.h"
 #include "scripting/summary.h"
 
@@ -87,7 +88,10 @@ void set_reference(const SeriesPlan& plan, const SeriesCase& c, SeriesSession& s
   if (!plan.reference) return;
   const SeriesCase& reference = plan.cases[*plan.reference];
   series.reference = ReferenceCase{.folder = plan.folder_of(reference), .name = reference.name, .is_this = reference.index == c.index};
-  if (!series.reference->is_this) note_input(series, series.reference->folder / k_status_file);
+  series.reference->use = std::make_shared<ReferenceUse>(reference.name, series.reference->folder / k_kept_file, series.reference->is_this);
+  if (series.reference->is_this) return;
+  note_input(series, series.reference->folder / k_status_file);
+  note_input(series, series.reference->folder / k_kept_file);
 }
 
 }  // namespace
@@ -140,6 +144,7 @@ void run_case(const ScriptCall& call, const SeriesPlan& plan, const SeriesCase& 
     if (const auto* handle = std::get_if<MeshHandle>(&value)) mesh = note_of(**handle);
     if (mesh) status.mesh = mesh->figures;
     status.result = to_result(value);
+    if (series.reference && series.reference->is_this) series.reference->use->save(session.context);
     status.state = CaseState::done;
   } catch (const Error& error) {
     note_failure(error, status, folder);
@@ -148,6 +153,7 @@ void run_case(const ScriptCall& call, const SeriesPlan& plan, const SeriesCase& 
   session.on_mesh = on_mesh;
   session.output_folder.clear();
   series.is_case_running = false;
+  if (series.reference) series.reference->use.reset();
 
   copy_script(session, folder);
   if (mesh && !mesh->check_json.empty()) write_text(folder / "quality.json", mesh->check_json);

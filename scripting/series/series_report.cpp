@@ -34,10 +34,14 @@ std::string quality_of(const CaseStatus& status) {
 
 std::string reused_of(const CaseResult& result) {
   std::string text = result.is_kept ? "the case" : "";
-  // Many stages of one kind are counted: "3 surface_mesh".
+  const auto add = [&](const std::string& entry) { text += (text.empty() ? "" : ", ") + entry; };
+  // Many stages of one kind from the cache are counted: "3 surface_mesh". What a reference had to do with stands as it was told, without reasons and places: "envelope of wing: made from scratch".
   std::map<std::string, int> kinds;
-  for (const std::string& stage : result.reused) ++kinds[stage.substr(0, stage.find(' '))];
-  for (const auto& [kind, n] : kinds) text += (text.empty() ? "" : ", ") + (n > 1 ? std::to_string(n) + " " : "") + kind;
+  for (const std::string& stage : result.reused)
+    if (stage.find(": ") == std::string::npos) ++kinds[stage.substr(0, stage.find(' '))];
+  for (const auto& [kind, n] : kinds) add((n > 1 ? std::to_string(n) + " " : "") + kind);
+  for (const std::string& stage : result.reused)
+    if (const std::size_t colon = stage.find(": "); colon != std::string::npos) add(stage.substr(0, stage.find(": ", colon + 1)));
   return text;
 }
 

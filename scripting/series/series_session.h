@@ -6,12 +6,15 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace sterna::scripting {
+
+class ReferenceUse;  // kept_reference.h
 
 /// One case of one series: "polar/3" of --series-case.
 struct CaseAddress {
@@ -33,6 +36,7 @@ struct ReferenceCase {
   std::filesystem::path folder;
   std::string name;
   bool is_this = false;  ///< the case that runs here is the reference itself
+  std::shared_ptr<ReferenceUse> use = {};  ///< what it keeps, or takes
 };
 
 /// State of the running script.

@@ -105,24 +105,6 @@ LabelledBorder labelled_border(const Model& model, FaceId f, const ModelTopology
   return labelled;
 }
 
-/// Border points against the surface, edge by edge.
-void measure_border(const Model& model, const Surface& surface, const std::vector<EdgeId>& edges, MeshedFace& face) {
-  const FaceMesh& mesh = face.mesh;
-  std::map<EdgeId, LooseEdge> loose;
-  for (std::uint32_t i = 0; i < mesh.n_border; ++i) {
-    const double off = distance(surface.point(mesh.uv[i]), mesh.points[i]);
-    if (off > face.edge_distance) {
-      face.edge_distance = off;
-      face.edge_distance_place = mesh.points[i];
-    }
-    const double tolerance = tolerance_of(model, face.summary.face, edges[i]);
-    if (off <= tolerance) continue;
-    LooseEdge& entry = loose[edges[i]];
-    if (off > entry.distance) entry = {edges[i], face.summary.face, off, tolerance, mesh.points[i]};
-  }
-  for (const auto& [edge, entry] : loose) face.loose_edges.push_back(entry);
-}
-
 void note_dropped_rows(const BandedFace& banded, MeshedFace& face) {
   if (banded.dropped.empty()) return;
   face.notes.push_back("rows on \"" + face.summary.name + "\" are left out beside " + std::to_string(banded.dropped.size()) + " points, the first " + format_point(banded.dropped.front()) +
@@ -162,6 +144,25 @@ void measure_face(MeshedFace& face) {
     if (is_above) summary.area_above += 0.5 * length;
   }
   summary.max_normal_angle = std::acos(std::max(-1.0, least));
+}
+
+void measure_border(const Model& model, const std::vector<EdgeId>& edges, MeshedFace& face) {
+  const FaceMesh& mesh = face.mesh;
+  const Surface& surface = *model.faces[face.summary.face].surface;
+  std::map<EdgeId, LooseEdge> loose;
+  for (std::uint32_t i = 0; i < mesh.n_border; ++i) {
+    const double off = distance(surface.point(mesh.uv[i]), mesh.points[i]);
+    if (off > face.edge_distance) {
+      face.edge_distance = off;
+      face.edge_distance_place = mesh.points[i];
+    }
+    if (!edges[i].is_valid()) continue;
+    const double tolerance = tolerance_of(model, face.summary.face, edges[i]);
+    if (off <= tolerance) continue;
+    LooseEdge& entry = loose[edges[i]];
+    if (off > entry.distance) entry = {edges[i], face.summary.face, off, tolerance, mesh.points[i]};
+  }
+  for (const auto& [edge, entry] : loose) face.loose_edges.push_back(entry);
 }
 
 BorderVertices number_border(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts) {
@@ -226,7 +227,7 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
   free_own_seam(labelled, result.mesh);
   result.border_ids = std::move(labelled.ids);
   result.summary.curvature_angle = sizes.faces[f].limits.angle;
-  measure_border(model, *face.surface, labelled.edges, result);
+  measure_border(model, labelled.edges, result);
   measure_face(result);
   return result;
 }

@@ -43,5 +43,7 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
 
 /// Angles (of the mesh's report), normals and areas of a face's triangles into its summary.
 void measure_face(MeshedFace& face);
+/// Distances of the border's points from the surface, and those beyond the model's tolerances edge by edge. \p edges of the border's points; invalid where it is not known
+void measure_border(const Model& model, const std::vector<EdgeId>& edges, MeshedFace& face);
 
 }  // namespace sterna::surfmesh

@@ -13,6 +13,33 @@ constexpr double k_angle_class = 10.0 * std::numbers::pi / 180.0;  ///< of Surfa
 
 }  // namespace
 
+void summarise_faces(const Column<FaceId, MeshedFace>& faces, SurfaceMeshReport& report) {
+  report.min_angle = std::numbers::pi;
+  double area = 0.0, area_above = 0.0, worst_excess = 0.0;
+  for (const MeshedFace& face : faces) {
+    report.faces.push_back(face.summary);
+    if (face.summary.n_triangles > face.summary.n_band && face.summary.min_angle < report.min_angle) {
+      report.min_angle = face.summary.min_angle;
+      report.worst_face = face.summary.face;
+    }
+    report.max_angle = std::max(report.max_angle, face.summary.max_angle);
+    if (face.edge_distance > report.max_edge_distance) {
+      report.max_edge_distance = face.edge_distance;
+      report.edge_distance_place = face.edge_distance_place;
+    }
+    report.loose_edges.insert(report.loose_edges.end(), face.loose_edges.begin(), face.loose_edges.end());
+    area += face.summary.area;
+    area_above += face.summary.area_above;
+    const double excess = face.summary.max_normal_angle - face.summary.curvature_angle;
+    if (face.summary.n_triangles > 0 && excess > worst_excess) {
+      worst_excess = excess;
+      report.worst_normal_face = face.summary.face;
+    }
+  }
+  if (area > 0.0) report.share_normals = 1.0 - area_above / area;
+  sort_loose_edges(report.loose_edges);
+}
+
 void measure_triangles(SurfaceMesh& mesh) {
   SurfaceMeshReport& report = mesh.report;
   std::int64_t n = 0, n_outside = 0;

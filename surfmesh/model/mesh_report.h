@@ -3,9 +3,13 @@
 
 #include "geom/base/run_context.h"
 #include "surfmesh/model/crossings.h"
+#include "surfmesh/model/mesh_faces.h"
 #include "surfmesh/model/surface_mesh.h"
 
 namespace sterna::surfmesh {
+
+/// Sets what follows from the faces: their summaries, the worst of their angles and normals, distances of edges. \pre none are in the report yet
+void summarise_faces(const Column<FaceId, MeshedFace>& faces, SurfaceMeshReport& report);
 
 /// Sets what follows from the triangles alone: classes of least angles, their 1 % quantile, share within [20, 130] degrees (of `report.faces`), mean radius ratio.
 void measure_triangles(SurfaceMesh& mesh);

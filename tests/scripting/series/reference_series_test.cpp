@@ -1,0 +1,127 @@
+// A series with a reference: a wing that bends keeps the reference's triangles and starts its envelope from there; the same bytes however the series is run.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "tests/scripting/series/series_fixture.h"
+
+namespace sterna::scripting {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// The wing of ../shared/data bent upwards by `bend` metres in 5 m of span; placed in a tunnel-less farfield, at an angle of attack or as it was read.
+std::string bend_series(const std::string& cases, const std::string& options, const std::string& surface_options = "") {
+  return "local model = read_cad \"" + (test::shared_data() / "cad" / "tigl_simplewing_simplewing.brep").string() + "\"\n" +
+         "series{ \"bend\", over = " + cases + ", reference = { bend = 0, alpha = 0 }, " + options + R"lua( case = function(p)
+  local m = model:deform{ function(x, y, z) return 0, 0, p.bend*(y/5)^2 end }
+  if p.alpha ~= 0 then m = m:rotate{ about = { 0.5, 0, 0 }, pitch = p.alpha*deg } end
+  local wall = surface_mesh{ m, max_edge = 0.5, min_edge = 0.05, curvature_angle = 40*deg, growth = 1.8)lua" +
+         surface_options + R"lua( }
+  wall:write "wall.off"
+  if p.surface_only then return wall.triangles end
+  volume_mesh{ wall, layers = 5, first_height = 2e-3, max_growth = 1.5, farfield = sphere{ radius = 30 } }:write "mesh.su2"
+end }
+)lua";
+}
+
+/// { {bend = 0, alpha = 0}, ... } in this order, with equal names in any order.
+std::string cases(const std::vector<std::pair<double, double>>& list, const std::string& more = "") {
+  std::ostringstream text;
+  text << "{ ";
+  for (const auto& [bend, alpha] : list)
+    text << "{ bend = " << bend << ", alpha = " << alpha << more << ", name = \"bend=" << bend << "_alpha=" << alpha << "\" }, ";
+  return text.str() + "}";
+}
+
+/// The lines of an .off file that are triangles: what is behind its points.
+std::string triangles_of(const std::string& off) {
+  std::istringstream lines(off);
+  std::string line, triangles;
+  while (std::getline(lines, line))
+    if (line.starts_with("3 ")) triangles += line + "\n";
+  return triangles;
+}
+
+/// Without what holds the script, its key, or the number of a case.
+std::map<std::string, std::string> results_only(std::map<std::string, std::string> files) {
+  std::erase_if(files, [](const auto& file) {
+    return file.first.find("/script/") != std::string::npos || file.first.ends_with("case.json") || file.first.ends_with("status.json") ||
+           file.first == "series.json";
+  });
+  return files;
+}
+
+class ReferenceSeries : public SeriesFixture {
+ protected:
+  std::string reused(const std::string& name) const { return text_of("bend/" + name + "/measure.json"); }
+  std::string wall(const std::string& name) const { return text_of("bend/" + name + "/wall.off"); }
+};
+
+TEST_F(ReferenceSeries, BentCasesKeepTrianglesAndStartTheirEnvelopeFromThere) {
+  STERNA_NEEDS_SHARED_DATA();
+  const test::ProcessResult result = run(bend_series(cases({{0, 0}, {0.1, 0}, {0.1, 3}, {0, 3}}), "cache = false,"), {"--tasks", "2", "--threads", "2"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "bend/bend=0_alpha=0/reference.kept"));
+  EXPECT_THAT(text_of("bend/bend=0.1_alpha=0/status.json"), HasSubstr("bend=0_alpha=0/reference.kept"));  // an input
+  const std::string triangles = triangles_of(wall("bend=0_alpha=0"));
+  EXPECT_GT(triangles.size(), 1000u);
+  for (const std::string& name : {std::string("bend=0.1_alpha=0"), std::string("bend=0.1_alpha=3")}) {  // in its place, and moved
+    EXPECT_EQ(triangles_of(wall(name)), triangles) << name;
+    EXPECT_NE(wall(name), wall("bend=0_alpha=0")) << name;
+    EXPECT_THAT(reused(name), AllOf(HasSubstr(": topology of bend=0_alpha=0"), HasSubstr(": started from bend=0_alpha=0"))) << name;
+    EXPECT_THAT(text_of("bend/" + name + "/status.json"), HasSubstr("VALID"));
+  }
+  EXPECT_THAT(reused("bend=0_alpha=3"), Not(HasSubstr("bend=0_alpha=0")));  // moved as it is: what it always was
+  EXPECT_THAT(result.output, HasSubstr("topology of bend=0_alpha=0"));      // in the table
+  EXPECT_THAT(text_of("bend/series.json"), Not(HasSubstr("INVALID")));
+}
+
+TEST_F(ReferenceSeries, GivesTheSameBytesHoweverItIsRun) {
+  STERNA_NEEDS_SHARED_DATA();
+  run(bend_series(cases({{0, 0}, {0.1, 0}, {0.1, 3}, {0.3, 3}}), "cache = false,"), {"--tasks", "2", "--threads", "2"});
+  const auto plain = results_only(snapshot(folder_ / "bend"));
+  const std::string other_way_round = bend_series(cases({{0.3, 3}, {0.1, 3}, {0.1, 0}, {0, 0}}), "");
+  const std::filesystem::path cached = folder_ / "cached";
+  run(other_way_round, {"--tasks", "1", "--threads", "1"}, cached);  // cold
+  EXPECT_EQ(difference(plain, results_only(snapshot(cached / "bend"))), "");
+  const std::string told_cold = contents(cached / "bend/bend=0.1_alpha=3/log.txt");
+  std::filesystem::remove_all(cached / "bend");
+  run(other_way_round, {"--tasks", "2", "--threads", "7"}, cached);  // warm
+  EXPECT_EQ(difference(plain, results_only(snapshot(cached / "bend"))), "");
+  for (const std::string& text : {told_cold, contents(cached / "bend/bend=0.1_alpha=3/measure.json")})
+    EXPECT_THAT(text, HasSubstr(": topology of bend=0_alpha=0"));
+}
+
+TEST_F(ReferenceSeries, WhatWouldNotBeGoodIsMeshedAnewAndSaysWhy) {
+  STERNA_NEEDS_SHARED_DATA();
+  const std::string script =
+      bend_series(cases({{0, 0}, {8, 0}, {0.1, 0}}, ", surface_only = true"), "cache = false,", ", max_edge = p.bend == 0.1 and 0.45 or 0.5");
+  const test::ProcessResult result = run(std::string(script).replace(script.find("max_edge = 0.5, "), 16, ""), {"--tasks", "1", "--threads", "2"});
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_THAT(reused("bend=8_alpha=0"), AllOf(HasSubstr(": meshed anew: "), HasSubstr(", at (")));
+  EXPECT_NE(triangles_of(wall("bend=8_alpha=0")), triangles_of(wall("bend=0_alpha=0")));
+  EXPECT_THAT(reused("bend=0.1_alpha=0"), HasSubstr(": meshed anew: options differ from the reference's: max_edge"));
+}
+
+TEST_F(ReferenceSeries, ADamagedReferenceFileIsAnErrorOfTheCasesThatNeedIt) {
+  STERNA_NEEDS_SHARED_DATA();
+  const std::string script = bend_series(cases({{0, 0}, {0.1, 0}}, ", surface_only = true"), "cache = false,");
+  ASSERT_EQ(run(script, {"--threads", "2"}).status, 0);
+  const std::filesystem::path kept = folder_ / "bend/bend=0_alpha=0/reference.kept";
+  std::fstream(kept, std::ios::binary | std::ios::in | std::ios::out).seekp(5000).put('\x5a').put('\x5a');
+  run(script, {"--threads", "2", "--series-case", "bend/2"});
+  EXPECT_THAT(text_of("bend/bend=0.1_alpha=0/status.json"),
+              AllOf(HasSubstr("\"failed\""), HasSubstr("reference.kept is damaged: its content does not have the hash"), HasSubstr("bend=0_alpha=0")));
+  const test::ProcessResult healed =
+      run(script, {"--threads", "2"});  // the reference is not what it recorded any more: it is made again, and all that starts from it
+  EXPECT_EQ(healed.status, 0) << healed.errors;
+  EXPECT_THAT(text_of("bend/bend=0.1_alpha=0/status.json"), HasSubstr("\"done\""));
+}
+
+}  // namespace
+}  // namespace sterna::scripting
