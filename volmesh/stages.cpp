@@ -355,7 +355,7 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, LayerKnowled
       proof.take();  // nothing reads the boundary any more
       filled.tetra_failures.insert(filled.tetra_failures.end(), error.failures().begin(), error.failures().end());
       if (!options.tetrahedra.repair_boundary || !error.is_repeatable() || n_repairs == k_max_boundary_repairs) throw;
-      const std::size_t n_changed = repair_envelope(site.base, boundary, error.info().places, site.collider, envelope, context).size();
+      const std::size_t n_changed = repair_envelope(site.base, boundary, domain.has_sheets, error.info().places, site.collider, envelope, context).size();
       if (n_changed == 0) throw;
       context.warn("trying again with a layer that is lower and smoother at " + std::to_string(n_changed) + " vertices around slivers, folds and gaps of its top");
       boundary = lay_out(site, envelope, filled, knowledge, context);

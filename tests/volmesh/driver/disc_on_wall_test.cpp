@@ -9,7 +9,9 @@
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/sheets.h"
-#include "tests/support/shapes.h"
+#include "tests/support/halves.h"
+#include "tests/volmesh/domain/room.h"
+#include "tests/volmesh/driver/revolved_bodies.h"
 #include "volmesh/stages.h"
 
 namespace sterna::volmesh {
@@ -28,35 +30,6 @@ VolumeMeshOptions options_with(std::vector<ActuatorDisc> discs) {
   options.discs = std::move(discs);
   return options;
 }
-
-/// An ellipsoid of half length 2 and radius 0.5 about x.
-TriMesh hub(int f = 10) {
-  TriMesh mesh = test::sphere(f);
-  for (Point& p : mesh.points) p = {2.0 * p.x, 0.5 * p.y, 0.5 * p.z};
-  mesh.patches = Column<PatchId, Patch>{{"hub", PatchKind::wall}};
-  return mesh;
-}
-double hub_radius(double x) { return 0.5 * std::sqrt(1.0 - 0.25 * x * x); }
-
-/// A duct about x, an ellipse of half length 1 and thickness 0.5 turned around the axis at radius 1.5.
-TriMesh duct(int n_around = 48, int n_section = 28) {
-  TriMesh mesh;
-  mesh.patches = Column<PatchId, Patch>{{"duct", PatchKind::wall}};
-  const auto at = [&](int i, int j) { return VertexId(static_cast<std::uint32_t>((i % n_around) * n_section + j % n_section)); };
-  for (int i = 0; i < n_around; ++i)
-    for (int j = 0; j < n_section; ++j) {
-      const double a = 2.0 * k_pi * i / n_around, s = 2.0 * k_pi * j / n_section, r = 1.5 + 0.25 * std::sin(s);
-      mesh.points.push_back(Point{std::cos(s), r * std::cos(a), r * std::sin(a)});
-    }
-  for (int i = 0; i < n_around; ++i)
-    for (int j = 0; j < n_section; ++j) {
-      mesh.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
-      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
-    }
-  mesh.triangle_patch.assign(mesh.n_triangles(), PatchId(0));
-  return mesh;
-}
-double duct_radius(double x) { return 1.5 - 0.25 * std::sqrt(1.0 - x * x); }
 
 struct Side {
   double area = 0.0;
@@ -167,6 +140,60 @@ TEST(DiscOnWall, TwoDiscsOnOneHubAndOneFree) {
   expect_disc(result, discs[0], hub_radius(-0.8), 1.2);
   expect_disc(result, discs[2], hub_radius(0.33), 1.4);
   EXPECT_EQ(side_of(result.mesh, "free", discs[1]).n_triangles, side_of(result.mesh, "free.back", discs[1]).n_triangles);
+}
+
+/// Two regions that share nothing but the disc.
+TEST(DiscOnWall, FanThatPartsTheFluid) {
+  const TriMesh wall = room([](const std::string&) { return PatchKind::wall; });
+  for (const char* engine : {"hxt", "tetgen"}) {
+    SCOPED_TRACE(engine);
+    VolumeMeshOptions options = layers(8, 1e-3);
+    options.discs = {{.name = "fan", .center = {1.93, 1, 1}, .radius = 1.6}};
+    options.tetrahedra.engine = engine;
+    const VolumeMeshResult result = volume_mesh(wall, options, k_context);
+    EXPECT_TRUE(result.check.is_valid());
+    EXPECT_EQ(result.tetra_engine, engine);
+    const Side front = side_of(result.mesh, "fan", options.discs[0]), back = side_of(result.mesh, "fan.back", options.discs[0]);
+    EXPECT_NEAR(front.area, 4.0, 1e-12);
+    EXPECT_NEAR(back.area, 4.0, 1e-12);
+    EXPECT_EQ(front.off_plane, 0.0);
+    EXPECT_GT(front.n_quads, 8u * 48u);
+    EXPECT_NEAR(result.check.total_volume, 16.0, 1e-11);
+  }
+}
+
+/// Walls of another body so near that layers collapse at the outlines: sides of cells are triangles there.
+TEST(DiscOnWall, CollapsedLinesAtTheOutline) {
+  TriMesh wall = hub(), other = hub();
+  for (Point& p : other.points) p.y += 1.002;
+  other.patches = Column<PatchId, Patch>{{"other", PatchKind::wall}};
+  append(wall, other);
+  const ActuatorDisc disc{.name = "prop", .center = {-0.03, 0.5, 0}, .radius = 1.7};
+  const VolumeMeshResult result = volume_mesh(wall, options_with({disc}), k_context);
+  EXPECT_TRUE(result.check.is_valid());
+  EXPECT_GT(result.layer.collapsed_area, 0.0);
+  const Side front = side_of(result.mesh, "prop", disc), back = side_of(result.mesh, "prop.back", disc);
+  EXPECT_NEAR(front.area, k_pi * (1.7 * 1.7 - 2.0 * 0.25), 0.1);
+  EXPECT_NEAR(front.area, back.area, 1e-12);
+  EXPECT_EQ(front.n_triangles, back.n_triangles);
+  EXPECT_EQ(front.n_quads, back.n_quads);
+  EXPECT_EQ(front.off_plane, 0.0);
+}
+
+/// Beside a layer that ends on a symmetry plane, and with other numbers of layers.
+TEST(DiscOnWall, NacelleBesideAHalfBody) {
+  TriMesh wall = test::cut_off(hub(), 1, 0.0), nacelle = hub();
+  for (Point& p : nacelle.points) p.y += 1.5;
+  nacelle.patches = Column<PatchId, Patch>{{"nacelle", PatchKind::wall}};
+  append(wall, nacelle);
+  const ActuatorDisc disc{.name = "prop", .center = {-0.7, 1.5, 0}, .radius = 0.9};
+  VolumeMeshOptions options = options_with({disc});
+  options.patches = {{.names = "nacelle", .layers = 12, .first_height = 5e-4}};
+  const VolumeMeshResult result = volume_mesh(wall, options, k_context);
+  expect_disc(result, disc, hub_radius(-0.7), 0.9);
+  EXPECT_FALSE(result.mesh.layers.is_uniform());
+  const VolumeMeshResult by_hand = finish_mesh(wall, make_tetrahedra(wall, make_envelope(wall, options, k_context), options, k_context), options, k_context);
+  EXPECT_EQ(result.mesh.points, by_hand.mesh.points);
 }
 
 TEST(DiscOnWall, SameBytesWithOneThreadAndByStages) {
