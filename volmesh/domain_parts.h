@@ -47,6 +47,7 @@ struct DiscSlit {
   std::vector<std::array<HalfedgeId, 2>> outline;  ///< edges of Domain::wall in the disc's plane: the half-edge upstream, and its twin downstream
   bool has_outer_rim = false;       ///< rims of the disc that lie free in the fluid
   bool has_inner_rim = false;
+  std::vector<TriangleId> behind;   ///< of the wall: those with vertices of the outline that lie downstream of the disc, ascending
   std::int32_t surface = -1;        ///< of Domain::constraints.surfaces: its upstream side; the downstream one follows
 };
 
@@ -63,7 +64,7 @@ struct Domain {
   Column<TriangleId, TriangleId> wall2surface;
   std::vector<DiscSlit> slits;
   std::vector<VertexId> slit_vertices;  ///< of the wall: those of all outlines, ascending; the i-th has line n_vertices() + i of the layer too, downstream of its disc
-  std::vector<TriangleId> behind;       ///< of the wall: those with such vertices that lie downstream of the disc, ascending
+  std::vector<std::size_t> vertex2slit; ///< of each of them: the slit
   TriMesh bodies;           ///< closed parts of the surface but the one that encloses the fluid: what cavities are looked for in
   /// Whether the outer boundary is made anew around the layer.
   bool has_rims() const { return !rim.empty() || !slits.empty(); }

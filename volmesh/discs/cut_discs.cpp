@@ -25,9 +25,9 @@ constexpr std::size_t k_max_places = 10;
 
 class Cutter {
  public:
-  Cutter(TriMesh& mesh, const ActuatorDisc& disc, const Column<PatchId, std::uint8_t>& has_layer, const Column<VertexId, std::uint8_t>& is_taken,
+  Cutter(TriMesh& mesh, const ActuatorDisc& disc, const Column<PatchId, std::uint8_t>& has_layer, const Column<VertexId, std::uint32_t>& taken_by,
          const RunContext& context)
-      : mesh_(mesh), disc_(disc), plane_(disc), has_layer_(has_layer), is_taken_(is_taken), context_(context) {}
+      : mesh_(mesh), disc_(disc), plane_(disc), has_layer_(has_layer), taken_by_(taken_by), context_(context) {}
 
   /// Whether the disc meets walls with layers, and nothing else.
   bool find_active() {
@@ -75,7 +75,7 @@ class Cutter {
       for (const VertexId v : mesh_.triangles[t]) {
         if (height_[v] != 0.0) continue;
         mesh_.points[v] = plane_.onto(mesh_.points[v]);
-        if (is_taken_[v]) fail("its outline meets that of another disc", {{mesh_.points[v], "a vertex of both"}}, 1, "discs may not meet");
+        if (taken_by_[v] != 0) fail("its outline meets that of another disc", {{mesh_.points[v], "a vertex of both"}}, 1, "discs may not meet");
       }
     }
     struct Candidate {
@@ -246,7 +246,8 @@ class Cutter {
       ++found->second.n_uses;
       return found->second.vertex;
     }
-    if (is_taken_[a] && is_taken_[b]) fail("its outline meets that of another disc", {{cut_place(a, b), "an edge of both"}}, 1, "discs may not meet");
+    if (taken_by_[a] != 0 && taken_by_[a] == taken_by_[b])
+      fail("its outline meets that of another disc", {{cut_place(a, b), "an edge of both"}}, 1, "discs may not meet");
     found->second = {mesh_.points.push_back(cut_place(a, b)), 1};
     height_.push_back(0.0);
     return found->second.vertex;
@@ -265,7 +266,7 @@ class Cutter {
 
   /// Moves a vertex into the plane along its shortest way there on an edge, if an edge still is cut near it and nothing forbids it.
   void snap(const Topology& topology, VertexId v) {
-    if (height_[v] == 0.0 || is_taken_[v]) return;
+    if (height_[v] == 0.0 || taken_by_[v] != 0) return;
     std::size_t n_features = 0;
     for (const HalfedgeId h : topology.outgoing(v)) n_features += is_feature(topology, h);
     if (n_features == 1 || n_features > 2) return;  // a corner
@@ -333,7 +334,7 @@ class Cutter {
   const ActuatorDisc& disc_;
   DiscPlane plane_;
   const Column<PatchId, std::uint8_t>& has_layer_;
-  const Column<VertexId, std::uint8_t>& is_taken_;
+  const Column<VertexId, std::uint32_t>& taken_by_;
   const RunContext& context_;
   Column<VertexId, double> height_;             ///< above the plane; exactly 0: in it
   Column<TriangleId, std::uint8_t> is_active_;  ///< the disc's plane goes through it within the radii
@@ -348,10 +349,10 @@ class Cutter {
 
 DiscCuts cut_discs(TriMesh& boundary, const Column<PatchId, std::uint8_t>& has_layer, const std::vector<ActuatorDisc>& discs, const RunContext& context) {
   DiscCuts cuts;
-  Column<VertexId, std::uint8_t> is_taken(boundary.n_vertices(), 0);  // by outlines
+  Column<VertexId, std::uint32_t> taken_by(boundary.n_vertices(), 0);  // by the outline of this disc, counted from 1
   for (std::size_t i = 0; i < discs.size(); ++i) {
     require_sane(discs[i]);
-    Cutter cutter(boundary, discs[i], has_layer, is_taken, context);
+    Cutter cutter(boundary, discs[i], has_layer, taken_by, context);
     if (!cutter.find_active()) continue;
     cutter.snap();
     Column<TriangleId, TriangleId> made = cutter.split();
@@ -360,9 +361,9 @@ DiscCuts cut_discs(TriMesh& boundary, const Column<PatchId, std::uint8_t>& has_l
     cuts.sources = std::move(made);
     CutDisc cut = cutter.find_outline();
     cut.disc = i;
-    is_taken.resize(boundary.n_vertices(), 0);
+    taken_by.resize(boundary.n_vertices(), 0);
     for (const auto& edge : cut.outline)
-      for (const VertexId v : edge) is_taken[v] = 1;
+      for (const VertexId v : edge) taken_by[v] = static_cast<std::uint32_t>(i) + 1;
     cuts.discs.push_back(std::move(cut));
     context.check_stop();
   }

@@ -219,6 +219,11 @@ void find_behind(const DiscPlane& plane, const std::vector<VertexId>& vertices, 
   }
 }
 
+/// Place of an outline's vertex among all.
+std::size_t second_of(const Domain& domain, VertexId v) {
+  return static_cast<std::size_t>(std::ranges::lower_bound(domain.slit_vertices, v) - domain.slit_vertices.begin());
+}
+
 }  // namespace
 
 void add_slits(const TriMesh& boundary, const DiscCuts& cuts, const std::vector<ActuatorDisc>& discs, double size_growth, const RunContext& context,
@@ -235,7 +240,7 @@ void add_slits(const TriMesh& boundary, const DiscCuts& cuts, const std::vector<
     for (const auto& [h, twin] : slit.outline) vertices.push_back(domain.wall.triangles[triangle_of(h)][static_cast<std::size_t>(corner_of(h))]);
     std::ranges::sort(vertices);
     holder.hold(plane, vertices, slit);
-    find_behind(plane, vertices, domain.wall, domain.behind);
+    find_behind(plane, vertices, domain.wall, slit.behind);
     domain.slit_vertices.insert(domain.slit_vertices.end(), vertices.begin(), vertices.end());
 
     const Sheet sheet = make_sheet(
@@ -256,7 +261,10 @@ void add_slits(const TriMesh& boundary, const DiscCuts& cuts, const std::vector<
     domain.slits.push_back(std::move(slit));
   }
   std::ranges::sort(domain.slit_vertices);
-  std::ranges::sort(domain.behind);
+  domain.vertex2slit.resize(domain.slit_vertices.size());
+  for (std::size_t i = 0; i < domain.slits.size(); ++i)
+    for (const auto& [h, twin] : domain.slits[i].outline)
+      domain.vertex2slit[second_of(domain, domain.wall.triangles[triangle_of(h)][static_cast<std::size_t>(corner_of(h))])] = i;
 }
 
 void close_slits(const Domain& domain, const LayerBase& base, const EnvelopeShape& envelope, const std::vector<ActuatorDisc>& discs, const SlitOptions& options,
@@ -273,9 +281,8 @@ void close_slits(const Domain& domain, const LayerBase& base, const EnvelopeShap
     for (std::size_t i = 0; i < sheet.points.size(); ++i) {
       if (i < sheet.lines.size()) {
         const VertexId v = sheet.lines[i];
-        const auto second = static_cast<std::size_t>(std::ranges::lower_bound(domain.slit_vertices, v) - domain.slit_vertices.begin());
         const VertexId upstream = add(i, v);
-        sides.push_back({upstream, add(i, VertexId(base.wall.n_vertices() + second))});
+        sides.push_back({upstream, add(i, VertexId(base.wall.n_vertices() + second_of(domain, v)))});
       } else {
         const VertexId upstream = add(i, {});
         sides.push_back({upstream, sheet.is_on_rim(static_cast<std::uint32_t>(i)) ? upstream : add(i, {})});
@@ -309,10 +316,10 @@ std::vector<LayerSide> layer_sides(const Domain& domain) {
 
 std::uint32_t line_under(const Domain& domain, TriangleId t, std::size_t corner) {
   const VertexId v = domain.wall.triangles[t][corner];
-  if (!std::ranges::binary_search(domain.behind, t)) return v.value();
-  const auto second = std::ranges::lower_bound(domain.slit_vertices, v);
-  if (second == domain.slit_vertices.end() || *second != v) return v.value();
-  return static_cast<std::uint32_t>(domain.wall.n_vertices() + static_cast<std::size_t>(second - domain.slit_vertices.begin()));
+  const std::size_t second = second_of(domain, v);
+  if (second == domain.slit_vertices.size() || domain.slit_vertices[second] != v) return v.value();
+  if (!std::ranges::binary_search(domain.slits[domain.vertex2slit[second]].behind, t)) return v.value();
+  return static_cast<std::uint32_t>(domain.wall.n_vertices() + second);
 }
 
 void open_slits(const Domain& domain, LayerBlock& layers, std::vector<Point>& points) {
@@ -325,8 +332,9 @@ void open_slits(const Domain& domain, LayerBlock& layers, std::vector<Point>& po
     if (!layers.is_uniform()) layers.line_layers.push_back(layers.line_layers[line]);
     for (std::size_t i = 0; i < n_nodes; ++i) points.push_back(Point(points[first + i]));
   }
-  for (const TriangleId t : domain.behind)
-    for (std::size_t k = 0; k < 3; ++k) layers.base[t.index()][k] = line_under(domain, t, k);
+  for (const DiscSlit& slit : domain.slits)
+    for (const TriangleId t : slit.behind)
+      for (std::size_t k = 0; k < 3; ++k) layers.base[t.index()][k] = line_under(domain, t, k);
 }
 
 void open_slits(const Domain& domain, LayerRequest& request) {

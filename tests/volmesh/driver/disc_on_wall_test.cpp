@@ -142,6 +142,14 @@ TEST(DiscOnWall, TwoDiscsOnOneHubAndOneFree) {
   EXPECT_EQ(side_of(result.mesh, "free", discs[1]).n_triangles, side_of(result.mesh, "free.back", discs[1]).n_triangles);
 }
 
+/// Triangles between them have corners on both outlines.
+TEST(DiscOnWall, TwoDiscsLessThanAnEdgeApart) {
+  const std::vector<ActuatorDisc> discs = {{.name = "front", .center = {-0.1, 0, 0}, .radius = 1.2}, {.name = "rear", .center = {0.15, 0, 0}, .radius = 1.2}};
+  const VolumeMeshResult result = volume_mesh(hub(6), options_with(discs), k_context);
+  expect_disc(result, discs[0], hub_radius(-0.1), 1.2);
+  expect_disc(result, discs[1], hub_radius(0.15), 1.2);
+}
+
 /// Two regions that share nothing but the disc.
 TEST(DiscOnWall, FanThatPartsTheFluid) {
   const TriMesh wall = room([](const std::string&) { return PatchKind::wall; });
