@@ -21,7 +21,7 @@ class PartReader {
     if (file_.has(part::k_surface_points)) content.surface = surface();
     if (file_.has(part::k_direction)) {
       if (!content.surface) file_.fail(part::k_direction, "is there without a surface");
-      content.envelope = envelope(content.surface->n_vertices());
+      content.envelope = envelope();
     }
     if (file_.has(part::k_engine_tetrahedra)) content.tetrahedra = tetrahedra();
     if (file_.has(part::k_points)) content.mesh = mesh();
@@ -135,11 +135,10 @@ class PartReader {
     return mesh;
   }
 
-  StoredEnvelope envelope(std::size_t n_vertices) const {
+  StoredEnvelope envelope() const {
     StoredEnvelope envelope;
     envelope.direction.raw() = points(part::k_direction);
-    const std::size_t n = std::min(envelope.direction.size(), n_vertices);  // of walls with layers alone
-    require_size(part::k_direction, envelope.direction.size(), n);
+    const std::size_t n = envelope.direction.size();  // of walls with layers, as they are when actuator discs are cut into them: whoever continues compares
     envelope.height.raw() = reals(part::k_height, n);
     envelope.target.raw() = reals(part::k_target, n);
     envelope.eq1.raw() = reals(part::k_eq1, n);

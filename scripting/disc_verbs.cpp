@@ -29,8 +29,8 @@ struct Schema<scripting::DiscNumbers> {
   static constexpr std::string_view stage = "actuator_disc";
   static constexpr std::array fields = {
       Field<O>{.name = "name", .member = &O::name, .help = "of the patch on the upstream side; the downstream side gets the name with .back behind it"},
-      Field<O>{.name = "radius", .member = &O::radius, .unit = Unit::metre, .min = 1e-12, .help = "of the disc", .required = true},
-      Field<O>{.name = "inner_radius", .member = &O::inner_radius, .unit = Unit::metre, .min = 0.0, .help = "of a ring around a hub; 0: a full disc"},
+      Field<O>{.name = "radius", .member = &O::radius, .unit = Unit::metre, .min = 1e-12, .help = "of the disc; a circle in the fluid, or inside of the body around it (a duct that the disc fills)", .required = true},
+      Field<O>{.name = "inner_radius", .member = &O::inner_radius, .unit = Unit::metre, .min = 0.0, .help = "of a ring; 0: a full disc, or one that ends on the walls with layers that go through it (a spinner, a hub)"},
       Field<O>{.name = "edge", .member = &O::edge, .unit = Unit::metre, .min = 1e-12, .help = "longest edge of its triangles", .automatic = "a twelfth of the radius"},
   };
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -29,6 +30,8 @@ ErrorInfo problem_with(const ActuatorDisc& disc, ErrorCode code, std::string pro
   return {.code = code, .attempted = "making actuator disc \"" + disc.name + "\"", .problem = std::move(problem), .hint = std::move(hint)};
 }
 
+}  // namespace
+
 void require_sane(const ActuatorDisc& disc) {
   const auto fail = [&](std::string problem) { throw Error(problem_with(disc, ErrorCode::bad_argument, std::move(problem))); };
   if (disc.name.empty()) fail("it has no name");
@@ -38,6 +41,8 @@ void require_sane(const ActuatorDisc& disc) {
   if (!(disc.inner_radius >= 0.0) || disc.inner_radius >= disc.radius) fail("its inner radius is " + in_metres(disc.inner_radius) + ", and must be between 0 and the radius, " + in_metres(disc.radius));
   if (!is_automatic(disc.edge) && !(disc.edge > k_shortest_edge * disc.radius)) fail("its edge is " + in_metres(disc.edge) + ", and must be more than " + in_metres(k_shortest_edge * disc.radius));
 }
+
+namespace {
 
 /// The plane of a disc, with a frame.
 class Frame {
@@ -57,12 +62,32 @@ class Frame {
   Vec3 u_, v_;
 };
 
+/// Vertices of walls with the geometric mean of the edges there.
+std::vector<SizeSite> sites_of(const TriMesh& walls) {
+  Column<VertexId, double> sum(walls.n_vertices(), 0.0), count(walls.n_vertices(), 0.0);
+  for (const TriangleVertices& v : walls.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum[v[k]] += std::log(distance(walls.points[v[k]], walls.points[v[(k + 1) % 3]]));
+      count[v[k]] += 1.0;
+    }
+  std::vector<SizeSite> sites;
+  for (const VertexId v : walls.points.ids())
+    if (count[v] > 0.0) sites.push_back({walls.points[v], std::exp(sum[v] / count[v])});
+  return sites;
+}
+
+double longest_edge(const ActuatorDisc& disc) {
+  const double longest = is_automatic(disc.edge) ? k_disc_edge * disc.radius : disc.edge;
+  return disc.inner_radius > 0.0 ? std::min(longest, disc.radius - disc.inner_radius) : longest;  // else a narrow ring's polygons would meet
+}
+
+std::uint32_t edges_on_ring(double radius, double edge) { return static_cast<std::uint32_t>(std::max<double>(k_least_on_ring, std::round(2.0 * std::numbers::pi * radius / edge))); }
+
 /// Edge lengths around the disc's middle as functions of the radius.
 class RingSizes {
  public:
   RingSizes(const ActuatorDisc& disc, const Frame& frame, const TriMesh& walls, double growth, const RunContext& context)
-      : frame_(frame), longest_(is_automatic(disc.edge) ? k_disc_edge * disc.radius : disc.edge), shortest_(k_shortest_edge * disc.radius) {
-    if (disc.inner_radius > 0.0) longest_ = std::min(longest_, disc.radius - disc.inner_radius);  // else a narrow ring's polygons would meet
+      : frame_(frame), longest_(longest_edge(disc)), shortest_(k_shortest_edge * disc.radius) {
     if (walls.n_triangles() > 0) sites_.emplace(sites_of(walls), growth - 1.0, context);
   }
 
@@ -73,18 +98,6 @@ class RingSizes {
   }
 
  private:
-  static std::vector<SizeSite> sites_of(const TriMesh& walls) {
-    Column<VertexId, double> sum(walls.n_vertices(), 0.0), count(walls.n_vertices(), 0.0);
-    for (const TriangleVertices& v : walls.triangles)
-      for (std::size_t k = 0; k < 3; ++k) {
-        sum[v[k]] += std::log(distance(walls.points[v[k]], walls.points[v[(k + 1) % 3]]));
-        count[v[k]] += 1.0;
-      }
-    std::vector<SizeSite> sites;
-    for (const VertexId v : walls.points.ids())
-      if (count[v] > 0.0) sites.push_back({walls.points[v], std::exp(sum[v] / count[v])});
-    return sites;
-  }
   const Frame& frame_;
   double longest_, shortest_;
   std::optional<SizeSites> sites_;
@@ -158,7 +171,7 @@ TriMesh triangulate_disc(const ActuatorDisc& disc, const TriMesh& walls, double 
   for (std::size_t k = 0; k < radii.size(); ++k) {
     Ring ring;
     ring.first = static_cast<std::uint32_t>(mesh.n_vertices());
-    ring.n = radii[k] == 0.0 ? 1 : static_cast<std::uint32_t>(std::max<double>(k_least_on_ring, std::round(2.0 * std::numbers::pi * radii[k] / size(radii[k]))));
+    ring.n = radii[k] == 0.0 ? 1 : edges_on_ring(radii[k], size(radii[k]));
     ring.turn = k % 2 == 0 ? 0.0 : std::numbers::pi / ring.n;
     if (ring.n == 1) mesh.points.push_back(disc.center);
     else
@@ -169,6 +182,41 @@ TriMesh triangulate_disc(const ActuatorDisc& disc, const TriMesh& walls, double 
   for (TriangleVertices& t : mesh.triangles) std::swap(t[1], t[2]);  // against the axis
   mesh.triangle_patch.assign(mesh.n_triangles(), mesh.patches.push_back({disc.name, PatchKind::interface}));
   return mesh;
+}
+
+std::vector<Point> rim_polygon(const ActuatorDisc& disc, double radius, const TriMesh& walls, double growth, const RunContext& context) {
+  require_sane(disc);
+  const Frame frame(disc);
+  RingSizes size(disc, frame, walls, growth, context);
+  const std::uint32_t n = edges_on_ring(radius, size(radius));
+  std::vector<Point> polygon;
+  for (std::uint32_t i = 0; i < n; ++i) polygon.push_back(frame.at(radius, 2.0 * std::numbers::pi * i / n));
+  return polygon;
+}
+
+std::function<double(const Point&)> disc_sizes(const ActuatorDisc& disc, const TriMesh& walls, double growth, const RunContext& context) {
+  struct State {
+    std::optional<SizeSites> sites;
+    std::uint32_t hint = 0;
+  };
+  const auto state = std::make_shared<State>();
+  if (walls.n_triangles() > 0) state->sites.emplace(sites_of(walls), growth - 1.0, context);
+  return [state, longest = longest_edge(disc), shortest = k_shortest_edge * disc.radius](const Point& p) {
+    return std::max(shortest, state->sites ? std::min(longest, state->sites->smallest(p, state->hint)) : longest);
+  };
+}
+
+void require_own_names(const std::vector<ActuatorDisc>& discs, const Column<PatchId, Patch>& outer, const Column<PatchId, Patch>& walls) {
+  std::vector<std::string> names;
+  for (const auto* patches : {&outer, &walls})
+    for (const Patch& patch : *patches) names.push_back(patch.name);
+  for (const ActuatorDisc& disc : discs) {
+    require_sane(disc);
+    for (const std::string& name : {disc.name, back_name(disc)}) {
+      if (std::ranges::find(names, name) != names.end()) throw Error(problem_with(disc, ErrorCode::bad_argument, "there is a patch \"" + name + "\" already", "give the disc a name of its own"));
+      names.push_back(name);
+    }
+  }
 }
 
 namespace {
@@ -205,7 +253,7 @@ void require_clear(const ActuatorDisc& disc, const TriMesh& sheet, const TriMesh
   }
   if (error.n_places == 0) return;
   ErrorInfo info = problem_with(disc, ErrorCode::self_intersection, std::to_string(error.n_places) + " pairs of its triangles and others meet",
-                                "a disc must be free in the fluid: leave a gap to walls (inner_radius above that of the hub, radius below that of a duct)");
+                                "a disc may end on walls with layers only: leave a gap to everything else");
   info.places = std::move(error.places);
   info.n_places = error.n_places;
   throw Error(std::move(info));
@@ -232,16 +280,10 @@ Column<VertexId, std::uint8_t> find_rim(const TriMesh& sheet, const std::vector<
 
 TriMesh with_discs(TriMesh outer, const TriMesh& walls, const std::vector<ActuatorDisc>& discs, double growth, const RunContext& context) {
   if (discs.empty()) return outer;
-  std::vector<std::string> names;
-  for (const TriMesh* mesh : {&std::as_const(outer), &walls})
-    for (const Patch& patch : mesh->patches) names.push_back(patch.name);
+  require_own_names(discs, outer.patches, walls.patches);
   TriMesh so_far = outer;
   append(so_far, walls);
   for (const ActuatorDisc& disc : discs) {
-    for (const std::string& name : {disc.name, back_name(disc)}) {
-      if (std::ranges::find(names, name) != names.end()) throw Error(problem_with(disc, ErrorCode::bad_argument, "there is a patch \"" + name + "\" already", "give the disc a name of its own"));
-      names.push_back(name);
-    }
     const TriMesh sheet = triangulate_disc(disc, walls, growth, context);
     require_clear(disc, sheet, so_far, context);
     append(so_far, sheet);

@@ -1,6 +1,7 @@
 // Actuator discs: flat sheets without thickness inside the fluid, two patches back to back, where a solver puts the thrust of a propeller.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,7 @@
 
 namespace sterna::volmesh {
 
-/// A disc, or a ring around a hub, free in the fluid.
+/// A disc, or a ring around a hub. Where walls with layers go through it within its radii, it ends on them (discs/cut_discs.h).
 struct ActuatorDisc {
   std::string name = "disc";     ///< patch on the upstream side; the downstream side is <name>.back
   Point center;                  ///< m
@@ -31,10 +32,19 @@ std::string back_name(const ActuatorDisc& disc);
 /// \throws Error(bad_argument) for numbers that make no disc
 TriMesh triangulate_disc(const ActuatorDisc& disc, const TriMesh& walls, double growth, const RunContext& context);
 
+/// \throws Error(bad_argument) for numbers that make no disc
+void require_sane(const ActuatorDisc& disc);
+/// \throws Error(bad_argument) when a disc's side has the name of another one or of a patch
+void require_own_names(const std::vector<ActuatorDisc>& discs, const Column<PatchId, Patch>& outer, const Column<PatchId, Patch>& walls);
+
+/// Corners of a circle around the disc's centre, in its plane, counter-clockwise about the axis; edges as triangulate_disc() has them on its rims.
+std::vector<Point> rim_polygon(const ActuatorDisc& disc, double radius, const TriMesh& walls, double growth, const RunContext& context);
+/// The longest edge at a place of the disc, m: `edge`, or less near walls. One thread at a time.
+std::function<double(const Point&)> disc_sizes(const ActuatorDisc& disc, const TriMesh& walls, double growth, const RunContext& context);
+
 /// The outer boundary with one side of each disc, the upstream one, behind its own triangles: what layers keep clear of.
 /// \p walls: those with layers, for sizes
-/// \throws Error(bad_argument) when two discs or a disc and a patch have the same name, Error(self_intersection) with places where a disc meets a wall, the outer boundary or
-/// another disc
+/// \throws as require_own_names(); Error(self_intersection) with places where a disc meets a wall, the outer boundary or another disc
 TriMesh with_discs(TriMesh outer, const TriMesh& walls, const std::vector<ActuatorDisc>& discs, double growth, const RunContext& context);
 
 /// The downstream sides too, behind all triangles and vertices that are there: vertices inside of a disc are two then, those on its rims stay one.

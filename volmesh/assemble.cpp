@@ -38,7 +38,7 @@ FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, co
     boundary.points.push_back(outer.mesh.points[v]);
   }
   boundary.triangles.reserve(base.wall.n_triangles() + outer.mesh.n_triangles());
-  for (const TriangleVertices& v : base.wall.triangles) boundary.triangles.push_back({v[0].value(), v[1].value(), v[2].value()});
+  boundary.triangles.insert(boundary.triangles.end(), layers.base.begin(), layers.base.end());
   for (const TriangleVertices& v : outer.mesh.triangles) boundary.triangles.push_back({point[v[0].index()], point[v[1].index()], point[v[2].index()]});
   for (const TriMesh* mesh : {&base.wall, &outer.mesh}) {
     const auto first = static_cast<std::uint32_t>(boundary.patch_names.size());
@@ -77,12 +77,11 @@ std::vector<std::size_t> outer_faces(const HybridMesh& layers, std::span<const s
   return faces;
 }
 
-void add_sides(const LayerBase& base, std::span<const RimEdge> rim, std::size_t n_wall_patches, HybridMesh& mesh) {
+void add_sides(std::span<const LayerSide> sides, std::size_t n_wall_patches, HybridMesh& mesh) {
   const LayerBlock& layers = mesh.layers;
-  for (const RimEdge& edge : rim) {
-    const std::uint32_t a = base.topology.from(edge.halfedge).value(), b = base.topology.to(edge.halfedge).value();
+  for (const auto& [a, b, of_outer] : sides) {
     const bool a_down = layers.is_collapsed[a] != 0, b_down = layers.is_collapsed[b] != 0;
-    const PatchId patch(n_wall_patches + edge.patch.index());
+    const PatchId patch(n_wall_patches + of_outer.index());
     for (int j = 0, n = layers.layers_of_line(a); j < n && !(a_down && b_down); ++j) {
       const NodeId a0 = layers.node(a, j), a1 = layers.node(a, j + 1), b0 = layers.node(b, j), b1 = layers.node(b, j + 1);
       if (a_down) mesh.boundary_triangles.push_back({{a0, b0, b1}, patch});
@@ -139,7 +138,7 @@ FillBoundary boundary_of(const HybridMesh& layers) {
   return boundary;
 }
 
-HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const ClosedOuter& outer, std::span<const RimEdge> rim) {
+HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const ClosedOuter& outer, std::span<const LayerSide> sides) {
   HybridMesh mesh;
   mesh.layers = std::move(extrusion.layers);
   const std::size_t n_lines = mesh.layers.n_lines(), n_layer_nodes = extrusion.points.size();
@@ -155,8 +154,8 @@ HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const Clo
   const auto add_reversed = [&](const std::array<NodeId, 3>& n, PatchId patch) { mesh.boundary_triangles.push_back({{n[0], n[2], n[1]}, patch}); };
   mesh.boundary_triangles.reserve(base.wall.n_triangles() + outer.mesh.n_triangles());
   for (const TriangleId t : base.wall.triangles.ids()) {
-    const TriangleVertices& v = base.wall.triangles[t];
-    add_reversed({mesh.layers.node(v[0].value(), 0), mesh.layers.node(v[1].value(), 0), mesh.layers.node(v[2].value(), 0)}, base.wall.triangle_patch[t]);
+    const std::array<std::uint32_t, 3>& lines = mesh.layers.base[t.index()];
+    add_reversed({mesh.layers.node(lines[0], 0), mesh.layers.node(lines[1], 0), mesh.layers.node(lines[2], 0)}, base.wall.triangle_patch[t]);
   }
   for (const TriangleId t : outer.mesh.triangles.ids()) {
     const TriangleVertices& v = outer.mesh.triangles[t];
@@ -166,7 +165,7 @@ HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const Clo
     };
     add_reversed({node(0), node(1), node(2)}, PatchId(n_wall_patches + outer.mesh.triangle_patch[t].index()));
   }
-  add_sides(base, rim, n_wall_patches, mesh);
+  add_sides(sides, n_wall_patches, mesh);
   return mesh;
 }
 

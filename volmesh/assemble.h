@@ -4,7 +4,6 @@
 #include <span>
 
 #include "geom/mesh/hybrid_mesh.h"
-#include "volmesh/domain_parts.h"
 #include "volmesh/ends/close_ends.h"
 #include "volmesh/prisms/extrude.h"
 #include "volmesh/tetra/tetra.h"
@@ -26,9 +25,15 @@ FillBoundary boundary_of(const HybridMesh& layers);
 /// The outer boundary that assemble_layers() got, up to the numbering of its vertices. \p n_wall_patches: how many patches carry layers
 ClosedOuter outer_of(const HybridMesh& layers, std::size_t n_wall_patches);
 
+/// An edge between two lines at which columns end on a patch, as the base triangle has it.
+struct LayerSide {
+  std::uint32_t from = 0, to = 0;  ///< lines
+  PatchId patch;                   ///< of the outer boundary
+};
+
 /// All of the mesh but its tetrahedra. Nodes: lines of the layer, outer boundary. Patches: the wall's, then the outer ones. Boundary triangles: the wall's, the outer ones,
-/// sides of cells beside a collapsed line; quadrilaterals: sides of cells on the rim.
-HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const ClosedOuter& outer, std::span<const RimEdge> rim);
+/// sides of cells beside a collapsed line; quadrilaterals: sides of cells.
+HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const ClosedOuter& outer, std::span<const LayerSide> sides);
 /// \pre mesh of assemble_layers(), `boundary` of the same. \post Steiner points follow its nodes.
 void add_tetrahedra(const FillBoundary& boundary, const TetraResult& tets, HybridMesh& mesh, const RunContext& context);
 

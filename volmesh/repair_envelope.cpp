@@ -15,9 +15,9 @@ constexpr std::uint8_t k_rings = 4;    ///< over which the lowering fades, so th
 constexpr std::uint8_t k_far = 255;
 
 /// Vertices of the top that something is wrong with, as ring 0.
-Column<VertexId, std::uint8_t> find_trouble(const LayerBase& base, const FillBoundary& boundary, const std::vector<ErrorPlace>& places, const RunContext& context) {
+Column<VertexId, std::uint8_t> find_trouble(const LayerBase& base, const FillBoundary& boundary, bool has_sheets, const std::vector<ErrorPlace>& places, const RunContext& context) {
   Column<VertexId, std::uint8_t> ring(base.wall.n_vertices(), k_far);
-  const TetraBoundary top{.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}};
+  const TetraBoundary top{.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}, .has_sheets = has_sheets};
   for (const PreflightFinding& finding : preflight(top, {.is_clear = true}, context).findings)
     for (const std::uint32_t t : finding.triangles)
       if (t < base.wall.n_triangles())
@@ -55,9 +55,9 @@ void calm(const LayerBase& base, const Envelope& envelope, VertexId v, double sh
 
 }  // namespace
 
-std::vector<VertexId> repair_envelope(const LayerBase& base, const FillBoundary& boundary, const std::vector<ErrorPlace>& places, Collider& collider,
+std::vector<VertexId> repair_envelope(const LayerBase& base, const FillBoundary& boundary, bool has_sheets, const std::vector<ErrorPlace>& places, Collider& collider,
                                       Envelope& envelope, const RunContext& context) {
-  Column<VertexId, std::uint8_t> ring = find_trouble(base, boundary, places, context);
+  Column<VertexId, std::uint8_t> ring = find_trouble(base, boundary, has_sheets, places, context);
   number_rings(base, ring);
   EnvelopeShape proposal = envelope;
   for (const VertexId v : ring.ids())

@@ -12,6 +12,8 @@
 #include "geom/base/number_text.h"
 #include "geom/math/measures.h"
 #include "volmesh/assemble.h"
+#include "volmesh/discs/cut_discs.h"
+#include "volmesh/discs/slits.h"
 #include "volmesh/ends/close_ends.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/feature_angle.h"
@@ -46,6 +48,31 @@ VolumeMeshOptions sane(const TriMesh& wall, VolumeMeshOptions options, const Run
   return effective_options(options, context);
 }
 
+/// Edge lengths that the user's sources ask for on patches that are triangulated anew.
+std::function<double(const Point&)> end_sizes(const VolumeMeshOptions& options) {
+  const bool has_max = !is_automatic(options.size.size_max);
+  if (options.sources.empty() && !has_max) return {};
+  return [&options, has_max](const Point& p) {
+    const double slope = options.size.size_growth - 1.0;
+    double h = has_max ? options.size.size_max : 1e300;
+    for (const SizeSource& source : options.sources) {
+      h = std::min(h, size_of(source, p, slope));
+      for (std::size_t i = 0; i < source.points.size(); ++i) h = std::min(h, source.sizes[i] + slope * distance(source.points[i], p));
+    }
+    return h;
+  };
+}
+
+SlitOptions slit_options(const VolumeMeshOptions& options) { return {options.size.size_growth, options.ends, end_sizes(options)}; }
+
+/// The discs that end on no wall.
+std::vector<ActuatorDisc> free_discs(const std::vector<ActuatorDisc>& discs, const std::vector<std::size_t>& on_walls) {
+  std::vector<ActuatorDisc> free;
+  for (std::size_t i = 0; i < discs.size(); ++i)
+    if (std::ranges::find(on_walls, i) == on_walls.end()) free.push_back(discs[i]);
+  return free;
+}
+
 Domain domain_around(const TriMesh& surface, const VolumeMeshOptions& options, const RunContext& context) {
   const StageTimer timer(context, "domain");
   TriMesh given = surface;
@@ -56,18 +83,25 @@ Domain domain_around(const TriMesh& surface, const VolumeMeshOptions& options, c
   apply_patch_kinds(given, of_given);
   TriMesh boundary = complete_boundary(given, {options.farfield, options.farfield_surface}, context);
   apply_patch_kinds(boundary, options.patches);
-  const std::vector<PeriodicPatches> periodic = join_periodic_sides(boundary, options.periodic, context);
   const Column<PatchId, PatchLayers> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
   Column<PatchId, std::uint8_t> has_layer(boundary.patches.size(), 0);
   for (const PatchId p : layers.ids()) has_layer[p] = layers[p].carries_layers() ? 1 : 0;
+  require_own_names(options.discs, boundary.patches, {});
+  const DiscCuts cuts = cut_discs(boundary, has_layer, options.discs, context);
+  const std::vector<PeriodicPatches> periodic = join_periodic_sides(boundary, options.periodic, context);
   Domain domain = split_domain(boundary, has_layer, context, periodic);
   if (domain.wall.n_triangles() == 0)
     throw Error({.code = ErrorCode::empty_surface, .attempted = "volume_mesh", .problem = "no patch carries a layer", .hint = "at least one patch must be a wall with layers"});
-  domain.outer = with_discs(std::move(domain.outer), domain.wall, options.discs, options.size.size_growth, context);
-  if (!domain.links.empty()) {  // discs share nothing with the wall
+  std::vector<std::size_t> on_walls;
+  for (const CutDisc& cut : cuts.discs) on_walls.push_back(cut.disc);
+  domain.outer = with_discs(std::move(domain.outer), domain.wall, free_discs(options.discs, on_walls), options.size.size_growth, context);
+  if (!domain.links.empty()) {  // these discs share nothing with the wall
     domain.links.line.resize(domain.outer.n_vertices());
     domain.links.surface.resize(domain.outer.n_triangles(), -1);
   }
+  add_slits(boundary, cuts, options.discs, options.size.size_growth, context, domain);
+  if (!cuts.sources.empty())
+    for (TriangleId& t : domain.wall2surface) t = cuts.sources[t];
   return domain;
 }
 
@@ -136,25 +170,13 @@ TetraBoundary boundary_for_engines(const FillBoundary& boundary, std::span<const
   return {boundary.points, boundary.triangles, holes, is_clear, boundary.patch_names, boundary.triangle_patch, std::move(take_splits)};
 }
 
-/// Edge lengths that the user's sources ask for on patches that are triangulated anew.
-std::function<double(const Point&)> end_sizes(const VolumeMeshOptions& options) {
-  const bool has_max = !is_automatic(options.size.size_max);
-  if (options.sources.empty() && !has_max) return {};
-  return [&options, has_max](const Point& p) {
-    const double slope = options.size.size_growth - 1.0;
-    double h = has_max ? options.size.size_max : 1e300;
-    for (const SizeSource& source : options.sources) {
-      h = std::min(h, size_of(source, p, slope));
-      for (std::size_t i = 0; i < source.points.size(); ++i) h = std::min(h, source.sizes[i] + slope * distance(source.points[i], p));
-    }
-    return h;
-  };
-}
-
 ClosedOuter closed_around(const MeshingSite& site, const Envelope& envelope, const RunContext& context) {
   ClosedOuter outer = close_ends(site.domain, site.base, envelope, {site.options.ends, end_sizes(site.options)}, context);
-  outer.mesh = with_second_sides(std::move(outer.mesh), site.options.discs);
+  std::vector<std::size_t> on_walls;
+  for (const DiscSlit& slit : site.domain.slits) on_walls.push_back(slit.disc);
+  outer.mesh = with_second_sides(std::move(outer.mesh), free_discs(site.options.discs, on_walls));
   outer.line.resize(outer.mesh.n_vertices());
+  close_slits(site.domain, site.base, envelope, site.options.discs, slit_options(site.options), context, outer);
   return outer;
 }
 
@@ -213,9 +235,11 @@ FillBoundary lay_out(MeshingSite& site, Envelope& envelope, FilledStage& filled,
   knowledge.report = report(site.base, site.options.envelope, envelope, extrusion, context);
   filled.curving_shares = extrusion.curving_shares;
   const ClosedOuter outer = closed_around(site, envelope, context);
+  open_slits(site.domain, extrusion.layers, extrusion.points);
   FillBoundary boundary = fill_boundary(site.base, extrusion, outer);
-  filled.layers = assemble_layers(site.base, std::move(extrusion), outer, site.domain.rim);
+  filled.layers = assemble_layers(site.base, std::move(extrusion), outer, layer_sides(site.domain));
   filled.layers.request = layer_request(site.base, site.options.envelope, envelope);
+  open_slits(site.domain, filled.layers.request);
   const std::size_t n_wall_patches = site.base.wall.patches.size();
   for (const PeriodicEnds& sides : site.domain.periodic)
     filled.layers.periodic.push_back({PatchId(n_wall_patches + sides.first.index()), PatchId(n_wall_patches + sides.second.index()), sides.translation});
@@ -231,14 +255,17 @@ void require_same(std::size_t found, std::size_t expected, const std::string& wh
 }
 
 /// That the layer stands on the wall, and that nothing but the outer boundary is beside it.
-void require_layers_on(const TriMesh& wall, const HybridMesh& layers, bool has_rims) {
-  require_same(layers.layers.n_lines(), wall.n_vertices(), "lines of the layer");
+void require_layers_on(const Domain& domain, const HybridMesh& layers) {
+  const TriMesh& wall = domain.wall;
+  const bool has_rims = domain.has_rims();
+  require_same(layers.layers.n_lines(), wall.n_vertices() + domain.slit_vertices.size(), "lines of the layer");
   require_same(layers.layers.n_columns(), wall.n_triangles(), "columns of the layer");
   std::size_t n_wrong = 0, n_layer_nodes = 0;
   for (const TriangleId t : wall.triangles.ids())
-    for (std::size_t k = 0; k < 3; ++k) n_wrong += layers.layers.base[t.index()][k] != wall.triangles[t][k].value() ? 1 : 0;
+    for (std::size_t k = 0; k < 3; ++k) n_wrong += layers.layers.base[t.index()][k] != line_under(domain, t, k) ? 1 : 0;
   for (std::uint32_t line = 0; line < layers.layers.n_lines(); ++line) {
-    n_wrong += layers.layers.first_node[line] != n_layer_nodes || layers.points[NodeId(n_layer_nodes)] != wall.points[VertexId(line)] ? 1 : 0;
+    const VertexId under = line < wall.n_vertices() ? VertexId(line) : domain.slit_vertices[line - wall.n_vertices()];
+    n_wrong += layers.layers.first_node[line] != n_layer_nodes || layers.points[NodeId(n_layer_nodes)] != wall.points[under] ? 1 : 0;
     n_layer_nodes = layers.layers.top(line).index() + 1;
   }
   for (std::size_t t = wall.n_triangles(); t < layers.boundary_triangles.size(); ++t)
@@ -248,7 +275,7 @@ void require_layers_on(const TriMesh& wall, const HybridMesh& layers, bool has_r
 }
 
 /// What make_tetrahedra() knew of the layer when it ended.
-LayerKnowledge know_again(const LayerBase& base, Collider& collider, bool has_rims, FilledStage& filled, const VolumeMeshOptions& options, const RunContext& context) {
+LayerKnowledge know_again(const LayerBase& base, Collider& collider, const Domain& domain, FilledStage& filled, const VolumeMeshOptions& options, const RunContext& context) {
   require_clear_input(collider, context);
   LayerKnowledge knowledge;
   knowledge.certificate = certify_envelope(base, collider, filled.envelope.envelope, context);
@@ -259,7 +286,8 @@ LayerKnowledge know_again(const LayerBase& base, Collider& collider, bool has_ri
   filled.layers.layers = std::move(extrusion.layers);
   filled.layers.points.raw() = std::move(extrusion.points);
   filled.layers.request = layer_request(base, envelope_options, filled.envelope.envelope);
-  if (has_rims) {
+  open_slits(domain, filled.layers.request);
+  if (domain.has_rims()) {
     const FillBoundary boundary = boundary_of(filled.layers);
     TetraBoundary for_engines = boundary_for_engines(boundary, {}, false, {});
     for_engines.has_sheets = !options.discs.empty();
@@ -294,7 +322,7 @@ MeshingSite::MeshingSite(const TriMesh& surface, const VolumeMeshOptions& user_o
 EnvelopeStage make_envelope(MeshingSite& site, const RunContext& context) {
   const StageTimer timer(context, "envelope");
   const RunContext part = context.part("envelope", 0.0, 0.15);
-  const std::vector<WholePart> parts = whole_parts(site.domain, site.options.parts, context);
+  const std::vector<WholePart> parts = site.domain.slits.empty() ? whole_parts(site.domain, site.options.parts, context) : std::vector<WholePart>{};  // cut walls are no parts' any more
   const auto of_wall = [&] {
     const WallEnvelopeMaker& make = site.options.wall_envelope;
     return make ? make(site.base, site.options.envelope, site.collider, part) : build_envelope(site.base, site.options.envelope, site.collider, part);
@@ -331,7 +359,7 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, LayerKnowled
       proof.take();  // nothing reads the boundary any more
       filled.tetra_failures.insert(filled.tetra_failures.end(), error.failures().begin(), error.failures().end());
       if (!options.tetrahedra.repair_boundary || !error.is_repeatable() || n_repairs == k_max_boundary_repairs) throw;
-      const std::size_t n_changed = repair_envelope(site.base, boundary, error.info().places, site.collider, envelope, context).size();
+      const std::size_t n_changed = repair_envelope(site.base, boundary, domain.has_sheets, error.info().places, site.collider, envelope, context).size();
       if (n_changed == 0) throw;
       context.warn("trying again with a layer that is lower and smoother at " + std::to_string(n_changed) + " vertices around slivers, folds and gaps of its top");
       boundary = lay_out(site, envelope, filled, knowledge, context);
@@ -404,11 +432,11 @@ VolumeMeshResult finish_mesh(const TriMesh& surface, FilledStage filled, const V
   if (filled.split_wall) domain.wall = *filled.split_wall;
   else domain = domain_around(surface, options, context);
   require_same(filled.envelope.envelope.height.size(), domain.wall.n_vertices(), "vertices of the envelope");
-  require_layers_on(domain.wall, filled.layers, domain.has_rims());
+  require_layers_on(domain, filled.layers);
   if (!domain.has_rims()) domain.outer = one_sided(outer_of(filled.layers, domain.wall.patches.size()).mesh);
   const LayerBase base = base_of(domain, options, context);
   Collider collider(base, &domain.outer, context, &domain.links);
-  LayerKnowledge knowledge = know_again(base, collider, domain.has_rims(), filled, options, context);
+  LayerKnowledge knowledge = know_again(base, collider, domain, filled, options, context);
   const FillBoundary boundary = boundary_of(filled.layers);
   verify_tetrahedra({.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}}, filled.tets, context);
   return finish_mesh(std::move(filled), std::move(knowledge), options.improve, context);

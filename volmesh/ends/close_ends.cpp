@@ -82,7 +82,7 @@ class Closer {
     result_.mesh.patches = domain_.outer.patches;
     new_of_.resize(domain_.outer.n_vertices());
     for (const TriangleId t : domain_.outer.triangles.ids()) {
-      if (is_end(domain_.outer.triangle_patch[t])) continue;
+      if (is_end(domain_.outer.triangle_patch[t]) || is_slit(domain_.outer.triangle_patch[t])) continue;
       TriangleVertices v = domain_.outer.triangles[t];
       for (VertexId& corner : v) corner = vertex(corner);
       result_.mesh.triangles.push_back(v);
@@ -138,6 +138,8 @@ class Closer {
   bool is_end(PatchId patch) const {
     return std::ranges::any_of(domain_.ends, [&](const EndPatch& end) { return end.patch == patch; });
   }
+
+  bool is_slit(PatchId patch) const { return std::ranges::find(domain_.slits, patch, &DiscSlit::patch) != domain_.slits.end(); }
 
   VertexId add(const Point& p, VertexId line) {
     result_.line.push_back(line);

@@ -23,7 +23,7 @@ struct CloseEndsOptions {
   std::function<double(const Point&)> size = {};        ///< longest edge, m; may be empty
 };
 
-/// Without rims the outer boundary as it is. Of periodic sides the second has the triangles of the first, moved. Common edges of end patches keep their polygon beyond the layer, with new vertices there; end patches whose triangulation has
+/// Without rims the outer boundary as it is. Discs that end on walls are left out (discs/slits.h adds them). Of periodic sides the second has the triangles of the first, moved. Common edges of end patches keep their polygon beyond the layer, with new vertices there; end patches whose triangulation has
 /// vertices inside keep its edge lengths as an upper limit.
 /// \pre `base` of domain.wall and its constraints; envelope valid, tops of rim vertices on their surfaces
 /// \throws Error(self_intersection, envelope_failed) with places and the patch's name where a footprint does not fit into its patch

@@ -24,7 +24,7 @@ struct FeatureEdges {
     std::size_t n_copies = 1;
     for (const std::int32_t surface : base.constraint[v].on) {
       const std::size_t k = static_cast<std::size_t>(surface);
-      if (surface < 0 || base.constraint[other].is_on(k)) continue;
+      if (surface < 0 || base.constraint[other].is_on(k) || !base.surfaces[k]->is_mirror()) continue;
       const Vec3 normal = base.surfaces[k]->normal(p);
       for (std::size_t i = 0; i < n_copies; ++i) copies[n_copies + i] = mirrored(copies[i], normal);
       n_copies *= 2;

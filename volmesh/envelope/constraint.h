@@ -32,6 +32,8 @@ class ConstraintSurface {
   virtual Vec3 normal(const Point& p) const = 0;
   /// Distance in metres, positive inside the domain, negative beyond the surface.
   virtual double inside_distance(const Point& p) const = 0;
+  /// Whether a body that ends on it stands for its half of a whole one.
+  virtual bool is_mirror() const { return true; }
 };
 
 /// Plane through `point`; `normal` (unit) points into the domain. With a normal along a coordinate axis everything that is constrained to the plane keeps
@@ -46,6 +48,19 @@ class ConstraintPlane final : public ConstraintSurface {
  private:
   Point point_;
   Vec3 normal_;
+};
+
+/// One side of an actuator disc's plane, `normal` away from the disc: the body goes on beyond it.
+class ConstraintSheet final : public ConstraintSurface {
+ public:
+  ConstraintSheet(const Point& point, const Vec3& normal) : plane_(point, normal) {}
+  Point closest(const Point& p) const override { return plane_.closest(p); }
+  Vec3 normal(const Point& p) const override { return plane_.normal(p); }
+  double inside_distance(const Point& p) const override { return plane_.inside_distance(p); }
+  bool is_mirror() const override { return false; }
+
+ private:
+  ConstraintPlane plane_;
 };
 
 /// Infinite circular cylinder about the line through `point` along `axis`; the domain is inside it (a round tunnel) or, with is_domain_outside, outside.

@@ -167,7 +167,7 @@ void LayerBase::let_grow_alike(const std::vector<std::array<VertexId, 2>>& partn
 double LayerBase::mirror_weight(VertexId v, VertexId other) const {
   double weight = 1.0;
   for (const std::int32_t surface : constraint[v].on)
-    if (surface >= 0 && !constraint[other].is_on(static_cast<std::size_t>(surface))) weight *= 2.0;
+    if (surface >= 0 && surfaces[static_cast<std::size_t>(surface)]->is_mirror() && !constraint[other].is_on(static_cast<std::size_t>(surface))) weight *= 2.0;
   return weight;
 }
 

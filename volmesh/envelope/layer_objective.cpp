@@ -30,7 +30,9 @@ Vec3 within(const VertexConstraint& constraint, const Vec3& d) {
 }
 
 /// Share of a vertex of the whole body that half or quarter of it has: growth lines there see their own triangles only.
-double mirror_share(const VertexConstraint& constraint) {
+double mirror_share(const LayerBase& base, VertexId v) {
+  const VertexConstraint& constraint = base.constraint[v];
+  if (constraint.on[0] >= 0 && !base.surfaces[static_cast<std::size_t>(constraint.on[0])]->is_mirror()) return 1.0;
   switch (constraint.freedom) {
     case Freedom::plane:
     case Freedom::surface: return 0.5;
@@ -63,7 +65,7 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
   parallel_for(context, n, [&](std::size_t i) {
     const VertexId v(i);
     normal_[i] = base.vertex_normal[v];
-    mirror_share_[i] = mirror_share(base.constraint[v]);
+    mirror_share_[i] = mirror_share(base, v);
     if (start.is_collapsed(v) || base.constraint[v].freedom == Freedom::fixed) return;
     const double h = dot(start.height[v] * start.direction[v], normal_[i]);
     h_u_[i] = std::max(h_u_[i], h);  // the start must lie within the bounds

@@ -1,6 +1,7 @@
 #include "volmesh/tetra/boundary_parts.h"
 
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "geom/base/error.h"
@@ -36,13 +37,14 @@ std::vector<std::int32_t> number_components(std::size_t n_points, std::span<cons
   return number;
 }
 
-/// Volume that each surface encloses, m^3: negative when its normals point inwards. Relative to a point of its own, so that a distant small body keeps its digits.
-std::vector<double> enclosed_volumes(const TetraBoundary& boundary, const BoundaryParts& parts, const std::vector<std::uint32_t>& first_vertex) {
+/// Volume that each component encloses, m^3: negative when its normals point inwards. Relative to a point of its own, so that a distant small body keeps its
+/// digits.
+std::vector<double> enclosed_volumes(const TetraBoundary& boundary, const std::vector<std::int32_t>& component,
+                                     const std::vector<std::uint32_t>& first_vertex) {
   std::vector<CompensatedSum> sums(first_vertex.size());
-  for (std::size_t t = 0; t < boundary.triangles.size(); ++t) {
-    const auto surface = static_cast<std::size_t>(parts.triangle2surface[t]);
-    const auto& [a, b, c] = boundary.triangles[t];
-    sums[surface].add(tet_volume(boundary.points[first_vertex[surface]], boundary.points[a], boundary.points[b], boundary.points[c]));
+  for (const auto& [a, b, c] : boundary.triangles) {
+    const auto k = static_cast<std::size_t>(component[a]);
+    sums[k].add(tet_volume(boundary.points[first_vertex[k]], boundary.points[a], boundary.points[b], boundary.points[c]));
   }
   std::vector<double> volumes;
   for (const CompensatedSum& sum : sums) volumes.push_back(sum.value());
@@ -52,77 +54,115 @@ std::vector<double> enclosed_volumes(const TetraBoundary& boundary, const Bounda
 /// A region's outer surface, for asking what lies inside.
 class Shell {
  public:
-  Shell(const TetraBoundary& boundary, const BoundaryParts& parts, std::int32_t surface, const RunContext& context) : tree_(mesh_of(boundary, parts, surface), context) {}
+  Shell(const TetraBoundary& boundary, const std::vector<std::int32_t>& component, std::int32_t number, const RunContext& context)
+      : tree_(mesh_of(boundary, component, number), context) {}
   bool contains(const Vec3& p) const { return std::abs(tree_.winding_number(p)) > k_inside_winding; }
 
  private:
-  static TriMesh mesh_of(const TetraBoundary& boundary, const BoundaryParts& parts, std::int32_t surface) {
+  static TriMesh mesh_of(const TetraBoundary& boundary, const std::vector<std::int32_t>& component, std::int32_t number) {
     TriMesh mesh;
     for (const Vec3& p : boundary.points) mesh.points.push_back(p);
-    for (std::size_t t = 0; t < boundary.triangles.size(); ++t) {
-      const auto& [a, b, c] = boundary.triangles[t];
-      if (parts.triangle2surface[t] == surface) mesh.triangles.push_back({VertexId(a), VertexId(b), VertexId(c)});
-    }
+    for (const auto& [a, b, c] : boundary.triangles)
+      if (component[a] == number) mesh.triangles.push_back({VertexId(a), VertexId(b), VertexId(c)});
     return mesh;
   }
   TriangleTree tree_;
 };
 
-}  // namespace
+/// Regions of the components of a closed boundary, in order of the components that enclose them; -1 for components of sheets alone, which enclose nothing.
+class Regions {
+ public:
+  Regions(const TetraBoundary& boundary, const std::vector<std::int32_t>& component, std::size_t n_components, const std::vector<std::uint8_t>& is_sheet,
+          const RunContext& context)
+      : boundary_(boundary) {
+    std::vector<std::uint32_t> first_vertex(n_components);
+    for (std::size_t t = boundary.triangles.size(); t-- > 0;)
+      first_vertex[static_cast<std::size_t>(component[boundary.triangles[t][0]])] = boundary.triangles[t][0];
+    volumes_ = enclosed_volumes(boundary, component, first_vertex);
+    of_component_.assign(n_components, -1);
+    for (std::size_t k = 0; k < n_components; ++k) {
+      if (is_sheet[k] != 0 || volumes_[k] >= 0.0) continue;
+      of_component_[k] = static_cast<std::int32_t>(outer_.size());
+      outer_.push_back(k);
+    }
+    if (outer_.size() > 1)
+      for (const std::size_t k : outer_) shells_.emplace_back(boundary, component, static_cast<std::int32_t>(k), context);
+    for (std::size_t k = 0; k < n_components; ++k)
+      if (is_sheet[k] == 0 && volumes_[k] >= 0.0) of_component_[k] = around(first_vertex[k], "a closed part of the boundary");
+  }
+  std::int32_t of(std::int32_t component) const { return of_component_[static_cast<std::size_t>(component)]; }
 
-BoundaryParts find_parts(const TetraBoundary& boundary, std::span<const std::array<std::uint32_t, 3>> sheets, const RunContext& context) {
-  BoundaryParts parts;
-  std::size_t n_surfaces = 0;
-  const std::vector<std::int32_t> component = number_components(boundary.points.size(), boundary.triangles, n_surfaces);
-  std::vector<std::uint32_t> first_vertex(n_surfaces);
-  parts.triangle2surface.resize(boundary.triangles.size());
-  for (std::size_t t = boundary.triangles.size(); t-- > 0;) {
-    const std::uint32_t v = boundary.triangles[t][0];
-    parts.triangle2surface[t] = component[v];
-    first_vertex[static_cast<std::size_t>(component[v])] = v;
-  }
-
-  const std::vector<double> volumes = enclosed_volumes(boundary, parts, first_vertex);
-  parts.surface2region.assign(n_surfaces, -1);
-  std::vector<std::size_t> outer;  // of each region
-  for (std::size_t s = 0; s < n_surfaces; ++s) {
-    if (volumes[s] >= 0.0) continue;
-    parts.surface2region[s] = static_cast<std::int32_t>(outer.size());
-    outer.push_back(s);
-  }
-  std::vector<Shell> shells;
-  if (outer.size() > 1) {
-    for (const std::size_t s : outer) shells.emplace_back(boundary, parts, static_cast<std::int32_t>(s), context);
-  }
-  const auto region_around = [&](std::uint32_t v, const std::string& what) {
-    std::int32_t region = outer.size() == 1 ? 0 : -1;
-    for (std::size_t r = 0; r < shells.size(); ++r) {
-      const bool is_smaller = region < 0 || volumes[outer[r]] > volumes[outer[static_cast<std::size_t>(region)]];
-      if (is_smaller && shells[r].contains(boundary.points[v])) region = static_cast<std::int32_t>(r);
+  /// The smallest region that holds a point.
+  std::int32_t around(std::uint32_t v, const std::string& what) const {
+    std::int32_t region = outer_.size() == 1 ? 0 : -1;
+    for (std::size_t r = 0; r < shells_.size(); ++r) {
+      const bool is_smaller = region < 0 || volumes_[outer_[r]] > volumes_[outer_[static_cast<std::size_t>(region)]];
+      if (is_smaller && shells_[r].contains(boundary_.points[v])) region = static_cast<std::int32_t>(r);
     }
     if (region >= 0) return region;
     throw Error({.code = ErrorCode::not_orientable,
                  .attempted = "looking for the regions of the domain",
                  .problem = what + " lies in no region",
-                 .places = {{boundary.points[v], "point " + std::to_string(v)}},
+                 .places = {{boundary_.points[v], "point " + std::to_string(v)}},
                  .hint = "normals must point into the domain: out of the bodies, and inwards on what encloses them"});
-  };
-  for (std::size_t s = 0; s < n_surfaces; ++s)
-    if (volumes[s] >= 0.0) parts.surface2region[s] = region_around(first_vertex[s], "a closed part of the boundary");
-  if (sheets.empty()) return parts;
+  }
 
-  const std::vector<std::int32_t> sheet = number_components(boundary.points.size(), sheets, parts.n_sheet_surfaces);
+ private:
+  const TetraBoundary& boundary_;
+  std::vector<double> volumes_;
+  std::vector<std::int32_t> of_component_;
+  std::vector<std::size_t> outer_;  ///< of each region: the component that encloses it
+  std::vector<Shell> shells_;
+};
+
+BoundaryParts parts_without_sheets(const TetraBoundary& boundary, const RunContext& context) {
+  BoundaryParts parts;
+  std::size_t n_surfaces = 0;
+  const std::vector<std::int32_t> component = number_components(boundary.points.size(), boundary.triangles, n_surfaces);
+  const Regions regions(boundary, component, n_surfaces, std::vector<std::uint8_t>(n_surfaces, 0), context);
+  for (const auto& t : boundary.triangles) parts.triangle2surface.push_back(component[t[0]]);
+  for (std::size_t s = 0; s < n_surfaces; ++s) parts.surface2region.push_back(regions.of(static_cast<std::int32_t>(s)));
+  parts.surface2second.assign(n_surfaces, -1);
+  return parts;
+}
+
+}  // namespace
+
+BoundaryParts find_parts(const TetraBoundary& boundary, const JoinedBoundary* joined, const RunContext& context) {
+  if (!joined) return parts_without_sheets(boundary, context);
+  // With both sides of sheets, each component is the boundary of one region, or a part of it.
+  std::size_t n_components = 0, n_connected = 0;
+  const std::vector<std::int32_t> component = number_components(boundary.points.size(), boundary.triangles, n_components);
+  const std::vector<std::int32_t> connected = number_components(joined->points.size(), joined->triangles(), n_connected);
+  const auto triangles = joined->triangles(), sheets = joined->sheets();
+  const auto component_of = [&](std::size_t facet) { return component[boundary.triangles[joined->facet2triangle[facet]][0]]; };
+  std::vector<std::uint8_t> is_sheet(n_components, 1);
+  for (std::size_t i = 0; i < triangles.size(); ++i) is_sheet[static_cast<std::size_t>(component_of(i))] = 0;
+  const Regions regions(boundary, component, n_components, is_sheet, context);
+
+  BoundaryParts parts;
+  std::map<std::array<std::int32_t, 2>, std::int32_t> surfaces;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto [surface, is_new] = surfaces.try_emplace({connected[triangles[i][0]], component_of(i)}, static_cast<std::int32_t>(surfaces.size()));
+    if (is_new) parts.surface2region.push_back(regions.of(component_of(i)));
+    parts.triangle2surface.push_back(surface->second);
+  }
+  const std::size_t n_surfaces = surfaces.size();
+  const std::vector<std::int32_t> sheet = number_components(joined->points.size(), sheets, parts.n_sheet_surfaces);
   parts.surface2region.resize(n_surfaces + parts.n_sheet_surfaces, -1);
-  for (const auto& t : sheets) {
-    const std::size_t surface = n_surfaces + static_cast<std::size_t>(sheet[t[0]]);
+  parts.surface2second.assign(n_surfaces + parts.n_sheet_surfaces, -1);
+  for (std::size_t i = 0; i < sheets.size(); ++i) {
+    const std::size_t surface = n_surfaces + static_cast<std::size_t>(sheet[sheets[i][0]]);
     parts.triangle2surface.push_back(static_cast<std::int32_t>(surface));
     std::int32_t& region = parts.surface2region[surface];
-    for (const std::uint32_t v : t)  // one that touches the boundary is in its region
-      if (region < 0 && component[v] >= 0) region = parts.surface2region[static_cast<std::size_t>(component[v])];
-  }
-  for (std::size_t i = 0; i < sheets.size(); ++i) {
-    std::int32_t& region = parts.surface2region[static_cast<std::size_t>(parts.triangle2surface[boundary.triangles.size() + i])];
-    if (region < 0) region = region_around(sheets[i][0], "a sheet");
+    if (region >= 0) continue;
+    const std::int32_t first = component_of(triangles.size() + i);
+    region = is_sheet[static_cast<std::size_t>(first)] != 0 ? regions.around(boundary.triangles[joined->facet2triangle[triangles.size() + i]][0], "a sheet")
+                                                            : regions.of(first);
+    for (const std::uint32_t v : sheets[i]) {
+      const std::int32_t second = component[joined->sources[v][1]];
+      if (is_sheet[static_cast<std::size_t>(second)] == 0 && regions.of(second) != region) parts.surface2second[surface] = regions.of(second);
+    }
   }
   return parts;
 }

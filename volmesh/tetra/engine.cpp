@@ -71,6 +71,7 @@ class Request {
     put(sent.facets.data(), sent.facets.size_bytes());
     put(parts.triangle2surface.data(), sizeof(std::int32_t) * parts.triangle2surface.size());
     put(parts.surface2region.data(), sizeof(std::int32_t) * parts.surface2region.size());
+    put(parts.surface2second.data(), sizeof(std::int32_t) * parts.surface2second.size());
   }
   const SharedBlock& block() const { return block_; }
   std::span<const Vec3> points() const { return {points_, n_points_}; }  ///< as the engine got them
@@ -80,7 +81,7 @@ class Request {
   static std::size_t size_of(const EngineInput& input) {
     const Sent sent(input);
     return sizeof(wire::RequestHeader) + sizeof(Vec3) * (sent.points.size() + input.boundary.hole_points.size()) +
-           (sizeof(sent.facets[0]) + sizeof(std::int32_t)) * sent.facets.size() + sizeof(std::int32_t) * input.parts.n_surfaces();
+           (sizeof(sent.facets[0]) + sizeof(std::int32_t)) * sent.facets.size() + 2 * sizeof(std::int32_t) * input.parts.n_surfaces();
   }
   double scale_;
   SharedBlock block_;

@@ -109,7 +109,7 @@ TetraResult fill_with(const TetraBoundary& boundary, SizeSupply* sizes, const Te
     const auto sheets = joined ? joined->sheets() : std::span<const std::array<std::uint32_t, 3>>();
     check_boundary(closed, context, sheets);
     if (!boundary.is_clear) judge(seen = preflight(boundary, {}, context), boundary, context);
-    return find_parts(closed, sheets, context);
+    return find_parts(boundary, joined_sides, context);
   }();
 
   // Of a boundary that is known to be clear, preflight can only say what engines find hard: that can wait until one has run.

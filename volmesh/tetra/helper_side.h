@@ -105,6 +105,7 @@ struct Request {
   int* triangles = nullptr;
   const int* triangle2surface = nullptr;
   const int* surface2region = nullptr;
+  const int* surface2second = nullptr;
 };
 
 inline Request map_request() {
@@ -117,12 +118,13 @@ inline Request map_request() {
   if (block == MAP_FAILED) return request;
   const auto* header = static_cast<const wire::RequestHeader*>(block);
   if (header->magic != wire::k_request_magic) return request;
-  if (size != sizeof *header + 24 * (header->n_points + header->n_holes) + 16 * header->n_triangles + 4 * header->n_surfaces) return request;
+  if (size != sizeof *header + 24 * (header->n_points + header->n_holes) + 16 * header->n_triangles + 8 * header->n_surfaces) return request;
   request.points = reinterpret_cast<double*>(static_cast<std::byte*>(block) + sizeof *header);
   request.holes = request.points + 3 * header->n_points;
   request.triangles = reinterpret_cast<int*>(request.holes + 3 * header->n_holes);
   request.triangle2surface = request.triangles + 3 * header->n_triangles;
   request.surface2region = request.triangle2surface + header->n_triangles;
+  request.surface2second = request.surface2region + header->n_surfaces;
   request.header = header;
   return request;
 }

@@ -9,6 +9,7 @@
 // - It does not say that it ran out of memory; a crash is possible then too.
 // - With more than one thread its answer differs from run to run.
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cmath>
@@ -80,16 +81,24 @@ void set_boundary(const helper::Request& request) {
   }
   std::vector<std::vector<int>> region2surfaces, region2sheets;
   const std::size_t n_closed = header.n_surfaces - header.n_sheet_surfaces;
+  // Surfaces on both sides of a sheet that parts regions have nodes of each other.
+  const bool shares_nodes = std::any_of(request.surface2second, request.surface2second + header.n_surfaces, [](int region) { return region >= 0; });
+  const auto add_triangles = [&](std::size_t s) { gmsh::model::mesh::addElementsByType(static_cast<int>(s) + 1, k_triangle, {}, corners[s]); };
   for (std::size_t s = 0; s < header.n_surfaces; ++s) {
     const int tag = static_cast<int>(s) + 1;
     gmsh::model::addDiscreteEntity(2, tag);
     gmsh::model::mesh::addNodes(2, tag, tags[s], coordinates[s]);
-    gmsh::model::mesh::addElementsByType(tag, k_triangle, {}, corners[s]);
-    const auto region = static_cast<std::size_t>(request.surface2region[s]);
-    auto& of_region = s < n_closed ? region2surfaces : region2sheets;
-    if (region >= of_region.size()) of_region.resize(region + 1);
-    of_region[region].push_back(tag);
+    if (!shares_nodes) add_triangles(s);
+    const bool parts_regions = request.surface2second[s] >= 0;
+    auto& of_region = s < n_closed || parts_regions ? region2surfaces : region2sheets;
+    for (const int number : {request.surface2region[s], request.surface2second[s]}) {
+      if (number < 0) continue;
+      const auto region = static_cast<std::size_t>(number);
+      if (region >= of_region.size()) of_region.resize(region + 1);
+      of_region[region].push_back(tag);
+    }
   }
+  for (std::size_t s = 0; shares_nodes && s < header.n_surfaces; ++s) add_triangles(s);
   std::vector<int> volumes;
   for (const std::vector<int>& surfaces : region2surfaces) volumes.push_back(gmsh::model::geo::addVolume({gmsh::model::geo::addSurfaceLoop(surfaces)}));
   gmsh::model::geo::synchronize();

@@ -2,7 +2,8 @@
 // It includes nothing of sterna.
 //
 // Request: RequestHeader; 3 doubles per point; 3 doubles per hole point; 3 int32 per triangle (indices into the points); 1 int32 per triangle (its surface);
-//          1 int32 per surface (its region). The last triangles and the last surfaces are those of sheets: inner facets of the region.
+//          1 int32 per surface (its region), 1 int32 per surface (the region on the second side of a sheet that parts two, else -1). The last triangles and the last
+//          surfaces are those of sheets: inner facets of the region.
 // Reply:   ReplyHeader, then (outcome ok only) 3 doubles per point, all of them, 4 int32 per tetrahedron; where the engine was allowed to split boundary triangles,
 //          3 int32 per triangle of the new boundary and 1 int32 for each: the triangle of the request that it is a part of.
 #pragma once
@@ -15,7 +16,7 @@ inline constexpr int k_request_fd = 3;
 inline constexpr int k_reply_fd = 4;
 inline constexpr int k_size_fd = 5;        ///< the size field, once it is there
 inline constexpr int k_size_ready_fd = 6;  ///< pipe: then its length in bytes comes here, a uint64
-inline constexpr std::uint64_t k_request_magic = 0x3551455254455453;  ///< "STETREQ5" in memory; the last digit is the version
+inline constexpr std::uint64_t k_request_magic = 0x3651455254455453;  ///< "STETREQ6" in memory; the last digit is the version
 inline constexpr std::uint64_t k_reply_magic = 0x3350455254455453;    ///< "STETREP3"
 
 /// What may become of the boundary's triangles; TetGen only.

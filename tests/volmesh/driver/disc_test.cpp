@@ -61,9 +61,9 @@ TEST(Discs, StagesByHandGiveTheSameMesh) {
   EXPECT_EQ(whole.mesh.tetrahedra, by_hand.mesh.tetrahedra);
 }
 
-TEST(Discs, ADiscThroughTheBodyIsAnErrorWithPlaces) {
+TEST(Discs, ADiscWhoseRimGoesThroughTheBodyIsAnErrorWithPlaces) {
   try {
-    volume_mesh(test::sphere(6), options_with({{.name = "prop", .center = {0, 0, 0}, .radius = 1.2}}), k_context);
+    volume_mesh(test::sphere(6), options_with({{.name = "prop", .center = {1, 0, 0}, .axis = {0, 1, 0}, .radius = 0.5}}), k_context);
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::self_intersection);
