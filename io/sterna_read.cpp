@@ -21,7 +21,7 @@ class PartReader {
     if (file_.has(part::k_surface_points)) content.surface = surface();
     if (file_.has(part::k_direction)) {
       if (!content.surface) file_.fail(part::k_direction, "is there without a surface");
-      content.envelope = envelope();
+      content.envelope = envelope(content.surface->n_vertices());
     }
     if (file_.has(part::k_engine_tetrahedra)) content.tetrahedra = tetrahedra();
     if (file_.has(part::k_points)) content.mesh = mesh();
@@ -135,7 +135,7 @@ class PartReader {
     return mesh;
   }
 
-  StoredEnvelope envelope() const {
+  StoredEnvelope envelope(std::size_t n_surface_vertices) const {
     StoredEnvelope envelope;
     envelope.direction.raw() = points(part::k_direction);
     const std::size_t n = envelope.direction.size();  // of walls with layers, as they are when actuator discs are cut into them: whoever continues compares
@@ -144,7 +144,7 @@ class PartReader {
     envelope.eq1.raw() = reals(part::k_eq1, n);
     envelope.cap.raw() = reals(part::k_cap, n);
     envelope.limit.raw() = bytes(part::k_limit, n);
-    if (file_.has(part::k_first_height)) envelope.first_height = reals(part::k_first_height, n_vertices);
+    if (file_.has(part::k_first_height)) envelope.first_height = reals(part::k_first_height, n_surface_vertices);
     return envelope;
   }
 

@@ -47,7 +47,7 @@ class PartWriter {
     text(part::k_surface_patches, joined(surface.patches));
   }
 
-  void add_envelope(const StoredEnvelope& envelope) {
+  void add_envelope(const StoredEnvelope& envelope, const TriMesh& surface) {
     // Of the walls with layers alone: fewer vertices where the surface has other patches, more where actuator discs are cut into it.
     const std::size_t n_lines = envelope.height.size();
     for (const std::size_t n : {envelope.direction.size(), envelope.target.size(), envelope.eq1.size(), envelope.cap.size(), envelope.limit.size()})
@@ -179,7 +179,7 @@ void write_sterna(const SternaParts& parts, const std::filesystem::path& path, c
   AtomicFile file(path);
   PartWriter writer(file, context);
   if (parts.surface) writer.add_surface(*parts.surface);
-  if (parts.envelope) writer.add_envelope(*parts.envelope);
+  if (parts.envelope) writer.add_envelope(*parts.envelope, *parts.surface);
   if (parts.tetrahedra) writer.add_tetrahedra(*parts.tetrahedra);
   if (parts.mesh) writer.add_mesh(*parts.mesh);
   if (!parts.manifest.empty()) writer.text(part::k_manifest, parts.manifest);
