@@ -95,6 +95,7 @@ SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const Surfac
   ReferenceUse* reference = reuse.reference;
   if (reference) reference->begin_surface();
   std::optional<ContentKey> key = reuse.cache ? beside_reference(key_of(models, asked, static_cast<bool>(size), context), reuse, context) : std::nullopt;
+  if (key && reference && !reference->is_this()) key = KeyMaker("call").add(*key).add(reference->surface()).key();  // parts start from those of the same call first
   if (!reuse.cache || !key) return cached<SurfaceValue>(reuse, k_stage, {}, std::nullopt, context, [&] { return make(size); }, write_parts, std::function<SurfaceValue(ByteSource&)>());
   const std::string what = names_of(models);
   const ReferenceUse::Mark mark = reference ? reference->mark() : ReferenceUse::Mark();

@@ -73,7 +73,8 @@ void ReferenceUse::read(const RunContext& context) {
 }
 
 void ReferenceUse::save(const RunContext& context) const {
-  context.info("kept for the other cases: surfaces of " + std::to_string(parts_.size()) + " parts and " + std::to_string(envelopes_.size()) + " envelopes, in " + file_.filename().string());
+  context.info("kept for the other cases: surfaces of " + std::to_string(parts_.size()) + " parts and " + std::to_string(envelopes_.size()) +
+               " envelopes, in " + file_.filename().string());
   write_sealed(
       file_, file_key(),
       [&](ByteSink& sink) {

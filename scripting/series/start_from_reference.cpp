@@ -101,7 +101,9 @@ surfmesh::SurfaceMesh mesh_from_reference(const PartTask& task, const Reuse& reu
   }
   if (!against.empty()) return anew(against);
   const std::string of_cache = "of " + name_of(task.model) + " with the triangles of " + reference.name();
-  CarriedMesh carried = cached<CarriedMesh>(reuse, "surface_mesh", of_cache, key, context,
+  std::optional<ContentKey> of_like;  // which of the reference's parts it is
+  if (key) of_like = KeyMaker("carried").add(*key).add(static_cast<std::uint64_t>(like - parts.data())).key();
+  CarriedMesh carried = cached<CarriedMesh>(reuse, "surface_mesh", of_cache, of_like, context,
                                             [&] { return surfmesh::carry_mesh(like->mesh, task.model, structure, std::move(points), task.options, context); });
   if (!carried.mesh) return anew(carried.objection + at(carried.place));
   reference.tell(what + "topology of " + reference.name(), reuse, context);
@@ -121,9 +123,10 @@ std::string envelope_of(const TriMesh& wall, ReferenceUse& reference) {
   return "envelope of " + (carried ? carried->name : wall.patches.raw().front().name) + ": ";
 }
 
-/// The reference's envelope that one of this wall may start from. Null, and why is told, where it made none with these triangles, or options differ; null without a word where the wall is the
-/// reference's own, or (`has_carried` false) nothing on it took over triangles.
-const KeptEnvelope* find_start(const TriMesh& wall, volmesh::EnvelopeOptions options, const std::string& what, bool has_carried, const Reuse& reuse, const RunContext& context) {
+/// The reference's envelope that one of this wall may start from. Null, and why is told, where it made none with these triangles, or options differ; null
+/// without a word where the wall is the reference's own, or (`has_carried` false) nothing on it took over triangles.
+const KeptEnvelope* find_start(const TriMesh& wall, volmesh::EnvelopeOptions options, const std::string& what, bool has_carried, const Reuse& reuse,
+                               const RunContext& context) {
   const ContentKey connectivity = connectivity_of(wall);
   std::string against = "the reference made none of a wall with these triangles";
   for (const KeptEnvelope& kept : reuse.reference->envelopes(context)) {

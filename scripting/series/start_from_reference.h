@@ -25,7 +25,8 @@ PartMesher starting_mesher(const Reuse& reuse, const PartMesher& ordinary,
 volmesh::VolumeMeshOptions starting_envelopes(volmesh::VolumeMeshOptions options, const Reuse& reuse, const volmesh::PartEnvelopeMaker& ordinary,
                                               const std::function<ContentKey(const volmesh::PartEnvelopeTask&, const RunContext&)>& key);
 
-/// Tells of every one of a wall's parts that took over triangles and whose envelope nobody asked for, why that did not start from the reference's. After the wall's envelope was made.
+/// Tells of every one of a wall's parts that took over triangles and whose envelope nobody asked for, why that did not start from the reference's. After the
+/// wall's envelope was made.
 void tell_other_envelopes(const std::vector<volmesh::PlacedPart>& parts, const Reuse& reuse, const RunContext& context);
 
 /// The key of a result that depends on the reference, too; as it is without one.

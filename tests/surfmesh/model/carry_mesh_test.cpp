@@ -1,4 +1,5 @@
-// A surface mesh carried to a deformed model: the same triangles on the new surface, measured and proved like one that is made there; refused where it would not be good.
+// A surface mesh carried to a deformed model: the same triangles on the new surface, measured and proved like one that is made there; refused where it would
+// not be good.
 #include "surfmesh/model/carry_mesh.h"
 
 #include <gmock/gmock.h>
@@ -107,7 +108,13 @@ TEST(CarryMesh, IsRefusedWithAPlaceWhereItWouldNotBeGood) {
   EXPECT_FALSE(result.mesh);
   EXPECT_THAT(result.objection, HasSubstr("would be"));
   EXPECT_GT(std::abs(result.place.y), 1.0);  // at the tips, where it bends most
-  const CarriedMesh long_wing = carried(from, deformed(wing(0.0), std::make_shared<FunctionMap>([](const Point& p) { return Point{1.6 * p.x, 1.6 * p.y, 1.6 * p.z}; }, 1e-3), k_context));
+  const CarriedMesh long_wing = carried(from, deformed(wing(0.0),
+                                                       std::make_shared<FunctionMap>(
+                                                           [](const Point& p) {
+                                                             return Point{1.6 * p.x, 1.6 * p.y, 1.6 * p.z};
+                                                           },
+                                                           1e-3),
+                                                       k_context));
   EXPECT_THAT(long_wing.objection, HasSubstr("too long or too short, the worst 1.6 times"));
 }
 
