@@ -19,4 +19,10 @@ Error error_of(const Run& run) {
   return Error({.code = ErrorCode::internal, .attempted = "no error was thrown"});
 }
 
+/// The same, taken apart.
+template <class Run>
+ErrorInfo error_info_of(const Run& run) {
+  return error_of(run).info();
+}
+
 }  // namespace sterna::test

@@ -1,4 +1,5 @@
 // Actuator discs: their triangles, their two sides, and the mesh around them.
+#include "tests/support/error_of.h"
 #include "volmesh/actuator_disc.h"
 
 #include <gmock/gmock.h>
@@ -182,19 +183,9 @@ TEST(ActuatorDisc, NoFluxGetsThroughASheet) {
   }
 }
 
-template <class F>
-ErrorInfo error_of(const F& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error.info();
-  }
-  return {.code = ErrorCode::internal, .attempted = "no error was thrown"};
-}
-
 TEST(ActuatorDisc, SaysWhatIsWrongAndWhere) {
   const TriMesh wall = test::sphere(6);
-  const auto add = [&](std::vector<ActuatorDisc> discs) { return error_of([&] { with_discs(wall, {}, discs, k_growth, k_context); }); };
+  const auto add = [&](std::vector<ActuatorDisc> discs) { return test::error_info_of([&] { with_discs(wall, {}, discs, k_growth, k_context); }); };
   const ErrorInfo touching = add({{.name = "prop", .center = {0, 0, 0}, .radius = 2.0, .inner_radius = 0.9}});
   EXPECT_EQ(touching.code, ErrorCode::self_intersection);
   EXPECT_THAT(touching.attempted, HasSubstr("prop"));

@@ -13,6 +13,7 @@
 #include "geom/model/model_builder.h"
 #include "geom/model/model_measures.h"
 #include "geom/model/shapes.h"
+#include "tests/support/error_of.h"
 
 namespace sterna {
 namespace {
@@ -42,17 +43,6 @@ void expect_closed(const Model& model) {
       for (const EdgeUse& use : border)
         if (!model.edges[use.edge].is_degenerate()) sense[use.edge] += use.is_reversed != face.is_reversed ? 1 : -1;
   for (const auto& [edge, sum] : sense) EXPECT_EQ(sum, 0) << "edge " << edge.value();
-}
-
-template <class Run>
-Error error_of(const Run& run) {
-  try {
-    run();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "no error";
-  return Error({});
 }
 
 TEST(FluidDomain, ABodyInsideIsLeftAsItIs) {
@@ -150,17 +140,17 @@ TEST(FluidDomain, BodiesThatDoNotBelongThereAreNamed) {
       cad::fluid_domain(tunnel(), bodies, {}, RunContext());
     };
   };
-  const Error outside = error_of(run(test::cylinder(0.2, 1.0, {0, 5, 0}, "lost")));
+  const Error outside = test::error_of(run(test::cylinder(0.2, 1.0, {0, 5, 0}, "lost")));
   EXPECT_EQ(outside.code(), ErrorCode::bad_argument);
   EXPECT_NE(std::string(outside.what()).find("\"lost\" lies outside"), std::string::npos) << outside.what();
-  const Error across = error_of(run(make_box("slab", {-0.1, -3, -3}, {0.1, 3, 3})));
+  const Error across = test::error_of(run(make_box("slab", {-0.1, -3, -3}, {0.1, 3, 3})));
   EXPECT_EQ(across.code(), ErrorCode::bad_argument);
   EXPECT_NE(std::string(across.what()).find("\"slab\" cuts the fluid in \"tunnel\" into 2 parts"), std::string::npos) << across.what();
   EXPECT_EQ(across.n_places(), 2);
-  const Error filled = error_of(run(make_box("rock", {-5, -5, -5}, {5, 5, 5})));
+  const Error filled = test::error_of(run(make_box("rock", {-5, -5, -5}, {5, 5, 5})));
   EXPECT_EQ(filled.code(), ErrorCode::bad_argument);
   EXPECT_NE(std::string(filled.what()).find("\"rock\" fills the container"), std::string::npos) << filled.what();
-  const Error plug = error_of(run(make_box("plug", {-3, -1, -1}, {3, 1, 1})));
+  const Error plug = test::error_of(run(make_box("plug", {-3, -1, -1}, {3, 1, 1})));
   EXPECT_NE(std::string(plug.what()).find("fills the container"), std::string::npos) << plug.what();
 }
 

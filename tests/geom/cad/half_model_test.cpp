@@ -13,6 +13,7 @@
 #include "geom/model/model_builder.h"
 #include "geom/model/model_measures.h"
 #include "geom/model/shapes.h"
+#include "tests/support/error_of.h"
 
 namespace sterna {
 namespace {
@@ -38,17 +39,6 @@ void expect_half(const Model& model, std::size_t axis = 1, double at = 0.0) {
     }
     for (const CornerId c : {edge.start, edge.end}) EXPECT_EQ(model.corners[c].point[axis], at);
   }
-}
-
-template <class Run>
-Error error_of(const Run& run) {
-  try {
-    run();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "no error";
-  return Error({});
 }
 
 TEST(HalfModel, ABodyAcrossThePlaneIsCut) {
@@ -105,16 +95,16 @@ TEST(HalfModel, AHalfModelIsTakenAsItIs) {
 }
 
 TEST(HalfModel, WhatIsNoHalfIsRefusedWithPlaces) {
-  const Error apart = error_of([] { cad::half_model(make_box("box", {0, 1, 0}, {1, 2, 1}), {}, RunContext()); });
+  const Error apart = test::error_of([] { cad::half_model(make_box("box", {0, 1, 0}, {1, 2, 1}), {}, RunContext()); });
   EXPECT_EQ(apart.code(), ErrorCode::bad_argument);
   EXPECT_NE(std::string(apart.what()).find("does not reach the plane y = 0"), std::string::npos) << apart.what();
-  const Error beyond = error_of([] { cad::half_model(make_box("box", {0, -2, 0}, {1, -1, 1}), {}, RunContext()); });
+  const Error beyond = test::error_of([] { cad::half_model(make_box("box", {0, -2, 0}, {1, -1, 1}), {}, RunContext()); });
   EXPECT_NE(std::string(beyond.what()).find("keep = \"-\""), std::string::npos) << beyond.what();
   Model open = cad::half_model(make_box("box", {0, -1, 0}, {1, 1, 1}), {}, RunContext()).model;
-  const Error elsewhere = error_of([&] { cad::half_model(transformed(open, translation({0, 0.1, 0})), {}, RunContext()); });
+  const Error elsewhere = test::error_of([&] { cad::half_model(transformed(open, translation({0, 0.1, 0})), {}, RunContext()); });
   EXPECT_EQ(elsewhere.code(), ErrorCode::open_surface);
   EXPECT_EQ(elsewhere.n_places(), 4);
-  const Error across = error_of([&] { cad::half_model(transformed(open, translation({0, -0.1, 0})), {}, RunContext()); });
+  const Error across = test::error_of([&] { cad::half_model(transformed(open, translation({0, -0.1, 0})), {}, RunContext()); });
   EXPECT_EQ(across.code(), ErrorCode::open_surface);
 }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "geom/base/error.h"
+#include "tests/support/error_of.h"
 
 namespace sterna {
 namespace {
@@ -34,16 +35,6 @@ TriMesh two_sides(std::uint32_t n, bool turn = false) {
 
 constexpr double k_tolerance = 2.0 * k_periodic_share;
 
-template <class F>
-ErrorInfo error_of(const F& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error.info();
-  }
-  return {.code = ErrorCode::internal, .attempted = "no error was thrown"};
-}
-
 TEST(Periodic, FindsTranslationAndPartners) {
   const TriMesh mesh = two_sides(5);
   const PeriodicMatch match = match_periodic(mesh, PatchId(0u), PatchId(1u), k_tolerance);
@@ -64,25 +55,25 @@ TEST(Periodic, WorksFarFromTheOriginAndInAnyDirection) {
 TEST(Periodic, SaysWhereSidesDiffer) {
   TriMesh moved = two_sides(5);
   moved.points[VertexId(40u)].y += 1e-8;
-  const ErrorInfo node = error_of([&] { match_periodic(moved, PatchId(0u), PatchId(1u), k_tolerance); });
+  const ErrorInfo node = test::error_info_of([&] { match_periodic(moved, PatchId(0u), PatchId(1u), k_tolerance); });
   EXPECT_EQ(node.code, ErrorCode::bad_argument);
   EXPECT_NE(node.problem.find("no partner"), std::string::npos);
   EXPECT_NE(node.attempted.find("left"), std::string::npos);
 
   const TriMesh turned = two_sides(5, true);
-  const ErrorInfo face = error_of([&] { match_periodic(turned, PatchId(0u), PatchId(1u), k_tolerance); });
+  const ErrorInfo face = test::error_info_of([&] { match_periodic(turned, PatchId(0u), PatchId(1u), k_tolerance); });
   EXPECT_EQ(face.n_places, 2);
   EXPECT_NE(face.problem.find("2 faces"), std::string::npos);
   EXPECT_NEAR(face.places[0].position.x, 0.0, 1e-15);
 
   TriMesh bent = two_sides(5);
   for (const std::uint32_t v : {14u, 50u}) bent.points[VertexId(v)].x += 1e-3;
-  const ErrorInfo flat = error_of([&] { match_periodic(bent, PatchId(0u), PatchId(1u), k_tolerance); });
+  const ErrorInfo flat = test::error_info_of([&] { match_periodic(bent, PatchId(0u), PatchId(1u), k_tolerance); });
   EXPECT_NE(flat.problem.find("not flat"), std::string::npos);
 
   TriMesh empty = two_sides(5);
   empty.patches.push_back({"top", PatchKind::slip});
-  EXPECT_NE(error_of([&] { match_periodic(empty, PatchId(0u), PatchId(2u), k_tolerance); }).problem.find("no faces"), std::string::npos);
+  EXPECT_NE(test::error_info_of([&] { match_periodic(empty, PatchId(0u), PatchId(2u), k_tolerance); }).problem.find("no faces"), std::string::npos);
 }
 
 TEST(Periodic, QuadrilateralsToo) {

@@ -9,6 +9,7 @@
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/sheets.h"
+#include "tests/support/error_of.h"
 #include "tests/support/halves.h"
 #include "tests/volmesh/domain/room.h"
 #include "tests/volmesh/driver/revolved_bodies.h"
@@ -217,18 +218,8 @@ TEST(DiscOnWall, SameBytesWithOneThreadAndByStages) {
   EXPECT_EQ(two.mesh.layers.base, by_hand.mesh.layers.base);
 }
 
-template <class F>
-ErrorInfo error_of(const F& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error.info();
-  }
-  return {.code = ErrorCode::internal, .attempted = "no error was thrown"};
-}
-
 TEST(DiscOnWall, SaysWhereItCannotBe) {
-  const auto mesh = [&](std::vector<ActuatorDisc> discs) { return error_of([&] { volume_mesh(hub(6), options_with(std::move(discs)), k_context); }); };
+  const auto mesh = [&](std::vector<ActuatorDisc> discs) { return test::error_info_of([&] { volume_mesh(hub(6), options_with(std::move(discs)), k_context); }); };
   // The rim goes through the wall.
   const ErrorInfo rim = mesh({{.name = "prop", .center = {0, 0.4, 0}, .radius = 0.3}});
   EXPECT_EQ(rim.code, ErrorCode::self_intersection);

@@ -48,16 +48,6 @@ void add_border(EndRegion& region, const TriMesh& mesh) {
     if (!half.contains({edge[1], edge[0]})) region.edges.push_back({point(edge[0]), point(edge[1])});
 }
 
-ErrorInfo failure(const EndRegion& region) {
-  try {
-    triangulate_end(region, {}, k_context);
-  } catch (const Error& error) {
-    return error.info();
-  }
-  ADD_FAILURE() << "no error";
-  return {};
-}
-
 TEST(CurvedEnd, QuarterOfACylinderInItsProjection) {
   const TriMesh original = grid(on_tunnel, -1.57, 1.57, 16, 0, 6, 30, false);
   EndRegion region{.surface = &k_tunnel, .original = &original, .name = "tunnel"};

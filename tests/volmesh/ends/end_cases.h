@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "geom/math/measures.h"
+#include "tests/support/error_of.h"
 #include "volmesh/ends/end_surface.h"
 
 namespace sterna::volmesh::test_ends {
@@ -19,6 +20,11 @@ inline constexpr double k_pi = std::numbers::pi;
 using Map = std::function<Point(double, double)>;
 
 inline Point on_xz(double u, double v) { return {v, 0.0, u}; }  // u = z, v = x: counter-clockwise about +y
+
+/// The error of a region; a failure of the test where there is none.
+inline ErrorInfo failure(const EndRegion& region) {
+  return test::error_info_of([&] { triangulate_end(region, {}, RunContext({.threads = 2})); });
+}
 
 /// Adds a closed loop through the points, in their order.
 inline void add_loop(EndRegion& region, const std::vector<Point>& points) {

@@ -168,17 +168,6 @@ TEST(PlaneEnd, SameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(one.new_points, seven.new_points);
 }
 
-/// The error of a region, or an empty one when there was none.
-ErrorInfo failure(const EndRegion& region) {
-  try {
-    triangulate_end(region, {}, k_context);
-  } catch (const Error& error) {
-    return error.info();
-  }
-  ADD_FAILURE() << "no error";
-  return {};
-}
-
 TEST(PlaneEndErrors, FootprintsThatOverlapAreNamedWithTheirPlace) {
   EndRegion region{.surface = &k_symmetry, .name = "symmetry"};
   add_loop(region, rectangle(on_xz, -3, -3, 3, 3, 20, 20));

@@ -8,6 +8,7 @@
 
 #include "geom/base/error.h"
 #include "geom/mesh/tri_mesh.h"
+#include "tests/support/error_of.h"
 #include "volmesh/tetra/tetra.h"
 
 namespace sterna::test {
@@ -38,17 +39,6 @@ TriMesh read_welded(const std::filesystem::path& path);
 
 /// Fails the test unless the result tiles the domain: faces counted by a map, volumes summed; nothing of verify.cpp is used.
 void expect_tiling(const Domain& domain, const volmesh::TetraResult& result);
-
-/// Runs f, expects an Error of this code and gives it back.
-template <class F>
-ErrorInfo error_of(const F& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error.info();
-  }
-  return {.code = ErrorCode::internal, .attempted = "no error was thrown"};
-}
 
 /// No child of this process is left, running or dead.
 bool has_no_children();

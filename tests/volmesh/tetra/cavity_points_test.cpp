@@ -11,7 +11,7 @@ namespace {
 
 using test::both;
 using test::box;
-using test::error_of;
+using test::error_info_of;
 using test::inside_out;
 using test::transformed;
 
@@ -103,10 +103,10 @@ TEST(FindCavityPoints, MovesWithTheBody) {
 }
 
 TEST(FindCavityPoints, RejectsWhatIsNoSolid) {
-  const ErrorInfo error = error_of([] { find(inside_out(test::cube(2))); });
+  const ErrorInfo error = error_info_of([] { find(inside_out(test::cube(2))); });
   EXPECT_EQ(error.code, ErrorCode::not_orientable);
   EXPECT_EQ(error.places.size(), 1u);
-  EXPECT_EQ(error_of([] { find(both(test::sphere(3), transformed(test::sphere(2), 0.5, {}))); }).code, ErrorCode::not_orientable);
+  EXPECT_EQ(error_info_of([] { find(both(test::sphere(3), transformed(test::sphere(2), 0.5, {}))); }).code, ErrorCode::not_orientable);
 }
 
 TEST(FindCavityPoints, SameForAnyNumberOfThreads) {

@@ -12,7 +12,7 @@ using test::both;
 using test::box;
 using test::Domain;
 using test::domain_around;
-using test::error_of;
+using test::error_info_of;
 using test::expect_tiling;
 using test::inside_out;
 using test::transformed;
@@ -125,7 +125,7 @@ TEST(FillWithHxt, ImprovesWhatItIsTold) {
 }
 
 TEST(Fill, RefusesAnUnknownEngine) {
-  const ErrorInfo error = error_of([&] { fill(domain_around(test::cube(1)), {.engine = "steam"}); });
+  const ErrorInfo error = error_info_of([&] { fill(domain_around(test::cube(1)), {.engine = "steam"}); });
   EXPECT_EQ(error.code, ErrorCode::bad_argument);
   EXPECT_THAT(error.problem, HasSubstr("steam"));
 }
@@ -152,7 +152,7 @@ TEST_P(FillWith, FillsAroundRealSurfaces) {
 TEST_P(FillWith, RejectsAnOpenBoundary) {
   Domain domain = domain_around(test::cube(2));
   domain.triangles.erase(domain.triangles.begin() + 3);
-  const ErrorInfo error = error_of([&] { fill(domain); });
+  const ErrorInfo error = error_info_of([&] { fill(domain); });
   EXPECT_EQ(error.code, ErrorCode::open_surface);
   EXPECT_THAT(error.problem, HasSubstr("3 edges"));
   EXPECT_EQ(error.n_places, 3);
@@ -163,7 +163,7 @@ TEST_P(FillWith, RejectsAnOpenBoundary) {
 TEST_P(FillWith, RejectsADuplicateTriangle) {
   Domain domain = domain_around(test::cube(1));
   domain.triangles.push_back(domain.triangles[0]);
-  const ErrorInfo error = error_of([&] { fill(domain); });
+  const ErrorInfo error = error_info_of([&] { fill(domain); });
   EXPECT_EQ(error.code, ErrorCode::non_manifold_surface);
   EXPECT_EQ(error.n_places, 3);
 }
@@ -171,13 +171,13 @@ TEST_P(FillWith, RejectsADuplicateTriangle) {
 TEST_P(FillWith, RejectsATurnedTriangle) {
   Domain domain = domain_around(test::cube(1));
   std::swap(domain.triangles[0][0], domain.triangles[0][1]);
-  EXPECT_EQ(error_of([&] { fill(domain); }).code, ErrorCode::non_manifold_surface);
+  EXPECT_EQ(error_info_of([&] { fill(domain); }).code, ErrorCode::non_manifold_surface);
 }
 
 TEST_P(FillWith, RejectsAnIndexOutOfRange) {
   Domain domain = domain_around(test::cube(1));
   domain.triangles[5][1] = 99999;
-  const ErrorInfo error = error_of([&] { fill(domain); });
+  const ErrorInfo error = error_info_of([&] { fill(domain); });
   EXPECT_EQ(error.code, ErrorCode::bad_argument);
   EXPECT_THAT(error.problem, HasSubstr("out of range"));
   ASSERT_EQ(error.places.size(), 1u);
@@ -189,23 +189,23 @@ TEST_P(FillWith, RejectsBadPoints) {
   const Domain good = domain_around(test::cube(1));
   Domain domain = good;
   domain.points[4].y = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(error_of([&] { fill(domain); }).code, ErrorCode::bad_argument);
+  EXPECT_EQ(error_info_of([&] { fill(domain); }).code, ErrorCode::bad_argument);
   domain = good;
   domain.points.push_back({3, 3, 3});
-  EXPECT_THAT(error_of([&] { fill(domain); }).problem, HasSubstr("no triangle uses"));
+  EXPECT_THAT(error_info_of([&] { fill(domain); }).problem, HasSubstr("no triangle uses"));
   domain = good;
   domain.points[4] = domain.points[5];
-  const ErrorInfo twins = error_of([&] { fill(domain); });
+  const ErrorInfo twins = error_info_of([&] { fill(domain); });
   EXPECT_EQ(twins.code, ErrorCode::self_intersection);
   ASSERT_EQ(twins.places.size(), 1u);
   EXPECT_EQ(twins.places[0].position, good.points[5]);
   domain = good;
   domain.triangles[0] = {domain.triangles[0][0], domain.triangles[0][0], domain.triangles[0][1]};
-  EXPECT_EQ(error_of([&] { fill(domain); }).code, ErrorCode::bad_argument);
+  EXPECT_EQ(error_info_of([&] { fill(domain); }).code, ErrorCode::bad_argument);
   domain = good;
   domain.holes[0].x = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(error_of([&] { fill(domain); }).code, ErrorCode::bad_argument);
-  EXPECT_EQ(error_of([&] { fill(Domain{}); }).code, ErrorCode::bad_argument);
+  EXPECT_EQ(error_info_of([&] { fill(domain); }).code, ErrorCode::bad_argument);
+  EXPECT_EQ(error_info_of([&] { fill(Domain{}); }).code, ErrorCode::bad_argument);
 }
 
 TEST(Fill, TellsWhereTheBoundaryCrossesItself) {
@@ -216,7 +216,7 @@ TEST(Fill, TellsWhereTheBoundaryCrossesItself) {
     domain.add(wall);
     domain.add(farfield_sphere(wall, {}, RunContext{}));
     domain.holes = {{0.01, 0.02, 0.03}, {shift, 0.1, 0.4}};
-    const ErrorInfo error = error_of([&] { fill(domain); });
+    const ErrorInfo error = error_info_of([&] { fill(domain); });
     EXPECT_EQ(error.code, ErrorCode::self_intersection);
     EXPECT_THAT(error.problem, HasSubstr("that cross"));
     ASSERT_FALSE(error.places.empty());
@@ -226,7 +226,7 @@ TEST(Fill, TellsWhereTheBoundaryCrossesItself) {
     // An engine that gets it all the same dies of some of these, and answers others with triangles missing; no harm is done.
     TetraBoundary boundary = domain.boundary();
     boundary.is_clear = true;
-    const ErrorCode code = error_of([&] { volmesh::fill(boundary, nullptr, {}, RunContext{}); }).code;
+    const ErrorCode code = error_info_of([&] { volmesh::fill(boundary, nullptr, {}, RunContext{}); }).code;
     EXPECT_TRUE(code == ErrorCode::tetra_engine_failed || code == ErrorCode::tetra_result_invalid);
   }
 }
@@ -235,16 +235,16 @@ TEST(Fill, RejectsTouchingBodies) {
   const TriMesh wall = both(box({0, 0, 0}, {1, 1, 1}), box({1, 0.1, 0.1}, {2, 0.9, 0.9}));
   const Domain domain = domain_around(wall);
   EXPECT_EQ(domain.holes.size(), 2u);
-  EXPECT_EQ(error_of([&] { fill(domain); }).code, ErrorCode::self_intersection);
+  EXPECT_EQ(error_info_of([&] { fill(domain); }).code, ErrorCode::self_intersection);
 }
 
 TEST(FillWithTetgen, RejectsWrongHolePoints) {
   const TetraOptions alone = {.engine = "tetgen", .try_other_engine = false};  // HXT has no use for hole points
   Domain domain = domain_around(test::cube(2));
   domain.holes.clear();
-  EXPECT_EQ(error_of([&] { fill(domain, alone); }).code, ErrorCode::tetra_result_invalid);
+  EXPECT_EQ(error_info_of([&] { fill(domain, alone); }).code, ErrorCode::tetra_result_invalid);
   domain.holes = {{5, 5, 5}};
-  EXPECT_EQ(error_of([&] { fill(domain, alone); }).code, ErrorCode::tetra_result_invalid);
+  EXPECT_EQ(error_info_of([&] { fill(domain, alone); }).code, ErrorCode::tetra_result_invalid);
 }
 
 }  // namespace

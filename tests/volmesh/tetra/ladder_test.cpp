@@ -15,7 +15,7 @@ namespace {
 using test::both;
 using test::Domain;
 using test::domain_around;
-using test::error_of;
+using test::error_info_of;
 using test::expect_tiling;
 using test::transformed;
 using testing::Contains;
@@ -93,18 +93,18 @@ TEST_F(Ladder, TheOtherEngineAfterTooManyPoints) {
   const TetraResult result = fill(domain_, {.engine = greedy, .max_new_points = static_cast<double>(fewer)});
   EXPECT_NE(result.engine, greedy);
   EXPECT_THAT(result.failures, ElementsAre(HasSubstr("limit")));
-  EXPECT_THAT(error_of([&] { fill(domain_, {.engine = greedy, .max_new_points = static_cast<double>(fewer - 1)}); }).problem, HasSubstr("new points"));
+  EXPECT_THAT(error_info_of([&] { fill(domain_, {.engine = greedy, .max_new_points = static_cast<double>(fewer - 1)}); }).problem, HasSubstr("new points"));
 }
 
 TEST_F(Ladder, CanBeForbidden) {
-  const ErrorInfo error = error_of([&] { fill(domain_, {.engine = "tetgen", .try_other_engine = false, .helper_folder = folder("crash", k_crash)}); });
+  const ErrorInfo error = error_info_of([&] { fill(domain_, {.engine = "tetgen", .try_other_engine = false, .helper_folder = folder("crash", k_crash)}); });
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
   EXPECT_THAT(error.problem, HasSubstr("signal 11"));
   EXPECT_THAT(log_, ElementsAre(HasSubstr("signal 11")));
 }
 
 TEST_F(Ladder, SaysWhatTheFirstEngineSaidWhenAllFail) {
-  const ErrorInfo error = error_of([&] { fill(domain_, {.engine = "tetgen", .helper_folder = folder("both", "echo first >&2; exit 3", k_crash)}); });
+  const ErrorInfo error = error_info_of([&] { fill(domain_, {.engine = "tetgen", .helper_folder = folder("both", "echo first >&2; exit 3", k_crash)}); });
   EXPECT_THAT(error.problem, HasSubstr("first"));
   EXPECT_THAT(log_, Contains(HasSubstr("signal 11")));
 }
@@ -113,7 +113,7 @@ TEST_F(Ladder, AFailureWithoutAPlaceNamesWhatIsHardForEngines) {
   TriMesh plate = test::cube(1);
   for (Point& p : plate.points) p.z *= 1e-4;  // its sides are slivers
   const Domain domain = domain_around(plate, 10.0);
-  const ErrorInfo error = error_of([&] { fill(domain, {.helper_folder = folder("crash", k_crash, k_crash)}); });
+  const ErrorInfo error = error_info_of([&] { fill(domain, {.helper_folder = folder("crash", k_crash, k_crash)}); });
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
   ASSERT_FALSE(error.places.empty());
   EXPECT_THAT(error.places.front().what, HasSubstr("hard for engines"));
@@ -124,16 +124,16 @@ TEST_F(Ladder, NoEngineWhenTheBoundaryCrossesItself) {
   Domain crossing;
   crossing.add(both(test::sphere(3), transformed(test::sphere(4), 0.7, {0.55, 0.1, 0.4})));
   crossing.add(test::inside_out(transformed(test::cube(2), 10.0, {-5, -5, -5})));
-  EXPECT_EQ(error_of([&] { fill(crossing, {.helper_folder = "/nowhere"}); }).code, ErrorCode::self_intersection);
+  EXPECT_EQ(error_info_of([&] { fill(crossing, {.helper_folder = "/nowhere"}); }).code, ErrorCode::self_intersection);
   EXPECT_THAT(log_, testing::Not(Contains(HasSubstr("trying"))));
 }
 
 TEST_F(Ladder, EndsAtALimitUnlessToldOtherwise) {
-  EXPECT_THAT(error_of([&] { fill(domain_, {.engine = "tetgen", .time_limit = 0.2, .helper_folder = folder("endless", "sleep 100")}); }).problem, HasSubstr("time limit"));
+  EXPECT_THAT(error_info_of([&] { fill(domain_, {.engine = "tetgen", .time_limit = 0.2, .helper_folder = folder("endless", "sleep 100")}); }).problem, HasSubstr("time limit"));
   EXPECT_THAT(log_, testing::SizeIs(1));
   // Killed from outside: as the system does it for lack of memory.
   TetraOptions options = {.engine = "tetgen", .helper_folder = folder("killed", "kill -KILL $$")};
-  EXPECT_THAT(error_of([&] { fill(domain_, options); }).problem, HasSubstr("signal 9"));
+  EXPECT_THAT(error_info_of([&] { fill(domain_, options); }).problem, HasSubstr("signal 9"));
   options.fall_back_on_limits = true;
   const TetraResult result = fill(domain_, options);
   EXPECT_EQ(result.engine, "hxt");
@@ -144,7 +144,7 @@ TEST_F(Ladder, EndsAtALimitUnlessToldOtherwise) {
 TEST_F(Ladder, AnEngineThatIsNotBuiltInIsNamed) {
   const std::string only_hxt = folder("only_hxt", "");
   std::filesystem::remove(std::filesystem::path(only_hxt) / "sterna-tet-tetgen");
-  const ErrorInfo error = error_of([&] { fill(domain_, {.engine = "tetgen", .helper_folder = only_hxt}); });
+  const ErrorInfo error = error_info_of([&] { fill(domain_, {.engine = "tetgen", .helper_folder = only_hxt}); });
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_missing);
   EXPECT_THAT(error.attempted, HasSubstr("sterna-tet-tetgen"));
   EXPECT_THAT(error.problem, HasSubstr("not built in"));

@@ -57,7 +57,7 @@ TEST(Preflight, CrossingsAreThoseOfTheExactTest) {
     if (finding.trouble == Trouble::crossing) { EXPECT_EQ(finding.triangles, crossings.pairs[i++]); }
   }
   EXPECT_EQ(report_of(domain, {.is_clear = true}).count(Trouble::crossing), 0);
-  const ErrorInfo error = test::error_of([&] { judge(report, domain.boundary(), RunContext{}); });
+  const ErrorInfo error = test::error_info_of([&] { judge(report, domain.boundary(), RunContext{}); });
   EXPECT_EQ(error.code, ErrorCode::self_intersection);
   EXPECT_EQ(error.n_places, crossings.total);
   EXPECT_FALSE(error.geometry.triangles.empty());
@@ -130,7 +130,7 @@ TEST(Preflight, NamesThePatch) {
   TetraBoundary boundary = domain.boundary();
   boundary.patch_names = names;
   boundary.triangle_patch = patch;
-  const ErrorInfo error = test::error_of([&] { judge(preflight(boundary, {}, RunContext{}), boundary, RunContext{}); });
+  const ErrorInfo error = test::error_info_of([&] { judge(preflight(boundary, {}, RunContext{}), boundary, RunContext{}); });
   ASSERT_FALSE(error.places.empty());
   EXPECT_THAT(error.places[0].what, HasSubstr("patch \"fuselage\""));
 }

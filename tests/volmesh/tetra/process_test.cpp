@@ -19,7 +19,7 @@ namespace {
 
 using test::Domain;
 using test::domain_around;
-using test::error_of;
+using test::error_info_of;
 using testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
 
@@ -35,7 +35,7 @@ class HelperProcess : public testing::Test {
  protected:
   ErrorInfo run(const Domain& domain, const TetraOptions& options, const RunContext& context = RunContext{}) {
     const auto start = Clock::now();
-    const ErrorInfo error = error_of([&] { fill(domain.boundary(), nullptr, options, context); });
+    const ErrorInfo error = error_info_of([&] { fill(domain.boundary(), nullptr, options, context); });
     seconds_ = std::chrono::duration<double>(Clock::now() - start).count();
     EXPECT_TRUE(test::has_no_children());
     return error;

@@ -12,7 +12,6 @@ namespace {
 
 using test::Domain;
 using test::domain_around;
-using test::error_of;
 using testing::HasSubstr;
 
 /// A flat sheet of n x n squares with the given corner and sides, both sides of it; nodes of its border are shared.

@@ -99,7 +99,7 @@ TEST_P(SizedFill, ASupplyThatFailsEndsTheEngine) {
   const TetraBoundary boundary = domain.boundary();
   const std::vector<SizeSource> sources = {{.kind = SourceKind::sphere, .from = {4, 0, 0}, .radius = 1.0, .size = -1.0}};
   SizeSupply sizes(boundary, sources, {}, context);
-  EXPECT_EQ(test::error_of([&] { volmesh::fill(boundary, sizes, {.engine = GetParam()}, context); }).code, ErrorCode::bad_argument);
+  EXPECT_EQ(test::error_info_of([&] { volmesh::fill(boundary, sizes, {.engine = GetParam()}, context); }).code, ErrorCode::bad_argument);
 }
 
 }  // namespace

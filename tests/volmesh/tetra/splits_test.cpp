@@ -14,7 +14,7 @@ namespace {
 
 using test::Domain;
 using test::domain_around;
-using test::error_of;
+using test::error_info_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using Triangle = std::array<std::uint32_t, 3>;
@@ -50,7 +50,7 @@ TEST(BoundarySplits, RejectWhatIsNoSubdivision) {
   const auto problem = [](const auto& change) {
     Example e;
     change(e);
-    const ErrorInfo error = error_of([&] { e.find(); });
+    const ErrorInfo error = error_info_of([&] { e.find(); });
     EXPECT_EQ(error.code, ErrorCode::tetra_result_invalid);
     return error.problem;
   };
@@ -118,8 +118,8 @@ TEST_F(FillWithSplits, AreTheLastStepOfTheLadder) {
   // Forbidden, or nothing there that could take them.
   TetraOptions never = options;
   never.boundary_splits = "never";
-  EXPECT_THAT(error_of([&] { fill(never, [](TetraResult&) {}); }).problem, HasSubstr("signal 11"));
-  EXPECT_THAT(error_of([&] { fill(options, {}); }).problem, HasSubstr("signal 11"));
+  EXPECT_THAT(error_info_of([&] { fill(never, [](TetraResult&) {}); }).problem, HasSubstr("signal 11"));
+  EXPECT_THAT(error_info_of([&] { fill(options, {}); }).problem, HasSubstr("signal 11"));
 }
 
 TEST_F(FillWithSplits, ARefusalIsAFailureOfTheAttempt) {
@@ -127,13 +127,13 @@ TEST_F(FillWithSplits, ARefusalIsAFailureOfTheAttempt) {
   const TetraResult result = fill({.radius_edge = 1.2, .boundary_splits = "always"}, refuse);
   EXPECT_EQ(result.engine, "hxt");
   EXPECT_THAT(result.failures, ElementsAre(HasSubstr("cannot follow")));
-  EXPECT_EQ(error_of([&] { fill({.radius_edge = 1.2, .boundary_splits = "always", .try_other_engine = false}, refuse); }).code, ErrorCode::envelope_failed);
+  EXPECT_EQ(error_info_of([&] { fill({.radius_edge = 1.2, .boundary_splits = "always", .try_other_engine = false}, refuse); }).code, ErrorCode::envelope_failed);
 }
 
 TEST_F(FillWithSplits, ContradictionsAreNamed) {
-  EXPECT_THAT(error_of([&] { fill({.boundary_splits = "always"}, {}); }).hint, HasSubstr("nothing here can take"));
-  EXPECT_THAT(error_of([&] { fill({.engine = "hxt", .boundary_splits = "always"}, [](TetraResult&) {}); }).hint, HasSubstr("HXT keeps"));
-  EXPECT_EQ(error_of([&] { fill({.boundary_splits = "sometimes"}, {}); }).code, ErrorCode::bad_argument);
+  EXPECT_THAT(error_info_of([&] { fill({.boundary_splits = "always"}, {}); }).hint, HasSubstr("nothing here can take"));
+  EXPECT_THAT(error_info_of([&] { fill({.engine = "hxt", .boundary_splits = "always"}, [](TetraResult&) {}); }).hint, HasSubstr("HXT keeps"));
+  EXPECT_EQ(error_info_of([&] { fill({.boundary_splits = "sometimes"}, {}); }).code, ErrorCode::bad_argument);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace sterna::volmesh {
 namespace {
 
 using test::Domain;
-using test::error_of;
+using test::error_info_of;
 using test::expect_tiling;
 
 TetraResult fill_twice(const Domain& domain, const SizeField* sizes, int threads = 2) {
@@ -111,7 +111,7 @@ TEST(TwoPass, IsTheSameForAnyNumberOfThreads) {
 
 TEST(TwoPass, IsForTetgenOnly) {
   const Domain domain = test::domain_around(test::cube(1), 5.0);
-  const ErrorInfo error = error_of([&] { fill(domain.boundary(), nullptr, {.engine = "hxt", .two_pass = true}, RunContext()); });
+  const ErrorInfo error = error_info_of([&] { fill(domain.boundary(), nullptr, {.engine = "hxt", .two_pass = true}, RunContext()); });
   EXPECT_EQ(error.code, ErrorCode::bad_argument);
   EXPECT_THAT(error.problem, testing::HasSubstr("two_pass"));
 }

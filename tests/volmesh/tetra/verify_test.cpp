@@ -9,7 +9,7 @@ namespace sterna::volmesh {
 namespace {
 
 using test::Domain;
-using test::error_of;
+using test::error_info_of;
 using testing::HasSubstr;
 
 /// Each damage to a good mesh must be seen, whatever the number of threads.
@@ -17,8 +17,8 @@ class VerifyTetrahedra : public testing::Test {
  protected:
   VerifyTetrahedra() : domain(test::domain_around(test::cube(3), 10.0)), good(fill(domain.boundary(), nullptr, {}, RunContext{})), result(good) {}
   ErrorInfo verify() const {
-    const ErrorInfo first = error_of([&] { verify_tetrahedra(domain.boundary(), result, RunContext({.threads = 1})); });
-    const ErrorInfo again = error_of([&] { verify_tetrahedra(domain.boundary(), result, RunContext({.threads = 7})); });
+    const ErrorInfo first = error_info_of([&] { verify_tetrahedra(domain.boundary(), result, RunContext({.threads = 1})); });
+    const ErrorInfo again = error_info_of([&] { verify_tetrahedra(domain.boundary(), result, RunContext({.threads = 7})); });
     EXPECT_EQ(first.problem, again.problem);
     EXPECT_EQ(first.places.size(), again.places.size());
     for (std::size_t i = 0; i < first.places.size(); ++i) EXPECT_EQ(first.places[i].what, again.places[i].what);
@@ -97,7 +97,7 @@ TEST_F(VerifyTetrahedra, ABoundaryThatIsNotThere) {
   changed.add(other);
   changed.triangles.insert(changed.triangles.end(), domain.triangles.begin() + static_cast<std::ptrdiff_t>(other.n_triangles()), domain.triangles.end());
   changed.points = domain.points;
-  const ErrorInfo error = error_of([&] { verify_tetrahedra(changed.boundary(), good, RunContext{}); });
+  const ErrorInfo error = error_info_of([&] { verify_tetrahedra(changed.boundary(), good, RunContext{}); });
   EXPECT_EQ(error.code, ErrorCode::tetra_result_invalid);
   EXPECT_THAT(error.problem, HasSubstr("2 boundary triangles that are no face"));
   EXPECT_THAT(error.problem, HasSubstr("2 outer faces that are no boundary triangle"));
