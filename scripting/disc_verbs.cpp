@@ -90,22 +90,9 @@ std::span<const ScriptVerb> disc_verbs() { return k_verbs; }
 
 std::vector<ActuatorDisc> read_interfaces(TableReader& reader, const ScriptCall& call) {
   std::vector<ActuatorDisc> discs;
-  const ScriptValue* value = reader.field("interfaces");
-  if (!value) return discs;
-  const auto* table = std::get_if<TableHandle>(value);
-  if (!table) {
-    reader.add_problem("interfaces: expected a list such as { " + std::string(k_usage) + " }");
-    return discs;
-  }
-  const bool is_single = (*table)->fields.contains("shape");
-  if (!is_single && (!(*table)->fields.empty() || !(*table)->other_keys.empty())) reader.add_problem("interfaces: entries of this list have no names");
-  const std::vector<ScriptValue> list = is_single ? std::vector<ScriptValue>{*value} : (*table)->items;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string where = "interfaces, entry " + std::to_string(i + 1);
-    const auto* entry = std::get_if<TableHandle>(&list[i]);
-    const auto* shape = entry && (*entry)->fields.contains("shape") ? std::get_if<std::string>(&(*entry)->fields.at("shape")) : nullptr;
-    if (shape && *shape == "actuator_disc") discs.push_back(disc_of(**entry, call.attempted() + ", " + where));
-    else reader.add_problem(where + ": expected " + std::string(k_usage) + ", not " + std::string(type_text(list[i])));
+  for (const ShapeEntry& entry : read_shapes(reader, "interfaces", k_usage)) {
+    if (entry.shape == "actuator_disc") discs.push_back(disc_of(*entry.table, call.attempted() + ", " + entry.where));
+    else reader.add_problem(entry.where + ": expected " + std::string(k_usage) + ", not " + std::string(type_text(entry.value)));
   }
   return discs;
 }

@@ -78,6 +78,28 @@ void refuse_items_beyond(TableReader& reader, std::size_t n) {
   if (reader.items().size() > n) reader.add_problem("entry " + std::to_string(n + 1) + ": there is one too many");
 }
 
+std::vector<ShapeEntry> read_shapes(TableReader& reader, const std::string& name, std::string_view usage) {
+  const ScriptValue* value = reader.field(name);
+  if (!value) return {};
+  const auto* table = std::get_if<TableHandle>(value);
+  if (!table) {
+    reader.add_problem(name + ": expected a list such as { " + std::string(usage) + " }");
+    return {};
+  }
+  const bool is_single = (*table)->fields.contains("shape");
+  if (!is_single && (!(*table)->fields.empty() || !(*table)->other_keys.empty())) reader.add_problem(name + ": entries of this list have no names");
+  std::vector<ShapeEntry> entries;
+  for (const ScriptValue& item : is_single ? std::vector<ScriptValue>{*value} : (*table)->items) {
+    ShapeEntry entry{.table = nullptr, .shape = {}, .value = item, .where = name + ", entry " + std::to_string(entries.size() + 1)};
+    if (const auto* shape = std::get_if<TableHandle>(&item); shape && (*shape)->fields.contains("shape")) {
+      entry.table = *shape;
+      if (const auto* text = std::get_if<std::string>(&(*shape)->fields.at("shape"))) entry.shape = *text;
+    }
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
 std::optional<InputPath> single_file(const ScriptCall& call, TableReader& reader) {
   const std::vector<InputPath> files = file_names(call, reader);
   if (files.size() > 1) reader.add_problem("takes one file, not " + std::to_string(files.size()));

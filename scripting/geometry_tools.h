@@ -33,6 +33,16 @@ std::optional<std::vector<double>> read_numbers(TableReader& reader, const std::
 /// Notes every unnamed entry beyond the n-th.
 void refuse_items_beyond(TableReader& reader, std::size_t n);
 
+/// What a verb such as sphere{...} gives: a table that says its shape.
+struct ShapeEntry {
+  TableHandle table;  ///< null: the entry is no such table
+  std::string shape;  ///< "sphere"; empty then
+  ScriptValue value;  ///< the entry itself
+  std::string where;  ///< "sources, entry 2", for messages
+};
+/// The entries of the list `name` = { sphere{...}, box{...} }, or one of them alone; empty where the table has none. Notes problems; `usage` is an example of an entry.
+std::vector<ShapeEntry> read_shapes(TableReader& reader, const std::string& name, std::string_view usage);
+
 /// The file "name" beside the script or in the current folder, for verbs that take one file.
 std::optional<InputPath> single_file(const ScriptCall& call, TableReader& reader);
 

@@ -185,10 +185,6 @@ std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const std::string
   return rules;
 }
 
-void sort_rules(std::vector<surfmesh::PatchSurfaceOptions>& rules) {
-  std::sort(rules.begin(), rules.end(), [](const auto& a, const auto& b) { return std::pair(n_spelled_out(a.names), a.names) < std::pair(n_spelled_out(b.names), b.names); });
-}
-
 std::string surface_mesh_text(const Model& model, const SurfaceValue& surface) {
   const surfmesh::SurfaceMeshReport& report = *surface.mesh_report;
   std::string text = describe(surface) + "\n" + indented(to_text(report));

@@ -40,7 +40,5 @@ std::string patch_rules_json(const std::vector<surfmesh::PatchSurfaceOptions>& r
 std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const std::string& text);
 /// Sources of a size field as a JSON list, for manifests; samples by their number only. Empty: there is nothing.
 std::string sources_text(const std::vector<volmesh::SizeSource>& sources, bool has_function);
-/// Rules whose patterns spell out more come later, so that they win: "wing*", then "wing_tip".
-void sort_rules(std::vector<surfmesh::PatchSurfaceOptions>& rules);
 
 }  // namespace sterna::scripting

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geom/base/error.h"
+#include "geom/base/glob.h"
 #include "scripting/model_surface.h"
 #include "scripting/verb_tools.h"
 #include "volmesh/patch_layers.h"
@@ -93,7 +94,7 @@ std::vector<volmesh::PatchRule> read_layer_rules(TableReader& reader) {
     rules.push_back({.names = names});
     return patch_rule_options(rules.back());
   });
-  volmesh::sort_rules(rules);
+  sort_by_pattern(rules);
   return rules;
 }
 
@@ -108,9 +109,9 @@ std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::
   }
   if (sizes) {
     keep_set_rules(rules);
-    sort_rules(*sizes);
+    sort_by_pattern(*sizes);
   }
-  volmesh::sort_rules(rules);
+  sort_by_pattern(rules);
   return rules;
 }
 

@@ -241,23 +241,11 @@ ScriptValue make_sphere_source(const ScriptCall& call) { return make_source(call
 
 std::vector<SizeSource> read_sources(TableReader& reader, const ScriptCall& call) {
   std::vector<SizeSource> sources;
-  const ScriptValue* value = reader.field("sources");
-  if (!value) return sources;
-  const auto* table = std::get_if<TableHandle>(value);
-  if (!table) {
-    reader.add_problem("sources: expected a list such as { " + std::string(k_kinds[2].usage) + " }");
-    return sources;
-  }
-  const bool is_single = (*table)->fields.contains("shape");
-  if (!is_single && (!(*table)->fields.empty() || !(*table)->other_keys.empty())) reader.add_problem("sources: entries of this list have no names");
-  const std::vector<ScriptValue> list = is_single ? std::vector<ScriptValue>{*value} : (*table)->items;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string where = "sources, entry " + std::to_string(i + 1);
-    const auto* entry = std::get_if<TableHandle>(&list[i]);
-    const auto* shape = entry && (*entry)->fields.contains("shape") ? std::get_if<std::string>(&(*entry)->fields.at("shape")) : nullptr;
-    if (shape && *shape == "size_samples") sources.push_back(read_samples(**entry, call));
-    else if (const KindOfSource* kind = shape ? kind_named(*shape) : nullptr; kind && (*entry)->fields.contains("size")) sources.push_back(source_of(**entry, *kind, call.attempted() + ", " + where));
-    else reader.add_problem(where + ": expected a source such as " + std::string(k_kinds[2].usage) + ", not " + std::string(type_text(list[i])));
+  for (const ShapeEntry& entry : read_shapes(reader, "sources", k_kinds[2].usage)) {
+    const KindOfSource* kind = entry.shape.empty() ? nullptr : kind_named(entry.shape);
+    if (entry.shape == "size_samples") sources.push_back(read_samples(*entry.table, call));
+    else if (kind && entry.table->fields.contains("size")) sources.push_back(source_of(*entry.table, *kind, call.attempted() + ", " + entry.where));
+    else reader.add_problem(entry.where + ": expected a source such as " + std::string(k_kinds[2].usage) + ", not " + std::string(type_text(entry.value)));
   }
   return sources;
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 
+#include "geom/base/glob.h"
 #include "scripting/geometry_tools.h"
 #include "scripting/model_surface.h"
 #include "scripting/patch_rules.h"
@@ -29,8 +30,8 @@ SurfaceRules read_rules(TableReader& reader) {
     return surface_and_layer_options(rules.sizes.back(), rules.layers.back());
   });
   keep_set_rules(rules.layers);
-  sort_rules(rules.sizes);
-  volmesh::sort_rules(rules.layers);
+  sort_by_pattern(rules.sizes);
+  sort_by_pattern(rules.layers);
   return rules;
 }
 

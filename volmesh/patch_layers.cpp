@@ -269,10 +269,6 @@ class Blender {
 
 }  // namespace
 
-void sort_rules(std::vector<PatchRule>& rules) {
-  std::sort(rules.begin(), rules.end(), [](const PatchRule& a, const PatchRule& b) { return std::pair(n_spelled_out(a.names), a.names) < std::pair(n_spelled_out(b.names), b.names); });
-}
-
 void apply_patch_kinds(TriMesh& surface, std::span<const PatchRule> rules) {
   for (const PatchRule& rule : rules) {
     bool is_used = false;

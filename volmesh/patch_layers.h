@@ -14,9 +14,6 @@
 
 namespace sterna::volmesh {
 
-/// Rules whose patterns spell out more come later, so that they win: "tunnel*", then "tunnel_floor". Deterministic.
-void sort_rules(std::vector<PatchRule>& rules);
-
 /// Sets the kinds of patches that rules name one for; of several the last. \throws Error(bad_argument) for a rule that no patch has a name like: with the names
 void apply_patch_kinds(TriMesh& surface, std::span<const PatchRule> rules);
 

@@ -35,7 +35,7 @@ struct VolumeMeshOptions {
   FamilyOptions family;
   EnvelopeOptions envelope;
   std::shared_ptr<const FirstHeights> first_heights;  ///< by place, where rules of patches say nothing else; null: envelope.first_height. With them that is the least of them
-  std::vector<PatchRule> patches;   ///< what patches ask for instead; of several rules that match the last counts (sort_rules)
+  std::vector<PatchRule> patches;   ///< what patches ask for instead; of several rules that match the last counts (sort_by_pattern)
   PrismOptions prisms;
   FarfieldOptions farfield;
   std::shared_ptr<const TriMesh> farfield_surface;  ///< for its shape "surface"

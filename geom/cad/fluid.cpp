@@ -78,23 +78,9 @@ Meeting look_at(const std::vector<Model>& parts, FluidReport& report, const RunC
 void judge_cut(const std::vector<BooleanPart>& parts, BooleanTry& result, const RunContext& context) {
   if (result.model.faces.empty()) return;  // a body fills the container
   UniteTry& outcome = result.outcome;
-  outcome.places = faults_of(*result.model.shape);
-  if (!outcome.places.empty()) {
-    outcome.problem = "the result is not valid: " + outcome.places.front().what;
-    return;
-  }
-  if (!is_closed_model(result.model)) {
-    outcome.places = open_places(result.model);
-    outcome.problem = "the result is not closed";
-    return;
-  }
-  std::vector<FaceMeasures> measures(result.model.faces.size());
-  parallel_for(context, measures.size(), [&](std::size_t f) { measures[f] = face_measures(result.model, FaceId(static_cast<std::uint64_t>(f))); }, 1);
   std::vector<double> areas(parts.size(), 0.0);
-  for (std::size_t f = 0; f < measures.size(); ++f) {
-    areas[result.origin_of_face[f].part] += measures[f].area;
-    result.volume += measures[f].volume;
-  }
+  outcome.problem = measure_result(result, "result", areas, context);
+  if (!outcome.problem.empty()) return;
   double bodies = 0.0;
   for (std::size_t p = 1; p < parts.size(); ++p) bodies += parts[p].volume;
   const double all = parts.front().volume, slack = k_volume_share * all;

@@ -155,23 +155,10 @@ Model half_space(const Plane& plane, const MeasureBox& box) {
 /// Sets what is wrong with a cut, and its volume.
 void judge_half(const std::vector<BooleanPart>& parts, BooleanTry& result, const RunContext& context) {
   UniteTry& outcome = result.outcome;
-  outcome.places = faults_of(*result.model.shape);
-  if (!outcome.places.empty()) {
-    outcome.problem = "the half is not valid: " + outcome.places.front().what;
-    return;
-  }
-  if (!is_closed_model(result.model)) {
-    outcome.places = open_places(result.model);
-    outcome.problem = "the half is not closed";
-    return;
-  }
-  std::vector<FaceMeasures> measures(result.model.faces.size());
-  parallel_for(context, measures.size(), [&](std::size_t f) { measures[f] = face_measures(result.model, FaceId(static_cast<std::uint64_t>(f))); }, 1);
-  double area = 0.0;
-  for (std::size_t f = 0; f < measures.size(); ++f) {
-    if (result.origin_of_face[f].part == 0) area += measures[f].area;
-    result.volume += measures[f].volume;
-  }
+  std::vector<double> areas(parts.size(), 0.0);
+  outcome.problem = measure_result(result, "half", areas, context);
+  if (!outcome.problem.empty()) return;
+  const double area = areas.front();
   const BooleanPart& whole = parts.front();
   const double least = (1.0 - whole.exposure.outside - whole.exposure.unsure - k_area_share) * whole.area, most = (1.0 - whole.exposure.outside + k_area_share) * whole.area;
   if (!(result.volume > 0.0) || result.volume > whole.volume * (1.0 + k_volume_share)) outcome.problem = "the half has a volume of " + number_text(result.volume) + " m^3, the whole one of " + number_text(whole.volume);

@@ -10,8 +10,10 @@
 #include <cstdio>
 #include <span>
 
+#include "geom/base/parallel.h"
 #include "geom/cad/near_pairs.h"
 #include "geom/cad/occt_call.h"
+#include "geom/model/model_measures.h"
 
 namespace sterna::cad {
 namespace {
@@ -109,6 +111,22 @@ std::string names_of(const std::vector<BooleanPart>& parts) {
   std::string names;
   for (const BooleanPart& part : parts) names += (names.empty() ? "\"" : ", \"") + part.name() + "\"";
   return names;
+}
+
+std::string measure_result(BooleanTry& result, const std::string& what, std::vector<double>& areas, const RunContext& context) {
+  result.outcome.places = faults_of(*result.model.shape);
+  if (!result.outcome.places.empty()) return "the " + what + " is not valid: " + result.outcome.places.front().what;
+  if (!is_closed_model(result.model)) {
+    result.outcome.places = open_places(result.model);
+    return "the " + what + " is not closed";
+  }
+  std::vector<FaceMeasures> measures(result.model.faces.size());
+  parallel_for(context, measures.size(), [&](std::size_t f) { measures[f] = face_measures(result.model, FaceId(static_cast<std::uint64_t>(f))); }, 1);
+  for (std::size_t f = 0; f < measures.size(); ++f) {
+    areas[result.origin_of_face[f].part] += measures[f].area;
+    result.volume += measures[f].volume;
+  }
+  return {};
 }
 
 double size_of(const std::vector<BooleanPart>& parts) {

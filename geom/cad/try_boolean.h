@@ -41,6 +41,10 @@ using Judge = std::function<void(BooleanTry&)>;
 /// \throws Error(geometry_failed) for a try that takes too long, Error(cancelled)
 std::optional<BooleanTry> climb(const BooleanTask& task, const std::vector<BooleanPart>& parts, double size, const Judge& judge, std::vector<UniteTry>& tries, const RunContext& context);
 
+/// The first objection that any result may meet: faults of OpenCASCADE's check, free edges (their places go to outcome.places); empty where there is none. Then the areas that are left of each
+/// part, m^2, and the volume of the result are measured. \p what names it in messages: "half". \pre one entry of `areas` per part, 0
+std::string measure_result(BooleanTry& result, const std::string& what, std::vector<double>& areas, const RunContext& context);
+
 /// Longest side of the largest part.
 double size_of(const std::vector<BooleanPart>& parts);
 /// "a", "b", "c"

@@ -43,9 +43,7 @@ std::string volume_objection(const std::vector<Part>& parts, double volume) {
 }
 
 /// The first part of which too much or too little is left.
-std::string area_objection(const Try& result, const std::vector<Part>& parts, const std::vector<FaceMeasures>& measures) {
-  std::vector<double> areas(parts.size(), 0.0);
-  for (std::size_t f = 0; f < measures.size(); ++f) areas[result.origin_of_face[f].part] += measures[f].area;
+std::string area_objection(const std::vector<Part>& parts, const std::vector<double>& areas) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const PartExposure& exposure = parts[p].exposure;
     const double least = (exposure.outside - k_area_share) * parts[p].area, most = (exposure.outside + exposure.unsure + k_area_share) * parts[p].area;
@@ -57,17 +55,10 @@ std::string area_objection(const Try& result, const std::vector<Part>& parts, co
 
 /// What is wrong with a result; empty: nothing.
 std::string objection(Try& result, const std::vector<Part>& parts, const RunContext& context) {
-  result.outcome.places = faults_of(*result.model.shape);
-  if (!result.outcome.places.empty()) return "the result is not valid: " + result.outcome.places.front().what;
-  if (!is_closed_model(result.model)) {
-    result.outcome.places = open_places(result.model);
-    return "the result is not closed";
-  }
-  std::vector<FaceMeasures> measures(result.model.faces.size());
-  parallel_for(context, measures.size(), [&](std::size_t f) { measures[f] = face_measures(result.model, FaceId(static_cast<std::uint64_t>(f))); }, 1);
-  for (const FaceMeasures& face : measures) result.volume += face.volume;
+  std::vector<double> areas(parts.size(), 0.0);
+  if (std::string unsound = measure_result(result, "result", areas, context); !unsound.empty()) return unsound;
   const std::string volume = volume_objection(parts, result.volume);
-  return volume.empty() ? area_objection(result, parts, measures) : volume;
+  return volume.empty() ? area_objection(parts, areas) : volume;
 }
 
 std::optional<Try> climb(const std::vector<Part>& parts, const UniteOptions& options, double size, std::vector<UniteTry>& tries, const RunContext& context) {

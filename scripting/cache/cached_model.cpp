@@ -191,8 +191,12 @@ std::string inputs_text(const ModelValue& value) {
 
 ScriptValue cached_model(const ScriptVerb& verb, const ScriptCall& call) {
   const StageCache* cache = verb.is_kept ? call.session.cache : nullptr;
-  const std::optional<ContentKey> key = cache ? key_of_model(call) : std::nullopt;
-  if (!key) return verb.run(call);
+  if (!cache) return verb.run(call);
+  const std::optional<ContentKey> key = key_of_model(call);
+  if (!key) {
+    call.session.context.debug(std::string(verb.name) + ": cannot be cached, as it is not known what all of its input was made of");
+    return verb.run(call);
+  }
   const RunContext& context = call.session.context;
   ModelHandle found;
   const auto read = [&](ByteSource& source) {

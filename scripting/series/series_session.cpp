@@ -1,18 +1,13 @@
 #include "scripting/series/series_session.h"
 
-#include "geom/base/hash.h"
-#include "io/format_table.h"
+#include "io/input_hash.h"
 
 namespace sterna::scripting {
 
 std::string hash_of_input(const std::filesystem::path& path) {
   std::error_code failure;  // what cannot be looked at is absent for the script, too: the reader says why
   if (!std::filesystem::is_regular_file(path, failure)) return k_absent;
-  const std::string extension = path.extension().string();
-  if (!extension.empty())
-    for (const io::Format& format : io::formats())
-      if (format.files && format.extensions == extension) return hash_files(format.files(path));
-  return hash_file(path);
+  return io::hash_any_input(path);
 }
 
 void note_input(SeriesSession& session, const std::filesystem::path& path) {

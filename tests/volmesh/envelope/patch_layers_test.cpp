@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/base/glob.h"
 #include "tests/support/rooms.h"
 #include "tests/support/shapes.h"
 #include "tests/support/voxels.h"
@@ -58,7 +59,7 @@ const Patch& patch_at(const TriMesh& mesh, TriangleId t) { return mesh.patches[m
 TEST(PatchRules, SetKindsAndTheOneThatSpellsOutMoreWins) {
   TriMesh room = test::cube_room(2);
   std::vector<PatchRule> rules = {{.names = "z0", .layers = 7}, {.names = "*", .layers = 5, .max_growth = 1.2}, {.names = "z?", .kind = "slip"}};
-  sort_rules(rules);
+  sort_by_pattern(rules);
   EXPECT_EQ(rules.front().names, "*");
   EXPECT_EQ(rules.back().names, "z0");
   rules.back().kind = "wall";
