@@ -281,6 +281,10 @@ void add_check_command(CLI::App& app, CheckCommand& check, Request& request) {
   command->add_flag("--json", check.is_json, "print the report as JSON");
   command->add_option("--findings-per-kind", check.options.findings_per_kind, "places listed for each kind of violation")->check(CLI::PositiveNumber);
   command->add_flag("--strict", check.options.strict, "exit status 3 also when a QUALITY gate FAILs");
+  command->add_flag("--cell-centred,!--no-cell-centred", check.options.cell_centred, "measure what cell-centred solvers feel: OpenFOAM's non-orthogonality, skewness ... (default)");
+  command->add_option("--cells", check.cells, "write the mesh with the quality of each cell (scaled Jacobian, volume, dihedral angles as VTK has them) to this .vtu")->type_name("FILE");
+  command->add_option("--gate", check.gates, "limits of a QUALITY gate instead of the usual ones, e.g. --gate orthogonality:hard=3deg,target=15deg --gate face_weight:none; help \"mesh:check\" lists them; may be given several times")
+      ->type_name("MEASURE:LIMITS")->allow_extra_args(false)->take_all();
   command->add_flag("--intersections,!--no-intersections", check.options.intersections, "test boundaries exactly for intersection (default)");
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(check, context); };

@@ -87,6 +87,8 @@ struct CheckCommand {
   std::string input;
   bool is_json = false;
   CheckSettings options;
+  std::vector<std::string> gates;  ///< set_gate_limits
+  std::filesystem::path cells;     ///< VTU of the quality of cells; empty: none
 };
 
 struct InfoCommand {

@@ -6,12 +6,14 @@
 
 #include "geom/base/error.h"
 #include "geom/cad/unite.h"
+#include "io/volume_vtu.h"
 #include "scripting/check_options.h"
 #include "scripting/component_verbs.h"
 #include "scripting/disc_verbs.h"
 #include "scripting/envelope_steps.h"
 #include "scripting/farfield_verbs.h"
 #include "scripting/flow_verbs.h"
+#include "scripting/gate_limits.h"
 #include "scripting/geometry_verbs.h"
 #include "scripting/half_verbs.h"
 #include "scripting/layer_options.h"
@@ -177,20 +179,29 @@ ScriptValue write_mesh_files(const ScriptCall& call) {
 
 std::string check_help() {
   CheckSettings options;
-  return options_help(sterna::options_of(options));
+  return options_help(sterna::options_of(options)) + gate_limits_help() + "cells = \"cells.vtu\": writes the mesh with the quality of each cell, as VTK has it\n";
 }
 
 ScriptValue check_mesh(const ScriptCall& call) {
   const MeshHandle& mesh = self<MeshHandle>(call);
-  const ScriptTable table = table_argument(call, 1, "mesh:check{ findings_per_kind = 20 }");
+  const ScriptTable table = table_argument(call, 1, "mesh:check{ strict = true, gates = { orthogonality = { hard = 3*deg } } }");
   CheckSettings options;
   TableReader reader(table, call.attempted());
   reader.read_options(sterna::options_of(options));
+  GateTable limits;
+  read_gate_limits(reader, limits);
+  std::filesystem::path cells;
+  if (const ScriptValue* value = reader.field("cells")) {
+    if (const auto* name = std::get_if<std::string>(value)) cells = output_path(call, *name);
+    else reader.add_problem("cells: expected the name of a .vtu file, not " + std::string(type_text(*value)));
+  }
   reader.finish();
   // A mesh made here was checked with the default options when it was made, and cannot have changed.
   const bool is_known = mesh->check && table.fields.empty();
-  const CheckReport report = is_known ? *mesh->check : check(mesh->mesh, options.to_options(), call.session.context.part("check", 0.0, 1.0));
+  const CheckReport report = is_known ? *mesh->check : check(mesh->mesh, options.to_options(limits), call.session.context.part("check", 0.0, 1.0));
+  if (!cells.empty()) io::write_quality_vtu(mesh->mesh, cells, call.session.context);
   call.session.print(to_text(report));
+  if (!is_known && report.quality_measured && report.intersections_checked) mesh->check = report;
   if (options.accepts(report)) return mesh;
   ErrorInfo info{.code = ErrorCode::mesh_invalid, .attempted = call.attempted(), .problem = report.is_valid() ? "the mesh is VALID, but " + quality_text(report) : "the mesh is INVALID"};
   for (const GateResult& gate : report.gates) {
