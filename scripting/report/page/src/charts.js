@@ -22,7 +22,13 @@ const limit_lines = {
       ctx.font = "600 10.5px system-ui, sans-serif";
       const is_left = x > area.left + 0.7 * (area.right - area.left);
       ctx.textAlign = is_left ? "right" : "left";
-      ctx.fillText(name, x + (is_left ? -4 : 4), area.top + 10 + 13 * k);
+      const width = ctx.measureText(name).width, at = x + (is_left ? -5 : 5), line = area.top + 10 + 14 * k;
+      ctx.save();
+      ctx.globalAlpha = 0.8; // over the bars
+      ctx.fillStyle = css_colour("--panel");
+      ctx.fillRect(is_left ? at - width - 2 : at - 2, line - 10, width + 4, 13);
+      ctx.restore();
+      ctx.fillText(name, at, line);
       ctx.restore();
     });
   },
@@ -41,7 +47,7 @@ export function axis(title, is_log, more = {}) {
     title: { display: Boolean(title), text: title, color: text },
     grid: { color: grid },
     border: { color: grid },
-    ticks: { color: text, maxRotation: 0, autoSkipPadding: 10, callback: (value) => (is_log && Math.abs(Math.log10(value) - Math.round(Math.log10(value))) > 1e-6 ? "" : number_text(value, 3)) },
+    ticks: { includeBounds: false, color: text, maxRotation: 0, autoSkipPadding: 10, callback: (value) => (is_log && Math.abs(Math.log10(value) - Math.round(Math.log10(value))) > 1e-6 ? "" : number_text(value, 3)) },
     ...more,
   };
 }

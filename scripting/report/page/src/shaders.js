@@ -72,7 +72,8 @@ float edge(float distance_to, float room, uint bit) {
 }
 void main() {
   vec3 normal = cross(dFdx(v_view), dFdy(v_view));
-  vec3 room = 1.0 / max(fwidth(v_corner), vec3(1e-20)); // heights of the triangle, pixels
+  vec3 slope_x = dFdx(v_corner), slope_y = dFdy(v_corner);
+  vec3 room = inversesqrt(max(slope_x * slope_x + slope_y * slope_y, vec3(1e-30))); // heights of the triangle, pixels
   least_room = min(min(room.x, room.y), room.z);
   float line = max(max(edge(v_corner.z, room.z, 1u), edge(v_corner.x, room.x, 2u)), edge(v_corner.y, room.y, 4u));
   if (v_clip > 0.0) discard;

@@ -223,7 +223,7 @@ export class View {
 
   set_edges(surface, cut) {
     this.surface.uniforms.edge_strength.value = surface ? 0.5 : 0;
-    this.cut.uniforms.edge_strength.value = cut ? 0.8 : 0;
+    this.cut.uniforms.edge_strength.value = cut ? 0.7 : 0;
     this.request();
   }
 
