@@ -29,7 +29,7 @@ export function cuts_tab(app) {
       select_of("Colour of the cells", "cut_color", colours, value, (name) => state.set({ cut_color: name })),
       select_of("Surface", "around", k_around, state.get("around"), (name) => state.set({ around: name })),
       check_of("outlines of the cells", "cut_edges", state.get("cut_edges"), (is_on) => state.set({ cut_edges: is_on })),
-      h("div.buttons", null, button("Fly there", () => app.view?.fly_to_cut(app.cuts[cut]), { id: "cut_fly", kind: ".small" }), button("No cut", () => state.set({ cut: -1 }), { id: "cut_none", kind: ".small" })),
+      h("div.buttons", null, button("Fly there", () => app.view && app.fly_to_cut(cut), { id: "cut_fly", kind: ".small" }), button("No cut", () => state.set({ cut: -1 }), { id: "cut_none", kind: ".small" })),
     );
   };
   state.on(["cut"], refresh);

@@ -155,9 +155,12 @@ export class ReportApp {
     this.show_markers();
     state.on(["patches"], () => this.show_patches());
     state.on(["color", "range", "map", "by_limits"], () => this.paint_surface());
-    state.on(["cut"], () => this.show_cut());
+    state.on(["cut"], ({ cut }) => {
+      this.show_cut();
+      if (cut >= 0) this.fly_to_cut(cut);
+    });
     state.on(["cut_color", "map", "by_limits"], () => this.paint_cut());
-    state.on(["around", "cut"], () => this.clip());
+    state.on(["around"], () => this.clip());
     state.on(["edges", "cut_edges"], () => this.show_edges());
     state.on(["markers", "gate", "place"], () => this.show_markers());
     state.on(["place"], ({ place }) => place >= 0 && this.fly_to_place(place));
@@ -223,13 +226,13 @@ export class ReportApp {
     const cut = this.cuts[k];
     this.view.set_cut(cut ? cut_set(cut) : null, cut?.base ?? this.report.origin);
     this.painted.cut = null;
-    if (cut) {
-      this.paint_cut();
-      this.state.set({ place: -1, camera: "" });
-      this.view.fly_to_cut(cut);
-    }
+    if (cut) this.paint_cut();
     this.clip();
-    this.show_legends();
+  }
+
+  fly_to_cut(k) {
+    this.state.set({ place: -1, camera: "" });
+    this.view.fly_to_cut(this.cuts[k]);
   }
 
   cut_field(cut) {
@@ -352,7 +355,7 @@ export class ReportApp {
       clip: [...view.surface.uniforms.clip.value],
       color_bar: { surface: scale(painted.surface), cut: scale(painted.cut) },
       field_range: field ? field_range(field, null) : null,
-      picked: this.picked ? { layer: this.picked.layer, item: this.picked.item, at: this.picked.at } : null,
+      picked: this.picked ? { layer: this.picked.layer, item: this.picked.item, patch: this.picked.layer === "surface" ? this.surface.patch[this.picked.item] : -1, at: this.picked.at, on_screen: view.on_screen(this.picked.at) } : null,
       pin: view.pin ? { at: view.pin.at, on_screen: view.on_screen(view.pin.at) } : null,
     };
   }
