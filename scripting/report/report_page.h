@@ -1,11 +1,11 @@
-// The page that reports are filled into: scripting/report/page, bundled by npm when sterna is built.
 #pragma once
 
 #include <string_view>
 
 namespace sterna::scripting {
 
-/// HTML with the places <!--STERNA_JSON--> and <!--STERNA_BLOB-->; empty in a build without npm.
+/// The report page (HTML, scripting/report/page) with its two markers still in it; the text lives as long as the program.
+/// Empty when this build had no npm, or npm could not get the page's libraries: then no report can be written.
 std::string_view report_page();
 
 }  // namespace sterna::scripting

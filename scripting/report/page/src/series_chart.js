@@ -1,0 +1,69 @@
+// Any figure over any parameter; another parameter makes lines.
+import { axis, Chart, on_scheme_change } from "./charts.js";
+import { css_colour, fill, h, number_text } from "./dom.js";
+import { select_of } from "./surface_tab.js";
+
+const k_line_colours = ["#3b78b5", "#d1762c", "#3f9a61", "#b8496b", "#7a63b5", "#8a7a2c", "#2f9aa0", "#a0583f"];
+
+/** Lines of the chart: [{name, points: [{x, y, name, is_bad}]}]; cases without the figure or with a parameter that is no number are left out. */
+export function lines_of(app) {
+  const { figure, over, by } = app.state.values;
+  const column = app.columns.find((entry) => entry.key === figure);
+  const lines = new Map();
+  let n_left_out = 0;
+  for (const entry of app.series.cases) {
+    const x = entry.parameters?.[over], y = column?.of(entry);
+    if (typeof x !== "number" || typeof y !== "number") {
+      ++n_left_out;
+      continue;
+    }
+    const name = by && by !== over ? `${by} ${typeof entry.parameters?.[by] === "number" ? number_text(entry.parameters[by]) : (entry.parameters?.[by] ?? "\u2013")}` : (column?.title ?? "");
+    if (!lines.has(name)) lines.set(name, []);
+    lines.get(name).push({ x, y, name: entry.name, is_bad: entry.verdict === "INVALID" });
+  }
+  return { column, n_left_out, lines: [...lines].map(([name, points]) => ({ name, points: points.sort((a, b) => a.x - b.x) })) };
+}
+
+export function chart_section(app) {
+  const { state, series } = app;
+  const figures = app.columns.filter((column) => column.kind === "figure").map((column) => [column.key, column.unit ? `${column.title} [${column.unit}]` : column.title]);
+  const parameters = series.parameters.map((name) => [name, name]);
+  const canvas = h("canvas", { role: "img", "aria-label": "Chart of a figure over a parameter" });
+  const note = h("p.note");
+  let chart = null;
+  const draw = () => {
+    const { column, lines, n_left_out } = lines_of(app);
+    app.n_points = lines.reduce((sum, line) => sum + line.points.length, 0);
+    app.n_lines = lines.length;
+    fill(note, n_left_out ? `${n_left_out} of ${series.cases.length} cases have no value here.` : "", app.n_points ? "" : " Nothing to draw.");
+    chart?.destroy();
+    const is_log = column?.is_log && lines.every((line) => line.points.every((p) => p.y > 0));
+    chart = new Chart(canvas, {
+      type: "line",
+      data: {
+        datasets: lines.map((line, k) => {
+          const colour = k_line_colours[k % k_line_colours.length];
+          return { label: line.name, data: line.points, borderColor: colour, borderWidth: 1.8, backgroundColor: colour, pointRadius: 3.5, pointStyle: line.points.map((p) => (p.is_bad ? "crossRot" : "circle")), pointBorderWidth: line.points.map((p) => (p.is_bad ? 3 : 1)) };
+        }),
+      },
+      options: {
+        responsive: true,
+        maintainAspectRatio: false,
+        interaction: { mode: "nearest", intersect: false },
+        scales: { x: axis(state.get("over"), false), y: axis(column ? `${column.title}${column.unit ? ` [${column.unit}]` : ""}` : "", is_log) },
+        plugins: { legend: { display: lines.length > 1, labels: { color: css_colour("--text"), boxWidth: 12 } }, limit_lines: { list: [] }, tooltip: { callbacks: { title: ([item]) => item.raw.name, label: (item) => `${item.dataset.label}: ${number_text(item.raw.y)}` } } },
+      },
+    });
+  };
+  const form = h(
+    "div.form.inline",
+    null,
+    select_of("Figure", "figure", figures, state.get("figure"), (figure) => state.set({ figure })),
+    select_of("over", "over", parameters, state.get("over"), (over) => state.set({ over })),
+    select_of("lines by", "by", [["", "\u2013"], ...parameters], state.get("by"), (by) => state.set({ by })),
+  );
+  state.on(["figure", "over", "by"], draw);
+  on_scheme_change(draw);
+  setTimeout(draw);
+  return h("section.chart_section", null, h("div.section_head", null, h("h2", null, "Figure over parameter")), form, h("div.chart.tall", null, canvas), note);
+}
