@@ -10,10 +10,13 @@
 
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
+#include "geom/draw/choices.h"
+#include "geom/mesh/cut_places.h"
 #include "geom/mesh/surface_fields.h"
 #include "scripting/manifest.h"
 #include "scripting/report/page_arrays.h"
 #include "scripting/report/report_gates.h"
+#include "scripting/report/report_page.h"
 #include "scripting/report/thin_surface.h"
 #include "scripting/summary.h"
 
@@ -89,8 +92,8 @@ Json field_json(std::string_view name, std::string_view title, std::string_view 
 /// What pages are made of, whatever they are about.
 class PageMaker {
  public:
-  PageMaker(std::span<const Point> points, const PageTriangles& triangles, const Column<PatchId, Patch>& patches, const std::vector<SurfaceField>& fields, const RunContext& context)
-      : points_(points), triangles_(triangles), patches_(patches), fields_(fields), context_(context) {
+  PageMaker(std::span<const Point> points, const PageTriangles& triangles, const Column<PatchId, Patch>& patches, const std::vector<SurfaceField>& fields)
+      : points_(points), triangles_(triangles), patches_(patches), fields_(fields) {
     Box bodies, all;
     for (std::size_t t = 0; t < triangles.triangles.size(); ++t)
       for (const std::uint32_t corner : triangles.triangles[t]) {
@@ -103,6 +106,8 @@ class PageMaker {
     length_ = box.longest_side();
   }
 
+  const Point& origin() const { return origin_; }
+  double length() const { return length_; }
   Json frame() const { return {{"length", length_}, {"origin", json_of(origin_)}}; }
 
   Json patches_json() const {
@@ -160,7 +165,6 @@ class PageMaker {
   const PageTriangles& triangles_;
   const Column<PatchId, Patch>& patches_;
   const std::vector<SurfaceField>& fields_;
-  const RunContext& context_;
   Point origin_{};
   double length_ = 1.0;
 };
@@ -247,16 +251,36 @@ Json facts_json(const MeshValue& value) {
   return facts;
 }
 
+std::string title_of(const ReportOptions& options, std::string_view name) { return options.title == "automatic" ? std::string(name) : options.title; }
+
+/// The user's cuts, then the automatic ones that they do not name. A plane of the user's is looked at where it comes next to the middle of the bodies.
+std::vector<CutPlace> places_of(const HybridMesh& mesh, const std::vector<std::string>& wanted, bool with_automatic, const PageMaker& maker, const RunContext& context) {
+  constexpr double k_radius_share = 0.6;  // of the bodies' length: all of them is seen
+  std::vector<CutPlace> automatic = automatic_cuts(mesh, context), places;
+  for (const std::string& text : wanted) {
+    if (const std::optional<CutPlane> plane = draw::plane_of(text)) {
+      const Vec3 normal = normalized(plane->normal);
+      places.push_back({text, *plane, maker.origin() - dot(maker.origin() - plane->origin, normal) * normal, k_radius_share * maker.length()});
+    } else {
+      places.push_back(draw::place_of(automatic, text, "report: cuts"));
+    }
+  }
+  if (!with_automatic) return places;
+  for (CutPlace& place : automatic)
+    if (std::none_of(places.begin(), places.end(), [&](const CutPlace& known) { return known.name == place.name; })) places.push_back(std::move(place));
+  return places;
+}
+
 std::string too_large(std::size_t bytes) { return "the page would have " + std::to_string(bytes) + " bytes, more than " + std::to_string(k_most_page_bytes); }
 
 /// Makes the page with less and less until it is small enough.
 template <class Make>
-std::string small_page(const ReportSettings& settings, const RunContext& context, const Make& make) {
+std::string small_page(const ReportOptions& options, const RunContext& context, const Make& make) {
   double share = 1.0;
   constexpr double k_least = 0.01;
   for (;; share *= k_less) {
     const auto most = [&](int n) { return std::max<std::size_t>(1, static_cast<std::size_t>(share * n)); };
-    std::string page = make(most(settings.max_triangles), most(settings.max_polygons));
+    std::string page = make(most(options.max_triangles), most(options.max_polygons));
     if (page.size() <= k_most_page_bytes) return page;
     if (share < k_least) throw Error({.code = ErrorCode::overflow, .attempted = "making a report page", .problem = too_large(page.size()), .hint = "name fewer cuts"});
     context.debug(too_large(page.size()) + ": it is thinned");
@@ -265,30 +289,34 @@ std::string small_page(const ReportSettings& settings, const RunContext& context
 
 }  // namespace
 
-std::string report_html(const MeshValue& mesh, const ReportSettings& settings, const RunContext& context) {
+void require_report_cuts(const std::vector<std::string>& cuts) {
+  if (report_page().empty()) page_text({}, {});
+  for (const std::string& cut : cuts) draw::plane_of(cut);
+}
+
+std::string report_html(const MeshValue& mesh, const ReportOptions& options, const std::vector<std::string>& cuts_wanted, std::string_view name, const RunContext& context) {
   if (!mesh.check || !mesh.check->quality_measured) mesh.check = check(mesh.mesh, {}, context.part("check", 0.0, 0.4));
   const CheckReport& report = *mesh.check;
   if (!report.is_complete)
     throw Error({.code = ErrorCode::mesh_invalid, .attempted = "making a report page", .problem = "indices or points of the mesh are unusable, so that nothing of it can be shown", .hint = "`sterna check` lists them"});
   const std::vector<SurfaceField> fields = surface_fields(mesh.mesh, context);
   const PageTriangles triangles = page_triangles(mesh.mesh);
-  const PageMaker maker(mesh.mesh.points.raw(), triangles, mesh.mesh.patches, fields, context);
-  std::vector<CutPlace> places = settings.cuts;
-  if (settings.automatic_cuts)
-    for (CutPlace& place : automatic_cuts(mesh.mesh, context)) places.push_back(std::move(place));
+  const PageMaker maker(mesh.mesh.points.raw(), triangles, mesh.mesh.patches, fields);
+  const std::vector<CutPlace> places = places_of(mesh.mesh, cuts_wanted, options.automatic_cuts, maker, context);
   std::vector<MeshCut> cuts;
   for (const CutPlace& place : places) {
     cuts.push_back(cut_mesh(mesh.mesh, place.plane, context));
     context.progress(0.4 + 0.4 * static_cast<double>(cuts.size()) / static_cast<double>(places.size()));
   }
 
-  Json head = {{"schema", "sterna-report-1"}, {"program", "sterna " STERNA_VERSION}, {"title", settings.title}, {"kind", "volume"}, {"facts", facts_json(mesh)}};
+  const std::string title = title_of(options, name);
+  Json head = {{"schema", "sterna-report-1"}, {"program", "sterna " STERNA_VERSION}, {"title", title}, {"kind", "volume"}, {"facts", facts_json(mesh)}};
   head.update(maker.frame());
   add_check(report, head);
   head["patches"] = maker.patches_json();
-  head["manifest"] = Json::parse(manifest_json(mesh, settings.title, context.seed()));
-  head["run"] = settings.with_times && mesh.origin ? run_json(context) : Json(nullptr);
-  return small_page(settings, context, [&](std::size_t n_triangles, std::size_t n_polygons) {
+  head["manifest"] = Json::parse(manifest_json(mesh, std::string(name), context.seed()));
+  head["run"] = options.times && mesh.origin ? run_json(context) : Json(nullptr);
+  return small_page(options, context, [&](std::size_t n_triangles, std::size_t n_polygons) {
     PageArrays arrays;
     Json json = head;
     json["surface"] = maker.surface_json(n_triangles, arrays);
@@ -299,20 +327,21 @@ std::string report_html(const MeshValue& mesh, const ReportSettings& settings, c
   });
 }
 
-std::string report_html(const SurfaceValue& surface, const ReportSettings& settings, const RunContext& context) {
+std::string report_html(const SurfaceValue& surface, const ReportOptions& options, std::string_view name, const RunContext& context) {
   const TriMesh& mesh = surface.mesh;
   const std::vector<SurfaceField> fields = surface_fields(mesh, context);
   const PageTriangles triangles = page_triangles(mesh);
-  const PageMaker maker(mesh.points.raw(), triangles, mesh.patches, fields, context);
-  Json head = {{"schema", "sterna-report-1"}, {"program", "sterna " STERNA_VERSION}, {"title", settings.title}, {"kind", "surface"}};
+  const PageMaker maker(mesh.points.raw(), triangles, mesh.patches, fields);
+  const std::string title = title_of(options, name);
+  Json head = {{"schema", "sterna-report-1"}, {"program", "sterna " STERNA_VERSION}, {"title", title}, {"kind", "surface"}};
   head["facts"] = {{"triangles", count_text(static_cast<std::int64_t>(mesh.n_triangles()))}, {"vertices", count_text(static_cast<std::int64_t>(mesh.n_vertices()))}, {"closed", surface.report.is_closed ? "yes" : "no"}};
   head.update(maker.frame());
   add_no_check(head);
   head["patches"] = maker.patches_json();
   head["manifest"] = {{"inputs", inputs_json(surface.inputs)}};
-  head["run"] = settings.with_times ? run_json(context) : Json(nullptr);
+  head["run"] = options.times ? run_json(context) : Json(nullptr);
   head["cuts"] = Json::array();
-  return small_page(settings, context, [&](std::size_t n_triangles, std::size_t) {
+  return small_page(options, context, [&](std::size_t n_triangles, std::size_t) {
     PageArrays arrays;
     Json json = head;
     json["surface"] = maker.surface_json(n_triangles, arrays);
