@@ -1,4 +1,4 @@
-// Parsing only: what the commands do is in commands.cpp. CLI11 is slow to compile, so this is the one file that includes it.
+// Parsing only: what the commands do is in commands.cpp. CLI11 is slow to compile, so only the cli*.cpp include it.
 #include "scripting/cli.h"
 
 #include <CLI/CLI.hpp>
@@ -18,9 +18,11 @@
 #include "geom/cad/write_cad.h"
 #include "geom/mesh/half.h"
 #include "io/format_table.h"
+#include "scripting/cli_options.h"
 #include "scripting/cli_scripts.h"
 #include "scripting/commands.h"
 #include "scripting/console.h"
+#include "scripting/draw_command.h"
 #include "scripting/exit_status.h"
 #include "scripting/farfield_verbs.h"
 #include "scripting/interrupt.h"
@@ -53,59 +55,13 @@ struct Request {
   bool is_prompt = false;
 };
 
-std::string kebab(std::string_view name) {
-  std::string text(name);
-  std::replace(text.begin(), text.end(), '_', '-');
-  return text;
-}
-
-/// "stage.option=value" as name and value.
-std::pair<std::string, std::string> split_assignment(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) throw CLI::ValidationError("--set", "\"" + text + "\" is not stage.option=value");
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
-void add_set_option(CLI::App& command, OptionOverrides& overrides) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--set",
-          [&overrides](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) overrides.push_back(split_assignment(text));
-          },
-          "any option of any stage, e.g. --set envelope.layers=24")
-      ->type_name("STAGE.OPTION=VALUE")
-      ->allow_extra_args(false)
-      ->take_all();
-}
-
-/// One --kebab-name for each option of the schema, grouped by stage.
-void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverrides& overrides) {
-  for (const Option& option : table) {
-    const std::string name(option.name);
-    std::string help = std::string(option.help) + "; " + option.default_text();
-    if (const std::string range = option.range_text(); !range.empty()) help += "; " + range;
-    // Given twice, both are kept: set_options refuses them where they differ.
-    CLI::Option* added = command.add_option_function<std::vector<std::string>>(
-        "--" + kebab(name),
-        [&overrides, name](const std::vector<std::string>& texts) {
-          for (const std::string& text : texts) overrides.emplace_back(name, text.empty() ? "true" : text);
-        },
-        help);
-    added->group("Options of stage " + std::string(option.stage));
-    added->type_name(option.kind == OptionKind::boolean ? "[true|false]" : option.kind == OptionKind::text ? "TEXT" : "NUMBER");
-    added->allow_extra_args(false)->take_all();
-    if (option.kind == OptionKind::boolean) added->expected(0, 1);
-  }
-}
-
 void add_common_options(CLI::App& app, CommonSettings& common) {
   app.add_option("--threads", common.threads, "worker threads; 0 = all of the machine. The result does not depend on it")->check(CLI::Range(0, k_max_threads));
   app.add_option("--seed", common.seed, "seed of random numbers (math.random of scripts)");
   app.add_flag("-q,--quiet", common.console.is_quiet, "no log and no progress, only results, warnings and errors");
   app.add_flag("-v,--verbose", common.console.is_verbose, "more log");
   app.add_option("--log", common.console.log_file, "write every log line with its time to this file")->type_name("FILE");
-  app.add_flag("--show-options", common.only_options, "print the options that mesh, surface, half, union or convert would use, as JSON, and stop");
+  app.add_flag("--show-options", common.only_options, "print the options that mesh, surface, half, union, convert or draw would use, as JSON, and stop");
   app.add_option("--dump-dir", common.dump_directory, "where VTU pictures of failures go; default: beside the output")->type_name("FOLDER")->check(CLI::ExistingDirectory);
 }
 
@@ -317,6 +273,13 @@ void add_convert_command(CLI::App& app, ConvertCommand& convert, Request& reques
   });
 }
 
+void add_draw_command(CLI::App& app, DrawCommand& draw, Request& request) {
+  add_draw_arguments(app, draw)->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(draw, context); };
+    request.trouble = beside(draw.output);
+  });
+}
+
 void add_pentagrow_command(CLI::App& app, PentagrowCommand& pentagrow, Request& request) {
   CLI::App* command = app.add_subcommand("pentagrow", "mesh the space around a surface as a configuration of pentagrow says, with its names of files; also as the program pentagrow beside sterna");
   command->add_option("surface", pentagrow.surface, "surface file")->required();
@@ -411,6 +374,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   CheckCommand check;
   InfoCommand info;
   ConvertCommand convert;
+  DrawCommand draw;
   PentagrowCommand pentagrow;
   OptionOverrides set;
   Request request;
@@ -425,6 +389,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_check_command(app, check, request);
   add_info_command(app, info, request);
   add_convert_command(app, convert, request);
+  add_draw_command(app, draw, request);
   add_pentagrow_command(app, pentagrow, request);
   app.add_subcommand("formats", "list the file formats")->final_callback([&] { request.execute = list_formats; });
   // Alone and at a terminal the program is a prompt.

@@ -15,6 +15,7 @@
 #include "scripting/flow_verbs.h"
 #include "scripting/gate_limits.h"
 #include "scripting/geometry_verbs.h"
+#include "scripting/draw_verbs.h"
 #include "scripting/half_verbs.h"
 #include "scripting/layer_options.h"
 #include "scripting/model_methods.h"
@@ -335,6 +336,7 @@ std::span<const ScriptVerb> script_verbs() {
     verbs.insert(verbs.end(), disc_verbs().begin(), disc_verbs().end());
     verbs.insert(verbs.end(), geometry_verbs().begin(), geometry_verbs().end());
     verbs.insert(verbs.end(), component_verbs().begin(), component_verbs().end());
+    verbs.insert(verbs.end(), draw_verbs().begin(), draw_verbs().end());
     verbs.insert(verbs.end(), half_verbs().begin(), half_verbs().end());
     verbs.insert(verbs.end(), family_verbs().begin(), family_verbs().end());
     verbs.insert(verbs.end(), flow_verbs().begin(), flow_verbs().end());

@@ -1,0 +1,56 @@
+#include "scripting/cli_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+namespace sterna::scripting {
+namespace {
+
+std::string kebab(std::string_view name) {
+  std::string text(name);
+  std::replace(text.begin(), text.end(), '_', '-');
+  return text;
+}
+
+/// "stage.option=value" as name and value.
+std::pair<std::string, std::string> split_assignment(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) throw CLI::ValidationError("--set", "\"" + text + "\" is not stage.option=value");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+}  // namespace
+
+void add_set_option(CLI::App& command, OptionOverrides& overrides) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&overrides](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) overrides.push_back(split_assignment(text));
+          },
+          "any option of any stage, e.g. --set envelope.layers=24")
+      ->type_name("STAGE.OPTION=VALUE")
+      ->allow_extra_args(false)
+      ->take_all();
+}
+
+void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverrides& overrides) {
+  for (const Option& option : table) {
+    const std::string name(option.name);
+    std::string help = std::string(option.help) + "; " + option.default_text();
+    if (const std::string range = option.range_text(); !range.empty()) help += "; " + range;
+    // Given twice, both are kept: set_options refuses them where they differ.
+    CLI::Option* added = command.add_option_function<std::vector<std::string>>(
+        "--" + kebab(name),
+        [&overrides, name](const std::vector<std::string>& texts) {
+          for (const std::string& text : texts) overrides.emplace_back(name, text.empty() ? "true" : text);
+        },
+        help);
+    added->group("Options of stage " + std::string(option.stage));
+    added->type_name(option.kind == OptionKind::boolean ? "[true|false]" : option.kind == OptionKind::text ? "TEXT" : "NUMBER");
+    added->allow_extra_args(false)->take_all();
+    if (option.kind == OptionKind::boolean) added->expected(0, 1);
+  }
+}
+
+}  // namespace sterna::scripting
