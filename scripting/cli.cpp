@@ -29,6 +29,7 @@
 #include "scripting/line_editor.h"
 #include "scripting/pentagrow_command.h"
 #include "scripting/prompt.h"
+#include "scripting/report/report_command.h"
 #include "scripting/script_manual.h"
 #include "scripting/verbs.h"
 
@@ -61,7 +62,7 @@ void add_common_options(CLI::App& app, CommonSettings& common) {
   app.add_flag("-q,--quiet", common.console.is_quiet, "no log and no progress, only results, warnings and errors");
   app.add_flag("-v,--verbose", common.console.is_verbose, "more log");
   app.add_option("--log", common.console.log_file, "write every log line with its time to this file")->type_name("FILE");
-  app.add_flag("--show-options", common.only_options, "print the options that mesh, surface, half, union, convert or draw would use, as JSON, and stop");
+  app.add_flag("--show-options", common.only_options, "print the options that mesh, surface, half, union, convert, draw or report would use, as JSON, and stop");
   app.add_option("--dump-dir", common.dump_directory, "where VTU pictures of failures go; default: beside the output")->type_name("FOLDER")->check(CLI::ExistingDirectory);
 }
 
@@ -280,6 +281,13 @@ void add_draw_command(CLI::App& app, DrawCommand& draw, Request& request) {
   });
 }
 
+void add_report_command(CLI::App& app, ReportCommand& report, Request& request) {
+  add_report_arguments(app, report)->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(report, context); };
+    request.trouble = beside(report.output);
+  });
+}
+
 void add_pentagrow_command(CLI::App& app, PentagrowCommand& pentagrow, Request& request) {
   CLI::App* command = app.add_subcommand("pentagrow", "mesh the space around a surface as a configuration of pentagrow says, with its names of files; also as the program pentagrow beside sterna");
   command->add_option("surface", pentagrow.surface, "surface file")->required();
@@ -375,6 +383,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   InfoCommand info;
   ConvertCommand convert;
   DrawCommand draw;
+  ReportCommand report;
   PentagrowCommand pentagrow;
   OptionOverrides set;
   Request request;
@@ -390,6 +399,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_info_command(app, info, request);
   add_convert_command(app, convert, request);
   add_draw_command(app, draw, request);
+  add_report_command(app, report, request);
   add_pentagrow_command(app, pentagrow, request);
   app.add_subcommand("formats", "list the file formats")->final_callback([&] { request.execute = list_formats; });
   // Alone and at a terminal the program is a prompt.

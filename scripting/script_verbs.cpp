@@ -23,6 +23,7 @@
 #include "scripting/patch_rules.h"
 #include "scripting/periodic_sides.h"
 #include "scripting/quantity.h"
+#include "scripting/report/report_verbs.h"
 #include "scripting/script_args.h"
 #include "scripting/script_check.h"
 #include "scripting/script_help.h"
@@ -337,6 +338,7 @@ std::span<const ScriptVerb> script_verbs() {
     verbs.insert(verbs.end(), geometry_verbs().begin(), geometry_verbs().end());
     verbs.insert(verbs.end(), component_verbs().begin(), component_verbs().end());
     verbs.insert(verbs.end(), draw_verbs().begin(), draw_verbs().end());
+    verbs.insert(verbs.end(), report_verbs().begin(), report_verbs().end());
     verbs.insert(verbs.end(), half_verbs().begin(), half_verbs().end());
     verbs.insert(verbs.end(), family_verbs().begin(), family_verbs().end());
     verbs.insert(verbs.end(), flow_verbs().begin(), flow_verbs().end());

@@ -1,4 +1,6 @@
 #include <CLI/CLI.hpp>
+#include <array>
+#include <utility>
 
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
@@ -18,7 +20,8 @@ namespace {
 constexpr double k_read_end = 0.3, k_check_end = 0.7;
 constexpr double k_megabyte = 1e6;
 
-std::string page_of(const ReportCommand& command, const ReportOptions& options, const GateTable& limits, const CommandContext& context) {
+/// The page, and whether it is of an INVALID mesh.
+std::pair<std::string, bool> page_of(const ReportCommand& command, const ReportOptions& options, const GateTable& limits, const CommandContext& context) {
   const InputPath input{command.input, command.input};
   const std::string name = std::filesystem::path(command.input).filename().string();
   const RunContext reading = context.run.part("read", 0.0, k_read_end), writing = context.run.part("report", k_check_end, 1.0);
@@ -28,14 +31,14 @@ std::string page_of(const ReportCommand& command, const ReportOptions& options, 
     const MeshValue mesh = read_mesh(input, reading);
     if (count_cells(mesh.mesh).total() > 0) {
       mesh.check = check(mesh.mesh, {.limits = limits}, context.run.part("check", k_read_end, k_check_end));
-      return report_html(mesh, options, command.cuts, name, writing);
+      return {report_html(mesh, options, command.cuts, name, writing), !mesh.check->is_valid()};
     }
   }
   if (!command.cuts.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "a report of " + command.input, .problem = "it is a surface, which has no cells to cut"});
   surfmesh::StitchOptions stitching;
   stitching.allow_open = true;
   const std::array files = {input};
-  return report_html(read_wall(files, stitching, reading), options, name, writing);
+  return {report_html(read_wall(files, stitching, reading), options, name, writing), false};
 }
 
 }  // namespace
@@ -71,9 +74,10 @@ int execute(const ReportCommand& command, const CommandContext& context) {
   require_report_cuts(command.cuts);
   GateTable limits;
   for (const std::string& text : command.gates) set_gate_limits(text, limits);
-  write_page(page_of(command, options, limits, context), command.output, context.run);
+  const auto [html, is_invalid] = page_of(command, options, limits, context);
+  write_page(html, command.output, context.run);
   context.console.end_progress();
-  return k_exit_success;
+  return is_invalid ? k_exit_invalid : k_exit_success;
 }
 
 }  // namespace sterna::scripting
