@@ -14,6 +14,7 @@
 #include "geom/mesh/cut_places.h"
 #include "geom/mesh/surface_fields.h"
 #include "scripting/manifest.h"
+#include "scripting/patch_rules.h"
 #include "scripting/report/page_arrays.h"
 #include "scripting/report/report_gates.h"
 #include "scripting/report/report_page.h"
@@ -197,7 +198,7 @@ Json cut_json(const CutPlace& place, const MeshCut& cut, std::size_t most, PageA
     layer.push_back(polygon.layer >= 0 ? static_cast<float>(polygon.layer + 1) : std::nanf(""));
     volume.push_back(shortened(polygon.volume));
   }
-  Json json = {{"name", place.name}, {"origin", json_of(origin)}, {"normal", json_of(place.plane.normal)}, {"focus", {{"center", json_of(place.focus)}, {"radius", place.radius}}}};
+  Json json = {{"name", place.name}, {"origin", json_of(place.plane.origin)}, {"base", json_of(origin)}, {"normal", json_of(place.plane.normal)}, {"focus", {{"center", json_of(place.focus)}, {"radius", place.radius}}}};
   json["shown"] = chosen.size();
   json["total"] = cut.size();
   json["points"] = arrays.add(std::span<const float>(points));
@@ -217,6 +218,16 @@ Json inputs_json(const std::vector<InputFile>& inputs) {
   Json list = Json::array();
   for (const InputFile& input : inputs) list.push_back({{"file", input.name}, {"xxh3_128", input.hash}});
   return list;
+}
+
+/// Names of options that differ from their defaults, by stage.
+Json options_set_json(const MeshOrigin& origin) {
+  surfmesh::StitchOptions surface = origin.surface_options;
+  volmesh::VolumeMeshOptions volume = origin.options;
+  Json json = Json::object();
+  for (const Option& option : all_options(surface, volume))
+    if (!is_default(option)) json[std::string(option.stage)].push_back(option.name);
+  return json;
 }
 
 Json run_json(const RunContext& context) {
@@ -315,6 +326,7 @@ std::string report_html(const MeshValue& mesh, const ReportOptions& options, con
   add_check(report, head);
   head["patches"] = maker.patches_json();
   head["manifest"] = Json::parse(manifest_json(mesh, std::string(name), context.seed()));
+  if (mesh.origin) head["options_set"] = options_set_json(*mesh.origin);
   head["run"] = options.times && mesh.origin ? run_json(context) : Json(nullptr);
   return small_page(options, context, [&](std::size_t n_triangles, std::size_t n_polygons) {
     PageArrays arrays;
