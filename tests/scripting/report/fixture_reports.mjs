@@ -48,11 +48,11 @@ function surface_of(parts, origin, blob) {
   };
   const field = (name, title, unit, list, more) => {
     const finite = [...list].filter(Number.isFinite);
-    return { name, title, unit, values: blob.add(list), min: finite.length ? Math.min(...finite) : null, max: finite.length ? Math.max(...finite) : null, is_log: false, low_is_bad: false, limits: k_no_limits, ...more };
+    return { name, title, unit, values: blob.add(list), min: finite.length ? finite.reduce((a, b) => Math.min(a, b)) : null, max: finite.length ? finite.reduce((a, b) => Math.max(a, b)) : null, is_log: false, low_is_bad: false, limits: k_no_limits, ...more };
   };
   return {
     n,
-    counts: parts.map((_, p) => patch.filter((q) => q === p).length),
+    counts: parts.map((_, p) => patch.reduce((sum, q) => sum + (q === p), 0)),
     surface: {
       shown: n,
       total: 2 * n,

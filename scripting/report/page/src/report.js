@@ -164,6 +164,7 @@ export class ReportApp {
     state.on(["edges", "cut_edges"], () => this.show_edges());
     state.on(["markers", "gate", "place"], () => this.show_markers());
     state.on(["place"], ({ place }) => place >= 0 && this.fly_to_place(place));
+    state.on(["place", "cut", "view"], () => this.show_info(null, true)); // what was clicked is no longer what one looks at
     this.first_look();
   }
 

@@ -35,7 +35,7 @@ export function chart_section(app) {
     const { column, lines, n_left_out } = lines_of(app);
     app.n_points = lines.reduce((sum, line) => sum + line.points.length, 0);
     app.n_lines = lines.length;
-    fill(note, n_left_out ? `${n_left_out} of ${series.cases.length} cases have no value here.` : "", app.n_points ? "" : " Nothing to draw.");
+    fill(note, n_left_out ? `${n_left_out} of ${series.cases.length} cases have no value here.` : "", lines.some((line) => line.points.some((point) => point.is_bad)) ? " A red cross is an INVALID mesh." : "", app.n_points ? "" : " Nothing to draw.");
     chart?.destroy();
     const is_log = column?.is_log && lines.every((line) => line.points.every((p) => p.y > 0));
     chart = new Chart(canvas, {
@@ -43,7 +43,7 @@ export function chart_section(app) {
       data: {
         datasets: lines.map((line, k) => {
           const colour = k_line_colours[k % k_line_colours.length];
-          return { label: line.name, data: line.points, borderColor: colour, borderWidth: 1.8, backgroundColor: colour, pointRadius: 3.5, pointStyle: line.points.map((p) => (p.is_bad ? "crossRot" : "circle")), pointBorderWidth: line.points.map((p) => (p.is_bad ? 3 : 1)) };
+          return { label: line.name, data: line.points, borderColor: colour, borderWidth: 1.8, backgroundColor: colour, pointRadius: line.points.map((p) => (p.is_bad ? 6 : 3.5)), pointStyle: line.points.map((p) => (p.is_bad ? "crossRot" : "circle")), pointBorderColor: line.points.map((p) => (p.is_bad ? css_colour("--fail") : colour)), pointBorderWidth: line.points.map((p) => (p.is_bad ? 2.5 : 1)) };
         }),
       },
       options: {
