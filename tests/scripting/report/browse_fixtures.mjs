@@ -56,6 +56,7 @@ async function open_damaged(open, report, blob) {
   await damaged("cut_json", "its JSON cannot be read", JSON.stringify(report).slice(0, 5000));
   await damaged("other_schema", 'this one has "sterna-report-9"', { schema: "sterna-report-9" });
   await damaged("no_table", 'its table "gates" is missing', { ...report, gates: undefined });
+  await damaged("no_surface", "its surface is missing", { ...report, surface: null });
   const { points, edges } = report.surface;
   const tables = { has_tables: true };
   await damaged("cut_blob", "cannot be unpacked", report, good.slice(0, good.length / 2), tables);

@@ -207,7 +207,7 @@ export function make_series() {
         state,
         verdict: is_done ? (k === 5 ? "INVALID" : "VALID") : null,
         quality: is_done ? (k % 2 ? "warn" : "pass") : null,
-        parameters: { alpha, beta },
+        parameters: { alpha, beta, variant: k % 3 === 0 ? "clean, low" : { flap: 20 } },
         figures: is_done ? { cells: 1e5 + 2500 * alpha + 900 * beta, coverage: 0.95 - 0.01 * Math.abs(alpha), ratio: 10 ** (1 + k / 2) } : {},
         gates: is_done ? { G5: k % 2 ? "warn" : "pass", G16: "fail" } : {},
         reused: k > 0 && is_done ? ["surface", "envelope"] : [],
@@ -221,5 +221,5 @@ export function make_series() {
     { name: "coverage", title: "coverage", unit: "", is_log: false },
     { name: "ratio", title: "worst ratio", unit: "m", is_log: true },
   ];
-  return { schema: "sterna-series-1", program: "sterna 0.1.0", title: `polar of ${k_nasty}`, parameters: ["alpha", "beta"], figures, cases };
+  return { schema: "sterna-series-1", program: "sterna 0.1.0", title: `polar of ${k_nasty}`, parameters: ["alpha", "beta", "variant"], figures, cases };
 }
