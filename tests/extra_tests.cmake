@@ -36,7 +36,7 @@ set_tests_properties(accept_mesh PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
 
 # A browser without network uses every control of report pages.
 add_test(NAME report_page_browser COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/run_browser_test ${CMAKE_BINARY_DIR} fixtures)
-set_tests_properties(report_page_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
+set_tests_properties(report_page_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200)
 
 # The program itself is run by the tests of scripting/, and every script of scripts/ by a test of its own, in a folder of its own.
 add_dependencies(test_scripting sterna)

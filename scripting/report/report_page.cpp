@@ -5,7 +5,8 @@
 // The assembler takes the bytes in as they are: no generated source, no limit on the length of literals.
 asm(".pushsection .rodata\n"
     "sterna_report_page_begin:\n"
-    ".incbin \"" STERNA_REPORT_PAGE "\"\n"
+    ".incbin \"" STERNA_REPORT_PAGE
+    "\"\n"
     "sterna_report_page_end:\n"
     ".byte 0\n"
     ".popsection\n"

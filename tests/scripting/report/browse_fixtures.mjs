@@ -18,24 +18,19 @@ async function write(name, report, blob_text) {
 }
 
 /** Pages that cannot be shown say why, in words that hold `words`; the rest of the page (when `has_tables`) is there. */
-async function require_sentence(file, words, { has_tables = false, has_webgl = true } = {}) {
-  await with_browser({ executable: k_browser, has_webgl }, async ({ open }) => {
-    const page = await open(file);
-    const text = await page.evaluate(() => [...document.querySelectorAll(".fatal, .view_message")].map((element) => element.textContent).join(" "));
-    require_that(text.includes(words), `${file} says "${text}" instead of "${words}"`);
-    if (has_tables) {
-      require_that((await page.$$(".gate")).length > 0, `${file}: the tables are missing`);
-      for (const tab of await page.$$(".tab")) await tab.click();
-      for (const id of ["view_top", "toggle_edges", "save_picture"]) await page.click(`#${id}`);
-      await page.click("#tab_cuts");
-      await page.click("#cut_0");
-      await page.click("#tab_places");
-      await page.click("#place_1");
-      await page.screenshot({ path: file.replace(/\.html$/, ".png") });
-    }
-    require_no_complaints(page, file);
-  });
-  console.log(`${file}: says "${words}"`);
+async function require_sentence(open, file, words, { has_tables = false } = {}) {
+  const page = await open(file);
+  const text = await page.evaluate(() => [...document.querySelectorAll(".fatal, .view_message")].map((element) => element.textContent).join(" "));
+  require_that(text.includes(words), `${file} says "${text}" instead of "${words}"`);
+  if (has_tables) {
+    require_that((await page.$$(".gate")).length > 0, `${file}: the tables are missing`);
+    for (const tab of await page.$$(".tab")) await tab.click();
+    for (const id of ["view_top", "toggle_edges", "save_picture", "tab_cuts", "cut_0", "tab_places", "place_1"]) await page.click(`#${id}`);
+    await page.screenshot({ path: file.replace(/\.html$/, ".png") });
+  }
+  require_no_complaints(page, file);
+  await page.close();
+  console.log(`${path.basename(file)}: says "${words}"`);
 }
 
 async function run() {
@@ -47,20 +42,29 @@ async function run() {
   console.log(`bare: ${await browse(await write("bare", bare.report, bare.blob.text()), path.join(folder, "bare"))}`);
   console.log(`series: ${await browse(await write("series", make_series(), ""), path.join(folder, "series"))}`);
 
-  const with_changes = (changes) => ({ ...report, surface: { ...report.surface, ...changes } });
+  await with_browser({ executable: k_browser, has_webgl: false }, ({ open }) => require_sentence(open, whole, "no WebGL 2", { has_tables: true }));
+  await with_browser({ executable: k_browser }, ({ open }) => open_damaged(open, report, blob));
+}
+
+async function open_damaged(open, report, blob) {
   const good = blob.text();
+  const changed = (changes) => ({ ...report, surface: { ...report.surface, ...changes } });
+  const empty = path.join(folder, "empty.html");
+  await writeFile(empty, template);
+  await require_sentence(open, empty, "empty template");
+  const damaged = async (name, words, page, blob_text = good, options = {}) => require_sentence(open, await write(name, page, blob_text), words, options);
+  await damaged("cut_json", "its JSON cannot be read", JSON.stringify(report).slice(0, 5000));
+  await damaged("other_schema", 'this one has "sterna-report-9"', { schema: "sterna-report-9" });
+  await damaged("no_table", 'its table "gates" is missing', { ...report, gates: undefined });
+  await damaged("no_surface", "its surface is missing", { ...report, surface: null });
+  const { points, edges } = report.surface;
   const tables = { has_tables: true };
-  await require_sentence(whole, "no WebGL 2", { ...tables, has_webgl: false });
-  await require_sentence(await write("empty", template, "").then((file) => writeFile(file, template).then(() => file)), "empty template");
-  await require_sentence(await write("cut_json", JSON.stringify(report).slice(0, 5000), good), "its JSON cannot be read");
-  await require_sentence(await write("other_schema", { schema: "sterna-report-9" }, good), 'this one has "sterna-report-9"');
-  await require_sentence(await write("no_table", { ...report, gates: undefined }, good), 'its table "gates" is missing');
-  await require_sentence(await write("cut_blob", report, good.slice(0, good.length / 2)), "cannot be unpacked", tables);
-  await require_sentence(await write("no_base64", report, "?? no base64 ??"), "cannot be unpacked", tables);
-  await require_sentence(await write("short_blob", with_changes({ points: { ...report.surface.points, at: blob.size - 4 } }), good), "but there are", tables);
-  await require_sentence(await write("wrong_type", with_changes({ patch: report.surface.edges }), good), "has type u8 instead of u16", tables);
-  await require_sentence(await write("far_corner", with_changes({ points: { ...report.surface.points, n: 3 } }), good), "a triangle has corner", tables);
-  await require_sentence(await write("odd_offset", with_changes({ edges: { ...report.surface.edges, at: report.surface.edges.at + 1 } }), good), "not at a multiple of 4", tables);
+  await damaged("cut_blob", "cannot be unpacked", report, good.slice(0, good.length / 2), tables);
+  await damaged("no_base64", "cannot be unpacked", report, "?? no base64 ??", tables);
+  await damaged("short_blob", "but there are", changed({ points: { ...points, at: blob.size - 4 } }), good, tables);
+  await damaged("wrong_type", "has type u8 instead of u16", changed({ patch: edges }), good, tables);
+  await damaged("far_corner", "a triangle has corner", changed({ points: { ...points, n: 3 } }), good, tables);
+  await damaged("odd_offset", "not at a multiple of 4", changed({ edges: { ...edges, at: edges.at + 1 } }), good, tables);
 }
 
 try {

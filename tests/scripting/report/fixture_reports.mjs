@@ -48,11 +48,11 @@ function surface_of(parts, origin, blob) {
   };
   const field = (name, title, unit, list, more) => {
     const finite = [...list].filter(Number.isFinite);
-    return { name, title, unit, values: blob.add(list), min: finite.length ? Math.min(...finite) : null, max: finite.length ? Math.max(...finite) : null, is_log: false, low_is_bad: false, limits: k_no_limits, ...more };
+    return { name, title, unit, values: blob.add(list), min: finite.length ? finite.reduce((a, b) => Math.min(a, b)) : null, max: finite.length ? finite.reduce((a, b) => Math.max(a, b)) : null, is_log: false, low_is_bad: false, limits: k_no_limits, ...more };
   };
   return {
     n,
-    counts: parts.map((_, p) => patch.filter((q) => q === p).length),
+    counts: parts.map((_, p) => patch.reduce((sum, q) => sum + (q === p), 0)),
     surface: {
       shown: n,
       total: 2 * n,
@@ -207,7 +207,7 @@ export function make_series() {
         state,
         verdict: is_done ? (k === 5 ? "INVALID" : "VALID") : null,
         quality: is_done ? (k % 2 ? "warn" : "pass") : null,
-        parameters: { alpha, beta },
+        parameters: { alpha, beta, variant: k % 3 === 0 ? "clean, low" : { flap: 20 } },
         figures: is_done ? { cells: 1e5 + 2500 * alpha + 900 * beta, coverage: 0.95 - 0.01 * Math.abs(alpha), ratio: 10 ** (1 + k / 2) } : {},
         gates: is_done ? { G5: k % 2 ? "warn" : "pass", G16: "fail" } : {},
         reused: k > 0 && is_done ? ["surface", "envelope"] : [],
@@ -221,5 +221,5 @@ export function make_series() {
     { name: "coverage", title: "coverage", unit: "", is_log: false },
     { name: "ratio", title: "worst ratio", unit: "m", is_log: true },
   ];
-  return { schema: "sterna-series-1", program: "sterna 0.1.0", title: `polar of ${k_nasty}`, parameters: ["alpha", "beta"], figures, cases };
+  return { schema: "sterna-series-1", program: "sterna 0.1.0", title: `polar of ${k_nasty}`, parameters: ["alpha", "beta", "variant"], figures, cases };
 }

@@ -123,8 +123,12 @@ async function use_colours(page, report, shot) {
     await require_picture(page, `coloured by ${field.name}`);
     await shot(`color_${field.name}`);
   }
-  if (report.surface.fields.length) for (const map of ["magma", "cividis", "viridis"]) await page.selectOption("#map", map);
-  await page.selectOption("#color", report.surface.fields[0]?.name ?? "patch");
+  if (report.surface.fields.length) {
+    await page.selectOption("#toolbar_color", "patch");
+    require_equal(await page.inputValue("#color"), "patch", "colour of both lists");
+    await page.selectOption("#color", report.surface.fields[0].name);
+    for (const map of ["magma", "cividis", "viridis"]) await page.selectOption("#map", map);
+  }
 }
 
 async function use_pointer(page, report) {
@@ -213,6 +217,13 @@ async function use_places(page, report, shot) {
   await tab(page, "places");
   await page.click("#places_markers");
   require_equal((await state_of(page)).drawn.markers, report.places.length, "markers");
+  await page.click("#view_iso");
+  const { marker_at } = (await settled(page)).drawn;
+  if (marker_at) {
+    const box = await page.locator("canvas.view_canvas").boundingBox();
+    await page.mouse.click(box.x + marker_at[0], box.y + marker_at[1]);
+    require_that((await state_of(page)).values.place >= 0, "a click on a marker chooses no place");
+  }
   const step = Math.max(1, Math.ceil(report.places.length / k_most_places));
   let n_used = 0;
   for (let k = 0; k < report.places.length; k += step, ++n_used) {

@@ -41,9 +41,9 @@ export async function use_series({ page, open, file, report, shot }) {
         await page.selectOption("#over", over);
         await page.selectOption("#by", by);
         const { n_points, n_lines } = await state_of(page);
-        const usable = cases.filter((entry) => typeof entry.figures?.[figure.name] === "number" && typeof entry.parameters?.[over] === "number");
+        const usable = cases.filter((entry) => typeof entry.figures?.[figure.name] === "number" && (entry.parameters?.[over] ?? null) !== null);
         require_equal(n_points, usable.length, `points of ${figure.name} over ${over}`);
-        const groups = by && by !== over ? new Set(usable.map((entry) => entry.parameters[by])).size : Math.min(1, usable.length);
+        const groups = by && by !== over ? new Set(usable.map((entry) => JSON.stringify(entry.parameters[by]))).size : Math.min(1, usable.length);
         require_equal(n_lines, groups, `lines of ${figure.name} over ${over} by ${by}`);
       }
   }

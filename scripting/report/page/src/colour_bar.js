@@ -3,7 +3,13 @@ import { css_rgb, has_limits, k_nan_colour, map_colour } from "./colours.js";
 import { h, number_text } from "./dom.js";
 
 const k_stops = 33;
+const k_near_end = 0.06; // of the bar: half of a label
 const k_limit_names = { hard: "hard", target: "target", usual: "usual" };
+
+/** Class of a label at t: those near the ends are written inwards. */
+function end_class(t) {
+  return t < k_near_end ? "at_low" : t > 1 - k_near_end ? "at_high" : null;
+}
 
 /** The bar of a field. */
 export function colour_bar(field, scale, map_name, has_nan) {
@@ -11,7 +17,7 @@ export function colour_bar(field, scale, map_name, has_nan) {
   const unit = field.unit ? ` [${field.unit}]` : "";
   const bar = h("div.bar_strip", { style: { background: `linear-gradient(to right, ${stops.join(", ")})` } });
   const ticks = h("div.bar_ticks");
-  for (const value of scale.ticks()) ticks.append(h("span", { style: { left: `${(100 * scale.t(value)).toFixed(2)}%` } }, number_text(value, 3)));
+  for (const value of scale.ticks()) ticks.append(h("span", { class: end_class(scale.t(value)), style: { left: `${(100 * scale.t(value)).toFixed(2)}%` } }, number_text(value, 3)));
   const limits = h("div.bar_limits");
   if (has_limits(field.limits))
     for (const name of Object.keys(k_limit_names)) {
@@ -19,7 +25,8 @@ export function colour_bar(field, scale, map_name, has_nan) {
       if (typeof value !== "number") continue;
       const t = scale.t(value);
       const is_outside = !(t >= 0 && t <= 1);
-      limits.append(h(`span.limit_${name}${is_outside ? ".outside" : ""}`, { style: { left: `${(100 * Math.min(Math.max(t, 0), 1)).toFixed(2)}%` }, title: `${name} limit ${number_text(value)} ${field.unit}${is_outside ? ", outside of the bar" : ""}` }, `${name} ${number_text(value, 3)}`));
+      const classes = [`limit_${name}`, is_outside ? "outside" : null, end_class(Math.min(Math.max(t, 0), 1))].filter(Boolean);
+      limits.append(h(`span.${classes.join(".")}`, { style: { left: `${(100 * Math.min(Math.max(t, 0), 1)).toFixed(2)}%` }, title: `${name} limit ${number_text(value)} ${field.unit}${is_outside ? ", outside of the bar" : ""}` }, `${t < 0 ? "\u2039 " : ""}${name} ${number_text(value, 3)}${t > 1 ? " \u203a" : ""}`));
     }
   return h(
     "div.legend",

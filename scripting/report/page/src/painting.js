@@ -29,6 +29,14 @@ export function paint_patches(surface, patches) {
   return { tones: surface.patch, palette: list_palette(patches.map((_, k) => patch_colour(k))), legend: null, scale: null };
 }
 
+const k_most_named = 10; // patches: more would cover the picture
+
+/** Names of the patches that are shown; null when there are too many. */
+export function patches_legend(patches, shown) {
+  const list = patches.map((patch, k) => ({ name: patch.name, colour: patch_css(k) })).filter((_, k) => shown.has(k) && patches[k].triangles > 0);
+  return list.length && list.length <= k_most_named ? colour_list("Patches", list) : null;
+}
+
 export function paint_kinds(cut) {
   const counts = new Array(k_kinds.length + 1).fill(0);
   const tones = new Uint16Array(cut.n);

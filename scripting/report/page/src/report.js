@@ -5,7 +5,7 @@ import { Arrays, read_blob, read_cut, read_surface, require_tables } from "./dat
 import { button, count_text, fill, h, number_text, position_text, quantity_text } from "./dom.js";
 import { ReportError, sentence_of } from "./errors.js";
 import { banner, state_colour } from "./banner.js";
-import { paint_field, paint_kinds, paint_patches, field_range } from "./painting.js";
+import { paint_field, paint_kinds, paint_patches, patches_legend, field_range } from "./painting.js";
 import { read_hash, State, write_hash } from "./state.js";
 import { coverage_tab } from "./coverage_tab.js";
 import { cuts_tab } from "./cuts_tab.js";
@@ -25,6 +25,8 @@ const k_view_titles = { iso: "Iso", front: "Front", back: "Back", side: "Side", 
 export class ReportApp {
   constructor(report) {
     this.report = report;
+    if (typeof report.surface !== "object" || report.surface === null) throw new ReportError("The report is damaged: its surface is missing.");
+    if (!Array.isArray(report.origin) || report.origin.length !== 3 || !report.origin.every(Number.isFinite)) throw new ReportError("The report is damaged: its origin is no position.");
     require_tables(report, ["patches", "cuts", "places", "gates", "histograms", "coverage"]);
     this.surface = null;
     this.cuts = [];
@@ -106,6 +108,7 @@ export class ReportApp {
       if (!(error instanceof ReportError)) throw error;
     }
     state.on(null, () => write_hash(() => this.hash_entries()));
+    window.addEventListener("hashchange", () => location.reload()); // a link to another place of the same page
   }
 
   async load() {
@@ -145,7 +148,7 @@ export class ReportApp {
       moved: () => state.set({ camera: this.camera_text() }),
       lost: (text) => this.say(text),
     });
-    this.set = surface_set(this.surface, this.report.patches.length);
+    this.set = surface_set(this.surface, this.report.patches);
     this.view.set_surface(this.set);
     this.view.set_scene(box_of(this.set.positions).getBoundingSphere(new Sphere()));
     this.show_patches();
@@ -164,6 +167,7 @@ export class ReportApp {
     state.on(["edges", "cut_edges"], () => this.show_edges());
     state.on(["markers", "gate", "place"], () => this.show_markers());
     state.on(["place"], ({ place }) => place >= 0 && this.fly_to_place(place));
+    state.on(["place", "cut", "view"], () => this.show_info(null, true)); // what was clicked is no longer what one looks at
     this.first_look();
   }
 
@@ -205,6 +209,7 @@ export class ReportApp {
 
   show_patches() {
     this.view.show_ranges(this.visible_ranges());
+    this.show_legends();
   }
 
   field(name) {
@@ -265,7 +270,7 @@ export class ReportApp {
 
   show_legends() {
     const is_surface_shown = !(this.state.get("cut") >= 0 && this.state.get("around") === "hide");
-    fill(this.legends, this.painted.cut?.legend, is_surface_shown ? this.painted.surface?.legend : null);
+    fill(this.legends, this.painted.cut?.legend, is_surface_shown ? (this.painted.surface?.legend ?? patches_legend(this.report.patches, this.state.get("patches"))) : null);
   }
 
   // ---- places
@@ -329,8 +334,12 @@ export class ReportApp {
       edges.setAttribute("aria-pressed", String(values.edges));
       markers.setAttribute("aria-pressed", String(values.markers));
     });
+    const fields = this.report.surface?.fields ?? [];
+    const colour = h("select", { id: "toolbar_color", title: "Colour of the surface", "aria-label": "Colour of the surface", onchange: () => this.state.set({ color: colour.value, range: null }) }, h("option", { value: "patch" }, "by patch"), fields.map((field) => h("option", { value: field.name }, field.title ?? field.name)));
+    colour.value = this.state.get("color");
+    this.state.on(["color"], (values) => (colour.value = values.color));
     const save = button("PNG", () => this.save_picture(), { title: "Save the picture", id: "save_picture" });
-    return h("div.toolbar", { role: "toolbar", "aria-label": "View" }, h("div.group", null, views, fit), h("div.group", null, edges, this.report.places.length ? markers : null), h("div.group", null, save));
+    return h("div.toolbar", { role: "toolbar", "aria-label": "View" }, h("div.group", null, views, fit), h("div.group", null, edges, this.report.places.length ? markers : null), fields.length ? h("div.group", null, colour) : null, h("div.group", null, save));
   }
 
   save_picture() {
@@ -351,7 +360,7 @@ export class ReportApp {
       message: this.message.textContent,
       values,
       camera: { target: view.absolute(view.camera.target), distance: view.camera.distance, orientation: view.camera.orientation.toArray(), is_flying: Boolean(view.camera.flight) },
-      drawn: { surface: view.surface.n_drawn(), cut: view.cut.n_drawn(), markers: view.marker_list.length },
+      drawn: { surface: view.surface.n_drawn(), cut: view.cut.n_drawn(), markers: view.marker_list.length, marker_at: view.marker_list.length ? view.on_screen(view.marker_list[0].at) : null },
       clip: [...view.surface.uniforms.clip.value],
       color_bar: { surface: scale(painted.surface), cut: scale(painted.cut) },
       field_range: field ? field_range(field, null) : null,

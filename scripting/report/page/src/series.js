@@ -7,12 +7,18 @@ import { compare_section } from "./series_compare.js";
 import { chart_section } from "./series_chart.js";
 import { table_section } from "./series_table.js";
 
+/** Parameters may be anything that Lua can say; what is neither number nor text becomes text. */
+function plain(value) {
+  if (value === null || value === undefined || typeof value === "number" || typeof value === "string") return value;
+  return typeof value === "object" ? JSON.stringify(value) : String(value);
+}
+
 /** Columns: {key, title, unit, kind: "parameter" | "figure" | "gate" | "word", of(case)}. */
 function columns_of(series) {
   const gates = [...new Set(series.cases.flatMap((entry) => Object.keys(entry.gates ?? {})))].sort((a, b) => a.localeCompare(b, "en", { numeric: true }));
   return [
     { key: "name", title: "case", kind: "word", of: (c) => c.name },
-    ...series.parameters.map((name) => ({ key: `p:${name}`, title: name, kind: "parameter", of: (c) => c.parameters?.[name] })),
+    ...series.parameters.map((name) => ({ key: `p:${name}`, title: name, kind: "parameter", of: (c) => plain(c.parameters?.[name]) })),
     { key: "state", title: "state", kind: "word", of: (c) => c.state },
     { key: "verdict", title: "mesh", kind: "word", of: (c) => c.verdict },
     { key: "quality", title: "quality", kind: "word", of: (c) => c.quality },
@@ -29,14 +35,13 @@ export class SeriesApp {
     this.columns = columns_of(series);
     const hash = read_hash();
     const keys = new Set(this.columns.map((column) => column.key));
-    const names = new Set(series.cases.map((entry) => entry.name));
     const usable = series.cases.filter((entry) => entry.state === "done").map((entry) => entry.name);
     const listed = (text, known) => text?.split(",").filter((entry) => known.has(entry));
     this.state = new State({
       sort: keys.has(hash.sort) ? hash.sort : "",
       down: hash.down === "1",
       columns: new Set(listed(hash.columns, keys) ?? [...keys]),
-      compare: listed(hash.compare, names) ?? usable.slice(0, 2),
+      compare: hash.compare?.split(",").map((k) => series.cases[Number(k)]?.name).filter(Boolean) ?? usable.slice(0, 2),
       figure: keys.has(hash.figure) ? hash.figure : this.columns.find((column) => column.kind === "figure")?.key ?? "",
       over: series.parameters.includes(hash.over) ? hash.over : series.parameters[0] ?? "",
       by: series.parameters.includes(hash.by) ? hash.by : (series.parameters[1] ?? ""),
@@ -48,11 +53,12 @@ export class SeriesApp {
     document.title = `${series.title} \u2013 sterna series`;
     fill(root, h("div.series", null, this.banner(), h("main", null, h("div.series_top", null, table_section(this), chart_section(this)), compare_section(this))));
     state.on(null, () => write_hash(() => this.hash_entries()));
+    window.addEventListener("hashchange", () => location.reload());
   }
 
   hash_entries() {
     const { sort, down, columns, compare, figure, over, by } = this.state.values;
-    return { sort, down: down ? 1 : null, columns: columns.size === this.columns.length ? null : [...columns].join(","), compare: compare.join(","), figure, over, by };
+    return { sort, down: down ? 1 : null, columns: columns.size === this.columns.length ? null : [...columns].join(","), compare: compare.map((name) => this.series.cases.findIndex((entry) => entry.name === name)).join(",") || "none", figure, over, by };
   }
 
   banner() {

@@ -30,6 +30,7 @@ export function compare_section(app) {
     const chosen = state.get("compare").map((name) => by_name.get(name)).filter(Boolean);
     const others = series.cases.filter((entry) => !chosen.includes(entry));
     fill(add, others.length ? select_of("add", "compare_add", [["", "case \u2026"], ...others.map((entry) => [entry.name, entry.name])], "", (name) => name && state.set({ compare: [...state.get("compare"), name] })) : null);
+    body.style.setProperty("--n_compared", String(Math.max(2, chosen.length)));
     if (!chosen.length) return fill(body, h("p.note", null, "Choose cases in the table to see them side by side."));
     const head = chosen.map((entry) =>
       h("th.compared", { scope: "col" }, picture_of(entry), h("div.compared_name", null, entry.report ? h("a", { href: entry.report }, entry.name) : entry.name, h("button.small", { type: "button", title: `Take ${entry.name} out`, onclick: () => state.set({ compare: state.get("compare").filter((name) => name !== entry.name) }) }, "\u00d7"))),

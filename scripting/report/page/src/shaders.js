@@ -65,6 +65,7 @@ uniform float shading;
 uniform float edge_strength;
 uniform vec3 edge_colour;
 uniform float fade_together;
+uniform float outward;
 out vec4 colour;
 float least_room;
 float edge(float distance_to, float room, uint bit) {
@@ -77,7 +78,10 @@ void main() {
   least_room = min(min(room.x, room.y), room.z);
   float line = max(max(edge(v_corner.z, room.z, 1u), edge(v_corner.x, room.x, 2u)), edge(v_corner.y, room.y, 4u));
   if (v_clip > 0.0) discard;
+  bool is_inside = outward != 0.0 && (v_edges & 8u) != 0u && gl_FrontFacing == (outward < 0.0);
   vec3 base = texelFetch(palette, ivec2(v_tone & 255u, v_tone >> 8), 0).rgb;
+  // Within the body, where a cut lets one look: duller, so that it is not taken for the outside or for cells.
+  if (is_inside) base = mix(base, vec3(0.42), 0.6);
   float size = length(normal);
   normal = size > 0.0 ? normal / size : vec3(0.0, 0.0, 1.0);
   float facing = abs(dot(normal, normalize(v_view)));
@@ -107,6 +111,7 @@ export function set_uniforms() {
     shading: { value: 1 },
     edge_strength: { value: 0.55 },
     fade_together: { value: 1 }, // 0: long edges of slender triangles stay (cells of a layer), 1: they fade with the short ones
+    outward: { value: 0 }, // sense in which walls have normals out of the body: 1, -1, 0 unknown
     edge_colour: { value: [0.1, 0.12, 0.15] },
     id_offset: { value: 0 },
   };

@@ -56,9 +56,30 @@ function sphere_of(positions) {
   return box.isEmpty() ? new Sphere(new Vector3(), 0) : box.getBoundingSphere(new Sphere());
 }
 
-/** The surface, sorted by patch: ranges[p] = [first triangle, end] in the set's order. */
-export function surface_set(surface, n_patches) {
+const k_wall_flag = 8;
+const k_closed = 0.2; // relative difference of volumes, below which a surface counts as closed and of one orientation
+
+/** 1 when normals of the triangles with k_wall_flag point out of what they enclose, -1 inwards; 0 when they do not enclose anything (open, mixed orientations). */
+function outward_of(positions, flags) {
+  // The volume by the divergence of (x, 0, 0), (0, y, 0), (0, 0, z): three equal numbers for a closed surface of one orientation.
+  const volumes = [0, 0, 0];
+  for (let t = 0, k = 0; t < flags.length; ++t, k += 9) {
+    if (!(flags[t] & k_wall_flag)) continue;
+    for (let c = 0; c < 3; ++c) {
+      const a = (c + 1) % 3, b = (c + 2) % 3;
+      const area = (positions[k + 3 + a] - positions[k + a]) * (positions[k + 6 + b] - positions[k + b]) - (positions[k + 3 + b] - positions[k + b]) * (positions[k + 6 + a] - positions[k + a]);
+      volumes[c] += (area * (positions[k + c] + positions[k + 3 + c] + positions[k + 6 + c])) / 6;
+    }
+  }
+  const least = Math.min(...volumes), greatest = Math.max(...volumes);
+  if (least * greatest <= 0 || greatest - least > k_closed * Math.max(Math.abs(least), Math.abs(greatest))) return 0;
+  return Math.sign(least);
+}
+
+/** The surface, sorted by patch: ranges[p] = [first triangle, end] in the set's order; outward as of outward_of for the patches that are walls. */
+export function surface_set(surface, patches) {
   const { n, points, triangles, patch, edges } = surface;
+  const n_patches = patches.length;
   const start = new Uint32Array(n_patches + 1);
   for (const p of patch) ++start[p + 1];
   for (let p = 0; p < n_patches; ++p) start[p + 1] += start[p];
@@ -68,7 +89,7 @@ export function surface_set(surface, n_patches) {
   for (let t = 0; t < n; ++t) {
     const slot = next[patch[t]]++;
     item[slot] = t;
-    flags[slot] = edges[t];
+    flags[slot] = (edges[t] & 7) | (patches[patch[t]].kind === "wall" ? k_wall_flag : 0);
     for (let c = 0; c < 3; ++c) {
       const from = 3 * triangles[3 * t + c], to = 9 * slot + 3 * c;
       positions[to] = points[from];
@@ -78,6 +99,7 @@ export function surface_set(surface, n_patches) {
   }
   const set = new TriangleSet(positions, flags, item);
   set.ranges = ranges;
+  set.outward = outward_of(positions, flags);
   set.boxes = ranges.map(([from, to]) => box_of(positions, 9 * from, 9 * to));
   return set;
 }

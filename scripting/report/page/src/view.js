@@ -193,6 +193,7 @@ export class View {
 
   set_surface(set) {
     this.surface.show(set, new Vector3());
+    this.surface.uniforms.outward.value = set.outward;
     this.request();
   }
 
