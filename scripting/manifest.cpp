@@ -102,7 +102,11 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     if (!mesh.origin->is_reproducible) json["reproducible"] = "not reproducible: a time or memory limit decided which engine made the tetrahedra";
   }
   json["verdict"] = !mesh.check ? "not checked" : mesh.check->is_valid() ? "VALID" : "INVALID";
-  if (mesh.check && mesh.check->quality_measured) json["quality"] = quality_json(*mesh.check);
+  if (mesh.check && mesh.check->quality_measured) {
+    CheckReport report = *mesh.check;
+    for (const GateResult& gate : *mesh.on_model) report.put(gate);
+    json["quality"] = quality_json(report);
+  }
   return json.dump(2) + "\n";
 }
 

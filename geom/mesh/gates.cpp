@@ -32,6 +32,8 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
     {M::max_dihedral, "G14", "max_dihedral", "largest dihedral of a tet", "tets", true, false, {170 * k_degree, 155 * k_degree, k_none, 1.0}},
     {M::tet_growth, "G15", "tet_growth", "volume ratio of tets at a face", "faces", false, false, {20, k_none, 4, 0.999}},
     {M::edge_ratio, "G16", "edge_ratio", "edge ratio at a node", "nodes", false, false, {100, k_none, 10, 0.999}},
+    {M::cad_distance, "G17", "cad_distance", "wall nodes off the CAD, / length", "nodes", false, false, {1e-6, 1e-9, k_none, 1.0}},
+    {M::cad_normal, "G18", "cad_normal", "wall facets against the CAD", "facets", true, false, {30 * k_degree, 10 * k_degree, k_none, 1.0}},
 }};
 
 constexpr bool is_in_order() {

@@ -32,8 +32,10 @@ enum class Measure : std::uint8_t {
   max_dihedral,      ///< G14
   tet_growth,        ///< G15: volumes of two tets with a common face, the larger over the smaller
   edge_ratio,        ///< G16: longest over shortest edge of a node, edges of its stack left out
+  cad_distance,      ///< G17: distance of a wall node from the model, over the body length (surfmesh/model/deviation.h)
+  cad_normal,        ///< G18: facet normal against the model's at the facet's centroid (the same)
 };
-inline constexpr std::size_t k_n_measures = static_cast<std::size_t>(Measure::edge_ratio) + 1;
+inline constexpr std::size_t k_n_measures = static_cast<std::size_t>(Measure::cad_normal) + 1;
 
 /// Limits of a measure in SI and radians; NaN where there is none.
 struct GateLimits {
