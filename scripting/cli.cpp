@@ -18,6 +18,7 @@
 #include "geom/cad/write_cad.h"
 #include "geom/mesh/half.h"
 #include "io/format_table.h"
+#include "scripting/cli_gates.h"
 #include "scripting/cli_options.h"
 #include "scripting/cli_scripts.h"
 #include "scripting/commands.h"
@@ -88,6 +89,7 @@ void add_run_command(CLI::App& app, RunCommand& run, Request& request) {
   add_set_option(*command, run.overrides);
   command->add_option("--tasks", run.tasks, "cases of a series at a time, whatever the script says")->check(CLI::Range(1, k_max_tasks));
   command->add_option("--series-case", run.series_case, "")->group("");  // hidden: what series{} gives its workers
+  command->add_option("--look-in", run.input_folder, "")->group("");     // hidden: what `sterna determinism` gives its runs
   add_cache_options(*command, run.cache);
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(run, context); };
@@ -236,6 +238,7 @@ void add_check_command(CLI::App& app, CheckCommand& check, Request& request) {
   CLI::App* command = app.add_subcommand("check", "prove that a volume mesh tiles its domain and measure its quality; exit status 0 only if it is VALID. Of a model (STEP ...): whether it is closed, and where not");
   command->add_option("mesh", check.input, "mesh file, or model file")->required();
   command->add_flag("--json", check.is_json, "print the report as JSON");
+  command->add_option("--model", check.models, "compare the walls of the mesh with the model that it was made of (gates G17, G18): STEP, IGES, BREP, sumo, CPACS; may be given several times")->type_name("FILE")->allow_extra_args(false)->take_all();
   command->add_option("--findings-per-kind", check.options.findings_per_kind, "places listed for each kind of violation")->check(CLI::PositiveNumber);
   command->add_flag("--strict", check.options.strict, "exit status 3 also when a QUALITY gate FAILs");
   command->add_flag("--cell-centred,!--no-cell-centred", check.options.cell_centred, "measure what cell-centred solvers feel: OpenFOAM's non-orthogonality, skewness ... (default)");
@@ -380,6 +383,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   CacheCommand cache;
   UnionCommand unite;
   CheckCommand check;
+  GateCommands gates;
   InfoCommand info;
   ConvertCommand convert;
   DrawCommand draw;
@@ -396,6 +400,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_cache_command(app, cache, request);
   add_union_command(app, unite, request);
   add_check_command(app, check, request);
+  add_gate_commands(app, gates, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
   add_info_command(app, info, request);
   add_convert_command(app, convert, request);
   add_draw_command(app, draw, request);

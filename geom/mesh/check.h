@@ -97,6 +97,8 @@ struct CheckReport {
   GateState quality_state() const;
   /// \pre quality_measured
   const GateResult& gate(Measure measure) const { return gates[static_cast<std::size_t>(measure)]; }
+  /// Puts a measure that was taken elsewhere in the place of its own (G17, G18). Nothing where quality was not asked for.
+  void put(GateResult gate);
   std::int64_t count(Violation v) const;
 };
 
@@ -138,6 +140,8 @@ LayerCheck check_ahead(const HybridMesh& mesh, const CheckOptions& options, cons
 
 /// Several lines for people: both verdicts, gates with counts and worst places, the findings with coordinates.
 std::string to_text(const CheckReport& report);
+/// The lines of one measure in it.
+std::string to_text(const GateResult& gate);
 /// JSON with schema "sterna-check-2", described in docs/check_json.md.
 std::string to_json(const CheckReport& report);
 

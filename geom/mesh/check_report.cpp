@@ -213,6 +213,10 @@ std::int64_t CheckReport::count(Violation v) const {
   return 0;
 }
 
+void CheckReport::put(GateResult gate) {
+  if (const auto i = static_cast<std::size_t>(gate.measure); i < gates.size()) gates[i] = std::move(gate);
+}
+
 GateState CheckReport::quality_state() const {
   GateState worst = GateState::not_checked;
   for (const GateState state : {GateState::pass, GateState::warn, GateState::fail})
@@ -220,6 +224,8 @@ GateState CheckReport::quality_state() const {
       if (gate.state == state) worst = state;
   return worst;
 }
+
+std::string to_text(const GateResult& gate) { return gate_text(gate); }
 
 std::string to_text(const CheckReport& report) {
   const auto n = [](std::int64_t value) { return std::to_string(value); };

@@ -43,6 +43,8 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
     {M::face_flatness, "OF", "face_flatness", "OpenFOAM flatness of quads", "quads", false, true, {k_none, 0.8, k_none, 1.0}, {0.5, 1, 50}},
     {M::cell_aspect_ratio, "OF", "cell_aspect_ratio", "OpenFOAM aspect ratio", "cells", false, false, {k_none, k_none, k_none, 1.0}, {1, 0x1p16, 48, 3}},
     {M::cell_openness, "OF", "cell_openness", "OpenFOAM openness", "cells", false, false, {1e-6, 1e-9, k_none, 1.0}, {0x1p-60, 0x1p-20, 40, 1}},
+    {M::cad_distance, "G17", "cad_distance", "wall nodes off the CAD, / length", "nodes", false, false, {1e-6, 1e-9, k_none, 1.0}, {0x1p-60, 0x1p-12, 48, 1}},
+    {M::cad_normal, "G18", "cad_normal", "wall facets against the CAD", "facets", true, false, {30 * k_degree, 10 * k_degree, k_none, 1.0}, {0, k_right, 45}},
 }};
 
 constexpr bool is_in_order() {

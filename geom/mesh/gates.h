@@ -39,8 +39,10 @@ enum class Measure : std::uint8_t {
   face_flatness,     ///< OpenFOAM's, per quadrilateral: area over the sum of the areas of its triangles around its middle
   cell_aspect_ratio, ///< OpenFOAM's, per cell; reported only
   cell_openness,     ///< OpenFOAM's, per cell: sum of its face normals over the sum of their sizes
+  cad_distance,      ///< G17: distance of a wall node from the model, over the body length (surfmesh/model/deviation.h)
+  cad_normal,        ///< G18: facet normal against the model's at the facet's centroid (the same)
 };
-inline constexpr std::size_t k_n_measures = static_cast<std::size_t>(Measure::cell_openness) + 1;
+inline constexpr std::size_t k_n_measures = static_cast<std::size_t>(Measure::cad_normal) + 1;
 
 /// Classes of a measure's histogram: values below the first edge are in the first class, above the last edge (and no numbers) in the last.
 struct HistogramClasses {
