@@ -18,11 +18,13 @@
 #include "geom/cad/write_cad.h"
 #include "geom/mesh/half.h"
 #include "io/format_table.h"
+#include "scripting/cli_options.h"
 #include "scripting/cli_scripts.h"
 #include "scripting/commands.h"
 #include "scripting/console.h"
 #include "scripting/exit_status.h"
 #include "scripting/farfield_verbs.h"
+#include "scripting/inspect_command.h"
 #include "scripting/interrupt.h"
 #include "scripting/line_editor.h"
 #include "scripting/pentagrow_command.h"
@@ -52,52 +54,6 @@ struct Request {
   std::filesystem::path trouble;  ///< beside the output, or beside the input of commands that write nothing
   bool is_prompt = false;
 };
-
-std::string kebab(std::string_view name) {
-  std::string text(name);
-  std::replace(text.begin(), text.end(), '_', '-');
-  return text;
-}
-
-/// "stage.option=value" as name and value.
-std::pair<std::string, std::string> split_assignment(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) throw CLI::ValidationError("--set", "\"" + text + "\" is not stage.option=value");
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
-void add_set_option(CLI::App& command, OptionOverrides& overrides) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--set",
-          [&overrides](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) overrides.push_back(split_assignment(text));
-          },
-          "any option of any stage, e.g. --set envelope.layers=24")
-      ->type_name("STAGE.OPTION=VALUE")
-      ->allow_extra_args(false)
-      ->take_all();
-}
-
-/// One --kebab-name for each option of the schema, grouped by stage.
-void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverrides& overrides) {
-  for (const Option& option : table) {
-    const std::string name(option.name);
-    std::string help = std::string(option.help) + "; " + option.default_text();
-    if (const std::string range = option.range_text(); !range.empty()) help += "; " + range;
-    // Given twice, both are kept: set_options refuses them where they differ.
-    CLI::Option* added = command.add_option_function<std::vector<std::string>>(
-        "--" + kebab(name),
-        [&overrides, name](const std::vector<std::string>& texts) {
-          for (const std::string& text : texts) overrides.emplace_back(name, text.empty() ? "true" : text);
-        },
-        help);
-    added->group("Options of stage " + std::string(option.stage));
-    added->type_name(option.kind == OptionKind::boolean ? "[true|false]" : option.kind == OptionKind::text ? "TEXT" : "NUMBER");
-    added->allow_extra_args(false)->take_all();
-    if (option.kind == OptionKind::boolean) added->expected(0, 1);
-  }
-}
 
 void add_common_options(CLI::App& app, CommonSettings& common) {
   app.add_option("--threads", common.threads, "worker threads; 0 = all of the machine. The result does not depend on it")->check(CLI::Range(0, k_max_threads));
@@ -151,40 +107,6 @@ void add_script_commands(CLI::App& app, CheckScriptCommand& check, Request& requ
       return k_exit_success;
     };
   });
-}
-
-/// A bare number of an angle is in degrees here; what could be either is left as it is, and refused.
-std::string with_degrees(const std::string& name, const std::string& text) {
-  constexpr double k_surely_degrees = 1.6;  // largest curvature_angle in radians
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (name != "curvature_angle" || error != std::errc() || end != text.data() + text.size()) return text;
-  if (value > k_surely_degrees) return text + "deg";
-  throw Error({.code = ErrorCode::bad_argument, .attempted = "option curvature_angle", .problem = text + " may be degrees or radians", .hint = "write " + text + "deg or " + text + "rad"});
-}
-
-/// --patch "wing*:max_edge=0.1,curvature_angle=8": of two patterns that match the one with more letters counts.
-void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--patch",
-          [&patches](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) {
-              const std::size_t equals = text.find('='), colon = text.rfind(':', equals);
-              if (equals == std::string::npos || colon == std::string::npos || colon == 0) throw CLI::ValidationError("--patch", "\"" + text + "\" is not NAMES:OPTION=VALUE,OPTION=VALUE");
-              auto& [names, options] = patches.emplace_back(text.substr(0, colon), OptionOverrides{});
-              std::istringstream list(text.substr(colon + 1));
-              for (std::string entry; std::getline(list, entry, ',');) {
-                const std::size_t at = entry.find('=');
-                if (at == std::string::npos || at == 0) throw CLI::ValidationError("--patch", "\"" + entry + "\" is not OPTION=VALUE");
-                options.emplace_back(entry.substr(0, at), entry.substr(at + 1));
-              }
-            }
-          },
-          help)
-      ->type_name("NAMES:OPTION=VALUE,...")
-      ->allow_extra_args(false)
-      ->take_all();
 }
 
 void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Request& request) {
@@ -406,6 +328,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   UnionCommand unite;
   CheckCommand check;
   InfoCommand info;
+  InspectCommand inspect;
   ConvertCommand convert;
   PentagrowCommand pentagrow;
   OptionOverrides set;
@@ -420,6 +343,10 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_union_command(app, unite, request);
   add_check_command(app, check, request);
   add_info_command(app, info, request);
+  add_inspect_arguments(*app.add_subcommand("inspect", std::string(k_inspect_summary)), inspect, [&] {
+    request.execute = [&](const CommandContext& context) { return execute(inspect, context); };
+    request.trouble = beside(std::filesystem::path(inspect.inputs.front()).filename());
+  });
   add_convert_command(app, convert, request);
   add_pentagrow_command(app, pentagrow, request);
   app.add_subcommand("formats", "list the file formats")->final_callback([&] { request.execute = list_formats; });
