@@ -26,6 +26,7 @@
 #include "scripting/draw_command.h"
 #include "scripting/exit_status.h"
 #include "scripting/farfield_verbs.h"
+#include "scripting/inspect_command.h"
 #include "scripting/interrupt.h"
 #include "scripting/line_editor.h"
 #include "scripting/pentagrow_command.h"
@@ -110,40 +111,6 @@ void add_script_commands(CLI::App& app, CheckScriptCommand& check, Request& requ
       return k_exit_success;
     };
   });
-}
-
-/// A bare number of an angle is in degrees here; what could be either is left as it is, and refused.
-std::string with_degrees(const std::string& name, const std::string& text) {
-  constexpr double k_surely_degrees = 1.6;  // largest curvature_angle in radians
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (name != "curvature_angle" || error != std::errc() || end != text.data() + text.size()) return text;
-  if (value > k_surely_degrees) return text + "deg";
-  throw Error({.code = ErrorCode::bad_argument, .attempted = "option curvature_angle", .problem = text + " may be degrees or radians", .hint = "write " + text + "deg or " + text + "rad"});
-}
-
-/// --patch "wing*:max_edge=0.1,curvature_angle=8": of two patterns that match the one with more letters counts.
-void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--patch",
-          [&patches](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) {
-              const std::size_t equals = text.find('='), colon = text.rfind(':', equals);
-              if (equals == std::string::npos || colon == std::string::npos || colon == 0) throw CLI::ValidationError("--patch", "\"" + text + "\" is not NAMES:OPTION=VALUE,OPTION=VALUE");
-              auto& [names, options] = patches.emplace_back(text.substr(0, colon), OptionOverrides{});
-              std::istringstream list(text.substr(colon + 1));
-              for (std::string entry; std::getline(list, entry, ',');) {
-                const std::size_t at = entry.find('=');
-                if (at == std::string::npos || at == 0) throw CLI::ValidationError("--patch", "\"" + entry + "\" is not OPTION=VALUE");
-                options.emplace_back(entry.substr(0, at), entry.substr(at + 1));
-              }
-            }
-          },
-          help)
-      ->type_name("NAMES:OPTION=VALUE,...")
-      ->allow_extra_args(false)
-      ->take_all();
 }
 
 void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Request& request) {
@@ -385,6 +352,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   CheckCommand check;
   GateCommands gates;
   InfoCommand info;
+  InspectCommand inspect;
   ConvertCommand convert;
   DrawCommand draw;
   ReportCommand report;
@@ -402,6 +370,10 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_check_command(app, check, request);
   add_gate_commands(app, gates, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
   add_info_command(app, info, request);
+  add_inspect_arguments(*app.add_subcommand("inspect", std::string(k_inspect_summary)), inspect, [&] {
+    request.execute = [&](const CommandContext& context) { return execute(inspect, context); };
+    request.trouble = beside(std::filesystem::path(inspect.inputs.front()).filename());
+  });
   add_convert_command(app, convert, request);
   add_draw_command(app, draw, request);
   add_report_command(app, report, request);

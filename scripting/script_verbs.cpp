@@ -18,6 +18,7 @@
 #include "scripting/geometry_verbs.h"
 #include "scripting/draw_verbs.h"
 #include "scripting/half_verbs.h"
+#include "scripting/inspect_verbs.h"
 #include "scripting/layer_options.h"
 #include "scripting/model_gates.h"
 #include "scripting/model_methods.h"
@@ -343,6 +344,7 @@ std::span<const ScriptVerb> script_verbs() {
   static const std::vector<ScriptVerb> all = [] {
     std::vector<ScriptVerb> verbs(k_verbs.begin(), k_verbs.end());
     verbs.insert(verbs.end(), surface_verbs().begin(), surface_verbs().end());
+    verbs.insert(verbs.end(), inspect_verbs().begin(), inspect_verbs().end());
     verbs.insert(verbs.end(), stage_verbs().begin(), stage_verbs().end());
     verbs.insert(verbs.end(), source_verbs().begin(), source_verbs().end());
     verbs.insert(verbs.end(), disc_verbs().begin(), disc_verbs().end());
