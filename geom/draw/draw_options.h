@@ -23,6 +23,7 @@ struct DrawOptions {
   double range_max = k_automatic;
   std::string title = "automatic";
   bool places = false;
+  double unit = 1.0;
 };
 
 template <>
@@ -64,6 +65,12 @@ struct Schema<DrawOptions> {
                .automatic = "all but the highest 1 % of what is shown"},
       Field<O>{.name = "title", .member = &O::title, .help = "text at the top; automatic: the file's name and what is shown; none: no text"},
       Field<O>{.name = "places", .member = &O::places, .help = "mark the worst place of every gate that check does not pass, and what makes the mesh INVALID"},
+      Field<O>{.name = "unit",
+               .member = &O::unit,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .max = 1e9,
+               .help = "of files: length of one unit (mm, cm, inch, ft are numbers)"},
   };
 };
 

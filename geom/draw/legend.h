@@ -21,7 +21,8 @@ struct Layout {
   double middle_x() const { return 0.5 * (width - panel); }
   double middle_y() const { return head + 0.5 * (height - head); }
 };
-Layout layout_of(const DrawOptions& options, const Scene& scene, bool has_title, bool has_marks);
+/// The panel is as wide as what stands in it, up to a limit.
+Layout layout_of(const DrawOptions& options, const Scene& scene, bool has_title, std::span<const DrawMark> marks);
 
 void draw_title(Canvas& canvas, const Layout& layout, const std::string& title);
 /// Colour bar, swatches, and the texts of marks.

@@ -193,19 +193,19 @@ class SceneBuilder {
     }
   }
 
+  static std::string name_of(const Patch& patch) { return patch.name.empty() ? "(without a name)" : patch.name; }
+
   void color_faces_by_patch() {
     std::vector<std::uint8_t> is_seen(mesh_.patches.size(), 0);
     for (const std::size_t face : shown_) is_seen[patch_of(face).index()] = 1;
-    std::vector<Rgb> colors(mesh_.patches.size());
-    std::size_t n_shown = 0, n_seen = 0;
-    for (std::size_t i = 0; i < colors.size(); ++i) {
-      if (is_shown_[i] == 0) continue;
-      colors[i] = patch_color(n_shown++);
+    std::size_t n_seen = 0;
+    for (std::size_t i = 0; i < is_seen.size(); ++i) {
       if (is_seen[i] == 0) continue;
-      if (n_seen++ < k_most_swatches) scene_.swatches.push_back({colors[i], mesh_.patches[PatchId(i)].name});
+      if (n_seen++ < k_most_swatches)
+        scene_.swatches.push_back({patch_color(i), name_of(mesh_.patches[PatchId(i)])});  // the same colour whatever else is shown
     }
     if (n_seen > k_most_swatches) scene_.swatches.push_back({{255, 255, 255}, "and " + std::to_string(n_seen - k_most_swatches) + " more"});
-    color_faces([&](std::size_t face) { return colors[patch_of(face).index()]; });
+    color_faces([&](std::size_t face) { return patch_color(patch_of(face).index()); });
     scene_.caption = "patches";
   }
 
