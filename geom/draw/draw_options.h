@@ -35,7 +35,8 @@ struct Schema<DrawOptions> {
       Field<O>{.name = "view",
                .member = &O::view,
                .help = "iso, front, back, left, right, top, bottom; \"225 30\": azimuth and elevation in degrees of where one stands (180: ahead of the nose, "
-                       "270: left); \"-1,-1,0.5\": the direction from the mesh to the eye; automatic: iso, of a cut along its normal"},
+                       "270: left); \"-1,-1,0.5\": the direction from the mesh to the eye; automatic: iso, of half models from the side of the fluid, of a cut "
+                       "along its normal"},
       Field<O>{.name = "color",
                .member = &O::color,
                .help = "patch, kind, quality, or a figure of the faces (edge_length, skew, layer_height ...) or of cut cells (volume, layer); automatic: "

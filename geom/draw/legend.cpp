@@ -14,6 +14,8 @@ constexpr double k_text_share = 0.020, k_least_text = 9.0;
 /// In letters: width of the legend, at least with a colour bar, and with limits at it, and at most; of the colour bar; lines of text.
 constexpr double k_least_panel = 10.0, k_panel_with_limits = 12.5, k_most_panel = 20.0, k_bar_width = 1.5, k_bar_height = 22.0, k_line = 1.55;
 constexpr int k_ticks = 6;
+/// Colours that a legend on the picture may have.
+constexpr std::size_t k_most_inset = 8;
 /// Smaller letters, for remarks.
 constexpr double k_small = 0.8;
 constexpr Rgb k_frame_color{90, 96, 106};
@@ -75,7 +77,7 @@ double draw_swatches(Canvas& canvas, const Layout& layout, const std::vector<Swa
     if (y + k_line * t > layout.height) break;
     canvas.rectangle(x, y, t, t, swatch.color);
     canvas.frame(x, y, t, t, k_frame_color, 1.0);
-    canvas.text(x + 1.5 * t, y + 0.85 * t, fitted(canvas, swatch.text, t, layout.panel - 3.0 * t), t, k_text_color);
+    canvas.text(x + 1.5 * t, y + 0.85 * t, fitted(canvas, swatch.text, t, std::max(layout.panel, layout.inset) - 2.6 * t), t, k_text_color);
     y += k_line * t;
   }
   return y;
@@ -119,7 +121,9 @@ Layout layout_of(const DrawOptions& options, const Scene& scene, bool has_title,
   if (scene.bar)
     needed = std::max(
         {needed, measure.width_of(title_of(*scene.bar), k_small * t) + 2.0 * t, (scene.bar->limits.empty() ? k_least_panel : k_panel_with_limits) * t});
-  layout.panel = std::min({needed, k_most_panel * t, 0.4 * layout.width});
+  needed = std::min({needed, k_most_panel * t, 0.4 * layout.width});
+  const bool is_short = !scene.bar && marks.empty() && scene.swatches.size() <= k_most_inset;
+  (is_short ? layout.inset : layout.panel) = needed;
   return layout;
 }
 
@@ -129,6 +133,11 @@ void draw_title(Canvas& canvas, const Layout& layout, const std::string& title) 
 }
 
 void draw_legend(Canvas& canvas, const Layout& layout, const Scene& scene, std::span<const DrawMark> marks) {
+  if (layout.inset > 0.0) {
+    const double t = layout.text, x = layout.width - layout.inset - 0.6 * t, y = layout.head + 0.6 * t;
+    canvas.rectangle(x, y, layout.inset, (k_line * static_cast<double>(scene.swatches.size()) + 0.7) * t, {255, 255, 255}, 0.85);
+    draw_swatches(canvas, layout, scene.swatches, x + 0.6 * t, y + 0.6 * t);
+  }
   if (layout.panel <= 0.0) return;
   const double t = layout.text, x = layout.width - layout.panel + 0.6 * t;
   canvas.rectangle(layout.width - layout.panel, layout.head, layout.panel, layout.height - layout.head, {255, 255, 255});
@@ -145,7 +154,8 @@ void draw_legend(Canvas& canvas, const Layout& layout, const Scene& scene, std::
 }
 
 void draw_axes(Canvas& canvas, const Layout& layout, const Camera& camera) {
-  const double t = layout.text, length = 2.4 * t, x0 = 3.6 * t, y0 = layout.height - 3.6 * t;
+  const double t = layout.text, length = 2.4 * t, x0 = 4.3 * t, y0 = layout.height - 4.3 * t;
+  canvas.rectangle(0.5 * t, layout.height - 8.1 * t, 7.6 * t, 7.6 * t, {255, 255, 255}, 0.7);
   struct Axis {
     Vec3 direction;
     std::string_view name;
@@ -171,7 +181,7 @@ void draw_axes(Canvas& canvas, const Layout& layout, const Camera& camera) {
   const std::string text = metres >= 0.5    ? short_number(metres) + " m"
                            : metres >= 5e-4 ? short_number(1e3 * metres) + " mm"
                                             : short_number(1e6 * metres) + " \u00b5m";
-  const double x = 8.5 * t, y = layout.height - 1.6 * t;
+  const double x = 9.5 * t, y = layout.height - 1.6 * t;
   canvas.rectangle(x - 0.4 * t, y - 1.5 * t, pixels + 0.8 * t, 2.0 * t, {255, 255, 255}, 0.7);
   canvas.line(x, y, x + pixels, y, k_text_color, 0.12 * t);
   for (const double end : {x, x + pixels}) canvas.line(end, y - 0.3 * t, end, y + 0.3 * t, k_text_color, 0.12 * t);
