@@ -51,7 +51,7 @@ CLI::App* add_draw_arguments(CLI::App& app, DrawCommand& draw) {
   return command;
 }
 
-std::variant<TriMesh, HybridMesh> read_drawable(const InputPath& input, const RunContext& context) {
+std::variant<TriMesh, HybridMesh> read_drawable(const InputPath& input, double unit, const RunContext& context) {
   if (is_model_file(input.path))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "drawing " + input.name,
@@ -59,9 +59,12 @@ std::variant<TriMesh, HybridMesh> read_drawable(const InputPath& input, const Ru
                  .hint = "`sterna surface " + input.name + " -o wall.vtu` meshes its faces; draw what that writes"});
   if (io::format_of(input.path).read_volume) {
     HybridMesh mesh = io::read_volume_file(input.path, context);
+    for (Point& p : mesh.points) p *= unit;
     if (count_cells(mesh).total() > 0) return mesh;
   }
-  return io::to_tri_mesh(io::read_surface_file(input.path, context));
+  TriMesh surface = io::to_tri_mesh(io::read_surface_file(input.path, context));
+  for (Point& p : surface.points) p *= unit;
+  return surface;
 }
 
 void require_picture_output(const std::filesystem::path& path) {
@@ -91,7 +94,7 @@ int execute(const DrawCommand& command, const CommandContext& context) {
   DrawOptions options;
   set_options(sterna::options_of(options), command.options, context);
   require_draw_options(options);
-  const auto drawable = read_drawable({command.input, command.input}, context.run.part("read", 0.0, k_read_end));
+  const auto drawable = read_drawable({command.input, command.input}, options.unit, context.run.part("read", 0.0, k_read_end));
   const std::string name = std::filesystem::path(command.input).filename().string();
   const RunContext run = context.run.part("draw", k_read_end, 1.0);
   if (const auto* mesh = std::get_if<HybridMesh>(&drawable))

@@ -26,9 +26,9 @@ struct DrawCommand {
 CLI::App* add_draw_arguments(CLI::App& app, DrawCommand& draw);
 int execute(const DrawCommand& command, const CommandContext& context);
 
-/// A surface or volume mesh from a file; a file of a volume format without cells counts as a surface.
+/// A surface or volume mesh from a file of that unit (m); a file of a volume format without cells counts as a surface.
 /// \throws Error of io; (bad_argument) for models, which have no mesh yet
-std::variant<TriMesh, HybridMesh> read_drawable(const InputPath& input, const RunContext& context);
+std::variant<TriMesh, HybridMesh> read_drawable(const InputPath& input, double unit, const RunContext& context);
 
 /// \throws Error(unsupported_format) unless the name ends in .png
 void require_picture_output(const std::filesystem::path& path);

@@ -89,6 +89,7 @@ ScriptValue draw_object(const ScriptCall& call) {
   refuse_items_beyond(reader, 2);
   reader.read_options(schema);
   apply_overrides(call, schema);
+  if (!file && options.unit != 1.0) reader.add_problem("unit: is of files; meshes and surfaces are in metres");
   try {
     if (!reader.has_problems()) require_draw_options(options);
     if (output) require_picture_output(*output);
@@ -104,7 +105,7 @@ ScriptValue draw_object(const ScriptCall& call) {
   } else if (surface) {
     write_picture((*surface)->mesh, options, name_of((*surface)->inputs), path, context);
   } else {
-    const auto drawable = read_drawable(find_input(call, *file), context);
+    const auto drawable = read_drawable(find_input(call, *file), options.unit, context);
     const std::string name = std::filesystem::path(*file).filename().string();
     if (const auto* volume = std::get_if<HybridMesh>(&drawable))
       write_picture(*volume, nullptr, options, name, path, context);

@@ -112,6 +112,22 @@ mesh:check{ intersections = true, quality = true, findings_per_kind = 10, strict
 mesh:write "every_option.vtu"
 print(string.format("%d prisms, %d tetrahedra, %.1f %% of the area has its full height", mesh.prisms, mesh.tetrahedra, 100 * mesh.coverage))
 
+-- Pictures (docs/draw.md).
+draw{ mesh, "every_option.png",
+  view = "iso",                     -- front, back, left, right, top, bottom, "225 30" (azimuth, elevation), "-1,-1,0.5" (from the mesh to the eye)
+  color = "skew",                   -- patch, kind, quality, or a figure: edge_length, layer_height ...
+  cut = "none",                     -- "leading edge" ..., { x = 1.2 }, { point = {0, 0, 0}, normal = {0, 1, 0} }
+  focus = "automatic",              -- { {1, 2, 0}, radius = 0.5 }, or the name of a place
+  patches = "automatic",            -- patterns of names; automatic: walls
+  projection = "orthographic",      -- perspective
+  width = 1600, height = 1000,      -- pixels
+  edges = true, legend = true,
+  range_min = "automatic", range_max = "automatic",  -- of the colours, in the figure's unit
+  title = "automatic",              -- none, or any text
+  places = false,                   -- mark the worst places
+  unit = 1,                         -- of a file's name in place of the mesh: mm, inch ...
+}
+
 -- Heights from flow conditions: y_plus{...} as a first_height, boundary_layer{...} as a total_height.
 local cruise = flow{ mach = 0.78, altitude = 11000, length = 1.6,
   temperature_offset = 0,           -- ISA+15: 15

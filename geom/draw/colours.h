@@ -12,7 +12,7 @@ namespace sterna::draw {
 inline constexpr Rgb k_text_color{32, 36, 44};
 inline constexpr Rgb k_no_value{186, 190, 196};    ///< faces that have no such figure
 inline constexpr Rgb k_plain_wall{172, 180, 192};  ///< walls that are there for orientation only
-inline constexpr Rgb k_inside{104, 112, 124};      ///< the side of walls that is away from the fluid
+inline constexpr Rgb k_inside{158, 164, 174};      ///< the side of walls that is away from the fluid
 inline constexpr Rgb k_mark_color{214, 39, 40};
 
 /// Twelve that are easy to tell apart, then again.

@@ -65,13 +65,13 @@ std::string draw_mesh(const HybridMesh& mesh, bool is_surface, const DrawOptions
   const Scene scene = build_scene(mesh, is_surface, options, context);
   const std::string title = title_of(options, name, scene);
   const std::span<const DrawMark> marks = options.places ? given_marks : std::span<const DrawMark>{};
-  const Layout layout = layout_of(options, scene, !title.empty(), !marks.empty());
+  const Layout layout = layout_of(options, scene, !title.empty(), marks);
   const Camera camera = camera_of(scene, layout, options.projection == "perspective");
   const RasterOptions raster{options.width, options.height, options.edges, std::max(1.0, 0.05 * layout.text), k_paper};
   Canvas canvas(rasterise(scene.polygons, camera, raster, context));
   draw_marks(canvas, layout, camera, marks);
   if (!title.empty()) {
-    canvas.rectangle(0.0, 0.0, layout.width, layout.head, k_paper, 0.85);
+    canvas.rectangle(0.0, 0.0, layout.width, layout.head, k_paper);
     draw_title(canvas, layout, title);
   }
   if (options.legend) {

@@ -23,6 +23,7 @@ struct DrawOptions {
   double range_max = k_automatic;
   std::string title = "automatic";
   bool places = false;
+  double unit = 1.0;
 };
 
 template <>
@@ -34,7 +35,8 @@ struct Schema<DrawOptions> {
       Field<O>{.name = "view",
                .member = &O::view,
                .help = "iso, front, back, left, right, top, bottom; \"225 30\": azimuth and elevation in degrees of where one stands (180: ahead of the nose, "
-                       "270: left); \"-1,-1,0.5\": the direction from the mesh to the eye; automatic: iso, of a cut along its normal"},
+                       "270: left); \"-1,-1,0.5\": the direction from the mesh to the eye; automatic: iso, of half models from the side of the fluid, of a cut "
+                       "along its normal"},
       Field<O>{.name = "color",
                .member = &O::color,
                .help = "patch, kind, quality, or a figure of the faces (edge_length, skew, layer_height ...) or of cut cells (volume, layer); automatic: "
@@ -64,6 +66,12 @@ struct Schema<DrawOptions> {
                .automatic = "all but the highest 1 % of what is shown"},
       Field<O>{.name = "title", .member = &O::title, .help = "text at the top; automatic: the file's name and what is shown; none: no text"},
       Field<O>{.name = "places", .member = &O::places, .help = "mark the worst place of every gate that check does not pass, and what makes the mesh INVALID"},
+      Field<O>{.name = "unit",
+               .member = &O::unit,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .max = 1e9,
+               .help = "of files: length of one unit (mm, cm, inch, ft are numbers)"},
   };
 };
 

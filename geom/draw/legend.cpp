@@ -11,9 +11,11 @@ namespace {
 
 /// Letters over the height of a picture of the usual shape; never too small to read.
 constexpr double k_text_share = 0.020, k_least_text = 9.0;
-/// In letters: width of the legend, with marks; of the colour bar; lines of text.
-constexpr double k_panel = 13.5, k_panel_with_marks = 19.0, k_bar_width = 1.5, k_bar_height = 22.0, k_line = 1.55;
+/// In letters: width of the legend, at least with a colour bar, and with limits at it, and at most; of the colour bar; lines of text.
+constexpr double k_least_panel = 10.0, k_panel_with_limits = 12.5, k_most_panel = 20.0, k_bar_width = 1.5, k_bar_height = 22.0, k_line = 1.55;
 constexpr int k_ticks = 6;
+/// Colours that a legend on the picture may have.
+constexpr std::size_t k_most_inset = 8;
 /// Smaller letters, for remarks.
 constexpr double k_small = 0.8;
 constexpr Rgb k_frame_color{90, 96, 106};
@@ -38,11 +40,13 @@ std::string fitted(Canvas& canvas, std::string text, double size, double width) 
   return text + "\u2026";
 }
 
+std::string title_of(const ColorBar& bar) { return bar.title + (bar.unit.empty() ? "" : ", " + bar.unit); }
+
 double draw_bar(Canvas& canvas, const Layout& layout, const Scene& scene, double x, double y) {
   const ColorBar& bar = *scene.bar;
   const double t = layout.text, room = layout.panel - 1.2 * t, width = k_bar_width * t;
   const double height = std::min(k_bar_height * t, 0.55 * layout.height);
-  const std::string title = bar.title + (bar.unit.empty() ? "" : ", " + bar.unit);
+  const std::string title = title_of(bar);
   canvas.text(x, y + t, fitted(canvas, title, canvas.width_of(title, t) > room ? k_small * t : t, room), canvas.width_of(title, t) > room ? k_small * t : t,
               k_text_color);
   y += k_line * t + 0.6 * t;
@@ -60,7 +64,7 @@ double draw_bar(Canvas& canvas, const Layout& layout, const Scene& scene, double
   for (const auto& [value, text] : bar.limits) {
     if (value < bar.low || value > bar.high) continue;
     canvas.line(x - 0.2 * t, level(value), x + width + 0.2 * t, level(value), k_text_color, 2.0);
-    canvas.text(x + width + 4.4 * t, level(value) + 0.3 * t, text + " " + short_number(value), k_small * t, k_text_color);
+    canvas.text(x + width + 3.6 * t, level(value) + 0.3 * t, text + " " + short_number(value), k_small * t, k_text_color);
   }
   y += n + k_line * t;
   canvas.text(x, y, "from " + short_number(bar.smallest) + " to " + short_number(bar.largest), k_small * t, k_text_color);
@@ -73,7 +77,7 @@ double draw_swatches(Canvas& canvas, const Layout& layout, const std::vector<Swa
     if (y + k_line * t > layout.height) break;
     canvas.rectangle(x, y, t, t, swatch.color);
     canvas.frame(x, y, t, t, k_frame_color, 1.0);
-    canvas.text(x + 1.5 * t, y + 0.85 * t, fitted(canvas, swatch.text, t, layout.panel - 3.0 * t), t, k_text_color);
+    canvas.text(x + 1.5 * t, y + 0.85 * t, fitted(canvas, swatch.text, t, std::max(layout.panel, layout.inset) - 2.6 * t), t, k_text_color);
     y += k_line * t;
   }
   return y;
@@ -105,12 +109,21 @@ std::vector<double> ticks_of(double low, double high, bool is_log, int n) {
   return ticks;
 }
 
-Layout layout_of(const DrawOptions& options, const Scene& scene, bool has_title, bool has_marks) {
+Layout layout_of(const DrawOptions& options, const Scene& scene, bool has_title, std::span<const DrawMark> marks) {
   Layout layout{static_cast<double>(options.width), static_cast<double>(options.height), 0.0};
-  layout.text = std::max(k_least_text, k_text_share * std::min(layout.height, layout.width / 1.6));
-  const bool has_panel = options.legend && (scene.bar || !scene.swatches.empty() || has_marks);
-  layout.panel = has_panel ? std::min(0.4 * layout.width, (has_marks ? k_panel_with_marks : k_panel) * layout.text) : 0.0;
-  layout.head = has_title ? 2.6 * layout.text : 0.0;
+  const double t = layout.text = std::max(k_least_text, k_text_share * std::min(layout.height, layout.width / 1.6));
+  layout.head = has_title ? 2.6 * t : 0.0;
+  if (!options.legend) return layout;
+  Canvas measure(Image{1, 1, {{255, 255, 255}}});
+  double needed = 0.0;
+  for (const Swatch& swatch : scene.swatches) needed = std::max(needed, measure.width_of(swatch.text, t) + 3.2 * t);
+  for (const DrawMark& mark : marks) needed = std::max(needed, measure.width_of(mark.text, k_small * t) + 3.2 * t);
+  if (scene.bar)
+    needed = std::max(
+        {needed, measure.width_of(title_of(*scene.bar), k_small * t) + 2.0 * t, (scene.bar->limits.empty() ? k_least_panel : k_panel_with_limits) * t});
+  needed = std::min({needed, k_most_panel * t, 0.4 * layout.width});
+  const bool is_short = !scene.bar && marks.empty() && scene.swatches.size() <= k_most_inset;
+  (is_short ? layout.inset : layout.panel) = needed;
   return layout;
 }
 
@@ -120,9 +133,14 @@ void draw_title(Canvas& canvas, const Layout& layout, const std::string& title) 
 }
 
 void draw_legend(Canvas& canvas, const Layout& layout, const Scene& scene, std::span<const DrawMark> marks) {
+  if (layout.inset > 0.0) {
+    const double t = layout.text, x = layout.width - layout.inset - 0.6 * t, y = layout.head + 0.6 * t;
+    canvas.rectangle(x, y, layout.inset, (k_line * static_cast<double>(scene.swatches.size()) + 0.7) * t, {255, 255, 255}, 0.85);
+    draw_swatches(canvas, layout, scene.swatches, x + 0.6 * t, y + 0.6 * t);
+  }
   if (layout.panel <= 0.0) return;
   const double t = layout.text, x = layout.width - layout.panel + 0.6 * t;
-  canvas.rectangle(layout.width - layout.panel, layout.head, layout.panel, layout.height - layout.head, {255, 255, 255}, 0.85);
+  canvas.rectangle(layout.width - layout.panel, layout.head, layout.panel, layout.height - layout.head, {255, 255, 255});
   double y = layout.head + 0.8 * t;
   if (scene.bar) y = draw_bar(canvas, layout, scene, x, y) + 0.6 * t;
   std::vector<Swatch> swatches = scene.swatches;
@@ -136,7 +154,8 @@ void draw_legend(Canvas& canvas, const Layout& layout, const Scene& scene, std::
 }
 
 void draw_axes(Canvas& canvas, const Layout& layout, const Camera& camera) {
-  const double t = layout.text, length = 2.4 * t, x0 = 3.6 * t, y0 = layout.height - 3.6 * t;
+  const double t = layout.text, length = 2.4 * t, x0 = 4.3 * t, y0 = layout.height - 4.3 * t;
+  canvas.rectangle(0.5 * t, layout.height - 8.1 * t, 7.6 * t, 7.6 * t, {255, 255, 255}, 0.7);
   struct Axis {
     Vec3 direction;
     std::string_view name;
@@ -162,7 +181,7 @@ void draw_axes(Canvas& canvas, const Layout& layout, const Camera& camera) {
   const std::string text = metres >= 0.5    ? short_number(metres) + " m"
                            : metres >= 5e-4 ? short_number(1e3 * metres) + " mm"
                                             : short_number(1e6 * metres) + " \u00b5m";
-  const double x = 8.5 * t, y = layout.height - 1.6 * t;
+  const double x = 9.5 * t, y = layout.height - 1.6 * t;
   canvas.rectangle(x - 0.4 * t, y - 1.5 * t, pixels + 0.8 * t, 2.0 * t, {255, 255, 255}, 0.7);
   canvas.line(x, y, x + pixels, y, k_text_color, 0.12 * t);
   for (const double end : {x, x + pixels}) canvas.line(end, y - 0.3 * t, end, y + 0.3 * t, k_text_color, 0.12 * t);

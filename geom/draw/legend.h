@@ -17,11 +17,13 @@ struct Layout {
   double width, height;
   double text;         ///< size of letters
   double panel = 0.0;  ///< width of the legend at the right
+  double inset = 0.0;  ///< width of a legend of a few colours, which stands on the picture in its corner
   double head = 0.0;   ///< height of the title at the top
   double middle_x() const { return 0.5 * (width - panel); }
   double middle_y() const { return head + 0.5 * (height - head); }
 };
-Layout layout_of(const DrawOptions& options, const Scene& scene, bool has_title, bool has_marks);
+/// The panel is as wide as what stands in it, up to a limit.
+Layout layout_of(const DrawOptions& options, const Scene& scene, bool has_title, std::span<const DrawMark> marks);
 
 void draw_title(Canvas& canvas, const Layout& layout, const std::string& title);
 /// Colour bar, swatches, and the texts of marks.

@@ -28,7 +28,7 @@ constexpr double k_edge_opacity = 0.6;
 constexpr Rgb k_edge_color{20, 24, 32};
 /// Light from the upper left behind the viewer, a weaker one from the right; directions right, up, towards the viewer.
 constexpr Vec3 k_key_light{-0.3482, 0.4975, 0.7945}, k_fill_light{0.7682, 0.0960, 0.6330};
-constexpr double k_ambient = 0.42, k_key = 0.55, k_fill = 0.14;
+constexpr double k_ambient = 0.48, k_key = 0.50, k_fill = 0.14;
 
 struct ScreenTriangle {
   std::array<float, 3> x, y, depth;

@@ -10,6 +10,7 @@
 #include "geom/base/glob.h"
 #include "geom/base/number_text.h"
 #include "geom/draw/figures.h"
+#include "geom/math/measures.h"
 #include "geom/mesh/wall_sections.h"
 
 namespace sterna::draw {
@@ -112,10 +113,24 @@ class SceneBuilder {
     const std::optional<Vec3> given = view_of(options_.view);
     const Vec3 iso = *view_of("iso");
     scene_.toward = given.value_or(iso);
+    if (!given && !plane_) look_from_inside();
     if (given || !plane_) return;
     const double side = camera_towards(plane_->normal).right.x;
     const bool is_turned = std::abs(side) > 1e-6 ? side < 0.0 : plane_->normal.x > 0.0 || plane_->normal.z < 0.0;
     scene_.toward = is_turned ? -plane_->normal : plane_->normal;
+  }
+
+  /// Half models are seen from the side of the fluid: the symmetry plane behind the body, not in front of it.
+  void look_from_inside() {
+    Vec3 out;
+    const auto add = [&](const auto& face, const Vec3& area) {
+      if (mesh_.patches[face.patch].kind == PatchKind::symmetry) out += area;
+    };
+    const auto& p = mesh_.points;
+    for (const BoundaryTriangle& face : mesh_.boundary_triangles) add(face, area_vector(p[face.nodes[0]], p[face.nodes[1]], p[face.nodes[2]]));
+    for (const BoundaryQuad& face : mesh_.boundary_quads) add(face, 0.5 * cross(p[face.nodes[2]] - p[face.nodes[0]], p[face.nodes[3]] - p[face.nodes[1]]));
+    out = normalized(out);
+    if (const double away = dot(scene_.toward, out); away > 0.0) scene_.toward -= 2.0 * away * out;
   }
 
   void cut_cells() {
@@ -193,19 +208,19 @@ class SceneBuilder {
     }
   }
 
+  static std::string name_of(const Patch& patch) { return patch.name.empty() ? "(without a name)" : patch.name; }
+
   void color_faces_by_patch() {
     std::vector<std::uint8_t> is_seen(mesh_.patches.size(), 0);
     for (const std::size_t face : shown_) is_seen[patch_of(face).index()] = 1;
-    std::vector<Rgb> colors(mesh_.patches.size());
-    std::size_t n_shown = 0, n_seen = 0;
-    for (std::size_t i = 0; i < colors.size(); ++i) {
-      if (is_shown_[i] == 0) continue;
-      colors[i] = patch_color(n_shown++);
+    std::size_t n_seen = 0;
+    for (std::size_t i = 0; i < is_seen.size(); ++i) {
       if (is_seen[i] == 0) continue;
-      if (n_seen++ < k_most_swatches) scene_.swatches.push_back({colors[i], mesh_.patches[PatchId(i)].name});
+      if (n_seen++ < k_most_swatches)
+        scene_.swatches.push_back({patch_color(i), name_of(mesh_.patches[PatchId(i)])});  // the same colour whatever else is shown
     }
     if (n_seen > k_most_swatches) scene_.swatches.push_back({{255, 255, 255}, "and " + std::to_string(n_seen - k_most_swatches) + " more"});
-    color_faces([&](std::size_t face) { return colors[patch_of(face).index()]; });
+    color_faces([&](std::size_t face) { return patch_color(patch_of(face).index()); });
     scene_.caption = "patches";
   }
 

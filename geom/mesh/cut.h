@@ -46,9 +46,10 @@ struct MeshCut {
 /// A node in the plane counts as above it, as if the plane lay a hair towards its negative side: faces in the plane are drawn once, by the cell below them, and
 /// the polygons tile the section without gaps or overlaps. Side faces of four nodes are bilinear; where the plane crosses all four edges of one, the bilinear
 /// surface's saddle says which corners belong together, the same for both cells. Polygons come in file order of their cells (one cell may have two where its
-/// sides are warped); those without area, where a cell touches the plane with an edge or node only, are left out. Costs one pass over nodes and cells, 1 byte
-/// per node; columns whose lines lie on one side are skipped whole. \pre indices in range, finite points \throws Error(bad_argument) when the normal has no
-/// length
+/// sides are warped); those without area, where a cell touches the plane with an edge or node only, are left out.
+/// Costs one pass over nodes and cells, 1 byte per node; columns whose lines lie on one side are skipped whole.
+/// \pre indices in range, finite points
+/// \throws Error(bad_argument) when the normal has no length
 MeshCut cut_mesh(const HybridMesh& mesh, const CutPlane& plane, const RunContext& context);
 
 }  // namespace sterna

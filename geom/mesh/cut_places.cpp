@@ -13,6 +13,10 @@ namespace {
 
 /// Share of the half span where a wing is cut: outside of engines and kinks, inside of tips.
 constexpr double k_station = 0.55;
+/// Share of the half span to the sections that say how the wing's edges run.
+constexpr double k_station_step = 0.02;
+/// Edges that run more across the span than this cosine are no wing's: the sections are of different bodies.
+constexpr double k_most_swept = 0.3;
 /// Thickness over length of a section that counts as a wing's; airfoils have up to 0.25, nacelles and fuselages more.
 constexpr double k_wing_thickness = 0.4;
 /// Thinner sections are of plates that end nowhere, such as a tunnel's floor.
@@ -24,7 +28,7 @@ constexpr double k_sharp = std::numbers::pi / 6.0;
 /// How far inside the symmetry plane the cut is, over the walls' longest side: beyond the rounding of coordinates, far below an edge.
 constexpr double k_hair = 1e-7;
 /// What is seen around a focus: so many heights of the layer, at least so many edges of the wall.
-constexpr double k_layers_seen = 2.5, k_edges_seen = 6.0;
+constexpr double k_layers_seen = 3.0, k_edges_seen = 6.0;
 /// A body whose box is off the plane y = 0 by less than this share of its width is a whole one.
 constexpr double k_whole = 0.02;
 
@@ -103,15 +107,11 @@ class PlaceFinder {
   /// Whether the walls are on both sides of the plane span = 0 alike.
   bool is_whole() const { return std::abs(low(span_) + high(span_)) < k_whole * (high(span_) - low(span_)); }
 
-  void add_wing() {
-    const double root = is_whole() ? 0.0 : std::abs(low(span_)) < std::abs(high(span_)) ? low(span_) : high(span_);
-    const double tip = is_whole() ? high(span_) : std::abs(low(span_)) < std::abs(high(span_)) ? high(span_) : low(span_);
+  /// The flattest piece of the section at a station that may be a wing's.
+  std::optional<SectionPiece> wing_at(double station) const {
     Point at = walls_.box().center();
-    at[span_] = root + k_station * (tip - root);
+    at[span_] = station;
     const std::vector<SectionPiece> pieces = walls_.section(at, unit(span_));
-    const std::size_t up = 3 - span_;
-    const auto chord = [](const SectionPiece& piece) { return piece.box.max.x - piece.box.min.x; };
-    const auto thickness = [&](const SectionPiece& piece) { return piece.box.max[up] - piece.box.min[up]; };
     double longest = 0.0;
     for (const SectionPiece& piece : pieces) longest = std::max(longest, chord(piece));
     const SectionPiece* wing = nullptr;
@@ -120,19 +120,37 @@ class PlaceFinder {
         continue;
       if (wing == nullptr || thickness(piece) * chord(*wing) < thickness(*wing) * chord(piece)) wing = &piece;
     }
-    if (wing == nullptr || !(longest > 0.0)) return;
+    return wing && longest > 0.0 ? std::optional(*wing) : std::nullopt;
+  }
+  static double chord(const SectionPiece& piece) { return piece.box.max.x - piece.box.min.x; }
+  double thickness(const SectionPiece& piece) const { return piece.box.max[3 - span_] - piece.box.min[3 - span_]; }
+
+  /// Its first (sense -1) or last point along x.
+  static Point end_of(const SectionPiece& wing, double sense) {
+    Point best = wing.segments.front()[0];
+    for (const auto& segment : wing.segments)
+      for (const Point& p : segment)
+        if (sense * p.x > sense * best.x) best = p;
+    return best;
+  }
+
+  void add_wing() {
+    const bool is_left = !is_whole() && std::abs(low(span_)) > std::abs(high(span_));
+    const double root = is_whole() ? 0.0 : is_left ? high(span_) : low(span_), tip = is_left ? low(span_) : high(span_);
+    const double station = root + k_station * (tip - root), step = k_station_step * (tip - root);
+    const auto wing = wing_at(station), before = wing_at(station - step), behind = wing_at(station + step);
+    if (!wing) return;
     has_wing_ = true;
-    const auto end = [&](double sense) {
-      Point best = wing->segments.front()[0];
-      for (const auto& segment : wing->segments)
-        for (const Point& p : segment)
-          if (sense * p.x > sense * best.x) best = p;
-      best[span_] = at[span_];
-      return best;
+    const auto add_edge = [&](std::string name, double sense) {
+      Point at = end_of(*wing, sense);
+      at[span_] = station;
+      // Across the edge, along which cells are stretched: a plane along the flow would cut swept ones aslant.
+      const Vec3 along = before && behind ? end_of(*behind, sense) - end_of(*before, sense) : unit(span_);
+      add_close(std::move(name), at, std::abs(normalized(along)[span_]) > k_most_swept ? normalized(along) : unit(span_));
     };
-    add_close("leading edge", end(-1.0), unit(span_));
-    add_close("trailing edge", end(1.0), unit(span_));
-    add_close("tip", walls_.point(walls_.extreme_node(tip < root ? -unit(span_) : unit(span_))), unit(0));
+    add_edge("leading edge", -1.0);
+    add_edge("trailing edge", 1.0);
+    add_close("tip", walls_.point(walls_.extreme_node(is_left ? -unit(span_) : unit(span_))), unit(0));
   }
 
   /// Across the edge in the middle of a chain, by x.
