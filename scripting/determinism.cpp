@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds k_pause{5};        ///< between two looks at a run
+constexpr std::chrono::milliseconds k_pause{5};         ///< between two looks at a run
 constexpr std::chrono::milliseconds k_stop_grace{800};  ///< a run that was asked to stop gets so long; Ctrl-C shall be over in a second
 constexpr std::size_t k_quoted = 2000;                  ///< bytes of a run's output for a message
 constexpr std::size_t k_block = std::size_t{1} << 16;   ///< bytes that are compared at a time
@@ -40,7 +40,10 @@ class WorkFolder {
   WorkFolder() {
     std::string name = (fs::temp_directory_path() / "sterna-determinism-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr)
-      throw Error({.code = ErrorCode::write_failed, .attempted = "making a folder for the runs", .problem = name + ": " + std::strerror(errno), .hint = "the environment's TMPDIR names another place"});
+      throw Error({.code = ErrorCode::write_failed,
+                   .attempted = "making a folder for the runs",
+                   .problem = name + ": " + std::strerror(errno),
+                   .hint = "the environment's TMPDIR names another place"});
     path_ = name;
   }
   ~WorkFolder() {
@@ -123,7 +126,8 @@ std::vector<std::string> words_of(const DeterminismCommand& command, int threads
   throw Error({.code = ErrorCode::script_failed,
                .attempted = "running " + command.script.string() + " with " + threads_text(threads),
                .problem = "it failed, " + how + (words.empty() ? "" : ": " + words),
-               .hint = "files of the runs are kept in " + kept.string() + "; `sterna run " + command.script.string() + " --threads " + std::to_string(threads) + "` does the same"});
+               .hint = "files of the runs are kept in " + kept.string() + "; `sterna run " + command.script.string() + " --threads " + std::to_string(threads) +
+                       "` does the same"});
 }
 
 /// Waits for its end. \throws Error(cancelled) once the run is gone
@@ -141,7 +145,8 @@ int finish(ChildProcess& process, const RunContext& run) {
 }
 
 void require_usable(const DeterminismCommand& command) {
-  if (!fs::exists(command.script)) throw Error({.code = ErrorCode::file_not_found, .attempted = "checking the determinism of " + command.script.string(), .problem = "there is no such file"});
+  if (!fs::exists(command.script))
+    throw Error({.code = ErrorCode::file_not_found, .attempted = "checking the determinism of " + command.script.string(), .problem = "there is no such file"});
   if (command.threads.size() < 2)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "--threads " + (command.threads.empty() ? std::string() : std::to_string(command.threads.front())),
@@ -160,11 +165,13 @@ void compare_run(const fs::path& first, const fs::path& folder, int threads, Det
   const std::set<std::string> here = files_in(folder, left_out);
   report.left_out.assign(left_out.begin(), left_out.end());
   if (first == folder) {
-    for (const std::string& name : here) report.files.push_back({.name = name, .hash = hash_file(folder / name), .bytes = fs::file_size(folder / name), .differences = {}});
+    for (const std::string& name : here)
+      report.files.push_back({.name = name, .hash = hash_file(folder / name), .bytes = fs::file_size(folder / name), .differences = {}});
     return;
   }
   for (const std::string& name : here)
-    if (std::ranges::none_of(report.files, [&](const ComparedFile& file) { return file.name == name; })) report.files.push_back({.name = name, .hash = {}, .bytes = 0, .differences = {}});
+    if (std::ranges::none_of(report.files, [&](const ComparedFile& file) { return file.name == name; }))
+      report.files.push_back({.name = name, .hash = {}, .bytes = 0, .differences = {}});
   std::ranges::sort(report.files, {}, &ComparedFile::name);
   for (ComparedFile& file : report.files) {
     if (!here.contains(file.name)) {
@@ -179,19 +186,30 @@ void compare_run(const fs::path& first, const fs::path& folder, int threads, Det
 }
 
 std::string to_text(const DeterminismReport& report) {
-  const std::size_t n_different = static_cast<std::size_t>(std::ranges::count_if(report.files, [](const ComparedFile& file) { return !file.differences.empty(); }));
+  const std::size_t n_different =
+      static_cast<std::size_t>(std::ranges::count_if(report.files, [](const ComparedFile& file) { return !file.differences.empty(); }));
   const auto files = [](std::size_t n) { return std::to_string(n) + (n == 1 ? " file" : " files"); };
   std::string text = "G22 determinism: ";
-  if (report.files.empty()) text += "FAIL, the script wrote no file that could be compared\n";
-  else if (n_different == 0) text += "pass, " + files(report.files.size()) + " equal for " + threads_text(report.threads) + "\n";
-  else text += "FAIL, " + std::to_string(n_different) + " of " + files(report.files.size()) + (n_different == 1 ? " differs" : " differ") + " between " + threads_text(report.threads) + "\n";
+  if (report.files.empty())
+    text += "FAIL, the script wrote no file that could be compared\n";
+  else if (n_different == 0)
+    text += "pass, " + files(report.files.size()) + " equal for " + threads_text(report.threads) + "\n";
+  else
+    text += "FAIL, " + std::to_string(n_different) + " of " + files(report.files.size()) + (n_different == 1 ? " differs" : " differ") + " between " +
+            threads_text(report.threads) + "\n";
   for (const ComparedFile& file : report.files) {
-    if (file.hash.empty()) text += fmt::format("  {}: {} wrote none\n", file.name, threads_text(report.threads.front()));
-    else text += fmt::format("  {}  {:>12} bytes  {}\n", file.hash, count_text(static_cast<std::int64_t>(file.bytes)), file.name);
+    if (file.hash.empty())
+      text += fmt::format("  {}: {} wrote none\n", file.name, threads_text(report.threads.front()));
+    else
+      text += fmt::format("  {}  {:>12} bytes  {}\n", file.hash, count_text(static_cast<std::int64_t>(file.bytes)), file.name);
     for (const ComparedFile::Difference& d : file.differences) {
-      if (d.hash.empty()) text += fmt::format("      {} wrote none\n", threads_text(d.threads));
-      else if (file.hash.empty()) text += fmt::format("      {} wrote {} bytes, {}\n", threads_text(d.threads), count_text(static_cast<std::int64_t>(d.bytes)), d.hash);
-      else text += fmt::format("      {}: {}, {} bytes, first difference at byte {}\n", threads_text(d.threads), d.hash, count_text(static_cast<std::int64_t>(d.bytes)), count_text(static_cast<std::int64_t>(d.at)));
+      if (d.hash.empty())
+        text += fmt::format("      {} wrote none\n", threads_text(d.threads));
+      else if (file.hash.empty())
+        text += fmt::format("      {} wrote {} bytes, {}\n", threads_text(d.threads), count_text(static_cast<std::int64_t>(d.bytes)), d.hash);
+      else
+        text += fmt::format("      {}: {}, {} bytes, first difference at byte {}\n", threads_text(d.threads), d.hash,
+                            count_text(static_cast<std::int64_t>(d.bytes)), count_text(static_cast<std::int64_t>(d.at)));
     }
   }
   if (!report.left_out.empty()) {
@@ -205,12 +223,17 @@ std::string to_text(const DeterminismReport& report) {
 
 std::string to_json(const DeterminismReport& report) {
   using Json = nlohmann::ordered_json;
-  Json json = {{"schema", "sterna-determinism-1"}, {"gate", "G22"}, {"state", report.is_pass() ? "pass" : "fail"}, {"script", report.script}, {"threads", report.threads}};
+  Json json = {{"schema", "sterna-determinism-1"},
+               {"gate", "G22"},
+               {"state", report.is_pass() ? "pass" : "fail"},
+               {"script", report.script},
+               {"threads", report.threads}};
   json["files"] = Json::array();
   const auto hash = [](const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); };
   for (const ComparedFile& file : report.files) {
     Json entry = {{"file", file.name}, {"bytes", file.bytes}, {"xxh3_128", hash(file.hash)}, {"differences", Json::array()}};
-    for (const ComparedFile::Difference& d : file.differences) entry["differences"].push_back({{"threads", d.threads}, {"bytes", d.bytes}, {"xxh3_128", hash(d.hash)}, {"first_byte", d.at}});
+    for (const ComparedFile::Difference& d : file.differences)
+      entry["differences"].push_back({{"threads", d.threads}, {"bytes", d.bytes}, {"xxh3_128", hash(d.hash)}, {"first_byte", d.at}});
     json["files"].push_back(std::move(entry));
   }
   json["left_out"] = report.left_out;
@@ -236,8 +259,11 @@ int execute(const DeterminismCommand& command, const CommandContext& context) {
     }
     compare_run(folder_of(0), folder, threads, report);
     const bool is_equal = report.is_pass();
-    context.run.info(fmt::format("run {} of {}: {}, {}{}", i + 1, command.threads.size(), threads_text(threads), duration_text(std::chrono::duration<double>(Clock::now() - start).count()),
-                                 i == 0 ? "" : is_equal ? ", equal" : ", different"));
+    context.run.info(fmt::format("run {} of {}: {}, {}{}", i + 1, command.threads.size(), threads_text(threads),
+                                 duration_text(std::chrono::duration<double>(Clock::now() - start).count()),
+                                 i == 0     ? ""
+                                 : is_equal ? ", equal"
+                                            : ", different"));
     std::error_code ignored;  // removed with all of them at the end
     if (i > 0 && is_equal) fs::remove_all(folder, ignored);
     context.run.progress(static_cast<double>(i + 1) / static_cast<double>(command.threads.size()));

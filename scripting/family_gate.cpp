@@ -27,12 +27,14 @@ void read_manifest(const std::filesystem::path& file, FamilyMember& member, cons
   if (!std::filesystem::exists(path, ignored)) return;
   std::ifstream stream(path, std::ios::binary);
   const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
-  if (json.is_discarded() || !json.is_object() || json.value("schema", "") != "sterna-manifest-1") return context.warn(path.string() + " is no manifest of a mesh: it is passed over");
+  if (json.is_discarded() || !json.is_object() || json.value("schema", "") != "sterna-manifest-1")
+    return context.warn(path.string() + " is no manifest of a mesh: it is passed over");
   const auto number = [&](const char* place) -> std::optional<double> {
     const nlohmann::json::json_pointer at(place);
     return json.contains(at) && json[at].is_number() ? std::optional(json[at].get<double>()) : std::nullopt;
   };
-  if (number("/mesh/nodes") != static_cast<double>(member.nodes)) return context.warn(path.string() + " is of another mesh than " + file.string() + ": it is passed over");
+  if (number("/mesh/nodes") != static_cast<double>(member.nodes))
+    return context.warn(path.string() + " is of another mesh than " + file.string() + ": it is passed over");
   member.refinement = number("/options/family/refinement");
   if (const std::optional<double> growth = number("/options/size/size_growth")) member.tet_growth = 1.0 + (*growth - 1.0) / member.refinement.value_or(1.0);
 }
@@ -84,9 +86,12 @@ ScriptValue check_family_verb(const ScriptCall& call) {
   const OptionTable schema = sterna::options_of(tolerances);
   std::vector<std::pair<MeshHandle, InputPath>> meshes;
   for (const ScriptValue& item : reader.items()) {
-    if (const auto* mesh = std::get_if<MeshHandle>(&item)) meshes.push_back({*mesh, {}});
-    else if (const auto* name = std::get_if<std::string>(&item)) meshes.push_back({nullptr, find_input(call, *name)});
-    else reader.add_problem("entry " + std::to_string(meshes.size() + 1) + ": expected a mesh or the name of its file, not " + std::string(type_text(item)));
+    if (const auto* mesh = std::get_if<MeshHandle>(&item))
+      meshes.push_back({*mesh, {}});
+    else if (const auto* name = std::get_if<std::string>(&item))
+      meshes.push_back({nullptr, find_input(call, *name)});
+    else
+      reader.add_problem("entry " + std::to_string(meshes.size() + 1) + ": expected a mesh or the name of its file, not " + std::string(type_text(item)));
   }
   if (meshes.size() < 2) reader.add_problem("needs at least two meshes, from coarse to fine: " + std::string(k_usage));
   reader.read_options(schema);
@@ -112,8 +117,10 @@ ScriptValue check_family_verb(const ScriptCall& call) {
 }
 
 constexpr std::array<ScriptVerb, 1> k_verbs = {{
-    {"check_family", k_usage, "Checks that meshes are members of one family, each finer than the one before by one factor in all directions, and prints what was measured against what the rule expects.", check_family_verb, family_help,
-     true, "table"},
+    {"check_family", k_usage,
+     "Checks that meshes are members of one family, each finer than the one before by one factor in all directions, and prints what was measured against what "
+     "the rule expects.",
+     check_family_verb, family_help, true, "table"},
 }};
 
 }  // namespace

@@ -19,8 +19,8 @@ struct CheckFamilyCommand {
   bool is_json = false;
 };
 
-/// What is known of a mesh: of one made here also what was asked for; of one that was read what the manifest beside its file says, where that is the mesh's own.
-/// `file`: where it was read from; empty: it was made here.
+/// What is known of a mesh: of one made here also what was asked for; of one that was read what the manifest beside its file says, where that is the mesh's
+/// own. `file`: where it was read from; empty: it was made here.
 FamilyMember member_of(const MeshValue& mesh, std::string name, const std::filesystem::path& file, const RunContext& context);
 
 /// Status 3 where a rule FAILs. \throws Error of read_mesh and check_family

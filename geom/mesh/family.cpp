@@ -69,18 +69,21 @@ GateState worse(GateState a, GateState b) {
 
 class StepRules {
  public:
-  StepRules(const FamilyMember& coarse, const FamilyMember& fine, const FamilyTolerances& tolerances, FamilyStep& step) : coarse_(coarse), fine_(fine), tolerances_(tolerances), step_(step) {}
+  StepRules(const FamilyMember& coarse, const FamilyMember& fine, const FamilyTolerances& tolerances, FamilyStep& step)
+      : coarse_(coarse), fine_(fine), tolerances_(tolerances), step_(step) {}
 
   /// A rule that compares `value` with `expected`, off by `deviation`.
   void add(std::string name, std::string title, double coarse, double fine, double value, double expected, double deviation, double tolerance) {
     const GateState state = deviation <= tolerance ? GateState::pass : deviation <= tolerances_.fail * tolerance ? GateState::warn : GateState::fail;
     step_.rules.push_back({std::move(name), std::move(title), state, {}, coarse, fine, value, expected, deviation, tolerance});
   }
-  void skip(std::string name, std::string title, std::string reason) { step_.rules.push_back({.name = std::move(name), .title = std::move(title), .reason = std::move(reason)}); }
+  void skip(std::string name, std::string title, std::string reason) {
+    step_.rules.push_back({.name = std::move(name), .title = std::move(title), .reason = std::move(reason)});
+  }
 
   /// Of what both members may know: f(coarse, fine) adds it, or it is skipped.
   template <class T, class F>
-  void compare(std::optional<T> FamilyMember::* of, const char* name, const char* title, const char* why, const F& f) {
+  void compare(std::optional<T> FamilyMember::*of, const char* name, const char* title, const char* why, const F& f) {
     if (coarse_.*of && fine_.*of) return f(*(coarse_.*of), *(fine_.*of));
     const FamilyMember& without = coarse_.*of ? fine_ : coarse_;
     skip(name, title, without.name + " " + why);
@@ -105,10 +108,18 @@ class StepRules {
 void find_factor(const FamilyMember& coarse, const FamilyMember& fine, const FamilyTolerances& tolerances, FamilyStep& step) {
   step.factor_by_nodes = std::cbrt(static_cast<double>(fine.nodes) / static_cast<double>(coarse.nodes));
   if (coarse.wall_edge > 0.0 && fine.wall_edge > 0.0) step.factor_by_edges = coarse.wall_edge / fine.wall_edge;
-  if (!is_automatic(tolerances.factor)) step.factor = tolerances.factor, step.factor_from = "the option factor";
-  else if (coarse.refinement && fine.refinement && *fine.refinement > *coarse.refinement) step.factor = *fine.refinement / *coarse.refinement, step.factor_from = "the refinements asked for";
-  else if (step.factor_by_edges > 0.0) step.factor = step.factor_by_edges, step.factor_from = "the mean wall edges";
-  else step.factor = step.factor_by_nodes, step.factor_from = "the nodes";
+  const auto choose = [&](double factor, const char* from) {
+    step.factor = factor;
+    step.factor_from = from;
+  };
+  if (!is_automatic(tolerances.factor))
+    choose(tolerances.factor, "the option factor");
+  else if (coarse.refinement && fine.refinement && *fine.refinement > *coarse.refinement)
+    choose(*fine.refinement / *coarse.refinement, "the refinements asked for");
+  else if (step.factor_by_edges > 0.0)
+    choose(step.factor_by_edges, "the mean wall edges");
+  else
+    choose(step.factor_by_nodes, "the nodes");
   if (step.factor > 1.0 && fine.nodes > coarse.nodes) return;
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = "checking a family of meshes",
@@ -123,7 +134,8 @@ void compare_patches(const FamilyMember& coarse, const FamilyMember& fine, Famil
   rule.expected = rule.coarse;
   const auto list_missing = [&](const FamilyMember& of, const FamilyMember& in) {
     for (const auto& patch : of.patches)
-      if (!std::binary_search(in.patches.begin(), in.patches.end(), patch)) rule.reason += (rule.reason.empty() ? "" : "; ") + std::string("only ") + of.name + " has \"" + patch.first + "\", " + patch.second;
+      if (!std::binary_search(in.patches.begin(), in.patches.end(), patch))
+        rule.reason += (rule.reason.empty() ? "" : "; ") + std::string("only ") + of.name + " has \"" + patch.first + "\", " + patch.second;
   };
   list_missing(coarse, fine);
   list_missing(fine, coarse);
@@ -145,28 +157,36 @@ FamilyStep check_step(const FamilyMember& coarse, const FamilyMember& fine, cons
   find_factor(coarse, fine, tolerances, step);
   const double f = step.factor;
   StepRules rules(coarse, fine, tolerances, step);
-  rules.add("nodes", "factor by nodes, cube root of their ratio", static_cast<double>(coarse.nodes), static_cast<double>(fine.nodes), step.factor_by_nodes, f, std::abs(step.factor_by_nodes / f - 1.0), tolerances.nodes);
-  if (step.factor_by_edges > 0.0) rules.ratio("wall_edge", "factor by mean wall edges, m", coarse.wall_edge, fine.wall_edge, tolerances.wall_edge);
-  else rules.skip("wall_edge", "factor by mean wall edges", (coarse.wall_edge > 0.0 ? fine.name : coarse.name) + " has no patch of kind wall");
+  rules.add("nodes", "factor by nodes, cube root of their ratio", static_cast<double>(coarse.nodes), static_cast<double>(fine.nodes), step.factor_by_nodes, f,
+            std::abs(step.factor_by_nodes / f - 1.0), tolerances.nodes);
+  if (step.factor_by_edges > 0.0)
+    rules.ratio("wall_edge", "factor by mean wall edges, m", coarse.wall_edge, fine.wall_edge, tolerances.wall_edge);
+  else
+    rules.skip("wall_edge", "factor by mean wall edges", (coarse.wall_edge > 0.0 ? fine.name : coarse.name) + " has no patch of kind wall");
   rules.compare(&FamilyMember::first_height, "first_height", "first height asked for, m", k_no_request,
                 [&](double a, double b) { rules.ratio("first_height", "first height asked for, m", a, b, tolerances.first_height); });
   rules.compare(&FamilyMember::measured_first, "measured_first", "median first height, m", k_no_columns,
                 [&](double a, double b) { rules.ratio("measured_first", "median first height, m", a, b, tolerances.measured_first); });
-  rules.compare(&FamilyMember::layers, "layers", "number of layers", k_no_columns, [&](int a, int b) {
-    rules.add("layers", "number of layers", a, b, b, f * a, std::abs(b - f * a), tolerances.layers * 0.5 * (1.0 + f));
-  });
+  rules.compare(&FamilyMember::layers, "layers", "number of layers", k_no_columns,
+                [&](int a, int b) { rules.add("layers", "number of layers", a, b, b, f * a, std::abs(b - f * a), tolerances.layers * 0.5 * (1.0 + f)); });
   rules.compare(&FamilyMember::constant_layers, "constant_layers", "layers of constant height", k_no_columns, [&](int a, int b) {
-    if (a == 1 && b == 1) rules.skip("constant_layers", "layers of constant height", "both grow from the wall on");
-    else rules.add("constant_layers", "layers of constant height", a, b, b, f * a, std::abs(b - f * a), tolerances.layers * 0.5 * (1.0 + f));
+    if (a == 1 && b == 1)
+      rules.skip("constant_layers", "layers of constant height", "both grow from the wall on");
+    else
+      rules.add("constant_layers", "layers of constant height", a, b, b, f * a, std::abs(b - f * a), tolerances.layers * 0.5 * (1.0 + f));
   });
-  rules.compare(&FamilyMember::growth, "growth", "growth asked for", k_no_request, [&](double a, double b) { rules.growth("growth", "growth asked for", a, b, tolerances.growth); });
-  rules.compare(&FamilyMember::measured_growth, "measured_growth", "median growth", k_no_columns, [&](double a, double b) { rules.growth("measured_growth", "median growth", a, b, tolerances.measured_growth); });
+  rules.compare(&FamilyMember::growth, "growth", "growth asked for", k_no_request,
+                [&](double a, double b) { rules.growth("growth", "growth asked for", a, b, tolerances.growth); });
+  rules.compare(&FamilyMember::measured_growth, "measured_growth", "median growth", k_no_columns,
+                [&](double a, double b) { rules.growth("measured_growth", "median growth", a, b, tolerances.measured_growth); });
   rules.compare(&FamilyMember::tet_growth, "tet_growth", "growth of tetrahedra", k_no_manifest, [&](double a, double b) {
     const double expected = 1.0 + (a - 1.0) / f;
-    rules.add("tet_growth", "growth of tetrahedra", a, b, b, expected, expected > 1.0 ? std::abs((b - 1.0) / (expected - 1.0) - 1.0) : std::abs(b - expected), tolerances.tet_growth);
+    rules.add("tet_growth", "growth of tetrahedra", a, b, b, expected, expected > 1.0 ? std::abs((b - 1.0) / (expected - 1.0) - 1.0) : std::abs(b - expected),
+              tolerances.tet_growth);
   });
   const double side = coarse.box.longest_side();
-  rules.add("box", "box of the farfield, longest side, m", side, fine.box.longest_side(), fine.box.longest_side(), side, box_difference(coarse.box, fine.box) / side, tolerances.box);
+  rules.add("box", "box of the farfield, longest side, m", side, fine.box.longest_side(), fine.box.longest_side(), side,
+            box_difference(coarse.box, fine.box) / side, tolerances.box);
   compare_patches(coarse, fine, step);
   return step;
 }
@@ -201,7 +221,10 @@ GateState FamilyReport::state() const {
 
 FamilyReport check_family(std::vector<FamilyMember> members, const FamilyTolerances& tolerances) {
   if (members.size() < 2)
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "checking a family of meshes", .problem = "it has " + std::to_string(members.size()) + " member" + (members.size() == 1 ? "" : "s") + ", at least two are compared", .hint = "give them from coarse to fine"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "checking a family of meshes",
+                 .problem = "it has " + std::to_string(members.size()) + " member" + (members.size() == 1 ? "" : "s") + ", at least two are compared",
+                 .hint = "give them from coarse to fine"});
   FamilyReport report{.members = std::move(members), .steps = {}};
   for (std::size_t i = 0; i + 1 < report.members.size(); ++i) report.steps.push_back(check_step(report.members[i], report.members[i + 1], tolerances));
   return report;

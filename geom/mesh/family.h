@@ -17,20 +17,20 @@ namespace sterna {
 
 /// What the rule compares of one mesh. What is absent is not known: a mesh read from a file without columns, or without its manifest.
 struct FamilyMember {
-  std::string name;                           ///< for people: a file, or "mesh 2"
+  std::string name;  ///< for people: a file, or "mesh 2"
   std::int64_t nodes = 0;
   std::int64_t wall_faces = 0;
-  double wall_edge = 0.0;                     ///< m: mean length of the edges of wall faces; 0: there are none
-  Box box;                                    ///< of all nodes: of the farfield
+  double wall_edge = 0.0;                                    ///< m: mean length of the edges of wall faces; 0: there are none
+  Box box;                                                   ///< of all nodes: of the farfield
   std::vector<std::pair<std::string, std::string>> patches;  ///< name and kind, by name
-  std::optional<int> layers;                  ///< of the tallest columns
-  std::optional<double> first_height;         ///< m, asked for: the smallest
-  std::optional<double> measured_first;       ///< m: median over the lines of the length of the first edge
-  std::optional<double> growth;               ///< asked for: the largest
-  std::optional<double> measured_growth;      ///< median over the lines of the mean ratio of consecutive steps
-  std::optional<int> constant_layers;         ///< median over the lines of the first steps of equal height, the first included: 1 = it grows from the wall on
-  std::optional<double> tet_growth;           ///< growth of tetrahedra asked for; of the manifest
-  std::optional<double> refinement;           ///< member of a family that it was asked to be; of the manifest
+  std::optional<int> layers;                                 ///< of the tallest columns
+  std::optional<double> first_height;                        ///< m, asked for: the smallest
+  std::optional<double> measured_first;                      ///< m: median over the lines of the length of the first edge
+  std::optional<double> growth;                              ///< asked for: the largest
+  std::optional<double> measured_growth;                     ///< median over the lines of the mean ratio of consecutive steps
+  std::optional<int> constant_layers;  ///< median over the lines of the first steps of equal height, the first included: 1 = it grows from the wall on
+  std::optional<double> tet_growth;    ///< growth of tetrahedra asked for; of the manifest
+  std::optional<double> refinement;    ///< member of a family that it was asked to be; of the manifest
 };
 
 /// Everything that the mesh itself says. Parallel.
@@ -52,19 +52,19 @@ struct FamilyTolerances {
 
 /// One rule between two consecutive members.
 struct FamilyRule {
-  std::string name;    ///< of its JSON entry: "first_height"
-  std::string title;   ///< for people
+  std::string name;   ///< of its JSON entry: "first_height"
+  std::string title;  ///< for people
   GateState state = GateState::not_checked;
-  std::string reason;  ///< why it was not checked, or what differs
-  double coarse = 0.0, fine = 0.0;  ///< of the two members
-  double value = 0.0, expected = 0.0;   ///< what is compared: a ratio, a number of layers, growth - 1
+  std::string reason;                       ///< why it was not checked, or what differs
+  double coarse = 0.0, fine = 0.0;          ///< of the two members
+  double value = 0.0, expected = 0.0;       ///< what is compared: a ratio, a number of layers, growth - 1
   double deviation = 0.0, tolerance = 0.0;  ///< pass up to the tolerance, warn up to `fail` times it
 };
 
 struct FamilyStep {
-  std::string coarse, fine;    ///< names
-  double factor = 0.0;         ///< per direction: that asked for, else by wall edges
-  std::string factor_from;     ///< "the option factor", "refinement asked for", "mean wall edges", "nodes"
+  std::string coarse, fine;                             ///< names
+  double factor = 0.0;                                  ///< per direction: that asked for, else by wall edges
+  std::string factor_from;                              ///< "the option factor", "the refinements asked for", "the mean wall edges", "the nodes"
   double factor_by_nodes = 0.0, factor_by_edges = 0.0;  ///< 0: not known
   std::vector<FamilyRule> rules;
 };
@@ -88,16 +88,52 @@ struct Schema<FamilyTolerances> {
   using O = FamilyTolerances;
   static constexpr std::string_view stage = "check_family";
   static constexpr std::array fields = {
-      Field<O>{.name = "factor", .member = &O::factor, .min = 1.01, .max = 10.0, .help = "ratio of edge lengths of a member and the next", .automatic = "of the refinements asked for, else of the mean wall edges"},
-      Field<O>{.name = "nodes", .member = &O::nodes, .min = 0.0, .max = 1.0, .help = "the factor by nodes (cube root of their ratio) may be off by this share: a tenth is a third of the nodes' number, what workshops accept"},
-      Field<O>{.name = "wall_edge", .member = &O::wall_edge, .min = 0.0, .max = 1.0, .help = "the factor by mean wall edges may be off by this share: edges of a model are cut in whole numbers"},
-      Field<O>{.name = "first_height", .member = &O::first_height, .min = 0.0, .max = 1.0, .help = "the ratio of first heights asked for may be off by this share, as gate G11 has it"},
-      Field<O>{.name = "measured_first", .member = &O::measured_first, .min = 0.0, .max = 1.0, .help = "the same of the median first height in the mesh: lines lean, the more the coarser the wall"},
-      Field<O>{.name = "layers", .member = &O::layers, .min = 0.0, .max = 10.0, .help = "rounding of the numbers of layers that is allowed: 1 = half a layer in each of the two"},
-      Field<O>{.name = "growth", .member = &O::growth, .min = 0.0, .max = 1.0, .help = "the logarithm of the growth asked for may be off by this share of r^(1/f)"},
-      Field<O>{.name = "measured_growth", .member = &O::measured_growth, .min = 0.0, .max = 1.0, .help = "the same of the median growth in the mesh: heights follow the wall's edges, and numbers of layers are rounded"},
-      Field<O>{.name = "tet_growth", .member = &O::tet_growth, .min = 0.0, .max = 1.0, .help = "growth - 1 of tetrahedra may be off by this share of (g - 1)/f"},
-      Field<O>{.name = "box", .member = &O::box, .min = 0.0, .max = 1.0, .help = "sides of the farfield's box may be off by this share of its longest side: a sphere of other triangles ends elsewhere"},
+      Field<O>{.name = "factor",
+               .member = &O::factor,
+               .min = 1.01,
+               .max = 10.0,
+               .help = "ratio of edge lengths of a member and the next",
+               .automatic = "of the refinements asked for, else of the mean wall edges"},
+      Field<O>{
+          .name = "nodes",
+          .member = &O::nodes,
+          .min = 0.0,
+          .max = 1.0,
+          .help = "the factor by nodes (cube root of their ratio) may be off by this share: a tenth is a third of the nodes' number, what workshops accept"},
+      Field<O>{.name = "wall_edge",
+               .member = &O::wall_edge,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "the factor by mean wall edges may be off by this share: edges of a model are cut in whole numbers"},
+      Field<O>{.name = "first_height",
+               .member = &O::first_height,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "the ratio of first heights asked for may be off by this share, as gate G11 has it"},
+      Field<O>{.name = "measured_first",
+               .member = &O::measured_first,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "the same of the median first height in the mesh: lines lean, the more the coarser the wall"},
+      Field<O>{.name = "layers",
+               .member = &O::layers,
+               .min = 0.0,
+               .max = 10.0,
+               .help = "rounding of the numbers of layers that is allowed: 1 = half a layer in each of the two"},
+      Field<O>{
+          .name = "growth", .member = &O::growth, .min = 0.0, .max = 1.0, .help = "the logarithm of the growth asked for may be off by this share of r^(1/f)"},
+      Field<O>{.name = "measured_growth",
+               .member = &O::measured_growth,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "the same of the median growth in the mesh: heights follow the wall's edges, and numbers of layers are rounded"},
+      Field<O>{
+          .name = "tet_growth", .member = &O::tet_growth, .min = 0.0, .max = 1.0, .help = "growth - 1 of tetrahedra may be off by this share of (g - 1)/f"},
+      Field<O>{.name = "box",
+               .member = &O::box,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "sides of the farfield's box may be off by this share of its longest side: a sphere of other triangles ends elsewhere"},
       Field<O>{.name = "fail", .member = &O::fail, .min = 1.0, .max = 1000.0, .help = "beyond so many tolerances a rule FAILs; up to there it warns"},
   };
 };

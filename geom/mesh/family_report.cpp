@@ -21,8 +21,8 @@ std::string number_or_dash(const std::optional<double>& value) { return value ? 
 std::string members_text(const std::vector<FamilyMember>& members) {
   std::string text = format("  %-28s %10s %9s %11s %7s %11s %7s %7s\n", "member", "nodes", "walls", "wall edge", "layers", "first", "growth", "tets");
   for (const FamilyMember& m : members)
-    text += format("  %-28s %10lld %9lld %11.5g %7s %11s %7s %7s\n", m.name.c_str(), static_cast<long long>(m.nodes), static_cast<long long>(m.wall_faces), m.wall_edge,
-                   m.layers ? std::to_string(*m.layers).c_str() : "-", number_or_dash(m.first_height ? m.first_height : m.measured_first).c_str(),
+    text += format("  %-28s %10lld %9lld %11.5g %7s %11s %7s %7s\n", m.name.c_str(), static_cast<long long>(m.nodes), static_cast<long long>(m.wall_faces),
+                   m.wall_edge, m.layers ? std::to_string(*m.layers).c_str() : "-", number_or_dash(m.first_height ? m.first_height : m.measured_first).c_str(),
                    number_or_dash(m.growth ? m.growth : m.measured_growth).c_str(), number_or_dash(m.tet_growth).c_str());
   return text;
 }
@@ -66,16 +66,23 @@ Json rule_json(const FamilyRule& rule) {
   Json json = {{"rule", rule.name}, {"title", rule.title}, {"state", rule.state == GateState::fail ? "fail" : to_string(rule.state)}};
   if (!rule.reason.empty()) json["reason"] = rule.reason;
   if (rule.state == GateState::not_checked) return json;
-  json.update({{"coarse", rule.coarse}, {"fine", rule.fine}, {"value", number(rule.value)}, {"expected", number(rule.expected)}, {"deviation", number(rule.deviation)}, {"tolerance", rule.tolerance}});
+  json.update({{"coarse", rule.coarse},
+               {"fine", rule.fine},
+               {"value", number(rule.value)},
+               {"expected", number(rule.expected)},
+               {"deviation", number(rule.deviation)},
+               {"tolerance", rule.tolerance}});
   return json;
 }
 
 }  // namespace
 
 std::string to_text(const FamilyReport& report) {
-  std::string text = "family of " + std::to_string(report.members.size()) + " meshes: " + std::string(to_string(report.state())) + "\n" + members_text(report.members);
+  std::string text =
+      "family of " + std::to_string(report.members.size()) + " meshes: " + std::string(to_string(report.state())) + "\n" + members_text(report.members);
   for (const FamilyStep& step : report.steps) {
-    text += "  " + step.coarse + " -> " + step.fine + format(": factor %.4g by ", step.factor) + step.factor_from + format("; by nodes %.4g", step.factor_by_nodes);
+    text +=
+        "  " + step.coarse + " -> " + step.fine + format(": factor %.4g by ", step.factor) + step.factor_from + format("; by nodes %.4g", step.factor_by_nodes);
     if (step.factor_by_edges > 0.0) text += format(", by mean wall edges %.4g", step.factor_by_edges);
     text += "\n";
     for (const FamilyRule& rule : step.rules) text += rule_text(rule);
@@ -84,7 +91,10 @@ std::string to_text(const FamilyReport& report) {
 }
 
 std::string to_json(const FamilyReport& report) {
-  Json json = {{"schema", "sterna-family-1"}, {"state", report.state() == GateState::fail ? "fail" : to_string(report.state())}, {"members", Json::array()}, {"steps", Json::array()}};
+  Json json = {{"schema", "sterna-family-1"},
+               {"state", report.state() == GateState::fail ? "fail" : to_string(report.state())},
+               {"members", Json::array()},
+               {"steps", Json::array()}};
   for (const FamilyMember& member : report.members) json["members"].push_back(member_json(member));
   for (const FamilyStep& step : report.steps) {
     Json entry = {{"coarse", step.coarse},

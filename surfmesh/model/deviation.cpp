@@ -17,8 +17,8 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// A triangle of the wall may be farther than the nearest one by this share of its longest edge and its face still be the nearest: facets of 24 degrees sag by a
-/// twentieth of an edge on either side.
+/// A triangle of the wall may be farther than the nearest one by this share of its longest edge and its face still be the nearest: facets of 24 degrees sag by
+/// a twentieth of an edge on either side.
 constexpr double k_reach = 0.1;
 /// Faces up to so many times as far as the nearest one count for the normal: a facet over a crease sags towards both.
 constexpr double k_near = 2.0;
@@ -40,8 +40,8 @@ struct Facet {
 struct Walls {
   const std::vector<Point>& points;
   std::vector<Facet> facets;
-  std::vector<std::uint32_t> nodes;       ///< ascending
-  std::vector<PatchId> node_patch;        ///< of the first facet that has the node
+  std::vector<std::uint32_t> nodes;  ///< ascending
+  std::vector<PatchId> node_patch;   ///< of the first facet that has the node
   const Column<PatchId, Patch>& patches;
   std::vector<std::string> unknown;
 };
@@ -50,7 +50,8 @@ std::array<double, 3> weights_of(const Point& q, const std::array<Point, 3>& t) 
   const Vec3 normal = cross(t[1] - t[0], t[2] - t[0]);
   const double n2 = norm2(normal);
   if (n2 == 0.0) return {1.0, 0.0, 0.0};
-  const double b = std::clamp(dot(cross(q - t[0], t[2] - t[0]), normal) / n2, 0.0, 1.0), c = std::clamp(dot(cross(t[1] - t[0], q - t[0]), normal) / n2, 0.0, 1.0 - b);
+  const double b = std::clamp(dot(cross(q - t[0], t[2] - t[0]), normal) / n2, 0.0, 1.0),
+               c = std::clamp(dot(cross(t[1] - t[0], q - t[0]), normal) / n2, 0.0, 1.0 - b);
   return {1.0 - b - c, b, c};
 }
 
@@ -58,14 +59,15 @@ std::array<double, 3> weights_of(const Point& q, const std::array<Point, 3>& t) 
 struct NearFace {
   FaceId face;
   TriangleId nearest;
-  Point point;            ///< on it
+  Point point;  ///< on it
   double distance2 = 0.0;
   std::vector<TriangleId> triangles;
 };
 
 class Probe {
  public:
-  Probe(const TriMesh& wall, const ModelWall& model, double length, const RunContext& context) : wall_(wall), model_(model), length_(length), tree_(wall, context) {}
+  Probe(const TriMesh& wall, const ModelWall& model, double length, const RunContext& context)
+      : wall_(wall), model_(model), length_(length), tree_(wall, context) {}
 
   /// Distance of a node from the model, m.
   double distance_of(const Point& p) const {
@@ -82,7 +84,7 @@ class Probe {
 
   /// Nearest places of all faces around the point, each within its face's border.
   std::vector<ModelFoot> feet(const Point& p, const NearestHit& hit) const {
-    std::vector<NearFace> faces = faces_near(p, hit.distance + k_reach * longest_edge(hit.triangle));
+    std::vector<NearFace> faces = faces_near(p, hit.distance + std::max(k_reach * longest_edge(hit.triangle), k_touching * length_));
     std::vector<ModelFoot> feet;
     for (const NearFace& near : faces) feet.push_back(foot_of(p, near));
     return feet;
@@ -225,7 +227,8 @@ Deviation measure(const Walls& walls, const TriMesh& wall, const ModelWall& mode
   result.n_facets = static_cast<std::int64_t>(walls.facets.size());
   result.unknown = walls.unknown;
   if (walls.facets.empty()) {
-    std::string reason = "no patch of the mesh has the name of a patch of the model's surface, such as \"" + (wall.patches.empty() ? std::string() : wall.patches.raw().front().name) + "\"";
+    std::string reason = "no patch of the mesh has the name of a patch of the model's surface, such as \"" +
+                         (wall.patches.empty() ? std::string() : wall.patches.raw().front().name) + "\"";
     result.distance = not_checked(Measure::cad_distance, limits, reason);
     result.normal = not_checked(Measure::cad_normal, limits, std::move(reason));
     return result;
@@ -234,29 +237,34 @@ Deviation measure(const Walls& walls, const TriMesh& wall, const ModelWall& mode
   context.progress(0.1);
 
   std::vector<double> distance(walls.nodes.size());
-  parallel_for(context, distance.size(), [&](std::size_t i) { distance[i] = probe.distance_of(walls.points[walls.nodes[i]]); }, k_chunk);
+  parallel_for(
+      context, distance.size(), [&](std::size_t i) { distance[i] = probe.distance_of(walls.points[walls.nodes[i]]); }, k_chunk);
   context.progress(0.4);
   GateScan distances(info_of(Measure::cad_distance), limits[Measure::cad_distance]);
   for (std::size_t i = 0; i < distance.size(); ++i) distances.add(distance[i] / result.length, i);
   result.distance = distances.result([&](std::uint64_t i) {
     const Point& p = walls.points[walls.nodes[i]];
-    return std::pair(p, "node " + std::to_string(walls.nodes[i]) + ", patch " + walls.patches[walls.node_patch[i]].name + sentence(", %.4g m off ", distance[i]) + "face \"" +
-                            model.name_of(probe.nearest(p).face) + "\" of the model");
+    return std::pair(p, "node " + std::to_string(walls.nodes[i]) + ", patch " + walls.patches[walls.node_patch[i]].name +
+                            sentence(", %.4g m off ", distance[i]) + "face \"" + model.name_of(probe.nearest(p).face) + "\" of the model");
   });
 
   std::vector<Probe::Turn> turns(walls.facets.size());
-  parallel_for(context, turns.size(), [&](std::size_t i) { turns[i] = probe.turn_of(centroid_of(walls, walls.facets[i]), normal_of(walls, walls.facets[i])); }, k_chunk);
+  parallel_for(
+      context, turns.size(), [&](std::size_t i) { turns[i] = probe.turn_of(centroid_of(walls, walls.facets[i]), normal_of(walls, walls.facets[i])); }, k_chunk);
   GateScan normals(info_of(Measure::cad_normal), limits[Measure::cad_normal]);
   for (std::size_t i = 0; i < turns.size(); ++i) {
     if (turns[i].is_beside) ++result.n_beside;
-    if (turns[i].is_without) ++result.n_without;
-    else normals.add(turns[i].angle, i);
+    if (turns[i].is_without)
+      ++result.n_without;
+    else
+      normals.add(turns[i].angle, i);
   }
   result.normal = normals.result([&](std::uint64_t i) {
     const Facet& facet = walls.facets[i];
     const Point p = centroid_of(walls, facet);
-    return std::pair(p, std::string(facet.size == 3 ? "triangle " : "quad ") + std::to_string(facet.number) + ", patch " + walls.patches[facet.patch].name + ", against face \"" +
-                            model.name_of(probe.nearest(p).face) + "\" of the model" + (turns[i].is_beside ? ", whose normal was taken beside a pole" : ""));
+    return std::pair(p, std::string(facet.size == 3 ? "triangle " : "quad ") + std::to_string(facet.number) + ", patch " + walls.patches[facet.patch].name +
+                            ", against face \"" + model.name_of(probe.nearest(p).face) + "\" of the model" +
+                            (turns[i].is_beside ? ", whose normal was taken beside a pole" : ""));
   });
   context.progress(1.0);
   return result;
@@ -269,9 +277,11 @@ Deviation measure_deviation(const HybridMesh& mesh, const TriMesh& wall, const M
   const Column<PatchId, std::uint8_t> is_known = known_patches(wall, walls);
   // Boundary faces look out of the fluid, into the body: they are turned round.
   for (std::size_t i = 0; i < mesh.boundary_triangles.size(); ++i)
-    if (const auto& [n, patch] = mesh.boundary_triangles[i]; is_known[patch]) walls.facets.push_back({{n[0].value(), n[2].value(), n[1].value(), 0}, 3, patch, i});
+    if (const auto& [n, patch] = mesh.boundary_triangles[i]; is_known[patch])
+      walls.facets.push_back({{n[0].value(), n[2].value(), n[1].value(), 0}, 3, patch, i});
   for (std::size_t i = 0; i < mesh.boundary_quads.size(); ++i)
-    if (const auto& [n, patch] = mesh.boundary_quads[i]; is_known[patch]) walls.facets.push_back({{n[0].value(), n[3].value(), n[2].value(), n[1].value()}, 4, patch, i});
+    if (const auto& [n, patch] = mesh.boundary_quads[i]; is_known[patch])
+      walls.facets.push_back({{n[0].value(), n[3].value(), n[2].value(), n[1].value()}, 4, patch, i});
   find_nodes(walls);
   return measure(walls, wall, model, limits, context);
 }

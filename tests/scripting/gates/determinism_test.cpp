@@ -1,4 +1,6 @@
 // Gate G22 as a user runs it.
+#include "scripting/determinism.h"
+
 #include <gmock/gmock.h>
 
 #include <csignal>
@@ -6,7 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "scripting/determinism.h"
 #include "scripting/exit_status.h"
 #include "tests/support/data.h"
 #include "tests/support/error_of.h"
@@ -42,7 +43,8 @@ class Determinism : public testing::Test {
 TEST_F(Determinism, MeshesAreEqualForAnyNumberOfThreads) {
   // Reads a file of the folder and one that it wrote itself.
   write(folder / "scripts/case.lua",
-        "local a = args{ layers = 2 } local wall = read_surface 'box.stl' wall:write 'wall.stl' local mesh = volume_mesh{ read_surface 'wall.stl', layers = a.layers, first_height = 1e-2, farfield = sphere{ radius = 20 } } "
+        "local a = args{ layers = 2 } local wall = read_surface 'box.stl' wall:write 'wall.stl' local mesh = volume_mesh{ read_surface 'wall.stl', layers = "
+        "a.layers, first_height = 1e-2, farfield = sphere{ radius = 20 } } "
         "mesh:write('box.su2', 'box.vtu') ");
   const test::ProcessResult result = sterna({"determinism", "scripts/case.lua", "layers=3", "--threads", "1,2,2"});
   ASSERT_EQ(result.status, k_exit_success) << result.errors << result.output;
@@ -50,7 +52,7 @@ TEST_F(Determinism, MeshesAreEqualForAnyNumberOfThreads) {
   EXPECT_THAT(result.errors, AllOf(HasSubstr("run 1 of 3: 1 thread"), HasSubstr("run 3 of 3: 2 threads")));
   EXPECT_TRUE(is_left_clean());
   EXPECT_FALSE(fs::exists(folder / "box.su2"));
-  const auto json = nlohmann::json::parse(sterna({"determinism", "scripts/case.lua", "--threads", "1,2", "--json"}).output);
+  const auto json = nlohmann::json::parse(sterna({"determinism", "--threads", "1,2", "scripts/case.lua", "--json"}).output);
   EXPECT_EQ(json["schema"], "sterna-determinism-1");
   EXPECT_EQ(json["state"], "pass");
   EXPECT_EQ(json["threads"], (std::vector{1, 2}));
@@ -76,8 +78,9 @@ TEST_F(Determinism, ComparisonsFindTheFirstByteAndMissingFiles) {
   compare_run(a, b, 7, report);
   EXPECT_FALSE(report.is_pass());
   const std::string printed = to_text(report);
-  EXPECT_THAT(printed, AllOf(HasSubstr("G22 determinism: FAIL, 4 of 5 files differ between 1 and 7 threads"), HasSubstr("first difference at byte 150 003"), HasSubstr("not compared, they hold times: page.html"),
-                             HasSubstr("first difference at byte 3\n"), HasSubstr("more.txt: 1 thread wrote none"), HasSubstr("      7 threads wrote none")));
+  EXPECT_THAT(printed, AllOf(HasSubstr("G22 determinism: FAIL, 4 of 5 files differ between 1 and 7 threads"), HasSubstr("first difference at byte 150 003"),
+                             HasSubstr("not compared, they hold times: page.html"), HasSubstr("first difference at byte 3\n"),
+                             HasSubstr("more.txt: 1 thread wrote none"), HasSubstr("      7 threads wrote none")));
   const auto json = nlohmann::json::parse(to_json(report));
   EXPECT_EQ(json["state"], "fail");
   EXPECT_EQ(json["files"][4]["file"], "sub/other.bin");
@@ -87,10 +90,13 @@ TEST_F(Determinism, ComparisonsFindTheFirstByteAndMissingFiles) {
 
 TEST_F(Determinism, WhatDiffersFailsAndIsKept) {
   // A script that sees its place: the runs have folders of their own.
-  write(folder / "case.lua", "local ok = pcall(read_surface, '../mark.stl') local w = read_surface 'box.stl' if ok then w = w:move{ 1, 0, 0 } end w:write 'wall.stl' w:write '../mark.stl'");
+  write(folder / "case.lua",
+        "local ok = pcall(read_surface, '../mark.stl') local w = read_surface 'box.stl' if ok then w = w:move{ 1, 0, 0 } end w:write 'wall.stl' w:write "
+        "'../mark.stl'");
   const test::ProcessResult result = sterna({"determinism", "case.lua", "--threads", "1,1"});
   EXPECT_EQ(result.status, k_exit_failed) << result.errors;
-  EXPECT_THAT(result.output, AllOf(HasSubstr("G22 determinism: FAIL, 1 of 1 file differs between 1 and 1 threads"), HasSubstr("the runs are kept in " + temporary.string())));
+  EXPECT_THAT(result.output,
+              AllOf(HasSubstr("G22 determinism: FAIL, 1 of 1 file differs between 1 and 1 threads"), HasSubstr("the runs are kept in " + temporary.string())));
   EXPECT_FALSE(is_left_clean());
 }
 

@@ -94,17 +94,23 @@ class FamilyGate : public ScriptFixture {
   test::ProcessResult sterna(const std::vector<std::string>& arguments) { return test::run_process(test::sterna_program(), arguments, folder_); }
 };
 
-const std::string k_family = "local m = cylinder{ {0,0,0}, {3,0,0}, radius=0.5, name='can' } local function member(f) local w = surface_mesh{ m, max_edge=0.2, refinement=f } "
-                             "return volume_mesh{ w, layers=12, first_height=2e-3, max_growth=1.25, refinement=f, farfield=sphere{ radius=10 } } end ";
+const std::string k_family =
+    "local m = cylinder{ {0,0,0}, {3,0,0}, radius=0.5, name='can' } local function member(f) local w = surface_mesh{ m, max_edge=0.2, refinement=f } "
+    "return volume_mesh{ w, layers=12, first_height=2e-3, max_growth=1.25, refinement=f, farfield=sphere{ radius=10 } } end ";
 
 TEST_F(FamilyGate, MeshesMadeHereAndTheirFilesSayTheSame) {
-  const std::string printed = run(k_family + "local a, b = member(1), member(1.5) local r = check_family{ a, b } print(r.verdict, r[1].rules.layers, r[1].rules.first_height, r[1].factor) "
-                                             "a:write(" + out("a.sterna") + ") b:write(" + out("b.sterna") + ") b:write(" + out("b.su2") + ") check_family{ a, " + out("b.sterna") + " }", {}, 2);
+  const std::string printed =
+      run(k_family +
+              "local a, b = member(1), member(1.5) local r = check_family{ a, b } print(r.verdict, r[1].rules.layers, r[1].rules.first_height, r[1].factor) "
+              "a:write(" +
+              out("a.sterna") + ") b:write(" + out("b.sterna") + ") b:write(" + out("b.su2") + ") check_family{ a, " + out("b.sterna") + " }",
+          {}, 2);
   EXPECT_THAT(printed, AllOf(HasSubstr("factor 1.5 by the refinements asked for"), HasSubstr("pass\tpass\t1.5"), HasSubstr("growth of tetrahedra")));
   EXPECT_THAT(printed, Not(HasSubstr("FAIL")));
   const test::ProcessResult files = sterna({"check-family", "a.sterna", "b.sterna"});
   EXPECT_EQ(files.status, k_exit_success) << files.errors;
-  EXPECT_THAT(files.output, AllOf(HasSubstr("family of 2 meshes: "), HasSubstr("a.sterna -> b.sterna: factor 1.5 by the refinements asked for"), Not(HasSubstr("FAIL"))));
+  EXPECT_THAT(files.output,
+              AllOf(HasSubstr("family of 2 meshes: "), HasSubstr("a.sterna -> b.sterna: factor 1.5 by the refinements asked for"), Not(HasSubstr("FAIL"))));
   // SU2 knows neither columns nor requests; the manifest is there.
   const auto json = nlohmann::json::parse(sterna({"check-family", "a.sterna", "b.su2", "--json"}).output);
   for (const auto& entry : json["steps"][0]["rules"]) {
@@ -115,8 +121,11 @@ TEST_F(FamilyGate, MeshesMadeHereAndTheirFilesSayTheSame) {
 }
 
 TEST_F(FamilyGate, ALayerThatIsNotRefinedIsNoFamily) {
-  const std::string broken = k_family + "local a = member(1) local b = volume_mesh{ surface_mesh{ m, max_edge=0.2, refinement=1.5 }, layers=12, first_height=2e-3, max_growth=1.25, farfield=sphere{ radius=10 } } ";
-  EXPECT_THAT(run(broken + "print(check_family{ a, b }.verdict)", {}, 2), AllOf(HasSubstr("FAIL\n"), HasSubstr("first height asked for, m                    FAIL")));
+  const std::string broken = k_family +
+                             "local a = member(1) local b = volume_mesh{ surface_mesh{ m, max_edge=0.2, refinement=1.5 }, layers=12, first_height=2e-3, "
+                             "max_growth=1.25, farfield=sphere{ radius=10 } } ";
+  EXPECT_THAT(run(broken + "print(check_family{ a, b }.verdict)", {}, 2),
+              AllOf(HasSubstr("FAIL\n"), HasSubstr("first height asked for, m                    FAIL")));
   EXPECT_THAT(error(broken + "check_family{ a, b, strict = true }"), HasSubstr("the meshes are no family"));
   EXPECT_THAT(error("check_family{ 'a.sterna' }"), HasSubstr("at least two meshes"));
 }

@@ -33,11 +33,15 @@ const std::string k_can = "local can = cylinder{ {0,0,0}, {2,0,0}, radius=1, nam
 const std::string k_mesh = "local mesh = volume_mesh{ wall, layers=3, first_height=1e-2, farfield=sphere{ radius=10 } } ";
 
 TEST_F(ModelGates, AMeshIsComparedWithTheModelOfItsWall) {
-  const std::string printed = run(k_can + k_mesh + "mesh:check{ wall = wall } mesh:write(" + out("can.su2") + ") mesh:write(" + out("can.sterna") + ") can:write(" + out("can.step") + ") wall:check()");
+  const std::string printed = run(k_can + k_mesh + "mesh:check{ wall = wall } mesh:write(" + out("can.su2") + ") mesh:write(" + out("can.sterna") +
+                                  ") can:write(" + out("can.step") + ") wall:check()");
   EXPECT_THAT(printed, AllOf(HasSubstr("  G17  wall nodes off the CAD, / length pass "), HasSubstr("  G18  wall facets against the CAD      pass ")));
-  EXPECT_THAT(text_of("can.su2.json"), AllOf(HasSubstr("\"cad_distance\": {\n        \"gate\": \"G17\",\n        \"state\": \"pass\""), HasSubstr("\"cad_normal\"")));
+  EXPECT_THAT(text_of("can.su2.json"),
+              AllOf(HasSubstr("\"cad_distance\": {\n        \"gate\": \"G17\",\n        \"state\": \"pass\""), HasSubstr("\"cad_normal\"")));
   // The mesh alone says how.
-  EXPECT_THAT(run(k_can + k_mesh + "mesh:check()"), AllOf(HasSubstr("G17  wall nodes off the CAD, / length not checked: needs the model: mesh:check{ wall = wall }"), HasSubstr("--model model.step")));
+  EXPECT_THAT(
+      run(k_can + k_mesh + "mesh:check()"),
+      AllOf(HasSubstr("G17  wall nodes off the CAD, / length not checked: needs the model: mesh:check{ wall = wall }"), HasSubstr("--model model.step")));
 
   const test::ProcessResult clean = sterna({"check", "can.su2", "--model", "can.step", "--json"});
   ASSERT_EQ(clean.status, k_exit_success) << clean.errors;
@@ -51,7 +55,9 @@ TEST_F(ModelGates, AMeshIsComparedWithTheModelOfItsWall) {
   NodeId moved;
   for (const BoundaryTriangle& face : mesh.boundary_triangles)
     for (const NodeId n : face.nodes)
-      if (const Point& p = mesh.points[n]; !moved.is_valid() && mesh.patches[face.patch].name == "can" && std::abs(std::hypot(p.y, p.z) - 1.0) < 1e-9 && p.x > 0.3 && p.x < 1.7) moved = n;
+      if (const Point& p = mesh.points[n];
+          !moved.is_valid() && mesh.patches[face.patch].name == "can" && std::abs(std::hypot(p.y, p.z) - 1.0) < 1e-9 && p.x > 0.3 && p.x < 1.7)
+        moved = n;
   ASSERT_TRUE(moved.is_valid());
   const Point before = mesh.points[moved];
   mesh.points[moved] = {before.x, before.y * 1.001, before.z * 1.001};
@@ -71,7 +77,8 @@ TEST_F(ModelGates, WallsKnowTheirModelWhereTheyAreMoved) {
 
 TEST_F(ModelGates, MistakesSayWhatToDo) {
   const std::string box = (test::corpus() / "scripts" / "box.stl").string();
-  EXPECT_THAT(error("read_surface{ '" + box + "' }:check()"), AllOf(HasSubstr("does not know the model"), HasSubstr("surface_mesh{ read_cad \"model.step\" }")));
+  EXPECT_THAT(error("read_surface{ '" + box + "' }:check()"),
+              AllOf(HasSubstr("does not know the model"), HasSubstr("surface_mesh{ read_cad \"model.step\" }")));
   EXPECT_THAT(error(k_can + k_mesh + "mesh:check{ wall = can }"), HasSubstr("wall: expected the surface of surface_mesh, not a model"));
   EXPECT_THAT(error(k_can + k_mesh + "mesh:check{ wall = half(wall) }"), HasSubstr("before half{ }"));
   EXPECT_THAT(error(k_can + k_mesh + "mesh:check{ wall = wall, quality = false }"), HasSubstr("belong to quality"));
@@ -82,7 +89,10 @@ TEST_F(ModelGates, MistakesSayWhatToDo) {
 TEST_F(ModelGates, OfARealWing) {
   STERNA_NEEDS_SHARED_DATA();
   const std::string wing = "'" + (test::shared_data() / "cad" / "tigl_simplewing_simplewing.brep").string() + "'";
-  const std::string printed = run("local wall = surface_mesh{ read_cad(" + wing + ") } local mesh = volume_mesh{ wall, layers=5, first_height=1e-3*wall.length, farfield=sphere{ radius=20 } } mesh:check{ wall = wall }", {}, 2);
+  const std::string printed =
+      run("local wall = surface_mesh{ read_cad(" + wing +
+              ") } local mesh = volume_mesh{ wall, layers=5, first_height=1e-3*wall.length, farfield=sphere{ radius=20 } } mesh:check{ wall = wall }",
+          {}, 2);
   EXPECT_THAT(printed, HasSubstr("  G17  wall nodes off the CAD, / length pass "));
   const std::size_t at = printed.find("  G17");
   std::printf("%s", printed.substr(at, printed.find("\n  G", printed.find("  G18", at)) - at).c_str());

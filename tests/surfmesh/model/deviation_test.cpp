@@ -1,4 +1,6 @@
 // Distances and turns against models with known answers; a node moved off and a facet turned are found where they are.
+#include "surfmesh/model/deviation.h"
+
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -8,7 +10,6 @@
 #include "geom/model/components.h"
 #include "geom/model/shapes.h"
 #include "io/cad_file.h"
-#include "surfmesh/model/deviation.h"
 #include "tests/support/data.h"
 #include "tests/support/model_meshes.h"
 
@@ -77,7 +78,8 @@ TEST(Deviation, AMovedNodeAndATurnedFacetAreFoundWithTheirValues) {
     EXPECT_EQ(d.distance.n_beyond_hard, 1);
     ASSERT_EQ(d.distance.places.size(), 1u);
     EXPECT_EQ(d.distance.places[0].position, moved.points[v]);
-    EXPECT_THAT(d.distance.places[0].what, AllOf(HasSubstr("node " + std::to_string(v.value()) + ", patch ball"), HasSubstr("m off face \"ball\" of the model")));
+    EXPECT_THAT(d.distance.places[0].what,
+                AllOf(HasSubstr("node " + std::to_string(v.value()) + ", patch ball"), HasSubstr("m off face \"ball\" of the model")));
   }
   TriMesh turned = ball.surface.mesh;
   const TriangleId t(static_cast<std::uint64_t>(turned.n_triangles() / 2));
@@ -111,7 +113,8 @@ TEST(Deviation, OfPointsAboutACylinderAsTheFormulaSays) {
   for (int i = 0; i < 300; ++i) {
     // About the surface, the rims above all, as far off as it comes.
     const double angle = std::numbers::pi * any(random), scale = std::pow(10.0, small(random));
-    const double r = (i % 3 == 0 ? std::abs(any(random)) : 1.0) + scale * any(random), x = (i % 2 == 0 ? 2.0 : 2.0 * std::abs(any(random))) + scale * any(random);
+    const double r = (i % 3 == 0 ? std::abs(any(random)) : 1.0) + scale * any(random),
+                 x = (i % 2 == 0 ? 2.0 : 2.0 * std::abs(any(random))) + scale * any(random);
     const Point p{x, r * std::cos(angle), r * std::sin(angle)};
     EXPECT_NEAR(can.measure(triangle(can.surface.mesh, {p, p, p})).distance.worst * 2.0, exact(p), 1e-11) << x << " " << r;
   }
@@ -133,7 +136,8 @@ TEST(Deviation, WingsWithSharpTrailingEdgesCompareEachSideWithItsOwn) {
   const Made made(make_wing(wing), {});
   const Deviation d = made.measure(made.surface.mesh);
   EXPECT_LE(d.distance.worst, 1e-14);
-  // The other side would be 170 degrees off. What is off are the strips that close the tips: at their sharp ends the model turns within less than the shortest edge.
+  // The other side would be 170 degrees off. What is off are the strips that close the tips: at their sharp ends the model turns within less than the shortest
+  // edge.
   EXPECT_LT(d.normal.worst, 45 * k_deg);
   EXPECT_GT(d.normal.share_within, 0.999);
   for (const GatePlace& place : d.normal.places) EXPECT_GT(std::abs(place.position.y), 3.0) << place.what;
@@ -166,8 +170,8 @@ TEST(Deviation, OfRealCad) {
     const Deviation d = made.measure(made.surface.mesh);
     EXPECT_EQ(d.distance.state, GateState::pass);
     EXPECT_GT(d.normal.share_within, 0.95);
-    std::printf("%s: %lld nodes, off %.2g L; normals worst %.1f deg, %.2f %% within 10 deg, %lld beyond 30 deg\n", file, static_cast<long long>(d.n_nodes), d.distance.worst,
-                d.normal.worst / k_deg, 100.0 * d.normal.share_within, static_cast<long long>(d.normal.n_beyond_hard));
+    std::printf("%s: %lld nodes, off %.2g L; normals worst %.1f deg, %.2f %% within 10 deg, %lld beyond 30 deg\n", file, static_cast<long long>(d.n_nodes),
+                d.distance.worst, d.normal.worst / k_deg, 100.0 * d.normal.share_within, static_cast<long long>(d.normal.n_beyond_hard));
     // A node inside a face moved along the facets' normal by a known distance.
     TriMesh moved = made.surface.mesh;
     const double off = 1e-4 * d.length;
