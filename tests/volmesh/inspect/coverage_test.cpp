@@ -11,8 +11,8 @@
 namespace sterna::volmesh {
 namespace {
 
-/// The prediction leaves out the optimiser, which raises heights, and the tests for collisions, which lower them: on the walls of ../shared/data/surfaces/clean it is up to 0.06 below the
-/// finished layer and up to 0.01 above it where layers reach their target on more than four fifths of the area (docs/inspect.md).
+/// The prediction leaves out the optimiser, which raises heights, and the tests for collisions, which lower them: on the walls of ../shared/data/surfaces/clean
+/// it is up to 0.06 below the finished layer and up to 0.01 above it where layers reach their target on more than four fifths of the area (docs/inspect.md).
 constexpr double k_below = 0.08, k_above = 0.02;
 
 TEST(InspectCoverage, IsNearThatOfTheFinishedMesh) {

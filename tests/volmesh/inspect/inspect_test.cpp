@@ -27,7 +27,9 @@ InspectRequest request_of(int layers, double first_height) {
   return request;
 }
 
-InspectReport inspect(const TriMesh& mesh, const InspectRequest& request = {}, int threads = 2) { return inspect_wall(mesh, request, RunContext({.threads = threads})); }
+InspectReport inspect(const TriMesh& mesh, const InspectRequest& request = {}, int threads = 2) {
+  return inspect_wall(mesh, request, RunContext({.threads = threads}));
+}
 
 std::set<Kind> kinds(const InspectReport& report) {
   std::set<Kind> set;
@@ -118,7 +120,8 @@ TEST(Inspect, FieldsFitTheSurface) {
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"finding", "smallest_angle", "visibility_angle", "height_share", "gap", "top_ratio"}));
   // At the cube's corners the best direction sees the three faces at acos(1/sqrt 3), at its edges at 45 degrees.
-  const VertexId corner = nearest_vertex(report.mesh, {1, 1, 1}), edge = nearest_vertex(report.mesh, {1, 1, 0.5}), face = nearest_vertex(report.mesh, {0.5, 0.5, 1});
+  const VertexId corner = nearest_vertex(report.mesh, {1, 1, 1}), edge = nearest_vertex(report.mesh, {1, 1, 0.5}),
+                 face = nearest_vertex(report.mesh, {0.5, 0.5, 1});
   EXPECT_NEAR(field(report, "visibility_angle").values[corner.index()], std::acos(1.0 / std::sqrt(3.0)) / k_deg, 1e-3);
   EXPECT_NEAR(field(report, "visibility_angle").values[edge.index()], 45.0, 1e-3);
   EXPECT_NEAR(field(report, "visibility_angle").values[face.index()], 0.0, 1e-3);
@@ -236,12 +239,19 @@ TEST(Inspect, FindsAVertexThatNoDirectionServes) {
   // Four cubes of a 2 x 2 x 2 block, in a chain that turns twice: at the middle there are facets of every sense.
   const std::set<std::array<int, 3>> solid = {{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 0}};
   constexpr int n = 4;  // cells along a cube
-  const TriMesh mesh = turned_over(test::voxel_boundary({2 * n, 2 * n, 2 * n}, 1.0 / n, [&](int i, int j, int k) { return solid.contains({i / n, j / n, k / n}); }, [](const Point&, const Vec3&) { return Patch{"body", PatchKind::wall}; }));
+  const TriMesh mesh = turned_over(test::voxel_boundary(
+      {2 * n, 2 * n, 2 * n}, 1.0 / n,
+      [&](int i, int j, int k) {
+        return solid.contains({i / n, j / n, k / n});
+      },
+      [](const Point&, const Vec3&) {
+        return Patch{"body", PatchKind::wall};
+      }));
   const TriMesh body = bounding_box(mesh).longest_side() > 0.0 ? mesh : turned_over(mesh);
   for (const InspectRequest& request : {InspectRequest{}, request_of(15, 1e-3)}) {
     const InspectReport report = inspect(body, request);
     const Finding& hidden = the(report, Kind::hidden);
-        EXPECT_EQ(hidden.count, 1);
+    EXPECT_EQ(hidden.count, 1);
     EXPECT_GE(hidden.value, 90.0 - 1e-6);
     EXPECT_LT(distance(hidden.places.at(0).position, {1, 1, 1}), 1e-9);
     if (!report.layer.is_known) continue;
