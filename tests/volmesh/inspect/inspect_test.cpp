@@ -147,7 +147,7 @@ TEST(Inspect, FindsANeedle) {
 
 TEST(Inspect, FindsATriangleMuchSmallerThanItsNeighbours) {
   TriMesh mesh = test::cube(8);
-  const TriangleId t = mesh.triangles.ids().begin().operator*();
+  const TriangleId t(0);
   const TriangleVertices v = mesh.triangles[t];
   const auto [a, b, c] = corners(mesh, t);
   const Point middle = (a + b + c) / 3.0;
@@ -247,9 +247,8 @@ TEST(Inspect, FindsAVertexThatNoDirectionServes) {
       [](const Point&, const Vec3&) {
         return Patch{"body", PatchKind::wall};
       }));
-  const TriMesh body = bounding_box(mesh).longest_side() > 0.0 ? mesh : turned_over(mesh);
   for (const InspectRequest& request : {InspectRequest{}, request_of(15, 1e-3)}) {
-    const InspectReport report = inspect(body, request);
+    const InspectReport report = inspect(mesh, request);
     const Finding& hidden = the(report, Kind::hidden);
     EXPECT_EQ(hidden.count, 1);
     EXPECT_GE(hidden.value, 90.0 - 1e-6);
@@ -259,7 +258,7 @@ TEST(Inspect, FindsAVertexThatNoDirectionServes) {
     ASSERT_TRUE(report.find(Kind::collapsed));
     EXPECT_LT(distance(the(report, Kind::collapsed).places.at(0).position, {1, 1, 1}), 1e-9);
   }
-  EXPECT_THAT(kinds(inspect(body)), UnorderedElementsAre(Kind::hidden, Kind::not_looked_at));
+  EXPECT_THAT(kinds(inspect(mesh)), UnorderedElementsAre(Kind::hidden, Kind::not_looked_at));
 }
 
 TEST(Inspect, FindsCrossingsWithTheirPairs) {
