@@ -14,6 +14,7 @@
 #include "io/surface_file.h"
 #include "scripting/stages.h"
 #include "scripting/summary.h"
+#include "scripting/wall_files.h"
 
 namespace sterna::scripting {
 namespace {
@@ -168,7 +169,7 @@ std::string verdict_of(const InspectReport& report) {
 }
 
 std::string prediction_of(const volmesh::LayerPrediction& layer) {
-  std::string text = fmt::format("layers: about {:.3g} % of the area with full height, {:.2g} % compressed, {:.2g} % collapsed", k_percent * layer.coverage,
+  std::string text = fmt::format("layers: full height on about {:.3g} % of the area, {:.2g} % compressed, {:.2g} % collapsed", k_percent * layer.coverage,
                                  k_percent * layer.compressed, k_percent * layer.collapsed);
   for (std::size_t i = 0; i < layer.lost_area.size(); ++i)
     text += fmt::format("{}{:.2g} % {}", i == 0 ? " (lower: " : ", ", k_percent * layer.lost_area[i].second, layer.lost_area[i].first);

@@ -19,6 +19,7 @@
 #include "scripting/quantity.h"
 #include "scripting/summary.h"
 #include "scripting/surface_manifest.h"
+#include "scripting/wall_files.h"
 
 namespace sterna::scripting {
 namespace {

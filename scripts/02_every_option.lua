@@ -19,6 +19,24 @@ wall = union{ wall,
   keep_cavities = false,            -- hollows that the parts enclose
 }
 
+-- Before anything is meshed: what volume_mesh will refuse, where layers get low. Takes what volume_mesh takes, too.
+local pre = inspect{ wall, layers = 30, first_height = 1e-6 * wall.length,
+  min_angle = 1*deg,                -- from here on something is told: needles
+  fold_angle = 1*deg,               -- neighbours folded onto each other
+  coarse_angle = 30*deg,            -- bends of smooth surfaces
+  size_jump = 5,                    -- of neighbours
+  short_edge = 1e-7,                -- over the body length
+  contact = 0.01,                   -- distance to another wall, in edges
+  visibility_angle = 80*deg,        -- between the best direction and a facet
+  lowered_area = 0.05,              -- share of the wall
+  top_ratio = 3,                    -- last layer over the tetrahedra above it
+  wanted_y_plus = 1,                -- with flow = flow{ ... }
+  least_length = 1e-3,              -- of the body, else the unit is doubted
+  largest_length = 1000,
+  max_places = 5,                   -- listed of each finding
+}
+print(pre.ok, pre.coverage)
+
 local mesh = volume_mesh{ wall,
   -- What the layers are asked to be; options can stand here or in the table of their stage, below.
   layers = 30,

@@ -1,6 +1,7 @@
-// How fast an inspection is, and how well it predicts the layer: for each surface reading, joining, inspecting; with --compare the envelope of volume_mesh on the same wall.
-// usage: inspect_bench [--threads 1,2] [--layers 35] [--compare] SURFACE...        the ladder of surfaces is made by tests/bench/make_ladder
-// First height 1e-6 of the body length, the other options as they are by default. Seconds of the wall clock and of the processor (the same times the threads on a quiet machine).
+// How fast an inspection is, and how well it predicts the layer: for each surface reading, joining, inspecting; with --compare the envelope of volume_mesh on
+// the same wall. usage: inspect_bench [--threads 1,2] [--layers 35] [--compare] SURFACE...        the ladder of surfaces is made by tests/bench/make_ladder
+// First height 1e-6 of the body length, the other options as they are by default. Seconds of the wall clock and of the processor (the same times the threads on
+// a quiet machine).
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -42,11 +43,14 @@ void print_envelope(const TriMesh& wall, const VolumeMeshOptions& options, const
     const double a = site.base.vertex_area[v], h = stage.envelope.height[v];
     all += a;
     if (h >= 0.9 * stage.envelope.target[v]) full += a;
-    if (h == 0.0) collapsed += a;
-    else if (h < scale.compressed(v)) compressed += a;
+    if (h == 0.0)
+      collapsed += a;
+    else if (h < scale.compressed(v))
+      compressed += a;
   }
-  std::printf("| %s | %zu | %.2f | %.2f | %.3f | %.3f | %.3f | %.3f | %.1f |\n", name.c_str(), wall.n_triangles(), 100.0 * report.layer.coverage, 100.0 * full / all, 100.0 * report.layer.compressed,
-              100.0 * compressed / all, 100.0 * report.layer.collapsed, 100.0 * collapsed / all, seconds.wall);
+  std::printf("| %s | %zu | %.2f | %.2f | %.3f | %.3f | %.3f | %.3f | %.1f |\n", name.c_str(), wall.n_triangles(), 100.0 * report.layer.coverage,
+              100.0 * full / all, 100.0 * report.layer.compressed, 100.0 * compressed / all, 100.0 * report.layer.collapsed, 100.0 * collapsed / all,
+              seconds.wall);
 }
 
 void run(const std::string& path, int threads, int layers, bool is_compared) {
@@ -65,8 +69,9 @@ void run(const std::string& path, int threads, int layers, bool is_compared) {
   if (is_compared) {
     if (report.layer.is_known) print_envelope(wall, request.volume, report, name, context);
   } else {
-    std::printf("| %s | %zu | %d | %.2f | %.2f | %.2f | %.2f | %.2f |\n", name.c_str(), wall.n_triangles(), threads, reading.wall, joining.wall, inspecting.wall,
-                (reading.wall + joining.wall + inspecting.wall) / millions, (reading.processor + joining.processor + inspecting.processor) / millions);
+    std::printf("| %s | %zu | %d | %.2f | %.2f | %.2f | %.2f | %.2f |\n", name.c_str(), wall.n_triangles(), threads, reading.wall, joining.wall,
+                inspecting.wall, (reading.wall + joining.wall + inspecting.wall) / millions,
+                (reading.processor + joining.processor + inspecting.processor) / millions);
   }
   std::fflush(stdout);
 }
@@ -97,9 +102,12 @@ int main(int argc, char** argv) {
   }
   if (is_compared) {
     threads = {threads.back()};
-    std::printf("| surface | triangles | full %%: predicted | envelope | compressed %%: predicted | envelope | collapsed %%: predicted | envelope | envelope s |\n|---|---|---|---|---|---|---|---|---|\n");
+    std::printf(
+        "| surface | triangles | full %%: predicted | envelope | compressed %%: predicted | envelope | collapsed %%: predicted | envelope | envelope s "
+        "|\n|---|---|---|---|---|---|---|---|---|\n");
   } else {
-    std::printf("| surface | triangles | threads | read s | join s | inspect s | s per million | processor s per million |\n|---|---|---|---|---|---|---|---|\n");
+    std::printf(
+        "| surface | triangles | threads | read s | join s | inspect s | s per million | processor s per million |\n|---|---|---|---|---|---|---|---|\n");
   }
   for (const std::string& path : paths)
     for (const int n : threads) run(path, n, layers, is_compared);

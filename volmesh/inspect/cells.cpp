@@ -56,8 +56,8 @@ class CellSurvey {
         misfit.places.push_back({v, badness});
         misfit.area += area;
       };
-      if (cells.first > cells.edge)
-        note(tall, cells.first / cells.edge);
+      if (scale_.h0(v) > cells.edge)
+        note(tall, scale_.h0(v) / cells.edge);
       else if (r > ratio)
         note(thick, r);
       else if (r * ratio < 1.0)
@@ -92,7 +92,7 @@ class CellSurvey {
 
   void add_tall(const Misfit& tall) const {
     Finding finding{.kind = FindingKind::tall_first, .severity = Severity::warn, .value = worst(tall.places, 1).front().badness, .limit = 1.0};
-    finding.text = "the first cell is taller than the edges of the wall on " + number_text(100.0 * tall.area, k_advice_digits) + " % of its area, up to " +
+    finding.text = "the first cell is taller than the edges of the wall on " + percent(tall.area) + " of its area, up to " +
                    number_text(finding.value, k_text_digits) + " times: first_height and the surface are hardly in the same unit";
     const VertexId v = worst(tall.places, 1).front().id;
     finding.advice = "first_height = " + number_text(0.1 * base_.mean_edge[v], k_advice_digits) + " or less, or another unit of the surface (unit = mm)";
@@ -104,9 +104,8 @@ class CellSurvey {
                     .severity = Severity::warn,
                     .value = 1.0 / worst(thin.places, 1).front().badness,
                     .limit = 1.0 / survey_.request.limits.top_ratio};
-    finding.text = "on " + number_text(100.0 * thin.area, k_advice_digits) + " % of the walls' area the last layer is thinner than " +
-                   number_text(finding.limit, k_text_digits) + " of the tetrahedra above it (" + number_text(finding.value, k_text_digits) +
-                   " at the worst): a jump of cell sizes at the top of the layer";
+    finding.text = "on " + percent(thin.area) + " of the walls' area the last layer is thinner than " + number_text(finding.limit, k_text_digits) +
+                   " of the tetrahedra above it (" + number_text(finding.value, k_text_digits) + " at the worst): a jump of cell sizes at the top of the layer";
     const VertexId v = typical(thin);
     const double h0 = scale_.h0(v), rise = std::log(k_regular_height * base_.mean_edge[v] / h0);
     const bool is_capped = scale_.max_thickness(v) < layer_height(h0, growth_for_edge(h0, base_.mean_edge[v], scale_.max_growth(v), scale_.n(v)), scale_.n(v));
@@ -124,8 +123,8 @@ class CellSurvey {
   void add_thick(const Misfit& thick) const {
     Finding finding{
         .kind = FindingKind::thick_top, .severity = Severity::warn, .value = worst(thick.places, 1).front().badness, .limit = survey_.request.limits.top_ratio};
-    finding.text = "on " + number_text(100.0 * thick.area, k_advice_digits) + " % of the walls' area the last layer is thicker than " +
-                   number_text(finding.limit, k_text_digits) + " times the tetrahedra above it (" + number_text(finding.value, k_text_digits) +
+    finding.text = "on " + percent(thick.area) + " of the walls' area the last layer is thicker than " + number_text(finding.limit, k_text_digits) +
+                   " times the tetrahedra above it (" + number_text(finding.value, k_text_digits) +
                    " at the worst): a jump of cell sizes at the top of the layer";
     const VertexId v = typical(thick);
     finding.advice =

@@ -196,10 +196,9 @@ class HeightSurvey {
     Finding finding{
         .kind = FindingKind::lowered, .severity = share > survey_.request.limits.lowered_area ? Severity::warn : Severity::note, .limit = k_full_share};
     finding.value = -worst(lowered, 1).front().badness;
-    finding.text = "the layer will be lower than " + number_text(k_full_share, k_text_digits) + " of its target on about " +
-                   number_text(100.0 * share, k_advice_digits) + " % of the walls' area: " + number_text(100.0 * area[0] / all_, k_advice_digits) +
-                   " % in gaps between walls, " + number_text(100.0 * area[1] / all_, k_advice_digits) +
-                   " % in corners and where the surface turns within the layer's height";
+    finding.text = "the layer will be lower than " + number_text(k_full_share, k_text_digits) + " of its target on about " + percent(share) +
+                   " of the walls' area: " + percent(area[0] / all_) + " in gaps between walls, " + percent(area[1] / all_) +
+                   " in corners and where the surface turns within the layer's height";
     if (area[0] >= area[1] && least > 0.0)
       finding.advice = "nothing, if lower layers will do in the gaps; else ask for less there, as patches = { [\"" + patch +
                        "\"] = { max_thickness = " + number_text(least, k_advice_digits) + " } }";
@@ -216,8 +215,7 @@ class HeightSurvey {
     Finding finding{.kind = FindingKind::compressed, .severity = Severity::warn, .limit = 1.0};
     finding.value = h / scale_.compressed(v);
     finding.text = "the layer will be lower than its first cells alone (" + std::to_string(scale_.n(v)) + " of " + in_metres(scale_.h0(v), k_text_digits) +
-                   ") on about " + number_text(100.0 * area_of(compressed), k_advice_digits) +
-                   " % of the walls' area: equally spaced, first_height is not met there";
+                   ") on about " + percent(area_of(compressed)) + " of the walls' area: equally spaced, first_height is not met there";
     const int layers = static_cast<int>(std::floor(h / scale_.h0(v)));
     finding.advice =
         layers >= 2
@@ -230,8 +228,8 @@ class HeightSurvey {
     const double share = area_of(collapsed);
     Finding finding{.kind = FindingKind::collapsed, .severity = Severity::warn, .value = 0.0, .limit = 0.2};
     std::string patch = patch_of(collapsed.front().id);
-    finding.text = "no layer will stand on about " + number_text(100.0 * share, k_advice_digits) +
-                   " % of the walls' area: there is less room than a fifth of its first cells, or no direction to grow";
+    finding.text =
+        "no layer will stand on about " + percent(share) + " of the walls' area: there is less room than a fifth of its first cells, or no direction to grow";
     finding.advice = "layers need " + in_metres(0.2 * scale_.compressed(collapsed.front().id), k_advice_digits) +
                      " to stand: open the gap, lower first_height, or leave walls without them, as patches = { [\"" + patch + "\"] = { layers = 0 } }";
     add(std::move(finding), collapsed, 0.0);

@@ -46,13 +46,20 @@ std::vector<TriangleId> triangles_at_holes(const Survey& survey) {
 /// What volume_mesh would throw at its start.
 void add_refusal(const Survey& survey, const Error& error) {
   const ErrorInfo& info = error.info();
-  Finding finding{
-      .kind = info.code == ErrorCode::open_surface ? FindingKind::open : FindingKind::refused, .severity = Severity::error, .count = error.n_places()};
-  finding.text = "volume_mesh refuses it: " + info.problem;
-  finding.advice = info.hint;
+  Finding finding{.kind = FindingKind::refused,
+                  .severity = Severity::error,
+                  .count = error.n_places(),
+                  .text = "volume_mesh refuses it: " + info.problem,
+                  .advice = info.hint};
+  std::vector<TriangleId> where;
+  if (info.code == ErrorCode::open_surface) {
+    where = triangles_at_holes(survey);  // one for each edge
+    finding.kind = FindingKind::open;
+    finding.count = static_cast<std::int64_t>(where.size());
+  }
   for (std::size_t i = 0; i < std::min(info.places.size(), survey.n_places()); ++i)
     finding.places.push_back({info.places[i].position, {}, 0.0, info.places[i].what});
-  add_finding(survey.report, std::move(finding), info.code == ErrorCode::open_surface ? triangles_at_holes(survey) : std::vector<TriangleId>{});
+  add_finding(survey.report, std::move(finding), where);
 }
 
 /// The walls with their outer boundary, as volume_mesh makes them; null where it refuses them, which is told.

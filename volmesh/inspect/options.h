@@ -15,7 +15,7 @@ struct InspectOptions {
   double short_edge = 1e-7;
   double contact = 0.01;
   double visibility_angle = 80.0 * std::numbers::pi / 180.0;
-  double lowered_area = 0.02;
+  double lowered_area = 0.05;
   double top_ratio = 3.0;
   double wanted_y_plus = 1.0;
   double least_length = 1e-3;

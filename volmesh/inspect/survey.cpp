@@ -1,8 +1,9 @@
 #include "volmesh/inspect/survey.h"
 
 #include <array>
+#include <cmath>
 
-#include "geom/base/error.h"
+#include "geom/base/number_text.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -20,6 +21,12 @@ std::string_view to_string(Severity severity) { return k_severities[static_cast<
 std::string_view to_string(FindingKind kind) { return k_kinds[static_cast<std::size_t>(kind)]; }
 
 std::string count_of(std::int64_t n, const std::string& one, const std::string& many) { return std::to_string(n) + " " + (n == 1 ? one : many); }
+
+std::string percent(double share) {
+  constexpr double k_whole = 0.1;  ///< from here on without decimals
+  const double value = 100.0 * share;
+  return (share >= k_whole ? std::to_string(std::lround(value)) : number_text(value, k_advice_digits)) + " %";
+}
 
 std::int64_t InspectReport::count(Severity severity) const {
   return std::count_if(findings.begin(), findings.end(), [&](const Finding& finding) { return finding.severity == severity; });

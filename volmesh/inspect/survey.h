@@ -112,8 +112,10 @@ void survey_y_plus(const Survey& survey);
 
 /// "12 triangles", "1 triangle".
 std::string count_of(std::int64_t n, const std::string& one, const std::string& many);
-/// Largest digits that messages need.
-inline constexpr int k_text_digits = 3;
+/// "12.4 %", "98 %": a share for people.
+std::string percent(double share);
+/// Digits of numbers in messages: lengths up to 9999 without an exponent.
+inline constexpr int k_text_digits = 4;
 /// Digits of suggested values.
 inline constexpr int k_advice_digits = 2;
 inline constexpr double k_degree = std::numbers::pi / 180.0;

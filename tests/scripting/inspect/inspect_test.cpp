@@ -100,14 +100,16 @@ TEST_F(InspectFiles, GiveScriptsATable) {
   EXPECT_THAT(printed, HasSubstr("true\t0\t0\ttrue\t0.0\ttrue\t1"));
   EXPECT_THAT(run("local pre = inspect(read_surface '" + path + "') print(pre.coverage, pre.findings[1].kind)"), HasSubstr("nil\tnot_looked_at"));
   const std::string far = write(test::sphere(6, 2000.0), "sphere.stl");
-  EXPECT_THAT(run("local f = inspect('" + far + "').findings[1]\nprint(f.kind, f.severity, f.count, f.value > 3900, f.limit, f.unit, #f.places, f.at[1], f.advice:sub(1, 9))"),
+  EXPECT_THAT(run("local f = inspect('" + far +
+                  "').findings[1]\nprint(f.kind, f.severity, f.count, f.value > 3900, f.limit, f.unit, #f.places, f.at[1], f.advice:sub(1, 9))"),
               HasSubstr("unit\twarn\t1\ttrue\t1000.0\tm\t1"));
   EXPECT_THAT(run("print(inspect{ '" + far + "', unit = mm }.length < 4.1)"), HasSubstr("true"));
 }
 
 TEST_F(InspectFiles, TakeFlowsAndLimits) {
   const std::string wall = "local wall = read_surface '" + write(test::cube(12), "cube.stl") + "'\n";
-  EXPECT_THAT(run(wall + "print(inspect{ wall, layers = 20, first_height = 1e-4, flow = flow{ reynolds = 1e6, length = 1 } }.findings[1].kind)"), HasSubstr("\ny_plus\n"));
+  EXPECT_THAT(run(wall + "print(inspect{ wall, layers = 20, first_height = 1e-4, flow = flow{ reynolds = 1e6, length = 1 } }.findings[1].kind)"),
+              HasSubstr("\ny_plus\n"));
   EXPECT_THAT(error(wall + "inspect{ wall, flow = 7 }"), HasSubstr("flow: expected flow{"));
   EXPECT_THAT(error(wall + "inspect{ wall, first_hight = 1e-4 }"), HasSubstr("first_height"));
   EXPECT_THAT(error(wall + "inspect{ wall, unit = mm }"), HasSubstr("unit"));
@@ -120,7 +122,8 @@ TEST_F(InspectFiles, DrawTheTrouble) {
   const std::string path = write(test::cube(6), "cube.stl");
   run("inspect{ '" + path + "', layers = 20, first_height = 1e-4, output = " + out("trouble.vtu") + " }");
   const std::string text = text_of("trouble.vtu");
-  for (const char* array : {"height_share", "visibility_angle_deg", "gap_m", "top_ratio", "Name=\"finding\"", "smallest_angle_deg", "<PointData>"}) EXPECT_THAT(text, HasSubstr(array));
+  for (const char* array : {"height_share", "visibility_angle_deg", "gap_m", "top_ratio", "Name=\"finding\"", "smallest_angle_deg", "<PointData>"})
+    EXPECT_THAT(text, HasSubstr(array));
   const SurfaceSoup soup = io::read_surface_file(folder_ / "trouble.vtu", RunContext({.threads = 1}));
   EXPECT_EQ(soup.triangles.size(), test::cube(6).n_triangles());
   EXPECT_EQ(soup.patch_names.at(0), "cube");
@@ -165,8 +168,9 @@ TEST_F(InspectFiles, EveryRealSurfaceHasAnAnswer) {
     std::string file, verdict;
     if (!line.empty() && line[0] != '#' && std::getline(fields, file, '\t') && std::getline(fields, verdict, '\t')) verdicts[file] = verdict;
   }
-  const std::map<std::string, FindingKind> kinds = {{"open_surface", FindingKind::open}, {"non_manifold_surface", FindingKind::non_manifold}, {"self_intersection", FindingKind::crossing},
-                                                    {"not_orientable", FindingKind::not_orientable}, {"empty_surface", FindingKind::malformed}, {"file_malformed", FindingKind::malformed}};
+  const std::map<std::string, FindingKind> kinds = {{"open_surface", FindingKind::open},          {"non_manifold_surface", FindingKind::non_manifold},
+                                                    {"self_intersection", FindingKind::crossing}, {"not_orientable", FindingKind::not_orientable},
+                                                    {"empty_surface", FindingKind::malformed},    {"file_malformed", FindingKind::malformed}};
   for (const char* folder : {"nasty", "clean"}) {
     for (const auto& entry : fs::directory_iterator(test::shared_data() / "surfaces" / folder)) {
       const std::string name = entry.path().filename().string();
@@ -175,7 +179,8 @@ TEST_F(InspectFiles, EveryRealSurfaceHasAnAnswer) {
       const volmesh::InspectReport report = inspect(entry.path().string());
       const std::string verdict = verdicts.contains(name) ? verdicts[name] : "valid";
       std::cout << "| " << name << " | " << verdict << " | ";
-      for (const volmesh::Finding& finding : report.findings) std::cout << to_string(finding.severity) << " " << to_string(finding.kind) << " " << finding.count << ", ";
+      for (const volmesh::Finding& finding : report.findings)
+        std::cout << to_string(finding.severity) << " " << to_string(finding.kind) << " " << finding.count << ", ";
       std::cout << "|\n";
       EXPECT_EQ(report.is_ok(), verdict == "valid");
       if (verdict == "valid") continue;

@@ -27,7 +27,9 @@ InspectRequest request_of(int layers, double first_height) {
   return request;
 }
 
-InspectReport inspect(const TriMesh& mesh, const InspectRequest& request = {}, int threads = 2) { return inspect_wall(mesh, request, RunContext({.threads = threads})); }
+InspectReport inspect(const TriMesh& mesh, const InspectRequest& request = {}, int threads = 2) {
+  return inspect_wall(mesh, request, RunContext({.threads = threads}));
+}
 
 std::set<Kind> kinds(const InspectReport& report) {
   std::set<Kind> set;
@@ -65,6 +67,13 @@ const SurfaceField& field(const InspectReport& report, const std::string& name) 
   for (const SurfaceField& f : report.fields)
     if (f.name == name) return f;
   throw std::runtime_error("no field " + name);
+}
+
+/// The finding, which must be there.
+const Finding& the(const InspectReport& report, Kind kind) {
+  const Finding* finding = report.find(kind);
+  if (!finding) throw std::runtime_error("no finding " + std::string(to_string(kind)));
+  return *finding;
 }
 
 /// Middles of the triangles that the picture marks.
@@ -111,7 +120,8 @@ TEST(Inspect, FieldsFitTheSurface) {
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"finding", "smallest_angle", "visibility_angle", "height_share", "gap", "top_ratio"}));
   // At the cube's corners the best direction sees the three faces at acos(1/sqrt 3), at its edges at 45 degrees.
-  const VertexId corner = nearest_vertex(report.mesh, {1, 1, 1}), edge = nearest_vertex(report.mesh, {1, 1, 0.5}), face = nearest_vertex(report.mesh, {0.5, 0.5, 1});
+  const VertexId corner = nearest_vertex(report.mesh, {1, 1, 1}), edge = nearest_vertex(report.mesh, {1, 1, 0.5}),
+                 face = nearest_vertex(report.mesh, {0.5, 0.5, 1});
   EXPECT_NEAR(field(report, "visibility_angle").values[corner.index()], std::acos(1.0 / std::sqrt(3.0)) / k_deg, 1e-3);
   EXPECT_NEAR(field(report, "visibility_angle").values[edge.index()], 45.0, 1e-3);
   EXPECT_NEAR(field(report, "visibility_angle").values[face.index()], 0.0, 1e-3);
@@ -125,24 +135,24 @@ TEST(Inspect, FindsANeedle) {
   mesh.points[v] = {0.5, 0.6249, 1.0};  // 1e-4 from its neighbour
   const InspectReport report = inspect(mesh);
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::needle, Kind::not_looked_at));
-  const Finding* needle = report.find(Kind::needle);
-  EXPECT_EQ(needle->count, 2);  // the triangles at the short edge
-  EXPECT_EQ(needle->unit, "deg");
-  EXPECT_LT(needle->value, 0.06);  // atan(1e-4 / 0.125)
-  ASSERT_FALSE(needle->places.empty());
-  EXPECT_LT(distance(needle->places[0].position, {0.5, 0.625, 1.0}), 0.125);
-  EXPECT_EQ(needle->places[0].patch, "cube");
+  const Finding& needle = the(report, Kind::needle);
+  EXPECT_EQ(needle.count, 2);  // the triangles at the short edge
+  EXPECT_EQ(needle.unit, "deg");
+  EXPECT_LT(needle.value, 0.06);  // atan(1e-4 / 0.125)
+  ASSERT_FALSE(needle.places.empty());
+  EXPECT_LT(distance(needle.places[0].position, {0.5, 0.625, 1.0}), 0.125);
+  EXPECT_EQ(needle.places[0].patch, "cube");
   EXPECT_EQ(marked(report, Kind::needle).size(), 2u);
 }
 
 TEST(Inspect, FindsATriangleMuchSmallerThanItsNeighbours) {
   TriMesh mesh = test::cube(8);
-  const TriangleId t = mesh.triangles.ids().begin().operator*();
+  const TriangleId t(0);
   const TriangleVertices v = mesh.triangles[t];
   const auto [a, b, c] = corners(mesh, t);
   const Point middle = (a + b + c) / 3.0;
-  std::array<VertexId, 3> w;  // a triangle within it, a tenth of its size
-  for (std::size_t k = 0; k < 3; ++k) w[k] = mesh.points.push_back(middle + 0.1 * (mesh.points[v[k]] - middle));
+  std::array<VertexId, 3> w;  // a triangle within it, a thirtieth of its size
+  for (std::size_t k = 0; k < 3; ++k) w[k] = mesh.points.push_back(middle + 0.03 * (mesh.points[v[k]] - middle));
   mesh.triangles[t] = {w[0], w[1], w[2]};
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t next = (k + 1) % 3;
@@ -152,8 +162,8 @@ TEST(Inspect, FindsATriangleMuchSmallerThanItsNeighbours) {
   }
   const InspectReport report = inspect(mesh);
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::size_jump, Kind::not_looked_at));
-  EXPECT_EQ(report.find(Kind::size_jump)->count, 3);
-  EXPECT_LT(distance(report.find(Kind::size_jump)->places.at(0).position, middle), 0.02);
+  EXPECT_EQ(the(report, Kind::size_jump).count, 3);
+  EXPECT_LT(distance(the(report, Kind::size_jump).places.at(0).position, middle), 0.02);
 }
 
 TEST(Inspect, FindsAShortEdge) {
@@ -161,11 +171,11 @@ TEST(Inspect, FindsAShortEdge) {
   mesh.points[nearest_vertex(mesh, {0.5, 0.5, 1.0})] = {0.5, 0.625 - 1e-9, 1.0};
   const InspectReport report = inspect(mesh);
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::needle, Kind::short_edge, Kind::not_looked_at));
-  const Finding* edge = report.find(Kind::short_edge);
-  EXPECT_EQ(edge->count, 1);
-  EXPECT_NEAR(edge->value, 1e-9, 1e-12);
-  EXPECT_LT(distance(edge->places.at(0).position, {0.5, 0.625, 1.0}), 1e-6);
-  EXPECT_NE(edge->advice.find("weld_tolerance"), std::string::npos);
+  const Finding& edge = the(report, Kind::short_edge);
+  EXPECT_EQ(edge.count, 1);
+  EXPECT_NEAR(edge.value, 1e-9, 1e-12);
+  EXPECT_LT(distance(edge.places.at(0).position, {0.5, 0.625, 1.0}), 1e-6);
+  EXPECT_NE(edge.advice.find("weld_tolerance"), std::string::npos);
 }
 
 /// A wedge with its edge along y at x = 0, of n strips in x and y.
@@ -212,16 +222,16 @@ TEST(Inspect, FindsAFoldAndHowBadlyItsEdgeIsSeen) {
   request.limits.fold_angle = 10.0 * k_deg;
   const InspectReport report = inspect(wedge(8.0 * k_deg, 7), request);
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::fold, Kind::visibility, Kind::not_looked_at));
-  const Finding* fold = report.find(Kind::fold);
-  EXPECT_EQ(fold->count, 7);
-  EXPECT_NEAR(fold->value, 8.0, 1e-6);
-  EXPECT_EQ(fold->places.size(), 5u);  // max_places
-  for (const FindingPlace& place : fold->places) EXPECT_EQ(place.position.x, 0.0);
-  EXPECT_NE(fold->text.find("(0 of them with the fluid inside)"), std::string::npos);
+  const Finding& fold = the(report, Kind::fold);
+  EXPECT_EQ(fold.count, 7);
+  EXPECT_NEAR(fold.value, 8.0, 1e-6);
+  EXPECT_EQ(fold.places.size(), 5u);  // max_places
+  for (const FindingPlace& place : fold.places) EXPECT_EQ(place.position.x, 0.0);
+  EXPECT_NE(fold.text.find("(0 of them with the fluid inside)"), std::string::npos);
   // Two facets that turn by 172 degrees are seen at half of that.
-  const Finding* edge = report.find(Kind::visibility);
-  EXPECT_NEAR(edge->value, 86.0, 0.5);  // a little more at the ends
-  EXPECT_EQ(edge->places.at(0).position.x, 0.0);
+  const Finding& edge = the(report, Kind::visibility);
+  EXPECT_NEAR(edge.value, 86.0, 0.5);  // a little more at the ends
+  EXPECT_EQ(edge.places.at(0).position.x, 0.0);
   EXPECT_THAT(kinds(inspect(wedge(8.0 * k_deg, 7))), UnorderedElementsAre(Kind::visibility, Kind::not_looked_at)) << "8 degrees are no fold by default";
 }
 
@@ -229,34 +239,39 @@ TEST(Inspect, FindsAVertexThatNoDirectionServes) {
   // Four cubes of a 2 x 2 x 2 block, in a chain that turns twice: at the middle there are facets of every sense.
   const std::set<std::array<int, 3>> solid = {{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {1, 0, 0}};
   constexpr int n = 4;  // cells along a cube
-  const TriMesh mesh = turned_over(test::voxel_boundary({2 * n, 2 * n, 2 * n}, 1.0 / n, [&](int i, int j, int k) { return solid.contains({i / n, j / n, k / n}); }, [](const Point&, const Vec3&) { return Patch{"body", PatchKind::wall}; }));
-  const TriMesh body = bounding_box(mesh).longest_side() > 0.0 ? mesh : turned_over(mesh);
+  const TriMesh mesh = turned_over(test::voxel_boundary(
+      {2 * n, 2 * n, 2 * n}, 1.0 / n,
+      [&](int i, int j, int k) {
+        return solid.contains({i / n, j / n, k / n});
+      },
+      [](const Point&, const Vec3&) {
+        return Patch{"body", PatchKind::wall};
+      }));
   for (const InspectRequest& request : {InspectRequest{}, request_of(15, 1e-3)}) {
-    const InspectReport report = inspect(body, request);
-    const Finding* hidden = report.find(Kind::hidden);
-    ASSERT_TRUE(hidden);
-    EXPECT_EQ(hidden->count, 1);
-    EXPECT_GE(hidden->value, 90.0 - 1e-6);
-    EXPECT_LT(distance(hidden->places.at(0).position, {1, 1, 1}), 1e-9);
+    const InspectReport report = inspect(mesh, request);
+    const Finding& hidden = the(report, Kind::hidden);
+    EXPECT_EQ(hidden.count, 1);
+    EXPECT_GE(hidden.value, 90.0 - 1e-6);
+    EXPECT_LT(distance(hidden.places.at(0).position, {1, 1, 1}), 1e-9);
     if (!report.layer.is_known) continue;
     EXPECT_GT(report.layer.collapsed, 0.0);
     ASSERT_TRUE(report.find(Kind::collapsed));
-    EXPECT_LT(distance(report.find(Kind::collapsed)->places.at(0).position, {1, 1, 1}), 1e-9);
+    EXPECT_LT(distance(the(report, Kind::collapsed).places.at(0).position, {1, 1, 1}), 1e-9);
   }
-  EXPECT_THAT(kinds(inspect(body)), UnorderedElementsAre(Kind::hidden, Kind::not_looked_at));
+  EXPECT_THAT(kinds(inspect(mesh)), UnorderedElementsAre(Kind::hidden, Kind::not_looked_at));
 }
 
 TEST(Inspect, FindsCrossingsWithTheirPairs) {
   const InspectReport report = inspect(joined(test::cube(4), moved(test::cube(4), {0.6, 0.55, 0.52})), request_of(20, 1e-4));
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::crossing, Kind::bodies, Kind::not_looked_at));
   EXPECT_FALSE(report.is_ok());
-  const Finding* crossing = report.find(Kind::crossing);
-  EXPECT_EQ(crossing->severity, Severity::error);
-  EXPECT_GT(crossing->count, 10);
+  const Finding& crossing = the(report, Kind::crossing);
+  EXPECT_EQ(crossing.severity, Severity::error);
+  EXPECT_GT(crossing.count, 10);
   Box overlap;  // of the two cubes, and a triangle around
   overlap.add(Vec3{0.6, 0.55, 0.52} - Vec3{0.25, 0.25, 0.25});
   overlap.add(Vec3{1.25, 1.25, 1.25});
-  for (const FindingPlace& place : crossing->places) {
+  for (const FindingPlace& place : crossing.places) {
     for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_TRUE(place.position[axis] >= overlap.min[axis] && place.position[axis] <= overlap.max[axis]);
     EXPECT_NE(place.what.find(" and "), std::string::npos);
   }
@@ -281,8 +296,8 @@ TEST(Inspect, FindsAHole) {
   EXPECT_FALSE(report.is_ok());
   EXPECT_FALSE(report.is_closed);
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::open, Kind::not_looked_at));
-  EXPECT_EQ(report.find(Kind::open)->count, 3);
-  EXPECT_LT(distance(report.find(Kind::open)->places.at(0).position, hole), 0.125);
+  EXPECT_EQ(the(report, Kind::open).count, 3);
+  EXPECT_LT(distance(the(report, Kind::open).places.at(0).position, hole), 0.125);
   for (const Point& p : marked(report, Kind::open)) EXPECT_LT(distance(p, hole), 0.2);
   EXPECT_EQ(marked(report, Kind::open).size(), 3u);
 }
@@ -290,15 +305,15 @@ TEST(Inspect, FindsAHole) {
 TEST(Inspect, DoubtsTheUnit) {
   const InspectReport report = inspect(test::sphere(6, 2000.0));
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::unit, Kind::not_looked_at));
-  EXPECT_NE(report.find(Kind::unit)->advice.find("unit = mm"), std::string::npos);
+  EXPECT_NE(the(report, Kind::unit).advice.find("unit = mm"), std::string::npos);
   EXPECT_THAT(kinds(inspect(test::sphere(6, 1e-4))), UnorderedElementsAre(Kind::unit, Kind::not_looked_at));
 }
 
 TEST(Inspect, FindsABodyInABody) {
   const InspectReport report = inspect(joined(test::sphere(6, 1.0), turned_over(test::sphere(6, 0.3))));
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::cavity, Kind::bodies, Kind::not_looked_at));
-  EXPECT_EQ(report.find(Kind::cavity)->count, 1);
-  EXPECT_LT(norm(report.find(Kind::cavity)->places.at(0).position), 0.01);
+  EXPECT_EQ(the(report, Kind::cavity).count, 1);
+  EXPECT_LT(norm(the(report, Kind::cavity).places.at(0).position), 0.01);
   EXPECT_EQ(report.n_bodies, 2);
 }
 
@@ -306,11 +321,11 @@ TEST(Inspect, FindsBodiesThatNearlyTouch) {
   constexpr double apart = 1e-4;
   const InspectReport report = inspect(joined(test::cube(4), moved(test::cube(4), {1.0 + apart, 0.0, 0.0})));
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::contact, Kind::bodies, Kind::not_looked_at));
-  const Finding* contact = report.find(Kind::contact);
-  EXPECT_EQ(contact->count, 2 * 25);  // all vertices of both faces
-  EXPECT_GT(contact->value, apart / 0.5);
-  EXPECT_LT(contact->value, apart / 0.2);
-  EXPECT_NEAR(contact->places.at(0).position.x, 1.0, 1e-3);
+  const Finding& contact = the(report, Kind::contact);
+  EXPECT_EQ(contact.count, 2 * 25);  // all vertices of both faces
+  EXPECT_GT(contact.value, apart / 0.5);
+  EXPECT_LT(contact.value, apart / 0.2);
+  EXPECT_NEAR(contact.places.at(0).position.x, 1.0, 1e-3);
   // Back to back through the solid is no contact: a plate thinner than that, seen from outside.
   InspectRequest request;
   EXPECT_FALSE(inspect(moved(test::cube(4), {}, {1.0, 1.0, 1e-3}), request).find(Kind::contact));
@@ -322,8 +337,8 @@ TEST(Inspect, FindsACoarseCurve) {
   request.volume.envelope.feature_angle = 60.0 * k_deg;
   const InspectReport report = inspect(icosahedron, request);
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::coarse, Kind::not_looked_at));
-  EXPECT_EQ(report.find(Kind::coarse)->count, 30);
-  EXPECT_NEAR(report.find(Kind::coarse)->value, 180.0 - 138.1897, 1e-3);  // its dihedral angle
+  EXPECT_EQ(the(report, Kind::coarse).count, 30);
+  EXPECT_NEAR(the(report, Kind::coarse).value, 180.0 - 138.1897, 1e-3);  // its dihedral angle
   request.volume.envelope.feature_angle = 25.0 * k_deg;
   EXPECT_THAT(kinds(inspect(icosahedron, request)), UnorderedElementsAre(Kind::not_looked_at)) << "edges that are meant";
 }
@@ -335,13 +350,13 @@ TEST(Inspect, MeasuresAGapAgainstTheLayers) {
   const TriMesh plates = joined(moved(test::cube(16), {}, {1.0, 1.0, 0.2}), moved(test::cube(16), {0.0, 0.0, 0.2 + gap}, {1.0, 1.0, 0.2}));
   const InspectReport report = inspect(plates, request_of(20, 1e-4));
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::bodies, Kind::lowered));
-  const Finding* lowered = report.find(Kind::lowered);
-  EXPECT_EQ(lowered->severity, Severity::warn);
-  EXPECT_GT(lowered->count, 2 * 15 * 15);
-  EXPECT_LT(lowered->value, 0.2);
-  EXPECT_NE(lowered->advice.find("max_thickness"), std::string::npos);
-  for (const FindingPlace& place : lowered->places) EXPECT_NEAR(place.position.z, 0.2 + 0.5 * gap, 0.51 * gap);
-  EXPECT_NEAR(1.0 - report.layer.coverage, lowered->share, 1e-9);
+  const Finding& lowered = the(report, Kind::lowered);
+  EXPECT_EQ(lowered.severity, Severity::warn);
+  EXPECT_GT(lowered.count, 2 * 15 * 15);
+  EXPECT_LT(lowered.value, 0.2);
+  EXPECT_NE(lowered.advice.find("max_thickness"), std::string::npos);
+  for (const FindingPlace& place : lowered.places) EXPECT_NEAR(place.position.z, 0.2 + 0.5 * gap, 0.51 * gap);
+  EXPECT_NEAR(1.0 - report.layer.coverage, lowered.share, 1e-9);
   int n = 0;
   for (const VertexId v : report.mesh.points.ids()) {
     const float value = field(report, "gap").values[v.index()];
@@ -361,7 +376,7 @@ TEST(Inspect, TellsOfCompressedAndCollapsedLayers) {
   const InspectReport compressed = inspect(plates, request_of(20, 1e-4));  // 2 mm are the first cells, about 0.75 mm are left for each side
   ASSERT_TRUE(compressed.find(Kind::compressed));
   EXPECT_GT(compressed.layer.compressed, 0.2);
-  EXPECT_NE(compressed.find(Kind::compressed)->advice.find("layers = "), std::string::npos);
+  EXPECT_NE(the(compressed, Kind::compressed).advice.find("layers = "), std::string::npos);
   const InspectReport collapsed = inspect(plates, request_of(20, 1e-3));  // a fifth of the first cells are 4 mm
   ASSERT_TRUE(collapsed.find(Kind::collapsed));
   EXPECT_GT(collapsed.layer.collapsed, 0.2);
@@ -373,7 +388,7 @@ TEST(Inspect, ComparesFirstAndLastCellsWithTheEdges) {
   EXPECT_THAT(kinds(inspect(cube, request_of(8, 1e-5))), UnorderedElementsAre(Kind::thin_top));
   const InspectReport few = inspect(cube, request_of(8, 1e-5));
   // 0.816 edges of about 0.07 from 1e-5 by 1.4: 27 layers.
-  const std::string advice = few.find(Kind::thin_top)->advice;
+  const std::string advice = the(few, Kind::thin_top).advice;
   ASSERT_EQ(advice.find("layers = 2"), 0u) << advice;
   InspectRequest enough = request_of(std::stoi(advice.substr(9)), 1e-5);
   enough.volume.envelope.max_thickness = 1.0;
@@ -388,7 +403,7 @@ TEST(Inspect, ComparesTheFirstHeightWithTheFlow) {
   const InspectReport report = inspect(test::cube(16), request);
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::y_plus));
   const double wanted = first_height({.y_plus = 1.0}, *request.flow).height;
-  EXPECT_NEAR(report.find(Kind::y_plus)->value, 1e-4 / wanted, 1e-9);
+  EXPECT_NEAR(the(report, Kind::y_plus).value, 1e-4 / wanted, 1e-9);
   request.limits.wanted_y_plus = 1e-4 / wanted;
   EXPECT_THAT(kinds(inspect(test::cube(16), request)), UnorderedElementsAre());
 }
@@ -404,7 +419,7 @@ TEST(Inspect, RulesOfPatchesCount) {
   request.volume.patches = {{.names = "nothing", .max_thickness = 5e-3}};
   const InspectReport wrong = inspect(plates, request);
   ASSERT_TRUE(wrong.find(Kind::refused));
-  EXPECT_NE(wrong.find(Kind::refused)->text.find("nothing"), std::string::npos);
+  EXPECT_NE(the(wrong, Kind::refused).text.find("nothing"), std::string::npos);
 }
 
 // ---- All of it ------------------------------------------------------------------------------------------------------------------------------
