@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -75,7 +76,7 @@ struct MeshValue {
   HybridMesh mesh;
   std::vector<InputFile> inputs;
   std::optional<MeshOrigin> origin;
-  std::optional<CheckReport> check;  ///< of the default options; always there for a mesh made here
+  mutable std::optional<CheckReport> check;  ///< of the default options, always there for a mesh made here; then of the last whole check that was asked for, so that manifests and reports say what that found
 };
 
 using SurfaceHandle = std::shared_ptr<const SurfaceValue>;
@@ -87,6 +88,16 @@ struct InputPath {
   std::filesystem::path path;
 };
 
+/// The files of a wall before they are joined.
+struct WallFiles {
+  SurfaceValue wall;                       ///< all but its mesh; its options know what the manifests beside the files say
+  std::vector<SurfaceSoup> soups;
+  std::map<std::string, PatchKind> kinds;  ///< of patches, by the manifests
+};
+/// \throws Error of io
+WallFiles read_wall_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context);
+/// Joins them by the wall's options. \throws Error of surfmesh::stitch_surface
+SurfaceValue join_wall(const WallFiles& files, const RunContext& context);
 /// Reads the files and joins them to one surface; manifests beside them say how far smooth places turn. \throws Error of io and of surfmesh::stitch_surface.
 SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context);
 
