@@ -16,7 +16,7 @@ export async function browse(file, folder) {
   await with_browser({ executable: k_browser }, async ({ open }) => {
     const page = await open(file);
     const schema = (await state_of(page)).schema;
-    const tools = { page, open, file, report: await json_of(page), shot: (name) => page.screenshot({ path: path.join(folder, `${name}.png`) }) };
+    const tools = { page, open, file, report: await json_of(page), keep: (download, name) => download.saveAs(path.join(folder, `${name}.png`)), shot: (name) => page.screenshot({ path: path.join(folder, `${name}.png`) }) };
     done = schema === "sterna-series-1" ? await use_series(tools) : await use_report(tools);
     require_no_complaints(page, "the page complained");
   });

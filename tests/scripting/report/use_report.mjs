@@ -3,6 +3,7 @@ import { pixels_of, require_equal, require_near, require_no_complaints, require_
 
 const k_most_places = 30;
 const k_least_share = 0.004; // of the picture that must be drawn: a slender body from the front is small
+const k_pixel = 1.5; // of the picture
 const k_f32 = 1e-6; // relative: positions on the way through the graphics card
 
 async function require_picture(page, what, least = k_least_share) {
@@ -22,7 +23,7 @@ async function tab(page, name) {
 }
 
 /** Everything of the page. Returns what was used, in words. */
-export async function use_report({ page, open, file, report, shot }) {
+export async function use_report({ page, open, file, report, shot, keep }) {
   const start = await state_of(page);
   require_that(start.has_view, `no picture: ${start.message}`);
   require_equal(start.message, "", "sentence over the picture");
@@ -31,7 +32,7 @@ export async function use_report({ page, open, file, report, shot }) {
   require_equal(await page.textContent("#verdict").then((t) => t.replace(/^mesh/, "")), report.verdict, "verdict");
 
   for (const element of await page.$$(".tab")) await tab(page, (await element.getAttribute("id")).slice(4));
-  await use_views(page, shot);
+  await use_views(page, shot, keep);
   await use_patches(page, report);
   await use_colours(page, report, shot);
   await use_pointer(page, report);
@@ -45,7 +46,7 @@ export async function use_report({ page, open, file, report, shot }) {
   return `${report.patches.length} patches, ${report.surface.fields.length} fields, ${report.cuts.length} cuts, ${n_places} of ${report.places.length} places, ${report.histograms.length} histograms`;
 }
 
-async function use_views(page, shot) {
+async function use_views(page, shot, keep) {
   const seen = new Set();
   for (const name of ["front", "back", "side", "top", "bottom", "iso"]) {
     await page.click(`#view_${name}`);
@@ -67,6 +68,12 @@ async function use_views(page, shot) {
   }
   const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save_picture")]);
   require_that(download.suggestedFilename().endsWith(".png"), "the saved picture is no PNG");
+  await keep(download, "saved");
+  const narrow = (await pixels_of(page)).width;
+  await page.click("#toggle_panel");
+  await page.waitForFunction((width) => window.sterna.pixels().width > width, narrow); // the view takes the panel's room
+  await page.click("#toggle_panel");
+  await page.waitForFunction((width) => window.sterna.pixels().width === width, narrow);
 }
 
 async function use_patches(page, report) {
@@ -103,7 +110,7 @@ async function use_colours(page, report, shot) {
   for (const field of report.surface.fields) {
     await page.selectOption("#color", field.name);
     const state = await state_of(page);
-    if (typeof field.min === "number" && field.max > field.min) {
+    if (typeof field.min === "number" && field.max > field.min && !(field.is_log && field.min <= 0)) {
       const [low, high, is_log] = state.color_bar.surface;
       require_near([low, high], [field.min, field.max], 1e-6 * Math.abs(field.max), `colour bar of ${field.name}`);
       require_equal(is_log, field.is_log && field.min > 0, `logarithmic bar of ${field.name}`);
@@ -141,13 +148,18 @@ async function use_pointer(page, report) {
     const x = box.x + (box.width * (0.3 + 0.4 * ((k * 7) % 20))) / 20 + box.width * 0.2, y = box.y + (box.height * (k + 0.5)) / 20;
     await page.mouse.move(x, y);
     await page.waitForTimeout(250);
-    const { picked } = await state_of(page);
-    if (picked) found = { picked, x: x - box.x, y: y - box.y };
+    if ((await state_of(page)).picked) found = { x: x - box.x, y: y - box.y };
   }
   require_that(found, "the pointer finds nothing on the body");
-  require_near(found.picked.on_screen, [found.x, found.y], 1.5, "pixel of the point that was picked");
+  await page.mouse.move(box.x + found.x, box.y + found.y);
+  const is_under = ({ x, y, near }) => {
+    const at = window.sterna.state().picked?.on_screen;
+    return at && Math.hypot(at[0] - x, at[1] - y) < near;
+  };
+  await page.waitForFunction(is_under, { ...found, near: k_pixel }, { timeout: 10000 }).catch(() => require_that(false, `what was picked does not lie under the pointer at ${JSON.stringify(found)}`));
+  const { picked } = await state_of(page);
   await page.mouse.click(box.x + found.x, box.y + found.y);
-  require_that((await page.textContent(".info")).includes(report.patches[found.picked.patch].name), "the text under the pointer lacks the patch");
+  require_that((await page.textContent(".info")).includes(report.patches[picked.patch].name), "the text under the pointer lacks the patch");
 
   const middle = [box.x + box.width / 2, box.y + box.height / 2];
   const drag = async (dx, dy, key) => {
@@ -311,6 +323,7 @@ async function use_link(page, open, file, report, shot) {
   require_equal({ ...after.values, options_filter: "" }, { ...before.values, options_filter: "" }, "state behind a link");
   require_near(after.camera.target, before.camera.target, 1e-5 * report.length, "camera's target behind a link");
   require_near([after.camera.distance], [before.camera.distance], 1e-4 * before.camera.distance, "camera's distance behind a link");
+  if (report.places.length) await use_place_link(open, file, report);
   await other.emulateMedia({ colorScheme: "dark", reducedMotion: "no-preference" });
   await other.click("#tab_surface");
   await other.click("#view_side"); // a real flight
@@ -319,4 +332,15 @@ async function use_link(page, open, file, report, shot) {
   await other.screenshot({ path: (await shot("link"), file.replace(/\.html$/, "_dark.png")) });
   require_no_complaints(other, "behind a link");
   await other.close();
+}
+
+/** A short link, as one writes it by hand. */
+async function use_place_link(open, file, report) {
+  const page = await open(file, "#place=0");
+  const state = await settled(page);
+  require_equal(state.values.tab, "places", "tab of a link to a place");
+  require_near(state.camera.target, report.places[0].at, k_f32 * Math.max(report.length, ...report.places[0].at.map(Math.abs)), "camera's target behind a link to a place");
+  require_that(state.pin, "no pin behind a link to a place");
+  require_no_complaints(page, "behind a link to a place");
+  await page.close();
 }

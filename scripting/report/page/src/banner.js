@@ -12,6 +12,7 @@ export function state_colour(state) {
 export function state_class(state) {
   const name = String(state).toLowerCase();
   if (name === "valid") return "pass";
+  if (name === "failed") return "fail";
   return ["pass", "warn", "fail", "invalid"].includes(name) ? name : "unknown";
 }
 

@@ -42,7 +42,7 @@ export class ReportApp {
     const all = report.patches.map((_, k) => k);
     const wanted = hash.patches?.split(",").map((text) => index(text, all.length)).filter((k) => k >= 0);
     return {
-      tab: hash.tab ?? "summary",
+      tab: hash.tab ?? (hash.place !== undefined ? "places" : hash.cut !== undefined ? "cuts" : "summary"),
       color: (report.surface?.fields ?? []).some((field) => field.name === hash.color) ? hash.color : "patch",
       range: range_of_text(hash.range),
       by_limits: hash.by_limits === "1",
@@ -68,7 +68,7 @@ export class ReportApp {
     const usual = walls ? this.report.patches.map((p, k) => (p.kind === "wall" ? k : -1)).filter((k) => k >= 0) : this.report.patches.map((_, k) => k);
     const shown = [...values.patches].sort((a, b) => a - b);
     return {
-      tab: values.tab === "summary" ? null : values.tab,
+      tab: values.tab === "summary" && values.place < 0 && values.cut < 0 ? null : values.tab,
       color: values.color === "patch" ? null : values.color,
       range: values.range?.join(","),
       by_limits: values.by_limits ? 1 : null,
@@ -93,7 +93,7 @@ export class ReportApp {
     this.message = h("div.view_message", { role: "status", hidden: true });
     this.legends = h("div.legends");
     this.info = h("div.info", { "aria-live": "polite", hidden: true });
-    this.view_box = h("div.view", null, this.toolbar(), this.legends, this.info, this.message);
+    this.view_box = h("div.view", null, h("div.view_top", null, this.toolbar(), this.info), this.legends, this.message);
     this.tabs = this.make_tabs();
     const panel = h("aside.panel", { "aria-label": "Report" }, this.tabs.bar, this.tabs.body);
     fill(root, h("div.report", null, banner(this), h("main.split", null, this.view_box, panel)));
@@ -338,13 +338,17 @@ export class ReportApp {
     const colour = h("select", { id: "toolbar_color", title: "Colour of the surface", "aria-label": "Colour of the surface", onchange: () => this.state.set({ color: colour.value, range: null }) }, h("option", { value: "patch" }, "by patch"), fields.map((field) => h("option", { value: field.name }, field.title ?? field.name)));
     colour.value = this.state.get("color");
     this.state.on(["color"], (values) => (colour.value = values.color));
-    const save = button("PNG", () => this.save_picture(), { title: "Save the picture", id: "save_picture" });
-    return h("div.toolbar", { role: "toolbar", "aria-label": "View" }, h("div.group", null, views, fit), h("div.group", null, edges, this.report.places.length ? markers : null), fields.length ? h("div.group", null, colour) : null, h("div.group", null, save));
+    const panel = button("Panel", () => {
+      const is_shown = document.querySelector(".panel").toggleAttribute("hidden") === false;
+      panel.setAttribute("aria-pressed", String(is_shown));
+    }, { title: "The tables at the right", pressed: true, id: "toggle_panel" });
+    const save = button("PNG", () => this.save_picture(), { title: "Save the picture with its legends", id: "save_picture" });
+    return h("div.toolbar", { role: "toolbar", "aria-label": "View" }, h("div.group", null, views, fit), h("div.group", null, edges, this.report.places.length ? markers : null), fields.length ? h("div.group", null, colour) : null, h("div.group", null, save, panel));
   }
 
   save_picture() {
     if (!this.view) return;
-    h("a", { href: this.view.picture(), download: `${this.report.title.replace(/[^\w.-]+/g, "_")}.png` }).click();
+    h("a", { href: this.view.picture(this.legends.children), download: `${this.report.title.replace(/[^\w.-]+/g, "_")}.png` }).click();
   }
 
   /** What tests may ask: never changes anything. */

@@ -37,7 +37,7 @@ function value_text(value) {
 
 function x_axis(title, labels) {
   const made = axis(title, false);
-  if (labels) Object.assign(made, { min: -0.5, max: labels.length - 0.5 }, { ticks: { ...made.ticks, stepSize: 1, callback: (x) => labels[x] ?? "" } });
+  if (labels) Object.assign(made, { min: -0.5, max: labels.length - 0.5 }, { afterBuildTicks: (scale) => (scale.ticks = labels.map((_, k) => ({ value: k }))), ticks: { ...made.ticks, callback: (x) => labels[x] ?? "" } });
   return made;
 }
 

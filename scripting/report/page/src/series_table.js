@@ -25,15 +25,9 @@ function cell_of(column, entry) {
     return h("td.case_name", { title: entry.folder }, name, entry.error ? h("small.error", { title: entry.error }, entry.error) : null);
   }
   if (value === null || value === undefined || value === "") return h("td.missing", null, "\u2013");
-  if (["state", "verdict", "quality"].includes(column.key)) return h("td", null, column.key === "state" && value === "done" ? "done" : chip_for(value));
+  if (["state", "verdict", "quality"].includes(column.key)) return h("td", null, column.key === "state" && value === "done" ? "done" : chip(value));
   if (column.kind === "gate") return h("td", null, chip(value));
   return typeof value === "number" ? h("td.number", { title: String(value) }, number_text(value)) : h("td", null, String(value));
-}
-
-function chip_for(value) {
-  const element = chip({ failed: "fail", VALID: "pass", INVALID: "invalid" }[value] ?? value);
-  element.textContent = value;
-  return element;
 }
 
 export function table_section(app) {

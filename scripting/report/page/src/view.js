@@ -3,6 +3,7 @@ import { BufferAttribute, BufferGeometry, Color, ColorManagement, LinearSRGBColo
 import { Camera, k_views, looking } from "./camera.js";
 import { css_colour, h, number_text } from "./dom.js";
 import { ReportError } from "./errors.js";
+import { picture_with } from "./picture.js";
 import { draw_material, marker_material, palette_texture, pick_material, set_uniforms } from "./shaders.js";
 import { first_hit, nearest_triangle, point_on } from "./triangles.js";
 
@@ -398,10 +399,10 @@ export class View {
     });
   }
 
-  /** The picture as a PNG data URL. */
-  picture() {
-    this.draw();
-    return this.canvas.toDataURL("image/png");
+  /** The picture as a PNG data URL, with more elements over it. */
+  picture(elements) {
+    this.draw(); // in the same task: afterwards the canvas is empty
+    return picture_with(this.canvas, [...elements, this.scale_bar, this.axes, this.pin_element]);
   }
 
   /** Share of pixels that are not background, and the number of distinct colours among a sample: for tests. */
