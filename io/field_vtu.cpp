@@ -9,7 +9,7 @@
 namespace sterna::io {
 namespace {
 
-VtuArray array_of(const SurfaceField& field) {
+VtuArray array_of(const TriMeshField& field) {
   return {
       .name = field.unit.empty() ? field.name : field.name + "_" + field.unit,
       .type = VtuType::float32,
@@ -19,7 +19,7 @@ VtuArray array_of(const SurfaceField& field) {
 
 }  // namespace
 
-void write_field_vtu(const TriMesh& mesh, const std::vector<SurfaceField>& fields, const std::filesystem::path& path, const RunContext& context) {
+void write_field_vtu(const TriMesh& mesh, const std::vector<TriMeshField>& fields, const std::filesystem::path& path, const RunContext& context) {
   std::vector<std::int32_t> connectivity, offsets, marker;
   for (const TriangleId t : mesh.triangles.ids()) {
     for (const VertexId v : mesh.triangles[t]) connectivity.push_back(static_cast<std::int32_t>(v.value()));
@@ -43,7 +43,7 @@ void write_field_vtu(const TriMesh& mesh, const std::vector<SurfaceField>& field
                       std::memset(out, k_vtk_triangle, end - begin);
                     }};
   document.cell_data.push_back(vtu_array("marker", marker));
-  for (const SurfaceField& field : fields) (field.is_at_vertices ? document.point_data : document.cell_data).push_back(array_of(field));
+  for (const TriMeshField& field : fields) (field.is_at_vertices ? document.point_data : document.cell_data).push_back(array_of(field));
   for (const PatchId patch : mesh.patches.ids())
     document.field_data.emplace_back(vtk_patch_key(mesh.patches[patch]), static_cast<std::int32_t>(patch.value()) + 1);
   document.packing = vtu_packing(path);

@@ -38,8 +38,8 @@ void add_inspect_arguments(CLI::App& command, InspectCommand& inspect, const std
   command.add_option("surfaces", inspect.inputs, "surface files; several are joined to one wall. `sterna formats` lists what is read")->required();
   command
       .add_option("-o,--output", inspect.output,
-                  "picture of the trouble: the surface with the predicted share of the layer's height, visibility angles, gaps and what was found")
-      ->type_name("FILE.vtu");
+                  "picture of the trouble: .vtu, the surface with the predicted share of the layer's height, visibility angles, gaps and what was found; or .png")
+      ->type_name("FILE");
   command.add_flag("--json", inspect.is_json, "print the report as JSON");
   command.add_flag("--strict", inspect.is_strict, "exit status 1 also for warnings");
   command.add_option("--flow", inspect.flow, "flow conditions, for the y+ of the first height, e.g. --flow \"mach=0.78 altitude=11000 length=4.2\"")

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "geom/base/error.h"
+#include "geom/draw/draw.h"
 #include "io/atomic_file.h"
 #include "io/field_vtu.h"
 #include "io/surface_file.h"
@@ -237,15 +239,46 @@ std::string json_of(const InspectReport& report, const std::string& name) {
 }
 
 void require_inspection_output(const std::filesystem::path& path) {
-  if (path.extension() != ".vtu")
+  if (path.extension() != ".vtu" && path.extension() != ".png")
     throw Error({.code = ErrorCode::unsupported_format,
                  .attempted = "writing " + path.string(),
-                 .problem = "the picture of an inspection is a .vtu file",
+                 .problem = "the picture of an inspection is a .vtu or a .png file",
                  .hint = "such as " + path.stem().string() + ".vtu"});
   io::AtomicFile probe(path);  // says why nothing can be written there; gone at once
 }
 
+namespace {
+
+/// The surface with a patch for each kind of finding that is the most severe one somewhere.
+TriMesh by_finding(const InspectReport& report) {
+  TriMesh mesh = report.mesh;
+  mesh.patches = {};
+  const auto field = std::ranges::find(report.fields, "finding", &TriMeshField::name);
+  std::map<int, PatchId> patches;
+  for (const TriangleId t : mesh.triangles.ids()) {
+    const int kind = field == report.fields.end() ? 0 : static_cast<int>(field->values[t.index()]);
+    const auto [patch, is_new] = patches.try_emplace(kind, static_cast<std::uint32_t>(mesh.patches.size()));
+    if (is_new) mesh.patches.push_back({.name = kind == 0 ? "nothing found" : std::string(to_string(static_cast<volmesh::FindingKind>(kind)))});
+    mesh.triangle_patch[t] = patch->second;
+  }
+  return mesh;
+}
+
+void draw_inspection(const InspectReport& report, const std::filesystem::path& path, const RunContext& context) {
+  std::vector<DrawMark> marks;
+  for (const Finding& finding : report.findings)
+    if (!finding.places.empty()) marks.push_back({finding.places.front().position, std::string(to_string(finding.severity)) + ": " + finding.text});
+  DrawOptions options;
+  options.places = true;
+  io::AtomicFile file(path);
+  file.append(draw_png(by_finding(report), options, "inspection", marks, context));
+  file.commit();
+}
+
+}  // namespace
+
 void write_inspection(const InspectReport& report, const std::filesystem::path& path, const RunContext& context) {
+  if (path.extension() == ".png") return draw_inspection(report, path, context);
   io::write_field_vtu(report.mesh, report.fields, path, context);
 }
 

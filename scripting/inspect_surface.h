@@ -22,7 +22,8 @@ std::string text_of(const volmesh::InspectReport& report, const std::string& nam
 /// The same, schema "sterna-inspect-1".
 std::string json_of(const volmesh::InspectReport& report, const std::string& name);
 
-/// "-o trouble.vtu": the surface with all fields. \throws Error(unsupported_format) for another extension, Error(write_failed)
+/// "-o trouble.vtu": the surface with all fields; "-o trouble.png": a picture of it, by the most severe finding, with the worst place of each marked.
+/// \throws Error(unsupported_format) for another extension, Error(write_failed)
 void write_inspection(const volmesh::InspectReport& report, const std::filesystem::path& path, const RunContext& context);
 /// The same before the work. \throws as write_inspection
 void require_inspection_output(const std::filesystem::path& path);

@@ -137,7 +137,7 @@ ScriptValue inspect(const ScriptCall& call) {
     if (const auto* name = std::get_if<std::string>(value))
       output = output_path(call, *name);
     else
-      reader.add_problem("output: expected the name of a .vtu file, not " + std::string(type_text(*value)));
+      reader.add_problem("output: expected the name of a .vtu or .png file, not " + std::string(type_text(*value)));
   }
   for (const OptionTable* part : {&limits, &volume, &surface}) apply_overrides(call, *part);
   choose_solve_for(options, reader, call);
@@ -161,7 +161,7 @@ std::string inspect_help() {
   volmesh::InspectOptions limits;
   return options_help(sterna::options_of(limits)) +
          "flow = flow{ ... }: the first height is compared with its y+. output = \"trouble.vtu\": the surface with predicted heights, visibility angles, gaps "
-         "and what was found\n"
+         "and what was found; \"trouble.png\": a picture\n"
          "and what volume_mesh takes, first_height too if the layer is to be predicted; with names of files what read_surface takes\n"
          "gives a table: ok (nothing is an error), errors, warnings, notes, coverage, compressed, collapsed (predicted shares of the area), findings = { { "
          "kind, severity, count, share, value, limit, unit, at, patch, "

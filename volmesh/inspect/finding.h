@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geom/base/error.h"
-#include "geom/mesh/surface_field.h"
+#include "geom/mesh/tri_mesh_field.h"
 #include "geom/mesh/tri_mesh.h"
 
 namespace sterna::volmesh {
@@ -96,7 +96,7 @@ struct InspectReport {
   bool is_closed = false;
   std::vector<Finding> findings;  ///< errors first, then by kind
   LayerPrediction layer;
-  std::vector<SurfaceField> fields;  ///< on `mesh`; "finding" is the kind's number of the most severe finding at a triangle
+  std::vector<TriMeshField> fields;  ///< on `mesh`; "finding" is the kind's number of the most severe finding at a triangle
 
   std::int64_t count(Severity severity) const;
   bool is_ok() const { return count(Severity::error) == 0; }

@@ -52,7 +52,7 @@ void Survey::add(Finding finding, const std::vector<Suspect<TriangleId>>& suspec
 }
 
 void add_finding(InspectReport& report, Finding finding, const std::vector<TriangleId>& where) {
-  auto field = std::find_if(report.fields.begin(), report.fields.end(), [](const SurfaceField& f) { return f.name == k_finding_field; });
+  auto field = std::find_if(report.fields.begin(), report.fields.end(), [](const TriMeshField& f) { return f.name == k_finding_field; });
   if (field == report.fields.end()) {
     report.fields.insert(report.fields.begin(),
                          {std::string(k_finding_field), "kind of the most severe finding", "", false, std::vector<float>(report.mesh.n_triangles(), 0.0f)});

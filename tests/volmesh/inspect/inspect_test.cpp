@@ -63,8 +63,8 @@ VertexId nearest_vertex(const TriMesh& mesh, const Point& p) {
   return best;
 }
 
-const SurfaceField& field(const InspectReport& report, const std::string& name) {
-  for (const SurfaceField& f : report.fields)
+const TriMeshField& field(const InspectReport& report, const std::string& name) {
+  for (const TriMeshField& f : report.fields)
     if (f.name == name) return f;
   throw std::runtime_error("no field " + name);
 }
@@ -113,7 +113,7 @@ TEST(Inspect, SaysWhatItLeavesOutWithoutAFirstHeight) {
 TEST(Inspect, FieldsFitTheSurface) {
   const InspectReport report = inspect(test::cube(6), request_of(20, 1e-3));
   std::set<std::string> names;
-  for (const SurfaceField& f : report.fields) {
+  for (const TriMeshField& f : report.fields) {
     EXPECT_EQ(f.values.size(), f.is_at_vertices ? report.mesh.n_vertices() : report.mesh.n_triangles()) << f.name;
     EXPECT_FALSE(f.title.empty());
     EXPECT_TRUE(names.insert(f.name).second);

@@ -7,7 +7,7 @@
 namespace sterna {
 
 /// One number per vertex or per triangle of a TriMesh; NaN where there is none.
-struct SurfaceField {
+struct TriMeshField {
   std::string name;   ///< "height_share": of the array in a file
   std::string title;  ///< "predicted height over target"
   std::string unit;   ///< "m", "deg"; empty for a ratio
