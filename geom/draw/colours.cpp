@@ -44,7 +44,11 @@ Rgb interpolate(std::span<const Rgb> table, double share) {
 
 }  // namespace
 
-Rgb patch_color(std::size_t index) { return k_patches[index % k_patches.size()]; }
+Rgb patch_color(std::size_t index, PatchKind kind) {
+  if (kind == PatchKind::symmetry) return {222, 222, 228};
+  if (kind == PatchKind::farfield || kind == PatchKind::inflow || kind == PatchKind::outflow) return {206, 216, 226};
+  return k_patches[index % k_patches.size()];
+}
 
 Rgb kind_color(CellKind kind) {
   switch (kind) {

@@ -15,8 +15,8 @@ inline constexpr Rgb k_plain_wall{172, 180, 192};  ///< walls that are there for
 inline constexpr Rgb k_inside{158, 164, 174};      ///< the side of walls that is away from the fluid
 inline constexpr Rgb k_mark_color{214, 39, 40};
 
-/// Twelve that are easy to tell apart, then again.
-Rgb patch_color(std::size_t index);
+/// Twelve that are easy to tell apart, then again; symmetry planes and what ends the fluid far away are pale, because bodies stand in front of them.
+Rgb patch_color(std::size_t index, PatchKind kind = PatchKind::wall);
 Rgb kind_color(CellKind kind);
 Rgb patch_kind_color(PatchKind kind);
 

@@ -213,14 +213,14 @@ class SceneBuilder {
   void color_faces_by_patch() {
     std::vector<std::uint8_t> is_seen(mesh_.patches.size(), 0);
     for (const std::size_t face : shown_) is_seen[patch_of(face).index()] = 1;
+    const auto color_of = [&](std::size_t patch) { return patch_color(patch, mesh_.patches[PatchId(patch)].kind); };  // the same whatever else is shown
     std::size_t n_seen = 0;
     for (std::size_t i = 0; i < is_seen.size(); ++i) {
       if (is_seen[i] == 0) continue;
-      if (n_seen++ < k_most_swatches)
-        scene_.swatches.push_back({patch_color(i), name_of(mesh_.patches[PatchId(i)])});  // the same colour whatever else is shown
+      if (n_seen++ < k_most_swatches) scene_.swatches.push_back({color_of(i), name_of(mesh_.patches[PatchId(i)])});
     }
     if (n_seen > k_most_swatches) scene_.swatches.push_back({{255, 255, 255}, "and " + std::to_string(n_seen - k_most_swatches) + " more"});
-    color_faces([&](std::size_t face) { return patch_color(patch_of(face).index()); });
+    color_faces([&](std::size_t face) { return color_of(patch_of(face).index()); });
     scene_.caption = "patches";
   }
 

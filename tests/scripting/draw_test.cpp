@@ -71,7 +71,7 @@ TEST_F(DrawCommandLine, OfAVolumeMeshFromAScript) {
     draw{ mesh, "cut.png", width = 200, height = 150, cut = "section 50%" }
     mesh:write "mesh.su2"
     draw{ "mesh.su2", "file.png", width = 200, height = 150, cut = { x = 0.5 }, focus = { {0.5, 0.5, 0.5}, radius = 1 } }
-    for _, wrong in ipairs{ function() draw{ mesh, "a.png", cut = "section 49%" } end, function() draw{ mesh, "a.png", focus = { {1, 2} } } end, function() draw{ mesh } end,
+    for _, wrong in ipairs{ function() draw{ mesh, "a.png", cut = "sction 50%" } end, function() draw{ mesh, "a.png", focus = { {1, 2} } } end, function() draw{ mesh } end,
                             function() draw{ box{ {0, 0, 0}, {1, 1, 1} }, "a.png" } end, function() draw{ mesh, "a.png", colour = "skew" } end } do
       local ok, message = pcall(wrong)
       assert(not ok)

@@ -72,7 +72,7 @@ std::set<std::tuple<int, int, int>> colors_of(const Image& image) {
 TriMesh cube_of_patches() {
   TriMesh mesh = cube(2);
   mesh.patches = {{"x_min", PatchKind::wall}, {"x_max", PatchKind::wall},     {"y_min", PatchKind::wall},
-                  {"y_max", PatchKind::wall}, {"z_min", PatchKind::symmetry}, {"z_max", PatchKind::wall}};
+                  {"y_max", PatchKind::wall}, {"z_min", PatchKind::slip}, {"z_max", PatchKind::wall}};
   for (const TriangleId t : mesh.triangles.ids()) {
     const auto p = corners(mesh, t);
     const Point middle = (p[0] + p[1] + p[2]) / 3.0;
