@@ -1,4 +1,4 @@
-// Parsing only: what the commands do is in commands.cpp. CLI11 is slow to compile, so only this file and cli_*.cpp include it.
+// Parsing only: what the commands do is in commands.cpp. CLI11 is slow to compile, so only the cli*.cpp include it.
 #include "scripting/cli.h"
 
 #include <CLI/CLI.hpp>
@@ -19,15 +19,19 @@
 #include "geom/mesh/half.h"
 #include "io/format_table.h"
 #include "scripting/cli_gates.h"
+#include "scripting/cli_options.h"
 #include "scripting/cli_scripts.h"
 #include "scripting/commands.h"
 #include "scripting/console.h"
+#include "scripting/draw_command.h"
 #include "scripting/exit_status.h"
 #include "scripting/farfield_verbs.h"
+#include "scripting/inspect_command.h"
 #include "scripting/interrupt.h"
 #include "scripting/line_editor.h"
 #include "scripting/pentagrow_command.h"
 #include "scripting/prompt.h"
+#include "scripting/report/report_command.h"
 #include "scripting/script_manual.h"
 #include "scripting/verbs.h"
 
@@ -54,59 +58,13 @@ struct Request {
   bool is_prompt = false;
 };
 
-std::string kebab(std::string_view name) {
-  std::string text(name);
-  std::replace(text.begin(), text.end(), '_', '-');
-  return text;
-}
-
-/// "stage.option=value" as name and value.
-std::pair<std::string, std::string> split_assignment(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals == std::string::npos || equals == 0) throw CLI::ValidationError("--set", "\"" + text + "\" is not stage.option=value");
-  return {text.substr(0, equals), text.substr(equals + 1)};
-}
-
-void add_set_option(CLI::App& command, OptionOverrides& overrides) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--set",
-          [&overrides](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) overrides.push_back(split_assignment(text));
-          },
-          "any option of any stage, e.g. --set envelope.layers=24")
-      ->type_name("STAGE.OPTION=VALUE")
-      ->allow_extra_args(false)
-      ->take_all();
-}
-
-/// One --kebab-name for each option of the schema, grouped by stage.
-void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverrides& overrides) {
-  for (const Option& option : table) {
-    const std::string name(option.name);
-    std::string help = std::string(option.help) + "; " + option.default_text();
-    if (const std::string range = option.range_text(); !range.empty()) help += "; " + range;
-    // Given twice, both are kept: set_options refuses them where they differ.
-    CLI::Option* added = command.add_option_function<std::vector<std::string>>(
-        "--" + kebab(name),
-        [&overrides, name](const std::vector<std::string>& texts) {
-          for (const std::string& text : texts) overrides.emplace_back(name, text.empty() ? "true" : text);
-        },
-        help);
-    added->group("Options of stage " + std::string(option.stage));
-    added->type_name(option.kind == OptionKind::boolean ? "[true|false]" : option.kind == OptionKind::text ? "TEXT" : "NUMBER");
-    added->allow_extra_args(false)->take_all();
-    if (option.kind == OptionKind::boolean) added->expected(0, 1);
-  }
-}
-
 void add_common_options(CLI::App& app, CommonSettings& common) {
   app.add_option("--threads", common.threads, "worker threads; 0 = all of the machine. The result does not depend on it")->check(CLI::Range(0, k_max_threads));
   app.add_option("--seed", common.seed, "seed of random numbers (math.random of scripts)");
   app.add_flag("-q,--quiet", common.console.is_quiet, "no log and no progress, only results, warnings and errors");
   app.add_flag("-v,--verbose", common.console.is_verbose, "more log");
   app.add_option("--log", common.console.log_file, "write every log line with its time to this file")->type_name("FILE");
-  app.add_flag("--show-options", common.only_options, "print the options that mesh, surface, half, union or convert would use, as JSON, and stop");
+  app.add_flag("--show-options", common.only_options, "print the options that mesh, surface, half, union, convert, draw or report would use, as JSON, and stop");
   app.add_option("--dump-dir", common.dump_directory, "where VTU pictures of failures go; default: beside the output")->type_name("FOLDER")->check(CLI::ExistingDirectory);
 }
 
@@ -153,40 +111,6 @@ void add_script_commands(CLI::App& app, CheckScriptCommand& check, Request& requ
       return k_exit_success;
     };
   });
-}
-
-/// A bare number of an angle is in degrees here; what could be either is left as it is, and refused.
-std::string with_degrees(const std::string& name, const std::string& text) {
-  constexpr double k_surely_degrees = 1.6;  // largest curvature_angle in radians
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (name != "curvature_angle" || error != std::errc() || end != text.data() + text.size()) return text;
-  if (value > k_surely_degrees) return text + "deg";
-  throw Error({.code = ErrorCode::bad_argument, .attempted = "option curvature_angle", .problem = text + " may be degrees or radians", .hint = "write " + text + "deg or " + text + "rad"});
-}
-
-/// --patch "wing*:max_edge=0.1,curvature_angle=8": of two patterns that match the one with more letters counts.
-void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--patch",
-          [&patches](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) {
-              const std::size_t equals = text.find('='), colon = text.rfind(':', equals);
-              if (equals == std::string::npos || colon == std::string::npos || colon == 0) throw CLI::ValidationError("--patch", "\"" + text + "\" is not NAMES:OPTION=VALUE,OPTION=VALUE");
-              auto& [names, options] = patches.emplace_back(text.substr(0, colon), OptionOverrides{});
-              std::istringstream list(text.substr(colon + 1));
-              for (std::string entry; std::getline(list, entry, ',');) {
-                const std::size_t at = entry.find('=');
-                if (at == std::string::npos || at == 0) throw CLI::ValidationError("--patch", "\"" + entry + "\" is not OPTION=VALUE");
-                options.emplace_back(entry.substr(0, at), entry.substr(at + 1));
-              }
-            }
-          },
-          help)
-      ->type_name("NAMES:OPTION=VALUE,...")
-      ->allow_extra_args(false)
-      ->take_all();
 }
 
 void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Request& request) {
@@ -284,6 +208,10 @@ void add_check_command(CLI::App& app, CheckCommand& check, Request& request) {
   command->add_option("--model", check.models, "compare the walls of the mesh with the model that it was made of (gates G17, G18): STEP, IGES, BREP, sumo, CPACS; may be given several times")->type_name("FILE")->allow_extra_args(false)->take_all();
   command->add_option("--findings-per-kind", check.options.findings_per_kind, "places listed for each kind of violation")->check(CLI::PositiveNumber);
   command->add_flag("--strict", check.options.strict, "exit status 3 also when a QUALITY gate FAILs");
+  command->add_flag("--cell-centred,!--no-cell-centred", check.options.cell_centred, "measure what cell-centred solvers feel: OpenFOAM's non-orthogonality, skewness ... (default)");
+  command->add_option("--cells", check.cells, "write the mesh with the quality of each cell (scaled Jacobian, volume, dihedral angles as VTK has them) to this .vtu")->type_name("FILE");
+  command->add_option("--gate", check.gates, "limits of a QUALITY gate instead of the usual ones, e.g. --gate orthogonality:hard=3deg,target=15deg --gate face_weight:none; help \"mesh:check\" lists them; may be given several times")
+      ->type_name("MEASURE:LIMITS")->allow_extra_args(false)->take_all();
   command->add_flag("--intersections,!--no-intersections", check.options.intersections, "test boundaries exactly for intersection (default)");
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(check, context); };
@@ -313,6 +241,20 @@ void add_convert_command(CLI::App& app, ConvertCommand& convert, Request& reques
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(convert, context); };
     request.trouble = beside(convert.output);
+  });
+}
+
+void add_draw_command(CLI::App& app, DrawCommand& draw, Request& request) {
+  add_draw_arguments(app, draw)->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(draw, context); };
+    request.trouble = beside(draw.output);
+  });
+}
+
+void add_report_command(CLI::App& app, ReportCommand& report, Request& request) {
+  add_report_arguments(app, report)->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(report, context); };
+    request.trouble = beside(report.output);
   });
 }
 
@@ -410,7 +352,10 @@ int parse_and_execute(int argc, const char* const* argv) {
   CheckCommand check;
   GateCommands gates;
   InfoCommand info;
+  InspectCommand inspect;
   ConvertCommand convert;
+  DrawCommand draw;
+  ReportCommand report;
   PentagrowCommand pentagrow;
   OptionOverrides set;
   Request request;
@@ -425,7 +370,13 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_check_command(app, check, request);
   add_gate_commands(app, gates, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
   add_info_command(app, info, request);
+  add_inspect_arguments(*app.add_subcommand("inspect", std::string(k_inspect_summary)), inspect, [&] {
+    request.execute = [&](const CommandContext& context) { return execute(inspect, context); };
+    request.trouble = beside(std::filesystem::path(inspect.inputs.front()).filename());
+  });
   add_convert_command(app, convert, request);
+  add_draw_command(app, draw, request);
+  add_report_command(app, report, request);
   add_pentagrow_command(app, pentagrow, request);
   app.add_subcommand("formats", "list the file formats")->final_callback([&] { request.execute = list_formats; });
   // Alone and at a terminal the program is a prompt.

@@ -17,10 +17,12 @@
 #include "io/format_table.h"
 #include "io/surface_file.h"
 #include "io/trouble_vtu.h"
+#include "io/volume_vtu.h"
 #include "scripting/disc_verbs.h"
 #include "scripting/exit_status.h"
 #include "scripting/farfield_verbs.h"
 #include "scripting/flow_verbs.h"
+#include "scripting/gate_limits.h"
 #include "scripting/half_verbs.h"
 #include "scripting/layer_options.h"
 #include "scripting/model_gates.h"
@@ -416,18 +418,21 @@ int execute(const CheckCommand& command, const CommandContext& context) {
   if (const io::Format& format = io::format_of(command.input); !format.read_volume) refuse_to_check_surface(command.input, std::string(format.name) + " holds surfaces only");
   for (const std::string& model : command.models)
     if (!is_model_file(model)) throw Error({.code = ErrorCode::bad_argument, .attempted = "--model " + model, .problem = "it is no model", .hint = "give the file of STEP, IGES, BREP, sumo or CPACS that the mesh was made of"});
+  GateTable limits;
+  for (const std::string& text : command.gates) set_gate_limits(text, limits);
   const MeshValue mesh = read_mesh({command.input, command.input}, context.run.part("read", 0.0, 0.3));
   if (count_cells(mesh.mesh).total() == 0 && !mesh.mesh.boundary_triangles.empty())
     refuse_to_check_surface(command.input, "it holds a surface of " + count_text(static_cast<std::int64_t>(mesh.mesh.boundary_triangles.size())) + " triangles and no cells");
   const double checked = command.models.empty() ? 1.0 : 0.5;
-  CheckReport report = check(mesh.mesh, command.options.to_options(), context.run.part("check", 0.3, checked));
+  CheckReport report = check(mesh.mesh, command.options.to_options(limits), context.run.part("check", 0.3, checked));
   if (!command.models.empty() && report.quality_measured) {
     std::vector<InputPath> models;
     for (const std::string& model : command.models) models.push_back({model, model});
     const SurfaceValue wall = mesh_model_files(models, {}, {}, context.run.part("surface", checked, 0.8));
-    measure_on_model(mesh.mesh, wall, command.options.to_options().limits, report, context.run.part("model", 0.8, 1.0));
+    measure_on_model(mesh.mesh, wall, limits, report, context.run.part("model", 0.8, 1.0));
   }
   context.console.end_progress();
+  if (!command.cells.empty()) io::write_quality_vtu(mesh.mesh, command.cells, context.run);
   context.console.print(command.is_json ? to_json(report) : to_text(report));
   return command.options.accepts(report) ? k_exit_success : k_exit_invalid;
 }

@@ -89,6 +89,8 @@ struct CheckCommand {
   bool is_json = false;
   std::vector<std::string> models;  ///< --model: the walls are compared with them (G17, G18)
   CheckSettings options;
+  std::vector<std::string> gates;  ///< set_gate_limits
+  std::filesystem::path cells;     ///< VTU of the quality of cells; empty: none
 };
 
 struct InfoCommand {

@@ -34,7 +34,14 @@ Json quality_json(const CheckReport& report) {
     }
     measures[std::string(info.name)] = std::move(entry);
   }
-  return {{"verdict", to_string(report.quality_state())}, {"measures", std::move(measures)}};
+  Json json = {{"verdict", to_string(report.quality_state())}};
+  for (const auto& [key, state] : {std::pair("failed", GateState::fail), std::pair("warned", GateState::warn)}) {
+    json[key] = Json::array();
+    for (const GateResult& gate : report.gates)
+      if (gate.state == state) json[key].push_back(info_of(gate.measure).name);
+  }
+  json["measures"] = std::move(measures);
+  return json;
 }
 
 /// Sides of the mesh that match, and how well where that was checked.
@@ -102,11 +109,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     if (!mesh.origin->is_reproducible) json["reproducible"] = "not reproducible: a time or memory limit decided which engine made the tetrahedra";
   }
   json["verdict"] = !mesh.check ? "not checked" : mesh.check->is_valid() ? "VALID" : "INVALID";
-  if (mesh.check && mesh.check->quality_measured) {
-    CheckReport report = *mesh.check;
-    for (const GateResult& gate : *mesh.on_model) report.put(gate);
-    json["quality"] = quality_json(report);
-  }
+  if (mesh.check && mesh.check->quality_measured) json["quality"] = quality_json(*mesh.check);
   return json.dump(2) + "\n";
 }
 

@@ -6,6 +6,7 @@
 
 #include "geom/base/error.h"
 #include "geom/cad/unite.h"
+#include "io/volume_vtu.h"
 #include "scripting/check_options.h"
 #include "scripting/component_verbs.h"
 #include "scripting/disc_verbs.h"
@@ -13,8 +14,11 @@
 #include "scripting/family_gate.h"
 #include "scripting/farfield_verbs.h"
 #include "scripting/flow_verbs.h"
+#include "scripting/gate_limits.h"
 #include "scripting/geometry_verbs.h"
+#include "scripting/draw_verbs.h"
 #include "scripting/half_verbs.h"
+#include "scripting/inspect_verbs.h"
 #include "scripting/layer_options.h"
 #include "scripting/model_gates.h"
 #include "scripting/model_methods.h"
@@ -22,6 +26,7 @@
 #include "scripting/patch_rules.h"
 #include "scripting/periodic_sides.h"
 #include "scripting/quantity.h"
+#include "scripting/report/report_verbs.h"
 #include "scripting/script_args.h"
 #include "scripting/script_check.h"
 #include "scripting/script_help.h"
@@ -179,15 +184,22 @@ ScriptValue write_mesh_files(const ScriptCall& call) {
 
 std::string check_help() {
   CheckSettings options;
-  return options_help(sterna::options_of(options)) + "wall = wall: the surface of surface_mesh that the mesh was made of; its nodes and facets are compared with the model (gates G17, G18)\n";
+  return options_help(sterna::options_of(options)) + gate_limits_help() + "cells = \"cells.vtu\": writes the mesh with the quality of each cell, as VTK has it\n" + "wall = wall: the surface of surface_mesh that the mesh was made of; its nodes and facets are compared with the model (gates G17, G18)\n";
 }
 
 ScriptValue check_mesh(const ScriptCall& call) {
   const MeshHandle& mesh = self<MeshHandle>(call);
-  const ScriptTable table = table_argument(call, 1, "mesh:check{ findings_per_kind = 20 }");
+  const ScriptTable table = table_argument(call, 1, "mesh:check{ strict = true, gates = { orthogonality = { hard = 3*deg } } }");
   CheckSettings options;
   TableReader reader(table, call.attempted());
   const std::size_t n_options = reader.read_options(sterna::options_of(options));
+  GateTable limits;
+  const bool has_limits = read_gate_limits(reader, limits);
+  std::filesystem::path cells;
+  if (const ScriptValue* value = reader.field("cells")) {
+    if (const auto* name = std::get_if<std::string>(value)) cells = output_path(call, *name);
+    else reader.add_problem("cells: expected the name of a .vtu file, not " + std::string(type_text(*value)));
+  }
   SurfaceHandle wall;
   if (const ScriptValue* value = reader.field("wall")) {
     if (const auto* surface = std::get_if<SurfaceHandle>(value)) wall = *surface;
@@ -197,14 +209,13 @@ ScriptValue check_mesh(const ScriptCall& call) {
   reader.finish();
   if (wall) require_model_wall(*wall, call.attempted());
   // A mesh made here was checked with the default options when it was made, and cannot have changed.
-  const bool is_known = mesh->check && n_options == 0;
+  const bool is_known = mesh->check && n_options == 0 && !has_limits;
   const RunContext context = call.session.context.part("check", 0.0, 1.0);
-  CheckReport report = is_known ? *mesh->check : check(mesh->mesh, options.to_options(), context.part("mesh", 0.0, wall ? 0.5 : 1.0));
-  if (wall && report.quality_measured) {
-    measure_on_model(mesh->mesh, *wall, options.to_options().limits, report, context.part("model", 0.5, 1.0));
-    *mesh->on_model = {report.gate(Measure::cad_distance), report.gate(Measure::cad_normal)};
-  }
+  CheckReport report = is_known ? *mesh->check : check(mesh->mesh, options.to_options(limits), context.part("mesh", 0.0, wall ? 0.5 : 1.0));
+  if (wall && report.quality_measured) measure_on_model(mesh->mesh, *wall, limits, report, context.part("model", 0.5, 1.0));
+  if (!cells.empty()) io::write_quality_vtu(mesh->mesh, cells, call.session.context);
   call.session.print(to_text(report));
+  if (report.quality_measured && report.intersections_checked) mesh->check = report;
   if (options.accepts(report)) return mesh;
   ErrorInfo info{.code = ErrorCode::mesh_invalid, .attempted = call.attempted(), .problem = report.is_valid() ? "the mesh is VALID, but " + quality_text(report) : "the mesh is INVALID"};
   for (const GateResult& gate : report.gates) {
@@ -333,11 +344,14 @@ std::span<const ScriptVerb> script_verbs() {
   static const std::vector<ScriptVerb> all = [] {
     std::vector<ScriptVerb> verbs(k_verbs.begin(), k_verbs.end());
     verbs.insert(verbs.end(), surface_verbs().begin(), surface_verbs().end());
+    verbs.insert(verbs.end(), inspect_verbs().begin(), inspect_verbs().end());
     verbs.insert(verbs.end(), stage_verbs().begin(), stage_verbs().end());
     verbs.insert(verbs.end(), source_verbs().begin(), source_verbs().end());
     verbs.insert(verbs.end(), disc_verbs().begin(), disc_verbs().end());
     verbs.insert(verbs.end(), geometry_verbs().begin(), geometry_verbs().end());
     verbs.insert(verbs.end(), component_verbs().begin(), component_verbs().end());
+    verbs.insert(verbs.end(), draw_verbs().begin(), draw_verbs().end());
+    verbs.insert(verbs.end(), report_verbs().begin(), report_verbs().end());
     verbs.insert(verbs.end(), half_verbs().begin(), half_verbs().end());
     verbs.insert(verbs.end(), family_verbs().begin(), family_verbs().end());
     verbs.insert(verbs.end(), family_gate_verbs().begin(), family_gate_verbs().end());

@@ -75,9 +75,7 @@ struct MeshValue {
   HybridMesh mesh;
   std::vector<InputFile> inputs;
   std::optional<MeshOrigin> origin;
-  std::optional<CheckReport> check;  ///< of the default options; always there for a mesh made here
-  /// G17 and G18, once mesh:check{ wall = wall } has measured them, for manifests. A note on the mesh that copies of the value share; never an input of anything.
-  std::shared_ptr<std::vector<GateResult>> on_model = std::make_shared<std::vector<GateResult>>();
+  mutable std::optional<CheckReport> check;  ///< of the default options, always there for a mesh made here; then of the last whole check that was asked for, so that manifests and reports say what that found
 };
 
 using SurfaceHandle = std::shared_ptr<const SurfaceValue>;

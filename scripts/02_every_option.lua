@@ -19,6 +19,24 @@ wall = union{ wall,
   keep_cavities = false,            -- hollows that the parts enclose
 }
 
+-- Before anything is meshed: what volume_mesh will refuse, where layers get low. Takes what volume_mesh takes, too.
+local pre = inspect{ wall, layers = 30, first_height = 1e-6 * wall.length,
+  min_angle = 1*deg,                -- from here on something is told: needles
+  fold_angle = 1*deg,               -- neighbours folded onto each other
+  coarse_angle = 30*deg,            -- bends of smooth surfaces
+  size_jump = 5,                    -- of neighbours
+  short_edge = 1e-7,                -- over the body length
+  contact = 0.01,                   -- distance to another wall, in edges
+  visibility_angle = 80*deg,        -- between the best direction and a facet
+  lowered_area = 0.05,              -- share of the wall
+  top_ratio = 3,                    -- last layer over the tetrahedra above it
+  wanted_y_plus = 1,                -- with flow = flow{ ... }
+  least_length = 1e-3,              -- of the body, else the unit is doubted
+  largest_length = 1000,
+  max_places = 5,                   -- listed of each finding
+}
+print(pre.ok, pre.coverage)
+
 local mesh = volume_mesh{ wall,
   -- What the layers are asked to be; options can stand here or in the table of their stage, below.
   layers = 30,
@@ -111,6 +129,22 @@ mesh:check{ intersections = true, quality = true, findings_per_kind = 10, strict
 -- mesh:check{ wall = wall } compares the walls with the model, where wall is of surface_mesh: below.
 mesh:write "every_option.vtu"
 print(string.format("%d prisms, %d tetrahedra, %.1f %% of the area has its full height", mesh.prisms, mesh.tetrahedra, 100 * mesh.coverage))
+
+-- Pictures (docs/draw.md).
+draw{ mesh, "every_option.png",
+  view = "iso",                     -- front, back, left, right, top, bottom, "225 30" (azimuth, elevation), "-1,-1,0.5" (from the mesh to the eye)
+  color = "skew",                   -- patch, kind, quality, or a figure: edge_length, layer_height ...
+  cut = "none",                     -- "leading edge" ..., { x = 1.2 }, { point = {0, 0, 0}, normal = {0, 1, 0} }
+  focus = "automatic",              -- { {1, 2, 0}, radius = 0.5 }, or the name of a place
+  patches = "automatic",            -- patterns of names; automatic: walls
+  projection = "orthographic",      -- perspective
+  width = 1600, height = 1000,      -- pixels
+  edges = true, legend = true,
+  range_min = "automatic", range_max = "automatic",  -- of the colours, in the figure's unit
+  title = "automatic",              -- none, or any text
+  places = false,                   -- mark the worst places
+  unit = 1,                         -- of a file's name in place of the mesh: mm, inch ...
+}
 
 -- Heights from flow conditions: y_plus{...} as a first_height, boundary_layer{...} as a total_height.
 local cruise = flow{ mach = 0.78, altitude = 11000, length = 1.6,

@@ -2,17 +2,13 @@
 #include <cmath>
 
 #include "geom/math/measures.h"
-#include "geom/mesh/check_parts.h"
+#include "geom/mesh/line_measures.h"
 
 namespace sterna::check_parts {
 namespace {
 
-/// Height of a regular tet over its edge, sqrt(2/3) (quality.md, §5).
-constexpr double k_regular_height = 0.81649658092772603;
 /// Volume of the prism of that height over the tet's: same base and height.
 constexpr double k_regular_volumes = 3.0;
-
-double deviation(double ratio) { return ratio > 0.0 ? std::max(ratio, 1.0 / ratio) : std::numeric_limits<double>::infinity(); }
 
 struct InterfaceScan {
   explicit InterfaceScan(const GateTable& limits)
@@ -40,7 +36,7 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
           const double height = (distance(p[0], p[3]) + distance(p[1], p[4]) + distance(p[2], p[5])) / 3.0;
           const auto& t = mesh.tetrahedra[slots.tet_of(match.interface_tets[i])];
           const double tet = tet_volume(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]], mesh.points[t[3]]);
-          part.height.add(deviation(height / (k_regular_height * edge)), slot);
+          part.height.add(interface_jump(height, edge), slot);
           part.volume.add(deviation(k_regular_volumes * tet / wedge_volume(p)), slot);
         }
         return part;

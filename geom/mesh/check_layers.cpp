@@ -4,39 +4,17 @@
 #include <map>
 
 #include "geom/math/measures.h"
-#include "geom/math/spherical_cap.h"
-#include "geom/mesh/layer_lines.h"
+#include "geom/mesh/line_measures.h"
 
 namespace sterna::check_parts {
 namespace {
 
-/// Cells at the wall whose lean is measured (quality.md, G10).
-constexpr int k_wall_cells = 5;
-/// Share of the target height that counts as full (method.md §2).
-constexpr double k_full_share = 0.9;
 /// Relative slack of the requested growth ratio: lines are curved, so the lengths of their chords do not grow by quite the ratio of the heights.
 constexpr double k_growth_slack = 0.01;
 /// Relative slack of n h0, the height below which a layer is compressed: rounding of the line's end.
 constexpr double k_height_slack = 1e-9;
 constexpr std::size_t k_line_chunk = 1024;
 constexpr const char* k_no_request = "the mesh does not say what was asked for";
-
-/// Wall triangles around each line.
-class Fans {
- public:
-  explicit Fans(const LayerLines& lines) : first_(lines.n_lines() + 1, 0), triangles_(3 * lines.triangles().size()) {
-    for (const auto& t : lines.triangles())
-      for (const std::uint32_t line : t) ++first_[line + 1];
-    for (std::size_t k = 0; k < lines.n_lines(); ++k) first_[k + 1] += first_[k];
-    std::vector<std::uint32_t> cursor(first_.begin(), first_.end() - 1);
-    for (std::uint32_t t = 0; t < lines.triangles().size(); ++t)
-      for (const std::uint32_t line : lines.triangles()[t]) triangles_[cursor[line]++] = t;
-  }
-  std::span<const std::uint32_t> around(std::uint32_t line) const { return {triangles_.data() + first_[line], first_[line + 1] - first_[line]}; }
-
- private:
-  std::vector<std::uint32_t> first_, triangles_;
-};
 
 /// Unit normals of the symmetry patches at the feet of lines that stand on them: the body goes on behind with its mirror image, so normals there are means with theirs.
 class MirrorFeet {
@@ -95,8 +73,8 @@ class LineScanner {
     read_fan(line, n);
     if (n == 0) return;
     read_heights(line, n);
-    if (n > 1) scan_.growth.add(worst_growth() * growth_scale(line), line, area_);
-    add_angle(line, n);
+    if (n > 1) scan_.growth.add(worst_growth(heights_) * growth_scale(line), line, area_);
+    scan_.angle.add(stack_angle(mesh_, lines_, line, normals_), line, area_);
     if (lines_.are_columns() && is_request_usable_) add_first_height(line, n);
   }
 
@@ -146,29 +124,11 @@ class LineScanner {
     for (int j = 0; j < n; ++j) heights_[static_cast<std::size_t>(j)] = distance(point(line, j), point(line, j + 1));
   }
 
-  double worst_growth() const {
-    double worst = 1.0;
-    for (std::size_t j = 1; j < heights_.size(); ++j) {
-      const double ratio = heights_[j] / heights_[j - 1];
-      worst = std::max({worst, ratio, 1.0 / ratio});
-    }
-    return worst;
-  }
-
   /// Where lines were asked for different growths, the limit is the largest of them: a line that was asked for less is measured as if its ratios were as much larger.
   double growth_scale(std::uint32_t line) const {
     const LayerRequest& request = mesh_.request;
     if (!lines_.are_columns() || line >= request.line_max_growth.size()) return 1.0;
     return request.max_growth / request.line_max_growth[line];
-  }
-
-  void add_angle(std::uint32_t line, int n) {
-    double steepest = 0.0;
-    for (int j = 0; j < std::min(n, k_wall_cells); ++j) {
-      const Vec3 along = point(line, j + 1) - point(line, j);
-      for (const Vec3& normal : normals_) steepest = std::max(steepest, angle_between(normal, along));
-    }
-    scan_.angle.add(std::max(0.0, steepest - smallest_spherical_cap(normals_).angle), line, area_);
   }
 
   void add_first_height(std::uint32_t line, int n) {
@@ -234,14 +194,6 @@ std::map<std::uint32_t, PatchAreas> measure_coverage(const HybridMesh& mesh, con
         }
         return all;
       });
-}
-
-bool is_request_usable(const HybridMesh& mesh) {
-  const LayerRequest& request = mesh.request;
-  const std::size_t n = mesh.layers.n_lines();
-  return request.is_known() && request.target_height.size() == n && request.reason.size() == n &&
-         (request.line_first_height.empty() || request.line_first_height.size() == n) && (request.line_max_growth.empty() || request.line_max_growth.size() == n) &&
-         std::all_of(request.reason.begin(), request.reason.end(), [&](std::uint8_t r) { return r < request.reasons.size(); });
 }
 
 PatchCoverage share_out(const HybridMesh& mesh, std::uint32_t patch, const PatchAreas& areas) {

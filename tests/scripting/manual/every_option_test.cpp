@@ -6,6 +6,7 @@
 #include "geom/cad/read_cad.h"
 #include "geom/cad/unite.h"
 #include "geom/cad/write_cad.h"
+#include "geom/draw/draw_options.h"
 #include "geom/mesh/half.h"
 #include "scripting/commands.h"
 #include "scripting/script_check.h"
@@ -42,6 +43,11 @@ std::string entry_of(const OptionGroup& group, const std::string& assignment) {
 
 /// Options whose value hangs together with other entries: the whole statement.
 const std::map<std::string, std::string> k_statements = {
+    {"draw.view", "draw{ mesh, 'a.png', view = 'top' }"},  // texts with a meaning of their own
+    {"draw.color", "draw{ mesh, 'a.png', color = 'skew' }"},
+    {"draw.cut", "draw{ mesh, 'a.png', cut = { x = 1.2 } }"},
+    {"draw.focus", "draw{ mesh, 'a.png', focus = { {1, 2, 0}, radius = 0.5 } }"},
+    {"draw.unit", "draw{ 'wing.stl', 'a.png', unit = mm }"},
     {"union.tolerance", "union{ model, sting_model, tolerance = 0.5 }"},
     {"union.time_limit", "union{ model, sting_model, time_limit = 601 }"},
     {"volume_mesh.farfield_shape", "volume_mesh{ wall, first_height = 1e-6, farfield_shape = 'sphere' }"},
@@ -201,7 +207,9 @@ TEST(EveryOptionOfCommands, IsSetAsAnOptionAndWithSet) {
   const Case mesh{{"mesh", "box.stl", "-o", "m.su2"}, all_options(stitch, volume)}, mesh_of_model{{"mesh", "m.step", "-o", "m.su2"}, of_model}, of_surface{{"surface", "m.step", "-o", "s.stl"}, model_surface_options(surface, reading)},
       halving{{"half", "box.stl", "-o", "h.stl"}, sterna::options_of(half)}, uniting{{"union", "box.stl", "-o", "u.stl"}, sterna::options_of(unite)},
       of_models{{"union", "m.step", "-o", "u.step"}, sterna::options_of(unite_models)}, convert{{"convert", "m.step", "c.step"}, converting};
-  for (const Case* command : {&mesh, &of_surface, &halving, &uniting, &of_models, &convert}) {
+  DrawOptions draw;
+  const Case drawing{{"draw", "box.stl", "-o", "d.png"}, sterna::options_of(draw)};
+  for (const Case* command : {&mesh, &of_surface, &halving, &uniting, &of_models, &convert, &drawing}) {
     SCOPED_TRACE(command->arguments.front());
     expect_all_set(*command, false, folder);
   }

@@ -1,0 +1,158 @@
+#include "geom/draw/choices.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "geom/base/error.h"
+
+namespace sterna::draw {
+namespace {
+
+struct NamedView {
+  std::string_view name;
+  Vec3 toward;
+};
+
+Vec3 toward_of(double azimuth, double elevation) {
+  constexpr double k_degree = std::numbers::pi / 180.0;
+  return {std::cos(k_degree * elevation) * std::cos(k_degree * azimuth), std::cos(k_degree * elevation) * std::sin(k_degree * azimuth),
+          std::sin(k_degree * elevation)};
+}
+
+/// x downstream, y to the right wing, z upwards. iso: from ahead, left and above, more from the side than a true isometric view, so that a nose does not hide
+/// its wing.
+const std::array<NamedView, 7>& named_views() {
+  static const std::array<NamedView, 7> views = {{{"iso", toward_of(232.0, 28.0)},
+                                                  {"front", {-1, 0, 0}},
+                                                  {"back", {1, 0, 0}},
+                                                  {"left", {0, -1, 0}},
+                                                  {"right", {0, 1, 0}},
+                                                  {"top", {0, 0, 1}},
+                                                  {"bottom", {0, 0, -1}}}};
+  return views;
+}
+
+[[noreturn]] void reject(std::string_view option, const std::string& text, std::string hint) {
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = "draw: option " + std::string(option),
+               .problem = "\"" + text + "\" cannot be read",
+               .hint = std::move(hint)});
+}
+
+/// Numbers between commas or blanks; empty where something else is among them.
+std::vector<double> numbers_of(std::string_view text) {
+  std::vector<double> numbers;
+  const char *at = text.data(), *const end = text.data() + text.size();
+  while (at != end) {
+    if (*at == ',' || *at == ' ') {
+      ++at;
+      continue;
+    }
+    double value = 0.0;
+    const auto [next, error] = std::from_chars(*at == '+' ? at + 1 : at, end, value);
+    if (error != std::errc() || !std::isfinite(value) || (next != end && *next != ',' && *next != ' ')) return {};
+    numbers.push_back(value);
+    at = next;
+  }
+  return numbers;
+}
+
+std::optional<Vec3> vector_of(std::string_view text) {
+  const std::vector<double> numbers = numbers_of(text);
+  if (numbers.size() != 3) return std::nullopt;
+  return Vec3{numbers[0], numbers[1], numbers[2]};
+}
+
+/// What follows "name=" up to the next name or the end; nothing where the name is not there.
+std::optional<std::string_view> value_of(std::string_view text, std::string_view name) {
+  const std::size_t at = text.find(std::string(name) + "=");
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::size_t begin = at + name.size() + 1, next = text.find('=', begin);
+  if (next == std::string_view::npos) return text.substr(begin);
+  const std::size_t blank = text.rfind(' ', next);
+  return text.substr(begin, blank == std::string_view::npos || blank < begin ? 0 : blank - begin);
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c); });
+  return result;
+}
+
+constexpr std::string_view k_view_hint =
+    "iso, front, back, left, right, top, bottom, \"225 30\" (azimuth, elevation) or \"-1,-1,0.5\" (from the mesh to the eye)";
+constexpr std::string_view k_plane_hint = "write x=1.2, y=0, z=-0.5 or \"point=0,0,0 normal=0,1,0\"";
+
+}  // namespace
+
+void throw_unknown(std::string_view what, const std::string& given, std::span<const std::string> known, std::string_view more) {
+  std::string list;
+  for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+  const std::string nearest = nearest_name(given, known);
+  throw Error({.code = ErrorCode::unknown_option,
+               .attempted = "draw",
+               .problem = "there is no " + std::string(what) + " \"" + given + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"),
+               .hint = (list.empty() ? std::string() : "there are " + list) + std::string(more)});
+}
+
+std::optional<Vec3> view_of(const std::string& text) {
+  if (text == "automatic") return std::nullopt;
+  const auto& views = named_views();
+  if (const auto found = std::find_if(views.begin(), views.end(), [&](const NamedView& view) { return view.name == lower(text); }); found != views.end())
+    return found->toward;
+  const std::vector<double> numbers = numbers_of(text);
+  if (numbers.size() == 2) return toward_of(numbers[0], numbers[1]);
+  if (numbers.size() == 3) {
+    const Vec3 toward{numbers[0], numbers[1], numbers[2]};
+    if (norm(toward) > 0.0) return toward;
+    reject("view", text, "the direction has no length");
+  }
+  std::vector<std::string> known;
+  for (const NamedView& view : views) known.emplace_back(view.name);
+  throw_unknown("view", text, known, "; or " + std::string(k_view_hint.substr(k_view_hint.find('"'))));
+}
+
+std::optional<CutPlane> plane_of(const std::string& text) {
+  if (text.find('=') == std::string::npos) return std::nullopt;
+  CutPlane plane;
+  const auto point = value_of(text, "point"), normal = value_of(text, "normal");
+  if (point || normal) {
+    const std::optional<Vec3> origin = point ? vector_of(*point) : Vec3{}, direction = normal ? vector_of(*normal) : std::nullopt;
+    if (!origin || !direction || !(norm(*direction) > 0.0)) reject("cut", text, std::string(k_plane_hint));
+    return CutPlane{*origin, normalized(*direction), std::nullopt};
+  }
+  const std::string axis = lower(text.substr(0, text.find('=')));
+  const std::vector<double> at = numbers_of(std::string_view(text).substr(text.find('=') + 1));
+  if (axis.size() != 1 || axis[0] < 'x' || axis[0] > 'z' || at.size() != 1) reject("cut", text, std::string(k_plane_hint));
+  const auto k = static_cast<std::size_t>(axis[0] - 'x');
+  plane.normal = {};
+  plane.normal[k] = 1.0;
+  plane.origin[k] = at[0];
+  return plane;
+}
+
+std::optional<Sphere> sphere_of(const std::string& text) {
+  const auto radius = value_of(text, "radius");
+  const std::size_t blank = text.rfind(' ', text.find("radius="));
+  if (!radius) {
+    if (!numbers_of(text).empty()) reject("focus", text, "say how far to look: \"1,2,0 radius=0.5\"");
+    return std::nullopt;
+  }
+  const std::optional<Vec3> center = vector_of(std::string_view(text).substr(0, blank == std::string::npos ? 0 : blank));
+  const std::vector<double> length = numbers_of(*radius);
+  if (!center || length.size() != 1 || !(length[0] > 0.0)) reject("focus", text, "write \"1,2,0 radius=0.5\", metres");
+  return Sphere{*center, length[0]};
+}
+
+const CutPlace& place_of(std::span<const CutPlace> places, const std::string& name, std::string_view what) {
+  for (const CutPlace& place : places)
+    if (place.name == lower(name)) return place;
+  std::vector<std::string> known;
+  for (const CutPlace& place : places) known.push_back(place.name);
+  throw_unknown(what, name, known, known.empty() ? "the mesh has no places of its own" : "");
+}
+
+}  // namespace sterna::draw

@@ -1,0 +1,38 @@
+// The texts of DrawOptions, read: views, planes, spheres.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geom/draw/draw_options.h"
+#include "geom/mesh/cut_places.h"
+
+namespace sterna::draw {
+
+struct Sphere {
+  Point center;
+  double radius = 0.0;  ///< m
+};
+
+/// Direction from the mesh to the eye, not normalised; nothing for "automatic".
+/// \throws Error(bad_argument)
+std::optional<Vec3> view_of(const std::string& text);
+
+/// "x=1.2", "point=0,0,0 normal=0,1,0"; nothing where the text is a name.
+/// \throws Error(bad_argument) for a plane that is not complete
+std::optional<CutPlane> plane_of(const std::string& text);
+
+/// "1,2,0 radius=0.5"; nothing where the text is a name.
+/// \throws Error(bad_argument)
+std::optional<Sphere> sphere_of(const std::string& text);
+
+/// The place of that name (upper and lower case are the same). \throws Error(bad_argument) with the names that there are; `what` is the option
+const CutPlace& place_of(std::span<const CutPlace> places, const std::string& name, std::string_view what);
+
+/// \throws Error(unknown_option) with the known names and a suggestion
+[[noreturn]] void throw_unknown(std::string_view what, const std::string& given, std::span<const std::string> known, std::string_view more = {});
+
+}  // namespace sterna::draw

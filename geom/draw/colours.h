@@ -1,0 +1,28 @@
+// Colours of patches and kinds of cells, and scales of colours for numbers.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "geom/draw/image.h"
+#include "geom/mesh/hybrid_mesh.h"
+
+namespace sterna::draw {
+
+inline constexpr Rgb k_text_color{32, 36, 44};
+inline constexpr Rgb k_no_value{186, 190, 196};    ///< faces that have no such figure
+inline constexpr Rgb k_plain_wall{172, 180, 192};  ///< walls that are there for orientation only
+inline constexpr Rgb k_inside{158, 164, 174};      ///< the side of walls that is away from the fluid
+inline constexpr Rgb k_mark_color{214, 39, 40};
+
+/// Twelve that are easy to tell apart, then again.
+Rgb patch_color(std::size_t index);
+Rgb kind_color(CellKind kind);
+Rgb patch_kind_color(PatchKind kind);
+
+/// neutral: dark blue over green to yellow (viridis, public domain); judged: blue is good, red is bad.
+enum class Scale { neutral, judged };
+/// `share` in [0, 1], clamped; of judged, 1 is bad.
+Rgb scale_color(Scale scale, double share);
+
+}  // namespace sterna::draw

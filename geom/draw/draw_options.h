@@ -1,0 +1,78 @@
+// What a picture of a mesh is asked to be.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "geom/base/schema.h"
+
+namespace sterna {
+
+struct DrawOptions {
+  std::string view = "automatic";
+  std::string color = "automatic";
+  std::string cut = "none";
+  std::string focus = "automatic";
+  std::string patches = "automatic";
+  std::string projection = "orthographic";
+  int width = 1600;
+  int height = 1000;
+  bool edges = true;
+  bool legend = true;
+  double range_min = k_automatic;
+  double range_max = k_automatic;
+  std::string title = "automatic";
+  bool places = false;
+  double unit = 1.0;
+};
+
+template <>
+struct Schema<DrawOptions> {
+  using O = DrawOptions;
+  static constexpr std::string_view stage = "draw";
+  static constexpr double k_max_size = 16384;  ///< of a side, pixels: cairo's images end at 32767, memory before
+  static constexpr std::array fields = {
+      Field<O>{.name = "view",
+               .member = &O::view,
+               .help = "iso, front, back, left, right, top, bottom; \"225 30\": azimuth and elevation in degrees of where one stands (180: ahead of the nose, "
+                       "270: left); \"-1,-1,0.5\": the direction from the mesh to the eye; automatic: iso, of half models from the side of the fluid, of a cut "
+                       "along its normal"},
+      Field<O>{.name = "color",
+               .member = &O::color,
+               .help = "patch, kind, quality, or a figure of the faces (edge_length, skew, layer_height ...) or of cut cells (volume, layer); automatic: "
+                       "patch, of a cut kind"},
+      Field<O>{.name = "cut",
+               .member = &O::cut,
+               .help = "a place by name (\"leading edge\", \"tip\", \"section 50%\" ...), \"x=1.2\", or \"point=0,0,0 normal=0,1,0\": cells that the plane "
+                       "crosses; none"},
+      Field<O>{.name = "focus",
+               .member = &O::focus,
+               .help = "\"1,2,0 radius=0.5\" (m), or a place by name: what fills the picture; automatic: all that is shown, of a cut by name its place"},
+      Field<O>{.name = "patches",
+               .member = &O::patches,
+               .help = "names or patterns of the patches that are shown, separated by blanks; automatic: walls; none: no patch"},
+      Field<O>{.name = "projection", .member = &O::projection, .help = "of the view", .choices = "orthographic perspective"},
+      Field<O>{.name = "width", .member = &O::width, .min = 100, .max = k_max_size, .help = "pixels"},
+      Field<O>{.name = "height", .member = &O::height, .min = 100, .max = k_max_size, .help = "pixels"},
+      Field<O>{.name = "edges", .member = &O::edges, .help = "draw the edges of faces and cells"},
+      Field<O>{.name = "legend", .member = &O::legend, .help = "draw legend, axes and scale"},
+      Field<O>{.name = "range_min",
+               .member = &O::range_min,
+               .help = "value of the first colour, in the figure's unit (degrees for angles)",
+               .automatic = "all but the lowest 1 % of what is shown"},
+      Field<O>{.name = "range_max",
+               .member = &O::range_max,
+               .help = "value of the last colour, in the figure's unit (degrees for angles)",
+               .automatic = "all but the highest 1 % of what is shown"},
+      Field<O>{.name = "title", .member = &O::title, .help = "text at the top; automatic: the file's name and what is shown; none: no text"},
+      Field<O>{.name = "places", .member = &O::places, .help = "mark the worst place of every gate that check does not pass, and what makes the mesh INVALID"},
+      Field<O>{.name = "unit",
+               .member = &O::unit,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .max = 1e9,
+               .help = "of files: length of one unit (mm, cm, inch, ft are numbers)"},
+  };
+};
+
+}  // namespace sterna

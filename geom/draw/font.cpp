@@ -1,0 +1,23 @@
+#include "geom/draw/font.h"
+
+#include <cstddef>
+
+// STERNA_FONT is the path that CMake found.
+__asm__(
+    ".pushsection .rodata\n"
+    ".balign 16\n"
+    "sterna_font_begin:\n"
+    ".incbin \"" STERNA_FONT
+    "\"\n"
+    "sterna_font_end:\n"
+    ".byte 0\n"
+    ".popsection\n");
+
+extern "C" const unsigned char sterna_font_begin[] __attribute__((visibility("hidden")));
+extern "C" const unsigned char sterna_font_end[] __attribute__((visibility("hidden")));
+
+namespace sterna::draw {
+
+std::span<const unsigned char> embedded_font() { return {sterna_font_begin, static_cast<std::size_t>(sterna_font_end - sterna_font_begin)}; }
+
+}  // namespace sterna::draw

@@ -1,0 +1,203 @@
+#include "geom/draw/legend.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geom/base/number_text.h"
+
+namespace sterna::draw {
+namespace {
+
+/// Letters over the height of a picture of the usual shape; never too small to read.
+constexpr double k_text_share = 0.020, k_least_text = 9.0;
+/// In letters: width of the legend, at least with a colour bar, and with limits at it, and at most; of the colour bar; lines of text.
+constexpr double k_least_panel = 10.0, k_panel_with_limits = 12.5, k_most_panel = 20.0, k_bar_width = 1.5, k_bar_height = 22.0, k_line = 1.55;
+constexpr int k_ticks = 6;
+/// Colours that a legend on the picture may have.
+constexpr std::size_t k_most_inset = 8;
+/// Smaller letters, for remarks.
+constexpr double k_small = 0.8;
+constexpr Rgb k_frame_color{90, 96, 106};
+
+std::string short_number(double value) {
+  std::string text = number_text(value, 3);
+  if (const std::size_t e = text.find("e"); e != std::string::npos) {  // 1e-06 as 1e-6
+    const std::size_t digits = e + 2;
+    while (digits + 1 < text.size() && text[digits] == '0') text.erase(digits, 1);
+  }
+  return text;
+}
+
+/// As much of the text as fits, with dots where it does not.
+std::string fitted(Canvas& canvas, std::string text, double size, double width) {
+  if (canvas.width_of(text, size) <= width) return text;
+  while (!text.empty() && canvas.width_of(text + "\u2026", size) > width) {
+    do text.pop_back();
+    while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0u) == 0x80u);  // whole letters of UTF-8
+    if (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0u) == 0xC0u) text.pop_back();
+  }
+  return text + "\u2026";
+}
+
+std::string title_of(const ColorBar& bar) { return bar.title + (bar.unit.empty() ? "" : ", " + bar.unit); }
+
+double draw_bar(Canvas& canvas, const Layout& layout, const Scene& scene, double x, double y) {
+  const ColorBar& bar = *scene.bar;
+  const double t = layout.text, room = layout.panel - 1.2 * t, width = k_bar_width * t;
+  const double height = std::min(k_bar_height * t, 0.55 * layout.height);
+  const std::string title = title_of(bar);
+  canvas.text(x, y + t, fitted(canvas, title, canvas.width_of(title, t) > room ? k_small * t : t, room), canvas.width_of(title, t) > room ? k_small * t : t,
+              k_text_color);
+  y += k_line * t + 0.6 * t;
+  const int n = static_cast<int>(height);
+  for (int i = 0; i < n; ++i) {
+    const double share = 1.0 - (i + 0.5) / n;
+    canvas.rectangle(x, y + i, width, 1.0, scale_color(bar.scale, bar.scale == Scale::judged && bar.is_low_bad ? 1.0 - share : share));
+  }
+  canvas.frame(x, y, width, n, k_frame_color, 1.0);
+  const auto level = [&](double value) { return y + n * (1.0 - bar.share_of(value)); };
+  for (const double value : ticks_of(bar.low, bar.high, bar.is_log, k_ticks)) {
+    canvas.line(x + width, level(value), x + width + 0.35 * t, level(value), k_frame_color, 1.0);
+    canvas.text(x + width + 0.6 * t, level(value) + 0.35 * t, short_number(value), t, k_text_color);
+  }
+  for (const auto& [value, text] : bar.limits) {
+    if (value < bar.low || value > bar.high) continue;
+    canvas.line(x - 0.2 * t, level(value), x + width + 0.2 * t, level(value), k_text_color, 2.0);
+    canvas.text(x + width + 3.6 * t, level(value) + 0.3 * t, text + " " + short_number(value), k_small * t, k_text_color);
+  }
+  y += n + k_line * t;
+  canvas.text(x, y, "from " + short_number(bar.smallest) + " to " + short_number(bar.largest), k_small * t, k_text_color);
+  return y + 0.6 * t;
+}
+
+double draw_swatches(Canvas& canvas, const Layout& layout, const std::vector<Swatch>& swatches, double x, double y) {
+  const double t = layout.text;
+  for (const Swatch& swatch : swatches) {
+    if (y + k_line * t > layout.height) break;
+    canvas.rectangle(x, y, t, t, swatch.color);
+    canvas.frame(x, y, t, t, k_frame_color, 1.0);
+    canvas.text(x + 1.5 * t, y + 0.85 * t, fitted(canvas, swatch.text, t, std::max(layout.panel, layout.inset) - 2.6 * t), t, k_text_color);
+    y += k_line * t;
+  }
+  return y;
+}
+
+}  // namespace
+
+std::vector<double> ticks_of(double low, double high, bool is_log, int n) {
+  std::vector<double> ticks;
+  if (!(low < high)) return {low};
+  if (is_log) {
+    const double decades = std::log10(high / low);
+    const int every = std::max(1, static_cast<int>(std::ceil(decades / n)));
+    for (int e = static_cast<int>(std::floor(std::log10(low))); e <= static_cast<int>(std::ceil(std::log10(high))); ++e) {
+      if (every > 1 && e % every != 0) continue;
+      for (const double m : {1.0, 2.0, 5.0}) {
+        if (m > 1.0 && decades > 0.5 * n) continue;
+        const double value = m * std::pow(10.0, e);
+        if (value >= low * (1.0 - 1e-9) && value <= high * (1.0 + 1e-9)) ticks.push_back(value);
+      }
+    }
+    if (ticks.size() >= 2) return ticks;
+    ticks.clear();
+  }
+  const double rough = (high - low) / n, power = std::pow(10.0, std::floor(std::log10(rough))), lead = rough / power;
+  const double step = power * (lead <= 1.0 ? 1.0 : lead <= 2.0 ? 2.0 : lead <= 5.0 ? 5.0 : 10.0);
+  const auto first = static_cast<std::int64_t>(std::ceil(low / step - 1e-9)), last = static_cast<std::int64_t>(std::floor(high / step + 1e-9));
+  for (std::int64_t i = first; i <= last && i - first < 50; ++i) ticks.push_back(static_cast<double>(i) * step);
+  return ticks;
+}
+
+Layout layout_of(const DrawOptions& options, const Scene& scene, bool has_title, std::span<const DrawMark> marks) {
+  Layout layout{static_cast<double>(options.width), static_cast<double>(options.height), 0.0};
+  const double t = layout.text = std::max(k_least_text, k_text_share * std::min(layout.height, layout.width / 1.6));
+  layout.head = has_title ? 2.6 * t : 0.0;
+  if (!options.legend) return layout;
+  Canvas measure(Image{1, 1, {{255, 255, 255}}});
+  double needed = 0.0;
+  for (const Swatch& swatch : scene.swatches) needed = std::max(needed, measure.width_of(swatch.text, t) + 3.2 * t);
+  for (const DrawMark& mark : marks) needed = std::max(needed, measure.width_of(mark.text, k_small * t) + 3.2 * t);
+  if (scene.bar)
+    needed = std::max(
+        {needed, measure.width_of(title_of(*scene.bar), k_small * t) + 2.0 * t, (scene.bar->limits.empty() ? k_least_panel : k_panel_with_limits) * t});
+  needed = std::min({needed, k_most_panel * t, 0.4 * layout.width});
+  const bool is_short = !scene.bar && marks.empty() && scene.swatches.size() <= k_most_inset;
+  (is_short ? layout.inset : layout.panel) = needed;
+  return layout;
+}
+
+void draw_title(Canvas& canvas, const Layout& layout, const std::string& title) {
+  const double size = 1.15 * layout.text;
+  canvas.text(layout.text, 1.7 * layout.text, fitted(canvas, title, size, layout.width - 2.0 * layout.text), size, k_text_color);
+}
+
+void draw_legend(Canvas& canvas, const Layout& layout, const Scene& scene, std::span<const DrawMark> marks) {
+  if (layout.inset > 0.0) {
+    const double t = layout.text, x = layout.width - layout.inset - 0.6 * t, y = layout.head + 0.6 * t;
+    canvas.rectangle(x, y, layout.inset, (k_line * static_cast<double>(scene.swatches.size()) + 0.7) * t, {255, 255, 255}, 0.85);
+    draw_swatches(canvas, layout, scene.swatches, x + 0.6 * t, y + 0.6 * t);
+  }
+  if (layout.panel <= 0.0) return;
+  const double t = layout.text, x = layout.width - layout.panel + 0.6 * t;
+  canvas.rectangle(layout.width - layout.panel, layout.head, layout.panel, layout.height - layout.head, {255, 255, 255});
+  double y = layout.head + 0.8 * t;
+  if (scene.bar) y = draw_bar(canvas, layout, scene, x, y) + 0.6 * t;
+  std::vector<Swatch> swatches = scene.swatches;
+  if (scene.bar && scene.has_faces_without_value) swatches.push_back({k_no_value, "no value"});
+  y = draw_swatches(canvas, layout, swatches, x, y) + 0.8 * t;
+  for (std::size_t i = 0; i < marks.size(); ++i, y += k_line * k_small * t) {
+    if (y + t > layout.height) break;
+    canvas.text(x, y + k_small * t, std::to_string(i + 1), k_small * t, k_mark_color);
+    canvas.text(x + 1.4 * t, y + k_small * t, fitted(canvas, marks[i].text, k_small * t, layout.panel - 2.4 * t), k_small * t, k_text_color);
+  }
+}
+
+void draw_axes(Canvas& canvas, const Layout& layout, const Camera& camera) {
+  const double t = layout.text, length = 2.4 * t, x0 = 4.3 * t, y0 = layout.height - 4.3 * t;
+  canvas.rectangle(0.5 * t, layout.height - 8.1 * t, 7.6 * t, 7.6 * t, {255, 255, 255}, 0.7);
+  struct Axis {
+    Vec3 direction;
+    std::string_view name;
+    Rgb color;
+  };
+  std::array<Axis, 3> axes = {{{{1, 0, 0}, "x", {196, 48, 48}}, {{0, 1, 0}, "y", {40, 140, 60}}, {{0, 0, 1}, "z", {48, 84, 196}}}};
+  std::stable_sort(axes.begin(), axes.end(), [&](const Axis& a, const Axis& b) { return dot(a.direction, camera.toward) < dot(b.direction, camera.toward); });
+  for (const Axis& axis : axes) {
+    const double dx = dot(axis.direction, camera.right), dy = -dot(axis.direction, camera.up), reach = std::hypot(dx, dy);
+    if (reach < 0.05) {
+      canvas.disc(x0, y0, 0.2 * t, axis.color);
+      canvas.text(x0 - 0.7 * t, y0 + 1.1 * t, axis.name, k_small * t, axis.color, Anchor::center);
+      continue;
+    }
+    const double x1 = x0 + length * dx, y1 = y0 + length * dy, ux = dx / reach, uy = dy / reach, head = 0.45 * t;
+    canvas.line(x0, y0, x1, y1, axis.color, 0.12 * t);
+    canvas.triangle({x1 + head * ux, y1 + head * uy, x1 - 0.45 * head * uy, y1 + 0.45 * head * ux, x1 + 0.45 * head * uy, y1 - 0.45 * head * ux}, axis.color);
+    canvas.text(x1 + 1.0 * t * ux, y1 + 1.0 * t * uy + 0.3 * t, axis.name, k_small * t, axis.color, Anchor::center);
+  }
+  if (camera.is_perspective()) return;
+  const double most = 0.16 * (layout.width - layout.panel) / camera.scale, power = std::pow(10.0, std::floor(std::log10(most)));
+  const double metres = power * (most >= 5.0 * power ? 5.0 : most >= 2.0 * power ? 2.0 : 1.0), pixels = metres * camera.scale;
+  const std::string text = metres >= 0.5    ? short_number(metres) + " m"
+                           : metres >= 5e-4 ? short_number(1e3 * metres) + " mm"
+                                            : short_number(1e6 * metres) + " \u00b5m";
+  const double x = 9.5 * t, y = layout.height - 1.6 * t;
+  canvas.rectangle(x - 0.4 * t, y - 1.5 * t, pixels + 0.8 * t, 2.0 * t, {255, 255, 255}, 0.7);
+  canvas.line(x, y, x + pixels, y, k_text_color, 0.12 * t);
+  for (const double end : {x, x + pixels}) canvas.line(end, y - 0.3 * t, end, y + 0.3 * t, k_text_color, 0.12 * t);
+  canvas.text(x + 0.5 * pixels, y - 0.5 * t, text, k_small * t, k_text_color, Anchor::center);
+}
+
+void draw_marks(Canvas& canvas, const Layout& layout, const Camera& camera, std::span<const DrawMark> marks) {
+  const double t = layout.text;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (camera.is_perspective() && camera.ahead(marks[i].position) <= 0.0) continue;
+    const Projected at = camera.project(marks[i].position);
+    if (at.x < 0.0 || at.y < 0.0 || at.x > layout.width - layout.panel || at.y > layout.height) continue;
+    canvas.circle(at.x, at.y, 0.5 * t, {255, 255, 255}, 0.3 * t);
+    canvas.circle(at.x, at.y, 0.5 * t, k_mark_color, 0.14 * t);
+    canvas.text(at.x + 0.75 * t, at.y - 0.35 * t, std::to_string(i + 1), t, k_mark_color);
+  }
+}
+
+}  // namespace sterna::draw

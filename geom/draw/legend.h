@@ -1,0 +1,38 @@
+// What stands beside the picture: title, colour bar, swatches, axes, scale, marks.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geom/draw/camera.h"
+#include "geom/draw/canvas.h"
+#include "geom/draw/draw.h"
+#include "geom/draw/scene.h"
+
+namespace sterna::draw {
+
+/// Where things are on a picture, pixels.
+struct Layout {
+  double width, height;
+  double text;         ///< size of letters
+  double panel = 0.0;  ///< width of the legend at the right
+  double inset = 0.0;  ///< width of a legend of a few colours, which stands on the picture in its corner
+  double head = 0.0;   ///< height of the title at the top
+  double middle_x() const { return 0.5 * (width - panel); }
+  double middle_y() const { return head + 0.5 * (height - head); }
+};
+/// The panel is as wide as what stands in it, up to a limit.
+Layout layout_of(const DrawOptions& options, const Scene& scene, bool has_title, std::span<const DrawMark> marks);
+
+void draw_title(Canvas& canvas, const Layout& layout, const std::string& title);
+/// Colour bar, swatches, and the texts of marks.
+void draw_legend(Canvas& canvas, const Layout& layout, const Scene& scene, std::span<const DrawMark> marks);
+/// The directions of x, y and z; of orthographic views also a length.
+void draw_axes(Canvas& canvas, const Layout& layout, const Camera& camera);
+void draw_marks(Canvas& canvas, const Layout& layout, const Camera& camera, std::span<const DrawMark> marks);
+
+/// Round numbers from low to high, about `n` of them: 1, 2 or 5 times powers of ten; of logarithmic scales those powers, or 1, 2, 5 where there are few.
+std::vector<double> ticks_of(double low, double high, bool is_log, int n);
+
+}  // namespace sterna::draw

@@ -1,0 +1,297 @@
+// Steps: which patches, which plane, from where and where to look; the faces of the patches, cut off in front of the plane; the polygons of the cut.
+#include "geom/draw/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "geom/base/error.h"
+#include "geom/base/glob.h"
+#include "geom/base/number_text.h"
+#include "geom/draw/figures.h"
+#include "geom/math/measures.h"
+#include "geom/mesh/wall_sections.h"
+
+namespace sterna::draw {
+namespace {
+
+/// Room around a place that is seen along the plane's normal, over its radius: the picture is wider than the circle.
+constexpr double k_along_normal = 1.1;
+/// The same for other views: cells are shown as a disc about the place.
+constexpr double k_aslant = 1.0;
+/// A plane that is seen nearly along itself, as the cosine to its normal, hides nothing that is worth to be cut off.
+constexpr double k_edge_on = 0.02;
+/// More patches than this are named by number only.
+constexpr std::size_t k_most_swatches = 24;
+
+class SceneBuilder {
+ public:
+  SceneBuilder(const HybridMesh& mesh, bool is_surface, const DrawOptions& options, const RunContext& context)
+      : mesh_(mesh), is_surface_(is_surface), options_(options), context_(context) {}
+
+  Scene build() {
+    choose_patches();
+    choose_plane();
+    coloring_ = coloring_of(options_.color, plane_.has_value());
+    choose_view();
+    if (plane_) cut_cells();
+    add_faces();
+    if (plane_) add_cells();
+    if (scene_.polygons.size() == 0)
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "draw",
+                   .problem = "there is nothing to show",
+                   .hint = "patches = \"*\" shows all patches" + std::string(plane_ ? "; a cut shows the cells that its plane crosses" : "")});
+    return std::move(scene_);
+  }
+
+ private:
+  const std::vector<CutPlace>& places() {
+    if (!places_) places_ = automatic_cuts(mesh_, context_);
+    return *places_;
+  }
+
+  void choose_patches() {
+    is_shown_.assign(mesh_.patches.size(), 0);
+    if (options_.patches == "none") return;
+    if (options_.patches == "automatic") {
+      bool has_walls = false;
+      for (const PatchId id : mesh_.patches.ids()) has_walls = has_walls || mesh_.patches[id].kind == PatchKind::wall;
+      for (const PatchId id : mesh_.patches.ids()) is_shown_[id.index()] = !has_walls || mesh_.patches[id].kind == PatchKind::wall;
+      return;
+    }
+    std::vector<std::string> names;
+    for (const Patch& patch : mesh_.patches) names.push_back(patch.name);
+    std::istringstream patterns(options_.patches);
+    for (std::string pattern; patterns >> pattern;) {
+      bool is_used = false;
+      for (std::size_t i = 0; i < names.size(); ++i)
+        if (names[i] == options_.patches || matches_glob(names[i], pattern)) {
+          is_shown_[i] = 1;
+          is_used = true;
+        }
+      if (!is_used)
+        throw Error({.code = ErrorCode::bad_argument,
+                     .attempted = "draw: option patches",
+                     .problem = "no patch is like \"" + pattern + "\"",
+                     .hint = names_hint(names, pattern)});
+    }
+  }
+
+  void choose_plane() {
+    scene_.focus = sphere_of(options_.focus);
+    if (!scene_.focus && options_.focus != "automatic") {
+      const CutPlace& place = place_of(places(), options_.focus, "place");
+      scene_.focus = Sphere{place.focus, place.radius};
+    }
+    if (options_.cut == "none") return;
+    if (count_cells(mesh_).total() == 0)
+      throw Error({.code = ErrorCode::bad_argument, .attempted = "draw: option cut", .problem = "a surface has no cells to cut", .hint = "draw a volume mesh"});
+    plane_ = plane_of(options_.cut);
+    if (!plane_) {
+      const CutPlace& place = place_of(places(), options_.cut, "cut");
+      plane_ = place.plane;
+      if (!scene_.focus) scene_.focus = Sphere{place.focus, place.radius};
+    }
+    if (!scene_.focus) scene_.focus = section_of_walls();
+  }
+
+  /// What of the walls the plane meets; of a plane that meets none, its part of the mesh.
+  Sphere section_of_walls() const {
+    Box box;
+    for (const SectionPiece& piece : WallSections(mesh_, context_).section(plane_->origin, plane_->normal)) box.add(piece.box);
+    if (box.empty())
+      for (const Point& p : mesh_.points) box.add(p);
+    Point center = box.center();
+    center -= dot(center - plane_->origin, plane_->normal) * plane_->normal;
+    return {center, 0.55 * distance(box.min, box.max)};
+  }
+
+  /// By itself a cut is seen along its normal, from the side from which x goes to the right, or from ahead.
+  void choose_view() {
+    const std::optional<Vec3> given = view_of(options_.view);
+    const Vec3 iso = *view_of("iso");
+    scene_.toward = given.value_or(iso);
+    if (!given && !plane_) look_from_inside();
+    if (given || !plane_) return;
+    const double side = camera_towards(plane_->normal).right.x;
+    const bool is_turned = std::abs(side) > 1e-6 ? side < 0.0 : plane_->normal.x > 0.0 || plane_->normal.z < 0.0;
+    scene_.toward = is_turned ? -plane_->normal : plane_->normal;
+  }
+
+  /// Half models are seen from the side of the fluid: the symmetry plane behind the body, not in front of it.
+  void look_from_inside() {
+    Vec3 out;
+    const auto add = [&](const auto& face, const Vec3& area) {
+      if (mesh_.patches[face.patch].kind == PatchKind::symmetry) out += area;
+    };
+    const auto& p = mesh_.points;
+    for (const BoundaryTriangle& face : mesh_.boundary_triangles) add(face, area_vector(p[face.nodes[0]], p[face.nodes[1]], p[face.nodes[2]]));
+    for (const BoundaryQuad& face : mesh_.boundary_quads) add(face, 0.5 * cross(p[face.nodes[2]] - p[face.nodes[0]], p[face.nodes[3]] - p[face.nodes[1]]));
+    out = normalized(out);
+    if (const double away = dot(scene_.toward, out); away > 0.0) scene_.toward -= 2.0 * away * out;
+  }
+
+  void cut_cells() {
+    const bool is_along = std::abs(dot(normalized(scene_.toward), plane_->normal)) > 0.999;
+    const double widening = std::hypot(options_.width, options_.height) / std::min(options_.width, options_.height);
+    plane_->limits = CutLimits{scene_.focus->center, scene_.focus->radius * (is_along ? k_along_normal * widening : k_aslant)};
+    cut_ = cut_mesh(mesh_, *plane_, context_);
+    if (cut_.size() == 0)
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "draw: option cut",
+                   .problem = "the plane crosses no cell of the mesh where the picture looks",
+                   .hint = "its places are " + names_of_places()});
+  }
+
+  std::string names_of_places() {
+    std::string names;
+    for (const CutPlace& place : places()) names += (names.empty() ? "" : ", ") + place.name;
+    return names;
+  }
+
+  template <class Face>
+  void add_face(const Face& face, std::size_t number) {
+    if (is_shown_[face.patch.index()] == 0) return;
+    const std::size_t start = scene_.polygons.corners.size();
+    for (std::size_t k = face.nodes.size(); k-- > 0;) scene_.polygons.corners.push_back(mesh_.points[face.nodes[k]]);  // the front is towards the fluid
+    if (!cut_off(start)) return;
+    shown_.push_back(number);
+    scene_.polygons.close({});
+  }
+
+  /// Leaves of the polygon that begins there what is behind the plane; false when nothing is left of it.
+  bool cut_off(std::size_t start) {
+    const double facing = plane_ ? dot(normalized(scene_.toward), plane_->normal) : 0.0;
+    if (std::abs(facing) < k_edge_on) return true;
+    std::vector<Point>& corners = scene_.polygons.corners;
+    const auto behind = [&](const Point& p) { return facing > 0.0 ? -dot(p - plane_->origin, plane_->normal) : dot(p - plane_->origin, plane_->normal); };
+    piece_.assign(corners.begin() + static_cast<std::ptrdiff_t>(start), corners.end());
+    corners.resize(start);
+    for (std::size_t k = 0; k < piece_.size(); ++k) {
+      const Point &a = piece_[k], &b = piece_[(k + 1) % piece_.size()];
+      const double from = behind(a), to = behind(b);
+      if (from >= 0.0) corners.push_back(a);
+      if ((from > 0.0 && to < 0.0) || (from < 0.0 && to > 0.0)) corners.push_back(a + (from / (from - to)) * (b - a));
+    }
+    if (corners.size() >= start + 3) return true;
+    corners.resize(start);
+    return false;
+  }
+
+  PatchId patch_of(std::size_t face) const {
+    return face < mesh_.boundary_triangles.size() ? mesh_.boundary_triangles[face].patch : mesh_.boundary_quads[face - mesh_.boundary_triangles.size()].patch;
+  }
+
+  void add_faces() {
+    for (std::size_t f = 0; f < mesh_.boundary_triangles.size(); ++f) add_face(mesh_.boundary_triangles[f], f);
+    for (std::size_t f = 0; f < mesh_.boundary_quads.size(); ++f) add_face(mesh_.boundary_quads[f], mesh_.boundary_triangles.size() + f);
+    const bool by_figure = coloring_ == Coloring::face_figure || (coloring_ == Coloring::quality && !plane_);
+    if (coloring_ == Coloring::patch)
+      color_faces_by_patch();
+    else if (by_figure)
+      color_faces_by_figure();
+    else if (coloring_ == Coloring::kind && !plane_)
+      color_faces_by_kind();
+    else
+      color_faces([](std::size_t) { return k_plain_wall; });
+  }
+
+  template <class ColorOf>
+  void color_faces(const ColorOf& color_of) {
+    for (std::size_t i = 0; i < shown_.size(); ++i) {
+      PolygonStyle& style = scene_.polygons.styles[i];
+      style.front = color_of(shown_[i]);
+      const bool has_inside = !is_surface_ && mesh_.patches[patch_of(shown_[i])].kind == PatchKind::wall;
+      style.back = has_inside ? k_inside : style.front;
+    }
+  }
+
+  static std::string name_of(const Patch& patch) { return patch.name.empty() ? "(without a name)" : patch.name; }
+
+  void color_faces_by_patch() {
+    std::vector<std::uint8_t> is_seen(mesh_.patches.size(), 0);
+    for (const std::size_t face : shown_) is_seen[patch_of(face).index()] = 1;
+    std::size_t n_seen = 0;
+    for (std::size_t i = 0; i < is_seen.size(); ++i) {
+      if (is_seen[i] == 0) continue;
+      if (n_seen++ < k_most_swatches)
+        scene_.swatches.push_back({patch_color(i), name_of(mesh_.patches[PatchId(i)])});  // the same colour whatever else is shown
+    }
+    if (n_seen > k_most_swatches) scene_.swatches.push_back({{255, 255, 255}, "and " + std::to_string(n_seen - k_most_swatches) + " more"});
+    color_faces([&](std::size_t face) { return patch_color(patch_of(face).index()); });
+    scene_.caption = "patches";
+  }
+
+  void color_faces_by_kind() {
+    std::array<std::uint8_t, 7> is_seen{};
+    const auto kind = [&](std::size_t face) { return mesh_.patches[patch_of(face)].kind; };
+    for (const std::size_t face : shown_) is_seen[static_cast<std::size_t>(kind(face))] = 1;
+    for (std::size_t k = 0; k < is_seen.size(); ++k)
+      if (is_seen[k] != 0) scene_.swatches.push_back({patch_kind_color(static_cast<PatchKind>(k)), std::string(to_string(static_cast<PatchKind>(k)))});
+    color_faces([&](std::size_t face) { return patch_kind_color(kind(face)); });
+    scene_.caption = "kinds of patches";
+  }
+
+  void color_faces_by_figure() {
+    Figure figure = face_figure(mesh_, options_.color, context_);
+    std::vector<double> values;
+    for (const std::size_t face : shown_) values.push_back(figure.values[face]);
+    set_bar(std::move(figure.bar), values);
+    color_faces([&](std::size_t face) { return scene_.bar->color_of(figure.values[face]); });
+  }
+
+  void set_bar(ColorBar bar, const std::vector<double>& values) {
+    set_range(bar, values, options_.color, options_);
+    scene_.has_faces_without_value = std::any_of(values.begin(), values.end(), [](double v) { return std::isnan(v); });
+    scene_.caption = bar.title;
+    scene_.bar = std::move(bar);
+  }
+
+  void add_cells() {
+    const bool by_figure = coloring_ == Coloring::quality || coloring_ == Coloring::cell_figure;
+    Figure figure;
+    if (by_figure) {
+      figure = cell_figure(cut_, options_.color);
+      set_bar(figure.bar, figure.values);
+    }
+    std::array<std::uint8_t, 4> is_seen{};
+    for (std::size_t i = 0; i < cut_.size(); ++i) {
+      const auto corners = cut_.corners_of(i);
+      const CellKind kind = cut_.polygons[i].kind;
+      is_seen[static_cast<std::size_t>(kind)] = 1;
+      const Rgb color = by_figure ? scene_.bar->color_of(figure.values[i]) : kind_color(kind);
+      scene_.polygons.corners.insert(scene_.polygons.corners.end(), corners.begin(), corners.end());
+      scene_.polygons.close({color, color, false, true});
+    }
+    const std::string where = plane_of(options_.cut) ? "cut at " + options_.cut : options_.cut;
+    const std::string what = by_figure || coloring_ == Coloring::face_figure ? scene_.caption : "cells by kind";
+    scene_.caption = where + ": " + what;
+    if (by_figure) return;
+    constexpr std::array<std::string_view, 4> k_plural = {"tetrahedra", "pyramids", "prisms", "hexahedra"};
+    for (const std::size_t k : {2u, 0u, 1u, 3u})
+      if (is_seen[k] != 0) scene_.swatches.push_back({kind_color(static_cast<CellKind>(k)), std::string(k_plural[k])});
+  }
+
+  const HybridMesh& mesh_;
+  bool is_surface_;
+  const DrawOptions& options_;
+  const RunContext& context_;
+  Scene scene_;
+  Coloring coloring_ = Coloring::patch;
+  std::vector<std::uint8_t> is_shown_;  ///< by patch
+  std::vector<std::size_t> shown_;      ///< boundary faces whose polygons are in the scene, in their order
+  std::optional<CutPlane> plane_;
+  std::optional<std::vector<CutPlace>> places_;
+  MeshCut cut_;
+  std::vector<Point> piece_;
+};
+
+}  // namespace
+
+Scene build_scene(const HybridMesh& mesh, bool is_surface, const DrawOptions& options, const RunContext& context) {
+  return SceneBuilder(mesh, is_surface, options, context).build();
+}
+
+}  // namespace sterna::draw

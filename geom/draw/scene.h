@@ -1,0 +1,48 @@
+// What is on a picture: polygons with their colours, what the colours mean, and where to look.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geom/draw/choices.h"
+#include "geom/draw/colours.h"
+#include "geom/draw/raster.h"
+
+namespace sterna::draw {
+
+struct Swatch {
+  Rgb color;
+  std::string text;
+};
+
+/// Colours of numbers. From low to high as they are in the picture; of judged ones either end may be the bad one.
+struct ColorBar {
+  std::string title, unit;
+  Scale scale = Scale::neutral;
+  bool is_log = false;
+  bool is_low_bad = false;                             ///< the scale runs from high to low
+  double low = 0.0, high = 1.0;                        ///< of the first and last colour
+  double smallest = 0.0, largest = 0.0;                ///< of what is shown
+  std::vector<std::pair<double, std::string>> limits;  ///< of the gate that judges the figure
+
+  /// Share of the way from low to high, clamped to [0, 1].
+  double share_of(double value) const;
+  Rgb color_of(double value) const;
+};
+
+struct Scene {
+  Polygons polygons;
+  std::vector<Swatch> swatches;
+  std::optional<ColorBar> bar;
+  bool has_faces_without_value = false;
+  Vec3 toward;                  ///< from the mesh to the eye
+  std::optional<Sphere> focus;  ///< what fills the picture; nothing: all of it
+  std::string caption;          ///< "quality", "leading edge: cells by kind"
+};
+
+/// Pictures of surfaces see both sides of walls in their colour (`is_surface`).
+/// \throws Error of draw_png
+Scene build_scene(const HybridMesh& mesh, bool is_surface, const DrawOptions& options, const RunContext& context);
+
+}  // namespace sterna::draw

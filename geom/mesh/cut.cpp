@@ -1,0 +1,282 @@
+// A cell's section is traced face by face. Going round a face counter-clockwise as seen from outside, the plane is crossed downwards (from above to below) as
+// often as upwards; a segment of the section runs from each crossing downwards to the crossing upwards that belongs to it. Both faces of an edge see its
+// crossing in opposite senses, so the segments of all faces join to closed loops, right-handed about the normal.
+#include "geom/mesh/cut.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "geom/base/error.h"
+#include "geom/base/parallel.h"
+#include "geom/math/measures.h"
+
+namespace sterna {
+namespace {
+
+constexpr double k_degree = std::numbers::pi / 180.0;
+/// Dihedral angle of a regular tetrahedron, acos(1/3), radians.
+constexpr double k_regular_dihedral = 1.2309594173407747;
+/// Scaled Jacobian at a base corner of the pyramid whose edges are all equal, sqrt(1/2).
+constexpr double k_regular_pyramid = 0.70710678118654752;
+/// Cells per chunk: the sign test of one takes a few nanoseconds.
+constexpr std::size_t k_cell_chunk = 16384;
+constexpr std::size_t k_column_chunk = 1024;
+/// Edges of a cell are numbered lower local node * 8 + higher.
+constexpr std::size_t k_n_keys = 64;
+
+/// Product of three edges of a corner over their lengths.
+double corner_jacobian(const Point& at, const Point& a, const Point& b, const Point& c) {
+  const Vec3 u = a - at, v = b - at, w = c - at;
+  const double lengths = norm(u) * norm(v) * norm(w);
+  return lengths > 0.0 ? dot(cross(u, v), w) / lengths : 0.0;
+}
+
+void measure(CutPolygon& polygon, const std::array<Point, 8>& p) {
+  polygon.quality = std::numeric_limits<double>::quiet_NaN();
+  switch (polygon.kind) {
+    case CellKind::tetrahedron: {
+      const double smallest = tet_dihedral_range({p[0], p[1], p[2], p[3]})[0];
+      polygon.volume = tet_volume(p[0], p[1], p[2], p[3]);
+      polygon.quality = smallest / k_degree;
+      polygon.shape = polygon.volume > 0.0 ? smallest / k_regular_dihedral : -smallest / k_regular_dihedral;
+      return;
+    }
+    case CellKind::prism: {
+      const WedgePoints wedge = {p[0], p[1], p[2], p[3], p[4], p[5]};
+      polygon.volume = wedge_volume(wedge);
+      polygon.quality = polygon.shape = wedge_quality(wedge);
+      return;
+    }
+    case CellKind::pyramid:
+      polygon.volume = pyramid_volume({p[0], p[1], p[2], p[3], p[4]});
+      polygon.shape = 1.0;
+      for (std::size_t k = 0; k < 4; ++k)
+        polygon.shape = std::min(polygon.shape, corner_jacobian(p[k], p[(k + 1) % 4], p[(k + 3) % 4], p[4]) / k_regular_pyramid);
+      return;
+    case CellKind::hexahedron:
+      polygon.volume = hexahedron_volume(p);
+      polygon.shape = 1.0;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t next = (k + 1) % 4, last = (k + 3) % 4;
+        polygon.shape = std::min({polygon.shape, corner_jacobian(p[k], p[next], p[last], p[k + 4]), corner_jacobian(p[k + 4], p[last + 4], p[next + 4], p[k])});
+      }
+      return;
+  }
+}
+
+/// Which nodes are above the plane, and where edges cross it.
+class Sides {
+ public:
+  Sides(const HybridMesh& mesh, const CutPlane& plane, const RunContext& context)
+      : points_(mesh.points.raw()), origin_(plane.origin), normal_(normalized(plane.normal)) {
+    if (!(norm(normal_) > 0.0) || !is_finite(origin_))
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "cutting the mesh",
+                   .problem = "the plane's normal has no length",
+                   .hint = "give a normal such as {0, 1, 0}"});
+    is_above_.resize(points_.size());
+    parallel_for(
+        context, points_.size(), [&](std::size_t i) { is_above_[i] = height(i) >= 0.0; }, k_cell_chunk);
+  }
+
+  bool is_above(NodeId node) const { return is_above_[node.index()] != 0; }
+  double height(NodeId node) const { return height(node.index()); }
+  const Point& point(NodeId node) const { return points_[node.index()]; }
+  /// The same bits from whichever cell it is asked for. \pre the nodes lie on two sides
+  Point crossing(NodeId a, NodeId b) const {
+    if (b < a) std::swap(a, b);
+    const double from = height(a), to = height(b);
+    if (from == 0.0) return point(a);
+    if (to == 0.0) return point(b);
+    return point(a) + (from / (from - to)) * (point(b) - point(a));
+  }
+  /// Whether all nodes of a line are above the plane (1), none (0), or some (2).
+  int side_of_line(const LayerBlock& layers, std::size_t line) const {
+    const std::size_t first = layers.first_node[line], n = static_cast<std::size_t>(layers.n_steps(line)) + 1;
+    std::size_t n_above = 0;
+    for (std::size_t j = 0; j < n; ++j) n_above += is_above_[first + j];
+    return n_above == 0 ? 0 : n_above == n ? 1 : 2;
+  }
+
+ private:
+  double height(std::size_t node) const { return dot(points_[node] - origin_, normal_); }
+
+  const std::vector<Point>& points_;
+  Point origin_;
+  Vec3 normal_;
+  std::vector<std::uint8_t> is_above_;
+};
+
+class CellCutter {
+ public:
+  CellCutter(const Sides& sides, const std::optional<CutLimits>& limits) : sides_(sides), limits_(limits) {}
+
+  MeshCut take() { return std::move(cut_); }
+
+  /// Appends the polygons of a cell; `polygon` says which one it is.
+  void add(std::span<const NodeId> nodes, CutPolygon polygon) {
+    unsigned above = 0;
+    for (std::size_t k = 0; k < nodes.size(); ++k) above |= static_cast<unsigned>(sides_.is_above(nodes[k])) << k;
+    if (above == 0 || above == (1u << nodes.size()) - 1) return;
+    above_ = above;
+    link(nodes, polygon.kind);
+    bool is_measured = false;
+    while (open_ != 0) {
+      const std::size_t start = cut_.corners.size();
+      trace(nodes);
+      if (!keep(start)) {
+        cut_.corners.resize(start);
+        continue;
+      }
+      if (!is_measured) {
+        std::array<Point, 8> p;
+        for (std::size_t k = 0; k < nodes.size(); ++k) p[k] = sides_.point(nodes[k]);
+        measure(polygon, p);
+        is_measured = true;
+      }
+      cut_.first.push_back(cut_.corners.size());
+      cut_.polygons.push_back(polygon);
+    }
+  }
+
+ private:
+  bool is_above(std::size_t local) const { return ((above_ >> local) & 1u) != 0; }
+  static std::size_t key(std::size_t a, std::size_t b) { return 8 * std::min(a, b) + std::max(a, b); }
+
+  /// Fills next_: from each crossing downwards to the one upwards of the same segment.
+  void link(std::span<const NodeId> nodes, CellKind kind) {
+    open_ = 0;
+    for (const LocalFace& face : cell_faces(kind)) {
+      const std::size_t n = face.size;
+      std::array<std::size_t, 2> down{};
+      std::array<std::size_t, 4> up_at{};  // key of the edge that starts at a corner, where it is crossed upwards
+      std::size_t n_down = 0, up = 0;
+      for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t a = face.nodes[i], b = face.nodes[(i + 1) % n];
+        if (is_above(a) == is_above(b)) continue;
+        if (is_above(a)) {
+          down[n_down++] = i;
+        } else {
+          up = up_at[i] = key(a, b);
+        }
+      }
+      for (std::size_t k = 0; k < n_down; ++k) {
+        const std::size_t i = down[k], from = key(face.nodes[i], face.nodes[(i + 1) % n]);
+        if (n_down == 2) up = up_at[(i + (joins_above(nodes, face) ? 1 : 3)) % 4];
+        next_[from] = static_cast<std::uint8_t>(up);
+        open_ |= std::uint64_t{1} << from;
+      }
+    }
+  }
+
+  /// Whether the two corners above the plane are joined within a bilinear face: the sign of its saddle.
+  bool joins_above(std::span<const NodeId> nodes, const LocalFace& face) const {
+    const std::size_t odd = is_above(face.nodes[0]) ? 0 : 1;
+    const auto height = [&](std::size_t i) { return sides_.height(nodes[face.nodes[i % 4]]); };
+    return height(odd) * height(odd + 2) >= height(odd + 1) * height(odd + 3);
+  }
+
+  /// Appends the corners of the loop of the lowest open crossing; neighbours that coincide are one corner.
+  void trace(std::span<const NodeId> nodes) {
+    const std::size_t start = cut_.corners.size();
+    for (auto at = static_cast<std::size_t>(std::countr_zero(open_)); ((open_ >> at) & 1u) != 0; at = next_[at]) {
+      open_ &= ~(std::uint64_t{1} << at);
+      const Point p = sides_.crossing(nodes[at / 8], nodes[at % 8]);
+      if (cut_.corners.size() == start || cut_.corners.back() != p) cut_.corners.push_back(p);
+    }
+    while (cut_.corners.size() > start + 1 && cut_.corners.back() == cut_.corners[start]) cut_.corners.pop_back();
+  }
+
+  bool keep(std::size_t start) const {
+    const std::span<const Point> corners(cut_.corners.data() + start, cut_.corners.size() - start);
+    if (corners.size() < 3) return false;
+    if (!limits_) return true;
+    Vec3 middle;
+    for (const Point& p : corners) middle += p / static_cast<double>(corners.size());
+    double reach = 0.0;
+    for (const Point& p : corners) reach = std::max(reach, distance(middle, p));
+    return distance(middle, limits_->center) <= limits_->radius + reach;
+  }
+
+  const Sides& sides_;
+  const std::optional<CutLimits>& limits_;
+  MeshCut cut_;
+  unsigned above_ = 0;
+  std::array<std::uint8_t, k_n_keys> next_{};
+  std::uint64_t open_ = 0;  ///< crossings downwards that no polygon has yet
+};
+
+MeshCut join(MeshCut all, MeshCut more) {
+  if (more.polygons.empty()) return all;
+  if (all.polygons.empty()) return more;
+  const std::uint64_t shift = all.corners.size();
+  all.corners.insert(all.corners.end(), more.corners.begin(), more.corners.end());
+  for (std::size_t i = 1; i < more.first.size(); ++i) all.first.push_back(shift + more.first[i]);
+  all.polygons.insert(all.polygons.end(), more.polygons.begin(), more.polygons.end());
+  return all;
+}
+
+CellKind kind_of_column(int n_collapsed) { return n_collapsed == 0 ? CellKind::prism : n_collapsed == 1 ? CellKind::pyramid : CellKind::tetrahedron; }
+
+using KindCounts = std::array<std::uint64_t, 4>;
+
+/// Appends the polygons of the columns; counts their cells by kind.
+MeshCut cut_columns(const HybridMesh& mesh, const Sides& sides, const std::optional<CutLimits>& limits, const RunContext& context, KindCounts& counts) {
+  const LayerBlock& layers = mesh.layers;
+  std::vector<std::uint8_t> side(layers.n_lines());
+  parallel_for(context, side.size(), [&](std::size_t line) { side[line] = static_cast<std::uint8_t>(sides.side_of_line(layers, line)); });
+  std::vector<std::uint64_t> first_cell(layers.n_columns());
+  for (std::size_t c = 0; c < layers.n_columns(); ++c) {
+    const int n_collapsed = layers.n_collapsed(c);
+    if (n_collapsed == 3) continue;
+    std::uint64_t& count = counts[static_cast<std::size_t>(kind_of_column(n_collapsed))];
+    first_cell[c] = count;
+    count += static_cast<std::uint64_t>(layers.layers_of_column(c));
+  }
+  return parallel_reduce(
+      context, layers.n_columns(), MeshCut{},
+      [&](std::size_t begin, std::size_t end) {
+        CellCutter cutter(sides, limits);
+        for (std::size_t c = begin; c < end; ++c) {
+          const auto& base = layers.base[c];
+          if (side[base[0]] != 2 && side[base[0]] == side[base[1]] && side[base[0]] == side[base[2]]) continue;
+          if (layers.n_collapsed(c) == 3) continue;
+          for (int j = 0, n = layers.layers_of_column(c); j < n; ++j) {
+            const Cell cell = layers.cell(c, j);
+            cutter.add(cell.span(), {.kind = cell.kind, .is_in_layer = true, .layer = j, .cell = first_cell[c] + static_cast<std::uint64_t>(j)});
+          }
+        }
+        return cutter.take();
+      },
+      join, k_column_chunk);
+}
+
+}  // namespace
+
+MeshCut cut_mesh(const HybridMesh& mesh, const CutPlane& plane, const RunContext& context) {
+  const Sides sides(mesh, plane, context);
+  KindCounts counts{};
+  MeshCut cut = cut_columns(mesh, sides, plane.limits, context, counts);
+  const auto add_block = [&](CellKind kind, const auto& cells) {
+    cut = parallel_reduce(
+        context, cells.size(), std::move(cut),
+        [&](std::size_t begin, std::size_t end) {
+          CellCutter cutter(sides, plane.limits);
+          for (std::size_t c = begin; c < end; ++c)
+            cutter.add(cells[c], {.kind = kind, .is_in_layer = kind != CellKind::tetrahedron, .cell = counts[static_cast<std::size_t>(kind)] + c});
+          return cutter.take();
+        },
+        join, k_cell_chunk);
+  };
+  add_block(CellKind::prism, mesh.prisms);
+  add_block(CellKind::pyramid, mesh.pyramids);
+  add_block(CellKind::hexahedron, mesh.hexahedra);
+  add_block(CellKind::tetrahedron, mesh.tetrahedra);
+  return cut;
+}
+
+}  // namespace sterna

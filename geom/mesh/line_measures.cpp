@@ -1,0 +1,59 @@
+#include "geom/mesh/line_measures.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "geom/math/measures.h"
+#include "geom/math/spherical_cap.h"
+
+namespace sterna::check_parts {
+namespace {
+
+/// Cells at the wall whose lean is measured (quality.md, G10).
+constexpr int k_wall_cells = 5;
+/// Height of a regular tet over its edge, sqrt(2/3) (quality.md, §5).
+constexpr double k_regular_height = 0.81649658092772603;
+
+}  // namespace
+
+Fans::Fans(const LayerLines& lines) : first_(lines.n_lines() + 1, 0), triangles_(3 * lines.triangles().size()) {
+  for (const auto& t : lines.triangles())
+    for (const std::uint32_t line : t) ++first_[line + 1];
+  for (std::size_t k = 0; k < lines.n_lines(); ++k) first_[k + 1] += first_[k];
+  std::vector<std::uint32_t> cursor(first_.begin(), first_.end() - 1);
+  for (std::uint32_t t = 0; t < lines.triangles().size(); ++t)
+    for (const std::uint32_t line : lines.triangles()[t]) triangles_[cursor[line]++] = t;
+}
+
+double worst_growth(std::span<const double> heights) {
+  double worst = 1.0;
+  for (std::size_t j = 1; j < heights.size(); ++j) {
+    const double ratio = heights[j] / heights[j - 1];
+    worst = std::max({worst, ratio, 1.0 / ratio});
+  }
+  return worst;
+}
+
+double stack_angle(const HybridMesh& mesh, const LayerLines& lines, std::uint32_t line, const std::vector<Vec3>& normals) {
+  double steepest = 0.0;
+  for (int j = 0; j < std::min(lines.n_layers(line), k_wall_cells); ++j) {
+    const Vec3 along = mesh.points[lines.node(line, j + 1)] - mesh.points[lines.node(line, j)];
+    for (const Vec3& normal : normals) steepest = std::max(steepest, angle_between(normal, along));
+  }
+  return std::max(0.0, steepest - smallest_spherical_cap(normals).angle);
+}
+
+double deviation(double ratio) { return ratio > 0.0 ? std::max(ratio, 1.0 / ratio) : std::numeric_limits<double>::infinity(); }
+
+double interface_jump(double last_height, double mean_edge) { return deviation(last_height / (k_regular_height * mean_edge)); }
+
+bool is_request_usable(const HybridMesh& mesh) {
+  const LayerRequest& request = mesh.request;
+  const std::size_t n = mesh.layers.n_lines();
+  return request.is_known() && request.target_height.size() == n && request.reason.size() == n &&
+         (request.line_first_height.empty() || request.line_first_height.size() == n) &&
+         (request.line_max_growth.empty() || request.line_max_growth.size() == n) &&
+         std::all_of(request.reason.begin(), request.reason.end(), [&](std::uint8_t r) { return r < request.reasons.size(); });
+}
+
+}  // namespace sterna::check_parts

@@ -1,0 +1,35 @@
+// What the checks and the fields of surfaces measure along lines of layers, in one place.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "geom/mesh/layer_lines.h"
+
+namespace sterna::check_parts {
+
+/// Share of the target height that counts as full (method.md §2).
+inline constexpr double k_full_share = 0.9;
+
+/// Wall triangles around each line.
+class Fans {
+ public:
+  explicit Fans(const LayerLines& lines);
+  std::span<const std::uint32_t> around(std::uint32_t line) const { return {triangles_.data() + first_[line], first_[line + 1] - first_[line]}; }
+
+ private:
+  std::vector<std::uint32_t> first_, triangles_;
+};
+
+/// The larger over the smaller of consecutive heights, at worst (G8); 1 for fewer than two.
+double worst_growth(std::span<const double> heights);
+/// Angle of the steepest of the first cells against the facets around the foot, less the best possible, radians (G10); `normals` are the facets' units.
+double stack_angle(const HybridMesh& mesh, const LayerLines& lines, std::uint32_t line, const std::vector<Vec3>& normals);
+/// The larger over the smaller of a ratio's two sides; infinite where it is not positive.
+double deviation(double ratio);
+/// Last height of a column against that of a regular tet on the envelope's mean edge: deviation of their ratio (G9), at least 1.
+double interface_jump(double last_height, double mean_edge);
+/// Whether HybridMesh::request has one entry per line of the columns.
+bool is_request_usable(const HybridMesh& mesh);
+
+}  // namespace sterna::check_parts

@@ -1,0 +1,114 @@
+// Places worth a look: found by the walls' shape, on bodies where they are known.
+#include "geom/mesh/cut_places.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/support/hybrid_shapes.h"
+#include "tests/support/shapes.h"
+
+namespace sterna {
+namespace {
+
+using namespace test;
+using testing::Contains;
+using testing::Not;
+
+const RunContext k_run{};
+
+std::vector<std::string> names_of(const std::vector<CutPlace>& places) {
+  std::vector<std::string> names;
+  for (const CutPlace& place : places) names.push_back(place.name);
+  return names;
+}
+
+const CutPlace& place_of(const std::vector<CutPlace>& places, const std::string& name) {
+  for (const CutPlace& place : places)
+    if (place.name == name) return place;
+  throw std::runtime_error("there is no place " + name);
+}
+
+/// What the header promises: planes through walls, cells of the layer around the focus.
+void expect_cells_in_sight(const HybridMesh& mesh, const std::vector<CutPlace>& places) {
+  EXPECT_GE(places.size(), 3u);
+  for (const CutPlace& place : places) {
+    SCOPED_TRACE(place.name);
+    EXPECT_GT(place.radius, 0.0);
+    EXPECT_NEAR(dot(place.focus - place.plane.origin, place.plane.normal), 0.0, 1e-12);
+    CutPlane plane = place.plane;
+    plane.limits = CutLimits{place.focus, place.radius};
+    const MeshCut cut = cut_mesh(mesh, plane, k_run);
+    const auto is_layer = [](const CutPolygon& polygon) { return polygon.is_in_layer; };
+    EXPECT_GT(std::count_if(cut.polygons.begin(), cut.polygons.end(), is_layer), 0);
+  }
+}
+
+HybridMesh wing() {
+  TriMesh wall = sphere(10);
+  for (Point& p : wall.points) p = {p.x, 5.0 * p.y, 0.1 * p.z};
+  return extrude(wall, rays_from(wall, {}), {.layer_height = 0.1});
+}
+
+TEST(CutPlaces, OfAWing) {
+  const HybridMesh mesh = wing();
+  const std::vector<CutPlace> places = automatic_cuts(mesh, k_run);
+  expect_cells_in_sight(mesh, places);
+  const double chord = std::sqrt(1.0 - 0.55 * 0.55);
+  const CutPlace &leading = place_of(places, "leading edge"), &trailing = place_of(places, "trailing edge"), &tip = place_of(places, "tip");
+  EXPECT_NEAR(leading.focus.y, 0.55 * 5.0, 1e-12);
+  EXPECT_NEAR(leading.focus.x, -chord, 0.02);
+  EXPECT_NEAR(trailing.focus.x, chord, 0.02);
+  EXPECT_NEAR(tip.focus.y, 5.0, 1e-12);
+  EXPECT_LT(leading.radius, 3.0);
+  EXPECT_THAT(names_of(places), Contains("middle plane"));
+  EXPECT_THAT(names_of(places), Not(Contains("junction")));
+}
+
+TEST(CutPlaces, OfAnyBody) {
+  for (const HybridMesh& mesh : {sphere_shell(1), sphere_shell(4), cube_shell(2), plate_block(3), two_shells(2, 2, 3), hexahedra_block(2)}) {
+    const std::vector<CutPlace> places = automatic_cuts(mesh, k_run);
+    expect_cells_in_sight(mesh, places);
+    EXPECT_THAT(names_of(places), Not(Contains("tip")));
+  }
+  EXPECT_THAT(names_of(automatic_cuts(cube_shell(2), k_run)), Contains("sharp edge"));
+}
+
+TEST(CutPlaces, OfExplicitCellsAreTheSame) {
+  const HybridMesh mesh = wing();
+  const auto columns = automatic_cuts(mesh, k_run), cells = automatic_cuts(explicit_cells(mesh), k_run);
+  EXPECT_EQ(names_of(columns), names_of(cells));
+  for (std::size_t i = 0; i < columns.size(); ++i) EXPECT_EQ(columns[i].plane.origin, cells[i].plane.origin);
+}
+
+TEST(CutPlaces, SymmetryPlaneIsAHairInside) {
+  HybridMesh mesh = plate_block(4);
+  mesh.patches[PatchId(2)] = {"side", PatchKind::symmetry};  // all four sides; the first one met decides
+  const CutPlace place = place_of(automatic_cuts(mesh, k_run), "symmetry plane");
+  const Point middle{0.5, 0.5, 0.5};
+  EXPECT_LT(dot(middle - place.plane.origin, place.plane.normal), 0.0);
+  EXPECT_NEAR(std::abs(dot(middle - place.plane.origin, place.plane.normal)), 0.5, 1e-6);
+}
+
+TEST(CutPlaces, JunctionIsWhereTwoPatchesMeetInAConcaveEdge) {
+  // A step: floor z = 0 for x < 0, riser x = 0, top z = 1; only the edge at x = z = 0 is concave.
+  HybridMesh mesh;
+  for (const char* name : {"floor", "riser"}) mesh.patches.push_back({name, PatchKind::wall});
+  const std::array<std::array<double, 2>, 4> profile = {{{-1, 0}, {0, 0}, {0, 1}, {1, 1}}};
+  for (const auto& [x, z] : profile)
+    for (int j = 0; j <= 4; ++j) mesh.points.push_back({x, static_cast<double>(j), z});
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const NodeId a(5 * i + j), b(5 * i + j + 1), c(5 * i + 5 + j + 1), d(5 * i + 5 + j);
+      mesh.boundary_quads.push_back({{a, b, c, d}, PatchId(i == 0 ? 0 : 1)});  // out of the fluid, which is above
+    }
+  const CutPlace place = place_of(automatic_cuts(mesh, k_run), "junction");
+  EXPECT_EQ(place.focus.x, 0.0);
+  EXPECT_EQ(place.focus.z, 0.0);
+  EXPECT_NEAR(std::abs(place.plane.normal.y), 1.0, 1e-15);
+}
+
+TEST(CutPlaces, OfNothing) { EXPECT_TRUE(automatic_cuts(HybridMesh{}, k_run).empty()); }
+
+}  // namespace
+}  // namespace sterna
