@@ -23,8 +23,8 @@ FamilyMember member(double f) {
   m.nodes = std::llround(1e6 * f * f * f);
   m.wall_faces = std::llround(1e4 * f * f);
   m.wall_edge = 0.1 / f;
-  m.box.add({-100, -100, -100});
-  m.box.add({100, 100, 100});
+  m.box.add(Point{-100, -100, -100});
+  m.box.add(Point{100, 100, 100});
   m.patches = {{"farfield", "farfield"}, {"wing", "wall"}};
   m.layers = static_cast<int>(std::lround(30 * f));
   m.first_height = 1e-5 / f;
@@ -62,7 +62,7 @@ TEST(FamilyRules, AnIdealFamilyPassesAndEachSlipIsFound) {
   EXPECT_EQ(rule(slip([](FamilyMember& m) { m.layers = 47; }), "layers").state, GateState::warn);
   EXPECT_EQ(rule(slip([](FamilyMember& m) { m.tet_growth = 1.3; }), "tet_growth").state, GateState::fail);
   EXPECT_EQ(rule(slip([](FamilyMember& m) { m.constant_layers = 1; }), "constant_layers").state, GateState::fail);
-  EXPECT_EQ(rule(slip([](FamilyMember& m) { m.box.add({150, 0, 0}); }), "box").state, GateState::fail);
+  EXPECT_EQ(rule(slip([](FamilyMember& m) { m.box.add(Point{150, 0, 0}); }), "box").state, GateState::fail);
   EXPECT_EQ(rule(slip([](FamilyMember& m) { m.nodes = 3'000'000; }), "nodes").state, GateState::pass);
   EXPECT_EQ(rule(slip([](FamilyMember& m) { m.nodes = 1'500'000; }), "nodes").state, GateState::warn);
   EXPECT_EQ(rule(slip([](FamilyMember& m) { m.nodes = 8'000'000; }), "nodes").state, GateState::fail);
