@@ -328,6 +328,11 @@ async function use_link(page, open, file, report, shot) {
   require_equal({ ...after.values, options_filter: "" }, { ...before.values, options_filter: "" }, "state behind a link");
   require_near(after.camera.target, before.camera.target, 1e-5 * report.length, "camera's target behind a link");
   require_near([after.camera.distance], [before.camera.distance], 1e-4 * before.camera.distance, "camera's distance behind a link");
+  if (typeof report.surface.fields[0]?.min === "number") {
+    const third = await open(file, `#tab=surface&color=${encodeURIComponent(report.surface.fields[0].name)}`);
+    require_that((await third.inputValue("#range_low")) !== "", "no range behind a link to a field");
+    await third.close();
+  }
   if (report.places.length) await use_place_link(open, file, report);
   await other.emulateMedia({ colorScheme: "dark", reducedMotion: "no-preference" });
   await other.click("#tab_surface");

@@ -99,9 +99,8 @@ export class ReportApp {
     fill(root, h("div.report", null, banner(this), h("main.split", null, this.view_box, panel)));
     state.on(["tab"], ({ tab }) => this.tabs.show(tab));
     if (!this.tabs.has(state.get("tab"))) state.values.tab = "summary";
-    this.tabs.show(state.get("tab"));
     try {
-      await this.load();
+      await this.load().finally(() => this.tabs.show(state.get("tab"))); // tabs ask for ranges of fields; without arrays they are shown, too
       this.open_view();
     } catch (error) {
       this.say(sentence_of(error));

@@ -15,7 +15,7 @@ const k_click_reach = 10; // pixels around a marker that belong to it
 const k_click_slack = 4; // pixels that a hand may move during a click
 const k_slow_pick = 40; // ms: above this, what is under the pointer is looked for only when it rests
 const k_rest = 160; // ms
-const k_least_place = 2e-3; // radius that is shown around a place, of the body length: next to slivers one wants to see their neighbours
+const k_least_place = 4e-3; // radius that is shown around a place, of the body length: next to slivers one wants to see their neighbours
 
 class Layer {
   constructor(scene) {
