@@ -107,6 +107,7 @@ async function use_patches(page, report) {
 }
 
 async function use_colours(page, report, shot) {
+  await page.click("#patches_all"); // the bar's range is that of the patches that are shown
   for (const field of report.surface.fields) {
     await page.selectOption("#color", field.name);
     const state = await state_of(page);
@@ -118,6 +119,9 @@ async function use_colours(page, report, shot) {
       await page.fill("#range_low", String(middle));
       await page.keyboard.press("Enter");
       require_near((await state_of(page)).color_bar.surface.slice(0, 1), [middle], 1e-4 * Math.abs(high), `range of ${field.name}`);
+      await page.click("#range_most");
+      const [from, to] = (await state_of(page)).color_bar.surface;
+      require_that(low <= from && from < to && to <= high, `range of most of ${field.name}: ${from} to ${to} of ${low} to ${high}`);
       await page.click("#range_whole");
       require_near((await state_of(page)).color_bar.surface.slice(0, 1), [low], 1e-6 * Math.abs(high), `whole range of ${field.name}`);
     }
@@ -130,6 +134,7 @@ async function use_colours(page, report, shot) {
     await require_picture(page, `coloured by ${field.name}`);
     await shot(`color_${field.name}`);
   }
+  if (report.patches.some((patch) => patch.kind === "wall")) await page.click("#patches_walls");
   if (report.surface.fields.length) {
     await page.selectOption("#toolbar_color", "patch");
     require_equal(await page.inputValue("#color"), "patch", "colour of both lists");
@@ -323,6 +328,11 @@ async function use_link(page, open, file, report, shot) {
   require_equal({ ...after.values, options_filter: "" }, { ...before.values, options_filter: "" }, "state behind a link");
   require_near(after.camera.target, before.camera.target, 1e-5 * report.length, "camera's target behind a link");
   require_near([after.camera.distance], [before.camera.distance], 1e-4 * before.camera.distance, "camera's distance behind a link");
+  if (typeof report.surface.fields[0]?.min === "number") {
+    const third = await open(file, `#tab=surface&color=${encodeURIComponent(report.surface.fields[0].name)}`);
+    require_that((await third.inputValue("#range_low")) !== "", "no range behind a link to a field");
+    await third.close();
+  }
   if (report.places.length) await use_place_link(open, file, report);
   await other.emulateMedia({ colorScheme: "dark", reducedMotion: "no-preference" });
   await other.click("#tab_surface");

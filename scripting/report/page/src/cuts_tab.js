@@ -13,7 +13,7 @@ export function cuts_tab(app) {
   const { report, state } = app;
   const rows = report.cuts.map((cut, k) => {
     const n = Math.max((cut.first?.n ?? 1) - 1, 0);
-    return h("button.row", { type: "button", id: `cut_${k}`, onclick: () => state.set({ cut: state.get("cut") === k ? -1 : k }) }, h("b", null, cut.name), h("small", null, `${direction_text(cut.normal)} through ${position_text(cut.origin)} m \u00b7 ${count_text(n)} cells`));
+    return h("button.row", { type: "button", id: `cut_${k}`, onclick: () => state.set({ cut: state.get("cut") === k ? -1 : k }) }, h("b", null, cut.name), h("small", null, `${direction_text(cut.normal)} through ${position_text(cut.origin)} m \u00b7 ${count_text(n)}${cut.total > n ? ` of ${count_text(cut.total)}` : ""} cells`));
   });
   const options = h("div.form");
   const refresh = () => {

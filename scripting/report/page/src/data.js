@@ -41,8 +41,8 @@ export async function read_blob() {
   try {
     const stream = new Blob([bytes_of_base64(text)]).stream().pipeThrough(new DecompressionStream("gzip"));
     return await new Response(stream).arrayBuffer();
-  } catch (error) {
-    throw new ReportError(`The report is damaged: its arrays cannot be unpacked (${error.message}). Was the file cut off? Write it again.`);
+  } catch { // browsers call it "Failed to fetch", which it is not
+    throw new ReportError("The report is damaged: its arrays cannot be unpacked. Was the file cut off? Write it again.");
   }
 }
 

@@ -49,9 +49,9 @@ export function number_text(x, digits = 4) {
   return text.replace(/^-/, "\u2212");
 }
 
-/** Number and unit. */
+/** Number of a measure with its unit. */
 export function quantity_text(x, unit, digits = 4) {
-  const text = number_text(x, digits);
+  const text = Number.isFinite(x) && Math.abs(x) >= 1e6 ? x.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e").replace(/^-/, "\u2212") : number_text(x, digits);
   return unit && text !== "\u2013" ? `${text} ${unit}` : text;
 }
 

@@ -3,14 +3,34 @@ import { k_kinds, k_nan_tone, k_states, css_rgb, field_palette, list_palette, pa
 import { colour_bar, colour_list } from "./colour_bar.js";
 import { count_text } from "./dom.js";
 
-/** The range that a field is drawn with: the reader's, else the report's, else that of its values; null when no value exists. */
-export function field_range(field, chosen) {
-  if (chosen) return chosen;
+/** The range of a field: the report's where it can be drawn, else that of its values; null when no value exists. */
+export function field_range(field) {
   const is_usable = Number.isFinite(field.min) && Number.isFinite(field.max) && field.min <= field.max && (!field.is_log || field.min > 0);
   return is_usable ? [field.min, field.max] : range_of(field.values, field.is_log);
 }
 
-/** A painting by a field: {tones, palette, legend, scale}. `by_limits`: the four states instead of the map. */
+/** Values of a surface's field in the patches that are shown, those that can be drawn. */
+export function shown_values(field, patch, shown) {
+  const values = new Float32Array(field.values.length);
+  let n = 0;
+  for (let t = 0; t < values.length; ++t) {
+    const value = field.values[t];
+    if (shown.has(patch[t]) && Number.isFinite(value) && (!field.is_log || value > 0)) values[n++] = value;
+  }
+  return values.subarray(0, n);
+}
+
+const k_most = 0.01; // share of the values that is left out at either end
+
+/** Range without the outliers at either end; null when there is nothing to draw. */
+export function range_of_most(values) {
+  if (!values.length) return null;
+  const sorted = values.slice().sort();
+  const at = (share) => sorted[Math.round(share * (sorted.length - 1))];
+  return at(k_most) < at(1 - k_most) ? [at(k_most), at(1 - k_most)] : null;
+}
+
+/** A painting by a field: {tones, palette, legend, scale}. `by_limits`: the four states instead of the map; range null: the field's own. */
 export function paint_field(field, { range, map, by_limits }) {
   if (by_limits) {
     const tones = state_tones(field);
@@ -19,7 +39,7 @@ export function paint_field(field, { range, map, by_limits }) {
     const list = k_states.map((state, k) => ({ name: state.name, colour: state.colour, text: count_text(counts[k]) }));
     return { tones, palette: list_palette(k_states.map((s) => rgb_of(s.colour))), legend: colour_list(`${field.title}, by its limits`, list), scale: null };
   }
-  const used = field_range(field, range) ?? [0, 1];
+  const used = range ?? field_range(field) ?? [0, 1];
   const scale = new Scale(used[0], used[1], field.is_log);
   const tones = tones_of(field.values, scale);
   return { tones, palette: field_palette(map), legend: colour_bar(field, scale, map, tones.includes(k_nan_tone)), scale };

@@ -38,7 +38,7 @@ export function places_tab(app) {
       const row = h(
         `button.row.place.${state_class(place.state)}`,
         { type: "button", id: `place_${k}`, onclick: () => (state.get("place") === k ? app.view && app.fly_to_place(k) : state.set({ place: k })) },
-        h("span.place_value", null, typeof place.value === "number" ? quantity_text(place.value, place.unit) : (place.measure ?? place.state)),
+        h("span.place_value", null, typeof place.value === "number" ? quantity_text(place.value, place.unit) : (place.measure ?? place.state).replaceAll("_", " ")),
         h("span.place_what", null, place.what, h("small", null, ` at ${position_text(place.at)}`)),
       );
       rows.set(k, row);

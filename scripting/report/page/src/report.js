@@ -1,11 +1,11 @@
 // The page of one mesh: view at the left, panel with tabs at the right.
 import { Sphere } from "three";
-import { k_kinds, k_maps, has_limits } from "./colours.js";
+import { k_kinds, k_maps, has_limits, range_of } from "./colours.js";
 import { Arrays, read_blob, read_cut, read_surface, require_tables } from "./data.js";
 import { button, count_text, fill, h, number_text, position_text, quantity_text } from "./dom.js";
 import { ReportError, sentence_of } from "./errors.js";
 import { banner, state_colour } from "./banner.js";
-import { paint_field, paint_kinds, paint_patches, patches_legend, field_range } from "./painting.js";
+import { field_range, paint_field, paint_kinds, paint_patches, patches_legend, range_of_most, shown_values } from "./painting.js";
 import { read_hash, State, write_hash } from "./state.js";
 import { coverage_tab } from "./coverage_tab.js";
 import { cuts_tab } from "./cuts_tab.js";
@@ -99,9 +99,8 @@ export class ReportApp {
     fill(root, h("div.report", null, banner(this), h("main.split", null, this.view_box, panel)));
     state.on(["tab"], ({ tab }) => this.tabs.show(tab));
     if (!this.tabs.has(state.get("tab"))) state.values.tab = "summary";
-    this.tabs.show(state.get("tab"));
     try {
-      await this.load();
+      await this.load().finally(() => this.tabs.show(state.get("tab"))); // tabs ask for ranges of fields; without arrays they are shown, too
       this.open_view();
     } catch (error) {
       this.say(sentence_of(error));
@@ -156,7 +155,10 @@ export class ReportApp {
     this.show_cut();
     this.show_edges();
     this.show_markers();
-    state.on(["patches"], () => this.show_patches());
+    state.on(["patches"], ({ color, range }) => {
+      this.show_patches();
+      if (color !== "patch" && !range) this.paint_surface();
+    });
     state.on(["color", "range", "map", "by_limits"], () => this.paint_surface());
     state.on(["cut"], ({ cut }) => {
       this.show_cut();
@@ -216,10 +218,20 @@ export class ReportApp {
     return this.surface?.fields.find((field) => field.name === name) ?? null;
   }
 
+  /** Range of a field in the patches that are shown (a farfield's edges of 100 m say nothing about a wing); of all when these have no values. */
+  shown_range(field) {
+    return range_of(shown_values(field, this.surface.patch, this.state.get("patches")), field.is_log) ?? field_range(field);
+  }
+
+  /** That range without outliers. */
+  range_of_most(field) {
+    return range_of_most(shown_values(field, this.surface.patch, this.state.get("patches")));
+  }
+
   paint_surface() {
     const { color, range, map, by_limits } = this.state.values;
     const field = this.field(color);
-    const painting = field ? paint_field(field, { range, map, by_limits: by_limits && has_limits(field.limits) }) : paint_patches(this.surface, this.report.patches);
+    const painting = field ? paint_field(field, { range: range ?? this.shown_range(field), map, by_limits: by_limits && has_limits(field.limits) }) : paint_patches(this.surface, this.report.patches);
     this.view.surface.paint(painting.tones, painting.palette);
     this.painted.surface = painting;
     this.show_legends();
@@ -356,7 +368,6 @@ export class ReportApp {
     const { view, painted, state } = this;
     const values = { ...state.values, patches: [...state.values.patches] };
     if (!view) return { schema: this.report.schema, values, has_view: false, message: this.message.textContent };
-    const field = this.field(values.color);
     const scale = (painting) => (painting?.scale ? [painting.scale.low, painting.scale.high, painting.scale.is_log] : null);
     return {
       schema: this.report.schema,
@@ -367,7 +378,6 @@ export class ReportApp {
       drawn: { surface: view.surface.n_drawn(), cut: view.cut.n_drawn(), markers: view.marker_list.length, marker_at: view.marker_list.length ? view.on_screen(view.marker_list[0].at) : null },
       clip: [...view.surface.uniforms.clip.value],
       color_bar: { surface: scale(painted.surface), cut: scale(painted.cut) },
-      field_range: field ? field_range(field, null) : null,
       picked: this.picked ? { layer: this.picked.layer, item: this.picked.item, patch: this.picked.layer === "surface" ? this.surface.patch[this.picked.item] : -1, at: this.picked.at, on_screen: view.on_screen(this.picked.at) } : null,
       pin: view.pin ? { at: view.pin.at, on_screen: view.on_screen(view.pin.at) } : null,
     };

@@ -1,5 +1,5 @@
 // Colours of the surface, its edges, and the list of patches.
-import { field_range, patch_css } from "./painting.js";
+import { patch_css } from "./painting.js";
 import { has_limits, k_maps } from "./colours.js";
 import { button, count_text, fill, h, number_text } from "./dom.js";
 
@@ -25,18 +25,19 @@ function range_fields(app) {
     wrong.textContent = why;
     if (!why) state.set({ range });
   };
+  const most = () => state.set({ range: app.range_of_most(app.field(state.get("color"))) });
   low.addEventListener("change", apply);
   high.addEventListener("change", apply);
-  const row = h("div.range", null, h("span", null, "Range"), low, h("span", null, "to"), high, button("Whole", () => state.set({ range: null }), { title: "From the least to the greatest value", id: "range_whole", kind: ".small" }), wrong);
+  const row = h("div.range", null, h("span", null, "Range"), low, h("span", null, "to"), high, button("Whole", () => state.set({ range: null }), { title: "From the least to the greatest value of what is shown", id: "range_whole", kind: ".small" }), button("Most", most, { title: "Without the 1 % of the values at either end", id: "range_most", kind: ".small" }), wrong);
   const refresh = () => {
     const field = app.field(state.get("color"));
     row.hidden = !field || state.get("by_limits");
     if (!field) return;
-    const range = field_range(field, state.get("range"));
+    const range = state.get("range") ?? app.shown_range(field);
     wrong.textContent = range ? "" : "this field has no values here";
     if (range) [low.value, high.value] = range.map((x) => Number(x.toPrecision(5)));
   };
-  state.on(["color", "range", "by_limits"], refresh);
+  state.on(["color", "range", "by_limits", "patches"], refresh);
   refresh();
   return row;
 }

@@ -15,6 +15,7 @@ const k_click_reach = 10; // pixels around a marker that belong to it
 const k_click_slack = 4; // pixels that a hand may move during a click
 const k_slow_pick = 40; // ms: above this, what is under the pointer is looked for only when it rests
 const k_rest = 160; // ms
+const k_least_place = 4e-3; // radius that is shown around a place, of the body length: next to slivers one wants to see their neighbours
 
 class Layer {
   constructor(scene) {
@@ -294,7 +295,7 @@ export class View {
       const along = [near.normal, near.normal.clone().negate()];
       const free = along.map((d) => first_hit(this.surface.set, target, d, ranges, near.distance * 1e-3 + near.size * 1e-3));
       const outwards = along[free[1] > free[0] ? 1 : 0];
-      distance = this.camera.distance_for(Math.max(near.size * 10, near.distance * 3, length * 1e-6));
+      distance = this.camera.distance_for(Math.max(near.size * 10, near.distance * 3, length * k_least_place));
       // A view along the normal itself is flat; some 25 degrees aside show relief.
       const side = new Vector3(0, 0, 1).cross(outwards).multiplyScalar(0.35).add(new Vector3(0, 0, 0.25));
       orientation = looking(outwards.clone().add(side).negate(), new Vector3(0, 0, 1));
