@@ -145,7 +145,7 @@ TEST(Draw, PatchesThatAreNotNamedAreNotShown) {
                                               options.patches = "*";
                                               return options;
                                             }(),
-                                            "", k_run))
+                                            "", {}, k_run))
                                     .at(100, 100));
 }
 
