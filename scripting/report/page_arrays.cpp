@@ -2,7 +2,6 @@
 
 #include <bit>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "geom/base/error.h"
 #include "io/gzip.h"
@@ -10,8 +9,6 @@
 
 namespace sterna::scripting {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t k_alignment = 4;
 constexpr std::string_view k_json_place = "<!--STERNA_JSON-->", k_blob_place = "<!--STERNA_BLOB-->";
@@ -27,18 +24,18 @@ std::string escaped(const std::string& json) {
 }  // namespace
 
 template <class T>
-Json PageArrays::add_values(std::string_view type, std::span<const T> values) {
+ArrayPlace PageArrays::add_values(std::string_view type, std::span<const T> values) {
   static_assert(std::endian::native == std::endian::little);
   const std::size_t at = bytes_.size();
   bytes_.append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
   bytes_.resize((bytes_.size() + k_alignment - 1) / k_alignment * k_alignment, '\0');
-  return {{"type", type}, {"at", at}, {"n", values.size()}};
+  return {type, at, values.size()};
 }
 
-Json PageArrays::add(std::span<const float> values) { return add_values("f32", values); }
-Json PageArrays::add(std::span<const std::uint32_t> values) { return add_values("u32", values); }
-Json PageArrays::add(std::span<const std::uint16_t> values) { return add_values("u16", values); }
-Json PageArrays::add(std::span<const std::uint8_t> values) { return add_values("u8", values); }
+ArrayPlace PageArrays::add(std::span<const float> values) { return add_values("f32", values); }
+ArrayPlace PageArrays::add(std::span<const std::uint32_t> values) { return add_values("u32", values); }
+ArrayPlace PageArrays::add(std::span<const std::uint16_t> values) { return add_values("u16", values); }
+ArrayPlace PageArrays::add(std::span<const std::uint8_t> values) { return add_values("u8", values); }
 
 float shortened(double value) {
   constexpr std::uint32_t k_dropped = 13;  // of the 23 bits of a float's mantissa
@@ -48,7 +45,7 @@ float shortened(double value) {
   return std::bit_cast<float>((bits + (1u << (k_dropped - 1))) & ~((1u << k_dropped) - 1u));
 }
 
-std::string page_text(const Json& json, const PageArrays& arrays) {
+std::string page_text(const std::string& json, const PageArrays& arrays) {
   std::string text(report_page());
   if (text.empty())
     throw Error({.code = ErrorCode::unsupported_format, .attempted = "making a report page", .problem = "this sterna was built without the page: npm was not found, or the npm registry could not be reached",
@@ -58,7 +55,7 @@ std::string page_text(const Json& json, const PageArrays& arrays) {
     if (at == std::string::npos) throw Error({.code = ErrorCode::internal, .attempted = "making a report page", .problem = "the template has no " + std::string(place)});
     text.replace(at, place.size(), content);
   };
-  fill(k_json_place, escaped(json.dump(-1, ' ', false, Json::error_handler_t::replace)));
+  fill(k_json_place, escaped(json));
   fill(k_blob_place, io::base64(io::gzip(arrays.bytes())));
   return text;
 }

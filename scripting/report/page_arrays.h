@@ -2,25 +2,31 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace sterna::scripting {
 
+/// Where an array is: {"type", "at", "n"} in the JSON.
+struct ArrayPlace {
+  std::string_view type;
+  std::size_t at = 0;  ///< byte in the blob
+  std::size_t n = 0;   ///< values
+};
+
 class PageArrays {
  public:
-  /// {"type", "at", "n"} of the values just added.
-  nlohmann::ordered_json add(std::span<const float> values);
-  nlohmann::ordered_json add(std::span<const std::uint32_t> values);
-  nlohmann::ordered_json add(std::span<const std::uint16_t> values);
-  nlohmann::ordered_json add(std::span<const std::uint8_t> values);
+  /// The place of the values just added.
+  ArrayPlace add(std::span<const float> values);
+  ArrayPlace add(std::span<const std::uint32_t> values);
+  ArrayPlace add(std::span<const std::uint16_t> values);
+  ArrayPlace add(std::span<const std::uint8_t> values);
   const std::string& bytes() const { return bytes_; }
 
  private:
   template <class T>
-  nlohmann::ordered_json add_values(std::string_view type, std::span<const T> values);
+  ArrayPlace add_values(std::string_view type, std::span<const T> values);
   std::string bytes_;
 };
 
@@ -28,6 +34,6 @@ class PageArrays {
 float shortened(double value);
 
 /// The whole page: the template with JSON and arrays filled in. \throws Error(unsupported_format) in a build without the page
-std::string page_text(const nlohmann::ordered_json& json, const PageArrays& arrays);
+std::string page_text(const std::string& json, const PageArrays& arrays);
 
 }  // namespace sterna::scripting

@@ -22,9 +22,14 @@
 #include "scripting/summary.h"
 
 namespace sterna::scripting {
+using Json = nlohmann::ordered_json;
+
+/// For nlohmann's conversions.
+static void to_json(Json& json, const ArrayPlace& place) { json = {{"type", place.type}, {"at", place.at}, {"n", place.n}}; }
+
 namespace {
 
-using Json = nlohmann::ordered_json;
+std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 /// The page is made anew with so much of the budget where it came out too large.
 constexpr double k_less = 0.6;
@@ -301,7 +306,7 @@ std::string small_page(const ReportOptions& options, const RunContext& context, 
 }  // namespace
 
 void require_report_cuts(const std::vector<std::string>& cuts) {
-  if (report_page().empty()) page_text({}, {});
+  if (report_page().empty()) page_text("", {});
   for (const std::string& cut : cuts) draw::plane_of(cut);
 }
 
@@ -323,7 +328,7 @@ std::string report_html(const MeshValue& mesh, const ReportOptions& options, con
   const std::string title = title_of(options, name);
   Json head = {{"schema", "sterna-report-1"}, {"program", "sterna " STERNA_VERSION}, {"title", title}, {"kind", "volume"}, {"facts", facts_json(mesh)}};
   head.update(maker.frame());
-  add_check(report, head);
+  head.update(Json::parse(page_check_json(report)));
   head["patches"] = maker.patches_json();
   head["manifest"] = Json::parse(manifest_json(mesh, std::string(name), context.seed()));
   if (mesh.origin) head["options_set"] = options_set_json(*mesh.origin);
@@ -335,7 +340,7 @@ std::string report_html(const MeshValue& mesh, const ReportOptions& options, con
     json["cuts"] = Json::array();
     for (std::size_t i = 0; i < places.size(); ++i)
       if (cuts[i].size() > 0) json["cuts"].push_back(cut_json(places[i], cuts[i], std::max<std::size_t>(1, n_polygons / places.size()), arrays));
-    return page_text(json, arrays);
+    return page_text(text_of(json), arrays);
   });
 }
 
@@ -348,7 +353,7 @@ std::string report_html(const SurfaceValue& surface, const ReportOptions& option
   Json head = {{"schema", "sterna-report-1"}, {"program", "sterna " STERNA_VERSION}, {"title", title}, {"kind", "surface"}};
   head["facts"] = {{"triangles", count_text(static_cast<std::int64_t>(mesh.n_triangles()))}, {"vertices", count_text(static_cast<std::int64_t>(mesh.n_vertices()))}, {"closed", surface.report.is_closed ? "yes" : "no"}};
   head.update(maker.frame());
-  add_no_check(head);
+  head.update(Json::parse(page_no_check_json()));
   head["patches"] = maker.patches_json();
   head["manifest"] = {{"inputs", inputs_json(surface.inputs)}};
   head["run"] = options.times ? run_json(context) : Json(nullptr);
@@ -357,7 +362,7 @@ std::string report_html(const SurfaceValue& surface, const ReportOptions& option
     PageArrays arrays;
     Json json = head;
     json["surface"] = maker.surface_json(n_triangles, arrays);
-    return page_text(json, arrays);
+    return page_text(text_of(json), arrays);
   });
 }
 

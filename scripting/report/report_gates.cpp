@@ -36,7 +36,8 @@ void add_places(const Json& measure, Json& places) {
 
 }  // namespace
 
-void add_check(const CheckReport& report, Json& page) {
+std::string page_check_json(const CheckReport& report) {
+  Json page;
   const Json check = Json::parse(to_json(report));
   page["verdict"] = check["verdict"];
   page["quality_verdict"] = check["quality_verdict"];
@@ -69,12 +70,15 @@ void add_check(const CheckReport& report, Json& page) {
     patch["lost"] = std::move(lost);
     page["coverage"].push_back(std::move(patch));
   }
+  return page.dump();
 }
 
-void add_no_check(Json& page) {
+std::string page_no_check_json() {
+  Json page;
   page["verdict"] = "not checked";
   page["quality_verdict"] = "not checked";
   for (const char* key : {"places", "gates", "histograms", "coverage"}) page[key] = Json::array();
+  return page.dump();
 }
 
 }  // namespace sterna::scripting

@@ -1,15 +1,15 @@
 // Gates, worst places, histograms and coverage of a report page, off the report of `check`.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "geom/mesh/check.h"
 
 namespace sterna::scripting {
 
-/// Adds verdict, quality_verdict, gates (those of the verdict first), places (findings first, then each gate's, worst gates first), histograms and coverage.
-void add_check(const CheckReport& report, nlohmann::ordered_json& page);
+/// JSON object with verdict, quality_verdict, gates (those of the verdict first), places (findings first, then each gate's, worst gates first), histograms and coverage.
+std::string page_check_json(const CheckReport& report);
 /// The same of what has no gates.
-void add_no_check(nlohmann::ordered_json& page);
+std::string page_no_check_json();
 
 }  // namespace sterna::scripting

@@ -120,7 +120,7 @@ std::string series_page_html(const SeriesPlan& plan, std::span<const CaseResult>
   Json json = {{"schema", "sterna-series-1"}, {"program", "sterna " STERNA_VERSION}, {"title", plan.name}, {"parameters", parameters}, {"figures", figures_json()}, {"cases", Json::array()}};
   for (const CaseResult& result : results) json["cases"].push_back(case_json(plan, result, parameters));
   add_pictures(plan, results, json["cases"]);
-  return page_text(json, PageArrays{});
+  return page_text(json.dump(-1, ' ', false, Json::error_handler_t::replace), PageArrays{});
 }
 
 }  // namespace sterna::scripting
