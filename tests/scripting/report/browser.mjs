@@ -31,7 +31,7 @@ export async function with_browser({ executable, has_webgl = true }, use) {
   const context = await chromium.launchPersistentContext(folder, {
     executablePath: executable,
     args: [...k_usual, ...(has_webgl ? k_software_webgl : ["--disable-3d-apis"])],
-    viewport: { width: 1400, height: 860 },
+    viewport: { width: 1240, height: 760 },
     reducedMotion: "reduce",
     offline: true,
   });
