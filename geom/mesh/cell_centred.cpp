@@ -201,7 +201,10 @@ FaceShape face_shape(std::span<const Point> corners) {
     weighted = weighted + size * (p + next + middle);
   }
   if (!(total > 0.0)) return {Vec3{}, middle, 1.0};
-  return {0.5 * normal, weighted / (3.0 * total), norm(normal) / total};
+  const Point centre = weighted / (3.0 * total);
+  double about_centre = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) about_centre += norm(cross(corners[(k + 1) % 4] - corners[k], centre - corners[k]));
+  return {0.5 * normal, centre, norm(normal) / (about_centre + k_tiny)};
 }
 
 CellShape cell_shape(const HybridMesh& mesh, const Cell& cell) {

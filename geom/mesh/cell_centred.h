@@ -17,7 +17,7 @@ namespace sterna::check_parts {
 struct FaceShape {
   Vec3 area;              ///< m^2, along the normal
   Point centre;
-  double flatness = 1.0;  ///< |area| over the sum of the areas of its triangles; 1 for triangles
+  double flatness = 1.0;  ///< |area| over the sum of the areas of its triangles around its centre; 1 for triangles
 };
 /// \pre 3 or 4 corners
 FaceShape face_shape(std::span<const Point> corners);
