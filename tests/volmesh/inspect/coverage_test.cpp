@@ -11,9 +11,10 @@
 namespace sterna::volmesh {
 namespace {
 
-/// The prediction leaves out the optimiser, which raises heights, and the tests for collisions, which lower them: on the walls of ../shared/data/surfaces/clean
-/// it is up to 0.06 below the finished layer and up to 0.01 above it where layers reach their target on more than four fifths of the area (docs/inspect.md).
-constexpr double k_below = 0.08, k_above = 0.02;
+/// The prediction leaves out the optimiser, which raises heights, and the tests for collisions, which lower them: on the clean surfaces that docs/inspect.md
+/// lists it was 0.023 below to 0.022 above the finished envelope where that has full height on more than four fifths of the area. Three times that, as other
+/// settings were not measured.
+constexpr double k_tolerance = 0.07;
 
 TEST(InspectCoverage, IsNearThatOfTheFinishedMesh) {
   STERNA_NEEDS_SHARED_DATA();
@@ -28,8 +29,7 @@ TEST(InspectCoverage, IsNearThatOfTheFinishedMesh) {
     ASSERT_TRUE(report.layer.is_known);
     const LayerReport real = volume_mesh(wall, request.volume, context).layer;
     std::cout << name << ": full height on " << 100.0 * report.layer.coverage << " %, in the mesh " << 100.0 * real.coverage << " %\n";
-    EXPECT_GT(report.layer.coverage, real.coverage - k_below);
-    EXPECT_LT(report.layer.coverage, real.coverage + k_above);
+    EXPECT_NEAR(report.layer.coverage, real.coverage, k_tolerance);
     EXPECT_NEAR(report.layer.collapsed, real.collapsed_area, 0.01);
     EXPECT_NEAR(report.layer.compressed, real.compressed_area, 0.02);
   }
