@@ -130,17 +130,18 @@ TEST_F(DamagedMeshes, Hole) {
   expect_failure("G1", "unmatched_face", place, within, false);
 }
 
-/// A face of the wing that is said to lie in a symmetry plane.
+/// The faces around a node of the curved wing that are said to lie in a symmetry plane.
 TEST_F(DamagedMeshes, WrongMarker) {
-  BoundaryTriangle& face = mesh_.boundary_triangles[mesh_.boundary_triangles.size() / 4];
-  // Of two faces, so that no plane holds all their nodes.
-  BoundaryTriangle& other = mesh_.boundary_triangles[mesh_.boundary_triangles.size() / 2];
+  const BoundaryTriangle face = mesh_.boundary_triangles[mesh_.boundary_triangles.size() / 4];
   mesh_.patches.push_back({.name = "symmetry", .kind = PatchKind::symmetry});
   const PatchId patch(static_cast<std::uint32_t>(mesh_.patches.size() - 1));
-  const Point place = middle_of(mesh_, face.nodes);
-  const double within = reach_of(mesh_, face.nodes);
-  face.patch = other.patch = patch;
-  expect_failure("G20", "off_symmetry_plane", place, within, false);
+  std::vector<NodeId> nodes;
+  for (BoundaryTriangle& other : mesh_.boundary_triangles) {
+    if (std::find(other.nodes.begin(), other.nodes.end(), face.nodes[0]) == other.nodes.end()) continue;
+    other.patch = patch;
+    nodes.insert(nodes.end(), other.nodes.begin(), other.nodes.end());
+  }
+  expect_failure("G20", "off_symmetry_plane", mesh_.points[face.nodes[0]], reach_of(mesh_, nodes), false);
 }
 
 TEST_F(DamagedMeshes, MarkerTwice) {

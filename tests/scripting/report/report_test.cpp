@@ -29,7 +29,7 @@ class Report : public ScriptFixture {
 };
 
 TEST_F(Report, HoldsTheMeshItsGatesPlacesAndHistograms) {
-  run(mesh_script() + "report{ mesh, " + out("box.html") + ", title = 'A </script> box', cuts = { { x = 0.25 }, 'tip' } }");
+  run(mesh_script() + "report{ mesh, " + out("box.html") + ", title = 'A </script> box', cuts = { { x = 0.25 }, 'nose' } }");
   const nlohmann::json page = test::page_json(folder_ / "box.html");
   EXPECT_EQ(page["schema"], "sterna-report-1");
   EXPECT_EQ(page["title"], "A </script> box");
