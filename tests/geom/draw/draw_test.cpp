@@ -228,8 +228,8 @@ TEST(Draw, LegendTitleAndMarks) {
   const Image with = decoded(draw_png(mesh, options, "", {}, k_run));
   const auto in_panel = [](const Image& image) {
     std::size_t n = 0;
-    for (int y = 0; y < 25; ++y)
-      for (int x = 140; x < 200; ++x) n += image.at(x, y) == draw::patch_color(0);
+    for (int y = 0; y < 18; ++y)
+      for (int x = 130; x < 200; ++x) n += image.at(x, y) == draw::patch_color(0);
     return n;
   };
   EXPECT_GT(in_panel(with), in_panel(without) + 20);
