@@ -15,6 +15,10 @@ namespace sterna::io {
 /// \throws Error mesh_invalid (a face without patch), write_failed, cancelled.
 void write_volume_vtu(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 
+/// The same with more cell data, float64, of each volume cell (cell_quality.h): "scaled_jacobian", "volume", "min_dihedral" and "max_dihedral" in degrees; NaN for boundary faces, and for angles of cells
+/// that are no tetrahedra. Needs 32 bytes a cell. \throws Error as write_volume_vtu
+void write_quality_vtu(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
+
 /// Reads VTU files of one or more pieces: ascii, base64 and raw appended arrays, plain, zlib or LZ4, 32- and 64-bit headers, little endian. Volume cells land in the explicit
 /// arrays, triangles and quads become boundary faces; their patch is the first integer cell array of marker, boundary, CellEntityIds, gmsh:physical, ids (none: one patch).
 /// Names and kinds follow from the field data that write_volume_vtu writes, else "patch_<number>". Cells in a wrong winding are flipped, boundary faces turned

@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/base/parallel.h"
+#include "geom/mesh/cell_quality.h"
 #include "io/cell_sections.h"
 #include "io/volume_vtu.h"
 #include "io/vtk_cells.h"
@@ -149,9 +152,42 @@ VtuArray points_array(const HybridMesh& mesh) {
           }};
 }
 
-}  // namespace
+/// Of each cell of the file.
+std::vector<CellQuality> qualities_of(const HybridMesh& mesh, const RunContext& context) {
+  constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
+  constexpr std::size_t k_chunk = 4096;
+  const CellSections sections(mesh);
+  const FileCells cells(mesh);
+  std::vector<CellQuality> qualities(cells.n_cells(), {k_none, k_none, k_none, k_none});
+  for (std::size_t r = 0; r < k_kinds_in_file.size(); ++r) {
+    const CellKind kind = k_kinds_in_file[r];
+    parallel_chunks(context, sections.count(kind), k_chunk, [&](std::size_t begin, std::size_t end) {
+      std::uint64_t at = cells.run(r).first_cell + begin;
+      std::array<Vec3, 8> p;
+      sections.for_each(kind, begin, end, [&](std::span<const NodeId> nodes, int) {
+        for (std::size_t k = 0; k < nodes.size(); ++k) p[k] = mesh.points[nodes[k]];
+        qualities[at++] = cell_quality(kind, {p.data(), nodes.size()});
+      });
+    });
+  }
+  return qualities;
+}
 
-void write_volume_vtu(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+void add_quality_arrays(const std::vector<CellQuality>& qualities, VtuDocument& document) {
+  constexpr double k_degrees = 180.0 / std::numbers::pi;
+  const auto add = [&](std::string name, double CellQuality::*member, double unit) {
+    document.cell_data.push_back({.name = std::move(name), .type = VtuType::float64, .n_values = qualities.size(), .fill = [&qualities, member, unit](std::uint64_t begin, std::uint64_t end, char* out) {
+                                    for (std::uint64_t i = begin; i < end; ++i) out = put<double>(out, unit * (qualities[i].*member));
+                                  }});
+  };
+  add("scaled_jacobian", &CellQuality::scaled_jacobian, 1.0);
+  add("volume", &CellQuality::volume, 1.0);
+  add("min_dihedral", &CellQuality::min_dihedral, k_degrees);
+  add("max_dihedral", &CellQuality::max_dihedral, k_degrees);
+}
+
+
+void write_with(const HybridMesh& mesh, const std::vector<CellQuality>* qualities, const std::filesystem::path& path, const RunContext& context) {
   const FacesByPatch checked(mesh);  // refuses faces without patch
   constexpr std::uint64_t k_int32 = std::numeric_limits<std::int32_t>::max();
   const FileCells cells(mesh);
@@ -169,7 +205,17 @@ void write_volume_vtu(const HybridMesh& mesh, const std::filesystem::path& path,
   document.cell_data.push_back(per_cell<std::int32_t>("layer", VtuType::int32, cells, [](int layer, std::int32_t) { return layer; }));
   for (const PatchId patch : mesh.patches.ids())
     document.field_data.emplace_back(vtk_patch_key(mesh.patches[patch]), static_cast<std::int32_t>(patch.value()) + 1);
+  if (qualities) add_quality_arrays(*qualities, document);
   write_vtu(document, path, context);
+}
+
+}  // namespace
+
+void write_volume_vtu(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) { write_with(mesh, nullptr, path, context); }
+
+void write_quality_vtu(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  const std::vector<CellQuality> qualities = qualities_of(mesh, context);
+  write_with(mesh, &qualities, path, context);
 }
 
 }  // namespace sterna::io

@@ -24,7 +24,8 @@ static_assert(std::endian::native == std::endian::little, "arrays are written as
 std::size_t size_of(VtuType type) {
   switch (type) {
     case VtuType::uint8: return 1;
-    case VtuType::int32: return 4;
+    case VtuType::int32:
+    case VtuType::float32: return 4;
     case VtuType::int64:
     case VtuType::float64: return 8;
   }
@@ -36,6 +37,7 @@ std::string_view name_of(VtuType type) {
     case VtuType::uint8: return "UInt8";
     case VtuType::int32: return "Int32";
     case VtuType::int64: return "Int64";
+    case VtuType::float32: return "Float32";
     case VtuType::float64: return "Float64";
   }
   return "";
@@ -45,6 +47,7 @@ std::string_view name_of(VtuType type) {
 std::vector<const VtuArray*> arrays_of(const VtuDocument& document) {
   std::vector<const VtuArray*> arrays = {&document.points, &document.connectivity, &document.offsets};
   if (document.kind == VtuKind::unstructured_grid) arrays.push_back(&document.types);
+  for (const VtuArray& array : document.point_data) arrays.push_back(&array);
   for (const VtuArray& array : document.cell_data) arrays.push_back(&array);
   return arrays;
 }
@@ -81,7 +84,13 @@ std::string head(const VtuDocument& document, const std::vector<std::uint64_t>& 
   text += "<" + cells + ">\n" + array_tag(document.connectivity);
   text += array_tag(document.offsets);
   if (!is_surface) text += array_tag(document.types);
-  text += "</" + cells + ">\n<CellData>\n";
+  text += "</" + cells + ">\n";
+  if (!document.point_data.empty()) {
+    text += "<PointData>\n";
+    for (const VtuArray& array : document.point_data) text += array_tag(array);
+    text += "</PointData>\n";
+  }
+  text += "<CellData>\n";
   for (const VtuArray& array : document.cell_data) text += array_tag(array);
   text += "</CellData>\n</Piece>\n</" + kind + ">\n";
   return text;

@@ -12,7 +12,7 @@
 
 namespace sterna::io {
 
-enum class VtuType { uint8, int32, int64, float64 };
+enum class VtuType { uint8, int32, int64, float32, float64 };
 
 /// One DataArray. `fill` writes the values [begin, end) (counted over all components) to `out`; called from any thread.
 struct VtuArray {
@@ -38,6 +38,7 @@ struct VtuDocument {
   std::uint64_t n_cells = 0;
   VtuArray points;                                              ///< 3 components
   VtuArray connectivity, offsets, types;                        ///< VTK node order, end positions, VTK numbers (not of PolyData)
+  std::vector<VtuArray> point_data;
   std::vector<VtuArray> cell_data;
   std::vector<std::pair<std::string, std::int32_t>> field_data;  ///< single numbers by name
   VtuPacking packing = VtuPacking::zlib;

@@ -18,6 +18,7 @@
 #include "geom/cad/write_cad.h"
 #include "geom/mesh/half.h"
 #include "io/format_table.h"
+#include "scripting/cli_gates.h"
 #include "scripting/cli_options.h"
 #include "scripting/cli_scripts.h"
 #include "scripting/commands.h"
@@ -25,10 +26,12 @@
 #include "scripting/draw_command.h"
 #include "scripting/exit_status.h"
 #include "scripting/farfield_verbs.h"
+#include "scripting/inspect_command.h"
 #include "scripting/interrupt.h"
 #include "scripting/line_editor.h"
 #include "scripting/pentagrow_command.h"
 #include "scripting/prompt.h"
+#include "scripting/report/report_command.h"
 #include "scripting/script_manual.h"
 #include "scripting/verbs.h"
 
@@ -61,7 +64,7 @@ void add_common_options(CLI::App& app, CommonSettings& common) {
   app.add_flag("-q,--quiet", common.console.is_quiet, "no log and no progress, only results, warnings and errors");
   app.add_flag("-v,--verbose", common.console.is_verbose, "more log");
   app.add_option("--log", common.console.log_file, "write every log line with its time to this file")->type_name("FILE");
-  app.add_flag("--show-options", common.only_options, "print the options that mesh, surface, half, union, convert or draw would use, as JSON, and stop");
+  app.add_flag("--show-options", common.only_options, "print the options that mesh, surface, half, union, convert, draw or report would use, as JSON, and stop");
   app.add_option("--dump-dir", common.dump_directory, "where VTU pictures of failures go; default: beside the output")->type_name("FOLDER")->check(CLI::ExistingDirectory);
 }
 
@@ -87,6 +90,7 @@ void add_run_command(CLI::App& app, RunCommand& run, Request& request) {
   add_set_option(*command, run.overrides);
   command->add_option("--tasks", run.tasks, "cases of a series at a time, whatever the script says")->check(CLI::Range(1, k_max_tasks));
   command->add_option("--series-case", run.series_case, "")->group("");  // hidden: what series{} gives its workers
+  command->add_option("--look-in", run.input_folder, "")->group("");     // hidden: what `sterna determinism` gives its runs
   add_cache_options(*command, run.cache);
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(run, context); };
@@ -107,40 +111,6 @@ void add_script_commands(CLI::App& app, CheckScriptCommand& check, Request& requ
       return k_exit_success;
     };
   });
-}
-
-/// A bare number of an angle is in degrees here; what could be either is left as it is, and refused.
-std::string with_degrees(const std::string& name, const std::string& text) {
-  constexpr double k_surely_degrees = 1.6;  // largest curvature_angle in radians
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (name != "curvature_angle" || error != std::errc() || end != text.data() + text.size()) return text;
-  if (value > k_surely_degrees) return text + "deg";
-  throw Error({.code = ErrorCode::bad_argument, .attempted = "option curvature_angle", .problem = text + " may be degrees or radians", .hint = "write " + text + "deg or " + text + "rad"});
-}
-
-/// --patch "wing*:max_edge=0.1,curvature_angle=8": of two patterns that match the one with more letters counts.
-void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help) {
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--patch",
-          [&patches](const std::vector<std::string>& texts) {
-            for (const std::string& text : texts) {
-              const std::size_t equals = text.find('='), colon = text.rfind(':', equals);
-              if (equals == std::string::npos || colon == std::string::npos || colon == 0) throw CLI::ValidationError("--patch", "\"" + text + "\" is not NAMES:OPTION=VALUE,OPTION=VALUE");
-              auto& [names, options] = patches.emplace_back(text.substr(0, colon), OptionOverrides{});
-              std::istringstream list(text.substr(colon + 1));
-              for (std::string entry; std::getline(list, entry, ',');) {
-                const std::size_t at = entry.find('=');
-                if (at == std::string::npos || at == 0) throw CLI::ValidationError("--patch", "\"" + entry + "\" is not OPTION=VALUE");
-                options.emplace_back(entry.substr(0, at), entry.substr(at + 1));
-              }
-            }
-          },
-          help)
-      ->type_name("NAMES:OPTION=VALUE,...")
-      ->allow_extra_args(false)
-      ->take_all();
 }
 
 void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Request& request) {
@@ -235,8 +205,13 @@ void add_check_command(CLI::App& app, CheckCommand& check, Request& request) {
   CLI::App* command = app.add_subcommand("check", "prove that a volume mesh tiles its domain and measure its quality; exit status 0 only if it is VALID. Of a model (STEP ...): whether it is closed, and where not");
   command->add_option("mesh", check.input, "mesh file, or model file")->required();
   command->add_flag("--json", check.is_json, "print the report as JSON");
+  command->add_option("--model", check.models, "compare the walls of the mesh with the model that it was made of (gates G17, G18): STEP, IGES, BREP, sumo, CPACS; may be given several times")->type_name("FILE")->allow_extra_args(false)->take_all();
   command->add_option("--findings-per-kind", check.options.findings_per_kind, "places listed for each kind of violation")->check(CLI::PositiveNumber);
   command->add_flag("--strict", check.options.strict, "exit status 3 also when a QUALITY gate FAILs");
+  command->add_flag("--cell-centred,!--no-cell-centred", check.options.cell_centred, "measure what cell-centred solvers feel: OpenFOAM's non-orthogonality, skewness ... (default)");
+  command->add_option("--cells", check.cells, "write the mesh with the quality of each cell (scaled Jacobian, volume, dihedral angles as VTK has them) to this .vtu")->type_name("FILE");
+  command->add_option("--gate", check.gates, "limits of a QUALITY gate instead of the usual ones, e.g. --gate orthogonality:hard=3deg,target=15deg --gate face_weight:none; help \"mesh:check\" lists them; may be given several times")
+      ->type_name("MEASURE:LIMITS")->allow_extra_args(false)->take_all();
   command->add_flag("--intersections,!--no-intersections", check.options.intersections, "test boundaries exactly for intersection (default)");
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(check, context); };
@@ -273,6 +248,13 @@ void add_draw_command(CLI::App& app, DrawCommand& draw, Request& request) {
   add_draw_arguments(app, draw)->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(draw, context); };
     request.trouble = beside(draw.output);
+  });
+}
+
+void add_report_command(CLI::App& app, ReportCommand& report, Request& request) {
+  add_report_arguments(app, report)->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(report, context); };
+    request.trouble = beside(report.output);
   });
 }
 
@@ -368,9 +350,12 @@ int parse_and_execute(int argc, const char* const* argv) {
   CacheCommand cache;
   UnionCommand unite;
   CheckCommand check;
+  GateCommands gates;
   InfoCommand info;
+  InspectCommand inspect;
   ConvertCommand convert;
   DrawCommand draw;
+  ReportCommand report;
   PentagrowCommand pentagrow;
   OptionOverrides set;
   Request request;
@@ -383,9 +368,15 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_cache_command(app, cache, request);
   add_union_command(app, unite, request);
   add_check_command(app, check, request);
+  add_gate_commands(app, gates, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
   add_info_command(app, info, request);
+  add_inspect_arguments(*app.add_subcommand("inspect", std::string(k_inspect_summary)), inspect, [&] {
+    request.execute = [&](const CommandContext& context) { return execute(inspect, context); };
+    request.trouble = beside(std::filesystem::path(inspect.inputs.front()).filename());
+  });
   add_convert_command(app, convert, request);
   add_draw_command(app, draw, request);
+  add_report_command(app, report, request);
   add_pentagrow_command(app, pentagrow, request);
   app.add_subcommand("formats", "list the file formats")->final_callback([&] { request.execute = list_formats; });
   // Alone and at a terminal the program is a prompt.

@@ -2,6 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include "geom/base/error.h"
 
 namespace sterna::scripting {
 namespace {
@@ -51,6 +55,38 @@ void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverr
     added->allow_extra_args(false)->take_all();
     if (option.kind == OptionKind::boolean) added->expected(0, 1);
   }
+}
+
+std::string with_degrees(const std::string& name, const std::string& text) {
+  constexpr double k_surely_degrees = 1.6;  // largest curvature_angle in radians
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (name != "curvature_angle" || error != std::errc() || end != text.data() + text.size()) return text;
+  if (value > k_surely_degrees) return text + "deg";
+  throw Error({.code = ErrorCode::bad_argument, .attempted = "option curvature_angle", .problem = text + " may be degrees or radians", .hint = "write " + text + "deg or " + text + "rad"});
+}
+
+void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--patch",
+          [&patches](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              const std::size_t equals = text.find('='), colon = text.rfind(':', equals);
+              if (equals == std::string::npos || colon == std::string::npos || colon == 0) throw CLI::ValidationError("--patch", "\"" + text + "\" is not NAMES:OPTION=VALUE,OPTION=VALUE");
+              auto& [names, options] = patches.emplace_back(text.substr(0, colon), OptionOverrides{});
+              std::istringstream list(text.substr(colon + 1));
+              for (std::string entry; std::getline(list, entry, ',');) {
+                const std::size_t at = entry.find('=');
+                if (at == std::string::npos || at == 0) throw CLI::ValidationError("--patch", "\"" + entry + "\" is not OPTION=VALUE");
+                options.emplace_back(entry.substr(0, at), entry.substr(at + 1));
+              }
+            }
+          },
+          help)
+      ->type_name("NAMES:OPTION=VALUE,...")
+      ->allow_extra_args(false)
+      ->take_all();
 }
 
 }  // namespace sterna::scripting

@@ -17,12 +17,15 @@
 #include "io/format_table.h"
 #include "io/surface_file.h"
 #include "io/trouble_vtu.h"
+#include "io/volume_vtu.h"
 #include "scripting/disc_verbs.h"
 #include "scripting/exit_status.h"
 #include "scripting/farfield_verbs.h"
 #include "scripting/flow_verbs.h"
+#include "scripting/gate_limits.h"
 #include "scripting/half_verbs.h"
 #include "scripting/layer_options.h"
+#include "scripting/model_gates.h"
 #include "scripting/model_surface.h"
 #include "scripting/models.h"
 #include "scripting/patch_rules.h"
@@ -300,14 +303,15 @@ std::vector<std::string> worker_words(const RunCommand& command, const RunContex
   for (const auto& [name, value] : command.overrides) words.push_back("--set=" + name + "=" + value);
   words.push_back("--seed=" + std::to_string(run.seed()));
   for (const auto& [name, value] : command.arguments) words.push_back(name + "=" + value);
+  if (!command.input_folder.empty()) words.push_back("--look-in=" + command.input_folder.string());
   return words;
 }
 
 int execute(const RunCommand& command, const CommandContext& context) {
   const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
   SeriesSettings series{.program = std::filesystem::read_symlink("/proc/self/exe"), .words = worker_words(command, context.run), .worker = {}, .stops_itself = context.stops_itself, .tasks = command.tasks};
+  if (!command.series_case.empty() || !command.input_folder.empty()) become_worker();
   if (!command.series_case.empty()) {
-    become_worker();
     series.worker = case_of_text(command.series_case);
   }
   const ScriptOutcome outcome = run_script({.script = command.script,
@@ -316,7 +320,8 @@ int execute(const RunCommand& command, const CommandContext& context) {
                                             .on_mesh = [&](const MeshValue& mesh) { context.run.info(summary_text(mesh)); },
                                             .cache = cache.get(),
                                             .series = series,
-                                            .arguments = command.arguments},
+                                            .arguments = command.arguments,
+                                            .input_folder = command.input_folder},
                                            context.run);
   if (outcome.n_failed_cases > 0) return k_exit_failed;
   return outcome.n_invalid_cases > 0 ? k_exit_invalid : k_exit_success;
@@ -411,10 +416,23 @@ namespace {
 int execute(const CheckCommand& command, const CommandContext& context) {
   if (is_model_file(command.input)) return check_model(command, context);
   if (const io::Format& format = io::format_of(command.input); !format.read_volume) refuse_to_check_surface(command.input, std::string(format.name) + " holds surfaces only");
+  for (const std::string& model : command.models)
+    if (!is_model_file(model)) throw Error({.code = ErrorCode::bad_argument, .attempted = "--model " + model, .problem = "it is no model", .hint = "give the file of STEP, IGES, BREP, sumo or CPACS that the mesh was made of"});
+  GateTable limits;
+  for (const std::string& text : command.gates) set_gate_limits(text, limits);
   const MeshValue mesh = read_mesh({command.input, command.input}, context.run.part("read", 0.0, 0.3));
   if (count_cells(mesh.mesh).total() == 0 && !mesh.mesh.boundary_triangles.empty())
     refuse_to_check_surface(command.input, "it holds a surface of " + count_text(static_cast<std::int64_t>(mesh.mesh.boundary_triangles.size())) + " triangles and no cells");
-  const CheckReport report = check(mesh.mesh, command.options.to_options(), context.run.part("check", 0.3, 1.0));
+  const double checked = command.models.empty() ? 1.0 : 0.5;
+  CheckReport report = check(mesh.mesh, command.options.to_options(limits), context.run.part("check", 0.3, checked));
+  if (!command.models.empty() && report.quality_measured) {
+    std::vector<InputPath> models;
+    for (const std::string& model : command.models) models.push_back({model, model});
+    const SurfaceValue wall = mesh_model_files(models, {}, {}, context.run.part("surface", checked, 0.8));
+    measure_on_model(mesh.mesh, wall, limits, report, context.run.part("model", 0.8, 1.0));
+  }
+  context.console.end_progress();
+  if (!command.cells.empty()) io::write_quality_vtu(mesh.mesh, command.cells, context.run);
   context.console.print(command.is_json ? to_json(report) : to_text(report));
   return command.options.accepts(report) ? k_exit_success : k_exit_invalid;
 }

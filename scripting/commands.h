@@ -40,6 +40,7 @@ struct RunCommand {
   int tasks = 0;              ///< --tasks: cases of a series at a time; 0 = as the script says
   std::string series_case;    ///< --series-case NAME/INDEX: this process is a worker
   OptionOverrides arguments;  ///< NAME=VALUE
+  std::filesystem::path input_folder;  ///< --look-in: this process was started in a folder of its own by another one, and ends with it
 };
 
 struct MeshCommand {
@@ -86,7 +87,10 @@ struct UnionCommand {
 struct CheckCommand {
   std::string input;
   bool is_json = false;
+  std::vector<std::string> models;  ///< --model: the walls are compared with them (G17, G18)
   CheckSettings options;
+  std::vector<std::string> gates;  ///< set_gate_limits
+  std::filesystem::path cells;     ///< VTU of the quality of cells; empty: none
 };
 
 struct InfoCommand {

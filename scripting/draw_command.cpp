@@ -86,7 +86,7 @@ void write_picture(const TriMesh& surface, const DrawOptions& options, std::stri
   if (options.places)
     throw Error(
         {.code = ErrorCode::bad_argument, .attempted = "draw: option places", .problem = "the worst places are those of a volume mesh; this is a surface"});
-  write_bytes(draw_png(surface, options, name, context.part("draw", k_check_end, 1.0)), options, path, context);
+  write_bytes(draw_png(surface, options, name, {}, context.part("draw", k_check_end, 1.0)), options, path, context);
 }
 
 int execute(const DrawCommand& command, const CommandContext& context) {

@@ -29,20 +29,6 @@ std::string list_text(std::span<const double> numbers) {
 
 std::string point_text(const Vec3& p) { return list_text(std::array{p.x, p.y, p.z}); }
 
-/// { point = {0, 0, 0}, normal = {0, 1, 0} } or { x = 1.2 }
-std::optional<std::string> cut_text(const ScriptTable& table) {
-  const auto at = [&](const char* name) { return table.fields.find(name); };
-  if (!table.items.empty() || table.fields.empty()) return std::nullopt;
-  if (table.fields.size() == 1)
-    for (const char* axis : {"x", "y", "z"})
-      if (at(axis) != table.fields.end())
-        if (const auto number = number_of(at(axis)->second)) return std::string(axis) + "=" + exact_text(*number);
-  const auto normal = at("normal") == table.fields.end() ? std::nullopt : point_of(at("normal")->second);
-  const auto point = at("point") == table.fields.end() ? std::nullopt : point_of(at("point")->second);
-  if (!normal || !point || table.fields.size() != 2) return std::nullopt;
-  return "point=" + point_text(*point) + " normal=" + point_text(*normal);
-}
-
 /// { {1, 2, 0}, radius = 0.5 }
 std::optional<std::string> focus_text(const ScriptTable& table) {
   const auto found = table.fields.find("radius");
@@ -140,6 +126,19 @@ constexpr std::array<ScriptVerb, 1> k_verbs = {
       draw_object, draw_help, true}}};
 
 }  // namespace
+
+std::optional<std::string> cut_text(const ScriptTable& table) {
+  const auto at = [&](const char* name) { return table.fields.find(name); };
+  if (!table.items.empty() || table.fields.empty()) return std::nullopt;
+  if (table.fields.size() == 1)
+    for (const char* axis : {"x", "y", "z"})
+      if (at(axis) != table.fields.end())
+        if (const auto number = number_of(at(axis)->second)) return std::string(axis) + "=" + exact_text(*number);
+  const auto normal = at("normal") == table.fields.end() ? std::nullopt : point_of(at("normal")->second);
+  const auto point = at("point") == table.fields.end() ? std::nullopt : point_of(at("point")->second);
+  if (!normal || !point || table.fields.size() != 2) return std::nullopt;
+  return "point=" + point_text(*point) + " normal=" + point_text(*normal);
+}
 
 std::span<const ScriptVerb> draw_verbs() { return k_verbs; }
 

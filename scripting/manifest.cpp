@@ -34,7 +34,14 @@ Json quality_json(const CheckReport& report) {
     }
     measures[std::string(info.name)] = std::move(entry);
   }
-  return {{"verdict", to_string(report.quality_state())}, {"measures", std::move(measures)}};
+  Json json = {{"verdict", to_string(report.quality_state())}};
+  for (const auto& [key, state] : {std::pair("failed", GateState::fail), std::pair("warned", GateState::warn)}) {
+    json[key] = Json::array();
+    for (const GateResult& gate : report.gates)
+      if (gate.state == state) json[key].push_back(info_of(gate.measure).name);
+  }
+  json["measures"] = std::move(measures);
+  return json;
 }
 
 /// Sides of the mesh that match, and how well where that was checked.

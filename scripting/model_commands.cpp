@@ -37,6 +37,8 @@ int print_model_info(const InfoCommand& command, const CommandContext& context) 
 }
 
 int check_model(const CheckCommand& command, const CommandContext& context) {
+  if (!command.models.empty())
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "check", .problem = "--model is for volume meshes; " + command.input + " is a model itself", .hint = "sterna check mesh.su2 --model " + command.input});
   if (command.is_json) throw Error({.code = ErrorCode::bad_argument, .attempted = "check", .problem = "--json is for volume meshes; " + command.input + " is a model"});
   const ModelValue value = read_model(input_of(command.input), {}, context.run.part("read", 0.0, 1.0));
   context.console.end_progress();

@@ -36,12 +36,6 @@ Json to_json(const OptionValue& value) {
   return std::visit([](const auto& v) { return Json(v); }, value);
 }
 
-bool is_default(const Option& option) {
-  const OptionValue value = option.get();
-  if (const double* number = std::get_if<double>(&value); number && is_automatic(*number)) return is_automatic(std::get<double>(option.default_value));
-  return value == option.default_value;
-}
-
 void set_from_json(const Option& option, const Json& value) {
   if (value.is_boolean()) set_option(option, value.get<bool>());
   else if (value.is_number_integer()) set_option(option, value.get<std::int64_t>());
@@ -60,6 +54,12 @@ void read_patch_rules(TableReader& reader, std::string_view example, const AddRu
     return;
   }
   for (const auto& [names, entry] : (*table)->fields) read_rule(names, entry, example, reader, add);
+}
+
+bool is_default(const Option& option) {
+  const OptionValue value = option.get();
+  if (const double* number = std::get_if<double>(&value); number && is_automatic(*number)) return is_automatic(std::get<double>(option.default_value));
+  return value == option.default_value;
 }
 
 OptionTable patch_rule_options(volmesh::PatchRule& rule) {

@@ -20,6 +20,8 @@ using AddRule = std::function<OptionTable(const std::string& names)>;
 /// patches = { ["wing*"] = { max_edge = 0.1 } }: one rule for each entry, in no particular order. Notes problems. `example` is what an entry may say.
 void read_patch_rules(TableReader& reader, std::string_view example, const AddRule& add);
 
+/// Whether an option has the value that it has unless it is set.
+bool is_default(const Option& option);
 /// What one entry of patches = { ["tunnel*"] = { layers = 20 } } of volume_mesh takes. `rule` must outlive the table.
 OptionTable patch_rule_options(volmesh::PatchRule& rule);
 /// What one entry of `patches` of surface_mesh takes: sizes of triangles, and what volume_mesh is to put on them. The arguments must outlive the table.

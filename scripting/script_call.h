@@ -37,6 +37,7 @@ struct ScriptSession {
   OptionOverrides arguments = {};                  ///< NAME=VALUE of the command line, for args
   ScriptCheck* check = nullptr;                    ///< not null: nothing is meshed or written, see script_check.h
 
+  std::filesystem::path input_folder = {};         ///< see ScriptSettings
   std::filesystem::path output_folder = {};        ///< relative output names go there; empty = current folder
   SeriesSession series = {};
 

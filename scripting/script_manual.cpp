@@ -41,6 +41,7 @@ mesh = prisms{ env, tets }
 model:write("model.step", "model.igs"); sting_model:write "sting.step"; body:model():write "widebody.smx"
 wall:write("wing.stl", "body.stl"); surface_mesh{ sting_model, max_edge = 0.5 }:write "sting.stl"
 mesh:write "mesh.su2"; env:write "case.sterna"
+finer = volume_mesh{ surface_mesh{ model, max_edge = 0.3 }, layers = 5, first_height = 0.006, farfield = sphere{ radius = 6 } }
 )";
 
 /// Cells of a table in Markdown must not hold bars.

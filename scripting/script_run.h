@@ -23,6 +23,7 @@ struct ScriptSettings {
   SeriesSettings series = {};                     ///< empty: series{} is refused
   OptionOverrides arguments = {};                 ///< NAME=VALUE of the command line: what the script sees as args
   ScriptCheck* check = nullptr;                   ///< see check_script
+  std::filesystem::path input_folder = {};        ///< where input files are looked for that are not in the current folder, before that of the script; empty: nowhere else
 };
 
 /// What a script that came to its end has to say to the shell.

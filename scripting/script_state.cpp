@@ -202,6 +202,7 @@ ScriptState::ScriptState(const ScriptSettings& settings, const RunContext& conte
                                                          .code = ErrorCode::cancelled, .attempted = settings.script.string(), .problem = "stopped on request", .places = {}, .hint = {}, .geometry = {}}),
                                                      .arguments = settings.arguments,
                                                      .check = settings.check,
+                                                     .input_folder = settings.input_folder,
                                                      .series = {.settings = settings.series, .script_text = {}},
                                                      .value = {}},
                                          .memory = {.used = 0, .limit = settings.memory_limit},

@@ -6,21 +6,27 @@
 
 #include "geom/base/error.h"
 #include "geom/cad/unite.h"
+#include "io/volume_vtu.h"
 #include "scripting/check_options.h"
 #include "scripting/component_verbs.h"
 #include "scripting/disc_verbs.h"
 #include "scripting/envelope_steps.h"
+#include "scripting/family_gate.h"
 #include "scripting/farfield_verbs.h"
 #include "scripting/flow_verbs.h"
+#include "scripting/gate_limits.h"
 #include "scripting/geometry_verbs.h"
 #include "scripting/draw_verbs.h"
 #include "scripting/half_verbs.h"
+#include "scripting/inspect_verbs.h"
 #include "scripting/layer_options.h"
+#include "scripting/model_gates.h"
 #include "scripting/model_methods.h"
 #include "scripting/models.h"
 #include "scripting/patch_rules.h"
 #include "scripting/periodic_sides.h"
 #include "scripting/quantity.h"
+#include "scripting/report/report_verbs.h"
 #include "scripting/script_args.h"
 #include "scripting/script_check.h"
 #include "scripting/script_help.h"
@@ -178,20 +184,38 @@ ScriptValue write_mesh_files(const ScriptCall& call) {
 
 std::string check_help() {
   CheckSettings options;
-  return options_help(sterna::options_of(options));
+  return options_help(sterna::options_of(options)) + gate_limits_help() + "cells = \"cells.vtu\": writes the mesh with the quality of each cell, as VTK has it\n" + "wall = wall: the surface of surface_mesh that the mesh was made of; its nodes and facets are compared with the model (gates G17, G18)\n";
 }
 
 ScriptValue check_mesh(const ScriptCall& call) {
   const MeshHandle& mesh = self<MeshHandle>(call);
-  const ScriptTable table = table_argument(call, 1, "mesh:check{ findings_per_kind = 20 }");
+  const ScriptTable table = table_argument(call, 1, "mesh:check{ strict = true, gates = { orthogonality = { hard = 3*deg } } }");
   CheckSettings options;
   TableReader reader(table, call.attempted());
-  reader.read_options(sterna::options_of(options));
+  const std::size_t n_options = reader.read_options(sterna::options_of(options));
+  GateTable limits;
+  const bool has_limits = read_gate_limits(reader, limits);
+  std::filesystem::path cells;
+  if (const ScriptValue* value = reader.field("cells")) {
+    if (const auto* name = std::get_if<std::string>(value)) cells = output_path(call, *name);
+    else reader.add_problem("cells: expected the name of a .vtu file, not " + std::string(type_text(*value)));
+  }
+  SurfaceHandle wall;
+  if (const ScriptValue* value = reader.field("wall")) {
+    if (const auto* surface = std::get_if<SurfaceHandle>(value)) wall = *surface;
+    else reader.add_problem("wall: expected the surface of surface_mesh, not " + std::string(type_text(*value)));
+    if (!options.to_options().quality) reader.add_problem("wall: the gates G17 and G18 belong to quality, which is false");
+  }
   reader.finish();
+  if (wall) require_model_wall(*wall, call.attempted());
   // A mesh made here was checked with the default options when it was made, and cannot have changed.
-  const bool is_known = mesh->check && table.fields.empty();
-  const CheckReport report = is_known ? *mesh->check : check(mesh->mesh, options.to_options(), call.session.context.part("check", 0.0, 1.0));
+  const bool is_known = mesh->check && n_options == 0 && !has_limits;
+  const RunContext context = call.session.context.part("check", 0.0, 1.0);
+  CheckReport report = is_known ? *mesh->check : check(mesh->mesh, options.to_options(limits), context.part("mesh", 0.0, wall ? 0.5 : 1.0));
+  if (wall && report.quality_measured) measure_on_model(mesh->mesh, *wall, limits, report, context.part("model", 0.5, 1.0));
+  if (!cells.empty()) io::write_quality_vtu(mesh->mesh, cells, call.session.context);
   call.session.print(to_text(report));
+  if (report.quality_measured && report.intersections_checked) mesh->check = report;
   if (options.accepts(report)) return mesh;
   ErrorInfo info{.code = ErrorCode::mesh_invalid, .attempted = call.attempted(), .problem = report.is_valid() ? "the mesh is VALID, but " + quality_text(report) : "the mesh is INVALID"};
   for (const GateResult& gate : report.gates) {
@@ -303,7 +327,7 @@ constexpr std::array<ScriptVerb, 6> k_verbs = {{
 }};
 constexpr ScriptVerb k_write_surface = {"surface:write", "wall:write \"wall.vtu\"", "Writes a surface.", write_surface_files, nullptr, true, "self"};
 constexpr std::array<ScriptVerb, 3> k_mesh_methods = {{
-    {"mesh:check", "mesh:check()", "Proves that the mesh tiles its domain and prints the verdict; an INVALID mesh is an error that names the places.", check_mesh, check_help, true, "self"},
+    {"mesh:check", "mesh:check()  or  mesh:check{ wall = wall }", "Proves that the mesh tiles its domain and prints the verdict; an INVALID mesh is an error that names the places.", check_mesh, check_help, true, "self"},
     {"mesh:write", "mesh:write(\"mesh.su2\", \"mesh.vtu\")", "Writes the mesh, each file with a manifest <file>.json beside it.", write_mesh_files, nullptr, true, "self"},
     {"mesh:su2_config", k_su2_config_usage, "Writes a configuration of SU2 for the mesh: markers, flow, reference values and settings to start from.", write_su2_config, su2_config_help, true, "self"},
 }};
@@ -320,14 +344,17 @@ std::span<const ScriptVerb> script_verbs() {
   static const std::vector<ScriptVerb> all = [] {
     std::vector<ScriptVerb> verbs(k_verbs.begin(), k_verbs.end());
     verbs.insert(verbs.end(), surface_verbs().begin(), surface_verbs().end());
+    verbs.insert(verbs.end(), inspect_verbs().begin(), inspect_verbs().end());
     verbs.insert(verbs.end(), stage_verbs().begin(), stage_verbs().end());
     verbs.insert(verbs.end(), source_verbs().begin(), source_verbs().end());
     verbs.insert(verbs.end(), disc_verbs().begin(), disc_verbs().end());
     verbs.insert(verbs.end(), geometry_verbs().begin(), geometry_verbs().end());
     verbs.insert(verbs.end(), component_verbs().begin(), component_verbs().end());
     verbs.insert(verbs.end(), draw_verbs().begin(), draw_verbs().end());
+    verbs.insert(verbs.end(), report_verbs().begin(), report_verbs().end());
     verbs.insert(verbs.end(), half_verbs().begin(), half_verbs().end());
     verbs.insert(verbs.end(), family_verbs().begin(), family_verbs().end());
+    verbs.insert(verbs.end(), family_gate_verbs().begin(), family_gate_verbs().end());
     verbs.insert(verbs.end(), flow_verbs().begin(), flow_verbs().end());
     verbs.insert(verbs.end(), tunnel_verbs().begin(), tunnel_verbs().end());
     verbs.insert(verbs.end(), series_verbs().begin(), series_verbs().end());
@@ -339,7 +366,7 @@ std::span<const ScriptVerb> script_verbs() {
 }
 std::span<const ScriptVerb> surface_methods() {
   static const std::vector<ScriptVerb> all = [] {
-    std::vector<ScriptVerb> verbs = {k_write_surface};
+    std::vector<ScriptVerb> verbs = {k_write_surface, k_check_surface};
     verbs.insert(verbs.end(), surface_motions().begin(), surface_motions().end());
     return verbs;
   }();

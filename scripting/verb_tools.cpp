@@ -22,12 +22,13 @@ ScriptTable table_argument(const ScriptCall& call, std::size_t index, std::strin
 InputPath find_input(const ScriptCall& call, const std::string& name) {
   const std::filesystem::path path = name;
   if (const std::filesystem::path own = (call.session.output_folder / path).lexically_normal(); call.session.series.written.contains(own)) return {name, own};
-  const std::filesystem::path beside_script = call.session.script.parent_path() / path;
   std::error_code ignored;  // a name that cannot even be looked up is reported by the reader, with its reason
-  if (path.is_relative() && !std::filesystem::exists(path, ignored) && std::filesystem::exists(beside_script, ignored)) {
-    note_input(call.session.series, beside_script);
-    return {name, beside_script};
-  }
+  if (path.is_relative() && !std::filesystem::exists(path, ignored))
+    for (const std::filesystem::path& folder : {call.session.input_folder, call.session.script.parent_path()})
+      if (!folder.empty() && std::filesystem::exists(folder / path, ignored)) {
+        note_input(call.session.series, folder / path);
+        return {name, folder / path};
+      }
   note_input(call.session.series, path);
   check_input(call, {name, path});
   return {name, path};

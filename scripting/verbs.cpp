@@ -19,6 +19,7 @@
 #include "scripting/quantity.h"
 #include "scripting/summary.h"
 #include "scripting/surface_manifest.h"
+#include "scripting/wall_files.h"
 
 namespace sterna::scripting {
 namespace {
@@ -39,34 +40,41 @@ void require_output(const std::filesystem::path& path, io::FormatUse use) {
 
 }  // namespace
 
-SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context) {
-  SurfaceValue wall;
+WallFiles read_wall_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context) {
+  WallFiles result;
+  SurfaceValue& wall = result.wall;
   wall.options = options;
-  std::vector<SurfaceSoup> soups;
-  std::map<std::string, PatchKind> kinds;
-  {
-    const StageTimer timer(context, "read");
-    const RunContext part = context.part("read", 0.0, k_read_end);
-    for (const InputPath& file : files) {
-      soups.push_back(io::read_surface_file(file.path, part));
-      wall.inputs.push_back({file.name, io::hash_input(file.path)});
-      const auto known = read_surface_manifest(file, wall.inputs.back().hash, part);
-      if (!known || wall.inputs.size() == 1) wall.smooth_angle = known ? std::optional(known->smooth_angle) : std::nullopt;
-      else if (wall.smooth_angle) wall.smooth_angle = std::max(*wall.smooth_angle, known->smooth_angle);
-      if (known) {
-        if (known->encloses_fluid && options.fluid == "automatic") wall.options.fluid = "inside";
-        kinds.insert(known->kinds.begin(), known->kinds.end());
-        wall.layers.insert(wall.layers.end(), known->layers.begin(), known->layers.end());
-      }
-      part.progress(static_cast<double>(soups.size()) / static_cast<double>(files.size()));
+  const StageTimer timer(context, "read");
+  for (const InputPath& file : files) {
+    result.soups.push_back(io::read_surface_file(file.path, context));
+    wall.inputs.push_back({file.name, io::hash_input(file.path)});
+    const auto known = read_surface_manifest(file, wall.inputs.back().hash, context);
+    if (!known || wall.inputs.size() == 1) wall.smooth_angle = known ? std::optional(known->smooth_angle) : std::nullopt;
+    else if (wall.smooth_angle) wall.smooth_angle = std::max(*wall.smooth_angle, known->smooth_angle);
+    if (known) {
+      if (known->encloses_fluid && options.fluid == "automatic") wall.options.fluid = "inside";
+      result.kinds.insert(known->kinds.begin(), known->kinds.end());
+      wall.layers.insert(wall.layers.end(), known->layers.begin(), known->layers.end());
     }
+    context.progress(static_cast<double>(result.soups.size()) / static_cast<double>(files.size()));
   }
+  return result;
+}
+
+SurfaceValue join_wall(const WallFiles& files, const RunContext& context) {
   const StageTimer timer(context, "stitch");
-  surfmesh::StitchResult stitched = surfmesh::stitch_surface(soups, wall.options, context.part("stitch", k_read_end, 1.0));
+  SurfaceValue wall = files.wall;
+  surfmesh::StitchResult stitched = surfmesh::stitch_surface(files.soups, wall.options, context);
   wall.mesh = std::move(stitched.mesh);
   wall.report = std::move(stitched.report);
   for (Patch& patch : wall.mesh.patches)
-    if (const auto kind = kinds.find(patch.name); kind != kinds.end()) patch.kind = kind->second;
+    if (const auto kind = files.kinds.find(patch.name); kind != files.kinds.end()) patch.kind = kind->second;
+  return wall;
+}
+
+SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context) {
+  const WallFiles read = read_wall_files(files, options, context.part("read", 0.0, k_read_end));
+  SurfaceValue wall = join_wall(read, context.part("stitch", k_read_end, 1.0));
   // The unit is never silent: a factor of 1000 looks fine until the solver runs.
   context.info(describe(wall) + fmt::format(" (1 unit of the file = {:g} m)", options.unit));
   return wall;

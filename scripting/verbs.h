@@ -75,7 +75,7 @@ struct MeshValue {
   HybridMesh mesh;
   std::vector<InputFile> inputs;
   std::optional<MeshOrigin> origin;
-  std::optional<CheckReport> check;  ///< of the default options; always there for a mesh made here
+  mutable std::optional<CheckReport> check;  ///< of the default options, always there for a mesh made here; then of the last whole check that was asked for, so that manifests and reports say what that found
 };
 
 using SurfaceHandle = std::shared_ptr<const SurfaceValue>;

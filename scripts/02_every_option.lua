@@ -19,6 +19,24 @@ wall = union{ wall,
   keep_cavities = false,            -- hollows that the parts enclose
 }
 
+-- Before anything is meshed: what volume_mesh will refuse, where layers get low. Takes what volume_mesh takes, too.
+local pre = inspect{ wall, layers = 30, first_height = 1e-6 * wall.length,
+  min_angle = 1*deg,                -- from here on something is told: needles
+  fold_angle = 1*deg,               -- neighbours folded onto each other
+  coarse_angle = 30*deg,            -- bends of smooth surfaces
+  size_jump = 5,                    -- of neighbours
+  short_edge = 1e-7,                -- over the body length
+  contact = 0.01,                   -- distance to another wall, in edges
+  visibility_angle = 80*deg,        -- between the best direction and a facet
+  lowered_area = 0.05,              -- share of the wall
+  top_ratio = 3,                    -- last layer over the tetrahedra above it
+  wanted_y_plus = 1,                -- with flow = flow{ ... }
+  least_length = 1e-3,              -- of the body, else the unit is doubted
+  largest_length = 1000,
+  max_places = 5,                   -- listed of each finding
+}
+print(pre.ok, pre.coverage)
+
 local mesh = volume_mesh{ wall,
   -- What the layers are asked to be; options can stand here or in the table of their stage, below.
   layers = 30,
@@ -108,6 +126,7 @@ local mesh = volume_mesh{ wall,
 }
 
 mesh:check{ intersections = true, quality = true, findings_per_kind = 10, strict = false }
+-- mesh:check{ wall = wall } compares the walls with the model, where wall is of surface_mesh: below.
 mesh:write "every_option.vtu"
 print(string.format("%d prisms, %d tetrahedra, %.1f %% of the area has its full height", mesh.prisms, mesh.tetrahedra, 100 * mesh.coverage))
 
@@ -136,6 +155,30 @@ local water = flow{ speed = 5, density = 1000, viscosity = 1e-3, length = 2 }
 print(cruise, tunnel_flow, water, y_plus{ y_plus = 1, reynolds = 5e6, length = 7 })
 print(y_plus{ 1, cruise, at = "cell_centre", law = "schlichting" }, boundary_layer{ cruise, factor = 1.3, thickness_law = "fifth_root" })
 for _, member in ipairs(family{ levels = 3, factor = 1.5, medium = 2 }) do print(member.name, member.refinement) end
+
+-- Two members of a family, compared with their model and with each other.
+local can = cylinder{ {0, 0, 0}, {2, 0, 0}, radius = 0.5, name = "can" }
+local members = {}
+for level, member in ipairs(family{ levels = 2, medium = 1 }) do
+  local skin = surface_mesh{ can, max_edge = 0.3, refinement = member.refinement }
+  skin:check{ strict = true }         -- G17, G18: a gate that FAILs is an error
+  members[level] = volume_mesh{ skin, layers = 8, first_height = 5e-3, refinement = member.refinement, farfield = sphere{ radius = 10 } }
+  members[level]:check{ wall = skin }
+end
+check_family{ members[1], members[2],  -- from coarse to fine
+  factor = 1.5,                       -- automatic: of the refinements asked for, else of the wall's edges
+  nodes = 0.1,                        -- shares by which each may be off
+  wall_edge = 0.05,
+  first_height = 0.02,
+  measured_first = 0.05,
+  layers = 1,                         -- half a layer in each of the two
+  growth = 0.02,
+  measured_growth = 0.1,
+  tet_growth = 0.02,
+  box = 0.01,
+  fail = 3,                           -- times the tolerance: up to there a rule warns
+  strict = false,
+}
 
 mesh:su2_config{ "every_option.cfg", cruise,
   mesh = "every_option.su2",

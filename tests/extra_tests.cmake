@@ -34,6 +34,13 @@ add_test(NAME accept_mesh COMMAND ${STERNA_SYSTEM_PYTHON} ${CMAKE_CURRENT_SOURCE
          ${CMAKE_CURRENT_SOURCE_DIR}/data/scripts/box.stl)
 set_tests_properties(accept_mesh PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 300)
 
+# A browser without network uses every control of report pages.
+add_test(NAME report_page_browser COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/run_browser_test ${CMAKE_BINARY_DIR} fixtures)
+set_tests_properties(report_page_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200)
+
+add_test(NAME report_real_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/browse_real_pages ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}/../shared/data)
+set_tests_properties(report_real_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 DEPENDS "script_01_first_mesh;script_07_aircraft_to_mesh;script_08_wind_tunnel;script_09_half_model;report_page_browser")
+
 # The program itself is run by the tests of scripting/, and every script of scripts/ by a test of its own, in a folder of its own.
 add_dependencies(test_scripting sterna)
 add_dependencies(test_scripting_manual sterna)

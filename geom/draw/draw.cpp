@@ -113,7 +113,7 @@ std::string draw_png(const HybridMesh& mesh, const DrawOptions& options, std::st
   return draw_mesh(mesh, false, options, name, marks, context);
 }
 
-std::string draw_png(const TriMesh& surface, const DrawOptions& options, std::string_view name, const RunContext& context) {
+std::string draw_png(const TriMesh& surface, const DrawOptions& options, std::string_view name, std::span<const DrawMark> marks, const RunContext& context) {
   HybridMesh mesh;  // boundary faces point out of the fluid, triangles of surfaces into it
   mesh.points = Column<NodeId, Point>(surface.points.raw());
   mesh.patches = surface.patches;
@@ -122,7 +122,7 @@ std::string draw_png(const TriMesh& surface, const DrawOptions& options, std::st
     const TriangleVertices& v = surface.triangles[t];
     mesh.boundary_triangles.push_back({{NodeId(v[0].value()), NodeId(v[2].value()), NodeId(v[1].value())}, surface.triangle_patch[t]});
   }
-  return draw_mesh(mesh, true, options, name, {}, context);
+  return draw_mesh(mesh, true, options, name, marks, context);
 }
 
 }  // namespace sterna

@@ -26,7 +26,7 @@ std::vector<DrawMark> marks_of(const CheckReport& report);
 /// \throws Error(bad_argument, unknown_option) for a view, colour, cut, focus or patch that is not there, with those that are
 std::string draw_png(const HybridMesh& mesh, const DrawOptions& options, std::string_view name, std::span<const DrawMark> marks, const RunContext& context);
 /// Of a surface; it has no cells to cut.
-std::string draw_png(const TriMesh& surface, const DrawOptions& options, std::string_view name, const RunContext& context);
+std::string draw_png(const TriMesh& surface, const DrawOptions& options, std::string_view name, std::span<const DrawMark> marks, const RunContext& context);
 
 /// \throws the same errors of the texts that can be judged without a mesh; before the work
 void require_draw_options(const DrawOptions& options);

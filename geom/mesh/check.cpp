@@ -2,11 +2,25 @@
 // between two boundaries; the boundary does not cross itself, and its fluid side is covered once.
 #include "geom/mesh/check.h"
 
+#include "geom/mesh/cell_centred.h"
 #include "geom/mesh/check_parts.h"
 
 namespace sterna {
 
 using namespace check_parts;
+
+namespace {
+
+/// \pre quality is measured
+void judge_cell_centres(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, std::span<const std::uint32_t> neighbours, const CheckOptions& options,
+                        const RunContext& context, CheckReport& report) {
+  if (!report.dual_checked) return;  // the mesh does not conform: said already
+  if (options.cell_centred) return judge_cell_centred(scan_cell_centred(mesh, cells, slots, match, neighbours, options.limits, context), mesh, cells, slots, report);
+  for (GateResult& gate : report.gates)
+    if (info_of(gate.measure).gate == "OF") gate.reason = "cell_centred = false";
+}
+
+}  // namespace
 
 CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context, const LayerCheck* ahead) {
   const LayerCheck::Parts* const known = ahead ? ahead->parts() : nullptr;
@@ -21,10 +35,12 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
   if (report.is_complete) {
     report.cells = count_cells(mesh);
     if (report.cells.total() == 0) findings.add(Violation::no_cells, [&] { return std::pair(Point{}, std::string("the mesh has no cells")); });
-    const FaceSlots slots(mesh, cells, find_open_sides(mesh.layers, context));
+    const bool with_cell_centres = options.quality && options.cell_centred;
+    std::vector<std::uint32_t> neighbours;
+    const FaceSlots slots(mesh, cells, find_open_sides(mesh.layers, context, with_cell_centres ? &neighbours : nullptr));
     const std::vector<double> volumes = options.quality ? tet_volumes(mesh, context) : std::vector<double>{};
     const FaceMatch match =
-        match_faces(slots, mesh.points.size(), static_cast<std::uint64_t>(std::max<std::int64_t>(options.faces_at_a_time, 1)), volumes, options.limits, context);
+        match_faces(slots, mesh.points.size(), static_cast<std::uint64_t>(std::max<std::int64_t>(options.faces_at_a_time, 1)), volumes, with_cell_centres, options.limits, context);
     report_faces(mesh, slots, match, findings);
     context.progress(0.3);
 
@@ -50,6 +66,7 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
     if (options.quality) {
       report.quality = scan.quality.result();
       judge_gates(mesh, cells, slots, match, scan, dual ? &*dual : nullptr, options.limits, context, report);
+      judge_cell_centres(mesh, cells, slots, match, neighbours, options, context, report);
       report.quality_measured = true;
     }
 

@@ -1,5 +1,5 @@
 // The invariant walker: proves that a HybridMesh tiles its domain and has a dual mesh, or says where not (VALID: G1-G4 and G20 of quality.md), and measures
-// the gates that say how good it is (QUALITY: G5-G16 and the targets of G3 and G4).
+// the gates that say how good it is (QUALITY: G5-G16, OpenFOAM's measures and the targets of G3 and G4).
 #pragma once
 
 #include <cstdint>
@@ -38,6 +38,8 @@ enum class Violation {
 std::string_view to_string(Violation v);
 /// "G1", "G2", "G3", "G4", "G20" or "tiling".
 std::string_view gate_of(Violation v);
+/// "conformity"; of a gate of the verdict VALID.
+std::string_view title_of_gate(std::string_view gate);
 
 struct Finding {
   Violation violation;
@@ -95,12 +97,15 @@ struct CheckReport {
   GateState quality_state() const;
   /// \pre quality_measured
   const GateResult& gate(Measure measure) const { return gates[static_cast<std::size_t>(measure)]; }
+  /// Puts a measure that was taken elsewhere in the place of its own (G17, G18). Nothing where quality was not asked for.
+  void put(GateResult gate);
   std::int64_t count(Violation v) const;
 };
 
 struct CheckOptions {
   bool intersections = true;  ///< G2, the exact triangle-triangle tests
   bool quality = true;        ///< fill CheckReport::quality and gates
+  bool cell_centred = true;   ///< with quality: OpenFOAM's measures, too
   GateTable limits;           ///< of the QUALITY gates
   int findings_per_kind = 10;
   std::int64_t faces_at_a_time = std::int64_t{1} << 27;  ///< bound of the memory for matching faces, 16 bytes each; the report does not depend on it
@@ -135,6 +140,8 @@ LayerCheck check_ahead(const HybridMesh& mesh, const CheckOptions& options, cons
 
 /// Several lines for people: both verdicts, gates with counts and worst places, the findings with coordinates.
 std::string to_text(const CheckReport& report);
+/// The lines of one measure in it.
+std::string to_text(const GateResult& gate);
 /// JSON with schema "sterna-check-2", described in docs/check_json.md.
 std::string to_json(const CheckReport& report);
 

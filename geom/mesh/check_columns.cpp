@@ -16,7 +16,7 @@ struct BaseEdge {
 
 }  // namespace
 
-std::vector<OpenSide> find_open_sides(const LayerBlock& layers, const RunContext& context) {
+std::vector<OpenSide> find_open_sides(const LayerBlock& layers, const RunContext& context, std::vector<std::uint32_t>* neighbours) {
   const std::size_t n_lines = layers.n_lines();
   const std::uint64_t n_sides = 3 * layers.n_columns();
   if (n_sides >= 0xffffffffu) throw_id_overflow(n_sides);
@@ -38,6 +38,7 @@ std::vector<OpenSide> find_open_sides(const LayerBlock& layers, const RunContext
       edges[cursor[std::min(u, v)]++] = {std::max(u, v), static_cast<std::uint32_t>(side), u > v};
     }
   }
+  if (neighbours) neighbours->assign(n_sides, k_no_slot);
   std::vector<std::uint32_t> open = parallel_reduce(
       context, n_lines, std::vector<std::uint32_t>{},
       [&](std::size_t begin, std::size_t end) {
@@ -50,6 +51,10 @@ std::vector<OpenSide> find_open_sides(const LayerBlock& layers, const RunContext
             for (e = i; e < n && bucket[e].upper_line == bucket[i].upper_line;) ++e;
             const bool is_pair = e - i == 2 && bucket[i].is_reversed != bucket[i + 1].is_reversed;
             const bool has_no_faces = layers.is_collapsed[k] && layers.is_collapsed[bucket[i].upper_line];
+            if (is_pair && neighbours) {
+              (*neighbours)[bucket[i].side] = bucket[i + 1].side / 3;
+              (*neighbours)[bucket[i + 1].side] = bucket[i].side / 3;
+            }
             if (is_pair || has_no_faces) continue;
             for (std::size_t s = i; s < e; ++s) found.push_back(bucket[s].side);
           }

@@ -56,6 +56,7 @@ void judge(const FaceSlots& slots, const FaceKey* face, std::size_t n, std::span
   if (n_cells > 2 || (n_cells == 2 && n_boundary > 0)) return add(Violation::overmatched_face, 0, n_cells > 2 ? 1 : 2);
   if (n_cells == 2) {
     if (face[0].is_reversed() == face[1].is_reversed()) return add(Violation::same_sense_face, 0, 1);
+    if (match.with_pairs) match.pairs.push_back({face[0].slot(), face[1].slot()});
     // The lower slot belongs to the layer when only one of them does.
     for (std::size_t i = 0; i < 2 && !cap_neighbours.empty(); ++i)
       if (const auto cap = slots.prism_cap(face[i].slot())) cap_neighbours[*cap] = face[1 - i].slot();
@@ -83,15 +84,17 @@ void append(FaceMatch& all, FaceMatch&& more) {
   all.outer_boundary.insert(all.outer_boundary.end(), more.outer_boundary.begin(), more.outer_boundary.end());
   all.interface.insert(all.interface.end(), more.interface.begin(), more.interface.end());
   all.interface_tets.insert(all.interface_tets.end(), more.interface_tets.begin(), more.interface_tets.end());
+  all.pairs = concatenate(std::move(all.pairs), std::move(more.pairs));
   if (all.tet_growth) all.tet_growth->merge(*more.tet_growth);
 }
 
 }  // namespace
 
-FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, std::span<const double> tet_volumes, const GateTable& limits,
+FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, std::span<const double> tet_volumes, bool with_pairs, const GateTable& limits,
                       const RunContext& context) {
   const auto make_match = [&] {
     FaceMatch match;
+    match.with_pairs = with_pairs;
     if (!tet_volumes.empty()) match.tet_growth.emplace(info_of(Measure::tet_growth), limits[Measure::tet_growth]);
     return match;
   };

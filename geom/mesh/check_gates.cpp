@@ -5,6 +5,7 @@ namespace sterna::check_parts {
 namespace {
 
 constexpr const char* k_not_conforming = "the mesh does not conform (G1)";
+constexpr const char* k_no_model = "needs the model: mesh:check{ wall = wall } with the surface of surface_mesh, or sterna check mesh.su2 --model model.step";
 
 }  // namespace
 
@@ -26,6 +27,7 @@ void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlo
   const auto cell = [&](std::uint64_t id) { return std::pair(cells.center(id), cells.name(id)); };
   const auto face = [&](std::uint64_t id) { return std::pair(slots.center(static_cast<std::uint32_t>(id)), "face of " + slots.name(static_cast<std::uint32_t>(id))); };
   for (const MeasureInfo& info : measures()) report.gates.push_back(not_checked(info.measure, limits, dual == nullptr ? k_not_conforming : "the mesh has none"));
+  for (const Measure measure : {Measure::cad_distance, Measure::cad_normal}) report.gates[static_cast<std::size_t>(measure)].reason = k_no_model;
   const auto put = [&](GateResult result) { report.gates[static_cast<std::size_t>(result.measure)] = std::move(result); };
 
   put(scan.scaled_jacobian.result(cell));

@@ -182,6 +182,8 @@ struct FaceMatch {
   std::vector<std::uint32_t> interface;  ///< faces of layer cells that a tet shares with opposite sense: the envelope
   std::vector<std::uint32_t> interface_tets;  ///< the tet's face of each of them
   std::optional<GateScan> tet_growth;    ///< ids are slots; only when asked for
+  bool with_pairs = false;
+  std::vector<std::array<std::uint32_t, 2>> pairs;  ///< faces that two cells share; only when asked for
   std::vector<std::uint32_t> cap_neighbours;  ///< of explicit prisms, bottom and top: slot on the other side of a face that two cells share, else k_no_slot
 };
 inline constexpr std::uint32_t k_no_slot = 0xffffffffu;
@@ -200,10 +202,11 @@ struct CellScan {
 /// bad_index, bad_point, broken_line, unused_node. Returns whether every index can be used and every point is finite.
 bool check_indices(const HybridMesh& mesh, const CellNumbers& cells, const RunContext& context, Findings& findings);
 /// Base edges that are not shared by exactly two columns of opposite sense; edges between two collapsed lines have no faces and do not count.
-std::vector<OpenSide> find_open_sides(const LayerBlock& layers, const RunContext& context);
+/// `neighbours`: gets for each column and corner the column on the other side, k_no_slot where there is not exactly one.
+std::vector<OpenSide> find_open_sides(const LayerBlock& layers, const RunContext& context, std::vector<std::uint32_t>* neighbours = nullptr);
 /// At most `faces_at_a_time` faces are held at a time, or those of one lowest node if they are more.
 /// Volume ratios over the faces between explicit tets are measured when `tet_volumes` has the tets' volumes.
-FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, std::span<const double> tet_volumes, const GateTable& limits,
+FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, std::span<const double> tet_volumes, bool with_pairs, const GateTable& limits,
                       const RunContext& context);
 void report_faces(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, Findings& findings);
 CellScan scan_columns(const HybridMesh& mesh, bool with_quality, const GateTable& limits, const RunContext& context);

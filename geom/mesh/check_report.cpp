@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -13,15 +14,6 @@ namespace {
 constexpr double k_degrees = 180.0 / std::numbers::pi;
 /// Of the verdict VALID.
 constexpr std::array<std::string_view, 6> k_valid_gates = {"G1", "G2", "G3", "G4", "G20", "tiling"};
-
-std::string_view title_of(std::string_view gate) {
-  if (gate == "G1") return "conformity";
-  if (gate == "G2") return "no intersections";
-  if (gate == "G3") return "valid cells";
-  if (gate == "G4") return "dual sub-volumes, closure";
-  if (gate == "G20") return "symmetry, periodic sides";
-  return "volumes and cover";
-}
 
 bool is_checked(const CheckReport& report, std::string_view gate) {
   if (gate == "G1") return true;
@@ -49,7 +41,7 @@ std::string state_of_gate(const CheckReport& report, std::string_view gate) {
 }
 
 std::string gate_line(std::string_view gate, const std::string& state) {
-  return format("  %-6s %-26s ", std::string(gate).c_str(), std::string(title_of(gate)).c_str()) + state + "\n";
+  return format("  %-6s %-26s ", std::string(gate).c_str(), std::string(title_of_gate(gate)).c_str()) + state + "\n";
 }
 
 using Json = nlohmann::ordered_json;
@@ -87,6 +79,18 @@ std::string gate_text(const GateResult& gate) {
 /// JSON has no infinity and no NaN: null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+/// Classes from the first to the last that hold anything.
+Json histogram_json(const GateResult& gate, const MeasureInfo& info) {
+  const auto is_filled = [](double count) { return count > 0.0; };
+  const auto first = std::find_if(gate.histogram.begin(), gate.histogram.end(), is_filled);
+  if (first == gate.histogram.end()) return nullptr;
+  const auto last = std::find_if(gate.histogram.rbegin(), gate.histogram.rend(), is_filled).base();
+  const std::vector<double> edges = info.classes.edges();
+  Json json = {{"is_log", info.classes.per_octave > 0}, {"edges", Json::array()}, {"counts", Json(std::vector<double>(first, last))}};
+  for (auto i = first - gate.histogram.begin(); i <= last - gate.histogram.begin(); ++i) json["edges"].push_back(in_report_unit(info, edges[static_cast<std::size_t>(i)]));
+  return json;
+}
+
 Json to_json(const GateResult& gate) {
   const MeasureInfo& info = info_of(gate.measure);
   Json json = {{"gate", info.gate}, {"measure", info.name}, {"title", info.title}, {"unit", info.is_angle ? "deg" : ""}, {"bound", info.is_low_bad ? "lower" : "upper"}};
@@ -104,6 +108,7 @@ Json to_json(const GateResult& gate) {
   json["total"] = gate.total;
   json["share_within"] = gate.share_within;
   json["beyond_hard"] = gate.n_beyond_hard;
+  json["histogram"] = histogram_json(gate, info);
   json["places"] = Json::array();
   for (const GatePlace& place : gate.places)
     json["places"].push_back({{"value", number(in_report_unit(info, place.value))}, {"position", to_array(place.position)}, {"what", place.what}});
@@ -171,6 +176,15 @@ std::string_view to_string(Violation v) {
   return "";
 }
 
+std::string_view title_of_gate(std::string_view gate) {
+  if (gate == "G1") return "conformity";
+  if (gate == "G2") return "no intersections";
+  if (gate == "G3") return "valid cells";
+  if (gate == "G4") return "dual sub-volumes, closure";
+  if (gate == "G20") return "symmetry, periodic sides";
+  return "volumes and cover";
+}
+
 std::string_view gate_of(Violation v) {
   switch (v) {
     case Violation::boundary_intersection:
@@ -199,6 +213,10 @@ std::int64_t CheckReport::count(Violation v) const {
   return 0;
 }
 
+void CheckReport::put(GateResult gate) {
+  if (const auto i = static_cast<std::size_t>(gate.measure); i < gates.size()) gates[i] = std::move(gate);
+}
+
 GateState CheckReport::quality_state() const {
   GateState worst = GateState::not_checked;
   for (const GateState state : {GateState::pass, GateState::warn, GateState::fail})
@@ -206,6 +224,8 @@ GateState CheckReport::quality_state() const {
       if (gate.state == state) worst = state;
   return worst;
 }
+
+std::string to_text(const GateResult& gate) { return gate_text(gate); }
 
 std::string to_text(const CheckReport& report) {
   const auto n = [](std::int64_t value) { return std::to_string(value); };

@@ -1,6 +1,8 @@
 #include "geom/mesh/gates.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <numbers>
 
 namespace sterna {
@@ -8,35 +10,46 @@ namespace {
 
 constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
 constexpr double k_degree = std::numbers::pi / 180.0;
+constexpr double k_right = std::numbers::pi / 2.0;
 constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 using M = Measure;
 
 // Numbers: quality.md §6. Coverage asks 99 % of the whole; the wing's 99.5 % need a script that knows which patch is a wing.
 constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
-    {M::scaled_jacobian, "G3", "scaled_jacobian", "scaled Jacobian of prisms", "prisms", false, true, {k_none, 0.05, 0.2, 0.999}},
-    {M::dual_closure, "G4", "dual_closure", "closure of dual cells", "nodes", false, false, {1e-12, 1e-12, k_none, 1.0}},
-    {M::orthogonality, "G5", "orthogonality", "SU2 orthogonality", "nodes", true, true, {5 * k_degree, 20 * k_degree, 35 * k_degree, 0.999}},
-    {M::sub_volume_ratio, "G6", "sub_volume_ratio", "SU2 CV sub-volume ratio", "nodes", false, false, {1e5, 1e3, 200, 0.999}},
-    {M::face_area_ratio, "G7", "face_area_ratio", "SU2 CV face area aspect ratio", "nodes", false, false, {k_none, k_none, k_none, 1.0}},
-    {M::relative_face_area_ratio, "G7", "relative_face_area_ratio", "the same over edge / height", "nodes", false, false, {k_none, 1.5, k_none, 1.0}},
-    {M::stack_growth, "G8", "stack_growth", "growth along a line", "area", false, false, {1.5, k_none, 1.2, 0.999}},
-    {M::interface_height, "G9", "interface_height", "last height / (0.816 edge)", "prisms", false, false, {8, k_none, 3, 0.99}},
-    {M::interface_volume, "G9", "interface_volume", "3 tet / prism volume", "prisms", false, false, {8, k_none, 3, 0.99}},
-    {M::stack_angle, "G10", "stack_angle", "stack angle beyond the best", "area", true, false, {k_none, k_none, 10 * k_degree, 0.995}},
-    {M::first_height, "G11", "first_height", "first height against request", "lines", false, false, {0.2, k_none, 0.02, 0.99}},
-    {M::coverage, "G12", "coverage", "area at its full height", "area", false, true, {0.95, 0.99, k_none, 1.0}},
-    {M::collapsed, "G12", "collapsed", "area without layers", "area", false, false, {k_none, 0.0, k_none, 1.0}},
-    {M::layer_step, "G13", "layer_step", "layers lost over an edge", "edges", false, false, {1, 0, k_none, 1.0}},
-    {M::min_dihedral, "G14", "min_dihedral", "smallest dihedral of a tet", "tets", true, true, {5 * k_degree, 12 * k_degree, k_none, 1.0}},
-    {M::max_dihedral, "G14", "max_dihedral", "largest dihedral of a tet", "tets", true, false, {170 * k_degree, 155 * k_degree, k_none, 1.0}},
-    {M::tet_growth, "G15", "tet_growth", "volume ratio of tets at a face", "faces", false, false, {20, k_none, 4, 0.999}},
-    {M::edge_ratio, "G16", "edge_ratio", "edge ratio at a node", "nodes", false, false, {100, k_none, 10, 0.999}},
+    {M::scaled_jacobian, "G3", "scaled_jacobian", "scaled Jacobian of prisms", "prisms", false, true, {k_none, 0.05, 0.2, 0.999}, {0, 1, 50}},
+    {M::dual_closure, "G4", "dual_closure", "closure of dual cells", "nodes", false, false, {1e-12, 1e-12, k_none, 1.0}, {0x1p-60, 0x1p-36, 48, 2}},
+    {M::orthogonality, "G5", "orthogonality", "SU2 orthogonality", "nodes", true, true, {5 * k_degree, 20 * k_degree, 35 * k_degree, 0.999}, {0, k_right, 45}},
+    {M::sub_volume_ratio, "G6", "sub_volume_ratio", "SU2 CV sub-volume ratio", "nodes", false, false, {1e5, 1e3, 200, 0.999}, {1, 0x1p24, 48, 2}},
+    {M::face_area_ratio, "G7", "face_area_ratio", "SU2 CV face area aspect ratio", "nodes", false, false, {k_none, k_none, k_none, 1.0}, {1, 0x1p24, 48, 2}},
+    {M::relative_face_area_ratio, "G7", "relative_face_area_ratio", "the same over edge / height", "nodes", false, false, {k_none, 1.5, k_none, 1.0}, {1, 0x1p12, 48, 4}},
+    {M::stack_growth, "G8", "stack_growth", "growth along a line", "area", false, false, {1.5, k_none, 1.2, 0.999}, {1, 2, 50}},
+    {M::interface_height, "G9", "interface_height", "last height / (0.816 edge)", "prisms", false, false, {8, k_none, 3, 0.99}, {1, 0x1p8, 48, 6}},
+    {M::interface_volume, "G9", "interface_volume", "3 tet / prism volume", "prisms", false, false, {8, k_none, 3, 0.99}, {1, 0x1p8, 48, 6}},
+    {M::stack_angle, "G10", "stack_angle", "stack angle beyond the best", "area", true, false, {k_none, k_none, 10 * k_degree, 0.995}, {0, k_right, 45}},
+    {M::first_height, "G11", "first_height", "first height against request", "lines", false, false, {0.2, k_none, 0.02, 0.99}, {0, 0.5, 50}},
+    {M::coverage, "G12", "coverage", "area at its full height", "area", false, true, {0.95, 0.99, k_none, 1.0}, {}},
+    {M::collapsed, "G12", "collapsed", "area without layers", "area", false, false, {k_none, 0.0, k_none, 1.0}, {}},
+    {M::layer_step, "G13", "layer_step", "layers lost over an edge", "edges", false, false, {1, 0, k_none, 1.0}, {}},
+    {M::min_dihedral, "G14", "min_dihedral", "smallest dihedral of a tet", "tets", true, true, {5 * k_degree, 12 * k_degree, k_none, 1.0}, {0, k_right, 45}},
+    {M::max_dihedral, "G14", "max_dihedral", "largest dihedral of a tet", "tets", true, false, {170 * k_degree, 155 * k_degree, k_none, 1.0}, {60 * k_degree, 180 * k_degree, 60}},
+    {M::tet_growth, "G15", "tet_growth", "volume ratio of tets at a face", "faces", false, false, {20, k_none, 4, 0.999}, {1, 0x1p8, 48, 6}},
+    {M::edge_ratio, "G16", "edge_ratio", "edge ratio at a node", "nodes", false, false, {100, k_none, 10, 0.999}, {1, 0x1p10, 50, 5}},
+    // quality.md §3; limits are those at which checkMesh and meshQualityDict object. Aspect ratios of y+ = 1 prisms are beyond any limit of theirs: shown only.
+    {M::non_orthogonality, "OF", "non_orthogonality", "OpenFOAM non-orthogonality", "inner faces", true, false, {90 * k_degree, 70 * k_degree, 65 * k_degree, 0.999}, {0, k_right, 45}},
+    {M::skewness, "OF", "skewness", "OpenFOAM skewness", "faces", false, false, {20, 4, k_none, 1.0}, {0x1p-6, 0x1p4, 40, 4}},
+    {M::face_weight, "OF", "face_weight", "OpenFOAM face weight", "inner faces", false, true, {k_none, 0.05, k_none, 1.0}, {0, 0.5, 50}},
+    {M::volume_ratio, "OF", "volume_ratio", "OpenFOAM volume ratio", "inner faces", false, true, {k_none, 0.01, k_none, 1.0}, {0, 1, 50}},
+    {M::face_flatness, "OF", "face_flatness", "OpenFOAM flatness of quads", "quads", false, true, {k_none, 0.8, k_none, 1.0}, {0.5, 1, 50}},
+    {M::cell_aspect_ratio, "OF", "cell_aspect_ratio", "OpenFOAM aspect ratio", "cells", false, false, {k_none, k_none, k_none, 1.0}, {1, 0x1p16, 48, 3}},
+    {M::cell_openness, "OF", "cell_openness", "OpenFOAM openness", "cells", false, false, {1e-6, 1e-9, k_none, 1.0}, {0x1p-60, 0x1p-20, 40, 1}},
+    {M::cad_distance, "G17", "cad_distance", "wall nodes off the CAD, / length", "nodes", false, false, {1e-6, 1e-9, k_none, 1.0}, {0x1p-60, 0x1p-12, 48, 1}},
+    {M::cad_normal, "G18", "cad_normal", "wall facets against the CAD", "facets", true, false, {30 * k_degree, 10 * k_degree, k_none, 1.0}, {0, k_right, 45}},
 }};
 
 constexpr bool is_in_order() {
   for (std::size_t i = 0; i < k_n_measures; ++i)
-    if (k_measures[i].measure != static_cast<Measure>(i)) return false;
+    if (k_measures[i].classes.n > HistogramClasses::k_most || k_measures[i].measure != static_cast<Measure>(i)) return false;
   return true;
 }
 static_assert(is_in_order());
@@ -47,6 +60,29 @@ bool is_none(double limit) { return limit != limit; }
 
 const std::array<MeasureInfo, k_n_measures>& measures() { return k_measures; }
 double in_report_unit(const MeasureInfo& info, double value) { return info.is_angle ? value / k_degree : value; }
+const MeasureInfo* find_measure(std::string_view name) {
+  const auto found = std::find_if(k_measures.begin(), k_measures.end(), [&](const MeasureInfo& info) { return info.name == name; });
+  return found == k_measures.end() ? nullptr : &*found;
+}
+
+int HistogramClasses::of(double value) const {
+  if (value != value || value >= to) return n - 1;
+  if (value <= from) return 0;
+  if (per_octave == 0) return std::min(n - 1, static_cast<int>((value - from) / (to - from) * n));
+  // Exponent and mantissa off the bits: cheap, and the same everywhere.
+  const auto bits = std::bit_cast<std::uint64_t>(value), low = std::bit_cast<std::uint64_t>(from);
+  const int octave = static_cast<int>(bits >> 52) - static_cast<int>(low >> 52);
+  const double mantissa = static_cast<double>(bits & 0xfffffffffffffULL) * 0x1p-52;
+  return std::clamp(octave * per_octave + static_cast<int>(mantissa * per_octave), 0, n - 1);
+}
+
+std::vector<double> HistogramClasses::edges() const {
+  std::vector<double> edges;
+  for (int i = 0; n > 0 && i <= n; ++i)
+    edges.push_back(per_octave == 0 ? from + (to - from) * i / n : std::ldexp(from * (1.0 + static_cast<double>(i % per_octave) / per_octave), i / per_octave));
+  return edges;
+}
+
 const MeasureInfo& info_of(Measure measure) { return k_measures[static_cast<std::size_t>(measure)]; }
 
 GateTable::GateTable() {
@@ -63,7 +99,7 @@ std::string_view to_string(GateState state) {
   return "";
 }
 
-GateScan::GateScan(const MeasureInfo& info, const GateLimits& limits) : measure_(info.measure), limits_(limits), sign_(info.is_low_bad ? -1.0 : 1.0) {
+GateScan::GateScan(const MeasureInfo& info, const GateLimits& limits) : measure_(info.measure), limits_(limits), sign_(info.is_low_bad ? -1.0 : 1.0), classes_(&info.classes) {
   const auto badness_of = [&](double limit) { return is_none(limit) ? k_infinity : sign_ * limit; };
   hard_ = badness_of(limits.hard);
   target_ = badness_of(limits.target);
@@ -82,6 +118,7 @@ void GateScan::merge(const GateScan& other) {
   total_ += other.total_;
   within_ += other.within_;
   n_beyond_hard_ += other.n_beyond_hard_;
+  for (std::size_t i = 0; i < histogram_.size(); ++i) histogram_[i] += other.histogram_[i];
   for (const Item& item : other.worst_) remember(item);
 }
 
@@ -96,6 +133,7 @@ GateResult GateScan::judge() const {
   result.limits = limits_;
   result.total = total_;
   result.n_beyond_hard = n_beyond_hard_;
+  result.histogram.assign(histogram_.begin(), histogram_.begin() + classes_->n);
   if (worst_.empty()) {
     result.reason = "the mesh has none";
     return result;

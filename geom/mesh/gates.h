@@ -32,8 +32,28 @@ enum class Measure : std::uint8_t {
   max_dihedral,      ///< G14
   tet_growth,        ///< G15: volumes of two tets with a common face, the larger over the smaller
   edge_ratio,        ///< G16: longest over shortest edge of a node, edges of its stack left out
+  non_orthogonality,  ///< OpenFOAM's, per inner face: angle between its normal and the line of the centres of its cells
+  skewness,          ///< OpenFOAM's, per face: how far that line passes the face's centre, over the face's reach (or 0.2 of the line)
+  face_weight,       ///< OpenFOAM's, per inner face: share of the nearer centre in the distance of both from the face's plane
+  volume_ratio,      ///< OpenFOAM's, per inner face: smaller over larger volume of its cells
+  face_flatness,     ///< OpenFOAM's, per quadrilateral: area over the sum of the areas of its triangles around its middle
+  cell_aspect_ratio, ///< OpenFOAM's, per cell; reported only
+  cell_openness,     ///< OpenFOAM's, per cell: sum of its face normals over the sum of their sizes
+  cad_distance,      ///< G17: distance of a wall node from the model, over the body length (surfmesh/model/deviation.h)
+  cad_normal,        ///< G18: facet normal against the model's at the facet's centroid (the same)
 };
-inline constexpr std::size_t k_n_measures = static_cast<std::size_t>(Measure::edge_ratio) + 1;
+inline constexpr std::size_t k_n_measures = static_cast<std::size_t>(Measure::cad_normal) + 1;
+
+/// Classes of a measure's histogram: values below the first edge are in the first class, above the last edge (and no numbers) in the last.
+struct HistogramClasses {
+  double from = 0.0, to = 0.0;  ///< of logarithmic classes: powers of two
+  int n = 0;                    ///< 0: the measure has no histogram
+  int per_octave = 0;           ///< 0: equal widths; else each doubling is cut into so many equal parts
+  static constexpr int k_most = 64;
+  int of(double value) const;
+  /// n + 1 values, ascending.
+  std::vector<double> edges() const;
+};
 
 /// Limits of a measure in SI and radians; NaN where there is none.
 struct GateLimits {
@@ -53,6 +73,7 @@ struct MeasureInfo {
   bool is_angle;             ///< radians inside, degrees in reports
   bool is_low_bad;           ///< limits are lower bounds
   GateLimits limits;         ///< defaults
+  HistogramClasses classes;  ///< in SI and radians
 };
 
 /// The table of quality.md §6, in the order of Measure.
@@ -75,6 +96,8 @@ class GateTable {
 enum class GateState : std::uint8_t { pass, warn, fail, not_checked };
 /// "pass", "warn", "FAIL", "not checked"
 std::string_view to_string(GateState state);
+/// The measure of this name; nothing for others.
+const MeasureInfo* find_measure(std::string_view name);
 
 /// One of the worst places of a measure.
 struct GatePlace {
@@ -93,6 +116,7 @@ struct GateResult {
   double share_within = 0.0;      ///< share of it within limits.usual; within limits.target where there is no usual limit
   std::int64_t n_beyond_hard = 0; ///< items
   std::vector<GatePlace> places;  ///< the worst ten that miss a limit (any, for a measure without limits), worst first
+  std::vector<double> histogram;  ///< items, or m^2, of each class of MeasureInfo::classes; empty where the measure has none
 };
 
 /// Running statistics of one measure: weight within the usual limit, and the worst items. Merging is independent of how items were dealt to the parts
@@ -113,6 +137,7 @@ class GateScan {
     total_ += weight;
     if (badness <= usual_) within_ += weight;
     if (badness > hard_) ++n_beyond_hard_;
+    if (classes_->n > 0) histogram_[static_cast<std::size_t>(classes_->of(value))] += weight;
     if (badness >= entry_) remember({badness, id});
   }
   void merge(const GateScan& other);
@@ -144,6 +169,8 @@ class GateScan {
   double entry_ = -std::numeric_limits<double>::infinity();
   double total_ = 0.0, within_ = 0.0;
   std::int64_t n_beyond_hard_ = 0;
+  const HistogramClasses* classes_;
+  std::array<double, HistogramClasses::k_most> histogram_{};
   std::vector<Item> worst_;
 };
 

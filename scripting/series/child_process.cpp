@@ -89,11 +89,12 @@ bool read_some(int descriptor, std::string& text) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& output, int lock) {
+ChildProcess::ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& output, int lock, const std::filesystem::path& folder) {
   Setup setup;
   posix_spawn_file_actions_addopen(&setup.actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, k_new_file_mode);
   posix_spawn_file_actions_adddup2(&setup.actions, STDOUT_FILENO, STDERR_FILENO);
-  posix_spawn_file_actions_adddup2(&setup.actions, lock, k_series_lock_descriptor);
+  if (lock >= 0) posix_spawn_file_actions_adddup2(&setup.actions, lock, k_series_lock_descriptor);
+  if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&setup.actions, folder.c_str());
   pid_ = spawn(words, setup);
 }
 

@@ -12,6 +12,7 @@
 #include "scripting/series/case_runners.h"
 #include "scripting/series/case_worker.h"
 #include "scripting/series/folder_lock.h"
+#include "scripting/series/series_page.h"
 #include "scripting/series/series_report.h"
 #include "scripting/series/value_json.h"
 #include "scripting/verb_tools.h"
@@ -172,6 +173,8 @@ ScriptValue run_all(const ScriptCall& call, const SeriesPlan& plan) {
   call.session.print(table_text(plan, results));
   write_text(plan.folder / "series.csv", table_csv(plan, results));
   write_text(plan.folder / "series.json", table_json(plan, results));
+  if (const std::string page = series_page_html(plan, results); !page.empty()) write_text(plan.folder / "series.html", page);
+  else call.session.context.info("series.html was not written: this sterna was built without the page");
   return remember(series, plan, result_json(plan, results));
 }
 

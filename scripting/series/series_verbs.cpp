@@ -57,7 +57,7 @@ constexpr std::string_view k_range_usage = "range(-4, 12, 2)";
 constexpr std::string_view k_zip_usage = "zip{ alpha = {0, 4, 8}, bend = {0, 0.01, 0.03} }";
 
 /// Names in the folder of a series that no case can have.
-constexpr std::array<std::string_view, 3> k_reserved = {"slurm", "series.json", "series.csv"};
+constexpr std::array<std::string_view, 4> k_reserved = {"slurm", "series.json", "series.csv", "series.html"};
 
 /// What jobs{} and slurm{} hand to series{}.
 ScriptValue runner_table(const char* kind, const OptionTable& options, TableHandle extra) {

@@ -30,7 +30,12 @@ ModelWall::Knowledge& ModelWall::knowledge() const {
     Model model = model_();
     std::vector<Segment> segments = find_segments(model);
     const std::size_t n_faces = model.faces.size();
-    knowledge_ = std::make_unique<Knowledge>(Knowledge{std::move(model), std::move(segments), std::vector<LazyProjector>(n_faces)});
+    Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
+    Column<VertexId, CornerId> corner_of(places_.places.size());
+    for (const CornerId c : places_.corner_vertices.ids())
+      if (const VertexId v = places_.corner_vertices[c]; v.is_valid()) corner_of[v] = c;
+    knowledge_ = std::make_unique<Knowledge>(
+        Knowledge{std::move(model), std::move(segments), std::vector<LazyProjector>(n_faces), std::vector<LazyRegion>(n_faces), std::move(uses), std::move(corner_of)});
   });
   return *knowledge_;
 }

@@ -29,12 +29,6 @@ double segment_hit(const Point& p, const Vec3& d, const std::array<Point, 3>& t)
   return hit <= 1.0 ? hit : -1.0;
 }
 
-struct GapHit {
-  VertexId vertex;
-  TriangleId opposite;  ///< invalid: the outer boundary, which asks for nothing
-  double share;  ///< of the heights asked for on both sides
-};
-
 /// Mean length of the envelope's edges at a vertex.
 double envelope_edge(const LayerBase& base, const Envelope& envelope, VertexId v) {
   const auto around = base.topology.neighbours(v);
@@ -52,7 +46,7 @@ class GapFinder {
   }
 
   /// Appends the hit of v's growth line when both layers ask for more than the gap leaves them. `buffer` is scratch.
-  void find(VertexId v, std::vector<std::uint32_t>& buffer, std::vector<GapHit>& hits) const {
+  void find(VertexId v, std::vector<std::uint32_t>& buffer, std::vector<WallGap>& hits) const {
     if (envelope_.is_collapsed(v)) return;
     const double reach = envelope_.height[v] + k_remaining_edges * edge_[v] / k_opposing_cosine;
     if (!group_ || (*group_)[v] != 0) find_outer(v, reach, buffer, hits);
@@ -78,12 +72,12 @@ class GapFinder {
   }
 
  private:
-  void add_hit(VertexId v, TriangleId opposite, double gap, double edge, double opposite_height, std::vector<GapHit>& hits) const {
+  void add_hit(VertexId v, TriangleId opposite, double gap, double edge, double opposite_height, std::vector<WallGap>& hits) const {
     const double remaining = std::min(k_remaining_edges * edge, k_remaining_share * gap);
     const double share = (gap - remaining) / (envelope_.height[v] + opposite_height);
-    if (share < 1.0) hits.push_back({v, opposite, share});
+    if (share < 1.0) hits.push_back({v, opposite, gap, share});
   }
-  void find_outer(VertexId v, double reach, std::vector<std::uint32_t>& buffer, std::vector<GapHit>& hits) const {
+  void find_outer(VertexId v, double reach, std::vector<std::uint32_t>& buffer, std::vector<WallGap>& hits) const {
     buffer.clear();
     collider_.find_outer(box_along(v, reach), buffer);
     const Vec3 segment = reach * envelope_.direction[v];
@@ -136,13 +130,13 @@ class GapFinder {
 
 }  // namespace
 
-void share_gaps(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context,
-                const Column<VertexId, std::uint32_t>* group) {
+std::vector<WallGap> share_gaps(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context,
+                                const Column<VertexId, std::uint32_t>* group) {
   const EnvelopeScale scale = scale_of(base, options);
   collider.move_top(envelope, context);
   const GapFinder finder(base, collider, envelope, group, context);
-  using List = std::vector<GapHit>;
-  const List hits = parallel_reduce(
+  using List = std::vector<WallGap>;
+  List hits = parallel_reduce(
       context, base.wall.n_vertices(), List{},
       [&](std::size_t begin, std::size_t end) {
         List found;
@@ -155,7 +149,7 @@ void share_gaps(const LayerBase& base, const EnvelopeOptions& options, Collider&
         return a;
       },
       256);
-  if (hits.empty()) return;
+  if (hits.empty()) return hits;
   const Column<VertexId, double> asked = envelope.height;
   std::vector<VertexId> lowered;
   const auto limit = [&](VertexId v, double share) {
@@ -163,13 +157,14 @@ void share_gaps(const LayerBase& base, const EnvelopeOptions& options, Collider&
     lower(envelope, v, share * asked[v], HeightLimit::gap, scale);
     lowered.push_back(v);
   };
-  for (const GapHit& hit : hits) {
+  for (const WallGap& hit : hits) {
     limit(hit.vertex, hit.share);
     if (!hit.opposite.is_valid()) continue;
     for (const VertexId v : base.wall.triangles[hit.opposite]) limit(v, hit.share);
   }
   level_steps(base, options, k_level_sweeps, HeightLimit::gap, envelope, context);
   unwarp(base, options, HeightLimit::warp, envelope, context);
+  return hits;
 }
 
 }  // namespace sterna::volmesh

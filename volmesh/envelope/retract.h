@@ -7,12 +7,20 @@
 
 namespace sterna::volmesh {
 
+/// Where the gap between two walls is too narrow for both layers.
+struct WallGap {
+  VertexId vertex;
+  TriangleId opposite;  ///< invalid: the outer boundary, which asks for nothing
+  double gap = 0.0;     ///< m, along the vertex's growth line
+  double share = 0.0;   ///< of the heights asked for on both sides that there is room for
+};
+
 /// Shares the gap between opposing walls: where a growth line meets a wall that faces it, both heights are lowered, in proportion to what each asks for,
 /// until a gap of 0.2 of the longer of the two local envelope edges remains (half the gap, where it is narrower than 0.4 edges). Limits `cap` too.
 /// With `group`, only walls of different groups oppose each other, and vertices of group 0 know the outer boundary already: the rest was shared before.
-/// \post every macro-element valid.
-void share_gaps(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context,
-                const Column<VertexId, std::uint32_t>* group = nullptr);
+/// \post every macro-element valid. Returns what it found, by vertex.
+std::vector<WallGap> share_gaps(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context,
+                                const Column<VertexId, std::uint32_t>* group = nullptr);
 
 /// Lowers heights until the exact triangle tests find top and sides of the layer clear of each other, of the wall and of the outer boundary, with macro-elements
 /// made valid again after each sweep; what still collides after max_retract_sweeps collapses, so it ends. With `suspects`, the top is known to be clear

@@ -101,7 +101,7 @@ TEST(Draw, ACubeFromEachSideShowsThatSide) {
   const std::map<std::string, std::size_t> seen = {{"front", 0}, {"back", 1}, {"left", 2}, {"right", 3}, {"bottom", 4}, {"top", 5}};
   for (const auto& [view, patch] : seen) {
     options.view = view;
-    const Image image = decoded(draw_png(mesh, options, "", k_run));
+    const Image image = decoded(draw_png(mesh, options, "", {}, k_run));
     const Rgb base = draw::patch_color(patch), middle = image.at(100, 100);
     // Lit by the same light from every side: the patch's colour, brighter or darker by one factor.
     EXPECT_NEAR(static_cast<double>(middle.r) / base.r, static_cast<double>(middle.g) / base.g, 0.02) << view;
@@ -114,7 +114,7 @@ TEST(Draw, ACubeFromEachSideShowsThatSide) {
 TEST(Draw, IsoShowsThreeSidesOfACube) {
   DrawOptions options = bare();
   options.patches = "*";
-  const Image image = decoded(draw_png(cube_of_patches(), options, "", k_run));
+  const Image image = decoded(draw_png(cube_of_patches(), options, "", {}, k_run));
   // From ahead, left and above: x_min at the left, y_min at the right, z_max at the top.
   const auto is_shade_of = [](Rgb pixel, std::size_t patch) {
     const Rgb base = draw::patch_color(patch);
@@ -131,21 +131,21 @@ TEST(Draw, PatchesThatAreNotNamedAreNotShown) {
   DrawOptions options = bare();
   options.view = "bottom";
   options.patches = "x_* y_*";
-  EXPECT_EQ(decoded(draw_png(mesh, options, "", k_run)).at(60, 60), decoded(draw_png(mesh, options, "", k_run)).at(60, 60));
+  EXPECT_EQ(decoded(draw_png(mesh, options, "", {}, k_run)).at(60, 60), decoded(draw_png(mesh, options, "", {}, k_run)).at(60, 60));
   options.view = "top";
   options.patches = "z_min";
-  const Image bottom = decoded(draw_png(mesh, options, "", k_run));
+  const Image bottom = decoded(draw_png(mesh, options, "", {}, k_run));
   EXPECT_EQ(colors_of(bottom).size(), 2u);  // one patch, lit one way, and the paper
   options.patches = "automatic";            // walls: z_max is one, z_min is not
   options.view = "bottom";
-  const Image walls = decoded(draw_png(mesh, options, "", k_run));
+  const Image walls = decoded(draw_png(mesh, options, "", {}, k_run));
   EXPECT_NE(walls.at(100, 100), decoded(draw_png(
                                             mesh,
                                             [&] {
                                               options.patches = "*";
                                               return options;
                                             }(),
-                                            "", k_run))
+                                            "", {}, k_run))
                                     .at(100, 100));
 }
 
@@ -300,7 +300,7 @@ TEST(Draw, WhatIsNotThereIsRefusedWithWhatIs) {
               HasSubstr("range_min"));
   DrawOptions options = bare();
   options.cut = "x=0";
-  EXPECT_THAT(text_of([&] { draw_png(cube(1), options, "", k_run); }, ErrorCode::bad_argument), HasSubstr("surface has no cells"));
+  EXPECT_THAT(text_of([&] { draw_png(cube(1), options, "", {}, k_run); }, ErrorCode::bad_argument), HasSubstr("surface has no cells"));
 }
 
 TEST(Draw, TextsOfViewsPlanesAndSpheres) {

@@ -211,7 +211,8 @@ TEST(DualMetrics, RealMesh) {
   expect_as_naive(result.mesh, 1e-6);  // the naive one cancels: coordinates of 20 body lengths, cells of 1e-4
   EXPECT_NEAR(result.check.dual_volume, result.check.total_volume, 1e-12 * result.check.total_volume);
   EXPECT_LT(result.check.gate(Measure::dual_closure).worst, 1e-12);
-  for (const MeasureInfo& info : measures()) EXPECT_NE(result.check.gate(info.measure).state, GateState::not_checked) << info.name;
+  for (const MeasureInfo& info : measures())
+    EXPECT_EQ(result.check.gate(info.measure).state == GateState::not_checked, info.measure == Measure::cad_distance || info.measure == Measure::cad_normal) << info.name;  // these need a model
   // The same mesh as a file would have it: lines are found again.
   const CheckReport cells = check(explicit_cells(result.mesh), {.intersections = false}, RunContext({.threads = 2}));
   for (const Measure measure : {Measure::stack_growth, Measure::stack_angle, Measure::layer_step, Measure::interface_height, Measure::interface_volume, Measure::sub_volume_ratio})

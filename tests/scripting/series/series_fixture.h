@@ -25,7 +25,7 @@ inline std::map<std::string, std::string> snapshot(const std::filesystem::path& 
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(series)) {
     const std::string name = entry.path().lexically_relative(series).string(), last = entry.path().filename().string();
-    if (!entry.is_regular_file() || last == "measure.json" || last == "log.txt" || last == "series.csv" || last == ".lock" || name.starts_with("slurm/")) continue;
+    if (!entry.is_regular_file() || last == "measure.json" || last == "log.txt" || last == "series.csv" || last == "series.html" || last == ".lock" || name.starts_with("slurm/")) continue;
     std::string text = contents(entry.path());
     if (name == "series.json") text.resize(std::min(text.size(), text.find("\n  \"measure\"")));
     files[name] = text;

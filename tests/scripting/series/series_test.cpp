@@ -6,6 +6,8 @@
 #include <set>
 #include <thread>
 
+#include "scripting/report/report_page.h"
+#include "tests/scripting/report/page_json.h"
 #include "tests/scripting/series/series_fixture.h"
 
 namespace sterna::scripting {
@@ -65,6 +67,33 @@ TEST_F(Series, EveryCaseHasAFolderWithAllThatBelongsToIt) {
   EXPECT_THAT(failed, HasSubstr("case.lua:9: no such thing"));
   EXPECT_THAT(text_of("small/series.json"), HasSubstr("\"failed\": 1"));
   EXPECT_THAT(text_of("small/series.csv"), HasSubstr("case,height,layers,status,verdict,cells,quality,worst,seconds,reused,error\nheight=0.01_layers=2,0.01,2,done,VALID,"));
+}
+
+/// A table of all cases, also of those that failed, with what each wrote: pictures in it, pages linked.
+TEST_F(Series, EndsWithAPageThatComparesItsCases) {
+  if (report_page().empty()) {
+    if (test::is_all_required()) FAIL() << "STERNA_REQUIRE_DATA=1, but this build has no report page";
+    GTEST_SKIP() << "this build has no report page: npm or its registry was missing";
+  }
+  run(k_small);
+  const nlohmann::json page = test::page_json(folder_ / "small/series.html");
+  EXPECT_EQ(page["schema"], "sterna-series-1");
+  ASSERT_EQ(page["cases"].size(), 4u);
+  EXPECT_EQ(page["parameters"].dump(), "[\"height\",\"layers\"]");
+  int n_failed = 0;
+  for (const auto& c : page["cases"]) {
+    EXPECT_TRUE(c["parameters"].contains("height"));
+    if (c["state"] == "failed") {
+      ++n_failed;
+      EXPECT_THAT(c["error"].get<std::string>(), HasSubstr("no such thing"));
+      continue;
+    }
+    EXPECT_EQ(c["verdict"], "VALID");
+    EXPECT_GT(c["figures"]["cells"].get<int>(), 0);
+    EXPECT_TRUE(c["figures"].contains("orthogonality"));
+    EXPECT_TRUE(c["gates"].contains("G5")) << c["gates"].dump();
+  }
+  EXPECT_EQ(n_failed, 1);
 }
 
 TEST_F(Series, WhatIsDoneIsTakenAsItIs) {

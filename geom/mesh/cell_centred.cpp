@@ -1,0 +1,292 @@
+#include "geom/mesh/cell_centred.h"
+
+#include <cmath>
+
+namespace sterna::check_parts {
+namespace {
+
+/// Keeps quotients finite where a length, an area or a product of them vanishes (OpenFOAM's ROOTVSMALL).
+constexpr double k_tiny = 1e-150;
+/// Share of the distance between centres (for a boundary face of the distance to its plane) that counts as the face's reach where the face itself is smaller.
+constexpr double k_inner_reach = 0.2, k_boundary_reach = 0.4;
+/// Columns per chunk; each holds some 30 cells.
+constexpr std::size_t k_column_chunk = 64;
+constexpr std::uint8_t k_top = 7;
+
+struct Corners {
+  std::array<Point, 4> points;
+  std::size_t n = 0;
+  void add(const Point& p) { points[n++] = p; }
+  std::span<const Point> span() const { return {points.data(), n}; }
+};
+
+struct Place {
+  Point centre;
+  double volume = 0.0;
+};
+
+double reach(std::span<const Point> corners, const Point& centre, const Vec3& direction, double least) {
+  double reach = least;
+  for (const Point& p : corners) reach = std::max(reach, std::abs(dot(direction, p - centre)));
+  return reach;
+}
+
+/// How far the line from a cell's centre along d passes a face's centre, over the reach.
+double skewness_of(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Vec3& d, double share) {
+  const Vec3 to_face = face.centre - cell;
+  const Vec3 miss = to_face - (dot(face.area, to_face) / (dot(face.area, d) + k_tiny)) * d;
+  const double length = norm(miss);
+  return length / reach(corners, face.centre, miss / (length + k_tiny), share * norm(d) + k_tiny);
+}
+
+void add_inner(CellCentredScan& scan, std::uint64_t id, std::span<const Point> corners, const Place& a, const Place& b) {
+  const FaceShape face = face_shape(corners);
+  const Vec3 d = b.centre - a.centre;
+  const double cosine = dot(d, face.area) / (norm(d) * norm(face.area) + k_tiny);
+  scan.non_orthogonality.add(std::acos(std::clamp(cosine, -1.0, 1.0)), id);
+  scan.skewness.add(skewness_of(face, corners, a.centre, d, k_inner_reach), id);
+  const double to_a = std::abs(dot(face.area, face.centre - a.centre)), to_b = std::abs(dot(face.area, b.centre - face.centre));
+  scan.face_weight.add(std::min(to_a, to_b) / (to_a + to_b + k_tiny), id);
+  scan.volume_ratio.add(std::min(a.volume, b.volume) / (std::max(a.volume, b.volume) + k_tiny), id);
+  if (corners.size() == 4) scan.face_flatness.add(face.flatness, id);
+}
+
+void add_boundary(CellCentredScan& scan, std::uint64_t id, std::span<const Point> corners, const Place& cell) {
+  const FaceShape face = face_shape(corners);
+  const Vec3 normal = face.area / (norm(face.area) + k_tiny);
+  scan.skewness.add(skewness_of(face, corners, cell.centre, dot(normal, face.centre - cell.centre) * normal, k_boundary_reach), id);
+  if (corners.size() == 4) scan.face_flatness.add(face.flatness, id);
+}
+
+/// Centres and volumes: of tetrahedra on demand, of all other cells once.
+class Places {
+ public:
+  Places(const HybridMesh& mesh, const CellNumbers& cells) : mesh_(mesh), cells_(cells), kept_(cells.first_tetrahedron()) {}
+  void keep(std::uint64_t number, const CellShape& shape) { kept_[number] = {shape.centre, shape.volume}; }
+  Place of(std::uint64_t number) const {
+    if (number < kept_.size()) return kept_[number];
+    const auto& n = mesh_.tetrahedra[number - kept_.size()];
+    const Point &a = mesh_.points[n[0]], &b = mesh_.points[n[1]], &c = mesh_.points[n[2]], &d = mesh_.points[n[3]];
+    return {(a + b + c + d) * 0.25, dot(b - a, cross(c - a, d - a)) / 6.0};
+  }
+
+ private:
+  const HybridMesh& mesh_;
+  const CellNumbers& cells_;
+  std::vector<Place> kept_;
+};
+
+/// Corners of a side of a column's cell, normal out of it; fewer than three where both lines are collapsed.
+Corners side_of(const HybridMesh& mesh, std::size_t column, std::size_t corner, int layer) {
+  const LayerBlock& layers = mesh.layers;
+  const std::uint32_t u = layers.base[column][corner], v = layers.base[column][(corner + 1) % 3];
+  Corners corners;
+  corners.add(mesh.points[layers.node(u, layer)]);
+  corners.add(mesh.points[layers.node(v, layer)]);
+  if (!layers.is_collapsed[v]) corners.add(mesh.points[layers.node(v, layer + 1)]);
+  if (!layers.is_collapsed[u]) corners.add(mesh.points[layers.node(u, layer + 1)]);
+  return corners;
+}
+
+Corners top_of(const HybridMesh& mesh, std::size_t column, int layer) {
+  Corners corners;
+  for (const std::uint32_t line : mesh.layers.base[column]) corners.add(mesh.points[mesh.layers.node(line, layer + 1)]);
+  return corners;
+}
+
+Corners corners_of(const HybridMesh& mesh, const Face& face) {
+  Corners corners;
+  for (std::size_t k = 0; k < face.size; ++k) corners.add(mesh.points[face.nodes[k]]);
+  return corners;
+}
+
+class Scanner {
+ public:
+  Scanner(const HybridMesh& mesh, const CellNumbers& cells, const GateTable& limits, const RunContext& context) : mesh_(mesh), limits_(limits), context_(context), places_(mesh, cells) {}
+
+  /// Cells, each by itself.
+  void scan_cells(const CellNumbers& cells, CellCentredScan& scan) {
+    const auto n_layers = static_cast<std::uint64_t>(mesh_.layers.n_layers);
+    const auto add = [&](CellCentredScan& part, std::uint64_t number, const Cell& cell) {
+      const CellShape shape = cell_shape(mesh_, cell);
+      if (number < cells.first_tetrahedron()) places_.keep(number, shape);
+      part.cell_aspect_ratio.add(shape.aspect_ratio, number);
+      part.cell_openness.add(shape.openness, number);
+    };
+    gather(
+        scan, mesh_.layers.n_columns(),
+        [&](std::size_t c, CellCentredScan& part) {
+          if (mesh_.layers.n_collapsed(c) == 3) return;
+          for (int j = 0, n = mesh_.layers.layers_of_column(c); j < n; ++j) add(part, c * n_layers + static_cast<std::uint64_t>(j), mesh_.layers.cell(c, j));
+        },
+        k_column_chunk);
+    const std::uint64_t first = cells.first_prism(), last = cells.first_tetrahedron() + mesh_.tetrahedra.size();
+    gather(scan, last - first, [&](std::size_t i, CellCentredScan& part) { add(part, first + i, cells.cell(first + i)); });
+  }
+
+  /// Faces between cells of columns.
+  void scan_columns(std::span<const std::uint32_t> neighbours, CellCentredScan& scan) const {
+    const LayerBlock& layers = mesh_.layers;
+    const auto n_layers = static_cast<std::uint64_t>(layers.n_layers);
+    gather(
+        scan, layers.n_columns(),
+        [&](std::size_t c, CellCentredScan& part) {
+          if (layers.n_collapsed(c) == 3) return;
+          const int n = layers.layers_of_column(c);
+          for (int j = 0; j < n; ++j) {
+            const std::uint64_t number = c * n_layers + static_cast<std::uint64_t>(j);
+            const Place here = places_.of(number);
+            if (j + 1 < n) add_inner(part, 8 * number + k_top, top_of(mesh_, c, j).span(), here, places_.of(number + 1));
+            for (std::size_t k = 0; k < 3; ++k) {
+              const std::uint32_t other = neighbours[3 * c + k];
+              if (other == k_no_slot || other < c) continue;
+              const Corners side = side_of(mesh_, c, k, j);
+              if (side.n >= 3) add_inner(part, 8 * number + k, side.span(), here, places_.of(other * n_layers + static_cast<std::uint64_t>(j)));
+            }
+          }
+        },
+        k_column_chunk);
+  }
+
+  /// All others.
+  void scan_slots(const FaceSlots& slots, const FaceMatch& match, CellCentredScan& scan) const {
+    gather(scan, match.pairs.size(), [&](std::size_t i, CellCentredScan& part) {
+      const auto& [a, b] = match.pairs[i];
+      add_inner(part, CellCentredScan::k_of_slot + a, corners_of(mesh_, slots.face(a)).span(), places_.of(slots.owner(a)), places_.of(slots.owner(b)));
+    });
+    gather(scan, match.outer.size(), [&](std::size_t i, CellCentredScan& part) {
+      const std::uint32_t slot = match.outer[i];
+      add_boundary(part, CellCentredScan::k_of_slot + slot, corners_of(mesh_, slots.face(slot)).span(), places_.of(slots.owner(slot)));
+    });
+  }
+
+ private:
+  template <class Add>
+  void gather(CellCentredScan& scan, std::size_t n, const Add& add, std::size_t chunk = k_default_chunk) const {
+    scan = parallel_reduce(
+        context_, n, std::move(scan),
+        [&](std::size_t begin, std::size_t end) {
+          CellCentredScan part(limits_);
+          for (std::size_t i = begin; i < end; ++i) add(i, part);
+          return part;
+        },
+        [](CellCentredScan all, const CellCentredScan& more) {
+          all.merge(more);
+          return all;
+        },
+        chunk);
+  }
+
+  const HybridMesh& mesh_;
+  const GateTable& limits_;
+  const RunContext& context_;
+  Places places_;
+};
+
+GateScan scan_of(Measure measure, const GateTable& limits) { return {info_of(measure), limits[measure]}; }
+
+}  // namespace
+
+FaceShape face_shape(std::span<const Point> corners) {
+  if (corners.size() == 3) return {0.5 * cross(corners[1] - corners[0], corners[2] - corners[0]), (corners[0] + corners[1] + corners[2]) / 3.0, 1.0};
+  const Point middle = (corners[0] + corners[1] + corners[2] + corners[3]) * 0.25;
+  Vec3 normal{}, weighted{};
+  double total = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Point &p = corners[k], &next = corners[(k + 1) % 4];
+    const Vec3 twice_area = cross(next - p, middle - p);
+    const double size = norm(twice_area);
+    normal = normal + twice_area;
+    total += size;
+    weighted = weighted + size * (p + next + middle);
+  }
+  if (!(total > 0.0)) return {Vec3{}, middle, 1.0};
+  const Point centre = weighted / (3.0 * total);
+  double about_centre = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) about_centre += norm(cross(corners[(k + 1) % 4] - corners[k], centre - corners[k]));
+  return {0.5 * normal, centre, norm(normal) / (about_centre + k_tiny)};
+}
+
+CellShape cell_shape(const HybridMesh& mesh, const Cell& cell) {
+  std::array<FaceShape, 6> faces;
+  const auto local = cell_faces(cell.kind);
+  Point guess{};
+  for (std::size_t f = 0; f < local.size(); ++f) {
+    Corners corners;
+    for (std::size_t k = 0; k < local[f].size; ++k) corners.add(mesh.points[cell.nodes[local[f].nodes[k]]]);
+    faces[f] = face_shape(corners.span());
+    guess = guess + faces[f].centre;
+  }
+  guess = guess / static_cast<double>(local.size());
+  CellShape shape;
+  Vec3 weighted{}, sum{}, sizes{};
+  double total = 0.0, area = 0.0;
+  for (std::size_t f = 0; f < local.size(); ++f) {
+    const FaceShape& face = faces[f];
+    const double pyramid = dot(face.area, face.centre - guess);
+    weighted = weighted + pyramid * (0.75 * face.centre + 0.25 * guess);
+    total += pyramid;
+    sum = sum + face.area;
+    sizes = sizes + Vec3{std::abs(face.area.x), std::abs(face.area.y), std::abs(face.area.z)};
+  }
+  shape.centre = std::abs(total) > 0.0 ? weighted / total : guess;
+  shape.volume = total / 3.0;
+  const auto [low, high] = std::minmax({sizes.x, sizes.y, sizes.z});
+  area = sizes.x + sizes.y + sizes.z;
+  shape.aspect_ratio = std::max(high / (low + k_tiny), area / 6.0 / std::cbrt(shape.volume * shape.volume));
+  shape.openness = std::max({std::abs(sum.x) / (sizes.x + k_tiny), std::abs(sum.y) / (sizes.y + k_tiny), std::abs(sum.z) / (sizes.z + k_tiny)});
+  return shape;
+}
+
+CellCentredScan::CellCentredScan(const GateTable& limits)
+    : non_orthogonality(scan_of(Measure::non_orthogonality, limits)),
+      skewness(scan_of(Measure::skewness, limits)),
+      face_weight(scan_of(Measure::face_weight, limits)),
+      volume_ratio(scan_of(Measure::volume_ratio, limits)),
+      face_flatness(scan_of(Measure::face_flatness, limits)),
+      cell_aspect_ratio(scan_of(Measure::cell_aspect_ratio, limits)),
+      cell_openness(scan_of(Measure::cell_openness, limits)) {}
+
+void CellCentredScan::merge(const CellCentredScan& other) {
+  non_orthogonality.merge(other.non_orthogonality);
+  skewness.merge(other.skewness);
+  face_weight.merge(other.face_weight);
+  volume_ratio.merge(other.volume_ratio);
+  face_flatness.merge(other.face_flatness);
+  cell_aspect_ratio.merge(other.cell_aspect_ratio);
+  cell_openness.merge(other.cell_openness);
+}
+
+CellCentredScan scan_cell_centred(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, std::span<const std::uint32_t> neighbours,
+                                  const GateTable& limits, const RunContext& context) {
+  CellCentredScan scan(limits);
+  Scanner scanner(mesh, cells, limits, context);
+  scanner.scan_cells(cells, scan);
+  scanner.scan_columns(neighbours, scan);
+  scanner.scan_slots(slots, match, scan);
+  return scan;
+}
+
+void judge_cell_centred(const CellCentredScan& scan, const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, CheckReport& report) {
+  const auto cell = [&](std::uint64_t id) { return std::pair(cells.center(id), cells.name(id)); };
+  const auto face = [&](std::uint64_t id) {
+    if (id >= CellCentredScan::k_of_slot) {
+      const auto slot = static_cast<std::uint32_t>(id - CellCentredScan::k_of_slot);
+      return std::pair(slots.center(slot), "face of " + slots.name(slot));
+    }
+    const std::uint64_t number = id / 8, n_layers = static_cast<std::uint64_t>(mesh.layers.n_layers);
+    const std::size_t column = number / n_layers;
+    const int layer = static_cast<int>(number % n_layers);
+    const bool is_top = id % 8 == k_top;
+    const Corners corners = is_top ? top_of(mesh, column, layer) : side_of(mesh, column, id % 8, layer);
+    return std::pair(face_shape(corners.span()).centre, (is_top ? "top of " : "side of ") + cells.name(number));
+  };
+  const auto put = [&](const GateScan& measure, const auto& describe) {
+    GateResult result = measure.result(describe);
+    report.gates[static_cast<std::size_t>(result.measure)] = std::move(result);
+  };
+  for (const GateScan* measure : {&scan.non_orthogonality, &scan.skewness, &scan.face_weight, &scan.volume_ratio, &scan.face_flatness}) put(*measure, face);
+  for (const GateScan* measure : {&scan.cell_aspect_ratio, &scan.cell_openness}) put(*measure, cell);
+}
+
+}  // namespace sterna::check_parts

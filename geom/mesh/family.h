@@ -1,0 +1,141 @@
+// The family rule of quality.md section 1: whether meshes are members of one family, each finer than the one before by one factor in every direction.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/base/schema.h"
+#include "geom/mesh/gates.h"
+#include "geom/mesh/hybrid_mesh.h"
+
+namespace sterna {
+
+/// What the rule compares of one mesh. What is absent is not known: a mesh read from a file without columns, or without its manifest.
+struct FamilyMember {
+  std::string name;  ///< for people: a file, or "mesh 2"
+  std::int64_t nodes = 0;
+  std::int64_t wall_faces = 0;
+  double wall_edge = 0.0;                                    ///< m: mean length of the edges of wall faces; 0: there are none
+  Box box;                                                   ///< of all nodes: of the farfield
+  std::vector<std::pair<std::string, std::string>> patches;  ///< name and kind, by name
+  std::optional<int> layers;                                 ///< of the tallest columns
+  std::optional<double> first_height;                        ///< m, asked for: the smallest
+  std::optional<double> measured_first;                      ///< m: median over the lines of the length of the first edge
+  std::optional<double> growth;                              ///< asked for: the largest
+  std::optional<double> measured_growth;                     ///< median over the lines of the mean ratio of consecutive steps
+  std::optional<int> constant_layers;  ///< median over the lines of the first steps of equal height, the first included: 1 = it grows from the wall on
+  std::optional<double> tet_growth;    ///< growth of tetrahedra asked for; of the manifest
+  std::optional<double> refinement;    ///< member of a family that it was asked to be; of the manifest
+};
+
+/// Everything that the mesh itself says. Parallel.
+FamilyMember family_member(const HybridMesh& mesh, std::string name, const RunContext& context);
+
+struct FamilyTolerances {
+  double factor = k_automatic;
+  double nodes = 0.1;
+  double wall_edge = 0.05;
+  double first_height = 0.02;
+  double measured_first = 0.05;
+  double layers = 1.0;
+  double growth = 0.02;
+  double measured_growth = 0.1;
+  double tet_growth = 0.02;
+  double box = 0.01;
+  double fail = 3.0;
+};
+
+/// One rule between two consecutive members.
+struct FamilyRule {
+  std::string name;   ///< of its JSON entry: "first_height"
+  std::string title;  ///< for people
+  GateState state = GateState::not_checked;
+  std::string reason;                       ///< why it was not checked, or what differs
+  double coarse = 0.0, fine = 0.0;          ///< of the two members
+  double value = 0.0, expected = 0.0;       ///< what is compared: a ratio, a number of layers, growth - 1
+  double deviation = 0.0, tolerance = 0.0;  ///< pass up to the tolerance, warn up to `fail` times it
+};
+
+struct FamilyStep {
+  std::string coarse, fine;                             ///< names
+  double factor = 0.0;                                  ///< per direction: that asked for, else by wall edges
+  std::string factor_from;                              ///< "the option factor", "the refinements asked for", "the mean wall edges", "the nodes"
+  double factor_by_nodes = 0.0, factor_by_edges = 0.0;  ///< 0: not known
+  std::vector<FamilyRule> rules;
+};
+
+struct FamilyReport {
+  std::vector<FamilyMember> members;
+  std::vector<FamilyStep> steps;
+  GateState state() const;  ///< the worst of all rules
+};
+
+/// Checks consecutive members, from coarse to fine. \throws Error(bad_argument) for fewer than two members, or one that is not finer than the one before
+FamilyReport check_family(std::vector<FamilyMember> members, const FamilyTolerances& tolerances);
+
+/// Tables for people: the members, then each step with its rules.
+std::string to_text(const FamilyReport& report);
+/// JSON with schema "sterna-family-1", described in docs/quality_gates.md.
+std::string to_json(const FamilyReport& report);
+
+template <>
+struct Schema<FamilyTolerances> {
+  using O = FamilyTolerances;
+  static constexpr std::string_view stage = "check_family";
+  static constexpr std::array fields = {
+      Field<O>{.name = "factor",
+               .member = &O::factor,
+               .min = 1.01,
+               .max = 10.0,
+               .help = "ratio of edge lengths of a member and the next",
+               .automatic = "of the refinements asked for, else of the mean wall edges"},
+      Field<O>{
+          .name = "nodes",
+          .member = &O::nodes,
+          .min = 0.0,
+          .max = 1.0,
+          .help = "the factor by nodes (cube root of their ratio) may be off by this share: a tenth is a third of the nodes' number, what workshops accept"},
+      Field<O>{.name = "wall_edge",
+               .member = &O::wall_edge,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "the factor by mean wall edges may be off by this share: edges of a model are cut in whole numbers"},
+      Field<O>{.name = "first_height",
+               .member = &O::first_height,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "the ratio of first heights asked for may be off by this share, as gate G11 has it"},
+      Field<O>{.name = "measured_first",
+               .member = &O::measured_first,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "the same of the median first height in the mesh: lines lean, the more the coarser the wall"},
+      Field<O>{.name = "layers",
+               .member = &O::layers,
+               .min = 0.0,
+               .max = 10.0,
+               .help = "rounding of the numbers of layers that is allowed: 1 = half a layer in each of the two"},
+      Field<O>{
+          .name = "growth", .member = &O::growth, .min = 0.0, .max = 1.0, .help = "the logarithm of the growth asked for may be off by this share of r^(1/f)"},
+      Field<O>{.name = "measured_growth",
+               .member = &O::measured_growth,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "the same of the median growth in the mesh: heights follow the wall's edges, and numbers of layers are rounded"},
+      Field<O>{
+          .name = "tet_growth", .member = &O::tet_growth, .min = 0.0, .max = 1.0, .help = "growth - 1 of tetrahedra may be off by this share of (g - 1)/f"},
+      Field<O>{.name = "box",
+               .member = &O::box,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "sides of the farfield's box may be off by this share of its longest side: a sphere of other triangles ends elsewhere"},
+      Field<O>{.name = "fail", .member = &O::fail, .min = 1.0, .max = 1000.0, .help = "beyond so many tolerances a rule FAILs; up to there it warns"},
+  };
+};
+
+}  // namespace sterna

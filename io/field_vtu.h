@@ -1,0 +1,17 @@
+// VTU of a surface with numbers on it: what an inspection shows.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/tri_mesh_field.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::io {
+
+/// Triangles with "marker" = patch number + 1 and each field as an array of 32-bit floats at vertices or cells; names and kinds of patches as field data.
+/// \pre each field has as many values as the mesh has vertices or triangles \throws Error write_failed, cancelled
+void write_field_vtu(const TriMesh& mesh, const std::vector<TriMeshField>& fields, const std::filesystem::path& path, const RunContext& context);
+
+}  // namespace sterna::io

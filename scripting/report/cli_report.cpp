@@ -1,0 +1,83 @@
+#include <CLI/CLI.hpp>
+#include <array>
+#include <utility>
+
+#include "geom/base/error.h"
+#include "geom/base/number_text.h"
+#include "io/atomic_file.h"
+#include "io/format_table.h"
+#include "scripting/cli_options.h"
+#include "scripting/exit_status.h"
+#include "scripting/gate_limits.h"
+#include "scripting/models.h"
+#include "scripting/report/report_command.h"
+#include "scripting/report/report_data.h"
+
+namespace sterna::scripting {
+namespace {
+
+// Shares of the progress.
+constexpr double k_read_end = 0.3, k_check_end = 0.7;
+constexpr double k_megabyte = 1e6;
+
+/// The page, and whether it is of an INVALID mesh.
+std::pair<std::string, bool> page_of(const ReportCommand& command, const ReportOptions& options, const GateTable& limits, const CommandContext& context) {
+  const InputPath input{command.input, command.input};
+  const std::string name = std::filesystem::path(command.input).filename().string();
+  const RunContext reading = context.run.part("read", 0.0, k_read_end), writing = context.run.part("report", k_check_end, 1.0);
+  if (is_model_file(input.path))
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "a report of " + command.input, .problem = "it is a model, which has no mesh yet", .hint = "`sterna surface " + command.input + " -o wall.vtu` meshes its faces, `sterna mesh` the space around them"});
+  if (io::format_of(input.path).read_volume) {
+    const MeshValue mesh = read_mesh(input, reading);
+    if (count_cells(mesh.mesh).total() > 0) {
+      mesh.check = check(mesh.mesh, {.limits = limits}, context.run.part("check", k_read_end, k_check_end));
+      return {report_html(mesh, options, command.cuts, name, writing), !mesh.check->is_valid()};
+    }
+  }
+  if (!command.cuts.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "a report of " + command.input, .problem = "it is a surface, which has no cells to cut"});
+  surfmesh::StitchOptions stitching;
+  stitching.allow_open = true;
+  const std::array files = {input};
+  return {report_html(read_wall(files, stitching, reading), options, name, writing), false};
+}
+
+}  // namespace
+
+CLI::App* add_report_arguments(CLI::App& app, ReportCommand& report) {
+  CLI::App* command = app.add_subcommand("report", "a page (HTML, one file) that shows a mesh: view, cuts, worst places, histograms, gates, coverage, options");
+  command->add_option("mesh", report.input, "volume mesh or surface file. `sterna formats` lists what is read")->required();
+  command->add_option("-o,--output", report.output, "page.html")->required();
+  command->add_option("--cut", report.cuts, "a place by name (\"leading edge\", \"tip\" ...), \"x=1.2\", or \"point=0,0,0 normal=0,1,0\", shown before the automatic ones; may be given several times")->type_name("CUT")->allow_extra_args(false)->take_all();
+  command->add_option("--gate", report.gates, "limits of a QUALITY gate instead of the usual ones, as of `sterna check`; may be given several times")->type_name("MEASURE:LIMITS")->allow_extra_args(false)->take_all();
+  ReportOptions options;
+  add_schema_options(*command, sterna::options_of(options), report.options);
+  command->footer("sterna report mesh.cgns -o mesh.html --cut \"leading edge\" --cut x=1.2. Exit status 3 when the mesh is INVALID; the page is written all the same.");
+  return command;
+}
+
+void require_page_output(const std::filesystem::path& path) {
+  if (path.extension() != ".html" && path.extension() != ".htm")
+    throw Error({.code = ErrorCode::unsupported_format, .attempted = "writing the report " + path.string(), .problem = "a report is a page of HTML", .hint = "give the file a name that ends in .html"});
+}
+
+void write_page(const std::string& html, const std::filesystem::path& path, const RunContext& context) {
+  io::AtomicFile file(path);
+  file.append(html);
+  file.commit();
+  context.info("wrote " + path.string() + ": " + number_text(static_cast<double>(html.size()) / k_megabyte, 3) + " MB");
+}
+
+int execute(const ReportCommand& command, const CommandContext& context) {
+  require_page_output(command.output);
+  ReportOptions options;
+  set_options(sterna::options_of(options), command.options, context);
+  require_report_cuts(command.cuts);
+  GateTable limits;
+  for (const std::string& text : command.gates) set_gate_limits(text, limits);
+  const auto [html, is_invalid] = page_of(command, options, limits, context);
+  write_page(html, command.output, context.run);
+  context.console.end_progress();
+  return is_invalid ? k_exit_invalid : k_exit_success;
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,40 @@
+# Makes report_page.html in the build folder: cmake -DSOURCE=scripting/report/page -DWORK=FOLDER -DOUTPUT=FILE -DNPM=... -DNODE=... -P build_page.cmake
+# Where that cannot be done (no network and no cache of npm, a node that is too old) the file is empty and the reason is printed; everything else builds.
+# The source tree is not written to: sources are copied, libraries are installed beside the copies.
+
+function(give_up why details)
+  message("warning: the report page is not built in: ${why}")
+  message("${details}")
+  message("  sterna has no report{} then. Run cmake again to try anew.")
+  file(WRITE ${OUTPUT} "")
+endfunction()
+
+file(REMOVE_RECURSE ${WORK}/src)
+file(COPY ${SOURCE}/src ${SOURCE}/build.mjs ${SOURCE}/package.json ${SOURCE}/package-lock.json DESTINATION ${WORK})
+
+# Libraries again only when their list has changed.
+file(SHA256 ${WORK}/package-lock.json lock)
+set(stamp ${WORK}/node_modules/.sterna_lock)
+set(installed "")
+if(EXISTS ${stamp})
+  file(READ ${stamp} installed)
+endif()
+if(NOT installed STREQUAL lock)
+  execute_process(COMMAND ${NPM} ci --ignore-scripts --no-audit --no-fund --prefer-offline --fetch-retries=1 --fetch-timeout=30000
+                  WORKING_DIRECTORY ${WORK} RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
+  if(NOT status EQUAL 0)
+    give_up("npm ci failed; its libraries come from the npm registry" "${said}")
+    return()
+  endif()
+  file(WRITE ${stamp} ${lock})
+endif()
+
+execute_process(COMMAND ${NODE} ${WORK}/build.mjs ${OUTPUT} WORKING_DIRECTORY ${WORK} RESULT_VARIABLE status OUTPUT_VARIABLE said ERROR_VARIABLE said)
+if(NOT status EQUAL 0)
+  execute_process(COMMAND ${NODE} --version OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE)
+  if(version VERSION_LESS "v18")
+    give_up("node ${version} is too old, 18 or later is needed" "${said}")
+    return()
+  endif()
+  message(FATAL_ERROR "the report page could not be bundled:\n${said}")  # a mistake in its sources
+endif()

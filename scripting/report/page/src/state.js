@@ -1,0 +1,56 @@
+// What the reader has chosen, kept in the address behind "#", so that a link opens at the same place.
+
+const k_delay = 250; // ms: browsers limit how often an address may change
+
+/** Values by name with listeners; `set` tells those whose names changed. */
+export class State {
+  constructor(values) {
+    this.values = values;
+    this.listeners = [];
+  }
+
+  get(name) {
+    return this.values[name];
+  }
+
+  set(changes) {
+    const changed = Object.keys(changes).filter((name) => this.values[name] !== changes[name]);
+    if (!changed.length) return;
+    Object.assign(this.values, changes);
+    for (const { names, call } of this.listeners) if (names === null || changed.some((name) => names.includes(name))) call(this.values);
+  }
+
+  /** Calls after changes of these names (null: of any). */
+  on(names, call) {
+    this.listeners.push({ names, call });
+  }
+}
+
+/** The entries behind "#" as an object of texts. */
+export function read_hash() {
+  const entries = {};
+  for (const part of location.hash.replace(/^#/, "").split("&")) {
+    const at = part.indexOf("=");
+    if (at <= 0) continue;
+    try {
+      entries[decodeURIComponent(part.slice(0, at))] = decodeURIComponent(part.slice(at + 1));
+    } catch {
+      // A damaged escape: that entry is left out, the page opens as without it.
+    }
+  }
+  return entries;
+}
+
+let waiting = 0;
+
+/** Writes the entries behind "#" soon; null and undefined are left out. */
+export function write_hash(entries_now) {
+  clearTimeout(waiting);
+  waiting = setTimeout(() => {
+    const text = Object.entries(entries_now())
+      .filter(([, value]) => value !== null && value !== undefined && value !== "")
+      .map(([name, value]) => `${encodeURIComponent(name)}=${encodeURIComponent(value).replaceAll("%2C", ",").replaceAll("%3D", "=")}`)
+      .join("&");
+    history.replaceState(null, "", text ? `#${text}` : "#");
+  }, k_delay);
+}

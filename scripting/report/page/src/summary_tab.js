@@ -1,0 +1,58 @@
+// Facts and gates: what was found, against which limits.
+import { chip } from "./banner.js";
+import { button, count_text, h, number_text, percent_text, quantity_text } from "./dom.js";
+
+function limits_text(gate) {
+  const sign = gate.bound === "lower" ? "\u2265" : "\u2264";
+  return ["hard", "target", "usual"].filter((name) => typeof gate.limits?.[name] === "number").map((name) => h("span.limit", null, h("small", null, name), ` ${sign} ${number_text(gate.limits[name])}`));
+}
+
+/** Where the worst value lies between "good" and the hard limit is not to be told in general; shares are. */
+function share_bar(share) {
+  return h("span.share", { title: `${percent_text(share)} within` }, h("i", { style: { width: `${(100 * share).toFixed(2)}%` } }));
+}
+
+function open_gate(app, gate) {
+  const has_places = app.report.places.some((place) => place.gate === gate.gate && (gate.measure ? place.measure === gate.measure : place.state === "invalid"));
+  const has_histogram = app.report.histograms.some((histogram) => histogram.measure === gate.measure);
+  const buttons = [];
+  if (has_places) buttons.push(button("places", (event) => (event.stopPropagation(), app.state.set({ gate: gate.gate, tab: "places", markers: true })), { title: `Worst places of ${gate.gate}`, kind: ".small" }));
+  if (has_histogram)
+    buttons.push(button("histogram", (event) => (event.stopPropagation(), app.state.set({ tab: "histograms" }), app.show_histogram?.(gate.measure)), { title: `Histogram: ${gate.title}`, kind: ".small" }));
+  return buttons;
+}
+
+function verdict_row(app, gate) {
+  const places = open_gate(app, gate);
+  return h("div.gate", { "data-gate": gate.gate }, h("span.gate_name", null, gate.gate), h("span.gate_title", null, gate.title), chip(gate.state), gate.violations ? h("span.violations", null, `${count_text(gate.violations)} violations`) : null, h("span.gate_buttons", null, places));
+}
+
+function quality_row(app, gate) {
+  const is_known = gate.state !== "not checked";
+  const beyond = gate.beyond_hard > 0 ? h("span.beyond", null, `${count_text(gate.beyond_hard)} of ${count_text(gate.total)} ${gate.counted} beyond the hard limit`) : null;
+  return h(
+    "div.gate.quality",
+    { "data-gate": gate.gate, "data-measure": gate.measure },
+    h("span.gate_name", null, gate.gate),
+    h("span.gate_title", null, gate.title),
+    chip(gate.state),
+    is_known
+      ? h("div.gate_more", null, h("span.worst", null, h("small", null, "worst"), ` ${quantity_text(gate.worst, gate.unit)}`), limits_text(gate), typeof gate.share_within === "number" ? h("span.within", null, share_bar(gate.share_within), percent_text(gate.share_within)) : null)
+      : h("div.gate_more", null, h("span.reason", null, gate.reason ?? "not checked")),
+    beyond,
+    h("span.gate_buttons", null, open_gate(app, gate)),
+  );
+}
+
+export function summary_tab(app) {
+  const { report } = app;
+  const verdict = report.gates.filter((gate) => !gate.measure), quality = report.gates.filter((gate) => gate.measure);
+  const counts = {};
+  for (const gate of quality) counts[gate.state] = (counts[gate.state] ?? 0) + 1;
+  return [
+    h("h2", null, "Mesh"),
+    h("table.facts", null, h("tbody", null, (report.facts ?? []).map(([name, value]) => h("tr", null, h("th", { scope: "row" }, name), h("td", null, value))))),
+    verdict.length ? [h("h2", null, "Validity"), h("div.gates", null, verdict.map((gate) => verdict_row(app, gate)))] : null,
+    quality.length ? [h("h2", null, "Quality gates ", h("small", null, Object.entries(counts).map(([state, n]) => `${n} ${state}`).join(", "))), h("div.gates", null, quality.map((gate) => quality_row(app, gate)))] : null,
+  ];
+}

@@ -1,0 +1,177 @@
+// Triangles for the graphics card: three corners each, not shared, so that a triangle has a tone and edges of its own. One buffer geometry per set.
+import { BufferAttribute, BufferGeometry, Box3, Sphere, Vector3 } from "three";
+
+/** Triangles in the order in which they are drawn, and which item (triangle of the report, polygon of a cut) each is of. */
+export class TriangleSet {
+  /** positions: f32[9 m]; flags: u8[m], bits 0-2 are edges; item: u32[m], index of the item whose tone it takes. */
+  constructor(positions, flags, item) {
+    this.n = item.length;
+    this.positions = positions;
+    this.item = item;
+    this.data = new Uint16Array(this.n * 6); // per corner: tone, flags
+    for (let t = 0; t < this.n; ++t) for (let c = 0; c < 3; ++c) this.data[6 * t + 2 * c + 1] = flags[t];
+    this.geometry = new BufferGeometry();
+    this.geometry.setAttribute("position", new BufferAttribute(positions, 3));
+    this.data_attribute = new BufferAttribute(this.data, 2);
+    this.geometry.setAttribute("data", this.data_attribute);
+    this.geometry.boundingSphere = sphere_of(positions);
+  }
+
+  /** Tones by item. */
+  set_tones(tones) {
+    const { data, item } = this;
+    for (let t = 0; t < this.n; ++t) {
+      const tone = tones[item[t]];
+      data[6 * t] = tone;
+      data[6 * t + 2] = tone;
+      data[6 * t + 4] = tone;
+    }
+    this.data_attribute.needsUpdate = true;
+  }
+
+  corners(t) {
+    return [0, 1, 2].map((c) => new Vector3().fromArray(this.positions, 9 * t + 3 * c));
+  }
+
+  dispose() {
+    this.geometry.dispose();
+  }
+}
+
+export function box_of(positions, from = 0, to = positions.length) {
+  const box = new Box3();
+  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (let k = from; k < to; k += 3)
+    for (let c = 0; c < 3; ++c) {
+      const x = positions[k + c];
+      if (x < low[c]) low[c] = x;
+      if (x > high[c]) high[c] = x;
+    }
+  if (low[0] <= high[0]) box.set(new Vector3(...low), new Vector3(...high));
+  return box;
+}
+
+function sphere_of(positions) {
+  const box = box_of(positions);
+  return box.isEmpty() ? new Sphere(new Vector3(), 0) : box.getBoundingSphere(new Sphere());
+}
+
+const k_wall_flag = 8;
+const k_closed = 0.2; // relative difference of volumes, below which a surface counts as closed and of one orientation
+
+/** 1 when normals of the triangles with k_wall_flag point out of what they enclose, -1 inwards; 0 when they do not enclose anything (open, mixed orientations). */
+function outward_of(positions, flags) {
+  // The volume by the divergence of (x, 0, 0), (0, y, 0), (0, 0, z): three equal numbers for a closed surface of one orientation.
+  const volumes = [0, 0, 0];
+  for (let t = 0, k = 0; t < flags.length; ++t, k += 9) {
+    if (!(flags[t] & k_wall_flag)) continue;
+    for (let c = 0; c < 3; ++c) {
+      const a = (c + 1) % 3, b = (c + 2) % 3;
+      const area = (positions[k + 3 + a] - positions[k + a]) * (positions[k + 6 + b] - positions[k + b]) - (positions[k + 3 + b] - positions[k + b]) * (positions[k + 6 + a] - positions[k + a]);
+      volumes[c] += (area * (positions[k + c] + positions[k + 3 + c] + positions[k + 6 + c])) / 6;
+    }
+  }
+  const least = Math.min(...volumes), greatest = Math.max(...volumes);
+  if (least * greatest <= 0 || greatest - least > k_closed * Math.max(Math.abs(least), Math.abs(greatest))) return 0;
+  return Math.sign(least);
+}
+
+/** The surface, sorted by patch: ranges[p] = [first triangle, end] in the set's order; outward as of outward_of for the patches that are walls. */
+export function surface_set(surface, patches) {
+  const { n, points, triangles, patch, edges } = surface;
+  const n_patches = patches.length;
+  const start = new Uint32Array(n_patches + 1);
+  for (const p of patch) ++start[p + 1];
+  for (let p = 0; p < n_patches; ++p) start[p + 1] += start[p];
+  const ranges = Array.from({ length: n_patches }, (_, p) => [start[p], start[p + 1]]);
+  const next = start.slice();
+  const positions = new Float32Array(9 * n), flags = new Uint8Array(n), item = new Uint32Array(n);
+  for (let t = 0; t < n; ++t) {
+    const slot = next[patch[t]]++;
+    item[slot] = t;
+    flags[slot] = (edges[t] & 7) | (patches[patch[t]].kind === "wall" ? k_wall_flag : 0);
+    for (let c = 0; c < 3; ++c) {
+      const from = 3 * triangles[3 * t + c], to = 9 * slot + 3 * c;
+      positions[to] = points[from];
+      positions[to + 1] = points[from + 1];
+      positions[to + 2] = points[from + 2];
+    }
+  }
+  const set = new TriangleSet(positions, flags, item);
+  set.ranges = ranges;
+  set.outward = outward_of(positions, flags);
+  set.boxes = ranges.map(([from, to]) => box_of(positions, 9 * from, 9 * to));
+  return set;
+}
+
+/** Polygons of a cut as fans (a plane through a convex cell gives a convex polygon); inner edges of a fan are no edges. */
+export function cut_set(cut) {
+  const { n, points, first } = cut;
+  let n_triangles = 0;
+  for (let k = 0; k < n; ++k) n_triangles += Math.max(first[k + 1] - first[k] - 2, 0);
+  const positions = new Float32Array(9 * n_triangles), flags = new Uint8Array(n_triangles), item = new Uint32Array(n_triangles);
+  let t = 0;
+  for (let k = 0; k < n; ++k)
+    for (let c = first[k] + 1; c + 1 < first[k + 1]; ++c, ++t) {
+      [first[k], c, c + 1].forEach((corner, j) => positions.set(points.subarray(3 * corner, 3 * corner + 3), 9 * t + 3 * j));
+      flags[t] = (c === first[k] + 1 ? 1 : 0) | 2 | (c + 2 === first[k + 1] ? 4 : 0);
+      item[t] = k;
+    }
+  return new TriangleSet(positions, flags, item);
+}
+
+/** Where a ray meets the plane of triangle t; the triangle's centre when it is parallel. */
+export function point_on(set, t, origin, direction) {
+  const [a, b, c] = set.corners(t);
+  const normal = b.clone().sub(a).cross(c.clone().sub(a));
+  const along = normal.dot(direction);
+  if (Math.abs(along) < 1e-12 * normal.length()) return a.add(b).add(c).divideScalar(3);
+  return origin.clone().addScaledVector(direction, normal.dot(a.clone().sub(origin)) / along);
+}
+
+/** The triangle nearest to a point (by its centre), among the given ranges: {t, distance, normal, size}; null when there is none. */
+export function nearest_triangle(set, point, ranges) {
+  let best = -1, least = Infinity;
+  const p = set.positions;
+  for (const [from, to] of ranges)
+    for (let t = from; t < to; ++t) {
+      const k = 9 * t;
+      const x = (p[k] + p[k + 3] + p[k + 6]) / 3 - point.x, y = (p[k + 1] + p[k + 4] + p[k + 7]) / 3 - point.y, z = (p[k + 2] + p[k + 5] + p[k + 8]) / 3 - point.z;
+      const square = x * x + y * y + z * z;
+      if (square < least) {
+        least = square;
+        best = t;
+      }
+    }
+  if (best < 0) return null;
+  const [a, b, c] = set.corners(best);
+  const size = Math.max(a.distanceTo(b), b.distanceTo(c), c.distanceTo(a));
+  const normal = b.sub(a).cross(c.sub(a));
+  if (normal.length() > 0) normal.normalize();
+  else normal.set(0, 0, 1);
+  return { t: best, distance: Math.sqrt(least), normal, size };
+}
+
+/** Length to the first triangle along a ray that starts at origin + least * direction; Infinity when it meets none. Moller-Trumbore, both sides. */
+export function first_hit(set, origin, direction, ranges, least) {
+  const p = set.positions;
+  const [ox, oy, oz] = origin.toArray(), [dx, dy, dz] = direction.toArray();
+  let best = Infinity;
+  for (const [from, to] of ranges)
+    for (let k = 9 * from; k < 9 * to; k += 9) {
+      const e1x = p[k + 3] - p[k], e1y = p[k + 4] - p[k + 1], e1z = p[k + 5] - p[k + 2];
+      const e2x = p[k + 6] - p[k], e2y = p[k + 7] - p[k + 1], e2z = p[k + 8] - p[k + 2];
+      const hx = dy * e2z - dz * e2y, hy = dz * e2x - dx * e2z, hz = dx * e2y - dy * e2x;
+      const a = e1x * hx + e1y * hy + e1z * hz;
+      if (a === 0) continue;
+      const sx = ox - p[k], sy = oy - p[k + 1], sz = oz - p[k + 2];
+      const u = (sx * hx + sy * hy + sz * hz) / a;
+      if (u < 0 || u > 1) continue;
+      const qx = sy * e1z - sz * e1y, qy = sz * e1x - sx * e1z, qz = sx * e1y - sy * e1x;
+      const v = (dx * qx + dy * qy + dz * qz) / a;
+      if (v < 0 || u + v > 1) continue;
+      const length = (e2x * qx + e2y * qy + e2z * qz) / a;
+      if (length > least && length < best) best = length;
+    }
+  return best;
+}

@@ -1,0 +1,426 @@
+// The picture: surface, one cut, markers; what lies under the pointer; scale bar and axes. Positions that come in and go out are absolute, in metres.
+import { BufferAttribute, BufferGeometry, Color, ColorManagement, LinearSRGBColorSpace, Mesh, PerspectiveCamera, Points, Scene, Vector2, Vector3, WebGLRenderer, WebGLRenderTarget } from "three";
+import { Camera, k_views, looking } from "./camera.js";
+import { css_colour, h, number_text } from "./dom.js";
+import { ReportError } from "./errors.js";
+import { picture_with } from "./picture.js";
+import { draw_material, marker_material, palette_texture, pick_material, set_uniforms } from "./shaders.js";
+import { first_hit, nearest_triangle, point_on } from "./triangles.js";
+
+// Colours are written as they are meant on the screen; nothing is mixed in light.
+ColorManagement.enabled = false;
+
+const k_most_pixels = 2; // of the screen per pixel of the page: more costs time and shows nothing
+const k_click_reach = 10; // pixels around a marker that belong to it
+const k_click_slack = 4; // pixels that a hand may move during a click
+const k_slow_pick = 40; // ms: above this, what is under the pointer is looked for only when it rests
+const k_rest = 160; // ms
+const k_least_place = 4e-3; // radius that is shown around a place, of the body length: next to slivers one wants to see their neighbours
+
+class Layer {
+  constructor(scene) {
+    this.uniforms = set_uniforms();
+    this.draw = draw_material(this.uniforms);
+    this.pick = pick_material(this.uniforms);
+    this.scene = scene;
+    this.set = null;
+    this.mesh = null;
+  }
+
+  show(set, position) {
+    if (this.mesh) this.scene.remove(this.mesh);
+    if (this.set && this.set !== set) this.set.dispose();
+    this.set = set;
+    this.mesh = null;
+    if (!set) return;
+    this.mesh = new Mesh(set.geometry, [this.draw]);
+    this.mesh.position.copy(position);
+    this.mesh.frustumCulled = false;
+    this.mesh.matrixAutoUpdate = true;
+    this.show_ranges([[0, set.n]]);
+    this.scene.add(this.mesh);
+  }
+
+  /** Draws these ranges of triangles only; neighbours are joined, so that few calls are made. */
+  show_ranges(ranges) {
+    const joined = [];
+    for (const [from, to] of ranges) {
+      if (to <= from) continue;
+      if (joined.length && joined[joined.length - 1][1] === from) joined[joined.length - 1][1] = to;
+      else joined.push([from, to]);
+    }
+    this.ranges = joined;
+    this.set.geometry.clearGroups();
+    for (const [from, to] of joined) this.set.geometry.addGroup(3 * from, 3 * (to - from), 0);
+  }
+
+  paint(tones, palette) {
+    this.uniforms.palette.value?.dispose();
+    this.uniforms.palette.value = palette_texture(palette);
+    this.set.set_tones(tones);
+  }
+
+  n_drawn() {
+    return this.mesh?.visible ? this.ranges.reduce((sum, [from, to]) => sum + to - from, 0) : 0;
+  }
+}
+
+export class View {
+  /** Adds its canvas to `container`. \throws ReportError where there is no WebGL 2. */
+  constructor(container, origin, handlers) {
+    this.container = container;
+    this.handlers = handlers;
+    this.origin = new Vector3(...origin);
+    this.canvas = h("canvas.view_canvas", { tabindex: "0", "aria-label": "The mesh in three dimensions. Arrow keys turn, Shift and arrow keys move, plus and minus zoom." });
+    const context = this.canvas.getContext("webgl2", { antialias: true, powerPreference: "high-performance" });
+    if (!context) throw new ReportError("The picture cannot be drawn: this browser has no WebGL 2 (switched off, or no driver of the graphics card). The tables beside it are complete.");
+    container.prepend(this.canvas);
+    this.canvas.addEventListener("webglcontextlost", () => handlers.lost?.("The graphics card took its memory back: reload the page to see the picture again."));
+    this.renderer = new WebGLRenderer({ canvas: this.canvas, context });
+    this.renderer.outputColorSpace = LinearSRGBColorSpace;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, k_most_pixels));
+    this.scene = new Scene();
+    this.lens = new PerspectiveCamera();
+    this.camera = new Camera(this.lens, this.canvas, (by_hand) => {
+      if (by_hand) handlers.moved?.();
+      this.request();
+    });
+    this.surface = new Layer(this.scene);
+    this.cut = new Layer(this.scene);
+    this.cut.uniforms.shading.value = 0;
+    this.cut.uniforms.fade_together.value = 0;
+    this.markers = null;
+    this.marker_list = [];
+    this.pin = null;
+    this.pick_target = new WebGLRenderTarget(1, 1);
+    this.overlay();
+    this.listen();
+    new ResizeObserver(() => this.resize()).observe(container);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.restyle());
+    this.restyle();
+    this.resize();
+  }
+
+  overlay() {
+    this.pin_element = h("div.pin", { hidden: true }, h("div.pin_ring"), h("div.pin_text"));
+    this.scale_bar = h("div.scale_bar", null, h("span"), h("i"));
+    this.axes = h("div.axes", { "aria-hidden": "true" });
+    this.axes.innerHTML = '<svg viewBox="-40 -40 80 80" width="72" height="72"></svg>';
+    this.container.append(this.pin_element, this.scale_bar, this.axes);
+  }
+
+  restyle() {
+    this.renderer.setClearColor(new Color().setStyle(css_colour("--view_background"), ""), 1);
+    const edge = new Color().setStyle(css_colour("--mesh_edge"), "");
+    for (const layer of [this.surface, this.cut]) layer.uniforms.edge_colour.value = [edge.r, edge.g, edge.b];
+    this.request();
+  }
+
+  resize() {
+    const width = Math.max(1, this.container.clientWidth), height = Math.max(1, this.container.clientHeight);
+    this.renderer.setSize(width, height, false);
+    this.lens.aspect = width / height;
+    this.request();
+  }
+
+  local(position) {
+    return new Vector3(...position).sub(this.origin);
+  }
+
+  absolute(point) {
+    return point.clone().add(this.origin).toArray();
+  }
+
+  request() {
+    if (this.waiting) return;
+    this.waiting = requestAnimationFrame((now) => {
+      this.waiting = 0;
+      if (this.camera.step(now)) this.request();
+      this.draw();
+    });
+  }
+
+  draw() {
+    this.camera.apply();
+    for (const layer of [this.surface, this.cut]) {
+      layer.uniforms.near.value = this.lens.near;
+      layer.uniforms.far.value = this.lens.far;
+    }
+    this.renderer.render(this.scene, this.lens);
+    this.draw_pin();
+    this.draw_axes();
+    this.draw_scale_bar();
+  }
+
+  draw_pin() {
+    this.pin_element.hidden = !this.pin;
+    if (!this.pin) return;
+    const at = this.on_screen(this.pin.at);
+    this.pin_element.hidden = !at;
+    if (at) this.pin_element.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px)`;
+  }
+
+  /** Pixels of an absolute position; null behind the camera or outside of the picture. */
+  on_screen(position) {
+    const point = this.local(position).applyMatrix4(this.lens.matrixWorldInverse);
+    if (point.z >= 0) return null;
+    point.applyMatrix4(this.lens.projectionMatrix);
+    if (Math.abs(point.x) > 1 || Math.abs(point.y) > 1) return null;
+    return [((point.x + 1) / 2) * this.canvas.clientWidth, ((1 - point.y) / 2) * this.canvas.clientHeight];
+  }
+
+  draw_axes() {
+    const inverse = this.camera.orientation.clone().invert();
+    const arms = [["x", "#d0453a"], ["y", "#3c9a4e"], ["z", "#3f78c9"]].map(([name, colour], k) => ({ name, colour, v: new Vector3().setComponent(k, 1).applyQuaternion(inverse) }));
+    arms.sort((a, b) => a.v.z - b.v.z);
+    this.axes.firstChild.innerHTML = arms
+      .map(({ name, colour, v }) => {
+        const x = v.x * 25, y = -v.y * 25;
+        return `<line x1="0" y1="0" x2="${x}" y2="${y}" stroke="${colour}" stroke-width="2.4" stroke-linecap="round"/><text x="${x * 1.34}" y="${y * 1.34}" fill="${colour}">${name}</text>`;
+      })
+      .join("");
+  }
+
+  draw_scale_bar() {
+    const wanted = this.camera.pixel_size() * 110;
+    const power = 10 ** Math.floor(Math.log10(wanted));
+    const length = [5, 2, 1].map((m) => m * power).find((l) => l <= wanted) ?? power;
+    const [text, bar] = this.scale_bar.children;
+    const [factor, unit] = length >= 1 ? [1, "m"] : length >= 1e-3 ? [1e3, "mm"] : [1e6, "\u00b5m"];
+    text.textContent = `${number_text(Number((length * factor).toPrecision(2)))} ${unit}`;
+    bar.style.width = `${(length / this.camera.pixel_size()).toFixed(1)}px`;
+  }
+
+  // ---- what is shown
+
+  set_surface(set) {
+    this.surface.show(set, new Vector3());
+    this.surface.uniforms.outward.value = set.outward;
+    this.request();
+  }
+
+  /** ranges of triangles of the visible patches; the scene's extent is theirs. */
+  show_ranges(ranges) {
+    this.surface.show_ranges(ranges);
+    this.request();
+  }
+
+  set_scene(sphere) {
+    this.camera.scene = sphere;
+    this.camera.limits = { least: Math.max(sphere.radius * 1e-9, 1e-12), greatest: sphere.radius * 60 };
+  }
+
+  set_cut(set, base) {
+    this.cut.show(set, base ? this.local(base) : new Vector3());
+    if (set) this.cut.uniforms.id_offset.value = this.surface.set?.n ?? 0;
+    this.request();
+  }
+
+  /** Hides the surface on the side that `normal` points to; null shows all of it. */
+  set_clip(plane) {
+    const clip = this.surface.uniforms.clip;
+    if (!plane) clip.value = [0, 0, 0, 1];
+    else clip.value = [...plane.normal, new Vector3(...plane.normal).dot(this.local(plane.origin))];
+    this.request();
+  }
+
+  set_edges(surface, cut) {
+    this.surface.uniforms.edge_strength.value = surface ? 0.5 : 0;
+    this.cut.uniforms.edge_strength.value = cut ? 0.7 : 0;
+    this.request();
+  }
+
+  show_surface(is_shown) {
+    if (this.surface.mesh) this.surface.mesh.visible = is_shown;
+    this.request();
+  }
+
+  /** list of {at, colour: [r, g, b]}; seen through everything. */
+  set_markers(list) {
+    if (this.markers) {
+      this.scene.remove(this.markers);
+      this.markers.geometry.dispose();
+    }
+    this.marker_list = list;
+    this.markers = null;
+    if (list.length) {
+      const geometry = new BufferGeometry();
+      geometry.setAttribute("position", new BufferAttribute(new Float32Array(list.flatMap((m) => this.local(m.at).toArray())), 3));
+      geometry.setAttribute("colour_of", new BufferAttribute(new Float32Array(list.flatMap((m) => m.colour.map((c) => c / 255))), 3));
+      this.marker_material ??= marker_material();
+      this.marker_material.uniforms.pixels.value = 11 * this.renderer.getPixelRatio();
+      this.markers = new Points(geometry, this.marker_material);
+      this.markers.frustumCulled = false;
+      this.markers.renderOrder = 10;
+      this.scene.add(this.markers);
+    }
+    this.request();
+  }
+
+  /** The chosen place: a ring with a text; null takes it away. */
+  set_pin(pin) {
+    this.pin = pin;
+    if (pin) {
+      this.pin_element.style.setProperty("--pin", pin.colour);
+      this.pin_element.lastChild.replaceChildren(h("b", null, pin.title), h("span", null, pin.text));
+    }
+    this.request();
+  }
+
+  // ---- where the camera is
+
+  look_along(name, points, is_smooth = true) {
+    const [along, up] = k_views[name];
+    this.fit(points, is_smooth, looking(new Vector3(...along), new Vector3(...up)));
+  }
+
+  /** All points (xyz, ..., relative to the origin) into the picture. */
+  fit(points, is_smooth = true, orientation = this.camera.orientation) {
+    this.camera.go({ ...this.camera.framing(points, orientation), orientation }, is_smooth);
+  }
+
+  fly_to_cut(cut, is_smooth = true) {
+    const normal = new Vector3(...cut.normal).normalize();
+    const up = Math.abs(normal.z) > 0.9 ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
+    const orientation = looking(normal.negate(), up);
+    this.camera.go({ target: this.local(cut.focus.center), distance: this.camera.distance_for(cut.focus.radius), orientation }, is_smooth);
+  }
+
+  /** Looks at a place from outside the body: along the nearest triangle's normal, from where nothing is in between; some 20 triangles wide. */
+  fly_to_place(position, length, ranges, is_smooth = true) {
+    const target = this.local(position);
+    const near = this.surface.set ? nearest_triangle(this.surface.set, target, ranges) : null;
+    let distance = this.camera.distance_for(length * 0.02), orientation = this.camera.orientation;
+    if (near && near.distance < length * 0.5) {
+      const along = [near.normal, near.normal.clone().negate()];
+      const free = along.map((d) => first_hit(this.surface.set, target, d, ranges, near.distance * 1e-3 + near.size * 1e-3));
+      const outwards = along[free[1] > free[0] ? 1 : 0];
+      distance = this.camera.distance_for(Math.max(near.size * 10, near.distance * 3, length * k_least_place));
+      // A view along the normal itself is flat; some 25 degrees aside show relief.
+      const side = new Vector3(0, 0, 1).cross(outwards).multiplyScalar(0.35).add(new Vector3(0, 0, 0.25));
+      orientation = looking(outwards.clone().add(side).negate(), new Vector3(0, 0, 1));
+    }
+    this.camera.go({ target, distance, orientation }, is_smooth);
+  }
+
+  // ---- what is under the pointer
+
+  /** {layer: "surface" | "cut", item, at} at pixels of the canvas, or null. */
+  pick(x, y) {
+    const size = this.renderer.getSize(new Vector2());
+    this.camera.apply();
+    this.lens.setViewOffset(size.x, size.y, Math.floor(x), Math.floor(y), 1, 1);
+    const layers = [this.surface, this.cut].filter((layer) => layer.mesh);
+    for (const layer of layers) layer.mesh.material = [layer.pick];
+    if (this.markers) this.markers.visible = false;
+    const clear = this.renderer.getClearColor(new Color());
+    this.renderer.setClearColor(0x000000, 0);
+    this.renderer.setRenderTarget(this.pick_target);
+    this.renderer.clear();
+    this.renderer.render(this.scene, this.lens);
+    const bytes = new Uint8Array(4);
+    this.renderer.readRenderTargetPixels(this.pick_target, 0, 0, 1, 1, bytes);
+    this.renderer.setRenderTarget(null);
+    this.renderer.setClearColor(clear, 1);
+    for (const layer of layers) layer.mesh.material = [layer.draw];
+    if (this.markers) this.markers.visible = true;
+    this.lens.clearViewOffset();
+    this.lens.updateProjectionMatrix();
+    const id = bytes[0] + bytes[1] * 256 + bytes[2] * 65536 + bytes[3] * 16777216 - 1;
+    if (id < 0) return null;
+    const n_surface = this.surface.set?.n ?? 0;
+    const layer = id < n_surface ? this.surface : this.cut;
+    const t = id < n_surface ? id : id - n_surface;
+    if (!layer.set || t >= layer.set.n) return null;
+    const direction = new Vector3((2 * (Math.floor(x) + 0.5)) / size.x - 1, 1 - (2 * (Math.floor(y) + 0.5)) / size.y, 0.5).unproject(this.lens).sub(this.lens.position).normalize();
+    const point = point_on(layer.set, t, this.lens.position.clone().sub(layer.mesh.position), direction).add(layer.mesh.position);
+    return { layer: layer === this.surface ? "surface" : "cut", item: layer.set.item[t], at: this.absolute(point), point };
+  }
+
+  /** Index of the marker at pixels of the canvas, or -1. */
+  marker_at(x, y) {
+    let best = -1, least = k_click_reach;
+    this.marker_list.forEach((marker, k) => {
+      const at = this.on_screen(marker.at);
+      const away = at ? Math.hypot(at[0] - x, at[1] - y) : Infinity;
+      if (away < least) {
+        least = away;
+        best = k;
+      }
+    });
+    return best;
+  }
+
+  listen() {
+    const { canvas } = this;
+    const pixels = (event) => {
+      const box = canvas.getBoundingClientRect();
+      return [event.clientX - box.left, event.clientY - box.top];
+    };
+    let down = null, resting = 0, last_cost = 0;
+    const hover = (x, y) => {
+      const start = performance.now();
+      const found = this.pick(x, y);
+      last_cost = performance.now() - start;
+      this.handlers.hovered?.(found);
+    };
+    canvas.addEventListener("pointerdown", (event) => {
+      down = pixels(event);
+      canvas.focus({ preventScroll: true });
+    });
+    canvas.addEventListener("pointerup", (event) => {
+      const [x, y] = pixels(event);
+      if (!down || Math.hypot(x - down[0], y - down[1]) > k_click_slack || event.button !== 0) return;
+      down = null;
+      const marker = this.marker_at(x, y);
+      if (marker >= 0) this.handlers.marker_clicked?.(marker);
+      else this.handlers.clicked?.(this.pick(x, y));
+    });
+    canvas.addEventListener("dblclick", (event) => {
+      const found = this.pick(...pixels(event));
+      if (!found) return;
+      this.camera.go({ target: found.point });
+      this.handlers.moved?.();
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      if (event.buttons || this.camera.flight) return;
+      const [x, y] = pixels(event);
+      clearTimeout(resting);
+      if (last_cost < k_slow_pick) {
+        if (this.hovering) return;
+        this.hovering = requestAnimationFrame(() => {
+          this.hovering = 0;
+          hover(x, y);
+        });
+      } else resting = setTimeout(() => hover(x, y), k_rest);
+    });
+    canvas.addEventListener("pointerleave", () => {
+      clearTimeout(resting);
+      this.handlers.hovered?.(null);
+    });
+  }
+
+  /** The picture as a PNG data URL, with more elements over it. */
+  picture(elements) {
+    this.draw(); // in the same task: afterwards the canvas is empty
+    return picture_with(this.canvas, [...elements, this.scale_bar, this.axes, this.pin_element]);
+  }
+
+  /** Share of pixels that are not background, and the number of distinct colours among a sample: for tests. */
+  pixels() {
+    this.draw();
+    const context = this.renderer.getContext();
+    const width = context.drawingBufferWidth, height = context.drawingBufferHeight;
+    const bytes = new Uint8Array(4 * width * height);
+    context.readPixels(0, 0, width, height, context.RGBA, context.UNSIGNED_BYTE, bytes);
+    const background = new Color().setStyle(css_colour("--view_background"), "");
+    const clear = [background.r, background.g, background.b].map((c) => Math.round(c * 255));
+    const colours = new Set();
+    let n_drawn = 0;
+    for (let k = 0; k < bytes.length; k += 4) {
+      if (Math.abs(bytes[k] - clear[0]) + Math.abs(bytes[k + 1] - clear[1]) + Math.abs(bytes[k + 2] - clear[2]) > 6) ++n_drawn;
+      if (k % 28 === 0) colours.add((bytes[k] << 16) | (bytes[k + 1] << 8) | bytes[k + 2]);
+    }
+    return { width, height, share: n_drawn / (width * height), colours: colours.size };
+  }
+}

@@ -1,0 +1,33 @@
+// `sterna report`, and what it shares with the verb report{}.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scripting/commands.h"
+#include "scripting/report/report_options.h"
+
+namespace CLI {
+class App;
+}
+
+namespace sterna::scripting {
+
+struct ReportCommand {
+  std::string input;
+  std::filesystem::path output;
+  std::vector<std::string> cuts, gates;
+  OptionOverrides options;
+};
+
+/// `sterna report MESH -o FILE.html`.
+CLI::App* add_report_arguments(CLI::App& app, ReportCommand& report);
+int execute(const ReportCommand& command, const CommandContext& context);
+
+/// \throws Error(unsupported_format) unless the name ends in .html
+void require_page_output(const std::filesystem::path& path);
+/// The page appears whole or not at all. \throws Error(write_failed)
+void write_page(const std::string& html, const std::filesystem::path& path, const RunContext& context);
+
+}  // namespace sterna::scripting

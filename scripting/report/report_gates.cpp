@@ -1,0 +1,84 @@
+#include "scripting/report/report_gates.h"
+
+#include <nlohmann/json.hpp>
+
+namespace sterna::scripting {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The limit that a value of a gate misses first, hard before usual before target.
+Json missed_limit(const Json& measure, double value) {
+  const bool is_low_bad = measure["bound"] == "lower";
+  for (const char* name : {"hard", "usual", "target"}) {
+    const Json& limit = measure["limits"][name];
+    if (limit.is_number() && (is_low_bad ? value < limit.get<double>() : value > limit.get<double>())) return limit;
+  }
+  return nullptr;
+}
+
+void add_places(const Json& measure, Json& places) {
+  int rank = 0;
+  for (const Json& place : measure["places"]) {
+    const Json& value = place["value"];
+    places.push_back({{"gate", measure["gate"]},
+                      {"measure", measure["measure"]},
+                      {"title", measure["title"]},
+                      {"state", measure["state"]},
+                      {"value", value},
+                      {"unit", measure["unit"]},
+                      {"limit", value.is_number() ? missed_limit(measure, value.get<double>()) : measure["limits"]["hard"]},
+                      {"at", place["position"]},
+                      {"what", place["what"]},
+                      {"rank", ++rank}});
+  }
+}
+
+}  // namespace
+
+std::string page_check_json(const CheckReport& report) {
+  Json page;
+  const Json check = Json::parse(to_json(report));
+  page["verdict"] = check["verdict"];
+  page["quality_verdict"] = check["quality_verdict"];
+  page["places"] = Json::array();
+  int rank = 0;
+  for (const Json& finding : check["findings"])
+    page["places"].push_back({{"gate", finding["gate"]}, {"measure", finding["violation"]}, {"title", finding["violation"]}, {"state", "invalid"}, {"value", nullptr}, {"unit", ""}, {"limit", nullptr}, {"at", finding["position"]}, {"what", finding["what"]}, {"rank", ++rank}});
+  page["gates"] = Json::array();
+  for (const auto& [gate, entry] : check["gates"].items())
+    page["gates"].push_back({{"gate", gate}, {"measure", nullptr}, {"title", title_of_gate(gate)}, {"state", entry["state"]}, {"violations", entry.value("violations", Json(nullptr))}});
+  page["histograms"] = Json::array();
+  for (const char* state : {"fail", "warn", "pass", "not checked"})
+    for (const Json& measure : check["measures"])
+      if (measure["state"] == state && measure.contains("places")) add_places(measure, page["places"]);
+  for (const Json& measure : check["measures"]) {
+    Json gate = measure;
+    gate.erase("places");
+    gate.erase("histogram");
+    page["gates"].push_back(gate);
+    if (!measure.contains("histogram") || measure["histogram"].is_null()) continue;
+    Json histogram = measure["histogram"];
+    for (const char* key : {"measure", "gate", "title", "unit", "limits", "counted", "state"}) histogram[key] = measure[key];
+    histogram["low_is_bad"] = measure["bound"] == "lower";
+    page["histograms"].push_back(std::move(histogram));
+  }
+  page["coverage"] = Json::array();
+  for (Json patch : check["coverage"]) {
+    Json lost = Json::array();
+    for (const auto& [reason, share] : patch["lost"].items()) lost.push_back({reason, share});
+    patch["lost"] = std::move(lost);
+    page["coverage"].push_back(std::move(patch));
+  }
+  return page.dump();
+}
+
+std::string page_no_check_json() {
+  Json page;
+  page["verdict"] = "not checked";
+  page["quality_verdict"] = "not checked";
+  for (const char* key : {"places", "gates", "histograms", "coverage"}) page[key] = Json::array();
+  return page.dump();
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,61 @@
+// The measures of cell-centred solvers against those that OpenFOAM's checkMesh prints, on real meshes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/io/volume/openfoam_tools.h"
+#include "tests/support/data.h"
+#include "tests/support/process.h"
+
+namespace sterna::io {
+namespace {
+
+/// checkMesh prints all digits here (writePrecision 17); sums of some ten products in another order differ by rounding, which small differences of large coordinates enlarge.
+constexpr double k_printed = 1e-9;
+
+double worst_of(const nlohmann::json& report, const std::string& measure) {
+  for (const auto& entry : report["measures"])
+    if (entry["measure"] == measure) return entry["worst"].get<double>();
+  ADD_FAILURE() << "no measure " << measure;
+  return std::nan("");
+}
+
+void expect_same_figures(const std::string& script, const std::filesystem::path& folder) {
+  std::ofstream(folder / "case.lua") << script;
+  test::make_foam_case(folder / "case.bin.foam");
+  STERNA_NEEDS(test::run_openfoam("checkMesh", {"-help"}, folder), "the Debian package openfoam");
+  const test::ProcessResult run = test::run_process(test::sterna_program(), {"--quiet", "run", "case.lua"}, folder);
+  ASSERT_EQ(run.status, 0) << run.output << run.errors;
+  const test::ProcessResult check = test::run_process(test::sterna_program(), {"--quiet", "check", "case.sterna", "--json"}, folder);
+  ASSERT_EQ(check.status, 0) << check.output << check.errors;
+  const nlohmann::json report = nlohmann::json::parse(check.output);
+  const auto output = test::run_openfoam("checkMesh", {"-case", "case.bin.foam", "-allTopology", "-allGeometry"}, folder);
+  STERNA_NEEDS(output, "the Debian package openfoam");
+  for (const auto& [measure, label] : {std::pair("non_orthogonality", "Mesh non-orthogonality Max:"), std::pair("skewness", "Max skewness ="), std::pair("cell_aspect_ratio", "aspect ratio ="),
+                                       std::pair("face_flatness", "butterfly) : min ="), std::pair("face_weight", "Face interpolation weight : minimum:"), std::pair("volume_ratio", "Face volume ratio : minimum:")}) {
+    const double theirs = test::number_after(*output, label), ours = worst_of(report, measure);
+    EXPECT_NEAR(theirs, ours, k_printed * std::abs(ours)) << measure << "\n" << *output;
+    testing::Test::RecordProperty(measure, std::to_string(ours));
+  }
+  EXPECT_NEAR(test::number_after(*output, "Max cell openness ="), worst_of(report, "cell_openness"), 1e-14) << *output;  // both are rounding
+}
+
+TEST(FoamQuality, OfAWingAreCheckMeshs) {
+  STERNA_NEEDS_SHARED_DATA();
+  expect_same_figures("local wall = read_surface{ \"" + (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() + "\", split_angle = 60*deg }\n" +
+                          "volume_mesh{ wall, layers = 6, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length } }:write(\"case.bin.foam\", \"case.sterna\")\n",
+                      test::scratch());
+}
+
+/// Columns that end on a symmetry plane: quadrilaterals on the boundary.
+TEST(FoamQuality, OfAHalfAircraftAreCheckMeshs) {
+  const std::string wall = (std::filesystem::path(STERNA_SOURCE_DIR) / "scripts" / "data" / "cessna.msh.gz").string();
+  expect_same_figures("local wall = half{ read_surface{ \"" + wall + "\", unit = ft, split_angle = 60*deg } }\n" +
+                          "volume_mesh{ wall, layers = 8, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length } }:write(\"case.bin.foam\", \"case.sterna\")\n",
+                      test::scratch());
+}
+
+}  // namespace
+}  // namespace sterna::io

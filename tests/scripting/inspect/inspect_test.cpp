@@ -1,0 +1,194 @@
+// inspect{} in scripts and `sterna inspect`: files with defects, real surfaces, what scripts and shells get.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/surface_file.h"
+#include "scripting/inspect_surface.h"
+#include "tests/scripting/script_fixture.h"
+#include "tests/support/process.h"
+#include "tests/support/shapes.h"
+
+namespace sterna::scripting {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using volmesh::FindingKind;
+using Json = nlohmann::json;
+
+class InspectFiles : public ScriptFixture {
+ protected:
+  std::string write(const TriMesh& mesh, const std::string& name) const {
+    io::write_surface_file(mesh, folder_ / name, RunContext({.threads = 1}));
+    return (folder_ / name).string();
+  }
+  volmesh::InspectReport inspect(const std::string& path, const surfmesh::StitchOptions& options = {}) const {
+    const std::vector<InputPath> files = {{path, path}};
+    return inspect_files(files, options, {}, RunContext({.threads = 2}));
+  }
+  test::ProcessResult sterna(const std::vector<std::string>& words) const {
+    std::vector<std::string> all = {"inspect", "--quiet"};
+    all.insert(all.end(), words.begin(), words.end());
+    return test::run_process(test::sterna_program(), all, folder_);
+  }
+};
+
+TEST_F(InspectFiles, NameATriangleThatWasTurnedOver) {
+  TriMesh mesh = test::cube(4);
+  const TriangleId t(70);
+  std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+  const volmesh::InspectReport report = inspect(write(mesh, "flipped.stl"));
+  ASSERT_EQ(report.findings.size(), 2u);
+  const volmesh::Finding* turned = report.find(FindingKind::turned);
+  ASSERT_TRUE(turned);
+  EXPECT_EQ(turned->count, 1);
+  EXPECT_EQ(turned->severity, volmesh::Severity::note);
+  const auto [a, b, c] = corners(mesh, t);
+  EXPECT_LT(distance(turned->places.at(0).position, (a + b + c) / 3.0), 1e-6);
+  EXPECT_TRUE(report.find(FindingKind::not_looked_at));
+}
+
+TEST_F(InspectFiles, SayWhatReadingRefusesAndLookAtTheRest) {
+  TriMesh mesh = test::cube(4);
+  TriMesh open;
+  open.points = mesh.points;
+  open.patches = mesh.patches;
+  for (const TriangleId t : mesh.triangles.ids()) {
+    if (t.value() == 9) continue;
+    open.triangles.push_back(mesh.triangles[t]);
+    open.triangle_patch.push_back(PatchId(0));
+  }
+  const volmesh::InspectReport holed = inspect(write(open, "open.stl"));
+  EXPECT_FALSE(holed.is_ok());
+  ASSERT_TRUE(holed.find(FindingKind::open));
+  EXPECT_THAT(holed.find(FindingKind::open)->text, HasSubstr("open along 3 edges around 1 hole"));
+  EXPECT_TRUE(holed.mesh.n_triangles() == open.n_triangles() && !holed.is_closed);
+
+  TriMesh fin = mesh;  // a triangle that stands on an edge
+  const VertexId top = fin.points.push_back({0.5, 0.5, 2.0});
+  fin.triangles.push_back({fin.triangles[TriangleId(0)][0], fin.triangles[TriangleId(0)][1], top});
+  fin.triangle_patch.push_back(PatchId(0));
+  const volmesh::InspectReport crowded = inspect(write(fin, "fin.stl"));
+  EXPECT_FALSE(crowded.is_ok());
+  ASSERT_TRUE(crowded.find(FindingKind::non_manifold));
+  EXPECT_FALSE(crowded.find(FindingKind::non_manifold)->places.empty());
+  EXPECT_TRUE(crowded.find(FindingKind::not_looked_at));
+  EXPECT_EQ(crowded.mesh.n_triangles(), fin.n_triangles());
+}
+
+TEST_F(InspectFiles, MillimetresReadAsMetresAreDoubted) {
+  const std::string path = write(test::sphere(6, 2000.0), "sphere.stl");
+  EXPECT_TRUE(inspect(path).find(FindingKind::unit));
+  const volmesh::InspectReport right = inspect(path, {.unit = 1e-3});
+  EXPECT_FALSE(right.find(FindingKind::unit));
+  EXPECT_NEAR(right.length, 4.0, 0.1);
+}
+
+// ---- Scripts --------------------------------------------------------------------------------------------------------------------------------
+
+TEST_F(InspectFiles, GiveScriptsATable) {
+  const std::string path = write(test::cube(12), "cube.stl");
+  const std::string printed = run("local wall = read_surface '" + path + "'\nlocal pre = inspect{ wall, layers = 20, first_height = 1e-4 }\n" +
+                                  "print(pre.ok, pre.errors, #pre.findings, pre.coverage > 0.99, pre.collapsed, pre.is_closed, pre.parts)");
+  EXPECT_THAT(printed, HasSubstr("volume_mesh will take it"));
+  EXPECT_THAT(printed, HasSubstr("true\t0\t0\ttrue\t0.0\ttrue\t1"));
+  EXPECT_THAT(run("local pre = inspect(read_surface '" + path + "') print(pre.coverage, pre.findings[1].kind)"), HasSubstr("nil\tnot_looked_at"));
+  const std::string far = write(test::sphere(6, 2000.0), "sphere.stl");
+  EXPECT_THAT(run("local f = inspect('" + far +
+                  "').findings[1]\nprint(f.kind, f.severity, f.count, f.value > 3900, f.limit, f.unit, #f.places, f.at[1], f.advice:sub(1, 9))"),
+              HasSubstr("unit\twarn\t1\ttrue\t1000.0\tm\t1"));
+  EXPECT_THAT(run("print(inspect{ '" + far + "', unit = mm }.length < 4.1)"), HasSubstr("true"));
+}
+
+TEST_F(InspectFiles, TakeFlowsAndLimits) {
+  const std::string wall = "local wall = read_surface '" + write(test::cube(12), "cube.stl") + "'\n";
+  EXPECT_THAT(run(wall + "print(inspect{ wall, layers = 20, first_height = 1e-4, flow = flow{ reynolds = 1e6, length = 1 } }.findings[1].kind)"),
+              HasSubstr("\ny_plus\n"));
+  EXPECT_THAT(error(wall + "inspect{ wall, flow = 7 }"), HasSubstr("flow: expected flow{"));
+  EXPECT_THAT(error(wall + "inspect{ wall, first_hight = 1e-4 }"), HasSubstr("first_height"));
+  EXPECT_THAT(error(wall + "inspect{ wall, unit = mm }"), HasSubstr("unit"));
+  EXPECT_THAT(error("inspect{}"), HasSubstr("needs a surface or the name of a file"));
+  EXPECT_THAT(error("inspect{ 7 }"), HasSubstr("entry 1: expected one surface, or names of files"));
+  EXPECT_THAT(error("inspect 'nothing.stl'"), HasSubstr("nothing.stl"));
+}
+
+TEST_F(InspectFiles, DrawTheTrouble) {
+  const std::string path = write(test::cube(6), "cube.stl");
+  run("inspect{ '" + path + "', layers = 20, first_height = 1e-4, output = " + out("trouble.vtu") + " }");
+  const std::string text = text_of("trouble.vtu");
+  for (const char* array : {"height_share", "visibility_angle_deg", "gap_m", "top_ratio", "Name=\"finding\"", "smallest_angle_deg", "<PointData>"})
+    EXPECT_THAT(text, HasSubstr(array));
+  const SurfaceSoup soup = io::read_surface_file(folder_ / "trouble.vtu", RunContext({.threads = 1}));
+  EXPECT_EQ(soup.triangles.size(), test::cube(6).n_triangles());
+  EXPECT_EQ(soup.patch_names.at(0), "cube");
+  EXPECT_THAT(error("inspect{ '" + path + "', output = 'trouble.stl' }"), HasSubstr(".vtu"));
+}
+
+// ---- The command line -----------------------------------------------------------------------------------------------------------------------
+
+TEST_F(InspectFiles, AnswerTheShell) {
+  const std::string cube = write(test::cube(12), "cube.stl");
+  const test::ProcessResult good = sterna({cube, "--layers", "20", "--first-height", "1e-4"});
+  EXPECT_EQ(good.status, 0) << good.errors;
+  EXPECT_THAT(good.output, HasSubstr("volume_mesh will take it"));
+  const std::string far = write(test::sphere(6, 2000.0), "sphere.stl");
+  EXPECT_EQ(sterna({far}).status, 0);
+  EXPECT_EQ(sterna({far, "--strict"}).status, 1);
+  EXPECT_EQ(sterna({far, "--strict", "--unit", "mm"}).status, 0);
+  EXPECT_EQ(sterna({(folder_ / "nothing.stl").string()}).status, 1);
+  EXPECT_EQ(sterna({cube, "--first-hight", "1"}).status, 2);
+  TriMesh two = test::cube(4), other = test::cube(4);
+  for (Point& p : other.points) p += Vec3{0.5, 0.55, 0.45};
+  append(two, other);
+  const test::ProcessResult bad = sterna({write(two, "two.stl"), "--json", "-o", (folder_ / "two.vtu").string()});
+  EXPECT_EQ(bad.status, 1);
+  const Json json = Json::parse(bad.output);
+  EXPECT_EQ(json["schema"], "sterna-inspect-1");
+  EXPECT_FALSE(json["ok"]);
+  EXPECT_EQ(json["findings"][0]["kind"], "crossing");
+  EXPECT_FALSE(json["findings"][0]["places"].empty());
+  EXPECT_TRUE(fs::exists(folder_ / "two.vtu"));
+  EXPECT_THAT(sterna({cube, "--layers", "20", "--first-height", "1e-4", "--flow", "reynolds=1e6 length=1"}).output, HasSubstr("y_plus"));
+}
+
+// ---- Real surfaces --------------------------------------------------------------------------------------------------------------------------
+
+TEST_F(InspectFiles, EveryRealSurfaceHasAnAnswer) {
+  STERNA_NEEDS_SHARED_DATA();
+  std::map<std::string, std::string> verdicts;
+  std::ifstream table(test::corpus() / "nasty_surfaces.tsv");
+  for (std::string line; std::getline(table, line);) {
+    std::istringstream fields(line);
+    std::string file, verdict;
+    if (!line.empty() && line[0] != '#' && std::getline(fields, file, '\t') && std::getline(fields, verdict, '\t')) verdicts[file] = verdict;
+  }
+  const std::map<std::string, FindingKind> kinds = {{"open_surface", FindingKind::open},          {"non_manifold_surface", FindingKind::non_manifold},
+                                                    {"self_intersection", FindingKind::crossing}, {"not_orientable", FindingKind::not_orientable},
+                                                    {"empty_surface", FindingKind::malformed},    {"file_malformed", FindingKind::malformed}};
+  for (const char* folder : {"nasty", "clean"}) {
+    for (const auto& entry : fs::directory_iterator(test::shared_data() / "surfaces" / folder)) {
+      const std::string name = entry.path().filename().string();
+      if (name.starts_with("f1_rear_wing")) continue;  // parts of one body
+      SCOPED_TRACE(name);
+      const volmesh::InspectReport report = inspect(entry.path().string());
+      const std::string verdict = verdicts.contains(name) ? verdicts[name] : "valid";
+      std::cout << "| " << name << " | " << verdict << " | ";
+      for (const volmesh::Finding& finding : report.findings)
+        std::cout << to_string(finding.severity) << " " << to_string(finding.kind) << " " << finding.count << ", ";
+      std::cout << "|\n";
+      EXPECT_EQ(report.is_ok(), verdict == "valid");
+      if (verdict == "valid") continue;
+      ASSERT_TRUE(kinds.contains(verdict)) << verdict;
+      EXPECT_TRUE(report.find(kinds.at(verdict))) << report.findings.front().text;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sterna::scripting

@@ -1,0 +1,73 @@
+// Connected parts of the surface: how many bodies, and which of them lie in another one's solid.
+#include "geom/base/number_text.h"
+#include "geom/math/measures.h"
+#include "volmesh/inspect/survey.h"
+
+namespace sterna::volmesh {
+namespace {
+
+struct Part {
+  TriangleId first;  ///< the lowest
+  std::int64_t n_triangles = 0;
+  double volume = 0.0;  ///< m^3, signed: negative where the normals point inwards
+  Box box;
+  bool is_open = false;
+};
+
+std::vector<Part> parts_of(const TriMesh& mesh, const Topology& topology, const Components& components) {
+  std::vector<Part> parts(components.count);
+  const Point origin = bounding_box(mesh).center();
+  for (const TriangleId t : mesh.triangles.ids()) {
+    Part& part = parts[components.component[t]];
+    if (part.n_triangles++ == 0) part.first = t;
+    const auto [a, b, c] = corners(mesh, t);
+    part.volume += tet_volume(origin, a, b, c);
+    for (const Point& p : {a, b, c}) part.box.add(p);
+    for (int k = 0; k < 3; ++k) part.is_open |= topology.is_boundary(halfedge(t, k));
+  }
+  return parts;
+}
+
+std::vector<TriangleId> triangles_of(const Components& components, const std::vector<Part>& parts, auto&& is_meant) {
+  std::vector<TriangleId> list;
+  for (const TriangleId t : components.component.ids())
+    if (is_meant(parts[components.component[t]])) list.push_back(t);
+  return list;
+}
+
+}  // namespace
+
+void survey_bodies(const Survey& survey, const Topology& topology) {
+  const TriMesh& mesh = survey.mesh;
+  const Components components = connected_components(mesh, topology);
+  const std::vector<Part> parts = parts_of(mesh, topology, components);
+  survey.report.n_bodies = components.count;
+  // The one part that encloses the fluid has its normals inwards, too; it holds the box of all.
+  const Box all = bounding_box(mesh);
+  const auto encloses_all = [&](const Part& part) { return part.box.min == all.min && part.box.max == all.max; };
+  const auto is_cavity = [&](const Part& part) { return !part.is_open && part.volume < 0.0 && !encloses_all(part); };
+  std::int64_t n_cavities = 0;
+  Finding cavities{.kind = FindingKind::cavity, .severity = Severity::warn};
+  Finding bodies{.kind = FindingKind::bodies, .severity = Severity::note, .count = static_cast<std::int64_t>(parts.size())};
+  for (const Part& part : parts) {
+    const FindingPlace place{part.box.center(), survey.patch_of(part.first), part.volume,
+                             "part of " + count_of(part.n_triangles, "triangle", "triangles") + ", " + number_text(part.volume, k_text_digits) + " m^3"};
+    n_cavities += is_cavity(part);
+    if (is_cavity(part) && cavities.places.size() < survey.n_places()) cavities.places.push_back(place);
+    if (bodies.places.size() < survey.n_places()) bodies.places.push_back(place);
+  }
+  if (n_cavities > 0) {
+    cavities.count = n_cavities;
+    cavities.text =
+        count_of(n_cavities, "part lies", "parts lie") + " within the solid of another one: the space inside is a cavity that the outer flow does not reach";
+    cavities.advice = "leave the inner part out of the file; where two bodies stick in each other, unite them with `sterna union`";
+    add_finding(survey.report, std::move(cavities), triangles_of(components, parts, is_cavity));
+  }
+  if (parts.size() < 2) return;
+  bodies.unit = "m^3";
+  bodies.text = "the surface has " + std::to_string(parts.size()) + " parts that are not connected";
+  bodies.advice = "nothing, if they are meant to be apart; parts that touch or cross are united with `sterna union`";
+  add_finding(survey.report, std::move(bodies), {});
+}
+
+}  // namespace sterna::volmesh

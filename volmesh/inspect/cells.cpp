@@ -1,0 +1,163 @@
+// First height and last layer against the edges of the wall, and first height against the flow.
+#include <cmath>
+
+#include "geom/base/number_text.h"
+#include "volmesh/envelope/growth_law.h"
+#include "volmesh/flow/boundary_layer.h"
+#include "volmesh/inspect/survey.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr double k_regular_height = 0.81649658092772603;  ///< of a regular tetrahedron over its edge
+constexpr double k_noticed_area = 0.01;                   ///< share of the area from which on a misfit of the last layer is told
+constexpr double k_y_plus_factor = 2.0;                   ///< off the wanted y+, that the estimate of a flat plate cannot tell better
+
+/// What the layer asks for at a vertex by eq. (1) and the caps, before anything lowers it.
+struct Cells {
+  double first = 0.0, last = 0.0;  ///< m
+  double edge = 0.0;               ///< m
+  double top_ratio() const { return last / (k_regular_height * edge); }
+};
+
+Cells cells_at(const LayerBase& base, const EnvelopeScale& scale, VertexId v) {
+  const double h0 = scale.h0(v), edge = base.mean_edge[v];
+  const int n = scale.n(v);
+  const double asked = scale.total_height(v);
+  double height = is_automatic(asked) ? layer_height(h0, growth_for_edge(h0, edge, scale.max_growth(v), n), n) : asked;
+  height = std::min(height, scale.max_thickness(v));
+  if (height <= n * h0) return {height / n, height / n, edge};
+  return {h0, h0 * std::pow(growth_for_height(h0, height, n), n - 1), edge};
+}
+
+struct Misfit {
+  std::vector<Suspect<VertexId>> places;
+  double area = 0.0;  ///< share
+};
+
+class CellSurvey {
+ public:
+  CellSurvey(const Survey& survey, const MeshingSite& site)
+      : survey_(survey), base_(site.base), scale_(scale_of(site.base, site.options.envelope)), map_(survey.mesh, site.domain) {}
+
+  void run() const {
+    const double ratio = survey_.request.limits.top_ratio;
+    Misfit thin, thick, tall;
+    double all = 0.0;
+    std::vector<double> top(base_.wall.n_vertices(), k_no_value);
+    for (const VertexId v : base_.wall.points.ids()) {
+      const double area = base_.vertex_area[v];
+      all += area;
+      if (!(base_.mean_edge[v] > 0.0)) continue;
+      const Cells cells = cells_at(base_, scale_, v);
+      const double r = cells.top_ratio();
+      top[v.index()] = r;
+      const auto note = [&](Misfit& misfit, double badness) {
+        misfit.places.push_back({v, badness});
+        misfit.area += area;
+      };
+      if (scale_.h0(v) > cells.edge)
+        note(tall, scale_.h0(v) / cells.edge);
+      else if (r > ratio)
+        note(thick, r);
+      else if (r * ratio < 1.0)
+        note(thin, 1.0 / r);
+    }
+    for (Misfit* misfit : {&thin, &thick, &tall}) misfit->area /= all;
+    survey_.add_field("top_ratio", "last layer over 0.816 edges, as asked for", "", true, map_.field(top));
+    if (!tall.places.empty()) add_tall(tall);
+    if (thin.area > k_noticed_area) add_thin(thin);
+    if (thick.area > k_noticed_area) add_thick(thick);
+  }
+
+ private:
+  void add(Finding finding, const Misfit& misfit, bool is_inverse) const {
+    finding.count = static_cast<std::int64_t>(misfit.places.size());
+    finding.share = misfit.area;
+    std::vector<TriangleId> where;
+    for (const auto& s : misfit.places)
+      for (const HalfedgeId h : base_.topology.outgoing(s.id)) where.push_back(map_.triangle(triangle_of(h)));
+    for (const auto& s : worst(misfit.places, survey_.n_places())) {
+      const Cells cells = cells_at(base_, scale_, s.id);
+      finding.places.push_back({base_.wall.points[s.id], survey_.patch_of(map_.triangle(triangle_of(base_.topology.outgoing(s.id).front()))),
+                                is_inverse ? 1.0 / s.badness : s.badness,
+                                "vertex " + std::to_string(s.id.value()) + ": first cell " + in_metres(cells.first, k_text_digits) + ", last " +
+                                    in_metres(cells.last, k_text_digits) + ", edges " + in_metres(cells.edge, k_text_digits)});
+    }
+    add_finding(survey_.report, std::move(finding), where);
+  }
+
+  /// The vertex beyond which one tenth of the misfits are worse: what advice is made for, so that single places do not decide.
+  VertexId typical(const Misfit& misfit) const { return worst(misfit.places, misfit.places.size() / 10 + 1).back().id; }
+
+  void add_tall(const Misfit& tall) const {
+    Finding finding{.kind = FindingKind::tall_first, .severity = Severity::warn, .value = worst(tall.places, 1).front().badness, .limit = 1.0};
+    finding.text = "the first cell is taller than the edges of the wall on " + percent(tall.area) + " of its area, up to " +
+                   number_text(finding.value, k_text_digits) + " times: first_height and the surface are hardly in the same unit";
+    const VertexId v = worst(tall.places, 1).front().id;
+    finding.advice = "first_height = " + number_text(0.1 * base_.mean_edge[v], k_advice_digits) + " or less, or another unit of the surface (unit = mm)";
+    add(std::move(finding), tall, false);
+  }
+
+  void add_thin(const Misfit& thin) const {
+    Finding finding{.kind = FindingKind::thin_top,
+                    .severity = Severity::warn,
+                    .value = 1.0 / worst(thin.places, 1).front().badness,
+                    .limit = 1.0 / survey_.request.limits.top_ratio};
+    finding.text = "on " + percent(thin.area) + " of the walls' area the last layer is thinner than " + number_text(finding.limit, k_text_digits) +
+                   " of the tetrahedra above it (" + number_text(finding.value, k_text_digits) + " at the worst): a jump of cell sizes at the top of the layer";
+    const VertexId v = typical(thin);
+    const double h0 = scale_.h0(v), rise = std::log(k_regular_height * base_.mean_edge[v] / h0);
+    const bool is_capped = scale_.max_thickness(v) < layer_height(h0, growth_for_edge(h0, base_.mean_edge[v], scale_.max_growth(v), scale_.n(v)), scale_.n(v));
+    if (is_capped || !is_automatic(scale_.total_height(v)))
+      finding.advice = "shorter edges on the wall (max_edge = " + number_text(cells_at(base_, scale_, v).last / k_regular_height, k_advice_digits) +
+                       "), or a taller layer (total_height, max_thickness)";
+    else
+      finding.advice = "layers = " + std::to_string(1 + static_cast<int>(std::ceil(rise / std::log(std::max(scale_.max_growth(v), 1.001))))) +
+                       " reach it with max_growth = " + number_text(scale_.max_growth(v), k_text_digits) +
+                       "; or max_growth = " + number_text(std::exp(rise / std::max(scale_.n(v) - 1, 1)) + 0.005, k_text_digits) +
+                       " with layers = " + std::to_string(scale_.n(v));
+    add(std::move(finding), thin, true);
+  }
+
+  void add_thick(const Misfit& thick) const {
+    Finding finding{
+        .kind = FindingKind::thick_top, .severity = Severity::warn, .value = worst(thick.places, 1).front().badness, .limit = survey_.request.limits.top_ratio};
+    finding.text = "on " + percent(thick.area) + " of the walls' area the last layer is thicker than " + number_text(finding.limit, k_text_digits) +
+                   " times the tetrahedra above it (" + number_text(finding.value, k_text_digits) +
+                   " at the worst): a jump of cell sizes at the top of the layer";
+    const VertexId v = typical(thick);
+    finding.advice =
+        "total_height = " +
+        number_text(
+            layer_height(scale_.h0(v), growth_for_edge(scale_.h0(v), k_regular_height * base_.mean_edge[v], scale_.max_growth(v), scale_.n(v)), scale_.n(v)),
+            k_advice_digits) +
+        " or left out, or more layers";
+    add(std::move(finding), thick, false);
+  }
+
+  const Survey& survey_;
+  const LayerBase& base_;
+  EnvelopeScale scale_;
+  WallMap map_;
+};
+
+}  // namespace
+
+void survey_cells(const Survey& survey, const MeshingSite& site) { CellSurvey(survey, site).run(); }
+
+void survey_y_plus(const Survey& survey) {
+  const double h0 = survey.request.volume.envelope.first_height;
+  if (!survey.request.flow || is_automatic(h0)) return;
+  const double wanted = survey.request.limits.wanted_y_plus;
+  const FirstHeight first = first_height({.y_plus = wanted}, *survey.request.flow);
+  const double y_plus = wanted * h0 / first.height;
+  if (y_plus <= k_y_plus_factor * wanted && y_plus * k_y_plus_factor >= wanted) return;
+  Finding finding{.kind = FindingKind::y_plus, .severity = y_plus > wanted ? Severity::warn : Severity::note, .count = 1, .value = y_plus, .limit = wanted};
+  finding.text = "first_height = " + in_metres(h0, k_text_digits) + " is y+ " + number_text(y_plus, k_text_digits) +
+                 " on a flat plate in this flow, wanted is " + number_text(wanted, k_text_digits);
+  finding.advice = "first_height = " + number_text(first.height, k_text_digits) + " (" + describe(first) + ")";
+  add_finding(survey.report, std::move(finding), {});
+}
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,142 @@
+// The driver: shape first, then the layer on the walls that volume_mesh would give it.
+#include "volmesh/inspect/inspect.h"
+
+#include <memory>
+
+#include "geom/base/error.h"
+#include "geom/base/number_text.h"
+#include "volmesh/envelope/feature_angle.h"
+#include "volmesh/inspect/survey.h"
+
+namespace sterna::volmesh {
+namespace {
+
+/// First height for what needs some and does not depend on it: share of the body length.
+constexpr double k_stand_in_height = 1e-6;
+
+InspectReport start(const TriMesh& surface) {
+  InspectReport report;
+  report.mesh = surface;
+  Box box;
+  for (const Point& p : surface.points)
+    if (is_finite(p)) box.add(p);
+  report.length = box.empty() ? 0.0 : box.longest_side();
+  report.fields.push_back({"finding", "kind of the most severe finding", "", false, std::vector<float>(surface.n_triangles(), 0.0f)});
+  return report;
+}
+
+void leave_out(const Survey& survey, const std::string& what, const std::string& why, const std::string& advice) {
+  add_finding(survey.report,
+              {.kind = FindingKind::not_looked_at, .severity = Severity::note, .text = "not looked at: " + what + ", because " + why, .advice = advice}, {});
+}
+
+bool has_first_height(const VolumeMeshOptions& options) {
+  return !is_automatic(options.envelope.first_height) || options.first_heights ||
+         std::ranges::any_of(options.patches, [](const PatchRule& rule) { return !is_automatic(rule.first_height); });
+}
+
+std::vector<TriangleId> triangles_at_holes(const Survey& survey) {
+  const Topology topology(survey.mesh, survey.context);
+  std::vector<TriangleId> list;
+  for (std::size_t i = 0; i < topology.n_halfedges(); ++i)
+    if (const HalfedgeId h(static_cast<std::uint64_t>(i)); topology.is_boundary(h)) list.push_back(triangle_of(h));
+  return list;
+}
+
+/// What volume_mesh would throw at its start.
+void add_refusal(const Survey& survey, const Error& error) {
+  const ErrorInfo& info = error.info();
+  Finding finding{.kind = FindingKind::refused,
+                  .severity = Severity::error,
+                  .count = error.n_places(),
+                  .text = "volume_mesh refuses it: " + info.problem,
+                  .advice = info.hint};
+  std::vector<TriangleId> where;
+  if (info.code == ErrorCode::open_surface) {
+    where = triangles_at_holes(survey);  // one for each edge
+    finding.kind = FindingKind::open;
+    finding.count = static_cast<std::int64_t>(where.size());
+  }
+  for (std::size_t i = 0; i < std::min(info.places.size(), survey.n_places()); ++i)
+    finding.places.push_back({info.places[i].position, {}, 0.0, info.places[i].what});
+  add_finding(survey.report, std::move(finding), where);
+}
+
+/// The walls with their outer boundary, as volume_mesh makes them; null where it refuses them, which is told.
+std::unique_ptr<MeshingSite> site_of(const Survey& survey, const VolumeMeshOptions& options) {
+  try {
+    return std::make_unique<MeshingSite>(survey.mesh, options, survey.context);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled || error.code() == ErrorCode::internal) throw;
+    if (error.code() != ErrorCode::self_intersection || survey_crossings(survey)) add_refusal(survey, error);
+    return nullptr;
+  }
+}
+
+/// Of a surface without walls that a layer could stand on: what needs no layer.
+void survey_shape(const Survey& survey) {
+  const LayerBase base(survey.mesh, survey.context);
+  const WallMap map(survey.mesh);
+  survey_edges(survey, base.topology, feature_angle_of(base, survey.request.volume.envelope, survey.context));
+  survey_visibility(survey, base, map);
+  if (!survey.report.find(FindingKind::crossing)) survey_contacts(survey, base, Collider(base, nullptr, survey.context), map);
+}
+
+/// The surface's own topology, unless that of the walls is the same.
+std::optional<Topology> topology_beside(const TriMesh& mesh, const MeshingSite* site, const RunContext& context) {
+  if (site && site->domain.wall.triangles == mesh.triangles) return std::nullopt;
+  return Topology(mesh, context);
+}
+
+}  // namespace
+
+InspectReport inspect_triangles(const TriMesh& triangles, const InspectRequest& request, const RunContext& context) {
+  InspectReport report = start(triangles);
+  const Survey survey{report.mesh, request, context, report};
+  survey_unit(survey);
+  survey_needles(survey);
+  leave_out(survey, "crossings, folds, visibility, gaps, heights of the layer", "the triangles could not be joined to a surface",
+            "repair what is an error first");
+  return report;
+}
+
+InspectReport inspect_wall(const TriMesh& surface, const InspectRequest& request, const RunContext& context) {
+  InspectReport report = start(surface);
+  const TriMesh& mesh = report.mesh;
+  const Survey survey{mesh, request, context, report};
+  survey_unit(survey);
+  survey_y_plus(survey);
+  survey_needles(survey);
+  context.progress(0.1);
+  const bool is_known = has_first_height(request.volume);
+  VolumeMeshOptions options = request.volume;
+  if (!is_known) options.envelope.first_height = k_stand_in_height * report.length;
+  const std::unique_ptr<MeshingSite> site = site_of(survey, options);
+  context.progress(0.5);
+  const std::optional<Topology> own = topology_beside(mesh, site.get(), context);
+  const Topology& topology = own ? *own : site->base.topology;
+  report.is_closed = topology.n_boundary_halfedges() == 0;
+  survey_bodies(survey, topology);
+  if (!site) {
+    if (report.find(FindingKind::open)) survey_crossings(survey);
+    survey_shape(survey);
+    leave_out(survey, "gaps and heights of the layer", "volume_mesh refuses the surface", "repair what is an error first");
+    return report;
+  }
+  const WallMap map(mesh, site->domain);
+  survey_edges(survey, topology, site->options.envelope.feature_angle);
+  survey_visibility(survey, site->base, map);
+  survey_contacts(survey, site->base, site->collider, map);
+  context.progress(0.7);
+  if (!is_known) {
+    leave_out(survey, "heights of the layer and what limits them", "no first_height was given",
+              "first_height = " + number_text(k_stand_in_height * report.length, 1) + " or so (--first-height); y_plus{} finds one from the flow");
+    return report;
+  }
+  survey_cells(survey, *site);
+  survey_heights(survey, *site);
+  context.progress(1.0);
+  return report;
+}
+
+}  // namespace sterna::volmesh

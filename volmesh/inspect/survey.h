@@ -1,0 +1,123 @@
+// Private to volmesh/inspect: the parts of an inspection, one file each, and what they write to.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geom/base/parallel.h"
+#include "geom/mesh/topology.h"
+#include "volmesh/inspect/inspect.h"
+#include "volmesh/stages.h"
+
+namespace sterna::volmesh {
+
+/// A place that is over its limit, before the worst are named.
+template <class Id>
+struct Suspect {
+  Id id;
+  double badness = 0.0;  ///< larger is worse
+};
+
+/// The worst suspects first, by index where they are equally bad; at most `n`.
+template <class Id>
+std::vector<Suspect<Id>> worst(std::vector<Suspect<Id>> suspects, std::size_t n) {
+  const auto is_worse = [](const Suspect<Id>& a, const Suspect<Id>& b) { return a.badness != b.badness ? a.badness > b.badness : a.id < b.id; };
+  n = std::min(n, suspects.size());
+  std::partial_sort(suspects.begin(), suspects.begin() + static_cast<std::ptrdiff_t>(n), suspects.end(), is_worse);
+  suspects.resize(n);
+  return suspects;
+}
+
+/// The surface with what all parts need of it.
+struct Survey {
+  const TriMesh& mesh;
+  const InspectRequest& request;
+  const RunContext& context;
+  InspectReport& report;
+
+  std::size_t n_places() const { return static_cast<std::size_t>(request.limits.max_places); }
+  const std::string& patch_of(TriangleId t) const { return mesh.patches[mesh.triangle_patch[t]].name; }
+  Point middle(TriangleId t) const;
+  /// A finding whose worst places are triangles, with its field "finding".
+  void add(Finding finding, const std::vector<Suspect<TriangleId>>& suspects, const std::function<FindingPlace(const Suspect<TriangleId>&)>& place_of) const;
+  void add_field(std::string name, std::string title, std::string unit, bool is_at_vertices, std::vector<float> values) const {
+    report.fields.push_back({std::move(name), std::move(title), std::move(unit), is_at_vertices, std::move(values)});
+  }
+};
+
+/// Appends partial lists in order: for parallel_reduce.
+template <class T>
+std::vector<T> joined_lists(std::vector<T> a, std::vector<T> b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// Suspects of [0, n) in ascending order: test(i, list) appends.
+template <class Id, class Test>
+std::vector<Suspect<Id>> find_suspects(const RunContext& context, std::size_t n, const Test& test) {
+  using List = std::vector<Suspect<Id>>;
+  return parallel_reduce(
+      context, n, List{},
+      [&](std::size_t begin, std::size_t end) {
+        List list;
+        for (std::size_t i = begin; i < end; ++i) test(Id(static_cast<std::uint64_t>(i)), list);
+        return list;
+      },
+      joined_lists<Suspect<Id>>);
+}
+
+/// From the walls with layers to the surface that they are part of.
+class WallMap {
+ public:
+  /// The surface itself.
+  explicit WallMap(const TriMesh& surface) : wall_(surface), n_vertices_(surface.n_vertices()) {}
+  /// Both must outlive this.
+  WallMap(const TriMesh& surface, const Domain& domain);
+
+  TriangleId triangle(TriangleId of_wall) const { return wall2surface_ ? (*wall2surface_)[of_wall] : of_wall; }
+  /// Values at the wall's vertices as a field on the surface; NaN elsewhere.
+  std::vector<float> field(const std::vector<double>& at_wall) const;
+
+ private:
+  const TriMesh& wall_;
+  const Column<TriangleId, TriangleId>* wall2surface_ = nullptr;
+  Column<VertexId, VertexId> vertex_;  ///< of the wall: of the surface; empty: the same
+  std::size_t n_vertices_;
+};
+
+/// facets.cpp: needles, of any triangles.
+void survey_needles(const Survey& survey);
+/// unit.cpp: body length.
+void survey_unit(const Survey& survey);
+/// edges.cpp: folds, jumps of size, short edges, edges of smooth surfaces (below the feature angle) that bend too much.
+void survey_edges(const Survey& survey, const Topology& topology, double feature_angle);
+/// bodies.cpp: connected parts, parts in parts.
+void survey_bodies(const Survey& survey, const Topology& topology);
+/// contacts.cpp: vertices that nearly touch another wall. \pre no crossings
+void survey_contacts(const Survey& survey, const LayerBase& base, const Collider& collider, const WallMap& map);
+/// crossings.cpp: pairs of triangles, exact. Returns whether there are none.
+bool survey_crossings(const Survey& survey);
+/// visibility.cpp: how well one growth direction serves all facets of a vertex.
+void survey_visibility(const Survey& survey, const LayerBase& base, const WallMap& map);
+/// heights.cpp: the layer, by the first steps of its envelope.
+void survey_heights(const Survey& survey, MeshingSite& site);
+/// cells.cpp: first height and last layer against the edges.
+void survey_cells(const Survey& survey, const MeshingSite& site);
+/// cells.cpp: first height against the flow.
+void survey_y_plus(const Survey& survey);
+
+/// "12 triangles", "1 triangle".
+std::string count_of(std::int64_t n, const std::string& one, const std::string& many);
+/// "12.4 %", "98 %": a share for people.
+std::string percent(double share);
+/// Digits of numbers in messages: lengths up to 9999 without an exponent.
+inline constexpr int k_text_digits = 4;
+/// Digits of suggested values.
+inline constexpr int k_advice_digits = 2;
+inline constexpr double k_degree = std::numbers::pi / 180.0;
+
+}  // namespace sterna::volmesh
