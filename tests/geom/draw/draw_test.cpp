@@ -71,7 +71,7 @@ std::set<std::tuple<int, int, int>> colors_of(const Image& image) {
 /// A cube whose sides are patches x_min, x_max, ...
 TriMesh cube_of_patches() {
   TriMesh mesh = cube(2);
-  mesh.patches = {{"x_min", PatchKind::wall}, {"x_max", PatchKind::wall},     {"y_min", PatchKind::wall},
+  mesh.patches = {{"x_min", PatchKind::wall}, {"x_max", PatchKind::wall}, {"y_min", PatchKind::wall},
                   {"y_max", PatchKind::wall}, {"z_min", PatchKind::slip}, {"z_max", PatchKind::wall}};
   for (const TriangleId t : mesh.triangles.ids()) {
     const auto p = corners(mesh, t);
@@ -228,14 +228,23 @@ TEST(Draw, LegendTitleAndMarks) {
   const Image with = decoded(draw_png(mesh, options, "", {}, k_run));
   const auto in_panel = [](const Image& image) {
     std::size_t n = 0;
-    for (int y = 0; y < 25; ++y)
-      for (int x = 140; x < 200; ++x) n += image.at(x, y) == draw::patch_color(0);
+    for (int y = 0; y < 18; ++y)
+      for (int x = 130; x < 200; ++x) n += image.at(x, y) == draw::patch_color(0);
     return n;
   };
   EXPECT_GT(in_panel(with), in_panel(without) + 20);
   options.color = "edge_length";
   const Image bar = decoded(draw_png(mesh, options, "", {}, k_run));
-  EXPECT_GT(count(bar, draw::scale_color(draw::Scale::neutral, 0.999)) + count(bar, draw::scale_color(draw::Scale::neutral, 0.99)), 5u);
+  const auto most_colors_in_a_column = [](const Image& image) {  // of those at the right
+    std::size_t most = 0;
+    for (int x = image.width / 2; x < image.width; ++x) {
+      std::set<std::tuple<int, int, int>> colors;
+      for (int y = 0; y < image.height; ++y) colors.insert({image.at(x, y).r, image.at(x, y).g, image.at(x, y).b});
+      most = std::max(most, colors.size());
+    }
+    return most;
+  };
+  EXPECT_GT(most_colors_in_a_column(bar), most_colors_in_a_column(with) + 20);  // the bar: a colour for each of its rows
   options.title = "a title";
   EXPECT_NE(decoded(draw_png(mesh, options, "", {}, k_run)).pixels, bar.pixels);
   options.places = true;
