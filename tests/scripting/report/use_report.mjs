@@ -68,7 +68,7 @@ async function use_views(page, shot, keep) {
   }
   const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save_picture")]);
   require_that(download.suggestedFilename().endsWith(".png"), "the saved picture is no PNG");
-  await keep(download, "saved");
+  await Promise.race([keep(download, "saved"), page.waitForTimeout(30000).then(() => require_that(false, "the picture was not saved within 30 s"))]);
   const narrow = (await pixels_of(page)).width;
   await page.click("#toggle_panel");
   await page.waitForFunction((width) => window.sterna.pixels().width > width, narrow); // the view takes the panel's room

@@ -81,7 +81,7 @@ function draw_element(context, element, place) {
   }
 }
 
-/** PNG data URL of the drawing in `canvas` with these elements over it, at the canvas' resolution. */
+/** Promise of the PNG (a Blob) of the drawing in `canvas` with these elements over it, at the canvas' resolution. */
 export function picture_with(canvas, elements) {
   const whole = canvas.getBoundingClientRect();
   const result = document.createElement("canvas");
@@ -92,5 +92,5 @@ export function picture_with(canvas, elements) {
   context.scale(canvas.width / whole.width, canvas.height / whole.height);
   const place = (box) => ({ x: box.x - whole.x, y: box.y - whole.y, width: box.width, height: box.height });
   for (const element of elements) draw_element(context, element, place);
-  return result.toDataURL("image/png");
+  return new Promise((resolve) => result.toBlob(resolve, "image/png"));
 }

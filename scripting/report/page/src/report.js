@@ -358,9 +358,11 @@ export class ReportApp {
     return h("div.toolbar", { role: "toolbar", "aria-label": "View" }, h("div.group", null, views, fit), h("div.group", null, edges, this.report.places.length ? markers : null), fields.length ? h("div.group", null, colour) : null, h("div.group", null, save, panel));
   }
 
-  save_picture() {
+  async save_picture() {
     if (!this.view) return;
-    h("a", { href: this.view.picture(this.legends.children), download: `${this.report.title.replace(/[^\w.-]+/g, "_")}.png` }).click();
+    const address = URL.createObjectURL(await this.view.picture(this.legends.children)); // browsers refuse long data addresses
+    h("a", { href: address, download: `${this.report.title.replace(/[^\w.-]+/g, "_")}.png` }).click();
+    setTimeout(() => URL.revokeObjectURL(address), 60000);
   }
 
   /** What tests may ask: never changes anything. */

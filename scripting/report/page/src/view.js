@@ -400,7 +400,7 @@ export class View {
     });
   }
 
-  /** The picture as a PNG data URL, with more elements over it. */
+  /** Promise of the picture as a PNG (a Blob), with more elements over it. */
   picture(elements) {
     this.draw(); // in the same task: afterwards the canvas is empty
     return picture_with(this.canvas, [...elements, this.scale_bar, this.axes, this.pin_element]);
