@@ -39,6 +39,7 @@ add_test(NAME report_page_browser COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/
 set_tests_properties(report_page_browser PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200)
 
 add_test(NAME report_real_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/browse_real_pages ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}/../shared/data)
+add_custom_target(report_pages COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/scripting/report/browse_real_pages ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}/../shared/data --all USES_TERMINAL)  # all five, by hand
 set_tests_properties(report_real_pages PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 1200 DEPENDS "script_01_first_mesh;script_07_aircraft_to_mesh;script_08_wind_tunnel;script_09_half_model;report_page_browser")
 
 # The program itself is run by the tests of scripting/, and every script of scripts/ by a test of its own, in a folder of its own.

@@ -1,7 +1,7 @@
 // Every control of the page of one mesh.
 import { pixels_of, require_equal, require_near, require_no_complaints, require_that, state_of } from "./browser.mjs";
 
-const k_most_places = 30;
+const k_most_places = Number(process.env.STERNA_MOST_PLACES ?? 30);
 const k_least_share = 0.004; // of the picture that must be drawn: a slender body from the front is small
 const k_pixel = 1.5; // of the picture
 const k_f32 = 1e-6; // relative: positions on the way through the graphics card
