@@ -56,7 +56,7 @@ export class Camera {
     const slope_y = Math.tan(((k_field_of_view / 2) * Math.PI) / 180) * k_filled, slope_x = slope_y * this.camera.aspect;
     const v = new Vector3();
     // Each point bounds the camera by four planes; extremes of x - s z and so on are all that counts.
-    const most = { left: -Infinity, right: -Infinity, down: -Infinity, up: -Infinity, near: -Infinity };
+    const most = { left: -Infinity, right: -Infinity, down: -Infinity, up: -Infinity, near: -Infinity, far: Infinity };
     for (let k = 0; k < points.length; k += 3) {
       v.set(points[k], points[k + 1], points[k + 2]).applyQuaternion(inverse);
       most.right = Math.max(most.right, v.x + slope_x * v.z);
@@ -64,11 +64,11 @@ export class Camera {
       most.up = Math.max(most.up, v.y + slope_y * v.z);
       most.down = Math.max(most.down, -v.y + slope_y * v.z);
       most.near = Math.max(most.near, v.z);
+      most.far = Math.min(most.far, v.z);
     }
     const z = Math.max((most.right + most.left) / (2 * slope_x), (most.up + most.down) / (2 * slope_y), most.near);
     const camera = new Vector3((most.right - most.left) / 2, (most.up - most.down) / 2, z);
-    const sphere = this.scene;
-    const depth = Math.max(z - sphere.center.clone().applyQuaternion(inverse).z, z - most.near, 1e-12);
+    const depth = Math.max(z - (most.near + most.far) / 2, 1e-12); // the target is in the middle of what is framed, whatever else the scene holds
     return { target: camera.clone().sub(new Vector3(0, 0, depth)).applyQuaternion(orientation), distance: depth };
   }
 
