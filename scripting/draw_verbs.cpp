@@ -123,7 +123,7 @@ std::string draw_help() {
 constexpr std::array<ScriptVerb, 1> k_verbs = {
     {{"draw", k_usage,
       "Draws a mesh, a surface or the file of one as PNG: walls by patch or figure, cells along a plane, the worst places. Needs no display (docs/draw.md).",
-      draw_object, draw_help, true}}};
+      draw_object, draw_help, true, "nothing"}}};
 
 }  // namespace
 

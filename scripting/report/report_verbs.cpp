@@ -11,7 +11,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::string_view k_usage = "report{ mesh, \"mesh.html\", cuts = { \"leading edge\", { x = 1.2 } } }  or  report{ wall, \"wall.html\" }";
+constexpr std::string_view k_usage = "report{ mesh, \"mesh.html\", cuts = { \"nose\", { x = 1.2 } } }  or  report{ wall, \"wall.html\" }";
 
 /// cuts = "tip", or a list of names, planes as texts, { x = 1.2 } and { point = ..., normal = ... }.
 std::vector<std::string> read_cuts(TableReader& reader) {
@@ -68,7 +68,7 @@ std::string report_help() {
   return "cuts = { \"leading edge\", { x = 1.2 }, { point = {0, 0, 0}, normal = {0, 1, 0} } }: planes that are shown before the automatic ones\n" + options_help(sterna::options_of(options));
 }
 
-constexpr std::array<ScriptVerb, 1> k_verbs = {{{"report", k_usage, "Writes a page (HTML, one file, opens without a network) that shows a mesh: view, cuts, worst places, histograms, gates, coverage, times, options (docs/report.md).", make_report, report_help, true}}};
+constexpr std::array<ScriptVerb, 1> k_verbs = {{{"report", k_usage, "Writes a page (HTML, one file, opens without a network) that shows a mesh: view, cuts, worst places, histograms, gates, coverage, times, options (docs/report.md).", make_report, report_help, true, "nothing"}}};
 
 }  // namespace
 

@@ -42,6 +42,7 @@ TEST(Manual, EveryExampleRuns) {
   const std::filesystem::path folder = test::scratch();
   const InFolder in(folder);
   std::ofstream("sizes.vtu") << k_sizes_vtu;
+  if (!std::filesystem::exists("wall.stl")) std::filesystem::copy(std::filesystem::path(STERNA_SOURCE_DIR) / "tests" / "data" / "scripts" / "box.stl", "wall.stl");
   const bool has_cpacs = std::filesystem::exists(test::shared_data() / "cpacs" / "simpletest.cpacs.xml");
   if (has_cpacs) std::filesystem::copy(test::shared_data() / "cpacs" / "simpletest.cpacs.xml", "d150.xml");
   ScriptState state({.script = folder / "case.lua", .overrides = {}, .print = [](std::string_view) {}, .on_mesh = {}}, RunContext({.threads = 2}));
