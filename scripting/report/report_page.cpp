@@ -4,18 +4,18 @@
 
 // The assembler takes the bytes in as they are: no generated source, no limit on the length of literals.
 asm(".pushsection .rodata\n"
-    "sterna_report_page_begin:\n"
+    "k_sterna_report_page_begin:\n"
     ".incbin \"" STERNA_REPORT_PAGE
     "\"\n"
-    "sterna_report_page_end:\n"
+    "k_sterna_report_page_end:\n"
     ".byte 0\n"
     ".popsection\n"
-    ".globl sterna_report_page_begin\n"
-    ".globl sterna_report_page_end\n");
+    ".globl k_sterna_report_page_begin\n"
+    ".globl k_sterna_report_page_end\n");
 
 extern "C" {
-extern const char sterna_report_page_begin[];
-extern const char sterna_report_page_end[];
+extern const char k_sterna_report_page_begin[];
+extern const char k_sterna_report_page_end[];
 }
 
 #endif
@@ -24,7 +24,7 @@ namespace sterna::scripting {
 
 std::string_view report_page() {
 #ifdef STERNA_REPORT_PAGE
-  return {sterna_report_page_begin, sterna_report_page_end};
+  return {k_sterna_report_page_begin, k_sterna_report_page_end};
 #else
   return {};
 #endif
