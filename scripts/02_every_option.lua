@@ -125,7 +125,12 @@ local mesh = volume_mesh{ wall,
   },
 }
 
-mesh:check{ intersections = true, quality = true, findings_per_kind = 10, strict = false }
+mesh:check{ intersections = true, quality = true, cell_centred = true, findings_per_kind = 10, strict = false,
+  gates = { orthogonality = { hard = 3*deg, target = 15*deg, usual = 30*deg, share = 0.99 }, face_weight = false },  -- other limits of quality; false: none
+  cells = "every_option.cells.vtu" }                                                                                  -- quality of each cell, as VTK has it
+-- A page that shows it all; a build that could not get the page's libraries from npm says so.
+print(pcall(report, { mesh, "every_option.html", title = "every option", cuts = { "nose", { x = 1 } }, automatic_cuts = true, times = true,
+  max_triangles = 250000, max_polygons = 100000 }))
 -- mesh:check{ wall = wall } compares the walls with the model, where wall is of surface_mesh: below.
 mesh:write "every_option.vtu"
 print(string.format("%d prisms, %d tetrahedra, %.1f %% of the area has its full height", mesh.prisms, mesh.tetrahedra, 100 * mesh.coverage))
