@@ -94,7 +94,7 @@ TEST_F(InspectFiles, MillimetresReadAsMetresAreDoubted) {
 
 TEST_F(InspectFiles, GiveScriptsATable) {
   const std::string path = write(test::cube(12), "cube.stl");
-  const std::string printed = run("local wall = read_surface '" + path + "'\nlocal pre = inspect{ wall, layers = 15, first_height = 1e-4 }\n" +
+  const std::string printed = run("local wall = read_surface '" + path + "'\nlocal pre = inspect{ wall, layers = 18, first_height = 1e-4 }\n" +
                                   "print(pre.ok, pre.errors, #pre.findings, pre.coverage > 0.99, pre.collapsed, pre.is_closed, pre.parts)");
   EXPECT_THAT(printed, HasSubstr("volume_mesh will take it"));
   EXPECT_THAT(printed, HasSubstr("true\t0\t0\ttrue\t0.0\ttrue\t1"));
@@ -108,7 +108,7 @@ TEST_F(InspectFiles, GiveScriptsATable) {
 
 TEST_F(InspectFiles, TakeFlowsAndLimits) {
   const std::string wall = "local wall = read_surface '" + write(test::cube(12), "cube.stl") + "'\n";
-  EXPECT_THAT(run(wall + "print(inspect{ wall, layers = 15, first_height = 1e-4, flow = flow{ reynolds = 1e6, length = 1 } }.findings[1].kind)"),
+  EXPECT_THAT(run(wall + "print(inspect{ wall, layers = 18, first_height = 1e-4, flow = flow{ reynolds = 1e6, length = 1 } }.findings[1].kind)"),
               HasSubstr("\ny_plus\n"));
   EXPECT_THAT(error(wall + "inspect{ wall, flow = 7 }"), HasSubstr("flow: expected flow{"));
   EXPECT_THAT(error(wall + "inspect{ wall, first_hight = 1e-4 }"), HasSubstr("first_height"));
