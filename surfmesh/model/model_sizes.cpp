@@ -331,7 +331,7 @@ void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, c
   std::vector<std::vector<NarrowPlace>> narrow(model.faces.size());
   parallel_for(context, model.faces.size(), [&](std::size_t i) {
     const FaceId f(static_cast<std::uint64_t>(i));
-    if (topology.is_absorbed[f] == 0 && !(bands && bands->is_strip_in_band(f))) add_narrow_places(model, f, edges, sizes.faces[f], options.narrow, narrow[i]);
+    if (topology.is_absorbed[f] == 0 && !(bands && bands->is_strip_in_band(f))) add_narrow_places(model, f, edges, sizes.faces[f], options.narrow / options.refinement, narrow[i]);
   }, 1);
   Column<EdgeId, std::vector<NarrowPlace>> narrow_of_edge(model.edges.size());
   for (const auto& list : narrow)

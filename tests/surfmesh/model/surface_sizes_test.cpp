@@ -244,5 +244,20 @@ TEST(SurfaceSizes, FamiliesOfMeshesAreSimilar) {
   }
 }
 
+TEST(SurfaceSizes, NarrowFacesBelongToFamiliesToo) {
+  const Model plate = make_box("plate", {}, {1.0, 1.0, 0.01});  // its sides are narrower than all edges
+  double before = 0.0;
+  for (const double refinement : {1.0, 1.5, 2.25}) {
+    SurfaceMeshOptions options;
+    options.max_edge = 0.2;
+    options.refinement = refinement;
+    const auto n = static_cast<double>(mesh_model(plate, options, {}, k_context).mesh.n_triangles());
+    if (before > 0.0) {
+      EXPECT_NEAR(n / before, 2.25, 0.15 * 2.25) << refinement;
+    }
+    before = n;
+  }
+}
+
 }  // namespace
 }  // namespace sterna::surfmesh
