@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
+#include <utility>
+#include <vector>
 
 namespace sterna::volmesh {
 namespace {
@@ -26,26 +28,49 @@ double slope_bound(const Point& a, double ha, const Point& b, double hb, const P
   return foot > 0.0 && foot < length && value >= std::max(ha, hb) ? value : along_edges;
 }
 
+/// A value that a vertex may have, and the vertex.
+using Offer = std::pair<double, std::uint32_t>;
+
+/// Smallest offer first. Most vertices keep the value they start with: these are sorted once, and the heap holds only what was lowered.
+class Offers {
+ public:
+  explicit Offers(const Column<VertexId, double>& start) {
+    start_.reserve(start.size());
+    for (const VertexId v : start.ids()) start_.emplace_back(start[v], v.value());
+    std::ranges::sort(start_);
+  }
+  bool empty() const { return n_taken_ == start_.size() && lowered_.empty(); }
+  void add(double value, VertexId v) { lowered_.emplace(value, v.value()); }
+  VertexId take() {
+    if (lowered_.empty() || (n_taken_ < start_.size() && start_[n_taken_] < lowered_.top())) return VertexId(start_[n_taken_++].second);
+    const VertexId v(lowered_.top().second);
+    lowered_.pop();
+    return v;
+  }
+
+ private:
+  std::vector<Offer> start_;
+  std::size_t n_taken_ = 0;
+  std::priority_queue<Offer, std::vector<Offer>, std::greater<>> lowered_;
+};
+
 }  // namespace
 
 void limit_gradient(const LayerBase& base, double gradient, Column<VertexId, double>& height) {
-  using Entry = std::pair<double, std::uint32_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  Offers offers(height);
   Column<VertexId, std::uint8_t> is_final(height.size(), 0);
   const auto& points = base.wall.points;
   const auto offer = [&](VertexId v, double bound) {
     if (is_final[v] || bound >= height[v]) return;
     height[v] = bound;
-    queue.emplace(bound, v.value());
+    offers.add(bound, v);
   };
   const auto offer_corner = [&](VertexId v, VertexId b, VertexId c) {
     const double along_edge = height[v] + gradient * distance(points[v], points[c]);
     offer(c, is_final[b] ? slope_bound(points[v], height[v], points[b], height[b], points[c], gradient) : along_edge);
   };
-  for (const VertexId v : height.ids()) queue.emplace(height[v], v.value());
-  while (!queue.empty()) {
-    const VertexId v(queue.top().second);
-    queue.pop();
+  while (!offers.empty()) {
+    const VertexId v = offers.take();
     if (is_final[v]) continue;
     is_final[v] = 1;
     for (const HalfedgeId h : base.topology.outgoing(v)) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "geom/base/number_text.h"
+#include "geom/base/parallel.h"
 #include "volmesh/envelope/growth_law.h"
 #include "volmesh/flow/boundary_layer.h"
 #include "volmesh/inspect/survey.h"
@@ -11,6 +12,9 @@ namespace {
 
 constexpr double k_regular_height = 0.81649658092772603;  ///< of a regular tetrahedron over its edge
 constexpr double k_noticed_area = 0.01;                   ///< share of the area from which on a misfit of the last layer is told
+constexpr double k_growth_step = 0.005;                   ///< added to an advised growth, so that it is enough when rounded
+constexpr double k_steep_growth = 1.5;                    ///< beyond it no growth is advised: solvers lose the boundary layer's profile
+constexpr int k_most_layers = 1000;                       ///< that are advised; more are no option
 constexpr double k_y_plus_factor = 2.0;                   ///< off the wanted y+, that the estimate of a flat plate cannot tell better
 
 /// What the layer asks for at a vertex by eq. (1) and the caps, before anything lowers it.
@@ -20,15 +24,17 @@ struct Cells {
   double top_ratio() const { return last / (k_regular_height * edge); }
 };
 
-Cells cells_at(const LayerBase& base, const EnvelopeScale& scale, VertexId v) {
+/// With n layers.
+Cells cells_at(const LayerBase& base, const EnvelopeScale& scale, VertexId v, int n) {
   const double h0 = scale.h0(v), edge = base.mean_edge[v];
-  const int n = scale.n(v);
   const double asked = scale.total_height(v);
   double height = is_automatic(asked) ? layer_height(h0, growth_for_edge(h0, edge, scale.max_growth(v), n), n) : asked;
   height = std::min(height, scale.max_thickness(v));
   if (height <= n * h0) return {height / n, height / n, edge};
   return {h0, h0 * std::pow(growth_for_height(h0, height, n), n - 1), edge};
 }
+
+Cells cells_at(const LayerBase& base, const EnvelopeScale& scale, VertexId v) { return cells_at(base, scale, v, scale.n(v)); }
 
 struct Misfit {
   std::vector<Suspect<VertexId>> places;
@@ -45,11 +51,16 @@ class CellSurvey {
     Misfit thin, thick, tall;
     double all = 0.0;
     std::vector<double> top(base_.wall.n_vertices(), k_no_value);
+    Column<VertexId, Cells> all_cells(base_.wall.n_vertices());
+    parallel_for(survey_.context, all_cells.size(), [&](std::size_t i) {
+      const VertexId v(i);
+      if (base_.mean_edge[v] > 0.0) all_cells[v] = cells_at(base_, scale_, v);
+    });
     for (const VertexId v : base_.wall.points.ids()) {
       const double area = base_.vertex_area[v];
       all += area;
       if (!(base_.mean_edge[v] > 0.0)) continue;
-      const Cells cells = cells_at(base_, scale_, v);
+      const Cells& cells = all_cells[v];
       const double r = cells.top_ratio();
       top[v.index()] = r;
       const auto note = [&](Misfit& misfit, double badness) {
@@ -107,17 +118,23 @@ class CellSurvey {
     finding.text = "on " + percent(thin.area) + " of the walls' area the last layer is thinner than " + number_text(finding.limit, k_text_digits) +
                    " of the tetrahedra above it (" + number_text(finding.value, k_text_digits) + " at the worst): a jump of cell sizes at the top of the layer";
     const VertexId v = typical(thin);
-    const double h0 = scale_.h0(v), rise = std::log(k_regular_height * base_.mean_edge[v] / h0);
-    const bool is_capped = scale_.max_thickness(v) < layer_height(h0, growth_for_edge(h0, base_.mean_edge[v], scale_.max_growth(v), scale_.n(v)), scale_.n(v));
-    if (is_capped || !is_automatic(scale_.total_height(v)))
+    if (const int n = enough_layers(v, 1.0 / finding.limit); n > 0)
+      finding.advice = "layers = " + std::to_string(n) + " reach it with max_growth = " + number_text(scale_.max_growth(v), k_text_digits);
+    else
       finding.advice = "shorter edges on the wall (max_edge = " + number_text(cells_at(base_, scale_, v).last / k_regular_height, k_advice_digits) +
                        "), or a taller layer (total_height, max_thickness)";
-    else
-      finding.advice = "layers = " + std::to_string(1 + static_cast<int>(std::ceil(rise / std::log(std::max(scale_.max_growth(v), 1.001))))) +
-                       " reach it with max_growth = " + number_text(scale_.max_growth(v), k_text_digits) +
-                       "; or max_growth = " + number_text(std::exp(rise / std::max(scale_.n(v) - 1, 1)) + 0.005, k_text_digits) +
-                       " with layers = " + std::to_string(scale_.n(v));
+    const double rise = std::log(k_regular_height * base_.mean_edge[v] / scale_.h0(v)), growth = std::exp(rise / std::max(scale_.n(v) - 1, 1)) + k_growth_step;
+    if (is_automatic(scale_.total_height(v)) && growth < k_steep_growth && layer_height(scale_.h0(v), growth, scale_.n(v)) < scale_.max_thickness(v))
+      finding.advice += "; or max_growth = " + number_text(growth, k_text_digits) + " with layers = " + std::to_string(scale_.n(v));
     add(std::move(finding), thin, true);
+  }
+
+  /// The least number of layers, more than there are, with which the last one is not thinner than the limit allows; 0 where none does (another cap is reached first).
+  int enough_layers(VertexId v, double ratio) const {
+    if (!is_automatic(scale_.total_height(v))) return 0;  // more layers of a given height are thinner
+    for (int n = scale_.n(v) + 1; n <= k_most_layers; ++n)
+      if (cells_at(base_, scale_, v, n).top_ratio() * ratio >= 1.0) return n;
+    return 0;
   }
 
   void add_thick(const Misfit& thick) const {

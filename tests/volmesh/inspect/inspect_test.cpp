@@ -386,13 +386,23 @@ TEST(Inspect, TellsOfCompressedAndCollapsedLayers) {
 TEST(Inspect, ComparesFirstAndLastCellsWithTheEdges) {
   const TriMesh cube = test::cube(16);
   EXPECT_THAT(kinds(inspect(cube, request_of(8, 1e-5))), UnorderedElementsAre(Kind::thin_top));
-  const InspectReport few = inspect(cube, request_of(8, 1e-5));
+  InspectRequest one = request_of(8, 1e-5);
+  one.volume.envelope.max_thickness = 1.0;  // m, out of the way
+  const InspectReport few = inspect(cube, one);
   // 0.816 edges of about 0.07 from 1e-5 by 1.4: 27 layers.
   const std::string advice = the(few, Kind::thin_top).advice;
   ASSERT_EQ(advice.find("layers = 2"), 0u) << advice;
   InspectRequest enough = request_of(std::stoi(advice.substr(9)), 1e-5);
   enough.volume.envelope.max_thickness = 1.0;
   EXPECT_FALSE(inspect(cube, enough).find(Kind::thin_top)) << "the advice helps";
+  // Below the usual cap of a tenth of the length other numbers match, or none does and shorter edges are advised.
+  const std::string capped = the(inspect(test::cube(12), request_of(12, 1e-4)), Kind::thin_top).advice;
+  ASSERT_EQ(capped.find("layers = "), 0u) << capped;
+  EXPECT_FALSE(inspect(test::cube(12), request_of(std::stoi(capped.substr(9)), 1e-4)).find(Kind::thin_top)) << capped;
+  InspectRequest low = request_of(8, 1e-5);
+  low.volume.envelope.max_thickness = 0.01;
+  const std::string never = the(inspect(cube, low), Kind::thin_top).advice;
+  EXPECT_EQ(never.find("shorter edges"), 0u) << never;
   const InspectReport tall = inspect(cube, request_of(5, 0.2));
   EXPECT_TRUE(tall.find(Kind::tall_first));
 }
