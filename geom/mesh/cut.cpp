@@ -13,6 +13,7 @@
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/cell_quality.h"
 
 namespace sterna {
 namespace {
@@ -20,20 +21,11 @@ namespace {
 constexpr double k_degree = std::numbers::pi / 180.0;
 /// Dihedral angle of a regular tetrahedron, acos(1/3), radians.
 constexpr double k_regular_dihedral = 1.2309594173407747;
-/// Scaled Jacobian at a base corner of the pyramid whose edges are all equal, sqrt(1/2).
-constexpr double k_regular_pyramid = 0.70710678118654752;
 /// Cells per chunk: the sign test of one takes a few nanoseconds.
 constexpr std::size_t k_cell_chunk = 16384;
 constexpr std::size_t k_column_chunk = 1024;
 /// Edges of a cell are numbered lower local node * 8 + higher.
 constexpr std::size_t k_n_keys = 64;
-
-/// Product of three edges of a corner over their lengths.
-double corner_jacobian(const Point& at, const Point& a, const Point& b, const Point& c) {
-  const Vec3 u = a - at, v = b - at, w = c - at;
-  const double lengths = norm(u) * norm(v) * norm(w);
-  return lengths > 0.0 ? dot(cross(u, v), w) / lengths : 0.0;
-}
 
 void measure(CutPolygon& polygon, const std::array<Point, 8>& p) {
   polygon.quality = std::numeric_limits<double>::quiet_NaN();
@@ -53,17 +45,11 @@ void measure(CutPolygon& polygon, const std::array<Point, 8>& p) {
     }
     case CellKind::pyramid:
       polygon.volume = pyramid_volume({p[0], p[1], p[2], p[3], p[4]});
-      polygon.shape = 1.0;
-      for (std::size_t k = 0; k < 4; ++k)
-        polygon.shape = std::min(polygon.shape, corner_jacobian(p[k], p[(k + 1) % 4], p[(k + 3) % 4], p[4]) / k_regular_pyramid);
+      polygon.shape = scaled_jacobian(polygon.kind, std::span(p).first<5>());
       return;
     case CellKind::hexahedron:
       polygon.volume = hexahedron_volume(p);
-      polygon.shape = 1.0;
-      for (std::size_t k = 0; k < 4; ++k) {
-        const std::size_t next = (k + 1) % 4, last = (k + 3) % 4;
-        polygon.shape = std::min({polygon.shape, corner_jacobian(p[k], p[next], p[last], p[k + 4]), corner_jacobian(p[k + 4], p[last + 4], p[next + 4], p[k])});
-      }
+      polygon.shape = scaled_jacobian(polygon.kind, p);
       return;
   }
 }
