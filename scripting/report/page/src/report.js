@@ -376,7 +376,7 @@ export class ReportApp {
       has_view: true,
       message: this.message.textContent,
       values,
-      camera: { target: view.absolute(view.camera.target), distance: view.camera.distance, orientation: view.camera.orientation.toArray(), is_flying: Boolean(view.camera.flight) },
+      camera: { target: view.absolute(view.camera.target), distance: view.camera.distance, orientation: view.camera.orientation.toArray(), is_flying: Boolean(view.camera.flight || view.waiting) },
       drawn: { surface: view.surface.n_drawn(), cut: view.cut.n_drawn(), markers: view.marker_list.length, marker_at: view.marker_list.length ? view.on_screen(view.marker_list[0].at) : null },
       clip: [...view.surface.uniforms.clip.value],
       color_bar: { surface: scale(painted.surface), cut: scale(painted.cut) },
