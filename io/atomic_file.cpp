@@ -169,4 +169,10 @@ void AtomicFile::discard() noexcept {
   temporary_.clear();
 }
 
+void write_whole(const std::filesystem::path& path, std::string_view bytes) {
+  AtomicFile file(path);
+  file.append(bytes);
+  file.commit();
+}
+
 }  // namespace sterna::io

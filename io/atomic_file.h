@@ -55,4 +55,7 @@ class AtomicFile {
   std::uint64_t n_sent_ = 0;  ///< of them, those whose way to the disk has begun
 };
 
+/// An AtomicFile of these bytes, committed.
+void write_whole(const std::filesystem::path& path, std::string_view bytes);
+
 }  // namespace sterna::io

@@ -342,11 +342,7 @@ int execute(const MeshCommand& command, const CommandContext& context) {
   for (const auto& output : command.outputs) context.run.info("wrote " + output.string() + " and " + output.string() + ".json");
   context.run.info(summary_text(mesh));
   context.run.info(measure_text(mesh, measure));
-  if (!command.stats.empty()) {
-    io::AtomicFile file(command.stats);
-    file.append(stats_json(mesh, measure));
-    file.commit();
-  }
+  if (!command.stats.empty()) io::write_whole(command.stats, stats_json(mesh, measure));
   return k_exit_success;
 }
 

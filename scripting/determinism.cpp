@@ -31,6 +31,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds k_pause{5};         ///< between two looks at a run
 constexpr std::chrono::milliseconds k_stop_grace{800};  ///< a run that was asked to stop gets so long; Ctrl-C shall be over in a second
+constexpr std::size_t k_n_free_letters = 6;             ///< at the end of a name that mkdtemp completes
 constexpr std::size_t k_quoted = 2000;                  ///< bytes of a run's output for a message
 constexpr std::size_t k_block = std::size_t{1} << 16;   ///< bytes that are compared at a time
 
@@ -38,7 +39,7 @@ constexpr std::size_t k_block = std::size_t{1} << 16;   ///< bytes that are comp
 class WorkFolder {
  public:
   WorkFolder() {
-    std::string name = (fs::temp_directory_path() / "sterna-determinism-XXXXXX").string();
+    std::string name = (fs::temp_directory_path() / ("sterna-determinism-" + std::string(k_n_free_letters, 'X'))).string();
     if (mkdtemp(name.data()) == nullptr)
       throw Error({.code = ErrorCode::write_failed,
                    .attempted = "making a folder for the runs",

@@ -27,9 +27,7 @@ void add_size(OptionOverrides& options, const std::string& text) {
 }
 
 void write_bytes(const std::string& png, const DrawOptions& options, const std::filesystem::path& path, const RunContext& context) {
-  io::AtomicFile file(path);
-  file.append(png);
-  file.commit();
+  io::write_whole(path, png);
   context.info("wrote " + path.string() + ": " + std::to_string(options.width) + " x " + std::to_string(options.height) + " pixels");
 }
 

@@ -270,9 +270,7 @@ void draw_inspection(const InspectReport& report, const std::filesystem::path& p
     if (!finding.places.empty()) marks.push_back({finding.places.front().position, std::string(to_string(finding.severity)) + ": " + finding.text});
   DrawOptions options;
   options.places = true;
-  io::AtomicFile file(path);
-  file.append(draw_png(by_finding(report), options, "inspection", marks, context));
-  file.commit();
+  io::write_whole(path, draw_png(by_finding(report), options, "inspection", marks, context));
 }
 
 }  // namespace

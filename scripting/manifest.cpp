@@ -114,9 +114,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
 }
 
 void write_manifest(const MeshValue& mesh, const std::filesystem::path& output, const RunContext& context) {
-  io::AtomicFile file(output.string() + ".json");
-  file.append(manifest_json(mesh, output, context.seed()));
-  file.commit();
+  io::write_whole(output.string() + ".json", manifest_json(mesh, output, context.seed()));
 }
 
 }  // namespace sterna::scripting

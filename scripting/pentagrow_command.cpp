@@ -48,12 +48,6 @@ SurfaceValue read_surface(const PentagrowCommand& command, const PentagrowCase& 
   return half_surface(wall, half, context);
 }
 
-void write_text(const std::string& name, const std::string& text) {
-  io::AtomicFile file(name);
-  file.append(text);
-  file.commit();
-}
-
 /// The tops of the layer with the patches of its columns' wall triangles, where they are boundary faces in the same order.
 TriMesh envelope_of(const HybridMesh& mesh) {
   TriMesh envelope;
@@ -123,8 +117,8 @@ int execute(const PentagrowCommand& command, const CommandContext& context) {
   for (const auto& output : given.outputs) write_mesh(mesh, output, write_part);
   io::write_surface_file(envelope_of(mesh.mesh), "outermost.vtu", write_part);
   io::write_surface_file(tetrahedra_boundary(mesh.mesh), "boundaries.smesh", write_part);
-  write_text("sumcos.txt", skew_text(mesh.mesh));
-  write_text("diagnose.txt", "0 elements are tangled\n0 elements will fail the preprocessing test\n");
+  io::write_whole("sumcos.txt", skew_text(mesh.mesh));
+  io::write_whole("diagnose.txt", "0 elements are tangled\n0 elements will fail the preprocessing test\n");
   context.console.end_progress();
   for (const auto& output : given.outputs) context.run.info("wrote " + output.string() + " and " + output.string() + ".json");
   context.run.info("wrote outermost.vtu, boundaries.smesh, sumcos.txt and diagnose.txt");

@@ -108,9 +108,7 @@ ScriptValue write_su2_config(const ScriptCall& call) {
     info.attempted = call.attempted();
     throw Error(std::move(info));
   }
-  io::AtomicFile output(path);
-  output.append(text);
-  output.commit();
+  io::write_whole(path, text);
   std::error_code none;
   const bool is_there = std::filesystem::exists(path.parent_path() / options.mesh, none);
   call.session.context.info("wrote " + path.string() + " for the mesh " + options.mesh + (is_there ? "" : ", which is not there yet: mesh:write \"" + (path.parent_path() / options.mesh).string() + "\""));

@@ -106,9 +106,7 @@ std::string surface_manifest_json(const SurfaceValue& surface, const std::filesy
 }
 
 void write_surface_manifest(const SurfaceValue& surface, const std::filesystem::path& written) {
-  io::AtomicFile file(manifest_of(written));
-  file.append(surface_manifest_json(surface, written));
-  file.commit();
+  io::write_whole(manifest_of(written), surface_manifest_json(surface, written));
 }
 
 std::optional<KnownSurface> read_surface_manifest(const InputPath& file, const std::string& hash, const RunContext& context) {

@@ -61,9 +61,7 @@ void require_page_output(const std::filesystem::path& path) {
 }
 
 void write_page(const std::string& html, const std::filesystem::path& path, const RunContext& context) {
-  io::AtomicFile file(path);
-  file.append(html);
-  file.commit();
+  io::write_whole(path, html);
   context.info("wrote " + path.string() + ": " + number_text(static_cast<double>(html.size()) / k_megabyte, 3) + " MB");
 }
 

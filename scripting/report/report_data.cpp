@@ -39,6 +39,9 @@ bool is_body(PatchKind kind) { return kind == PatchKind::wall; }
 Json json_of(const Point& p) { return {p.x, p.y, p.z}; }
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+/// Patches are numbered by 16 bits in a page.
+constexpr std::size_t k_most_patches = std::size_t{1} << 16;
+
 /// Boundary faces as triangles, with the face and the edges that each has of it.
 struct PageTriangles {
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -100,6 +103,8 @@ class PageMaker {
  public:
   PageMaker(std::span<const Point> points, const PageTriangles& triangles, const Column<PatchId, Patch>& patches, const std::vector<SurfaceField>& fields)
       : points_(points), triangles_(triangles), patches_(patches), fields_(fields) {
+    if (patches.size() > k_most_patches)
+      throw Error({.code = ErrorCode::overflow, .attempted = "making a report page", .problem = std::to_string(patches.size()) + " patches; a page tells " + std::to_string(k_most_patches) + " apart", .hint = "merge patches by their names"});
     Box bodies, all;
     for (std::size_t t = 0; t < triangles.triangles.size(); ++t)
       for (const std::uint32_t corner : triangles.triangles[t]) {

@@ -117,9 +117,7 @@ CaseStatus read_status(const fs::path& folder, const RunContext& context) {
 }
 
 void write_status(const CaseStatus& status, const fs::path& folder) {
-  io::AtomicFile file(folder / k_status_file);
-  file.append(json_of(status).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  file.commit();
+  io::write_whole(folder / k_status_file, json_of(status).dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 bool is_current(const CaseStatus& status, const fs::path& folder, const std::string& key) {

@@ -28,12 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-void write_text(const fs::path& path, const std::string& text) {
-  io::AtomicFile file(path);
-  file.append(text);
-  file.commit();
-}
-
 std::string host_name() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
@@ -62,8 +56,8 @@ MeshNote note_of(const MeshValue& mesh) {
 /// The script as this run read it, with its modules.
 void copy_script(const ScriptSession& session, const fs::path& folder) {
   fs::create_directories(folder / "script");
-  write_text(folder / "script" / session.script.filename(), session.series.script_text);
-  for (const auto& [name, source] : session.series.modules) write_text(folder / "script" / (name + ".lua"), source);
+  io::write_whole(folder / "script" / session.script.filename(), session.series.script_text);
+  for (const auto& [name, source] : session.series.modules) io::write_whole(folder / "script" / (name + ".lua"), source);
 }
 
 /// Everything that differs between two runs of the same case.
@@ -72,7 +66,7 @@ void write_measure(const ScriptSession& session, double seconds, const fs::path&
   json["reused"] = session.reused;
   json["stage_seconds"] = nlohmann::ordered_json::object();
   for (const StageTime& stage : session.context.times()) json["stage_seconds"][stage.stage] = stage.seconds;
-  write_text(folder / k_measure_file, json.dump(2) + "\n");
+  io::write_whole(folder / k_measure_file, json.dump(2) + "\n");
 }
 
 /// Fills the status with what became of the function's error, and draws it.
@@ -128,7 +122,7 @@ void run_case(const ScriptCall& call, const SeriesPlan& plan, const SeriesCase& 
   CaseStatus status{.state = CaseState::running, .key = case_key(plan, c, session), .process = getpid(), .host = host_name()};
   status.found = clear_case_folder(folder, read_status(folder, session.context));
   write_status(status, folder);
-  write_text(folder / "case.json", case_json(plan, c, session));
+  io::write_whole(folder / "case.json", case_json(plan, c, session));
 
   set_reference(plan, c, series);
   series.is_case_running = true;
@@ -156,7 +150,7 @@ void run_case(const ScriptCall& call, const SeriesPlan& plan, const SeriesCase& 
   if (series.reference) series.reference->use.reset();
 
   copy_script(session, folder);
-  if (mesh && !mesh->check_json.empty()) write_text(folder / "quality.json", mesh->check_json);
+  if (mesh && !mesh->check_json.empty()) io::write_whole(folder / "quality.json", mesh->check_json);
   write_measure(session, std::chrono::duration<double>(Clock::now() - start).count(), folder);
   status.inputs = series.inputs;
   if (status.state != CaseState::killed) status.outputs = outputs_in(folder, status.found);

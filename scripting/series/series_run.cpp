@@ -25,12 +25,6 @@ namespace fs = std::filesystem;
 /// Of a case that runs beside others, unless the script says otherwise: below, a process of its own for more cases gains more than threads do.
 constexpr int k_cores_per_task = 4;
 
-void write_text(const fs::path& path, const std::string& text) {
-  io::AtomicFile file(path);
-  file.append(text);
-  file.commit();
-}
-
 /// Makes the table known to later series and turns it into a value.
 ScriptValue remember(SeriesSession& series, const SeriesPlan& plan, const std::string& result) {
   series.names.insert(plan.name);
@@ -171,9 +165,9 @@ ScriptValue run_all(const ScriptCall& call, const SeriesPlan& plan) {
     else if (result.status.mesh.verdict == "INVALID") ++series.n_invalid;
   }
   call.session.print(table_text(plan, results));
-  write_text(plan.folder / "series.csv", table_csv(plan, results));
-  write_text(plan.folder / "series.json", table_json(plan, results));
-  if (const std::string page = series_page_html(plan, results); !page.empty()) write_text(plan.folder / "series.html", page);
+  io::write_whole(plan.folder / "series.csv", table_csv(plan, results));
+  io::write_whole(plan.folder / "series.json", table_json(plan, results));
+  if (const std::string page = series_page_html(plan, results); !page.empty()) io::write_whole(plan.folder / "series.html", page);
   else call.session.context.info("series.html was not written: this sterna was built without the page");
   return remember(series, plan, result_json(plan, results));
 }

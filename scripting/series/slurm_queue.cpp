@@ -34,12 +34,6 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-void write_text(const fs::path& path, const std::string& text) {
-  io::AtomicFile file(path);
-  file.append(text);
-  file.commit();
-}
-
 CommandResult run_or_throw(const std::vector<std::string>& words, const RunContext& context) {
   CommandResult result = run_command(words, context);
   if (result.status != 0)
@@ -95,11 +89,11 @@ class SlurmArray {
   SlurmArray(std::span<const CaseTask> tasks, std::size_t number, const RunnerContext& runner) : tasks_(tasks), runner_(runner), misses_(tasks.size(), 0), is_over_(tasks.size(), false) {
     const fs::path folder = runner.plan.folder / "slurm", list = folder / ("cases-" + std::to_string(number)), script = folder / ("array-" + std::to_string(number) + ".sh");
     for (const CaseTask& task : tasks) prepare(task, runner.run);
-    write_text(list, list_of(tasks));
-    write_text(script, job_script(tasks.size(), list, runner));
+    io::write_whole(list, list_of(tasks));
+    io::write_whole(script, job_script(tasks.size(), list, runner));
     id_ = run_or_throw(sbatch_command(script, runner.plan), runner.run).output;
     id_ = id_.substr(0, id_.find_first_of(";\n"));
-    write_text(folder / k_jobs_file, id_ + "\n");
+    io::write_whole(folder / k_jobs_file, id_ + "\n");
     runner.run.info("submitted " + std::to_string(tasks.size()) + " cases of " + runner.plan.name + " as job " + id_);
   }
 
