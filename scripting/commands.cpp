@@ -403,6 +403,16 @@ int execute(const UnionCommand& command, const CommandContext& context) {
 
 namespace {
 
+/// \throws Error(unsupported_format) unless the name ends in .vtu, (bad_argument) where it is the mesh itself
+void require_cells_output(const std::filesystem::path& path, const std::filesystem::path& input) {
+  const std::string attempted = "--cells " + path.string();
+  if (path.extension() != ".vtu")
+    throw Error({.code = ErrorCode::unsupported_format, .attempted = attempted, .problem = "the quality of cells is written as a .vtu file", .hint = "such as --cells " + path.stem().string() + ".vtu"});
+  std::error_code none;  // a file that is not there is another one
+  if (std::filesystem::equivalent(path, input, none))
+    throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "it is the mesh that is checked", .hint = "such as --cells " + path.stem().string() + "_cells.vtu"});
+}
+
 [[noreturn]] void refuse_to_check_surface(const std::string& input, const std::string& what) {
   throw Error({.code = ErrorCode::unsupported_format, .attempted = "checking " + input, .problem = what, .hint = "check proves volume meshes. `sterna info " + input + "` says what the surface holds and whether it is closed, `sterna mesh " + input + " ...` meshes the space around it"});
 }
@@ -416,6 +426,7 @@ int execute(const CheckCommand& command, const CommandContext& context) {
     if (!is_model_file(model)) throw Error({.code = ErrorCode::bad_argument, .attempted = "--model " + model, .problem = "it is no model", .hint = "give the file of STEP, IGES, BREP, sumo or CPACS that the mesh was made of"});
   GateTable limits;
   for (const std::string& text : command.gates) set_gate_limits(text, limits);
+  if (!command.cells.empty()) require_cells_output(command.cells, command.input);
   const MeshValue mesh = read_mesh({command.input, command.input}, context.run.part("read", 0.0, 0.3));
   if (count_cells(mesh.mesh).total() == 0 && !mesh.mesh.boundary_triangles.empty())
     refuse_to_check_surface(command.input, "it holds a surface of " + count_text(static_cast<std::int64_t>(mesh.mesh.boundary_triangles.size())) + " triangles and no cells");

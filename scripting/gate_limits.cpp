@@ -39,7 +39,7 @@ std::string unknown_measure(const std::string& name) {
     if (info.gate == name) of_gate += (of_gate.empty() ? "" : ", ") + std::string(info.name);
   if (!of_gate.empty()) return "gates." + name + ": " + name + " has several measures, name one: " + of_gate;
   const std::string nearest = nearest_name(name, measure_names());
-  return "gates." + name + ": there is no such measure" + (nearest.empty() ? "" : ", did you mean " + nearest + "?");
+  return "gates." + name + ": there is no such measure" + (nearest.empty() ? "; docs/quality_gates.md lists them" : ", did you mean " + nearest + "?");
 }
 
 const MeasureInfo* measure_of(const std::string& name) {
@@ -55,18 +55,22 @@ double* limit_of(GateLimits& limits, std::string_view name) {
   return name == "share" ? &limits.usual_share : nullptr;
 }
 
+/// In the unit of reports: "3 deg".
+std::string limit_text(const MeasureInfo& info, double limit) { return number_text(in_report_unit(info, limit), 4) + (info.is_angle ? " deg" : ""); }
+
 /// What is wrong with limits of a measure; empty: nothing.
 std::string objection_to(const MeasureInfo& info, const GateLimits& limits) {
   if (!(limits.usual_share >= 0.0 && limits.usual_share <= 1.0)) return "share is " + number_text(limits.usual_share) + ", it must be between 0 and 1";
   const double hard = info.is_low_bad ? -limits.hard : limits.hard, target = info.is_low_bad ? -limits.target : limits.target;
   if (target > hard)
-    return "target " + number_text(limits.target) + " is easier than hard " + number_text(limits.hard) + "; for this measure " + (info.is_low_bad ? "larger" : "smaller") + " values are better";
+    return "target " + limit_text(info, limits.target) + " is easier than hard " + limit_text(info, limits.hard) + "; for this measure " + (info.is_low_bad ? "larger" : "smaller") +
+           " values are better: give both (what is not given stays as it is usual)";
   return {};
 }
 
 void read_limits(const MeasureInfo& info, const ScriptTable& table, const std::string& key, TableReader& reader, GateTable& limits) {
   GateLimits changed = limits[info.measure];
-  if (!table.items.empty() || !table.other_keys.empty()) reader.add_problem(key + ": takes hard, target, usual and share by name");
+  if (!table.items.empty() || !table.other_keys.empty() || table.fields.empty()) reader.add_problem(key + ": takes hard, target, usual and share by name, or is false");
   for (const auto& [name, value] : table.fields) {
     double* const limit = limit_of(changed, name);
     const auto* off = std::get_if<bool>(&value);
@@ -117,7 +121,7 @@ void set_gate_limits(std::string_view text, GateTable& limits) {
   const std::string name(text.substr(0, colon));
   const MeasureInfo* info = measure_of(name);
   if (!info) refuse(unknown_measure(name));
-  if (colon == std::string_view::npos) refuse("it names no limit", "write " + name + ":hard=1,target=2 or " + name + ":none");
+  if (colon == std::string_view::npos || colon + 1 == text.size()) refuse("it names no limit", "write " + name + ":hard=1,target=2 or " + name + ":none");
   std::string_view rest = text.substr(colon + 1);
   GateLimits changed = limits[info->measure];
   if (rest == "none") {
@@ -132,7 +136,11 @@ void set_gate_limits(std::string_view text, GateTable& limits) {
     double* const limit = limit_of(changed, key);
     if (!limit || equals == std::string_view::npos) refuse("\"" + std::string(entry) + "\" is none of hard=, target=, usual=, share=");
     const std::string_view number = entry.substr(equals + 1);
-    *limit = number == "none" && key != "share" ? k_none : parse_number_with_unit(number, info->is_angle && key != "share" ? Unit::radian : Unit::none);
+    try {
+      *limit = number == "none" && key != "share" ? k_none : parse_number_with_unit(number, info->is_angle && key != "share" ? Unit::radian : Unit::none);
+    } catch (const Error& error) {
+      refuse(std::string(key) + ": " + error.info().problem, error.info().hint);
+    }
   }
   if (const std::string objection = objection_to(*info, changed); !objection.empty()) refuse(objection);
   limits[info->measure] = changed;
@@ -140,14 +148,13 @@ void set_gate_limits(std::string_view text, GateTable& limits) {
 
 std::string gate_limits_help() {
   std::string text = "gates = { measure = { hard, target, usual, share } or false }: limits of the QUALITY gates instead of these:\n";
-  const auto shown = [](const MeasureInfo& info, double limit) { return number_text(in_report_unit(info, limit), 4) + (info.is_angle ? " deg" : ""); };
   for (const MeasureInfo& info : measures()) {
     text += "  " + std::string(info.name) + " (" + std::string(info.gate) + "): ";
     std::string limits;
     const auto add = [&](const std::string& part) { limits += (limits.empty() ? "" : ", ") + part; };
-    if (!std::isnan(info.limits.hard)) add("hard " + shown(info, info.limits.hard));
-    if (!std::isnan(info.limits.target)) add("target " + shown(info, info.limits.target));
-    if (!std::isnan(info.limits.usual)) add("usual " + shown(info, info.limits.usual) + " for a share of " + number_text(info.limits.usual_share, 4));
+    if (!std::isnan(info.limits.hard)) add("hard " + limit_text(info, info.limits.hard));
+    if (!std::isnan(info.limits.target)) add("target " + limit_text(info, info.limits.target));
+    if (!std::isnan(info.limits.usual)) add("usual " + limit_text(info, info.limits.usual) + " for a share of " + number_text(info.limits.usual_share, 4));
     text += (limits.empty() ? "shown only" : limits) + "\n";
   }
   return text;

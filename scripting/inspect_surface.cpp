@@ -13,7 +13,9 @@
 #include "geom/draw/draw.h"
 #include "io/atomic_file.h"
 #include "io/field_vtu.h"
+#include "io/format_table.h"
 #include "io/surface_file.h"
+#include "io/volume_file.h"
 #include "scripting/stages.h"
 #include "scripting/summary.h"
 #include "scripting/wall_files.h"
@@ -125,7 +127,30 @@ void add_repairs(const SurfaceValue& wall, const WallFiles& files, const Inspect
 
 }  // namespace
 
+namespace {
+
+/// Cells of the file; none where it is no volume mesh, or one that cannot be read: what is wrong with it as a surface its reader says.
+std::int64_t n_cells_of(const InputPath& input, const RunContext& context) {
+  if (!io::format_of(input.path).read_volume) return 0;
+  try {
+    return count_cells(io::read_volume_file(input.path, context)).total();
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled) throw;
+    return 0;
+  }
+}
+
+/// volume_mesh takes it, but hardly anybody means it.
+void warn_of_cells(const InputPath& input, const RunContext& context) {
+  if (const std::int64_t n = n_cells_of(input, context); n > 0)
+    context.warn(input.name + " is a volume mesh of " + count_text(n) + " cells: all of its boundary, farfield and symmetry planes too, is taken for the walls of a new one. `sterna check " + input.name +
+                 "` measures the mesh itself");
+}
+
+}  // namespace
+
 InspectReport inspect_files(std::span<const InputPath> inputs, const surfmesh::StitchOptions& options, InspectRequest request, const RunContext& context) {
+  for (const InputPath& input : inputs) warn_of_cells(input, context);
   WallFiles files = read_wall_files(inputs, options, context.part("read", 0.0, 0.5 * k_joined));
   files.wall.options.check_intersections = false;  // inspect_wall finds the pairs itself
   std::optional<Finding> refusal;
@@ -171,10 +196,10 @@ std::string verdict_of(const InspectReport& report) {
 }
 
 std::string prediction_of(const volmesh::LayerPrediction& layer) {
-  std::string text = fmt::format("layers: full height on about {:.3g} % of the area, {:.2g} % compressed, {:.2g} % collapsed", k_percent * layer.coverage,
+  std::string text = fmt::format("layers: full height on about {:.3g} % of the area, {:.3g} % compressed, {:.3g} % collapsed", k_percent * layer.coverage,
                                  k_percent * layer.compressed, k_percent * layer.collapsed);
   for (std::size_t i = 0; i < layer.lost_area.size(); ++i)
-    text += fmt::format("{}{:.2g} % {}", i == 0 ? " (lower: " : ", ", k_percent * layer.lost_area[i].second, layer.lost_area[i].first);
+    text += fmt::format("{}{:.3g} % {}", i == 0 ? " (lower: " : ", ", k_percent * layer.lost_area[i].second, layer.lost_area[i].first);
   return text + (layer.lost_area.empty() ? "" : ")");
 }
 

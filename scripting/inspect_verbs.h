@@ -9,4 +9,7 @@ namespace sterna::scripting {
 
 std::span<const ScriptVerb> inspect_verbs();
 
+/// What stands for the table of an inspection where a script is only checked: nothing was found.
+ScriptValue inspection_stand_in();
+
 }  // namespace sterna::scripting

@@ -3,6 +3,7 @@
 #include "geom/base/error.h"
 #include "geom/model/shapes.h"
 #include "scripting/flow_verbs.h"
+#include "scripting/inspect_verbs.h"
 #include "scripting/models.h"
 #include "scripting/script_objects.h"
 #include "scripting/verb_tools.h"
@@ -108,6 +109,7 @@ ScriptValue stand_in(const ScriptCall& call, std::string_view gives) {
   if (gives == "self") return call.arguments.empty() ? ScriptValue() : call.arguments.front();
   if (gives == k_either) return kept(check, is_about_surfaces(call) ? "surface" : "model");
   if (object_kind(gives)) return kept(check, gives);
+  if (gives == "inspection") return inspection_stand_in();
   if (gives != "stages" && gives != "table") return std::monostate{};
   auto table = std::make_shared<ScriptTable>();
   if (gives == "stages")

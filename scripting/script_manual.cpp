@@ -61,7 +61,7 @@ std::string options_markdown(const ScriptVerb& verb) {
   return text;
 }
 
-std::string_view without_article(std::string_view gives) { return gives == "self" ? "the object itself" : gives; }
+std::string_view without_article(std::string_view gives) { return gives == "self" ? "the object itself" : gives == "inspection" ? "table" : gives; }
 
 std::string verb_markdown(const ScriptVerb& verb) {
   std::string text = "\n### " + std::string(verb.name) + "\n\n" + std::string(verb.summary);

@@ -197,8 +197,10 @@ ScriptValue check_mesh(const ScriptCall& call) {
   const bool has_limits = read_gate_limits(reader, limits);
   std::filesystem::path cells;
   if (const ScriptValue* value = reader.field("cells")) {
-    if (const auto* name = std::get_if<std::string>(value)) cells = output_path(call, *name);
-    else reader.add_problem("cells: expected the name of a .vtu file, not " + std::string(type_text(*value)));
+    if (const auto* name = std::get_if<std::string>(value)) {
+      cells = output_path(call, *name);
+      if (cells.extension() != ".vtu") reader.add_problem("cells: the quality of cells is written as a .vtu file, not " + *name);
+    } else reader.add_problem("cells: expected the name of a .vtu file, not " + std::string(type_text(*value)));
   }
   SurfaceHandle wall;
   if (const ScriptValue* value = reader.field("wall")) {

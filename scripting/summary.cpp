@@ -106,7 +106,9 @@ std::string summary_text(const MeshValue& mesh) {
   for (const auto& [reason, share] : layer.lost_area) text += fmt::format("              {:.2f} % below: {}\n", 100.0 * share, reason);
   text += fmt::format("  compressed  {:.2f} % of the area, {} of {} vertices (total height below layers x first height)\n", 100.0 * layer.compressed_area,
                       count_text(layer.n_compressed), count_text(layer.n_vertices));
-  text += fmt::format("  first node  within 2 % of first_height at {:.2f} % of the full lines, on {:.2f} % of the facets off ridges ({:.2f} % of the area is at ridges)\n",
+  const std::int64_t n_full = layer.first_node.n_lines - layer.first_node.n_compressed - layer.first_node.n_collapsed;
+  if (n_full == 0) text += "  first node  no line is full: first_height is met nowhere\n";
+  else text += fmt::format("  first node  within 2 % of first_height at {:.2f} % of the full lines, on {:.2f} % of the facets off ridges ({:.2f} % of the area is at ridges)\n",
                       100.0 * layer.first_node.vertex_share, 100.0 * layer.first_node.facet_share, 100.0 * layer.first_node.ridge_area);
   text += fmt::format("  interface   last layer between 1/3 and 3 heights of a regular tetrahedron on {:.2f} % of the envelope ({:.2f} % where the layer is full); {:.2f} % thinner, {:.2f} % thicker\n",
                       100.0 * layer.interface.within, 100.0 * layer.interface.within_of_full, 100.0 * layer.interface.below, 100.0 * layer.interface.above);

@@ -88,12 +88,12 @@ constexpr std::string_view k_plane_hint = "write x=1.2, y=0, z=-0.5 or \"point=0
 
 }  // namespace
 
-void throw_unknown(std::string_view what, const std::string& given, std::span<const std::string> known, std::string_view more) {
+void throw_unknown(std::string_view attempted, std::string_view what, const std::string& given, std::span<const std::string> known, std::string_view more) {
   std::string list;
   for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
   const std::string nearest = nearest_name(given, known);
   throw Error({.code = ErrorCode::unknown_option,
-               .attempted = "draw",
+               .attempted = std::string(attempted),
                .problem = "there is no " + std::string(what) + " \"" + given + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"),
                .hint = (list.empty() ? std::string() : "there are " + list) + std::string(more)});
 }
@@ -112,7 +112,7 @@ std::optional<Vec3> view_of(const std::string& text) {
   }
   std::vector<std::string> known;
   for (const NamedView& view : views) known.emplace_back(view.name);
-  throw_unknown("view", text, known, "; or " + std::string(k_view_hint.substr(k_view_hint.find('"'))));
+  throw_unknown("draw", "view", text, known, "; or " + std::string(k_view_hint.substr(k_view_hint.find('"'))));
 }
 
 std::optional<CutPlane> plane_of(const std::string& text) {
@@ -147,12 +147,12 @@ std::optional<Sphere> sphere_of(const std::string& text) {
   return Sphere{*center, length[0]};
 }
 
-const CutPlace& place_of(std::span<const CutPlace> places, const std::string& name, std::string_view what) {
+const CutPlace& place_of(std::span<const CutPlace> places, const std::string& name, std::string_view attempted, std::string_view what) {
   for (const CutPlace& place : places)
     if (place.name == lower(name)) return place;
   std::vector<std::string> known;
   for (const CutPlace& place : places) known.push_back(place.name);
-  throw_unknown(what, name, known, known.empty() ? "the mesh has no places of its own" : "");
+  throw_unknown(attempted, what, name, known, known.empty() ? "the mesh has no places of its own" : "");
 }
 
 }  // namespace sterna::draw

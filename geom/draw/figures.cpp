@@ -61,7 +61,7 @@ Coloring coloring_of(const std::string& color, bool has_cut) {
                  .problem = "color = \"" + color + "\" is a figure of cells, and none are shown",
                  .hint = "give a cut, such as cut = \"section 50%\""});
   }
-  throw_unknown("color", color, known);
+  throw_unknown("draw", "color", color, known);
 }
 
 Figure face_figure(const HybridMesh& mesh, const std::string& name, const RunContext& context) {

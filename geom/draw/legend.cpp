@@ -16,6 +16,8 @@ constexpr double k_least_panel = 10.0, k_panel_with_limits = 12.5, k_most_panel 
 constexpr int k_ticks = 6;
 /// Colours that a legend on the picture may have.
 constexpr std::size_t k_most_inset = 8;
+/// Marks nearer than this, in letters, have their numbers in one place.
+constexpr double k_same_mark = 1.5;
 /// Smaller letters, for remarks.
 constexpr double k_small = 0.8;
 constexpr Rgb k_frame_color{90, 96, 106};
@@ -42,6 +44,8 @@ std::string fitted(Canvas& canvas, std::string text, double size, double width) 
 
 std::string title_of(const ColorBar& bar) { return bar.title + (bar.unit.empty() ? "" : ", " + bar.unit); }
 
+std::string range_text(const ColorBar& bar) { return "from " + short_number(bar.smallest) + " to " + short_number(bar.largest); }
+
 double draw_bar(Canvas& canvas, const Layout& layout, const Scene& scene, double x, double y) {
   const ColorBar& bar = *scene.bar;
   const double t = layout.text, room = layout.panel - 1.2 * t, width = k_bar_width * t;
@@ -67,7 +71,7 @@ double draw_bar(Canvas& canvas, const Layout& layout, const Scene& scene, double
     canvas.text(x + width + 3.6 * t, level(value) + 0.3 * t, text + " " + short_number(value), k_small * t, k_text_color);
   }
   y += n + k_line * t;
-  canvas.text(x, y, "from " + short_number(bar.smallest) + " to " + short_number(bar.largest), k_small * t, k_text_color);
+  canvas.text(x, y, range_text(bar), k_small * t, k_text_color);
   return y + 0.6 * t;
 }
 
@@ -120,7 +124,7 @@ Layout layout_of(const DrawOptions& options, const Scene& scene, bool has_title,
   for (const DrawMark& mark : marks) needed = std::max(needed, measure.width_of(mark.text, k_small * t) + 3.2 * t);
   if (scene.bar)
     needed = std::max(
-        {needed, measure.width_of(title_of(*scene.bar), k_small * t) + 2.0 * t, (scene.bar->limits.empty() ? k_least_panel : k_panel_with_limits) * t});
+        {needed, measure.width_of(title_of(*scene.bar), k_small * t) + 2.0 * t, measure.width_of(range_text(*scene.bar), k_small * t) + 1.2 * t, (scene.bar->limits.empty() ? k_least_panel : k_panel_with_limits) * t});
   needed = std::min({needed, k_most_panel * t, 0.4 * layout.width});
   const bool is_short = !scene.bar && marks.empty() && scene.swatches.size() <= k_most_inset;
   (is_short ? layout.inset : layout.panel) = needed;
@@ -190,13 +194,27 @@ void draw_axes(Canvas& canvas, const Layout& layout, const Camera& camera) {
 
 void draw_marks(Canvas& canvas, const Layout& layout, const Camera& camera, std::span<const DrawMark> marks) {
   const double t = layout.text;
+  struct Label {
+    Projected at;
+    std::string numbers;
+  };
+  std::vector<Label> labels;  // marks that fall on each other share one
   for (std::size_t i = 0; i < marks.size(); ++i) {
     if (camera.is_perspective() && camera.ahead(marks[i].position) <= 0.0) continue;
     const Projected at = camera.project(marks[i].position);
     if (at.x < 0.0 || at.y < 0.0 || at.x > layout.width - layout.panel || at.y > layout.height) continue;
     canvas.circle(at.x, at.y, 0.5 * t, {255, 255, 255}, 0.3 * t);
     canvas.circle(at.x, at.y, 0.5 * t, k_mark_color, 0.14 * t);
-    canvas.text(at.x + 0.75 * t, at.y - 0.35 * t, std::to_string(i + 1), t, k_mark_color);
+    const auto near =
+        std::find_if(labels.begin(), labels.end(), [&](const Label& label) { return std::hypot(label.at.x - at.x, label.at.y - at.y) < k_same_mark * t; });
+    if (near == labels.end())
+      labels.push_back({at, std::to_string(i + 1)});
+    else
+      near->numbers += ", " + std::to_string(i + 1);
+  }
+  for (const Label& label : labels) {
+    canvas.rectangle(label.at.x + 0.7 * t, label.at.y - 1.5 * t, canvas.width_of(label.numbers, t) + 0.4 * t, 1.3 * t, {255, 255, 255}, 0.8);
+    canvas.text(label.at.x + 0.9 * t, label.at.y - 0.45 * t, label.numbers, t, k_mark_color);
   }
 }
 

@@ -82,7 +82,7 @@ class SceneBuilder {
   void choose_plane() {
     scene_.focus = sphere_of(options_.focus);
     if (!scene_.focus && options_.focus != "automatic") {
-      const CutPlace& place = place_of(places(), options_.focus, "place");
+      const CutPlace& place = place_of(places(), options_.focus, "draw", "place");
       scene_.focus = Sphere{place.focus, place.radius};
     }
     if (options_.cut == "none") return;
@@ -90,7 +90,7 @@ class SceneBuilder {
       throw Error({.code = ErrorCode::bad_argument, .attempted = "draw: option cut", .problem = "a surface has no cells to cut", .hint = "draw a volume mesh"});
     plane_ = plane_of(options_.cut);
     if (!plane_) {
-      const CutPlace& place = place_of(places(), options_.cut, "cut");
+      const CutPlace& place = place_of(places(), options_.cut, "draw", "cut");
       plane_ = place.plane;
       if (!scene_.focus) scene_.focus = Sphere{place.focus, place.radius};
     }
@@ -122,14 +122,7 @@ class SceneBuilder {
 
   /// Half models are seen from the side of the fluid: the symmetry plane behind the body, not in front of it.
   void look_from_inside() {
-    Vec3 out;
-    const auto add = [&](const auto& face, const Vec3& area) {
-      if (mesh_.patches[face.patch].kind == PatchKind::symmetry) out += area;
-    };
-    const auto& p = mesh_.points;
-    for (const BoundaryTriangle& face : mesh_.boundary_triangles) add(face, area_vector(p[face.nodes[0]], p[face.nodes[1]], p[face.nodes[2]]));
-    for (const BoundaryQuad& face : mesh_.boundary_quads) add(face, 0.5 * cross(p[face.nodes[2]] - p[face.nodes[0]], p[face.nodes[3]] - p[face.nodes[1]]));
-    out = normalized(out);
+    const Vec3 out = symmetry_normal(mesh_);
     if (const double away = dot(scene_.toward, out); away > 0.0) scene_.toward -= 2.0 * away * out;
   }
 
@@ -141,8 +134,9 @@ class SceneBuilder {
     if (cut_.size() == 0)
       throw Error({.code = ErrorCode::bad_argument,
                    .attempted = "draw: option cut",
-                   .problem = "the plane crosses no cell of the mesh where the picture looks",
-                   .hint = "its places are " + names_of_places()});
+                   .problem = "the plane crosses no cell within " + in_metres(scene_.focus->radius) + " of " + format_point(scene_.focus->center) +
+                              ", where the picture looks; " + clear_plane_text(mesh_, *plane_),
+                   .hint = "places of the mesh are " + names_of_places()});
   }
 
   std::string names_of_places() {

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/cell_quality.h"
@@ -263,6 +264,16 @@ MeshCut cut_mesh(const HybridMesh& mesh, const CutPlane& plane, const RunContext
   add_block(CellKind::hexahedron, mesh.hexahedra);
   add_block(CellKind::tetrahedron, mesh.tetrahedra);
   return cut;
+}
+
+std::string clear_plane_text(const HybridMesh& mesh, const CutPlane& plane) {
+  const Vec3 along = normalized(plane.normal);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Point& p : mesh.points) {
+    low = std::min(low, dot(p, along));
+    high = std::max(high, dot(p, along));
+  }
+  return "the plane is at " + in_metres(dot(plane.origin, along)) + " along " + format_point(along) + ", the mesh reaches from " + in_metres(low) + " to " + in_metres(high);
 }
 
 }  // namespace sterna

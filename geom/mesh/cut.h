@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "geom/base/run_context.h"
@@ -51,5 +52,8 @@ struct MeshCut {
 /// \pre indices in range, finite points
 /// \throws Error(bad_argument) when the normal has no length
 MeshCut cut_mesh(const HybridMesh& mesh, const CutPlane& plane, const RunContext& context);
+
+/// For messages: "the plane is at 100 m along (1, 0, 0), the mesh reaches from -5 m to 6 m".
+std::string clear_plane_text(const HybridMesh& mesh, const CutPlane& plane);
 
 }  // namespace sterna

@@ -194,4 +194,15 @@ std::vector<CutPlace> automatic_cuts(const HybridMesh& mesh, const RunContext& c
   return PlaceFinder(mesh, walls).find();
 }
 
+Vec3 symmetry_normal(const HybridMesh& mesh) {
+  Vec3 out;
+  const auto add = [&](const auto& face, const Vec3& area) {
+    if (mesh.patches[face.patch].kind == PatchKind::symmetry) out += area;
+  };
+  const auto& p = mesh.points;
+  for (const BoundaryTriangle& face : mesh.boundary_triangles) add(face, area_vector(p[face.nodes[0]], p[face.nodes[1]], p[face.nodes[2]]));
+  for (const BoundaryQuad& face : mesh.boundary_quads) add(face, 0.5 * cross(p[face.nodes[2]] - p[face.nodes[0]], p[face.nodes[3]] - p[face.nodes[1]]));
+  return norm(out) > 0.0 ? normalized(out) : out;
+}
+
 }  // namespace sterna

@@ -20,28 +20,26 @@ namespace {
 constexpr double k_read_end = 0.3, k_check_end = 0.7;
 constexpr double k_megabyte = 1e6;
 
-/// The page, and whether it is of an INVALID mesh.
-std::pair<std::string, bool> page_of(const ReportCommand& command, const ReportOptions& options, const GateTable& limits, const CommandContext& context) {
-  const InputPath input{command.input, command.input};
-  const std::string name = std::filesystem::path(command.input).filename().string();
-  const RunContext reading = context.run.part("read", 0.0, k_read_end), writing = context.run.part("report", k_check_end, 1.0);
+}  // namespace
+
+std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOptions& options, const std::vector<std::string>& cuts, const GateTable& limits, const RunContext& context) {
+  const std::string name = std::filesystem::path(input.name).filename().string();
+  const RunContext reading = context.part("read", 0.0, k_read_end), writing = context.part("report", k_check_end, 1.0);
   if (is_model_file(input.path))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "a report of " + command.input, .problem = "it is a model, which has no mesh yet", .hint = "`sterna surface " + command.input + " -o wall.vtu` meshes its faces, `sterna mesh` the space around them"});
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "a report of " + input.name, .problem = "it is a model, which has no mesh yet", .hint = "`sterna surface " + input.name + " -o wall.vtu` meshes its faces, `sterna mesh` the space around them"});
   if (io::format_of(input.path).read_volume) {
     const MeshValue mesh = read_mesh(input, reading);
     if (count_cells(mesh.mesh).total() > 0) {
-      mesh.check = check(mesh.mesh, {.limits = limits}, context.run.part("check", k_read_end, k_check_end));
-      return {report_html(mesh, options, command.cuts, name, writing), !mesh.check->is_valid()};
+      mesh.check = check(mesh.mesh, {.limits = limits}, context.part("check", k_read_end, k_check_end));
+      return {report_html(mesh, options, cuts, name, writing), !mesh.check->is_valid()};
     }
   }
-  if (!command.cuts.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "a report of " + command.input, .problem = "it is a surface, which has no cells to cut"});
+  if (!cuts.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "a report of " + input.name, .problem = "it is a surface, which has no cells to cut"});
   surfmesh::StitchOptions stitching;
   stitching.allow_open = true;
   const std::array files = {input};
   return {report_html(read_wall(files, stitching, reading), options, name, writing), false};
 }
-
-}  // namespace
 
 CLI::App* add_report_arguments(CLI::App& app, ReportCommand& report) {
   CLI::App* command = app.add_subcommand("report", "a page (HTML, one file) that shows a mesh: view, cuts, worst places, histograms, gates, coverage, options");
@@ -72,7 +70,7 @@ int execute(const ReportCommand& command, const CommandContext& context) {
   require_report_cuts(command.cuts);
   GateTable limits;
   for (const std::string& text : command.gates) set_gate_limits(text, limits);
-  const auto [html, is_invalid] = page_of(command, options, limits, context);
+  const auto [html, is_invalid] = page_of_file({command.input, command.input}, options, command.cuts, limits, context.run);
   write_page(html, command.output, context.run);
   context.console.end_progress();
   return is_invalid ? k_exit_invalid : k_exit_success;

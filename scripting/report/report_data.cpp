@@ -36,7 +36,7 @@ constexpr double k_less = 0.6;
 /// Kinds of boundaries that carry no part of the body: the farthest of them says nothing about its size.
 bool is_body(PatchKind kind) { return kind == PatchKind::wall; }
 
-Json json_of(const Point& p) { return {p.x, p.y, p.z}; }
+Json json_of(const Point& p) { return Json::array({p.x, p.y, p.z}); }
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// Patches are numbered by 16 bits in a page.
@@ -283,13 +283,23 @@ std::vector<CutPlace> places_of(const HybridMesh& mesh, const std::vector<std::s
       const Vec3 normal = normalized(plane->normal);
       places.push_back({text, *plane, maker.origin() - dot(maker.origin() - plane->origin, normal) * normal, k_radius_share * maker.length()});
     } else {
-      places.push_back(draw::place_of(automatic, text, "report: cuts"));
+      places.push_back(draw::place_of(automatic, text, "report", "cut"));
     }
   }
   if (!with_automatic) return places;
   for (CutPlace& place : automatic)
     if (std::none_of(places.begin(), places.end(), [&](const CutPlace& known) { return known.name == place.name; })) places.push_back(std::move(place));
   return places;
+}
+
+/// \pre the places begin with those that were asked for. \throws Error(bad_argument) for one of them whose plane is clear of the mesh.
+void require_cells(const HybridMesh& mesh, std::span<const std::string> wanted, const std::vector<CutPlace>& places, const std::vector<MeshCut>& cuts) {
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    if (cuts[i].size() == 0)
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "report: cut \"" + wanted[i] + "\"",
+                   .problem = clear_plane_text(mesh, places[i].plane),
+                   .hint = "choose a plane between these limits"});
 }
 
 std::string too_large(std::size_t bytes) { return "the page would have " + std::to_string(bytes) + " bytes, more than " + std::to_string(k_most_page_bytes); }
@@ -330,10 +340,13 @@ std::string report_html(const MeshValue& mesh, const ReportOptions& options, con
     context.progress(0.4 + 0.4 * static_cast<double>(cuts.size()) / static_cast<double>(places.size()));
   }
 
+  require_cells(mesh.mesh, cuts_wanted, places, cuts);
+
   const std::string title = title_of(options, name);
   Json head = {{"schema", "sterna-report-1"}, {"program", "sterna " STERNA_VERSION}, {"title", title}, {"kind", "volume"}, {"facts", facts_json(mesh)}};
   head.update(maker.frame());
   head.update(Json::parse(page_check_json(report)));
+  head["symmetry_normal"] = json_of(symmetry_normal(mesh.mesh));
   head["patches"] = maker.patches_json();
   head["manifest"] = Json::parse(manifest_json(mesh, std::string(name), context.seed()));
   if (mesh.origin) head["options_set"] = options_set_json(*mesh.origin);
@@ -356,7 +369,11 @@ std::string report_html(const SurfaceValue& surface, const ReportOptions& option
   const PageMaker maker(mesh.points.raw(), triangles, mesh.patches, fields);
   const std::string title = title_of(options, name);
   Json head = {{"schema", "sterna-report-1"}, {"program", "sterna " STERNA_VERSION}, {"title", title}, {"kind", "surface"}};
-  head["facts"] = {{"triangles", count_text(static_cast<std::int64_t>(mesh.n_triangles()))}, {"vertices", count_text(static_cast<std::int64_t>(mesh.n_vertices()))}, {"closed", surface.report.is_closed ? "yes" : "no"}};
+  head["facts"] = Json::array();  // pairs of texts in braces would be an object
+  const auto add_fact = [&](const char* fact, const std::string& text) { head["facts"].push_back(Json::array({fact, text})); };
+  add_fact("triangles", count_text(static_cast<std::int64_t>(mesh.n_triangles())));
+  add_fact("vertices", count_text(static_cast<std::int64_t>(mesh.n_vertices())));
+  add_fact("closed", surface.report.is_closed ? "yes" : "no");
   head.update(maker.frame());
   head.update(Json::parse(page_no_check_json()));
   head["patches"] = maker.patches_json();

@@ -6,6 +6,7 @@
 #include "scripting/geometry_tools.h"
 #include "scripting/report/report_command.h"
 #include "scripting/report/report_data.h"
+#include "scripting/script_check.h"
 #include "scripting/verb_tools.h"
 
 namespace sterna::scripting {
@@ -19,6 +20,7 @@ std::vector<std::string> read_cuts(TableReader& reader) {
   const ScriptValue* value = reader.field("cuts");
   if (!value) return cuts;
   const auto* list = std::get_if<TableHandle>(value);
+  if (list && (*list)->items.empty() && (*list)->fields.empty()) return cuts;
   const bool is_single = !list || (*list)->items.empty();
   for (const ScriptValue& item : is_single ? std::vector<ScriptValue>{*value} : (*list)->items) {
     const std::string where = "cuts, entry " + std::to_string(cuts.size() + 1);
@@ -40,8 +42,9 @@ ScriptValue make_report(const ScriptCall& call) {
   const ScriptValue object = items.empty() ? ScriptValue{} : items.front();
   const auto* mesh = std::get_if<MeshHandle>(&object);
   const auto* surface = std::get_if<SurfaceHandle>(&object);
+  const auto* file = std::get_if<std::string>(&object);
   if (std::holds_alternative<ModelHandle>(object) || std::holds_alternative<ComponentHandle>(object)) reader.add_problem("entry 1: a model has no mesh yet: report surface_mesh{ model }");
-  else if (!mesh && !surface) reader.add_problem("entry 1: expected a mesh or a surface, not " + std::string(items.empty() ? "nothing" : type_text(object)));
+  else if (!mesh && !surface && !file) reader.add_problem("entry 1: expected a mesh, a surface or the name of a file, not " + std::string(items.empty() ? "nothing" : type_text(object)));
   const auto* output = items.size() > 1 ? std::get_if<std::string>(&items[1]) : nullptr;
   if (!output) reader.add_problem("entry 2: expected the name of the page, such as \"mesh.html\"");
   refuse_items_beyond(reader, 2);
@@ -55,11 +58,13 @@ ScriptValue make_report(const ScriptCall& call) {
   } catch (const Error& error) {
     reader.add_problem(error.info().problem + (error.info().hint.empty() ? "" : " (" + error.info().hint + ")"));
   }
+  if (file && call.session.check) check_input(call, find_input(call, *file));
   reader.finish();
   const std::filesystem::path path = output_path(call, *output);
   const std::string name = path.stem().string();
   const RunContext context = call.session.context.part("report", 0.0, 1.0);
-  write_page(mesh ? report_html(**mesh, options, cuts, name, context) : report_html(**surface, options, name, context), path, call.session.context);
+  if (file) write_page(page_of_file(find_input(call, *file), options, cuts, {}, context).first, path, call.session.context);
+  else write_page(mesh ? report_html(**mesh, options, cuts, name, context) : report_html(**surface, options, name, context), path, call.session.context);
   return std::monostate{};
 }
 

@@ -211,14 +211,14 @@ class HeightSurvey {
 
   void add_compressed(const std::vector<Suspect<VertexId>>& compressed) const {
     const VertexId v = worst(compressed, 1).front().id;
-    const double h = envelope_.height[v];
+    const double h = normal_height(base_, envelope_, v);
     Finding finding{.kind = FindingKind::compressed, .severity = Severity::warn, .limit = 1.0};
     finding.value = h / scale_.compressed(v);
     finding.text = "the layer will be lower than its first cells alone (" + std::to_string(scale_.n(v)) + " of " + in_metres(scale_.h0(v), k_text_digits) +
                    ") on about " + percent(area_of(compressed)) + " of the walls' area: equally spaced, first_height is not met there";
-    const int layers = static_cast<int>(std::floor(h / scale_.h0(v)));
+    const int layers = static_cast<int>(std::floor(h / scale_.h0(v)));  // fewer than there are: the layer is lower than they
     finding.advice =
-        layers >= 2
+        layers >= 2 && layers < scale_.n(v)
             ? "layers = " + std::to_string(layers) + ", or first_height = " + number_text(h / scale_.n(v), k_advice_digits) + ", would fit at the worst place"
             : "first_height = " + number_text(h / scale_.n(v), k_advice_digits) + " would fit at the worst place; is it in the unit of the surface?";
     add(std::move(finding), compressed, -1.0);

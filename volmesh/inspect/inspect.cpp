@@ -6,6 +6,7 @@
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
 #include "volmesh/envelope/feature_angle.h"
+#include "volmesh/flow/boundary_layer.h"
 #include "volmesh/inspect/survey.h"
 
 namespace sterna::volmesh {
@@ -60,6 +61,13 @@ void add_refusal(const Survey& survey, const Error& error) {
   for (std::size_t i = 0; i < std::min(info.places.size(), survey.n_places()); ++i)
     finding.places.push_back({info.places[i].position, {}, 0.0, info.places[i].what});
   add_finding(survey.report, std::move(finding), where);
+}
+
+std::string first_height_advice(const Survey& survey) {
+  if (!survey.request.flow)
+    return "first_height = " + number_text(k_stand_in_height * survey.report.length, 1) + " or so (--first-height); y_plus{} finds one from the flow";
+  const FirstHeight first = first_height({.y_plus = survey.request.limits.wanted_y_plus}, *survey.request.flow);
+  return "first_height = " + number_text(first.height, k_advice_digits) + " (" + describe(first) + ")";
 }
 
 /// The walls with their outer boundary, as volume_mesh makes them; null where it refuses them, which is told.
@@ -129,8 +137,7 @@ InspectReport inspect_wall(const TriMesh& surface, const InspectRequest& request
   survey_contacts(survey, site->base, site->collider, map);
   context.progress(0.7);
   if (!is_known) {
-    leave_out(survey, "heights of the layer and what limits them", "no first_height was given",
-              "first_height = " + number_text(k_stand_in_height * report.length, 1) + " or so (--first-height); y_plus{} finds one from the flow");
+    leave_out(survey, "heights of the layer and what limits them", "no first_height was given", first_height_advice(survey));
     return report;
   }
   survey_cells(survey, *site);

@@ -45,6 +45,9 @@ plane:write "plane.step"
 local again = read_cad "plane.step"
 local wall = surface_mesh{ again["wing*"], max_edge = 0.4 }
 print(wall.triangles, wall.patches[1], wall.min_angle < 1, #plane.components)
+local pre = inspect{ wall, first_height = 1e-3 }
+if not pre.ok then error(pre.findings[1].text) end
+print(#pre.findings, pre.coverage)
 local env = make_envelope{ wall, first_height = 1e-3 }
 local tets = tetrahedra{ env, farfield = sphere{ radius = 50 } }
 local mesh = prisms{ env, tets }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "scripting/report/report_page.h"
 #include "scripting/report/thin_surface.h"
@@ -70,6 +71,8 @@ TEST_F(Report, OfASurfaceAndThinned) {
   run(mesh_script() + "report{ wall, " + out("wall.html") + " } report{ mesh, " + out("thin.html") + ", max_triangles = 50, max_polygons = 30 }");
   const nlohmann::json wall = test::page_json(folder_ / "wall.html"), thin = test::page_json(folder_ / "thin.html");
   EXPECT_EQ(wall["kind"], "surface");
+  ASSERT_TRUE(wall["facts"].is_array());
+  EXPECT_EQ(wall["facts"][0][0], "triangles");
   EXPECT_TRUE(wall["cuts"].empty());
   EXPECT_LE(thin["surface"]["shown"].get<int>(), 50);
   EXPECT_GT(thin["surface"]["total"].get<int>(), 50);
@@ -78,10 +81,26 @@ TEST_F(Report, OfASurfaceAndThinned) {
 TEST_F(Report, RefusesWhatItCannotShow) {
   EXPECT_THAT(error(mesh_script() + "report{ mesh, 'x.txt' }"), HasSubstr("ends in .html"));
   EXPECT_THAT(error(mesh_script() + "report{ mesh }"), HasSubstr("entry 2"));
-  EXPECT_THAT(error("report{ 5, 'x.html' }"), HasSubstr("expected a mesh or a surface"));
+  EXPECT_THAT(error("report{ 5, 'x.html' }"), HasSubstr("expected a mesh, a surface or the name of a file"));
+  EXPECT_THAT(error("report{ 'nothing.su2', 'x.html' }"), HasSubstr("nothing.su2"));
+  EXPECT_THAT(error(mesh_script() + "report{ mesh, 'x.html', cuts = { { x = 1000 } } }"), HasSubstr("the plane is at 1000 m along (1, 0, 0), the mesh reaches from"));
   EXPECT_THAT(error(mesh_script() + "report{ mesh, 'x.html', cuts = { 'leadin edge' } }"), HasSubstr("leadin edge"));
   EXPECT_THAT(error(mesh_script() + "report{ wall, 'x.html', cuts = 'tip' }"), HasSubstr("no cells to cut"));
   EXPECT_THAT(error(mesh_script() + "report{ mesh, 'x.html', titel = 'box' }"), HasSubstr("title"));
+}
+
+TEST_F(Report, OfFiles) {
+  run(mesh_script() + "mesh:write(" + out("box.su2") + ")");
+  run("report{ " + out("box.su2") + ", " + out("box.html") + ", cuts = {} } report{ '" STERNA_SOURCE_DIR "/tests/data/scripts/box.stl', " + out("wall.html") + " }");
+  EXPECT_EQ(test::page_json(folder_ / "box.html")["title"], "box.su2");
+  EXPECT_EQ(test::page_json(folder_ / "wall.html")["kind"], "surface");
+}
+
+TEST_F(Report, CellsAreAVtuBesideTheMesh) {
+  run(mesh_script() + "mesh:write(" + out("box.su2") + ") mesh:check{ cells = " + out("cells.vtu") + " }");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "cells.vtu"));
+  EXPECT_THAT(error(mesh_script() + "mesh:check{ cells = " + out("cells.csv") + " }"), HasSubstr("as a .vtu file"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "cells.csv"));
 }
 
 TEST_F(Report, GatesOfTheUserDecideVerdictManifestAndPage) {
@@ -96,6 +115,8 @@ TEST_F(Report, GatesOfTheUserDecideVerdictManifestAndPage) {
   EXPECT_THAT(error(mesh_script() + "mesh:check{ strict = true, gates = { G5 = { hard = 89*deg, target = 89.5*deg } } }"), HasSubstr("quality FAIL"));
   EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { ortogonality = { hard = 1 } } }"), HasSubstr("did you mean orthogonality"));
   EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { orthogonality = { hart = 1 } } }"), HasSubstr("did you mean hard"));
+  EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { orthogonality = {} } }"), HasSubstr("takes hard, target"));
+  EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { orthogonality = { hard = 50*deg } } }"), HasSubstr("values are better: give both"));
   EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { orthogonality = { hard = 20*deg, target = 10*deg } } }"), HasSubstr("easier than hard"));
   EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { G9 = { hard = 1 } } }"), HasSubstr("several measures"));
 }

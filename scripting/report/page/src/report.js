@@ -1,5 +1,5 @@
 // The page of one mesh: view at the left, panel with tabs at the right.
-import { Sphere } from "three";
+import { Sphere, Vector3 } from "three";
 import { k_kinds, k_maps, has_limits, range_of } from "./colours.js";
 import { Arrays, read_blob, read_cut, read_surface, require_tables } from "./data.js";
 import { button, count_text, fill, h, number_text, position_text, quantity_text } from "./dom.js";
@@ -147,6 +147,7 @@ export class ReportApp {
       moved: () => state.set({ camera: this.camera_text() }),
       lost: (text) => this.say(text),
     });
+    this.view.symmetry_normal = new Vector3(...(this.report.symmetry_normal ?? [0, 0, 0]));
     this.set = surface_set(this.surface, this.report.patches);
     this.view.set_surface(this.set);
     this.view.set_scene(box_of(this.set.positions).getBoundingSphere(new Sphere()));
@@ -185,6 +186,7 @@ export class ReportApp {
 
   set_camera([x, y, z, distance, qx, qy, qz, qw]) {
     const orientation = this.view.camera.orientation.clone().set(qx, qy, qz, qw).normalize();
+    this.view.framed = null;
     this.view.camera.go({ target: this.view.local([x, y, z]), distance, orientation }, false);
   }
 

@@ -82,7 +82,10 @@ export class View {
     this.scene = new Scene();
     this.lens = new PerspectiveCamera();
     this.camera = new Camera(this.lens, this.canvas, (by_hand) => {
-      if (by_hand) handlers.moved?.();
+      if (by_hand) {
+        this.framed = null;
+        handlers.moved?.();
+      }
       this.request();
     });
     this.surface = new Layer(this.scene);
@@ -92,6 +95,8 @@ export class View {
     this.markers = null;
     this.marker_list = [];
     this.pin = null;
+    this.symmetry_normal = new Vector3();
+    this.framed = null; // points that the picture was last fitted to, until something else moves the camera
     this.pick_target = new WebGLRenderTarget(1, 1);
     this.overlay();
     this.listen();
@@ -119,7 +124,9 @@ export class View {
   resize() {
     const width = Math.max(1, this.container.clientWidth), height = Math.max(1, this.container.clientHeight);
     this.renderer.setSize(width, height, false);
+    const is_other = this.lens.aspect !== width / height;
     this.lens.aspect = width / height;
+    if (is_other && this.framed) this.fit(this.framed, false);
     this.request();
   }
 
@@ -270,19 +277,24 @@ export class View {
   // ---- where the camera is
 
   look_along(name, points, is_smooth = true) {
-    const [along, up] = k_views[name];
-    this.fit(points, is_smooth, looking(new Vector3(...along), new Vector3(...up)));
+    const [from, up] = k_views[name];
+    const along = new Vector3(...from);
+    const away = -along.dot(this.symmetry_normal); // half models are seen from the side of the fluid
+    if (away > 0) along.addScaledVector(this.symmetry_normal, 2 * away);
+    this.fit(points, is_smooth, looking(along, new Vector3(...up)));
   }
 
   /** All points (xyz, ..., relative to the origin) into the picture. */
   fit(points, is_smooth = true, orientation = this.camera.orientation) {
     this.camera.go({ ...this.camera.framing(points, orientation), orientation }, is_smooth);
+    this.framed = points;
   }
 
   fly_to_cut(cut, is_smooth = true) {
     const normal = new Vector3(...cut.normal).normalize();
     const up = Math.abs(normal.z) > 0.9 ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
     const orientation = looking(normal.negate(), up);
+    this.framed = null;
     this.camera.go({ target: this.local(cut.focus.center), distance: this.camera.distance_for(cut.focus.radius), orientation }, is_smooth);
   }
 
@@ -300,6 +312,7 @@ export class View {
       const side = new Vector3(0, 0, 1).cross(outwards).multiplyScalar(0.35).add(new Vector3(0, 0, 0.25));
       orientation = looking(outwards.clone().add(side).negate(), new Vector3(0, 0, 1));
     }
+    this.framed = null;
     this.camera.go({ target, distance, orientation }, is_smooth);
   }
 
@@ -379,6 +392,7 @@ export class View {
     canvas.addEventListener("dblclick", (event) => {
       const found = this.pick(...pixels(event));
       if (!found) return;
+      this.framed = null;
       this.camera.go({ target: found.point });
       this.handlers.moved?.();
     });
