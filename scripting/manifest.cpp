@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "io/atomic_file.h"
 #include "scripting/disc_verbs.h"
@@ -22,6 +23,16 @@ Json cells_json(const HybridMesh& mesh) {
 }
 
 /// Angles in degrees, as in reports; the whole report is what `sterna check --json` prints.
+/// Hard, target and usual in the unit of reports; empty where they are the usual ones.
+Json own_limits_json(const MeasureInfo& info, const GateLimits& limits) {
+  Json json = Json::object();
+  for (const auto& [name, own, usual] : {std::tuple("hard", limits.hard, info.limits.hard), std::tuple("target", limits.target, info.limits.target), std::tuple("usual", limits.usual, info.limits.usual)}) {
+    if (own == usual || (std::isnan(own) && std::isnan(usual))) continue;
+    json[name] = std::isfinite(own) ? Json(in_report_unit(info, own)) : Json(nullptr);
+  }
+  return json;
+}
+
 Json quality_json(const CheckReport& report) {
   Json measures = Json::object();
   for (const GateResult& gate : report.gates) {
@@ -31,6 +42,7 @@ Json quality_json(const CheckReport& report) {
       const double worst = in_report_unit(info, gate.worst);
       entry["worst"] = std::isfinite(worst) ? Json(worst) : Json(nullptr);
       entry["share_within"] = gate.share_within;
+      if (Json limits = own_limits_json(info, gate.limits); !limits.empty()) entry["limits"] = std::move(limits);
     }
     measures[std::string(info.name)] = std::move(entry);
   }

@@ -213,8 +213,9 @@ void draw_marks(Canvas& canvas, const Layout& layout, const Camera& camera, std:
       near->numbers += ", " + std::to_string(i + 1);
   }
   for (const Label& label : labels) {
-    canvas.rectangle(label.at.x + 0.7 * t, label.at.y - 1.5 * t, canvas.width_of(label.numbers, t) + 0.4 * t, 1.3 * t, {255, 255, 255}, 0.8);
-    canvas.text(label.at.x + 0.9 * t, label.at.y - 0.45 * t, label.numbers, t, k_mark_color);
+    const double width = canvas.width_of(label.numbers, t) + 0.4 * t, x = std::max(0.0, std::min(label.at.x + 0.7 * t, layout.width - layout.panel - width));
+    canvas.rectangle(x, label.at.y - 1.5 * t, width, 1.3 * t, {255, 255, 255}, 0.8);
+    canvas.text(x + 0.2 * t, label.at.y - 0.45 * t, label.numbers, t, k_mark_color);
   }
 }
 

@@ -111,6 +111,9 @@ TEST_F(Report, GatesOfTheUserDecideVerdictManifestAndPage) {
   EXPECT_EQ(manifest["verdict"], "VALID");
   EXPECT_EQ(manifest["quality"]["verdict"], "FAIL");
   EXPECT_THAT(manifest["quality"]["failed"].dump(), HasSubstr("orthogonality"));
+  EXPECT_NEAR(manifest["quality"]["measures"]["orthogonality"]["limits"]["hard"].get<double>(), 89.0, 1e-9);
+  EXPECT_TRUE(manifest["quality"]["measures"]["orthogonality"]["limits"]["usual"].is_null());
+  EXPECT_FALSE(manifest["quality"]["measures"]["face_weight"].contains("limits"));
   EXPECT_EQ(page["quality_verdict"], "FAIL");
   EXPECT_THAT(error(mesh_script() + "mesh:check{ strict = true, gates = { G5 = { hard = 89*deg, target = 89.5*deg } } }"), HasSubstr("quality FAIL"));
   EXPECT_THAT(error(mesh_script() + "mesh:check{ gates = { ortogonality = { hard = 1 } } }"), HasSubstr("did you mean orthogonality"));
