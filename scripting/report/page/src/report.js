@@ -147,6 +147,7 @@ export class ReportApp {
       moved: () => state.set({ camera: this.camera_text() }),
       lost: (text) => this.say(text),
     });
+    this.view.knows_fluid = this.report.kind === "volume" && this.report.verdict === "VALID";
     this.view.symmetry_normal = new Vector3(...(this.report.symmetry_normal ?? [0, 0, 0]));
     this.set = surface_set(this.surface, this.report.patches);
     this.view.set_surface(this.set);

@@ -15,6 +15,8 @@ const k_click_reach = 10; // pixels around a marker that belong to it
 const k_click_slack = 4; // pixels that a hand may move during a click
 const k_slow_pick = 40; // ms: above this, what is under the pointer is looked for only when it rests
 const k_rest = 160; // ms
+const k_other_sides = [0.45, 1, 2]; // tangents of the angles to the wall's normal at which a place is looked at where the body hides it
+const k_before_wall = 0.9; // of the length to the next wall, where that is nearer than one would look from
 const k_least_place = 4e-3; // radius that is shown around a place, of the body length: next to slivers one wants to see their neighbours
 
 class Layer {
@@ -96,6 +98,7 @@ export class View {
     this.marker_list = [];
     this.pin = null;
     this.symmetry_normal = new Vector3();
+    this.knows_fluid = false;
     this.framed = null; // points that the picture was last fitted to, until something else moves the camera
     this.pick_target = new WebGLRenderTarget(1, 1);
     this.overlay();
@@ -298,19 +301,34 @@ export class View {
     this.camera.go({ target: this.local(cut.focus.center), distance: this.camera.distance_for(cut.focus.radius), orientation }, is_smooth);
   }
 
-  /** Looks at a place from outside the body: along the nearest triangle's normal, from where nothing is in between; some 20 triangles wide. */
+  /** Looks at a place from outside the body: along the nearest triangle's normal, from the side of the fluid, which valid meshes know (`knows_fluid`; their faces look out of it),
+   *  else from where nothing is in between; some 20 triangles wide. */
   fly_to_place(position, length, ranges, is_smooth = true) {
     const target = this.local(position);
     const near = this.surface.set ? nearest_triangle(this.surface.set, target, ranges) : null;
     let distance = this.camera.distance_for(length * 0.02), orientation = this.camera.orientation;
     if (near && near.distance < length * 0.5) {
       const along = [near.normal, near.normal.clone().negate()];
-      const free = along.map((d) => first_hit(this.surface.set, target, d, ranges, near.distance * 1e-3 + near.size * 1e-3));
+      const free = this.knows_fluid ? [0, 1] : along.map((d) => first_hit(this.surface.set, target, d, ranges, near.distance * 1e-3 + near.size * 1e-3));
       const outwards = along[free[1] > free[0] ? 1 : 0];
       distance = this.camera.distance_for(Math.max(near.size * 10, near.distance * 3, length * k_least_place));
-      // A view along the normal itself is flat; some 25 degrees aside show relief.
+      // A view along the normal itself is flat; some 25 degrees aside show relief. Where the body is in the way, from the first other side from which it is not, or hides it latest.
       const side = new Vector3(0, 0, 1).cross(outwards).multiplyScalar(0.35).add(new Vector3(0, 0, 0.25));
-      orientation = looking(outwards.clone().add(side).negate(), new Vector3(0, 0, 1));
+      const across = new Vector3(0, 0, 1).cross(outwards);
+      if (across.length() < 1e-6) across.set(1, 0, 0);
+      across.normalize();
+      const tries = [side, new Vector3(), ...k_other_sides.flatMap((tilt) => [...Array(8).keys()].map((k) => across.clone().applyAxisAngle(outwards, (k * Math.PI) / 4).multiplyScalar(tilt)))];
+      let best = null, most = -1;
+      for (const aside of tries) {
+        const towards = outwards.clone().add(aside).normalize();
+        const free = first_hit(this.surface.set, target, towards, ranges, near.distance * 1e-3 + near.size * 1e-3);
+        if (free <= most) continue;
+        most = free;
+        best = towards;
+        if (free > distance) break;
+      }
+      if (most < distance) distance = Math.max(k_before_wall * most, near.size); // in a slot
+      orientation = looking(best.negate(), new Vector3(0, 0, 1));
     }
     this.framed = null;
     this.camera.go({ target, distance, orientation }, is_smooth);
