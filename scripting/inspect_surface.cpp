@@ -129,13 +129,14 @@ void add_repairs(const SurfaceValue& wall, const WallFiles& files, const Inspect
 
 namespace {
 
-/// Cells of the file; none where it is no volume mesh, or one that cannot be read: what is wrong with it as a surface its reader says.
+/// Cells of the file; none where it is not written as a volume mesh is. What is wrong with it as a surface, the reader of surfaces says.
 std::int64_t n_cells_of(const InputPath& input, const RunContext& context) {
   if (!io::format_of(input.path).read_volume) return 0;
   try {
     return count_cells(io::read_volume_file(input.path, context)).total();
   } catch (const Error& error) {
-    if (error.code() == ErrorCode::cancelled) throw;
+    if (error.code() != ErrorCode::file_malformed && error.code() != ErrorCode::unsupported_format) throw;
+    context.debug(input.name + " is no volume mesh: " + error.info().problem);
     return 0;
   }
 }

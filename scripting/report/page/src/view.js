@@ -308,30 +308,43 @@ export class View {
     const near = this.surface.set ? nearest_triangle(this.surface.set, target, ranges) : null;
     let distance = this.camera.distance_for(length * 0.02), orientation = this.camera.orientation;
     if (near && near.distance < length * 0.5) {
-      const along = [near.normal, near.normal.clone().negate()];
-      const free = this.knows_fluid ? [0, 1] : along.map((d) => first_hit(this.surface.set, target, d, ranges, near.distance * 1e-3 + near.size * 1e-3));
-      const outwards = along[free[1] > free[0] ? 1 : 0];
+      const outwards = this.outwards_at(target, near, ranges);
       distance = this.camera.distance_for(Math.max(near.size * 10, near.distance * 3, length * k_least_place));
       // A view along the normal itself is flat; some 25 degrees aside show relief. Where the body is in the way, from the first other side from which it is not, or hides it latest.
       const side = new Vector3(0, 0, 1).cross(outwards).multiplyScalar(0.35).add(new Vector3(0, 0, 0.25));
-      const across = new Vector3(0, 0, 1).cross(outwards);
-      if (across.length() < 1e-6) across.set(1, 0, 0);
-      across.normalize();
-      const tries = [side, new Vector3(), ...k_other_sides.flatMap((tilt) => [...Array(8).keys()].map((k) => across.clone().applyAxisAngle(outwards, (k * Math.PI) / 4).multiplyScalar(tilt)))];
-      let best = null, most = -1;
-      for (const aside of tries) {
-        const towards = outwards.clone().add(aside).normalize();
-        const free = first_hit(this.surface.set, target, towards, ranges, near.distance * 1e-3 + near.size * 1e-3);
-        if (free <= most) continue;
-        most = free;
-        best = towards;
-        if (free > distance) break;
-      }
-      if (most < distance) distance = Math.max(k_before_wall * most, near.size); // in a slot
-      orientation = looking(best.negate(), new Vector3(0, 0, 1));
+      const { towards, free } = this.free_side(target, outwards, side, distance, ranges, near);
+      if (free < distance) distance = Math.max(k_before_wall * free, near.size); // in a slot
+      orientation = looking(towards.negate(), new Vector3(0, 0, 1));
     }
     this.framed = null;
     this.camera.go({ target, distance, orientation }, is_smooth);
+  }
+
+  /** Length to the next wall from a place in that direction. */
+  free_length(target, direction, near, ranges) {
+    return first_hit(this.surface.set, target, direction, ranges, near.distance * 1e-3 + near.size * 1e-3);
+  }
+
+  outwards_at(target, near, ranges) {
+    const one = near.normal, other = near.normal.clone().negate();
+    if (this.knows_fluid) return other;
+    return this.free_length(target, other, near, ranges) > this.free_length(target, one, near, ranges) ? other : one;
+  }
+
+  /** From where a place is seen: `side` off its normal if nothing is in between over `distance`, else the first other side where that is so, else the freest. {towards, free: m to the next wall} */
+  free_side(target, outwards, side, distance, ranges, near) {
+    const across = new Vector3(0, 0, 1).cross(outwards);
+    if (across.length() < 1e-6) across.set(1, 0, 0);
+    across.normalize();
+    const around = k_other_sides.flatMap((tilt) => [...Array(8).keys()].map((k) => across.clone().applyAxisAngle(outwards, (k * Math.PI) / 4).multiplyScalar(tilt)));
+    let best = { towards: null, free: -1 };
+    for (const aside of [side, new Vector3(), ...around]) {
+      const towards = outwards.clone().add(aside).normalize();
+      const free = this.free_length(target, towards, near, ranges);
+      if (free > best.free) best = { towards, free };
+      if (best.free > distance) break;
+    }
+    return best;
   }
 
   // ---- what is under the pointer
