@@ -151,16 +151,15 @@ void AtomicFile::write_at(std::uint64_t offset, std::string_view bytes) {
 
 void AtomicFile::fail(int error_number, std::string_view doing) {
   discard();
-  std::string problem = std::string(doing) + " failed" + (size_ > 0 ? " after " + std::to_string(size_) + " bytes" : "") + (error_number != 0 ? ": " + reason(error_number) : ": the system gives no reason");
-  throw Error({.code = ErrorCode::write_failed,
-               .attempted = "writing " + path_.string(),
-               .problem = std::move(problem),
-               .hint = hint_for(error_number)});
+  std::string problem = std::string(doing) + " failed" + (size_ > 0 ? " after " + std::to_string(size_) + " bytes" : "") +
+                        (error_number != 0 ? ": " + reason(error_number) : ": the system gives no reason");
+  throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path_.string(), .problem = std::move(problem), .hint = hint_for(error_number)});
 }
 
 void AtomicFile::discard() noexcept {
   if (descriptor_ >= 0) {
-    // Frees the disk also where a library has the file open: it needs room for what it must put there to close it. Nobody reads it any more, so a failure does no harm.
+    // Frees the disk also where a library has the file open: it needs room for what it must put there to close it. Nobody reads it any more, so a failure does
+    // no harm.
     (void)!::ftruncate(descriptor_, 0);
     ::close(descriptor_);
   }

@@ -32,7 +32,8 @@ class AtomicFile {
 
   const std::filesystem::path& path() const { return path_; }  ///< as the caller named it
 
-  /// Where the contents are until commit(): for a library that writes a file of that name itself, in place of append(). Afterwards adopt() takes what it has written.
+  /// Where the contents are until commit(): for a library that writes a file of that name itself, in place of append(). Afterwards adopt() takes what it has
+  /// written.
   const std::filesystem::path& temporary() const { return temporary_; }
   void adopt();
   /// Throws Error(write_failed) with the system's reason, e.g. errno of a library's failure; 0 = it has none.

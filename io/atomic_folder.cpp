@@ -35,12 +35,15 @@ AtomicFolder::AtomicFolder(const std::filesystem::path& path, std::string_view p
   }
   const std::filesystem::file_status status = std::filesystem::status(target_, failure);
   if (std::filesystem::exists(status)) {
-    const bool is_ours = std::filesystem::is_directory(status) &&
-                         (std::filesystem::exists(target_ / proof) || std::filesystem::exists(target_ / (std::string(proof) + ".gz")) || std::filesystem::is_empty(target_, failure));
+    const bool is_ours =
+        std::filesystem::is_directory(status) && (std::filesystem::exists(target_ / proof) || std::filesystem::exists(target_ / (std::string(proof) + ".gz")) ||
+                                                  std::filesystem::is_empty(target_, failure));
     if (!is_ours)
       throw Error({.code = ErrorCode::write_failed,
                    .attempted = "writing " + path_.string(),
-                   .problem = std::filesystem::is_directory(status) ? "the folder of that name has no file \"" + std::string(proof) + "\", so it is something else" : "there is something of that name that is not a folder",
+                   .problem = std::filesystem::is_directory(status)
+                                  ? "the folder of that name has no file \"" + std::string(proof) + "\", so it is something else"
+                                  : "there is something of that name that is not a folder",
                    .hint = "choose another name, or remove it"});
   }
   if (target_.has_parent_path()) {

@@ -1,5 +1,6 @@
-// Blocks of 16 values of `size` bytes are transposed in registers. The place of a byte in a block is a number of bits "vvvv bb" (value, byte of it). One perfect shuffle,
-// which interleaves the first half of the block with the second, turns those bits left by one; 4 shuffles give "bb vvvv", the planes, and log2(size) give the inverse.
+// Blocks of 16 values of `size` bytes are transposed in registers. The place of a byte in a block is a number of bits "vvvv bb" (value, byte of it). One
+// perfect shuffle, which interleaves the first half of the block with the second, turns those bits left by one; 4 shuffles give "bb vvvv", the planes, and
+// log2(size) give the inverse.
 #include "io/byte_planes.h"
 
 #include <array>

@@ -30,22 +30,20 @@ class ByteReader {
   /// Makes sure that `n` things of `size` bytes each are left in the file. No overflow for any n.
   void require(std::uint64_t n, std::size_t size, std::string_view expected) const {
     if (size != 0 && n > remaining() / size)
-      fail("found " + std::to_string(remaining()) + " bytes to the end of the file, expected " + std::to_string(n) + " times " + std::to_string(size) + " bytes: " +
-               std::string(expected),
+      fail("found " + std::to_string(remaining()) + " bytes to the end of the file, expected " + std::to_string(n) + " times " + std::to_string(size) +
+               " bytes: " + std::string(expected),
            "the file may have been cut short: copy or write it again");
   }
 
   template <class T>
-    requires std::is_arithmetic_v<T>
-  T read(std::string_view expected) {
+  requires std::is_arithmetic_v<T> T read(std::string_view expected) {
     require(1, sizeof(T), expected);
     return take<T>();
   }
 
   /// As read(), when require() has already been asked. \pre sizeof(T) bytes are left
   template <class T>
-    requires std::is_arithmetic_v<T>
-  T take() {
+  requires std::is_arithmetic_v<T> T take() {
     std::array<char, sizeof(T)> raw;
     std::memcpy(raw.data(), bytes_.data() + position_, sizeof(T));
     if (order_ != std::endian::native) std::reverse(raw.begin(), raw.end());

@@ -19,7 +19,10 @@ CadFile read_cad(const std::filesystem::path& path, const ReadCadOptions& option
 void write_cad(const Model& model, const std::filesystem::path& path, const WriteCadOptions& options, const RunContext& context) {
   const std::optional<cad::CadFormat> format = cad::format_of_name(path.filename().string());
   if (!format || path.extension() == ".gz")
-    throw Error({.code = ErrorCode::unsupported_format, .attempted = "writing " + path.string(), .problem = "the name's end is of no CAD format that is written", .hint = ".step, .iges or .brep"});
+    throw Error({.code = ErrorCode::unsupported_format,
+                 .attempted = "writing " + path.string(),
+                 .problem = "the name's end is of no CAD format that is written",
+                 .hint = ".step, .iges or .brep"});
   AtomicFile file(path);
   file.append(cad::cad_bytes(model, *format, path.filename().string(), options, context));
   file.commit();

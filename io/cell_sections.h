@@ -44,9 +44,7 @@ class CellSections {
   }
 
  private:
-  std::size_t column_at(CellKind kind, std::uint64_t i) const {
-    return all_columns_are_prisms_ ? i : columns_[static_cast<std::size_t>(kind)][i];
-  }
+  std::size_t column_at(CellKind kind, std::uint64_t i) const { return all_columns_are_prisms_ ? i : columns_[static_cast<std::size_t>(kind)][i]; }
   std::span<const NodeId> explicit_cell(CellKind kind, std::uint64_t i) const {
     switch (kind) {
       case CellKind::tetrahedron: return mesh_->tetrahedra[i];

@@ -10,7 +10,8 @@
 namespace sterna::io {
 namespace {
 
-/// Where the head of an ADF file tells when it was created and changed, 28 bytes each. They are set to a constant, because a mesh gives the same bytes each time.
+/// Where the head of an ADF file tells when it was created and changed, 28 bytes each. They are set to a constant, because a mesh gives the same bytes each
+/// time.
 constexpr std::array<std::uint64_t, 2> k_dates = {36, 68};
 constexpr std::string_view k_date = "Thu Jan  1 00:00:00 1970    ";
 static_assert(k_date.size() == 28);
@@ -52,7 +53,8 @@ class AdfWriter {
     if (node.has_data) {
       std::vector<cgsize_t> extents;
       for (const std::uint64_t extent : node.array.extents) extents.push_back(static_cast<cgsize_t>(extent));  // the caller has checked that they fit
-      require(cgio_set_dimensions(library_file_, id, cgns_type_of(node.array.kind).c_str(), static_cast<int>(extents.size()), extents.data()), "creating the structure");
+      require(cgio_set_dimensions(library_file_, id, cgns_type_of(node.array.kind).c_str(), static_cast<int>(extents.size()), extents.data()),
+              "creating the structure");
       arrays_.push_back(&node.array);
       ids_.push_back(id);
     }
@@ -62,7 +64,9 @@ class AdfWriter {
   void put(std::size_t array, std::uint64_t first_value, std::string_view bytes) const {
     const std::uint64_t n = bytes.size() / byte_size(arrays_[array]->kind);
     errno = 0;
-    require(cgio_write_block_data(library_file_, ids_[array], static_cast<cgsize_t>(first_value + 1), static_cast<cgsize_t>(first_value + n), const_cast<char*>(bytes.data())), "writing");
+    require(cgio_write_block_data(library_file_, ids_[array], static_cast<cgsize_t>(first_value + 1), static_cast<cgsize_t>(first_value + n),
+                                  const_cast<char*>(bytes.data())),
+            "writing");
   }
 
   AtomicFile& file_;

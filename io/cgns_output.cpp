@@ -44,7 +44,8 @@ CgnsOutputNode cgns_node(std::string name, std::string label, OutputArray array)
 
 void write_cgns_hdf5(const CgnsOutputNode& root, const std::filesystem::path& path, const RunContext& context) {
   Hdf5OutputNode file = hdf5_node(root);
-  file.attributes = {text_attribute("name", "HDF5 MotherNode", k_cgns_name + 1), text_attribute("label", "Root Node of HDF5 File", k_cgns_name + 1), text_attribute("type", "MT", 3)};
+  file.attributes = {text_attribute("name", "HDF5 MotherNode", k_cgns_name + 1), text_attribute("label", "Root Node of HDF5 File", k_cgns_name + 1),
+                     text_attribute("type", "MT", 3)};
   // What the CGNS library puts into every file: the byte order of its numbers, and which HDF5 wrote them.
   std::string version = "HDF5 file format, sterna";
   version.resize(k_cgns_name + 1, '\0');

@@ -1,4 +1,5 @@
-// CGNS nodes in HDF5: a group with the attributes name, label, type, flags; its values in a dataset " data" with the extents reversed. ADF comes in the same shape (adf_nodes.cpp).
+// CGNS nodes in HDF5: a group with the attributes name, label, type, flags; its values in a dataset " data" with the extents reversed. ADF comes in the same
+// shape (adf_nodes.cpp).
 #include "io/cgns_tree.h"
 
 #include <algorithm>
@@ -13,10 +14,12 @@ constexpr std::string_view k_data = " data";
 constexpr std::string_view k_link_hint = "join the files first: cgnscompress or cgnsconvert -l";
 
 NumberKind kind_of(const CgnsNode& node, const std::string& source) {
-  static const std::map<std::string, NumberKind, std::less<>> k_kinds = {{"I4", NumberKind::i4}, {"I8", NumberKind::i8}, {"U4", NumberKind::u4}, {"U8", NumberKind::u8}, {"R4", NumberKind::f4},
-                                                                         {"R8", NumberKind::f8}, {"C1", NumberKind::text}, {"B1", NumberKind::u1}};
+  static const std::map<std::string, NumberKind, std::less<>> k_kinds = {{"I4", NumberKind::i4},   {"I8", NumberKind::i8}, {"U4", NumberKind::u4},
+                                                                         {"U8", NumberKind::u8},   {"R4", NumberKind::f4}, {"R8", NumberKind::f8},
+                                                                         {"C1", NumberKind::text}, {"B1", NumberKind::u1}};
   const auto found = k_kinds.find(node.type);
-  if (found == k_kinds.end()) throw_malformed(source, node.path, "found data of the type " + quoted_excerpt(node.type) + ", expected I4, I8, U4, U8, R4, R8, C1 or B1");
+  if (found == k_kinds.end())
+    throw_malformed(source, node.path, "found data of the type " + quoted_excerpt(node.type) + ", expected I4, I8, U4, U8, R4, R8, C1 or B1");
   return found->second;
 }
 
@@ -33,9 +36,10 @@ const CgnsNode* CgnsNode::find_label(std::string_view wanted) const {
 }
 
 const std::vector<std::string>& cgns_labels_beside_the_mesh() {
-  static const std::vector<std::string> k_labels = {"FlowSolution_t",        "DiscreteData_t",         "ConvergenceHistory_t",   "IntegralData_t",       "BaseIterativeData_t", "ZoneIterativeData_t",
-                                                    "ArbitraryGridMotion_t", "RigidGridMotion_t",      "ZoneGridConnectivity_t", "ZoneSubRegion_t",      "FlowEquationSet_t",   "ReferenceState_t",
-                                                    "UserDefinedData_t",     "ParticleZone_t",         "ParticleSolution_t"};
+  static const std::vector<std::string> k_labels = {"FlowSolution_t",         "DiscreteData_t",      "ConvergenceHistory_t",  "IntegralData_t",
+                                                    "BaseIterativeData_t",    "ZoneIterativeData_t", "ArbitraryGridMotion_t", "RigidGridMotion_t",
+                                                    "ZoneGridConnectivity_t", "ZoneSubRegion_t",     "FlowEquationSet_t",     "ReferenceState_t",
+                                                    "UserDefinedData_t",      "ParticleZone_t",      "ParticleSolution_t"};
   return k_labels;
 }
 
@@ -45,7 +49,8 @@ CgnsNode CgnsTree::node_of(const ContainerNode& group) const {
   CgnsNode node{.path = group.path, .name = group.name, .place = &group};
   const auto text_of = [&](const char* attribute) {
     const NumberArray* const found = group.attribute(attribute);
-    if (!found || found->kind != NumberKind::text) throw_malformed(source(), group.path, std::string("found no attribute \"") + attribute + "\": this HDF5 file is not CGNS");
+    if (!found || found->kind != NumberKind::text)
+      throw_malformed(source(), group.path, std::string("found no attribute \"") + attribute + "\": this HDF5 file is not CGNS");
     return found->text();
   };
   node.label = text_of("label");

@@ -26,7 +26,7 @@ constexpr std::uint32_t k_byte_order_mark = 0x01020304;
 constexpr std::size_t k_head_bytes = 64;
 constexpr std::size_t k_hashed_head_bytes = 56;
 constexpr std::uint8_t k_plain = 0;
-constexpr std::uint8_t k_lz4_planes = 1;  // LZ4 of all first bytes of the values, all second bytes, ...
+constexpr std::uint8_t k_lz4_planes = 1;               // LZ4 of all first bytes of the values, all second bytes, ...
 constexpr std::uint64_t k_max_chunk_bytes = 1u << 24;  // of a reader: writers stay below
 constexpr std::uint64_t k_lz4_expansion = 255;         // no packed byte gives more
 constexpr std::size_t k_longest_name = 255;
@@ -68,7 +68,8 @@ bool is_chunked_file(std::string_view head) { return head.starts_with(k_magic); 
 
 ChunkedWriter::ChunkedWriter(AtomicFile& file) : file_(file) { file_.append(std::string(k_head_bytes, '\0')); }
 
-void ChunkedWriter::pack(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const FindValues& find, const RunContext& context) {
+void ChunkedWriter::pack(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const FindValues& find,
+                         const RunContext& context) {
   const std::size_t size = size_of(type);
   const std::uint64_t per_chunk = k_chunk_bytes / size, n_chunks = (n_values + per_chunk - 1) / per_chunk;
   std::vector<StoredArray::Chunk> chunks(n_chunks);
@@ -79,7 +80,8 @@ void ChunkedWriter::pack(std::string_view name, NumberType type, std::uint32_t n
         const std::uint64_t begin = c * per_chunk, end = std::min(begin + per_chunk, n_values);
         const std::size_t n_bytes = (end - begin) * size;
         const int bound = LZ4_compressBound(static_cast<int>(n_bytes));
-        char* const place = out.reserve(static_cast<std::size_t>(bound) + 2 * n_bytes);  // planes and values behind it: the buffer is used again, its pages stay
+        char* const place =
+            out.reserve(static_cast<std::size_t>(bound) + 2 * n_bytes);  // planes and values behind it: the buffer is used again, its pages stay
         char* const planes = place + bound;
         const char* const values = find(begin, end, planes + n_bytes);
         gather_planes(values, end - begin, size, planes);
@@ -113,7 +115,8 @@ void ChunkedWriter::pack(std::string_view name, NumberType type, std::uint32_t n
   ++n_arrays_;
 }
 
-void ChunkedWriter::add(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const FillValues& fill, const RunContext& context) {
+void ChunkedWriter::add(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const FillValues& fill,
+                        const RunContext& context) {
   const auto filled = [&fill](std::uint64_t begin, std::uint64_t end, char* room) {
     fill(begin, end, room);
     return static_cast<const char*>(room);
@@ -121,9 +124,11 @@ void ChunkedWriter::add(std::string_view name, NumberType type, std::uint32_t n_
   pack(name, type, n_components, n_values, filled, context);
 }
 
-void ChunkedWriter::add_memory(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const void* values, const RunContext& context) {
+void ChunkedWriter::add_memory(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const void* values,
+                               const RunContext& context) {
   const char* const bytes = static_cast<const char*>(values);
-  pack(name, type, n_components, n_values, [bytes, size = size_of(type)](std::uint64_t begin, std::uint64_t, char*) { return bytes + begin * size; }, context);
+  pack(
+      name, type, n_components, n_values, [bytes, size = size_of(type)](std::uint64_t begin, std::uint64_t, char*) { return bytes + begin * size; }, context);
 }
 
 void ChunkedWriter::finish(std::uint32_t version) {
@@ -145,21 +150,29 @@ void ChunkedWriter::finish(std::uint32_t version) {
 
 ChunkedReader::ChunkedReader(const FileBuffer& buffer) : buffer_(buffer) {
   const std::string_view text = buffer.text();
-  if (!is_chunked_file(text)) throw_malformed(buffer.source, "byte 0", "found " + quoted_excerpt(text.substr(0, k_magic.size())) + ", expected the head of a .sterna file");
+  if (!is_chunked_file(text))
+    throw_malformed(buffer.source, "byte 0", "found " + quoted_excerpt(text.substr(0, k_magic.size())) + ", expected the head of a .sterna file");
   ByteReader head(buffer, std::endian::little, k_magic.size());
   head.require(1, k_head_bytes - k_magic.size(), "the head");
   const auto version = head.take<std::uint32_t>();
   if (version == 0 || version > k_chunked_version)
-    throw_unsupported(buffer.source, "the file has version " + std::to_string(version) + " of the container, this program reads up to " + std::to_string(k_chunked_version), "read it with a later sterna");
+    throw_unsupported(buffer.source,
+                      "the file has version " + std::to_string(version) + " of the container, this program reads up to " + std::to_string(k_chunked_version),
+                      "read it with a later sterna");
   if (head.take<std::uint32_t>() != k_byte_order_mark) head.fail("found another byte order, expected little endian");
-  const auto place = head.take<std::uint64_t>(), n_bytes = head.take<std::uint64_t>(), hash = head.take<std::uint64_t>(), file_bytes = head.take<std::uint64_t>();
+  const auto place = head.take<std::uint64_t>(), n_bytes = head.take<std::uint64_t>(), hash = head.take<std::uint64_t>(),
+             file_bytes = head.take<std::uint64_t>();
   const auto head_hash = head.take<std::uint64_t>();
-  if (!is_intact(text.substr(0, k_hashed_head_bytes), head_hash)) throw_malformed(buffer.source, "byte 0", "the head is damaged: its hash is another", "copy or write the file again");
+  if (!is_intact(text.substr(0, k_hashed_head_bytes), head_hash))
+    throw_malformed(buffer.source, "byte 0", "the head is damaged: its hash is another", "copy or write the file again");
   if (file_bytes != text.size())
-    throw_malformed(buffer.source, "byte 48", "found " + std::to_string(text.size()) + " bytes in the file, expected " + std::to_string(file_bytes), "the file may have been cut short: copy or write it again");
+    throw_malformed(buffer.source, "byte 48", "found " + std::to_string(text.size()) + " bytes in the file, expected " + std::to_string(file_bytes),
+                    "the file may have been cut short: copy or write it again");
   if (place < k_head_bytes || place > text.size() || n_bytes != text.size() - place)
-    throw_malformed(buffer.source, "byte 24", "found the directory at byte " + std::to_string(place) + " with " + std::to_string(n_bytes) + " bytes, expected it to end with the file");
-  if (!is_intact(text.substr(place), hash)) throw_malformed(buffer.source, "byte " + std::to_string(place), "the directory is damaged: its hash is another", "copy or write the file again");
+    throw_malformed(buffer.source, "byte 24",
+                    "found the directory at byte " + std::to_string(place) + " with " + std::to_string(n_bytes) + " bytes, expected it to end with the file");
+  if (!is_intact(text.substr(place), hash))
+    throw_malformed(buffer.source, "byte " + std::to_string(place), "the directory is damaged: its hash is another", "copy or write the file again");
   read_directory(place, text.size());
 }
 
@@ -182,10 +195,11 @@ void ChunkedReader::read_directory(std::uint64_t begin, std::uint64_t end) {
     array.values_per_chunk = bytes.read<std::uint64_t>("the values of a chunk");
     const auto n_chunks = bytes.read<std::uint64_t>("the number of chunks");
     const std::size_t size = size_of(array.type);
-    if (array.n_components == 0 || array.n_values % array.n_components != 0 || array.values_per_chunk == 0 || array.values_per_chunk > k_max_chunk_bytes / size ||
+    if (array.n_components == 0 || array.n_values % array.n_components != 0 || array.values_per_chunk == 0 ||
+        array.values_per_chunk > k_max_chunk_bytes / size ||
         n_chunks != array.n_values / array.values_per_chunk + (array.n_values % array.values_per_chunk != 0 ? 1 : 0))
-      bytes.fail("array " + quoted_excerpt(name) + " has " + std::to_string(array.n_values) + " values of " + std::to_string(array.n_components) + " components in " + std::to_string(n_chunks) +
-                 " chunks of " + std::to_string(array.values_per_chunk) + ", which cannot be");
+      bytes.fail("array " + quoted_excerpt(name) + " has " + std::to_string(array.n_values) + " values of " + std::to_string(array.n_components) +
+                 " components in " + std::to_string(n_chunks) + " chunks of " + std::to_string(array.values_per_chunk) + ", which cannot be");
     bytes.require(n_chunks, 25, "the chunks of an array");
     array.chunks.resize(n_chunks);
     for (std::uint64_t c = 0; c < n_chunks; ++c) {
@@ -196,8 +210,10 @@ void ChunkedReader::read_directory(std::uint64_t begin, std::uint64_t end) {
       chunk.codec = bytes.take<std::uint8_t>();
       const std::uint64_t n_bytes = std::min(array.values_per_chunk, array.n_values - c * array.values_per_chunk) * size;
       const bool is_inside = chunk.offset >= free && chunk.offset <= begin && chunk.packed_bytes <= begin - chunk.offset;
-      const bool can_unpack = chunk.codec == k_plain ? chunk.packed_bytes == n_bytes : chunk.codec == k_lz4_planes && n_bytes <= k_lz4_expansion * chunk.packed_bytes;
-      if (!is_inside || !can_unpack) bytes.fail("chunk " + std::to_string(c) + " of array " + quoted_excerpt(name) + " cannot be where and what the directory says");
+      const bool can_unpack =
+          chunk.codec == k_plain ? chunk.packed_bytes == n_bytes : chunk.codec == k_lz4_planes && n_bytes <= k_lz4_expansion * chunk.packed_bytes;
+      if (!is_inside || !can_unpack)
+        bytes.fail("chunk " + std::to_string(c) + " of array " + quoted_excerpt(name) + " cannot be where and what the directory says");
       free = chunk.offset + chunk.packed_bytes;
     }
     if (!arrays_.emplace(name, std::move(array)).second) bytes.fail("array " + quoted_excerpt(name) + " occurs twice");
@@ -215,7 +231,8 @@ void ChunkedReader::read(std::string_view name, char* to, const RunContext& cont
         const std::string_view packed = buffer_.text().substr(chunk.offset, chunk.packed_bytes);
         const std::uint64_t begin = c * array.values_per_chunk, n = std::min(array.values_per_chunk, array.n_values - begin);
         const auto damaged = [&](const char* what) {
-          throw_malformed(buffer_.source, "byte " + std::to_string(chunk.offset), "chunk " + std::to_string(c) + " of array " + quoted_excerpt(name) + " is damaged: " + what, "copy or write the file again");
+          throw_malformed(buffer_.source, "byte " + std::to_string(chunk.offset),
+                          "chunk " + std::to_string(c) + " of array " + quoted_excerpt(name) + " is damaged: " + what, "copy or write the file again");
         };
         if (!is_intact(packed, chunk.hash)) damaged("its hash is another");
         char* const place = to + begin * size;
@@ -224,7 +241,8 @@ void ChunkedReader::read(std::string_view name, char* to, const RunContext& cont
           return;
         }
         const auto planes = std::make_unique_for_overwrite<char[]>(n * size);
-        if (LZ4_decompress_safe(packed.data(), planes.get(), static_cast<int>(packed.size()), static_cast<int>(n * size)) != static_cast<int>(n * size)) damaged("LZ4 cannot unpack it");
+        if (LZ4_decompress_safe(packed.data(), planes.get(), static_cast<int>(packed.size()), static_cast<int>(n * size)) != static_cast<int>(n * size))
+          damaged("LZ4 cannot unpack it");
         scatter_planes(planes.get(), n, size, place);
       },
       1);

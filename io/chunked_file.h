@@ -20,7 +20,8 @@ std::size_t size_of(NumberType type);
 /// Latest version that is read. A writer marks a file with the first version whose readers understand all that must not be passed over in it.
 inline constexpr std::uint32_t k_chunked_version = 2;
 inline constexpr std::uint32_t k_first_chunked_version = 1;
-/// Values of a chunk take this many bytes at most: enough to pack well, few enough for the cache of a core, and 64 buffers with three times as much fit into 100 MB.
+/// Values of a chunk take this many bytes at most: enough to pack well, few enough for the cache of a core, and 64 buffers with three times as much fit into
+/// 100 MB.
 inline constexpr std::uint64_t k_chunk_bytes = 3u << 17;
 
 /// What `fill` writes for [begin, end) are the values' bytes, little endian; called from any thread.
@@ -70,7 +71,8 @@ class ChunkedReader {
   explicit ChunkedReader(const FileBuffer& buffer);
 
   bool has(std::string_view name) const { return arrays_.find(name) != arrays_.end(); }
-  /// Unpacks all values in parallel into `to`. \pre has(name), as many bytes as the array has. \throws Error(file_malformed) for a chunk that is not what it was
+  /// Unpacks all values in parallel into `to`. \pre has(name), as many bytes as the array has. \throws Error(file_malformed) for a chunk that is not what it
+  /// was
   void read(std::string_view name, char* to, const RunContext& context) const;
   const StoredArray& at(std::string_view name) const { return arrays_.find(name)->second; }
   [[noreturn]] void fail(std::string_view name, const std::string& problem) const;

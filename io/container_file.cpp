@@ -81,7 +81,9 @@ std::string library_for(ContainerFormat format, const std::string& head, const s
   if (format != ContainerFormat::netcdf && is_hdf5(head)) return "hdf5";
   if (format == ContainerFormat::cgns && is_adf(head)) return "adf";
   constexpr const char* k_names[] = {"an HDF5", "a NetCDF", "an HDF5 or ADF"};
-  throw_malformed(source, "byte 0", "found " + quoted_excerpt(std::string_view(head).substr(0, 8)) + ", expected the beginning of " + k_names[static_cast<std::size_t>(format)] + " file");
+  throw_malformed(
+      source, "byte 0",
+      "found " + quoted_excerpt(std::string_view(head).substr(0, 8)) + ", expected the beginning of " + k_names[static_cast<std::size_t>(format)] + " file");
 }
 
 /// Why the helper has left no image.
@@ -90,10 +92,13 @@ std::string library_for(ContainerFormat format, const std::string& head, const s
   const std::string name = library == "hdf5" ? "HDF5" : library == "netcdf" ? "NetCDF" : "CGNS";
   if (WIFSIGNALED(exit.wait_status)) {
     const int signal = WTERMSIG(exit.wait_status);
-    if (signal == SIGXCPU || signal == SIGKILL) throw_malformed(source, "the file", "the " + name + " library came to no end with it within its limits of time and memory" + last_words(exit), k_hint);
-    throw_malformed(source, "the file", "the " + name + " library crashed on it: signal " + std::to_string(signal) + " (" + strsignal(signal) + ")" + last_words(exit), k_hint);
+    if (signal == SIGXCPU || signal == SIGKILL)
+      throw_malformed(source, "the file", "the " + name + " library came to no end with it within its limits of time and memory" + last_words(exit), k_hint);
+    throw_malformed(source, "the file",
+                    "the " + name + " library crashed on it: signal " + std::to_string(signal) + " (" + strsignal(signal) + ")" + last_words(exit), k_hint);
   }
-  throw_malformed(source, "the file", "the " + name + " library gave up on it: exit status " + std::to_string(WEXITSTATUS(exit.wait_status)) + last_words(exit), k_hint);
+  throw_malformed(source, "the file", "the " + name + " library gave up on it: exit status " + std::to_string(WEXITSTATUS(exit.wait_status)) + last_words(exit),
+                  k_hint);
 }
 
 }  // namespace
@@ -102,7 +107,8 @@ bool is_hdf5(std::string_view bytes) { return bytes.starts_with("\x89HDF\r\n\x1a
 bool is_adf(std::string_view bytes) { return bytes.substr(0, 32).find("ADF Database Version ") == 4; }
 bool is_netcdf(std::string_view bytes) { return bytes.starts_with("CDF") || is_hdf5(bytes); }
 
-ContainerImage read_container(const std::filesystem::path& path, ContainerFormat format, const std::vector<std::string>& left_out, const RunContext& context, const std::string& helper_folder) {
+ContainerImage read_container(const std::filesystem::path& path, ContainerFormat format, const std::vector<std::string>& left_out, const RunContext& context,
+                              const std::string& helper_folder) {
   const std::string source = path.string();
   const HelperTask task = task_of(source);
   const SourceFile file(path, task, context);
@@ -110,7 +116,11 @@ ContainerImage read_container(const std::filesystem::path& path, ContainerFormat
   std::vector<std::string> arguments = {library};
   arguments.insert(arguments.end(), left_out.begin(), left_out.end());
   const auto image = std::make_shared<SharedBlock>("sterna container", 0, task);
-  const HelperStart start{.task = task, .path = find_helper("sterna-read-container", helper_folder, task), .arguments = std::move(arguments), .late = {}, .time_limit = k_automatic};
+  const HelperStart start{.task = task,
+                          .path = find_helper("sterna-read-container", helper_folder, task),
+                          .arguments = std::move(arguments),
+                          .late = {},
+                          .time_limit = k_automatic};
   const HelperExit exit = run_helper(start, file.descriptor(), image->descriptor(), context);
   if (!exit.output.empty()) context.debug("sterna-read-container: " + exit.output);
   if (!exit.is_success()) throw_death(exit, library, source);

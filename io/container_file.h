@@ -20,8 +20,8 @@ enum class ContainerFormat { hdf5, netcdf, cgns };  ///< cgns: HDF5 or ADF
 /// Reads the whole file but for the groups whose name or label (attribute "label") is in `left_out`. Packed by gzip or from a pipe it goes through memory.
 /// Memory stays in proportion to the file: contiguous arrays are no larger than it, unpacked ones in all no more than wire::k_max_expansion times.
 /// \param helper_folder where sterna-read-container is; empty = beside the program
-/// \throws Error file_not_found; file_malformed (path in the file, expectation; also where the library crashes or runs into its limits); unsupported_format (links, filters, types;
-/// the helper is not there); cancelled.
+/// \throws Error file_not_found; file_malformed (path in the file, expectation; also where the library crashes or runs into its limits); unsupported_format
+/// (links, filters, types; the helper is not there); cancelled.
 ContainerImage read_container(const std::filesystem::path& path, ContainerFormat format, const std::vector<std::string>& left_out, const RunContext& context,
                               const std::string& helper_folder = {});
 

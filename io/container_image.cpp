@@ -16,7 +16,8 @@ using wire::Role;
 bool is_place(std::string_view where) {
   if (where.starts_with('/') || where == "the file" || where == "the head of the file") return true;
   for (const std::string_view begin : {"variable ", "attribute "})
-    if (where.starts_with(begin) && where.size() > begin.size()) return (where[begin.size()] >= '0' && where[begin.size()] <= '9') || (where[begin.size()] == '"' && where.size() > begin.size() + 2);
+    if (where.starts_with(begin) && where.size() > begin.size())
+      return (where[begin.size()] >= '0' && where[begin.size()] <= '9') || (where[begin.size()] == '"' && where.size() > begin.size() + 2);
   return false;
 }
 
@@ -27,7 +28,8 @@ class ImageReader {
     if (bytes_.size() < sizeof header_) fail("the image has " + std::to_string(bytes_.size()) + " bytes");
     std::memcpy(&header_, bytes_.data(), sizeof header_);
     if (header_.magic != wire::k_image_magic) fail("the image is of another version: build the target sterna-read-container again");
-    if (header_.n_nodes > (bytes_.size() - sizeof header_) / sizeof(NodeRecord)) fail("the image has room for fewer nodes than " + std::to_string(header_.n_nodes));
+    if (header_.n_nodes > (bytes_.size() - sizeof header_) / sizeof(NodeRecord))
+      fail("the image has room for fewer nodes than " + std::to_string(header_.n_nodes));
     const std::uint64_t text_begin = sizeof header_ + sizeof(NodeRecord) * header_.n_nodes;
     if (header_.text_size > bytes_.size() - text_begin) fail("the text leaves the image");
     text_ = {reinterpret_cast<const char*>(bytes_.data()) + text_begin, header_.text_size};
@@ -45,7 +47,8 @@ class ImageReader {
       if (parent >= i) fail("node " + std::to_string(i) + " comes before its parent");
       if (records_[i].role > Role::left_out) fail("node " + std::to_string(i) + " has an unknown role");
       const Role above = records_[parent].role;
-      if (above != Role::group && !(above == Role::dataset && records_[i].role == Role::attribute)) fail("node " + std::to_string(i) + " is below one that has no children");
+      if (above != Role::group && !(above == Role::dataset && records_[i].role == Role::attribute))
+        fail("node " + std::to_string(i) + " is below one that has no children");
       children_[parent].push_back(i);
     }
     return node(0, "", 0);
@@ -79,7 +82,8 @@ class ImageReader {
     array.order = record.is_big_endian != 0 ? std::endian::big : std::endian::little;
     array.extents.assign(record.extents, record.extents + record.rank);
     std::uint64_t n_bytes = 0;
-    if (__builtin_mul_overflow(count_of(array.extents, source_, array.where), byte_size(array.kind), &n_bytes) || n_bytes != record.n_bytes) fail("an array has " + std::to_string(record.n_bytes) + " bytes");
+    if (__builtin_mul_overflow(count_of(array.extents, source_, array.where), byte_size(array.kind), &n_bytes) || n_bytes != record.n_bytes)
+      fail("an array has " + std::to_string(record.n_bytes) + " bytes");
     if (record.begin > bytes_.size() || n_bytes > bytes_.size() - record.begin) fail("an array leaves the image");
     array.bytes = {reinterpret_cast<const char*>(bytes_.data()) + record.begin, n_bytes};
     return result;
@@ -129,12 +133,14 @@ ContainerImage::ContainerImage(std::shared_ptr<const void> owner, std::span<cons
 const ContainerNode& ContainerImage::child(const ContainerNode& parent, std::string_view name) const {
   const ContainerNode* const found = parent.find(name);
   if (!found) throw_malformed(source_, (parent.path == "/" ? "" : parent.path) + "/" + std::string(name), "there is no such group or dataset in the file");
-  if (found->role == Role::link) throw_unsupported(source_, found->path + " is a link by name, perhaps to another file", "copy the data into one file: h5copy, h5repack");
+  if (found->role == Role::link)
+    throw_unsupported(source_, found->path + " is a link by name, perhaps to another file", "copy the data into one file: h5copy, h5repack");
   return *found;
 }
 
 NumberArray ContainerImage::data(const ContainerNode& dataset) const {
-  if (dataset.role == Role::link) throw_unsupported(source_, dataset.path + " is a link by name, perhaps to another file", "copy the data into one file: h5copy, h5repack");
+  if (dataset.role == Role::link)
+    throw_unsupported(source_, dataset.path + " is a link by name, perhaps to another file", "copy the data into one file: h5copy, h5repack");
   if (dataset.role != Role::dataset) throw_malformed(source_, dataset.path, "this is not a dataset");
   if (dataset.values.trouble == wire::Trouble::malformed) throw_malformed(source_, dataset.path, dataset.values.problem);
   if (dataset.values.trouble == wire::Trouble::unsupported) throw_unsupported(source_, dataset.path + ": " + dataset.values.problem);

@@ -1,7 +1,8 @@
 // What sterna and sterna-read-container say to each other. It includes nothing of sterna but the kinds of numbers.
 //
-// Arguments: the library (hdf5, netcdf, adf), then the names and labels of groups that are left out. Descriptor 3: the file, read-only. Descriptor 4: the image, a memfd.
-// Image:     ImageHeader; n_nodes NodeRecords, each behind its parent, the first is the root; text_size bytes of text; values, each on a multiple of k_alignment.
+// Arguments: the library (hdf5, netcdf, adf), then the names and labels of groups that are left out. Descriptor 3: the file, read-only. Descriptor 4: the
+// image, a memfd. Image:     ImageHeader; n_nodes NodeRecords, each behind its parent, the first is the root; text_size bytes of text; values, each on a
+// multiple of k_alignment.
 //            With an outcome other than ok: the header and the text only.
 #pragma once
 
@@ -15,8 +16,8 @@ inline constexpr int k_file_fd = 3;
 inline constexpr int k_image_fd = 4;
 inline constexpr std::uint64_t k_image_magic = 0x3149544e43545353;  ///< "SSTCNTI1" in memory; the last digit is the version
 inline constexpr std::uint64_t k_alignment = 64;
-inline constexpr std::uint32_t k_max_rank = 12;  ///< extents of an array; the last is the length of a text in an array of texts
-inline constexpr std::uint32_t k_max_depth = 64; ///< of nested groups; the CGNS standard uses about 10
+inline constexpr std::uint32_t k_max_rank = 12;   ///< extents of an array; the last is the length of a text in an array of texts
+inline constexpr std::uint32_t k_max_depth = 64;  ///< of nested groups; the CGNS standard uses about 10
 /// Unpacked over file size: what chunks and repeated values may grow to. Meshes reach about 10.
 inline constexpr std::uint64_t k_max_expansion = 200;
 /// Bytes that may be unpacked whatever the file's size.

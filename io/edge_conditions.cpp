@@ -77,7 +77,8 @@ std::string edge_conditions_text(const Column<PatchId, Patch>& patches, const st
   std::string boundaries;
   int n = 1;  // the region's name
   const auto warn = [&](const std::string& name, PatchKind kind, const Condition& condition, const std::string& consequence) {
-    context.warn("patch \"" + name + "\" (" + std::string(to_string(kind)) + ") is written with the Edge condition " + std::string(condition.boundary_class) + " / " + std::string(condition.type) + consequence);
+    context.warn("patch \"" + name + "\" (" + std::string(to_string(kind)) + ") is written with the Edge condition " + std::string(condition.boundary_class) +
+                 " / " + std::string(condition.type) + consequence);
   };
   const auto entry = [](std::string_view name, std::string_view value) { return std::string(name) + ", L, 1, 1, 0\n'" + std::string(value) + "'\n"; };
   for (const PatchId patch : patches.ids()) {
@@ -87,7 +88,8 @@ std::string edge_conditions_text(const Column<PatchId, Patch>& patches, const st
     const PatchKind back = kind_of(std::string(condition.boundary_class), std::string(condition.type), names[patch.index()]);
     if (kind == PatchKind::inflow || kind == PatchKind::outflow) warn(names[patch.index()], kind, condition, "; add its parameters to the .aboc file");
     else if (back != kind) warn(names[patch.index()], kind, condition, ", which is read as " + std::string(to_string(back)));
-    boundaries += "boundary, N, 0, 0, 3\n" + entry("b_name", names[patch.index()]) + entry("b_class", condition.boundary_class) + entry("b_type", condition.type);
+    boundaries +=
+        "boundary, N, 0, 0, 3\n" + entry("b_name", names[patch.index()]) + entry("b_class", condition.boundary_class) + entry("b_type", condition.type);
     ++n;
   }
   return "boundary_data, N, 0, 0, 1\nregion, N, 0, 0, " + std::to_string(n) + "\n" + entry("region_name", "fluid domain") + boundaries;

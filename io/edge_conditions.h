@@ -17,7 +17,8 @@ std::map<std::string, PatchKind> read_edge_conditions(const std::filesystem::pat
 /// Where the writer puts them: x.aboc.
 std::filesystem::path edge_conditions_path(const std::filesystem::path& mesh_path);
 
-/// Text of an .aboc file. Inflow and outflow become engine exhaust and inlet, whose parameters are left to the user: a warning. \param names of all patches; those without name are left out
+/// Text of an .aboc file. Inflow and outflow become engine exhaust and inlet, whose parameters are left to the user: a warning. \param names of all patches;
+/// those without name are left out
 std::string edge_conditions_text(const Column<PatchId, Patch>& patches, const std::vector<std::string>& names, const RunContext& context);
 
 }  // namespace sterna::io

@@ -1,4 +1,5 @@
-// Cells from faces: the kind follows from the numbers of triangles and quads; the nodes from one face and what is opposite. Each rebuilt cell is compared with its faces, one by one.
+// Cells from faces: the kind follows from the numbers of triangles and quads; the nodes from one face and what is opposite. Each rebuilt cell is compared with
+// its faces, one by one.
 #include "io/face_mesh.h"
 
 #include <algorithm>
@@ -182,7 +183,8 @@ void add_cells_and_boundary(const FaceMesh& faces, HybridMesh& mesh, const std::
         for (std::size_t c = begin; c < end; ++c) {
           builder.n_faces = of.first[c + 1] - of.first[c];
           if (builder.n_faces < 4 || builder.n_faces > k_most_faces)
-            throw_unsupported(source, "cell " + std::to_string(c) + " has " + std::to_string(builder.n_faces) + " faces", "tetrahedra, pyramids, prisms and hexahedra are read");
+            throw_unsupported(source, "cell " + std::to_string(c) + " has " + std::to_string(builder.n_faces) + " faces",
+                              "tetrahedra, pyramids, prisms and hexahedra are read");
           for (std::size_t k = 0; k < builder.n_faces; ++k) {
             const std::uint64_t entry = of.entries[of.first[c] + k], f = entry / 2;
             OutwardFace& face = builder.faces[k];
@@ -194,7 +196,8 @@ void add_cells_and_boundary(const FaceMesh& faces, HybridMesh& mesh, const std::
           const std::span<const std::uint32_t> nodes = builder.build(kind);
           if (nodes.empty())
             throw_malformed(source, "cell " + std::to_string(c),
-                            "its " + std::to_string(builder.n_faces) + " faces do not enclose a tetrahedron, pyramid, prism or hexahedron with normals from owner to neighbour");
+                            "its " + std::to_string(builder.n_faces) +
+                                " faces do not enclose a tetrahedron, pyramid, prism or hexahedron with normals from owner to neighbour");
           add_cell(kind, nodes, part);
         }
         return part;

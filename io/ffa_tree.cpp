@@ -57,7 +57,8 @@ double FfaNode::real(std::uint64_t row, std::uint64_t column) const {
   if (is_integer()) return static_cast<double>(integer(row, column));
   const std::uint64_t i = place_of(row, column);
   if (is_ascii_) return reals_[i];
-  return type == 'D' ? number_at<double>(buffer_->text(), data_ + i * 8, order_) : static_cast<double>(number_at<float>(buffer_->text(), data_ + i * 4, order_));
+  return type == 'D' ? number_at<double>(buffer_->text(), data_ + i * 8, order_)
+                     : static_cast<double>(number_at<float>(buffer_->text(), data_ + i * 4, order_));
 }
 
 std::string FfaNode::text() const { return is_ascii_ ? text_ : without_blanks(buffer_->text().substr(data_, ffa_value_size(type))); }
@@ -131,7 +132,8 @@ class FfaParser {
   void take_shape(FfaNode& node, const std::string& type, std::int64_t columns, std::int64_t rows, std::int64_t children) const {
     node.type = type.empty() ? 'N' : type[0];
     if (columns < 0 || rows < 0 || children < 0)
-      node.fail("found " + std::to_string(columns) + " columns, " + std::to_string(rows) + " rows, " + std::to_string(children) + " children, expected none below 0");
+      node.fail("found " + std::to_string(columns) + " columns, " + std::to_string(rows) + " rows, " + std::to_string(children) +
+                " children, expected none below 0");
     constexpr std::uint64_t k_most_values = std::uint64_t{1} << 56;
     if (rows > 0 && static_cast<std::uint64_t>(columns) > k_most_values / static_cast<std::uint64_t>(rows))
       node.fail("found " + std::to_string(columns) + " columns of " + std::to_string(rows) + " rows");
@@ -144,7 +146,8 @@ class FfaParser {
     const std::int32_t found = bytes_.read<std::int32_t>(what);
     if (found < 0) throw_unsupported(buffer_.source, "a record of 2 GiB and more at byte " + std::to_string(at), "write the file in version 2");
     if (found != expected)
-      throw_malformed(buffer_.source, "byte " + std::to_string(at), "found " + std::to_string(found) + " as the length of a record, expected " + std::to_string(expected) + " (" + std::string(what) + ")");
+      throw_malformed(buffer_.source, "byte " + std::to_string(at),
+                      "found " + std::to_string(found) + " as the length of a record, expected " + std::to_string(expected) + " (" + std::string(what) + ")");
   }
 
   std::uint64_t header_1(FfaNode& node) {
@@ -174,7 +177,8 @@ class FfaParser {
       const std::size_t at = bytes_.offset();
       const auto count = bytes_.read<std::int64_t>("the number of values");  // of elements, of bytes: writers differ
       if (count != static_cast<std::int64_t>(n) && count != static_cast<std::int64_t>(n * size))
-        throw_malformed(buffer_.source, "byte " + std::to_string(at), "found " + std::to_string(count) + " as the number of values, expected " + std::to_string(n));
+        throw_malformed(buffer_.source, "byte " + std::to_string(at),
+                        "found " + std::to_string(count) + " as the number of values, expected " + std::to_string(n));
     }
     const auto n_bytes = static_cast<std::int64_t>(n * size);
     if (version_ == 1) marker(n_bytes, "the values of \"" + node.name + "\"");
@@ -198,7 +202,8 @@ class FfaParser {
     }
     const auto number = [&](std::size_t k) -> std::int64_t {
       const std::string& field = fields[k];
-      if (field.empty() || field.size() > 18 || !std::all_of(field.begin(), field.end(), [](unsigned char c) { return std::isdigit(c) != 0; })) scanner_.fail("found " + quoted_excerpt(line) + ", expected a node: name, type, columns, rows, children");
+      if (field.empty() || field.size() > 18 || !std::all_of(field.begin(), field.end(), [](unsigned char c) { return std::isdigit(c) != 0; }))
+        scanner_.fail("found " + quoted_excerpt(line) + ", expected a node: name, type, columns, rows, children");
       return std::stoll(field);
     };
     if (fields.size() != 5) scanner_.fail("found " + quoted_excerpt(line) + ", expected a node: name, type, columns, rows, children");
@@ -209,7 +214,8 @@ class FfaParser {
 
   void ascii_data(FfaNode& node) {
     const std::uint64_t n = node.n_values();
-    if (n > scanner_.remaining()) scanner_.fail("found " + std::to_string(n) + " values announced, but " + std::to_string(scanner_.remaining()) + " bytes left in the file");
+    if (n > scanner_.remaining())
+      scanner_.fail("found " + std::to_string(n) + " values announced, but " + std::to_string(scanner_.remaining()) + " bytes left in the file");
     if (node.is_text() || node.type == 'A') {
       for (std::uint64_t i = 0; i < n; ++i) {
         const std::string value = quoted();

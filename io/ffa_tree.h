@@ -15,7 +15,7 @@ namespace sterna::io {
 class FfaNode {
  public:
   std::string name;
-  char type = 'N';                ///< I, J, R, D numbers; S, L strings; N none
+  char type = 'N';  ///< I, J, R, D numbers; S, L strings; N none
   std::uint64_t n_columns = 0;
   std::uint64_t n_rows = 0;
   std::vector<FfaNode> children;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "geom/base/run_context.h"
-#include "geom/mesh/tri_mesh_field.h"
 #include "geom/mesh/tri_mesh.h"
+#include "geom/mesh/tri_mesh_field.h"
 
 namespace sterna::io {
 

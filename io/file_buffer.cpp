@@ -34,7 +34,7 @@ std::vector<char> read_all(const std::filesystem::path& path, const std::string&
 
   std::vector<char> bytes;
   const std::uintmax_t size = std::filesystem::file_size(path, status);  // not known for a pipe: then the vector grows
-  if (!status) bytes.reserve(static_cast<std::size_t>(size) + 1);  // one more, to meet the end without growing
+  if (!status) bytes.reserve(static_cast<std::size_t>(size) + 1);        // one more, to meet the end without growing
   for (;;) {
     context.check_stop();
     const std::size_t n_before = bytes.size();
@@ -109,7 +109,7 @@ FileBuffer load_file(const std::filesystem::path& path, const RunContext& contex
 
 std::string file_head(const std::filesystem::path& path, std::size_t n_bytes) {
   std::error_code status;
-  if (!std::filesystem::is_regular_file(path, status)) return {};  // a pipe can be read only once
+  if (!std::filesystem::is_regular_file(path, status)) return {};                               // a pipe can be read only once
   const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzopen(path.c_str(), "rb"), &gzclose);  // takes plain files too
   if (!file) return {};
   std::string head(n_bytes, '\0');

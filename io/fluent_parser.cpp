@@ -1,4 +1,5 @@
-// Sections are nested brackets: (index (header) (body)). Indices are decimal; all other integers are hexadecimal, but in sections 0, 2, 39 and 45. Strings may hold brackets.
+// Sections are nested brackets: (index (header) (body)). Indices are decimal; all other integers are hexadecimal, but in sections 0, 2, 39 and 45. Strings may
+// hold brackets.
 #include "io/fluent_parser.h"
 
 #include <algorithm>
@@ -14,7 +15,18 @@
 namespace sterna::io {
 namespace {
 
-enum Section : std::int64_t { k_comment = 0, k_dimensions = 2, k_nodes = 10, k_cells = 12, k_faces = 13, k_old_zone = 39, k_zone = 45, k_cell_tree = 58, k_face_tree = 59, k_interface_parents = 61 };
+enum Section : std::int64_t {
+  k_comment = 0,
+  k_dimensions = 2,
+  k_nodes = 10,
+  k_cells = 12,
+  k_faces = 13,
+  k_old_zone = 39,
+  k_zone = 45,
+  k_cell_tree = 58,
+  k_face_tree = 59,
+  k_interface_parents = 61
+};
 enum FaceZone : std::int64_t { k_interior = 2, k_wall = 3 };
 constexpr std::int64_t k_single_binary = 2000;  // added to the index of a section whose body is binary; 3000: with doubles
 constexpr std::int64_t k_double_binary = 3000;
@@ -74,7 +86,8 @@ class FluentParser {
     double value = 0.0;
     const char* const begin = text_.data() + position_;
     const auto [end, failure] = std::from_chars(begin, text_.data() + text_.size(), value);
-    if (failure == std::errc::result_out_of_range) value = std::strtod(std::string(begin, std::min<std::size_t>(64, static_cast<std::size_t>(end - begin))).c_str(), nullptr);  // underflow is zero
+    if (failure == std::errc::result_out_of_range)
+      value = std::strtod(std::string(begin, std::min<std::size_t>(64, static_cast<std::size_t>(end - begin))).c_str(), nullptr);  // underflow is zero
     else if (failure != std::errc{}) fail("found " + found() + ", expected " + expected);
     if (!std::isfinite(value)) fail("found " + found() + ", expected " + std::string(expected) + " (a finite number)");
     position_ = static_cast<std::size_t>(end - text_.data());
@@ -116,7 +129,8 @@ class FluentParser {
       case k_zone: read_zone_name(); break;
       case k_cell_tree:
       case k_face_tree:
-      case k_interface_parents: throw_unsupported(buffer_.source, "the mesh has hanging nodes (section " + std::to_string(index) + ")", "save a conformal mesh");
+      case k_interface_parents:
+        throw_unsupported(buffer_.source, "the mesh has hanging nodes (section " + std::to_string(index) + ")", "save a conformal mesh");
       default:
         if (is_binary) throw_unsupported(buffer_.source, "a binary section " + std::to_string(index));
     }
@@ -143,7 +157,8 @@ class FluentParser {
     expect(')', "\")\" behind a header");
     constexpr std::int64_t k_most = NodeId::k_invalid;
     if (header.first < 0 || header.last < header.first - 1 || header.last >= k_most)
-      fail("found " + std::string(what) + " " + std::to_string(header.first) + " to " + std::to_string(header.last) + ", expected ascending numbers below " + std::to_string(k_most));
+      fail("found " + std::string(what) + " " + std::to_string(header.first) + " to " + std::to_string(header.last) + ", expected ascending numbers below " +
+           std::to_string(k_most));
     return header;
   }
 
@@ -151,7 +166,8 @@ class FluentParser {
   void begin_body(bool is_binary, std::uint64_t n, std::size_t min_text, std::size_t min_binary) {
     expect('(', "\"(\" of a body");
     const std::size_t min_bytes = is_binary ? min_binary : min_text;
-    if (n > (text_.size() - position_) / min_bytes) fail("found " + std::to_string(n) + " items announced, more than the " + std::to_string(text_.size() - position_) + " bytes left in the file can hold");
+    if (n > (text_.size() - position_) / min_bytes)
+      fail("found " + std::to_string(n) + " items announced, more than the " + std::to_string(text_.size() - position_) + " bytes left in the file can hold");
     if (is_binary) bytes_.emplace(buffer_, std::endian::little, position_);
   }
   void end_body(std::int64_t index) {
@@ -178,7 +194,8 @@ class FluentParser {
   void read_nodes(std::int64_t index, bool is_binary, bool is_double) {
     const Header header = read_header("nodes");
     if (header.zone == 0) return skip_to_close();
-    if (header.first != static_cast<std::int64_t>(content_.points.size()) + 1) fail("found nodes from " + std::to_string(header.first) + " on, expected " + std::to_string(content_.points.size() + 1));
+    if (header.first != static_cast<std::int64_t>(content_.points.size()) + 1)
+      fail("found nodes from " + std::to_string(header.first) + " on, expected " + std::to_string(content_.points.size() + 1));
     begin_body(is_binary, header.count(), 6, is_double ? 24 : 12);
     content_.points.reserve(content_.points.size() + header.count());
     for (std::uint64_t i = 0; i < header.count(); ++i) {
@@ -207,7 +224,8 @@ class FluentParser {
     const Header header = read_header("faces");
     if (header.zone == 0) return skip_to_close();
     FaceMesh& faces = content_.faces;
-    if (header.first != static_cast<std::int64_t>(faces.n_faces()) + 1) fail("found faces from " + std::to_string(header.first) + " on, expected " + std::to_string(faces.n_faces() + 1));
+    if (header.first != static_cast<std::int64_t>(faces.n_faces()) + 1)
+      fail("found faces from " + std::to_string(header.first) + " on, expected " + std::to_string(faces.n_faces() + 1));
     if (header.element == 2) throw_unsupported(buffer_.source, "faces of two nodes", "meshes of 3 dimensions are read");
     begin_body(is_binary, header.count(), 10, 20);
     zones_.push_back({.type = header.type, .first_face = faces.n_faces(), .n_faces = header.count(), .id = header.zone});
@@ -252,14 +270,16 @@ class FluentParser {
 
   void finish() {
     FaceMesh& faces = content_.faces;
-    if (content_.points.empty() || faces.n_faces() == 0) fail(std::string("found the end of the file, expected a section of ") + (content_.points.empty() ? "nodes" : "faces"));
+    if (content_.points.empty() || faces.n_faces() == 0)
+      fail(std::string("found the end of the file, expected a section of ") + (content_.points.empty() ? "nodes" : "faces"));
     for (const std::uint32_t node : faces.nodes)
       if (node >= content_.points.size()) fail("a face has the node " + std::to_string(node + 1ull) + ", there are " + std::to_string(content_.points.size()));
     if (n_cells_ > faces.n_faces()) fail("found " + std::to_string(n_cells_) + " cells, too many for " + std::to_string(faces.n_faces()) + " faces");
     faces.n_cells = n_cells_;
     for (std::size_t f = 0; f < faces.n_faces(); ++f)
       if (faces.owner[f] >= n_cells_ || (faces.neighbour[f] != FaceMesh::k_none && faces.neighbour[f] >= n_cells_))
-        fail("face " + std::to_string(f + 1) + " has the cells " + std::to_string(faces.owner[f] + 1ull) + " and " + std::to_string(faces.neighbour[f] + 1ull) + ", there are " + std::to_string(n_cells_));
+        fail("face " + std::to_string(f + 1) + " has the cells " + std::to_string(faces.owner[f] + 1ull) + " and " + std::to_string(faces.neighbour[f] + 1ull) +
+             ", there are " + std::to_string(n_cells_));
     faces.patch.resize(faces.n_faces());
     for (const Zone& zone : zones_) add_patch(zone);
   }

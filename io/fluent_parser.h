@@ -16,9 +16,9 @@ namespace sterna::io {
 
 struct FluentContent {
   std::vector<Vec3> points;
-  FaceMesh faces;                   ///< patches by number of their zone's appearance
-  Column<PatchId, Patch> patches;   ///< zones of boundary faces
-  std::int64_t n_inner_walls = 0;   ///< faces of boundary zones between two cells, taken as inner faces
+  FaceMesh faces;                  ///< patches by number of their zone's appearance
+  Column<PatchId, Patch> patches;  ///< zones of boundary faces
+  std::int64_t n_inner_walls = 0;  ///< faces of boundary zones between two cells, taken as inner faces
 };
 
 /// The kind of patch that a zone of that type and name is.

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint64_t k_max_count = std::numeric_limits<std::int32_t>::max();
 constexpr std::size_t k_most_faces_of_cell = 6;
-constexpr std::size_t k_max_hex = 9;                          // digits of 32 bits and a blank
-constexpr std::size_t k_max_face_line = 2 + 6 * k_max_hex;    // "4 n n n n c c\n"
+constexpr std::size_t k_max_hex = 9;                        // digits of 32 bits and a blank
+constexpr std::size_t k_max_face_line = 2 + 6 * k_max_hex;  // "4 n n n n c c\n"
 constexpr std::size_t k_max_point_line = 3 * (k_max_real_text + 1);
 constexpr int k_fluid_zone = 2, k_interior_zone = 3, k_first_patch_zone = 4;
 constexpr std::uint64_t k_types_per_line = 40;
@@ -71,7 +71,8 @@ char* put_face(char* at, std::span<const NodeId> nodes, std::uint64_t inner, std
 
 class FluentWriter {
  public:
-  FluentWriter(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) : mesh_(mesh), faces_(mesh, context.part("faces", 0.0, 0.3)), by_patch_(mesh) {
+  FluentWriter(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context)
+      : mesh_(mesh), faces_(mesh, context.part("faces", 0.0, 0.3)), by_patch_(mesh) {
     n_faces_ = faces_.n_internal() + mesh.boundary_triangles.size() + mesh.boundary_quads.size();
     require_count(mesh.points.size(), k_max_count, "nodes", "Fluent", path.string());
     require_count(n_faces_, k_max_count, "faces", "Fluent", path.string());
@@ -144,7 +145,8 @@ class FluentWriter {
   void add_internal_faces() {
     sections_.push_back({.n_items = faces_.n_cells(), .format = [this](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
                            char* at = out.reserve((end - begin) * k_most_faces_of_cell * k_max_face_line);
-                           faces_.for_each_internal(begin, end, [&](std::uint64_t cell, const CellFace& face) { at = put_face(at, face.span(), cell + 1, face.neighbour + 1ull); });
+                           faces_.for_each_internal(
+                               begin, end, [&](std::uint64_t cell, const CellFace& face) { at = put_face(at, face.span(), cell + 1, face.neighbour + 1ull); });
                            out.end_at(at);
                          }});
   }
@@ -171,8 +173,8 @@ void warn_of_lost_kinds(const HybridMesh& mesh, const std::vector<std::string>& 
     const ZoneType type = zone_type(kind);
     const PatchKind back = kind_of_fluent_zone(type.number, names[patch.index()]);
     if (back == kind) continue;
-    context.warn("patch \"" + names[patch.index()] + "\" (" + std::string(to_string(kind)) + ") is written as a Fluent zone of type " + std::string(type.word) + ", which is read as " + std::string(to_string(back)) +
-                 (kind == PatchKind::slip ? ": set its shear stress to zero in Fluent" : ""));
+    context.warn("patch \"" + names[patch.index()] + "\" (" + std::string(to_string(kind)) + ") is written as a Fluent zone of type " + std::string(type.word) +
+                 ", which is read as " + std::string(to_string(back)) + (kind == PatchKind::slip ? ": set its shear stress to zero in Fluent" : ""));
   }
 }
 

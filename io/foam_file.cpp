@@ -33,7 +33,8 @@ std::filesystem::path packed_or_plain(const std::filesystem::path& path) {
   return !std::filesystem::exists(path, status) && std::filesystem::exists(packed, status) ? packed : path;
 }
 
-FoamFile::FoamFile(const std::filesystem::path& path, std::string_view object_class, const RunContext& context) : buffer_(load_file(packed_or_plain(path), context)), text_(buffer_.text()) {
+FoamFile::FoamFile(const std::filesystem::path& path, std::string_view object_class, const RunContext& context)
+    : buffer_(load_file(packed_or_plain(path), context)), text_(buffer_.text()) {
   read_header(object_class);
 }
 
@@ -93,7 +94,8 @@ double FoamFile::real(std::string_view expected) {
   const std::string_view found = token();
   double value = 0.0;
   const auto [end, failure] = std::from_chars(found.data(), found.data() + found.size(), value);
-  if (failure == std::errc::result_out_of_range && end == found.data() + found.size()) value = std::strtod(std::string(found.substr(0, 64)).c_str(), nullptr);  // underflow is zero
+  if (failure == std::errc::result_out_of_range && end == found.data() + found.size())
+    value = std::strtod(std::string(found.substr(0, 64)).c_str(), nullptr);  // underflow is zero
   else if (found.empty() || failure != std::errc{} || end != found.data() + found.size())
     fail("found " + (found.empty() ? "the end of the file" : quoted_excerpt(found)) + ", expected " + std::string(expected));
   if (!std::isfinite(value)) fail("found " + quoted_excerpt(found) + ", expected " + std::string(expected) + " (a finite number)");
@@ -104,7 +106,8 @@ std::uint64_t FoamFile::count(std::string_view expected, std::size_t min_bytes) 
   const std::int64_t n = integer(expected);
   const std::size_t limit = (text_.size() - position_) / min_bytes;
   if (n < 0 || static_cast<std::uint64_t>(n) > limit)
-    fail("found " + std::to_string(n) + " as " + std::string(expected) + ", but the " + std::to_string(text_.size() - position_) + " bytes left in the file hold at most " + std::to_string(limit));
+    fail("found " + std::to_string(n) + " as " + std::string(expected) + ", but the " + std::to_string(text_.size() - position_) +
+         " bytes left in the file hold at most " + std::to_string(limit));
   return static_cast<std::uint64_t>(n);
 }
 
@@ -142,12 +145,15 @@ void FoamFile::begin_bytes(std::uint64_t n, std::size_t size, std::string_view e
   expect("(");
   if (n > (text_.size() - position_) / size)
     throw_malformed(buffer_.source, "byte " + std::to_string(position_),
-                    "found " + std::to_string(text_.size() - position_) + " bytes to the end of the file, expected " + std::to_string(n) + " times " + std::to_string(size) + " bytes: " + std::string(expected),
+                    "found " + std::to_string(text_.size() - position_) + " bytes to the end of the file, expected " + std::to_string(n) + " times " +
+                        std::to_string(size) + " bytes: " + std::string(expected),
                     "the file may have been cut short: copy or write it again");
 }
 
 void FoamFile::end_bytes() {
-  if (position_ >= text_.size() || text_[position_] != ')') throw_malformed(buffer_.source, "byte " + std::to_string(position_), "found no \")\" behind the list", "the size of labels or scalars may not be that of the header");
+  if (position_ >= text_.size() || text_[position_] != ')')
+    throw_malformed(buffer_.source, "byte " + std::to_string(position_), "found no \")\" behind the list",
+                    "the size of labels or scalars may not be that of the header");
   ++position_;
 }
 
@@ -167,7 +173,8 @@ double FoamFile::take_scalar() {
 
 std::uint32_t FoamFile::checked(std::int64_t label, std::string_view expected, std::uint64_t limit) const {
   if (label < 0 || static_cast<std::uint64_t>(label) >= limit) {
-    const std::string problem = "found " + std::to_string(label) + " as " + std::string(expected) + ", expected 0 to " + std::to_string(static_cast<std::int64_t>(limit) - 1);
+    const std::string problem =
+        "found " + std::to_string(label) + " as " + std::string(expected) + ", expected 0 to " + std::to_string(static_cast<std::int64_t>(limit) - 1);
     if (is_binary_) throw_malformed(buffer_.source, "byte " + std::to_string(position_), problem);
     fail(problem);
   }
@@ -176,7 +183,8 @@ std::uint32_t FoamFile::checked(std::int64_t label, std::string_view expected, s
 
 std::vector<std::uint32_t> FoamFile::labels(std::string_view expected, std::uint64_t limit, std::uint64_t label_limit) {
   const std::int64_t announced = integer("the number of entries");
-  if (announced < 0 || static_cast<std::uint64_t>(announced) > limit) fail("found " + std::to_string(announced) + " entries, expected at most " + std::to_string(limit));
+  if (announced < 0 || static_cast<std::uint64_t>(announced) > limit)
+    fail("found " + std::to_string(announced) + " entries, expected at most " + std::to_string(limit));
   const auto n = static_cast<std::uint64_t>(announced);
   if (n == 0) {
     if (peek() == "(") {
@@ -245,7 +253,8 @@ void FoamFile::label_lists(std::string_view expected, std::uint64_t label_limit,
   expect(")");
 }
 
-void FoamFile::compact_label_lists(std::string_view expected, std::uint64_t label_limit, std::vector<std::uint32_t>& values, std::vector<std::uint64_t>& first) {
+void FoamFile::compact_label_lists(std::string_view expected, std::uint64_t label_limit, std::vector<std::uint32_t>& values,
+                                   std::vector<std::uint64_t>& first) {
   constexpr std::uint64_t k_any = 0xffffffff;  // offsets of compact lists are labels
   const std::uint64_t limit = text_.size();    // an entry takes a byte at least
   const std::vector<std::uint32_t> offsets = labels("the place of a face's first node", limit, k_any);

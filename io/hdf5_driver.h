@@ -1,7 +1,6 @@
 // How libhdf5 reaches an AtomicFile: a virtual file driver. For hdf5_output.cpp alone, which includes hdf5.h.
 #pragma once
 
-
 #include <cstdint>
 #include <exception>
 
@@ -9,8 +8,8 @@
 
 namespace sterna::io {
 
-/// What the library writes goes to the file until that fails; then the failure is kept and the rest goes nowhere, because the library crashes at the end of the program where it cannot
-/// write what it needs to close a file, be it on a full disk.
+/// What the library writes goes to the file until that fails; then the failure is kept and the rest goes nowhere, because the library crashes at the end of the
+/// program where it cannot write what it needs to close a file, be it on a full disk.
 class Hdf5Driver {
  public:
   /// \pre `file` outlives the driver, which outlives the library's file

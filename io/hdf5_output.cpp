@@ -1,4 +1,5 @@
-// Steps: all groups and datasets with their places (the structure is complete before the first value), the values in slabs, the file closed, synced and renamed.
+// Steps: all groups and datasets with their places (the structure is complete before the first value), the values in slabs, the file closed, synced and
+// renamed.
 #include "io/hdf5_output.h"
 
 #include <hdf5.h>
@@ -38,7 +39,8 @@ class QuietLibrary {
     return 0;
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, take, &text);
-  throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + file.path().string(), .problem = std::string(doing) + ": the HDF5 library says: " + text});
+  throw Error(
+      {.code = ErrorCode::write_failed, .attempted = "writing " + file.path().string(), .problem = std::string(doing) + ": the HDF5 library says: " + text});
 }
 
 /// Closes what the library opened.
@@ -100,7 +102,8 @@ class Hdf5Writer {
 
   /// A group keeps and indexes the order of creation (CGNS lists children by it), and no times.
   static void set_up_group(const AtomicFile& file, hid_t plist) {
-    if (H5Pset_link_creation_order(plist, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) < 0 || H5Pset_obj_track_times(plist, false) < 0) fail(file, "creating the structure");
+    if (H5Pset_link_creation_order(plist, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) < 0 || H5Pset_obj_track_times(plist, false) < 0)
+      fail(file, "creating the structure");
   }
 
   static Handle create(const AtomicFile& file, Hdf5Driver& driver) {
@@ -131,7 +134,8 @@ class Hdf5Writer {
       require(H5Tset_strpad(type, attribute.bytes.ends_with('\0') ? H5T_STR_NULLTERM : H5T_STR_NULLPAD), "creating the structure");
     }
     const std::vector<hsize_t> extents(attribute.extents.begin(), attribute.extents.end());
-    const Handle space(file_, extents.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose, "creating the structure");
+    const Handle space(file_, extents.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose,
+                       "creating the structure");
     const Handle created(file_, H5Acreate2(object, attribute.name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "creating the structure");
     require(H5Awrite(created, type, attribute.bytes.data()), "writing an attribute");
   }
@@ -144,7 +148,8 @@ class Hdf5Writer {
     require(H5Pset_fill_time(plist, H5D_FILL_TIME_NEVER), "creating the structure");
     const std::vector<hsize_t> extents(node.array.extents.begin(), node.array.extents.end());
     const Handle space(file_, H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose, "creating the structure");
-    datasets_.emplace_back(file_, H5Dcreate2(group, node.name.c_str(), standard_type(node.array.kind), space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose, "creating the structure");
+    datasets_.emplace_back(file_, H5Dcreate2(group, node.name.c_str(), standard_type(node.array.kind), space, H5P_DEFAULT, plist, H5P_DEFAULT), H5Dclose,
+                           "creating the structure");
     arrays_.push_back(&node.array);
     for (const Hdf5OutputAttribute& attribute : node.attributes) add_attribute(datasets_.back(), attribute);
   }
@@ -158,7 +163,8 @@ class Hdf5Writer {
     std::vector<hsize_t> start(array.extents.size(), 0), count(array.extents.begin(), array.extents.end());
     start[0] = first_value / row;
     count[0] = n_values / row;
-    if (first_value % row != 0 || n_values % row != 0) throw Error({.code = ErrorCode::internal, .attempted = "writing an HDF5 array", .problem = "its values come in parts of rows"});
+    if (first_value % row != 0 || n_values % row != 0)
+      throw Error({.code = ErrorCode::internal, .attempted = "writing an HDF5 array", .problem = "its values come in parts of rows"});
     require(H5Sselect_hyperslab(in_file, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), "writing");
     const Handle in_memory(file_, H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose, "writing");
     require(H5Dwrite(datasets_[number], standard_type(array.kind), in_memory, in_file, H5P_DEFAULT, bytes.data()), "writing");

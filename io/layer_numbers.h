@@ -1,5 +1,5 @@
-// Numbers of what columns have layer by layer (cells, faces of a side), one column after the other: arithmetic where all columns have as many layers, a table of
-// beginnings where they differ.
+// Numbers of what columns have layer by layer (cells, faces of a side), one column after the other: arithmetic where all columns have as many layers, a table
+// of beginnings where they differ.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,8 @@ class LayerNumbers {
   LayerNumbers() = default;
   /// Of n columns, the i-th of them column_of(i) of the block.
   template <class ColumnOf>
-  LayerNumbers(const LayerBlock& layers, std::uint64_t n, const ColumnOf& column_of) : per_column_(static_cast<std::uint64_t>(std::max(layers.n_layers, 0))), size_(n * per_column_) {
+  LayerNumbers(const LayerBlock& layers, std::uint64_t n, const ColumnOf& column_of)
+      : per_column_(static_cast<std::uint64_t>(std::max(layers.n_layers, 0))), size_(n * per_column_) {
     if (layers.is_uniform()) return;
     first_.resize(n + 1, 0);
     for (std::uint64_t i = 0; i < n; ++i) first_[i + 1] = first_[i] + static_cast<std::uint64_t>(layers.layers_of_column(column_of(i)));

@@ -28,7 +28,8 @@ void remove_if_left(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return;
   struct stat status {};
-  const bool is_old = ::fstat(descriptor, &status) == 0 && (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) && ::time(nullptr) - status.st_mtime > k_least_age;
+  const bool is_old =
+      ::fstat(descriptor, &status) == 0 && (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) && ::time(nullptr) - status.st_mtime > k_least_age;
   std::error_code ignored;  // it does no harm where it is
   if (is_old && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && is_still_named(path, status)) std::filesystem::remove_all(path, ignored);
   ::close(descriptor);

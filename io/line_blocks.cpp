@@ -54,7 +54,8 @@ double LineCursor::real(const char* expected, std::uint64_t number) {
   // What from_chars does not take: values below the smallest double, and Fortran's exponent 1.0D-3.
   const char* const field_end = std::find_if(first, end_, ends_field);
   std::string spelling(first, std::min(static_cast<std::size_t>(field_end - first), k_longest_number));
-  std::replace_if(spelling.begin(), spelling.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
+  std::replace_if(
+      spelling.begin(), spelling.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
   const bool is_decimal = !spelling.empty() && spelling.find_first_not_of("+-.0123456789eE") == std::string::npos;
   char* parsed = nullptr;
   value = std::strtod(spelling.c_str(), &parsed);
@@ -98,14 +99,12 @@ LineBlock LineCursor::take_block(std::uint64_t n, std::string_view keyword) {
   return block;
 }
 
-void LineCursor::fail(std::string_view problem, std::string_view hint) const {
-  throw_malformed(source_, "line " + std::to_string(line_), problem, hint);
-}
+void LineCursor::fail(std::string_view problem, std::string_view hint) const { throw_malformed(source_, "line " + std::to_string(line_), problem, hint); }
 
 void LineCursor::fail_expected(const char* expected, std::uint64_t number) const {
   const std::string_view found = rest_of_line();
-  fail("found " + (found.empty() ? std::string("the end of the line") : quoted_excerpt(found.substr(0, found.find_first_of(" \t,")))) + ", expected " + expected +
-       std::to_string(number));
+  fail("found " + (found.empty() ? std::string("the end of the line") : quoted_excerpt(found.substr(0, found.find_first_of(" \t,")))) + ", expected " +
+       expected + std::to_string(number));
 }
 
 }  // namespace sterna::io

@@ -41,7 +41,8 @@ class LineCursor {
   /// From the position to the end of the line, without blanks at its end.
   std::string_view rest_of_line() const;
 
-  /// Fields of the current line; blanks or commas before them are skipped. \p expected: "coordinate of node 7"; the number is added to the text when it is given.
+  /// Fields of the current line; blanks or commas before them are skipped. \p expected: "coordinate of node 7"; the number is added to the text when it is
+  /// given.
   double real(const char* expected, std::uint64_t number);
   std::uint64_t integer(const char* expected, std::uint64_t number);
   /// An integer below `limit`.

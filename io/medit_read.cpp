@@ -42,13 +42,15 @@ struct Table {
 /// What a file holds, in any of its forms.
 class MeditReader {
  public:
-  MeditReader(const FileBuffer& buffer, bool with_cells, const RunContext& context) : buffer_(buffer), scanner_(buffer, {.comment = '#'}), with_cells_(with_cells), context_(context) {}
+  MeditReader(const FileBuffer& buffer, bool with_cells, const RunContext& context)
+      : buffer_(buffer), scanner_(buffer, {.comment = '#'}), with_cells_(with_cells), context_(context) {}
 
   void read() {
     const std::string_view text = buffer_.text();
     const bool is_binary = text.size() >= 8 && (text.substr(0, 4) == std::string_view("\1\0\0\0", 4) || text.substr(0, 4) == std::string_view("\0\0\0\1", 4));
     is_binary ? read_binary() : read_text();
-    if (!has_vertices_) throw_malformed(buffer_.source, is_binary ? "byte " + std::to_string(text.size()) : "line " + std::to_string(scanner_.line()), "found no Vertices");
+    if (!has_vertices_)
+      throw_malformed(buffer_.source, is_binary ? "byte " + std::to_string(text.size()) : "line " + std::to_string(scanner_.line()), "found no Vertices");
     check_nodes(triangles_, "triangle");
     check_nodes(quads_, "quadrilateral");
     check_nodes(tetrahedra_, "tetrahedron");
@@ -112,10 +114,13 @@ class MeditReader {
     for (;;) {
       context_.check_stop();
       const auto code = bytes_->read<std::int32_t>("the code of a section");
-      const std::uint64_t next = version_ >= 3 ? bytes_->read<std::uint64_t>("the place of the next section") : bytes_->read<std::uint32_t>("the place of the next section");
+      const std::uint64_t next =
+          version_ >= 3 ? bytes_->read<std::uint64_t>("the place of the next section") : bytes_->read<std::uint32_t>("the place of the next section");
       if (code == k_medit_end) return;
       if (next != 0 && (next < bytes_->offset() || next > buffer_.bytes.size()))
-        bytes_->fail("found " + std::to_string(next) + " as the place of the next section, expected " + std::to_string(bytes_->offset()) + " to " + std::to_string(buffer_.bytes.size()), "the file may have been cut short: copy or write it again");
+        bytes_->fail("found " + std::to_string(next) + " as the place of the next section, expected " + std::to_string(bytes_->offset()) + " to " +
+                         std::to_string(buffer_.bytes.size()),
+                     "the file may have been cut short: copy or write it again");
       if (code == k_medit_dimension) require_three(bytes_->read<std::int32_t>("3 dimensions"));
       else if (std::find(k_curved_codes.begin(), k_curved_codes.end(), code) != k_curved_codes.end()) throw_curved("code " + std::to_string(code));
       else read_section([&](const MeditSection& section) { return section.code == code; });
@@ -203,7 +208,8 @@ class MeditReader {
       Row<N> row;
       for (NodeId& node : row.nodes) {
         const std::int64_t number = integer("a vertex of an element");
-        if (number < 1 || number >= static_cast<std::int64_t>(NodeId::k_invalid)) fail("found " + std::to_string(number) + " as a vertex of an element, expected 1 or more");
+        if (number < 1 || number >= static_cast<std::int64_t>(NodeId::k_invalid))
+          fail("found " + std::to_string(number) + " as a vertex of an element, expected 1 or more");
         node = NodeId(static_cast<std::uint32_t>(number - 1));
       }
       row.reference = integer("the reference of an element");
@@ -216,13 +222,16 @@ class MeditReader {
     for (std::size_t i = 0; i < table.rows.size(); ++i)
       for (const NodeId node : table.rows[i].nodes)
         if (node.index() >= points_.size())
-          throw_malformed(buffer_.source, place_of(table, i), std::string(what) + " " + std::to_string(i + 1) + " has the vertex " + std::to_string(node.value() + 1ull) + ", there are " + std::to_string(points_.size()));
+          throw_malformed(buffer_.source, place_of(table, i),
+                          std::string(what) + " " + std::to_string(i + 1) + " has the vertex " + std::to_string(node.value() + 1ull) + ", there are " +
+                              std::to_string(points_.size()));
   }
 
   /// "line 12" or "byte 80" of a row.
   template <std::size_t N>
   std::string place_of(const Table<N>& table, std::size_t i) {
-    const auto after = std::upper_bound(table.starts.begin(), table.starts.end(), i, [](std::size_t row, const SectionStart& start) { return row < start.first_row; });
+    const auto after =
+        std::upper_bound(table.starts.begin(), table.starts.end(), i, [](std::size_t row, const SectionStart& start) { return row < start.first_row; });
     const SectionStart& start = *(after - 1);
     const std::size_t n_before = i - start.first_row;
     if (bytes_) return "byte " + std::to_string(start.offset + n_before * (N + 1) * integer_bytes());

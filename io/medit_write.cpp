@@ -16,9 +16,9 @@ constexpr std::uint64_t k_max_int32 = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t k_fluid = 1;  // reference of all cells
 constexpr std::size_t k_max_row = 9 * (k_max_integer_text + 1);
 constexpr std::array<std::pair<MeditSection, CellKind>, 4> k_cell_sections = {{{k_medit_tetrahedra, CellKind::tetrahedron},
-                                                                              {k_medit_prisms, CellKind::prism},
-                                                                              {k_medit_pyramids, CellKind::pyramid},
-                                                                              {k_medit_hexahedra, CellKind::hexahedron}}};
+                                                                               {k_medit_prisms, CellKind::prism},
+                                                                               {k_medit_pyramids, CellKind::pyramid},
+                                                                               {k_medit_hexahedra, CellKind::hexahedron}}};
 
 class MeditWriter {
  public:
@@ -33,7 +33,9 @@ class MeditWriter {
     if (!is_given) version_ = !fits_32 ? 4 : 2;
     if (is_text_) return;
     if (!is_given && version_ == 2 && total_bytes() > k_max_int32) version_ = 3;
-    if (version_ < 4) require_count(std::max<std::uint64_t>(mesh.points.size(), cells_.total()), k_max_int32, "vertices or cells", "Medit's version " + std::to_string(version_), path.string());
+    if (version_ < 4)
+      require_count(std::max<std::uint64_t>(mesh.points.size(), cells_.total()), k_max_int32, "vertices or cells",
+                    "Medit's version " + std::to_string(version_), path.string());
     if (version_ == 2) require_count(total_bytes(), k_max_int32, "bytes", "Medit's version 2", path.string());
   }
 
@@ -64,7 +66,9 @@ class MeditWriter {
   std::size_t place_bytes() const { return version_ >= 3 ? 8 : 4; }
   std::size_t integer_bytes() const { return version_ >= 4 ? 8 : 4; }
   std::uint64_t section_bytes(std::uint64_t n, std::uint64_t row_bytes) const { return n == 0 ? 0 : 4 + place_bytes() + integer_bytes() + n * row_bytes; }
-  std::uint64_t row_bytes(const MeditSection& section) const { return (section.n_nodes + 1) * integer_bytes() + (section.n_nodes == 0 ? 3 * sizeof(double) : 0); }
+  std::uint64_t row_bytes(const MeditSection& section) const {
+    return (section.n_nodes + 1) * integer_bytes() + (section.n_nodes == 0 ? 3 * sizeof(double) : 0);
+  }
 
   std::uint64_t total_bytes() const {
     std::uint64_t n = 8 + (4 + place_bytes() + 4) + (4 + place_bytes());
@@ -77,7 +81,8 @@ class MeditWriter {
   void raw(std::string_view bytes) { pending_ += bytes; }
   void number(std::uint64_t value, std::size_t n_bytes) {
     std::array<char, 8> bytes;
-    char* const end = n_bytes == 8 ? put_bytes(bytes.data(), value, std::endian::little) : put_bytes(bytes.data(), static_cast<std::uint32_t>(value), std::endian::little);
+    char* const end =
+        n_bytes == 8 ? put_bytes(bytes.data(), value, std::endian::little) : put_bytes(bytes.data(), static_cast<std::uint32_t>(value), std::endian::little);
     raw({bytes.data(), static_cast<std::size_t>(end - bytes.data())});
   }
   void flush() {

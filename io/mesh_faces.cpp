@@ -35,7 +35,10 @@ std::string place_of(const HybridMesh& mesh, const CellFace& face) {
 }
 
 [[noreturn]] void throw_invalid(const std::string& problem) {
-  throw Error({.code = ErrorCode::mesh_invalid, .attempted = "finding the cells on both sides of the faces", .problem = problem, .hint = "`sterna check` lists what is wrong with the mesh"});
+  throw Error({.code = ErrorCode::mesh_invalid,
+               .attempted = "finding the cells on both sides of the faces",
+               .problem = problem,
+               .hint = "`sterna check` lists what is wrong with the mesh"});
 }
 
 }  // namespace
@@ -178,7 +181,8 @@ std::size_t MeshFaces::faces_of(std::uint64_t cell, std::array<CellFace, k_most_
     faces[2 + k] = side(column, k, layer);
     const std::uint32_t beside = beside_[3 * live + k];
     if (faces[2 + k].size == 0) continue;
-    faces[2 + k].neighbour = beside < n_live_ ? static_cast<std::uint32_t>(cells_.first(beside) + layer_number) : partner_[first_open_ + open_faces_.first(beside - n_live_) + layer_number];
+    faces[2 + k].neighbour = beside < n_live_ ? static_cast<std::uint32_t>(cells_.first(beside) + layer_number)
+                                              : partner_[first_open_ + open_faces_.first(beside - n_live_) + layer_number];
   }
   return 5;
 }
@@ -210,7 +214,8 @@ CellFace MeshFaces::loose_face(Slot slot) const {
     return face;
   }
   const std::uint64_t i = slot - first_boundary_, n_triangles = mesh_->boundary_triangles.size();
-  const std::span<const NodeId> nodes = i < n_triangles ? std::span<const NodeId>(mesh_->boundary_triangles[i].nodes) : std::span<const NodeId>(mesh_->boundary_quads[i - n_triangles].nodes);
+  const std::span<const NodeId> nodes =
+      i < n_triangles ? std::span<const NodeId>(mesh_->boundary_triangles[i].nodes) : std::span<const NodeId>(mesh_->boundary_quads[i - n_triangles].nodes);
   face.size = static_cast<std::uint32_t>(nodes.size());
   std::copy(nodes.begin(), nodes.end(), face.nodes.begin());
   face.neighbour = k_boundary;

@@ -23,16 +23,15 @@ struct CellFace {
 };
 
 /// Faces of a mesh that must outlive it. Cells are numbered as for_each_cell() meets them: column by column, layer by layer, then prisms, pyramids, hexahedra,
-/// tetrahedra. Inside the columns neighbours follow from the numbering; only the other faces are matched through a table: 12 bytes for each of them and 4 for each node
-/// (0.7 GB for 25 M nodes, 45 M prisms, 17 M tetrahedra).
-/// Based on: counting sort of faces by their lowest node.
+/// tetrahedra. Inside the columns neighbours follow from the numbering; only the other faces are matched through a table: 12 bytes for each of them and 4 for
+/// each node (0.7 GB for 25 M nodes, 45 M prisms, 17 M tetrahedra). Based on: counting sort of faces by their lowest node.
 class MeshFaces {
  public:
   static constexpr std::uint32_t k_boundary = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::size_t k_most_faces = 6;
 
-  /// Parallel, same result for any number of threads. \throws Error mesh_invalid: a face of one cell only that is no boundary face, of three cells, a boundary face of
-  /// no cell, a node that does not exist; overflow: more than 2^32 - 2 cells or unmatched faces; cancelled
+  /// Parallel, same result for any number of threads. \throws Error mesh_invalid: a face of one cell only that is no boundary face, of three cells, a boundary
+  /// face of no cell, a node that does not exist; overflow: more than 2^32 - 2 cells or unmatched faces; cancelled
   MeshFaces(const HybridMesh& mesh, const RunContext& context);
 
   std::uint64_t n_cells() const { return n_column_cells_ + n_explicit_; }
@@ -59,8 +58,10 @@ class MeshFaces {
     std::array<CellFace, k_most_faces> faces;
     for (std::uint64_t cell = begin; cell < end; ++cell) {
       const std::size_t n = faces_of(cell, faces);
-      const auto last = std::remove_if(faces.begin(), faces.begin() + n, [&](const CellFace& face) { return face.size == 0 || face.neighbour == k_boundary || face.neighbour <= cell; });
-      std::sort(faces.begin(), last, [](const CellFace& a, const CellFace& b) { return a.neighbour != b.neighbour ? a.neighbour < b.neighbour : a.nodes < b.nodes; });
+      const auto last = std::remove_if(faces.begin(), faces.begin() + n,
+                                       [&](const CellFace& face) { return face.size == 0 || face.neighbour == k_boundary || face.neighbour <= cell; });
+      std::sort(faces.begin(), last,
+                [](const CellFace& a, const CellFace& b) { return a.neighbour != b.neighbour ? a.neighbour < b.neighbour : a.nodes < b.nodes; });
       for (auto face = faces.begin(); face != last; ++face) f(cell, *face);
     }
   }
@@ -99,8 +100,8 @@ class MeshFaces {
   std::vector<std::uint64_t> open_sides_;  ///< 3 * live column + side
   LayerNumbers open_faces_;                ///< of open sides
   Slot first_open_ = 0, first_boundary_ = 0, n_slots_ = 0;
-  std::vector<std::uint32_t> partner_;     ///< per slot
-  std::vector<Count> internal_before_;     ///< per k_count_interval cells
+  std::vector<std::uint32_t> partner_;  ///< per slot
+  std::vector<Count> internal_before_;  ///< per k_count_interval cells
 };
 
 }  // namespace sterna::io

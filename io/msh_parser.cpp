@@ -1,5 +1,5 @@
-// Gmsh MSH: sections between $Name and $EndName in any order (4.1: entities before elements). Tags are sparse: a map leads to point numbers. In binary files the sections
-// hold bytes, but their names, and in 2.2 their counts, stay text; so the text scanner leads, and a byte reader takes over inside a section.
+// Gmsh MSH: sections between $Name and $EndName in any order (4.1: entities before elements). Tags are sparse: a map leads to point numbers. In binary files
+// the sections hold bytes, but their names, and in 2.2 their counts, stay text; so the text scanner leads, and a byte reader takes over inside a section.
 #include "io/msh_parser.h"
 
 #include <bit>
@@ -46,8 +46,8 @@ std::size_t nodes_of_type(std::int64_t type) {
     case 9: return 6;   // triangle of second order
     case 10: return 9;  // quadrangle of second order, with and (16) without a node in its middle
     case 16: return 8;
-    case 11: return 10; // tetrahedron of second order
-    case 12: return 27; // hexahedra, prisms, pyramids of second order: complete, serendipity
+    case 11: return 10;  // tetrahedron of second order
+    case 12: return 27;  // hexahedra, prisms, pyramids of second order: complete, serendipity
     case 17: return 20;
     case 13: return 18;
     case 18: return 15;
@@ -66,10 +66,12 @@ class MshParser {
   MshParser(const FileBuffer& buffer, const RunContext& context, MshSink& sink) : buffer_(buffer), scanner_(buffer), context_(context), sink_(sink) {}
 
   bool parse() {
-    if (scanner_.peek().starts_with('(')) throw_unsupported(scanner_.source(), "this is a Fluent mesh, not one of Gmsh", "save as MSH 4.1 ASCII of Gmsh, or as STL");
+    if (scanner_.peek().starts_with('('))
+      throw_unsupported(scanner_.source(), "this is a Fluent mesh, not one of Gmsh", "save as MSH 4.1 ASCII of Gmsh, or as STL");
     scanner_.keyword("$MeshFormat");
     const std::string version(scanner_.token("the format's version"));
-    if (version != "4.1" && version != "2.2") throw_unsupported(scanner_.source(), "MSH version " + version + " (4.1 and 2.2 are read)", "save as MSH 4.1 ASCII");
+    if (version != "4.1" && version != "2.2")
+      throw_unsupported(scanner_.source(), "MSH version " + version + " (4.1 and 2.2 are read)", "save as MSH 4.1 ASCII");
     const std::int64_t file_type = scanner_.integer("0 for text or 1 for binary");
     if (file_type != 0 && file_type != 1) scanner_.fail_expected("0 for text or 1 for binary");
     is_v4_ = version == "4.1";
@@ -96,7 +98,8 @@ class MshParser {
       has_elements = has_elements || section == "$Elements";
     }
     if (!has_nodes || !has_elements)
-      scanner_.fail("found the end of the file, expected the section " + std::string(has_nodes ? "$Elements" : "$Nodes"), "the file may have been cut short: copy or write it again");
+      scanner_.fail("found the end of the file, expected the section " + std::string(has_nodes ? "$Elements" : "$Nodes"),
+                    "the file may have been cut short: copy or write it again");
     return has_names_;
   }
 
@@ -145,8 +148,8 @@ class MshParser {
     if (!bytes_) return scanner_.count(expected, min_text);
     const std::int64_t n = tag(expected);
     if (n < 0 || static_cast<std::uint64_t>(n) > bytes_->remaining() / min_binary)
-      fail("found " + std::to_string(n) + " as " + std::string(expected) + ", but the " + std::to_string(bytes_->remaining()) + " bytes left in the file hold at most " +
-           std::to_string(bytes_->remaining() / min_binary));
+      fail("found " + std::to_string(n) + " as " + std::string(expected) + ", but the " + std::to_string(bytes_->remaining()) +
+           " bytes left in the file hold at most " + std::to_string(bytes_->remaining() / min_binary));
     return static_cast<std::size_t>(n);
   }
   [[noreturn]] void fail(const std::string& problem) const {
@@ -169,7 +172,8 @@ class MshParser {
   /// Without the sign, which tells that the group turns the entity round.
   std::int64_t read_physical_tag() {
     const std::int64_t tag = integer("the tag of a physical group");
-    if (std::abs(tag + (tag < 0 ? 1 : 0)) > k_max_physical_tag) fail("found " + std::to_string(tag) + " as the tag of a physical group, expected a number of 32 bits");
+    if (std::abs(tag + (tag < 0 ? 1 : 0)) > k_max_physical_tag)
+      fail("found " + std::to_string(tag) + " as the tag of a physical group, expected a number of 32 bits");
     return std::abs(tag);
   }
 
@@ -213,7 +217,9 @@ class MshParser {
 
   void add_node(std::int64_t tag, const Vec3& p) {
     const std::size_t number = point_of_tag_.size();
-    if (number >= k_max_points) throw Error({.code = ErrorCode::overflow, .attempted = "reading " + scanner_.source(), .problem = "more than " + std::to_string(k_max_points) + " nodes"});
+    if (number >= k_max_points)
+      throw Error(
+          {.code = ErrorCode::overflow, .attempted = "reading " + scanner_.source(), .problem = "more than " + std::to_string(k_max_points) + " nodes"});
     if (!point_of_tag_.emplace(tag, static_cast<std::uint32_t>(number)).second) fail("node " + std::to_string(tag) + " occurs twice");
     sink_.add_point(p);
   }

@@ -38,7 +38,8 @@ std::vector<std::string> names_by_rules(const Column<PatchId, Patch>& patches, c
       const std::string suffix = "_" + std::to_string(i);
       name = cut(stem, limit == std::string::npos ? limit : limit - suffix.size()) + suffix;
     }
-    if (name != patches[patch].name) context.warn("patch \"" + patches[patch].name + "\" is written as \"" + name + "\" in the " + std::string(rules.format) + " file");
+    if (name != patches[patch].name)
+      context.warn("patch \"" + patches[patch].name + "\" is written as \"" + name + "\" in the " + std::string(rules.format) + " file");
     names.push_back(std::move(name));
   }
   return names;

@@ -11,9 +11,12 @@
 namespace sterna::io {
 namespace {
 
-constexpr std::array k_kinds = {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface};
+constexpr std::array k_kinds = {PatchKind::wall,    PatchKind::slip,     PatchKind::symmetry, PatchKind::inflow,
+                                PatchKind::outflow, PatchKind::farfield, PatchKind::interface};
 
-bool is_version(const std::string& extension) { return extension.size() == 3 && extension[1] == 'v' && std::isdigit(static_cast<unsigned char>(extension[2])) != 0; }
+bool is_version(const std::string& extension) {
+  return extension.size() == 3 && extension[1] == 'v' && std::isdigit(static_cast<unsigned char>(extension[2])) != 0;
+}
 
 }  // namespace
 
@@ -49,7 +52,8 @@ std::map<std::int64_t, Patch> read_names(const std::filesystem::path& mesh_path,
 std::string names_text(const Column<PatchId, Patch>& patches, const RunContext& context) {
   const std::vector<std::string> names = names_by_rules(patches, {.format = ".names", .forbidden = "#"}, context);
   std::string text = "# patches: number kind name\n";
-  for (const PatchId patch : patches.ids()) text += std::to_string(patch.value() + 1) + " " + std::string(to_string(patches[patch].kind)) + " " + names[patch.index()] + "\n";
+  for (const PatchId patch : patches.ids())
+    text += std::to_string(patch.value() + 1) + " " + std::string(to_string(patches[patch].kind)) + " " + names[patch.index()] + "\n";
   return text;
 }
 

@@ -27,8 +27,10 @@ class NetcdfWriter {
     int fill_before = 0;
     require(nc_set_fill(id_, NC_NOFILL, &fill_before), "creating the structure");
     std::vector<int> dimensions, variables;
-    for (const NetcdfOutput::Dimension& dimension : contents.dimensions) require(nc_def_dim(id_, dimension.name.c_str(), dimension.length, &dimensions.emplace_back()), "creating the structure");
-    for (const auto& [name, text] : contents.attributes) require(nc_put_att_text(id_, NC_GLOBAL, name.c_str(), text.size(), text.data()), "creating the structure");
+    for (const NetcdfOutput::Dimension& dimension : contents.dimensions)
+      require(nc_def_dim(id_, dimension.name.c_str(), dimension.length, &dimensions.emplace_back()), "creating the structure");
+    for (const auto& [name, text] : contents.attributes)
+      require(nc_put_att_text(id_, NC_GLOBAL, name.c_str(), text.size(), text.data()), "creating the structure");
     std::vector<const OutputArray*> arrays;
     for (const NetcdfOutput::Variable& variable : contents.variables) {
       std::vector<int> own;
@@ -57,7 +59,9 @@ class NetcdfWriter {
   void require(int status, const char* doing) const {
     if (status == NC_NOERR) return;
     if (status > 0) file_.fail(status, doing);
-    throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + file_.path().string(), .problem = std::string(doing) + ": the NetCDF library says: " + nc_strerror(status)});
+    throw Error({.code = ErrorCode::write_failed,
+                 .attempted = "writing " + file_.path().string(),
+                 .problem = std::string(doing) + ": the NetCDF library says: " + nc_strerror(status)});
   }
 
   AtomicFile& file_;

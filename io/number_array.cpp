@@ -18,8 +18,17 @@ T number_at(const NumberArray& array, std::uint64_t i) {
 }
 
 std::string_view name_of(NumberKind kind) {
-  constexpr std::array<std::string_view, 11> k_names = {"8-bit integers", "8-bit unsigned integers", "16-bit integers", "16-bit unsigned integers", "32-bit integers", "32-bit unsigned integers",
-                                                        "64-bit integers", "64-bit unsigned integers", "32-bit reals", "64-bit reals", "text"};
+  constexpr std::array<std::string_view, 11> k_names = {"8-bit integers",
+                                                        "8-bit unsigned integers",
+                                                        "16-bit integers",
+                                                        "16-bit unsigned integers",
+                                                        "32-bit integers",
+                                                        "32-bit unsigned integers",
+                                                        "64-bit integers",
+                                                        "64-bit unsigned integers",
+                                                        "32-bit reals",
+                                                        "64-bit reals",
+                                                        "text"};
   return k_names[static_cast<std::size_t>(kind)];
 }
 

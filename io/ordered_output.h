@@ -20,7 +20,9 @@ class ByteBuffer {
     return bytes_.get() + size_;
   }
   void end_at(const char* end) { size_ = static_cast<std::size_t>(end - bytes_.get()); }
-  void append(std::string_view text) { end_at(text.data() ? std::char_traits<char>::copy(reserve(text.size()), text.data(), text.size()) + text.size() : reserve(0)); }
+  void append(std::string_view text) {
+    end_at(text.data() ? std::char_traits<char>::copy(reserve(text.size()), text.data(), text.size()) + text.size() : reserve(0));
+  }
   void clear() { size_ = 0; }
   std::size_t size() const { return size_; }
   std::string_view view() const { return {bytes_.get(), size_}; }

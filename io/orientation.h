@@ -15,8 +15,8 @@ struct FlipCounts {
   std::int64_t faces = 0;
 };
 
-/// Flips every explicit cell of negative volume (tets and wedges: two nodes swapped in each triangle; pyramids, hexahedra: in each quad), then turns every boundary face that is
-/// the reverse of a cell's face. Both are told in the log. Faces of no cell, and faces with crossed quads, stay; `check` reports them.
+/// Flips every explicit cell of negative volume (tets and wedges: two nodes swapped in each triangle; pyramids, hexahedra: in each quad), then turns every
+/// boundary face that is the reverse of a cell's face. Both are told in the log. Faces of no cell, and faces with crossed quads, stay; `check` reports them.
 /// \pre node ids in range. Parallel, same result for any number of threads.
 FlipCounts orient_mesh(HybridMesh& mesh, const RunContext& context);
 

@@ -13,7 +13,8 @@
 
 namespace sterna::io {
 
-/// Values to be written: kind and extents (slowest first); the sections of `content` together give byte_size(kind) * product of extents bytes, little endian, in items of any size.
+/// Values to be written: kind and extents (slowest first); the sections of `content` together give byte_size(kind) * product of extents bytes, little endian,
+/// in items of any size.
 struct OutputArray {
   NumberKind kind = NumberKind::i4;
   std::vector<std::uint64_t> extents;

@@ -47,13 +47,16 @@ PointField read_point_field(const std::filesystem::path& path, const std::string
     const VtuValues coordinates = decoder.decode(*piece.points);
     const std::size_t n = coordinates.size() / 3;
     if (n == 0) continue;
-    if (!piece.values) throw_malformed(buffer.source, where, "found no point data \"" + name + "\", there is " + (outline.names.empty() ? "none" : outline.names));
+    if (!piece.values)
+      throw_malformed(buffer.source, where, "found no point data \"" + name + "\", there is " + (outline.names.empty() ? "none" : outline.names));
     const VtuValues values = decoder.decode(*piece.values);
-    if (values.size() != n) throw_malformed(buffer.source, where, "found " + std::to_string(values.size()) + " values of \"" + name + "\" for " + std::to_string(n) + " points");
+    if (values.size() != n)
+      throw_malformed(buffer.source, where, "found " + std::to_string(values.size()) + " values of \"" + name + "\" for " + std::to_string(n) + " points");
     for (std::size_t i = 0; i < n; ++i) {
       field.points.push_back({coordinates.real(3 * i), coordinates.real(3 * i + 1), coordinates.real(3 * i + 2)});
       field.values.push_back(values.real(i));
-      if (!is_finite(field.points.back()) || !std::isfinite(field.values.back())) throw_malformed(buffer.source, where, "point " + std::to_string(i) + " or its value is not finite");
+      if (!is_finite(field.points.back()) || !std::isfinite(field.values.back()))
+        throw_malformed(buffer.source, where, "point " + std::to_string(i) + " or its value is not finite");
     }
   }
   if (field.points.empty()) throw_malformed(buffer.source, "byte 0", "found no points");

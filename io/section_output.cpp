@@ -23,7 +23,8 @@ OutputSection fixed_section(std::string bytes) {
 void write_sections(const TakeBytes& take, const std::vector<OutputSection>& sections, std::uint64_t items_per_chunk, const RunContext& context) {
   std::vector<Chunk> chunks;
   for (const OutputSection& section : sections)
-    for (std::uint64_t begin = 0; begin < section.n_items; begin += items_per_chunk) chunks.push_back({&section, begin, std::min(begin + items_per_chunk, section.n_items)});
+    for (std::uint64_t begin = 0; begin < section.n_items; begin += items_per_chunk)
+      chunks.push_back({&section, begin, std::min(begin + items_per_chunk, section.n_items)});
   write_ordered(
       take, chunks.size(), [&](std::size_t i, ByteBuffer& out) { chunks[i].section->format(chunks[i].begin, chunks[i].end, out); }, context);
 }

@@ -41,7 +41,7 @@ inline constexpr std::size_t k_max_integer_text = 20;
 
 /// Writes a number's bytes at `at`. \returns the place behind them
 template <class T>
-  requires std::is_arithmetic_v<T>
+requires std::is_arithmetic_v<T>
 char* put_bytes(char* at, T value, std::endian order) {
   auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
   if (order != std::endian::native) std::reverse(raw.begin(), raw.end());

@@ -39,8 +39,8 @@ struct SternaParts {
   const TriMesh* surface = nullptr;
   const StoredEnvelope* envelope = nullptr;  ///< of `surface`
   const StoredTetrahedra* tetrahedra = nullptr;
-  const HybridMesh* mesh = nullptr;          ///< its layers stay columns
-  std::string_view manifest = {};            ///< options
+  const HybridMesh* mesh = nullptr;  ///< its layers stay columns
+  std::string_view manifest = {};    ///< options
   std::string_view certificate = {};
   std::string_view quality = {};
 };
@@ -60,8 +60,8 @@ struct SternaContent {
 /// \throws Error mesh_invalid (columns of other lengths than their mesh, coordinates that are not finite), write_failed, cancelled
 void write_sterna(const SternaParts& parts, const std::filesystem::path& path, const RunContext& context);
 
-/// Reads everything, to the bit. Every chunk is compared with its hash, every number with its range: what comes back can be used without further checks of indices.
-/// \throws Error file_malformed (byte offset), unsupported_format (a later version), file_not_found
+/// Reads everything, to the bit. Every chunk is compared with its hash, every number with its range: what comes back can be used without further checks of
+/// indices. \throws Error file_malformed (byte offset), unsupported_format (a later version), file_not_found
 SternaContent read_sterna(const std::filesystem::path& path, const RunContext& context);
 
 /// The mesh of such a file, with its columns. \throws as read_sterna(); file_malformed when it holds none, with what it holds

@@ -9,24 +9,26 @@
 
 namespace sterna::io::part {
 
-inline constexpr std::string_view k_surface_points = "surface/points", k_surface_triangles = "surface/triangles", k_surface_triangle_patch = "surface/triangle_patch",
-                                  k_surface_patches = "surface/patches";
-inline constexpr std::string_view k_direction = "envelope/direction", k_height = "envelope/height", k_target = "envelope/target", k_eq1 = "envelope/eq1", k_cap = "envelope/cap",
-                                  k_limit = "envelope/limit", k_first_height = "envelope/first_height";
-inline constexpr std::string_view k_boundary_points = "tetrahedra/n_boundary_points", k_new_points = "tetrahedra/new_points", k_engine_tetrahedra = "tetrahedra/tetrahedra";
-inline constexpr std::string_view k_points = "mesh/points", k_prisms = "mesh/prisms", k_pyramids = "mesh/pyramids", k_hexahedra = "mesh/hexahedra", k_tetrahedra = "mesh/tetrahedra",
-                                  k_triangles = "mesh/boundary_triangles", k_triangle_patch = "mesh/boundary_triangle_patch", k_quads = "mesh/boundary_quads",
-                                  k_quad_patch = "mesh/boundary_quad_patch", k_patches = "mesh/patches", k_periodic_patches = "mesh/periodic/patches",
-                                  k_periodic_translations = "mesh/periodic/translations";
-inline constexpr std::string_view k_n_layers = "mesh/layers/n_layers", k_base = "mesh/layers/base", k_first_node = "mesh/layers/first_node", k_is_collapsed = "mesh/layers/is_collapsed",
-                                  k_line_layers = "mesh/layers/line_layers";
+inline constexpr std::string_view k_surface_points = "surface/points", k_surface_triangles = "surface/triangles",
+                                  k_surface_triangle_patch = "surface/triangle_patch", k_surface_patches = "surface/patches";
+inline constexpr std::string_view k_direction = "envelope/direction", k_height = "envelope/height", k_target = "envelope/target", k_eq1 = "envelope/eq1",
+                                  k_cap = "envelope/cap", k_limit = "envelope/limit", k_first_height = "envelope/first_height";
+inline constexpr std::string_view k_boundary_points = "tetrahedra/n_boundary_points", k_new_points = "tetrahedra/new_points",
+                                  k_engine_tetrahedra = "tetrahedra/tetrahedra";
+inline constexpr std::string_view k_points = "mesh/points", k_prisms = "mesh/prisms", k_pyramids = "mesh/pyramids", k_hexahedra = "mesh/hexahedra",
+                                  k_tetrahedra = "mesh/tetrahedra", k_triangles = "mesh/boundary_triangles", k_triangle_patch = "mesh/boundary_triangle_patch",
+                                  k_quads = "mesh/boundary_quads", k_quad_patch = "mesh/boundary_quad_patch", k_patches = "mesh/patches",
+                                  k_periodic_patches = "mesh/periodic/patches", k_periodic_translations = "mesh/periodic/translations";
+inline constexpr std::string_view k_n_layers = "mesh/layers/n_layers", k_base = "mesh/layers/base", k_first_node = "mesh/layers/first_node",
+                                  k_is_collapsed = "mesh/layers/is_collapsed", k_line_layers = "mesh/layers/line_layers";
 /// Version of files with k_line_layers: readers that do not know it would take each line for one of n_layers.
 inline constexpr std::uint32_t k_line_layers_version = 2;
-inline constexpr std::string_view k_request = "mesh/request/first_height_max_growth", k_request_target = "mesh/request/target_height", k_request_reason = "mesh/request/reason",
-                                  k_request_reasons = "mesh/request/reasons",
+inline constexpr std::string_view k_request = "mesh/request/first_height_max_growth", k_request_target = "mesh/request/target_height",
+                                  k_request_reason = "mesh/request/reason", k_request_reasons = "mesh/request/reasons",
                                   k_request_first_height = "mesh/request/first_height", k_request_max_growth = "mesh/request/max_growth";
 inline constexpr std::string_view k_manifest = "manifest", k_certificate = "certificate", k_quality = "quality";
 
-inline constexpr std::array k_patch_kinds = {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface};
+inline constexpr std::array k_patch_kinds = {PatchKind::wall,    PatchKind::slip,     PatchKind::symmetry, PatchKind::inflow,
+                                             PatchKind::outflow, PatchKind::farfield, PatchKind::interface};
 
 }  // namespace sterna::io::part

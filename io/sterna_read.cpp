@@ -38,8 +38,8 @@ class PartReader {
     if (!file_.has(name)) file_.fail(name, "is missing");
     const StoredArray& array = file_.at(name);
     if (array.type != type || array.n_components != n_components)
-      file_.fail(name, "found the type " + std::to_string(static_cast<int>(array.type)) + " with " + std::to_string(array.n_components) + " components, expected " +
-                           std::to_string(static_cast<int>(type)) + " with " + std::to_string(n_components));
+      file_.fail(name, "found the type " + std::to_string(static_cast<int>(array.type)) + " with " + std::to_string(array.n_components) +
+                           " components, expected " + std::to_string(static_cast<int>(type)) + " with " + std::to_string(n_components));
     std::vector<Item> values(array.n_values / n_components);
     file_.read(name, reinterpret_cast<char*>(values.data()), context_);
     return values;
@@ -70,7 +70,8 @@ class PartReader {
     const auto* const numbers = reinterpret_cast<const std::uint32_t*>(values.data());
     const std::size_t n = values.size() * (sizeof(Ids) / sizeof(std::uint32_t));
     for (std::size_t i = 0; i < n; ++i)
-      if (numbers[i] >= limit) file_.fail(name, "value " + std::to_string(i) + " is " + std::to_string(numbers[i]) + ", expected below " + std::to_string(limit));
+      if (numbers[i] >= limit)
+        file_.fail(name, "value " + std::to_string(i) + " is " + std::to_string(numbers[i]) + ", expected below " + std::to_string(limit));
   }
 
   template <std::size_t N>
@@ -162,21 +163,25 @@ class PartReader {
   LayerBlock layers(std::size_t n_points) const {
     LayerBlock block;
     const std::int64_t n_layers = integer(part::k_n_layers);
-    if (n_layers < 0 || static_cast<std::uint64_t>(n_layers) > n_points) file_.fail(part::k_n_layers, "found " + std::to_string(n_layers) + ", expected 0 to the number of points");
+    if (n_layers < 0 || static_cast<std::uint64_t>(n_layers) > n_points)
+      file_.fail(part::k_n_layers, "found " + std::to_string(n_layers) + ", expected 0 to the number of points");
     block.n_layers = static_cast<int>(n_layers);
     block.first_node = items<std::uint32_t>(part::k_first_node, NumberType::u32, 1);
     block.is_collapsed = bytes(part::k_is_collapsed, block.n_lines());
     if (file_.has(part::k_line_layers)) block.line_layers = line_layers(block.n_lines(), block.n_layers);
     for (std::size_t k = 0; k < block.n_lines(); ++k) {
-      if (block.is_collapsed[k] > 1) file_.fail(part::k_is_collapsed, "value " + std::to_string(k) + " is " + std::to_string(block.is_collapsed[k]) + ", expected 0 or 1");
+      if (block.is_collapsed[k] > 1)
+        file_.fail(part::k_is_collapsed, "value " + std::to_string(k) + " is " + std::to_string(block.is_collapsed[k]) + ", expected 0 or 1");
       const std::uint64_t last = std::uint64_t{block.first_node[k]} + static_cast<std::uint64_t>(block.n_steps(k));
-      if (last >= n_points) file_.fail(part::k_first_node, "line " + std::to_string(k) + " ends at node " + std::to_string(last) + ", there are " + std::to_string(n_points));
+      if (last >= n_points)
+        file_.fail(part::k_first_node, "line " + std::to_string(k) + " ends at node " + std::to_string(last) + ", there are " + std::to_string(n_points));
     }
     block.base = items<std::array<std::uint32_t, 3>>(part::k_base, NumberType::u32, 3);
     require_below(part::k_base, block.base, block.n_lines());
     for (std::size_t c = 0; c < (block.is_uniform() ? 0 : block.n_columns()); ++c)
       for (const std::uint32_t line : block.base[c])
-        if (block.layers_of_line(line) != block.layers_of_column(c)) file_.fail(part::k_line_layers, "the lines of column " + std::to_string(c) + " have different numbers of layers");
+        if (block.layers_of_line(line) != block.layers_of_column(c))
+          file_.fail(part::k_line_layers, "the lines of column " + std::to_string(c) + " have different numbers of layers");
     return block;
   }
 
@@ -203,7 +208,9 @@ class PartReader {
     if (file_.has(part::k_request_first_height)) result.line_first_height = reals(part::k_request_first_height, n_lines);
     if (file_.has(part::k_request_max_growth)) result.line_max_growth = reals(part::k_request_max_growth, n_lines);
     for (std::size_t i = 0; i < result.reason.size(); ++i)
-      if (result.reason[i] >= result.reasons.size()) file_.fail(part::k_request_reason, "value " + std::to_string(i) + " is " + std::to_string(result.reason[i]) + ", there are " + std::to_string(result.reasons.size()) + " reasons");
+      if (result.reason[i] >= result.reasons.size())
+        file_.fail(part::k_request_reason, "value " + std::to_string(i) + " is " + std::to_string(result.reason[i]) + ", there are " +
+                                               std::to_string(result.reasons.size()) + " reasons");
     return result;
   }
 

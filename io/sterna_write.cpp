@@ -120,7 +120,8 @@ class PartWriter {
     reals(part::k_request_target, 1, request.target_height);
     bytes(part::k_request_reason, request.reason);
     text(part::k_request_reasons, joined(request.reasons));
-    for (const auto& [name, values] : {std::pair(part::k_request_first_height, &request.line_first_height), std::pair(part::k_request_max_growth, &request.line_max_growth)}) {
+    for (const auto& [name, values] :
+         {std::pair(part::k_request_first_height, &request.line_first_height), std::pair(part::k_request_max_growth, &request.line_max_growth)}) {
       if (values->empty()) continue;
       require_size(values->size(), layers.n_lines(), "requests of lines");
       reals(name, 1, *values);
@@ -137,7 +138,9 @@ class PartWriter {
     static_assert(sizeof(T) % sizeof(std::uint32_t) == 0);
     writer_.add_memory(name, NumberType::u32, n_components, values.size() * (sizeof(T) / sizeof(std::uint32_t)), values.data(), context_);
   }
-  void bytes(std::string_view name, const std::vector<std::uint8_t>& values) { writer_.add_memory(name, NumberType::u8, 1, values.size(), values.data(), context_); }
+  void bytes(std::string_view name, const std::vector<std::uint8_t>& values) {
+    writer_.add_memory(name, NumberType::u8, 1, values.size(), values.data(), context_);
+  }
   void integer(std::string_view name, std::int64_t value) { writer_.add_memory(name, NumberType::i64, 1, 1, &value, context_); }
 
   template <class Face>
@@ -164,7 +167,9 @@ class PartWriter {
   }
   static void require_size(std::size_t found, std::size_t expected, const std::string& what) {
     if (found != expected)
-      throw Error({.code = ErrorCode::mesh_invalid, .attempted = "writing a .sterna file", .problem = "found " + std::to_string(found) + " " + what + ", expected " + std::to_string(expected)});
+      throw Error({.code = ErrorCode::mesh_invalid,
+                   .attempted = "writing a .sterna file",
+                   .problem = "found " + std::to_string(found) + " " + what + ", expected " + std::to_string(expected)});
   }
 
   ChunkedWriter writer_;
@@ -175,7 +180,8 @@ class PartWriter {
 }  // namespace
 
 void write_sterna(const SternaParts& parts, const std::filesystem::path& path, const RunContext& context) {
-  if (parts.envelope && !parts.surface) throw Error({.code = ErrorCode::bad_argument, .attempted = "writing " + path.string(), .problem = "an envelope without its surface"});
+  if (parts.envelope && !parts.surface)
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "writing " + path.string(), .problem = "an envelope without its surface"});
   AtomicFile file(path);
   PartWriter writer(file, context);
   if (parts.surface) writer.add_surface(*parts.surface);
@@ -191,6 +197,8 @@ void write_sterna(const SternaParts& parts, const std::filesystem::path& path, c
 }
 
 void write_volume_sterna(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) { write_sterna({.mesh = &mesh}, path, context); }
-void write_surface_sterna(const TriMesh& surface, const std::filesystem::path& path, const RunContext& context) { write_sterna({.surface = &surface}, path, context); }
+void write_surface_sterna(const TriMesh& surface, const std::filesystem::path& path, const RunContext& context) {
+  write_sterna({.surface = &surface}, path, context);
+}
 
 }  // namespace sterna::io

@@ -75,13 +75,15 @@ class RecordReader {
   bool at_end() const { return reader_.remaining() == 0; }
   ByteReader& begin(std::uint64_t n, std::string_view what) {
     const std::uint32_t size = reader_.read<std::uint32_t>("the size of a record");
-    if (size != 4 * n) reader_.fail("found a record of " + std::to_string(size) + " bytes before this place, expected " + std::to_string(4 * n) + ": " + std::string(what));
+    if (size != 4 * n)
+      reader_.fail("found a record of " + std::to_string(size) + " bytes before this place, expected " + std::to_string(4 * n) + ": " + std::string(what));
     reader_.require(n, 4, what);
     size_ = size;
     return reader_;
   }
   void end() {
-    if (reader_.read<std::uint32_t>("the size of the record again") != size_) reader_.fail("the record before this place does not end with its size " + std::to_string(size_));
+    if (reader_.read<std::uint32_t>("the size of the record again") != size_)
+      reader_.fail("the record before this place does not end with its size " + std::to_string(size_));
   }
 
  private:
@@ -102,7 +104,8 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::endian order, const RunCo
   ByteReader& counts = records.begin(2, "the numbers of vertices and triangles");
   const std::int32_t n_points = counts.take<std::int32_t>();
   const std::int32_t n_triangles = counts.take<std::int32_t>();
-  if (n_points < 0 || n_triangles < 0) counts.fail("found " + std::to_string(n_points) + " vertices and " + std::to_string(n_triangles) + " triangles before this place");
+  if (n_points < 0 || n_triangles < 0)
+    counts.fail("found " + std::to_string(n_points) + " vertices and " + std::to_string(n_triangles) + " triangles before this place");
   records.end();
   SurfaceBuilder builder(buffer.source);
   ByteReader& coordinates = records.begin(3 * static_cast<std::uint64_t>(n_points), "coordinates of the vertices");
@@ -120,7 +123,8 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::endian order, const RunCo
   for (auto& triangle : triangles) {
     for (std::uint32_t& corner : triangle) {
       const std::int32_t number = corners.take<std::int32_t>();
-      if (number < 1 || number > n_points) corners.fail("found the corner " + std::to_string(number) + " before this place, expected 1 to " + std::to_string(n_points));
+      if (number < 1 || number > n_points)
+        corners.fail("found the corner " + std::to_string(number) + " before this place, expected 1 to " + std::to_string(n_points));
       corner = static_cast<std::uint32_t>(number - 1);
     }
   }
@@ -159,8 +163,8 @@ SurfaceSoup read_cart3d(const std::filesystem::path& path, const RunContext& con
 void write_cart3d(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
   tell_numbered_patches(mesh, "Cart3D", context);
   write_file(path,
-             {fixed_section(std::to_string(mesh.n_vertices()) + " " + std::to_string(mesh.n_triangles()) + "\n"), point_lines(mesh, ""), triangle_lines(mesh, "", 1),
-              patch_number_lines(mesh)},
+             {fixed_section(std::to_string(mesh.n_vertices()) + " " + std::to_string(mesh.n_triangles()) + "\n"), point_lines(mesh, ""),
+              triangle_lines(mesh, "", 1), patch_number_lines(mesh)},
              context);
 }
 
@@ -182,7 +186,8 @@ void write_cart3d_binary(const TriMesh& mesh, const std::filesystem::path& path,
     for (const VertexId v : mesh.triangles.raw()[i]) at = put_bytes(at, static_cast<std::int32_t>(v.value()) + 1, k_order);
     return at;
   });
-  add_record(sections, mesh.n_triangles(), 4, [&mesh](std::uint64_t i, char* at) { return put_bytes(at, static_cast<std::int32_t>(patch_number(mesh, TriangleId(i))), k_order); });
+  add_record(sections, mesh.n_triangles(), 4,
+             [&mesh](std::uint64_t i, char* at) { return put_bytes(at, static_cast<std::int32_t>(patch_number(mesh, TriangleId(i))), k_order); });
   write_file(path, sections, context);
 }
 

@@ -48,18 +48,21 @@ class DwfsReader {
 
  private:
   void take(const Triangulation& part) {
-    if (!part.vertices || !part.faces) throw_malformed(buffer_.source, "byte 0", "a <Triangulation> has no " + std::string(part.vertices ? "<Faces>" : "<Vertices>"));
+    if (!part.vertices || !part.faces)
+      throw_malformed(buffer_.source, "byte 0", "a <Triangulation> has no " + std::string(part.vertices ? "<Faces>" : "<Vertices>"));
     const std::vector<double> coordinates = numbers<double>(*part.vertices, 3);
     const std::vector<std::int64_t> corners = numbers<std::int64_t>(*part.faces, 3);
     const std::size_t n_points = coordinates.size() / 3, n_faces = corners.size() / 3, first = builder_.n_points();
     std::vector<std::int64_t> tags;
     if (part.tags) tags = numbers<std::int64_t>(*part.tags, 1);
-    if (!tags.empty() && tags.size() != n_faces) fail(*part.tags, "found " + std::to_string(tags.size()) + " tags, expected " + std::to_string(n_faces) + ", one for each face");
+    if (!tags.empty() && tags.size() != n_faces)
+      fail(*part.tags, "found " + std::to_string(tags.size()) + " tags, expected " + std::to_string(n_faces) + ", one for each face");
     for (std::size_t i = 0; i < n_points; ++i) builder_.add_point({coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]});
     context_.check_stop();
     const auto corner = [&](std::size_t i) {
       if (corners[i] < 0 || static_cast<std::uint64_t>(corners[i]) >= n_points)
-        fail(*part.faces, "face " + std::to_string(i / 3) + " has the corner " + std::to_string(corners[i]) + ", expected 0 to " + std::to_string(n_points) + " less 1");
+        fail(*part.faces,
+             "face " + std::to_string(i / 3) + " has the corner " + std::to_string(corners[i]) + ", expected 0 to " + std::to_string(n_points) + " less 1");
       return static_cast<std::uint32_t>(first + static_cast<std::size_t>(corners[i]));
     };
     for (std::size_t i = 0; i < n_faces; ++i) {
@@ -87,8 +90,9 @@ class DwfsReader {
       bool is_good = failure == std::errc{} && (next == end || is_blank(*next));
       if constexpr (std::is_floating_point_v<T>) is_good = is_good && std::isfinite(value);
       if (!is_good)
-        throw_malformed(buffer_.source, "byte " + std::to_string(at - buffer_.bytes.data()),
-                        "found " + quoted_excerpt({at, std::min<std::size_t>(static_cast<std::size_t>(end - at), 20)}) + " in <" + tag.name + ">, expected a number");
+        throw_malformed(
+            buffer_.source, "byte " + std::to_string(at - buffer_.bytes.data()),
+            "found " + quoted_excerpt({at, std::min<std::size_t>(static_cast<std::size_t>(end - at), 20)}) + " in <" + tag.name + ">, expected a number");
       values.push_back(value);
       at = next;
     }
@@ -97,7 +101,8 @@ class DwfsReader {
     if (!tag.attribute("count").empty()) {
       const std::int64_t count = number_in(tag, "count");
       if (count < 0 || (static_cast<std::uint64_t>(count) != values.size() && static_cast<std::uint64_t>(count) != values.size() / per_item))
-        fail(tag, "found " + found + " numbers, expected " + std::to_string(count) + " (count) times " + std::to_string(per_item), "the file may have been cut short: copy or write it again");
+        fail(tag, "found " + found + " numbers, expected " + std::to_string(count) + " (count) times " + std::to_string(per_item),
+             "the file may have been cut short: copy or write it again");
     }
     return values;
   }
@@ -106,7 +111,8 @@ class DwfsReader {
     const std::string_view text = tag.attribute(key);
     std::int64_t value = 0;
     const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (text.empty() || failure != std::errc{} || end != text.data() + text.size()) fail(tag, "found " + quoted_excerpt(text) + " as \"" + std::string(key) + "\", expected an integer");
+    if (text.empty() || failure != std::errc{} || end != text.data() + text.size())
+      fail(tag, "found " + quoted_excerpt(text) + " as \"" + std::string(key) + "\", expected an integer");
     return value;
   }
 
@@ -134,9 +140,9 @@ void write_dwfs(const TriMesh& mesh, const std::filesystem::path& path, const Ru
     names += "<TagName tag=\"" + std::to_string(patch.value() + 1) + "\" name=\"" + xml_escaped(mesh.patches[patch].name) + "\"/>\n";
   names += "</TagNameMap>\n</Triangulation>\n</Mesh>\n";
   write_file(path,
-             {fixed_section("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Mesh>\n<Triangulation>\n" + begin("Vertices", mesh.n_vertices())), point_lines(mesh, ""),
-              fixed_section("</Vertices>\n" + begin("Faces", mesh.n_triangles())), triangle_lines(mesh, "", 0), fixed_section("</Faces>\n" + begin("Tags", mesh.n_triangles())),
-              patch_number_lines(mesh), fixed_section(std::move(names))},
+             {fixed_section("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Mesh>\n<Triangulation>\n" + begin("Vertices", mesh.n_vertices())),
+              point_lines(mesh, ""), fixed_section("</Vertices>\n" + begin("Faces", mesh.n_triangles())), triangle_lines(mesh, "", 0),
+              fixed_section("</Faces>\n" + begin("Tags", mesh.n_triangles())), patch_number_lines(mesh), fixed_section(std::move(names))},
              context);
 }
 

@@ -22,7 +22,9 @@ struct PlaceHash {
 };
 
 /// Positive and negative zero are one place.
-std::array<std::uint64_t, 3> place_of(const Vec3& p) { return {std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0), std::bit_cast<std::uint64_t>(p.z + 0.0)}; }
+std::array<std::uint64_t, 3> place_of(const Vec3& p) {
+  return {std::bit_cast<std::uint64_t>(p.x + 0.0), std::bit_cast<std::uint64_t>(p.y + 0.0), std::bit_cast<std::uint64_t>(p.z + 0.0)};
+}
 
 bool has_separate_corners(const SurfaceSoup& soup) {
   if (soup.points.size() != 3 * soup.triangles.size()) return false;
@@ -50,9 +52,12 @@ void write_surface_file(const TriMesh& mesh, const std::filesystem::path& path, 
       throw Error({.code = ErrorCode::mesh_invalid, .attempted = "writing " + path.string(), .problem = "a triangle belongs to no patch"});
   for (const VertexId v : mesh.points.ids())
     if (!is_finite(mesh.points[v]))
-      throw Error({.code = ErrorCode::mesh_invalid, .attempted = "writing " + path.string(), .problem = "the coordinates of vertex " + std::to_string(v.value()) + " are not finite"});
+      throw Error({.code = ErrorCode::mesh_invalid,
+                   .attempted = "writing " + path.string(),
+                   .problem = "the coordinates of vertex " + std::to_string(v.value()) + " are not finite"});
   if (!format.carries_patch_names && mesh.patches.size() > 1)
-    context.warn(path.string() + ": " + std::string(format.name) + " has no patches: the " + std::to_string(mesh.patches.size()) + " of the surface become one");
+    context.warn(path.string() + ": " + std::string(format.name) + " has no patches: the " + std::to_string(mesh.patches.size()) +
+                 " of the surface become one");
   const StageTimer timer(context, "write");
   format.write_surface(mesh, path, context);
 }

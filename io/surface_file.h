@@ -16,11 +16,12 @@ namespace sterna::io {
 SurfaceSoup read_surface_file(const std::filesystem::path& path, const RunContext& context);
 
 /// Writes a surface; the format follows from the extension, or is named. Names and kinds of patches that the format cannot hold are told in the log.
-/// An existing file stays as it was on failure. \throws Error unsupported_format, write_failed, overflow, mesh_invalid (coordinates that are not finite), cancelled.
+/// An existing file stays as it was on failure. \throws Error unsupported_format, write_failed, overflow, mesh_invalid (coordinates that are not finite),
+/// cancelled.
 void write_surface_file(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name = {});
 
-/// The soup as it is, in the form that writers take: nothing is welded, turned or repaired, unless every triangle has corners of its own (STL): then corners at exactly
-/// the same place become one, numbered in the order of their first use.
+/// The soup as it is, in the form that writers take: nothing is welded, turned or repaired, unless every triangle has corners of its own (STL): then corners at
+/// exactly the same place become one, numbered in the order of their first use.
 TriMesh to_tri_mesh(const SurfaceSoup& soup);
 
 }  // namespace sterna::io

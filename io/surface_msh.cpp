@@ -113,7 +113,8 @@ void write_msh_2_2(const TriMesh& mesh, const std::filesystem::path& path, const
   const TrianglesByPatch triangles(mesh);
   require_count(std::max(mesh.n_vertices(), mesh.n_triangles()), std::numeric_limits<std::int32_t>::max(), "vertices or triangles", "MSH 2.2", path.string());
   std::vector<OutputSection> sections;
-  sections.push_back(fixed_section("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + physical_names(mesh, triangles, context) + "$Nodes\n" + std::to_string(mesh.n_vertices()) + "\n"));
+  sections.push_back(fixed_section("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n" + physical_names(mesh, triangles, context) + "$Nodes\n" +
+                                   std::to_string(mesh.n_vertices()) + "\n"));
   sections.push_back(items_section(mesh.n_vertices(), k_max_integer_text + k_max_point_text + 2, [&](std::uint64_t i, char* at) {
     at = put_integer_text(at, static_cast<std::int64_t>(i + 1));
     *at++ = ' ';

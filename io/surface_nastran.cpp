@@ -1,4 +1,5 @@
-// Cards of fields: eight columns each, sixteen when the name ends in '*', or split by commas; a card goes on in lines that begin with a blank field, '+' or '*'.
+// Cards of fields: eight columns each, sixteen when the name ends in '*', or split by commas; a card goes on in lines that begin with a blank field, '+' or
+// '*'.
 #include "io/surface_nastran.h"
 
 #include <algorithm>
@@ -56,8 +57,18 @@ struct ElementCard {
   std::string_view name;
   std::size_t n_corners;  ///< 0: a volume element
 };
-constexpr std::array<ElementCard, 12> k_elements = {{{"CTRIA3", 3}, {"CTRIA6", 3}, {"CTRIAR", 3}, {"CQUAD4", 4}, {"CQUAD8", 4}, {"CQUADR", 4}, {"CQUAD", 4}, {"CTETRA", 0},
-    {"CPENTA", 0}, {"CPYRAM", 0}, {"CPYRA", 0}, {"CHEXA", 0}}};
+constexpr std::array<ElementCard, 12> k_elements = {{{"CTRIA3", 3},
+                                                     {"CTRIA6", 3},
+                                                     {"CTRIAR", 3},
+                                                     {"CQUAD4", 4},
+                                                     {"CQUAD8", 4},
+                                                     {"CQUADR", 4},
+                                                     {"CQUAD", 4},
+                                                     {"CTETRA", 0},
+                                                     {"CPENTA", 0},
+                                                     {"CPYRAM", 0},
+                                                     {"CPYRA", 0},
+                                                     {"CHEXA", 0}}};
 
 struct Face {
   std::array<std::int64_t, 4> nodes{};
@@ -85,10 +96,13 @@ class BulkParser {
     }
     take_card();
     // Cards that other files include have neither beginning nor end.
-    if (has_begin && !has_end) throw_malformed(buffer_.source, "line " + std::to_string(line_number_), "found the end of the file, expected ENDDATA after BEGIN BULK", "the file may have been cut short: copy or write it again");
+    if (has_begin && !has_end)
+      throw_malformed(buffer_.source, "line " + std::to_string(line_number_), "found the end of the file, expected ENDDATA after BEGIN BULK",
+                      "the file may have been cut short: copy or write it again");
     if (!has_end) context_.warn(buffer_.source + ": there is no ENDDATA; whether the file is whole cannot be told");
     add_faces();
-    if (n_volumes_ > 0 && faces_.empty()) throw_malformed(buffer_.source, "line 1", "found a volume mesh without faces, expected CTRIA3 or CQUAD4 for its boundary");
+    if (n_volumes_ > 0 && faces_.empty())
+      throw_malformed(buffer_.source, "line 1", "found a volume mesh without faces, expected CTRIA3 or CQUAD4 for its boundary");
     SurfaceSoup soup = builder_.finish(n_volumes_ > 0);
     soup.has_names = soup.patch_names.size() > 1 || !names_.empty();
     return soup;
@@ -109,7 +123,9 @@ class BulkParser {
   /// Executive and case control come before "BEGIN BULK" where there is one.
   bool find_bulk() {
     while (next_line())
-      if (begins_with_word(line_, "BEGIN") && trimmed(trimmed(line_).substr(5)).size() >= 4 && equal_ignoring_case(trimmed(trimmed(line_).substr(5)).substr(0, 4), "BULK")) return true;
+      if (begins_with_word(line_, "BEGIN") && trimmed(trimmed(line_).substr(5)).size() >= 4 &&
+          equal_ignoring_case(trimmed(trimmed(line_).substr(5)).substr(0, 4), "BULK"))
+        return true;
     position_ = line_number_ = 0;
     return false;
   }
@@ -153,7 +169,8 @@ class BulkParser {
     const bool is_large = name.ends_with('*') || name.starts_with('*');
     if (!is_continuation) fields_.emplace_back(name);
     const std::size_t width = is_large ? k_large_field : k_field;
-    for (std::size_t at = k_field; at < k_line - k_field; at += width) fields_.emplace_back(at < line_.size() ? trimmed(line_.substr(at, std::min(width, k_line - k_field - at))) : std::string_view());
+    for (std::size_t at = k_field; at < k_line - k_field; at += width)
+      fields_.emplace_back(at < line_.size() ? trimmed(line_.substr(at, std::min(width, k_line - k_field - at))) : std::string_view());
   }
 
   /// "$ANSA_NAME_COMMENT;7;PSHELL;left wing;..." and "$HMNAME COMP  7"left wing"" name the PID 7.
@@ -188,7 +205,8 @@ class BulkParser {
     if (equal_ignoring_case(name, "GRID")) {
       take_grid();
     } else if (equal_ignoring_case(name, "GRDSET")) {
-      if (!field(2).empty() && field(2) != "0") throw_unsupported(buffer_.source, "line " + std::to_string(card_line_) + ": GRDSET with a coordinate system", "write the points in the basic system");
+      if (!field(2).empty() && field(2) != "0")
+        throw_unsupported(buffer_.source, "line " + std::to_string(card_line_) + ": GRDSET with a coordinate system", "write the points in the basic system");
     } else if (begins_with_word(name, "INCLUDE")) {
       throw_unsupported(buffer_.source, "line " + std::to_string(card_line_) + ": INCLUDE", "join the files to one");
     } else {
@@ -205,15 +223,18 @@ class BulkParser {
     std::int64_t value = 0;
     const auto [end, failure] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (text.empty() || failure != std::errc{} || end != text.data() + text.size())
-      fail(card_line_, "found " + quoted_excerpt(field(i)) + " in field " + std::to_string(i + 1) + " of " + fields_[0] + ", expected " + std::string(expected));
+      fail(card_line_,
+           "found " + quoted_excerpt(field(i)) + " in field " + std::to_string(i + 1) + " of " + fields_[0] + ", expected " + std::string(expected));
     return value;
   }
 
   void take_grid() {
     const std::int64_t id = integer(1, "the number of a point");
     if (!field(2).empty() && integer(2, "a coordinate system") != 0)
-      throw_unsupported(buffer_.source, "line " + std::to_string(card_line_) + ": the point " + std::to_string(id) + " is given in the coordinate system " + std::string(field(2)),
-                        "write the points in the basic system (0)");
+      throw_unsupported(
+          buffer_.source,
+          "line " + std::to_string(card_line_) + ": the point " + std::to_string(id) + " is given in the coordinate system " + std::string(field(2)),
+          "write the points in the basic system (0)");
     Vec3 p;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::string_view text = field(3 + axis);
@@ -360,7 +381,9 @@ SurfaceSoup read_nastran(const std::filesystem::path& path, const RunContext& co
 void write_nastran(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
   for (const std::size_t n : {mesh.n_vertices(), mesh.n_triangles(), mesh.patches.size()}) require_count(n, k_max_id, "items", "Nastran", path.string());
   context.info(path.string() + ": Nastran keeps 10 to 15 digits of a coordinate");
-  write_file(path, {fixed_section("BEGIN BULK\n"), fixed_section(property_cards(mesh, context)), grid_cards(mesh), triangle_cards(mesh), fixed_section("ENDDATA\n")}, context);
+  write_file(path,
+             {fixed_section("BEGIN BULK\n"), fixed_section(property_cards(mesh, context)), grid_cards(mesh), triangle_cards(mesh), fixed_section("ENDDATA\n")},
+             context);
 }
 
 }  // namespace sterna::io

@@ -21,8 +21,9 @@ constexpr std::size_t k_stop_interval = 1 << 16;
 
 /// Lines that say nothing about the surface's triangles.
 constexpr std::array<std::string_view, 41> k_ignored = {
-    "vt", "vn", "vp", "s", "l", "p", "mtllib", "maplib", "usemap", "mg", "lod", "bevel", "c_interp", "d_interp", "shadow_obj", "trace_obj", "ctech", "stech", "call", "csh", "deg",
-    "bmat", "step", "cstype", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "res", "cdp", "cdc", "bzp", "bsp", "vc", "cbp"};
+    "vt",         "vn",        "vp",    "s",     "l",    "p",   "mtllib", "maplib", "usemap", "mg",     "lod",  "bevel", "c_interp", "d_interp",
+    "shadow_obj", "trace_obj", "ctech", "stech", "call", "csh", "deg",    "bmat",   "step",   "cstype", "curv", "curv2", "surf",     "parm",
+    "trim",       "hole",      "scrv",  "sp",    "end",  "con", "res",    "cdp",    "cdc",    "bzp",    "bsp",  "vc",    "cbp"};
 
 /// The three ways in which a file can name parts of itself.
 enum Naming : std::size_t { k_group, k_object, k_material, k_n_namings };
@@ -56,8 +57,7 @@ std::uint32_t parse_corner(TextScanner& scanner, std::size_t n_points, HighestIn
   if (result.ec != std::errc{} || number == 0 || (!rest.empty() && rest.front() != '/') || rest.find_first_not_of("/-0123456789") != std::string_view::npos)
     scanner.fail_expected(k_expected);
   const std::int64_t index = number > 0 ? number - 1 : number + static_cast<std::int64_t>(n_points);
-  if (index < 0)
-    scanner.fail("found vertex number " + std::to_string(number) + ", but only " + std::to_string(n_points) + " vertices precede it");
+  if (index < 0) scanner.fail("found vertex number " + std::to_string(number) + ", but only " + std::to_string(n_points) + " vertices precede it");
   if (index >= static_cast<std::int64_t>(0xFFFFFFFF)) scanner.fail("found vertex number " + std::to_string(number) + ", expected at most 4294967294");
   if (index >= highest.value) highest = {index, scanner.offset()};
   return static_cast<std::uint32_t>(index);

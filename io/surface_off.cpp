@@ -22,8 +22,8 @@ constexpr std::size_t k_min_vertex_bytes = 6;
 constexpr std::size_t k_min_face_bytes = 2;
 
 struct Header {
-  bool has_weight = false;    ///< 4OFF: a fourth coordinate divides the other three
-  bool has_extras = false;    ///< NOFF, COFF, STOFF: normals, colours, texture coordinates follow the position
+  bool has_weight = false;  ///< 4OFF: a fourth coordinate divides the other three
+  bool has_extras = false;  ///< NOFF, COFF, STOFF: normals, colours, texture coordinates follow the position
   bool is_binary = false;
 };
 
@@ -85,7 +85,8 @@ SurfaceSoup read_text(const FileBuffer& buffer, TextScanner& scanner, const Head
   for (std::size_t i = 0; i < n_faces; ++i) {
     if (i % k_stop_interval == 0) context.check_stop();
     const std::size_t n_corners = scanner.count("the number of corners of a face", 2);
-    if (n_corners > k_max_polygon_corners) scanner.fail("found a face of " + std::to_string(n_corners) + " corners, expected at most " + std::to_string(k_max_polygon_corners));
+    if (n_corners > k_max_polygon_corners)
+      scanner.fail("found a face of " + std::to_string(n_corners) + " corners, expected at most " + std::to_string(k_max_polygon_corners));
     corners.clear();
     for (std::size_t k = 0; k < n_corners; ++k) corners.push_back(scanner.index("a corner of a face", 0, n_points));
     scanner.next_line();  // a colour may follow
@@ -102,8 +103,7 @@ struct BinaryVariant {
   std::endian order;
   bool has_colours;
 };
-constexpr BinaryVariant k_binary_variants[] = {
-    {std::endian::little, false}, {std::endian::big, true}, {std::endian::little, true}, {std::endian::big, false}};
+constexpr BinaryVariant k_binary_variants[] = {{std::endian::little, false}, {std::endian::big, true}, {std::endian::little, true}, {std::endian::big, false}};
 
 /// The whole file in one of the variants. \throws Error when it is not that variant, or damaged.
 SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t offset, const BinaryVariant& variant, const RunContext& context) {
@@ -138,7 +138,8 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t offset, const Bina
     for (std::size_t k = 0; k < n_corners; ++k) {
       const auto index = reader.take<std::int32_t>();
       if (index < 0 || static_cast<std::size_t>(index) >= n_points)
-        reader.fail("a corner of face " + std::to_string(i) + " ends here: found " + std::to_string(index) + ", expected 0 to " + std::to_string(static_cast<std::int64_t>(n_points) - 1));
+        reader.fail("a corner of face " + std::to_string(i) + " ends here: found " + std::to_string(index) + ", expected 0 to " +
+                    std::to_string(static_cast<std::int64_t>(n_points) - 1));
       corners.push_back(static_cast<std::uint32_t>(index));
     }
     builder.add_polygon(corners);
@@ -174,13 +175,16 @@ SurfaceSoup read_off(const std::filesystem::path& path, const RunContext& contex
   TextScanner scanner(buffer, {.comment = '#'});
   const Header header = parse_header(scanner);
   if (!header.is_binary) return read_text(buffer, scanner, header, context);
-  if (header.has_weight || header.has_extras) throw_unsupported(buffer.source, "OFF BINARY with normals, colours or weights of vertices is not read", "write it as text");
+  if (header.has_weight || header.has_extras)
+    throw_unsupported(buffer.source, "OFF BINARY with normals, colours or weights of vertices is not read", "write it as text");
   scanner.next_line();
   return read_any_binary(buffer, scanner.offset(), context);
 }
 
 void write_off(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
-  write_file(path, {fixed_section("OFF\n" + std::to_string(mesh.n_vertices()) + " " + std::to_string(mesh.n_triangles()) + " 0\n"), point_lines(mesh, ""), triangle_lines(mesh, "3 ", 0)},
+  write_file(path,
+             {fixed_section("OFF\n" + std::to_string(mesh.n_vertices()) + " " + std::to_string(mesh.n_triangles()) + " 0\n"), point_lines(mesh, ""),
+              triangle_lines(mesh, "3 ", 0)},
              context);
 }
 

@@ -17,9 +17,7 @@ namespace sterna::io {
 class TrianglesByPatch {
  public:
   explicit TrianglesByPatch(const TriMesh& mesh);
-  std::span<const TriangleId> of(PatchId patch) const {
-    return {triangles_.data() + first_[patch.index()], first_[patch.index() + 1] - first_[patch.index()]};
-  }
+  std::span<const TriangleId> of(PatchId patch) const { return {triangles_.data() + first_[patch.index()], first_[patch.index() + 1] - first_[patch.index()]}; }
   /// Patches with triangles, in order.
   const std::vector<PatchId>& used_patches() const { return used_; }
 

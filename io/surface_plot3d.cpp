@@ -1,5 +1,5 @@
-// The number of blocks, the three dimensions of each, then for each block all x, all y, all z. Text or bytes of either order, the bytes with or without Fortran's record
-// sizes; which of them follows from the first numbers and the size of the file.
+// The number of blocks, the three dimensions of each, then for each block all x, all y, all z. Text or bytes of either order, the bytes with or without
+// Fortran's record sizes; which of them follows from the first numbers and the size of the file.
 #include "io/surface_plot3d.h"
 
 #include <algorithm>
@@ -39,7 +39,9 @@ std::optional<Block> block_of(const std::array<std::uint64_t, 3>& n) {
 }
 
 [[noreturn]] void throw_volume(const std::string& source, std::size_t block, const std::array<std::uint64_t, 3>& n) {
-  throw_unsupported(source, "block " + std::to_string(block + 1) + " is a volume of " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " + std::to_string(n[2]) + " points",
+  throw_unsupported(source,
+                    "block " + std::to_string(block + 1) + " is a volume of " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " +
+                        std::to_string(n[2]) + " points",
                     "only surfaces, with one dimension of 1, are read");
 }
 
@@ -113,7 +115,9 @@ class BinaryReader {
       if (precision_.has_blanks) reader_.skip(n * sizeof(std::int32_t));
       if (has_records_) end_record();
     }
-    if (reader_.remaining() > 0) reader_.fail("found " + std::to_string(reader_.remaining()) + " bytes after the last of " + std::to_string(blocks_.size()) + " blocks, expected the end of the file");
+    if (reader_.remaining() > 0)
+      reader_.fail("found " + std::to_string(reader_.remaining()) + " bytes after the last of " + std::to_string(blocks_.size()) +
+                   " blocks, expected the end of the file");
     SurfaceSoup soup = finished(builder, blocks_.size());
     soup.single_precision = precision_.real_bytes == sizeof(float);
     return soup;
@@ -136,12 +140,14 @@ class BinaryReader {
       std::array<std::uint64_t, 3> n;
       for (std::uint64_t& dimension : n) {
         const std::int32_t value = reader_.take<std::int32_t>();
-        if (value < 1) reader_.fail("found the dimension " + std::to_string(value) + " of block " + std::to_string(i + 1) + " before this place, expected 1 or more");
+        if (value < 1)
+          reader_.fail("found the dimension " + std::to_string(value) + " of block " + std::to_string(i + 1) + " before this place, expected 1 or more");
         dimension = static_cast<std::uint64_t>(value);
       }
       const std::optional<Block> block = block_of(n);
       if (!block) throw_volume(buffer_.source, static_cast<std::size_t>(i), n);
-      if (block->size() > buffer_.bytes.size() / (3 * sizeof(float))) reader_.fail("block " + std::to_string(i + 1) + " has " + std::to_string(block->size()) + " points, more than the file can hold", k_cut_hint);
+      if (block->size() > buffer_.bytes.size() / (3 * sizeof(float)))
+        reader_.fail("block " + std::to_string(i + 1) + " has " + std::to_string(block->size()) + " points, more than the file can hold", k_cut_hint);
       blocks_.push_back(*block);
       total_points_ += block->size();
     }
@@ -187,9 +193,12 @@ class BinaryReader {
 
 SurfaceSoup read_bytes(const FileBuffer& buffer, const RunContext& context) {
   constexpr std::size_t k_min_bytes = 4 * sizeof(std::int32_t);
-  if (buffer.bytes.size() < k_min_bytes) throw_malformed(buffer.source, "byte 0", "found " + std::to_string(buffer.bytes.size()) + " bytes, expected a number of blocks and their dimensions", k_cut_hint);
+  if (buffer.bytes.size() < k_min_bytes)
+    throw_malformed(buffer.source, "byte 0", "found " + std::to_string(buffer.bytes.size()) + " bytes, expected a number of blocks and their dimensions",
+                    k_cut_hint);
   for (const std::endian order : {std::endian::little, std::endian::big})
-    if (ByteReader(buffer, order).take<std::uint32_t>() == k_count_record && ByteReader(buffer, order, 2 * sizeof(std::uint32_t)).take<std::uint32_t>() == k_count_record)
+    if (ByteReader(buffer, order).take<std::uint32_t>() == k_count_record &&
+        ByteReader(buffer, order, 2 * sizeof(std::uint32_t)).take<std::uint32_t>() == k_count_record)
       return BinaryReader(buffer, order, true, context).read();
   // A number of blocks is small: the order in which it is smaller is that of the file.
   const bool is_little = ByteReader(buffer, std::endian::little).take<std::uint32_t>() <= ByteReader(buffer, std::endian::big).take<std::uint32_t>();

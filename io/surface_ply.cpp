@@ -44,9 +44,22 @@ struct TypeName {
   std::string_view name;
   Type type;
 };
-constexpr std::array<TypeName, 16> k_type_names = {{{"char", Type::int8}, {"int8", Type::int8}, {"uchar", Type::uint8}, {"uint8", Type::uint8}, {"short", Type::int16},
-    {"int16", Type::int16}, {"ushort", Type::uint16}, {"uint16", Type::uint16}, {"int", Type::int32}, {"int32", Type::int32}, {"uint", Type::uint32}, {"uint32", Type::uint32},
-    {"float", Type::float32}, {"float32", Type::float32}, {"double", Type::float64}, {"float64", Type::float64}}};
+constexpr std::array<TypeName, 16> k_type_names = {{{"char", Type::int8},
+                                                    {"int8", Type::int8},
+                                                    {"uchar", Type::uint8},
+                                                    {"uint8", Type::uint8},
+                                                    {"short", Type::int16},
+                                                    {"int16", Type::int16},
+                                                    {"ushort", Type::uint16},
+                                                    {"uint16", Type::uint16},
+                                                    {"int", Type::int32},
+                                                    {"int32", Type::int32},
+                                                    {"uint", Type::uint32},
+                                                    {"uint32", Type::uint32},
+                                                    {"float", Type::float32},
+                                                    {"float32", Type::float32},
+                                                    {"double", Type::float64},
+                                                    {"float64", Type::float64}}};
 
 /// Face properties that number patches, in order of preference.
 constexpr std::array<std::string_view, 7> k_patch_properties = {"patch", "patch_id", "marker", "boundary", "region", "label", "group"};
@@ -139,7 +152,8 @@ void assign_roles(TextScanner& scanner, Element& element) {
 /// Bytes that one element takes at least.
 std::size_t min_bytes(const Element& element, Encoding encoding) {
   std::size_t n = 0;
-  for (const Property& property : element.properties) n += encoding == Encoding::text ? 2 : property.is_list ? size_of(property.count_type) : size_of(property.type);
+  for (const Property& property : element.properties)
+    n += encoding == Encoding::text ? 2 : property.is_list ? size_of(property.count_type) : size_of(property.type);
   return n;
 }
 
@@ -194,7 +208,8 @@ Header parse_header(TextScanner& scanner) {
     assign_roles(scanner, element);
     const std::size_t n_bytes = min_bytes(element, header.encoding);
     if (n_bytes > 0 && element.count > (scanner.remaining() + 1) / n_bytes)
-      scanner.fail("the header declares " + std::to_string(element.count) + " elements \"" + element.name + "\", but only " + std::to_string(scanner.remaining()) + " bytes follow it",
+      scanner.fail("the header declares " + std::to_string(element.count) + " elements \"" + element.name + "\", but only " +
+                       std::to_string(scanner.remaining()) + " bytes follow it",
                    "the file may have been cut short: copy or write it again");
   }
   return header;
@@ -251,7 +266,8 @@ class ByteValues {
     // Some writers end the bytes with a line end.
     constexpr std::size_t k_line_end_bytes = 2;
     if (reader_.remaining() > k_line_end_bytes)
-      reader_.fail("found " + std::to_string(reader_.remaining()) + " bytes after the last of " + std::to_string(n_last) + " declared elements, expected the end of the file");
+      reader_.fail("found " + std::to_string(reader_.remaining()) + " bytes after the last of " + std::to_string(n_last) +
+                   " declared elements, expected the end of the file");
   }
 
  private:

@@ -155,16 +155,18 @@ SurfaceSoup read_stl(const std::filesystem::path& path, const RunContext& contex
   const bool is_text = looks_like_text(buffer);
   if (buffer.bytes.size() < k_first_facet) {
     if (is_text) return read_text(buffer, context);
-    throw_malformed(buffer.source, "byte 0", "found " + quoted_excerpt(buffer.text()) + " (" + std::to_string(buffer.bytes.size()) +
-                    " bytes), expected \"solid\" or the 84 bytes before the facets of a binary STL");
+    throw_malformed(buffer.source, "byte 0",
+                    "found " + quoted_excerpt(buffer.text()) + " (" + std::to_string(buffer.bytes.size()) +
+                        " bytes), expected \"solid\" or the 84 bytes before the facets of a binary STL");
   }
   const std::size_t n_facets = ByteReader(buffer, std::endian::little, k_header_bytes).take<std::uint32_t>();
   const std::size_t binary_bytes = k_first_facet + k_facet_bytes * n_facets;
   if (binary_bytes != buffer.bytes.size() && is_text) return read_text(buffer, context);
   if (binary_bytes < buffer.bytes.size()) {
     if (n_facets == 0)
-      throw_malformed(buffer.source, "byte 80", "found 0 as the number of facets and " + std::to_string(buffer.bytes.size() - binary_bytes) +
-                      " bytes after it, expected a binary STL with facets or a text that begins with \"solid\"");
+      throw_malformed(buffer.source, "byte 80",
+                      "found 0 as the number of facets and " + std::to_string(buffer.bytes.size() - binary_bytes) +
+                          " bytes after it, expected a binary STL with facets or a text that begins with \"solid\"");
     context.warn(buffer.source + ": " + std::to_string(buffer.bytes.size() - binary_bytes) + " bytes after the last of " + std::to_string(n_facets) +
                  " facets are ignored");
   }

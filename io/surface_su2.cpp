@@ -205,7 +205,8 @@ class Su2SurfaceReader {
       if (is_face && are_elements_the_surface) read_face(cursor, type, i);
     });
     if (are_elements_the_surface && n_cells > 0)
-      throw_malformed(source_, "line " + std::to_string(zone.elements->line), "found a volume mesh without faces in markers, expected its boundary faces behind NMARK=");
+      throw_malformed(source_, "line " + std::to_string(zone.elements->line),
+                      "found a volume mesh without faces in markers, expected its boundary faces behind NMARK=");
     if (!are_elements_the_surface && n_faces > 0)
       context_.warn(source_ + ": " + std::to_string(n_faces) + " faces among the elements belong to no marker and are left out");
   }
@@ -216,7 +217,7 @@ class Su2SurfaceReader {
   const RunContext& context_;
   std::optional<std::uint64_t> n_zones_;  ///< announced
   std::vector<Zone> zones_;
-  Zone zone_;  ///< being indexed
+  Zone zone_;                    ///< being indexed
   std::size_t first_point_ = 0;  ///< of the zone that is read
   std::uint64_t n_points_ = 0;
   bool has_marked_faces_ = false;  ///< in the zone that is read

@@ -17,18 +17,20 @@ namespace sterna::io {
 namespace {
 
 constexpr std::size_t k_stop_interval = 1 << 16;
-constexpr std::size_t k_min_node_bytes = 8;   // "1 0 0 0" and a line end
+constexpr std::size_t k_min_node_bytes = 8;  // "1 0 0 0" and a line end
 constexpr std::size_t k_min_facet_bytes = 2;
 constexpr TextScanner::Rules k_rules{.comment = '#', .line_bound = true};
 
 /// Moves to the next line with content; every record begins on a line of its own.
 void find_record(TextScanner& scanner, std::string_view expected) {
-  if (scanner.at_end()) scanner.fail("found the end of the file, expected " + std::string(expected), "the file may have been cut short: copy or write it again");
+  if (scanner.at_end())
+    scanner.fail("found the end of the file, expected " + std::string(expected), "the file may have been cut short: copy or write it again");
 }
 
 class PlcParser {
  public:
-  PlcParser(const std::filesystem::path& path, const RunContext& context) : path_(path), context_(context), buffer_(load_file(path, context)), scanner_(buffer_, k_rules), builder_(buffer_.source) {}
+  PlcParser(const std::filesystem::path& path, const RunContext& context)
+      : path_(path), context_(context), buffer_(load_file(path, context)), scanner_(buffer_, k_rules), builder_(buffer_.source) {}
 
   SurfaceSoup parse() {
     std::filesystem::path unpacked = path_;
@@ -67,7 +69,8 @@ class PlcParser {
         if (number != 0 && number != 1) scanner.fail_expected("0 or 1 as the number of the first node");
         base_ = number;
       }
-      if (number != base_ + static_cast<std::int64_t>(i)) scanner.fail_expected(std::to_string(base_ + static_cast<std::int64_t>(i)) + ", the number of the next node");
+      if (number != base_ + static_cast<std::int64_t>(i))
+        scanner.fail_expected(std::to_string(base_ + static_cast<std::int64_t>(i)) + ", the number of the next node");
       Vec3 p;
       for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner.real("a coordinate of a node");
       builder_.add_point(p);
@@ -99,7 +102,8 @@ class PlcParser {
   /// Corners, perhaps over several lines.
   void take_corners() {
     const std::size_t n = scanner_.count("the number of corners", 1);
-    if (n > k_max_polygon_corners) scanner_.fail("found a polygon of " + std::to_string(n) + " corners, expected at most " + std::to_string(k_max_polygon_corners));
+    if (n > k_max_polygon_corners)
+      scanner_.fail("found a polygon of " + std::to_string(n) + " corners, expected at most " + std::to_string(k_max_polygon_corners));
     corners_.clear();
     scanner_.set_line_bound(false);
     for (std::size_t k = 0; k < n; ++k) corners_.push_back(scanner_.index("a corner of a facet", base_, builder_.n_points()));
@@ -117,7 +121,8 @@ class PlcParser {
   void take_poly_facet() {
     const std::size_t n_polygons = scanner_.count("the number of polygons of a facet", k_min_facet_bytes);
     const std::size_t n_holes = scanner_.at_line_end() ? 0 : scanner_.count("the number of holes of a facet", k_min_node_bytes);
-    if (n_holes > 0) throw_unsupported(buffer_.source, "line " + std::to_string(scanner_.line()) + ": a facet with holes", "split the facet, or write triangles");
+    if (n_holes > 0)
+      throw_unsupported(buffer_.source, "line " + std::to_string(scanner_.line()) + ": a facet with holes", "split the facet, or write triangles");
     take_marker();
     scanner_.next_line();
     bool has_polygon = false;
@@ -129,7 +134,8 @@ class PlcParser {
         ++n_constraints_;
         continue;
       }
-      if (has_polygon) throw_unsupported(buffer_.source, "line " + std::to_string(scanner_.line()) + ": a facet of several polygons", "split the facet, or write triangles");
+      if (has_polygon)
+        throw_unsupported(buffer_.source, "line " + std::to_string(scanner_.line()) + ": a facet of several polygons", "split the facet, or write triangles");
       builder_.add_polygon(corners_);
       has_polygon = true;
     }
@@ -176,8 +182,8 @@ void write(const TriMesh& mesh, const std::filesystem::path& path, bool is_poly,
     return at;
   });
   write_file(path,
-             {fixed_section("# nodes\n" + std::to_string(mesh.n_vertices()) + " 3 0 0\n"), node_lines(mesh), fixed_section("# facets with markers\n" + std::to_string(mesh.n_triangles()) + " 1\n"),
-              facets, fixed_section("# holes\n0\n# regions\n0\n")},
+             {fixed_section("# nodes\n" + std::to_string(mesh.n_vertices()) + " 3 0 0\n"), node_lines(mesh),
+              fixed_section("# facets with markers\n" + std::to_string(mesh.n_triangles()) + " 1\n"), facets, fixed_section("# holes\n0\n# regions\n0\n")},
              context);
 }
 

@@ -34,7 +34,8 @@ std::string number(std::int32_t value, Encoding encoding) {
 std::string head(const TriMesh& mesh, Encoding encoding) {
   std::string text = "# vtk DataFile Version 3.0\nsurface\n" + std::string(encoding == Encoding::text ? "ASCII" : "BINARY") + "\nDATASET POLYDATA\n";
   if (mesh.patches.size() > 0) text += "FIELD FieldData " + std::to_string(mesh.patches.size()) + "\n";
-  for (const PatchId patch : mesh.patches.ids()) text += escaped(vtk_patch_key(mesh.patches[patch])) + " 1 1 int\n" + number(static_cast<std::int32_t>(patch.value()) + 1, encoding);
+  for (const PatchId patch : mesh.patches.ids())
+    text += escaped(vtk_patch_key(mesh.patches[patch])) + " 1 1 int\n" + number(static_cast<std::int32_t>(patch.value()) + 1, encoding);
   return text + "POINTS " + std::to_string(mesh.n_vertices()) + " double\n";
 }
 
@@ -52,8 +53,9 @@ OutputSection binary_triangles(const TriMesh& mesh) {
   });
 }
 OutputSection binary_markers(const TriMesh& mesh) {
-  return items_section(mesh.n_triangles(), sizeof(std::int32_t),
-                       [&mesh](std::uint64_t i, char* at) { return put_bytes(at, static_cast<std::int32_t>(patch_number(mesh, TriangleId(i))), std::endian::big); });
+  return items_section(mesh.n_triangles(), sizeof(std::int32_t), [&mesh](std::uint64_t i, char* at) {
+    return put_bytes(at, static_cast<std::int32_t>(patch_number(mesh, TriangleId(i))), std::endian::big);
+  });
 }
 
 void write(const TriMesh& mesh, const std::filesystem::path& path, Encoding encoding, const RunContext& context) {

@@ -60,19 +60,22 @@ class WgsReader {
  private:
   void take_object() {
     std::string_view name = scanner_.rest_of_line();
-    if (name.size() < 2 || name.front() != '\'' || name.back() != '\'') scanner_.fail("found " + quoted_excerpt(name) + ", expected the name of an object in single quotes");
+    if (name.size() < 2 || name.front() != '\'' || name.back() != '\'')
+      scanner_.fail("found " + quoted_excerpt(name) + ", expected the name of an object in single quotes");
     name = name.substr(1, name.size() - 2);
     name = name.substr(0, name.find_last_not_of(' ') + 1);
     ++n_objects_;
     scanner_.integer("the number of the object");
     const std::size_t n_lines = scanner_.count("the number of lines", k_min_point_bytes);
     const std::size_t n_points = scanner_.count("the number of points of a line", k_min_point_bytes);
-    if (n_lines < 2 || n_points < 2) scanner_.fail("found a network of " + std::to_string(n_lines) + " lines of " + std::to_string(n_points) + " points, expected 2 or more of each");
+    if (n_lines < 2 || n_points < 2)
+      scanner_.fail("found a network of " + std::to_string(n_lines) + " lines of " + std::to_string(n_points) + " points, expected 2 or more of each");
     note_mirror(name, "local symmetry");
     const Placement placement{.rotation = triple("a rotation"), .translation = triple("a translation"), .scale = triple("a scale factor")};
     note_mirror(name, "global symmetry");
     if (n_lines > (scanner_.remaining() + 1) / k_min_point_bytes / n_points)
-      scanner_.fail("the file ends before " + std::to_string(n_lines) + " times " + std::to_string(n_points) + " points of object " + quoted_excerpt(name), "the file may have been cut short: copy or write it again");
+      scanner_.fail("the file ends before " + std::to_string(n_lines) + " times " + std::to_string(n_points) + " points of object " + quoted_excerpt(name),
+                    "the file may have been cut short: copy or write it again");
     const auto first = static_cast<std::uint32_t>(builder_.n_points());
     for (std::size_t i = 0; i < n_lines * n_points; ++i) {
       if (i % k_stop_interval == 0) context_.check_stop();

@@ -45,10 +45,13 @@ FileBuffer unpack(const FileBuffer& packed, const RunContext& context) {
     std::size_t n_in = packed.bytes.size() - at;
     result.bytes.resize(n_before + n_out);
     hint = LZ4F_decompress(state.get(), result.bytes.data() + n_before, &n_out, packed.bytes.data() + at, &n_in, nullptr);
-    if (LZ4F_isError(hint)) throw_malformed(packed.source, "byte " + std::to_string(at), std::string("the LZ4 frame is damaged (") + LZ4F_getErrorName(hint) + ")", "copy or download the file again");
+    if (LZ4F_isError(hint))
+      throw_malformed(packed.source, "byte " + std::to_string(at), std::string("the LZ4 frame is damaged (") + LZ4F_getErrorName(hint) + ")",
+                      "copy or download the file again");
     result.bytes.resize(n_before + n_out);
     at += n_in;
-    if (hint != 0 && n_in == 0 && n_out == 0) throw_malformed(packed.source, "byte " + std::to_string(at), "the LZ4 frame ends too early", "copy or download the file again");
+    if (hint != 0 && n_in == 0 && n_out == 0)
+      throw_malformed(packed.source, "byte " + std::to_string(at), "the LZ4 frame ends too early", "copy or download the file again");
   }
   return result;
 }
@@ -56,8 +59,8 @@ FileBuffer unpack(const FileBuffer& packed, const RunContext& context) {
 struct Node {
   std::string name;
   std::vector<std::pair<std::string, std::string>> attributes;
-  std::size_t width = 1;   ///< bytes of one value
-  std::size_t data = 0;    ///< offset of its data
+  std::size_t width = 1;  ///< bytes of one value
+  std::size_t data = 0;   ///< offset of its data
   std::size_t n_bytes = 0;
   std::vector<Node> children;
 
@@ -76,7 +79,8 @@ class TreeReader {
   Node read(int depth = 0) {
     if (depth > k_max_depth) reader_.fail("found more than " + std::to_string(k_max_depth) + " levels of nodes");
     reader_.require(1, k_header_bytes, "the header of a node");
-    if (const auto magic = reader_.take<std::uint32_t>(); magic != k_node_magic) reader_.fail("found no node before this place, expected one that begins with 8b 4f cf bf");
+    if (const auto magic = reader_.take<std::uint32_t>(); magic != k_node_magic)
+      reader_.fail("found no node before this place, expected one that begins with 8b 4f cf bf");
     const std::uint32_t n_children = reader_.take<std::uint32_t>();
     const std::uint32_t n_attributes = reader_.take<std::uint32_t>();
     Node node;
@@ -89,7 +93,8 @@ class TreeReader {
     node.data = reader_.offset();
     node.n_bytes = n_data;
     reader_.skip(n_data);
-    if (n_children == k_open_list) throw_unsupported(buffer_.source, "node " + quoted_excerpt(node.name) + " has a list without end", "write the file with sumo's surface export as STL");
+    if (n_children == k_open_list)
+      throw_unsupported(buffer_.source, "node " + quoted_excerpt(node.name) + " has a list without end", "write the file with sumo's surface export as STL");
     for (std::uint32_t i = 0; i < n_children; ++i) node.children.push_back(read(depth + 1));
     return node;
   }
@@ -97,9 +102,11 @@ class TreeReader {
  private:
   void read_strings(Node& node, std::uint32_t n_attributes, std::size_t end) {
     const auto next = [&] {
-      if (reader_.offset() >= end) reader_.fail("the strings of a node end before this place, expected its name and " + std::to_string(n_attributes) + " attributes");
+      if (reader_.offset() >= end)
+        reader_.fail("the strings of a node end before this place, expected its name and " + std::to_string(n_attributes) + " attributes");
       const std::int32_t n = reader_.read<std::int32_t>("the length of a string");
-      if (n < 0 || reader_.offset() > end || static_cast<std::size_t>(n) > end - reader_.offset()) reader_.fail("found a string of " + std::to_string(n) + " bytes, longer than its table");
+      if (n < 0 || reader_.offset() > end || static_cast<std::size_t>(n) > end - reader_.offset())
+        reader_.fail("found a string of " + std::to_string(n) + " bytes, longer than its table");
       std::string text(buffer_.text().substr(reader_.offset(), static_cast<std::size_t>(n)));
       reader_.skip(static_cast<std::size_t>(n));
       return text;
@@ -109,7 +116,8 @@ class TreeReader {
       std::string key = next();
       node.attributes.emplace_back(std::move(key), next());
     }
-    if (reader_.offset() != end) reader_.fail("found " + std::to_string(end - reader_.offset()) + " more bytes in the strings of node " + quoted_excerpt(node.name));
+    if (reader_.offset() != end)
+      reader_.fail("found " + std::to_string(end - reader_.offset()) + " more bytes in the strings of node " + quoted_excerpt(node.name));
   }
 
   const FileBuffer& buffer_;
@@ -122,7 +130,8 @@ struct ElementType {
   std::size_t n_nodes;
   bool is_face;
 };
-constexpr std::array<ElementType, 6> k_element_types = {{{"Triangle3", 3, true}, {"Quad4", 4, true}, {"Tetra4", 4, false}, {"Penta6", 6, false}, {"Pyramid5", 5, false}, {"Hexa8", 8, false}}};
+constexpr std::array<ElementType, 6> k_element_types = {
+    {{"Triangle3", 3, true}, {"Quad4", 4, true}, {"Tetra4", 4, false}, {"Penta6", 6, false}, {"Pyramid5", 5, false}, {"Hexa8", 8, false}}};
 
 class MeshReader {
  public:
@@ -165,7 +174,8 @@ class MeshReader {
   ByteReader data_of(const Node& node, std::size_t width, std::string_view what) const {
     ByteReader reader(buffer_, std::endian::little, node.data);
     if (node.width != width || node.n_bytes % width != 0)
-      reader.fail("node " + node.name + " has " + std::to_string(node.n_bytes) + " bytes in values of " + std::to_string(node.width) + ", expected values of " + std::to_string(width) + " bytes: " + std::string(what));
+      reader.fail("node " + node.name + " has " + std::to_string(node.n_bytes) + " bytes in values of " + std::to_string(node.width) + ", expected values of " +
+                  std::to_string(width) + " bytes: " + std::string(what));
     return reader;
   }
 
@@ -197,7 +207,8 @@ class MeshReader {
     for (const Node& child : mesh.children) {
       if (child.name != "MxMeshBoco" || child.n_bytes == 0) continue;
       if (child.attribute("use_range") == "true") {
-        context_.warn(buffer_.source + ": the boundary condition " + quoted_excerpt(child.attribute("name")) + " gives its elements as a range; sections name the patches instead");
+        context_.warn(buffer_.source + ": the boundary condition " + quoted_excerpt(child.attribute("name")) +
+                      " gives its elements as a range; sections name the patches instead");
         continue;
       }
       ByteReader reader = data_of(child, sizeof(std::int32_t), "elements of a boundary condition");
@@ -206,7 +217,8 @@ class MeshReader {
       for (std::size_t i = 0; i < child.n_values(); ++i) {
         const std::int32_t element = reader.take<std::int32_t>();
         if (element < 0 || static_cast<std::uint64_t>(element) >= n_elements)
-          reader.fail("found the element " + std::to_string(element) + " before this place in " + quoted_excerpt(boco_names_.back()) + ", there are " + std::to_string(n_elements));
+          reader.fail("found the element " + std::to_string(element) + " before this place in " + quoted_excerpt(boco_names_.back()) + ", there are " +
+                      std::to_string(n_elements));
         std::uint32_t& boco = boco_of_element_[static_cast<std::size_t>(element)];
         if (boco == 0) boco = static_cast<std::uint32_t>(boco_names_.size());
       }
@@ -217,7 +229,8 @@ class MeshReader {
     const ElementType& type = type_of(section);
     if (!type.is_face) return;
     ByteReader reader = data_of(section, sizeof(std::int32_t), "nodes of elements");
-    if (section.n_values() % type.n_nodes != 0) reader.fail("found " + std::to_string(section.n_values()) + " nodes, not a multiple of " + std::to_string(type.n_nodes));
+    if (section.n_values() % type.n_nodes != 0)
+      reader.fail("found " + std::to_string(section.n_values()) + " nodes, not a multiple of " + std::to_string(type.n_nodes));
     std::optional<std::uint32_t> last_boco;
     std::array<std::uint32_t, 4> corners{};
     for (std::uint64_t i = 0; i < section.n_values() / type.n_nodes; ++i) {
@@ -227,7 +240,8 @@ class MeshReader {
       last_boco = boco;
       for (std::size_t k = 0; k < type.n_nodes; ++k) {
         const std::int32_t node = reader.take<std::int32_t>();
-        if (node < 0 || static_cast<std::size_t>(node) >= n_points_) reader.fail("found the node " + std::to_string(node) + " before this place, there are " + std::to_string(n_points_));
+        if (node < 0 || static_cast<std::size_t>(node) >= n_points_)
+          reader.fail("found the node " + std::to_string(node) + " before this place, there are " + std::to_string(n_points_));
         corners[k] = static_cast<std::uint32_t>(first_point_ + static_cast<std::size_t>(node));
       }
       builder_.add_polygon(std::span(corners).first(type.n_nodes));
@@ -255,7 +269,9 @@ SurfaceSoup read_zml(const std::filesystem::path& path, const RunContext& contex
   const FileBuffer packed = load_file(path, context);
   ByteReader reader(packed);
   if (packed.bytes.size() < sizeof(std::uint32_t) || reader.take<std::uint32_t>() != k_frame_magic)
-    throw_unsupported(packed.source, "found " + quoted_excerpt(packed.text().substr(0, 8)) + ", expected an LZ4 frame; older kinds of zml (text, ZIP) are not read", "open and save the file with a newer sumo, or save as STL");
+    throw_unsupported(packed.source,
+                      "found " + quoted_excerpt(packed.text().substr(0, 8)) + ", expected an LZ4 frame; older kinds of zml (text, ZIP) are not read",
+                      "open and save the file with a newer sumo, or save as STL");
   const FileBuffer buffer = unpack(packed, context);
   return MeshReader(buffer, context).read(TreeReader(buffer).read());
 }

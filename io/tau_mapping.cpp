@@ -25,7 +25,8 @@ std::vector<std::int64_t> numbers_of(std::string_view list, const FileBuffer& bu
     const std::string_view word = trimmed(list.substr(0, end));
     std::int64_t number = 0;
     const auto result = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (result.ec != std::errc() || result.ptr != word.data() + word.size()) throw_malformed(buffer.source, where, "found the marker " + quoted_excerpt(word) + ", expected a number");
+    if (result.ec != std::errc() || result.ptr != word.data() + word.size())
+      throw_malformed(buffer.source, where, "found the marker " + quoted_excerpt(word) + ", expected a number");
     numbers.push_back(number);
     list.remove_prefix(std::min(end + 1, list.size()));
   }
@@ -76,10 +77,10 @@ std::map<std::int64_t, TauMarker> read_bmap(const std::filesystem::path& mesh_pa
 }
 
 std::string bmap_text(const std::vector<TauMarker>& markers) {
-  std::string text =
-      " -----------------------------------------------------\n BOUNDARY MAPPING\n -----------------------------------------------------\n";
+  std::string text = " -----------------------------------------------------\n BOUNDARY MAPPING\n -----------------------------------------------------\n";
   for (const TauMarker& marker : markers) {
-    text += "\n                  Markers: " + std::to_string(marker.number) + "\n                     Type: " + marker.condition + "\n                     Name: " + marker.name + "\n";
+    text += "\n                  Markers: " + std::to_string(marker.number) + "\n                     Type: " + marker.condition +
+            "\n                     Name: " + marker.name + "\n";
     // TAU writes values on the surfaces that are marked so.
     if (marker.condition.ends_with("wall")) text += " Write surface data (0/1): 1\n";
     text += "\n block end\n ---------------------------\n";
@@ -106,8 +107,10 @@ PatchKind kind_of_tau(const TauMarker& marker) {
   if (condition.ends_with("wall")) return PatchKind::wall;
   if (condition == "symmetry plane" || condition == "mirror plane") return PatchKind::symmetry;
   if (condition == "farfield") return PatchKind::farfield;
-  if (condition == "engine inflow" || condition == "heat exchanger inflow" || condition.ends_with("pressure outflow") || condition == "supersonic outflow") return PatchKind::outflow;
-  if (condition == "engine exhaust" || condition == "heat exchanger outflow" || condition.ends_with("pressure inflow") || condition == "supersonic inflow") return PatchKind::inflow;
+  if (condition == "engine inflow" || condition == "heat exchanger inflow" || condition.ends_with("pressure outflow") || condition == "supersonic outflow")
+    return PatchKind::outflow;
+  if (condition == "engine exhaust" || condition == "heat exchanger outflow" || condition.ends_with("pressure inflow") || condition == "supersonic inflow")
+    return PatchKind::inflow;
   return kind_of_name(marker.name);
 }
 

@@ -153,8 +153,8 @@ std::size_t TextScanner::count(std::string_view expected, std::size_t min_bytes)
   // The last line may lack its line end: one byte of grace.
   const std::size_t limit = (remaining() + 1) / std::max<std::size_t>(1, min_bytes);
   if (value < 0 || static_cast<std::uint64_t>(value) > limit)
-    fail("found " + std::to_string(value) + " as " + std::string(expected) + ", but the " + std::to_string(remaining()) + " bytes left in the file hold at most " +
-             std::to_string(limit),
+    fail("found " + std::to_string(value) + " as " + std::string(expected) + ", but the " + std::to_string(remaining()) +
+             " bytes left in the file hold at most " + std::to_string(limit),
          value < 0 ? "" : "the file may have been cut short: copy or write it again");
   return static_cast<std::size_t>(value);
 }
@@ -163,7 +163,8 @@ std::uint32_t TextScanner::index(std::string_view expected, std::int64_t base, s
   const std::int64_t value = integer(expected);
   if (value < base || static_cast<std::uint64_t>(value) - static_cast<std::uint64_t>(base) >= n)
     fail("found " + std::to_string(value) + " as " + std::string(expected) +
-         (n == 0 ? ", but there is nothing it could refer to" : ", expected " + std::to_string(base) + " to " + std::to_string(base + static_cast<std::int64_t>(n) - 1)));
+         (n == 0 ? ", but there is nothing it could refer to"
+                 : ", expected " + std::to_string(base) + " to " + std::to_string(base + static_cast<std::int64_t>(n) - 1)));
   return static_cast<std::uint32_t>(static_cast<std::uint64_t>(value) - static_cast<std::uint64_t>(base));
 }
 

@@ -28,14 +28,16 @@ struct SmallGrid {
     VtuDocument result;
     result.n_points = points->size();
     result.n_cells = types.size();
-    result.points = {.name = "Points", .type = VtuType::float64, .n_components = 3, .n_values = 3 * points->size(),
+    result.points = {.name = "Points",
+                     .type = VtuType::float64,
+                     .n_components = 3,
+                     .n_values = 3 * points->size(),
                      .fill = [p = points](std::uint64_t begin, std::uint64_t end, char* out) {
                        std::memcpy(out, reinterpret_cast<const char*>(p->data()) + begin * sizeof(double), (end - begin) * sizeof(double));
                      }};
     result.connectivity = vtu_array("connectivity", connectivity);
     result.offsets = vtu_array("offsets", offsets);
-    result.types = {.name = "types", .type = VtuType::uint8, .n_values = types.size(),
-                    .fill = [this](std::uint64_t begin, std::uint64_t end, char* out) {
+    result.types = {.name = "types", .type = VtuType::uint8, .n_values = types.size(), .fill = [this](std::uint64_t begin, std::uint64_t end, char* out) {
                       for (std::uint64_t i = begin; i < end; ++i) *out++ = static_cast<char>(types[i]);
                     }};
     result.cell_data.push_back(vtu_array(std::move(marker_name), marker));

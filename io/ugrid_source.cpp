@@ -35,7 +35,8 @@ UgridVariant ugrid_variant(const std::filesystem::path& path) {
   for (const NamedVariant& candidate : k_binary_variants)
     if (name.ends_with(candidate.end)) return candidate.variant;
   for (const std::string_view end : {".r8.ugrid", ".lr8.ugrid", ".r4.ugrid", ".lr4.ugrid"})
-    if (name.ends_with(end)) throw_unsupported(path.string(), "UGRID files with Fortran records (" + std::string(end) + ")", "write the mesh as .lb8.ugrid or .b8.ugrid");
+    if (name.ends_with(end))
+      throw_unsupported(path.string(), "UGRID files with Fortran records (" + std::string(end) + ")", "write the mesh as .lb8.ugrid or .b8.ugrid");
   return {.is_text = true};
 }
 
@@ -47,7 +48,8 @@ UgridSource::UgridSource(const FileBuffer& buffer, const UgridVariant& variant) 
 void UgridSource::require(std::uint64_t n, std::size_t bytes, std::string_view expected) const {
   if (bytes_) return bytes_->require(n, bytes, expected);
   if (n > (text_->remaining() + 1) / bytes)  // the last line may lack its end
-    fail("found " + std::to_string(text_->remaining()) + " bytes to the end of the file, expected the text of " + std::to_string(n) + " " + std::string(expected),
+    fail("found " + std::to_string(text_->remaining()) + " bytes to the end of the file, expected the text of " + std::to_string(n) + " " +
+             std::string(expected),
          "the file may have been cut short: copy or write it again");
 }
 
@@ -59,7 +61,8 @@ std::int64_t UgridSource::integer(std::string_view expected) {
 std::uint64_t UgridSource::count(std::string_view expected) {
   const std::int64_t n = integer(expected);
   if (n < 0)
-    fail("found the count " + std::to_string(n) + " as " + std::string(expected) + ", expected 0 or more", text_ ? "" : "is the byte order of the file the one that its name says?");
+    fail("found the count " + std::to_string(n) + " as " + std::string(expected) + ", expected 0 or more",
+         text_ ? "" : "is the byte order of the file the one that its name says?");
   return static_cast<std::uint64_t>(n);
 }
 
@@ -129,12 +132,29 @@ std::filesystem::path mapbc_path(const std::filesystem::path& mesh_path) {
 
 std::optional<PatchKind> kind_of_condition(std::int64_t condition) {
   switch (condition) {
-    case 3: case 5000: case 5025: case 5050: return PatchKind::farfield;
-    case 4: case 4000: case 4100: case 4110: return PatchKind::wall;
-    case 5: case 3000: return PatchKind::slip;
-    case 6021: case 6022: case 6023: case 6661: case 6662: case 6663: return PatchKind::symmetry;
-    case 7011: case 7036: case 7100: return PatchKind::inflow;
-    case 5026: case 5051: case 7012: case 7031: return PatchKind::outflow;
+    case 3:
+    case 5000:
+    case 5025:
+    case 5050: return PatchKind::farfield;
+    case 4:
+    case 4000:
+    case 4100:
+    case 4110: return PatchKind::wall;
+    case 5:
+    case 3000: return PatchKind::slip;
+    case 6021:
+    case 6022:
+    case 6023:
+    case 6661:
+    case 6662:
+    case 6663: return PatchKind::symmetry;
+    case 7011:
+    case 7036:
+    case 7100: return PatchKind::inflow;
+    case 5026:
+    case 5051:
+    case 7012:
+    case 7031: return PatchKind::outflow;
     default: return std::nullopt;
   }
 }

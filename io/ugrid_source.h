@@ -1,4 +1,5 @@
-// What the readers and the writer of UGRID (AFLR3) share: the variants by file name, the numbers of any of them, the .mapbc file of FUN3D (formats.md section 8.3).
+// What the readers and the writer of UGRID (AFLR3) share: the variants by file name, the numbers of any of them, the .mapbc file of FUN3D (formats.md
+// section 8.3).
 #pragma once
 
 #include <bit>
@@ -48,7 +49,6 @@ class UgridSource {
   void skip_integers(std::uint64_t n, std::string_view expected);
 
   [[noreturn]] void fail(const std::string& problem, std::string_view hint = {}) const;
-
 
  private:
   double real();

@@ -1,4 +1,5 @@
-// CGNS reader, formats.md 3.3. Steps per zone: coordinates, sections (cells, boundary faces with their element numbers), boundary conditions, which name the faces.
+// CGNS reader, formats.md 3.3. Steps per zone: coordinates, sections (cells, boundary faces with their element numbers), boundary conditions, which name the
+// faces.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -59,13 +60,15 @@ class CgnsReader {
     if (n_zones == 0) tree_.fail(base, "found no zone");
     if (n_zones > 1) context_.info("zones joined to one mesh: " + std::to_string(n_zones));
     if (n_left_out_ > 0) context_.info("points and bars left out: " + std::to_string(n_left_out_));
-    if (n_conditions_left_out_ > 0) context_.info("boundary conditions of structured zones that are no walls, left out: " + std::to_string(n_conditions_left_out_));
+    if (n_conditions_left_out_ > 0)
+      context_.info("boundary conditions of structured zones that are no walls, left out: " + std::to_string(n_conditions_left_out_));
     drop_empty_patches();
     return std::move(mesh_);
   }
 
  private:
-  /// A surface is looked for in a base of two dimensions first, a volume in one of three; a file without such a base holds a surface alone, which is read as one.
+  /// A surface is looked for in a base of two dimensions first, a volume in one of three; a file without such a base holds a surface alone, which is read as
+  /// one.
   const CgnsNode& find_base() {
     const CgnsNode *found = nullptr, *surface = nullptr;
     int n_bases = 0;
@@ -106,7 +109,8 @@ class CgnsReader {
     last_cell_ = 0;
     const CgnsNode* const type = zone.find("ZoneType");
     const bool is_structured = !type || tree_.data(*type).text() == "Structured";
-    if (is_structured && contents_ == Contents::volume) throw_unsupported(tree_.source(), zone.path + ": the zone is structured", "convert it to an unstructured mesh: cgnsconvert, cgns_to_...");
+    if (is_structured && contents_ == Contents::volume)
+      throw_unsupported(tree_.source(), zone.path + ": the zone is structured", "convert it to an unstructured mesh: cgnsconvert, cgns_to_...");
     const NumberArray sizes = tree_.data(zone);
     const std::uint64_t rank = is_structured ? sizes.count() / 3 : 1;
     sizes.require_integers(3 * rank, "the numbers of nodes, cells and boundary nodes of a zone");
@@ -115,7 +119,8 @@ class CgnsReader {
     shape_ = {1, 1, 1};
     for (std::uint64_t k = 0; k < rank; ++k) {
       shape_[k] = sizes.integer(k);
-      if (shape_[k] < 0 || __builtin_mul_overflow(n_nodes_, shape_[k], &n_nodes_)) sizes.fail("found a zone of " + std::to_string(shape_[k]) + " nodes along an index");
+      if (shape_[k] < 0 || __builtin_mul_overflow(n_nodes_, shape_[k], &n_nodes_))
+        sizes.fail("found a zone of " + std::to_string(shape_[k]) + " nodes along an index");
     }
     read_points(zone);
     if (is_structured) return read_structured(zone, rank);
@@ -171,7 +176,8 @@ class CgnsReader {
     const NumberArray range = tree_.data(*range_node);
     range.require_integers(2, "first and last element");
     const std::int64_t start = range.integer(0), end = range.integer(1);
-    if (start < 1 || end < start - 1 || end == std::numeric_limits<std::int64_t>::max()) range.fail("found the element range " + std::to_string(start) + " to " + std::to_string(end));
+    if (start < 1 || end < start - 1 || end == std::numeric_limits<std::int64_t>::max())
+      range.fail("found the element range " + std::to_string(start) + " to " + std::to_string(end));
     const std::int64_t n = end - start + 1;
     if (type != k_cgns_mixed) size_of(section, type);  // refuses by its name what is not read
     const CgnsNode* const corners_node = section.find("ElementConnectivity");
@@ -206,7 +212,8 @@ class CgnsReader {
     std::vector<std::array<NodeId, N>>& found = contents_ == Contents::volume ? cells : ignored;
     const std::size_t first = found.size();
     found.resize(first + static_cast<std::size_t>(n));
-    parallel_for(context_, static_cast<std::size_t>(n), [&](std::size_t i) { found[first + i] = nodes_of<N>(corners, i * N, start + static_cast<std::int64_t>(i)); });
+    parallel_for(context_, static_cast<std::size_t>(n),
+                 [&](std::size_t i) { found[first + i] = nodes_of<N>(corners, i * N, start + static_cast<std::int64_t>(i)); });
   }
 
   /// Types in front of each element; the offsets that some versions add are not needed.
@@ -220,7 +227,8 @@ class CgnsReader {
       add_element(type, corners, at, start + i);
       at += size;
     }
-    if (at != corners.count()) corners.fail("found " + std::to_string(corners.count()) + " numbers, the " + std::to_string(n) + " elements have " + std::to_string(at));
+    if (at != corners.count())
+      corners.fail("found " + std::to_string(corners.count()) + " numbers, the " + std::to_string(n) + " elements have " + std::to_string(at));
   }
 
   /// Nodes of an element of a type that is read.
@@ -237,7 +245,8 @@ class CgnsReader {
       default: break;
     }
     const std::string name = type == 22 ? " (NGON_n)" : type == 23 ? " (NFACE_n)" : "";
-    throw_unsupported(tree_.source(), section.path + " has elements of type " + std::to_string(type) + name, "TRI_3, QUAD_4, TETRA_4, PYRA_5, PENTA_6, HEXA_8 and MIXED are read");
+    throw_unsupported(tree_.source(), section.path + " has elements of type " + std::to_string(type) + name,
+                      "TRI_3, QUAD_4, TETRA_4, PYRA_5, PENTA_6, HEXA_8 and MIXED are read");
   }
 
   template <std::size_t N>
@@ -245,7 +254,8 @@ class CgnsReader {
     std::array<NodeId, N> nodes;
     for (std::size_t k = 0; k < N; ++k) {
       const std::int64_t node = corners.integer(at + k);
-      if (node < 1 || node > n_nodes_) corners.fail("element " + std::to_string(element) + " has node " + std::to_string(node) + ", expected 1 to " + std::to_string(n_nodes_));
+      if (node < 1 || node > n_nodes_)
+        corners.fail("element " + std::to_string(element) + " has node " + std::to_string(node) + ", expected 1 to " + std::to_string(n_nodes_));
       nodes[k] = NodeId(static_cast<std::uint32_t>(first_node_ + static_cast<std::size_t>(node) - 1));
     }
     return nodes;
@@ -340,7 +350,9 @@ class CgnsReader {
     if (n_named == 0) context_.warn(tree_.source() + ": " + node.path + " lists no boundary face");
   }
 
-  void set_patch(const Face& face, PatchId patch) { (face.is_quad ? mesh_.boundary_quads[face.index].patch : mesh_.boundary_triangles[face.index].patch) = patch; }
+  void set_patch(const Face& face, PatchId patch) {
+    (face.is_quad ? mesh_.boundary_quads[face.index].patch : mesh_.boundary_triangles[face.index].patch) = patch;
+  }
 
   /// \returns how many faces were named
   std::size_t name_by_elements(const Condition& condition, const CgnsNode& node) {
@@ -352,7 +364,8 @@ class CgnsReader {
     }
     if (lowest < 1) points.fail("found the element " + std::to_string(lowest));
     // Known broken files number boundary faces from 1 without the volume cells before them (HLPW1 files of DLR).
-    const bool are_cells = !faces_.empty() && faces_.front().element > last_cell_ && highest <= last_cell_ && highest <= static_cast<std::int64_t>(faces_.size());
+    const bool are_cells =
+        !faces_.empty() && faces_.front().element > last_cell_ && highest <= last_cell_ && highest <= static_cast<std::int64_t>(faces_.size());
     const std::int64_t shift = are_cells ? last_cell_ : 0;
     if (are_cells) context_.warn(tree_.source() + ": " + node.path + " lists volume cells; its numbers are taken as those of boundary faces");
     std::size_t n = 0;
@@ -384,7 +397,8 @@ class CgnsReader {
     }
     std::size_t n = 0;
     for (const Face& face : faces_) {
-      const std::span<const NodeId> nodes = face.is_quad ? std::span<const NodeId>(mesh_.boundary_quads[face.index].nodes) : mesh_.boundary_triangles[face.index].nodes;
+      const std::span<const NodeId> nodes =
+          face.is_quad ? std::span<const NodeId>(mesh_.boundary_quads[face.index].nodes) : mesh_.boundary_triangles[face.index].nodes;
       if (!std::all_of(nodes.begin(), nodes.end(), [&](NodeId node) { return is_listed[node.index() - first_node_]; })) continue;
       set_patch(face, condition.patch);
       ++n;
@@ -414,7 +428,8 @@ class CgnsReader {
       for (std::size_t k = 0; k < 3; ++k) {
         first[k] = std::min(condition.points.integer(k), condition.points.integer(k + 3));
         last[k] = std::max(condition.points.integer(k), condition.points.integer(k + 3));
-        if (first[k] < 1 || last[k] > shape_[k]) condition.points.fail("found the nodes " + std::to_string(first[k]) + " to " + std::to_string(last[k]) + " of " + std::to_string(shape_[k]));
+        if (first[k] < 1 || last[k] > shape_[k])
+          condition.points.fail("found the nodes " + std::to_string(first[k]) + " to " + std::to_string(last[k]) + " of " + std::to_string(shape_[k]));
       }
       add_quads(first, last, condition.patch);
     });
@@ -437,7 +452,8 @@ class CgnsReader {
       return NodeId(static_cast<std::uint32_t>(first_node_ + static_cast<std::size_t>(index)));
     };
     for (std::int64_t j = first[along[1]]; j < last[along[1]]; ++j)
-      for (std::int64_t i = first[along[0]]; i < last[along[0]]; ++i) mesh_.boundary_quads.push_back({{node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)}, patch});
+      for (std::int64_t i = first[along[0]]; i < last[along[0]]; ++i)
+        mesh_.boundary_quads.push_back({{node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)}, patch});
   }
 
   /// Sections' names that conditions have replaced.

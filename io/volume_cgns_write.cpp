@@ -18,7 +18,8 @@ constexpr std::string_view k_quad_suffix = "_quad";
 constexpr float k_hdf5_version = 3.4f;  ///< its fixed-type sections are those of every version since
 constexpr float k_adf_version = 2.54f;
 /// Names of nodes beside sections, conditions and families.
-constexpr std::array<const char*, 12> k_taken_names = {"ZoneGridConnectivity", "Zone", "ZoneType", "ZoneBC", "GridCoordinates", "DataClass", "DimensionalUnits", "PENTA_6", "PYRA_5", "HEXA_8", "TETRA_4", "."};
+constexpr std::array<const char*, 12> k_taken_names = {"ZoneGridConnectivity", "Zone",    "ZoneType", "ZoneBC", "GridCoordinates", "DataClass",
+                                                       "DimensionalUnits",     "PENTA_6", "PYRA_5",   "HEXA_8", "TETRA_4",         "."};
 
 /// At most n bytes of UTF-8 text, cut before a character.
 std::string cut_text(std::string text, std::size_t n) {
@@ -50,7 +51,8 @@ std::vector<std::string> node_names(const HybridMesh& mesh, const FacesByPatch& 
     const bool has_both = !faces.triangles(patch).empty() && !faces.quads(patch).empty();
     const std::size_t limit = k_cgns_name - (has_both ? k_quad_suffix.size() : 0);
     std::string stem = is_adf ? ascii_name(mesh.patches[patch].name) : mesh.patches[patch].name;
-    std::replace_if(stem.begin(), stem.end(), [](char c) { return c == '/' || std::iscntrl(static_cast<unsigned char>(c)) != 0; }, '_');
+    std::replace_if(
+        stem.begin(), stem.end(), [](char c) { return c == '/' || std::iscntrl(static_cast<unsigned char>(c)) != 0; }, '_');
     while (stem.ends_with(' ')) stem.pop_back();
     while (stem.starts_with(' ')) stem.erase(0, 1);
     if (stem.empty() || stem == "..") stem = "patch_" + std::to_string(patch.value() + 1);
@@ -84,19 +86,25 @@ class CgnsWriter {
     if (is_adf) require_count(largest, k_max_narrow, "nodes, elements or corners of a section", "CGNS 2.54 in ADF (64-bit: HDF5, .cgns)", path);
     is_wide_ = largest > k_max_narrow || integers == CgnsIntegers::always_64;
     if (is_adf && is_wide_)
-      throw Error({.code = ErrorCode::unsupported_format, .attempted = "writing " + path, .problem = "CGNS 2.54 in ADF has no 64-bit integers", .hint = "write HDF5: .cgns"});
+      throw Error({.code = ErrorCode::unsupported_format,
+                   .attempted = "writing " + path,
+                   .problem = "CGNS 2.54 in ADF has no 64-bit integers",
+                   .hint = "write HDF5: .cgns"});
   }
 
   void write(const std::filesystem::path& path, const RunContext& context) const {
     CgnsOutputNode root = cgns_node("", "");
-    root.children.push_back(cgns_node("CGNSLibraryVersion", "CGNSLibraryVersion_t", output_numbers<float>(NumberKind::f4, {1}, {is_adf_ ? k_adf_version : k_hdf5_version})));
+    root.children.push_back(
+        cgns_node("CGNSLibraryVersion", "CGNSLibraryVersion_t", output_numbers<float>(NumberKind::f4, {1}, {is_adf_ ? k_adf_version : k_hdf5_version})));
     root.children.push_back(base());
     if (is_adf_) write_cgns_adf(root, path, context);
     else write_cgns_hdf5(root, path, context);
   }
 
  private:
-  CgnsOutputNode text_node(std::string name, std::string label, std::string_view text) const { return cgns_node(std::move(name), std::move(label), output_text(std::string(text))); }
+  CgnsOutputNode text_node(std::string name, std::string label, std::string_view text) const {
+    return cgns_node(std::move(name), std::move(label), output_text(std::string(text)));
+  }
 
   OutputArray sizes(std::vector<std::uint64_t> extents, const std::vector<std::uint64_t>& values) const {
     if (is_wide_) return output_numbers(NumberKind::i8, std::move(extents), std::vector<std::int64_t>(values.begin(), values.end()));
@@ -107,7 +115,9 @@ class CgnsWriter {
 
   CgnsOutputNode base() const {
     CgnsOutputNode base = cgns_node("Base", "CGNSBase_t", output_numbers<std::int32_t>(NumberKind::i4, {2}, {is_surface() ? 2 : 3, 3}));
-    CgnsOutputNode zone = cgns_node("Zone", "Zone_t", sizes({1, 3}, {mesh_.points.size(), is_surface() ? mesh_.boundary_triangles.size() + mesh_.boundary_quads.size() : cells_.total(), 0}));
+    CgnsOutputNode zone =
+        cgns_node("Zone", "Zone_t",
+                  sizes({1, 3}, {mesh_.points.size(), is_surface() ? mesh_.boundary_triangles.size() + mesh_.boundary_quads.size() : cells_.total(), 0}));
     zone.children.push_back(text_node("ZoneType", "ZoneType_t", "Unstructured"));
     zone.children.push_back(coordinates());
     std::uint64_t n_elements = 0;
@@ -152,7 +162,9 @@ class CgnsWriter {
         }
         out.end_at(at);
       };
-      CgnsOutputNode values = cgns_node(k_axis_names[axis], "DataArray_t", {.kind = NumberKind::f8, .extents = {mesh_.points.size()}, .content = {{.n_items = mesh_.points.size(), .format = format}}});
+      CgnsOutputNode values =
+          cgns_node(k_axis_names[axis], "DataArray_t",
+                    {.kind = NumberKind::f8, .extents = {mesh_.points.size()}, .content = {{.n_items = mesh_.points.size(), .format = format}}});
       values.children.push_back(cgns_node("DimensionalExponents", "DimensionalExponents_t", output_numbers<float>(NumberKind::f4, {5}, {0, 1, 0, 0, 0})));
       grid.children.push_back(std::move(values));
     }
@@ -160,11 +172,13 @@ class CgnsWriter {
   }
 
   /// A section of n elements behind the n_elements before it; `format` gives the corners.
-  CgnsOutputNode section(std::string name, std::int64_t type, std::uint64_t n, std::uint64_t size, std::uint64_t& n_elements, decltype(OutputSection::format) format) const {
+  CgnsOutputNode section(std::string name, std::int64_t type, std::uint64_t n, std::uint64_t size, std::uint64_t& n_elements,
+                         decltype(OutputSection::format) format) const {
     CgnsOutputNode node = cgns_node(std::move(name), "Elements_t", output_numbers<std::int32_t>(NumberKind::i4, {2}, {static_cast<std::int32_t>(type), 0}));
     node.children.push_back(cgns_node("ElementRange", "IndexRange_t", sizes({2}, {n_elements + 1, n_elements + n})));
-    node.children.push_back(cgns_node("ElementConnectivity", "DataArray_t",
-                                      {.kind = is_wide_ ? NumberKind::i8 : NumberKind::i4, .extents = {n * size}, .content = {{.n_items = n, .format = std::move(format)}}}));
+    node.children.push_back(
+        cgns_node("ElementConnectivity", "DataArray_t",
+                  {.kind = is_wide_ ? NumberKind::i8 : NumberKind::i4, .extents = {n * size}, .content = {{.n_items = n, .format = std::move(format)}}}));
     n_elements += n;
     return node;
   }
@@ -179,11 +193,12 @@ class CgnsWriter {
 
   CgnsOutputNode cell_section(CellKind kind, std::uint64_t& n_elements) const {
     const std::uint64_t size = static_cast<std::uint64_t>(n_nodes(kind));
-    return section(std::string(cgns_name(kind)), cgns_type(kind), cells_.count(kind), size, n_elements, [&cells = cells_, kind, size, is_wide = is_wide_](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
-      char* at = out.reserve((end - begin) * size * 8);
-      cells.for_each(kind, begin, end, [&](std::span<const NodeId> nodes, int) { at = put_nodes(at, nodes, is_wide); });
-      out.end_at(at);
-    });
+    return section(std::string(cgns_name(kind)), cgns_type(kind), cells_.count(kind), size, n_elements,
+                   [&cells = cells_, kind, size, is_wide = is_wide_](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
+                     char* at = out.reserve((end - begin) * size * 8);
+                     cells.for_each(kind, begin, end, [&](std::span<const NodeId> nodes, int) { at = put_nodes(at, nodes, is_wide); });
+                     out.end_at(at);
+                   });
   }
 
   template <class Face>
@@ -198,9 +213,11 @@ class CgnsWriter {
   void add_face_sections(PatchId patch, CgnsOutputNode& zone, std::uint64_t& n_elements) const {
     const std::string& name = names_[patch.index()];
     const std::span<const std::uint32_t> triangles = faces_.triangles(patch), quads = faces_.quads(patch);
-    if (!triangles.empty()) zone.children.push_back(section(name, k_cgns_triangle, triangles.size(), 3, n_elements, face_format(mesh_.boundary_triangles, triangles, is_wide_)));
+    if (!triangles.empty())
+      zone.children.push_back(section(name, k_cgns_triangle, triangles.size(), 3, n_elements, face_format(mesh_.boundary_triangles, triangles, is_wide_)));
     if (!quads.empty())
-      zone.children.push_back(section(triangles.empty() ? name : name + std::string(k_quad_suffix), k_cgns_quad, quads.size(), 4, n_elements, face_format(mesh_.boundary_quads, quads, is_wide_)));
+      zone.children.push_back(section(triangles.empty() ? name : name + std::string(k_quad_suffix), k_cgns_quad, quads.size(), 4, n_elements,
+                                      face_format(mesh_.boundary_quads, quads, is_wide_)));
   }
 
   CgnsOutputNode condition(PatchId patch, std::uint64_t first, std::uint64_t last) const {
@@ -228,8 +245,10 @@ class CgnsWriter {
           others.push_back(pair[1 - from].value() + 1ull);
         }
         const auto vector_node = [](const char* name, const Vec3& v, bool is_angle = false) {
-          CgnsOutputNode node = cgns_node(name, "DataArray_t", output_numbers<float>(NumberKind::f4, {3}, {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}));
-          node.children.push_back(cgns_node("DimensionalExponents", "DimensionalExponents_t", output_numbers<float>(NumberKind::f4, {5}, {0, is_angle ? 0.0f : 1.0f, 0, 0, is_angle ? 1.0f : 0.0f})));
+          CgnsOutputNode node = cgns_node(
+              name, "DataArray_t", output_numbers<float>(NumberKind::f4, {3}, {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}));
+          node.children.push_back(cgns_node("DimensionalExponents", "DimensionalExponents_t",
+                                            output_numbers<float>(NumberKind::f4, {5}, {0, is_angle ? 0.0f : 1.0f, 0, 0, is_angle ? 1.0f : 0.0f})));
           return node;
         };
         CgnsOutputNode periodic = cgns_node("Periodic", "Periodic_t");
@@ -273,7 +292,9 @@ bool is_adf_name(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_volume_cgns(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) { write_volume_cgns(mesh, path, CgnsIntegers::as_needed, context); }
+void write_volume_cgns(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  write_volume_cgns(mesh, path, CgnsIntegers::as_needed, context);
+}
 
 void write_volume_cgns(const HybridMesh& mesh, const std::filesystem::path& path, CgnsIntegers integers, const RunContext& context) {
   CgnsWriter(mesh, is_adf_name(path), integers, path.string(), context).write(path, context);

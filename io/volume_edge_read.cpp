@@ -11,7 +11,8 @@ namespace sterna::io {
 namespace {
 
 void read_points(const FfaNode& coordinates, HybridMesh& mesh) {
-  if (!coordinates.is_real() || coordinates.n_columns != 3) coordinates.fail("found " + std::to_string(coordinates.n_columns) + " columns, expected the 3 of real coordinates");
+  if (!coordinates.is_real() || coordinates.n_columns != 3)
+    coordinates.fail("found " + std::to_string(coordinates.n_columns) + " columns, expected the 3 of real coordinates");
   if (coordinates.n_rows >= NodeId::k_invalid) throw_id_overflow(coordinates.n_rows);
   mesh.points.resize(coordinates.n_rows);
   for (std::uint64_t i = 0; i < coordinates.n_rows; ++i) {
@@ -30,12 +31,14 @@ std::string text_below(const FfaNode& node, std::string_view child) {
 /// Appends the elements of N nodes; take(nodes) for each.
 template <std::size_t N, class Take>
 void read_nodes(const FfaNode& table, std::size_t n_points, const Take& take) {
-  if (!table.is_integer() || table.n_columns != N) table.fail("found " + std::to_string(table.n_columns) + " columns, expected " + std::to_string(N) + " of integers");
+  if (!table.is_integer() || table.n_columns != N)
+    table.fail("found " + std::to_string(table.n_columns) + " columns, expected " + std::to_string(N) + " of integers");
   for (std::uint64_t i = 0; i < table.n_rows; ++i) {
     std::array<NodeId, N> nodes;
     for (std::size_t k = 0; k < N; ++k) {
       const std::int64_t node = table.integer(i, k);
-      if (node < 1 || static_cast<std::uint64_t>(node) > n_points) table.fail("element " + std::to_string(i + 1) + " has the node " + std::to_string(node) + ", expected 1 to " + std::to_string(n_points));
+      if (node < 1 || static_cast<std::uint64_t>(node) > n_points)
+        table.fail("element " + std::to_string(i + 1) + " has the node " + std::to_string(node) + ", expected 1 to " + std::to_string(n_points));
       nodes[k] = NodeId(static_cast<std::uint32_t>(node - 1));
     }
     take(nodes);

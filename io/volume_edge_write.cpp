@@ -1,4 +1,5 @@
-// Writer of .bmsh. Tables are column-major: all first nodes of a group, then all second nodes. A node's header must tell its children before they come, so the tree is laid out first.
+// Writer of .bmsh. Tables are column-major: all first nodes of a group, then all second nodes. A node's header must tell its children before they come, so the
+// tree is laid out first.
 #include <algorithm>
 #include <cctype>
 #include <limits>
@@ -142,7 +143,8 @@ class EdgeWriter {
   }
 
   char* put_node(char* at, NodeId node) const {
-    return is_wide_ ? put_bytes(at, std::int64_t{node.value()} + 1, std::endian::big) : put_bytes(at, static_cast<std::int32_t>(node.value() + 1), std::endian::big);
+    return is_wide_ ? put_bytes(at, std::int64_t{node.value()} + 1, std::endian::big)
+                    : put_bytes(at, static_cast<std::int32_t>(node.value() + 1), std::endian::big);
   }
   char integer_type() const { return is_wide_ ? 'J' : 'I'; }
   std::size_t integer_bytes() const { return is_wide_ ? 8 : 4; }
@@ -153,7 +155,8 @@ class EdgeWriter {
       node("element_group", 'N', 0, 0, 2);
       text("element_type", edge_type(kind));
       const std::uint64_t n_rows = group.end - group.begin;
-      table("element_nodes", integer_type(), integer_bytes(), n_columns, n_rows, {.format = [this, kind, group, n_rows](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
+      table("element_nodes", integer_type(), integer_bytes(), n_columns, n_rows,
+            {.format = [this, kind, group, n_rows](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
               char* at = out.reserve((end - begin) * sizeof(std::int64_t));
               by_column(begin, end, n_rows, [&](std::uint64_t column, std::uint64_t from, std::uint64_t to) {
                 cells_.for_each(kind, group.begin + from, group.begin + to, [&](std::span<const NodeId> nodes, int) { at = put_node(at, nodes[column]); });
@@ -171,7 +174,8 @@ class EdgeWriter {
       node("belem_group", 'N', 0, 0, 2);
       text("bound_elem_type", type);
       const std::uint64_t n_rows = group.end - group.begin;
-      table("bound_elem_nodes", integer_type(), integer_bytes(), n_columns, n_rows, {.format = [this, &faces, which, group, n_rows](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
+      table("bound_elem_nodes", integer_type(), integer_bytes(), n_columns, n_rows,
+            {.format = [this, &faces, which, group, n_rows](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
               char* at = out.reserve((end - begin) * sizeof(std::int64_t));
               by_column(begin, end, n_rows, [&](std::uint64_t column, std::uint64_t from, std::uint64_t to) {
                 for (std::uint64_t i = from; i < to; ++i) at = put_node(at, faces[which[group.begin + i]].nodes[n_columns - 1 - column]);

@@ -41,7 +41,8 @@ std::vector<std::string> read_value(FoamFile& file) {
 }
 
 std::uint64_t number_in(FoamFile& file, const std::vector<std::string>& words, const std::string& key) {
-  if (words.size() != 1 || words[0].empty() || words[0].size() > 18 || !std::all_of(words[0].begin(), words[0].end(), [](char c) { return c >= '0' && c <= '9'; }))
+  if (words.size() != 1 || words[0].empty() || words[0].size() > 18 ||
+      !std::all_of(words[0].begin(), words[0].end(), [](char c) { return c >= '0' && c <= '9'; }))
     file.fail("found no number as " + key);
   return std::stoull(words[0]);
 }
@@ -75,7 +76,8 @@ FoamPatch read_patch(FoamFile& file) {
 }
 
 /// Patches with the faces from n_internal to n_faces, without gap. Returns the neighbours of cyclic ones, by patch.
-std::vector<std::string> read_boundary(const std::filesystem::path& folder, std::uint64_t n_internal, FaceMesh& faces, HybridMesh& mesh, const RunContext& context) {
+std::vector<std::string> read_boundary(const std::filesystem::path& folder, std::uint64_t n_internal, FaceMesh& faces, HybridMesh& mesh,
+                                       const RunContext& context) {
   FoamFile file(folder / "boundary", "polyBoundaryMesh", context);
   const std::uint64_t n = file.count("the number of patches", 20);  // "a{type b;nFaces 1;startFace 1;}" is longer
   file.expect("(");
@@ -83,8 +85,10 @@ std::vector<std::string> read_boundary(const std::filesystem::path& folder, std:
   std::vector<std::string> neighbours;
   for (std::uint64_t i = 0; i < n; ++i) {
     const FoamPatch patch = read_patch(file);
-    if (patch.n_faces > 0 && patch.first_face != next) file.fail("patch " + quoted_excerpt(patch.patch.name) + " starts at face " + std::to_string(patch.first_face) + ", expected " + std::to_string(next));
-    if (patch.n_faces > faces.n_faces() - next) file.fail("patch " + quoted_excerpt(patch.patch.name) + " ends behind the last face, " + std::to_string(faces.n_faces() - 1));
+    if (patch.n_faces > 0 && patch.first_face != next)
+      file.fail("patch " + quoted_excerpt(patch.patch.name) + " starts at face " + std::to_string(patch.first_face) + ", expected " + std::to_string(next));
+    if (patch.n_faces > faces.n_faces() - next)
+      file.fail("patch " + quoted_excerpt(patch.patch.name) + " ends behind the last face, " + std::to_string(faces.n_faces() - 1));
     const PatchId id = mesh.patches.push_back(patch.patch);
     neighbours.push_back(patch.neighbour);
     std::fill_n(faces.patch.begin() + static_cast<std::ptrdiff_t>(next), patch.n_faces, id);
@@ -106,7 +110,8 @@ void find_periodic(const std::vector<std::string>& neighbours, HybridMesh& mesh,
       mesh.periodic.push_back({patch, second, match_periodic(mesh, patch, second, periodic_tolerance(mesh)).translation});
     } catch (const Error& error) {
       if (error.code() != ErrorCode::bad_argument) throw;
-      context.warn("cyclic patches \"" + mesh.patches[patch].name + "\" and \"" + mesh.patches[second].name + "\" are taken as two patches: " + error.info().problem);
+      context.warn("cyclic patches \"" + mesh.patches[patch].name + "\" and \"" + mesh.patches[second].name +
+                   "\" are taken as two patches: " + error.info().problem);
     }
   }
 }
@@ -133,7 +138,8 @@ std::vector<std::filesystem::path> polymesh_files(const std::filesystem::path& p
 HybridMesh read_volume_foam(const std::filesystem::path& path, const RunContext& context) {
   std::error_code status;
   if (!std::filesystem::exists(path, status))  // the polyMesh beside it may be another mesh's
-    throw Error({.code = ErrorCode::file_not_found, .attempted = "reading " + path.string(), .problem = status ? status.message() : "there is no such file or folder"});
+    throw Error(
+        {.code = ErrorCode::file_not_found, .attempted = "reading " + path.string(), .problem = status ? status.message() : "there is no such file or folder"});
   const std::filesystem::path folder = polymesh_folder(path);
   HybridMesh mesh;
   {

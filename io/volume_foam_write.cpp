@@ -33,7 +33,8 @@ struct CyclicSide {
 CyclicSide order_cyclic(const HybridMesh& mesh, const FacesByPatch& faces, PatchId first, const PeriodicMatch& match) {
   const auto n_triangles = static_cast<std::uint32_t>(mesh.boundary_triangles.size());
   const auto nodes_of = [&](std::uint32_t face) {
-    return face < n_triangles ? std::span<const NodeId>(mesh.boundary_triangles[face].nodes) : std::span<const NodeId>(mesh.boundary_quads[face - n_triangles].nodes);
+    return face < n_triangles ? std::span<const NodeId>(mesh.boundary_triangles[face].nodes)
+                              : std::span<const NodeId>(mesh.boundary_quads[face - n_triangles].nodes);
   };
   const auto node_partner = [&](NodeId node) { return std::ranges::lower_bound(match.nodes, node, {}, [](const auto& pair) { return pair[0]; })->at(1); };
   std::vector<std::array<std::uint32_t, 2>> pairs = match.faces;
@@ -83,8 +84,8 @@ class FoamWriter {
     if (is_binary) text += "    arch \"LSB;label=32;scalar=64\";\n";
     text += "    class " + std::string(object_class) + ";\n";
     if (object == "owner" || object == "neighbour")
-      text += "    note \"nPoints:" + std::to_string(mesh_.points.size()) + " nCells:" + std::to_string(faces_.n_cells()) + " nFaces:" + std::to_string(n_faces_) +
-              " nInternalFaces:" + std::to_string(n_internal_) + "\";\n";
+      text += "    note \"nPoints:" + std::to_string(mesh_.points.size()) + " nCells:" + std::to_string(faces_.n_cells()) +
+              " nFaces:" + std::to_string(n_faces_) + " nInternalFaces:" + std::to_string(n_internal_) + "\";\n";
     return text + "    location \"constant/polyMesh\";\n    object " + std::string(object) + ";\n}\n\n";
   }
 
@@ -99,7 +100,8 @@ class FoamWriter {
     file.push_back(fixed_section(")\n"));
   }
 
-  void write_file(const AtomicFolder& folder, std::string_view object, std::string_view object_class, std::vector<OutputSection> items, std::uint64_t n, double from, double to) const {
+  void write_file(const AtomicFolder& folder, std::string_view object, std::string_view object_class, std::vector<OutputSection> items, std::uint64_t n,
+                  double from, double to) const {
     std::vector<OutputSection> sections{fixed_section(header(object, object_class, is_binary_))};
     add_list(sections, std::move(items), n);
     AtomicFile file(folder.file(object));
@@ -169,14 +171,15 @@ class FoamWriter {
       const auto cyclic = cyclic_.find(patch);
       const bool is_plain = cyclic == cyclic_.end();
       const std::span<const std::uint8_t> none;
-      add(is_plain ? by_patch_.triangles(patch) : std::span<const std::uint32_t>(cyclic->second.triangles), is_plain ? none : std::span<const std::uint8_t>(cyclic->second.triangle_begins),
+      add(is_plain ? by_patch_.triangles(patch) : std::span<const std::uint32_t>(cyclic->second.triangles),
+          is_plain ? none : std::span<const std::uint8_t>(cyclic->second.triangle_begins),
           [this](char* at, std::uint32_t i, std::uint32_t first, const Put& p) {
             std::array<NodeId, 3> nodes = mesh_.boundary_triangles[i].nodes;
             std::rotate(nodes.begin(), nodes.begin() + first, nodes.end());
             return p(at, std::span<const NodeId>(nodes), faces_.cell_of_triangle(i));
           });
-      add(is_plain ? by_patch_.quads(patch) : std::span<const std::uint32_t>(cyclic->second.quads), is_plain ? none : std::span<const std::uint8_t>(cyclic->second.quad_begins),
-          [this](char* at, std::uint32_t i, std::uint32_t first, const Put& p) {
+      add(is_plain ? by_patch_.quads(patch) : std::span<const std::uint32_t>(cyclic->second.quads),
+          is_plain ? none : std::span<const std::uint8_t>(cyclic->second.quad_begins), [this](char* at, std::uint32_t i, std::uint32_t first, const Put& p) {
             std::array<NodeId, 4> nodes = mesh_.boundary_quads[i].nodes;
             std::rotate(nodes.begin(), nodes.begin() + first, nodes.end());
             return p(at, std::span<const NodeId>(nodes), faces_.cell_of_quad(i));
@@ -198,7 +201,8 @@ class FoamWriter {
   }
 
   std::vector<OutputSection> face_texts() const {
-    std::vector<OutputSection> sections{internal(k_max_face_text, [](char* at, std::uint64_t, const CellFace& face) { return put_face_text(at, face.span()); })};
+    std::vector<OutputSection> sections{
+        internal(k_max_face_text, [](char* at, std::uint64_t, const CellFace& face) { return put_face_text(at, face.span()); })};
     add_boundary(sections, k_max_face_text, [](char* at, std::span<const NodeId> nodes, std::uint32_t) { return put_face_text(at, nodes); });
     return sections;
   }
@@ -274,8 +278,8 @@ class FoamWriter {
 
   void write_boundary(const AtomicFolder& folder) const {
     // Words of OpenFOAM: no blanks, quotes, slashes, semicolons, braces; brackets and '$', '#', ':' mean something to its dictionaries.
-    const std::vector<std::string> names =
-        names_by_rules(mesh_.patches, {.format = "OpenFOAM", .forbidden = "\"'\\/;{}()[]<>$#:,|*?!", .may_begin_with_digit = false, .may_have_blanks = false}, context_);
+    const std::vector<std::string> names = names_by_rules(
+        mesh_.patches, {.format = "OpenFOAM", .forbidden = "\"'\\/;{}()[]<>$#:,|*?!", .may_begin_with_digit = false, .may_have_blanks = false}, context_);
     std::string entries;
     std::uint64_t first = n_internal_;
     int n = 0;
@@ -284,7 +288,8 @@ class FoamWriter {
       if (n_faces == 0) continue;
       const auto neighbour = neighbour_.find(patch);
       const std::string type = neighbour == neighbour_.end() ? type_of(patch) : "cyclic;\n        neighbourPatch " + names[neighbour->second.index()];
-      entries += "    " + names[patch.index()] + "\n    {\n        type " + type + ";\n        nFaces " + std::to_string(n_faces) + ";\n        startFace " + std::to_string(first) + ";\n    }\n";
+      entries += "    " + names[patch.index()] + "\n    {\n        type " + type + ";\n        nFaces " + std::to_string(n_faces) + ";\n        startFace " +
+                 std::to_string(first) + ";\n    }\n";
       first += n_faces;
       ++n;
     }
@@ -299,8 +304,8 @@ class FoamWriter {
   RunContext context_;
   MeshFaces faces_;
   FacesByPatch by_patch_;
-  std::map<PatchId, PatchId> neighbour_;     ///< of periodic sides
-  std::map<PatchId, CyclicSide> cyclic_;     ///< of the second ones
+  std::map<PatchId, PatchId> neighbour_;  ///< of periodic sides
+  std::map<PatchId, CyclicSide> cyclic_;  ///< of the second ones
   std::uint64_t n_internal_ = 0, n_faces_ = 0, n_face_nodes_ = 0;
 };
 

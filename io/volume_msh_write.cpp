@@ -28,7 +28,8 @@ std::int64_t msh_type(CellKind kind) {
 
 class MshWriter {
  public:
-  MshWriter(const HybridMesh& mesh, const std::filesystem::path& path, std::vector<std::string> names) : mesh_(mesh), cells_(mesh), faces_(mesh), names_(std::move(names)) {
+  MshWriter(const HybridMesh& mesh, const std::filesystem::path& path, std::vector<std::string> names)
+      : mesh_(mesh), cells_(mesh), faces_(mesh), names_(std::move(names)) {
     std::string name = path.filename().string();
     std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     is_text_ = !name.ends_with(".bin.msh");
@@ -59,9 +60,15 @@ class MshWriter {
   // ---- numbers, as text or bytes; a row of text ends with end_row()
 
   void raw(std::string_view bytes) { pending_ += bytes; }
-  void small(std::int64_t value) { put([&](char* at) { return put_small(at, value); }); }
-  void large(std::uint64_t value) { put([&](char* at) { return put_large(at, value); }); }
-  void real(double value) { put([&](char* at) { return put_real(at, value); }); }
+  void small(std::int64_t value) {
+    put([&](char* at) { return put_small(at, value); });
+  }
+  void large(std::uint64_t value) {
+    put([&](char* at) { return put_large(at, value); });
+  }
+  void real(double value) {
+    put([&](char* at) { return put_real(at, value); });
+  }
   void end_row() {
     if (is_text_) pending_.back() = '\n';
   }

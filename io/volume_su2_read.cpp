@@ -1,5 +1,5 @@
-// SU2 reader, formats.md 2.2. Steps: index_zones finds the blocks; read_points; count_cells per chunk, so that each chunk knows its place in the arrays; read_cells;
-// orient_mesh repairs windings. The text is never copied; parsing is parallel over chunks of lines.
+// SU2 reader, formats.md 2.2. Steps: index_zones finds the blocks; read_points; count_cells per chunk, so that each chunk knows its place in the arrays;
+// read_cells; orient_mesh repairs windings. The text is never copied; parsing is parallel over chunks of lines.
 #include <array>
 #include <optional>
 #include <utility>
@@ -178,8 +178,7 @@ SlotCounts count_slots(const CellChunk& chunk, std::string_view source) {
 template <std::size_t N>
 void read_nodes(LineCursor& cursor, std::array<NodeId, N>& nodes, const std::array<std::uint8_t, 8>& order, std::size_t first_node, std::uint64_t n_nodes,
                 std::uint64_t item) {
-  for (std::size_t k = 0; k < N; ++k)
-    nodes[order[k]] = NodeId(static_cast<std::uint32_t>(first_node) + cursor.index(n_nodes, "a node of element ", item));
+  for (std::size_t k = 0; k < N; ++k) nodes[order[k]] = NodeId(static_cast<std::uint32_t>(first_node) + cursor.index(n_nodes, "a node of element ", item));
 }
 
 /// \param place where the chunk's first item of each slot goes
@@ -201,9 +200,7 @@ void read_chunk(const CellChunk& chunk, std::string_view source, std::size_t fir
         read(mesh.boundary_triangles[at].nodes, k_same);
         mesh.boundary_triangles[at].patch = chunk.patch;
         break;
-      default:
-        read(mesh.boundary_quads[at].nodes, k_same);
-        mesh.boundary_quads[at].patch = chunk.patch;
+      default: read(mesh.boundary_quads[at].nodes, k_same); mesh.boundary_quads[at].patch = chunk.patch;
     }
     cursor.next_line();
   }
@@ -214,8 +211,8 @@ void read_cells(const std::vector<CellChunk>& chunks, std::string_view source, s
   std::vector<SlotCounts> places(chunks.size());
   parallel_for(
       context, chunks.size(), [&](std::size_t c) { places[c] = count_slots(chunks[c], source); }, 1);
-  SlotCounts next = {mesh.tetrahedra.size(), mesh.pyramids.size(), mesh.prisms.size(), mesh.hexahedra.size(), mesh.boundary_triangles.size(),
-                     mesh.boundary_quads.size()};
+  SlotCounts next = {mesh.tetrahedra.size(), mesh.pyramids.size(),           mesh.prisms.size(),
+                     mesh.hexahedra.size(),  mesh.boundary_triangles.size(), mesh.boundary_quads.size()};
   for (SlotCounts& place : places)
     for (std::size_t s = 0; s < place.size(); ++s) place[s] = std::exchange(next[s], next[s] + place[s]);
   mesh.tetrahedra.resize(next[0]);
@@ -238,8 +235,7 @@ void read_zone(const Zone& zone, std::string_view source, HybridMesh& mesh, cons
     for (const LineChunk& lines : marker.faces.chunks) chunks.push_back({lines, patch});
   }
   read_cells(chunks, source, first_node, zone.points->n_items, mesh, context);
-  if (zone.n_partition_markers > 0)
-    context.info("markers SEND_RECEIVE (boundaries of a partition) left out: " + std::to_string(zone.n_partition_markers));
+  if (zone.n_partition_markers > 0) context.info("markers SEND_RECEIVE (boundaries of a partition) left out: " + std::to_string(zone.n_partition_markers));
 }
 
 }  // namespace

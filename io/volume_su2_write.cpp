@@ -70,8 +70,8 @@ OutputSection face_section(const std::vector<Face>& faces, std::span<const std::
           }};
 }
 
-std::vector<OutputSection> sections_of(const HybridMesh& mesh, const CellSections& cells, const FacesByPatch& faces,
-                                 const std::vector<std::string>& names, const std::filesystem::path& path) {
+std::vector<OutputSection> sections_of(const HybridMesh& mesh, const CellSections& cells, const FacesByPatch& faces, const std::vector<std::string>& names,
+                                       const std::filesystem::path& path) {
   check_count(mesh.points.size(), "nodes", path);
   check_count(cells.total(), "cells", path);
   std::vector<OutputSection> sections;

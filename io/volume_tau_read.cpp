@@ -75,7 +75,8 @@ class TauReader {
     parallel_for(context_, n, [&](std::size_t i) {
       for (std::size_t k = 0; k < N; ++k) {
         const std::int64_t node = corners.integer(i * N + k);
-        if (node < 0 || node >= n_points) corners.fail("element " + std::to_string(i) + " has point " + std::to_string(node) + ", expected 0 to " + std::to_string(n_points - 1));
+        if (node < 0 || node >= n_points)
+          corners.fail("element " + std::to_string(i) + " has point " + std::to_string(node) + ", expected 0 to " + std::to_string(n_points - 1));
         elements[i][k] = NodeId(static_cast<std::uint32_t>(node));
       }
     });

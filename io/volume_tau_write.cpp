@@ -29,10 +29,14 @@ class TauWriter {
     add_cells();
     add_faces();
     add_points();
-    const auto is_too_large = [](const NetcdfOutput::Variable& variable) { return count_of(variable.array) * byte_size(variable.array.kind) > k_max_cdf2_variable; };
+    const auto is_too_large = [](const NetcdfOutput::Variable& variable) {
+      return count_of(variable.array) * byte_size(variable.array.kind) > k_max_cdf2_variable;
+    };
     contents_.is_cdf5 = std::any_of(contents_.variables.begin(), contents_.variables.end(), is_too_large) ||
-                        std::any_of(contents_.dimensions.begin(), contents_.dimensions.end(), [](const NetcdfOutput::Dimension& dimension) { return dimension.length > k_max_number; });
-    if (contents_.is_cdf5) context.warn(path + ": an array exceeds the 4 GiB of NetCDF's 64-bit offset files; it is written as CDF-5, which not every TAU reads");
+                        std::any_of(contents_.dimensions.begin(), contents_.dimensions.end(),
+                                    [](const NetcdfOutput::Dimension& dimension) { return dimension.length > k_max_number; });
+    if (contents_.is_cdf5)
+      context.warn(path + ": an array exceeds the 4 GiB of NetCDF's 64-bit offset files; it is written as CDF-5, which not every TAU reads");
     contents_.is_cdf5 = contents_.is_cdf5 || kind == TauNetcdf::cdf5;
     contents_.attributes = {{"type", "Primary Grid: Tau Format"}};
     for (const TauMarker& marker : markers_) contents_.attributes.emplace_back("marker_" + std::to_string(marker.number), marker.name);
@@ -45,7 +49,8 @@ class TauWriter {
     std::vector<TauMarker> markers = markers_;
     for (TauMarker& marker : markers) {
       const std::string whole = marker.name;
-      std::replace_if(marker.name.begin(), marker.name.end(), [](char c) { return c == '#' || std::iscntrl(static_cast<unsigned char>(c)) != 0; }, '_');
+      std::replace_if(
+          marker.name.begin(), marker.name.end(), [](char c) { return c == '#' || std::iscntrl(static_cast<unsigned char>(c)) != 0; }, '_');
       if (marker.name != whole) context_.warn("patch \"" + whole + "\" is named \"" + marker.name + "\" in the boundary mapping");
     }
     return bmap_text(markers);
@@ -56,7 +61,8 @@ class TauWriter {
     const Patch& data = mesh_.patches[patch];
     TauMarker marker{.number = number, .name = data.name, .condition = tau_condition(data.kind)};
     if (marker.name.empty()) marker.name = "patch_" + std::to_string(patch.value() + 1);
-    if (data.kind == PatchKind::interface) context_.warn("patch \"" + data.name + "\" is an interface, for which TAU has no condition; it is written as an euler wall");
+    if (data.kind == PatchKind::interface)
+      context_.warn("patch \"" + data.name + "\" is an interface, for which TAU has no condition; it is written as an euler wall");
     return marker;
   }
 
@@ -66,7 +72,8 @@ class TauWriter {
   }
 
   void add_variable(std::string name, std::vector<std::size_t> dimensions, NumberKind kind, OutputSection content) {
-    NetcdfOutput::Variable variable{.name = std::move(name), .dimensions = std::move(dimensions), .array = {.kind = kind, .extents = {}, .content = {std::move(content)}}};
+    NetcdfOutput::Variable variable{
+        .name = std::move(name), .dimensions = std::move(dimensions), .array = {.kind = kind, .extents = {}, .content = {std::move(content)}}};
     for (const std::size_t dimension : variable.dimensions) variable.array.extents.push_back(contents_.dimensions[dimension].length);
     contents_.variables.push_back(std::move(variable));
   }
@@ -154,7 +161,9 @@ class TauWriter {
 
 }  // namespace
 
-void write_volume_tau(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) { write_volume_tau(mesh, path, TauNetcdf::as_needed, context); }
+void write_volume_tau(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  write_volume_tau(mesh, path, TauNetcdf::as_needed, context);
+}
 
 void write_volume_tau(const HybridMesh& mesh, const std::filesystem::path& path, TauNetcdf kind, const RunContext& context) {
   const TauWriter writer(mesh, path.string(), kind, context);

@@ -23,8 +23,10 @@ class UgridReader {
     std::array<std::uint64_t, 7> n{};
     for (std::uint64_t& count : n) count = source_.count("the number of points, faces or cells");
     read_points(n[0]);
-    read_elements(mesh_.boundary_triangles, n[1], k_same, [](BoundaryTriangle& face) -> auto& { return face.nodes; });
-    read_elements(mesh_.boundary_quads, n[2], k_same, [](BoundaryQuad& face) -> auto& { return face.nodes; });
+    read_elements(
+        mesh_.boundary_triangles, n[1], k_same, [](BoundaryTriangle & face) -> auto& { return face.nodes; });
+    read_elements(
+        mesh_.boundary_quads, n[2], k_same, [](BoundaryQuad & face) -> auto& { return face.nodes; });
     read_patches(n[1] + n[2]);
     context.progress(0.4);
     const auto same = [](auto& nodes) -> auto& { return nodes; };

@@ -91,8 +91,10 @@ std::vector<OutputSection> sections_of(const HybridMesh& mesh, const CellSection
   sections.push_back(items(variant, mesh.boundary_quads.size(), [&mesh](std::uint64_t i, ItemWriter& out) {
     for (const std::size_t k : {0, 3, 2, 1}) out.node(mesh.boundary_quads[i].nodes[k]);
   }));
-  sections.push_back(items(variant, mesh.boundary_triangles.size(), [&mesh](std::uint64_t i, ItemWriter& out) { out.integer(mesh.boundary_triangles[i].patch.value() + 1); }));
-  sections.push_back(items(variant, mesh.boundary_quads.size(), [&mesh](std::uint64_t i, ItemWriter& out) { out.integer(mesh.boundary_quads[i].patch.value() + 1); }));
+  sections.push_back(
+      items(variant, mesh.boundary_triangles.size(), [&mesh](std::uint64_t i, ItemWriter& out) { out.integer(mesh.boundary_triangles[i].patch.value() + 1); }));
+  sections.push_back(
+      items(variant, mesh.boundary_quads.size(), [&mesh](std::uint64_t i, ItemWriter& out) { out.integer(mesh.boundary_quads[i].patch.value() + 1); }));
   for (const CellKind kind : k_kinds) sections.push_back(cell_section(variant, cells, kind));
   return sections;
 }
@@ -128,7 +130,8 @@ int condition_of(const HybridMesh& mesh, const FacesByPatch& faces, PatchId patc
 /// A name on one line; a patch without name has its number.
 std::string mapbc_name(const Patch& patch, PatchId id) {
   std::string name = patch.name;
-  std::replace_if(name.begin(), name.end(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; }, '_');
   return name.empty() ? "patch_" + std::to_string(id.value() + 1) : name;
 }
 
@@ -137,7 +140,8 @@ std::string mapbc_text(const HybridMesh& mesh, const FacesByPatch& faces, const 
   int n = 0;
   for (const PatchId patch : mesh.patches.ids()) {
     if (faces.count(patch) == 0) continue;
-    lines += std::to_string(patch.value() + 1) + " " + std::to_string(condition_of(mesh, faces, patch, context)) + " " + mapbc_name(mesh.patches[patch], patch) + "\n";
+    lines += std::to_string(patch.value() + 1) + " " + std::to_string(condition_of(mesh, faces, patch, context)) + " " +
+             mapbc_name(mesh.patches[patch], patch) + "\n";
     ++n;
   }
   return std::to_string(n) + "\n" + lines;

@@ -20,7 +20,8 @@ constexpr std::array<std::string_view, 5> k_marker_names = {"marker", "boundary"
 constexpr std::string_view k_patch_prefix = "patch:";
 
 std::optional<PatchKind> kind_named(std::string_view name) {
-  for (const PatchKind kind : {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface})
+  for (const PatchKind kind :
+       {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface})
     if (to_string(kind) == name) return kind;
   return std::nullopt;
 }
@@ -34,7 +35,8 @@ class VtkHdfReader {
     if (!type) throw_malformed(file_.source(), "/VTKHDF", "found no attribute \"Type\"");
     if (type->text() != "UnstructuredGrid") throw_unsupported(file_.source(), "the file holds " + quoted_excerpt(type->text()) + ", not an UnstructuredGrid");
     const std::vector<std::uint64_t> n_points = counts("NumberOfPoints"), n_cells = counts("NumberOfCells"), n_ids = counts("NumberOfConnectivityIds");
-    if (n_cells.size() != n_points.size() || n_ids.size() != n_points.size()) throw_malformed(file_.source(), "/VTKHDF", "the numbers of points, cells and connectivity ids are not of the same partitions");
+    if (n_cells.size() != n_points.size() || n_ids.size() != n_points.size())
+      throw_malformed(file_.source(), "/VTKHDF", "the numbers of points, cells and connectivity ids are not of the same partitions");
     read_points(sum(n_points, "/VTKHDF/NumberOfPoints"));
     const std::uint64_t n_all_cells = sum(n_cells, "/VTKHDF/NumberOfCells");
     connectivity_ = integers("Connectivity", sum(n_ids, "/VTKHDF/NumberOfConnectivityIds"));
@@ -125,7 +127,8 @@ class VtkHdfReader {
       if (end - begin > 8) throw_unsupported(file_.source(), "cell " + std::to_string(i) + " has " + std::to_string(end - begin) + " nodes", k_hint);
       for (std::int64_t k = begin; k < end; ++k) {
         const std::int64_t node = connectivity_.integer(first_id_ + static_cast<std::uint64_t>(k));
-        if (node < 0 || node >= static_cast<std::int64_t>(n_points)) connectivity_.fail("cell " + std::to_string(i) + " has the node " + std::to_string(node) + ", there are " + std::to_string(n_points));
+        if (node < 0 || node >= static_cast<std::int64_t>(n_points))
+          connectivity_.fail("cell " + std::to_string(i) + " has the node " + std::to_string(node) + ", there are " + std::to_string(n_points));
         nodes_.push_back(NodeId(first_point_ + static_cast<std::uint64_t>(node)));
       }
       add_cell(first_cell_ + i);
@@ -138,7 +141,8 @@ class VtkHdfReader {
 
   template <std::size_t N>
   std::array<NodeId, N> taken(std::uint64_t cell, const std::array<std::uint8_t, 8>& order) const {
-    if (nodes_.size() != N) connectivity_.fail("cell " + std::to_string(cell) + " has " + std::to_string(nodes_.size()) + " nodes, expected " + std::to_string(N));
+    if (nodes_.size() != N)
+      connectivity_.fail("cell " + std::to_string(cell) + " has " + std::to_string(nodes_.size()) + " nodes, expected " + std::to_string(N));
     std::array<NodeId, N> result;
     for (std::size_t k = 0; k < N; ++k) result[order[k]] = nodes_[k];
     return result;

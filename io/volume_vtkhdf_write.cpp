@@ -22,7 +22,10 @@ struct Run {
 std::vector<Run> runs_of(const HybridMesh& mesh, const CellSections& cells) {
   std::vector<Run> runs;
   for (const CellKind kind : k_kinds_in_file)
-    runs.push_back({.type = vtk_type(kind), .n_nodes = static_cast<std::uint64_t>(n_nodes(kind)), .n_cells = cells.count(kind), .for_each = [&cells, kind](std::uint64_t begin, std::uint64_t end, const auto& f) {
+    runs.push_back({.type = vtk_type(kind),
+                    .n_nodes = static_cast<std::uint64_t>(n_nodes(kind)),
+                    .n_cells = cells.count(kind),
+                    .for_each = [&cells, kind](std::uint64_t begin, std::uint64_t end, const auto& f) {
                       const auto order = vtk_order(kind);
                       std::array<NodeId, 8> turned;
                       cells.for_each(kind, begin, end, [&](std::span<const NodeId> nodes, int layer) {
@@ -32,7 +35,8 @@ std::vector<Run> runs_of(const HybridMesh& mesh, const CellSections& cells) {
                     }});
   const auto add_faces = [&](int type, const auto& faces, std::uint64_t size) {
     runs.push_back({.type = type, .n_nodes = size, .n_cells = faces.size(), .for_each = [&faces](std::uint64_t begin, std::uint64_t end, const auto& f) {
-                      for (std::uint64_t i = begin; i < end; ++i) f(std::span<const NodeId>(faces[i].nodes), 0, static_cast<std::int32_t>(faces[i].patch.value()) + 1);
+                      for (std::uint64_t i = begin; i < end; ++i)
+                        f(std::span<const NodeId>(faces[i].nodes), 0, static_cast<std::int32_t>(faces[i].patch.value()) + 1);
                     }});
   };
   add_faces(k_vtk_triangle, mesh.boundary_triangles, 3);
@@ -42,7 +46,9 @@ std::vector<Run> runs_of(const HybridMesh& mesh, const CellSections& cells) {
 }
 
 Hdf5OutputNode dataset(std::string name, OutputArray array) { return {.name = std::move(name), .is_dataset = true, .array = std::move(array)}; }
-Hdf5OutputNode number(std::string name, std::uint64_t value) { return dataset(std::move(name), output_numbers<std::int64_t>(NumberKind::i8, {1}, {static_cast<std::int64_t>(value)})); }
+Hdf5OutputNode number(std::string name, std::uint64_t value) {
+  return dataset(std::move(name), output_numbers<std::int64_t>(NumberKind::i8, {1}, {static_cast<std::int64_t>(value)}));
+}
 
 OutputArray points_array(const HybridMesh& mesh) {
   const std::uint64_t n = mesh.points.size();
@@ -51,7 +57,8 @@ OutputArray points_array(const HybridMesh& mesh) {
                                                                     for (std::uint64_t i = begin; i < end; ++i) {
                                                                       const Point& p = mesh.points.raw()[i];
                                                                       if (!is_finite(p)) throw_node_not_finite(i);
-                                                                      for (std::size_t axis = 0; axis < 3; ++axis) at = put_bytes(at, p[axis], std::endian::little);
+                                                                      for (std::size_t axis = 0; axis < 3; ++axis)
+                                                                        at = put_bytes(at, p[axis], std::endian::little);
                                                                     }
                                                                     out.end_at(at);
                                                                   }}}};
@@ -64,7 +71,8 @@ OutputArray per_cell(NumberKind kind, std::uint64_t n_values, const std::vector<
   for (const Run& run : runs)
     array.content.push_back({.n_items = run.n_cells, .format = [&run, has_nodes, put](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
                                char* at = out.reserve((end - begin) * sizeof(T) * (has_nodes ? run.n_nodes : 1));
-                               run.for_each(begin, end, [&](std::span<const NodeId> nodes, int layer, std::int32_t marker) { at = put(at, nodes, layer, marker); });
+                               run.for_each(begin, end,
+                                            [&](std::span<const NodeId> nodes, int layer, std::int32_t marker) { at = put(at, nodes, layer, marker); });
                                out.end_at(at);
                              }});
   return array;
@@ -85,7 +93,8 @@ OutputArray offsets_array(std::uint64_t n_cells, const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     array.content.push_back({.n_items = run.n_cells, .format = [before, n = run.n_nodes](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
                                char* at = out.reserve((end - begin) * 8);
-                               for (std::uint64_t i = begin; i < end; ++i) at = put_bytes(at, static_cast<std::int64_t>(before + (i + 1) * n), std::endian::little);
+                               for (std::uint64_t i = begin; i < end; ++i)
+                                 at = put_bytes(at, static_cast<std::int64_t>(before + (i + 1) * n), std::endian::little);
                                out.end_at(at);
                              }});
     before += run.n_cells * run.n_nodes;
@@ -98,9 +107,12 @@ Hdf5OutputNode patch_numbers(const HybridMesh& mesh, const RunContext& context) 
   for (const PatchId patch : mesh.patches.ids()) {
     const Patch& data = mesh.patches[patch];
     std::string name = "patch:" + std::string(to_string(data.kind)) + ":" + data.name;
-    std::replace_if(name.begin(), name.end(), [](char c) { return c == '/' || c == '\0'; }, '_');
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '/' || c == '\0'; }, '_');
     const std::string stem = name;
-    const auto is_taken = [&] { return std::any_of(group.children.begin(), group.children.end(), [&](const Hdf5OutputNode& other) { return other.name == name; }); };
+    const auto is_taken = [&] {
+      return std::any_of(group.children.begin(), group.children.end(), [&](const Hdf5OutputNode& other) { return other.name == name; });
+    };
     for (int i = 2; is_taken(); ++i) name = stem + "_" + std::to_string(i);
     Hdf5OutputNode node = dataset(name, output_numbers<std::int32_t>(NumberKind::i4, {1}, {static_cast<std::int32_t>(patch.value()) + 1}));
     if (!name.ends_with(":" + data.name)) {
@@ -130,19 +142,22 @@ void write_volume_vtkhdf(const HybridMesh& mesh, const std::filesystem::path& pa
   grid.children.push_back(number("NumberOfCells", n_cells));
   grid.children.push_back(number("NumberOfConnectivityIds", n_values));
   grid.children.push_back(dataset("Points", points_array(mesh)));
-  grid.children.push_back(dataset("Connectivity", per_cell<std::int64_t>(NumberKind::i8, n_values, runs, true, [](char* at, std::span<const NodeId> nodes, int, std::int32_t) {
-                                    for (const NodeId node : nodes) at = put_bytes(at, static_cast<std::int64_t>(node.value()), std::endian::little);
-                                    return at;
-                                  })));
+  grid.children.push_back(
+      dataset("Connectivity", per_cell<std::int64_t>(NumberKind::i8, n_values, runs, true, [](char* at, std::span<const NodeId> nodes, int, std::int32_t) {
+                for (const NodeId node : nodes) at = put_bytes(at, static_cast<std::int64_t>(node.value()), std::endian::little);
+                return at;
+              })));
   grid.children.push_back(dataset("Offsets", offsets_array(n_cells, runs)));
   grid.children.push_back(dataset("Types", types_array(n_cells, runs)));
   Hdf5OutputNode cell_data{.name = "CellData"};
-  cell_data.children.push_back(dataset("marker", per_cell<std::int32_t>(NumberKind::i4, n_cells, runs, false, [](char* at, std::span<const NodeId>, int, std::int32_t marker) {
-                                         return put_bytes(at, marker, std::endian::little);
-                                       })));
-  cell_data.children.push_back(dataset("layer", per_cell<std::int32_t>(NumberKind::i4, n_cells, runs, false, [](char* at, std::span<const NodeId>, int layer, std::int32_t) {
-                                         return put_bytes(at, static_cast<std::int32_t>(layer), std::endian::little);
-                                       })));
+  cell_data.children.push_back(
+      dataset("marker", per_cell<std::int32_t>(NumberKind::i4, n_cells, runs, false, [](char* at, std::span<const NodeId>, int, std::int32_t marker) {
+                return put_bytes(at, marker, std::endian::little);
+              })));
+  cell_data.children.push_back(
+      dataset("layer", per_cell<std::int32_t>(NumberKind::i4, n_cells, runs, false, [](char* at, std::span<const NodeId>, int layer, std::int32_t) {
+                return put_bytes(at, static_cast<std::int32_t>(layer), std::endian::little);
+              })));
   grid.children.push_back(std::move(cell_data));
   if (!mesh.patches.empty()) grid.children.push_back(patch_numbers(mesh, context));
   Hdf5OutputNode root;

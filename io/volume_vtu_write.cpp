@@ -19,10 +19,10 @@ namespace {
 /// A run of cells or faces of one type in the file.
 struct Run {
   int vtk_type = 0;
-  std::uint64_t n_nodes = 0;       ///< per cell
+  std::uint64_t n_nodes = 0;  ///< per cell
   std::uint64_t n_cells = 0;
-  std::uint64_t first_cell = 0;    ///< in the file
-  std::uint64_t first_value = 0;   ///< in the connectivity
+  std::uint64_t first_cell = 0;   ///< in the file
+  std::uint64_t first_value = 0;  ///< in the connectivity
 };
 
 enum : std::size_t { k_triangle_run = 4, k_quad_run = 5, k_n_runs = 6 };
@@ -55,11 +55,9 @@ class FileCells {
   template <class F>
   void for_each_cell(std::size_t r, std::uint64_t begin, std::uint64_t end, const F& f) const {
     if (r == k_triangle_run) {
-      for (std::uint64_t i = begin; i < end; ++i)
-        f(std::span<const NodeId>(mesh_.boundary_triangles[i].nodes), 0, marker(mesh_.boundary_triangles[i].patch));
+      for (std::uint64_t i = begin; i < end; ++i) f(std::span<const NodeId>(mesh_.boundary_triangles[i].nodes), 0, marker(mesh_.boundary_triangles[i].patch));
     } else if (r == k_quad_run) {
-      for (std::uint64_t i = begin; i < end; ++i)
-        f(std::span<const NodeId>(mesh_.boundary_quads[i].nodes), 0, marker(mesh_.boundary_quads[i].patch));
+      for (std::uint64_t i = begin; i < end; ++i) f(std::span<const NodeId>(mesh_.boundary_quads[i].nodes), 0, marker(mesh_.boundary_quads[i].patch));
     } else {
       const auto order = vtk_order(k_kinds_in_file[r]);
       std::array<NodeId, 8> turned;
@@ -145,7 +143,10 @@ VtuArray connectivity_array(VtuType type, const FileCells& cells) {
 
 VtuArray points_array(const HybridMesh& mesh) {
   static_assert(sizeof(Point) == 3 * sizeof(double));
-  return {.name = "Points", .type = VtuType::float64, .n_components = 3, .n_values = 3 * mesh.points.size(),
+  return {.name = "Points",
+          .type = VtuType::float64,
+          .n_components = 3,
+          .n_values = 3 * mesh.points.size(),
           .fill = [&mesh](std::uint64_t begin, std::uint64_t end, char* out) {
             const char* const bytes = reinterpret_cast<const char*>(mesh.points.raw().data());
             std::memcpy(out, bytes + begin * sizeof(double), (end - begin) * sizeof(double));
@@ -176,7 +177,10 @@ std::vector<CellQuality> qualities_of(const HybridMesh& mesh, const RunContext& 
 void add_quality_arrays(const std::vector<CellQuality>& qualities, VtuDocument& document) {
   constexpr double k_degrees = 180.0 / std::numbers::pi;
   const auto add = [&](std::string name, double CellQuality::*member, double unit) {
-    document.cell_data.push_back({.name = std::move(name), .type = VtuType::float64, .n_values = qualities.size(), .fill = [&qualities, member, unit](std::uint64_t begin, std::uint64_t end, char* out) {
+    document.cell_data.push_back({.name = std::move(name),
+                                  .type = VtuType::float64,
+                                  .n_values = qualities.size(),
+                                  .fill = [&qualities, member, unit](std::uint64_t begin, std::uint64_t end, char* out) {
                                     for (std::uint64_t i = begin; i < end; ++i) out = put<double>(out, unit * (qualities[i].*member));
                                   }});
   };
@@ -185,7 +189,6 @@ void add_quality_arrays(const std::vector<CellQuality>& qualities, VtuDocument& 
   add("min_dihedral", &CellQuality::min_dihedral, k_degrees);
   add("max_dihedral", &CellQuality::max_dihedral, k_degrees);
 }
-
 
 void write_with(const HybridMesh& mesh, const std::vector<CellQuality>* qualities, const std::filesystem::path& path, const RunContext& context) {
   const FacesByPatch checked(mesh);  // refuses faces without patch
@@ -196,10 +199,9 @@ void write_with(const HybridMesh& mesh, const std::vector<CellQuality>* qualitie
   document.n_points = mesh.points.size();
   document.n_cells = cells.n_cells();
   document.points = points_array(mesh);
-  document.connectivity = mesh.points.size() <= k_int32 ? connectivity_array<std::int32_t>(VtuType::int32, cells)
-                                                        : connectivity_array<std::int64_t>(VtuType::int64, cells);
-  document.offsets = cells.n_values() <= k_int32 ? offsets_array<std::int32_t>(VtuType::int32, cells)
-                                                 : offsets_array<std::int64_t>(VtuType::int64, cells);
+  document.connectivity =
+      mesh.points.size() <= k_int32 ? connectivity_array<std::int32_t>(VtuType::int32, cells) : connectivity_array<std::int64_t>(VtuType::int64, cells);
+  document.offsets = cells.n_values() <= k_int32 ? offsets_array<std::int32_t>(VtuType::int32, cells) : offsets_array<std::int64_t>(VtuType::int64, cells);
   document.types = types_array(cells);
   document.cell_data.push_back(per_cell<std::int32_t>("marker", VtuType::int32, cells, [](int, std::int32_t marker) { return marker; }));
   document.cell_data.push_back(per_cell<std::int32_t>("layer", VtuType::int32, cells, [](int layer, std::int32_t) { return layer; }));

@@ -19,7 +19,8 @@ constexpr std::size_t k_stop_interval = 1 << 16;
 constexpr std::int64_t k_vtk_empty = 0, k_vtk_strip = 6, k_vtk_polygon = 7, k_vtk_pixel = 8, k_vtk_voxel = 11, k_vtk_curved_edge = 21;
 
 std::optional<PatchKind> kind_named(std::string_view name) {
-  for (const PatchKind kind : {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface})
+  for (const PatchKind kind :
+       {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface})
     if (to_string(kind) == name) return kind;
   return std::nullopt;
 }
@@ -29,11 +30,11 @@ bool bounds_nothing(std::int64_t type) { return (type >= k_vtk_empty && type < k
 /// Corners of a face of second order, which are its first nodes; 0 for other types.
 std::size_t corners_of_curved_face(std::int64_t type) {
   switch (type) {
-    case 22:             // quadratic triangle
-    case 34: return 3;   // biquadratic
-    case 23:             // quadratic quad
-    case 28:             // biquadratic
-    case 30: return 4;   // quadratic in one direction
+    case 22:            // quadratic triangle
+    case 34: return 3;  // biquadratic
+    case 23:            // quadratic quad
+    case 28:            // biquadratic
+    case 30: return 4;  // quadratic in one direction
     default: return 0;
   }
 }
@@ -57,16 +58,20 @@ void for_each_vtk_cell(const VtkGrid& grid, const VtkPiece& piece, const RunCont
       if (cell % k_stop_interval == 0) context.check_stop();
       const std::uint64_t end = cells.ends->id(i);
       if (end < begin || end > cells.connectivity->size())
-        fail(grid, piece, "cell " + std::to_string(cell) + " has the offset " + std::to_string(static_cast<std::int64_t>(end)) + ", expected " + std::to_string(begin) + " to " +
-                              std::to_string(cells.connectivity->size()));
+        fail(grid, piece,
+             "cell " + std::to_string(cell) + " has the offset " + std::to_string(static_cast<std::int64_t>(end)) + ", expected " + std::to_string(begin) +
+                 " to " + std::to_string(cells.connectivity->size()));
       nodes.clear();
       for (std::uint64_t k = begin; k < end; ++k) {
         const std::uint64_t node = cells.connectivity->id(k);
         if (node >= piece.points.size())
-          fail(grid, piece, "cell " + std::to_string(cell) + " has the node " + std::to_string(static_cast<std::int64_t>(node)) + ", there are " + std::to_string(piece.points.size()));
+          fail(grid, piece,
+               "cell " + std::to_string(cell) + " has the node " + std::to_string(static_cast<std::int64_t>(node)) + ", there are " +
+                   std::to_string(piece.points.size()));
         nodes.push_back(node);
       }
-      f(cell, cells.types ? static_cast<std::int64_t>(cells.types->id(i)) : cells.type, std::span<const std::uint64_t>(nodes), piece.markers ? piece.markers->id(cell) : 0);
+      f(cell, cells.types ? static_cast<std::int64_t>(cells.types->id(i)) : cells.type, std::span<const std::uint64_t>(nodes),
+        piece.markers ? piece.markers->id(cell) : 0);
       begin = end;
     }
   }
@@ -114,9 +119,7 @@ class FaceCollector {
   }
 
  private:
-  static bool is_face(std::int64_t type) {
-    return (type >= k_vtk_triangle && type <= k_vtk_quad) || corners_of_curved_face(type) > 0;
-  }
+  static bool is_face(std::int64_t type) { return (type >= k_vtk_triangle && type <= k_vtk_quad) || corners_of_curved_face(type) > 0; }
 
   void add_face(std::size_t cell, std::int64_t type, std::span<const std::uint64_t> nodes) {
     if (type == k_vtk_strip) return add_strip(cell, nodes);
@@ -134,7 +137,8 @@ class FaceCollector {
 
   /// Every other triangle of a strip is turned.
   void add_strip(std::size_t cell, std::span<const std::uint64_t> nodes) {
-    if (nodes.size() < 3) fail(grid_, *piece_, "the triangle strip " + std::to_string(cell) + " has " + std::to_string(nodes.size()) + " nodes, expected 3 or more");
+    if (nodes.size() < 3)
+      fail(grid_, *piece_, "the triangle strip " + std::to_string(cell) + " has " + std::to_string(nodes.size()) + " nodes, expected 3 or more");
     const auto corner = [&](std::size_t i) { return first_point_ + static_cast<std::uint32_t>(nodes[i]); };
     for (std::size_t i = 0; i + 2 < nodes.size(); ++i) builder_.add_triangle(corner(i), corner(i + 1 + i % 2), corner(i + 2 - i % 2));
   }
@@ -177,7 +181,8 @@ class CellCollector {
  private:
   template <std::size_t N>
   std::array<NodeId, N> taken(std::size_t cell, const std::array<std::uint8_t, 8>& order) const {
-    if (nodes_.size() != N) fail(grid_, *piece_, "cell " + std::to_string(cell) + " has " + std::to_string(nodes_.size()) + " nodes, expected " + std::to_string(N));
+    if (nodes_.size() != N)
+      fail(grid_, *piece_, "cell " + std::to_string(cell) + " has " + std::to_string(nodes_.size()) + " nodes, expected " + std::to_string(N));
     std::array<NodeId, N> result;
     for (std::size_t k = 0; k < N; ++k) result[order[k]] = NodeId(std::uint64_t{first_node_ + nodes_[k]});
     return result;

@@ -50,8 +50,8 @@ struct VtkGrid {
   void add_patch(std::string_view field_name, std::uint64_t marker);
 };
 
-/// Triangles, quads, polygons, pixels, strips, corners of faces of second order; of a volume mesh its boundary faces. Points that no face uses are left out of a volume mesh.
-/// \throws Error file_malformed (indices out of range, sizes that disagree, a volume mesh without faces), overflow, cancelled.
+/// Triangles, quads, polygons, pixels, strips, corners of faces of second order; of a volume mesh its boundary faces. Points that no face uses are left out of
+/// a volume mesh. \throws Error file_malformed (indices out of range, sizes that disagree, a volume mesh without faces), overflow, cancelled.
 SurfaceSoup surface_of(const VtkGrid& grid, const RunContext& context);
 
 /// Cells in the explicit arrays, windings repaired. \throws Error file_malformed, unsupported_format (other cells), overflow, cancelled.

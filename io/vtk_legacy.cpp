@@ -1,5 +1,5 @@
-// Three lines, then keywords in any order; each announces numbers, as text or as big-endian bytes behind the keyword's line. The text scanner leads; a byte reader takes over
-// inside a binary block. Attributes that are no patch numbers are passed over by their size.
+// Three lines, then keywords in any order; each announces numbers, as text or as big-endian bytes behind the keyword's line. The text scanner leads; a byte
+// reader takes over inside a binary block. Attributes that are no patch numbers are passed over by their size.
 #include "io/vtk_legacy.h"
 
 #include <algorithm>
@@ -23,10 +23,25 @@ struct TypeName {
   Type type;
 };
 /// vtkIdType is written as int; long is that of 64-bit systems.
-constexpr std::array<TypeName, 19> k_types = {{{"char", Type::int8}, {"signed_char", Type::int8}, {"unsigned_char", Type::uint8}, {"short", Type::int16},
-    {"unsigned_short", Type::uint16}, {"int", Type::int32}, {"unsigned_int", Type::uint32}, {"long", Type::int64}, {"unsigned_long", Type::uint64}, {"vtkidtype", Type::int32},
-    {"vtktypeint8", Type::int8}, {"vtktypeuint8", Type::uint8}, {"vtktypeint16", Type::int16}, {"vtktypeint32", Type::int32}, {"vtktypeuint32", Type::uint32},
-    {"vtktypeint64", Type::int64}, {"vtktypeuint64", Type::uint64}, {"float", Type::float32}, {"double", Type::float64}}};
+constexpr std::array<TypeName, 19> k_types = {{{"char", Type::int8},
+                                               {"signed_char", Type::int8},
+                                               {"unsigned_char", Type::uint8},
+                                               {"short", Type::int16},
+                                               {"unsigned_short", Type::uint16},
+                                               {"int", Type::int32},
+                                               {"unsigned_int", Type::uint32},
+                                               {"long", Type::int64},
+                                               {"unsigned_long", Type::uint64},
+                                               {"vtkidtype", Type::int32},
+                                               {"vtktypeint8", Type::int8},
+                                               {"vtktypeuint8", Type::uint8},
+                                               {"vtktypeint16", Type::int16},
+                                               {"vtktypeint32", Type::int32},
+                                               {"vtktypeuint32", Type::uint32},
+                                               {"vtktypeint64", Type::int64},
+                                               {"vtktypeuint64", Type::uint64},
+                                               {"float", Type::float32},
+                                               {"double", Type::float64}}};
 
 constexpr std::string_view k_magic = "# vtk DataFile Version";
 constexpr std::size_t k_min_text_bytes = 2;  // a digit and a blank
@@ -67,13 +82,16 @@ VtkCells split_counted(const VtuValues& values, std::size_t n_cells, const auto&
   std::size_t at = 0;
   for (std::size_t cell = 0; cell < n_cells; ++cell) {
     const std::uint64_t n = at < values.size() ? values.id(at) : 0;
-    if (at >= values.size() || n > values.size() - at - 1) fail("the nodes of cell " + std::to_string(cell) + " of " + std::to_string(n_cells) + " reach beyond the announced " + std::to_string(values.size()) + " numbers");
+    if (at >= values.size() || n > values.size() - at - 1)
+      fail("the nodes of cell " + std::to_string(cell) + " of " + std::to_string(n_cells) + " reach beyond the announced " + std::to_string(values.size()) +
+           " numbers");
     for (std::size_t k = 1; k <= n; ++k) append_value(nodes, static_cast<std::int64_t>(values.id(at + k)));
     n_nodes += n;
     append_value(ends, static_cast<std::int64_t>(n_nodes));
     at += n + 1;
   }
-  if (at != values.size()) fail("found " + std::to_string(values.size() - at) + " numbers after the nodes of the last of " + std::to_string(n_cells) + " cells");
+  if (at != values.size())
+    fail("found " + std::to_string(values.size() - at) + " numbers after the nodes of the last of " + std::to_string(n_cells) + " cells");
   return {.connectivity = VtuValues(Type::int64, std::move(nodes)), .ends = VtuValues(Type::int64, std::move(ends)), .types = {}};
 }
 
@@ -97,7 +115,9 @@ class LegacyParser {
 
   void parse_head() {
     const std::string_view first = scanner_.rest_of_line();
-    if (!equal_ignoring_case(first.substr(0, k_magic.size()), k_magic)) throw_malformed(buffer_.source, "line 1", "found " + quoted_excerpt(first) + ", expected \"" + std::string(k_magic) + " 3.0\" or another version up to 5.1");
+    if (!equal_ignoring_case(first.substr(0, k_magic.size()), k_magic))
+      throw_malformed(buffer_.source, "line 1",
+                      "found " + quoted_excerpt(first) + ", expected \"" + std::string(k_magic) + " 3.0\" or another version up to 5.1");
     scanner_.rest_of_line();  // title
     const std::string encoding = lower_case(scanner_.token("ASCII or BINARY"));
     if (encoding != "ascii" && encoding != "binary") scanner_.fail_expected("ASCII or BINARY");
@@ -168,8 +188,9 @@ class LegacyParser {
     if (cells_[section]) fail("a second block of this kind");
     const std::size_t n = count("the number of cells");
     const std::size_t size = count("the number of values");
-    cells_[section] = is_next("OFFSETS") ? take_offset_cells(n, size)
-                                                                       : split_counted(read_values(Type::int32, size, 1, "nodes of cells"), n, [&](const std::string& problem) { fail(problem); });
+    cells_[section] = is_next("OFFSETS")
+                          ? take_offset_cells(n, size)
+                          : split_counted(read_values(Type::int32, size, 1, "nodes of cells"), n, [&](const std::string& problem) { fail(problem); });
     cells_[section]->type = grid_.is_surface ? k_surface_sections[section].type : 0;
   }
 
@@ -240,7 +261,8 @@ class LegacyParser {
 
   /// The best of the arrays that number patches is kept, as are the names of patches; others are passed over. \param type none: strings
   void take_array(const std::string& name, std::optional<Type> type, std::size_t n_tuples, std::size_t n_components) {
-    if (n_components > 0 && n_tuples > buffer_.bytes.size() / n_components) fail("an array of " + std::to_string(n_tuples) + " times " + std::to_string(n_components) + " values is larger than the file");
+    if (n_components > 0 && n_tuples > buffer_.bytes.size() / n_components)
+      fail("an array of " + std::to_string(n_tuples) + " times " + std::to_string(n_components) + " values is larger than the file");
     if (!type) return skip_strings(n_tuples * n_components);
     const bool is_integer = *type != Type::float32 && *type != Type::float64;
     const auto rank = static_cast<std::size_t>(std::find(k_vtk_marker_names.begin(), k_vtk_marker_names.end(), name) - k_vtk_marker_names.begin());
@@ -317,7 +339,8 @@ class LegacyParser {
     const char* const begin = buffer_.bytes.data() + reader.offset();
     std::vector<char> bytes(begin, begin + n_bytes);
     if (std::endian::native == std::endian::little && size > 1)
-      for (std::size_t i = 0; i < n_bytes; i += size) std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(i), bytes.begin() + static_cast<std::ptrdiff_t>(i + size));
+      for (std::size_t i = 0; i < n_bytes; i += size)
+        std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(i), bytes.begin() + static_cast<std::ptrdiff_t>(i + size));
     scanner_.seek(reader.offset() + n_bytes);
     return {type, std::move(bytes)};
   }
@@ -334,7 +357,8 @@ class LegacyParser {
 
   /// Bytes in binary files, reals in text.
   void skip_colours(std::size_t n, std::size_t n_components) {
-    if (n_components > 0 && n > buffer_.bytes.size() / n_components) fail("colours of " + std::to_string(n) + " times " + std::to_string(n_components) + " values are larger than the file");
+    if (n_components > 0 && n > buffer_.bytes.size() / n_components)
+      fail("colours of " + std::to_string(n) + " times " + std::to_string(n_components) + " values are larger than the file");
     skip_values(Type::uint8, n * n_components);
   }
 
@@ -359,7 +383,8 @@ class LegacyParser {
 
   void require(std::size_t n, std::size_t min_bytes, std::string_view what) {
     if (n > (scanner_.remaining() + 1) / min_bytes)
-      fail("found " + std::to_string(scanner_.remaining()) + " bytes to the end of the file, expected " + std::to_string(n) + " " + std::string(what), "the file may have been cut short: copy or write it again");
+      fail("found " + std::to_string(scanner_.remaining()) + " bytes to the end of the file, expected " + std::to_string(n) + " " + std::string(what),
+           "the file may have been cut short: copy or write it again");
   }
 
   [[noreturn]] void fail(const std::string& problem, std::string_view hint = {}) const {

@@ -90,9 +90,12 @@ bool append_ascii(std::string_view text, std::vector<char>& bytes) {
 /// Unpacks a block of exactly n bytes.
 bool unpack(std::string_view packed, bool is_lz4, char* to, std::size_t n) {
   constexpr std::size_t k_most = std::numeric_limits<int>::max();  // of LZ4
-  if (is_lz4) return packed.size() <= k_most && n <= k_most && LZ4_decompress_safe(packed.data(), to, static_cast<int>(packed.size()), static_cast<int>(n)) == static_cast<int>(n);
+  if (is_lz4)
+    return packed.size() <= k_most && n <= k_most &&
+           LZ4_decompress_safe(packed.data(), to, static_cast<int>(packed.size()), static_cast<int>(n)) == static_cast<int>(n);
   uLongf n_found = static_cast<uLongf>(n);
-  return uncompress(reinterpret_cast<Bytef*>(to), &n_found, reinterpret_cast<const Bytef*>(packed.data()), static_cast<uLong>(packed.size())) == Z_OK && n_found == n;
+  return uncompress(reinterpret_cast<Bytef*>(to), &n_found, reinterpret_cast<const Bytef*>(packed.data()), static_cast<uLong>(packed.size())) == Z_OK &&
+         n_found == n;
 }
 
 /// A compressed block and where its bytes go.
@@ -126,7 +129,8 @@ VtuDecoder::VtuDecoder(const FileBuffer& buffer, const std::vector<XmlTag>& tags
       const std::string_view compressor = tag.attribute("compressor");
       if (compressor == "vtkZLibDataCompressor") packing_ = Packing::zlib;
       else if (compressor == "vtkLZ4DataCompressor") packing_ = Packing::lz4;
-      else if (!compressor.empty()) throw_unsupported(buffer.source, "the arrays are compressed with " + std::string(compressor), "write the file with LZ4, zlib or without compression");
+      else if (!compressor.empty())
+        throw_unsupported(buffer.source, "the arrays are compressed with " + std::string(compressor), "write the file with LZ4, zlib or without compression");
       if (tag.attribute("byte_order", "LittleEndian") != "LittleEndian")
         throw_unsupported(buffer.source, "the byte order is " + std::string(tag.attribute("byte_order")), "write the file as LittleEndian");
       word_size_ = tag.attribute("header_type", "UInt32") == "UInt64" ? 8 : 4;
@@ -145,13 +149,15 @@ VtuDecoder::VtuDecoder(const FileBuffer& buffer, const std::vector<XmlTag>& tags
 
 VtuValues VtuDecoder::decode(const XmlTag& tag) const {
   const auto found = std::find_if(k_types.begin(), k_types.end(), [&](const auto& entry) { return entry.first == tag.attribute("type"); });
-  if (found == k_types.end()) throw_unsupported(buffer_.source, "array " + quoted_excerpt(tag.attribute("Name")) + " has the type " + quoted_excerpt(tag.attribute("type")));
+  if (found == k_types.end())
+    throw_unsupported(buffer_.source, "array " + quoted_excerpt(tag.attribute("Name")) + " has the type " + quoted_excerpt(tag.attribute("type")));
   const Type type = found->second;
   const std::string_view format = tag.attribute("format", "ascii");
   if (format == "ascii") {
     std::vector<char> bytes;
     const bool is_real = type == Type::float32 || type == Type::float64;
-    if (!(is_real ? append_ascii<double>(tag.text, bytes) : append_ascii<std::int64_t>(tag.text, bytes))) fail(tag, "found text that is not a number of its type");
+    if (!(is_real ? append_ascii<double>(tag.text, bytes) : append_ascii<std::int64_t>(tag.text, bytes)))
+      fail(tag, "found text that is not a number of its type");
     return {is_real ? Type::float64 : Type::int64, std::move(bytes)};
   }
   std::string decoded;
@@ -196,7 +202,8 @@ std::vector<char> VtuDecoder::decode_blocks(std::string_view encoded, const XmlT
   if (n_blocks == 0) return {};
   const std::uint64_t block_size = header_word(encoded, 1, tag);
   const std::uint64_t last_size = header_word(encoded, 2, tag) == 0 ? block_size : header_word(encoded, 2, tag);
-  if (n_blocks > encoded.size() / word_size_) fail(tag, "found " + std::to_string(encoded.size()) + " bytes, too few for " + std::to_string(n_blocks) + " blocks");
+  if (n_blocks > encoded.size() / word_size_)
+    fail(tag, "found " + std::to_string(encoded.size()) + " bytes, too few for " + std::to_string(n_blocks) + " blocks");
   std::vector<Block> blocks;
   std::uint64_t at = (3 + n_blocks) * word_size_;
   std::size_t place = 0;
@@ -204,7 +211,8 @@ std::vector<char> VtuDecoder::decode_blocks(std::string_view encoded, const XmlT
     const std::uint64_t packed = header_word(encoded, 3 + i, tag);
     const std::uint64_t size = i + 1 == n_blocks ? last_size : block_size;
     if (at > encoded.size() || packed > encoded.size() - at) fail(tag, "block " + std::to_string(i) + " reaches beyond the end of the data");
-    if (size > k_expansion_floor + k_max_expansion * packed) fail(tag, "block " + std::to_string(i) + " claims to unpack to " + std::to_string(size) + " bytes");
+    if (size > k_expansion_floor + k_max_expansion * packed)
+      fail(tag, "block " + std::to_string(i) + " claims to unpack to " + std::to_string(size) + " bytes");
     blocks.push_back({.packed = encoded.substr(at, packed), .place = place, .size = size});
     at += packed;
     place += size;

@@ -22,9 +22,13 @@ class VtuValues {
 
   std::size_t size() const { return bytes_.size() / size_of(type_); }
   bool is_integer() const { return type_ != Type::float32 && type_ != Type::float64; }
-  double real(std::size_t i) const { return visit<double>(i, [](auto value) { return static_cast<double>(value); }); }
+  double real(std::size_t i) const {
+    return visit<double>(i, [](auto value) { return static_cast<double>(value); });
+  }
   /// An id or count; negative ones come out as huge numbers, which range checks refuse. \pre is_integer()
-  std::uint64_t id(std::size_t i) const { return visit<std::uint64_t>(i, [](auto value) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(value)); }); }
+  std::uint64_t id(std::size_t i) const {
+    return visit<std::uint64_t>(i, [](auto value) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(value)); });
+  }
 
  private:
   template <class T, class R, class F>
@@ -72,9 +76,9 @@ class VtuDecoder {
   RunContext context_;
   Packing packing_ = Packing::none;
   std::size_t word_size_ = 4;
-  std::string_view appended_;            ///< behind the '_'
+  std::string_view appended_;  ///< behind the '_'
   bool appended_is_base64_ = false;
-  std::vector<std::uint64_t> offsets_;   ///< of all appended arrays, ascending
+  std::vector<std::uint64_t> offsets_;  ///< of all appended arrays, ascending
 };
 
 }  // namespace sterna::io

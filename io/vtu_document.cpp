@@ -1,5 +1,5 @@
-// The file: an XML head with the offset of each array, then the arrays, each a header of block sizes and the compressed blocks. Sizes and offsets are known only
-// after compression: their places are reserved, and filled in when the arrays are written.
+// The file: an XML head with the offset of each array, then the arrays, each a header of block sizes and the compressed blocks. Sizes and offsets are known
+// only after compression: their places are reserved, and filled in when the arrays are written.
 #include "io/vtu_document.h"
 
 #include <lz4.h>
@@ -71,8 +71,8 @@ std::string head(const VtuDocument& document, const std::vector<std::uint64_t>& 
   const bool is_surface = document.kind == VtuKind::poly_data;
   const std::string kind = is_surface ? "PolyData" : "UnstructuredGrid";
   const std::string cells = is_surface ? "Polys" : "Cells";
-  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind +
-                     "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"" + std::string(compressor_attribute(document.packing)) + ">\n<" + kind + ">\n";
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind + "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\"" +
+                     std::string(compressor_attribute(document.packing)) + ">\n<" + kind + ">\n";
   if (!document.field_data.empty()) {
     text += "<FieldData>\n";
     for (const auto& [name, value] : document.field_data)

@@ -36,8 +36,8 @@ struct VtuDocument {
   VtuKind kind = VtuKind::unstructured_grid;
   std::uint64_t n_points = 0;
   std::uint64_t n_cells = 0;
-  VtuArray points;                                              ///< 3 components
-  VtuArray connectivity, offsets, types;                        ///< VTK node order, end positions, VTK numbers (not of PolyData)
+  VtuArray points;                        ///< 3 components
+  VtuArray connectivity, offsets, types;  ///< VTK node order, end positions, VTK numbers (not of PolyData)
   std::vector<VtuArray> point_data;
   std::vector<VtuArray> cell_data;
   std::vector<std::pair<std::string, std::int32_t>> field_data;  ///< single numbers by name

@@ -71,7 +71,8 @@ Outline outline_of(const std::vector<XmlTag>& tags, std::string_view source) {
     if (tag.name == "VTKFile") {
       is_vtk = true;
       const std::string_view type = tag.attribute("type");
-      if (type != k_grid_type && type != k_surface_type) throw_unsupported(source, "the file holds " + quoted_excerpt(type) + ", not an UnstructuredGrid or PolyData");
+      if (type != k_grid_type && type != k_surface_type)
+        throw_unsupported(source, "the file holds " + quoted_excerpt(type) + ", not an UnstructuredGrid or PolyData");
       outline.is_surface = type == k_surface_type;
     } else if (tag.name == "Piece") {
       outline.pieces.emplace_back().tag = &tag;

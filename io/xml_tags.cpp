@@ -88,9 +88,7 @@ class TagScanner {
     return found;
   }
 
-  void skip_blanks() {
-    at_ = std::min(text_.find_first_not_of(k_blanks, at_), text_.size());
-  }
+  void skip_blanks() { at_ = std::min(text_.find_first_not_of(k_blanks, at_), text_.size()); }
   char peek() const {
     if (at_ >= text_.size()) fail("the file ends within a tag");
     return text_[at_];
@@ -115,9 +113,7 @@ std::string_view XmlTag::attribute(std::string_view key, std::string_view fallba
   return fallback;
 }
 
-std::vector<XmlTag> scan_xml_tags(std::string_view text, std::string_view last, std::string_view source) {
-  return TagScanner(text, source).scan(last);
-}
+std::vector<XmlTag> scan_xml_tags(std::string_view text, std::string_view last, std::string_view source) { return TagScanner(text, source).scan(last); }
 
 std::string xml_escaped(std::string_view text) {
   std::string out;

@@ -10,10 +10,10 @@
 namespace sterna::io {
 
 struct XmlTag {
-  std::string name;          ///< "DataArray"; "/DataArray" closes; a self-closing tag is followed by its closing one
+  std::string name;                                             ///< "DataArray"; "/DataArray" closes; a self-closing tag is followed by its closing one
   std::vector<std::pair<std::string, std::string>> attributes;  ///< entities resolved
-  std::string_view text;     ///< between this tag and the next
-  std::size_t offset = 0;    ///< byte of its '<'
+  std::string_view text;                                        ///< between this tag and the next
+  std::size_t offset = 0;                                       ///< byte of its '<'
 
   /// Value of an attribute; \p fallback when there is none.
   std::string_view attribute(std::string_view key, std::string_view fallback = {}) const;

@@ -60,9 +60,13 @@ Aircraft aircraft_of(const AircraftParts& parts) {
   Aircraft aircraft{.name = parts.name};
   std::set<std::string> names;
   for (const ComponentHandle& component : parts.components) {
-    for (const std::string& name : component->has_mirror_image() ? std::vector{component->name(), image_name(component->name())} : std::vector{component->name()})
+    for (const std::string& name :
+         component->has_mirror_image() ? std::vector{component->name(), image_name(component->name())} : std::vector{component->name()})
       if (!names.insert(name).second)
-        throw Error({.code = ErrorCode::bad_argument, .attempted = "putting the aircraft together", .problem = "two components are named \"" + name + "\"", .hint = "give them names: wing{ name = \"tail\", ... }"});
+        throw Error({.code = ErrorCode::bad_argument,
+                     .attempted = "putting the aircraft together",
+                     .problem = "two components are named \"" + name + "\"",
+                     .hint = "give them names: wing{ name = \"tail\", ... }"});
     append_description(aircraft, *component);
   }
   return aircraft;
@@ -87,7 +91,8 @@ ModelValue unite_solids(const std::vector<ModelHandle>& models, const UniteOptio
   ModelValue value = assemble(models, context);
   refit_for_cad(value.model, context);  // the kernel that unites knows splines only
   UniteResult united = cad::unite_aircraft(value.model, options, context);
-  value.report = fmt::format("union: volume {:.6g} m^3, parts have {:.6g} m^3 together; {} {}", united.report.volume, united.report.sum_of_volumes, united.report.n_bodies, united.report.n_bodies == 1 ? "body" : "bodies that do not touch");
+  value.report = fmt::format("union: volume {:.6g} m^3, parts have {:.6g} m^3 together; {} {}", united.report.volume, united.report.sum_of_volumes,
+                             united.report.n_bodies, united.report.n_bodies == 1 ? "body" : "bodies that do not touch");
   for (const UniteTry& attempt : united.report.tries)
     if (!attempt.problem.empty()) value.report += fmt::format("\n  tolerance {:.3g} m was not enough: {}", attempt.tolerance, attempt.problem);
   context.info(value.report);

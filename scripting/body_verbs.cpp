@@ -61,7 +61,11 @@ struct Schema<scripting::FuselageOptions> {
   using O = scripting::FuselageOptions;
   static constexpr std::string_view stage = "fuselage";
   static constexpr std::array fields = {
-      Field<O>{.name = "along", .member = &O::along, .help = "between frames: monotone (smooth, never beyond the frames), smooth (Bessel, sumo's), akima (sumo's, straight parts stay straight), linear", .choices = "monotone smooth akima linear"},
+      Field<O>{
+          .name = "along",
+          .member = &O::along,
+          .help = "between frames: monotone (smooth, never beyond the frames), smooth (Bessel, sumo's), akima (sumo's, straight parts stay straight), linear",
+          .choices = "monotone smooth akima linear"},
       Field<O>{.name = "nose", .member = &O::nose, .help = "end before the first frame, where that is no point", .choices = "round flat"},
       Field<O>{.name = "nose_height", .member = &O::nose_height, .min = 0.01, .max = 20.0, .help = "of a round nose, of the mean radius of the first frame"},
       Field<O>{.name = "tail", .member = &O::tail, .help = "end behind the last frame", .choices = "round flat"},
@@ -77,12 +81,21 @@ struct Schema<scripting::FrameOptions> {
       Field<O>{.name = "x", .member = &O::x, .unit = Unit::metre, .help = "of its plane", .required = true},
       Field<O>{.name = "y", .member = &O::y, .unit = Unit::metre, .help = "of its middle"},
       Field<O>{.name = "z", .member = &O::z, .unit = Unit::metre, .help = "of its middle"},
-      Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 0.0, .help = "of a circle; 0 = a point, at the ends only", .automatic = "width and height"},
+      Field<O>{.name = "diameter",
+               .member = &O::diameter,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "of a circle; 0 = a point, at the ends only",
+               .automatic = "width and height"},
       Field<O>{.name = "width", .member = &O::width, .unit = Unit::metre, .min = 0.0, .help = "along y", .automatic = "the height"},
       Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 0.0, .help = "along z", .automatic = "the width"},
-      Field<O>{.name = "shape", .member = &O::shape, .help = "of the section; points: a list of its own", .choices = "ellipse circle superellipse double_ellipse egg isikveren points"},
+      Field<O>{.name = "shape",
+               .member = &O::shape,
+               .help = "of the section; points: a list of its own",
+               .choices = "ellipse circle superellipse double_ellipse egg isikveren points"},
       Field<O>{.name = "exponent", .member = &O::exponent, .min = 0.5, .max = 20.0, .help = "of a superellipse: |y|^n + |z|^n = 1; 2 = ellipse"},
-      Field<O>{.name = "offset", .member = &O::offset, .min = -0.95, .max = 0.95, .help = "of a double ellipse: how high its widest place is, of the half height"},
+      Field<O>{
+          .name = "offset", .member = &O::offset, .min = -0.95, .max = 0.95, .help = "of a double ellipse: how high its widest place is, of the half height"},
       Field<O>{.name = "distortion", .member = &O::distortion, .min = -0.95, .max = 0.95, .help = "of Huegelschaeffer's egg"},
   };
 };
@@ -118,7 +131,10 @@ struct BodyTable {
   Point position;
 
   BodyTable(const ScriptCall& call, std::string_view usage, std::string name = {})
-      : table(table_argument(call, 0, usage)), reader(table, call.attempted()), options{.name = name.empty() ? std::string(call.verb) : std::move(name)}, schema(sterna::options_of(options)) {}
+      : table(table_argument(call, 0, usage)),
+        reader(table, call.attempted()),
+        options{.name = name.empty() ? std::string(call.verb) : std::move(name)},
+        schema(sterna::options_of(options)) {}
   void read_shared() {
     position = read_point(reader, "position").value_or(Point{});
     reader.read_options(schema);
@@ -171,7 +187,8 @@ std::optional<BodyFrame> frame_of(const ScriptValue& value, const std::string& w
       if (!given) reader.add_problem(std::string(name) + ": expected a number, not " + std::string(type_text(*number)));
       isikveren[name] = given.value_or(0.0);
     }
-  if (!is_automatic(o.diameter) && !(is_automatic(o.width) && is_automatic(o.height))) reader.add_problem("diameter, width and height: give the diameter, or the others");
+  if (!is_automatic(o.diameter) && !(is_automatic(o.width) && is_automatic(o.height)))
+    reader.add_problem("diameter, width and height: give the diameter, or the others");
   if (points) {
     const auto rows = rows_of(*points, 2);
     if (!rows) reader.add_problem("points: expected a list {{y, z}, ...} of the right half, from the bottom to the top");
@@ -187,7 +204,13 @@ std::optional<BodyFrame> frame_of(const ScriptValue& value, const std::string& w
     frame.offset = o.offset;
     frame.distortion = o.distortion;
     frame.zp = isikveren["zp"], frame.a0 = isikveren["a0"], frame.a1 = isikveren["a1"], frame.b1 = isikveren["b1"];
-    static const std::map<std::string, FrameShape> k_shapes = {{"circle", FrameShape::circle}, {"ellipse", FrameShape::ellipse}, {"superellipse", FrameShape::ellipse}, {"double_ellipse", FrameShape::double_ellipse}, {"egg", FrameShape::egg}, {"isikveren", FrameShape::isikveren}, {"points", FrameShape::points}};
+    static const std::map<std::string, FrameShape> k_shapes = {{"circle", FrameShape::circle},
+                                                               {"ellipse", FrameShape::ellipse},
+                                                               {"superellipse", FrameShape::ellipse},
+                                                               {"double_ellipse", FrameShape::double_ellipse},
+                                                               {"egg", FrameShape::egg},
+                                                               {"isikveren", FrameShape::isikveren},
+                                                               {"points", FrameShape::points}};
     frame.shape = k_shapes.at(o.shape);
     if (width == 0.0 && height == 0.0) frame = point_frame(frame.center, where);
   }
@@ -216,10 +239,14 @@ ScriptValue make_fuselage_verb(const ScriptCall& call) {
     for (std::size_t i = 0; i < (*list)->items.size(); ++i)
       if (auto frame = frame_of((*list)->items[i], "frame " + std::to_string(i + 1), t.reader)) body.frames.push_back(std::move(*frame));
   for (std::size_t i = 1; i < body.frames.size(); ++i)
-    if (!(body.frames[i].center.x > body.frames[i - 1].center.x)) t.reader.add_problem("frames: '" + body.frames[i].name + "' does not stand behind '" + body.frames[i - 1].name + "'; x must ascend");
+    if (!(body.frames[i].center.x > body.frames[i - 1].center.x))
+      t.reader.add_problem("frames: '" + body.frames[i].name + "' does not stand behind '" + body.frames[i - 1].name + "'; x must ascend");
   t.reader.finish();
   body.placement.rotation.y = o.pitch;
-  body.tangents = o.along == "monotone" ? BodyTangents::monotone : o.along == "akima" ? BodyTangents::akima : o.along == "linear" ? BodyTangents::linear : BodyTangents::bessel;
+  body.tangents = o.along == "monotone" ? BodyTangents::monotone
+                  : o.along == "akima"  ? BodyTangents::akima
+                  : o.along == "linear" ? BodyTangents::linear
+                                        : BodyTangents::bessel;
   body.nose = cap(o.nose, o.nose_height);
   body.tail = cap(o.tail, o.tail_height);
   return t.value(std::move(body), ComponentKind::body);
@@ -237,7 +264,8 @@ ScriptValue make_nacelle_verb(const ScriptCall& call) {
   t.reader.finish();
   Body body = nacelle_body(t.options.name, t.position, o);
   body.has_mirror_image = t.options.symmetric;
-  return std::make_shared<ComponentValue>(ComponentValue{.kind = ComponentKind::nacelle, .shape = std::move(body), .intake = patches.intake, .exhaust = patches.exhaust});
+  return std::make_shared<ComponentValue>(
+      ComponentValue{.kind = ComponentKind::nacelle, .shape = std::move(body), .intake = patches.intake, .exhaust = patches.exhaust});
 }
 
 ScriptValue make_pylon_verb(const ScriptCall& call) {
@@ -251,8 +279,10 @@ ScriptValue make_pylon_verb(const ScriptCall& call) {
   const std::vector<ScriptValue>& items = reader.items();
   const auto component = [&](std::size_t i) { return i < items.size() ? std::get_if<ComponentHandle>(&items[i]) : nullptr; };
   const ComponentHandle *wing = component(0), *body = component(1);
-  if (!wing || !std::holds_alternative<Wing>((*wing)->shape)) reader.add_problem("entry 1: expected a wing (from wing{...}), not " + std::string(items.empty() ? "nothing" : type_text(items[0])));
-  if (!body || !std::holds_alternative<Body>((*body)->shape)) reader.add_problem("entry 2: expected a nacelle or another body, not " + std::string(items.size() < 2 ? "nothing" : type_text(items[1])));
+  if (!wing || !std::holds_alternative<Wing>((*wing)->shape))
+    reader.add_problem("entry 1: expected a wing (from wing{...}), not " + std::string(items.empty() ? "nothing" : type_text(items[0])));
+  if (!body || !std::holds_alternative<Body>((*body)->shape))
+    reader.add_problem("entry 2: expected a nacelle or another body, not " + std::string(items.size() < 2 ? "nothing" : type_text(items[1])));
   refuse_items_beyond(reader, 2);
   reader.read_options(name);
   reader.read_options(schema);
@@ -267,7 +297,8 @@ namespace {
 
 /// boom{} and sting{}: a body from a point to another.
 template <class Options>
-ScriptValue make_rod(const ScriptCall& call, std::string_view usage, ComponentKind kind, Body (*make)(const std::string&, const Point&, const Point&, const Options&)) {
+ScriptValue make_rod(const ScriptCall& call, std::string_view usage, ComponentKind kind,
+                     Body (*make)(const std::string&, const Point&, const Point&, const Options&)) {
   BodyTable t(call, usage);
   Options o;
   const OptionTable schema = sterna::options_of(o);
@@ -333,14 +364,18 @@ std::string help_of() {
 }  // namespace
 
 std::string fuselage_help() {
-  return help_of<BodyOptions, FuselageOptions>() + k_position_help + "  frames = { {...}, {...} }\n      required: two at least, from the nose to the tail\neach frame:\n" + help_of<FrameOptions>() +
-         "  points = {{y, z}, ...}\n      of the shape \"points\": the right half from the bottom to the top\n  zp, a0, a1, b1\n      of the shape \"isikveren\", numbers\n";
+  return help_of<BodyOptions, FuselageOptions>() + k_position_help +
+         "  frames = { {...}, {...} }\n      required: two at least, from the nose to the tail\neach frame:\n" + help_of<FrameOptions>() +
+         "  points = {{y, z}, ...}\n      of the shape \"points\": the right half from the bottom to the top\n  zp, a0, a1, b1\n      of the shape "
+         "\"isikveren\", numbers\n";
 }
 std::string nacelle_help() { return help_of<BodyOptions, NacelleOptions, NacellePatches>() + k_position_help; }
 std::string pylon_help() { return help_of<PylonOptions>(); }
 std::string boom_help() { return help_of<BodyOptions, BoomOptions>() + k_ends_help; }
 std::string sting_help() { return help_of<BodyOptions, StingOptions>() + k_ends_help; }
 std::string fairing_help() { return help_of<BodyOptions, FairingOptions>() + k_position_help; }
-std::string revolution_help() { return help_of<BodyOptions, RevolutionOptions>() + k_position_help + "  profile = {{x, radius}, ...}\n      required: from the nose on\n"; }
+std::string revolution_help() {
+  return help_of<BodyOptions, RevolutionOptions>() + k_position_help + "  profile = {{x, radius}, ...}\n      required: from the nose on\n";
+}
 
 }  // namespace sterna::scripting

@@ -40,7 +40,9 @@ struct Schema<scripting::CheckSettings> {
       Field<O>{.name = "intersections", .member = &O::intersections, .help = "test boundaries and envelope exactly for intersection (gate G2)"},
       Field<O>{.name = "quality", .member = &O::quality, .help = "measure the QUALITY gates (dual metrics, growth, angles, skew)"},
       Field<O>{.name = "findings_per_kind", .member = &O::findings_per_kind, .min = 1, .max = 1e6, .help = "places listed for each kind of violation"},
-      Field<O>{.name = "cell_centred", .member = &O::cell_centred, .help = "with quality, measure also what cell-centred solvers feel: OpenFOAM's non-orthogonality, skewness ..."},
+      Field<O>{.name = "cell_centred",
+               .member = &O::cell_centred,
+               .help = "with quality, measure also what cell-centred solvers feel: OpenFOAM's non-orthogonality, skewness ..."},
       Field<O>{.name = "strict", .member = &O::strict, .help = "a QUALITY gate that FAILs is an error too"},
   };
 };

@@ -63,7 +63,10 @@ std::string with_degrees(const std::string& name, const std::string& text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (name != "curvature_angle" || error != std::errc() || end != text.data() + text.size()) return text;
   if (value > k_surely_degrees) return text + "deg";
-  throw Error({.code = ErrorCode::bad_argument, .attempted = "option curvature_angle", .problem = text + " may be degrees or radians", .hint = "write " + text + "deg or " + text + "rad"});
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = "option curvature_angle",
+               .problem = text + " may be degrees or radians",
+               .hint = "write " + text + "deg or " + text + "rad"});
 }
 
 void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help) {
@@ -73,7 +76,8 @@ void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, Opti
           [&patches](const std::vector<std::string>& texts) {
             for (const std::string& text : texts) {
               const std::size_t equals = text.find('='), colon = text.rfind(':', equals);
-              if (equals == std::string::npos || colon == std::string::npos || colon == 0) throw CLI::ValidationError("--patch", "\"" + text + "\" is not NAMES:OPTION=VALUE,OPTION=VALUE");
+              if (equals == std::string::npos || colon == std::string::npos || colon == 0)
+                throw CLI::ValidationError("--patch", "\"" + text + "\" is not NAMES:OPTION=VALUE,OPTION=VALUE");
               auto& [names, options] = patches.emplace_back(text.substr(0, colon), OptionOverrides{});
               std::istringstream list(text.substr(colon + 1));
               for (std::string entry; std::getline(list, entry, ',');) {

@@ -21,7 +21,8 @@ std::string options_markdown(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_group().empty()) continue;  // hidden
     const std::string type = option->get_type_name();
-    text += "| `" + option->get_name(option->get_positional(), true) + "`" + (type.empty() ? "" : " " + cell(type)) + " | " + cell(option->get_description()) + " |\n";
+    text += "| `" + option->get_name(option->get_positional(), true) + "`" + (type.empty() ? "" : " " + cell(type)) + " | " + cell(option->get_description()) +
+            " |\n";
   }
   return text.empty() ? text : "\n| option | |\n|---|---|\n" + text;
 }
@@ -51,7 +52,8 @@ std::string commands_markdown(const CLI::App& app) {
 
 int execute(const CheckScriptCommand& command, const CommandContext& context) {
   ScriptCheck check;
-  check_script({.script = command.script.script, .overrides = command.script.overrides, .print = {}, .on_mesh = {}, .arguments = command.script.arguments}, check, context.run);
+  check_script({.script = command.script.script, .overrides = command.script.overrides, .print = {}, .on_mesh = {}, .arguments = command.script.arguments},
+               check, context.run);
   const std::string name = command.script.script.string();
   if (check.problems.empty()) {
     context.console.print(name + ": nothing wrong was found; nothing was meshed or written");

@@ -32,8 +32,8 @@
 #include "scripting/periodic_sides.h"
 #include "scripting/script_run.h"
 #include "scripting/series/case_worker.h"
-#include "scripting/summary.h"
 #include "scripting/stages.h"
+#include "scripting/summary.h"
 #include "scripting/verbs.h"
 
 namespace sterna::scripting {
@@ -77,7 +77,9 @@ int print_volume_info(const InputPath& input, double unit, const CommandContext&
   print_patches(context, value.mesh.patches, sizes);
   // In brief: without the slow exact test for intersections.
   const CheckReport report = check(value.mesh, {.intersections = false}, context.run.part("check", 0.3, 1.0));
-  context.console.print("  check    " + std::string(report.is_valid() ? "no faults found, boundaries not tested for intersection" : "INVALID, `sterna check` says where") + "; " + quality_text(report));
+  context.console.print("  check    " +
+                        std::string(report.is_valid() ? "no faults found, boundaries not tested for intersection" : "INVALID, `sterna check` says where") +
+                        "; " + quality_text(report));
   return k_exit_success;
 }
 
@@ -104,7 +106,8 @@ void print_triangle_quality(const CommandContext& context, const TriMesh& mesh) 
   }
   constexpr double k_degrees = 180.0 / std::numbers::pi;
   if (area > 0.0)
-    context.console.print(fmt::format("  quality  area {:.6g} m^2, edges {:.4g} to {:.4g} m, angles {:.3g} to {:.4g} deg", area, shortest, longest, k_degrees * least_angle, k_degrees * most_angle));
+    context.console.print(fmt::format("  quality  area {:.6g} m^2, edges {:.4g} to {:.4g} m, angles {:.3g} to {:.4g} deg", area, shortest, longest,
+                                      k_degrees * least_angle, k_degrees * most_angle));
   if (n_degenerate > 0) context.console.print(fmt::format("  quality  triangles without area: {}", count_text(n_degenerate)));
 }
 
@@ -140,24 +143,42 @@ StageContent steps_of(const MeshCommand& command, const CommandContext& context)
 
 /// From the last step on. Options that are given win over those of the file.
 MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, const Reuse& reuse, const CommandContext& context) {
-  if (!command.stages.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "mesh", .problem = "--stages keeps the steps of a whole run; this one continues from " + command.inputs.front()});
-  if (!command.discs.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "mesh", .problem = "--disc belongs to a step that is done already in " + command.inputs.front(), .hint = "mesh the surface anew"});
+  if (!command.stages.empty())
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "mesh",
+                 .problem = "--stages keeps the steps of a whole run; this one continues from " + command.inputs.front()});
+  if (!command.discs.empty())
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "mesh",
+                 .problem = "--disc belongs to a step that is done already in " + command.inputs.front(),
+                 .hint = "mesh the surface anew"});
   if (!command.periodic.empty())
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "mesh", .problem = "--periodic belongs to a step that is done already in " + command.inputs.front(), .hint = "mesh the surface anew"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "mesh",
+                 .problem = "--periodic belongs to a step that is done already in " + command.inputs.front(),
+                 .hint = "mesh the surface anew"});
   if (!command.patches.empty())
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "option --patch", .problem = "belongs to a step that is done already in " + command.inputs.front(), .hint = "mesh the surface anew"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "option --patch",
+                 .problem = "belongs to a step that is done already in " + command.inputs.front(),
+                 .hint = "mesh the surface anew"});
   volmesh::VolumeMeshOptions options = steps.envelope->options, all;
   OptionTable open = finish_options(options);
   if (!steps.tetrahedra)
     for (Option& option : tetrahedra_options(options)) open.push_back(std::move(option));
   const OptionTable known = volmesh::options_of(all);
   for (const auto& [name, text] : command.options)
-    if (const Option& option = find_option(known, name, "option " + name); std::none_of(open.begin(), open.end(), [&](const Option& o) { return o.name == option.name; }))
-      throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + name, .problem = "belongs to a step that is done already in " + command.inputs.front(), .hint = "mesh the surface anew"});
+    if (const Option& option = find_option(known, name, "option " + name);
+        std::none_of(open.begin(), open.end(), [&](const Option& o) { return o.name == option.name; }))
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "option " + name,
+                   .problem = "belongs to a step that is done already in " + command.inputs.front(),
+                   .hint = "mesh the surface anew"});
   set_options(open, command.options, context);
   const RunContext part = context.run.part("volume_mesh", k_read_end, k_mesh_end);
   context.run.info("continuing behind the " + std::string(steps.tetrahedra ? "tetrahedra" : "envelope") + " of " + command.inputs.front());
-  return steps.tetrahedra ? finish_mesh(*steps.tetrahedra, options, part, reuse) : finish_mesh(make_tetrahedra(*steps.envelope, options, part, reuse), options, part, reuse);
+  return steps.tetrahedra ? finish_mesh(*steps.tetrahedra, options, part, reuse)
+                          : finish_mesh(make_tetrahedra(*steps.envelope, options, part, reuse), options, part, reuse);
 }
 
 std::vector<volmesh::ActuatorDisc> discs_of(const MeshCommand& command) {
@@ -174,7 +195,12 @@ std::vector<volmesh::PeriodicNames> periodic_of(const MeshCommand& command) {
 
 /// Reads the file of the shape "surface", where one is named, and notes it with the wall's inputs.
 void read_farfield_of(volmesh::VolumeMeshOptions& options, SurfaceValue& wall, const RunContext& context) {
-  const SurfaceHandle surface = read_farfield(options.farfield, [](const std::string& name) { return InputPath{name, name}; }, context);
+  const SurfaceHandle surface = read_farfield(
+      options.farfield,
+      [](const std::string& name) {
+        return InputPath{name, name};
+      },
+      context);
   if (!surface) return;
   options.farfield_surface = std::shared_ptr<const TriMesh>(surface, &surface->mesh);
   wall.inputs.insert(wall.inputs.end(), surface->inputs.begin(), surface->inputs.end());
@@ -183,7 +209,8 @@ void read_farfield_of(volmesh::VolumeMeshOptions& options, SurfaceValue& wall, c
 /// With --half: the half of what was read.
 void halve(const MeshCommand& command, SurfaceValue& wall, const CommandContext& context) {
   if (!command.is_half) {
-    if (!command.half.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + command.half.front().first, .problem = "is given without --half"});
+    if (!command.half.empty())
+      throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + command.half.front().first, .problem = "is given without --half"});
     return;
   }
   HalfOptions options;
@@ -200,7 +227,8 @@ bool is_given(const MeshCommand& command, std::string_view stage, std::string_vi
 
 /// What follows from the options together, and what heights were found from flow conditions.
 void complete_options(volmesh::VolumeMeshOptions& options, const MeshCommand& command, const RunContext& context) {
-  choose_solve_for(options, [&](std::string_view name) { return is_given(command, "envelope", name); }, "reading the options");
+  choose_solve_for(
+      options, [&](std::string_view name) { return is_given(command, "envelope", name); }, "reading the options");
   for (const auto& [name, text] : command.options)
     if (is_flow_text(text)) context.info(name + ": " + quantity_of_text(text).text);
   for (const auto& [names, of_patch] : command.patches)
@@ -217,7 +245,8 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
   OptionTable table = volmesh::required_options_of(volume_options);
   for (Option& option : model_surface_options(recipe.options, reading)) table.push_back(std::move(option));
   set_options(table, command.options, context);
-  if (is_given(command, "family", "refinement") && !is_given(command, "surface_mesh", "refinement")) recipe.options.refinement = volume_options.family.refinement;
+  if (is_given(command, "family", "refinement") && !is_given(command, "surface_mesh", "refinement"))
+    recipe.options.refinement = volume_options.family.refinement;
   complete_options(volume_options, command, context.run);
   volume_options.discs = discs_of(command);
   volume_options.periodic = periodic_of(command);
@@ -230,7 +259,8 @@ MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<Inpu
 MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const CommandContext& context) {
   std::vector<InputPath> inputs;
   for (const std::string& name : command.inputs) inputs.push_back({name, name});
-  if (std::any_of(inputs.begin(), inputs.end(), [](const InputPath& input) { return is_model_file(input.path); })) return make_mesh_of_models(command, inputs, reuse, context);
+  if (std::any_of(inputs.begin(), inputs.end(), [](const InputPath& input) { return is_model_file(input.path); }))
+    return make_mesh_of_models(command, inputs, reuse, context);
   surfmesh::StitchOptions surface_options;
   volmesh::VolumeMeshOptions volume_options;
   volume_options.patches = layer_rules_of(command.patches);
@@ -247,9 +277,7 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
   return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_read_end, k_mesh_end), reuse);
 }
 
-std::string read_write(bool is_read, bool is_written) {
-  return is_read && is_written ? "read, write" : is_read ? "read" : is_written ? "write" : "-";
-}
+std::string read_write(bool is_read, bool is_written) { return is_read && is_written ? "read, write" : is_read ? "read" : is_written ? "write" : "-"; }
 
 }  // namespace
 
@@ -263,7 +291,9 @@ void set_options(const OptionTable& table, const OptionOverrides& given, const C
       set_option_as_typed(option, text);
       const auto [same, is_new] = before.try_emplace(std::string(option.stage) + "." + std::string(option.name), text, option.get());
       if (!is_new && same->second.second != option.get())
-        throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + name, .problem = same->first + " is given twice, as " + same->second.first + " and as " + text});
+        throw Error({.code = ErrorCode::bad_argument,
+                     .attempted = "option " + name,
+                     .problem = same->first + " is given twice, as " + same->second.first + " and as " + text});
     } catch (const Error& error) {
       problems += "\n  - " + error.info().attempted + ": " + error.info().problem + (error.info().hint.empty() ? "" : " (" + error.info().hint + ")");
       ++n_problems;
@@ -309,7 +339,11 @@ std::vector<std::string> worker_words(const RunCommand& command, const RunContex
 
 int execute(const RunCommand& command, const CommandContext& context) {
   const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
-  SeriesSettings series{.program = std::filesystem::read_symlink("/proc/self/exe"), .words = worker_words(command, context.run), .worker = {}, .stops_itself = context.stops_itself, .tasks = command.tasks};
+  SeriesSettings series{.program = std::filesystem::read_symlink("/proc/self/exe"),
+                        .words = worker_words(command, context.run),
+                        .worker = {},
+                        .stops_itself = context.stops_itself,
+                        .tasks = command.tasks};
   if (!command.series_case.empty() || !command.input_folder.empty()) become_worker();
   if (!command.series_case.empty()) {
     series.worker = case_of_text(command.series_case);
@@ -336,7 +370,8 @@ int execute(const MeshCommand& command, const CommandContext& context) {
   const MeshValue mesh = steps.envelope ? continue_mesh(steps, command, reuse, context) : make_mesh(command, reuse, context);
   const RunContext write_part = context.run.part("write", k_mesh_end, 1.0);
   for (const auto& output : command.outputs) write_mesh(mesh, output, write_part);
-  const RunMeasure measure{.wall_seconds = std::chrono::duration<double>(Clock::now() - start).count(), .stages = context.run.times(), .threads = context.run.threads()};
+  const RunMeasure measure{
+      .wall_seconds = std::chrono::duration<double>(Clock::now() - start).count(), .stages = context.run.times(), .threads = context.run.threads()};
 
   context.console.end_progress();
   for (const auto& output : command.outputs) context.run.info("wrote " + output.string() + " and " + output.string() + ".json");
@@ -357,7 +392,8 @@ int execute(const CacheCommand& command, const CommandContext& context) {
       sum->second += entry.bytes;
     }
   }
-  for (const auto& [stage, sum] : stages) context.console.print(fmt::format("{:<14} {:>8} entries  {:>10.3f} MB", stage, sum.first, static_cast<double>(sum.second) * 1e-6));
+  for (const auto& [stage, sum] : stages)
+    context.console.print(fmt::format("{:<14} {:>8} entries  {:>10.3f} MB", stage, sum.first, static_cast<double>(sum.second) * 1e-6));
   context.console.print(fmt::format("{:<14} {:>8} entries  {:>10.3f} MB", "all", all.first, static_cast<double>(all.second) * 1e-6));
   if (command.is_cleared) context.console.print(fmt::format("removed {} entries", StageCache::clear(command.folder)));
   return k_exit_success;
@@ -383,9 +419,13 @@ int execute(const UnionCommand& command, const CommandContext& context) {
   for (const std::string& name : command.inputs) {
     std::error_code none;  // of files that are not there: they are no input, or not yet an output
     if (std::filesystem::equivalent(name, command.output, none))
-      throw Error({.code = ErrorCode::bad_argument, .attempted = "union", .problem = "the output " + command.output.string() + " is one of the inputs, which it would replace", .hint = "give it another name"});
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "union",
+                   .problem = "the output " + command.output.string() + " is one of the inputs, which it would replace",
+                   .hint = "give it another name"});
   }
-  if (std::any_of(command.inputs.begin(), command.inputs.end(), [](const std::string& name) { return is_model_file(name); })) return unite_models(command, context);
+  if (std::any_of(command.inputs.begin(), command.inputs.end(), [](const std::string& name) { return is_model_file(name); }))
+    return unite_models(command, context);
   UnionOptions options;
   surfmesh::StitchOptions reading;
   OptionTable table = sterna::options_of(options);
@@ -407,29 +447,45 @@ namespace {
 void require_cells_output(const std::filesystem::path& path, const std::filesystem::path& input) {
   const std::string attempted = "--cells " + path.string();
   if (path.extension() != ".vtu")
-    throw Error({.code = ErrorCode::unsupported_format, .attempted = attempted, .problem = "the quality of cells is written as a .vtu file", .hint = "such as --cells " + path.stem().string() + ".vtu"});
+    throw Error({.code = ErrorCode::unsupported_format,
+                 .attempted = attempted,
+                 .problem = "the quality of cells is written as a .vtu file",
+                 .hint = "such as --cells " + path.stem().string() + ".vtu"});
   std::error_code none;  // a file that is not there is another one
   if (std::filesystem::equivalent(path, input, none))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "it is the mesh that is checked", .hint = "such as --cells " + path.stem().string() + "_cells.vtu"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = attempted,
+                 .problem = "it is the mesh that is checked",
+                 .hint = "such as --cells " + path.stem().string() + "_cells.vtu"});
 }
 
 [[noreturn]] void refuse_to_check_surface(const std::string& input, const std::string& what) {
-  throw Error({.code = ErrorCode::unsupported_format, .attempted = "checking " + input, .problem = what, .hint = "check proves volume meshes. `sterna info " + input + "` says what the surface holds and whether it is closed, `sterna mesh " + input + " ...` meshes the space around it"});
+  throw Error({.code = ErrorCode::unsupported_format,
+               .attempted = "checking " + input,
+               .problem = what,
+               .hint = "check proves volume meshes. `sterna info " + input + "` says what the surface holds and whether it is closed, `sterna mesh " + input +
+                       " ...` meshes the space around it"});
 }
 
 }  // namespace
 
 int execute(const CheckCommand& command, const CommandContext& context) {
   if (is_model_file(command.input)) return check_model(command, context);
-  if (const io::Format& format = io::format_of(command.input); !format.read_volume) refuse_to_check_surface(command.input, std::string(format.name) + " holds surfaces only");
+  if (const io::Format& format = io::format_of(command.input); !format.read_volume)
+    refuse_to_check_surface(command.input, std::string(format.name) + " holds surfaces only");
   for (const std::string& model : command.models)
-    if (!is_model_file(model)) throw Error({.code = ErrorCode::bad_argument, .attempted = "--model " + model, .problem = "it is no model", .hint = "give the file of STEP, IGES, BREP, sumo or CPACS that the mesh was made of"});
+    if (!is_model_file(model))
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "--model " + model,
+                   .problem = "it is no model",
+                   .hint = "give the file of STEP, IGES, BREP, sumo or CPACS that the mesh was made of"});
   GateTable limits;
   for (const std::string& text : command.gates) set_gate_limits(text, limits);
   if (!command.cells.empty()) require_cells_output(command.cells, command.input);
   const MeshValue mesh = read_mesh({command.input, command.input}, context.run.part("read", 0.0, 0.3));
   if (count_cells(mesh.mesh).total() == 0 && !mesh.mesh.boundary_triangles.empty())
-    refuse_to_check_surface(command.input, "it holds a surface of " + count_text(static_cast<std::int64_t>(mesh.mesh.boundary_triangles.size())) + " triangles and no cells");
+    refuse_to_check_surface(command.input,
+                            "it holds a surface of " + count_text(static_cast<std::int64_t>(mesh.mesh.boundary_triangles.size())) + " triangles and no cells");
   const double checked = command.models.empty() ? 1.0 : 0.5;
   CheckReport report = check(mesh.mesh, command.options.to_options(limits), context.run.part("check", 0.3, checked));
   if (!command.models.empty() && report.quality_measured) {
@@ -463,7 +519,9 @@ int execute(const InfoCommand& command, const CommandContext& context) {
 int execute(const ConvertCommand& command, const CommandContext& context) {
   if (is_model_file(command.input)) return convert_model(command, context);
   if (!command.options.empty())
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "convert", .problem = "option " + command.options.front().first + " is for models (STEP, IGES, BREP, sumo, CPACS); " + command.input + " is none"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "convert",
+                 .problem = "option " + command.options.front().first + " is for models (STEP, IGES, BREP, sumo, CPACS); " + command.input + " is none"});
   const std::string what = convert({command.input, command.input}, command.output, command.settings, context.run);
   context.console.end_progress();
   context.run.info("wrote " + command.output.string() + ": " + what);
@@ -475,7 +533,8 @@ int list_formats(const CommandContext& context) {
   context.console.print(fmt::format(k_row, "format", "surface", "volume", "patch names", "extensions (each also with .gz for reading)"));
   for (const io::Format& format : io::formats())
     context.console.print(fmt::format(k_row, format.name, read_write(format.read_surface != nullptr, format.write_surface != nullptr),
-                                      read_write(format.read_volume != nullptr, format.write_volume != nullptr), format.carries_patch_names ? "yes" : "no", format.extensions));
+                                      read_write(format.read_volume != nullptr, format.write_volume != nullptr), format.carries_patch_names ? "yes" : "no",
+                                      format.extensions));
   constexpr const char* k_model_row = "{:<16} {:<25} {:<12} {}";
   context.console.print("");
   context.console.print(fmt::format(k_model_row, "format", "model (exact geometry)", "names", "extensions"));

@@ -23,7 +23,7 @@ namespace sterna::scripting {
 struct CommandContext {
   Console& console;
   const RunContext& run;
-  bool only_options = false;  ///< --show-options: the command ends when its options are set
+  bool only_options = false;                    ///< --show-options: the command ends when its options are set
   std::function<void(bool)> stops_itself = {};  ///< see SeriesSettings
 };
 
@@ -37,23 +37,23 @@ struct RunCommand {
   std::filesystem::path script;
   OptionOverrides overrides;  ///< --set
   CacheChoice cache;
-  int tasks = 0;              ///< --tasks: cases of a series at a time; 0 = as the script says
-  std::string series_case;    ///< --series-case NAME/INDEX: this process is a worker
-  OptionOverrides arguments;  ///< NAME=VALUE
+  int tasks = 0;                       ///< --tasks: cases of a series at a time; 0 = as the script says
+  std::string series_case;             ///< --series-case NAME/INDEX: this process is a worker
+  OptionOverrides arguments;           ///< NAME=VALUE
   std::filesystem::path input_folder;  ///< --look-in: this process was started in a folder of its own by another one, and ends with it
 };
 
 struct MeshCommand {
   std::vector<std::string> inputs;
   std::vector<std::filesystem::path> outputs;
-  OptionOverrides options;  ///< --layers 30 as {"layers", "30"} and --set stage.option=value
+  OptionOverrides options;                                       ///< --layers 30 as {"layers", "30"} and --set stage.option=value
   std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, what it asks for
   std::filesystem::path stats;
-  std::filesystem::path stages;  ///< .sterna file that keeps the steps of the run; empty: none
-  std::vector<std::string> discs;  ///< disc_of_text
+  std::filesystem::path stages;       ///< .sterna file that keeps the steps of the run; empty: none
+  std::vector<std::string> discs;     ///< disc_of_text
   std::vector<std::string> periodic;  ///< periodic_of_text
-  bool is_half = false;          ///< the half of the surface
-  OptionOverrides half;          ///< --set half.axis=z; only with is_half
+  bool is_half = false;               ///< the half of the surface
+  OptionOverrides half;               ///< --set half.axis=z; only with is_half
   CacheChoice cache;
 };
 

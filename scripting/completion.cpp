@@ -1,4 +1,5 @@
-// Steps: where the end of the text is (which tables are open, of which verb; in a text or not); the word there; what that place takes; what begins with the word.
+// Steps: where the end of the text is (which tables are open, of which verb; in a text or not); the word there; what that place takes; what begins with the
+// word.
 #include "scripting/completion.h"
 
 #include <lua.hpp>
@@ -14,7 +15,8 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::array k_keywords = {"and", "break", "do", "else", "elseif", "end", "false", "for", "function", "if", "in", "local", "nil", "not", "or", "repeat", "return", "then", "true", "until", "while"};
+constexpr std::array k_keywords = {"and",   "break", "do",  "else", "elseif", "end",    "false", "for",  "function", "if",   "in",
+                                   "local", "nil",   "not", "or",   "repeat", "return", "then",  "true", "until",    "while"};
 
 bool is_word_letter(char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)); }
 

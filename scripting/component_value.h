@@ -18,12 +18,18 @@ struct ComponentValue {
   std::string intake, exhaust;          ///< patch names of a nacelle's fan face and nozzle; empty: its own name
   std::vector<Deflection> deflections;  ///< of a wing, also those of no angle, in the order of the script
 
-  const std::string& name() const { return std::visit([](const auto& s) -> const std::string& { return s.name; }, shape); }
+  const std::string& name() const {
+    return std::visit([](const auto& s) -> const std::string& { return s.name; }, shape);
+  }
   Placement& placement() {
     return std::visit([](auto& s) -> Placement& { return s.placement; }, shape);
   }
-  const Placement& placement() const { return std::visit([](const auto& s) -> const Placement& { return s.placement; }, shape); }
-  bool has_mirror_image() const { return std::visit([](const auto& s) { return s.has_mirror_image; }, shape); }
+  const Placement& placement() const {
+    return std::visit([](const auto& s) -> const Placement& { return s.placement; }, shape);
+  }
+  bool has_mirror_image() const {
+    return std::visit([](const auto& s) { return s.has_mirror_image; }, shape);
+  }
   /// "a wing", "a nacelle": for messages.
   std::string_view type_text() const {
     switch (kind) {

@@ -1,6 +1,6 @@
 // aircraft{}, and what all components have: methods, fields, a line of description.
-#include "scripting/component_value.h"
 #include "scripting/component_verbs.h"
+#include "scripting/component_value.h"
 
 #include <fmt/format.h>
 
@@ -40,7 +40,9 @@ namespace {
 
 /// Along the own axis, round ends included.
 double length_of(const Body& body) {
-  const auto cap = [](const EndCap& end, const BodyFrame& frame) { return frame.shape == FrameShape::loop ? 0.0 : end.height * 0.25 * (frame.width + frame.height); };
+  const auto cap = [](const EndCap& end, const BodyFrame& frame) {
+    return frame.shape == FrameShape::loop ? 0.0 : end.height * 0.25 * (frame.width + frame.height);
+  };
   const double nose = body.lip ? 0.0 : cap(body.nose, body.frames.front());
   return body.frames.back().center.x - body.frames.front().center.x + nose + cap(body.tail, body.frames.back());
 }
@@ -60,7 +62,9 @@ ScriptValue make_aircraft_verb(const ScriptCall& call) {
     ++number;
     if (const auto* component = std::get_if<ComponentHandle>(&item)) parts.components.push_back(*component);
     else if (const auto* model = std::get_if<ModelHandle>(&item)) parts.models.push_back(*model);
-    else reader.add_problem("entry " + std::to_string(number) + ": expected a component (wing{...}, fuselage{...}) or a model, not " + std::string(type_text(item)));
+    else
+      reader.add_problem("entry " + std::to_string(number) + ": expected a component (wing{...}, fuselage{...}) or a model, not " +
+                         std::string(type_text(item)));
   }
   if (number == 0) reader.add_problem("needs components: " + std::string(k_aircraft_usage));
   reader.read_options(schema);
@@ -103,8 +107,10 @@ ScriptValue point_on_wing(const ScriptCall& call) {
   const ComponentHandle& component = self<ComponentHandle>(call);
   const auto* wing = std::get_if<Wing>(&component->shape);
   if (!wing) reject(call, "is for wings, not for " + std::string(component->type_text()));
-  const auto span = call.arguments.size() > 1 ? number_of(call.arguments[1]) : std::nullopt, chord = call.arguments.size() > 2 ? number_of(call.arguments[2]) : std::nullopt;
-  if (call.arguments.size() != 3 || !span || !chord) reject(call, "takes two numbers: part of the span (0 root, 1 tip), part of the chord (0 leading edge, 1 trailing edge)", "wing:at(0.4, 0.25)");
+  const auto span = call.arguments.size() > 1 ? number_of(call.arguments[1]) : std::nullopt,
+             chord = call.arguments.size() > 2 ? number_of(call.arguments[2]) : std::nullopt;
+  if (call.arguments.size() != 3 || !span || !chord)
+    reject(call, "takes two numbers: part of the span (0 root, 1 tip), part of the chord (0 leading edge, 1 trailing edge)", "wing:at(0.4, 0.25)");
   if (*span < 0.0 || *span > 1.0) reject(call, fmt::format("part {:g} of the span is beyond the wing, which reaches from 0 to 1", *span));
   struct Line {
     Point leading, trailing;
@@ -118,12 +124,14 @@ ScriptValue point_on_wing(const ScriptCall& call) {
     else lines.push_back({map.point(s.loop[s.loop.size() / 2]), map.point(0.5 * (s.loop.front() + s.loop.back()))});
   }
   std::vector<double> at{0.0};
-  for (std::size_t i = 1; i < lines.size(); ++i) at.push_back(at.back() + std::hypot(lines[i].leading.y - lines[i - 1].leading.y, lines[i].leading.z - lines[i - 1].leading.z));
+  for (std::size_t i = 1; i < lines.size(); ++i)
+    at.push_back(at.back() + std::hypot(lines[i].leading.y - lines[i - 1].leading.y, lines[i].leading.z - lines[i - 1].leading.z));
   const double wanted = *span * at.back();
   std::size_t i = 1;
   while (i + 1 < lines.size() && at[i] < wanted) ++i;
   const double t = (wanted - at[i - 1]) / (at[i] - at[i - 1]);
-  const Point leading = lines[i - 1].leading + t * (lines[i].leading - lines[i - 1].leading), trailing = lines[i - 1].trailing + t * (lines[i].trailing - lines[i - 1].trailing);
+  const Point leading = lines[i - 1].leading + t * (lines[i].leading - lines[i - 1].leading),
+              trailing = lines[i - 1].trailing + t * (lines[i].trailing - lines[i - 1].trailing);
   return list_of(leading + *chord * (trailing - leading));
 }
 
@@ -155,20 +163,30 @@ ScriptValue component_field(const ScriptCall& call) {
 }
 
 constexpr std::array<ScriptVerb, 9> k_verbs = {{
-    {"fuselage", k_fuselage_usage, "A body through frames: circles, superellipses, double ellipses, eggs, points.", make_fuselage_verb, fuselage_help, false, "component"},
+    {"fuselage", k_fuselage_usage, "A body through frames: circles, superellipses, double ellipses, eggs, points.", make_fuselage_verb, fuselage_help, false,
+     "component"},
     {"wing", k_wing_usage, "A wing, tail or fin through sections from the root to the tip.", make_wing_verb, wing_help, false, "component"},
-    {"nacelle", k_nacelle_usage, "A nacelle with inlet lip, fan face and nozzle; its front stands at `position`.", make_nacelle_verb, nacelle_help, false, "component"},
-    {"pylon", k_pylon_usage, "A pylon between a wing and a body under or over it; a mirror image stands where the body has one.", make_pylon_verb, pylon_help, false, "component"},
+    {"nacelle", k_nacelle_usage, "A nacelle with inlet lip, fan face and nozzle; its front stands at `position`.", make_nacelle_verb, nacelle_help, false,
+     "component"},
+    {"pylon", k_pylon_usage, "A pylon between a wing and a body under or over it; a mirror image stands where the body has one.", make_pylon_verb, pylon_help,
+     false, "component"},
     {"boom", k_boom_usage, "A round rod from a point to another.", make_boom_verb, boom_help, false, "component"},
     {"fairing", k_fairing_usage, "A smooth bulge: an ellipsoid along x with superelliptic sections.", make_fairing_verb, fairing_help, false, "component"},
-    {"body_of_revolution", k_revolution_usage, "A body around the x axis through a profile of radii.", make_revolution_verb, revolution_help, false, "component"},
-    {"sting", k_sting_usage, "What holds a model in a wind tunnel: a rod with flat ends, from within the model to outside.", make_sting_verb, sting_help, false, "component"},
-    {"aircraft", k_aircraft_usage, "Components and models together, mirror images included, united to one closed surface.", make_aircraft_verb, aircraft_help, true, "model", true},
+    {"body_of_revolution", k_revolution_usage, "A body around the x axis through a profile of radii.", make_revolution_verb, revolution_help, false,
+     "component"},
+    {"sting", k_sting_usage, "What holds a model in a wind tunnel: a rod with flat ends, from within the model to outside.", make_sting_verb, sting_help, false,
+     "component"},
+    {"aircraft", k_aircraft_usage, "Components and models together, mirror images included, united to one closed surface.", make_aircraft_verb, aircraft_help,
+     true, "model", true},
 }};
 constexpr std::array<ScriptVerb, 5> k_methods = {{
-    {"wing:deflect", k_deflect_usage, "Deflects a control surface, as geometry: its hinge by parts of the span from the root and of the chord from the leading edge.", deflect_wing, deflect_help, false, "self"},
-    {"wing:control", k_control_usage, "Gives the place of a control surface a patch of its own, without deflecting it.", control_wing, control_help, false, "self"},
-    {"component:at", "main_wing:at(0.4, 0.25)", "Point of a wing's chord line, by parts of the span from the root and of the chord from the leading edge.", point_on_wing},
+    {"wing:deflect", k_deflect_usage,
+     "Deflects a control surface, as geometry: its hinge by parts of the span from the root and of the chord from the leading edge.", deflect_wing,
+     deflect_help, false, "self"},
+    {"wing:control", k_control_usage, "Gives the place of a control surface a patch of its own, without deflecting it.", control_wing, control_help, false,
+     "self"},
+    {"component:at", "main_wing:at(0.4, 0.25)", "Point of a wing's chord line, by parts of the span from the root and of the chord from the leading edge.",
+     point_on_wing},
     {"component:move", "body:move{ 0.5, 0, 0 }", "Moves the component itself, metres.", move_component, nullptr, false, "self"},
     {"component:model", "main_wing:model()", "The component alone, as a model, with its mirror image.", component_model, nullptr, false, "model"},
 }};
@@ -186,13 +204,15 @@ std::string describe(const ComponentValue& component) {
   std::string text = kind + " \"" + component.name() + "\": ";
   if (const auto* wing = std::get_if<Wing>(&component.shape)) {
     const WingReference r = wing_reference(*wing);
-    text += fmt::format("{} sections, span {:.4g} m, area {:.4g} m^2, mean aerodynamic chord {:.4g} m", wing->sections.size(), r.span, r.area, r.mean_aerodynamic_chord);
+    text += fmt::format("{} sections, span {:.4g} m, area {:.4g} m^2, mean aerodynamic chord {:.4g} m", wing->sections.size(), r.span, r.area,
+                        r.mean_aerodynamic_chord);
     if (wing->is_symmetric) text += ", both halves";
   } else {
     const Body& body = std::get<Body>(component.shape);
     text += fmt::format("{} frames, {:.4g} m long", body.frames.size(), length_of(body));
   }
-  for (const Deflection& d : component.deflections) text += d.angle == 0.0 ? fmt::format(", {}", d.surface.name) : fmt::format(", {} {:+.4g} deg", d.surface.name, d.angle * 180.0 / std::numbers::pi);
+  for (const Deflection& d : component.deflections)
+    text += d.angle == 0.0 ? fmt::format(", {}", d.surface.name) : fmt::format(", {} {:+.4g} deg", d.surface.name, d.angle * 180.0 / std::numbers::pi);
   return text + (component.has_mirror_image() ? ", and its mirror image" : "");
 }
 

@@ -28,8 +28,14 @@ struct Schema<scripting::ControlOptions> {
   using O = scripting::ControlOptions;
   static constexpr std::string_view stage = "control";
   static constexpr std::array fields = {
-      Field<O>{.name = "kind", .member = &O::kind, .help = "what moves: behind the hinge, before it, all of the chord", .choices = "trailing_edge leading_edge all_moving"},
-      Field<O>{.name = "other_side", .member = &O::other_side, .help = "what the image on the wing's other half does: flaps the same, ailerons the opposite", .choices = "same opposite none"},
+      Field<O>{.name = "kind",
+               .member = &O::kind,
+               .help = "what moves: behind the hinge, before it, all of the chord",
+               .choices = "trailing_edge leading_edge all_moving"},
+      Field<O>{.name = "other_side",
+               .member = &O::other_side,
+               .help = "what the image on the wing's other half does: flaps the same, ailerons the opposite",
+               .choices = "same opposite none"},
   };
 };
 template <>
@@ -37,9 +43,20 @@ struct Schema<scripting::DeflectOptions> {
   using O = scripting::DeflectOptions;
   static constexpr std::string_view stage = "deflect";
   static constexpr std::array fields = {
-      Field<O>{.name = "angle", .member = &O::angle, .unit = Unit::radian, .min = -1.0471975511965976, .max = 1.0471975511965976, .help = "trailing edge down; leading edge flaps: leading edge down; all-moving: nose up", .required = true},
+      Field<O>{.name = "angle",
+               .member = &O::angle,
+               .unit = Unit::radian,
+               .min = -1.0471975511965976,
+               .max = 1.0471975511965976,
+               .help = "trailing edge down; leading edge flaps: leading edge down; all-moving: nose up",
+               .required = true},
       Field<O>{.name = "gap", .member = &O::gap, .help = "sealed: the skin bends; open: a part of its own behind a slot", .choices = "sealed open"},
-      Field<O>{.name = "fairing", .member = &O::fairing, .unit = Unit::metre, .min = 1e-9, .help = "sealed: along the span over which it returns to the wing beside its ends", .automatic = "a tenth of the mean chord at its ends"},
+      Field<O>{.name = "fairing",
+               .member = &O::fairing,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "sealed: along the span over which it returns to the wing beside its ends",
+               .automatic = "a tenth of the mean chord at its ends"},
   };
 };
 
@@ -81,7 +98,9 @@ ScriptValue change_wing(const ScriptCall& call, bool is_deflected) {
   if (rows)
     for (const std::vector<double>& row : *rows) d.surface.hinge.push_back({row[0], row[1]});
   else d.surface.hinge = {{(*from)[0], (*from)[1]}, {(*to)[0], (*to)[1]}};
-  d.surface.kind = control.kind == "leading_edge" ? ControlKind::leading_edge : control.kind == "all_moving" ? ControlKind::all_moving : ControlKind::trailing_edge;
+  d.surface.kind = control.kind == "leading_edge" ? ControlKind::leading_edge
+                   : control.kind == "all_moving" ? ControlKind::all_moving
+                                                  : ControlKind::trailing_edge;
   const bool has_other_side = wing->is_symmetric || wing->has_mirror_image;
   d.other_side = !has_other_side || control.other_side == "none" ? OtherSide::none : control.other_side == "same" ? OtherSide::same : OtherSide::opposite;
   d.surface.has_image = d.other_side != OtherSide::none;
@@ -102,7 +121,8 @@ ScriptValue control_wing(const ScriptCall& call) { return change_wing(call, fals
 
 std::string control_help() {
   ControlOptions control;
-  return options_help(sterna::options_of(control)) + "  from = {span, chord}, to = {span, chord}\n      ends of the hinge: part of the span from the root, part of the chord from the leading edge\n" +
+  return options_help(sterna::options_of(control)) +
+         "  from = {span, chord}, to = {span, chord}\n      ends of the hinge: part of the span from the root, part of the chord from the leading edge\n" +
          "  hinge = {{span, chord}, ...}\n      in place of from and to: a hinge of several straight pieces\n";
 }
 std::string deflect_help() {

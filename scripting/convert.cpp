@@ -15,7 +15,8 @@ constexpr double k_read_end = 0.5;  // reading and writing take about the same t
 
 std::string convert_volume(const HybridMesh& mesh, const std::filesystem::path& output, const std::string& format, const RunContext& context) {
   io::write_volume_file(mesh, output, context, format);
-  return fmt::format("volume mesh, {} nodes, {} cells, {} patches", count_text(static_cast<std::int64_t>(mesh.points.size())), count_text(count_cells(mesh).total()), mesh.patches.size());
+  return fmt::format("volume mesh, {} nodes, {} cells, {} patches", count_text(static_cast<std::int64_t>(mesh.points.size())),
+                     count_text(count_cells(mesh).total()), mesh.patches.size());
 }
 
 std::string convert_surface(const InputPath& input, const std::filesystem::path& output, const std::string& format, const RunContext& context) {

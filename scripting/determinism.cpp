@@ -191,21 +191,16 @@ std::string to_text(const DeterminismReport& report) {
       static_cast<std::size_t>(std::ranges::count_if(report.files, [](const ComparedFile& file) { return !file.differences.empty(); }));
   const auto files = [](std::size_t n) { return std::to_string(n) + (n == 1 ? " file" : " files"); };
   std::string text = "G22 determinism: ";
-  if (report.files.empty())
-    text += "FAIL, the script wrote no file that could be compared\n";
-  else if (n_different == 0)
-    text += "pass, " + files(report.files.size()) + " equal for " + threads_text(report.threads) + "\n";
+  if (report.files.empty()) text += "FAIL, the script wrote no file that could be compared\n";
+  else if (n_different == 0) text += "pass, " + files(report.files.size()) + " equal for " + threads_text(report.threads) + "\n";
   else
     text += "FAIL, " + std::to_string(n_different) + " of " + files(report.files.size()) + (n_different == 1 ? " differs" : " differ") + " between " +
             threads_text(report.threads) + "\n";
   for (const ComparedFile& file : report.files) {
-    if (file.hash.empty())
-      text += fmt::format("  {}: {} wrote none\n", file.name, threads_text(report.threads.front()));
-    else
-      text += fmt::format("  {}  {:>12} bytes  {}\n", file.hash, count_text(static_cast<std::int64_t>(file.bytes)), file.name);
+    if (file.hash.empty()) text += fmt::format("  {}: {} wrote none\n", file.name, threads_text(report.threads.front()));
+    else text += fmt::format("  {}  {:>12} bytes  {}\n", file.hash, count_text(static_cast<std::int64_t>(file.bytes)), file.name);
     for (const ComparedFile::Difference& d : file.differences) {
-      if (d.hash.empty())
-        text += fmt::format("      {} wrote none\n", threads_text(d.threads));
+      if (d.hash.empty()) text += fmt::format("      {} wrote none\n", threads_text(d.threads));
       else if (file.hash.empty())
         text += fmt::format("      {} wrote {} bytes, {}\n", threads_text(d.threads), count_text(static_cast<std::int64_t>(d.bytes)), d.hash);
       else

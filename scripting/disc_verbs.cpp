@@ -29,9 +29,23 @@ struct Schema<scripting::DiscNumbers> {
   static constexpr std::string_view stage = "actuator_disc";
   static constexpr std::array fields = {
       Field<O>{.name = "name", .member = &O::name, .help = "of the patch on the upstream side; the downstream side gets the name with .back behind it"},
-      Field<O>{.name = "radius", .member = &O::radius, .unit = Unit::metre, .min = 1e-12, .help = "of the disc; a circle in the fluid, or inside of the body around it (a duct that the disc fills)", .required = true},
-      Field<O>{.name = "inner_radius", .member = &O::inner_radius, .unit = Unit::metre, .min = 0.0, .help = "of a ring; 0: a full disc, or one that ends on the walls with layers that go through it (a spinner, a hub)"},
-      Field<O>{.name = "edge", .member = &O::edge, .unit = Unit::metre, .min = 1e-12, .help = "longest edge of its triangles", .automatic = "a twelfth of the radius"},
+      Field<O>{.name = "radius",
+               .member = &O::radius,
+               .unit = Unit::metre,
+               .min = 1e-12,
+               .help = "of the disc; a circle in the fluid, or inside of the body around it (a duct that the disc fills)",
+               .required = true},
+      Field<O>{.name = "inner_radius",
+               .member = &O::inner_radius,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "of a ring; 0: a full disc, or one that ends on the walls with layers that go through it (a spinner, a hub)"},
+      Field<O>{.name = "edge",
+               .member = &O::edge,
+               .unit = Unit::metre,
+               .min = 1e-12,
+               .help = "longest edge of its triangles",
+               .automatic = "a twelfth of the radius"},
   };
 };
 
@@ -43,7 +57,8 @@ namespace {
 using volmesh::ActuatorDisc;
 using Json = nlohmann::json;
 
-constexpr std::string_view k_usage = "actuator_disc{ name = \"prop\", center = {-0.4, 0, 0}, axis = {1, 0, 0}, radius = 1.2, inner_radius = 0.25, edge = 0.05 }";
+constexpr std::string_view k_usage =
+    "actuator_disc{ name = \"prop\", center = {-0.4, 0, 0}, axis = {1, 0, 0}, radius = 1.2, inner_radius = 0.25, edge = 0.05 }";
 
 ActuatorDisc disc_of(const ScriptTable& table, const std::string& attempted) {
   ActuatorDisc disc;
@@ -81,7 +96,8 @@ std::string disc_help() {
 }
 
 constexpr std::array<ScriptVerb, 1> k_verbs = {{
-    {"actuator_disc", k_usage, "A disc or ring without thickness in the fluid, two patches back to back, for the interfaces of volume_mesh.", make_disc, disc_help, false, "disc"},
+    {"actuator_disc", k_usage, "A disc or ring without thickness in the fluid, two patches back to back, for the interfaces of volume_mesh.", make_disc,
+     disc_help, false, "disc"},
 }};
 
 }  // namespace
@@ -103,7 +119,10 @@ ActuatorDisc disc_of_text(const std::string& text) {
   ScriptTable table;
   std::string name;
   if (!(words >> name) || name.find('=') != std::string::npos)
-    throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "the first word must be its name", .hint = "such as \"prop center=0,0,0 radius=1.2\""});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = attempted,
+                 .problem = "the first word must be its name",
+                 .hint = "such as \"prop center=0,0,0 radius=1.2\""});
   table.fields["name"] = name;
   for (std::string word; words >> word;) {
     const std::size_t equals = word.find('=');
@@ -122,7 +141,11 @@ ActuatorDisc disc_of_text(const std::string& text) {
 std::string discs_json(const std::vector<ActuatorDisc>& discs) {
   Json list = Json::array();
   for (const ActuatorDisc& disc : discs) {
-    Json entry = {{"name", disc.name}, {"center", {disc.center.x, disc.center.y, disc.center.z}}, {"axis", {disc.axis.x, disc.axis.y, disc.axis.z}}, {"radius", disc.radius}, {"inner_radius", disc.inner_radius}};
+    Json entry = {{"name", disc.name},
+                  {"center", {disc.center.x, disc.center.y, disc.center.z}},
+                  {"axis", {disc.axis.x, disc.axis.y, disc.axis.z}},
+                  {"radius", disc.radius},
+                  {"inner_radius", disc.inner_radius}};
     if (!is_automatic(disc.edge)) entry["edge"] = disc.edge;
     list.push_back(std::move(entry));
   }

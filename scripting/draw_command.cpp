@@ -95,10 +95,8 @@ int execute(const DrawCommand& command, const CommandContext& context) {
   const auto drawable = read_drawable({command.input, command.input}, options.unit, context.run.part("read", 0.0, k_read_end));
   const std::string name = std::filesystem::path(command.input).filename().string();
   const RunContext run = context.run.part("draw", k_read_end, 1.0);
-  if (const auto* mesh = std::get_if<HybridMesh>(&drawable))
-    write_picture(*mesh, nullptr, options, name, command.output, run);
-  else
-    write_picture(std::get<TriMesh>(drawable), options, name, command.output, run);
+  if (const auto* mesh = std::get_if<HybridMesh>(&drawable)) write_picture(*mesh, nullptr, options, name, command.output, run);
+  else write_picture(std::get<TriMesh>(drawable), options, name, command.output, run);
   context.console.end_progress();
   return k_exit_success;
 }

@@ -107,10 +107,8 @@ ScriptValue draw_object(const ScriptCall& call) {
   } else {
     const auto drawable = read_drawable(find_input(call, *file), options.unit, context);
     const std::string name = std::filesystem::path(*file).filename().string();
-    if (const auto* volume = std::get_if<HybridMesh>(&drawable))
-      write_picture(*volume, nullptr, options, name, path, context);
-    else
-      write_picture(std::get<TriMesh>(drawable), options, name, path, context);
+    if (const auto* volume = std::get_if<HybridMesh>(&drawable)) write_picture(*volume, nullptr, options, name, path, context);
+    else write_picture(std::get<TriMesh>(drawable), options, name, path, context);
   }
   return std::monostate{};
 }

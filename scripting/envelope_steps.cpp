@@ -27,7 +27,9 @@ using volmesh::VolumeMeshOptions;
 OptionTable some_options(VolumeMeshOptions& options, std::string_view names) {
   const std::string padded = " " + std::string(names) + " ";
   OptionTable table = envelope_options(options);
-  std::erase_if(table, [&](const Option& option) { return padded.find(" " + std::string(option.stage == "farfield" ? option.stage : option.name) + " ") == std::string::npos; });
+  std::erase_if(table, [&](const Option& option) {
+    return padded.find(" " + std::string(option.stage == "farfield" ? option.stage : option.name) + " ") == std::string::npos;
+  });
   return table;
 }
 
@@ -42,13 +44,17 @@ std::unique_ptr<MeshingSite> site_of(const EnvelopeValue& value, const RunContex
 
 /// The steps work on the wall as it stands. make_envelope does more where parts were placed, or sides are periodic: the steps would not give its envelope.
 void require_one_part(const ScriptCall& call, const MeshingSite& site, const RunContext& context) {
-  if (!site.options.periodic.empty()) reject(call, "the steps by hand do not keep periodic sides alike", "make_envelope{ wall, periodic = ... } does all of them");
+  if (!site.options.periodic.empty())
+    reject(call, "the steps by hand do not keep periodic sides alike", "make_envelope{ wall, periodic = ... } does all of them");
   const std::vector<volmesh::WholePart> parts = volmesh::whole_parts(site.domain, site.options.parts, context);
   if (parts.empty()) return;
   const volmesh::PlacedPart& first = site.options.parts[parts.front().part];
   if (parts.size() == 1 && first.placement == Transform{} && first.own->n_triangles() == site.base.wall.n_triangles()) return;
-  reject(call, "the wall has " + std::to_string(parts.size()) + (parts.size() == 1 ? " part" : " parts") + " whose envelopes are made in their own frames, then moved and made clear of each other: the steps by hand are for a wall as a whole",
-         "make_envelope{ wall, ... } does all of it; surface_mesh{ ..., gap_cells = ... } meshes parts together in their places, and read_surface knows of no parts");
+  reject(call,
+         "the wall has " + std::to_string(parts.size()) + (parts.size() == 1 ? " part" : " parts") +
+             " whose envelopes are made in their own frames, then moved and made clear of each other: the steps by hand are for a wall as a whole",
+         "make_envelope{ wall, ... } does all of it; surface_mesh{ ..., gap_cells = ... } meshes parts together in their places, and read_surface knows of no "
+         "parts");
 }
 
 SurfaceHandle with_inputs(const SurfaceHandle& wall, const std::vector<InputFile>& inputs) {
@@ -62,14 +68,16 @@ SurfaceHandle with_inputs(const SurfaceHandle& wall, const std::vector<InputFile
 
 constexpr std::string_view k_classify_names = "feature_angle farfield";
 constexpr std::string_view k_classify_usage = "envelope.classify{ wall, feature_angle = 40*deg }";
-constexpr std::string_view k_initial_names = "layers first_height max_growth total_height solve_for max_thickness max_relative_height height_gradient refinement farfield";
+constexpr std::string_view k_initial_names =
+    "layers first_height max_growth total_height solve_for max_thickness max_relative_height height_gradient refinement farfield";
 constexpr std::string_view k_initial_usage = "envelope.initial{ wall, class, layers = 5, first_height = 0.01, max_growth = 1.35 }";
 
 /// The wall as entry 1; for initial the classes as entry 2.
 SurfaceHandle wall_of(TableReader& reader, std::string_view usage) {
   const std::vector<ScriptValue>& items = reader.items();
   if (const auto* wall = items.empty() ? nullptr : std::get_if<SurfaceHandle>(&items.front())) return *wall;
-  reader.add_problem("entry 1: expected a surface (from surface_mesh or read_surface), not " + std::string(items.empty() ? "nothing" : type_text(items.front())) + ": " + std::string(usage));
+  reader.add_problem("entry 1: expected a surface (from surface_mesh or read_surface), not " +
+                     std::string(items.empty() ? "nothing" : type_text(items.front())) + ": " + std::string(usage));
   return nullptr;
 }
 
@@ -141,22 +149,32 @@ struct Step {
 void run_smooth(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
   volmesh::smooth_step(site.base, volmesh::classify_vertices(site.base, site.options.envelope, context), site.options.envelope, envelope, context);
 }
-void run_untangle(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) { volmesh::untangle_step(site.base, site.options.envelope, envelope, context); }
+void run_untangle(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
+  volmesh::untangle_step(site.base, site.options.envelope, envelope, context);
+}
 void run_unwarp(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
   volmesh::unwarp_step(site.base, volmesh::classify_vertices(site.base, site.options.envelope, context), site.options.envelope, envelope, context);
 }
-void run_retract(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) { volmesh::retract_step(site.base, site.options.envelope, site.collider, envelope, context); }
-void run_optimise(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) { volmesh::optimise_step(site.base, site.options.envelope, site.collider, envelope, context); }
+void run_retract(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
+  volmesh::retract_step(site.base, site.options.envelope, site.collider, envelope, context);
+}
+void run_optimise(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
+  volmesh::optimise_step(site.base, site.options.envelope, site.collider, envelope, context);
+}
 
 constexpr std::array<Step, 5> k_steps = {{
-    {"envelope.smooth", EnvelopeStep::initial, EnvelopeStep::smoothed, "height_sweeps direction_sweeps height_floor", "envelope.smooth{ env, height_sweeps = 5, direction_sweeps = 50 }", run_smooth},
+    {"envelope.smooth", EnvelopeStep::initial, EnvelopeStep::smoothed, "height_sweeps direction_sweeps height_floor",
+     "envelope.smooth{ env, height_sweeps = 5, direction_sweeps = 50 }", run_smooth},
     {"envelope.untangle", EnvelopeStep::initial, EnvelopeStep::untangled, "untangle_share", "envelope.untangle{ env }", run_untangle},
     {"envelope.unwarp", EnvelopeStep::initial, EnvelopeStep::unwarped, "envelope_sweeps", "envelope.unwarp{ env }", run_unwarp},
     {"envelope.retract", EnvelopeStep::unwarped, EnvelopeStep::retracted, "max_retract_sweeps", "envelope.retract{ env }", run_retract},
-    {"envelope.optimise", EnvelopeStep::retracted, EnvelopeStep::finished, "optimiser optimiser_evaluations height_weight top_weight barrier_weight", "envelope.optimise{ env, optimiser_evaluations = 30 }", run_optimise},
+    {"envelope.optimise", EnvelopeStep::retracted, EnvelopeStep::finished, "optimiser optimiser_evaluations height_weight top_weight barrier_weight",
+     "envelope.optimise{ env, optimiser_evaluations = 30 }", run_optimise},
 }};
 
-const Step& step_of(std::string_view verb) { return *std::find_if(k_steps.begin(), k_steps.end(), [&](const Step& step) { return step.verb == verb; }); }
+const Step& step_of(std::string_view verb) {
+  return *std::find_if(k_steps.begin(), k_steps.end(), [&](const Step& step) { return step.verb == verb; });
+}
 
 ScriptValue run_step(const ScriptCall& call) {
   const Step& step = step_of(call.verb);
@@ -165,9 +183,12 @@ ScriptValue run_step(const ScriptCall& call) {
   const std::vector<ScriptValue>& items = reader.items();
   const auto* given = items.empty() ? nullptr : std::get_if<EnvelopeHandle>(&items.front());
   EnvelopeValue value = given ? **given : EnvelopeValue();
-  if (!given) reader.add_problem("entry 1: expected an envelope, not " + std::string(items.empty() ? "nothing" : type_text(items.front())) + ": " + std::string(step.usage));
+  if (!given)
+    reader.add_problem("entry 1: expected an envelope, not " + std::string(items.empty() ? "nothing" : type_text(items.front())) + ": " +
+                       std::string(step.usage));
   else if (value.step < step.needs && !call.session.check)
-    reader.add_problem("entry 1: expected an envelope that is " + std::string(to_string(step.needs)) + " at least; this one is " + std::string(to_string(value.step)) + " only");
+    reader.add_problem("entry 1: expected an envelope that is " + std::string(to_string(step.needs)) + " at least; this one is " +
+                       std::string(to_string(value.step)) + " only");
   if (items.size() > 1) reader.add_problem("entry 2: there is one too many");
   const OptionTable schema = some_options(value.options, step.options);
   reader.read_options(schema);
@@ -193,13 +214,19 @@ std::string help_of_step() {
 }
 
 constexpr std::array<ScriptVerb, 7> k_verbs = {{
-    {"envelope.classify", k_classify_usage, "Ridges, corners, convex and concave places of a wall: the first step of make_envelope by hand.", classify, help_of_names<k_classify_names>, true, "envelope"},
+    {"envelope.classify", k_classify_usage, "Ridges, corners, convex and concave places of a wall: the first step of make_envelope by hand.", classify,
+     help_of_names<k_classify_names>, true, "envelope"},
     {"envelope.initial", k_initial_usage, "Directions and target heights: the second step.", make_initial, help_of_names<k_initial_names>, true, "envelope"},
     {k_steps[0].verb, k_steps[0].usage, "Smooths heights and directions.", run_step, help_of_step<0>, true, "envelope"},
     {k_steps[1].verb, k_steps[1].usage, "Lowers heights where growth lines would meet.", run_step, help_of_step<1>, true, "envelope"},
-    {k_steps[2].verb, k_steps[2].usage, "Lowers heights until every macro-element is valid, smooths the envelope itself and lets it grow back as far as that holds.", run_step, help_of_step<2>, true, "envelope"},
-    {k_steps[3].verb, k_steps[3].usage, "Shares gaps and lowers heights until nothing of the layer meets anything: from here on the envelope is good for tetrahedra.", run_step, help_of_step<3>, true, "envelope"},
-    {k_steps[4].verb, k_steps[4].usage, "Optimises the whole envelope: the last step of make_envelope, with which it gives the same bytes.", run_step, help_of_step<4>, true, "envelope"},
+    {k_steps[2].verb, k_steps[2].usage,
+     "Lowers heights until every macro-element is valid, smooths the envelope itself and lets it grow back as far as that holds.", run_step, help_of_step<2>,
+     true, "envelope"},
+    {k_steps[3].verb, k_steps[3].usage,
+     "Shares gaps and lowers heights until nothing of the layer meets anything: from here on the envelope is good for tetrahedra.", run_step, help_of_step<3>,
+     true, "envelope"},
+    {k_steps[4].verb, k_steps[4].usage, "Optimises the whole envelope: the last step of make_envelope, with which it gives the same bytes.", run_step,
+     help_of_step<4>, true, "envelope"},
 }};
 
 }  // namespace
@@ -221,9 +248,10 @@ void require_ready(const EnvelopeValue& envelope, const VolumeMeshOptions& optio
   const auto site = site_of(value, context);
   const volmesh::EnvelopeCertificate proof = volmesh::certify_envelope(site->base, site->collider, envelope.stage.envelope, context);
   if (proof.is_proved()) return;
-  refuse(std::to_string(proof.n_invalid_macro_elements) + " of its elements are invalid, " + std::to_string(proof.n_crossings) + " pairs of triangles around it cross, " + std::to_string(proof.n_swallowings) +
-             " surfaces are within a layer",
-         proof.n_invalid_macro_elements > 0 ? std::vector<ErrorPlace>{{proof.worst_macro_element.place, "worst element: " + proof.worst_macro_element.what}} : std::vector<ErrorPlace>{});
+  refuse(std::to_string(proof.n_invalid_macro_elements) + " of its elements are invalid, " + std::to_string(proof.n_crossings) +
+             " pairs of triangles around it cross, " + std::to_string(proof.n_swallowings) + " surfaces are within a layer",
+         proof.n_invalid_macro_elements > 0 ? std::vector<ErrorPlace>{{proof.worst_macro_element.place, "worst element: " + proof.worst_macro_element.what}}
+                                            : std::vector<ErrorPlace>{});
 }
 
 }  // namespace sterna::scripting

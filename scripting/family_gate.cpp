@@ -86,12 +86,9 @@ ScriptValue check_family_verb(const ScriptCall& call) {
   const OptionTable schema = sterna::options_of(tolerances);
   std::vector<std::pair<MeshHandle, InputPath>> meshes;
   for (const ScriptValue& item : reader.items()) {
-    if (const auto* mesh = std::get_if<MeshHandle>(&item))
-      meshes.push_back({*mesh, {}});
-    else if (const auto* name = std::get_if<std::string>(&item))
-      meshes.push_back({nullptr, find_input(call, *name)});
-    else
-      reader.add_problem("entry " + std::to_string(meshes.size() + 1) + ": expected a mesh or the name of its file, not " + std::string(type_text(item)));
+    if (const auto* mesh = std::get_if<MeshHandle>(&item)) meshes.push_back({*mesh, {}});
+    else if (const auto* name = std::get_if<std::string>(&item)) meshes.push_back({nullptr, find_input(call, *name)});
+    else reader.add_problem("entry " + std::to_string(meshes.size() + 1) + ": expected a mesh or the name of its file, not " + std::string(type_text(item)));
   }
   if (meshes.size() < 2) reader.add_problem("needs at least two meshes, from coarse to fine: " + std::string(k_usage));
   reader.read_options(schema);

@@ -14,10 +14,14 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::string_view k_sphere_usage = "sphere{ radius = 100, edge = 20, center = {0, 0, 0} }  or, as a source,  sphere{ {0, 0, 0}, radius = 1, size = 0.1 }";
-constexpr std::string_view k_box_usage = "box{ {-10, -5, -5}, {20, 5, 5}, edge = 2, sides = { x_min = \"inflow\", x_max = { kind = \"outflow\", edge = 0.5 } } }";
-constexpr std::string_view k_cylinder_usage = "cylinder{ {-10, 0, 0}, {20, 0, 0}, radius = 5, edge = 1, sides = { start = \"inflow\", [\"end\"] = \"outflow\" } }";
-constexpr std::string_view k_text_usage = "\"sphere radius=100 edge=20\", \"box -10 -5 -5 20 5 5 edge=2 x_min=inflow\", \"cylinder -10 0 0 20 0 0 radius=5 edge=1\", \"none\" or the name of a file";
+constexpr std::string_view k_sphere_usage =
+    "sphere{ radius = 100, edge = 20, center = {0, 0, 0} }  or, as a source,  sphere{ {0, 0, 0}, radius = 1, size = 0.1 }";
+constexpr std::string_view k_box_usage =
+    "box{ {-10, -5, -5}, {20, 5, 5}, edge = 2, sides = { x_min = \"inflow\", x_max = { kind = \"outflow\", edge = 0.5 } } }";
+constexpr std::string_view k_cylinder_usage =
+    "cylinder{ {-10, 0, 0}, {20, 0, 0}, radius = 5, edge = 1, sides = { start = \"inflow\", [\"end\"] = \"outflow\" } }";
+constexpr std::string_view k_text_usage =
+    "\"sphere radius=100 edge=20\", \"box -10 -5 -5 20 5 5 edge=2 x_min=inflow\", \"cylinder -10 0 0 20 0 0 radius=5 edge=1\", \"none\" or the name of a file";
 constexpr std::string_view k_prefix = "farfield_";
 
 /// Options of the stage by the names that their own table takes. `options` must outlive the table.
@@ -124,7 +128,8 @@ bool is_farfield(const ScriptCall& call) {
 
 std::string sphere_help() {
   volmesh::FarfieldOptions options;
-  return options_help(short_options(options, {"radius", "edge"})) + "center = {x, y, z}: in place of the middle of the wall's box; sides = { ... }: kinds of its patches\n";
+  return options_help(short_options(options, {"radius", "edge"})) +
+         "center = {x, y, z}: in place of the middle of the wall's box; sides = { ... }: kinds of its patches\n";
 }
 
 namespace {
@@ -174,8 +179,10 @@ ScriptTable with_farfield(const ScriptCall& call, ScriptTable table, std::shared
     for (auto& [name, value] : table_of_text(*text).fields) options.fields[name] = value;
   SurfaceHandle of_surface;
   if (const auto* handle = std::get_if<SurfaceHandle>(&given)) of_surface = *handle;
-  else if (call.session.check && (std::holds_alternative<ModelHandle>(given) || std::holds_alternative<ComponentHandle>(given))) of_surface = std::get<SurfaceHandle>(stand_in(call, "surface"));
-  else if (std::holds_alternative<ModelHandle>(given) || std::holds_alternative<ComponentHandle>(given)) of_surface = std::make_shared<const SurfaceValue>(mesh_models({model_of(given, call)}, {}, {}, context, call.session.reuse()));
+  else if (call.session.check && (std::holds_alternative<ModelHandle>(given) || std::holds_alternative<ComponentHandle>(given)))
+    of_surface = std::get<SurfaceHandle>(stand_in(call, "surface"));
+  else if (std::holds_alternative<ModelHandle>(given) || std::holds_alternative<ComponentHandle>(given))
+    of_surface = std::make_shared<const SurfaceValue>(mesh_models({model_of(given, call)}, {}, {}, context, call.session.reuse()));
   if (of_surface) options.fields["shape"] = std::string("surface");
   const auto text_of = [&](const std::string& name) {
     const auto it = options.fields.find(name);
@@ -186,7 +193,9 @@ ScriptTable with_farfield(const ScriptCall& call, ScriptTable table, std::shared
     find_input(call, text_of("surface"));
     of_surface = std::get<SurfaceHandle>(stand_in(call, "surface"));
   }
-  if (!of_surface) of_surface = read_farfield({.farfield_shape = text_of("shape"), .farfield_surface = text_of("surface")}, [&](const std::string& name) { return find_input(call, name); }, context);
+  if (!of_surface)
+    of_surface = read_farfield(
+        {.farfield_shape = text_of("shape"), .farfield_surface = text_of("surface")}, [&](const std::string& name) { return find_input(call, name); }, context);
   if (of_surface) {
     surface = std::shared_ptr<const TriMesh>(of_surface, &of_surface->mesh);
     inputs = of_surface->inputs;
@@ -196,7 +205,9 @@ ScriptTable with_farfield(const ScriptCall& call, ScriptTable table, std::shared
 }
 
 OptionOverrides farfield_of_text(const std::string& text) {
-  const auto refuse = [&](const std::string& problem) { return Error({.code = ErrorCode::bad_argument, .attempted = "farfield \"" + text + "\"", .problem = problem, .hint = std::string(k_text_usage)}); };
+  const auto refuse = [&](const std::string& problem) {
+    return Error({.code = ErrorCode::bad_argument, .attempted = "farfield \"" + text + "\"", .problem = problem, .hint = std::string(k_text_usage)});
+  };
   std::istringstream words(text);
   std::string shape;
   words >> shape;
@@ -210,12 +221,14 @@ OptionOverrides farfield_of_text(const std::string& text) {
   for (std::string word; words >> word;) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos) numbers.push_back(word);
-    else if (const std::string name = word.substr(0, equals); name == "radius" || name == "edge") options.emplace_back(std::string(k_prefix) + name, word.substr(equals + 1));
+    else if (const std::string name = word.substr(0, equals); name == "radius" || name == "edge")
+      options.emplace_back(std::string(k_prefix) + name, word.substr(equals + 1));
     else sides += (sides.empty() ? "" : " ") + word;
   }
   if (!sides.empty()) options.emplace_back("farfield_sides", volmesh::sides_text(volmesh::parse_sides(sides)));
   const std::size_t n_expected = shape == "sphere" ? 3 : shape == "box" || shape == "cylinder" ? 6 : 0;
-  if (!numbers.empty() && numbers.size() != n_expected) throw refuse(std::to_string(numbers.size()) + " coordinates, expected " + (n_expected > 0 ? std::to_string(n_expected) + " or none" : "none"));
+  if (!numbers.empty() && numbers.size() != n_expected)
+    throw refuse(std::to_string(numbers.size()) + " coordinates, expected " + (n_expected > 0 ? std::to_string(n_expected) + " or none" : "none"));
   for (std::size_t i = 0; i < numbers.size(); ++i)
     options.emplace_back(std::string(k_prefix) + (shape == "sphere" ? "center_" : i < 3 ? "from_" : "to_") + "xyz"[i % 3], numbers[i]);
   return options;

@@ -21,12 +21,12 @@ ScriptValue make_farfield_cylinder(const ScriptCall& call);
 bool is_farfield(const ScriptCall& call);
 std::string sphere_help();
 
-/// The table with "farfield" as options of its stage, whatever it was given as: a shape, a text ("none", "box -10 -5 -5 20 5 5 edge=2", the name of a file), a surface, or a model,
-/// whose surface is meshed. A surface goes to `surface`, where it came from to `inputs`.
+/// The table with "farfield" as options of its stage, whatever it was given as: a shape, a text ("none", "box -10 -5 -5 20 5 5 edge=2", the name of a file), a
+/// surface, or a model, whose surface is meshed. A surface goes to `surface`, where it came from to `inputs`.
 ScriptTable with_farfield(const ScriptCall& call, ScriptTable table, std::shared_ptr<const TriMesh>& surface, std::vector<InputFile>& inputs);
 
-/// The options that a text stands for: "none", "sphere radius=100 edge=20", "box -10 -5 -5 20 5 5 edge=2 x_min=inflow x_max=outflow,edge:0.5", "cylinder -10 0 0 20 0 0 radius=5", a file.
-/// \throws Error(bad_argument)
+/// The options that a text stands for: "none", "sphere radius=100 edge=20", "box -10 -5 -5 20 5 5 edge=2 x_min=inflow x_max=outflow,edge:0.5", "cylinder -10 0
+/// 0 20 0 0 radius=5", a file. \throws Error(bad_argument)
 OptionOverrides farfield_of_text(const std::string& text);
 /// The surface in the file of the shape "surface", if the options name one, with its file.
 /// \throws Error of read_wall, of meshing a model

@@ -14,9 +14,13 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::string_view k_flow_usage = "flow{ mach = 0.78, altitude = 11000, length = 4.2 }  or  flow{ speed = 60, temperature = 293, pressure = 101325, length = 0.3 }  or  flow{ reynolds = 5e6, length = 7 }";
-constexpr std::string_view k_y_plus_usage = "y_plus{ 1, mach = 0.78, altitude = 11000, length = 4.2 }  or  y_plus{ 1, flow{ reynolds = 5e6, length = 7 }, at = \"cell_centre\", law = \"ittc57\" }";
-constexpr std::string_view k_boundary_layer_usage = "boundary_layer{ mach = 0.78, altitude = 11000, length = 4.2, factor = 1.3 }  or  boundary_layer{ flow{ reynolds = 5e6, length = 7 } }";
+constexpr std::string_view k_flow_usage =
+    "flow{ mach = 0.78, altitude = 11000, length = 4.2 }  or  flow{ speed = 60, temperature = 293, pressure = 101325, length = 0.3 }  or  flow{ reynolds = "
+    "5e6, length = 7 }";
+constexpr std::string_view k_y_plus_usage =
+    "y_plus{ 1, mach = 0.78, altitude = 11000, length = 4.2 }  or  y_plus{ 1, flow{ reynolds = 5e6, length = 7 }, at = \"cell_centre\", law = \"ittc57\" }";
+constexpr std::string_view k_boundary_layer_usage =
+    "boundary_layer{ mach = 0.78, altitude = 11000, length = 4.2, factor = 1.3 }  or  boundary_layer{ flow{ reynolds = 5e6, length = 7 } }";
 constexpr std::string_view k_y_plus_text = "--first-height \"y_plus 1 mach=0.78 altitude=11000 length=4.2\"";
 constexpr std::string_view k_boundary_layer_text = "--total-height \"boundary_layer factor=1.3 reynolds=6e6 length=1\"";
 
@@ -26,12 +30,20 @@ QuantityValue first_height_value(const volmesh::FirstHeightOptions& options, con
           .metres = first.height,
           .text = describe(first),
           .flow = flow,
-          .fields = {{"height", first.height}, {"y_plus", first.y_plus}, {"wall_distance", first.wall_distance}, {"skin_friction", first.skin_friction}, {"friction_velocity", first.friction_velocity}}};
+          .fields = {{"height", first.height},
+                     {"y_plus", first.y_plus},
+                     {"wall_distance", first.wall_distance},
+                     {"skin_friction", first.skin_friction},
+                     {"friction_velocity", first.friction_velocity}}};
 }
 
 QuantityValue thickness_value(const volmesh::ThicknessOptions& options, const volmesh::FlowState& flow) {
   const double thickness = volmesh::layer_thickness(options, flow);
-  return {.verb = "boundary_layer", .metres = thickness, .text = volmesh::describe_thickness(options, flow), .flow = flow, .fields = {{"height", thickness}, {"thickness", thickness / options.factor}}};
+  return {.verb = "boundary_layer",
+          .metres = thickness,
+          .text = volmesh::describe_thickness(options, flow),
+          .flow = flow,
+          .fields = {{"height", thickness}, {"thickness", thickness / options.factor}}};
 }
 
 ScriptValue as_value(QuantityValue value, const ScriptCall& call) {
@@ -134,9 +146,16 @@ std::string boundary_layer_help() {
 }
 
 constexpr std::array<ScriptVerb, 3> k_verbs = {{
-    {"flow", k_flow_usage, "Flow conditions: Reynolds number, speed and state of the gas, for y_plus, boundary_layer and mesh:su2_config.", make_flow, flow_help, false, "quantity"},
-    {"y_plus", k_y_plus_usage, "The first height that gives a wanted y+ on a turbulent flat plate; a number of metres that prints what it was made of. On the command line: --first-height \"y_plus 1 mach=0.78 altitude=11000 length=4.2\".", make_y_plus, y_plus_help, false, "quantity"},
-    {"boundary_layer", k_boundary_layer_usage, "The thickness of a turbulent boundary layer, for the total height of layers; a number of metres that prints what it was made of. On the command line: --total-height \"boundary_layer factor=1.3 reynolds=6e6 length=1\".", make_boundary_layer, boundary_layer_help, false, "quantity"},
+    {"flow", k_flow_usage, "Flow conditions: Reynolds number, speed and state of the gas, for y_plus, boundary_layer and mesh:su2_config.", make_flow,
+     flow_help, false, "quantity"},
+    {"y_plus", k_y_plus_usage,
+     "The first height that gives a wanted y+ on a turbulent flat plate; a number of metres that prints what it was made of. On the command line: "
+     "--first-height \"y_plus 1 mach=0.78 altitude=11000 length=4.2\".",
+     make_y_plus, y_plus_help, false, "quantity"},
+    {"boundary_layer", k_boundary_layer_usage,
+     "The thickness of a turbulent boundary layer, for the total height of layers; a number of metres that prints what it was made of. On the command line: "
+     "--total-height \"boundary_layer factor=1.3 reynolds=6e6 length=1\".",
+     make_boundary_layer, boundary_layer_help, false, "quantity"},
 }};
 
 }  // namespace
@@ -155,7 +174,9 @@ std::optional<volmesh::FlowState> read_flow(TableReader& reader, std::size_t fir
   if (items.size() > first_item + 1) reader.add_problem("entry " + std::to_string(first_item + 2) + ": there is one too many");
   if (items.size() > first_item) {
     const auto* quantity = std::get_if<QuantityHandle>(&items[first_item]);
-    if (!quantity) reader.add_problem("entry " + std::to_string(first_item + 1) + ": expected flow conditions (from flow{...}), not " + std::string(type_text(items[first_item])));
+    if (!quantity)
+      reader.add_problem("entry " + std::to_string(first_item + 1) + ": expected flow conditions (from flow{...}), not " +
+                         std::string(type_text(items[first_item])));
     else if (is_named) reader.add_problem("flow conditions are given twice, as entry " + std::to_string(first_item + 1) + " and by name");
     else return (*quantity)->flow;
     return std::nullopt;
@@ -186,10 +207,14 @@ QuantityValue quantity_of_text(const std::string& text) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos && is_first_height && is_automatic(first.y_plus)) set_option_as_typed(find_option(table, "y_plus", attempted), word);
     else if (equals == std::string::npos || equals == 0)
-      throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "\"" + word + "\" is not NAME=VALUE", .hint = std::string(is_first_height ? k_y_plus_text : k_boundary_layer_text)});
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = attempted,
+                   .problem = "\"" + word + "\" is not NAME=VALUE",
+                   .hint = std::string(is_first_height ? k_y_plus_text : k_boundary_layer_text)});
     else set_option_as_typed(find_option(table, word.substr(0, equals), attempted), word.substr(equals + 1));
   }
-  if (is_first_height && is_automatic(first.y_plus)) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "the wanted y+ is missing", .hint = std::string(k_y_plus_text)});
+  if (is_first_height && is_automatic(first.y_plus))
+    throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "the wanted y+ is missing", .hint = std::string(k_y_plus_text)});
   try {
     const volmesh::FlowState flow = volmesh::flow_state(conditions);
     return is_first_height ? first_height_value(first, flow) : thickness_value(thickness, flow);

@@ -24,7 +24,8 @@ constexpr double k_box_margin = 0.01;
 constexpr double k_flat_share = 1e-9;
 
 bool is_container(const Model& model, const ModelSolid& solid) {
-  return solid.is_closed && std::all_of(solid.faces.begin(), solid.faces.end(), [&](FaceId f) { return model.components[model.faces[f].component].kind == ComponentKind::tunnel; });
+  return solid.is_closed && std::all_of(solid.faces.begin(), solid.faces.end(),
+                                        [&](FaceId f) { return model.components[model.faces[f].component].kind == ComponentKind::tunnel; });
 }
 
 /// Solids of tunnels, and the others; nothing where there are sheets or loose faces.
@@ -79,7 +80,8 @@ std::vector<Plane> planes_of(const Model& model, const ModelSolid& container) {
     Plane plane{d.point, normalized(cross(d.du, d.dv))};
     const double side = dot(box.center() - plane.at, plane.inward);
     if (side < 0.0) plane.inward = -plane.inward;
-    if (std::abs(side) <= tolerance || std::any_of(points.begin(), points.end(), [&](const Point& p) { return dot(p - plane.at, plane.inward) < -tolerance; })) return {};
+    if (std::abs(side) <= tolerance || std::any_of(points.begin(), points.end(), [&](const Point& p) { return dot(p - plane.at, plane.inward) < -tolerance; }))
+      return {};
     planes.push_back(plane);
   }
   return planes;
@@ -101,7 +103,8 @@ bool boxes_meet(const Box& a, const Box& b) {
   return true;
 }
 
-/// Whether boxes tell that no boolean is needed: one convex container with plane faces that looks inwards, all other solids closed, within it and apart from each other.
+/// Whether boxes tell that no boolean is needed: one convex container with plane faces that looks inwards, all other solids closed, within it and apart from
+/// each other.
 bool are_bodies_apart(const Model& model) {
   const ModelSolid* container = nullptr;
   std::vector<Box> boxes;
@@ -122,7 +125,8 @@ bool are_bodies_apart(const Model& model) {
   if (planes.empty()) return false;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     for (std::size_t corner = 0; corner < 8; ++corner) {
-      const Point p{(corner & 1u) != 0 ? boxes[i].max.x : boxes[i].min.x, (corner & 2u) != 0 ? boxes[i].max.y : boxes[i].min.y, (corner & 4u) != 0 ? boxes[i].max.z : boxes[i].min.z};
+      const Point p{(corner & 1u) != 0 ? boxes[i].max.x : boxes[i].min.x, (corner & 2u) != 0 ? boxes[i].max.y : boxes[i].min.y,
+                    (corner & 4u) != 0 ? boxes[i].max.z : boxes[i].min.z};
       if (std::any_of(planes.begin(), planes.end(), [&](const Plane& plane) { return dot(p - plane.at, plane.inward) <= 0.0; })) return false;
     }
     for (std::size_t k = 0; k < i; ++k)
@@ -152,7 +156,8 @@ void refit_for_cad(Model& model, const RunContext& context) {
   if (!cad::needs_refit(model)) return;
   cad::RefitReport refit;
   model = cad::refitted(model, k_refit_share * box_of(model).longest_side(), refit, context);
-  context.info(fmt::format("{} deformed surfaces and {} curves became splines, at most {:.3g} m away, before OpenCASCADE takes them", refit.n_surfaces, refit.n_curves, refit.error));
+  context.info(fmt::format("{} deformed surfaces and {} curves became splines, at most {:.3g} m away, before OpenCASCADE takes them", refit.n_surfaces,
+                           refit.n_curves, refit.error));
 }
 
 bool has_container(const Model& model) {
@@ -195,18 +200,25 @@ ModelValue fluid_of(ModelValue all, const RunContext& context) {
   Solids solids = solids_of(for_cad);
   if (!solids.is_all_closed) {
     const std::vector<OpenEdge> open = open_edges(all.model);
-    ErrorInfo info{.code = ErrorCode::open_surface, .attempted = "taking the model out of its tunnel", .problem = "the model has open surfaces", .hint = "only closed bodies have an inside: read_cad{ ..., cap = true } closes flat openings"};
+    ErrorInfo info{.code = ErrorCode::open_surface,
+                   .attempted = "taking the model out of its tunnel",
+                   .problem = "the model has open surfaces",
+                   .hint = "only closed bodies have an inside: read_cad{ ..., cap = true } closes flat openings"};
     for (const OpenEdge& edge : open)
       if (info.places.size() < 5) info.places.push_back({edge.middle, "open edge of face \"" + edge.face + "\""});
     info.n_places = static_cast<std::int64_t>(open.size());
     throw Error(std::move(info));
   }
   if (solids.containers.size() > 1)
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "taking the model out of its tunnel", .problem = fmt::format("there are {} tunnels", solids.containers.size()), .hint = "one closed container holds the fluid"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "taking the model out of its tunnel",
+                 .problem = fmt::format("there are {} tunnels", solids.containers.size()),
+                 .hint = "one closed container holds the fluid"});
   if (solids.bodies.empty()) return all;
   FluidDomain fluid = cad::fluid_domain(solids.containers.front(), solids.bodies, {}, context);
   std::string text = fmt::format("fluid: {:.6g} m^3 of {:.6g} m^3", fluid.report.volume, fluid.report.container_volume);
-  if (!fluid.report.cut.empty()) text += "; " + names_text(fluid.report.cut) + (fluid.report.cut.size() == 1 ? " passes" : " pass") + " through the tunnel's faces";
+  if (!fluid.report.cut.empty())
+    text += "; " + names_text(fluid.report.cut) + (fluid.report.cut.size() == 1 ? " passes" : " pass") + " through the tunnel's faces";
   if (!fluid.report.inside.empty()) text += "; " + inside_text(fluid.report.inside);
   for (const UniteTry& attempt : fluid.report.tries)
     if (!attempt.problem.empty()) text += fmt::format("\n  tolerance {:.3g} m was not enough: {}", attempt.tolerance, attempt.problem);
@@ -223,7 +235,9 @@ ModelValue half_of_model(const ModelValue& whole, const HalfModelOptions& option
   const HalfModelReport& r = half.report;
   value.model = std::move(half.model);
   value.parts.clear();
-  value.report = r.was_half ? "half model as it is" : fmt::format("half at {} = {:g}: {} faces cut{}", options.axis, options.at, r.n_faces_cut, r.was_united ? ", after the union" : "");
+  value.report = r.was_half
+                     ? "half model as it is"
+                     : fmt::format("half at {} = {:g}: {} faces cut{}", options.axis, options.at, r.n_faces_cut, r.was_united ? ", after the union" : "");
   if (r.n_solids_left_out > 0) value.report += fmt::format(", {} solids of the other half left out", r.n_solids_left_out);
   if (r.n_flat_faces > 0) value.report += fmt::format(", {} faces in the plane left out", r.n_flat_faces);
   value.report += fmt::format("; rim of {} edges, {:.4g} m, moved by at most {:.3g} m into the plane", r.n_rim_edges, r.rim_length, r.largest_shift);

@@ -63,14 +63,15 @@ std::string objection_to(const MeasureInfo& info, const GateLimits& limits) {
   if (!(limits.usual_share >= 0.0 && limits.usual_share <= 1.0)) return "share is " + number_text(limits.usual_share) + ", it must be between 0 and 1";
   const double hard = info.is_low_bad ? -limits.hard : limits.hard, target = info.is_low_bad ? -limits.target : limits.target;
   if (target > hard)
-    return "target " + limit_text(info, limits.target) + " is easier than hard " + limit_text(info, limits.hard) + "; for this measure " + (info.is_low_bad ? "larger" : "smaller") +
-           " values are better: give both (what is not given stays as it is usual)";
+    return "target " + limit_text(info, limits.target) + " is easier than hard " + limit_text(info, limits.hard) + "; for this measure " +
+           (info.is_low_bad ? "larger" : "smaller") + " values are better: give both (what is not given stays as it is usual)";
   return {};
 }
 
 void read_limits(const MeasureInfo& info, const ScriptTable& table, const std::string& key, TableReader& reader, GateTable& limits) {
   GateLimits changed = limits[info.measure];
-  if (!table.items.empty() || !table.other_keys.empty() || table.fields.empty()) reader.add_problem(key + ": takes hard, target, usual and share by name, or is false");
+  if (!table.items.empty() || !table.other_keys.empty() || table.fields.empty())
+    reader.add_problem(key + ": takes hard, target, usual and share by name, or is false");
   for (const auto& [name, value] : table.fields) {
     double* const limit = limit_of(changed, name);
     const auto* off = std::get_if<bool>(&value);

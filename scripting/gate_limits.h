@@ -9,8 +9,8 @@
 
 namespace sterna::scripting {
 
-/// The entry `gates` of a table. Keys are names of measures (or of a gate that has one measure, "G5"); hard, target, usual are numbers (angles in radians) or false for none, share in [0, 1]. A measure
-/// that is false has no limits: it is shown only. Notes problems. Returns whether there was any.
+/// The entry `gates` of a table. Keys are names of measures (or of a gate that has one measure, "G5"); hard, target, usual are numbers (angles in radians) or
+/// false for none, share in [0, 1]. A measure that is false has no limits: it is shown only. Notes problems. Returns whether there was any.
 bool read_gate_limits(TableReader& reader, GateTable& limits);
 
 /// The same off the command line: "orthogonality:hard=3deg,target=15deg", "face_weight:none". \throws Error(bad_argument)

@@ -109,7 +109,8 @@ std::optional<InputPath> single_file(const ScriptCall& call, TableReader& reader
 
 std::optional<PatchKind> read_patch_kind(const ScriptValue& value, const std::string& key, TableReader& reader) {
   std::string known;
-  for (const PatchKind kind : {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface}) {
+  for (const PatchKind kind :
+       {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface}) {
     if (const auto* text = std::get_if<std::string>(&value); text && *text == to_string(kind)) return kind;
     known += (known.empty() ? "" : ", ") + std::string(to_string(kind));
   }

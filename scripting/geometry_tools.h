@@ -40,7 +40,8 @@ struct ShapeEntry {
   ScriptValue value;  ///< the entry itself
   std::string where;  ///< "sources, entry 2", for messages
 };
-/// The entries of the list `name` = { sphere{...}, box{...} }, or one of them alone; empty where the table has none. Notes problems; `usage` is an example of an entry.
+/// The entries of the list `name` = { sphere{...}, box{...} }, or one of them alone; empty where the table has none. Notes problems; `usage` is an example of
+/// an entry.
 std::vector<ShapeEntry> read_shapes(TableReader& reader, const std::string& name, std::string_view usage);
 
 /// The file "name" beside the script or in the current folder, for verbs that take one file.
@@ -52,7 +53,8 @@ std::optional<PatchKind> read_patch_kind(const ScriptValue& value, const std::st
 /// The model of a value: a model itself, or a component made one. Null where it is neither.
 ModelHandle model_of(const ScriptValue& value, const ScriptCall& call);
 
-/// Turned about the fixed axes through `about`: roll (starboard wing down), then pitch (nose up), then yaw (nose to starboard); x aft, y starboard, z up; radians.
+/// Turned about the fixed axes through `about`: roll (starboard wing down), then pitch (nose up), then yaw (nose to starboard); x aft, y starboard, z up;
+/// radians.
 Transform attitude(const Point& about, double roll, double pitch, double yaw);
 
 /// The reference data of a wing as a table for the script.

@@ -45,9 +45,15 @@ struct Schema<scripting::AirfoilOptions> {
   using O = scripting::AirfoilOptions;
   static constexpr std::string_view stage = "airfoil";
   static constexpr std::array fields = {
-      Field<O>{.name = "trailing_edge", .member = &O::trailing_edge, .min = 0.0, .max = 0.1999, .help = "its thickness, of the chord; 0 = sharp", .automatic = "as it is"},
+      Field<O>{.name = "trailing_edge",
+               .member = &O::trailing_edge,
+               .min = 0.0,
+               .max = 0.1999,
+               .help = "its thickness, of the chord; 0 = sharp",
+               .automatic = "as it is"},
       Field<O>{.name = "points", .member = &O::points, .min = 0, .max = 2000, .help = "along each side, dense where the section is curved; 0 = as they are"},
-      Field<O>{.name = "within", .member = &O::within, .min = 1e-9, .max = 0.1, .help = "as few points as keep so near, of the chord", .automatic = "as they are"},
+      Field<O>{
+          .name = "within", .member = &O::within, .min = 1e-9, .max = 0.1, .help = "as few points as keep so near, of the chord", .automatic = "as they are"},
   };
 };
 template <>
@@ -56,7 +62,12 @@ struct Schema<scripting::SurfaceOptions> {
   static constexpr std::string_view stage = "surface_function";
   static constexpr std::array fields = {
       Field<O>{.name = "name", .member = &O::name, .help = "of component and patch"},
-      Field<O>{.name = "tolerance", .member = &O::tolerance, .unit = Unit::metre, .min = 1e-12, .max = 1.0, .help = "largest distance between the function and the bicubic spline that stands for it"},
+      Field<O>{.name = "tolerance",
+               .member = &O::tolerance,
+               .unit = Unit::metre,
+               .min = 1e-12,
+               .max = 1.0,
+               .help = "largest distance between the function and the bicubic spline that stands for it"},
       Field<O>{.name = "periodic_u", .member = &O::periodic_u, .help = "closed and smooth across the ends of u"},
       Field<O>{.name = "periodic_v", .member = &O::periodic_v, .help = "the same of v"},
       Field<O>{.name = "max_intervals", .member = &O::max_intervals, .min = 4, .max = 10000, .help = "of the spline along u and along v"},
@@ -106,7 +117,8 @@ ScriptValue read_description(const ScriptCall& call) {
 
 // ---- Airfoils ------------------------------------------------------------------------------------------------------------------------------
 
-constexpr std::string_view k_airfoil_usage = "airfoil \"naca23012\"  or  airfoil{ \"naca0012\", trailing_edge = 0.002 }  or  airfoil{ {{1, 0.001}, {0.5, 0.06}, {0, 0}, {0.5, -0.06}, {1, -0.001}} }";
+constexpr std::string_view k_airfoil_usage =
+    "airfoil \"naca23012\"  or  airfoil{ \"naca0012\", trailing_edge = 0.002 }  or  airfoil{ {{1, 0.001}, {0.5, 0.06}, {0, 0}, {0.5, -0.06}, {1, -0.001}} }";
 
 Airfoil airfoil_of_points(const std::vector<std::vector<double>>& rows) {
   std::string text = "points of the script\n";
@@ -168,12 +180,16 @@ Model model_of_surface(const SampledSurface& sampled, const SurfaceOptions& opti
   const SurfacePtr surface = sampled.surface;
   const NurbsSurfaceForm form = *surface->exact_nurbs();
   ModelBuilder builder({options.name, ComponentKind::unknown});
-  const auto stations = [](Interval range, bool is_closed) { return is_closed ? std::vector{range.from, 0.5 * (range.from + range.to), range.to} : std::vector{range.from, range.to}; };
+  const auto stations = [](Interval range, bool is_closed) {
+    return is_closed ? std::vector{range.from, 0.5 * (range.from + range.to), range.to} : std::vector{range.from, range.to};
+  };
   const std::vector<double> us = stations(box.u, options.periodic_u), vs = stations(box.v, options.periodic_v);
   const auto length = [&](Uv from, Uv to) {
     constexpr int k_steps = 16;
     double sum = 0.0;
-    for (int i = 0; i < k_steps; ++i) sum += distance(surface->point(from + (static_cast<double>(i) / k_steps) * (to - from)), surface->point(from + (static_cast<double>(i + 1) / k_steps) * (to - from)));
+    for (int i = 0; i < k_steps; ++i)
+      sum += distance(surface->point(from + (static_cast<double>(i) / k_steps) * (to - from)),
+                      surface->point(from + (static_cast<double>(i + 1) / k_steps) * (to - from)));
     return sum;
   };
   const double size = length({box.u.from, box.v.from}, {box.u.to, box.v.to}) + length({box.u.from, box.v.to}, {box.u.to, box.v.from});
@@ -194,17 +210,20 @@ Model model_of_surface(const SampledSurface& sampled, const SurfaceOptions& opti
   std::vector<EdgeId> along_u(us.size() * vs.size()), along_v(us.size() * vs.size());
   const auto edge_u = [&](std::size_t i, std::size_t j) {
     EdgeId& id = along_u[i * vs.size() + row_of(j, vs, options.periodic_v)];
-    if (!id.is_valid()) id = is_u_pole[j] ? builder.pole(corner(i, j)) : builder.edge(line_of_constant_v(form, vs[j]), {us[i], us[i + 1]}, corner(i, j), corner(i + 1, j));
+    if (!id.is_valid())
+      id = is_u_pole[j] ? builder.pole(corner(i, j)) : builder.edge(line_of_constant_v(form, vs[j]), {us[i], us[i + 1]}, corner(i, j), corner(i + 1, j));
     return id;
   };
   const auto edge_v = [&](std::size_t i, std::size_t j) {
     EdgeId& id = along_v[row_of(i, us, options.periodic_u) * vs.size() + j];
-    if (!id.is_valid()) id = is_v_pole[i] ? builder.pole(corner(i, j)) : builder.edge(line_of_constant_u(form, us[i]), {vs[j], vs[j + 1]}, corner(i, j), corner(i, j + 1));
+    if (!id.is_valid())
+      id = is_v_pole[i] ? builder.pole(corner(i, j)) : builder.edge(line_of_constant_u(form, us[i]), {vs[j], vs[j + 1]}, corner(i, j), corner(i, j + 1));
     return id;
   };
   for (std::size_t i = 0; i + 1 < us.size(); ++i)
     for (std::size_t j = 0; j + 1 < vs.size(); ++j)
-      builder.patch(surface, {{us[i], us[i + 1]}, {vs[j], vs[j + 1]}}, {edge_u(i, j), edge_v(i + 1, j), edge_u(i, j + 1), edge_v(i, j)}, FaceRole::skin, options.name);
+      builder.patch(surface, {{us[i], us[i + 1]}, {vs[j], vs[j + 1]}}, {edge_u(i, j), edge_v(i + 1, j), edge_u(i, j + 1), edge_v(i, j)}, FaceRole::skin,
+                    options.name);
   if (free_edges(builder.model()).empty()) return builder.closed_solid(options.name);
   Model model = builder.model();
   ModelSolid sheet{options.name, {}, false};
@@ -220,7 +239,8 @@ ScriptValue make_surface(const ScriptCall& call) {
   TableReader reader(table, call.attempted());
   const std::vector<ScriptValue>& items = reader.items();
   const auto* function = items.empty() ? nullptr : std::get_if<FunctionHandle>(&items.front());
-  if (!function) reader.add_problem("entry 1: expected a function of (u, v) that returns x, y, z, not " + std::string(items.empty() ? "nothing" : type_text(items.front())));
+  if (!function)
+    reader.add_problem("entry 1: expected a function of (u, v) that returns x, y, z, not " + std::string(items.empty() ? "nothing" : type_text(items.front())));
   refuse_items_beyond(reader, 1);
   const auto u = read_pair(reader, "u", "a range {from, to}"), v = read_pair(reader, "v", "a range {from, to}");
   const auto breaks_u = read_numbers(reader, "breaks_u"), breaks_v = read_numbers(reader, "breaks_v");
@@ -249,7 +269,8 @@ ScriptValue make_surface(const ScriptCall& call) {
 // ---- Solids --------------------------------------------------------------------------------------------------------------------------------
 
 constexpr std::string_view k_box_usage = "box{ {-1, -2, -1}, {9, 2, 3}, name = \"block\" }  or, as a source,  box{ {-1, -2, -1}, {9, 2, 3}, size = 0.05 }";
-constexpr std::string_view k_cylinder_usage = "cylinder{ {0, 0, 0}, {8, 0, 0}, radius = 1, name = \"tank\" }  or, as a source,  cylinder{ {0, 0, 0}, {8, 0, 0}, radius = 1, size = 0.05 }";
+constexpr std::string_view k_cylinder_usage =
+    "cylinder{ {0, 0, 0}, {8, 0, 0}, radius = 1, name = \"tank\" }  or, as a source,  cylinder{ {0, 0, 0}, {8, 0, 0}, radius = 1, size = 0.05 }";
 
 /// Two points {x, y, z} as entries 1 and 2.
 std::array<Point, 2> two_points(TableReader& reader, std::string_view usage) {
@@ -290,11 +311,15 @@ std::string help_of() {
 }
 
 constexpr std::array<ScriptVerb, 5> k_verbs = {{
-    {"read_cad", k_read_cad_usage, "Reads a STEP, IGES or BREP file, mends it and says what it found.", read_cad_verb, help_of<ReadCadOptions>, true, "model", true},
-    {"read_smx", k_read_smx_usage, "Reads a geometry file of sumo: its components side by side.", read_description<read_smx_model>, nullptr, true, "model", true},
+    {"read_cad", k_read_cad_usage, "Reads a STEP, IGES or BREP file, mends it and says what it found.", read_cad_verb, help_of<ReadCadOptions>, true, "model",
+     true},
+    {"read_smx", k_read_smx_usage, "Reads a geometry file of sumo: its components side by side.", read_description<read_smx_model>, nullptr, true, "model",
+     true},
     {"read_cpacs", k_read_cpacs_usage, "Reads a CPACS file: its components side by side.", read_description<read_cpacs_model>, nullptr, true, "model", true},
-    {"airfoil", k_airfoil_usage, "A wing section: by NACA designation, from a file (Selig or Lednicer), or from points.", make_airfoil, help_of<AirfoilOptions>, false, "airfoil"},
-    {"surface", k_surface_usage, "A surface given by a function; a spline that is checked between its samples stands for it.", make_surface, help_of<SurfaceOptions>, false, "model"},
+    {"airfoil", k_airfoil_usage, "A wing section: by NACA designation, from a file (Selig or Lednicer), or from points.", make_airfoil, help_of<AirfoilOptions>,
+     false, "airfoil"},
+    {"surface", k_surface_usage, "A surface given by a function; a spline that is checked between its samples stands for it.", make_surface,
+     help_of<SurfaceOptions>, false, "model"},
 }};
 
 }  // namespace
@@ -305,8 +330,8 @@ std::span<const ScriptVerb> geometry_verbs() { return k_verbs; }
 
 std::string describe(const Airfoil& airfoil) {
   const AirfoilMeasures m = measure(airfoil);
-  return fmt::format("Airfoil: {}, {} points, {:.2f} % thick at {:.1f} %, {:.2f} % camber, trailing edge {:.3g} of the chord", airfoil.name, airfoil.points.size(), 100.0 * m.thickness, 100.0 * m.thickness_at, 100.0 * m.camber,
-                     airfoil.trailing_edge_thickness());
+  return fmt::format("Airfoil: {}, {} points, {:.2f} % thick at {:.1f} %, {:.2f} % camber, trailing edge {:.3g} of the chord", airfoil.name,
+                     airfoil.points.size(), 100.0 * m.thickness, 100.0 * m.thickness_at, 100.0 * m.camber, airfoil.trailing_edge_thickness());
 }
 
 ScriptValue make_box_model(const ScriptCall& call) { return make_solid(call, false); }
@@ -322,7 +347,8 @@ ScriptValue unite_models(const ScriptCall& call) {
   for (std::size_t i = 0; i < items.size(); ++i) {
     const auto* name = std::get_if<std::string>(&items[i]);
     if (ModelHandle model = model_of(items[i], call)) models.push_back(std::move(model));
-    else if (name && is_model_file(*name)) models.push_back(std::make_shared<const ModelValue>(read_model(find_input(call, *name), {}, call.session.context.part("read", 0.0, 0.2))));
+    else if (name && is_model_file(*name))
+      models.push_back(std::make_shared<const ModelValue>(read_model(find_input(call, *name), {}, call.session.context.part("read", 0.0, 0.2))));
     else
       reader.add_problem("entry " + std::to_string(i + 1) + ": union takes models (exact geometry) or triangulated surfaces, not both; this is " +
                          (name ? "the file of a surface, \"" + *name + "\"" : std::string(type_text(items[i]))));

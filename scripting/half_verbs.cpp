@@ -20,12 +20,14 @@ constexpr std::string_view k_usage = "half{ model, at = 0.4 }  or  half{ wall, a
 std::string half_help() {
   HalfOptions of_surface;
   HalfModelOptions of_model;
-  return "of a surface, or a surface's file:\n" + options_help(sterna::options_of(of_surface)) + "of models and components:\n" + options_help(sterna::options_of(of_model));
+  return "of a surface, or a surface's file:\n" + options_help(sterna::options_of(of_surface)) + "of models and components:\n" +
+         options_help(sterna::options_of(of_model));
 }
 
 /// half(x) is half{ x }, whatever x is.
 ScriptTable half_argument(const ScriptCall& call) {
-  if (!call.arguments.empty() && std::holds_alternative<SurfaceHandle>(call.arguments.front())) return {.items = {call.arguments.front()}, .fields = {}, .other_keys = {}};
+  if (!call.arguments.empty() && std::holds_alternative<SurfaceHandle>(call.arguments.front()))
+    return {.items = {call.arguments.front()}, .fields = {}, .other_keys = {}};
   return table_argument(call, 0, k_usage);
 }
 
@@ -69,7 +71,10 @@ ScriptValue make_half(const ScriptCall& call) {
 }
 
 constexpr std::array<ScriptVerb, 1> k_verbs = {{
-    {"half", k_usage, "The half of a model or a surface on one side of its plane of symmetry: open there, the rim in the plane to the last bit. Half models are taken as they are.", make_half, half_help, true, "model or surface", true},
+    {"half", k_usage,
+     "The half of a model or a surface on one side of its plane of symmetry: open there, the rim in the plane to the last bit. Half models are taken as they "
+     "are.",
+     make_half, half_help, true, "model or surface", true},
 }};
 
 }  // namespace
@@ -80,8 +85,8 @@ SurfaceValue half_surface(const SurfaceValue& surface, const HalfOptions& option
   SurfaceValue half = surface;
   half.mesh = half_of(surface.mesh, options, context);
   half.report.is_closed = false;
-  half.mesh_report.reset();  // of the whole
-  half.model_wall.reset();   // knows its triangles by number
+  half.mesh_report.reset();                                         // of the whole
+  half.model_wall.reset();                                          // knows its triangles by number
   std::erase_if(half.layers, [&](const volmesh::PatchRule& rule) {  // of what was on the other side
     return std::none_of(half.mesh.patches.begin(), half.mesh.patches.end(), [&](const Patch& patch) { return matches_glob(patch.name, rule.names); });
   });

@@ -37,8 +37,9 @@ std::string names_of(const InspectCommand& command) {
 void add_inspect_arguments(CLI::App& command, InspectCommand& inspect, const std::function<void()>& chosen) {
   command.add_option("surfaces", inspect.inputs, "surface files; several are joined to one wall. `sterna formats` lists what is read")->required();
   command
-      .add_option("-o,--output", inspect.output,
-                  "picture of the trouble: .vtu, the surface with the predicted share of the layer's height, visibility angles, gaps and what was found; or .png")
+      .add_option(
+          "-o,--output", inspect.output,
+          "picture of the trouble: .vtu, the surface with the predicted share of the layer's height, visibility angles, gaps and what was found; or .png")
       ->type_name("FILE");
   command.add_flag("--json", inspect.is_json, "print the report as JSON");
   command.add_flag("--strict", inspect.is_strict, "exit status 1 also for warnings");

@@ -35,19 +35,13 @@ constexpr double k_percent = 100.0;
 
 FindingKind kind_of(ErrorCode code) {
   switch (code) {
-    case ErrorCode::open_surface:
-      return FindingKind::open;
-    case ErrorCode::non_manifold_surface:
-      return FindingKind::non_manifold;
-    case ErrorCode::not_orientable:
-      return FindingKind::not_orientable;
-    case ErrorCode::self_intersection:
-      return FindingKind::crossing;
+    case ErrorCode::open_surface: return FindingKind::open;
+    case ErrorCode::non_manifold_surface: return FindingKind::non_manifold;
+    case ErrorCode::not_orientable: return FindingKind::not_orientable;
+    case ErrorCode::self_intersection: return FindingKind::crossing;
     case ErrorCode::file_malformed:
-    case ErrorCode::empty_surface:
-      return FindingKind::malformed;
-    default:
-      return FindingKind::refused;
+    case ErrorCode::empty_surface: return FindingKind::malformed;
+    default: return FindingKind::refused;
   }
 }
 
@@ -64,10 +58,8 @@ Finding finding_of(const Error& error, const InspectRequest& request) {
 /// In the report's place of the same kind where it has one, whose triangles are marked already.
 void replace_finding(InspectReport& report, Finding finding) {
   const auto same = std::find_if(report.findings.begin(), report.findings.end(), [&](const Finding& other) { return other.kind == finding.kind; });
-  if (same != report.findings.end())
-    *same = std::move(finding);
-  else
-    volmesh::add_finding(report, std::move(finding), {});
+  if (same != report.findings.end()) *same = std::move(finding);
+  else volmesh::add_finding(report, std::move(finding), {});
 }
 
 /// All triangles as the files have them, in metres; nothing is joined but corners of STL at one place.
@@ -144,7 +136,8 @@ std::int64_t n_cells_of(const InputPath& input, const RunContext& context) {
 /// volume_mesh takes it, but hardly anybody means it.
 void warn_of_cells(const InputPath& input, const RunContext& context) {
   if (const std::int64_t n = n_cells_of(input, context); n > 0)
-    context.warn(input.name + " is a volume mesh of " + count_text(n) + " cells: all of its boundary, farfield and symmetry planes too, is taken for the walls of a new one. `sterna check " + input.name +
+    context.warn(input.name + " is a volume mesh of " + count_text(n) +
+                 " cells: all of its boundary, farfield and symmetry planes too, is taken for the walls of a new one. `sterna check " + input.name +
                  "` measures the mesh itself");
 }
 

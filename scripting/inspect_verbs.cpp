@@ -100,10 +100,8 @@ Given read_given(const ScriptCall& call, TableReader& reader) {
     return given;
   }
   for (std::size_t i = 0; i < items.size(); ++i) {
-    if (const auto* name = std::get_if<std::string>(&items[i]))
-      given.files.push_back(find_input(call, *name));
-    else
-      reader.add_problem("entry " + std::to_string(i + 1) + ": expected one surface, or names of files, not " + std::string(type_text(items[i])));
+    if (const auto* name = std::get_if<std::string>(&items[i])) given.files.push_back(find_input(call, *name));
+    else reader.add_problem("entry " + std::to_string(i + 1) + ": expected one surface, or names of files, not " + std::string(type_text(items[i])));
   }
   if (items.empty()) reader.add_problem("needs a surface or the name of a file: " + std::string(k_usage));
   return given;
@@ -127,17 +125,13 @@ ScriptValue inspect(const ScriptCall& call) {
   options.periodic = read_periodic(reader);
   options.patches = read_layer_rules(reader);
   if (const ScriptValue* value = reader.field("flow")) {
-    if (const auto* quantity = std::get_if<QuantityHandle>(value))
-      request.flow = (*quantity)->flow;
-    else
-      reader.add_problem("flow: expected flow{ mach = 0.78, altitude = 11000, length = 4.2 }, not " + std::string(type_text(*value)));
+    if (const auto* quantity = std::get_if<QuantityHandle>(value)) request.flow = (*quantity)->flow;
+    else reader.add_problem("flow: expected flow{ mach = 0.78, altitude = 11000, length = 4.2 }, not " + std::string(type_text(*value)));
   }
   std::filesystem::path output;
   if (const ScriptValue* value = reader.field("output")) {
-    if (const auto* name = std::get_if<std::string>(value))
-      output = output_path(call, *name);
-    else
-      reader.add_problem("output: expected the name of a .vtu or .png file, not " + std::string(type_text(*value)));
+    if (const auto* name = std::get_if<std::string>(value)) output = output_path(call, *name);
+    else reader.add_problem("output: expected the name of a .vtu or .png file, not " + std::string(type_text(*value)));
   }
   for (const OptionTable* part : {&limits, &volume, &surface}) apply_overrides(call, *part);
   choose_solve_for(options, reader, call);

@@ -56,7 +56,10 @@ std::string layer_json(const volmesh::LayerReport& layer) {
                {"vertices", layer.n_vertices},
                {"compressed", layer.n_compressed}};
   json["first_node"] = first_node_json(layer);
-  json["interface"] = {{"within", layer.interface.within}, {"below", layer.interface.below}, {"above", layer.interface.above}, {"within_of_full", layer.interface.within_of_full}};
+  json["interface"] = {{"within", layer.interface.within},
+                       {"below", layer.interface.below},
+                       {"above", layer.interface.above},
+                       {"within_of_full", layer.interface.within_of_full}};
   json["reduced_curving"] = layer.reduced_curving;
   json["patches"] = patch_coverage_json(layer);
   json["most_compressed"] = places_json(layer.compressed);
@@ -70,16 +73,16 @@ std::string certificate_json(const volmesh::EnvelopeCertificate& certificate) {
     return Json{{"quality", element.quality}, {"at", {element.place.x, element.place.y, element.place.z}}, {"what", element.what}};
   };
   const Json json = {{"proved", certificate.is_proved()},
-          {"boundary_triangles", certificate.n_triangles},
-          {"pairs_tested", certificate.n_pairs},
-          {"crossings", certificate.n_crossings},
-          {"swallowed_surfaces", certificate.n_swallowings},
-          {"macro_elements", certificate.n_macro_elements},
-          {"invalid_macro_elements", certificate.n_invalid_macro_elements},
-          {"worst_macro_element", worst(certificate.worst_macro_element)},
-          {"layer_cells", certificate.n_layer_cells},
-          {"invalid_layer_cells", certificate.n_invalid_layer_cells},
-          {"worst_layer_cell", worst(certificate.worst_layer_cell)}};
+                     {"boundary_triangles", certificate.n_triangles},
+                     {"pairs_tested", certificate.n_pairs},
+                     {"crossings", certificate.n_crossings},
+                     {"swallowed_surfaces", certificate.n_swallowings},
+                     {"macro_elements", certificate.n_macro_elements},
+                     {"invalid_macro_elements", certificate.n_invalid_macro_elements},
+                     {"worst_macro_element", worst(certificate.worst_macro_element)},
+                     {"layer_cells", certificate.n_layer_cells},
+                     {"invalid_layer_cells", certificate.n_invalid_layer_cells},
+                     {"worst_layer_cell", worst(certificate.worst_layer_cell)}};
   return json.dump();
 }
 

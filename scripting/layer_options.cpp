@@ -29,7 +29,11 @@ struct Schema<scripting::FamilyVerbOptions> {
   static constexpr std::string_view stage = "family";
   static constexpr std::array fields = {
       Field<O>{.name = "levels", .member = &O::levels, .min = 1, .max = 12, .help = "members of the family, from coarse to fine"},
-      Field<O>{.name = "factor", .member = &O::factor, .min = 1.01, .max = 4.0, .help = "ratio of edge lengths of a member and the next; its third power is about that of their nodes: 1.5 for 3.4 times, 1.442 for 3 times"},
+      Field<O>{.name = "factor",
+               .member = &O::factor,
+               .min = 1.01,
+               .max = 4.0,
+               .help = "ratio of edge lengths of a member and the next; its third power is about that of their nodes: 1.5 for 3.4 times, 1.442 for 3 times"},
       Field<O>{.name = "medium", .member = &O::medium, .min = 1, .max = 12, .help = "number of the member that is as the options say"},
   };
 };
@@ -70,7 +74,8 @@ std::string family_help() {
 }
 
 constexpr std::array<ScriptVerb, 1> k_verbs = {{
-    {"family", k_family_usage, "The members of a mesh family, each with a name and the refinement that surface_mesh and volume_mesh both take.", make_family, family_help, false, "table"},
+    {"family", k_family_usage, "The members of a mesh family, each with a name and the refinement that surface_mesh and volume_mesh both take.", make_family,
+     family_help, false, "table"},
 }};
 
 }  // namespace
@@ -113,7 +118,8 @@ void set_first_heights(const FunctionHandle& function, const SurfaceValue& wall,
 
 void warn_of_other_member(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context) {
   if (!wall.recipe || wall.recipe->options.refinement == options.family.refinement) return;
-  context.warn(fmt::format("the surface was made with refinement {:.4g}, the volume with {:.4g}: for a mesh family give both the same", wall.recipe->options.refinement, options.family.refinement));
+  context.warn(fmt::format("the surface was made with refinement {:.4g}, the volume with {:.4g}: for a mesh family give both the same",
+                           wall.recipe->options.refinement, options.family.refinement));
 }
 
 std::span<const ScriptVerb> family_verbs() { return k_verbs; }

@@ -1,4 +1,5 @@
-// What verbs and commands do with the options of layers once they are read: which of layers and max_growth was left out beside a total height, and the members of a mesh family.
+// What verbs and commands do with the options of layers once they are read: which of layers and max_growth was left out beside a total height, and the members
+// of a mesh family.
 #pragma once
 
 #include <functional>

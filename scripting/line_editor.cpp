@@ -1,4 +1,5 @@
-// The one file that knows GNU readline, whose functions take what they work on from globals; so does its completion, which is why there is one editor at a time.
+// The one file that knows GNU readline, whose functions take what they work on from globals; so does its completion, which is why there is one editor at a
+// time.
 #include "scripting/line_editor.h"
 
 #include <poll.h>

@@ -20,7 +20,8 @@ class LineEditor {
   LineEditor(const LineEditor&) = delete;
   LineEditor& operator=(const LineEditor&) = delete;
 
-  /// The next line without its end; `before`: earlier lines of the statement. Nothing at the end of the input. A stop request gives an empty line and clears what was typed.
+  /// The next line without its end; `before`: earlier lines of the statement. Nothing at the end of the input. A stop request gives an empty line and clears
+  /// what was typed.
   std::optional<std::string> read(const std::string& prompt, const std::string& before, const std::stop_token& stop);
   /// A whole statement for the history.
   void remember(const std::string& statement);

@@ -26,7 +26,8 @@ Json cells_json(const HybridMesh& mesh) {
 /// Hard, target and usual in the unit of reports; empty where they are the usual ones.
 Json own_limits_json(const MeasureInfo& info, const GateLimits& limits) {
   Json json = Json::object();
-  for (const auto& [name, own, usual] : {std::tuple("hard", limits.hard, info.limits.hard), std::tuple("target", limits.target, info.limits.target), std::tuple("usual", limits.usual, info.limits.usual)}) {
+  for (const auto& [name, own, usual] : {std::tuple("hard", limits.hard, info.limits.hard), std::tuple("target", limits.target, info.limits.target),
+                                         std::tuple("usual", limits.usual, info.limits.usual)}) {
     if (own == usual || (std::isnan(own) && std::isnan(usual))) continue;
     json[name] = std::isfinite(own) ? Json(in_report_unit(info, own)) : Json(nullptr);
   }
@@ -73,8 +74,13 @@ Json periodic_sides_json(const MeshValue& mesh) {
 Json improvement_json(const volmesh::ImproveReport& report) {
   Json remaining = Json::array();
   for (const ErrorPlace& place : report.remaining) remaining.push_back({{"at", {place.position.x, place.position.y, place.position.z}}, {"what", place.what}});
-  return {{"bad_before", report.n_bad_before}, {"bad_after", report.n_bad_after}, {"bad_off_boundary", report.n_bad_free_after}, {"forced", report.n_forced},
-          {"unforced", report.n_bad_after - report.n_bad_free_after - report.n_forced}, {"at_boundary", report.n_at_boundary}, {"remaining", remaining}};
+  return {{"bad_before", report.n_bad_before},
+          {"bad_after", report.n_bad_after},
+          {"bad_off_boundary", report.n_bad_free_after},
+          {"forced", report.n_forced},
+          {"unforced", report.n_bad_after - report.n_bad_free_after - report.n_forced},
+          {"at_boundary", report.n_at_boundary},
+          {"remaining", remaining}};
 }
 
 }  // namespace
@@ -102,7 +108,8 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
     if (mesh.origin->smooth_angle) json["wall"] = {{"max_smooth_angle", *mesh.origin->smooth_angle}};
     if (!volume.patches.empty()) json["patch_rules"] = Json::parse(layer_rules_json(volume.patches));
-    if (volume.first_heights) json["first_heights"] = {{"by", "a function of place"}, {"least", volume.first_heights->least()}, {"greatest", volume.first_heights->greatest()}};
+    if (volume.first_heights)
+      json["first_heights"] = {{"by", "a function of place"}, {"least", volume.first_heights->least()}, {"greatest", volume.first_heights->greatest()}};
     if (!volume.sources.empty()) json["sources"] = Json::parse(sources_text(volume.sources, false));
     if (!volume.discs.empty()) json["actuator_discs"] = Json::parse(discs_json(volume.discs));
     if (!volume.periodic.empty()) json["periodic"] = Json::parse(periodic_json(volume.periodic));

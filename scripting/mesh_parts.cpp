@@ -44,9 +44,12 @@ PartsMesh mesh_in_place(const ModelValue& value, const SurfaceRecipe& recipe, co
 
 }  // namespace
 
-surfmesh::SurfaceMesh mesh_part(const PartTask& task, const RunContext& context) { return surfmesh::mesh_model(task.model, task.options, task.patches, task.sizes, context); }
+surfmesh::SurfaceMesh mesh_part(const PartTask& task, const RunContext& context) {
+  return surfmesh::mesh_model(task.model, task.options, task.patches, task.sizes, context);
+}
 
-PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const SpaceSizes& sizes, const PartMesher& mesher, const RunContext& context, const PartMesher& in_place) {
+PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const SpaceSizes& sizes, const PartMesher& mesher, const RunContext& context,
+                     const PartMesher& in_place) {
   const std::vector<ModelPart> parts = parts_of(value);
   if (value.parts.empty()) return mesh_in_place(value, recipe, sizes, in_place, context);
   if (recipe.options.gap_cells > 0.0 && parts.size() > 1) {

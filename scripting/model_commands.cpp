@@ -38,8 +38,12 @@ int print_model_info(const InfoCommand& command, const CommandContext& context) 
 
 int check_model(const CheckCommand& command, const CommandContext& context) {
   if (!command.models.empty())
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "check", .problem = "--model is for volume meshes; " + command.input + " is a model itself", .hint = "sterna check mesh.su2 --model " + command.input});
-  if (command.is_json) throw Error({.code = ErrorCode::bad_argument, .attempted = "check", .problem = "--json is for volume meshes; " + command.input + " is a model"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "check",
+                 .problem = "--model is for volume meshes; " + command.input + " is a model itself",
+                 .hint = "sterna check mesh.su2 --model " + command.input});
+  if (command.is_json)
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "check", .problem = "--json is for volume meshes; " + command.input + " is a model"});
   const ModelValue value = read_model(input_of(command.input), {}, context.run.part("read", 0.0, 1.0));
   context.console.end_progress();
   context.console.print(describe(value));
@@ -76,7 +80,10 @@ int execute(const SurfaceCommand& command, const CommandContext& context) {
 int unite_models(const UnionCommand& command, const CommandContext& context) {
   for (const std::string& name : command.inputs)
     if (!is_model_file(name))
-      throw Error({.code = ErrorCode::bad_argument, .attempted = "union", .problem = name + " is no model, the other files are", .hint = "unite models (STEP, IGES, BREP, sumo, CPACS) or surfaces (STL ...), not both"});
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "union",
+                   .problem = name + " is no model, the other files are",
+                   .hint = "unite models (STEP, IGES, BREP, sumo, CPACS) or surfaces (STL ...), not both"});
   UniteOptions options;
   ReadCadOptions reading;
   OptionTable table = sterna::options_of(options);
@@ -87,7 +94,8 @@ int unite_models(const UnionCommand& command, const CommandContext& context) {
   const double n = static_cast<double>(command.inputs.size());
   for (const std::string& name : command.inputs) {
     const double i = static_cast<double>(models.size());
-    models.push_back(std::make_shared<const ModelValue>(read_model(input_of(name), reading, context.run.part("read", k_read_end * i / n, k_read_end * (i + 1) / n))));
+    models.push_back(
+        std::make_shared<const ModelValue>(read_model(input_of(name), reading, context.run.part("read", k_read_end * i / n, k_read_end * (i + 1) / n))));
   }
   ModelValue united = unite_solids(models, options, context.run.part("union", k_read_end, 0.95));
   united.description.reset();  // the file has the union, not what went into it
@@ -99,7 +107,10 @@ int unite_models(const UnionCommand& command, const CommandContext& context) {
 
 int convert_model(const ConvertCommand& command, const CommandContext& context) {
   if (!command.settings.format.empty() || command.settings.as_surface)
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "convert", .problem = "--format and --surface are for meshes; " + command.input + " is a model", .hint = "the extension of the output says the format: .step, .iges, .brep, .smx"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "convert",
+                 .problem = "--format and --surface are for meshes; " + command.input + " is a model",
+                 .hint = "the extension of the output says the format: .step, .iges, .brep, .smx"});
   ReadCadOptions reading;
   WriteCadOptions writing;
   OptionTable table = sterna::options_of(reading);

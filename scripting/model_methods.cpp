@@ -38,10 +38,30 @@ struct Schema<scripting::RotateOptions> {
   using O = scripting::RotateOptions;
   static constexpr std::string_view stage = "rotate";
   static constexpr std::array fields = {
-      Field<O>{.name = "pitch", .member = &O::pitch, .unit = Unit::radian, .min = -scripting::k_turn, .max = scripting::k_turn, .help = "nose up, about +y; after roll"},
-      Field<O>{.name = "yaw", .member = &O::yaw, .unit = Unit::radian, .min = -scripting::k_turn, .max = scripting::k_turn, .help = "nose to starboard, about -z; last"},
-      Field<O>{.name = "roll", .member = &O::roll, .unit = Unit::radian, .min = -scripting::k_turn, .max = scripting::k_turn, .help = "starboard wing down, about -x; first"},
-      Field<O>{.name = "angle", .member = &O::angle, .unit = Unit::radian, .min = -scripting::k_turn, .max = scripting::k_turn, .help = "right-handed about `axis`, in place of the three others"},
+      Field<O>{.name = "pitch",
+               .member = &O::pitch,
+               .unit = Unit::radian,
+               .min = -scripting::k_turn,
+               .max = scripting::k_turn,
+               .help = "nose up, about +y; after roll"},
+      Field<O>{.name = "yaw",
+               .member = &O::yaw,
+               .unit = Unit::radian,
+               .min = -scripting::k_turn,
+               .max = scripting::k_turn,
+               .help = "nose to starboard, about -z; last"},
+      Field<O>{.name = "roll",
+               .member = &O::roll,
+               .unit = Unit::radian,
+               .min = -scripting::k_turn,
+               .max = scripting::k_turn,
+               .help = "starboard wing down, about -x; first"},
+      Field<O>{.name = "angle",
+               .member = &O::angle,
+               .unit = Unit::radian,
+               .min = -scripting::k_turn,
+               .max = scripting::k_turn,
+               .help = "right-handed about `axis`, in place of the three others"},
   };
 };
 template <>
@@ -59,10 +79,13 @@ namespace sterna::scripting {
 namespace {
 
 constexpr std::string_view k_move_usage = "model:move{ 0, 0, 1.5 }";
-constexpr std::string_view k_rotate_usage = "model:rotate{ about = {1.2, 0, 0}, pitch = 4*deg, yaw = 2*deg }  or  model:rotate{ axis = {0, 0, 1}, angle = 30*deg }";
+constexpr std::string_view k_rotate_usage =
+    "model:rotate{ about = {1.2, 0, 0}, pitch = 4*deg, yaw = 2*deg }  or  model:rotate{ axis = {0, 0, 1}, angle = 30*deg }";
 constexpr std::string_view k_scale_usage = "model:scale(0.1)  or  model:scale{ factor = 0.1, about = {0, 0, 0} }";
 constexpr std::string_view k_mirror_usage = "model:mirror{ normal = {0, 1, 0}, at = {0, 0, 0} }";
-constexpr std::string_view k_deform_usage = "model:deform{ function(x, y, z) return 0, 0, 0.02*y^2 end }  or  model:deform{ {{0, 0, 0, 0, 0, 0}, {1, 0, 0, 0, 0, 0}, {0, 1, 0, 0, 0, 0.1}, {1, 1, 0, 0, 0, 0.1}, {0, 0, 1, 0, 0, 0}}, kernel = \"thin_plate\" }";
+constexpr std::string_view k_deform_usage =
+    "model:deform{ function(x, y, z) return 0, 0, 0.02*y^2 end }  or  model:deform{ {{0, 0, 0, 0, 0, 0}, {1, 0, 0, 0, 0, 0}, {0, 1, 0, 0, 0, 0.1}, {1, 1, 0, "
+    "0, 0, 0.1}, {0, 0, 1, 0, 0, 0}}, kernel = \"thin_plate\" }";
 constexpr std::string_view k_write_usage = "model:write(\"a.step\", \"a.igs\", \"a.brep\")  or  model:write{ \"a.step\", step_schema = \"ap242\" }";
 constexpr std::string_view k_kinds_usage = "model:kinds{ [\"Body*\"] = \"slip\" }";
 constexpr std::string_view k_rename_usage = "model:rename{ Body = \"fuselage\" }";
@@ -126,14 +149,16 @@ ScriptValue mirror_model(const ScriptCall& call) {
 
 // ---- Deforming -----------------------------------------------------------------------------------------------------------------------------
 
-std::shared_ptr<const SampledMap> map_of_function(const FunctionHandle& function, const Model& model, const SampledMapOptions& options, const ScriptCall& call) {
+std::shared_ptr<const SampledMap> map_of_function(const FunctionHandle& function, const Model& model, const SampledMapOptions& options,
+                                                  const ScriptCall& call) {
   const auto displacement = [&](const Point& p) {
     std::array<double, 3> d{};
     function->call(std::array{p.x, p.y, p.z}, d);
     return Vec3{d[0], d[1], d[2]};
   };
   auto map = std::make_shared<const SampledMap>(displacement, box_of(model), options);
-  call.session.context.info(fmt::format("deformation: a spline of {} samples, at most {:.3g} m off the function, which moves by up to {:.4g} m", map->n_samples(), map->error(), map->largest()));
+  call.session.context.info(fmt::format("deformation: a spline of {} samples, at most {:.3g} m off the function, which moves by up to {:.4g} m",
+                                        map->n_samples(), map->error(), map->largest()));
   return map;
 }
 
@@ -248,7 +273,8 @@ ScriptValue select_model(const ScriptCall& call) {
 
 ScriptValue table_of(const PartMeasures& part) {
   auto table = std::make_shared<ScriptTable>();
-  table->fields = {{"area", part.area}, {"projected_area", part.projected_area}, {"faces", static_cast<std::int64_t>(part.n_faces)}, {"is_closed", part.is_closed}};
+  table->fields = {
+      {"area", part.area}, {"projected_area", part.projected_area}, {"faces", static_cast<std::int64_t>(part.n_faces)}, {"is_closed", part.is_closed}};
   if (part.is_closed) table->fields["volume"] = part.volume;
   if (!part.kind.empty()) table->fields["kind"] = part.kind;
   if (!part.box.empty()) {
@@ -365,16 +391,21 @@ ScriptValue model_field(const ScriptCall& call) {
 }
 
 constexpr std::array<ScriptVerb, 11> k_methods = {{
-    {"model:write", k_write_usage, "Writes STEP, IGES, BREP, or, for models that are components as data, sumo's .smx.", write_model_files, write_help, true, "self"},
+    {"model:write", k_write_usage, "Writes STEP, IGES, BREP, or, for models that are components as data, sumo's .smx.", write_model_files, write_help, true,
+     "self"},
     {"model:move", k_move_usage, "The model moved, metres.", move_model, nullptr, true, "model"},
     {"model:rotate", k_rotate_usage, "The model turned: x points aft, y to starboard, z up.", rotate_model, rotate_help, true, "model"},
     {"model:scale", k_scale_usage, "The model larger or smaller.", scale_model, help_of<ScaleOptions>, true, "model"},
-    {"model:mirror", k_mirror_usage, "The mirror image, in the plane y = 0 unless said otherwise; left and right change in names.", mirror_model, nullptr, true, "model"},
-    {"model:deform", k_deform_usage, "The model deformed, without refit: by a function that gives displacements, or by displacements at points.", deform_model, deform_help, true, "model"},
+    {"model:mirror", k_mirror_usage, "The mirror image, in the plane y = 0 unless said otherwise; left and right change in names.", mirror_model, nullptr, true,
+     "model"},
+    {"model:deform", k_deform_usage, "The model deformed, without refit: by a function that gives displacements, or by displacements at points.", deform_model,
+     deform_help, true, "model"},
     {"model:rename", k_rename_usage, "The model with other names of components, solids and patches.", rename_model, nullptr, true, "model"},
-    {"model:kinds", k_kinds_usage, "The model with other kinds of patches: wall, slip, symmetry, inflow, outflow, farfield, interface.", set_kinds, nullptr, true, "model"},
+    {"model:kinds", k_kinds_usage, "The model with other kinds of patches: wall, slip, symmetry, inflow, outflow, farfield, interface.", set_kinds, nullptr,
+     true, "model"},
     {"model:select", "model:select \"Body*\"  or  model[\"Body*\"]", "The components of that name as a model.", select_model, nullptr, true, "model"},
-    {"model:measures", "model:measures()", "Areas, volumes and boxes of the model, its solids and components, and reference data of its wings, as a table.", measure_verb, nullptr, true, "table"},
+    {"model:measures", "model:measures()", "Areas, volumes and boxes of the model, its solids and components, and reference data of its wings, as a table.",
+     measure_verb, nullptr, true, "table"},
     {"model:info", "model:info()", "Prints the same, and where the model is open.", info_verb, nullptr, true},
 }};
 

@@ -24,7 +24,8 @@ struct Begin {
     solids += model.solids.size();
   }
   bool is_end_of(const Model& model) const {
-    return components == model.components.size() && corners == model.corners.size() && edges == model.edges.size() && faces == model.faces.size() && solids == model.solids.size();
+    return components == model.components.size() && corners == model.corners.size() && edges == model.edges.size() && faces == model.faces.size() &&
+           solids == model.solids.size();
   }
 };
 
@@ -37,17 +38,20 @@ IdType shifted(IdType id, std::size_t by) {
 bool is_same_face(const Model& a, const ModelFace& of_a, const Model& b, const ModelFace& of_b) {
   if (of_a.surface != of_b.surface || of_a.is_reversed != of_b.is_reversed || of_a.borders.size() != of_b.borders.size()) return false;
   for (std::size_t i = 0; i < of_a.borders.size(); ++i) {
-    const bool is_same = std::equal(of_a.borders[i].begin(), of_a.borders[i].end(), of_b.borders[i].begin(), of_b.borders[i].end(), [&](const EdgeUse& x, const EdgeUse& y) {
-      const ModelEdge &of_x = a.edges[x.edge], &of_y = b.edges[y.edge];
-      return x.parameter == y.parameter && x.is_reversed == y.is_reversed && of_x.curve == of_y.curve && of_x.range.from == of_y.range.from && of_x.range.to == of_y.range.to;
-    });
+    const bool is_same =
+        std::equal(of_a.borders[i].begin(), of_a.borders[i].end(), of_b.borders[i].begin(), of_b.borders[i].end(), [&](const EdgeUse& x, const EdgeUse& y) {
+          const ModelEdge &of_x = a.edges[x.edge], &of_y = b.edges[y.edge];
+          return x.parameter == y.parameter && x.is_reversed == y.is_reversed && of_x.curve == of_y.curve && of_x.range.from == of_y.range.from &&
+                 of_x.range.to == of_y.range.to;
+        });
     if (!is_same) return false;
   }
   return true;
 }
 
 bool is_same_solid(const Model& a, const Model& b) {
-  return std::equal(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(), [&](const ModelFace& x, const ModelFace& y) { return is_same_face(a, x, b, y); });
+  return std::equal(a.faces.begin(), a.faces.end(), b.faces.begin(), b.faces.end(),
+                    [&](const ModelFace& x, const ModelFace& y) { return is_same_face(a, x, b, y); });
 }
 
 /// Part `i` where it is.
@@ -82,7 +86,10 @@ std::vector<ModelPart> parts_of(const ModelValue& value) {
   if (value.parts.empty()) return {{std::make_shared<const Model>(value.model), {}, value.provenance.key()}};
   Begin end;
   for (const ModelPart& part : value.parts) end.add(*part.own);
-  if (!end.is_end_of(value.model)) throw Error({.code = ErrorCode::internal, .attempted = "finding the parts of a model", .problem = "the parts have not as many faces, edges and corners as the model"});
+  if (!end.is_end_of(value.model))
+    throw Error({.code = ErrorCode::internal,
+                 .attempted = "finding the parts of a model",
+                 .problem = "the parts have not as many faces, edges and corners as the model"});
   return value.parts;
 }
 
@@ -142,7 +149,8 @@ void take_solids(const Model& looked_at, const Model& changed, ModelValue& value
   };
   for (std::size_t i = 0; i < solids.size();) {
     const auto is_here = [&](const std::vector<Model>& of_part) {
-      return !of_part.empty() && of_part.size() <= solids.size() - i && std::equal(of_part.begin(), of_part.end(), solids.begin() + static_cast<std::ptrdiff_t>(i), is_same_solid);
+      return !of_part.empty() && of_part.size() <= solids.size() - i &&
+             std::equal(of_part.begin(), of_part.end(), solids.begin() + static_cast<std::ptrdiff_t>(i), is_same_solid);
     };
     const auto found = std::find_if(solids_of_part.begin(), solids_of_part.end(), is_here);
     if (found == solids_of_part.end()) {

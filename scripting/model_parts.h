@@ -17,9 +17,9 @@ namespace sterna::scripting {
 struct ModelValue;
 
 struct ModelPart {
-  std::shared_ptr<const Model> own;  ///< in its own frame; its names and kinds may be older than those of the model that it is part of
-  Transform placement;               ///< rotation and shift, from there to where it is
-  std::optional<ContentKey> key = {}; ///< of what `own` was made of, for caches; nothing: not known
+  std::shared_ptr<const Model> own;    ///< in its own frame; its names and kinds may be older than those of the model that it is part of
+  Transform placement;                 ///< rotation and shift, from there to where it is
+  std::optional<ContentKey> key = {};  ///< of what `own` was made of, for caches; nothing: not known
   bool is_in_place() const { return placement == Transform{}; }
 };
 
@@ -34,9 +34,9 @@ void move_parts(const Transform& motion, ModelValue& value);
 /// The mirror image in the plane through `at`: parts become their own mirror images, in places that are the images of theirs.
 void mirror_parts(const Point& at, const Vec3& normal, ModelValue& value);
 
-/// Makes `value` the solids of `changed`, which a boolean made of those of `looked_at` (the model of `value`, or what OpenCASCADE took instead of it). Solids that it left as they were
-/// stay the parts that they are, with the surfaces that `value` had; others that follow each other are one part, in their place; where all are such, nothing is known of parts any more. Order: that of `changed`.
-/// \pre all faces of both are of solids
+/// Makes `value` the solids of `changed`, which a boolean made of those of `looked_at` (the model of `value`, or what OpenCASCADE took instead of it). Solids
+/// that it left as they were stay the parts that they are, with the surfaces that `value` had; others that follow each other are one part, in their place;
+/// where all are such, nothing is known of parts any more. Order: that of `changed`. \pre all faces of both are of solids
 void take_solids(const Model& looked_at, const Model& changed, ModelValue& value);
 
 }  // namespace sterna::scripting

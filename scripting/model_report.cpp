@@ -29,14 +29,16 @@ ParameterBox used_box(const Model& model, const ModelFace& face) {
 }
 
 PartMeasures part_of(const BodyMeasures& body, std::string kind, const std::vector<FaceId>& faces, const Column<FaceId, FaceMeasures>& measures) {
-  PartMeasures part{.name = body.name, .kind = std::move(kind), .n_faces = body.n_faces, .area = body.area, .volume = body.volume, .is_closed = body.has_volume};
+  PartMeasures part{
+      .name = body.name, .kind = std::move(kind), .n_faces = body.n_faces, .area = body.area, .volume = body.volume, .is_closed = body.has_volume};
   if (body.n_faces > 0) part.box = {body.box.min, body.box.max};
   for (const FaceId f : faces) part.projected_area += measures[f].projected_z;
   return part;
 }
 
 std::string part_text(const PartMeasures& part) {
-  std::string text = fmt::format("{} {}, wetted area {:.6g} m^2, seen from above {:.6g} m^2", part.n_faces, part.n_faces == 1 ? "face" : "faces", part.area, part.projected_area);
+  std::string text = fmt::format("{} {}, wetted area {:.6g} m^2, seen from above {:.6g} m^2", part.n_faces, part.n_faces == 1 ? "face" : "faces", part.area,
+                                 part.projected_area);
   if (part.is_closed) text += fmt::format(", volume {:.6g} m^3", part.volume);
   if (!part.box.empty()) text += fmt::format(", box {} to {}", format_point(part.box.min), format_point(part.box.max));
   return text;
@@ -50,7 +52,8 @@ Box box_of(const Model& model, FaceId f) {
   const ParameterBox used = used_box(model, face);
   for (int i = 0; i <= k_box_samples; ++i)
     for (int j = 0; j <= k_box_samples; ++j)
-      if (face.borders.size() == 1 && face.borders.front().size() <= 4) box.add(face.surface->point({used.u.from + used.u.length() * i / k_box_samples, used.v.from + used.v.length() * j / k_box_samples}));
+      if (face.borders.size() == 1 && face.borders.front().size() <= 4)
+        box.add(face.surface->point({used.u.from + used.u.length() * i / k_box_samples, used.v.from + used.v.length() * j / k_box_samples}));
   for (const Border& border : face.borders)
     for (const EdgeUse& use : border) {
       const ModelEdge& edge = model.edges[use.edge];
@@ -78,7 +81,8 @@ ModelReport measure_model(const ModelValue& value, const RunContext& context) {
   }
   ModelReport report{.total = part_of(measures.total, {}, all, measures.faces)};
   for (const ComponentId c : model.components.ids())
-    report.components.push_back(part_of(measures.components[c.index()], std::string(to_string(model.components[c].kind)), by_component[c.index()], measures.faces));
+    report.components.push_back(
+        part_of(measures.components[c.index()], std::string(to_string(model.components[c].kind)), by_component[c.index()], measures.faces));
   for (const SolidId s : model.solids.ids()) report.solids.push_back(part_of(measures.solids[s.index()], {}, model.solids[s].faces, measures.faces));
   if (value.description)
     for (const Wing& wing : value.description->wings) report.wings.push_back(wing_reference(wing));
@@ -117,8 +121,11 @@ std::string measures_text(const ModelReport& measures) {
     if (!are_same) text += fmt::format("\n  solid    \"{}\", {}: {}", solid.name, solid.is_closed ? "closed" : "open", part_text(solid));
   for (const PartMeasures& part : measures.components) text += fmt::format("\n  part     \"{}\", {}: {}", part.name, part.kind, part_text(part));
   for (const WingReference& wing : measures.wings)
-    text += fmt::format("\n  wing     \"{}\": span {:.6g} m, area {:.6g} m^2, seen from above {:.6g} m^2, aspect ratio {:.4g}, mean chord geometric {:.6g} m, aerodynamic {:.6g} m from {}", wing.name, wing.span,
-                        wing.area, wing.projected_area, wing.aspect_ratio, wing.mean_geometric_chord, wing.mean_aerodynamic_chord, format_point(wing.aerodynamic_chord_start));
+    text += fmt::format(
+        "\n  wing     \"{}\": span {:.6g} m, area {:.6g} m^2, seen from above {:.6g} m^2, aspect ratio {:.4g}, mean chord geometric {:.6g} m, aerodynamic "
+        "{:.6g} m from {}",
+        wing.name, wing.span, wing.area, wing.projected_area, wing.aspect_ratio, wing.mean_geometric_chord, wing.mean_aerodynamic_chord,
+        format_point(wing.aerodynamic_chord_start));
   if (!measures.no_wings.empty()) text += "\n  wing     no reference data, which components as data have: " + measures.no_wings;
   return text;
 }
@@ -128,14 +135,15 @@ std::string closedness_text(const Model& model, std::size_t limit) {
   std::set<std::uint64_t> in_solids;
   for (const ModelSolid& solid : model.solids)
     for (const FaceId f : solid.faces) in_solids.insert(f.value());
-  std::string text = fmt::format("{} closed {}, {} open, {} loose {}", n_closed, n_closed == 1 ? "solid" : "solids", static_cast<std::int64_t>(model.solids.size()) - n_closed, model.faces.size() - in_solids.size(),
-                                 model.faces.size() - in_solids.size() == 1 ? "face" : "faces");
+  std::string text =
+      fmt::format("{} closed {}, {} open, {} loose {}", n_closed, n_closed == 1 ? "solid" : "solids", static_cast<std::int64_t>(model.solids.size()) - n_closed,
+                  model.faces.size() - in_solids.size(), model.faces.size() - in_solids.size() == 1 ? "face" : "faces");
   const std::vector<OpenEdge> open = open_edges(model);
   if (open.empty()) return text + "; no open edge";
   text += fmt::format("; {} open {}", open.size(), open.size() == 1 ? "edge" : "edges");
   for (std::size_t i = 0; i < std::min(limit, open.size()); ++i)
-    text += fmt::format("\n  open     face \"{}\" of \"{}\": edge from {} over {} to {}, {:.4g} m long", open[i].face, open[i].component, format_point(open[i].from), format_point(open[i].middle), format_point(open[i].to),
-                        open[i].length);
+    text += fmt::format("\n  open     face \"{}\" of \"{}\": edge from {} over {} to {}, {:.4g} m long", open[i].face, open[i].component,
+                        format_point(open[i].from), format_point(open[i].middle), format_point(open[i].to), open[i].length);
   if (open.size() > limit) text += fmt::format("\n  open     and {} more", open.size() - limit);
   return text;
 }

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
@@ -31,18 +31,79 @@ struct Schema<surfmesh::PatchSurfaceOptions> {
   static constexpr std::array fields = {
       Field<O>{.name = "names", .member = &O::names, .help = "pattern of the names of faces"},
       Field<O>{.name = "max_edge", .member = &O::max_edge, .unit = Unit::metre, .min = 1e-9, .help = "longest edge wanted", .automatic = as_all},
-      Field<O>{.name = "min_edge", .member = &O::min_edge, .unit = Unit::metre, .min = 0.0, .help = "curvature and narrow places ask for no shorter edges", .automatic = as_all},
-      Field<O>{.name = "curvature_angle", .member = &O::curvature_angle, .unit = Unit::radian, .min = 0.001, .max = 1.6, .help = "an edge spans at most this angle of the surface", .automatic = as_all},
-      Field<O>{.name = "chord_error", .member = &O::chord_error, .unit = Unit::metre, .min = 1e-9, .help = "an edge's middle is at most this far from the surface", .automatic = as_all},
-      Field<O>{.name = "leading_edge_factor", .member = &O::leading_edge_factor, .min = 0.01, .max = 1.0, .help = "of the longest edge, at leading edges", .automatic = as_all},
-      Field<O>{.name = "trailing_edge_factor", .member = &O::trailing_edge_factor, .min = 0.01, .max = 1.0, .help = "of the longest edge, at trailing edges", .automatic = as_all},
-      Field<O>{.name = "leading_edge_chordwise", .member = &O::leading_edge_chordwise, .unit = Unit::metre, .min = 1e-9, .help = "first cell beside leading edges", .automatic = as_all},
-      Field<O>{.name = "leading_edge_stretch", .member = &O::leading_edge_stretch, .min = 1.0, .max = 50.0, .help = "longest cell along : first cell across", .automatic = as_all},
-      Field<O>{.name = "leading_edge_growth", .member = &O::leading_edge_growth, .min = 1.01, .max = 1.2, .help = "ratio of rows that follow each other", .automatic = as_all},
-      Field<O>{.name = "trailing_edge_chordwise", .member = &O::trailing_edge_chordwise, .unit = Unit::metre, .min = 1e-9, .help = "first cell beside trailing edges", .automatic = as_all},
-      Field<O>{.name = "trailing_edge_stretch", .member = &O::trailing_edge_stretch, .min = 1.0, .max = 50.0, .help = "longest cell along : first cell across", .automatic = as_all},
-      Field<O>{.name = "trailing_edge_growth", .member = &O::trailing_edge_growth, .min = 1.01, .max = 1.2, .help = "ratio of rows that follow each other", .automatic = as_all},
-      Field<O>{.name = "trailing_edge_cells", .member = &O::trailing_edge_cells, .min = 1.0, .max = 100.0, .help = "cells across the base of blunt trailing edges", .automatic = as_all},
+      Field<O>{.name = "min_edge",
+               .member = &O::min_edge,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "curvature and narrow places ask for no shorter edges",
+               .automatic = as_all},
+      Field<O>{.name = "curvature_angle",
+               .member = &O::curvature_angle,
+               .unit = Unit::radian,
+               .min = 0.001,
+               .max = 1.6,
+               .help = "an edge spans at most this angle of the surface",
+               .automatic = as_all},
+      Field<O>{.name = "chord_error",
+               .member = &O::chord_error,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "an edge's middle is at most this far from the surface",
+               .automatic = as_all},
+      Field<O>{.name = "leading_edge_factor",
+               .member = &O::leading_edge_factor,
+               .min = 0.01,
+               .max = 1.0,
+               .help = "of the longest edge, at leading edges",
+               .automatic = as_all},
+      Field<O>{.name = "trailing_edge_factor",
+               .member = &O::trailing_edge_factor,
+               .min = 0.01,
+               .max = 1.0,
+               .help = "of the longest edge, at trailing edges",
+               .automatic = as_all},
+      Field<O>{.name = "leading_edge_chordwise",
+               .member = &O::leading_edge_chordwise,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "first cell beside leading edges",
+               .automatic = as_all},
+      Field<O>{.name = "leading_edge_stretch",
+               .member = &O::leading_edge_stretch,
+               .min = 1.0,
+               .max = 50.0,
+               .help = "longest cell along : first cell across",
+               .automatic = as_all},
+      Field<O>{.name = "leading_edge_growth",
+               .member = &O::leading_edge_growth,
+               .min = 1.01,
+               .max = 1.2,
+               .help = "ratio of rows that follow each other",
+               .automatic = as_all},
+      Field<O>{.name = "trailing_edge_chordwise",
+               .member = &O::trailing_edge_chordwise,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "first cell beside trailing edges",
+               .automatic = as_all},
+      Field<O>{.name = "trailing_edge_stretch",
+               .member = &O::trailing_edge_stretch,
+               .min = 1.0,
+               .max = 50.0,
+               .help = "longest cell along : first cell across",
+               .automatic = as_all},
+      Field<O>{.name = "trailing_edge_growth",
+               .member = &O::trailing_edge_growth,
+               .min = 1.01,
+               .max = 1.2,
+               .help = "ratio of rows that follow each other",
+               .automatic = as_all},
+      Field<O>{.name = "trailing_edge_cells",
+               .member = &O::trailing_edge_cells,
+               .min = 1.0,
+               .max = 100.0,
+               .help = "cells across the base of blunt trailing edges",
+               .automatic = as_all},
   };
 };
 
@@ -67,11 +128,13 @@ constexpr double k_same_angle = 1e-3;
 std::vector<surfmesh::PatchSurfaceOptions> rules_of(const Aircraft& aircraft, const Model& model) {
   std::vector<surfmesh::PatchSurfaceOptions> rules;
   const auto add = [&](const std::string& name, const std::optional<MeshCriterion>& criterion) {
-    if (!criterion || criterion->is_automatic || std::none_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return face.name == name; })) return;
+    if (!criterion || criterion->is_automatic || std::none_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return face.name == name; }))
+      return;
     surfmesh::PatchSurfaceOptions rule{.names = name};
     if (criterion->max_edge) rule.max_edge = *criterion->max_edge;
     if (criterion->min_edge) rule.min_edge = *criterion->min_edge;
-    if (criterion->max_normal_angle && std::abs(*criterion->max_normal_angle - k_sumo_angle) > k_same_angle) rule.curvature_angle = *criterion->max_normal_angle;
+    if (criterion->max_normal_angle && std::abs(*criterion->max_normal_angle - k_sumo_angle) > k_same_angle)
+      rule.curvature_angle = *criterion->max_normal_angle;
     if (criterion->is_wing) {
       rule.leading_edge_factor = std::clamp(criterion->leading_edge_factor, 0.01, 1.0);
       rule.trailing_edge_factor = std::clamp(criterion->trailing_edge_factor, 0.01, 1.0);
@@ -84,11 +147,15 @@ std::vector<surfmesh::PatchSurfaceOptions> rules_of(const Aircraft& aircraft, co
 }
 
 /// The user's rules win over those of files.
-void put_first(std::vector<surfmesh::PatchSurfaceOptions> rules, SurfaceRecipe& recipe) { recipe.patches.insert(recipe.patches.begin(), rules.begin(), rules.end()); }
+void put_first(std::vector<surfmesh::PatchSurfaceOptions> rules, SurfaceRecipe& recipe) {
+  recipe.patches.insert(recipe.patches.begin(), rules.begin(), rules.end());
+}
 
 /// Those that a face is named like: a boolean may have left nothing of others.
 std::vector<surfmesh::PatchSurfaceOptions> present(std::vector<surfmesh::PatchSurfaceOptions> rules, const Model& model) {
-  std::erase_if(rules, [&](const surfmesh::PatchSurfaceOptions& rule) { return std::none_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return matches_glob(face.name, rule.names); }); });
+  std::erase_if(rules, [&](const surfmesh::PatchSurfaceOptions& rule) {
+    return std::none_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return matches_glob(face.name, rule.names); });
+  });
   return rules;
 }
 
@@ -97,7 +164,9 @@ surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::functio
   std::vector<volmesh::SizeSource> regions;
   for (const volmesh::SizeSource& source : recipe.sources) {
     if (const std::string problem = problem_of(source, recipe.options.growth); !problem.empty())
-      throw Error({.code = ErrorCode::bad_argument, .attempted = "reading the sources of a surface mesh", .problem = std::string(to_string(source.kind)) + ": " + problem});
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "reading the sources of a surface mesh",
+                   .problem = std::string(to_string(source.kind)) + ": " + problem});
     if (source.kind != volmesh::SourceKind::samples) regions.push_back(source);
     for (std::size_t i = 0; i < source.points.size(); ++i) asked.samples.push_back({source.points[i], source.sizes[i]});
   }
@@ -116,18 +185,21 @@ std::string indented(std::string text) {
   return "  " + text;
 }
 
-SurfaceValue mesh_anew(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size, const RunContext& context, const Reuse& reuse) {
+SurfaceValue mesh_anew(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size,
+                       const RunContext& context, const Reuse& reuse) {
   const ModelValue all = fluid_of(assemble(models, context), context);
   SurfaceRecipe recipe = asked;
   put_first(present(all.sizes, all.model), recipe);
   for (const ModelHandle& model : models)
     if (model->description) put_first(rules_of(*model->description, all.model), recipe);
-  PartsMesh made = mesh_parts(all, recipe, space_sizes(recipe, size), cached_part_mesher(reuse), context, reuse.reference ? starting_mesher(reuse, mesh_part) : PartMesher());
+  PartsMesh made = mesh_parts(all, recipe, space_sizes(recipe, size), cached_part_mesher(reuse), context,
+                              reuse.reference ? starting_mesher(reuse, mesh_part) : PartMesher());
   SurfaceValue surface{.inputs = all.inputs, .recipe = recipe};
   surface.parts = std::move(made.parts);
   surface.recipe->sources_text = sources_text(recipe.sources, static_cast<bool>(size));
   for (const volmesh::PatchRule& rule : all.layers)
-    if (std::any_of(all.model.faces.begin(), all.model.faces.end(), [&](const ModelFace& face) { return face.name == rule.names; })) surface.layers.push_back(rule);
+    if (std::any_of(all.model.faces.begin(), all.model.faces.end(), [&](const ModelFace& face) { return face.name == rule.names; }))
+      surface.layers.push_back(rule);
   surface.smooth_angle = made.mesh.report.max_smooth_angle;
   surface.model_wall = std::make_shared<const surfmesh::ModelWall>(all.model, made.mesh);
   surface.mesh = std::move(made.mesh.mesh);
@@ -150,8 +222,16 @@ std::string sources_text(const std::vector<volmesh::SizeSource>& sources, bool h
   for (const volmesh::SizeSource& s : sources) {
     if (s.kind == volmesh::SourceKind::samples) list.push_back({{"kind", to_string(s.kind)}, {"points", s.points.size()}});
     else
-      list.push_back({{"kind", to_string(s.kind)}, {"from", point(s.from)}, {"to", point(s.to)}, {"direction", point(s.direction)}, {"radius", s.radius}, {"length", s.length},
-                      {"height", s.height}, {"spread", s.spread}, {"size", s.size}, {"size_end", s.size_end}});
+      list.push_back({{"kind", to_string(s.kind)},
+                      {"from", point(s.from)},
+                      {"to", point(s.to)},
+                      {"direction", point(s.direction)},
+                      {"radius", s.radius},
+                      {"length", s.length},
+                      {"height", s.height},
+                      {"spread", s.spread},
+                      {"size", s.size},
+                      {"size_end", s.size_end}});
   }
   if (has_function) list.push_back({{"kind", "function"}});
   return list.dump();
@@ -200,7 +280,8 @@ std::string surface_mesh_text(const Model& model, const SurfaceValue& surface) {
   return text;
 }
 
-SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size, const RunContext& context, const Reuse& reuse) {
+SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size,
+                         const RunContext& context, const Reuse& reuse) {
   const StageTimer timer(context, "surface_mesh");
   const auto make = [&](const std::function<double(const Point&)>& asked_size) { return mesh_anew(models, asked, asked_size, context, reuse); };
   // In whatever thread asks first, so with no threads of its own.
@@ -211,7 +292,8 @@ SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRe
   return cached_surface(models, asked, size, make, all, reuse, context);
 }
 
-SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context, const Reuse& reuse) {
+SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
+                              const Reuse& reuse) {
   for (const InputPath& file : files)
     if (!is_model_file(file.path))
       throw Error({.code = ErrorCode::bad_argument,

@@ -19,13 +19,16 @@ namespace sterna::scripting {
 /// Meshes the models, side by side where there are several. The log says what was made: triangles, patches, closed or open and where, the worst angle with its
 /// face, absorbed parts, crossings (a warning). Patches have the faces' names.
 /// \throws Error of surfmesh::mesh_model
-/// What .smx files say of their components' triangles (maxlen, minlen, maxphi other than sumo's 30 degrees, lerfactor, terfactor; not where defaults="true") counts as rules before the recipe's.
-/// `size`: lengths of edges by place, called by this thread alone. \throws also Error(bad_argument) for a source that volmesh::problem_of objects to
-SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size, const RunContext& context, const Reuse& reuse = {});
+/// What .smx files say of their components' triangles (maxlen, minlen, maxphi other than sumo's 30 degrees, lerfactor, terfactor; not where defaults="true")
+/// counts as rules before the recipe's. `size`: lengths of edges by place, called by this thread alone. \throws also Error(bad_argument) for a source that
+/// volmesh::problem_of objects to
+SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size,
+                         const RunContext& context, const Reuse& reuse = {});
 
 /// Reads files of models and meshes their surface. Components of .smx and CPACS files are united first; CAD stays as it is. `reading` counts for CAD.
 /// \throws Error of read_model, unite_solids, mesh_models; bad_argument for a file that is no model
-SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context, const Reuse& reuse = {});
+SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
+                              const Reuse& reuse = {});
 
 /// Several lines: the report of the mesher with the places where the surface is open and what was absorbed.
 /// \pre surface.mesh_report

@@ -80,7 +80,8 @@ void require_model_output(const ModelValue& value, const std::filesystem::path& 
   const auto refuse = [&](const std::string& problem, const std::string& hint) {
     throw Error({.code = ErrorCode::unsupported_format, .attempted = "writing " + path.string(), .problem = problem, .hint = hint});
   };
-  if (!is_model_output(path)) refuse("models are not written in this format", "they are written as STEP (.step, .stp), IGES (.iges, .igs), BREP (.brep), sumo (.smx)");
+  if (!is_model_output(path))
+    refuse("models are not written in this format", "they are written as STEP (.step, .stp), IGES (.iges, .igs), BREP (.brep), sumo (.smx)");
   if (is_smx(path) && !value.description)
     refuse(".smx holds components as data, and this model has none (" + value.without_description + ")", "write it before, or as STEP");
   if (!path.parent_path().empty() && !std::filesystem::is_directory(path.parent_path()))
@@ -106,16 +107,23 @@ Model select_components(const Model& model, const std::string& pattern, const st
     all += (all.empty() ? "" : ", ") + component.name;
   }
   const std::string nearest = nearest_name(pattern, names);
-  throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "no component is named \"" + pattern + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"), .hint = "components: " + all});
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = attempted,
+               .problem = "no component is named \"" + pattern + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"),
+               .hint = "components: " + all});
 }
 
 std::string describe(const ModelValue& value) {
   const Model& model = value.model;
   const auto n_closed = std::count_if(model.solids.begin(), model.solids.end(), [](const ModelSolid& s) { return s.is_closed; });
-  const auto counted = [](std::size_t n, std::string_view what) { return count_text(static_cast<std::int64_t>(n)) + " " + std::string(what) + (n == 1 ? "" : "s"); };
-  std::string text = "Model: " + counted(model.components.size(), "component") + ", " + counted(model.faces.size(), "face") + ", " + counted(static_cast<std::size_t>(n_closed), "closed solid");
+  const auto counted = [](std::size_t n, std::string_view what) {
+    return count_text(static_cast<std::int64_t>(n)) + " " + std::string(what) + (n == 1 ? "" : "s");
+  };
+  std::string text = "Model: " + counted(model.components.size(), "component") + ", " + counted(model.faces.size(), "face") + ", " +
+                     counted(static_cast<std::size_t>(n_closed), "closed solid");
   if (const std::size_t n_free = free_edges(model).size(); n_free > 0) text += ", open along " + counted(n_free, "edge");
-  if (const Box box = box_of(model); !box.empty()) text += fmt::format(", {:.4g} x {:.4g} x {:.4g} m", box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z);
+  if (const Box box = box_of(model); !box.empty())
+    text += fmt::format(", {:.4g} x {:.4g} x {:.4g} m", box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z);
   return text;
 }
 

@@ -27,11 +27,12 @@ struct ModelValue {
   std::optional<Aircraft> description;  ///< components as data, in the model's place and shape
   std::string without_description;      ///< why there is none: "rotate", "read from a.step"
   std::vector<InputFile> inputs;
-  std::string report;                   ///< lines about how it was read or made; may be empty
-  std::vector<surfmesh::PatchSurfaceOptions> sizes = {};  ///< of its faces by name, as the verb that made it was told; count before the user's rules where a face has the name
-  std::vector<volmesh::PatchRule> layers = {};                     ///< of its patches, the same; volume_mesh takes them over
-  std::vector<ModelPart> parts = {};    ///< of the model, in its order; empty: one part, in its place. Whoever gives the model other faces clears them
-  Provenance provenance = {};                                      ///< what it was made of, for caches
+  std::string report;  ///< lines about how it was read or made; may be empty
+  std::vector<surfmesh::PatchSurfaceOptions> sizes =
+      {};  ///< of its faces by name, as the verb that made it was told; count before the user's rules where a face has the name
+  std::vector<volmesh::PatchRule> layers = {};  ///< of its patches, the same; volume_mesh takes them over
+  std::vector<ModelPart> parts = {};            ///< of the model, in its order; empty: one part, in its place. Whoever gives the model other faces clears them
+  Provenance provenance = {};                   ///< what it was made of, for caches
 };
 
 /// Whether the name is that of a file with a model: CAD, .smx or (CPACS) .xml.

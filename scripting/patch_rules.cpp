@@ -19,7 +19,8 @@ void read_rule(const std::string& names, const ScriptValue& value, std::string_v
   const std::string where = "patches[\"" + names + "\"]";
   const auto* table = std::get_if<TableHandle>(&value);
   if (!table || (*table)->fields.empty()) {
-    reader.add_problem(where + ": expected a table of what these patches ask for instead, like { " + std::string(example) + " }, not " + std::string(table ? "one without named entries" : type_text(value)));
+    reader.add_problem(where + ": expected a table of what these patches ask for instead, like { " + std::string(example) + " }, not " +
+                       std::string(table ? "one without named entries" : type_text(value)));
     return;
   }
   const OptionTable schema = add(names);
@@ -50,7 +51,8 @@ void read_patch_rules(TableReader& reader, std::string_view example, const AddRu
   if (!value) return;
   const auto* table = std::get_if<TableHandle>(value);
   if (!table || !(*table)->items.empty() || !(*table)->other_keys.empty()) {
-    reader.add_problem("patches: expected a table by names of patches, { [\"wing*\"] = { " + std::string(example) + " } }" + (table ? "; its keys are texts" : ", not " + std::string(type_text(*value))));
+    reader.add_problem("patches: expected a table by names of patches, { [\"wing*\"] = { " + std::string(example) + " } }" +
+                       (table ? "; its keys are texts" : ", not " + std::string(type_text(*value))));
     return;
   }
   for (const auto& [names, entry] : (*table)->fields) read_rule(names, entry, example, reader, add);
@@ -85,7 +87,8 @@ void add_layer_rules(const std::vector<volmesh::PatchRule>& rules, SurfaceValue&
 
 std::string layer_rules_help() {
   volmesh::PatchRule rule;
-  return "patches = { [\"tunnel*\"] = { ... } }, what patches with such names ask for instead; of two patterns that match the one with more letters counts:\n" + options_help(patch_rule_options(rule));
+  return "patches = { [\"tunnel*\"] = { ... } }, what patches with such names ask for instead; of two patterns that match the one with more letters counts:\n" +
+         options_help(patch_rule_options(rule));
 }
 
 std::vector<volmesh::PatchRule> read_layer_rules(TableReader& reader) {
@@ -98,7 +101,8 @@ std::vector<volmesh::PatchRule> read_layer_rules(TableReader& reader) {
   return rules;
 }
 
-std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>>& given, std::vector<surfmesh::PatchSurfaceOptions>* sizes) {
+std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>>& given,
+                                               std::vector<surfmesh::PatchSurfaceOptions>* sizes) {
   std::vector<volmesh::PatchRule> rules;
   for (const auto& [names, options] : given) {
     rules.push_back({.names = names});
@@ -124,7 +128,10 @@ std::string rule_json(const std::string& names, const OptionTable& options) {
 
 void read_rules_json(const std::string& text, std::string_view attempted, const AddRule& add) {
   const Json list = Json::parse(text, nullptr, false);
-  const auto refuse = [&] { throw Error({.code = ErrorCode::file_malformed, .attempted = std::string(attempted), .problem = "found no list of rules with the names of patches and options"}); };
+  const auto refuse = [&] {
+    throw Error(
+        {.code = ErrorCode::file_malformed, .attempted = std::string(attempted), .problem = "found no list of rules with the names of patches and options"});
+  };
   if (!list.is_array()) refuse();
   for (const Json& entry : list) {
     if (!entry.is_object() || !entry.contains("names") || !entry["names"].is_string()) refuse();

@@ -1,5 +1,5 @@
-// Rules for patches by patterns of their names, of whatever step: from tables of scripts, from and to JSON. A rule is a struct with a Schema whose member `names` is
-// the pattern; what it does not set keeps its default.
+// Rules for patches by patterns of their names, of whatever step: from tables of scripts, from and to JSON. A rule is a struct with a Schema whose member
+// `names` is the pattern; what it does not set keeps its default.
 #pragma once
 
 #include <functional>
@@ -36,7 +36,8 @@ std::string layer_rules_help();
 std::vector<volmesh::PatchRule> read_layer_rules(TableReader& reader);
 /// Rules of the command line: pattern, options with their values; sorted. Those of the surface go to `sizes` where it is not null, else they are unknown.
 /// \throws Error(bad_argument, unknown_option)
-std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>>& given, std::vector<surfmesh::PatchSurfaceOptions>* sizes = nullptr);
+std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>>& given,
+                                               std::vector<surfmesh::PatchSurfaceOptions>* sizes = nullptr);
 
 /// An object with `names` and the options that are not at their default.
 std::string rule_json(const std::string& names, const OptionTable& options);

@@ -37,7 +37,10 @@ std::string contents_of(const std::string& file) {
 SurfaceValue read_surface(const PentagrowCommand& command, const PentagrowCase& given, const RunContext& context) {
   const std::filesystem::path path = command.surface;
   if (!given.input_extension.empty() && path.extension() != given.input_extension)
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "reading " + command.surface, .problem = "InputFormat says " + given.input_extension.substr(1) + ", the name of the file does not", .hint = "leave InputFormat out, or rename the file"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "reading " + command.surface,
+                 .problem = "InputFormat says " + given.input_extension.substr(1) + ", the name of the file does not",
+                 .hint = "leave InputFormat out, or rename the file"});
   surfmesh::StitchOptions reading;
   reading.allow_open = given.is_half;
   const std::array files = {InputPath{command.surface, command.surface}};
@@ -99,7 +102,8 @@ std::string skew_text(const HybridMesh& mesh) {
   }
   std::string text = "# skew angle of the prisms, degrees: from, to, number, share\n";
   for (std::size_t i = 0; i < k_skew_classes; ++i)
-    text += fmt::format("{:g} {:g} {} {:.6f}\n", static_cast<double>(i) * k_class_degrees, static_cast<double>(i + 1) * k_class_degrees, counts[i], n > 0 ? static_cast<double>(counts[i]) / static_cast<double>(n) : 0.0);
+    text += fmt::format("{:g} {:g} {} {:.6f}\n", static_cast<double>(i) * k_class_degrees, static_cast<double>(i + 1) * k_class_degrees, counts[i],
+                        n > 0 ? static_cast<double>(counts[i]) / static_cast<double>(n) : 0.0);
   return text;
 }
 

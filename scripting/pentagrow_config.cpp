@@ -20,7 +20,7 @@ namespace {
 
 constexpr double k_degree = std::numbers::pi / 180.0;
 const double k_icosahedron_edge = 2.0 / std::sqrt(1.0 + std::pow(0.5 * (1.0 + std::sqrt(5.0)), 2.0));  ///< over the radius of its sphere
-constexpr double k_sharp_degrees = 120.0;  ///< what is sharp here, and pentagrow's default
+constexpr double k_sharp_degrees = 120.0;                                                              ///< what is sharp here, and pentagrow's default
 
 std::string trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
@@ -43,7 +43,8 @@ class Entries {
         continue;
       }
       const std::string key = trimmed(content.substr(0, equals));
-      if (const auto [before, is_new] = entries_.insert_or_assign(key, Entry{number, trimmed(content.substr(equals + 1))}); !is_new) notes.push_back(place(number) + key + " is given twice; the last counts");
+      if (const auto [before, is_new] = entries_.insert_or_assign(key, Entry{number, trimmed(content.substr(equals + 1))}); !is_new)
+        notes.push_back(place(number) + key + " is given twice; the last counts");
     }
   }
 
@@ -59,7 +60,10 @@ class Entries {
     const std::vector<double> values = numbers(key);
     if (values.empty()) return otherwise;
     if (values.size() != 1 || values[0] < min || values[0] > max) {
-      add_problem(line_of(key), fmt::format("{} = {}: expected one number{}", key, entries_.at(key).value, std::isinf(min) ? std::string() : std::isinf(max) ? fmt::format(" of at least {:g}", min) : fmt::format(" in {:g} .. {:g}", min, max)));
+      add_problem(line_of(key), fmt::format("{} = {}: expected one number{}", key, entries_.at(key).value,
+                                            std::isinf(min)   ? std::string()
+                                            : std::isinf(max) ? fmt::format(" of at least {:g}", min)
+                                                              : fmt::format(" in {:g} .. {:g}", min, max)));
       return otherwise;
     }
     return values[0];
@@ -102,7 +106,9 @@ class Entries {
     std::ranges::stable_sort(problems_, {}, &Problem::line);
     std::string text;
     for (const Problem& problem : problems_) text += (problems_.size() == 1 ? "" : "\n  - ") + place(problem.line) + problem.text;
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "reading the configuration of pentagrow", .problem = (problems_.size() == 1 ? "" : std::to_string(problems_.size()) + " problems") + text});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "reading the configuration of pentagrow",
+                 .problem = (problems_.size() == 1 ? "" : std::to_string(problems_.size()) + " problems") + text});
   }
 
   std::vector<std::string> notes;
@@ -152,13 +158,16 @@ void read_formats(Entries& in, PentagrowCase& out) {
   }
   const bool is_given = in.has("OutputFormat");
   const std::string formats = in.text("OutputFormat", "bmsh");
-  const auto names = [&](std::initializer_list<std::string_view> any) { return std::ranges::any_of(any, [&](std::string_view name) { return formats.find(name) != std::string::npos; }); };
+  const auto names = [&](std::initializer_list<std::string_view> any) {
+    return std::ranges::any_of(any, [&](std::string_view name) { return formats.find(name) != std::string::npos; });
+  };
   if (names({"bmsh", "edge"})) out.outputs.emplace_back("hybrid.bmsh");
   if (names({"cgns"})) out.outputs.emplace_back("hybrid.cgns");
   if (names({"tau"})) out.outputs.emplace_back("hybrid.taumesh");
   if (names({"su2"})) out.outputs.emplace_back("hybrid.su2");
   const bool has_zml = names({"zml", "native"});
-  if (out.outputs.empty()) in.refuse("OutputFormat", has_zml ? "hybrid.zml is not written; use cgns, su2, bmsh or tau" : "expected some of bmsh, cgns, tau, su2");
+  if (out.outputs.empty())
+    in.refuse("OutputFormat", has_zml ? "hybrid.zml is not written; use cgns, su2, bmsh or tau" : "expected some of bmsh, cgns, tau, su2");
   else if (has_zml && is_given) in.note("OutputFormat", "hybrid.zml is not written; cgns, su2, bmsh and tau are");
 }
 
@@ -169,14 +178,16 @@ void read_layers(Entries& in, volmesh::EnvelopeOptions& layer) {
   layer.max_relative_height = in.number("MaxRelativeHeight", 5.0, 0.01, 1e6);
   layer.max_growth = in.number("MaxGrowthRatio", 1.5, 1.0, 3.0);
   layer.feature_angle = k_degree * in.number("FeatureAngle", 44.0, 1.0, 177.0);
-  if (in.number("SharpEdgeAngle", k_sharp_degrees, 0.0, 180.0) != k_sharp_degrees) in.note("SharpEdgeAngle", "edges are sharp here above 120 degrees; there is no such setting");
+  if (in.number("SharpEdgeAngle", k_sharp_degrees, 0.0, 180.0) != k_sharp_degrees)
+    in.note("SharpEdgeAngle", "edges are sharp here above 120 degrees; there is no such setting");
   layer.height_sweeps = in.whole("HeightIterations", 5, 0, 1000);
   layer.direction_sweeps = in.whole("NormalIterations", 50, 0, 1000);
   layer.envelope_sweeps = in.whole("LaplaceIterations", 5, 0, 1000);
   layer.max_retract_sweeps = in.whole("MaxCritIterations", 99, 1, 1000);
   if (!in.boolean("UntangleGrid", true)) in.note("UntangleGrid", "layers are always untangled here");
   if (in.number("MaxOptimizationTime", 30.0, 0.0) == 0.0) layer.optimiser = "none";
-  else if (in.has("MaxOptimizationTime")) in.note("MaxOptimizationTime", "the optimiser stops by its number of sweeps here, so that results repeat; 0 switches it off");
+  else if (in.has("MaxOptimizationTime"))
+    in.note("MaxOptimizationTime", "the optimiser stops by its number of sweeps here, so that results repeat; 0 switches it off");
   in.boolean("VerboseOptimization", false);
 }
 
@@ -207,14 +218,17 @@ void read_tetgen_switches(Entries& in, const std::string& text, volmesh::VolumeM
   for (std::size_t i = text.find_first_not_of("- ") == std::string::npos ? text.size() : 0; i < text.size();) {
     const char letter = text[i++];
     const std::size_t start = i;
-    while (i < text.size() && (std::isdigit(static_cast<unsigned char>(text[i])) || text[i] == '.' || text[i] == '/' || ((text[i] == 'e' || text[i] == '-') && i > start))) ++i;
+    while (i < text.size() &&
+           (std::isdigit(static_cast<unsigned char>(text[i])) || text[i] == '.' || text[i] == '/' || ((text[i] == 'e' || text[i] == '-') && i > start)))
+      ++i;
     const std::string numbers = text.substr(start, i - start);
     const double value = numbers.empty() || numbers.front() == '/' ? 0.0 : std::strtod(numbers.c_str(), nullptr);
     if (letter == 'q' && value > 0.0) options.tetrahedra.radius_edge = value;
     else if (letter == 'Y') options.tetrahedra.boundary_splits = "never";
     else if (letter == 'S' && value > 0.0) options.tetrahedra.max_new_points = value;
     else if (letter == 'a' && value > 0.0) options.size.size_max = std::cbrt(6.0 * std::sqrt(2.0) * value);  // edge of the regular tetrahedron of that volume
-    else if (std::string_view("-pq aVQCDOAT").find(letter) == std::string_view::npos) in.note("TetgenOptions", std::string("the switch ") + letter + " has no counterpart here");
+    else if (std::string_view("-pq aVQCDOAT").find(letter) == std::string_view::npos)
+      in.note("TetgenOptions", std::string("the switch ") + letter + " has no counterpart here");
   }
 }
 
@@ -235,7 +249,10 @@ void read_tetrahedra(Entries& in, volmesh::VolumeMeshOptions& options) {
     in.number(key, 0.0, 0.0);
     if (in.has(key)) in.note(key, "sizes are graded by TetGrowthFactor alone here");
   }
-  if (const std::string pass = in.text("Pass", "both"); pass != "both") in.refuse("Pass", "is not possible here; `sterna mesh wall.stl --stages case.sterna -o ...` keeps the steps of a run, and `sterna mesh case.sterna -o ...` continues");
+  if (const std::string pass = in.text("Pass", "both"); pass != "both")
+    in.refuse(
+        "Pass",
+        "is not possible here; `sterna mesh wall.stl --stages case.sterna -o ...` keeps the steps of a run, and `sterna mesh case.sterna -o ...` continues");
 }
 
 void read_boxes(Entries& in, PentagrowCase& out) {
@@ -245,7 +262,8 @@ void read_boxes(Entries& in, PentagrowCase& out) {
   const std::vector<double> edges = in.vectors("RefineBoxEdgeLength", 1);
   if (n == 0) return;
   const auto count = static_cast<std::size_t>(n);
-  if (std::ranges::any_of(limits, [&](const auto& l) { return l.size() != 2 * count; }) || edges.size() != count || std::ranges::any_of(edges, [](double e) { return e <= 0.0; })) {
+  if (std::ranges::any_of(limits, [&](const auto& l) { return l.size() != 2 * count; }) || edges.size() != count ||
+      std::ranges::any_of(edges, [](double e) { return e <= 0.0; })) {
     in.refuse("RefineBoxCount", "RefineBoxXLimits, ...YLimits, ...ZLimits need two numbers for each box, RefineBoxEdgeLength one above zero");
     return;
   }
@@ -295,7 +313,8 @@ std::vector<volmesh::SizeSource> nearfield_sources(const PentagrowCase& given, c
     }
   const double mean = sum / (3.0 * static_cast<double>(std::max<std::size_t>(wall.n_triangles(), 1)));
   const Vec3 center = given.nearfield_center.empty() ? box.center() : Vec3{given.nearfield_center[0], given.nearfield_center[1], given.nearfield_center[2]};
-  const Vec3 axes = given.nearfield_axes.empty() ? 0.5 * given.nearfield_size * (box.max - box.min) : Vec3{given.nearfield_axes[0], given.nearfield_axes[1], given.nearfield_axes[2]};
+  const Vec3 axes = given.nearfield_axes.empty() ? 0.5 * given.nearfield_size * (box.max - box.min)
+                                                 : Vec3{given.nearfield_axes[0], given.nearfield_axes[1], given.nearfield_axes[2]};
   const double edge = given.nearfield_edge > 0.0 ? given.nearfield_edge : std::max(2.0 * longest, 8.0 * mean);
   return {{.kind = volmesh::SourceKind::box, .from = center - axes, .to = center + axes, .size = edge}};
 }

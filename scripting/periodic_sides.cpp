@@ -45,7 +45,10 @@ std::vector<PeriodicNames> read_periodic(TableReader& reader) {
 PeriodicNames periodic_of_text(const std::string& text) {
   const std::size_t comma = text.find(',');
   if (comma == std::string::npos || comma == 0 || comma + 1 == text.size() || text.find(',', comma + 1) != std::string::npos)
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "option --periodic", .problem = "\"" + text + "\" is not the names of two patches", .hint = "such as --periodic left,right"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "option --periodic",
+                 .problem = "\"" + text + "\" is not the names of two patches",
+                 .hint = "such as --periodic left,right"});
   return {text.substr(0, comma), text.substr(comma + 1)};
 }
 

@@ -10,13 +10,14 @@
 namespace sterna::scripting {
 
 struct PromptSettings {
-  ScriptSettings script;   ///< `script.script`: a name whose folder is where files are looked for second
-  RunSettings run;         ///< of each statement; its stop is the guard's
+  ScriptSettings script;  ///< `script.script`: a name whose folder is where files are looked for second
+  RunSettings run;        ///< of each statement; its stop is the guard's
   std::filesystem::path history_file;
 };
 
-/// Reads statements until the input ends or "exit" or "quit": an expression is printed, what is not finished is asked for, an error is printed and the prompt goes on.
-/// Ctrl-C ends the statement that runs, or the line that is typed, not the prompt. Returns the exit status: 0, or where stdin is no terminal that of the last error.
+/// Reads statements until the input ends or "exit" or "quit": an expression is printed, what is not finished is asked for, an error is printed and the prompt
+/// goes on. Ctrl-C ends the statement that runs, or the line that is typed, not the prompt. Returns the exit status: 0, or where stdin is no terminal that of
+/// the last error.
 int run_prompt(const PromptSettings& settings, Console& console, InterruptGuard& interrupt);
 
 }  // namespace sterna::scripting

@@ -12,9 +12,9 @@
 namespace sterna::scripting {
 
 struct QuantityValue {
-  std::string_view verb;          ///< that made it: "y_plus", "boundary_layer", "flow"
-  double metres = k_automatic;    ///< automatic: conditions, no length
-  std::string text;               ///< one line for print and log
+  std::string_view verb;        ///< that made it: "y_plus", "boundary_layer", "flow"
+  double metres = k_automatic;  ///< automatic: conditions, no length
+  std::string text;             ///< one line for print and log
   volmesh::FlowState flow;
   std::vector<std::pair<std::string, double>> fields = {};  ///< beside those of the flow: height, friction_velocity ...
 

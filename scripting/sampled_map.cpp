@@ -1,5 +1,5 @@
-// Begin with four intervals along each axis; spline; compare half way along each axis between the stations of the others, and at crooked places in all cells; halve the
-// intervals that are to blame; again.
+// Begin with four intervals along each axis; spline; compare half way along each axis between the stations of the others, and at crooked places in all cells;
+// halve the intervals that are to blame; again.
 #include "scripting/sampled_map.h"
 
 #include <fmt/format.h>
@@ -21,7 +21,8 @@ constexpr double k_tolerance_share = 1e-6;
 constexpr double k_least_interval = 1e-9;
 /// Room around the box, of its longest side: what lies a little outside (surfaces beyond their borders) is splined too.
 constexpr double k_margin = 0.02;
-/// Of neighbouring intervals. Splines through points further graded than (3 + sqrt 5) / 2 may swing without bound (Marsden, 1974); halves give 2 and some rounding.
+/// Of neighbouring intervals. Splines through points further graded than (3 + sqrt 5) / 2 may swing without bound (Marsden, 1974); halves give 2 and some
+/// rounding.
 constexpr double k_ratio = 2.1;
 /// Where in a cell the final comparison is made: no simple fractions, so that a function which repeats itself evenly cannot hide.
 constexpr std::array<double, 3> k_crooked = {0.31, 0.43, 0.59};
@@ -29,7 +30,11 @@ constexpr std::array<double, 3> k_crooked = {0.31, 0.43, 0.59};
 using Stations = std::array<std::vector<double>, 3>;
 
 [[noreturn]] void refuse(std::string problem, const Point& place, std::string hint = {}) {
-  throw Error({.code = ErrorCode::bad_argument, .attempted = "sampling the deformation", .problem = std::move(problem), .places = {{place, "place"}}, .hint = std::move(hint)});
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = "sampling the deformation",
+               .problem = std::move(problem),
+               .places = {{place, "place"}},
+               .hint = std::move(hint)});
 }
 
 /// The function with its values kept.
@@ -66,14 +71,17 @@ std::vector<double> graded(std::vector<double> at) {
   for (;;) {
     std::vector<char> is_long(at.size() - 1, 0);
     const auto length = [&](std::size_t i) { return at[i + 1] - at[i]; };
-    for (std::size_t i = 0; i + 1 < at.size(); ++i) is_long[i] = (i > 0 && length(i) > k_ratio * length(i - 1)) || (i + 2 < at.size() && length(i) > k_ratio * length(i + 1));
+    for (std::size_t i = 0; i + 1 < at.size(); ++i)
+      is_long[i] = (i > 0 && length(i) > k_ratio * length(i - 1)) || (i + 2 < at.size() && length(i) > k_ratio * length(i + 1));
     if (std::none_of(is_long.begin(), is_long.end(), [](char mark) { return mark != 0; })) return at;
     at = split(at, is_long);
   }
 }
 
-/// Values in a grid of sizes n, [(i * n_y + j) * n_z + k], whose lines along an axis become poles of splines; n follows, since splines may have more poles than points.
-std::vector<Vec3> splined(const std::vector<Vec3>& values, std::array<std::size_t, 3>& n, const std::vector<double>& at, std::size_t axis, std::vector<double>& knots) {
+/// Values in a grid of sizes n, [(i * n_y + j) * n_z + k], whose lines along an axis become poles of splines; n follows, since splines may have more poles than
+/// points.
+std::vector<Vec3> splined(const std::vector<Vec3>& values, std::array<std::size_t, 3>& n, const std::vector<double>& at, std::size_t axis,
+                          std::vector<double>& knots) {
   const SplineOptions options{.tangents = SplineTangents::not_a_knot, .at = at};
   const std::array<std::size_t, 3> from = n;
   const auto stride_of = [axis](const std::array<std::size_t, 3>& size) { return axis == 0 ? size[1] * size[2] : axis == 1 ? size[2] : 1; };

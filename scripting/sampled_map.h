@@ -20,14 +20,14 @@ struct SampledMapOptions {
 /// p + d(p), d a tensor-product cubic spline over a box; outside of it the outermost pieces go on.
 class SampledMap final : public SpaceMap {
  public:
-  /// Samples `displacement` in `box`, refined along each axis until the spline is within the tolerance (metres; automatic: 1e-6 of the box's longest side) at places
-  /// between all samples. The function is called from this thread only.
-  /// \throws Error(bad_argument) with the place: not finite, or the tolerance is not reached with max_samples
+  /// Samples `displacement` in `box`, refined along each axis until the spline is within the tolerance (metres; automatic: 1e-6 of the box's longest side) at
+  /// places between all samples. The function is called from this thread only. \throws Error(bad_argument) with the place: not finite, or the tolerance is not
+  /// reached with max_samples
   SampledMap(const std::function<Vec3(const Point&)>& displacement, const Box& box, const SampledMapOptions& options);
   Point point(const Point& p) const override;
   SpaceMapDerivatives derivatives(const Point& p) const override;
-  double error() const { return error_; }          ///< metres: the largest that was found
-  double largest() const { return largest_; }      ///< metres: the largest displacement among the samples
+  double error() const { return error_; }      ///< metres: the largest that was found
+  double largest() const { return largest_; }  ///< metres: the largest displacement among the samples
   std::size_t n_samples() const;
 
  private:
@@ -46,8 +46,18 @@ struct Schema<scripting::SampledMapOptions> {
   using O = scripting::SampledMapOptions;
   static constexpr std::string_view stage = "function";
   static constexpr std::array fields = {
-      Field<O>{.name = "tolerance", .member = &O::tolerance, .unit = Unit::metre, .min = 1e-15, .max = 1e3, .help = "largest distance between the function and the spline that stands for it", .automatic = "1e-6 of the longest side"},
-      Field<O>{.name = "max_samples", .member = &O::max_samples, .min = 125, .max = 1e7, .help = "places at which the function may be asked at once; more are an error"},
+      Field<O>{.name = "tolerance",
+               .member = &O::tolerance,
+               .unit = Unit::metre,
+               .min = 1e-15,
+               .max = 1e3,
+               .help = "largest distance between the function and the spline that stands for it",
+               .automatic = "1e-6 of the longest side"},
+      Field<O>{.name = "max_samples",
+               .member = &O::max_samples,
+               .min = 125,
+               .max = 1e7,
+               .help = "places at which the function may be asked at once; more are an error"},
   };
 };
 

@@ -16,7 +16,8 @@ namespace {
 constexpr std::string_view k_usage = "local p = args{ alpha = 0, half = false, name = \"polar\" }";
 
 bool is_name(std::string_view text) {
-  return !text.empty() && !std::isdigit(static_cast<unsigned char>(text.front())) && std::all_of(text.begin(), text.end(), [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)); });
+  return !text.empty() && !std::isdigit(static_cast<unsigned char>(text.front())) &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)); });
 }
 
 /// "4", "2.5mm", "10*deg": a number in SI.
@@ -32,7 +33,8 @@ std::optional<double> number_of_text(const std::string& text) {
 ScriptValue value_of(const std::string& text) {
   if (text == "true" || text == "false") return text == "true";
   if (const auto number = number_of_text(text)) {
-    if (text.find_first_not_of("+-0123456789") == std::string::npos && *number == static_cast<double>(static_cast<std::int64_t>(*number))) return static_cast<std::int64_t>(*number);
+    if (text.find_first_not_of("+-0123456789") == std::string::npos && *number == static_cast<double>(static_cast<std::int64_t>(*number)))
+      return static_cast<std::int64_t>(*number);
     return *number;
   }
   return text;
@@ -42,14 +44,16 @@ ScriptValue value_of(const std::string& text) {
 ScriptValue value_like(const std::string& name, const std::string& text, const ScriptValue& like, TableReader& reader) {
   if (std::holds_alternative<std::string>(like)) return text;
   ScriptValue value = value_of(text);
-  const bool is_number = std::holds_alternative<std::int64_t>(value) || std::holds_alternative<double>(value), needs_number = std::holds_alternative<std::int64_t>(like) || std::holds_alternative<double>(like);
+  const bool is_number = std::holds_alternative<std::int64_t>(value) || std::holds_alternative<double>(value),
+             needs_number = std::holds_alternative<std::int64_t>(like) || std::holds_alternative<double>(like);
   if (needs_number ? !is_number : value.index() != like.index())
     reader.add_problem("argument " + name + "=" + text + ": expected " + (needs_number ? "a number, also with a unit: 4, 2.5mm, 10deg" : "true or false"));
   return value;
 }
 
 bool is_value(const ScriptValue& value) {
-  return std::holds_alternative<bool>(value) || std::holds_alternative<std::int64_t>(value) || std::holds_alternative<double>(value) || std::holds_alternative<std::string>(value);
+  return std::holds_alternative<bool>(value) || std::holds_alternative<std::int64_t>(value) || std::holds_alternative<double>(value) ||
+         std::holds_alternative<std::string>(value);
 }
 
 const std::string* given(const ScriptCall& call, std::string_view name) {
@@ -108,7 +112,10 @@ ScriptValue read_argument(const ScriptCall& call) {
 }
 
 constexpr std::array<ScriptVerb, 1> k_verbs = {{
-    {"args", k_usage, "What the command line says, `sterna run case.lua alpha=4 height=2mm half=true`: names with their defaults, or as texts where they must be given; args.alpha reads one alone.", declare},
+    {"args", k_usage,
+     "What the command line says, `sterna run case.lua alpha=4 height=2mm half=true`: names with their defaults, or as texts where they must be given; "
+     "args.alpha reads one alone.",
+     declare},
 }};
 
 }  // namespace

@@ -31,7 +31,8 @@ const char k_box_tag = 0;
 const char k_verb_tag = 0;
 constexpr const char* k_shape_type = "sterna.shape";
 
-// ---- Reading: only functions of Lua that never raise, and protected calls ------------------------------------------------------------------------------------
+// ---- Reading: only functions of Lua that never raise, and protected calls
+// ------------------------------------------------------------------------------------
 
 ObjectBox* box_at(lua_State* state, int index) {
   if (lua_type(state, index) != LUA_TUSERDATA || !lua_getmetatable(state, index)) return nullptr;

@@ -27,18 +27,18 @@ struct ScriptCheck;  // script_check.h
 /// Everything a running script shares with its verbs.
 struct ScriptSession {
   RunContext context;
-  std::filesystem::path script;                    ///< its folder is where input files are looked for second
-  OptionOverrides overrides;                       ///< of the command line; they win over the script
-  std::function<void(std::string_view)> print;     ///< results
-  std::function<void(const MeshValue&)> on_mesh;   ///< called for every volume mesh made; may be empty
-  const StageCache* cache = nullptr;               ///< results of stages by their inputs' content; null: all is made anew
-  std::vector<std::string> reused = {};            ///< a line for each stage that came from the cache: "surface_mesh of body"; and for what started from a reference
-  ErrorHandle cancelled;                           ///< prepared, because the hook that raises it must not allocate
-  OptionOverrides arguments = {};                  ///< NAME=VALUE of the command line, for args
-  ScriptCheck* check = nullptr;                    ///< not null: nothing is meshed or written, see script_check.h
+  std::filesystem::path script;                   ///< its folder is where input files are looked for second
+  OptionOverrides overrides;                      ///< of the command line; they win over the script
+  std::function<void(std::string_view)> print;    ///< results
+  std::function<void(const MeshValue&)> on_mesh;  ///< called for every volume mesh made; may be empty
+  const StageCache* cache = nullptr;              ///< results of stages by their inputs' content; null: all is made anew
+  std::vector<std::string> reused = {};  ///< a line for each stage that came from the cache: "surface_mesh of body"; and for what started from a reference
+  ErrorHandle cancelled;                 ///< prepared, because the hook that raises it must not allocate
+  OptionOverrides arguments = {};        ///< NAME=VALUE of the command line, for args
+  ScriptCheck* check = nullptr;          ///< not null: nothing is meshed or written, see script_check.h
 
-  std::filesystem::path input_folder = {};         ///< see ScriptSettings
-  std::filesystem::path output_folder = {};        ///< relative output names go there; empty = current folder
+  std::filesystem::path input_folder = {};   ///< see ScriptSettings
+  std::filesystem::path output_folder = {};  ///< relative output names go there; empty = current folder
   SeriesSession series = {};
 
   ScriptValue value;  ///< what a verb leaves for call_verb: its result or its error
@@ -56,10 +56,10 @@ struct Attempt : std::string {
 /// One call of a verb.
 struct ScriptCall {
   ScriptSession& session;
-  std::string where;                    ///< "case.lua:5: ", or empty
-  std::string_view verb;                ///< "volume_mesh"
-  std::vector<ScriptValue> arguments;   ///< of a method: the object first
-  bool is_heavy = false;                ///< ScriptVerb::is_heavy
+  std::string where;                   ///< "case.lua:5: ", or empty
+  std::string_view verb;               ///< "volume_mesh"
+  std::vector<ScriptValue> arguments;  ///< of a method: the object first
+  bool is_heavy = false;               ///< ScriptVerb::is_heavy
 
   Attempt attempted() const { return {where + std::string(verb), session.check, session.check != nullptr && is_heavy}; }
 };
@@ -70,9 +70,10 @@ struct ScriptVerb {
   std::string_view summary;  ///< one sentence
   ScriptValue (*run)(const ScriptCall&);
   std::string (*options_help)() = nullptr;
-  bool is_heavy = false;     ///< works long or writes: left out when a script is only checked; dead meshes are collected first, as Lua does not see how large they are
+  bool is_heavy =
+      false;  ///< works long or writes: left out when a script is only checked; dead meshes are collected first, as Lua does not see how large they are
   std::string_view gives = {};  ///< kind of object (script_objects.h), "self", "model or surface", "stages", "table"; empty: something else
-  bool is_kept = false;           ///< a model that it gives is taken from the cache where it is there (cache/cached_model.h)
+  bool is_kept = false;         ///< a model that it gives is taken from the cache where it is there (cache/cached_model.h)
 };
 
 /// Pushes a verb as a Lua function. May raise.
@@ -84,7 +85,8 @@ void register_objects(lua_State* state);
 /// The session of a state that was made by run_script.
 ScriptSession& session_of(lua_State* state) noexcept;
 void set_session(lua_State* state, ScriptSession& session) noexcept;
-/// For functions of scripts that are called from C++: pushes a value, may raise; copies one out, never raises. \throws Error(bad_argument) of tables nested too deep
+/// For functions of scripts that are called from C++: pushes a value, may raise; copies one out, never raises. \throws Error(bad_argument) of tables nested too
+/// deep
 void push_script_value(lua_State* state, const ScriptValue& value);
 ScriptValue script_value_at(lua_State* state, int index);
 /// Raises the error in session.value as a Lua error. Never returns.

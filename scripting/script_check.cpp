@@ -65,7 +65,8 @@ const ScriptValue& kept(ScriptCheck& check, std::string_view kind) {
   ScriptValue made;
   if (kind == "surface") made = make_surface();
   if (kind == "envelope") made = make_envelope_of(std::get<SurfaceHandle>(kept(check, "surface")));
-  if (kind == "tetrahedra") made = std::make_shared<const TetrahedraValue>(TetrahedraValue{.wall = std::get<SurfaceHandle>(kept(check, "surface")), .options = {}, .stage = {}});
+  if (kind == "tetrahedra")
+    made = std::make_shared<const TetrahedraValue>(TetrahedraValue{.wall = std::get<SurfaceHandle>(kept(check, "surface")), .options = {}, .stage = {}});
   if (kind == "mesh") made = make_mesh();
   if (kind == "model") made = make_model();
   if (kind == "quantity") made = std::make_shared<const QuantityValue>(quantity_of_text("y_plus 1 mach=0.5 altitude=0 length=1"));
@@ -132,7 +133,10 @@ void check_input(const ScriptCall& call, const InputPath& file) {
   if (!call.session.check || !call.is_heavy || call.session.check->outputs.contains(file.path.lexically_normal())) return;
   std::error_code ignored;  // what cannot be looked up is not there
   if (std::filesystem::exists(file.path, ignored)) return;
-  throw Error({.code = ErrorCode::file_not_found, .attempted = call.attempted(), .problem = "there is no file " + file.name, .hint = "files are looked for in the current folder, then beside the script"});
+  throw Error({.code = ErrorCode::file_not_found,
+               .attempted = call.attempted(),
+               .problem = "there is no file " + file.name,
+               .hint = "files are looked for in the current folder, then beside the script"});
 }
 
 }  // namespace sterna::scripting

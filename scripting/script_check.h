@@ -1,5 +1,5 @@
-// Checking a script without meshing: every verb reads its table, the heavy ones end there and give an object that stands for what they would have made. A mistake
-// is noted, and the script goes on with such an object, so that one check finds many.
+// Checking a script without meshing: every verb reads its table, the heavy ones end there and give an object that stands for what they would have made. A
+// mistake is noted, and the script goes on with such an object, so that one check finds many.
 #pragma once
 
 #include <filesystem>
@@ -21,9 +21,9 @@ struct OptionSet {
 };
 
 struct ScriptCheck {
-  std::vector<ErrorHandle> problems;           ///< in the order of the script
+  std::vector<ErrorHandle> problems;  ///< in the order of the script
   std::vector<OptionSet> options;
-  std::set<std::filesystem::path> outputs;     ///< that the script would have written: later verbs may read them
+  std::set<std::filesystem::path> outputs;                    ///< that the script would have written: later verbs may read them
   std::map<std::string, ScriptValue, std::less<>> stand_ins;  ///< by kind of object; made when first asked for
 };
 
@@ -40,7 +40,8 @@ bool is_stand_in(const ScriptCall& call, const ScriptValue& value);
 
 /// Notes a file that is written; a later verb may read it.
 void note_output(const ScriptCall& call, const std::filesystem::path& path);
-/// Of a heavy verb, where the run only checks (light ones read their files): \throws Error(file_not_found) for a file that is not there and would not have been written before.
+/// Of a heavy verb, where the run only checks (light ones read their files): \throws Error(file_not_found) for a file that is not there and would not have been
+/// written before.
 void check_input(const ScriptCall& call, const InputPath& file);
 
 }  // namespace sterna::scripting

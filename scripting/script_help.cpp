@@ -11,7 +11,6 @@
 namespace sterna::scripting {
 namespace {
 
-
 /// "  layers = 30  (1 .. 1000)", as options_help() writes it; false: another line.
 bool read_option_line(const std::string& line, OptionDoc& option) {
   if (!line.starts_with("  ") || line.starts_with("   ")) return false;
@@ -34,7 +33,9 @@ std::string verbs_with_option(const std::string& name) {
   for (const ScriptVerb* verb : all_verbs())
     for (const OptionGroup& group : option_groups(*verb))
       for (const OptionDoc& option : group.options)
-        if (option.name == name) text += "  " + std::string(verb->name) + ": " + name + " = " + option.value + (option.range.empty() ? "" : "  (" + option.range + ")") + "\n      " + option.help + "\n";
+        if (option.name == name)
+          text += "  " + std::string(verb->name) + ": " + name + " = " + option.value + (option.range.empty() ? "" : "  (" + option.range + ")") + "\n      " +
+                  option.help + "\n";
   return text;
 }
 
@@ -52,7 +53,8 @@ std::string help_on_name(const ScriptCall& call, const std::string& name) {
   }
   for (const ObjectKind& kind : object_kinds()) known.emplace_back(kind.name);
   const std::string nearest = nearest_name(name, known);
-  reject(call, "there is no verb, object or option \"" + name + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"), "help() lists the verbs");
+  reject(call, "there is no verb, object or option \"" + name + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"),
+         "help() lists the verbs");
 }
 
 }  // namespace
@@ -126,7 +128,8 @@ std::string help_text(const ScriptVerb& verb) {
 std::string help_text(const ObjectKind& kind) {
   std::string text = std::string(kind.name) + ": " + std::string(kind.summary);
   if (!kind.methods().empty()) text += "\nmethods:";
-  for (const ScriptVerb& method : kind.methods()) text += "\n  " + std::string(method.name) + ": " + std::string(method.summary) + "\n      " + std::string(method.usage);
+  for (const ScriptVerb& method : kind.methods())
+    text += "\n  " + std::string(method.name) + ": " + std::string(method.summary) + "\n      " + std::string(method.usage);
   for (const ScriptVerb& verb : script_verbs())
     if (verb.name.starts_with(std::string(kind.name) + ".")) text += "\n  " + std::string(verb.name) + ": " + std::string(verb.summary);
   if (!kind.fields.empty()) text += "\nfields:";
@@ -151,7 +154,8 @@ ScriptValue print_help(const ScriptCall& call) {
   if (const auto* verb = std::get_if<const ScriptVerb*>(&about)) call.session.print(help_text(**verb));
   else if (const ObjectKind* kind = kind_of(about)) call.session.print(help_text(*kind));
   else if (const auto* name = std::get_if<std::string>(&about)) call.session.print(help_on_name(call, *name));
-  else if (const auto* table = std::get_if<TableHandle>(&about); table && (*table)->fields.contains("shape") && std::holds_alternative<std::string>((*table)->fields.at("shape")))
+  else if (const auto* table = std::get_if<TableHandle>(&about);
+           table && (*table)->fields.contains("shape") && std::holds_alternative<std::string>((*table)->fields.at("shape")))
     call.session.print(help_on_name(call, std::get<std::string>((*table)->fields.at("shape"))));
   else reject(call, "there is no help on " + std::string(type_text(about)), "help() lists the verbs; a name that is misspelt is nil");
   return std::monostate{};

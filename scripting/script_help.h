@@ -14,8 +14,8 @@ namespace sterna::scripting {
 /// One option of a verb, read from what its options_help() prints.
 struct OptionDoc {
   std::string name;
-  std::string value;    ///< default with unit: "0.5", "20 deg", "automatic (0.1 body lengths) [m]", "required [m]"
-  std::string range;    ///< "1 .. 1000", "one of a, b"; may be empty
+  std::string value;  ///< default with unit: "0.5", "20 deg", "automatic (0.1 body lengths) [m]", "required [m]"
+  std::string range;  ///< "1 .. 1000", "one of a, b"; may be empty
   std::string help;
 };
 /// The options in a verb's help in their order, under the line of text that stands before them (empty: none).

@@ -27,7 +27,8 @@ numbers of fields, lines that only run then, code in branches that are not taken
 `sterna run case.lua alpha=4 --set envelope.layers=24` gives the script the argument `alpha` (see `args`) and sets options of whichever verb takes them, over what the script says.
 )";
 
-constexpr std::string_view k_setup = R"(body = fuselage{ name = "body", along = "smooth", frames = { { x = 0, diameter = 0.4 }, { x = 4, diameter = 1.2 }, { x = 8, diameter = 0.4 } } }
+constexpr std::string_view k_setup =
+    R"(body = fuselage{ name = "body", along = "smooth", frames = { { x = 0, diameter = 0.4 }, { x = 4, diameter = 1.2 }, { x = 8, diameter = 0.4 } } }
 main_wing = wing{ name = "wing", symmetric = true, position = {3, 0, 0}, sections = { { y = 0, chord = 2, airfoil = "naca2412" }, { y = 5, chord = 1 } } }
 engine = nacelle{ name = "engine", symmetric = true, position = {3, 2, -0.9}, length = 1.2, diameter = 0.6 }
 model = box{ {0, 0, 0}, {1, 1, 1}, name = "Body" }
@@ -56,7 +57,8 @@ std::string options_markdown(const ScriptVerb& verb) {
     if (!group.title.empty()) text += "\n" + group.title + "\n";
     if (group.options.empty()) continue;
     text += "\n| option | default | range | |\n|---|---|---|---|\n";
-    for (const OptionDoc& option : group.options) text += "| `" + option.name + "` | " + cell(option.value) + " | " + cell(option.range) + " | " + cell(option.help) + " |\n";
+    for (const OptionDoc& option : group.options)
+      text += "| `" + option.name + "` | " + cell(option.value) + " | " + cell(option.range) + " | " + cell(option.help) + " |\n";
   }
   return text;
 }

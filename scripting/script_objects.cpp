@@ -114,13 +114,19 @@ std::span<const ScriptVerb> no_methods() { return {}; }
 
 const std::array k_kinds = {
     ObjectKind{"surface", "sterna.surface", "A triangulated surface: the wall that volume_mesh takes.", &k_surface_field, surface_methods, k_surface_fields},
-    ObjectKind{"envelope", "sterna.envelope", "The surface in which the layer of prisms ends, above its wall.", &k_envelope_field, envelope_methods, k_envelope_fields},
-    ObjectKind{"tetrahedra", "sterna.tetrahedra", "A layer of prisms and the tetrahedra around it, not yet one mesh.", &k_tetrahedra_field, tetrahedra_methods, k_tetrahedra_fields},
+    ObjectKind{"envelope", "sterna.envelope", "The surface in which the layer of prisms ends, above its wall.", &k_envelope_field, envelope_methods,
+               k_envelope_fields},
+    ObjectKind{"tetrahedra", "sterna.tetrahedra", "A layer of prisms and the tetrahedra around it, not yet one mesh.", &k_tetrahedra_field, tetrahedra_methods,
+               k_tetrahedra_fields},
     ObjectKind{"mesh", "sterna.mesh", "A volume mesh.", &k_mesh_field, mesh_methods, k_mesh_fields},
-    ObjectKind{"model", "sterna.model", "Exact geometry: faces, edges and solids by name. Its methods give new models.", &k_model_field, model_methods, k_model_fields},
-    ObjectKind{"component", "sterna.component", "A part of an aircraft as data: wing, body, nacelle, pylon. Its methods change it in place.", &k_component_field, component_methods, k_component_fields},
+    ObjectKind{"model", "sterna.model", "Exact geometry: faces, edges and solids by name. Its methods give new models.", &k_model_field, model_methods,
+               k_model_fields},
+    ObjectKind{"component", "sterna.component", "A part of an aircraft as data: wing, body, nacelle, pylon. Its methods change it in place.",
+               &k_component_field, component_methods, k_component_fields},
     ObjectKind{"airfoil", "sterna.airfoil", "A wing section.", &k_airfoil_field, no_methods, k_airfoil_fields},
-    ObjectKind{"quantity", "sterna.quantity", "Flow conditions, or a length that was found from them, which counts as a number of metres wherever one is expected.", &k_quantity_field, no_methods, k_quantity_fields},
+    ObjectKind{"quantity", "sterna.quantity",
+               "Flow conditions, or a length that was found from them, which counts as a number of metres wherever one is expected.", &k_quantity_field,
+               no_methods, k_quantity_fields},
     ObjectKind{"error", "sterna.error", "What a verb raised, as pcall gives it.", &k_error_field, no_methods, k_error_fields},
 };
 

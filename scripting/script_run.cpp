@@ -23,7 +23,9 @@ ScriptOutcome run_script(const ScriptSettings& settings, const RunContext& conte
   state.run(series.script_text, "@" + settings.script.string());
   if (series.is_case_over) return {.n_failed_cases = series.is_case_done ? 0u : 1u};
   if (settings.series.worker)
-    throw Error({.code = ErrorCode::bad_argument, .attempted = settings.script.string(), .problem = "the script has no series \"" + settings.series.worker->series + "\""});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = settings.script.string(),
+                 .problem = "the script has no series \"" + settings.series.worker->series + "\""});
   return {.n_failed_cases = series.n_failed, .n_invalid_cases = series.n_invalid};
 }
 

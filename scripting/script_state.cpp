@@ -130,7 +130,10 @@ void take_traceback(lua_State* state, std::string& traceback) noexcept {
       if (record.currentline <= 0) continue;
       if (++n_found > k_max_traced) continue;
       const std::string source = record.source[0] == '@' ? record.source + 1 : record.short_src;
-      traceback += "\n  " + source + ":" + std::to_string(record.currentline) + ": in " + (std::string_view(record.what) == "main" ? "the script" : record.name ? "function " + std::string(record.name) : "a function");
+      traceback += "\n  " + source + ":" + std::to_string(record.currentline) + ": in " +
+                   (std::string_view(record.what) == "main" ? "the script"
+                    : record.name                           ? "function " + std::string(record.name)
+                                                            : "a function");
     }
     if (n_found > k_max_traced) traceback += "\n  ... and more";
     if (n_found < 2) traceback.clear();
@@ -192,27 +195,30 @@ int note_traceback(lua_State* state) {
 
 ScriptState::ScriptState(const ScriptSettings& settings, const RunContext& context) {
   check_overrides(settings.overrides);
-  parts_ = std::make_unique<Parts>(Parts{.session = {.context = context,
-                                                     .script = settings.script,
-                                                     .overrides = settings.overrides,
-                                                     .print = settings.check ? [](std::string_view) {} : settings.print,
-                                                     .on_mesh = settings.on_mesh,
-                                                     .cache = settings.cache,
-                                                     .cancelled = std::make_shared<const Error>(ErrorInfo{
-                                                         .code = ErrorCode::cancelled, .attempted = settings.script.string(), .problem = "stopped on request", .places = {}, .hint = {}, .geometry = {}}),
-                                                     .arguments = settings.arguments,
-                                                     .check = settings.check,
-                                                     .input_folder = settings.input_folder,
-                                                     .series = {.settings = settings.series, .script_text = {}},
-                                                     .value = {}},
-                                         .memory = {.used = 0, .limit = settings.memory_limit},
-                                         .traceback = {},
-                                         .owner = {}});
+  parts_ = std::make_unique<Parts>(Parts{
+      .session =
+          {.context = context,
+           .script = settings.script,
+           .overrides = settings.overrides,
+           .print = settings.check ? [](std::string_view) {} : settings.print,
+           .on_mesh = settings.on_mesh,
+           .cache = settings.cache,
+           .cancelled = std::make_shared<const Error>(ErrorInfo{
+               .code = ErrorCode::cancelled, .attempted = settings.script.string(), .problem = "stopped on request", .places = {}, .hint = {}, .geometry = {}}),
+           .arguments = settings.arguments,
+           .check = settings.check,
+           .input_folder = settings.input_folder,
+           .series = {.settings = settings.series, .script_text = {}},
+           .value = {}},
+      .memory = {.used = 0, .limit = settings.memory_limit},
+      .traceback = {},
+      .owner = {}});
   parts_->owner.reset(lua_newstate(allocate, &parts_->memory));
   if (!parts_->owner) throw Error({.code = ErrorCode::overflow, .attempted = "starting Lua", .problem = "not enough memory"});
   set_session(lua(), session());
   lua_pushcfunction(lua(), open_state);
-  if (lua_pcall(lua(), 0, 0, 0) != LUA_OK) throw Error({.code = ErrorCode::overflow, .attempted = "starting Lua", .problem = "not enough memory for its libraries"});
+  if (lua_pcall(lua(), 0, 0, 0) != LUA_OK)
+    throw Error({.code = ErrorCode::overflow, .attempted = "starting Lua", .problem = "not enough memory for its libraries"});
 }
 
 ScriptState::~ScriptState() = default;
@@ -242,7 +248,9 @@ void run_protected(lua_State* state, Source source, std::string& traceback, std:
 
 }  // namespace
 
-void ScriptState::run(const std::string& text, const std::string& name) { run_protected(lua(), {.text = &text, .chunk_name = &name}, parts_->traceback, parts_->memory.limit); }
+void ScriptState::run(const std::string& text, const std::string& name) {
+  run_protected(lua(), {.text = &text, .chunk_name = &name}, parts_->traceback, parts_->memory.limit);
+}
 
 void ScriptState::run_and_print(const std::string& text, const std::string& name) {
   run_protected(lua(), {.text = &text, .chunk_name = &name, .is_printed = true}, parts_->traceback, parts_->memory.limit);

@@ -36,8 +36,9 @@ struct OpaqueValue {
   std::string_view type_name;
 };
 using ErrorHandle = std::shared_ptr<const Error>;
-using ScriptValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::shared_ptr<const ScriptTable>, SurfaceHandle, EnvelopeHandle, TetrahedraHandle, MeshHandle, ModelHandle,
-                                 ComponentHandle, AirfoilHandle, ErrorHandle, FunctionHandle, QuantityHandle, const ScriptVerb*, OpaqueValue>;
+using ScriptValue =
+    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::shared_ptr<const ScriptTable>, SurfaceHandle, EnvelopeHandle, TetrahedraHandle,
+                 MeshHandle, ModelHandle, ComponentHandle, AirfoilHandle, ErrorHandle, FunctionHandle, QuantityHandle, const ScriptVerb*, OpaqueValue>;
 
 struct ScriptTable {
   std::vector<ScriptValue> items;             ///< entries 1, 2, ... n

@@ -10,13 +10,13 @@
 #include "scripting/check_options.h"
 #include "scripting/component_verbs.h"
 #include "scripting/disc_verbs.h"
+#include "scripting/draw_verbs.h"
 #include "scripting/envelope_steps.h"
 #include "scripting/family_gate.h"
 #include "scripting/farfield_verbs.h"
 #include "scripting/flow_verbs.h"
 #include "scripting/gate_limits.h"
 #include "scripting/geometry_verbs.h"
-#include "scripting/draw_verbs.h"
 #include "scripting/half_verbs.h"
 #include "scripting/inspect_verbs.h"
 #include "scripting/layer_options.h"
@@ -117,7 +117,8 @@ ScriptValue read_mesh_file(const ScriptCall& call) {
 // ---- volume_mesh, sphere -----------------------------------------------------------------------------------------------------------------
 
 constexpr std::string_view k_volume_mesh_usage =
-    "volume_mesh{ wall, layers = 32, first_height = 1e-6, farfield = sphere{ radius = 100 }, patches = { [\"Body*\"] = { first_height = 1e-5 } }, stages = \"case.sterna\" }";
+    "volume_mesh{ wall, layers = 32, first_height = 1e-6, farfield = sphere{ radius = 100 }, patches = { [\"Body*\"] = { first_height = 1e-5 } }, stages = "
+    "\"case.sterna\" }";
 
 ScriptValue make_mesh(const ScriptCall& call) {
   volmesh::VolumeMeshOptions options;
@@ -127,8 +128,11 @@ ScriptValue make_mesh(const ScriptCall& call) {
   TableReader reader(table, call.attempted());
   const std::vector<ScriptValue>& items = reader.items();
   const SurfaceHandle* wall = items.empty() ? nullptr : std::get_if<SurfaceHandle>(&items.front());
-  if (!wall) reader.add_problem("entry 1: expected a surface (from surface_mesh or read_surface), not " + std::string(items.empty() ? "nothing" : type_text(items.front())));
-  else if (items.size() > 1) reader.add_problem("takes one surface, not " + std::to_string(items.size()) + " (read_surface{ \"a.stl\", \"b.stl\" } joins files)");
+  if (!wall)
+    reader.add_problem("entry 1: expected a surface (from surface_mesh or read_surface), not " +
+                       std::string(items.empty() ? "nothing" : type_text(items.front())));
+  else if (items.size() > 1)
+    reader.add_problem("takes one surface, not " + std::to_string(items.size()) + " (read_surface{ \"a.stl\", \"b.stl\" } joins files)");
   const FunctionHandle first_heights = read_first_heights(reader, call);
   reader.read_options(schema);
   options.sources = read_sources(reader, call);
@@ -149,7 +153,8 @@ ScriptValue make_mesh(const ScriptCall& call) {
   SurfaceValue given = **wall;
   given.inputs.insert(given.inputs.end(), farfield_inputs.begin(), farfield_inputs.end());
   set_first_heights(first_heights, given, options, call.session.context);
-  auto mesh = std::make_shared<const MeshValue>(make_volume_mesh(given, options, stages, call.session.context.part("volume_mesh", 0.0, 1.0), call.session.reuse()));
+  auto mesh =
+      std::make_shared<const MeshValue>(make_volume_mesh(given, options, stages, call.session.context.part("volume_mesh", 0.0, 1.0), call.session.reuse()));
   if (call.session.on_mesh) call.session.on_mesh(*mesh);
   return mesh;
 }
@@ -184,7 +189,9 @@ ScriptValue write_mesh_files(const ScriptCall& call) {
 
 std::string check_help() {
   CheckSettings options;
-  return options_help(sterna::options_of(options)) + gate_limits_help() + "cells = \"cells.vtu\": writes the mesh with the quality of each cell, as VTK has it\n" + "wall = wall: the surface of surface_mesh that the mesh was made of; its nodes and facets are compared with the model (gates G17, G18)\n";
+  return options_help(sterna::options_of(options)) + gate_limits_help() +
+         "cells = \"cells.vtu\": writes the mesh with the quality of each cell, as VTK has it\n" +
+         "wall = wall: the surface of surface_mesh that the mesh was made of; its nodes and facets are compared with the model (gates G17, G18)\n";
 }
 
 ScriptValue check_mesh(const ScriptCall& call) {
@@ -219,7 +226,9 @@ ScriptValue check_mesh(const ScriptCall& call) {
   call.session.print(to_text(report));
   if (report.quality_measured && report.intersections_checked) mesh->check = report;
   if (options.accepts(report)) return mesh;
-  ErrorInfo info{.code = ErrorCode::mesh_invalid, .attempted = call.attempted(), .problem = report.is_valid() ? "the mesh is VALID, but " + quality_text(report) : "the mesh is INVALID"};
+  ErrorInfo info{.code = ErrorCode::mesh_invalid,
+                 .attempted = call.attempted(),
+                 .problem = report.is_valid() ? "the mesh is VALID, but " + quality_text(report) : "the mesh is INVALID"};
   for (const GateResult& gate : report.gates) {
     if (report.is_valid() && gate.state == GateState::fail && !gate.places.empty())
       info.places.push_back({gate.places.front().position, std::string(info_of(gate.measure).title) + ", " + gate.places.front().what});
@@ -243,7 +252,8 @@ ScriptValue describe_object(const ScriptCall& call) {
   if (const auto* error = std::get_if<ErrorHandle>(&object)) return std::string((*error)->what());
   std::string text;
   if (const auto* shape = std::get_if<TableHandle>(&object)) {
-    if (const auto kind = (*shape)->fields.find("shape"); kind != (*shape)->fields.end() && std::holds_alternative<std::string>(kind->second)) text = std::get<std::string>(kind->second);
+    if (const auto kind = (*shape)->fields.find("shape"); kind != (*shape)->fields.end() && std::holds_alternative<std::string>(kind->second))
+      text = std::get<std::string>(kind->second);
     for (const auto& [name, value] : (*shape)->fields) {
       if (const auto* number = std::get_if<double>(&value)) text += ", " + name + " " + std::to_string(*number) + " m";
       if (const auto* whole = std::get_if<std::int64_t>(&value)) text += ", " + name + " " + std::to_string(*whole) + " m";
@@ -321,17 +331,24 @@ std::string volume_help() {
 
 constexpr std::array<ScriptVerb, 6> k_verbs = {{
     {"read_surface", k_read_surface_usage, "Reads surface files and joins them to one wall.", read_surface, surface_help, true, "surface"},
-    {"union", k_union_usage, "Unites closed surfaces that stick in each other, or the crossing parts of one file, to one wall; or models to one model.", unite, union_help, true, "model or surface", true},
+    {"union", k_union_usage, "Unites closed surfaces that stick in each other, or the crossing parts of one file, to one wall; or models to one model.", unite,
+     union_help, true, "model or surface", true},
     {"read_mesh", k_read_mesh_usage, "Reads a volume mesh.", read_mesh_file, nullptr, true, "mesh"},
-    {"volume_mesh", k_volume_mesh_usage, "Meshes the space around a wall: prism layers on it, tetrahedra to the farfield.", make_mesh, volume_help, true, "mesh"},
-    {"sphere", k_sphere_usage, "A spherical farfield, for volume_mesh; with centre and size a source of small tetrahedra.", make_sphere, sphere_help, false, "source"},
-    {"help", "help(volume_mesh)  or  help(wall)  or  help \"mesh:write\"  or  help \"first_height\"", "Prints what a verb does and its options; of an object its methods and fields; of an option the verbs that take it.", print_help},
+    {"volume_mesh", k_volume_mesh_usage, "Meshes the space around a wall: prism layers on it, tetrahedra to the farfield.", make_mesh, volume_help, true,
+     "mesh"},
+    {"sphere", k_sphere_usage, "A spherical farfield, for volume_mesh; with centre and size a source of small tetrahedra.", make_sphere, sphere_help, false,
+     "source"},
+    {"help", "help(volume_mesh)  or  help(wall)  or  help \"mesh:write\"  or  help \"first_height\"",
+     "Prints what a verb does and its options; of an object its methods and fields; of an option the verbs that take it.", print_help},
 }};
 constexpr ScriptVerb k_write_surface = {"surface:write", "wall:write \"wall.vtu\"", "Writes a surface.", write_surface_files, nullptr, true, "self"};
 constexpr std::array<ScriptVerb, 3> k_mesh_methods = {{
-    {"mesh:check", "mesh:check()  or  mesh:check{ wall = wall }", "Proves that the mesh tiles its domain and prints the verdict; an INVALID mesh is an error that names the places.", check_mesh, check_help, true, "self"},
-    {"mesh:write", "mesh:write(\"mesh.su2\", \"mesh.vtu\")", "Writes the mesh, each file with a manifest <file>.json beside it.", write_mesh_files, nullptr, true, "self"},
-    {"mesh:su2_config", k_su2_config_usage, "Writes a configuration of SU2 for the mesh: markers, flow, reference values and settings to start from.", write_su2_config, su2_config_help, true, "self"},
+    {"mesh:check", "mesh:check()  or  mesh:check{ wall = wall }",
+     "Proves that the mesh tiles its domain and prints the verdict; an INVALID mesh is an error that names the places.", check_mesh, check_help, true, "self"},
+    {"mesh:write", "mesh:write(\"mesh.su2\", \"mesh.vtu\")", "Writes the mesh, each file with a manifest <file>.json beside it.", write_mesh_files, nullptr,
+     true, "self"},
+    {"mesh:su2_config", k_su2_config_usage, "Writes a configuration of SU2 for the mesh: markers, flow, reference values and settings to start from.",
+     write_su2_config, su2_config_help, true, "self"},
 }};
 constexpr std::array<ScriptUnit, 5> k_units = {{{"mm", 1e-3}, {"cm", 1e-2}, {"inch", 0.0254}, {"ft", 0.3048}, {"deg", std::numbers::pi / 180.0}}};
 

@@ -39,7 +39,12 @@ struct Schema<scripting::SourceNumbers> {
       Field<O>{.name = "radius", .member = &O::radius, .unit = Unit::metre, .min = 0.0, .help = "everything nearer is inside", .automatic = "0"},
       Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-12, .help = "how far it is swept along its direction", .required = true},
       Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 0.0, .help = "thickness where it starts", .automatic = "0"},
-      Field<O>{.name = "spread", .member = &O::spread, .min = 0.0, .max = 10.0, .help = "half its growth in thickness over the distance from its start", .automatic = "0"},
+      Field<O>{.name = "spread",
+               .member = &O::spread,
+               .min = 0.0,
+               .max = 10.0,
+               .help = "half its growth in thickness over the distance from its start",
+               .automatic = "0"},
   };
 };
 
@@ -64,7 +69,8 @@ constexpr std::array<KindOfSource, 6> k_kinds = {{
     {SourceKind::box, "box", 2, " size ", "box{ {-1, -2, -1}, {9, 2, 3}, size = 0.05 }"},
     {SourceKind::sphere, "sphere", 1, " size radius ", "sphere{ {0, 0, 0}, radius = 1, size = 0.1 }"},
     {SourceKind::cylinder, "cylinder", 2, " size radius ", "cylinder{ {0, 0, 0}, {8, 0, 0}, radius = 1, size = 0.1 }"},
-    {SourceKind::wake, "wake", 2, " size size_end length height spread ", "wake{ {1, 0, 0}, {2, 5, 0}, direction = {1, 0, 0.05}, length = 10, height = 0.2, spread = 0.05, size = 0.05 }"},
+    {SourceKind::wake, "wake", 2, " size size_end length height spread ",
+     "wake{ {1, 0, 0}, {2, 5, 0}, direction = {1, 0, 0.05}, length = 10, height = 0.2, spread = 0.05, size = 0.05 }"},
 }};
 constexpr std::string_view k_samples_usage = "size_samples{ \"sizes.vtu\", name = \"size\" }";
 
@@ -157,8 +163,12 @@ bool has_size(const ScriptCall& call) {
   const auto* table = call.arguments.empty() ? nullptr : std::get_if<TableHandle>(&call.arguments.front());
   return table && (*table)->fields.contains("size");
 }
-ScriptValue make_box_or_source(const ScriptCall& call) { return has_size(call) ? make_source_of_verb(call) : is_farfield(call) ? make_farfield_box(call) : make_box_model(call); }
-ScriptValue make_cylinder_or_source(const ScriptCall& call) { return has_size(call) ? make_source_of_verb(call) : is_farfield(call) ? make_farfield_cylinder(call) : make_cylinder_model(call); }
+ScriptValue make_box_or_source(const ScriptCall& call) {
+  return has_size(call) ? make_source_of_verb(call) : is_farfield(call) ? make_farfield_box(call) : make_box_model(call);
+}
+ScriptValue make_cylinder_or_source(const ScriptCall& call) {
+  return has_size(call) ? make_source_of_verb(call) : is_farfield(call) ? make_farfield_cylinder(call) : make_cylinder_model(call);
+}
 
 /// Checked here, read by the verb that uses it.
 ScriptValue make_samples(const ScriptCall& call) {
@@ -168,7 +178,8 @@ ScriptValue make_samples(const ScriptCall& call) {
   TableReader reader(table, call.attempted());
   const std::vector<ScriptValue>& items = reader.items();
   if (items.size() != 1 || !std::holds_alternative<std::string>(items.front())) reader.add_problem("expected one file name: " + std::string(k_samples_usage));
-  if (const ScriptValue* name = reader.field("name"); name && !std::holds_alternative<std::string>(*name)) reader.add_problem("name: expected the name of a point data array");
+  if (const ScriptValue* name = reader.field("name"); name && !std::holds_alternative<std::string>(*name))
+    reader.add_problem("name: expected the name of a point data array");
   reader.finish();
   table.fields["shape"] = std::string("size_samples");
   return std::make_shared<const ScriptTable>(std::move(table));
@@ -180,7 +191,8 @@ SizeSource read_samples(const ScriptTable& table, const ScriptCall& call) {
   std::error_code ignored;  // a name that cannot be looked up is reported by the reader, with its reason
   const bool is_beside = given.is_relative() && !std::filesystem::exists(given, ignored) && std::filesystem::exists(beside_script, ignored);
   const auto name = table.fields.find("name");
-  io::PointField field = io::read_point_field(is_beside ? beside_script : given, name == table.fields.end() ? "size" : std::get<std::string>(name->second), call.session.context);
+  io::PointField field =
+      io::read_point_field(is_beside ? beside_script : given, name == table.fields.end() ? "size" : std::get<std::string>(name->second), call.session.context);
   return {.kind = SourceKind::samples, .points = std::move(field.points), .sizes = std::move(field.values)};
 }
 
@@ -191,12 +203,20 @@ std::string numbers_help() {
 }
 
 constexpr std::array<ScriptVerb, 6> k_verbs = {{
-    {"point", k_kinds[0].usage, "Short edges at a point, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<0>, false, "source"},
-    {"line", k_kinds[1].usage, "Short edges within a distance of a line, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<1>, false, "source"},
-    {"box", k_kinds[2].usage, "Short edges in an axis-parallel box, for the sources of volume_mesh and surface_mesh; with edge or sides a farfield; else a solid box.", make_box_or_source, numbers_help<2>, false, "model"},
-    {"cylinder", k_kinds[4].usage, "Short edges in a cylinder, for the sources of volume_mesh and surface_mesh; with edge or sides a farfield; else a solid cylinder.", make_cylinder_or_source, numbers_help<4>, false, "model"},
-    {"wake", k_kinds[5].usage, "Short edges behind a trailing edge, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<5>, false, "source"},
-    {"size_samples", k_samples_usage, "Wanted edge lengths at the points of a VTU file, for the sources of volume_mesh and surface_mesh.", make_samples, nullptr, false, "source"},
+    {"point", k_kinds[0].usage, "Short edges at a point, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<0>, false,
+     "source"},
+    {"line", k_kinds[1].usage, "Short edges within a distance of a line, for the sources of volume_mesh and surface_mesh.", make_source_of_verb,
+     numbers_help<1>, false, "source"},
+    {"box", k_kinds[2].usage,
+     "Short edges in an axis-parallel box, for the sources of volume_mesh and surface_mesh; with edge or sides a farfield; else a solid box.",
+     make_box_or_source, numbers_help<2>, false, "model"},
+    {"cylinder", k_kinds[4].usage,
+     "Short edges in a cylinder, for the sources of volume_mesh and surface_mesh; with edge or sides a farfield; else a solid cylinder.",
+     make_cylinder_or_source, numbers_help<4>, false, "model"},
+    {"wake", k_kinds[5].usage, "Short edges behind a trailing edge, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<5>,
+     false, "source"},
+    {"size_samples", k_samples_usage, "Wanted edge lengths at the points of a VTU file, for the sources of volume_mesh and surface_mesh.", make_samples,
+     nullptr, false, "source"},
 }};
 
 }  // namespace
@@ -212,11 +232,16 @@ SizeSource source_of_text(const std::string& text) {
   if (kind == nullptr) {
     std::string names;
     for (const KindOfSource& known : k_kinds) names += (names.empty() ? "" : ", ") + std::string(known.verb);
-    throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "\"" + verb + "\" is no source", .hint = "there are " + names + "; such as \"sphere 0 0 0 radius=1 size=0.1\""});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = attempted,
+                 .problem = "\"" + verb + "\" is no source",
+                 .hint = "there are " + names + "; such as \"sphere 0 0 0 radius=1 size=0.1\""});
   }
   ScriptTable table;
   std::vector<double> numbers;
-  const auto point_at = [](double x, double y, double z) { return std::make_shared<const ScriptTable>(ScriptTable{.items = {x, y, z}, .fields = {}, .other_keys = {}}); };
+  const auto point_at = [](double x, double y, double z) {
+    return std::make_shared<const ScriptTable>(ScriptTable{.items = {x, y, z}, .fields = {}, .other_keys = {}});
+  };
   for (std::string word; words >> word;) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos) {
@@ -232,7 +257,8 @@ SizeSource source_of_text(const std::string& text) {
     else if (values.size() == 3) field = point_at(values[0], values[1], values[2]);
     else throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = word + ": expected one number, or three for a direction"});
   }
-  if (numbers.size() % 3 != 0) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "coordinates come in threes, not " + std::to_string(numbers.size())});
+  if (numbers.size() % 3 != 0)
+    throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "coordinates come in threes, not " + std::to_string(numbers.size())});
   for (std::size_t i = 0; i < numbers.size(); i += 3) table.items.push_back(point_at(numbers[i], numbers[i + 1], numbers[i + 2]));
   return source_of(table, *kind, attempted);
 }

@@ -22,7 +22,8 @@ Handle entry(TableReader& reader, std::size_t number, std::string_view what) {
   const std::vector<ScriptValue>& items = reader.items();
   const Handle* handle = items.size() < number ? nullptr : std::get_if<Handle>(&items[number - 1]);
   if (handle) return *handle;
-  reader.add_problem("entry " + std::to_string(number) + ": expected " + std::string(what) + ", not " + std::string(items.size() < number ? "nothing" : type_text(items[number - 1])));
+  reader.add_problem("entry " + std::to_string(number) + ": expected " + std::string(what) + ", not " +
+                     std::string(items.size() < number ? "nothing" : type_text(items[number - 1])));
   return nullptr;
 }
 
@@ -57,7 +58,8 @@ ScriptValue make_envelope_verb(const ScriptCall& call) {
   return std::make_shared<const EnvelopeValue>(make_envelope(given, options, call.session.context.part("make_envelope", 0.0, 1.0), call.session.reuse()));
 }
 
-constexpr std::string_view k_tetrahedra_usage = "tetrahedra{ env, engine = \"tetgen\", radius_edge = 1.2, wall_perpendicularity = 0.1, sources = { box{ {1, 0, 0}, {3, 1, 1}, size = 0.3 } } }";
+constexpr std::string_view k_tetrahedra_usage =
+    "tetrahedra{ env, engine = \"tetgen\", radius_edge = 1.2, wall_perpendicularity = 0.1, sources = { box{ {1, 0, 0}, {3, 1, 1}, size = 0.3 } } }";
 
 ScriptValue make_tetrahedra_verb(const ScriptCall& call) {
   std::shared_ptr<const TriMesh> farfield_surface;
@@ -83,7 +85,8 @@ constexpr std::string_view k_prisms_usage = "prisms{ env, tets, improve_rounds =
 void refuse_layer_options(TableReader& reader) {
   volmesh::PrismOptions options;
   for (const Option& option : sterna::options_of(options))
-    if (reader.field(std::string(option.name))) reader.add_problem(std::string(option.name) + ": belongs to tetrahedra{ env, " + std::string(option.name) + " = ... }, which lays the layer out first");
+    if (reader.field(std::string(option.name)))
+      reader.add_problem(std::string(option.name) + ": belongs to tetrahedra{ env, " + std::string(option.name) + " = ... }, which lays the layer out first");
 }
 
 ScriptValue make_prisms_verb(const ScriptCall& call) {
@@ -168,7 +171,9 @@ ScriptValue envelope_field(const ScriptCall& call) {
 ScriptValue tetrahedra_field(const ScriptCall& call) {
   const volmesh::TetraResult& tets = self<TetrahedraHandle>(call)->stage.tets;
   return select_field(call,
-                      {{"tetrahedra", static_cast<std::int64_t>(tets.tetrahedra.size())}, {"points", static_cast<std::int64_t>(tets.new_points.size())}, {"engine", tets.engine}},
+                      {{"tetrahedra", static_cast<std::int64_t>(tets.tetrahedra.size())},
+                       {"points", static_cast<std::int64_t>(tets.new_points.size())},
+                       {"engine", tets.engine}},
                       tetrahedra_methods());
 }
 
@@ -184,16 +189,21 @@ std::string help_of() {
 }
 
 constexpr std::array<ScriptVerb, 4> k_verbs = {{
-    {"make_envelope", k_envelope_usage, "The first step of volume_mesh by hand: the envelope of the layer.", make_envelope_verb, envelope_help, true, "envelope"},
-    {"tetrahedra", k_tetrahedra_usage, "The second: the layer under an envelope, and tetrahedra around it to the farfield.", make_tetrahedra_verb, help_of<tetrahedra_options>, true, "tetrahedra"},
+    {"make_envelope", k_envelope_usage, "The first step of volume_mesh by hand: the envelope of the layer.", make_envelope_verb, envelope_help, true,
+     "envelope"},
+    {"tetrahedra", k_tetrahedra_usage, "The second: the layer under an envelope, and tetrahedra around it to the farfield.", make_tetrahedra_verb,
+     help_of<tetrahedra_options>, true, "tetrahedra"},
     {"prisms", k_prisms_usage, "The last: joins layer and tetrahedra to a checked mesh.", make_prisms_verb, help_of<finish_options>, true, "mesh"},
-    {"read_stages", k_read_stages_usage, "What a .sterna file holds, as fields surface, envelope, tetrahedra, mesh: any of them can be continued.", read_stages_verb, nullptr, true, "stages"},
+    {"read_stages", k_read_stages_usage, "What a .sterna file holds, as fields surface, envelope, tetrahedra, mesh: any of them can be continued.",
+     read_stages_verb, nullptr, true, "stages"},
 }};
 constexpr std::array<ScriptVerb, 1> k_envelope_methods = {{
-    {"envelope:write", "env:write(\"case.sterna\", \"env.vtu\")", "Writes the envelope with all that is needed to continue (.sterna), or its surface alone.", write_envelope_files, nullptr, true, "self"},
+    {"envelope:write", "env:write(\"case.sterna\", \"env.vtu\")", "Writes the envelope with all that is needed to continue (.sterna), or its surface alone.",
+     write_envelope_files, nullptr, true, "self"},
 }};
 constexpr std::array<ScriptVerb, 1> k_tetrahedra_methods = {{
-    {"tetrahedra:write", "tets:write \"case.sterna\"", "Writes layer and tetrahedra with all that is needed to continue.", write_tetrahedra_files, nullptr, true, "self"},
+    {"tetrahedra:write", "tets:write \"case.sterna\"", "Writes layer and tetrahedra with all that is needed to continue.", write_tetrahedra_files, nullptr,
+     true, "self"},
 }};
 
 }  // namespace

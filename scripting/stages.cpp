@@ -31,7 +31,8 @@ using Json = nlohmann::ordered_json;
 // ---- volmesh's values as a file has them ---------------------------------------------------------------------------------------------------
 
 io::StoredEnvelope stored(const volmesh::Envelope& envelope, const TriMesh& surface, const volmesh::FirstHeights* first_heights) {
-  io::StoredEnvelope result{.direction = envelope.direction, .height = envelope.height, .target = envelope.target, .eq1 = envelope.eq1, .cap = envelope.cap, .limit = {}};
+  io::StoredEnvelope result{
+      .direction = envelope.direction, .height = envelope.height, .target = envelope.target, .eq1 = envelope.eq1, .cap = envelope.cap, .limit = {}};
   for (const volmesh::HeightLimit limit : envelope.limit) result.limit.push_back(static_cast<std::uint8_t>(limit));
   if (first_heights)
     for (const Point& p : surface.points) result.first_height.push_back(first_heights->at(p));
@@ -54,7 +55,8 @@ volmesh::Envelope envelope_of(io::StoredEnvelope file_envelope, const InputPath&
   envelope.eq1 = std::move(file_envelope.eq1);
   envelope.cap = std::move(file_envelope.cap);
   for (const std::uint8_t limit : file_envelope.limit) {
-    if (limit >= volmesh::k_height_limits) refuse(file, "found the limit " + std::to_string(limit) + " of a height, there are " + std::to_string(volmesh::k_height_limits));
+    if (limit >= volmesh::k_height_limits)
+      refuse(file, "found the limit " + std::to_string(limit) + " of a height, there are " + std::to_string(volmesh::k_height_limits));
     envelope.limit.push_back(static_cast<volmesh::HeightLimit>(limit));
   }
   return envelope;
@@ -66,7 +68,8 @@ HybridMesh layers_of(HybridMesh mesh, std::uint64_t n_boundary_points, const Inp
   std::size_t n_nodes = 0;
   for (std::uint32_t line = 0; line < n_lines; ++line) n_nodes = std::max(n_nodes, mesh.layers.top(line).index() + 1);
   if (n_boundary_points < n_lines || n_boundary_points - n_lines > mesh.points.size() - n_nodes)
-    refuse(file, "found tetrahedra within " + std::to_string(n_boundary_points) + " points of a boundary, but a mesh of " + std::to_string(n_lines) + " lines and " + std::to_string(mesh.points.size()) + " nodes");
+    refuse(file, "found tetrahedra within " + std::to_string(n_boundary_points) + " points of a boundary, but a mesh of " + std::to_string(n_lines) +
+                     " lines and " + std::to_string(mesh.points.size()) + " nodes");
   mesh.points.raw().resize(n_nodes + (n_boundary_points - n_lines));
   mesh.tetrahedra.clear();
   return mesh;
@@ -74,7 +77,9 @@ HybridMesh layers_of(HybridMesh mesh, std::uint64_t n_boundary_points, const Inp
 
 // ---- The rest is JSON ----------------------------------------------------------------------------------------------------------------------
 
-Json stage_json(const volmesh::EnvelopeStage& envelope, std::int64_t n_wall_triangles) { return {{"feature_angle", envelope.feature_angle}, {"wall_triangles", n_wall_triangles}}; }
+Json stage_json(const volmesh::EnvelopeStage& envelope, std::int64_t n_wall_triangles) {
+  return {{"feature_angle", envelope.feature_angle}, {"wall_triangles", n_wall_triangles}};
+}
 
 Json stage_json(const volmesh::FilledStage& filled, std::int64_t n_wall_triangles) {
   Json json = stage_json(filled.envelope, n_wall_triangles);
@@ -87,7 +92,8 @@ Json stage_json(const volmesh::FilledStage& filled, std::int64_t n_wall_triangle
   return json;
 }
 
-/// Of placed parts: the thickness that their layers have at most where nobody says so, by their own lengths, which do not change with their attitude or what is beside them.
+/// Of placed parts: the thickness that their layers have at most where nobody says so, by their own lengths, which do not change with their attitude or what is
+/// beside them.
 std::vector<volmesh::PatchRule> thickness_rules(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options) {
   std::vector<volmesh::PatchRule> rules;
   if (!is_automatic(options.envelope.max_thickness)) return rules;
@@ -164,9 +170,13 @@ class StageJson {
     }
   }
 
-  std::vector<volmesh::PatchRule> patch_rules() const { return json_.contains("patch_rules") ? layer_rules_of_json(json_.at("patch_rules").dump()) : std::vector<volmesh::PatchRule>{}; }
+  std::vector<volmesh::PatchRule> patch_rules() const {
+    return json_.contains("patch_rules") ? layer_rules_of_json(json_.at("patch_rules").dump()) : std::vector<volmesh::PatchRule>{};
+  }
 
-  volmesh::EnvelopeStep step() const { return json_.contains(Json::json_pointer("/stage/step")) ? volmesh::envelope_step_of(get<std::string>("/stage/step")) : volmesh::EnvelopeStep::finished; }
+  volmesh::EnvelopeStep step() const {
+    return json_.contains(Json::json_pointer("/stage/step")) ? volmesh::envelope_step_of(get<std::string>("/stage/step")) : volmesh::EnvelopeStep::finished;
+  }
 
   /// Of a wall that surface_mesh made.
   std::optional<SurfaceRecipe> recipe() const {
@@ -264,8 +274,8 @@ std::int64_t n_triangles(const SurfaceValue& surface) { return static_cast<std::
 
 // ---- Writing -------------------------------------------------------------------------------------------------------------------------------
 
-void write_envelope(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const volmesh::EnvelopeStage& stage, const std::filesystem::path& path, const RunContext& context,
-                    volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished) {
+void write_envelope(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const volmesh::EnvelopeStage& stage, const std::filesystem::path& path,
+                    const RunContext& context, volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished) {
   const StageTimer timer(context, "write");
   const io::StoredEnvelope envelope = stored(stage.envelope, wall.mesh, options.first_heights.get());
   Json json = stage_json(stage, n_triangles(wall));
@@ -273,8 +283,8 @@ void write_envelope(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& 
   io::write_sterna({.surface = &wall.mesh, .envelope = &envelope, .manifest = unfinished_json(wall, options, std::move(json))}, path, context);
 }
 
-void write_filled(const SurfaceValue& wall, std::int64_t n_wall_triangles, const volmesh::VolumeMeshOptions& options, const volmesh::FilledStage& stage, const std::filesystem::path& path,
-                  const RunContext& context) {
+void write_filled(const SurfaceValue& wall, std::int64_t n_wall_triangles, const volmesh::VolumeMeshOptions& options, const volmesh::FilledStage& stage,
+                  const std::filesystem::path& path, const RunContext& context) {
   const StageTimer timer(context, "write");
   const TriMesh& surface = stage.split_wall ? *stage.split_wall : wall.mesh;
   const io::StoredEnvelope envelope = stored(stage.envelope.envelope, surface, options.first_heights.get());
@@ -320,7 +330,9 @@ volmesh::VolumeMeshOptions knowing(const SurfaceValue& wall, volmesh::VolumeMesh
   if (!options.first_heights) options.parts = wall.parts;  // else their layers depend on where they are
   options.patches = rules_of(wall, options);
   if (wall.model_wall)
-    options.true_surface = [model_wall = wall.model_wall](const Point& p, TriangleId triangle, const std::array<double, 3>& weights) { return model_wall->nearest(p, triangle, weights); };
+    options.true_surface = [model_wall = wall.model_wall](const Point& p, TriangleId triangle, const std::array<double, 3>& weights) {
+      return model_wall->nearest(p, triangle, weights);
+    };
   return options;
 }
 
@@ -332,28 +344,40 @@ EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::VolumeMesh
 TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse) {
   require_ready(envelope, options, context);
   if (envelope.n_sources_in_file > 0 && options.sources.empty())
-    context.warn("the run that made this envelope had " + std::to_string(envelope.n_sources_in_file) + " sources of the size field; a file does not keep them: give them again");
+    context.warn("the run that made this envelope had " + std::to_string(envelope.n_sources_in_file) +
+                 " sources of the size field; a file does not keep them: give them again");
   const SurfaceValue& wall = *envelope.wall;
-  return {.wall = envelope.wall, .n_wall_triangles = n_triangles(wall), .options = options, .stage = cached_tetrahedra(wall.mesh, envelope.stage, knowing(wall, options), true_surface_key(wall), reuse, context)};
+  return {.wall = envelope.wall,
+          .n_wall_triangles = n_triangles(wall),
+          .options = options,
+          .stage = cached_tetrahedra(wall.mesh, envelope.stage, knowing(wall, options), true_surface_key(wall), reuse, context)};
 }
 
 MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse) {
-  return mesh_value(*tetrahedra.wall, tetrahedra.n_wall_triangles, options, cached_finish(tetrahedra.wall->mesh, tetrahedra.stage, knowing(*tetrahedra.wall, options), reuse, context));
+  return mesh_value(*tetrahedra.wall, tetrahedra.n_wall_triangles, options,
+                    cached_finish(tetrahedra.wall->mesh, tetrahedra.stage, knowing(*tetrahedra.wall, options), reuse, context));
 }
 
-MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const std::filesystem::path& stages, const RunContext& context, const Reuse& reuse) {
+MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const std::filesystem::path& stages, const RunContext& context,
+                           const Reuse& reuse) {
   warn_of_other_member(wall, options, context);
-  if (stages.empty()) return mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall.mesh, knowing(wall, options), {}, true_surface_key(wall), reuse, context));
+  if (stages.empty())
+    return mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall.mesh, knowing(wall, options), {}, true_surface_key(wall), reuse, context));
   require_stage_output(stages);
   FinishedParts parts;
-  const volmesh::StageWatch watch{.envelope = {},
-                                  .enveloped = [&](const volmesh::EnvelopeStage& stage) { write_envelope(wall, options, stage, stages, context.part("stages", 0.0, 0.0)); },
-                                  .filled =
-                                      [&](const volmesh::FilledStage& stage) {
-                                        write_filled(wall, n_triangles(wall), options, stage, stages, context.part("stages", 0.0, 0.0));
-                                        parts = {.split_wall = stage.split_wall, .envelope = stored(stage.envelope.envelope, stage.split_wall ? *stage.split_wall : wall.mesh, options.first_heights.get()), .tetrahedra = stored(stage), .json = stage_json(stage, n_triangles(wall))};
-                                      }};
-  MeshValue mesh = mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall.mesh, knowing(wall, options), watch, true_surface_key(wall), reuse, context));
+  const volmesh::StageWatch watch{
+      .envelope = {},
+      .enveloped = [&](const volmesh::EnvelopeStage& stage) { write_envelope(wall, options, stage, stages, context.part("stages", 0.0, 0.0)); },
+      .filled =
+          [&](const volmesh::FilledStage& stage) {
+            write_filled(wall, n_triangles(wall), options, stage, stages, context.part("stages", 0.0, 0.0));
+            parts = {.split_wall = stage.split_wall,
+                     .envelope = stored(stage.envelope.envelope, stage.split_wall ? *stage.split_wall : wall.mesh, options.first_heights.get()),
+                     .tetrahedra = stored(stage),
+                     .json = stage_json(stage, n_triangles(wall))};
+          }};
+  MeshValue mesh =
+      mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall.mesh, knowing(wall, options), watch, true_surface_key(wall), reuse, context));
   write_finished(wall, parts, mesh, stages, context.part("stages", 1.0, 1.0));
   return mesh;
 }
@@ -372,15 +396,19 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     options.discs = json.discs();
     options.periodic = json.periodic();
     options.patches = json.patch_rules();
-    if (!content.envelope->first_height.empty()) options.first_heights = std::make_shared<const volmesh::FirstHeights>(wall->mesh, std::move(content.envelope->first_height), context);
+    if (!content.envelope->first_height.empty())
+      options.first_heights = std::make_shared<const volmesh::FirstHeights>(wall->mesh, std::move(content.envelope->first_height), context);
     wall->recipe = json.recipe();
     wall->smooth_angle = json.smooth_angle();
     result.surface = wall;
     volmesh::EnvelopeStage envelope{.envelope = envelope_of(std::move(*content.envelope), file), .feature_angle = json.get<double>("/stage/feature_angle")};
-    result.envelope = std::make_shared<const EnvelopeValue>(EnvelopeValue{.wall = wall, .options = options, .stage = envelope, .step = json.step(), .n_sources_in_file = json.n_sources()});
+    result.envelope = std::make_shared<const EnvelopeValue>(
+        EnvelopeValue{.wall = wall, .options = options, .stage = envelope, .step = json.step(), .n_sources_in_file = json.n_sources()});
     if (content.tetrahedra && content.mesh)
-      result.tetrahedra = std::make_shared<const TetrahedraValue>(TetrahedraValue{
-          .wall = wall, .n_wall_triangles = json.get<std::int64_t>("/stage/wall_triangles"), .options = options, .stage = filled_of(json, std::move(envelope), content, file)});
+      result.tetrahedra = std::make_shared<const TetrahedraValue>(TetrahedraValue{.wall = wall,
+                                                                                  .n_wall_triangles = json.get<std::int64_t>("/stage/wall_triangles"),
+                                                                                  .options = options,
+                                                                                  .stage = filled_of(json, std::move(envelope), content, file)});
   }
   if (content.mesh && count_cells(*content.mesh).total() > 0 && !(result.tetrahedra && content.mesh->tetrahedra.empty())) {
     MeshValue mesh;
@@ -393,7 +421,11 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
 
 void write_stage(const EnvelopeValue& envelope, const std::filesystem::path& path, const RunContext& context) {
   require_stage_output(path);
-  if (envelope.step == volmesh::EnvelopeStep::classified) throw Error({.code = ErrorCode::bad_argument, .attempted = "writing " + path.string(), .problem = "classes alone are not kept", .hint = "write the value of envelope.initial"});
+  if (envelope.step == volmesh::EnvelopeStep::classified)
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "writing " + path.string(),
+                 .problem = "classes alone are not kept",
+                 .hint = "write the value of envelope.initial"});
   write_envelope(*envelope.wall, envelope.options, envelope.stage, path, context, envelope.step);
 }
 
@@ -404,16 +436,22 @@ void write_stage(const TetrahedraValue& tetrahedra, const std::filesystem::path&
 
 void require_stage_output(const std::filesystem::path& path) {
   if (path.extension() != ".sterna")
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "writing " + path.string(), .problem = "steps of a run are written to .sterna files only, not to \"" + path.extension().string() + "\""});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "writing " + path.string(),
+                 .problem = "steps of a run are written to .sterna files only, not to \"" + path.extension().string() + "\""});
   require_mesh_output(path);
 }
 
 namespace {
 
 std::string describe_classes(const volmesh::Classification& classes) {
-  const auto count = [&](bool volmesh::VertexClass::*flag) { return count_text(std::count_if(classes.vertex.begin(), classes.vertex.end(), [&](const volmesh::VertexClass& v) { return v.*flag; })); };
-  return fmt::format("Classification: {} vertices, {} on ridges, {} corners, {} convex, {} concave, feature angle {:.4g} deg", count_text(static_cast<std::int64_t>(classes.vertex.size())), count(&volmesh::VertexClass::is_ridge),
-                     count(&volmesh::VertexClass::is_corner), count(&volmesh::VertexClass::is_convex), count(&volmesh::VertexClass::is_concave), classes.feature_angle * 180.0 / std::numbers::pi);
+  const auto count = [&](bool volmesh::VertexClass::*flag) {
+    return count_text(std::count_if(classes.vertex.begin(), classes.vertex.end(), [&](const volmesh::VertexClass& v) { return v.*flag; }));
+  };
+  return fmt::format("Classification: {} vertices, {} on ridges, {} corners, {} convex, {} concave, feature angle {:.4g} deg",
+                     count_text(static_cast<std::int64_t>(classes.vertex.size())), count(&volmesh::VertexClass::is_ridge),
+                     count(&volmesh::VertexClass::is_corner), count(&volmesh::VertexClass::is_convex), count(&volmesh::VertexClass::is_concave),
+                     classes.feature_angle * 180.0 / std::numbers::pi);
 }
 
 }  // namespace
@@ -422,15 +460,19 @@ std::string describe(const EnvelopeValue& envelope) {
   if (envelope.classes) return describe_classes(*envelope.classes);
   const auto& heights = envelope.stage.envelope.height;
   const auto n_collapsed = std::count(heights.begin(), heights.end(), 0.0);
-  return fmt::format("Envelope{}: {} vertices, {} collapsed, {}, up to {:.6g} m tall", envelope.step == volmesh::EnvelopeStep::finished ? "" : ", " + std::string(to_string(envelope.step)), count_text(static_cast<std::int64_t>(heights.size())), count_text(n_collapsed),
-                     envelope.options.patches.empty() ? fmt::format("{} layers", volmesh::effective_options(envelope.options, RunContext()).envelope.layers) : "layers by patch",
+  return fmt::format("Envelope{}: {} vertices, {} collapsed, {}, up to {:.6g} m tall",
+                     envelope.step == volmesh::EnvelopeStep::finished ? "" : ", " + std::string(to_string(envelope.step)),
+                     count_text(static_cast<std::int64_t>(heights.size())), count_text(n_collapsed),
+                     envelope.options.patches.empty() ? fmt::format("{} layers", volmesh::effective_options(envelope.options, RunContext()).envelope.layers)
+                                                      : "layers by patch",
                      heights.size() == 0 ? 0.0 : *std::max_element(heights.begin(), heights.end()));
 }
 
 std::string describe(const TetrahedraValue& tetrahedra) {
   const volmesh::TetraResult& tets = tetrahedra.stage.tets;
-  return fmt::format("Tetrahedra: {} tetrahedra, {} points of their own, by {}, around a layer of {} columns", count_text(static_cast<std::int64_t>(tets.tetrahedra.size())),
-                     count_text(static_cast<std::int64_t>(tets.new_points.size())), tets.engine, count_text(static_cast<std::int64_t>(tetrahedra.stage.layers.layers.n_columns())));
+  return fmt::format("Tetrahedra: {} tetrahedra, {} points of their own, by {}, around a layer of {} columns",
+                     count_text(static_cast<std::int64_t>(tets.tetrahedra.size())), count_text(static_cast<std::int64_t>(tets.new_points.size())), tets.engine,
+                     count_text(static_cast<std::int64_t>(tetrahedra.stage.layers.layers.n_columns())));
 }
 
 }  // namespace sterna::scripting

@@ -19,7 +19,7 @@ struct EnvelopeValue {
   volmesh::EnvelopeStage stage;
   volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished;  ///< of make_envelope by hand (envelope_steps.h): what has been done to it
   std::shared_ptr<const volmesh::Classification> classes = {};   ///< of the step "classified", which has nothing else
-  std::size_t n_sources_in_file = 0;  ///< of the run that wrote the file that this was read from; `options` do not have them
+  std::size_t n_sources_in_file = 0;                             ///< of the run that wrote the file that this was read from; `options` do not have them
 };
 
 /// Layer and tetrahedra, not yet one mesh.
@@ -46,9 +46,10 @@ EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::VolumeMesh
 TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse = {});
 MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse = {});
 
-/// make_volume_mesh() that leaves surface, envelope, tetrahedra and at last the mesh, its manifest, certificate and quality in a .sterna file, which is replaced
-/// as each step ends; nothing is written without a name.
-MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const std::filesystem::path& stages, const RunContext& context, const Reuse& reuse = {});
+/// make_volume_mesh() that leaves surface, envelope, tetrahedra and at last the mesh, its manifest, certificate and quality in a .sterna file, which is
+/// replaced as each step ends; nothing is written without a name.
+MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const std::filesystem::path& stages, const RunContext& context,
+                           const Reuse& reuse = {});
 
 /// What a .sterna file holds; null where it does not. An envelope in a file with tetrahedra is the one that their layer has, of its wall with splits.
 struct StageContent {

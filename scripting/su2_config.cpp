@@ -1,5 +1,5 @@
-// Keys, formats and units as SU2's config_template.cfg (version 8) has them. Steps of su2_config: what each patch is (area, normal, neighbours); markers of every kind;
-// flow and reference values; text.
+// Keys, formats and units as SU2's config_template.cfg (version 8) has them. Steps of su2_config: what each patch is (area, normal, neighbours); markers of
+// every kind; flow and reference values; text.
 #include "scripting/su2_config.h"
 
 #include <algorithm>
@@ -25,8 +25,8 @@ constexpr double k_flat = 1e-9;  ///< rad: smaller angles are zero
 
 struct PatchFacts {
   std::size_t n_faces = 0;
-  Vec3 area;           ///< m^2, sum of the faces' normals, out of the fluid
-  double size = 0.0;   ///< m^2
+  Vec3 area;          ///< m^2, sum of the faces' normals, out of the fluid
+  double size = 0.0;  ///< m^2
 };
 
 Column<PatchId, PatchFacts> facts_of(const HybridMesh& mesh) {
@@ -77,8 +77,16 @@ std::string number(double x) { return fmt::format("{:.10g}", std::abs(x) < 1e-30
 
 class Configuration {
  public:
-  Configuration(const HybridMesh& mesh, const Su2Options& options, const FlowState& flow, const Su2Reference& reference, const std::map<std::string, Su2Boundary>& boundaries, const RunContext& context)
-      : mesh_(mesh), options_(options), flow_(flow), reference_(reference), boundaries_(boundaries), context_(context), facts_(facts_of(mesh)), names_(io::su2_marker_names(mesh.patches, RunContext())) {
+  Configuration(const HybridMesh& mesh, const Su2Options& options, const FlowState& flow, const Su2Reference& reference,
+                const std::map<std::string, Su2Boundary>& boundaries, const RunContext& context)
+      : mesh_(mesh),
+        options_(options),
+        flow_(flow),
+        reference_(reference),
+        boundaries_(boundaries),
+        context_(context),
+        facts_(facts_of(mesh)),
+        names_(io::su2_marker_names(mesh.patches, RunContext())) {
     is_viscous_ = options.solver == "automatic" ? mesh.layers.n_columns() > 0 || !mesh.prisms.empty() : options.solver != "EULER";
     solver_ = options.solver != "automatic" ? options.solver : is_viscous_ ? "RANS" : "EULER";
     for (const PatchId p : mesh.patches.ids()) {
@@ -109,17 +117,22 @@ class Configuration {
     return std::ranges::any_of(mesh_.periodic, [&](const PeriodicSides& sides) { return sides.first == p || sides.second == p; });
   }
 
-  /// What the patches of a pair are of themselves does not count: the flow goes out of one and comes in through the other. SU2 takes the centre and angles of a rotation, none here.
+  /// What the patches of a pair are of themselves does not count: the flow goes out of one and comes in through the other. SU2 takes the centre and angles of a
+  /// rotation, none here.
   void add_periodic() {
     for (const PeriodicSides& sides : mesh_.periodic)
-      periodic_.push_back(fmt::format("{}, {}, 0, 0, 0, 0, 0, 0, {}, {}, {}", names_[sides.first.index()], names_[sides.second.index()], number(sides.translation.x), number(sides.translation.y), number(sides.translation.z)));
+      periodic_.push_back(fmt::format("{}, {}, 0, 0, 0, 0, 0, 0, {}, {}, {}", names_[sides.first.index()], names_[sides.second.index()],
+                                      number(sides.translation.x), number(sides.translation.y), number(sides.translation.z)));
   }
 
   void find_half() {
     is_half_ = options_.half == "yes" || (options_.half == "automatic" && n_symmetry_ > 0);
-    if (options_.half == "automatic" && n_symmetry_ > 1) add_problem(fmt::format("the mesh has {} symmetry planes: is it a half model? give half = \"yes\" or \"no\", and the reference area accordingly", n_symmetry_));
+    if (options_.half == "automatic" && n_symmetry_ > 1)
+      add_problem(
+          fmt::format("the mesh has {} symmetry planes: is it a half model? give half = \"yes\" or \"no\", and the reference area accordingly", n_symmetry_));
     if (is_half_ && std::abs(options_.beta) > k_flat) add_problem("a half model has no sideslip (beta)");
-    if (is_tunnel_ && (std::abs(options_.alpha) > k_flat || std::abs(options_.beta) > k_flat)) add_problem("in a tunnel the model is turned, not the flow: leave alpha and beta out");
+    if (is_tunnel_ && (std::abs(options_.alpha) > k_flat || std::abs(options_.beta) > k_flat))
+      add_problem("in a tunnel the model is turned, not the flow: leave alpha and beta out");
   }
 
   const Su2Boundary* boundary_of(PatchId patch) {
@@ -152,7 +165,9 @@ class Configuration {
       }
       if (std::ranges::any_of(patterns, [&](const std::string& pattern) { return matches_glob(mesh_.patches[p].name, pattern); })) monitored_.push_back(name);
     }
-    if (monitored_.empty()) add_problem(patterns.empty() ? "no wall is left whose forces count: name some with monitor" : "no patch has a name like \"" + options_.monitor + "\" (monitor)");
+    if (monitored_.empty())
+      add_problem(patterns.empty() ? "no wall is left whose forces count: name some with monitor"
+                                   : "no patch has a name like \"" + options_.monitor + "\" (monitor)");
   }
 
   double heat(double power) const { return std::pow(1.0 + 0.5 * (volmesh::k_heat_ratio - 1.0) * flow_.mach * flow_.mach, power); }
@@ -161,14 +176,16 @@ class Configuration {
     const Su2Boundary given = boundary_of(p) ? *boundary_of(p) : Su2Boundary{};
     const Vec3 along = -1.0 * normalized(facts_[p].area);
     if (is_tunnel_ && flow_.mach >= 1.0) {
-      supersonic_inlets_.push_back(fmt::format("{}, {}, {}, {}, {}, {}", name, number(flow_.temperature), number(flow_.pressure), number(flow_.speed * along.x), number(flow_.speed * along.y), number(flow_.speed * along.z)));
+      supersonic_inlets_.push_back(fmt::format("{}, {}, {}, {}, {}, {}", name, number(flow_.temperature), number(flow_.pressure), number(flow_.speed * along.x),
+                                               number(flow_.speed * along.y), number(flow_.speed * along.z)));
       return;
     }
     double pressure = given.total_pressure, temperature = given.total_temperature;
     if (is_tunnel_ && is_automatic(pressure)) pressure = flow_.pressure * heat(volmesh::k_heat_ratio / (volmesh::k_heat_ratio - 1.0));
     if (is_tunnel_ && is_automatic(temperature)) temperature = flow_.temperature * heat(1.0);
     if (is_automatic(pressure) || is_automatic(temperature)) {
-      add_problem("what comes out of the inflow \"" + mesh_.patches[p].name + "\" cannot be known: give boundaries = { [\"" + mesh_.patches[p].name + "\"] = { total_pressure = ..., total_temperature = ... } }" + (is_tunnel_ ? ", or a flow with temperature and pressure" : ""));
+      add_problem("what comes out of the inflow \"" + mesh_.patches[p].name + "\" cannot be known: give boundaries = { [\"" + mesh_.patches[p].name +
+                  "\"] = { total_pressure = ..., total_temperature = ... } }" + (is_tunnel_ ? ", or a flow with temperature and pressure" : ""));
       return;
     }
     inlets_.push_back(fmt::format("{}, {}, {}, {}, {}, {}", name, number(temperature), number(pressure), number(along.x), number(along.y), number(along.z)));
@@ -182,7 +199,8 @@ class Configuration {
     }
     const double pressure = is_tunnel_ && is_automatic(given.pressure) ? flow_.pressure : given.pressure;
     if (is_automatic(pressure)) {
-      add_problem("what goes into the outflow \"" + mesh_.patches[p].name + "\" cannot be known: give boundaries = { [\"" + mesh_.patches[p].name + "\"] = { pressure = ... } }" + (is_tunnel_ ? ", or a flow with temperature and pressure" : ""));
+      add_problem("what goes into the outflow \"" + mesh_.patches[p].name + "\" cannot be known: give boundaries = { [\"" + mesh_.patches[p].name +
+                  "\"] = { pressure = ... } }" + (is_tunnel_ ? ", or a flow with temperature and pressure" : ""));
       return;
     }
     outlets_.push_back(name + ", " + number(pressure));
@@ -192,12 +210,14 @@ class Configuration {
   void add_disc(PatchId p, const std::string& name) {
     const std::string& own = mesh_.patches[p].name;
     for (const PatchId other : mesh_.patches.ids())
-      if (mesh_.patches[other].kind == PatchKind::interface && facts_[other].n_faces > 0 && own == mesh_.patches[other].name + ".back") return;  // told with its front
+      if (mesh_.patches[other].kind == PatchKind::interface && facts_[other].n_faces > 0 && own == mesh_.patches[other].name + ".back")
+        return;  // told with its front
     for (const PatchId back : mesh_.patches.ids()) {
       if (facts_[back].n_faces == 0 || mesh_.patches[back].name != own + ".back") continue;
       const Su2Boundary* given = boundary_of(p);
       if (!given || (is_automatic(given->thrust) && is_automatic(given->pressure_jump))) {
-        add_problem("what the actuator disc \"" + own + "\" does cannot be known: give boundaries = { [\"" + own + "\"] = { thrust = ... } } (N), or pressure_jump (Pa)");
+        add_problem("what the actuator disc \"" + own + "\" does cannot be known: give boundaries = { [\"" + own +
+                    "\"] = { thrust = ... } } (N), or pressure_jump (Pa)");
         return;
       }
       const double jump = is_automatic(given->pressure_jump) ? given->thrust / facts_[p].size : given->pressure_jump;
@@ -213,7 +233,8 @@ class Configuration {
   }
 
   void require_reference() {
-    if (is_automatic(reference_.area)) add_problem("the reference area cannot be known: give reference_area (of the whole aircraft), or reference = the aircraft or its wing");
+    if (is_automatic(reference_.area))
+      add_problem("the reference area cannot be known: give reference_area (of the whole aircraft), or reference = the aircraft or its wing");
   }
 
   void require_used_boundaries() {
@@ -225,9 +246,11 @@ class Configuration {
   double length() const { return is_automatic(reference_.length) ? flow_.length : reference_.length; }
 
   void tell() {
-    context_.info(fmt::format("SU2: {}, {} walls, reference area {:.6g} m^2{}{}, length {:.6g} m, moments about ({:.6g}, {:.6g}, {:.6g}) m", solver_, walls_.size() + (is_viscous_ ? 0 : euler_.size()), area(),
-                              is_half_ ? fmt::format(" (half of {:.6g}: half model)", reference_.area) : "", reference_.source.empty() ? "" : " of " + reference_.source, length(), reference_.moment_origin.x,
-                              reference_.moment_origin.y, reference_.moment_origin.z));
+    context_.info(fmt::format("SU2: {}, {} walls, reference area {:.6g} m^2{}{}, length {:.6g} m, moments about ({:.6g}, {:.6g}, {:.6g}) m", solver_,
+                              walls_.size() + (is_viscous_ ? 0 : euler_.size()), area(),
+                              is_half_ ? fmt::format(" (half of {:.6g}: half model)", reference_.area) : "",
+                              reference_.source.empty() ? "" : " of " + reference_.source, length(), reference_.moment_origin.x, reference_.moment_origin.y,
+                              reference_.moment_origin.z));
     if (!unmonitored_.empty()) context_.info("SU2: walls of the tunnel, whose forces do not count: " + list(unmonitored_));
   }
 
@@ -239,12 +262,14 @@ class Configuration {
     std::string text = title("Problem") + "SOLVER= " + solver_ + "\n";
     if (solver_ == "RANS") text += "KIND_TURB_MODEL= " + options_.turbulence + "\n";
     text += "MATH_PROBLEM= DIRECT\nRESTART_SOL= NO\nSYSTEM_MEASUREMENTS= SI\n";
-    text += title("Free stream") + "MACH_NUMBER= " + number(flow_.mach) + "\nAOA= " + number(options_.alpha * k_degrees) + "\nSIDESLIP_ANGLE= " + number(options_.beta * k_degrees) + "\n";
+    text += title("Free stream") + "MACH_NUMBER= " + number(flow_.mach) + "\nAOA= " + number(options_.alpha * k_degrees) +
+            "\nSIDESLIP_ANGLE= " + number(options_.beta * k_degrees) + "\n";
     const bool has_state = !is_automatic(flow_.pressure) && !is_automatic(flow_.temperature);
     if (is_viscous_ && !(is_tunnel_ && has_state)) {
       text += "INIT_OPTION= REYNOLDS\nFREESTREAM_TEMPERATURE= " + number(flow_.temperature) + "\n";
     } else if (has_state) {
-      text += "INIT_OPTION= TD_CONDITIONS\nFREESTREAM_OPTION= TEMPERATURE_FS\nFREESTREAM_PRESSURE= " + number(flow_.pressure) + "\nFREESTREAM_TEMPERATURE= " + number(flow_.temperature) + "\n";
+      text += "INIT_OPTION= TD_CONDITIONS\nFREESTREAM_OPTION= TEMPERATURE_FS\nFREESTREAM_PRESSURE= " + number(flow_.pressure) +
+              "\nFREESTREAM_TEMPERATURE= " + number(flow_.temperature) + "\n";
     }
     if (is_viscous_) text += "REYNOLDS_NUMBER= " + number(flow_.reynolds) + "\nREYNOLDS_LENGTH= " + number(flow_.length) + "\n";
     text += "FLUID_MODEL= STANDARD_AIR\n";
@@ -254,8 +279,9 @@ class Configuration {
 
   std::string reference_values() const {
     const Point& o = reference_.moment_origin;
-    return title("Reference values" + (is_half_ ? " (half model: half the area of the aircraft)" : std::string())) + "REF_AREA= " + number(area()) + "\nREF_LENGTH= " + number(length()) + "\nREF_ORIGIN_MOMENT_X= " + number(o.x) +
-           "\nREF_ORIGIN_MOMENT_Y= " + number(o.y) + "\nREF_ORIGIN_MOMENT_Z= " + number(o.z) + "\nREF_DIMENSIONALIZATION= DIMENSIONAL\n";
+    return title("Reference values" + (is_half_ ? " (half model: half the area of the aircraft)" : std::string())) + "REF_AREA= " + number(area()) +
+           "\nREF_LENGTH= " + number(length()) + "\nREF_ORIGIN_MOMENT_X= " + number(o.x) + "\nREF_ORIGIN_MOMENT_Y= " + number(o.y) +
+           "\nREF_ORIGIN_MOMENT_Z= " + number(o.z) + "\nREF_DIMENSIONALIZATION= DIMENSIONAL\n";
   }
 
   std::string markers() const {
@@ -283,7 +309,8 @@ class Configuration {
   }
 
   std::string numerics() const {
-    std::string text = title("Numerics to start from") + "NUM_METHOD_GRAD= WEIGHTED_LEAST_SQUARES\nCFL_NUMBER= " + number(options_.cfl) + "\nCFL_ADAPT= YES\nCFL_ADAPT_PARAM= ( 0.1, 1.2, " + number(std::min(options_.cfl, 10.0)) + ", 1e3 )\n" +
+    std::string text = title("Numerics to start from") + "NUM_METHOD_GRAD= WEIGHTED_LEAST_SQUARES\nCFL_NUMBER= " + number(options_.cfl) +
+                       "\nCFL_ADAPT= YES\nCFL_ADAPT_PARAM= ( 0.1, 1.2, " + number(std::min(options_.cfl, 10.0)) + ", 1e3 )\n" +
                        "CONV_NUM_METHOD_FLOW= ROE\nMUSCL_FLOW= YES\nSLOPE_LIMITER_FLOW= VENKATAKRISHNAN\nTIME_DISCRE_FLOW= EULER_IMPLICIT\n";
     if (solver_ == "RANS") text += "CONV_NUM_METHOD_TURB= SCALAR_UPWIND\nMUSCL_TURB= NO\nTIME_DISCRE_TURB= EULER_IMPLICIT\n";
     text += "LINEAR_SOLVER= FGMRES\nLINEAR_SOLVER_PREC= ILU\nLINEAR_SOLVER_ERROR= 1e-3\nLINEAR_SOLVER_ITER= 10\nMGLEVEL= 0\n";
@@ -293,7 +320,8 @@ class Configuration {
   std::string files() const {
     const bool is_cgns = options_.mesh.ends_with(".cgns");
     return title("Files") + "MESH_FILENAME= " + options_.mesh + "\nMESH_FORMAT= " + (is_cgns ? "CGNS" : "SU2") +
-           "\nTABULAR_FORMAT= CSV\nCONV_FILENAME= history\nRESTART_FILENAME= restart_flow\nVOLUME_FILENAME= flow\nSURFACE_FILENAME= surface_flow\nOUTPUT_FILES= ( RESTART, PARAVIEW, SURFACE_PARAVIEW )\n" +
+           "\nTABULAR_FORMAT= CSV\nCONV_FILENAME= history\nRESTART_FILENAME= restart_flow\nVOLUME_FILENAME= flow\nSURFACE_FILENAME= "
+           "surface_flow\nOUTPUT_FILES= ( RESTART, PARAVIEW, SURFACE_PARAVIEW )\n" +
            "SCREEN_OUTPUT= ( INNER_ITER, RMS_DENSITY, LIFT, DRAG )\nHISTORY_OUTPUT= ( ITER, RMS_RES, AERO_COEFF )\n";
   }
 
@@ -309,12 +337,14 @@ class Configuration {
   bool is_viscous_ = false, has_farfield_ = false, has_opening_ = false, is_tunnel_ = false, is_half_ = false;
   int n_symmetry_ = 0;
   std::set<std::string> used_;
-  std::vector<std::string> walls_, euler_, symmetry_, farfield_, inlets_, outlets_, supersonic_inlets_, supersonic_outlets_, discs_, periodic_, monitored_, unmonitored_;
+  std::vector<std::string> walls_, euler_, symmetry_, farfield_, inlets_, outlets_, supersonic_inlets_, supersonic_outlets_, discs_, periodic_, monitored_,
+      unmonitored_;
 };
 
 }  // namespace
 
-std::string su2_config(const HybridMesh& mesh, const Su2Options& options, const FlowState& flow, const Su2Reference& reference, const std::map<std::string, Su2Boundary>& boundaries, const RunContext& context) {
+std::string su2_config(const HybridMesh& mesh, const Su2Options& options, const FlowState& flow, const Su2Reference& reference,
+                       const std::map<std::string, Su2Boundary>& boundaries, const RunContext& context) {
   return Configuration(mesh, options, flow, reference, boundaries, context).text();
 }
 

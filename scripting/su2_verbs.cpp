@@ -24,7 +24,8 @@ void take_wing(const std::vector<WingReference>& wings, const std::string& name,
     if (name.empty() ? !chosen || wing.area > chosen->area : wing.name == name) chosen = &wing;
   }
   if (!chosen) {
-    reader.add_problem(wings.empty() ? "reference: no reference data of wings" + (why_none.empty() ? std::string() : ": " + why_none) + "; give reference_area" : "wing: there is no wing \"" + name + "\" (" + names + ")");
+    reader.add_problem(wings.empty() ? "reference: no reference data of wings" + (why_none.empty() ? std::string() : ": " + why_none) + "; give reference_area"
+                                     : "wing: there is no wing \"" + name + "\" (" + names + ")");
     return;
   }
   reference.area = chosen->area;
@@ -95,7 +96,8 @@ ScriptValue write_su2_config(const ScriptCall& call) {
   Su2Reference reference;
   read_reference(call, reader, options, reference);
   const std::map<std::string, Su2Boundary> boundaries = read_boundaries(reader);
-  if (!options.mesh.empty() && !options.mesh.ends_with(".su2") && !options.mesh.ends_with(".cgns")) reader.add_problem("mesh: SU2 reads .su2 and .cgns, not \"" + options.mesh + "\"");
+  if (!options.mesh.empty() && !options.mesh.ends_with(".su2") && !options.mesh.ends_with(".cgns"))
+    reader.add_problem("mesh: SU2 reads .su2 and .cgns, not \"" + options.mesh + "\"");
   if (file) note_output(call, output_path(call, *file));
   reader.finish();
   const std::filesystem::path path = output_path(call, *file);
@@ -111,7 +113,8 @@ ScriptValue write_su2_config(const ScriptCall& call) {
   io::write_whole(path, text);
   std::error_code none;
   const bool is_there = std::filesystem::exists(path.parent_path() / options.mesh, none);
-  call.session.context.info("wrote " + path.string() + " for the mesh " + options.mesh + (is_there ? "" : ", which is not there yet: mesh:write \"" + (path.parent_path() / options.mesh).string() + "\""));
+  call.session.context.info("wrote " + path.string() + " for the mesh " + options.mesh +
+                            (is_there ? "" : ", which is not there yet: mesh:write \"" + (path.parent_path() / options.mesh).string() + "\""));
   return mesh;
 }
 
@@ -120,7 +123,8 @@ std::string su2_config_help() {
   Su2Boundary boundary;
   volmesh::FlowConditions conditions;
   return options_help(sterna::options_of(options)) + "the flow, by name or as the second entry, flow{...}:\n" + options_help(flow_options(conditions)) +
-         "reference = aircraft or wing: reference area, length and moment_origin (its quarter-chord point); moment_origin = {x, y, z}\nboundaries = { [\"prop\"] = { ... } }, by names of inflows, outflows and actuator discs:\n" +
+         "reference = aircraft or wing: reference area, length and moment_origin (its quarter-chord point); moment_origin = {x, y, z}\nboundaries = { "
+         "[\"prop\"] = { ... } }, by names of inflows, outflows and actuator discs:\n" +
          options_help(sterna::options_of(boundary));
 }
 

@@ -108,15 +108,20 @@ std::string summary_text(const MeshValue& mesh) {
                       count_text(layer.n_compressed), count_text(layer.n_vertices));
   const std::int64_t n_full = layer.first_node.n_lines - layer.first_node.n_compressed - layer.first_node.n_collapsed;
   if (n_full == 0) text += "  first node  no line is full: first_height is met nowhere\n";
-  else text += fmt::format("  first node  within 2 % of first_height at {:.2f} % of the full lines, on {:.2f} % of the facets off ridges ({:.2f} % of the area is at ridges)\n",
-                      100.0 * layer.first_node.vertex_share, 100.0 * layer.first_node.facet_share, 100.0 * layer.first_node.ridge_area);
-  text += fmt::format("  interface   last layer between 1/3 and 3 heights of a regular tetrahedron on {:.2f} % of the envelope ({:.2f} % where the layer is full); {:.2f} % thinner, {:.2f} % thicker\n",
-                      100.0 * layer.interface.within, 100.0 * layer.interface.within_of_full, 100.0 * layer.interface.below, 100.0 * layer.interface.above);
+  else
+    text += fmt::format(
+        "  first node  within 2 % of first_height at {:.2f} % of the full lines, on {:.2f} % of the facets off ridges ({:.2f} % of the area is at ridges)\n",
+        100.0 * layer.first_node.vertex_share, 100.0 * layer.first_node.facet_share, 100.0 * layer.first_node.ridge_area);
+  text += fmt::format(
+      "  interface   last layer between 1/3 and 3 heights of a regular tetrahedron on {:.2f} % of the envelope ({:.2f} % where the layer is full); {:.2f} % "
+      "thinner, {:.2f} % thicker\n",
+      100.0 * layer.interface.within, 100.0 * layer.interface.within_of_full, 100.0 * layer.interface.below, 100.0 * layer.interface.above);
   text += fmt::format("  collapsed   {:.2f} % of the area, {}\n", 100.0 * layer.collapsed_area,
                       counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"));
   for (std::size_t i = 0; i < std::min(layer.collapsed.size(), k_listed_places); ++i)
     text += "    at " + format_point(layer.collapsed[i].position) + ": " + layer.collapsed[i].what + "\n";
-  if (layer.collapsed.size() > k_listed_places) text += fmt::format("    and {} more, all in the manifest\n", count_text(static_cast<std::int64_t>(layer.collapsed.size() - k_listed_places)));
+  if (layer.collapsed.size() > k_listed_places)
+    text += fmt::format("    and {} more, all in the manifest\n", count_text(static_cast<std::int64_t>(layer.collapsed.size() - k_listed_places)));
   text += patch_text(layer);
   text += "  certificate " + to_text(mesh.origin->certificate) + "\n";
   const volmesh::ImproveReport& improvement = mesh.origin->improvement;
@@ -124,8 +129,9 @@ std::string summary_text(const MeshValue& mesh) {
                       k_degrees * improvement.max_angle_after, count_text(improvement.n_bad_after), count_text(improvement.n_bad_before));
   const std::int64_t n_unforced = improvement.n_bad_after - improvement.n_bad_free_after - improvement.n_forced;
   if (improvement.n_bad_after > 0)
-    text += fmt::format("\n              of these {} away from the boundary, {} forced by it, {} neither ({:.2g} % of the tetrahedra at the boundary)", count_text(improvement.n_bad_free_after),
-                        count_text(improvement.n_forced), count_text(n_unforced), 100.0 * static_cast<double>(n_unforced) / static_cast<double>(std::max<std::int64_t>(1, improvement.n_at_boundary)));
+    text += fmt::format("\n              of these {} away from the boundary, {} forced by it, {} neither ({:.2g} % of the tetrahedra at the boundary)",
+                        count_text(improvement.n_bad_free_after), count_text(improvement.n_forced), count_text(n_unforced),
+                        100.0 * static_cast<double>(n_unforced) / static_cast<double>(std::max<std::int64_t>(1, improvement.n_at_boundary)));
   return text + "\n  verdict     " + verdict_text(mesh) + (mesh.check && mesh.check->quality_measured ? ", " + quality_text(*mesh.check) : "");
 }
 

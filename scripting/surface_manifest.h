@@ -20,10 +20,10 @@ void write_surface_manifest(const SurfaceValue& surface, const std::filesystem::
 
 /// What the manifest beside a surface file knows of it.
 struct KnownSurface {
-  double smooth_angle = 0.0;  ///< rad: SurfaceMeshReport::max_smooth_angle
+  double smooth_angle = 0.0;               ///< rad: SurfaceMeshReport::max_smooth_angle
   std::map<std::string, PatchKind> kinds;  ///< of its patches by name: surface formats do not hold them
   bool encloses_fluid = false;             ///< its outermost part has normals inwards
-  std::vector<volmesh::PatchRule> layers;           ///< SurfaceValue::layers
+  std::vector<volmesh::PatchRule> layers;  ///< SurfaceValue::layers
 };
 /// Nothing where there is none, or where it is of another state of the file (`hash` differs), which is told in the log.
 /// \throws Error(file_malformed) where it is ours but its contents are not as they must be

@@ -15,7 +15,8 @@ namespace sterna::scripting {
 namespace {
 
 constexpr std::string_view k_move_usage = "wall:move{ 0, 0, 1.5 }";
-constexpr std::string_view k_rotate_usage = "wall:rotate{ about = {1.2, 0, 0}, pitch = 4*deg, yaw = 2*deg }  or  wall:rotate{ axis = {0, 0, 1}, angle = 30*deg }";
+constexpr std::string_view k_rotate_usage =
+    "wall:rotate{ about = {1.2, 0, 0}, pitch = 4*deg, yaw = 2*deg }  or  wall:rotate{ axis = {0, 0, 1}, angle = 30*deg }";
 constexpr std::size_t k_listed = 5;         ///< places that an error names
 constexpr std::size_t k_most_pairs = 1000;  ///< crossings looked at
 
@@ -30,18 +31,26 @@ void require_apart(const TriMesh& mesh, const RunContext& context) {
   for (const TriangleVertices& v : mesh.triangles) triangles.push_back({v[0].value(), v[1].value(), v[2].value()});
   const CrossingPairs found = find_crossings(mesh.points.raw(), triangles, context, k_most_pairs);
   if (found.total == 0) return;
-  ErrorInfo info{.code = ErrorCode::self_intersection, .attempted = "putting surfaces side by side", .problem = std::to_string(found.total) + " pairs of their triangles cross", .hint = "union{ ... } unites surfaces that stick in each other"};
+  ErrorInfo info{.code = ErrorCode::self_intersection,
+                 .attempted = "putting surfaces side by side",
+                 .problem = std::to_string(found.total) + " pairs of their triangles cross",
+                 .hint = "union{ ... } unites surfaces that stick in each other"};
   info.n_places = found.total;
   for (std::size_t i = 0; i < std::min(k_listed, found.pairs.size()); ++i) {
     const TriangleId a(found.pairs[i][0]), b(found.pairs[i][1]);
     const auto p = corners(mesh, a);
-    info.places.push_back({(p[0] + p[1] + p[2]) / 3.0, "\"" + mesh.patches[mesh.triangle_patch[a]].name + "\" and \"" + mesh.patches[mesh.triangle_patch[b]].name + "\""});
+    info.places.push_back(
+        {(p[0] + p[1] + p[2]) / 3.0, "\"" + mesh.patches[mesh.triangle_patch[a]].name + "\" and \"" + mesh.patches[mesh.triangle_patch[b]].name + "\""});
   }
   throw Error(std::move(info));
 }
 
-ScriptValue move_surface(const ScriptCall& call) { return std::make_shared<const SurfaceValue>(moved_surface(*self<SurfaceHandle>(call), read_shift(call, k_move_usage))); }
-ScriptValue rotate_surface(const ScriptCall& call) { return std::make_shared<const SurfaceValue>(moved_surface(*self<SurfaceHandle>(call), read_turn(call, k_rotate_usage))); }
+ScriptValue move_surface(const ScriptCall& call) {
+  return std::make_shared<const SurfaceValue>(moved_surface(*self<SurfaceHandle>(call), read_shift(call, k_move_usage)));
+}
+ScriptValue rotate_surface(const ScriptCall& call) {
+  return std::make_shared<const SurfaceValue>(moved_surface(*self<SurfaceHandle>(call), read_turn(call, k_rotate_usage)));
+}
 
 constexpr std::array<ScriptVerb, 2> k_motions = {{
     {"surface:move", k_move_usage, "The surface moved, metres.", move_surface, nullptr, true, "surface"},

@@ -14,7 +14,8 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::string_view k_surface_mesh_usage = "surface_mesh{ model, max_edge = 0.4, curvature_angle = 12*deg, growth = 1.2, patches = { [\"Body*\"] = { max_edge = 0.15 } } }";
+constexpr std::string_view k_surface_mesh_usage =
+    "surface_mesh{ model, max_edge = 0.4, curvature_angle = 12*deg, growth = 1.2, patches = { [\"Body*\"] = { max_edge = 0.15 } } }";
 
 /// What patches ask for: of their triangles, and of the layers that volume_mesh puts on them.
 struct SurfaceRules {
@@ -41,7 +42,8 @@ std::function<double(const Point&)> read_size_function(TableReader& reader) {
   if (value == nullptr) return {};
   const auto* function = std::get_if<FunctionHandle>(value);
   if (function == nullptr) {
-    reader.add_problem("size: expected a function of x, y, z that returns the length of edges there in metres, not " + std::string(type_text(*value)) + "; max_edge is a number");
+    reader.add_problem("size: expected a function of x, y, z that returns the length of edges there in metres, not " + std::string(type_text(*value)) +
+                       "; max_edge is a number");
     return {};
   }
   return [function = *function](const Point& p) {
@@ -61,7 +63,8 @@ ScriptValue make_surface_mesh(const ScriptCall& call) {
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (ModelHandle model = model_of(items[i], call)) models.push_back(std::move(model));
     else
-      reader.add_problem("entry " + std::to_string(i + 1) + ": expected a model (from read_cad, aircraft ...) or a component, not " + std::string(type_text(items[i])) +
+      reader.add_problem("entry " + std::to_string(i + 1) + ": expected a model (from read_cad, aircraft ...) or a component, not " +
+                         std::string(type_text(items[i])) +
                          (std::holds_alternative<SurfaceHandle>(items[i]) ? ", which is made of triangles already: volume_mesh takes it" : ""));
   }
   if (items.empty()) reader.add_problem("needs a model: " + std::string(k_surface_mesh_usage));
@@ -81,12 +84,15 @@ std::string surface_mesh_help() {
   surfmesh::SurfaceMeshOptions options;
   surfmesh::PatchSurfaceOptions rule;
   volmesh::PatchRule layers;
-  return options_help(sterna::options_of(options)) + "patches = { [\"wing*\"] = { ... } }, of faces with such names; of two patterns that match the one with more letters counts:\n" + options_help(surface_and_layer_options(rule, layers)) +
+  return options_help(sterna::options_of(options)) +
+         "patches = { [\"wing*\"] = { ... } }, of faces with such names; of two patterns that match the one with more letters counts:\n" +
+         options_help(surface_and_layer_options(rule, layers)) +
          "sources = { line{ {0,0,0}, {8,0,0}, size = 0.02 }, ... }: shorter edges there. size = function(x, y, z) return 0.1 end: edges at most that long\n";
 }
 
 constexpr std::array<ScriptVerb, 1> k_verbs = {{
-    {"surface_mesh", k_surface_mesh_usage, "Triangles on the faces of models, closed where the models are: the wall that volume_mesh takes.", make_surface_mesh, surface_mesh_help, true, "surface"},
+    {"surface_mesh", k_surface_mesh_usage, "Triangles on the faces of models, closed where the models are: the wall that volume_mesh takes.", make_surface_mesh,
+     surface_mesh_help, true, "surface"},
 }};
 
 }  // namespace

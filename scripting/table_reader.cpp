@@ -31,7 +31,8 @@ std::string short_name(const Option& option) {
 
 TableReader::TableReader(const ScriptTable& table, std::string attempted) : table_(table), attempted_(std::move(attempted)) {}
 
-TableReader::TableReader(const ScriptTable& table, const Attempt& attempted) : table_(table), attempted_(attempted), check_(attempted.check), ends_with_checks_(attempted.ends_with_checks) {}
+TableReader::TableReader(const ScriptTable& table, const Attempt& attempted)
+    : table_(table), attempted_(attempted), check_(attempted.check), ends_with_checks_(attempted.ends_with_checks) {}
 
 const FunctionHandle* TableReader::option_function(std::string_view stage, std::string_view name) {
   const auto function_in = [&](const ScriptTable& table) {
@@ -72,7 +73,8 @@ void TableReader::read_stage(const OptionTable& options, const std::string& stag
   for (const Option& option : options)
     if (option.stage == stage) known.push_back(short_name(option));
   for (const auto& [key, value] : table.fields) {
-    const auto it = std::find_if(options.begin(), options.end(), [&, name = std::string_view(key)](const Option& o) { return o.stage == stage && (o.name == name || short_name(o) == name); });
+    const auto it = std::find_if(options.begin(), options.end(),
+                                 [&, name = std::string_view(key)](const Option& o) { return o.stage == stage && (o.name == name || short_name(o) == name); });
     if (it == options.end()) add_unknown(stage + "." + key, known);
     else set(*it, stage + "." + key, value);
   }
@@ -88,11 +90,14 @@ void TableReader::set(const Option& option, const std::string& key, const Script
   try {
     if (const auto* flag = std::get_if<bool>(&value)) set_option(option, *flag);
     else if (const auto* whole = std::get_if<std::int64_t>(&value)) set_option(option, *whole);
-    else if (const auto* text = std::get_if<std::string>(&value); text && option.kind == OptionKind::number && *text == "automatic") set_option(option, k_automatic);
+    else if (const auto* text = std::get_if<std::string>(&value); text && option.kind == OptionKind::number && *text == "automatic")
+      set_option(option, k_automatic);
     else if (text) set_option(option, *text);
     else if (const auto* number = std::get_if<double>(&value); number && is_automatic(*number)) add_problem(key + ": is not a number (0/0 or the like)");
     else if (number) set_option(option, *number);
-    else if (const auto* quantity = std::get_if<QuantityHandle>(&value); quantity && (*quantity)->is_length() && option.kind == OptionKind::number && option.unit == Unit::metre) set_option(option, (*quantity)->metres);
+    else if (const auto* quantity = std::get_if<QuantityHandle>(&value);
+             quantity && (*quantity)->is_length() && option.kind == OptionKind::number && option.unit == Unit::metre)
+      set_option(option, (*quantity)->metres);
     else add_problem(key + ": " + std::string(type_text(value)) + " is not allowed here (" + std::string(option.help) + ")");
     if (check_) check_->options.push_back({attempted_, std::string(option.stage) + "." + std::string(option.name), option.get()});
   } catch (const Error& error) {

@@ -24,7 +24,8 @@ class TableReader {
   /// name may be left off: "farfield = { radius = 50 }" for farfield_radius).
   /// Returns how many were named.
   std::size_t read_options(const OptionTable& options);
-  /// The function that the table has for this option, alone or in its stage's table; from now on the option counts as given. Null: there is none. Call before read_options.
+  /// The function that the table has for this option, alone or in its stage's table; from now on the option counts as given. Null: there is none. Call before
+  /// read_options.
   const FunctionHandle* option_function(std::string_view stage, std::string_view name);
   /// Whether the table names the option, alone or in its stage's table. \pre read_options
   bool is_given(std::string_view stage, std::string_view name) const { return given_.contains(std::string(stage) + "." + std::string(name)); }
@@ -50,10 +51,10 @@ class TableReader {
   std::string attempted_;
   ScriptCheck* check_ = nullptr;
   bool ends_with_checks_ = false;
-  std::vector<std::string> known_;     ///< keys that the verb takes, for suggestions
-  std::set<std::string> asked_;        ///< keys that were read
-  std::set<std::string> functions_;    ///< options that have a function instead of a value
-  std::set<std::string> given_;        ///< options that have a value already, to find contradictions
+  std::vector<std::string> known_;   ///< keys that the verb takes, for suggestions
+  std::set<std::string> asked_;      ///< keys that were read
+  std::set<std::string> functions_;  ///< options that have a function instead of a value
+  std::set<std::string> given_;      ///< options that have a value already, to find contradictions
   bool are_items_asked_ = false;
   std::vector<std::string> problems_;
   std::size_t n_unknown_ = 0;

@@ -1,4 +1,5 @@
-// test_section{}: a rectangular or round duct, or a solid of the user's, whose patches have kinds, sizes and layers of their own. assembly{}: models that are one where they touch.
+// test_section{}: a rectangular or round duct, or a solid of the user's, whose patches have kinds, sizes and layers of their own. assembly{}: models that are
+// one where they touch.
 #include "scripting/tunnel_verbs.h"
 
 #include <algorithm>
@@ -44,7 +45,12 @@ struct Schema<scripting::TunnelSizeOptions> {
   using O = scripting::TunnelSizeOptions;
   static constexpr std::string_view stage = "tunnel_sizes";
   static constexpr std::array fields = {
-      Field<O>{.name = "max_edge", .member = &O::max_edge, .unit = Unit::metre, .min = 1e-9, .help = "longest edge on all its patches, whatever surface_mesh says for the model", .automatic = "a twelfth of its shortest side"},
+      Field<O>{.name = "max_edge",
+               .member = &O::max_edge,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "longest edge on all its patches, whatever surface_mesh says for the model",
+               .automatic = "a twelfth of its shortest side"},
   };
 };
 
@@ -57,7 +63,8 @@ namespace {
 constexpr double k_edges_across = 12.0;
 
 constexpr std::string_view k_test_section_usage =
-    "test_section{ length = 6, width = 2.1, height = 1.5, position = {0, 0, 0}, inflow = \"inlet\", outflow = \"outlet\", walls = { layers = 20, first_height = 20e-6 }, floor = \"slip\" }  or  test_section{ length = 6, diameter = 2 }";
+    "test_section{ length = 6, width = 2.1, height = 1.5, position = {0, 0, 0}, inflow = \"inlet\", outflow = \"outlet\", walls = { layers = 20, first_height "
+    "= 20e-6 }, floor = \"slip\" }  or  test_section{ length = 6, diameter = 2 }";
 constexpr std::string_view k_assembly_usage = "assembly{ model, sting_model }  or, of surfaces,  assembly{ wall, read_surface(\"sting.stl\"):move{ 3, 0, 0 } }";
 
 /// Names of the walls as the script calls them.
@@ -71,7 +78,8 @@ std::set<std::string> names_of_role(const Model& model, FaceRole role) {
 }
 
 bool is_any(const volmesh::PatchRule& rule) {
-  return rule.layers >= 0 || !is_automatic(rule.first_height) || !is_automatic(rule.max_growth) || !is_automatic(rule.max_thickness) || !is_automatic(rule.blend);
+  return rule.layers >= 0 || !is_automatic(rule.first_height) || !is_automatic(rule.max_growth) || !is_automatic(rule.max_thickness) ||
+         !is_automatic(rule.blend);
 }
 
 /// The size of all patches, as a rule that those of single patches overrule.
@@ -157,7 +165,8 @@ void take_solid(const ModelHandle& solid, TableReader& reader, ModelValue& tunne
       }
     if (!is_used) reader.add_problem(std::string(key) + ": expected the name of faces of the model, or a pattern of them");
   }
-  if (tunnel.model.solids.size() != 1 || !tunnel.model.solids.raw().front().is_closed) reader.add_problem("a tunnel is one closed solid; this is " + describe(tunnel));
+  if (tunnel.model.solids.size() != 1 || !tunnel.model.solids.raw().front().is_closed)
+    reader.add_problem("a tunnel is one closed solid; this is " + describe(tunnel));
   else if (solid_measures(tunnel.model, SolidId(0)).volume > 0.0) {  // the fluid is inside
     turn_inside_out(tunnel.model);
     tunnel.parts.clear();
@@ -182,8 +191,10 @@ ScriptValue make_test_section_verb(const ScriptCall& call) {
     apply_overrides(call, schema);
     reader.require(schema);
     const bool is_round = !is_automatic(options.diameter);
-    if (is_round && (!is_automatic(options.width) || !is_automatic(options.height))) reader.add_problem("diameter: a round section has neither width nor height");
-    if (!is_round && (is_automatic(options.width) || is_automatic(options.height))) reader.add_problem("needs width and height, or the diameter of a round section");
+    if (is_round && (!is_automatic(options.width) || !is_automatic(options.height)))
+      reader.add_problem("diameter: a round section has neither width nor height");
+    if (!is_round && (is_automatic(options.width) || is_automatic(options.height)))
+      reader.add_problem("needs width and height, or the diameter of a round section");
     const std::optional<Vec3> position = read_point(reader, "position");
     // What is wrong so far is told together with what follows: a section that cannot be made has no faces.
     if (!is_automatic(options.length) && is_round == (is_automatic(options.width) && is_automatic(options.height))) {
@@ -214,9 +225,11 @@ std::string test_section_help() {
   OptionTable layer_options = sterna::options_of(layer);
   std::erase_if(layer_options, [](const Option& option) { return option.name == "names" || option.name == "kind"; });
   return options_help(sterna::options_of(options)) + options_help(sterna::options_of(size)) +
-         "position = {x, y, z}: where the model stands, in place of the origin. Walls: walls, floor, ceiling, left, right = \"slip\", \"symmetry\", \"wall\" or a table; patches = { [\"outlet*\"] = { ... } } of any patch:\n"
+         "position = {x, y, z}: where the model stands, in place of the origin. Walls: walls, floor, ceiling, left, right = \"slip\", \"symmetry\", \"wall\" "
+         "or a table; patches = { [\"outlet*\"] = { ... } } of any patch:\n"
          "  kind: wall, slip, symmetry, inflow, outflow, farfield, interface\n" +
-         options_help(patch_rule_options(sizes)) + options_help(layer_options) + "test_section{ model, inflow = \"in*\", outflow = \"out*\", walls = ... }: a closed solid is the tunnel\n";
+         options_help(patch_rule_options(sizes)) + options_help(layer_options) +
+         "test_section{ model, inflow = \"in*\", outflow = \"out*\", walls = ... }: a closed solid is the tunnel\n";
 }
 
 /// All entries as models; notes what is none.
@@ -261,8 +274,11 @@ std::string assembly_help() {
 }
 
 constexpr std::array<ScriptVerb, 2> k_verbs = {{
-    {"test_section", k_test_section_usage, "Wind tunnel around the x axis, rectangular or round, or a solid of yours: surface_mesh{ model, tunnel } makes the fluid between the two.", make_test_section_verb, test_section_help, true, "model"},
-    {"assembly", k_assembly_usage, "Models and components as one model: united where they touch. Surfaces: side by side.", make_assembly, assembly_help, true, "model or surface", true},
+    {"test_section", k_test_section_usage,
+     "Wind tunnel around the x axis, rectangular or round, or a solid of yours: surface_mesh{ model, tunnel } makes the fluid between the two.",
+     make_test_section_verb, test_section_help, true, "model"},
+    {"assembly", k_assembly_usage, "Models and components as one model: united where they touch. Surfaces: side by side.", make_assembly, assembly_help, true,
+     "model or surface", true},
 }};
 
 }  // namespace

@@ -33,8 +33,8 @@ const Handle& self(const ScriptCall& call) {
 
 /// Relative names are looked for in the current folder first, then beside the script.
 InputPath find_input(const ScriptCall& call, const std::string& name);
-/// Where a file of this name is written: relative names go to the session's output folder, below which missing folders are made. What a case has written it can read back by
-/// the same name.
+/// Where a file of this name is written: relative names go to the session's output folder, below which missing folders are made. What a case has written it can
+/// read back by the same name.
 std::filesystem::path output_path(const ScriptCall& call, const std::string& name);
 /// The unnamed entries of a table as names of input files; notes problems.
 std::vector<InputPath> file_names(const ScriptCall& call, TableReader& reader);

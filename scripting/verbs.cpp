@@ -146,7 +146,8 @@ OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::VolumeMeshOpt
 }
 
 void set_option_as_typed(const Option& option, std::string_view text) {
-  if (is_flow_text(text) && option.kind == OptionKind::number && option.unit == Unit::metre) return set_option(option, quantity_of_text(std::string(text)).metres);
+  if (is_flow_text(text) && option.kind == OptionKind::number && option.unit == Unit::metre)
+    return set_option(option, quantity_of_text(std::string(text)).metres);
   const bool is_bare_unit = option.kind == OptionKind::number && option.unit == Unit::metre && !text.empty() &&
                             std::isalpha(static_cast<unsigned char>(text.front())) && text != "automatic";
   try {

@@ -42,14 +42,15 @@ struct SurfaceValue {
   surfmesh::StitchReport report;
   surfmesh::StitchOptions options;
   std::vector<InputFile> inputs;
-  std::optional<UnionOptions> union_options = {};  ///< of a surface that union made
-  std::optional<SurfaceRecipe> recipe = {};        ///< of a surface that surface_mesh made
+  std::optional<UnionOptions> union_options = {};               ///< of a surface that union made
+  std::optional<SurfaceRecipe> recipe = {};                     ///< of a surface that surface_mesh made
   std::optional<surfmesh::SurfaceMeshReport> mesh_report = {};  ///< the same, unless it was read from a file
-  std::optional<double> smooth_angle = {};                      ///< rad, the same or as the manifest beside the file says: the largest turn where the surface is smooth
-  std::vector<volmesh::PatchRule> layers = {};                           ///< what the model's makers said of the layer on patches, in order: the last of a name counts, the user's own come after
-  std::shared_ptr<const surfmesh::ModelWall> model_wall = {};   ///< of a surface that surface_mesh made in this run: where new vertices belong
-  std::vector<volmesh::PlacedPart> parts = {};  ///< that were meshed or read elsewhere and moved to where they are; in ascending order of their triangles
-  std::optional<ContentKey> model_wall_key = {};                ///< of what model_wall knows, for caches
+  std::optional<double> smooth_angle = {};  ///< rad, the same or as the manifest beside the file says: the largest turn where the surface is smooth
+  std::vector<volmesh::PatchRule> layers =
+      {};  ///< what the model's makers said of the layer on patches, in order: the last of a name counts, the user's own come after
+  std::shared_ptr<const surfmesh::ModelWall> model_wall = {};  ///< of a surface that surface_mesh made in this run: where new vertices belong
+  std::vector<volmesh::PlacedPart> parts = {};    ///< that were meshed or read elsewhere and moved to where they are; in ascending order of their triangles
+  std::optional<ContentKey> model_wall_key = {};  ///< of what model_wall knows, for caches
 };
 
 /// How a volume mesh was made here; absent for one that was read from a file.
@@ -75,7 +76,8 @@ struct MeshValue {
   HybridMesh mesh;
   std::vector<InputFile> inputs;
   std::optional<MeshOrigin> origin;
-  mutable std::optional<CheckReport> check;  ///< of the default options, always there for a mesh made here; then of the last whole check that was asked for, so that manifests and reports say what that found
+  mutable std::optional<CheckReport> check;  ///< of the default options, always there for a mesh made here; then of the last whole check that was asked for, so
+                                             ///< that manifests and reports say what that found
 };
 
 using SurfaceHandle = std::shared_ptr<const SurfaceValue>;
@@ -101,7 +103,8 @@ MeshValue read_mesh(const InputPath& file, const RunContext& context);
 /// \throws Error unsupported_format or write_failed when a mesh of this name cannot be written: unknown extension, no such folder. Before the work.
 void require_mesh_output(const std::filesystem::path& path);
 
-/// Writes the mesh and, once that is done, its manifest "<path>.json"; a .sterna file holds manifest, certificate and quality, too. Each file appears whole or not at all. \throws Error of io.
+/// Writes the mesh and, once that is done, its manifest "<path>.json"; a .sterna file holds manifest, certificate and quality, too. Each file appears whole or
+/// not at all. \throws Error of io.
 void write_mesh(const MeshValue& mesh, const std::filesystem::path& path, const RunContext& context);
 
 /// \throws Error unsupported_format or write_failed when a surface cannot be written to a file of this name. Before the work.

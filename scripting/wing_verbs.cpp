@@ -57,8 +57,14 @@ struct Schema<scripting::WingOptions> {
       Field<O>{.name = "symmetric", .member = &O::symmetric, .help = "both halves: one component where the root stands at y = 0, else a mirror image"},
       Field<O>{.name = "spanwise", .member = &O::spanwise, .help = "between sections: linear, or cubic between breaks", .choices = "linear cubic"},
       Field<O>{.name = "sweep_at", .member = &O::sweep_at, .min = 0.0, .max = 1.0, .help = "part of the chord at which sweep is measured; 0 = leading edge"},
-      Field<O>{.name = "incidence", .member = &O::incidence, .unit = Unit::radian, .min = -1.6, .max = 1.6, .help = "nose up, of the whole wing about its position"},
-      Field<O>{.name = "trailing_edge", .member = &O::trailing_edge, .unit = Unit::metre, .min = 0.0, .help = "its thickness; 0 = sharp", .automatic = "as the airfoils have it"},
+      Field<O>{
+          .name = "incidence", .member = &O::incidence, .unit = Unit::radian, .min = -1.6, .max = 1.6, .help = "nose up, of the whole wing about its position"},
+      Field<O>{.name = "trailing_edge",
+               .member = &O::trailing_edge,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "its thickness; 0 = sharp",
+               .automatic = "as the airfoils have it"},
       Field<O>{.name = "tip", .member = &O::tip, .help = "end of the last section", .choices = "round flat"},
       Field<O>{.name = "tip_height", .member = &O::tip_height, .min = 0.01, .max = 5.0, .help = "of a round tip, of the section's half thickness"},
       Field<O>{.name = "root", .member = &O::root, .help = "end of the first section, where that is one", .choices = "flat round"},
@@ -72,12 +78,32 @@ struct Schema<scripting::WingSectionOptions> {
       Field<O>{.name = "x", .member = &O::x, .unit = Unit::metre, .help = "of the leading edge, from the wing's position", .automatic = "from sweep"},
       Field<O>{.name = "y", .member = &O::y, .unit = Unit::metre, .help = "of the leading edge", .automatic = "that of the section before, or from span"},
       Field<O>{.name = "z", .member = &O::z, .unit = Unit::metre, .help = "of the leading edge", .automatic = "from dihedral"},
-      Field<O>{.name = "span", .member = &O::span, .unit = Unit::metre, .min = 1e-9, .help = "distance from the section before along the panel, in place of y and z", .automatic = "from y and z"},
-      Field<O>{.name = "chord", .member = &O::chord, .unit = Unit::metre, .min = 1e-9, .help = "of the airfoil", .automatic = "that of the section before; the first one needs it"},
-      Field<O>{.name = "sweep", .member = &O::sweep, .unit = Unit::radian, .min = -1.5, .max = 1.5, .help = "of the panel from the section before, aft; see sweep_at"},
-      Field<O>{.name = "dihedral", .member = &O::dihedral, .unit = Unit::radian, .min = -1.5708, .max = 1.5708, .help = "of the panel from the section before, up"},
+      Field<O>{.name = "span",
+               .member = &O::span,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "distance from the section before along the panel, in place of y and z",
+               .automatic = "from y and z"},
+      Field<O>{.name = "chord",
+               .member = &O::chord,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "of the airfoil",
+               .automatic = "that of the section before; the first one needs it"},
+      Field<O>{.name = "sweep",
+               .member = &O::sweep,
+               .unit = Unit::radian,
+               .min = -1.5,
+               .max = 1.5,
+               .help = "of the panel from the section before, aft; see sweep_at"},
+      Field<O>{
+          .name = "dihedral", .member = &O::dihedral, .unit = Unit::radian, .min = -1.5708, .max = 1.5708, .help = "of the panel from the section before, up"},
       Field<O>{.name = "twist", .member = &O::twist, .unit = Unit::radian, .min = -1.6, .max = 1.6, .help = "nose up, about the leading edge"},
-      Field<O>{.name = "roll", .member = &O::roll, .unit = Unit::radian, .help = "of the section about x: 90 deg for an upright fin", .automatic = "half way between the panels beside it; 0 at the root of a symmetric wing"},
+      Field<O>{.name = "roll",
+               .member = &O::roll,
+               .unit = Unit::radian,
+               .help = "of the section about x: 90 deg for an upright fin",
+               .automatic = "half way between the panels beside it; 0 at the root of a symmetric wing"},
       Field<O>{.name = "is_break", .member = &O::is_break, .help = "a kink of a wing that is cubic along its span"},
       Field<O>{.name = "is_reversed", .member = &O::is_reversed, .help = "airfoil upside down"},
   };
@@ -181,7 +207,8 @@ void SectionList::add(const ScriptValue& value, const std::string& where) {
   TableReader reader(**table, where);
   reader.read_options(schema);
   const auto position = read_point(reader, "position");
-  if (position && !(is_automatic(o.x) && is_automatic(o.y) && is_automatic(o.z) && is_automatic(o.span))) reader.add_problem("position: stands in place of x, y, z and span");
+  if (position && !(is_automatic(o.x) && is_automatic(o.y) && is_automatic(o.z) && is_automatic(o.span)))
+    reader.add_problem("position: stands in place of x, y, z and span");
   GivenSection s{.name = where, .chord = o.chord, .twist = o.twist, .roll = o.roll, .is_break = o.is_break, .is_reversed = o.is_reversed};
   if (is_automatic(s.chord)) {
     if (sections.empty()) reader.add_problem("needs a chord");
@@ -236,7 +263,13 @@ void SectionList::add_winglet(const ScriptValue& value) {
     done += length;
     chord = next_chord;
     const double part = done / o.height;
-    GivenSection s{.name = name, .leading = at, .chord = chord, .twist = tip.twist + part * o.toe, .roll = roll, .is_break = is_break, .airfoil = airfoil && part == 1.0 ? normalized(*airfoil) : tip.airfoil};
+    GivenSection s{.name = name,
+                   .leading = at,
+                   .chord = chord,
+                   .twist = tip.twist + part * o.toe,
+                   .roll = roll,
+                   .is_break = is_break,
+                   .airfoil = airfoil && part == 1.0 ? normalized(*airfoil) : tip.airfoil};
     sections.push_back(std::move(s));
   };
   sections.back().is_break = true;
@@ -292,10 +325,15 @@ ScriptValue make_wing_verb(const ScriptCall& call) {
   if (const ScriptValue* winglet = reader.field("winglet")) list.add_winglet(*winglet);
   reader.finish();
   std::vector<GivenSection>& given = list.sections;
-  const bool is_root_in_plane = position.y + given.front().leading.y == 0.0 && std::any_of(given.begin(), given.end(), [&](const GivenSection& s) { return s.leading.y != given.front().leading.y; });
+  const bool is_root_in_plane = position.y + given.front().leading.y == 0.0 &&
+                                std::any_of(given.begin(), given.end(), [&](const GivenSection& s) { return s.leading.y != given.front().leading.y; });
   const bool is_one = o.symmetric && is_root_in_plane;
   complete_rolls(given, is_one);
-  Wing wing{.name = o.name, .placement = {position, {0.0, o.incidence, 0.0}}, .is_symmetric = is_one, .has_mirror_image = o.symmetric && !is_one, .is_cubic = o.spanwise == "cubic"};
+  Wing wing{.name = o.name,
+            .placement = {position, {0.0, o.incidence, 0.0}},
+            .is_symmetric = is_one,
+            .has_mirror_image = o.symmetric && !is_one,
+            .is_cubic = o.spanwise == "cubic"};
   for (std::size_t i = given.size(); i-- > 0;) wing.sections.push_back(section_of(given[i]));
   if (!is_automatic(o.trailing_edge)) wing.trailing_edge = o.trailing_edge;
   wing.right_tip = {CapShape::strip, o.tip == "round" ? o.tip_height : 0.0};
@@ -309,9 +347,12 @@ std::string wing_help() {
   WingletOptions winglet;
   constexpr const char* k_position = "  position = {x, y, z}\n      ";
   constexpr const char* k_airfoil = "  airfoil = \"naca23012\", a file's name, or airfoil{...}\n      ";
-  return options_help(sterna::options_of(wing)) + k_position + "of the whole wing; {0, 0, 0}\n  sections = { {...}, {...} }\n      required: two at least, from the root to the tip\n  winglet = {...}\n      goes on from the last section; none\n" +
-         "each section:\n" + options_help(sterna::options_of(section)) + k_position + "of the leading edge, in place of x, y, z and span\n" + k_airfoil + "that of the section before; the first one needs it\n" + "winglet:\n" +
-         options_help(sterna::options_of(winglet)) + k_airfoil + "of its tip; that of the wing's tip\n";
+  return options_help(sterna::options_of(wing)) + k_position +
+         "of the whole wing; {0, 0, 0}\n  sections = { {...}, {...} }\n      required: two at least, from the root to the tip\n  winglet = {...}\n      goes "
+         "on from the last section; none\n" +
+         "each section:\n" + options_help(sterna::options_of(section)) + k_position + "of the leading edge, in place of x, y, z and span\n" + k_airfoil +
+         "that of the section before; the first one needs it\n" + "winglet:\n" + options_help(sterna::options_of(winglet)) + k_airfoil +
+         "of its tip; that of the wing's tip\n";
 }
 
 }  // namespace sterna::scripting

@@ -19,11 +19,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_shortest_edge = 1e-4;          ///< of the radius: more rings than that are a mistake
+constexpr double k_shortest_edge = 1e-4;  ///< of the radius: more rings than that are a mistake
 constexpr std::size_t k_most_rings = 2000;
 constexpr int k_least_on_ring = 6;
-constexpr int k_probes = 48;                      ///< places on a ring where walls are looked for
-const double k_row_height = 0.5 * std::sqrt(3.0); ///< of regular triangles, over their edge
+constexpr int k_probes = 48;                       ///< places on a ring where walls are looked for
+const double k_row_height = 0.5 * std::sqrt(3.0);  ///< of regular triangles, over their edge
 constexpr std::size_t k_max_places = 10;
 
 ErrorInfo problem_with(const ActuatorDisc& disc, ErrorCode code, std::string problem, std::string hint = {}) {
@@ -38,8 +38,10 @@ void require_sane(const ActuatorDisc& disc) {
   if (!is_finite(disc.center)) fail("its center is not finite");
   if (!is_finite(disc.axis) || norm(disc.axis) == 0.0) fail("its axis has no direction");
   if (!(disc.radius > 0.0) || !std::isfinite(disc.radius)) fail("its radius is " + in_metres(disc.radius) + ", and must be positive");
-  if (!(disc.inner_radius >= 0.0) || disc.inner_radius >= disc.radius) fail("its inner radius is " + in_metres(disc.inner_radius) + ", and must be between 0 and the radius, " + in_metres(disc.radius));
-  if (!is_automatic(disc.edge) && !(disc.edge > k_shortest_edge * disc.radius)) fail("its edge is " + in_metres(disc.edge) + ", and must be more than " + in_metres(k_shortest_edge * disc.radius));
+  if (!(disc.inner_radius >= 0.0) || disc.inner_radius >= disc.radius)
+    fail("its inner radius is " + in_metres(disc.inner_radius) + ", and must be between 0 and the radius, " + in_metres(disc.radius));
+  if (!is_automatic(disc.edge) && !(disc.edge > k_shortest_edge * disc.radius))
+    fail("its edge is " + in_metres(disc.edge) + ", and must be more than " + in_metres(k_shortest_edge * disc.radius));
 }
 
 namespace {
@@ -81,7 +83,9 @@ double longest_edge(const ActuatorDisc& disc) {
   return disc.inner_radius > 0.0 ? std::min(longest, disc.radius - disc.inner_radius) : longest;  // else a narrow ring's polygons would meet
 }
 
-std::uint32_t edges_on_ring(double radius, double edge) { return static_cast<std::uint32_t>(std::max<double>(k_least_on_ring, std::round(2.0 * std::numbers::pi * radius / edge))); }
+std::uint32_t edges_on_ring(double radius, double edge) {
+  return static_cast<std::uint32_t>(std::max<double>(k_least_on_ring, std::round(2.0 * std::numbers::pi * radius / edge)));
+}
 
 /// Edge lengths around the disc's middle as functions of the radius.
 class RingSizes {
@@ -110,7 +114,8 @@ std::vector<double> ring_radii(const ActuatorDisc& disc, RingSizes& size) {
   double reached = disc.radius;
   for (; reached > disc.inner_radius; reached -= steps.back()) {
     if (steps.size() == k_most_rings)
-      throw Error(problem_with(disc, ErrorCode::bad_argument, "it needs more than " + std::to_string(k_most_rings) + " rings of triangles", "raise its edge, or move it away from finely meshed walls"));
+      throw Error(problem_with(disc, ErrorCode::bad_argument, "it needs more than " + std::to_string(k_most_rings) + " rings of triangles",
+                               "raise its edge, or move it away from finely meshed walls"));
     steps.push_back(k_row_height * size(reached));
   }
   // The last step goes too far: it stays when more than half of it is needed.
@@ -213,7 +218,8 @@ void require_own_names(const std::vector<ActuatorDisc>& discs, const Column<Patc
   for (const ActuatorDisc& disc : discs) {
     require_sane(disc);
     for (const std::string& name : {disc.name, back_name(disc)}) {
-      if (std::ranges::find(names, name) != names.end()) throw Error(problem_with(disc, ErrorCode::bad_argument, "there is a patch \"" + name + "\" already", "give the disc a name of its own"));
+      if (std::ranges::find(names, name) != names.end())
+        throw Error(problem_with(disc, ErrorCode::bad_argument, "there is a patch \"" + name + "\" already", "give the disc a name of its own"));
       names.push_back(name);
     }
   }

@@ -13,12 +13,12 @@ namespace sterna::volmesh {
 
 /// A disc, or a ring around a hub. Where walls with layers go through it within its radii, it ends on them (discs/cut_discs.h).
 struct ActuatorDisc {
-  std::string name = "disc";     ///< patch on the upstream side; the downstream side is <name>.back
-  Point center;                  ///< m
-  Vec3 axis{1.0, 0.0, 0.0};      ///< the way the flow goes through; any length
-  double radius = 0.0;           ///< m
-  double inner_radius = 0.0;     ///< m; 0: a full disc
-  double edge = k_automatic;     ///< m, longest edge
+  std::string name = "disc";  ///< patch on the upstream side; the downstream side is <name>.back
+  Point center;               ///< m
+  Vec3 axis{1.0, 0.0, 0.0};   ///< the way the flow goes through; any length
+  double radius = 0.0;        ///< m
+  double inner_radius = 0.0;  ///< m; 0: a full disc
+  double edge = k_automatic;  ///< m, longest edge
 };
 
 inline constexpr double k_disc_edge = 1.0 / 12.0;  ///< of the radius: longest edge, where none is given
@@ -26,10 +26,9 @@ inline constexpr double k_disc_edge = 1.0 / 12.0;  ///< of the radius: longest e
 /// Name of the downstream side's patch.
 std::string back_name(const ActuatorDisc& disc);
 
-/// Triangles of the disc in rings, shorter towards walls near by: edges as the size field has them there, `edge` at most (default: a twelfth of the radius). One
-/// patch of kind interface; normals against the axis. No triangle has all its corners on the rims, no edge inside joins two rims.
-/// \p walls: for sizes; \p growth: of the size field
-/// \throws Error(bad_argument) for numbers that make no disc
+/// Triangles of the disc in rings, shorter towards walls near by: edges as the size field has them there, `edge` at most (default: a twelfth of the radius).
+/// One patch of kind interface; normals against the axis. No triangle has all its corners on the rims, no edge inside joins two rims. \p walls: for sizes; \p
+/// growth: of the size field \throws Error(bad_argument) for numbers that make no disc
 TriMesh triangulate_disc(const ActuatorDisc& disc, const TriMesh& walls, double growth, const RunContext& context);
 
 /// \throws Error(bad_argument) for numbers that make no disc
@@ -51,7 +50,8 @@ TriMesh with_discs(TriMesh outer, const TriMesh& walls, const std::vector<Actuat
 /// \pre the upstream sides are there, by the names of their patches
 TriMesh with_second_sides(TriMesh outer, const std::vector<ActuatorDisc>& discs);
 
-/// Without the triangles that lie back to back on others of a smaller number; their vertices and patches stay. Of a mesh of with_second_sides() they are the last.
+/// Without the triangles that lie back to back on others of a smaller number; their vertices and patches stay. Of a mesh of with_second_sides() they are the
+/// last.
 TriMesh one_sided(TriMesh outer);
 /// Whether triangles of patches of kind interface lie back to back.
 bool has_sheets(const TriMesh& outer);

@@ -17,7 +17,7 @@ struct FillBoundary {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::string> patch_names;       ///< the wall's, then the outer ones
   std::vector<std::uint32_t> triangle_patch;  ///< index into patch_names; a triangle on top of the layer has that of its wall triangle
-  std::vector<NodeId> point2node;  ///< layer nodes first; outer nodes follow the layer's
+  std::vector<NodeId> point2node;             ///< layer nodes first; outer nodes follow the layer's
 };
 FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const ClosedOuter& outer);
 /// The same of what assemble_layers() made of them. Uses columns and boundary triangles, nodes up to the last of the outer boundary.
@@ -31,8 +31,8 @@ struct LayerSide {
   PatchId patch;                   ///< of the outer boundary
 };
 
-/// All of the mesh but its tetrahedra. Nodes: lines of the layer, outer boundary. Patches: the wall's, then the outer ones. Boundary triangles: the wall's, the outer ones,
-/// sides of cells beside a collapsed line; quadrilaterals: sides of cells.
+/// All of the mesh but its tetrahedra. Nodes: lines of the layer, outer boundary. Patches: the wall's, then the outer ones. Boundary triangles: the wall's, the
+/// outer ones, sides of cells beside a collapsed line; quadrilaterals: sides of cells.
 HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const ClosedOuter& outer, std::span<const LayerSide> sides);
 /// \pre mesh of assemble_layers(), `boundary` of the same. \post Steiner points follow its nodes.
 void add_tetrahedra(const FillBoundary& boundary, const TetraResult& tets, HybridMesh& mesh, const RunContext& context);

@@ -1,5 +1,5 @@
-// Steps: require_closed; numbering of both parts; rims (walk around each rim vertex through the patches without layers: one patch holds it on a surface, two on the line
-// where they meet, more hold it fast); surfaces of the end patches, plane where their vertices are; snapping; which wall vertices are near a surface.
+// Steps: require_closed; numbering of both parts; rims (walk around each rim vertex through the patches without layers: one patch holds it on a surface, two on
+// the line where they meet, more hold it fast); surfaces of the end patches, plane where their vertices are; snapping; which wall vertices are near a surface.
 #include "volmesh/domain_parts.h"
 
 #include <algorithm>
@@ -19,11 +19,11 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr std::size_t k_max_places = 10;
-constexpr double k_parallel_sine = 1e-3;  ///< planes at a smaller angle have their line along their common edge
-constexpr double k_forward_cosine = 0.02; ///< a line along which a layer grows leads away from the wall at least as steeply
-constexpr double k_open_cosine = 0.1;     ///< between a wall's normal and the way into the patch beyond: below, the fluid's angle there is above 174 degrees
-constexpr double k_near_edges = 8.0;      ///< mean edges at a vertex: a layer is not thicker by much, nor does it reach farther along the wall
-constexpr std::uint8_t k_max_masked = 64; ///< surfaces that a mask has bits for
+constexpr double k_parallel_sine = 1e-3;   ///< planes at a smaller angle have their line along their common edge
+constexpr double k_forward_cosine = 0.02;  ///< a line along which a layer grows leads away from the wall at least as steeply
+constexpr double k_open_cosine = 0.1;      ///< between a wall's normal and the way into the patch beyond: below, the fluid's angle there is above 174 degrees
+constexpr double k_near_edges = 8.0;       ///< mean edges at a vertex: a layer is not thicker by much, nor does it reach farther along the wall
+constexpr std::uint8_t k_max_masked = 64;  ///< surfaces that a mask has bits for
 
 ErrorInfo error(ErrorCode code, std::string problem, std::string hint) {
   return {.code = code, .attempted = "volume_mesh", .problem = std::move(problem), .hint = std::move(hint)};
@@ -31,8 +31,9 @@ ErrorInfo error(ErrorCode code, std::string problem, std::string hint) {
 
 void require_closed(const TriMesh& surface, const Topology& topology) {
   if (topology.n_boundary_halfedges() == 0) return;
-  ErrorInfo info = error(ErrorCode::open_surface, "the fluid's boundary is open: " + std::to_string(topology.n_boundary_halfedges()) + " edges have one triangle",
-                         "close the holes; a half model must end in one plane x, y or z = constant");
+  ErrorInfo info =
+      error(ErrorCode::open_surface, "the fluid's boundary is open: " + std::to_string(topology.n_boundary_halfedges()) + " edges have one triangle",
+            "close the holes; a half model must end in one plane x, y or z = constant");
   info.n_places = static_cast<std::int64_t>(topology.n_boundary_halfedges());
   for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
     const HalfedgeId h(i);
@@ -82,8 +83,8 @@ Part part_of(const TriMesh& surface, const Chosen& is_chosen) {
 
 /// Around a rim vertex, from its border half-edge that leaves to the one that arrives: half-edges from the vertex at which the patch beyond changes.
 struct RimFan {
-  std::vector<PatchId> patches;       ///< of the surface, in the order of the walk
-  std::vector<HalfedgeId> changes;    ///< of the surface, start at the vertex; one less than patches
+  std::vector<PatchId> patches;     ///< of the surface, in the order of the walk
+  std::vector<HalfedgeId> changes;  ///< of the surface, start at the vertex; one less than patches
 };
 
 class Splitter {
@@ -124,7 +125,8 @@ class Splitter {
     for (std::size_t k = 0; k < sums.size(); ++k)
       if (sums[k].value() < sums[container].value()) container = k;
     if (sums[container].value() >= 0.0)
-      throw Error(error(ErrorCode::not_orientable, "no part of the boundary encloses the fluid", "normals must point into the fluid: out of bodies, and inwards on what encloses them"));
+      throw Error(error(ErrorCode::not_orientable, "no part of the boundary encloses the fluid",
+                        "normals must point into the fluid: out of bodies, and inwards on what encloses them"));
     return part_of(surface_, [&](TriangleId t) { return parts.component[t] != container; }).mesh;
   }
 
@@ -140,7 +142,8 @@ class Splitter {
 
   /// Numbers of periodic sides and of their partners in both parts. \throws where a wall with layers ends on one side and not on the other
   void keep_periodic() {
-    ErrorInfo info = error(ErrorCode::bad_argument, "", "the same walls must end on both periodic sides, at the same places: give the patches there the same kind and layers");
+    ErrorInfo info = error(ErrorCode::bad_argument, "",
+                           "the same walls must end on both periodic sides, at the same places: give the patches there the same kind and layers");
     for (const PeriodicPatches& sides : periodic_) {
       PeriodicEnds ends{outer_.patch2part[sides.first], outer_.patch2part[sides.second], sides.translation, {}};
       for (const auto& [a, b] : sides.vertices) {
@@ -149,7 +152,8 @@ class Splitter {
         if (on_first.is_valid() && on_second.is_valid()) domain_.partners.push_back({on_first, on_second});
         if (on_first.is_valid() == on_second.is_valid()) continue;
         ++info.n_places;
-        if (info.places.size() < k_max_places) info.places.push_back({surface_.points[on_first.is_valid() ? a : b], "a wall with layers is here, none at its image"});
+        if (info.places.size() < k_max_places)
+          info.places.push_back({surface_.points[on_first.is_valid() ? a : b], "a wall with layers is here, none at its image"});
       }
       domain_.periodic.push_back(std::move(ends));
     }
@@ -184,9 +188,11 @@ class Splitter {
       }
     }
     if (pinched.empty()) return;
-    ErrorInfo info = error(ErrorCode::non_manifold_surface, "walls with layers touch in " + std::to_string(pinched.size()) + " single points, between patches without layers",
+    ErrorInfo info = error(ErrorCode::non_manifold_surface,
+                           "walls with layers touch in " + std::to_string(pinched.size()) + " single points, between patches without layers",
                            "give one of the patches around the place layers or take those of the walls away (patches = { name = { layers = 0 } })");
-    for (std::size_t i = 0; i < std::min(pinched.size(), k_max_places); ++i) info.places.push_back({surface_.points[pinched[i]], "vertex " + std::to_string(pinched[i].value())});
+    for (std::size_t i = 0; i < std::min(pinched.size(), k_max_places); ++i)
+      info.places.push_back({surface_.points[pinched[i]], "vertex " + std::to_string(pinched[i].value())});
     throw Error(std::move(info));
   }
 
@@ -238,7 +244,10 @@ class Splitter {
       fast = wall_.mesh.points[v];
     }
     if (n_fast > 0)
-      context_.warn("no layer at " + std::to_string(n_fast) + " rim vertices, where more than two patches without layers meet the wall, or where its layer would leave the patch beyond (a wall that ends at an outer edge, as a nacelle at the border of its nozzle); one is at " + format_point(fast));
+      context_.warn("no layer at " + std::to_string(n_fast) +
+                    " rim vertices, where more than two patches without layers meet the wall, or where its layer would leave the patch beyond (a wall that "
+                    "ends at an outer edge, as a nacelle at the border of its nozzle); one is at " +
+                    format_point(fast));
     for (std::size_t i = 0; i < fans.size(); ++i) add_chain(fans[i], vertices[i]);
     mark_near();
   }
@@ -289,7 +298,8 @@ class Splitter {
         char text[120];
         std::snprintf(text, sizeof text, "%.3g m off its mean plane, limit %.3g m", flat.distance, tolerance_at(outer_.mesh.points[flat.farthest]));
         ErrorInfo info = error(ErrorCode::bad_argument, "the symmetry patch \"" + patch.name + "\" is not plane: a vertex is " + text,
-                               "a symmetry patch must lie in one plane; make it a slip wall (patches = { [\"" + patch.name + "\"] = { kind = \"slip\" } }) if it is curved on purpose");
+                               "a symmetry patch must lie in one plane; make it a slip wall (patches = { [\"" + patch.name +
+                                   "\"] = { kind = \"slip\" } }) if it is curved on purpose");
         info.places.push_back({outer_.mesh.points[flat.farthest], "farthest vertex of " + patch.name});
         throw Error(std::move(info));
       } else {
@@ -327,7 +337,8 @@ class Splitter {
     const HalfedgeId h = fan.changes.front();
     Vec3 line = normalized(outer_.mesh.points[outer_.surface2part[topology_.to(h)]] - p);
     const Vec3 meet = cross(surface.normal(p), other.normal(p));
-    if (is_plane && dynamic_cast<const ConstraintPlane*>(&other) && norm(meet) > k_parallel_sine) line = dot(meet, line) > 0.0 ? normalized(meet) : -normalized(meet);
+    if (is_plane && dynamic_cast<const ConstraintPlane*>(&other) && norm(meet) > k_parallel_sine)
+      line = dot(meet, line) > 0.0 ? normalized(meet) : -normalized(meet);
     constraint.axis = line;
     if (dot(line, normalized(normal)) > k_forward_cosine) constraint.freedom = Freedom::line;
     return constraint;
@@ -421,7 +432,8 @@ class Splitter {
 
 }  // namespace
 
-Domain split_domain(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, const RunContext& context, std::span<const PeriodicPatches> periodic) {
+Domain split_domain(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, const RunContext& context,
+                    std::span<const PeriodicPatches> periodic) {
   return Splitter(surface, has_layer, periodic, context).split();
 }
 

@@ -42,19 +42,19 @@ struct PeriodicEnds {
 
 /// An actuator disc that ends on walls with layers. The wall stays closed there; its columns are parted when the layer is known (discs/slits.h).
 struct DiscSlit {
-  std::size_t disc = 0;             ///< index of VolumeMeshOptions::discs
-  PatchId patch, back;              ///< of Domain::outer: the upstream and the downstream side
+  std::size_t disc = 0;                            ///< index of VolumeMeshOptions::discs
+  PatchId patch, back;                             ///< of Domain::outer: the upstream and the downstream side
   std::vector<std::array<HalfedgeId, 2>> outline;  ///< edges of Domain::wall in the disc's plane: the half-edge upstream, and its twin downstream
-  bool has_outer_rim = false;       ///< rims of the disc that lie free in the fluid
+  bool has_outer_rim = false;                      ///< rims of the disc that lie free in the fluid
   bool has_inner_rim = false;
-  std::vector<TriangleId> behind;   ///< of the wall: those with vertices of the outline that lie downstream of the disc, ascending
-  std::int32_t surface = -1;        ///< of Domain::constraints.surfaces: its upstream side; the downstream one follows
+  std::vector<TriangleId> behind;  ///< of the wall: those with vertices of the outline that lie downstream of the disc, ascending
+  std::int32_t surface = -1;       ///< of Domain::constraints.surfaces: its upstream side; the downstream one follows
 };
 
 struct Domain {
-  TriMesh wall;             ///< triangles of patches with layers, in the order of the surface; open where it ends on other patches
-  Constraints constraints;  ///< of its rim
-  TriMesh outer;            ///< all other triangles, in the order of the surface, then one side of actuator discs; its own vertices, those of the rim too
+  TriMesh wall;                ///< triangles of patches with layers, in the order of the surface; open where it ends on other patches
+  Constraints constraints;     ///< of its rim
+  TriMesh outer;               ///< all other triangles, in the order of the surface, then one side of actuator discs; its own vertices, those of the rim too
   OuterLinks links;            ///< empty without rims
   std::vector<EndPatch> ends;  ///< ascending by patch
   std::vector<RimEdge> rim;    ///< ascending by half-edge
@@ -63,18 +63,20 @@ struct Domain {
   std::vector<std::array<VertexId, 2>> partners;  ///< of the wall, where it ends on periodic sides: they grow alike
   Column<TriangleId, TriangleId> wall2surface;
   std::vector<DiscSlit> slits;
-  std::vector<VertexId> slit_vertices;  ///< of the wall: those of all outlines, ascending; the i-th has line n_vertices() + i of the layer too, downstream of its disc
-  std::vector<std::size_t> vertex2slit; ///< of each of them: the slit
-  TriMesh bodies;           ///< closed parts of the surface but the one that encloses the fluid: what cavities are looked for in
+  std::vector<VertexId>
+      slit_vertices;  ///< of the wall: those of all outlines, ascending; the i-th has line n_vertices() + i of the layer too, downstream of its disc
+  std::vector<std::size_t> vertex2slit;  ///< of each of them: the slit
+  TriMesh bodies;                        ///< closed parts of the surface but the one that encloses the fluid: what cavities are looked for in
   /// Whether the outer boundary is made anew around the layer.
   bool has_rims() const { return !rim.empty() || !slits.empty(); }
 };
 
-/// Takes a closed surface apart. Vertices of flat end patches are moved into their plane, by 1e-6 of their distance to the wall's middle plus body length at most; symmetry
-/// patches on which layers end must be flat.
-/// \p has_layer: of each patch. \p periodic: sides of the surface that match; rim vertices at partners have the same freedom. \pre normals into the fluid. Without rims wall and outer are the surface's triangles, unchanged.
-/// \throws Error(open_surface) with places for open edges; Error(non_manifold_surface) where walls with layers touch in single points; Error(bad_argument) for a symmetry
-/// patch that is not plane, with its vertex farthest off, and where walls end on one periodic side alone
-Domain split_domain(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, const RunContext& context, std::span<const PeriodicPatches> periodic = {});
+/// Takes a closed surface apart. Vertices of flat end patches are moved into their plane, by 1e-6 of their distance to the wall's middle plus body length at
+/// most; symmetry patches on which layers end must be flat. \p has_layer: of each patch. \p periodic: sides of the surface that match; rim vertices at partners
+/// have the same freedom. \pre normals into the fluid. Without rims wall and outer are the surface's triangles, unchanged. \throws Error(open_surface) with
+/// places for open edges; Error(non_manifold_surface) where walls with layers touch in single points; Error(bad_argument) for a symmetry patch that is not
+/// plane, with its vertex farthest off, and where walls end on one periodic side alone
+Domain split_domain(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, const RunContext& context,
+                    std::span<const PeriodicPatches> periodic = {});
 
 }  // namespace sterna::volmesh

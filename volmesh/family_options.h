@@ -21,8 +21,13 @@ struct Schema<volmesh::FamilyOptions> {
   using O = volmesh::FamilyOptions;
   static constexpr std::string_view stage = "family";
   static constexpr std::array fields = {
-      Field<O>{.name = "refinement", .member = &O::refinement, .min = 0.01, .max = 100.0,
-               .help = "member f of a mesh family: first heights, sizes of tetrahedra, sources and farfield divided by f, f times the layers, growth to the power 1/f; give the surface the same", .choices = volmesh::k_family_names},
+      Field<O>{.name = "refinement",
+               .member = &O::refinement,
+               .min = 0.01,
+               .max = 100.0,
+               .help = "member f of a mesh family: first heights, sizes of tetrahedra, sources and farfield divided by f, f times the layers, growth to the "
+                       "power 1/f; give the surface the same",
+               .choices = volmesh::k_family_names},
   };
 };
 

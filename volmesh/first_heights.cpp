@@ -28,7 +28,9 @@ std::array<double, 3> weights_of(const std::array<Point, 3>& t, const Point& p) 
 
 FirstHeights::FirstHeights(const TriMesh& surface, std::vector<double> heights, const RunContext& context) : surface_(surface), heights_(std::move(heights)) {
   if (heights_.size() != surface_.n_vertices() || heights_.empty())
-    throw Error({.code = ErrorCode::internal, .attempted = "taking first heights by place", .problem = std::to_string(heights_.size()) + " heights of " + std::to_string(surface_.n_vertices()) + " vertices"});
+    throw Error({.code = ErrorCode::internal,
+                 .attempted = "taking first heights by place",
+                 .problem = std::to_string(heights_.size()) + " heights of " + std::to_string(surface_.n_vertices()) + " vertices"});
   std::vector<ErrorPlace> wrong;
   for (const VertexId v : surface_.points.ids()) {
     const double height = heights_[v.index()];

@@ -15,8 +15,8 @@ struct FlatFit {
   bool is_flat = false;
   Point point;
   Vec3 normal;
-  VertexId farthest;        ///< of the mesh
-  double distance = 0.0;    ///< of the farthest, m
+  VertexId farthest;      ///< of the mesh
+  double distance = 0.0;  ///< of the farthest, m
 };
 
 /// Vertices of a patch, ascending. The mesh must outlive it.

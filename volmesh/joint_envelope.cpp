@@ -26,13 +26,18 @@ std::string objection(const Domain& domain, const PlacedPart& part, const Column
   if (n == 0 || part.first_triangle + n > surface2wall.size()) return "it is not on the surface any more";
   const TriangleId first = surface2wall[TriangleId(part.first_triangle)];
   for (std::size_t t = 0; t < n; ++t)
-    if (const TriangleId on_wall = surface2wall[TriangleId(part.first_triangle + t)]; !first.is_valid() || on_wall != TriangleId(static_cast<std::uint64_t>(first.index() + t))) return "not all of it carries layers";
+    if (const TriangleId on_wall = surface2wall[TriangleId(part.first_triangle + t)];
+        !first.is_valid() || on_wall != TriangleId(static_cast<std::uint64_t>(first.index() + t)))
+      return "not all of it carries layers";
   whole.first_triangle = first.index();
   whole.first_vertex = domain.wall.triangles[first][0].index() - part.own->triangles[TriangleId(0)][0].index();
   for (std::size_t t = 0; t < n; ++t)
-    if (!(domain.wall.triangles[TriangleId(static_cast<std::uint64_t>(whole.first_triangle + t))] == shifted(part.own->triangles[TriangleId(t)], whole.first_vertex))) return "its triangles have other vertices";
+    if (!(domain.wall.triangles[TriangleId(static_cast<std::uint64_t>(whole.first_triangle + t))] ==
+          shifted(part.own->triangles[TriangleId(t)], whole.first_vertex)))
+      return "its triangles have other vertices";
   for (const VertexId v : part.own->points.ids())
-    if (!(domain.wall.points[VertexId(static_cast<std::uint64_t>(whole.first_vertex + v.index()))] == placed(part, v))) return "its points are not where they were moved to";
+    if (!(domain.wall.points[VertexId(static_cast<std::uint64_t>(whole.first_vertex + v.index()))] == placed(part, v)))
+      return "its points are not where they were moved to";
   return {};
 }
 
@@ -40,7 +45,8 @@ std::string objection(const Domain& domain, const PlacedPart& part, const Column
 Column<VertexId, std::uint32_t> groups_of(const TriMesh& wall, std::span<const PlacedPart> parts, std::span<const WholePart> whole) {
   Column<VertexId, std::uint32_t> group(wall.n_vertices(), 0);
   for (std::size_t i = 0; i < whole.size(); ++i)
-    for (std::size_t v = 0; v < parts[whole[i].part].own->n_vertices(); ++v) group[VertexId(static_cast<std::uint64_t>(whole[i].first_vertex + v))] = static_cast<std::uint32_t>(i + 1);
+    for (std::size_t v = 0; v < parts[whole[i].part].own->n_vertices(); ++v)
+      group[VertexId(static_cast<std::uint64_t>(whole[i].first_vertex + v))] = static_cast<std::uint32_t>(i + 1);
   return group;
 }
 
@@ -175,7 +181,8 @@ Envelope joint_envelope(MeshingSite& site, std::span<const WholePart> parts, con
     const PlacedPart& part = site.options.parts[whole.part];
     const PartEnvelopeTask task = task_of(site, whole);
     const PartEnvelope own = site.options.part_envelope ? site.options.part_envelope(task, context) : part_envelope(task, context);
-    for (const VertexId v : part.own->points.ids()) take(own.envelope, v, part.placement, envelope, VertexId(static_cast<std::uint64_t>(whole.first_vertex + v.index())));
+    for (const VertexId v : part.own->points.ids())
+      take(own.envelope, v, part.placement, envelope, VertexId(static_cast<std::uint64_t>(whole.first_vertex + v.index())));
   }
   add_rest(site, group, envelope, context);
   const std::vector<VertexId> lowered = clear_of_each_other(site, group, envelope, context);

@@ -4,19 +4,20 @@
 #include <cmath>
 
 #include "geom/base/error.h"
-#include "volmesh/flow/print_text.h"
 #include "volmesh/envelope/growth_law.h"
+#include "volmesh/flow/print_text.h"
 #include "volmesh/outer/farfield_options.h"
 
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_most_layers = 1000;        ///< as the option's own range
-constexpr double k_largest_growth = 3.0;   ///< the same
-constexpr double k_rounding = 1e-9;        ///< relative: heights nearer to each other are equal
+constexpr int k_most_layers = 1000;       ///< as the option's own range
+constexpr double k_largest_growth = 3.0;  ///< the same
+constexpr double k_rounding = 1e-9;       ///< relative: heights nearer to each other are equal
 
 Error bad(std::string_view where, std::string problem, std::string hint) {
-  return Error({.code = ErrorCode::bad_argument, .attempted = "choosing the layers of " + std::string(where), .problem = std::move(problem), .hint = std::move(hint)});
+  return Error(
+      {.code = ErrorCode::bad_argument, .attempted = "choosing the layers of " + std::string(where), .problem = std::move(problem), .hint = std::move(hint)});
 }
 
 /// The fewest layers that reach the height; more than k_most_layers where they do not.
@@ -48,20 +49,24 @@ LayerChoice solve_layers(LayerChoice c, std::string_view solve_for, std::string_
   if (c.total_height < c.first_height * (1.0 - k_rounding)) throw bad(where, heights + " has no room for one layer", "raise total_height");
   if (solve_for == "layers") {
     const int n = fewest_layers(c);
-    if (n > k_most_layers) throw bad(where, heights + print_text(" is not reached by %d layers that grow by %g", k_most_layers, c.max_growth), "raise max_growth or first_height");
+    if (n > k_most_layers)
+      throw bad(where, heights + print_text(" is not reached by %d layers that grow by %g", k_most_layers, c.max_growth), "raise max_growth or first_height");
     c.layers = n;
     return c;
   }
   const double growth = growth_for_height(c.first_height, c.total_height, c.layers);
   if (c.layers * c.first_height > c.total_height * (1.0 + k_rounding))
-    throw bad(where, heights + print_text(" is below %d layers of the first height", c.layers), print_text("at most %d layers have room", static_cast<int>(c.total_height / c.first_height)));
+    throw bad(where, heights + print_text(" is below %d layers of the first height", c.layers),
+              print_text("at most %d layers have room", static_cast<int>(c.total_height / c.first_height)));
   if (solve_for == "max_growth") {
-    if (growth > k_largest_growth) throw bad(where, heights + print_text(" in %d layers needs a growth of %.4g, at most %g", c.layers, growth, k_largest_growth), "give more layers");
+    if (growth > k_largest_growth)
+      throw bad(where, heights + print_text(" in %d layers needs a growth of %.4g, at most %g", c.layers, growth, k_largest_growth), "give more layers");
     c.max_growth = growth;
     return c;
   }
   if (growth > c.max_growth * (1.0 + k_rounding))
-    throw bad(where, heights + print_text(" in %d layers needs a growth of %.4g, but max_growth is %g", c.layers, growth, c.max_growth), print_text("leave layers or max_growth out; %d layers would do", fewest_layers(c)));
+    throw bad(where, heights + print_text(" in %d layers needs a growth of %.4g, but max_growth is %g", c.layers, growth, c.max_growth),
+              print_text("leave layers or max_growth out; %d layers would do", fewest_layers(c)));
   return c;
 }
 
@@ -70,7 +75,8 @@ std::string solved_for(bool has_layers, bool has_growth, bool has_height, std::s
   if (has_layers != has_growth) return has_layers ? "max_growth" : "layers";
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = std::string(attempted),
-               .problem = has_layers ? "layers, max_growth and total_height are one too many: the third follows from the two others" : "total_height needs layers or max_growth with it: the other one follows",
+               .problem = has_layers ? "layers, max_growth and total_height are one too many: the third follows from the two others"
+                                     : "total_height needs layers or max_growth with it: the other one follows",
                .hint = has_layers ? "leave one of them out" : "total_height = 0.02, max_growth = 1.2"});
 }
 
@@ -101,18 +107,25 @@ VolumeMeshOptions refined(VolumeMeshOptions options) {
 
 VolumeMeshOptions effective_options(const VolumeMeshOptions& user_options, const RunContext& context) {
   VolumeMeshOptions options = refined(user_options);
-  if (options.first_heights && user_options.family.refinement != 1.0) options.first_heights = options.first_heights->refined(user_options.family.refinement, context);
+  if (options.first_heights && user_options.family.refinement != 1.0)
+    options.first_heights = options.first_heights->refined(user_options.family.refinement, context);
   EnvelopeOptions& e = options.envelope;
   if (const double f = user_options.family.refinement; f != 1.0)
-    context.info(print_text("refinement %.4g of a mesh family: %d layers instead of %d, growth %.4g instead of %.4g", f, e.layers, user_options.envelope.layers, e.max_growth, user_options.envelope.max_growth) +
-                 (is_automatic(e.first_height) ? "" : print_text(", first height %.4g m instead of %.4g m", e.first_height, user_options.envelope.first_height)));
+    context.info(
+        print_text("refinement %.4g of a mesh family: %d layers instead of %d, growth %.4g instead of %.4g", f, e.layers, user_options.envelope.layers,
+                   e.max_growth, user_options.envelope.max_growth) +
+        (is_automatic(e.first_height) ? "" : print_text(", first height %.4g m instead of %.4g m", e.first_height, user_options.envelope.first_height)));
   if (is_automatic(e.total_height)) return options;
   if (!is_automatic(e.max_thickness) && e.max_thickness < e.total_height)
     throw bad("all walls", print_text("total_height %g m is above max_thickness %g m", e.total_height, e.max_thickness), "leave max_thickness out");
   if (is_automatic(e.first_height)) return options;  // patches have their own, and are solved one by one
   const LayerChoice solved = solve_layers({e.layers, e.first_height, e.max_growth, e.total_height}, e.solve_for, "all walls");
-  if (e.solve_for == "layers") context.info(print_text("%d layers reach the total height of %.6g m with a growth of %.4g, first height %.6g m", solved.layers, e.total_height, growth_for_height(e.first_height, e.total_height, solved.layers), e.first_height));
-  if (e.solve_for == "max_growth") context.info(print_text("%d layers grow by %.4g to the total height of %.6g m, first height %.6g m", solved.layers, solved.max_growth, e.total_height, e.first_height));
+  if (e.solve_for == "layers")
+    context.info(print_text("%d layers reach the total height of %.6g m with a growth of %.4g, first height %.6g m", solved.layers, e.total_height,
+                            growth_for_height(e.first_height, e.total_height, solved.layers), e.first_height));
+  if (e.solve_for == "max_growth")
+    context.info(print_text("%d layers grow by %.4g to the total height of %.6g m, first height %.6g m", solved.layers, solved.max_growth, e.total_height,
+                            e.first_height));
   e.layers = solved.layers;
   e.max_growth = solved.max_growth;
   return options;

@@ -18,18 +18,18 @@ struct LayerChoice {
   double total_height = k_automatic;  ///< m
 };
 
-/// Solves for what `solve_for` names ("layers": the fewest that reach H with growth r at most, "max_growth": the growth with which n layers reach H); "none": proves that they agree.
-/// Without H nothing changes. \p where names the patch or the walls in messages.
-/// \post n h0 <= H <= the height of n layers that grow by r
-/// \throws Error(bad_argument) where no such layer exists: with the numbers that would do
+/// Solves for what `solve_for` names ("layers": the fewest that reach H with growth r at most, "max_growth": the growth with which n layers reach H); "none":
+/// proves that they agree. Without H nothing changes. \p where names the patch or the walls in messages. \post n h0 <= H <= the height of n layers that grow by
+/// r \throws Error(bad_argument) where no such layer exists: with the numbers that would do
 LayerChoice solve_layers(LayerChoice asked, std::string_view solve_for, std::string_view where);
 
 /// What solve_for becomes where only some of the three are given: "layers" or "max_growth"; "none" without a total height.
 /// \throws Error(bad_argument) when all three or only the total height are given
 std::string solved_for(bool has_layers, bool has_growth, bool has_height, std::string_view attempted);
 
-/// The member `options.family.refinement` of the family of which the options describe the medium one (quality.md section 1): first heights h0/f, growth r^(1/f),
-/// n f layers (rounded), sizes, edges of sources, discs and farfield divided by f, growth of tetrahedra 1 + (g - 1)/f. Total heights, angles and shapes stay. Its own refinement is 1.
+/// The member `options.family.refinement` of the family of which the options describe the medium one (quality.md section 1): first heights h0/f, growth
+/// r^(1/f), n f layers (rounded), sizes, edges of sources, discs and farfield divided by f, growth of tetrahedra 1 + (g - 1)/f. Total heights, angles and
+/// shapes stay. Its own refinement is 1.
 VolumeMeshOptions refined(VolumeMeshOptions options);
 
 /// refined(), then the layers of all walls solved for; what was found goes to the log.

@@ -12,9 +12,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_digits = 4;                   ///< of lengths in texts
-constexpr double k_full_height_share = 0.9;   ///< of h_target that counts as covered
-constexpr double k_suspicious_share = 0.5;    ///< of the area compressed: more likely a mistake in the settings than a difficult shape
+constexpr int k_digits = 4;                  ///< of lengths in texts
+constexpr double k_full_height_share = 0.9;  ///< of h_target that counts as covered
+constexpr double k_suspicious_share = 0.5;   ///< of the area compressed: more likely a mistake in the settings than a difficult shape
 
 using LostArea = std::array<double, k_height_limits>;
 
@@ -81,7 +81,8 @@ void list_places(const LayerBase& base, const Envelope& envelope, const Classifi
   report.n_compressed = static_cast<std::int64_t>(compressed.size());
   std::stable_sort(compressed.begin(), compressed.end(), [&](VertexId a, VertexId b) { return envelope.height[a] < envelope.height[b]; });
   compressed.resize(std::min(compressed.size(), k_listed_compressed));
-  for (const VertexId v : compressed) report.compressed.push_back({base.wall.points[v], in_metres(envelope.height[v], k_digits) + ", " + vertex_text(base, envelope, v)});
+  for (const VertexId v : compressed)
+    report.compressed.push_back({base.wall.points[v], in_metres(envelope.height[v], k_digits) + ", " + vertex_text(base, envelope, v)});
 }
 
 /// Layers that are thinner than their own first cells come from a wrong unit more often than from a difficult shape.
@@ -98,8 +99,8 @@ void warn(const Envelope& envelope, const Classifier& classifier, LayerReport& r
   std::snprintf(share, sizeof share, "%.0f %%", 100.0 * report.compressed_area);
   report.warnings.push_back("the layer is compressed on " + std::string(share) + " of the wall: " + std::to_string(scale.n(v)) + " layers of first_height " +
                             in_metres(scale.h0(v), k_digits) + " are " + in_metres(scale.compressed(v), k_digits) + " tall" +
-                            (is_target_low ? ", more than the tallest target of " + in_metres(tallest, k_digits) : "") + " (body length " + in_metres(report.body_length, k_digits) +
-                            "); are first_height and the surface in the same unit?");
+                            (is_target_low ? ", more than the tallest target of " + in_metres(tallest, k_digits) : "") + " (body length " +
+                            in_metres(report.body_length, k_digits) + "); are first_height and the surface in the same unit?");
 }
 
 constexpr double k_regular_height = 0.81649658092772603;  ///< of a regular tetrahedron over its edge
@@ -145,7 +146,8 @@ InterfaceReport report_interface(const LayerBase& base, const Classifier& classi
 
 }  // namespace
 
-LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion, const RunContext& context) {
+LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion,
+                         const RunContext& context) {
   LayerReport report;
   report.body_length = base.body_length;
   report.n_vertices = static_cast<std::int64_t>(base.wall.n_vertices());

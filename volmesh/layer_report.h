@@ -7,7 +7,8 @@
 
 namespace sterna::volmesh {
 
-LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion, const RunContext& context);
+LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion,
+                         const RunContext& context);
 
 /// What was asked of each line, for the gates of `check`.
 LayerRequest layer_request(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope);

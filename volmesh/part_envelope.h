@@ -15,10 +15,10 @@ namespace sterna::volmesh {
 
 /// Everything that a part's envelope depends on.
 struct PartEnvelopeTask {
-  TriMesh wall;                      ///< in the part's own frame; patches with their kinds, all of them with layers
+  TriMesh wall;  ///< in the part's own frame; patches with their kinds, all of them with layers
   EnvelopeOptions options;
-  std::vector<PatchRule> rules;      ///< those that a patch of it is named like
-  double smooth_angle = k_automatic; ///< rad: VolumeMeshOptions::smooth_angle of the part
+  std::vector<PatchRule> rules;       ///< those that a patch of it is named like
+  double smooth_angle = k_automatic;  ///< rad: VolumeMeshOptions::smooth_angle of the part
 };
 
 struct PartEnvelope {
@@ -26,7 +26,8 @@ struct PartEnvelope {
   double feature_angle = 0.0;  ///< rad, the user's or the one found for this part
 };
 
-/// build_envelope() of the part with nothing around it, or what `make` makes in its place. \pre wall closed \throws Error(self_intersection) where the part crosses itself; of the stages
+/// build_envelope() of the part with nothing around it, or what `make` makes in its place. \pre wall closed \throws Error(self_intersection) where the part
+/// crosses itself; of the stages
 PartEnvelope part_envelope(const PartEnvelopeTask& task, const RunContext& context, const WallEnvelopeMaker& make = {});
 
 /// Who makes such envelopes: part_envelope(), or one who knows some already.

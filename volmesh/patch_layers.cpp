@@ -31,9 +31,12 @@ bool is_same(double a, double b) { return a == b || (is_automatic(a) && is_autom
 struct Group {
   double first_height, max_growth, max_thickness;
   const FirstHeights* by_place;  ///< not null: the first height at each place, not first_height
-  double blend;  ///< m, automatic at first
-  double total_height;  ///< m, automatic: by the edges
-  bool asks_as(const Group& other) const { return first_height == other.first_height && by_place == other.by_place && max_growth == other.max_growth && max_thickness == other.max_thickness && is_same(total_height, other.total_height); }
+  double blend;                  ///< m, automatic at first
+  double total_height;           ///< m, automatic: by the edges
+  bool asks_as(const Group& other) const {
+    return first_height == other.first_height && by_place == other.by_place && max_growth == other.max_growth && max_thickness == other.max_thickness &&
+           is_same(total_height, other.total_height);
+  }
   bool operator==(const Group& other) const { return asks_as(other) && (blend == other.blend || (is_automatic(blend) && is_automatic(other.blend))); }
 };
 
@@ -44,7 +47,8 @@ std::vector<std::string> names_of(const Column<PatchId, Patch>& patches) {
 }
 
 PatchKind kind_of(std::string_view name) {
-  for (const PatchKind kind : {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface})
+  for (const PatchKind kind :
+       {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface})
     if (to_string(kind) == name) return kind;
   throw Error({.code = ErrorCode::bad_argument, .attempted = "setting the kinds of patches", .problem = "there is no kind \"" + std::string(name) + "\""});
 }
@@ -108,8 +112,8 @@ struct OwnWishes {
   bool layers = false, first_height = false, growth = false, height = false;
 };
 
-/// With a total height: what follows from the rest. What the patch says itself stands; where it leaves both open, the growth gives way (walls that are connected share the number
-/// of layers), or what all walls are solved for.
+/// With a total height: what follows from the rest. What the patch says itself stands; where it leaves both open, the growth gives way (walls that are
+/// connected share the number of layers), or what all walls are solved for.
 void solve(const OwnWishes& own, const std::string& of_all, const std::string& patch, PatchLayers& layers) {
   if (!layers.carries_layers() || is_automatic(layers.total_height)) return;
   if (!own.layers && !own.first_height && !own.growth && !own.height && of_all == "none") return;  // solved with all walls, or proved to agree below
@@ -125,19 +129,27 @@ void solve(const OwnWishes& own, const std::string& of_all, const std::string& p
 
 class Blender {
  public:
-  Blender(const LayerBase& base, const EnvelopeOptions& options, const Column<PatchId, PatchLayers>& asked, const FirstHeights* by_place, LayerDemand& demand, const RunContext& context)
+  Blender(const LayerBase& base, const EnvelopeOptions& options, const Column<PatchId, PatchLayers>& asked, const FirstHeights* by_place, LayerDemand& demand,
+          const RunContext& context)
       : base_(base), demand_(demand), context_(context), group_of_patch_(asked.size(), -1) {
     std::vector<std::uint8_t> is_used(asked.size(), 0);
     for (const PatchId patch : base.wall.triangle_patch) is_used[patch.index()] = 1;
     for (const PatchId patch : asked.ids()) {
       const PatchLayers& layers = asked[patch];
       if (!layers.carries_layers() || !is_used[patch.index()]) continue;
-      const Group group{layers.first_height, layers.max_growth, thickness_limit(layers.max_thickness, layers.total_height, base.body_length), layers.has_own_first_height ? nullptr : by_place, layers.blend, layers.total_height};
+      const Group group{layers.first_height,
+                        layers.max_growth,
+                        thickness_limit(layers.max_thickness, layers.total_height, base.body_length),
+                        layers.has_own_first_height ? nullptr : by_place,
+                        layers.blend,
+                        layers.total_height};
       const auto found = std::find(groups_.begin(), groups_.end(), group);
       group_of_patch_[patch.index()] = static_cast<int>(found - groups_.begin());
       if (found == groups_.end()) groups_.push_back(group);
     }
-    if (groups_.empty()) groups_.push_back({options.first_height, options.max_growth, thickness_limit(options.max_thickness, options.total_height, base.body_length), by_place, k_automatic, options.total_height});
+    if (groups_.empty())
+      groups_.push_back({options.first_height, options.max_growth, thickness_limit(options.max_thickness, options.total_height, base.body_length), by_place,
+                         k_automatic, options.total_height});
   }
 
   void blend() {
@@ -145,8 +157,7 @@ class Blender {
     const std::size_t n = base_.wall.n_vertices();
     Column<VertexId, double> reach(n, 0.0), weight(n, 0.0);
     double farthest = 0.0;
-    for (const VertexId v : reach.ids())
-      for_each_group_at(v, [&](std::size_t g) { reach[v] = std::max(reach[v], groups_[g].blend); });
+    for (const VertexId v : reach.ids()) for_each_group_at(v, [&](std::size_t g) { reach[v] = std::max(reach[v], groups_[g].blend); });
     for (const double r : reach) farthest = std::max(farthest, r);
     for (Column<VertexId, double>* column : {&demand_.first_height, &demand_.max_growth, &demand_.max_thickness}) column->assign(n, 0.0);
     const bool has_heights = std::any_of(groups_.begin(), groups_.end(), [](const Group& group) { return !is_automatic(group.total_height); });
@@ -179,7 +190,8 @@ class Blender {
       std::string names;
       for (const PatchId patch : base_.wall.patches.ids())
         if (group_of_patch_[patch.index()] == static_cast<int>(g)) names += (names.empty() ? "" : ", ") + base_.wall.patches[patch].name;
-      context_.info("layers of " + names + ": first height " + (groups_[g].by_place ? "by place" : in_metres(groups_[g].first_height, k_digits)) + (groups_[g].blend > 0.0 ? ", blended with its neighbours over " + in_metres(groups_[g].blend, k_digits) : ""));
+      context_.info("layers of " + names + ": first height " + (groups_[g].by_place ? "by place" : in_metres(groups_[g].first_height, k_digits)) +
+                    (groups_[g].blend > 0.0 ? ", blended with its neighbours over " + in_metres(groups_[g].blend, k_digits) : ""));
     }
   }
 
@@ -289,7 +301,11 @@ Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& pat
   Column<PatchId, PatchLayers> result;
   std::string without;
   for (const Patch& patch : patches) {
-    PatchLayers layers{.layers = options.layers, .first_height = options.first_height, .max_growth = options.max_growth, .total_height = options.total_height, .max_thickness = options.max_thickness};
+    PatchLayers layers{.layers = options.layers,
+                       .first_height = options.first_height,
+                       .max_growth = options.max_growth,
+                       .total_height = options.total_height,
+                       .max_thickness = options.max_thickness};
     OwnWishes own;
     for (const PatchRule& rule : rules) {
       if (!matches_glob(patch.name, rule.names)) continue;
@@ -314,10 +330,12 @@ Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& pat
   return result;
 }
 
-LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place, const RunContext& context) {
+LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
+                      const RunContext& context) {
   const Column<PatchId, PatchLayers> asked = layers_of_patches(base.wall.patches, options, rules);
   const auto is_as_all = [&](const PatchLayers& layers) {
-    return !layers.carries_layers() || (!(by_place && !layers.has_own_first_height) && layers.layers == options.layers && layers.first_height == options.first_height && layers.max_growth == options.max_growth &&
+    return !layers.carries_layers() || (!(by_place && !layers.has_own_first_height) && layers.layers == options.layers &&
+                                        layers.first_height == options.first_height && layers.max_growth == options.max_growth &&
                                         is_same(layers.max_thickness, options.max_thickness) && is_same(layers.total_height, options.total_height));
   };
   LayerDemand demand;

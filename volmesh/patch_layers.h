@@ -19,9 +19,9 @@ void apply_patch_kinds(TriMesh& surface, std::span<const PatchRule> rules);
 
 /// What is asked of the layer on one patch.
 struct PatchLayers {
-  int layers = 0;              ///< 0: the patch carries none
-  double first_height = k_automatic;   ///< m; a number where there are layers
-  bool has_own_first_height = false;   ///< a rule gives it
+  int layers = 0;                     ///< 0: the patch carries none
+  double first_height = k_automatic;  ///< m; a number where there are layers
+  bool has_own_first_height = false;  ///< a rule gives it
   double max_growth = 0.0;
   double total_height = k_automatic;   ///< m; automatic: by the wall's edges
   double max_thickness = k_automatic;  ///< m; automatic: a share of the body length
@@ -38,10 +38,10 @@ Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& pat
 /// else, by the distance along the wall, so that both sides meet in the mean of the patches at the border. Layers: per connected part of the wall the largest
 /// number asked for; parts in which patches ask for several are logged.
 /// Vertices that must grow alike get the least of what theirs ask for.
-/// Triangles of patches without layers (which a base has no use for) ask for what the options say. Deterministic; about 1 s per million vertices and different patch.
-/// `by_place` may be null: else it gives the first heights of patches that no rule gives one for.
-/// \throws Error(bad_argument) as layers_of_patches
-/// \pre `options` are those that envelope and extrusion get
-LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place, const RunContext& context);
+/// Triangles of patches without layers (which a base has no use for) ask for what the options say. Deterministic; about 1 s per million vertices and different
+/// patch. `by_place` may be null: else it gives the first heights of patches that no rule gives one for. \throws Error(bad_argument) as layers_of_patches \pre
+/// `options` are those that envelope and extrusion get
+LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
+                      const RunContext& context);
 
 }  // namespace sterna::volmesh

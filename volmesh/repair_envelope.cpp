@@ -10,12 +10,13 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_lowered = 0.7;      ///< of the mean height around, at the trouble itself: a tenth less would hardly be another boundary, half costs layer
-constexpr std::uint8_t k_rings = 4;    ///< over which the lowering fades, so that no step becomes the next trouble
+constexpr double k_lowered = 0.7;    ///< of the mean height around, at the trouble itself: a tenth less would hardly be another boundary, half costs layer
+constexpr std::uint8_t k_rings = 4;  ///< over which the lowering fades, so that no step becomes the next trouble
 constexpr std::uint8_t k_far = 255;
 
 /// Vertices of the top that something is wrong with, as ring 0.
-Column<VertexId, std::uint8_t> find_trouble(const LayerBase& base, const FillBoundary& boundary, bool has_sheets, const std::vector<ErrorPlace>& places, const RunContext& context) {
+Column<VertexId, std::uint8_t> find_trouble(const LayerBase& base, const FillBoundary& boundary, bool has_sheets, const std::vector<ErrorPlace>& places,
+                                            const RunContext& context) {
   Column<VertexId, std::uint8_t> ring(base.wall.n_vertices(), k_far);
   const TetraBoundary top{.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}, .has_sheets = has_sheets};
   for (const PreflightFinding& finding : preflight(top, {.is_clear = true}, context).findings)
@@ -24,7 +25,8 @@ Column<VertexId, std::uint8_t> find_trouble(const LayerBase& base, const FillBou
         for (const VertexId v : base.wall.triangles[TriangleId(t)]) ring[v] = 0;
   for (const ErrorPlace& place : places) {
     const auto end = boundary.points.begin() + static_cast<std::ptrdiff_t>(base.wall.n_vertices());
-    const auto nearest = std::min_element(boundary.points.begin(), end, [&](const Vec3& a, const Vec3& b) { return distance(a, place.position) < distance(b, place.position); });
+    const auto nearest =
+        std::min_element(boundary.points.begin(), end, [&](const Vec3& a, const Vec3& b) { return distance(a, place.position) < distance(b, place.position); });
     ring[VertexId(static_cast<std::size_t>(nearest - boundary.points.begin()))] = 0;
   }
   return ring;
@@ -50,13 +52,14 @@ void calm(const LayerBase& base, const Envelope& envelope, VertexId v, double sh
   }
   proposal.height[v] = std::min(envelope.height[v], share * height / n);
   const Vec3 smooth = normalized(direction);
-  if (base.constraint[v].freedom == Freedom::free && base.worst_cosine(v, smooth) >= std::min(base.worst_cosine(v, envelope.direction[v]), 0.5)) proposal.direction[v] = smooth;
+  if (base.constraint[v].freedom == Freedom::free && base.worst_cosine(v, smooth) >= std::min(base.worst_cosine(v, envelope.direction[v]), 0.5))
+    proposal.direction[v] = smooth;
 }
 
 }  // namespace
 
-std::vector<VertexId> repair_envelope(const LayerBase& base, const FillBoundary& boundary, bool has_sheets, const std::vector<ErrorPlace>& places, Collider& collider,
-                                      Envelope& envelope, const RunContext& context) {
+std::vector<VertexId> repair_envelope(const LayerBase& base, const FillBoundary& boundary, bool has_sheets, const std::vector<ErrorPlace>& places,
+                                      Collider& collider, Envelope& envelope, const RunContext& context) {
   Column<VertexId, std::uint8_t> ring = find_trouble(base, boundary, has_sheets, places, context);
   number_rings(base, ring);
   EnvelopeShape proposal = envelope;

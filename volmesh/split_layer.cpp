@@ -15,7 +15,7 @@ using Origin = BoundarySplits::Origin;
 /// The splits of one of the two surfaces that make up the tetrahedra's boundary.
 struct Part {
   const TriMesh& mesh;
-  std::size_t first_triangle;  ///< of the boundary
+  std::size_t first_triangle;            ///< of the boundary
   std::vector<std::size_t> points = {};  ///< of splits.points, those on this surface
   bool has_triangle(std::size_t t) const { return t >= first_triangle && t < first_triangle + mesh.n_triangles(); }
   TriangleId triangle(const Origin& origin) const { return TriangleId(origin.triangle - first_triangle); }
@@ -63,7 +63,8 @@ std::vector<std::uint32_t> vertices_of_nodes(const Part& wall, const Part& outer
   return node2vertex;
 }
 
-/// Heights and directions of new lines: from the wall's new vertex to the envelope's new point. Where all corners that a point lies between are collapsed, so is it.
+/// Heights and directions of new lines: from the wall's new vertex to the envelope's new point. Where all corners that a point lies between are collapsed, so
+/// is it.
 Envelope split_envelope(const Envelope& old, const Part& part, const BoundarySplits& splits, const TriMesh& new_wall) {
   Envelope envelope = old;
   for (std::size_t i = 0; i < part.points.size(); ++i) {

@@ -43,8 +43,7 @@ constexpr int k_max_boundary_repairs = 3;
 
 VolumeMeshOptions sane(const TriMesh& wall, VolumeMeshOptions options, const RunContext& context) {
   require_options(required_options_of(options), "volume_mesh");
-  if (wall.n_triangles() == 0)
-    throw Error({.code = ErrorCode::empty_surface, .attempted = "volume_mesh", .problem = "the wall has no triangles"});
+  if (wall.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = "volume_mesh", .problem = "the wall has no triangles"});
   return effective_options(options, context);
 }
 
@@ -91,7 +90,10 @@ Domain domain_around(const TriMesh& surface, const VolumeMeshOptions& options, c
   const std::vector<PeriodicPatches> periodic = join_periodic_sides(boundary, options.periodic, context);
   Domain domain = split_domain(boundary, has_layer, context, periodic);
   if (domain.wall.n_triangles() == 0)
-    throw Error({.code = ErrorCode::empty_surface, .attempted = "volume_mesh", .problem = "no patch carries a layer", .hint = "at least one patch must be a wall with layers"});
+    throw Error({.code = ErrorCode::empty_surface,
+                 .attempted = "volume_mesh",
+                 .problem = "no patch carries a layer",
+                 .hint = "at least one patch must be a wall with layers"});
   std::vector<std::size_t> on_walls;
   for (const CutDisc& cut : cuts.discs) on_walls.push_back(cut.disc);
   domain.outer = with_discs(std::move(domain.outer), domain.wall, free_discs(options.discs, on_walls), options.size.size_growth, context);
@@ -116,7 +118,9 @@ LayerBase base_of(const Domain& domain, const VolumeMeshOptions& options, const 
 /// The user's own true surface, asked with triangles of the wall.
 TrueSurface true_surface_of(const TrueSurface& of_surface, const Domain& domain) {
   if (!of_surface) return {};
-  return [of_surface, &wall2surface = domain.wall2surface](const Point& p, TriangleId t, const std::array<double, 3>& weights) { return of_surface(p, wall2surface[t], weights); };
+  return [of_surface, &wall2surface = domain.wall2surface](const Point& p, TriangleId t, const std::array<double, 3>& weights) {
+    return of_surface(p, wall2surface[t], weights);
+  };
 }
 
 /// Extrusion may lower heights, and lowering may bring surfaces together that were clear before: alternate until neither changes anything. What still
@@ -195,7 +199,8 @@ SplitLayer take_splits(const LayerBase& base, const Envelope& envelope, const Tr
 }
 
 /// The split layer instead of the one that it came from.
-void adopt(SplitLayer split, const VolumeMeshOptions& options, FillBoundary& boundary, FilledStage& filled, LayerKnowledge& knowledge, const RunContext& context) {
+void adopt(SplitLayer split, const VolumeMeshOptions& options, FillBoundary& boundary, FilledStage& filled, LayerKnowledge& knowledge,
+           const RunContext& context) {
   filled.n_split_triangles = static_cast<std::int64_t>(split.boundary.triangles.size() - boundary.triangles.size());
   context.info("boundary splits: " + std::to_string(split.boundary.points.size() - boundary.points.size()) + " new points, " +
                std::to_string(filled.n_split_triangles) + " more triangles");
@@ -271,17 +276,22 @@ void require_layers_on(const Domain& domain, const HybridMesh& layers) {
   for (std::size_t t = wall.n_triangles(); t < layers.boundary_triangles.size(); ++t)
     for (const NodeId node : layers.boundary_triangles[t].nodes) n_wrong += !has_rims && node.index() < n_layer_nodes ? 1 : 0;
   require_same(n_wrong, 0, "lines, columns and outer triangles of the layer that are not where wall and outer boundary are");
-  require_same(layers.prisms.size() + layers.pyramids.size() + layers.hexahedra.size() + layers.tetrahedra.size() + (has_rims ? 0 : layers.boundary_quads.size()), 0, "cells and quadrilaterals beside columns");
+  require_same(
+      layers.prisms.size() + layers.pyramids.size() + layers.hexahedra.size() + layers.tetrahedra.size() + (has_rims ? 0 : layers.boundary_quads.size()), 0,
+      "cells and quadrilaterals beside columns");
 }
 
 /// What make_tetrahedra() knew of the layer when it ended.
-LayerKnowledge know_again(const LayerBase& base, Collider& collider, const Domain& domain, FilledStage& filled, const VolumeMeshOptions& options, const RunContext& context) {
+LayerKnowledge know_again(const LayerBase& base, Collider& collider, const Domain& domain, FilledStage& filled, const VolumeMeshOptions& options,
+                          const RunContext& context) {
   require_clear_input(collider, context);
   LayerKnowledge knowledge;
   knowledge.certificate = certify_envelope(base, collider, filled.envelope.envelope, context);
   EnvelopeOptions envelope_options = options.envelope;
   envelope_options.feature_angle = filled.envelope.feature_angle;
-  Extrusion extrusion{.layers = std::move(filled.layers.layers), .points = std::move(filled.layers.points.raw()), .curving_shares = filled.curving_shares};  // lent: no copy of a large mesh
+  Extrusion extrusion{.layers = std::move(filled.layers.layers),
+                      .points = std::move(filled.layers.points.raw()),
+                      .curving_shares = filled.curving_shares};  // lent: no copy of a large mesh
   knowledge.report = report(base, envelope_options, filled.envelope.envelope, extrusion, context);
   filled.layers.layers = std::move(extrusion.layers);
   filled.layers.points.raw() = std::move(extrusion.points);
@@ -322,7 +332,8 @@ MeshingSite::MeshingSite(const TriMesh& surface, const VolumeMeshOptions& user_o
 EnvelopeStage make_envelope(MeshingSite& site, const RunContext& context) {
   const StageTimer timer(context, "envelope");
   const RunContext part = context.part("envelope", 0.0, 0.15);
-  const std::vector<WholePart> parts = site.domain.slits.empty() ? whole_parts(site.domain, site.options.parts, context) : std::vector<WholePart>{};  // cut walls are no parts' any more
+  const std::vector<WholePart> parts =
+      site.domain.slits.empty() ? whole_parts(site.domain, site.options.parts, context) : std::vector<WholePart>{};  // cut walls are no parts' any more
   const auto of_wall = [&] {
     const WallEnvelopeMaker& make = site.options.wall_envelope;
     return make ? make(site.base, site.options.envelope, site.collider, part) : build_envelope(site.base, site.options.envelope, site.collider, part);
@@ -344,7 +355,8 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, LayerKnowled
     const StageTimer timer(context, "tetrahedra");
     std::optional<SplitLayer> split;
     SplitTaker taker;  // where layers end on other patches, and where sides are periodic, the boundary stays as it is
-    if (!site.domain.has_rims() && site.domain.periodic.empty()) taker = [&](TetraResult& of_engine) { split = take_splits(site.base, envelope, site.domain.outer, options, of_engine, context); };
+    if (!site.domain.has_rims() && site.domain.periodic.empty())
+      taker = [&](TetraResult& of_engine) { split = take_splits(site.base, envelope, site.domain.outer, options, of_engine, context); };
     const std::vector<Point> holes = find_cavity_points(site.domain.bodies, context);
     TetraBoundary domain = boundary_for_engines(boundary, holes, !site.domain.has_rims(), taker);
     domain.has_sheets = !options.discs.empty();
@@ -361,7 +373,8 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, LayerKnowled
       if (!options.tetrahedra.repair_boundary || !error.is_repeatable() || n_repairs == k_max_boundary_repairs) throw;
       const std::size_t n_changed = repair_envelope(site.base, boundary, domain.has_sheets, error.info().places, site.collider, envelope, context).size();
       if (n_changed == 0) throw;
-      context.warn("trying again with a layer that is lower and smoother at " + std::to_string(n_changed) + " vertices around slivers, folds and gaps of its top");
+      context.warn("trying again with a layer that is lower and smoother at " + std::to_string(n_changed) +
+                   " vertices around slivers, folds and gaps of its top");
       boundary = lay_out(site, envelope, filled, knowledge, context);
       continue;
     }
@@ -407,8 +420,8 @@ VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const
   }
   require_valid(result.check);
   for (const PeriodicMatchReport& sides : result.check.periodic)
-    context.info("periodic sides " + sides.first + " and " + sides.second + ": " + std::to_string(sides.n_nodes) + " nodes and " + std::to_string(sides.n_faces) + " faces match within " +
-                 number_text(sides.worst, 3) + " m");
+    context.info("periodic sides " + sides.first + " and " + sides.second + ": " + std::to_string(sides.n_nodes) + " nodes and " +
+                 std::to_string(sides.n_faces) + " faces match within " + number_text(sides.worst, 3) + " m");
   return result;
 }
 

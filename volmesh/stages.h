@@ -62,7 +62,7 @@ struct MeshingSite {
   MeshingSite(const MeshingSite&) = delete;
   MeshingSite& operator=(const MeshingSite&) = delete;
 
-  VolumeMeshOptions options;  ///< with the feature angle; its true_surface takes triangles of the wall
+  VolumeMeshOptions options;       ///< with the feature angle; its true_surface takes triangles of the wall
   EnvelopeOptions given_envelope;  ///< without it, unless the user gave it
   Domain domain;
   LayerBase base;

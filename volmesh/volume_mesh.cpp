@@ -6,7 +6,9 @@
 
 namespace sterna::volmesh {
 
-VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const RunContext& context) { return volume_mesh(wall, options, {}, context); }
+VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const RunContext& context) {
+  return volume_mesh(wall, options, {}, context);
+}
 
 VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const StageWatch& watch, const RunContext& context) {
   MeshingSite site(wall, options, context);

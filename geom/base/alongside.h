@@ -17,8 +17,8 @@ namespace detail {
 void yield_to_others();
 }  // namespace detail
 
-/// Runs `work(context) -> T` beside the caller, on all threads of the context but one; with a single thread it runs before the caller goes on. Its priority is low. The result does not
-/// depend on that, because no kernel's does. The destructor stops the work.
+/// Runs `work(context) -> T` beside the caller, on all threads of the context but one; with a single thread it runs before the caller goes on. Its priority is
+/// low. The result does not depend on that, because no kernel's does. The destructor stops the work.
 template <class T>
 class Alongside {
  public:

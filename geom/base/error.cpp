@@ -17,8 +17,7 @@ std::string compose(const ErrorInfo& info) {
     if (!info.places[i].what.empty()) text += ": " + info.places[i].what;
   }
   const std::int64_t n_places = std::max<std::int64_t>(info.n_places, static_cast<std::int64_t>(info.places.size()));
-  if (n_places > static_cast<std::int64_t>(n_shown))
-    text += "\n  and " + std::to_string(n_places - static_cast<std::int64_t>(n_shown)) + " more places";
+  if (n_places > static_cast<std::int64_t>(n_shown)) text += "\n  and " + std::to_string(n_places - static_cast<std::int64_t>(n_shown)) + " more places";
   if (!info.hint.empty()) text += "\n  try: " + info.hint;
   return text;
 }
@@ -52,12 +51,9 @@ std::string_view to_string(ErrorCode code) {
   return "internal";
 }
 
-Error::Error(ErrorInfo info)
-    : std::runtime_error(compose(info)), info_(std::make_shared<const ErrorInfo>(std::move(info))) {}
+Error::Error(ErrorInfo info) : std::runtime_error(compose(info)), info_(std::make_shared<const ErrorInfo>(std::move(info))) {}
 
-std::int64_t Error::n_places() const {
-  return std::max<std::int64_t>(info_->n_places, static_cast<std::int64_t>(info_->places.size()));
-}
+std::int64_t Error::n_places() const { return std::max<std::int64_t>(info_->n_places, static_cast<std::int64_t>(info_->places.size())); }
 
 std::string format_point(const Vec3& p) {
   char buffer[96];

@@ -15,20 +15,20 @@
 namespace sterna {
 
 enum class ErrorCode {
-  bad_argument,          ///< a value of the wrong type, out of range, or a missing required one
-  unknown_option,        ///< a key that no option has
-  script_failed,         ///< the Lua script itself is wrong
+  bad_argument,    ///< a value of the wrong type, out of range, or a missing required one
+  unknown_option,  ///< a key that no option has
+  script_failed,   ///< the Lua script itself is wrong
   file_not_found,
-  file_malformed,        ///< the file breaks its format's rules
-  unsupported_format,    ///< a format (or a variant of one) that this build does not read or write
+  file_malformed,      ///< the file breaks its format's rules
+  unsupported_format,  ///< a format (or a variant of one) that this build does not read or write
   write_failed,
   empty_surface,
   open_surface,
   non_manifold_surface,
-  self_intersection,     ///< of a wall, an envelope, or between boundaries
+  self_intersection,  ///< of a wall, an envelope, or between boundaries
   not_orientable,
   envelope_failed,
-  geometry_failed,       ///< an operation on exact geometry: a conversion, healing, a boolean
+  geometry_failed,  ///< an operation on exact geometry: a conversion, healing, a boolean
   tetra_engine_missing,
   tetra_engine_failed,   ///< crash, error code, time or memory limit of the helper
   tetra_result_invalid,  ///< the engine answered, but not with a mesh of the domain

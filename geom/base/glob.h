@@ -20,10 +20,12 @@ std::size_t n_spelled_out(std::string_view glob);
 /// Sorts rules by their member `names`, a pattern: those that spell out more come later, so that they win ("wing*", then "wing_tip"). Deterministic.
 template <class Rule>
 void sort_by_pattern(std::vector<Rule>& rules) {
-  std::sort(rules.begin(), rules.end(), [](const Rule& a, const Rule& b) { return std::pair(n_spelled_out(a.names), a.names) < std::pair(n_spelled_out(b.names), b.names); });
+  std::sort(rules.begin(), rules.end(),
+            [](const Rule& a, const Rule& b) { return std::pair(n_spelled_out(a.names), a.names) < std::pair(n_spelled_out(b.names), b.names); });
 }
 
-/// "names are a, b, c": sorted, each once, the first dozen; for the hint of a pattern that no name is like. With "did you mean" where one is nearly the pattern.
+/// "names are a, b, c": sorted, each once, the first dozen; for the hint of a pattern that no name is like. With "did you mean" where one is nearly the
+/// pattern.
 std::string names_hint(std::span<const std::string> names, std::string_view glob);
 
 }  // namespace sterna

@@ -25,11 +25,11 @@ extern char** environ;
 namespace sterna {
 namespace {
 
-constexpr int k_poll_ms = 20;                   ///< how soon a stop or the time limit is noticed
-constexpr int k_late_poll_ms = 2;                ///< how soon data that comes late is handed on
-constexpr std::size_t k_output_kept = 4096;     ///< bytes of the helper's last words kept for the error text
-constexpr int k_folders_up = 3;                 ///< the program's folder and two above it: tests and fuzz targets lie below the build folder
-constexpr int k_first_free_descriptor = 10;     ///< above the descriptors that the helper inherits, so that dup2 in the child never clobbers a source
+constexpr int k_poll_ms = 20;                ///< how soon a stop or the time limit is noticed
+constexpr int k_late_poll_ms = 2;            ///< how soon data that comes late is handed on
+constexpr std::size_t k_output_kept = 4096;  ///< bytes of the helper's last words kept for the error text
+constexpr int k_folders_up = 3;              ///< the program's folder and two above it: tests and fuzz targets lie below the build folder
+constexpr int k_first_free_descriptor = 10;  ///< above the descriptors that the helper inherits, so that dup2 in the child never clobbers a source
 
 [[noreturn]] void throw_system_failure(const HelperTask& task, const std::string& what, int error) {
   throw Error({.code = task.failed, .attempted = task.attempted, .problem = what + ": " + std::strerror(error)});

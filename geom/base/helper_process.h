@@ -20,11 +20,11 @@ inline constexpr int k_helper_late_ready_fd = 6;  ///< pipe: then their length i
 
 /// What a helper is for, as errors say it.
 struct HelperTask {
-  std::string helper;                        ///< "the tetrahedra engine"
-  std::string attempted;                     ///< "handing the boundary to the tetrahedra engine"
-  std::string else_try;                      ///< appended to the hint to build it: ", or set ..."; may be empty
-  ErrorCode missing = ErrorCode::internal;   ///< it is not there or cannot be started
-  ErrorCode failed = ErrorCode::internal;    ///< the system refuses memory or a pipe
+  std::string helper;                       ///< "the tetrahedra engine"
+  std::string attempted;                    ///< "handing the boundary to the tetrahedra engine"
+  std::string else_try;                     ///< appended to the hint to build it: ", or set ..."; may be empty
+  ErrorCode missing = ErrorCode::internal;  ///< it is not there or cannot be started
+  ErrorCode failed = ErrorCode::internal;   ///< the system refuses memory or a pipe
 };
 
 /// Anonymous file in memory that another process can inherit; closed with the object.
@@ -64,10 +64,10 @@ struct HelperStart {
 
 /// How a helper ended.
 struct HelperExit {
-  int wait_status = 0;       ///< as of waitpid()
-  bool is_time_over = false; ///< killed here because of the time limit
-  double seconds = 0.0;      ///< wall time of its life
-  std::string output;        ///< the last few kilobytes it wrote to stdout and stderr
+  int wait_status = 0;        ///< as of waitpid()
+  bool is_time_over = false;  ///< killed here because of the time limit
+  double seconds = 0.0;       ///< wall time of its life
+  std::string output;         ///< the last few kilobytes it wrote to stdout and stderr
   bool is_success() const { return wait_status == 0 && !is_time_over; }
 };
 

@@ -39,9 +39,7 @@ class FirstException {
   std::exception_ptr exception_;
 };
 
-int resolve_threads(int threads) {
-  return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
+int resolve_threads(int threads) { return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
 
 }  // namespace
 
@@ -63,9 +61,7 @@ class ThreadPool {
 };
 
 static void run_chunks(ThreadPool& pool, std::size_t n_chunks, const std::function<void(std::size_t)>& body) {
-  pool.arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, n_chunks, [&](std::size_t i) { body(i); });
-  });
+  pool.arena.execute([&] { tbb::parallel_for(std::size_t{0}, n_chunks, [&](std::size_t i) { body(i); }); });
 }
 
 #else

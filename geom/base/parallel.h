@@ -20,8 +20,7 @@ namespace detail {
 class RangeFunction {
  public:
   template <class F>
-  RangeFunction(const F& f)
-      : object_(&f), call_([](const void* o, std::size_t b, std::size_t e) { (*static_cast<const F*>(o))(b, e); }) {}
+  RangeFunction(const F& f) : object_(&f), call_([](const void* o, std::size_t b, std::size_t e) { (*static_cast<const F*>(o))(b, e); }) {}
   void operator()(std::size_t begin, std::size_t end) const { call_(object_, begin, end); }
 
  private:
@@ -48,13 +47,10 @@ void parallel_for(const RunContext& context, std::size_t n, const F& f, std::siz
 
 /// map(begin, end) -> R for each chunk, then R = combine(R, R) from the first chunk to the last, starting from `initial`.
 template <class R, class Map, class Combine>
-R parallel_reduce(const RunContext& context, std::size_t n, R initial, const Map& map, const Combine& combine,
-                  std::size_t chunk = k_default_chunk) {
+R parallel_reduce(const RunContext& context, std::size_t n, R initial, const Map& map, const Combine& combine, std::size_t chunk = k_default_chunk) {
   if (n == 0) return initial;
   std::vector<std::unique_ptr<R>> parts((n + chunk - 1) / chunk);
-  parallel_chunks(context, n, chunk, [&](std::size_t begin, std::size_t end) {
-    parts[begin / chunk] = std::make_unique<R>(map(begin, end));
-  });
+  parallel_chunks(context, n, chunk, [&](std::size_t begin, std::size_t end) { parts[begin / chunk] = std::make_unique<R>(map(begin, end)); });
   R result = std::move(initial);
   for (auto& part : parts) result = combine(std::move(result), std::move(*part));
   return result;

@@ -10,9 +10,7 @@ namespace {
 
 constexpr auto k_progress_interval = std::chrono::milliseconds(100);
 
-std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+std::int64_t now_ns() { return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 }  // namespace
 
@@ -81,8 +79,7 @@ std::vector<StageTime> RunContext::times() const {
   return state_->times;
 }
 
-StageTimer::StageTimer(const RunContext& context, std::string_view stage)
-    : context_(context), stage_(stage), start_ns_(now_ns()) {}
+StageTimer::StageTimer(const RunContext& context, std::string_view stage) : context_(context), stage_(stage), start_ns_(now_ns()) {}
 
 StageTimer::~StageTimer() { context_.add_time(stage_, static_cast<double>(now_ns() - start_ns_) * 1e-9); }
 

@@ -33,9 +33,9 @@ struct RunSettings {
   int threads = 0;  ///< worker threads; 0 = all hardware threads
   std::uint64_t seed = 1;
   std::stop_token stop;
-  std::filesystem::path dump_directory;  ///< where VTUs of trouble go; empty = none is written
-  std::function<void(LogLevel, std::string_view)> log;         ///< empty = quiet; may be called from one thread at a time only
-  std::function<void(const ProgressState&)> progress;          ///< empty = none; called at most about ten times a second
+  std::filesystem::path dump_directory;                 ///< where VTUs of trouble go; empty = none is written
+  std::function<void(LogLevel, std::string_view)> log;  ///< empty = quiet; may be called from one thread at a time only
+  std::function<void(const ProgressState&)> progress;   ///< empty = none; called at most about ten times a second
 };
 
 class RunContext {

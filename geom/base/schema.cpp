@@ -127,7 +127,8 @@ void check_range(const Option& option, double value) {
     return;
   }
   if (value < option.min || value > option.max || std::isinf(value))
-    reject(option, number_text(value) + (option.unit == Unit::radian ? " rad (" + display_text(value, option.unit) + ")" : ""), std::string(kind_text(option.kind)) + " in " + option.range_text());
+    reject(option, number_text(value) + (option.unit == Unit::radian ? " rad (" + display_text(value, option.unit) + ")" : ""),
+           std::string(kind_text(option.kind)) + " in " + option.range_text());
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -160,8 +161,7 @@ std::string_view to_string(Unit unit) {
 
 std::string Option::default_text() const {
   if (required) return "required";
-  if (const double* number = std::get_if<double>(&default_value); number && is_automatic(*number))
-    return "automatic (" + std::string(automatic) + ")";
+  if (const double* number = std::get_if<double>(&default_value); number && is_automatic(*number)) return "automatic (" + std::string(automatic) + ")";
   if (const double* number = std::get_if<double>(&default_value)) return display_text(*number, unit);
   return value_text(default_value);
 }
@@ -192,8 +192,7 @@ void set_option(const Option& option, const OptionValue& value) {
     return set_option(option, static_cast<double>(std::get<std::int64_t>(value)));
   if (option.kind == OptionKind::integer && std::holds_alternative<double>(value)) {
     const double number = std::get<double>(value);
-    if (number == std::floor(number) && std::abs(number) < 1e15)
-      return set_option(option, static_cast<std::int64_t>(number));
+    if (number == std::floor(number) && std::abs(number) < 1e15) return set_option(option, static_cast<std::int64_t>(number));
   }
   if (const auto* name = std::get_if<std::string>(&value); name && option.kind == OptionKind::number && !option.choices.empty()) {
     if (const auto number = named_number(option.choices, *name)) return set_option(option, *number);
@@ -208,8 +207,7 @@ void set_option(const Option& option, const OptionValue& value) {
   }
   if (const std::string* text = std::get_if<std::string>(&value); text && !option.choices.empty()) {
     const std::vector<std::string> choices = split(option.choices);
-    if (std::find(choices.begin(), choices.end(), *text) == choices.end())
-      reject(option, value_text(value), option.range_text());
+    if (std::find(choices.begin(), choices.end(), *text) == choices.end()) reject(option, value_text(value), option.range_text());
   }
   option.store(value);
 }
@@ -252,8 +250,7 @@ void set_option_from_text(const Option& option, std::string_view text) {
     case OptionKind::integer: {
       std::int64_t number = 0;
       const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
-      if (result.ec != std::errc{} || result.ptr != text.data() + text.size())
-        reject(option, "\"" + std::string(text) + "\"", "a whole number");
+      if (result.ec != std::errc{} || result.ptr != text.data() + text.size()) reject(option, "\"" + std::string(text) + "\"", "a whole number");
       return set_option(option, number);
     }
     case OptionKind::number:
@@ -273,8 +270,7 @@ void require_options(const OptionTable& table, std::string_view attempted) {
     if ((number && is_automatic(*number)) || (text && text->empty()))
       missing += (missing.empty() ? "" : ", ") + std::string(option.name) + " (" + std::string(option.help) + ")";
   }
-  if (!missing.empty())
-    throw Error({.code = ErrorCode::bad_argument, .attempted = std::string(attempted), .problem = "needs " + missing});
+  if (!missing.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = std::string(attempted), .problem = "needs " + missing});
 }
 
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
@@ -294,7 +290,9 @@ double parse_number_with_unit(std::string_view text, Unit expected) {
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "reading a number",
                  .problem = "\"" + std::string(text) + "\" is not " + expected_text(expected),
-                 .hint = expected == Unit::radian ? "write for example 35*deg" : expected == Unit::metre ? "write for example 2e-6 or 0.5*mm" : "write for example 1.25"});
+                 .hint = expected == Unit::radian  ? "write for example 35*deg"
+                         : expected == Unit::metre ? "write for example 2e-6 or 0.5*mm"
+                                                   : "write for example 1.25"});
   };
   double number = 0.0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -307,7 +305,9 @@ double parse_number_with_unit(std::string_view text, Unit expected) {
   for (const NamedScale& known : k_units) {
     if (known.name != unit) continue;
     if (known.dimension == expected) return number * known.scale;
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "reading a number", .problem = "\"" + std::string(text) + "\" is " + std::string(dimension_text(known.dimension)) + ", expected " + expected_text(expected)});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "reading a number",
+                 .problem = "\"" + std::string(text) + "\" is " + std::string(dimension_text(known.dimension)) + ", expected " + expected_text(expected)});
   }
   return fail();
 }

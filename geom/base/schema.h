@@ -34,8 +34,9 @@ struct Field {
   double max = k_unbounded;   ///< inclusive
   std::string_view help;
   std::string_view automatic = {};  ///< for doubles: what k_automatic means, e.g. "50 body lengths"; empty = must have a number
-  std::string_view choices = {};    ///< for strings: the allowed values, separated by blanks; empty = any. For numbers: names that stand for some: "coarse=0.5 fine=2"
-  bool required = false;            ///< the user must give it
+  std::string_view choices =
+      {};                 ///< for strings: the allowed values, separated by blanks; empty = any. For numbers: names that stand for some: "coarse=0.5 fine=2"
+  bool required = false;  ///< the user must give it
 };
 
 /// Specialise for every options struct T:
@@ -88,10 +89,8 @@ constexpr bool is_brace_constructible(std::index_sequence<I...>) {
 
 template <class T, std::size_t N = 0>
 constexpr std::size_t member_count() {
-  if constexpr (is_brace_constructible<T>(std::make_index_sequence<N + 1>{}))
-    return member_count<T, N + 1>();
-  else
-    return N;
+  if constexpr (is_brace_constructible<T>(std::make_index_sequence<N + 1>{})) return member_count<T, N + 1>();
+  else return N;
 }
 
 }  // namespace detail
@@ -99,8 +98,7 @@ constexpr std::size_t member_count() {
 /// The options of `instance`, in schema order. `instance` must outlive the table.
 template <class T>
 OptionTable options_of(T& instance) {
-  static_assert(detail::member_count<T>() == Schema<T>::fields.size(),
-                "every member of the options struct needs one entry in its Schema");
+  static_assert(detail::member_count<T>() == Schema<T>::fields.size(), "every member of the options struct needs one entry in its Schema");
   static const T defaults{};
   OptionTable table;
   for (const Field<T>& field : Schema<T>::fields) {
@@ -124,9 +122,7 @@ OptionTable options_of(T& instance) {
             option.get = [object, member] { return OptionValue(static_cast<std::int64_t>(object->*member)); };
             option.store = [object, member](const OptionValue& v) { object->*member = static_cast<int>(std::get<std::int64_t>(v)); };
           } else {
-            option.kind = std::is_same_v<M, bool>     ? OptionKind::boolean
-                          : std::is_same_v<M, double> ? OptionKind::number
-                                                      : OptionKind::text;
+            option.kind = std::is_same_v<M, bool> ? OptionKind::boolean : std::is_same_v<M, double> ? OptionKind::number : OptionKind::text;
             option.default_value = defaults.*member;
             option.get = [object, member] { return OptionValue(object->*member); };
             option.store = [object, member](const OptionValue& v) { object->*member = std::get<M>(v); };

@@ -19,10 +19,10 @@ struct TaggedSolid {
 };
 
 struct CorefinedUnion {
-  TaggedSolid surface;        ///< coordinates are the exact ones, each rounded to the nearest double; a piece of a triangle has its tag
-  bool is_solid = true;       ///< false: the surface of the union is not manifold, or the union was refused
-  std::size_t failed = 0;     ///< !is_solid: the solid that could not be added to those before it
-  std::string reason;         ///< !is_solid: why
+  TaggedSolid surface;     ///< coordinates are the exact ones, each rounded to the nearest double; a piece of a triangle has its tag
+  bool is_solid = true;    ///< false: the surface of the union is not manifold, or the union was refused
+  std::size_t failed = 0;  ///< !is_solid: the solid that could not be added to those before it
+  std::string reason;      ///< !is_solid: why
 };
 
 /// Adds the solids one by one, in order; exact constructions throughout, rounded once at the end, so that no solid is cut by the rounding of an earlier cut.

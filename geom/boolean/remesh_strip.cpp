@@ -1,8 +1,9 @@
-// Problem: exact cuts leave edges of any length and needles along the curve. Each round measures how far every vertex is from the curve (measure_strip), then splits
-// edges that are long there (split_long), collapses short ones (collapse_short), flips (flip_edges) and smooths (smooth); at last what still is a sliver is dealt with
-// one by one (remove_slivers). All loops go in order of length and number, and each has a fixed number of rounds: deterministic and bounded.
+// Problem: exact cuts leave edges of any length and needles along the curve. Each round measures how far every vertex is from the curve (measure_strip), then
+// splits edges that are long there (split_long), collapses short ones (collapse_short), flips (flip_edges) and smooths (smooth); at last what still is a sliver
+// is dealt with one by one (remove_slivers). All loops go in order of length and number, and each has a fixed number of rounds: deterministic and bounded.
 //
-// Based on: M. Botsch, L. Kobbelt, "A remeshing approach to multiresolution modeling", SGP 2004, for the kind of rounds; the tests of each step are strip_mesh.h's.
+// Based on: M. Botsch, L. Kobbelt, "A remeshing approach to multiresolution modeling", SGP 2004, for the kind of rounds; the tests of each step are
+// strip_mesh.h's.
 #include "geom/boolean/remesh_strip.h"
 
 #include <algorithm>
@@ -288,7 +289,7 @@ class StripRemesher {
   StripMesh mesh_;
   const TriangleTree& reference_;
   std::vector<char> is_new_;
-  std::vector<LocalLength> local_; ///< per vertex: graded from the curve
+  std::vector<LocalLength> local_;  ///< per vertex: graded from the curve
   std::vector<char> is_in_strip_;
   std::int64_t n_split_ = 0, n_collapsed_ = 0, n_flipped_ = 0, n_moved_ = 0;
 };

@@ -19,20 +19,20 @@ struct LocalLength {
 struct StripInput {
   std::vector<Vec3> points;
   std::vector<StripTriangle> triangles;
-  std::vector<std::uint32_t> solid;   ///< per triangle: where two differ, there is the curve
-  std::vector<LocalLength> length;    ///< per vertex: of the input triangles that its triangles are pieces of
+  std::vector<std::uint32_t> solid;  ///< per triangle: where two differ, there is the curve
+  std::vector<LocalLength> length;   ///< per vertex: of the input triangles that its triangles are pieces of
 };
 
 struct StripOutput {
   std::vector<Vec3> points;
   std::vector<StripTriangle> triangles;
-  std::vector<char> is_in_strip;      ///< per triangle
+  std::vector<char> is_in_strip;  ///< per triangle
 };
 
-/// Rounds of splitting, collapsing, flipping and smoothing within options.strip_width local edge lengths of the curve; lengths grow from those of the curve to those of
-/// the input. Kept edges (borders of regions, ridges) stay polylines of their own vertices and midpoints. Never adds a crossing; farther than options.deviation
-/// local edge lengths from the input no triangle comes. Serial; ends after a fixed number of rounds. Fills the figures of the strip in `report`.
-/// \pre closed, manifold
+/// Rounds of splitting, collapsing, flipping and smoothing within options.strip_width local edge lengths of the curve; lengths grow from those of the curve to
+/// those of the input. Kept edges (borders of regions, ridges) stay polylines of their own vertices and midpoints. Never adds a crossing; farther than
+/// options.deviation local edge lengths from the input no triangle comes. Serial; ends after a fixed number of rounds. Fills the figures of the strip in
+/// `report`. \pre closed, manifold
 StripOutput remesh_strip(StripInput input, const UnionOptions& options, UnionReport& report, const RunContext& context);
 
 }  // namespace sterna

@@ -62,7 +62,8 @@ LocalLength length_of(const std::array<Point, 3>& c) {
 }
 
 /// Components of one part, turned outwards, appended to `all`.
-void add_solids(const UnionPart& part, std::size_t index, const std::vector<Patch>& patches, SolidParts& all, std::int64_t& n_turned, const RunContext& context) {
+void add_solids(const UnionPart& part, std::size_t index, const std::vector<Patch>& patches, SolidParts& all, std::int64_t& n_turned,
+                const RunContext& context) {
   const Topology topology(part.mesh, context);
   const std::string name = part_name(part, index);
   require_closed(part.mesh, topology, name);
@@ -95,8 +96,8 @@ void add_solids(const UnionPart& part, std::size_t index, const std::vector<Patc
     solid.number = c;
     for (const Vec3& p : solid.surface.points) solid.box.add(p);
     all.names.push_back(components.count == 1 ? name
-                                              : "component " + std::to_string(c + 1) + " of " + name + " (" + std::to_string(solid.surface.triangles.size()) + " triangles about " +
-                                                    format_point(solid.box.center()) + ")");
+                                              : "component " + std::to_string(c + 1) + " of " + name + " (" + std::to_string(solid.surface.triangles.size()) +
+                                                    " triangles about " + format_point(solid.box.center()) + ")");
     if (volume_of(solid.surface.points, solid.surface.triangles) >= 0.0) continue;
     ++n_turned;
     for (auto& triangle : solid.surface.triangles) std::swap(triangle[1], triangle[2]);
@@ -118,8 +119,7 @@ void find_links(SolidParts& all, const RunContext& context) {
   }
   CrossingPairs pairs = find_crossings(points, triangles, context);
   std::vector<std::array<std::uint32_t, 2>> own;
-  for (const auto& pair : pairs.pairs)
-    (all.facets[pair[0]].solid == all.facets[pair[1]].solid ? own : all.crossings).push_back(pair);
+  for (const auto& pair : pairs.pairs) (all.facets[pair[0]].solid == all.facets[pair[1]].solid ? own : all.crossings).push_back(pair);
   if (own.empty()) return;
   ErrorInfo info{.code = ErrorCode::self_intersection,
                  .attempted = std::string(k_attempted),
@@ -181,7 +181,8 @@ void add_crossing_places(ErrorInfo& info, const SolidParts& parts, const std::ve
     const std::uint32_t one = parts.facets[pair[0]].solid, other = parts.facets[pair[1]].solid;
     if (info.places.size() < k_max_places && !shown.contains(pair[0]) && shown.insert(smaller).second) {
       shown.insert(pair[0]);
-      info.places.push_back({(c[0] + c[1] + c[2]) / 3.0, one == other ? "triangles of " + short_name(parts, one) : short_name(parts, one) + " and " + short_name(parts, other)});
+      info.places.push_back(
+          {(c[0] + c[1] + c[2]) / 3.0, one == other ? "triangles of " + short_name(parts, one) : short_name(parts, one) + " and " + short_name(parts, other)});
     }
     if (info.geometry.triangles.size() >= k_max_geometry) break;
     for (const std::uint32_t tag : pair) {

@@ -1,5 +1,5 @@
-// An exchange removes some triangles and puts others into the same hole. It is made only if no new triangle turns away from the input triangle that it stands for,
-// leaves the reference by more than the tolerance, or (exactly) crosses any other triangle that those before it did not cross.
+// An exchange removes some triangles and puts others into the same hole. It is made only if no new triangle turns away from the input triangle that it stands
+// for, leaves the reference by more than the tolerance, or (exactly) crosses any other triangle that those before it did not cross.
 #include "geom/boolean/strip_mesh.h"
 
 #include <algorithm>
@@ -66,7 +66,12 @@ void TriangleGrid::remove(std::uint32_t triangle, const Box& box) {
 // ---- Looking ----
 
 StripMesh::StripMesh(std::vector<Vec3> given_points, std::vector<StripTriangle> given_triangles, const StripLimits& limits, const TriangleTree& reference)
-    : points(std::move(given_points)), triangles(std::move(given_triangles)), is_alive(triangles.size(), 0), star(points.size()), limits_(limits), reference_(reference) {
+    : points(std::move(given_points)),
+      triangles(std::move(given_triangles)),
+      is_alive(triangles.size(), 0),
+      star(points.size()),
+      limits_(limits),
+      reference_(reference) {
   for (std::uint32_t t = 0; t < triangles.size(); ++t) insert(t);
 }
 
@@ -250,7 +255,8 @@ bool StripMesh::collapse(std::uint32_t from, std::uint32_t to, const CollapseLim
   if (nearest > limits.tolerance) return false;
   for (const std::uint32_t v : around_from)
     if (v != to && !contains(around_to, v) && distance(points[v], points[to]) > limits.longest) return false;
-  return are_normals_sound(exchange, is_merge ? limits.merge : 0.0) && is_near_reference(exchange, limits.tolerance) && exchange_without_crossing(exchange, is_merge);
+  return are_normals_sound(exchange, is_merge ? limits.merge : 0.0) && is_near_reference(exchange, limits.tolerance) &&
+         exchange_without_crossing(exchange, is_merge);
 }
 
 std::optional<std::uint32_t> StripMesh::split(std::uint32_t a, std::uint32_t b) {
@@ -261,7 +267,8 @@ std::optional<std::uint32_t> StripMesh::split(std::uint32_t a, std::uint32_t b) 
   star.emplace_back();
   const std::uint32_t c = opposite(*left, a, b), d = opposite(*right, a, b);
   const StripTriangle &s = triangles[*left], &t = triangles[*right];
-  const Exchange exchange{{*left, *right}, {{{a, m, c}, s.region, s.normal}, {{m, b, c}, s.region, s.normal}, {{b, m, d}, t.region, t.normal}, {{m, a, d}, t.region, t.normal}}};
+  const Exchange exchange{{*left, *right},
+                          {{{a, m, c}, s.region, s.normal}, {{m, b, c}, s.region, s.normal}, {{b, m, d}, t.region, t.normal}, {{m, a, d}, t.region, t.normal}}};
   if (are_normals_sound(exchange) && exchange_without_crossing(exchange)) return m;
   points.pop_back();
   star.pop_back();

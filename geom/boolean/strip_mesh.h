@@ -25,7 +25,9 @@ class TriangleGrid {
  private:
   using Cell = std::array<std::int64_t, 3>;
   struct CellHash {
-    std::size_t operator()(const Cell& c) const { return static_cast<std::size_t>(c[0]) * 73856093u ^ static_cast<std::size_t>(c[1]) * 19349663u ^ static_cast<std::size_t>(c[2]) * 83492791u; }
+    std::size_t operator()(const Cell& c) const {
+      return static_cast<std::size_t>(c[0]) * 73856093u ^ static_cast<std::size_t>(c[1]) * 19349663u ^ static_cast<std::size_t>(c[2]) * 83492791u;
+    }
   };
   struct Level {
     int exponent = 0;
@@ -47,7 +49,7 @@ struct StripTriangle {
 
 /// What an exchange must respect.
 struct StripLimits {
-  double max_bend = 0.35;   ///< rad; edges whose input triangles bend by more are kept, and no triangle may turn further from its input
+  double max_bend = 0.35;  ///< rad; edges whose input triangles bend by more are kept, and no triangle may turn further from its input
 };
 
 /// What a collapse must respect.
@@ -66,8 +68,8 @@ class StripMesh {
 
   std::vector<Vec3> points;
   std::vector<StripTriangle> triangles;
-  std::vector<char> is_alive;                      ///< per triangle
-  std::vector<std::vector<std::uint32_t>> star;    ///< living triangles at each vertex; empty: the vertex is gone
+  std::vector<char> is_alive;                    ///< per triangle
+  std::vector<std::vector<std::uint32_t>> star;  ///< living triangles at each vertex; empty: the vertex is gone
 
   std::array<Vec3, 3> corners(std::uint32_t t) const;
   /// Smallest angle, rad; 0 without area.

@@ -1,5 +1,6 @@
-// Steps: the closed components of all parts (find_solids); the exact union of those that hang together by crossings (unite_group); groups inside other solids vanish
-// (is_inside_another); hollows are dropped (drop_cavities); the strips along the curves are remeshed (remesh_strip); the result is proved free of crossings.
+// Steps: the closed components of all parts (find_solids); the exact union of those that hang together by crossings (unite_group); groups inside other solids
+// vanish (is_inside_another); hollows are dropped (drop_cavities); the strips along the curves are remeshed (remesh_strip); the result is proved free of
+// crossings.
 #include "geom/boolean/union_meshes.h"
 
 #include <algorithm>
@@ -253,8 +254,12 @@ void require_free_of_crossings(const TriMesh& mesh, const RunContext& context) {
     std::vector<std::array<Vec3, 3>> both;
     for (const std::uint32_t t : pair) both.push_back(corners(mesh, TriangleId(t)));
     const auto name = [&](std::uint32_t t) { return mesh.patches[mesh.triangle_patch[TriangleId(t)]].name; };
-    const auto& small = bounding_box({.points = {both[0][0], both[0][1], both[0][2]}}).longest_side() < bounding_box({.points = {both[1][0], both[1][1], both[1][2]}}).longest_side() ? both[0] : both[1];
-    if (info.places.size() < k_max_places) info.places.push_back({(small[0] + small[1] + small[2]) / 3.0, "patches " + name(pair[0]) + " and " + name(pair[1])});
+    const auto& small = bounding_box({.points = {both[0][0], both[0][1], both[0][2]}}).longest_side() <
+                                bounding_box({.points = {both[1][0], both[1][1], both[1][2]}}).longest_side()
+                            ? both[0]
+                            : both[1];
+    if (info.places.size() < k_max_places)
+      info.places.push_back({(small[0] + small[1] + small[2]) / 3.0, "patches " + name(pair[0]) + " and " + name(pair[1])});
     for (const auto& c : both) {
       const auto n = static_cast<std::uint32_t>(info.geometry.points.size());
       info.geometry.points.insert(info.geometry.points.end(), c.begin(), c.end());
@@ -267,11 +272,11 @@ void require_free_of_crossings(const TriMesh& mesh, const RunContext& context) {
 std::string strip_text(const UnionReport& report) {
   constexpr double k_degrees = 57.29577951308232;
   const auto figures = [](const StripQuality& q) {
-    return std::to_string(q.n_triangles) + " triangles, " + std::to_string(q.n_slivers) + " below 5 deg, smallest angle " + short_number(k_degrees * q.min_angle) + " deg, shortest edge " +
-           short_number(q.shortest_edge) + " m";
+    return std::to_string(q.n_triangles) + " triangles, " + std::to_string(q.n_slivers) + " below 5 deg, smallest angle " +
+           short_number(k_degrees * q.min_angle) + " deg, shortest edge " + short_number(q.shortest_edge) + " m";
   };
-  return "strips along " + short_number(report.curve_length) + " m of curves remeshed: before " + figures(report.before) + "; after " + figures(report.after) + "; at most " +
-         short_number(report.max_deviation) + " m from the exact union";
+  return "strips along " + short_number(report.curve_length) + " m of curves remeshed: before " + figures(report.before) + "; after " + figures(report.after) +
+         "; at most " + short_number(report.max_deviation) + " m from the exact union";
 }
 
 }  // namespace
@@ -297,8 +302,8 @@ UnionResult unite_meshes(const std::vector<UnionPart>& parts, const UnionOptions
   }
   require_free_of_crossings(result.mesh, context.part("prove", k_remesh_end, 1.0));
   for (const std::string& message : report.messages) context.info("union: " + message);
-  context.info("union of " + std::to_string(report.n_solids) + " solids: " + std::to_string(result.mesh.n_triangles()) + " triangles, " + std::to_string(report.n_components) +
-               (report.n_components == 1 ? " component" : " components"));
+  context.info("union of " + std::to_string(report.n_solids) + " solids: " + std::to_string(result.mesh.n_triangles()) + " triangles, " +
+               std::to_string(report.n_components) + (report.n_components == 1 ? " component" : " components"));
   return result;
 }
 

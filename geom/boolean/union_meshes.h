@@ -17,34 +17,34 @@ struct UnionPart {
 };
 
 struct UnionOptions {
-  bool remesh = true;            ///< improve the triangles along the intersection curves
-  double strip_width = 4.0;      ///< how far from the curve, in local edge lengths
-  double strip_growth = 1.3;     ///< of edge lengths with the distance from the curve
-  double deviation = 0.01;       ///< how far from the input surface, in local edge lengths
-  bool keep_cavities = false;    ///< hollows that the parts enclose
+  bool remesh = true;          ///< improve the triangles along the intersection curves
+  double strip_width = 4.0;    ///< how far from the curve, in local edge lengths
+  double strip_growth = 1.3;   ///< of edge lengths with the distance from the curve
+  double deviation = 0.01;     ///< how far from the input surface, in local edge lengths
+  bool keep_cavities = false;  ///< hollows that the parts enclose
 };
 
 /// Triangles along the curves: those that the remesher may touch.
 struct StripQuality {
   std::int64_t n_triangles = 0;
-  std::int64_t n_slivers = 0;    ///< with an angle below k_sliver_angle
-  double min_angle = 0.0;        ///< rad
-  double shortest_edge = 0.0;    ///< m
+  std::int64_t n_slivers = 0;  ///< with an angle below k_sliver_angle
+  double min_angle = 0.0;      ///< rad
+  double shortest_edge = 0.0;  ///< m
 };
 
 /// rad, 5 degrees: below it layers on the wall rarely keep their height.
 inline constexpr double k_sliver_angle = 0.0873;
 
 struct UnionReport {
-  std::int64_t n_solids = 0;          ///< closed components of the parts
-  std::int64_t n_vanished = 0;        ///< of these, no triangle is left
-  std::int64_t n_cavities = 0;        ///< hollows found
-  std::int64_t n_components = 0;      ///< of the result
-  std::int64_t n_curve_edges = 0;     ///< of the intersection curves, before remeshing
-  double curve_length = 0.0;          ///< m
+  std::int64_t n_solids = 0;       ///< closed components of the parts
+  std::int64_t n_vanished = 0;     ///< of these, no triangle is left
+  std::int64_t n_cavities = 0;     ///< hollows found
+  std::int64_t n_components = 0;   ///< of the result
+  std::int64_t n_curve_edges = 0;  ///< of the intersection curves, before remeshing
+  double curve_length = 0.0;       ///< m
   StripQuality before, after;
   std::int64_t n_split = 0, n_collapsed = 0, n_flipped = 0, n_moved = 0;
-  double max_deviation = 0.0;         ///< m; between the result and the union of the input as computed exactly, sampled both ways at vertices, edges and centres
+  double max_deviation = 0.0;  ///< m; between the result and the union of the input as computed exactly, sampled both ways at vertices, edges and centres
   std::vector<std::string> messages;  ///< one sentence for each thing worth knowing, as logged
 };
 
@@ -53,15 +53,16 @@ struct UnionResult {
   UnionReport report;
 };
 
-/// Each closed component of each part is a solid, whatever its sense; the result is the surface of everything that is in at least one of them. Solids that cross are
-/// united exactly (CGAL) in the order of parts and components, then rounded to doubles; those inside others vanish, with a message. Triangles away from the curves of
-/// intersection are those of the input. Patches keep name and kind; a name that two parts have gets the part's in front ("body_wall").
+/// Each closed component of each part is a solid, whatever its sense; the result is the surface of everything that is in at least one of them. Solids that
+/// cross are united exactly (CGAL) in the order of parts and components, then rounded to doubles; those inside others vanish, with a message. Triangles away
+/// from the curves of intersection are those of the input. Patches keep name and kind; a name that two parts have gets the part's in front ("body_wall").
 /// Deterministic, the same for any number of threads; `context` is asked for a stop between solids and rounds.
 /// \pre every part is manifold over its edges, with a consistent sense in each component (surfmesh::stitch_surface does that, without its test for crossings).
 /// \post closed, manifold, no crossings, normals out of the solids, every vertex used.
-/// \throws Error with places: empty_surface (no triangle), open_surface (a part has a boundary), non_manifold_surface (an edge with more than two triangles; or the pair
-///   touches in a point or along an edge only, so that the union has no manifold surface), self_intersection (a component crosses itself, naming part and place; or the
-///   result does, after rounding).
+/// \throws Error with places: empty_surface (no triangle), open_surface (a part has a boundary), non_manifold_surface (an edge with more than two triangles; or
+/// the pair
+///   touches in a point or along an edge only, so that the union has no manifold surface), self_intersection (a component crosses itself, naming part and
+///   place; or the result does, after rounding).
 UnionResult unite_meshes(const std::vector<UnionPart>& parts, const UnionOptions& options, const RunContext& context);
 
 template <>
@@ -70,9 +71,17 @@ struct Schema<UnionOptions> {
   static constexpr std::string_view stage = "union";
   static constexpr std::array fields = {
       Field<O>{.name = "remesh", .member = &O::remesh, .help = "improve the triangles along the curves in which parts cross"},
-      Field<O>{.name = "strip_width", .member = &O::strip_width, .min = 0.0, .max = 100.0, .help = "how far from the curve triangles may change, in local edge lengths"},
+      Field<O>{.name = "strip_width",
+               .member = &O::strip_width,
+               .min = 0.0,
+               .max = 100.0,
+               .help = "how far from the curve triangles may change, in local edge lengths"},
       Field<O>{.name = "strip_growth", .member = &O::strip_growth, .min = 1.0, .max = 3.0, .help = "growth of edge lengths away from the curve"},
-      Field<O>{.name = "deviation", .member = &O::deviation, .min = 0.0, .max = 0.2, .help = "how far from the input remeshed triangles may lie, in local edge lengths"},
+      Field<O>{.name = "deviation",
+               .member = &O::deviation,
+               .min = 0.0,
+               .max = 0.2,
+               .help = "how far from the input remeshed triangles may lie, in local edge lengths"},
       Field<O>{.name = "keep_cavities", .member = &O::keep_cavities, .help = "keep hollows that the parts enclose and the outer flow does not reach"},
   };
 };

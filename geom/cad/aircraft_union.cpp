@@ -67,7 +67,8 @@ std::vector<Model> split_solids(const Model& components) {
     const ModelFace& face = components.faces[f];
     const EdgeUse& use = face.borders.front().front();
     const Interval range = components.edges[use.edge].range;
-    if (info.places.size() < k_listed) info.places.push_back({face.surface->point(use.parameter->point(0.5 * (range.from + range.to))), "\"" + face.name + "\""});
+    if (info.places.size() < k_listed)
+      info.places.push_back({face.surface->point(use.parameter->point(0.5 * (range.from + range.to))), "\"" + face.name + "\""});
   }
   if (info.n_places == 0) return parts;
   info.problem = std::to_string(info.n_places) + " faces belong to no solid";

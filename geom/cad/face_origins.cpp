@@ -34,7 +34,10 @@ std::vector<ErrorPlace> open_places(const Model& model) {
 BooleanPart boolean_part(const Model& model, const std::string& attempted, const RunContext& context) {
   BooleanPart part{.model = &model, .shape = shape_of(model, context)};
   if (!is_closed_model(model)) {
-    ErrorInfo info{.code = ErrorCode::open_surface, .attempted = attempted, .problem = "\"" + part.name() + "\" is not closed", .hint = "only closed parts have an inside"};
+    ErrorInfo info{.code = ErrorCode::open_surface,
+                   .attempted = attempted,
+                   .problem = "\"" + part.name() + "\" is not closed",
+                   .hint = "only closed parts have an inside"};
     info.places = open_places(model);
     info.n_places = static_cast<std::int64_t>(info.places.size());
     info.places.resize(std::min(k_listed, info.places.size()));

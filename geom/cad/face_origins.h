@@ -39,8 +39,8 @@ FaceOrigins origins_of(BRepBuilderAPI_MakeShape& operation, std::span<const Bool
 /// A result with names, colours, layers and components of the parts' faces.
 LabelledShape labelled(const TopoDS_Shape& shape, const FaceOrigins& origins, std::span<const BooleanPart> parts);
 
-/// Gives faces of a model made by `labelled` the roles, kinds, components' kinds and, where it is the same, the very surface of what they came from; `of_face` gets the
-/// origin of each. \returns what is wrong; empty: nothing
+/// Gives faces of a model made by `labelled` the roles, kinds, components' kinds and, where it is the same, the very surface of what they came from; `of_face`
+/// gets the origin of each. \returns what is wrong; empty: nothing
 std::string restore_origins(Model& model, const FaceOrigins& origins, std::span<const BooleanPart> parts, std::vector<FaceOrigin>& of_face);
 
 /// Middles of the free edges.

@@ -1,5 +1,5 @@
-// Steps: triangles of every part with their parameters; pairs of parts whose boxes are near: crossing triangles and the angles there, else nearest places, else inside; groups
-// of parts that hang together; gaps of the others; how much of each part is outside of all others.
+// Steps: triangles of every part with their parameters; pairs of parts whose boxes are near: crossing triangles and the angles there, else nearest places, else
+// inside; groups of parts that hang together; gaps of the others; how much of each part is outside of all others.
 #include "geom/cad/find_contacts.h"
 
 #include <BRepBuilderAPI_Copy.hxx>
@@ -52,8 +52,8 @@ using Facet = std::array<Point, 3>;
 struct Skin {
   const Model* model = nullptr;
   TriMesh mesh;
-  std::vector<Uv> at;           ///< of the vertices
-  std::vector<FaceId> face_of;  ///< of the triangles
+  std::vector<Uv> at;                      ///< of the vertices
+  std::vector<FaceId> face_of;             ///< of the triangles
   std::vector<std::uint32_t> triangle_at;  ///< of the vertices: one of their triangles
   std::unique_ptr<TriangleTree> tree;
   Box box;
@@ -71,7 +71,10 @@ void add_face(Skin& skin, FaceId id, const TopoDS_Face& face) {
   const ModelFace& from = skin.model->faces[id];
   if (triangles.IsNull() || !triangles->HasUVNodes()) {
     const Point at = place_of(face);
-    throw Error({.code = ErrorCode::geometry_failed, .attempted = "looking at the contacts of \"" + part_name(*skin.model) + "\"", .problem = "OpenCASCADE cannot triangulate a face", .places = {{at, "\"" + from.name + "\""}}});
+    throw Error({.code = ErrorCode::geometry_failed,
+                 .attempted = "looking at the contacts of \"" + part_name(*skin.model) + "\"",
+                 .problem = "OpenCASCADE cannot triangulate a face",
+                 .places = {{at, "\"" + from.name + "\""}}});
   }
   const auto first = static_cast<std::uint64_t>(skin.mesh.points.size());
   for (int i = 1; i <= triangles->NbNodes(); ++i) {
@@ -165,7 +168,7 @@ Point common_place(const Facet& a, const Facet& b) {
 
 /// The flattest crossing of some triangles.
 struct Flattest {
-  bool is_found = false;   ///< any crossing at all
+  bool is_found = false;  ///< any crossing at all
   double angle = 0.5 * std::numbers::pi;
   bool is_crevice = false;
   Point place;
@@ -390,7 +393,8 @@ std::vector<std::size_t> groups_of(std::size_t n, const std::vector<PartContact>
 
 /// Joins group by group to its nearest neighbour, the first group that is without the largest part first, until all are one.
 void add_gaps(const std::vector<Skin>& skins, std::vector<PartContact>& contacts, const RunContext& context) {
-  const auto largest = static_cast<std::size_t>(std::max_element(skins.begin(), skins.end(), [](const Skin& a, const Skin& b) { return a.area < b.area; }) - skins.begin());
+  const auto largest =
+      static_cast<std::size_t>(std::max_element(skins.begin(), skins.end(), [](const Skin& a, const Skin& b) { return a.area < b.area; }) - skins.begin());
   for (;;) {
     const std::vector<std::size_t> group = groups_of(skins.size(), contacts);
     const auto apart = std::find_if(group.begin(), group.end(), [&](std::size_t g) { return g != group[largest]; });
@@ -461,7 +465,8 @@ std::string doubt_of(const PartContact& contact, std::span<const Model> parts) {
     doubt = contact.is_crevice ? both + " leave a crevice of " + angle : both + " are nearly tangent where they cross, at " + angle;
   }
   if (contact.share_inside > k_mostly_inside) {
-    const std::string share = number_text(100.0 * contact.share_inside, k_digits) + " % of the surface of " + (contact.is_first_inside ? first : second) + " lies inside " + (contact.is_first_inside ? second : first);
+    const std::string share = number_text(100.0 * contact.share_inside, k_digits) + " % of the surface of " + (contact.is_first_inside ? first : second) +
+                              " lies inside " + (contact.is_first_inside ? second : first);
     doubt += (doubt.empty() ? "" : "; ") + share;
   }
   return doubt;

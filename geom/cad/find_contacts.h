@@ -22,11 +22,11 @@ std::string_view to_string(ContactKind kind);
 struct PartContact {
   std::size_t first = 0, second = 0;  ///< numbers of the parts; inside: `first` lies in `second`; apart: `first` is of the lesser group
   ContactKind kind = ContactKind::crossing;
-  Point place;                ///< crossing: where the angle is least; else where they are nearest; inside: a point of `first`
-  double angle = 0.0;         ///< crossing: least angle between the tangent planes, radians
-  bool is_crevice = false;    ///< crossing: there the fluid is between the surfaces, else they run into each other smoothly
-  double gap = 0.0;           ///< apart: least distance, metres
-  double share_inside = 0.0;  ///< crossing: share of the area of that part that is more inside the other
+  Point place;                   ///< crossing: where the angle is least; else where they are nearest; inside: a point of `first`
+  double angle = 0.0;            ///< crossing: least angle between the tangent planes, radians
+  bool is_crevice = false;       ///< crossing: there the fluid is between the surfaces, else they run into each other smoothly
+  double gap = 0.0;              ///< apart: least distance, metres
+  double share_inside = 0.0;     ///< crossing: share of the area of that part that is more inside the other
   bool is_first_inside = false;  ///< crossing: `share_inside` is of `first`
 };
 
@@ -48,9 +48,9 @@ inline constexpr double k_tangent_angle = 0.1;
 /// A part with more of its area inside another is hardly meant so.
 inline constexpr double k_mostly_inside = 0.9;
 
-/// Contacts of all pairs of parts, and those groups that are apart. Parts are triangulated to 1e-3 of their size; places, angles and gaps are then taken from the surfaces
-/// themselves. Contacts smaller than these triangles may be missed. Takes a few per cent of the time of uniting.
-/// \throws Error(geometry_failed) naming the part that cannot be triangulated, Error(cancelled)
+/// Contacts of all pairs of parts, and those groups that are apart. Parts are triangulated to 1e-3 of their size; places, angles and gaps are then taken from
+/// the surfaces themselves. Contacts smaller than these triangles may be missed. Takes a few per cent of the time of uniting. \throws Error(geometry_failed)
+/// naming the part that cannot be triangulated, Error(cancelled)
 ContactReport find_contacts(std::span<const Model> parts, const RunContext& context);
 
 /// What a contact has that makes uniting or meshing hard, in words with names and numbers; empty: nothing.

@@ -1,5 +1,5 @@
-// Steps: solids of the bodies, united where they touch; how each meets the container; those that reach its faces are cut off it in one boolean, which is judged; the
-// others are put beside the result; everything is turned so that normals point into the fluid.
+// Steps: solids of the bodies, united where they touch; how each meets the container; those that reach its faces are cut off it in one boolean, which is
+// judged; the others are put beside the result; everything is turned so that normals point into the fluid.
 #include "geom/cad/fluid.h"
 
 #include <algorithm>
@@ -37,7 +37,8 @@ constexpr std::size_t k_listed = 5;
 /// The container with its material outside: a solid of the fluid's shape.
 Model solid_container(const Model& container, const RunContext& context) {
   if (container.solids.size() != 1)
-    fail(ErrorCode::bad_argument, "the container \"" + part_name(container) + "\" has " + std::to_string(container.solids.size()) + " solids", {}, "a container is one closed solid");
+    fail(ErrorCode::bad_argument, "the container \"" + part_name(container) + "\" has " + std::to_string(container.solids.size()) + " solids", {},
+         "a container is one closed solid");
   Model solid = container;
   if (boolean_part(solid, k_attempted, context).volume < 0.0) turn_inside_out(solid);
   return solid;
@@ -59,7 +60,8 @@ Meeting look_at(const std::vector<Model>& parts, FluidReport& report, const RunC
       if (std::minmax(c.first, c.second) == std::minmax(std::size_t{0}, i)) contact = &c;
     const std::string name = "\"" + part_name(parts[i]) + "\"";
     if (contact && contact->kind == ContactKind::inside && contact->first == 0)
-      fail(ErrorCode::bad_argument, name + " fills the container \"" + part_name(parts[0]) + "\"", {{contact->place, "the container lies inside " + name}}, "nothing is left for the fluid: scale or move one of them");
+      fail(ErrorCode::bad_argument, name + " fills the container \"" + part_name(parts[0]) + "\"", {{contact->place, "the container lies inside " + name}},
+           "nothing is left for the fluid: scale or move one of them");
     const double share_inside = 1.0 - meeting.contacts.exposures[i].outside;
     const bool is_outside = !contact || contact->kind == ContactKind::apart || share_inside < k_least_inside;
     if (is_outside) outside.push_back({contact ? contact->place : parts[i].corners.raw().front().point, name + " lies outside"});
@@ -70,7 +72,9 @@ Meeting look_at(const std::vector<Model>& parts, FluidReport& report, const RunC
     context.warn("fluid: " + report.doubts.back().what + ", at " + format_point(contact->place));
   }
   if (!outside.empty())
-    fail(ErrorCode::bad_argument, std::to_string(outside.size()) + (outside.size() == 1 ? " body lies" : " bodies lie") + " outside of the container \"" + part_name(parts[0]) + "\"", std::move(outside), "move the body into it, or the container around it");
+    fail(ErrorCode::bad_argument,
+         std::to_string(outside.size()) + (outside.size() == 1 ? " body lies" : " bodies lie") + " outside of the container \"" + part_name(parts[0]) + "\"",
+         std::move(outside), "move the body into it, or the container around it");
   return meeting;
 }
 
@@ -85,14 +89,16 @@ void judge_cut(const std::vector<BooleanPart>& parts, BooleanTry& result, const 
   for (std::size_t p = 1; p < parts.size(); ++p) bodies += parts[p].volume;
   const double all = parts.front().volume, slack = k_volume_share * all;
   if (result.volume < all - bodies - slack || result.volume > all + slack) {
-    outcome.problem = "the fluid's volume, " + number_text(result.volume) + " m^3, is not between " + number_text(all - bodies) + " (container less bodies) and " + number_text(all);
+    outcome.problem = "the fluid's volume, " + number_text(result.volume) + " m^3, is not between " + number_text(all - bodies) +
+                      " (container less bodies) and " + number_text(all);
     return;
   }
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const PartExposure& e = parts[p].exposure;
     const double least = p == 0 ? e.outside : 1.0 - e.outside - e.unsure, most = p == 0 ? e.outside + e.unsure : 1.0 - e.outside;
     if (areas[p] >= (least - k_area_share) * parts[p].area && areas[p] <= (most + k_area_share) * parts[p].area) continue;
-    outcome.problem = number_text(areas[p]) + " m^2 of \"" + parts[p].name() + "\" meet the fluid, but should " + number_text(least * parts[p].area) + " to " + number_text(most * parts[p].area);
+    outcome.problem = number_text(areas[p]) + " m^2 of \"" + parts[p].name() + "\" meet the fluid, but should " + number_text(least * parts[p].area) + " to " +
+                      number_text(most * parts[p].area);
     return;
   }
 }
@@ -112,12 +118,15 @@ std::vector<ErrorPlace> pieces_of(const Model& model, const std::vector<SolidMea
 void require_one_piece(const BooleanTry& result, const std::vector<BooleanPart>& parts) {
   std::vector<BooleanPart> bodies(parts.begin() + 1, parts.end());
   if (result.model.faces.empty())
-    fail(ErrorCode::bad_argument, names_of(bodies) + (bodies.size() == 1 ? " fills" : " fill") + " the container \"" + parts.front().name() + "\"", {}, "nothing is left for the fluid: scale or move one of them");
+    fail(ErrorCode::bad_argument, names_of(bodies) + (bodies.size() == 1 ? " fills" : " fill") + " the container \"" + parts.front().name() + "\"", {},
+         "nothing is left for the fluid: scale or move one of them");
   if (result.model.solids.size() == 1) return;
   std::vector<SolidMeasures> measures;
   for (const SolidId s : result.model.solids.ids()) measures.push_back(solid_measures(result.model, s));
-  fail(ErrorCode::bad_argument, names_of(bodies) + (bodies.size() == 1 ? " cuts" : " cut") + " the fluid in \"" + parts.front().name() + "\" into " + std::to_string(result.model.solids.size()) + " parts", pieces_of(result.model, measures),
-       "the fluid is to be one connected region: move the body off the walls, or let it end in one of them");
+  fail(ErrorCode::bad_argument,
+       names_of(bodies) + (bodies.size() == 1 ? " cuts" : " cut") + " the fluid in \"" + parts.front().name() + "\" into " +
+           std::to_string(result.model.solids.size()) + " parts",
+       pieces_of(result.model, measures), "the fluid is to be one connected region: move the body off the walls, or let it end in one of them");
 }
 
 Model cut_off(const std::vector<Model>& models, const Meeting& meeting, const FluidOptions& options, FluidReport& report, const RunContext& context) {
@@ -128,15 +137,18 @@ Model cut_off(const std::vector<Model>& models, const Meeting& meeting, const Fl
   };
   add(0);
   for (const std::size_t i : meeting.cut) add(i);
-  const BooleanTask task{.operation = BooleanOperation::cut, .attempted = k_attempted, .stage = "fluid", .tolerance = options.tolerance, .time_limit = options.time_limit};
-  std::optional<BooleanTry> result = climb(task, parts, size_of(parts), [&](BooleanTry& t) { judge_cut(parts, t, context); }, report.tries, context);
+  const BooleanTask task{
+      .operation = BooleanOperation::cut, .attempted = k_attempted, .stage = "fluid", .tolerance = options.tolerance, .time_limit = options.time_limit};
+  std::optional<BooleanTry> result = climb(
+      task, parts, size_of(parts), [&](BooleanTry& t) { judge_cut(parts, t, context); }, report.tries, context);
   if (!result) {
     const UniteTry& last = report.tries.back();
     std::vector<ErrorPlace> places = last.places;
     for (const PartContact& c : meeting.contacts.contacts)
-      if (last.places.empty() && c.first == 0 && c.kind != ContactKind::apart) places.push_back({c.place, "\"" + part_name(models[c.second]) + "\" meets the container"});
-    fail(ErrorCode::geometry_failed, names_of(parts) + ": " + last.problem + "; tried up to a tolerance of " + std::to_string(last.tolerance) + " m", std::move(places),
-         "move or turn a body a little, so that it neither ends in a wall nor touches it tangentially");
+      if (last.places.empty() && c.first == 0 && c.kind != ContactKind::apart)
+        places.push_back({c.place, "\"" + part_name(models[c.second]) + "\" meets the container"});
+    fail(ErrorCode::geometry_failed, names_of(parts) + ": " + last.problem + "; tried up to a tolerance of " + std::to_string(last.tolerance) + " m",
+         std::move(places), "move or turn a body a little, so that it neither ends in a wall nor touches it tangentially");
   }
   require_one_piece(*result, parts);
   return std::move(result->model);

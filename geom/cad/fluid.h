@@ -21,18 +21,24 @@ struct Schema<FluidOptions> {
   static constexpr std::string_view stage = "fluid";
   using T = FluidOptions;
   static constexpr std::array fields = {
-      Field<T>{.name = "tolerance", .member = &T::tolerance, .unit = Unit::metre, .min = 0.0, .max = 1.0, .help = "points, edges and faces of container and bodies that are nearer than this coincide", .automatic = "0, then 1e-7, 1e-6, 1e-5, 1e-4 of the longest side until the fluid is valid"},
+      Field<T>{.name = "tolerance",
+               .member = &T::tolerance,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "points, edges and faces of container and bodies that are nearer than this coincide",
+               .automatic = "0, then 1e-7, 1e-6, 1e-5, 1e-4 of the longest side until the fluid is valid"},
       Field<T>{.name = "time_limit", .member = &T::time_limit, .unit = Unit::second, .min = 1.0, .max = 1e6, .help = "a try that takes longer ends the cut"},
   };
 };
 
 struct FluidReport {
-  std::vector<UniteTry> tries;       ///< of the cut; the last one was taken; none where no body reaches the container's faces
-  double volume = 0.0;               ///< of the fluid, m^3
-  double container_volume = 0.0;     ///< m^3
-  std::vector<std::string> cut;      ///< bodies that reach the container's faces
-  std::vector<std::string> inside;   ///< bodies that do not
-  std::vector<ErrorPlace> doubts;    ///< what is hard to mesh: bodies nearly tangent to the container, in words
+  std::vector<UniteTry> tries;      ///< of the cut; the last one was taken; none where no body reaches the container's faces
+  double volume = 0.0;              ///< of the fluid, m^3
+  double container_volume = 0.0;    ///< m^3
+  std::vector<std::string> cut;     ///< bodies that reach the container's faces
+  std::vector<std::string> inside;  ///< bodies that do not
+  std::vector<ErrorPlace> doubts;   ///< what is hard to mesh: bodies nearly tangent to the container, in words
 };
 
 struct FluidDomain {
@@ -42,12 +48,12 @@ struct FluidDomain {
 
 namespace cad {
 
-/// Container minus bodies. Solids of the bodies that touch are united first. Bodies inside stay as they are; those that pass through the container's faces, or stand on
-/// them, are cut off there, and their openings in these faces. Faces keep names, components, roles, kinds, colours and surfaces; normals point into the fluid: those
-/// of the container inwards, those of bodies outwards. The container may be given with normals either way. Solids of the result: the container with what was cut,
-/// then each body inside. Proven like a union: valid, closed, volume and what is left of each part's area as they must be. The same bytes for any number of threads.
-/// \throws Error(open_surface) for open parts; Error(bad_argument) naming a body, with its place, that lies outside of the container, fills it, or cuts the fluid in two;
-/// Error(geometry_failed) after the last tolerance or past the time limit; Error(cancelled)
+/// Container minus bodies. Solids of the bodies that touch are united first. Bodies inside stay as they are; those that pass through the container's faces, or
+/// stand on them, are cut off there, and their openings in these faces. Faces keep names, components, roles, kinds, colours and surfaces; normals point into
+/// the fluid: those of the container inwards, those of bodies outwards. The container may be given with normals either way. Solids of the result: the container
+/// with what was cut, then each body inside. Proven like a union: valid, closed, volume and what is left of each part's area as they must be. The same bytes
+/// for any number of threads. \throws Error(open_surface) for open parts; Error(bad_argument) naming a body, with its place, that lies outside of the
+/// container, fills it, or cuts the fluid in two; Error(geometry_failed) after the last tolerance or past the time limit; Error(cancelled)
 FluidDomain fluid_domain(const Model& container, std::span<const Model> bodies, const FluidOptions& options, const RunContext& context);
 
 }  // namespace cad

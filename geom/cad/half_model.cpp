@@ -1,5 +1,5 @@
-// Steps: where each face lies to the plane; solids beyond it left out, the others united; what crosses it cut by a half space; faces beyond it and in it left out; free edges
-// into the plane.
+// Steps: where each face lies to the plane; solids beyond it left out, the others united; what crosses it cut by a half space; faces beyond it and in it left
+// out; free edges into the plane.
 #include "geom/cad/half_model.h"
 
 #include <algorithm>
@@ -23,7 +23,8 @@ namespace sterna::cad {
 namespace {
 
 constexpr const char* k_attempted = "taking half of the model";
-/// What is nearer to the plane than this share of the longest side is in it: where surface meshers and CAD systems split aircraft, they are a hundred times nearer.
+/// What is nearer to the plane than this share of the longest side is in it: where surface meshers and CAD systems split aircraft, they are a hundred times
+/// nearer.
 constexpr double k_tolerance_share = 1e-6;
 /// An edge of a face that lies in the plane may be off by this many times its own tolerance.
 constexpr double k_edge_tolerances = 2.0;
@@ -59,7 +60,8 @@ enum class Side { kept, beyond, in_plane, across };
 
 std::vector<MeasureBox> boxes_of(const Model& model, const RunContext& context) {
   std::vector<MeasureBox> boxes(model.faces.size());
-  parallel_for(context, boxes.size(), [&](std::size_t f) { boxes[f] = face_measures(model, FaceId(static_cast<std::uint64_t>(f))).box; }, 1);
+  parallel_for(
+      context, boxes.size(), [&](std::size_t f) { boxes[f] = face_measures(model, FaceId(static_cast<std::uint64_t>(f))).box; }, 1);
   return boxes;
 }
 
@@ -89,7 +91,11 @@ std::vector<Side> sides_of(const Model& model, const Plane& plane, const RunCont
 }
 
 Plane plane_of(const HalfModelOptions& options, const std::vector<MeasureBox>& boxes) {
-  Plane plane{.axis = options.axis == "x" ? std::size_t{0} : options.axis == "y" ? std::size_t{1} : std::size_t{2}, .at = options.at + 0.0, .side = options.keep == "-" ? -1.0 : 1.0};
+  Plane plane{.axis = options.axis == "x"   ? std::size_t{0}
+                      : options.axis == "y" ? std::size_t{1}
+                                            : std::size_t{2},
+              .at = options.at + 0.0,
+              .side = options.keep == "-" ? -1.0 : 1.0};
   plane.tolerance = is_automatic(options.tolerance) ? k_tolerance_share * longest_side(hull(boxes)) : options.tolerance;
   return plane;
 }
@@ -115,7 +121,9 @@ double length_of(const ModelEdge& edge) {
   return length;
 }
 
-bool is_in_plane(const ModelEdge& edge, const Plane& plane) { return distance_of(edge, plane).first <= std::max(plane.tolerance, k_edge_tolerances * edge.tolerance); }
+bool is_in_plane(const ModelEdge& edge, const Plane& plane) {
+  return distance_of(edge, plane).first <= std::max(plane.tolerance, k_edge_tolerances * edge.tolerance);
+}
 
 /// \throws Error(open_surface) where free edges are off the plane
 void require_rim_in_plane(const Model& model, const Plane& plane, const std::string& hint) {
@@ -126,7 +134,8 @@ void require_rim_in_plane(const Model& model, const Plane& plane, const std::str
     const auto [off, place] = distance_of(model.edges[e], plane);
     places.push_back({place, "open edge of face \"" + model.faces[uses[e].front().face].name + "\", " + number_text(off) + " m off the plane"});
   }
-  if (!places.empty()) fail(ErrorCode::open_surface, std::to_string(places.size()) + " free edges are not in the plane " + plane.name(), std::move(places), hint);
+  if (!places.empty())
+    fail(ErrorCode::open_surface, std::to_string(places.size()) + " free edges are not in the plane " + plane.name(), std::move(places), hint);
 }
 
 /// The solids that are not wholly beyond the plane, as one model: united where there are several.
@@ -138,7 +147,9 @@ Model without_other_half(const Model& model, const Plane& plane, const HalfModel
     if (is_beyond) ++report.n_solids_left_out;
     else parts.push_back(std::move(part));
   }
-  if (parts.empty()) fail(ErrorCode::bad_argument, "nothing of the model is on the side of " + plane.name() + " that is kept", {}, "keep = \"" + std::string(plane.side > 0.0 ? "-" : "+") + "\" keeps the other one");
+  if (parts.empty())
+    fail(ErrorCode::bad_argument, "nothing of the model is on the side of " + plane.name() + " that is kept", {},
+         "keep = \"" + std::string(plane.side > 0.0 ? "-" : "+") + "\" keeps the other one");
   if (parts.size() == 1 && report.n_solids_left_out == 0) return model;
   if (parts.size() == 1) return std::move(parts.front());
   report.was_united = true;
@@ -160,9 +171,12 @@ void judge_half(const std::vector<BooleanPart>& parts, BooleanTry& result, const
   if (!outcome.problem.empty()) return;
   const double area = areas.front();
   const BooleanPart& whole = parts.front();
-  const double least = (1.0 - whole.exposure.outside - whole.exposure.unsure - k_area_share) * whole.area, most = (1.0 - whole.exposure.outside + k_area_share) * whole.area;
-  if (!(result.volume > 0.0) || result.volume > whole.volume * (1.0 + k_volume_share)) outcome.problem = "the half has a volume of " + number_text(result.volume) + " m^3, the whole one of " + number_text(whole.volume);
-  else if (area < least || area > most) outcome.problem = number_text(area) + " m^2 of faces are left, but should be " + number_text(least) + " to " + number_text(most);
+  const double least = (1.0 - whole.exposure.outside - whole.exposure.unsure - k_area_share) * whole.area,
+               most = (1.0 - whole.exposure.outside + k_area_share) * whole.area;
+  if (!(result.volume > 0.0) || result.volume > whole.volume * (1.0 + k_volume_share))
+    outcome.problem = "the half has a volume of " + number_text(result.volume) + " m^3, the whole one of " + number_text(whole.volume);
+  else if (area < least || area > most)
+    outcome.problem = number_text(area) + " m^2 of faces are left, but should be " + number_text(least) + " to " + number_text(most);
 }
 
 /// The part of a closed model in the half space, without the faces that close it in the plane.
@@ -174,11 +188,15 @@ Model cut_at(const Model& model, const Plane& plane, const MeasureBox& box, cons
     parts.push_back(boolean_part(models[i], k_attempted, context));
     parts.back().exposure = contacts.exposures[i];
   }
-  const BooleanTask task{.operation = BooleanOperation::common, .attempted = k_attempted, .stage = "half", .tolerance = k_automatic, .time_limit = options.time_limit};
+  const BooleanTask task{
+      .operation = BooleanOperation::common, .attempted = k_attempted, .stage = "half", .tolerance = k_automatic, .time_limit = options.time_limit};
   std::vector<UniteTry> tries;
-  std::optional<BooleanTry> result = climb(task, parts, cad::longest_side(parts.front().shape->content().shape), [&](BooleanTry& t) { judge_half(parts, t, context); }, tries, context);
+  std::optional<BooleanTry> result = climb(
+      task, parts, cad::longest_side(parts.front().shape->content().shape), [&](BooleanTry& t) { judge_half(parts, t, context); }, tries, context);
   if (!result)
-    fail(ErrorCode::geometry_failed, "the cut at " + plane.name() + " fails: " + tries.back().problem + "; tried up to a tolerance of " + std::to_string(tries.back().tolerance) + " m", tries.back().places,
+    fail(ErrorCode::geometry_failed,
+         "the cut at " + plane.name() + " fails: " + tries.back().problem + "; tried up to a tolerance of " + std::to_string(tries.back().tolerance) + " m",
+         tries.back().places,
          "faces that touch the plane without crossing it, or run along it nearly, are hard to cut: move the plane a little, or cut the triangulated surface");
   const std::vector<FaceOrigin>& origins = result->origin_of_face;
   return select_faces(result->model, [&](FaceId f) { return origins[f.index()].part == 0; });
@@ -224,7 +242,8 @@ HalfModel half_model(const Model& given, const HalfModelOptions& options, const 
   const bool is_open = !free_edges(given).empty();
   if (half.report.was_half && count(sides, Side::kept) == 0) fail(ErrorCode::bad_argument, "all of the model is in the plane " + plane.name(), {}, "");
   if (is_open && count(sides, Side::across) > 0)
-    fail(ErrorCode::open_surface, "the model is open, and cannot be cut", open_places(given), "close it first: read_cad{ ..., cap = true } closes flat openings");
+    fail(ErrorCode::open_surface, "the model is open, and cannot be cut", open_places(given),
+         "close it first: read_cad{ ..., cap = true } closes flat openings");
   half.model = is_open || half.report.was_half ? given : without_other_half(given, plane, options, half.report, context);
   boxes = boxes_of(half.model, context);
   sides = sides_of(half.model, plane, context);
@@ -234,9 +253,13 @@ HalfModel half_model(const Model& given, const HalfModelOptions& options, const 
   half.report.n_flat_faces = count(sides, Side::in_plane);
   // After a cut borders may be off the plane by what the cut tolerates, but nothing is beyond.
   half.model = select_faces(half.model, [&](FaceId f) { return sides[f.index()] == Side::kept || sides[f.index()] == Side::across; });
-  require_rim_in_plane(half.model, plane, half.report.was_half ? "a half model is open at its plane of symmetry alone" : "the cut may be taken along another plane (axis, at), or the tolerance be larger");
+  require_rim_in_plane(half.model, plane,
+                       half.report.was_half ? "a half model is open at its plane of symmetry alone"
+                                            : "the cut may be taken along another plane (axis, at), or the tolerance be larger");
   flatten_rim(half.model, plane, half.report);
-  if (half.report.n_rim_edges == 0) fail(ErrorCode::bad_argument, "the model does not reach the plane " + plane.name(), {}, "axis and at say which plane; a model without a plane of symmetry is meshed whole");
+  if (half.report.n_rim_edges == 0)
+    fail(ErrorCode::bad_argument, "the model does not reach the plane " + plane.name(), {},
+         "axis and at say which plane; a model without a plane of symmetry is meshed whole");
   return half;
 }
 

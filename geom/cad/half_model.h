@@ -12,7 +12,7 @@ namespace sterna {
 
 struct HalfModelOptions {
   std::string axis = "y";
-  double at = 0.0;                 ///< metres
+  double at = 0.0;  ///< metres
   std::string keep = "+";
   double tolerance = k_automatic;  ///< metres
   double time_limit = 600.0;       ///< seconds
@@ -25,20 +25,31 @@ struct Schema<HalfModelOptions> {
       Field<O>{.name = "axis", .member = &O::axis, .help = "the coordinate that is constant in the plane", .choices = "x y z"},
       Field<O>{.name = "at", .member = &O::at, .unit = Unit::metre, .help = "the value of this coordinate in the plane"},
       Field<O>{.name = "keep", .member = &O::keep, .help = "the side that is kept: of larger (+) or smaller (-) coordinates", .choices = "+ -"},
-      Field<O>{.name = "tolerance", .member = &O::tolerance, .unit = Unit::metre, .min = 0.0, .max = 1.0, .help = "what is this near to the plane is in it", .automatic = "1e-6 of the longest side"},
-      Field<O>{.name = "time_limit", .member = &O::time_limit, .unit = Unit::second, .min = 1.0, .max = 1e6, .help = "a try that takes longer ends the union or the cut"},
+      Field<O>{.name = "tolerance",
+               .member = &O::tolerance,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "what is this near to the plane is in it",
+               .automatic = "1e-6 of the longest side"},
+      Field<O>{.name = "time_limit",
+               .member = &O::time_limit,
+               .unit = Unit::second,
+               .min = 1.0,
+               .max = 1e6,
+               .help = "a try that takes longer ends the union or the cut"},
   };
 };
 
 struct HalfModelReport {
-  bool was_half = false;         ///< nothing was beyond the plane
+  bool was_half = false;              ///< nothing was beyond the plane
   std::size_t n_solids_left_out = 0;  ///< wholly beyond the plane
   bool was_united = false;
   std::size_t n_faces_cut = 0;   ///< that cross the plane; 0: edges of the model lie along it, faces were but chosen
   std::size_t n_flat_faces = 0;  ///< in the plane, left out
   std::size_t n_rim_edges = 0;
-  double rim_length = 0.0;       ///< m
-  double largest_shift = 0.0;    ///< m: of the rim, into the plane
+  double rim_length = 0.0;     ///< m
+  double largest_shift = 0.0;  ///< m: of the rim, into the plane
 };
 
 struct HalfModel {
@@ -48,12 +59,12 @@ struct HalfModel {
 
 namespace cad {
 
-/// The half of a model on one side of a plane x, y or z = constant. Solids wholly beyond it are left out first, those that remain are united where there are several; faces
-/// that cross the plane are cut, those in it left out, and the rim's edges and corners put into the plane exactly: coordinates of points on them are `at` to the last bit.
-/// A model that is open in the plane already, or closed by faces in it, and has nothing beyond, is taken as it is. Names, components, roles, kinds and surfaces are kept.
-/// \post every free edge is in the plane
-/// \throws Error(bad_argument) when the model does not reach the plane or has nothing on the side that is kept; Error(open_surface) with places for free edges elsewhere, and
-/// for open models that cross the plane; Error(geometry_failed) where the cut fails; all of unite; Error(cancelled)
+/// The half of a model on one side of a plane x, y or z = constant. Solids wholly beyond it are left out first, those that remain are united where there are
+/// several; faces that cross the plane are cut, those in it left out, and the rim's edges and corners put into the plane exactly: coordinates of points on them
+/// are `at` to the last bit. A model that is open in the plane already, or closed by faces in it, and has nothing beyond, is taken as it is. Names, components,
+/// roles, kinds and surfaces are kept. \post every free edge is in the plane \throws Error(bad_argument) when the model does not reach the plane or has nothing
+/// on the side that is kept; Error(open_surface) with places for free edges elsewhere, and for open models that cross the plane; Error(geometry_failed) where
+/// the cut fails; all of unite; Error(cancelled)
 HalfModel half_model(const Model& model, const HalfModelOptions& options, const RunContext& context);
 
 }  // namespace cad

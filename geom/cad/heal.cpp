@@ -34,8 +34,8 @@
 namespace sterna::cad {
 namespace {
 
-/// Gaps that sewing tries to close when the user gives none, as shares of the longest side. Up from the resolution of the usual modellers; 1e-5 of an airliner is
-/// 0.6 mm: above that, thin trailing edges would be sewn together.
+/// Gaps that sewing tries to close when the user gives none, as shares of the longest side. Up from the resolution of the usual modellers; 1e-5 of an airliner
+/// is 0.6 mm: above that, thin trailing edges would be sewn together.
 constexpr std::array<double, 3> k_sew_ladder = {1e-7, 1e-6, 1e-5};
 /// Sewing beyond this share of the shortest edge joins its two ends.
 constexpr double k_sew_of_shortest_edge = 0.25;
@@ -223,7 +223,8 @@ bool is_same_extent(double before, double after) { return std::abs(after - befor
 
 /// Takes the result of a step that drops small things, unless it changed area or volume: then the step harmed more than it mended. A strip along a long
 /// trailing edge is such a case: less of the area than it is of the volume of a thin wing.
-void accept(ShapePart& part, LabelledShape& labelled, const TopoDS_Shape& result, const Handle(ShapeBuild_ReShape) & changes, std::size_t n_notes_before, const char* what, CadReport& report) {
+void accept(ShapePart& part, LabelledShape& labelled, const TopoDS_Shape& result, const Handle(ShapeBuild_ReShape) & changes, std::size_t n_notes_before,
+            const char* what, CadReport& report) {
   if (result.IsNull()) return;
   const Bnd_Box box = box_of(part.shape);
   const gp_Pnt middle(0.5 * (box.CornerMin().XYZ() + box.CornerMax().XYZ()));
@@ -231,7 +232,8 @@ void accept(ShapePart& part, LabelledShape& labelled, const TopoDS_Shape& result
   if (!is_same_area || !is_same_extent(volume_of(part.shape, middle), volume_of(result, middle))) {
     const Point place = report.mended.size() > n_notes_before ? report.mended[n_notes_before].place : place_of(part.shape);
     report.mended.resize(n_notes_before);
-    report.warnings.push_back(std::string(what) + " near " + format_point(place) + " were kept: dropping them would change the " + (is_same_area ? "volume" : "area") + " by more than 1e-6 of it");
+    report.warnings.push_back(std::string(what) + " near " + format_point(place) + " were kept: dropping them would change the " +
+                              (is_same_area ? "volume" : "area") + " by more than 1e-6 of it");
     return;
   }
   move_labels(labelled.labels, part.shape, [&](const TopoDS_Shape& face) { return changes->Apply(face); });
@@ -282,7 +284,8 @@ double shortest_edge(const std::vector<TopoDS_Shape>& shapes, double small) {
   double shortest = Precision::Infinite();
   for (const TopoDS_Shape& shape : shapes)
     for (TopExp_Explorer e(shape, TopAbs_EDGE); e.More(); e.Next())
-      if (const double length = BRep_Tool::Degenerated(TopoDS::Edge(e.Current())) ? 0.0 : length_of(e.Current()); length > small) shortest = std::min(shortest, length);
+      if (const double length = BRep_Tool::Degenerated(TopoDS::Edge(e.Current())) ? 0.0 : length_of(e.Current()); length > small)
+        shortest = std::min(shortest, length);
   return shortest;
 }
 
@@ -305,7 +308,8 @@ std::vector<TopoDS_Shape> open_shapes(const LabelledShape& labelled) {
 
 /// Open shells and loose faces of all parts, joined where their edges meet by the first tolerance that leaves fewest free. `may_drop`: what is smaller than
 /// the tolerance goes.
-void sew_open_parts(LabelledShape& labelled, const std::vector<TopoDS_Shape>& open, const std::vector<double>& tolerances, bool may_drop, CadReport& report, const Message_ProgressRange& progress, const RunContext& context) {
+void sew_open_parts(LabelledShape& labelled, const std::vector<TopoDS_Shape>& open, const std::vector<double>& tolerances, bool may_drop, CadReport& report,
+                    const Message_ProgressRange& progress, const RunContext& context) {
   const int n_before = count_free_edges(open);
   Message_ProgressScope tries(progress, "sewing", static_cast<double>(std::max<std::size_t>(tolerances.size(), 1)));
   Handle(BRepBuilderAPI_Sewing) best;
@@ -332,7 +336,8 @@ void sew_open_parts(LabelledShape& labelled, const std::vector<TopoDS_Shape>& op
   }
   for (int i = 1; i <= best->NbDeletedFaces(); ++i) report.mended.push_back({.what = "face without extent removed", .place = place_of(best->DeletedFace(i))});
   for (const TopoDS_Shape& shape : open) move_labels(labelled.labels, shape, [&](const TopoDS_Shape& face) { return best->Modified(face); });
-  std::erase_if(labelled.parts, [&](const ShapePart& part) { return std::any_of(open.begin(), open.end(), [&](const TopoDS_Shape& s) { return s.IsSame(part.shape); }); });
+  std::erase_if(labelled.parts,
+                [&](const ShapePart& part) { return std::any_of(open.begin(), open.end(), [&](const TopoDS_Shape& s) { return s.IsSame(part.shape); }); });
   const auto add = [&](const TopoDS_Shape& shape) {
     const FaceLabel* label = labelled.labels.Seek(TopExp_Explorer(shape, TopAbs_FACE).Current());
     labelled.parts.push_back({.shape = shape, .component = label ? label->component : std::string(), .name = {}, .label = {}});
@@ -342,7 +347,8 @@ void sew_open_parts(LabelledShape& labelled, const std::vector<TopoDS_Shape>& op
 }
 
 /// First by tolerances that are small against the model; then pairs of edges that share their ends but bulge apart, by the gap that is found between them.
-void join_faces(LabelledShape& labelled, const ReadCadOptions& options, double size, double small, CadReport& report, const Message_ProgressRange& progress, const RunContext& context) {
+void join_faces(LabelledShape& labelled, const ReadCadOptions& options, double size, double small, CadReport& report, const Message_ProgressRange& progress,
+                const RunContext& context) {
   Message_ProgressScope steps(progress, "joining", 2.0);
   std::vector<TopoDS_Shape> open = open_shapes(labelled);
   const Message_ProgressRange first = steps.Next();

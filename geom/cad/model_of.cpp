@@ -22,8 +22,8 @@
 namespace sterna::cad {
 namespace {
 
-/// Largest distance between an edge's curve and its image in a face that is taken as the same edge without asking OpenCASCADE to improve it, metres: the resolution
-/// of OpenCASCADE (Precision::Confusion).
+/// Largest distance between an edge's curve and its image in a face that is taken as the same edge without asking OpenCASCADE to improve it, metres: the
+/// resolution of OpenCASCADE (Precision::Confusion).
 constexpr double k_same_parameter = 1e-7;
 
 /// Intervals of an edge at whose ends the distance to its faces is measured; OpenCASCADE's own check looks at 23 places.
@@ -44,7 +44,8 @@ struct WireEdge {
 
 class ModelBuilder {
  public:
-  ModelBuilder(const LabelledShape& labelled, const std::string& attempted, const RunContext& context) : labelled_(labelled), attempted_(attempted), context_(context) {}
+  ModelBuilder(const LabelledShape& labelled, const std::string& attempted, const RunContext& context)
+      : labelled_(labelled), attempted_(attempted), context_(context) {}
 
   Model build() {
     content_->shape = compound_of(labelled_.parts);
@@ -148,8 +149,8 @@ class ModelBuilder {
     return border;
   }
 
-  /// Edges head to tail: by corner, and where several edges leave a corner (seams) by parameter. Edges inside or outside of the border (INTERNAL, EXTERNAL) are no
-  /// part of it.
+  /// Edges head to tail: by corner, and where several edges leave a corner (seams) by parameter. Edges inside or outside of the border (INTERNAL, EXTERNAL) are
+  /// no part of it.
   std::vector<WireEdge> edges_in_order(const TopoDS_Wire& wire, const TopoDS_Face& forward) const {
     std::vector<WireEdge> edges;
     for (TopoDS_Iterator it(wire); it.More(); it.Next()) {
@@ -159,7 +160,8 @@ class ModelBuilder {
       const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, forward, from, to);
       if (curve.IsNull()) fail(attempted_, "an edge of face " + std::to_string(faces_.Extent()) + " has no curve in the face", edge);
       const bool is_reversed = edge.Orientation() == TopAbs_REVERSED;
-      edges.push_back({edge, TopExp::FirstVertex(edge, true), TopExp::LastVertex(edge, true), curve->Value(is_reversed ? to : from), curve->Value(is_reversed ? from : to)});
+      edges.push_back({edge, TopExp::FirstVertex(edge, true), TopExp::LastVertex(edge, true), curve->Value(is_reversed ? to : from),
+                       curve->Value(is_reversed ? from : to)});
     }
     for (std::size_t i = 1; i < edges.size(); ++i) {
       std::size_t best = i;
@@ -172,7 +174,8 @@ class ModelBuilder {
           best_distance = distance;
         }
       }
-      std::rotate(edges.begin() + static_cast<std::ptrdiff_t>(i), edges.begin() + static_cast<std::ptrdiff_t>(best), edges.begin() + static_cast<std::ptrdiff_t>(best) + 1);
+      std::rotate(edges.begin() + static_cast<std::ptrdiff_t>(i), edges.begin() + static_cast<std::ptrdiff_t>(best),
+                  edges.begin() + static_cast<std::ptrdiff_t>(best) + 1);
     }
     return edges;
   }
@@ -213,6 +216,8 @@ class ModelBuilder {
 
 }  // namespace
 
-Model model_of(const LabelledShape& labelled, const std::string& attempted, const RunContext& context) { return ModelBuilder(labelled, attempted, context).build(); }
+Model model_of(const LabelledShape& labelled, const std::string& attempted, const RunContext& context) {
+  return ModelBuilder(labelled, attempted, context).build();
+}
 
 }  // namespace sterna::cad

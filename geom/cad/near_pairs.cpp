@@ -1,5 +1,5 @@
-// Every B-spline is refined by knots until it has k_pieces pieces along each direction; the poles that carry a piece contain it. Pairs whose pieces' boxes, widened by
-// the tolerances, are apart everywhere are dropped.
+// Every B-spline is refined by knots until it has k_pieces pieces along each direction; the poles that carry a piece contain it. Pairs whose pieces' boxes,
+// widened by the tolerances, are apart everywhere are dropped.
 #include "geom/cad/near_pairs.h"
 
 #include <BOPDS_DS.hxx>
@@ -94,7 +94,8 @@ std::vector<Box> pieces_of(const TopoDS_Edge& edge, const Bnd_Box& whole, double
   Handle(Geom_BSplineCurve) spline = Handle(Geom_BSplineCurve)::DownCast(curve);
   if (spline.IsNull() || !place.IsIdentity() || spline->IsPeriodic()) return {box_of(whole)};
   spline = Handle(Geom_BSplineCurve)::DownCast(spline->Copy());
-  insert_knots(finer_knots(spline->Knots(), from, to), [&](const TColStd_Array1OfReal& knots, const TColStd_Array1OfInteger& m) { spline->InsertKnots(knots, m); });
+  insert_knots(finer_knots(spline->Knots(), from, to),
+               [&](const TColStd_Array1OfReal& knots, const TColStd_Array1OfInteger& m) { spline->InsertKnots(knots, m); });
   std::vector<Box> boxes;
   for (const int first : first_poles(spline->Knots(), spline->Multiplicities(), spline->Degree(), from, to)) {
     Box box;
@@ -114,8 +115,10 @@ std::vector<Box> pieces_of(const TopoDS_Face& face, const Bnd_Box& whole, double
   double u0 = 0.0, u1 = 0.0, v0 = 0.0, v1 = 0.0;
   BRepTools::UVBounds(face, u0, u1, v0, v1);
   spline = Handle(Geom_BSplineSurface)::DownCast(spline->Copy());
-  insert_knots(finer_knots(spline->UKnots(), u0, u1), [&](const TColStd_Array1OfReal& knots, const TColStd_Array1OfInteger& m) { spline->InsertUKnots(knots, m); });
-  insert_knots(finer_knots(spline->VKnots(), v0, v1), [&](const TColStd_Array1OfReal& knots, const TColStd_Array1OfInteger& m) { spline->InsertVKnots(knots, m); });
+  insert_knots(finer_knots(spline->UKnots(), u0, u1),
+               [&](const TColStd_Array1OfReal& knots, const TColStd_Array1OfInteger& m) { spline->InsertUKnots(knots, m); });
+  insert_knots(finer_knots(spline->VKnots(), v0, v1),
+               [&](const TColStd_Array1OfReal& knots, const TColStd_Array1OfInteger& m) { spline->InsertVKnots(knots, m); });
   const std::vector<int> firsts_u = first_poles(spline->UKnots(), spline->UMultiplicities(), spline->UDegree(), u0, u1);
   const std::vector<int> firsts_v = first_poles(spline->VKnots(), spline->VMultiplicities(), spline->VDegree(), v0, v1);
   std::vector<Box> boxes;

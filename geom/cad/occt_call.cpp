@@ -80,7 +80,10 @@ std::mutex& occt_mutex() {
 }
 
 [[noreturn]] void fail(const OcctTask& task, const std::string& problem, const std::string& complaints) {
-  throw Error({.code = ErrorCode::geometry_failed, .attempted = task.attempted, .problem = problem + (complaints.empty() ? "" : "; OpenCASCADE says: " + complaints), .hint = task.hint});
+  throw Error({.code = ErrorCode::geometry_failed,
+               .attempted = task.attempted,
+               .problem = problem + (complaints.empty() ? "" : "; OpenCASCADE says: " + complaints),
+               .hint = task.hint});
 }
 
 }  // namespace

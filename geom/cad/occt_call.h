@@ -12,8 +12,8 @@ class Message_ProgressRange;
 namespace sterna::cad {
 
 struct OcctTask {
-  std::string attempted;        ///< "reading wing.step"
-  double time_limit = 0.0;      ///< seconds; 0: none
+  std::string attempted;    ///< "reading wing.step"
+  double time_limit = 0.0;  ///< seconds; 0: none
   std::string hint = {};
 };
 

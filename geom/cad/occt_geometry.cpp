@@ -137,7 +137,7 @@ bool is_clamped(const std::vector<double>& knots, int degree) {
 class OcctCurve final : public Curve {
  public:
   OcctCurve(Handle(Geom_Curve) curve, Interval range) : curve_(std::move(curve)), domain_(clamped(curve_->FirstParameter(), curve_->LastParameter(), range)) {}
-  const Handle(Geom_Curve)& geom() const { return curve_; }
+  const Handle(Geom_Curve) & geom() const { return curve_; }
   Interval domain() const override { return domain_; }
   bool is_periodic() const override { return curve_->IsPeriodic(); }
   Point point(double t) const override { return to_point(curve_->Value(t)); }
@@ -155,8 +155,9 @@ class OcctCurve final : public Curve {
 
 class OcctParameterCurve final : public ParameterCurve {
  public:
-  OcctParameterCurve(Handle(Geom2d_Curve) curve, Interval range) : curve_(std::move(curve)), domain_(clamped(curve_->FirstParameter(), curve_->LastParameter(), range)) {}
-  const Handle(Geom2d_Curve)& geom() const { return curve_; }
+  OcctParameterCurve(Handle(Geom2d_Curve) curve, Interval range)
+      : curve_(std::move(curve)), domain_(clamped(curve_->FirstParameter(), curve_->LastParameter(), range)) {}
+  const Handle(Geom2d_Curve) & geom() const { return curve_; }
   Interval domain() const override { return domain_; }
   Uv point(double t) const override { return to_uv(curve_->Value(t)); }
   ParameterCurveDerivatives derivatives(double t) const override {
@@ -183,7 +184,7 @@ class OcctSurface final : public Surface {
     surface_->Bounds(u1, u2, v1, v2);
     domain_ = {clamped(u1, u2, box.u), clamped(v1, v2, box.v)};
   }
-  const Handle(Geom_Surface)& geom() const { return surface_; }
+  const Handle(Geom_Surface) & geom() const { return surface_; }
   ParameterBox domain() const override { return domain_; }
   bool is_periodic_u() const override { return surface_->IsUPeriodic(); }
   bool is_periodic_v() const override { return surface_->IsVPeriodic(); }
@@ -269,17 +270,21 @@ constexpr double k_equal = 1e-14;
 
 }  // namespace
 
-CurvePtr curve_of(const Handle(Geom_Curve)& curve, Interval range) {
+CurvePtr curve_of(const Handle(Geom_Curve) & curve, Interval range) {
   // A trimmed curve has the parameters of its basis; the edge's range says which part counts.
   if (const Handle(Geom_TrimmedCurve) trimmed = Handle(Geom_TrimmedCurve)::DownCast(curve); !trimmed.IsNull()) return curve_of(trimmed->BasisCurve(), range);
   if (const Handle(Geom_Line) line = Handle(Geom_Line)::DownCast(curve); !line.IsNull() && range.length() > 0.0)
     return std::make_shared<LineCurve>(to_point(line->Lin().Location()), to_vec(gp_Vec(line->Lin().Direction())), range);
   const auto ellipse = [&](const gp_Ax2& axes, double major, double minor) {
-    return std::make_shared<EllipseCurve>(to_point(axes.Location()), major * to_vec(gp_Vec(axes.XDirection())), minor * to_vec(gp_Vec(axes.YDirection())), k_full_turn);
+    return std::make_shared<EllipseCurve>(to_point(axes.Location()), major * to_vec(gp_Vec(axes.XDirection())), minor * to_vec(gp_Vec(axes.YDirection())),
+                                          k_full_turn);
   };
-  if (const Handle(Geom_Circle) circle = Handle(Geom_Circle)::DownCast(curve); !circle.IsNull()) return ellipse(circle->Position(), circle->Radius(), circle->Radius());
-  if (const Handle(Geom_Ellipse) oval = Handle(Geom_Ellipse)::DownCast(curve); !oval.IsNull()) return ellipse(oval->Position(), oval->MajorRadius(), oval->MinorRadius());
-  if (const Handle(Geom_BezierCurve) bezier = Handle(Geom_BezierCurve)::DownCast(curve); !bezier.IsNull()) return std::make_shared<NurbsCurve>(form_of_bezier<Point>(*bezier, to_point));
+  if (const Handle(Geom_Circle) circle = Handle(Geom_Circle)::DownCast(curve); !circle.IsNull())
+    return ellipse(circle->Position(), circle->Radius(), circle->Radius());
+  if (const Handle(Geom_Ellipse) oval = Handle(Geom_Ellipse)::DownCast(curve); !oval.IsNull())
+    return ellipse(oval->Position(), oval->MajorRadius(), oval->MinorRadius());
+  if (const Handle(Geom_BezierCurve) bezier = Handle(Geom_BezierCurve)::DownCast(curve); !bezier.IsNull())
+    return std::make_shared<NurbsCurve>(form_of_bezier<Point>(*bezier, to_point));
   if (Handle(Geom_BSplineCurve) spline = Handle(Geom_BSplineCurve)::DownCast(curve); !spline.IsNull()) {
     const bool is_periodic = spline->IsPeriodic();
     if (is_periodic) {
@@ -292,17 +297,21 @@ CurvePtr curve_of(const Handle(Geom_Curve)& curve, Interval range) {
   return std::make_shared<OcctCurve>(curve, range);
 }
 
-ParameterCurvePtr parameter_curve_of(const Handle(Geom2d_Curve)& curve, Interval range) {
-  if (const Handle(Geom2d_TrimmedCurve) trimmed = Handle(Geom2d_TrimmedCurve)::DownCast(curve); !trimmed.IsNull()) return parameter_curve_of(trimmed->BasisCurve(), range);
+ParameterCurvePtr parameter_curve_of(const Handle(Geom2d_Curve) & curve, Interval range) {
+  if (const Handle(Geom2d_TrimmedCurve) trimmed = Handle(Geom2d_TrimmedCurve)::DownCast(curve); !trimmed.IsNull())
+    return parameter_curve_of(trimmed->BasisCurve(), range);
   const auto direction = [](const gp_Dir2d& d) { return Uv{d.X(), d.Y()}; };
   if (const Handle(Geom2d_Line) line = Handle(Geom2d_Line)::DownCast(curve); !line.IsNull() && range.length() > 0.0)
     return std::make_shared<ParameterLine>(to_uv(line->Location()), direction(line->Direction()), range);
   const auto arc = [&](const gp_Ax22d& axes, double major, double minor) {
     return std::make_shared<ParameterArc>(to_uv(axes.Location()), major * direction(axes.XDirection()), minor * direction(axes.YDirection()), k_full_turn);
   };
-  if (const Handle(Geom2d_Circle) circle = Handle(Geom2d_Circle)::DownCast(curve); !circle.IsNull()) return arc(circle->Position(), circle->Radius(), circle->Radius());
-  if (const Handle(Geom2d_Ellipse) oval = Handle(Geom2d_Ellipse)::DownCast(curve); !oval.IsNull()) return arc(oval->Position(), oval->MajorRadius(), oval->MinorRadius());
-  if (const Handle(Geom2d_BezierCurve) bezier = Handle(Geom2d_BezierCurve)::DownCast(curve); !bezier.IsNull()) return std::make_shared<NurbsParameterCurve>(form_of_bezier<Uv>(*bezier, to_uv));
+  if (const Handle(Geom2d_Circle) circle = Handle(Geom2d_Circle)::DownCast(curve); !circle.IsNull())
+    return arc(circle->Position(), circle->Radius(), circle->Radius());
+  if (const Handle(Geom2d_Ellipse) oval = Handle(Geom2d_Ellipse)::DownCast(curve); !oval.IsNull())
+    return arc(oval->Position(), oval->MajorRadius(), oval->MinorRadius());
+  if (const Handle(Geom2d_BezierCurve) bezier = Handle(Geom2d_BezierCurve)::DownCast(curve); !bezier.IsNull())
+    return std::make_shared<NurbsParameterCurve>(form_of_bezier<Uv>(*bezier, to_uv));
   if (const Handle(Geom2d_BSplineCurve) spline = Handle(Geom2d_BSplineCurve)::DownCast(curve); !spline.IsNull() && !spline->IsPeriodic()) {
     NurbsCurveForm<Uv> form = form_of_spline<Uv>(*spline, to_uv);
     if (is_clamped(form.knots, form.degree)) return std::make_shared<NurbsParameterCurve>(std::move(form));
@@ -310,10 +319,11 @@ ParameterCurvePtr parameter_curve_of(const Handle(Geom2d_Curve)& curve, Interval
   return std::make_shared<OcctParameterCurve>(curve, range);
 }
 
-SurfacePtr surface_of(const Handle(Geom_Surface)& surface, const ParameterBox& box) {
+SurfacePtr surface_of(const Handle(Geom_Surface) & surface, const ParameterBox& box) {
   if (const Handle(Geom_RectangularTrimmedSurface) trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface); !trimmed.IsNull())
     return surface_of(trimmed->BasisSurface(), box);
-  if (const Handle(Geom_Plane) plane = Handle(Geom_Plane)::DownCast(surface); !plane.IsNull()) return std::make_shared<PlaneSurface>(frame_of(plane->Position()), box);
+  if (const Handle(Geom_Plane) plane = Handle(Geom_Plane)::DownCast(surface); !plane.IsNull())
+    return std::make_shared<PlaneSurface>(frame_of(plane->Position()), box);
   const ParameterBox turn{k_full_turn, box.v};
   if (const Handle(Geom_CylindricalSurface) round = Handle(Geom_CylindricalSurface)::DownCast(surface); !round.IsNull())
     return std::make_shared<CylinderSurface>(frame_of(round->Position()), round->Radius(), turn);
@@ -324,10 +334,12 @@ SurfacePtr surface_of(const Handle(Geom_Surface)& surface, const ParameterBox& b
   if (const Handle(Geom_ToroidalSurface) round = Handle(Geom_ToroidalSurface)::DownCast(surface); !round.IsNull())
     return std::make_shared<TorusSurface>(frame_of(round->Position()), round->MajorRadius(), round->MinorRadius());
   if (const Handle(Geom_SurfaceOfRevolution) swept = Handle(Geom_SurfaceOfRevolution)::DownCast(surface); !swept.IsNull())
-    return std::make_shared<RevolutionSurface>(curve_of(swept->BasisCurve(), box.v), to_point(swept->Location()), to_vec(gp_Vec(swept->Direction())), k_full_turn);
+    return std::make_shared<RevolutionSurface>(curve_of(swept->BasisCurve(), box.v), to_point(swept->Location()), to_vec(gp_Vec(swept->Direction())),
+                                               k_full_turn);
   if (const Handle(Geom_SurfaceOfLinearExtrusion) swept = Handle(Geom_SurfaceOfLinearExtrusion)::DownCast(surface); !swept.IsNull())
     return std::make_shared<ExtrusionSurface>(curve_of(swept->BasisCurve(), box.u), to_vec(gp_Vec(swept->Direction())), box.v);
-  if (const Handle(Geom_BezierSurface) bezier = Handle(Geom_BezierSurface)::DownCast(surface); !bezier.IsNull()) return std::make_shared<NurbsSurface>(form_of(*bezier));
+  if (const Handle(Geom_BezierSurface) bezier = Handle(Geom_BezierSurface)::DownCast(surface); !bezier.IsNull())
+    return std::make_shared<NurbsSurface>(form_of(*bezier));
   if (Handle(Geom_BSplineSurface) spline = Handle(Geom_BSplineSurface)::DownCast(surface); !spline.IsNull()) {
     const bool is_periodic_u = spline->IsUPeriodic(), is_periodic_v = spline->IsVPeriodic();
     if (is_periodic_u || is_periodic_v) {
@@ -343,14 +355,16 @@ SurfacePtr surface_of(const Handle(Geom_Surface)& surface, const ParameterBox& b
       spline->Segment(u1, u2, v1, v2);  // inserts the end knots that are missing
       form = form_of(*spline);
     }
-    if (is_clamped(form.knots_u, form.degree_u) && is_clamped(form.knots_v, form.degree_v)) return std::make_shared<NurbsSurface>(std::move(form), is_periodic_u, is_periodic_v);
+    if (is_clamped(form.knots_u, form.degree_u) && is_clamped(form.knots_v, form.degree_v))
+      return std::make_shared<NurbsSurface>(std::move(form), is_periodic_u, is_periodic_v);
   }
   return std::make_shared<OcctSurface>(surface, box);
 }
 
 Handle(Geom_Curve) geom_of(const Curve& curve) {
   if (const auto* wrapped = dynamic_cast<const OcctCurve*>(&curve)) return wrapped->geom();
-  if (const auto* line = dynamic_cast<const LineCurve*>(&curve); line && std::abs(norm(line->direction()) - 1.0) <= k_equal) return new Geom_Line(to_gp(line->origin()), to_dir(line->direction()));
+  if (const auto* line = dynamic_cast<const LineCurve*>(&curve); line && std::abs(norm(line->direction()) - 1.0) <= k_equal)
+    return new Geom_Line(to_gp(line->origin()), to_dir(line->direction()));
   if (const auto* ellipse = dynamic_cast<const EllipseCurve*>(&curve)) {
     const double major = norm(ellipse->x()), minor = norm(ellipse->y());
     const gp_Ax2 axes(to_gp(ellipse->centre()), to_dir(cross(ellipse->x(), ellipse->y())), to_dir(ellipse->x()));
@@ -383,7 +397,8 @@ Handle(Geom2d_Curve) geom_of(const ParameterCurve& curve) {
 static Handle(Geom_Surface) analytic_of(const Surface& surface) {
   if (const auto* plane = dynamic_cast<const PlaneSurface*>(&surface)) return new Geom_Plane(axes_of(plane->frame()));
   if (const auto* round = dynamic_cast<const CylinderSurface*>(&surface)) return new Geom_CylindricalSurface(axes_of(round->frame()), round->radius());
-  if (const auto* round = dynamic_cast<const ConeSurface*>(&surface)) return new Geom_ConicalSurface(axes_of(round->frame()), round->half_angle(), round->radius());
+  if (const auto* round = dynamic_cast<const ConeSurface*>(&surface))
+    return new Geom_ConicalSurface(axes_of(round->frame()), round->half_angle(), round->radius());
   if (const auto* round = dynamic_cast<const SphereSurface*>(&surface)) return new Geom_SphericalSurface(axes_of(round->frame()), round->radius());
   if (const auto* round = dynamic_cast<const TorusSurface*>(&surface)) {
     const Frame& f = round->frame();

@@ -11,9 +11,9 @@
 namespace sterna::cad {
 
 /// The same geometry with the same parameters: ours where we have the type, else a wrapper. Infinite ones get the range (box) that is asked for.
-CurvePtr curve_of(const Handle(Geom_Curve)& curve, Interval range);
-ParameterCurvePtr parameter_curve_of(const Handle(Geom2d_Curve)& curve, Interval range);
-SurfacePtr surface_of(const Handle(Geom_Surface)& surface, const ParameterBox& box);
+CurvePtr curve_of(const Handle(Geom_Curve) & curve, Interval range);
+ParameterCurvePtr parameter_curve_of(const Handle(Geom2d_Curve) & curve, Interval range);
+SurfacePtr surface_of(const Handle(Geom_Surface) & surface, const ParameterBox& box);
 
 /// The same geometry with the same parameters as OpenCASCADE's; null where there is no exact form.
 Handle(Geom_Curve) geom_of(const Curve& curve);

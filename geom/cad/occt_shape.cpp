@@ -84,7 +84,8 @@ void add_faults(const BRepCheck_ListOfStatus& list, const std::string& what, con
   for (const BRepCheck_Status status : list) {
     if (status == BRepCheck_NoError) continue;
     ErrorPlace fault{place_of(at), what + ": " + status_text(status)};
-    if (std::none_of(faults.begin(), faults.end(), [&](const ErrorPlace& f) { return f.what == fault.what && f.position == fault.position; })) faults.push_back(std::move(fault));
+    if (std::none_of(faults.begin(), faults.end(), [&](const ErrorPlace& f) { return f.what == fault.what && f.position == fault.position; }))
+      faults.push_back(std::move(fault));
   }
 }
 

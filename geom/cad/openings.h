@@ -11,8 +11,8 @@ namespace sterna::cad {
 double gap_of_pairs(const std::vector<TopoDS_Shape>& shapes, double small);
 inline constexpr double k_pair_gap = 0.01;
 
-/// Closes flat openings (closed loops of free edges in a plane) of open shells and loose faces with a plane face each, told in `report.mended`. Its component is
-/// that of the shell, its name "<component> cap".
+/// Closes flat openings (closed loops of free edges in a plane) of open shells and loose faces with a plane face each, told in `report.mended`. Its component
+/// is that of the shell, its name "<component> cap".
 void cap_openings(LabelledShape& labelled, CadReport& report);
 
 }  // namespace sterna::cad

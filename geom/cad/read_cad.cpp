@@ -42,7 +42,8 @@ void doubt_unit(double size, bool is_given, CadReport& report) {
   const bool looks_like_metres = size < k_small_size && k_aircraft.contains(size / report.unit);
   if (is_given || size <= 0.0 || (size >= k_smallest_size && size <= k_largest_size && !looks_like_metres)) return;
   const std::string as = report.format == CadFormat::brep ? "a BREP file has no unit; taken as metres" : "the file's unit (" + report.file_unit + ")";
-  report.warnings.push_back(as + " makes the model " + number(size) + " m long; its numbers span " + number(size / report.unit) + ": if that is in another unit, give `unit` (1 for m, 0.001 for mm)");
+  report.warnings.push_back(as + " makes the model " + number(size) + " m long; its numbers span " + number(size / report.unit) +
+                            ": if that is in another unit, give `unit` (1 for m, 0.001 for mm)");
 }
 
 /// Loose faces and shells go by the name of the file where they have no other.
@@ -56,12 +57,9 @@ void name_after_file(LabelledShape& labelled, const std::string& source) {
   std::size_t number = 0;
   for (ShapePart& part : labelled.parts) {
     if (!part.component.empty()) continue;
-    if (!part.name.empty())
-      part.component = part.name;
-    else if (part.shape.ShapeType() == TopAbs_SOLID && n_nameless > 1)
-      part.component = stem + "_" + std::to_string(++number);
-    else
-      part.component = stem;
+    if (!part.name.empty()) part.component = part.name;
+    else if (part.shape.ShapeType() == TopAbs_SOLID && n_nameless > 1) part.component = stem + "_" + std::to_string(++number);
+    else part.component = stem;
   }
 }
 
@@ -118,11 +116,13 @@ std::vector<CadOpening> openings_of(const Model& model, const std::vector<CadFre
     std::sort(opening.edges.begin(), opening.edges.end());
     for (const Point& p : samples) opening.place += p / static_cast<double>(samples.size());
     // The plane through the middle and the two samples that span most.
-    const Point far = *std::max_element(samples.begin(), samples.end(), [&](const Point& a, const Point& b) { return distance(a, opening.place) < distance(b, opening.place); });
+    const Point far = *std::max_element(samples.begin(), samples.end(),
+                                        [&](const Point& a, const Point& b) { return distance(a, opening.place) < distance(b, opening.place); });
     for (const Point& p : samples)
       if (const Vec3 n = cross(far - opening.place, p - opening.place); norm(n) > norm(opening.normal)) opening.normal = n;
     if (norm(opening.normal) > 0.0) opening.normal = opening.normal / norm(opening.normal);
-    opening.is_flat = std::all_of(samples.begin(), samples.end(), [&](const Point& p) { return std::abs(dot(p - opening.place, opening.normal)) <= k_flat * opening.length; });
+    opening.is_flat = std::all_of(samples.begin(), samples.end(),
+                                  [&](const Point& p) { return std::abs(dot(p - opening.place, opening.normal)) <= k_flat * opening.length; });
     openings.push_back(std::move(opening));
   }
   return openings;
@@ -139,7 +139,8 @@ void describe_result(const Model& model, CadReport& report) {
   const auto uses = uses_of_edges(model);
   for (const EdgeId e : free_edges(model)) {
     const ModelEdge& edge = model.edges[e];
-    report.free_edges.push_back({e, uses[e].front().face, edge.curve->point(0.5 * (edge.range.from + edge.range.to)), length_of(model.shape->content().edges[e.index()])});
+    report.free_edges.push_back(
+        {e, uses[e].front().face, edge.curve->point(0.5 * (edge.range.from + edge.range.to)), length_of(model.shape->content().edges[e.index()])});
   }
   report.openings = openings_of(model, report.free_edges);
   report.faults = faults_of(*model.shape);
@@ -162,7 +163,10 @@ CadFile read_cad_bytes(std::string_view bytes, CadFormat format, const std::stri
     Translated translated = translate(bytes, format, source, steps.Next(k_translate_share));
     context.check_stop();
     if (translated.labelled.parts.empty())
-      throw Error({.code = ErrorCode::file_malformed, .attempted = attempted, .problem = "no face in it", .hint = "only solids, shells and faces are read, no wires or meshes"});
+      throw Error({.code = ErrorCode::file_malformed,
+                   .attempted = attempted,
+                   .problem = "no face in it",
+                   .hint = "only solids, shells and faces are read, no wires or meshes"});
     report.file_unit = translated.file_unit;
     report.unit = is_automatic(options.unit) ? translated.unit : options.unit;
     if (report.unit != translated.unit) scale(translated.labelled, report.unit / translated.unit);
@@ -183,9 +187,10 @@ CadFile read_cad_bytes(std::string_view bytes, CadFormat format, const std::stri
 
 std::string to_text(const CadReport& report) {
   constexpr std::size_t k_shown = 10;
-  std::string text = std::string(to_string(report.format)) + ", unit " + report.file_unit + " = " + cad::number(report.unit) + " m: " + std::to_string(report.n_faces) + " faces, " + std::to_string(report.n_closed) +
-                     " closed solids" + (report.n_open > 0 ? ", " + std::to_string(report.n_open) + " open shells or loose faces" : "") + "; names: " + std::to_string(report.n_named_parts) + " parts, " +
-                     std::to_string(report.n_named_faces) + " faces";
+  std::string text = std::string(to_string(report.format)) + ", unit " + report.file_unit + " = " + cad::number(report.unit) +
+                     " m: " + std::to_string(report.n_faces) + " faces, " + std::to_string(report.n_closed) + " closed solids" +
+                     (report.n_open > 0 ? ", " + std::to_string(report.n_open) + " open shells or loose faces" : "") +
+                     "; names: " + std::to_string(report.n_named_parts) + " parts, " + std::to_string(report.n_named_faces) + " faces";
   for (const std::string& warning : report.warnings) text += "\n  warning: " + warning;
   std::map<std::string, std::vector<const CadMend*>> by_kind;
   for (const CadMend& mend : report.mended) by_kind[mend.what].push_back(&mend);
@@ -203,10 +208,12 @@ std::string to_text(const CadReport& report) {
   }
   for (std::size_t i = 0; i < std::min(report.free_edges.size(), k_shown); ++i) {
     const CadFreeEdge& edge = report.free_edges[i];
-    text += "\n  open: edge " + std::to_string(edge.edge.index()) + " of face " + std::to_string(edge.face.index()) + " at " + format_point(edge.place) + ", " + cad::number(edge.length) + " m long";
+    text += "\n  open: edge " + std::to_string(edge.edge.index()) + " of face " + std::to_string(edge.face.index()) + " at " + format_point(edge.place) + ", " +
+            cad::number(edge.length) + " m long";
   }
   if (report.free_edges.size() > k_shown) text += "\n  open: and " + std::to_string(report.free_edges.size() - k_shown) + " more edges";
-  for (std::size_t i = 0; i < std::min(report.faults.size(), k_shown); ++i) text += "\n  fault: " + report.faults[i].what + " at " + format_point(report.faults[i].position);
+  for (std::size_t i = 0; i < std::min(report.faults.size(), k_shown); ++i)
+    text += "\n  fault: " + report.faults[i].what + " at " + format_point(report.faults[i].position);
   if (report.faults.size() > k_shown) text += "\n  fault: and " + std::to_string(report.faults.size() - k_shown) + " more";
   return text;
 }

@@ -15,30 +15,50 @@
 namespace sterna {
 
 struct ReadCadOptions {
-  double unit = k_automatic;             ///< metres for 1 unit of the file's numbers
+  double unit = k_automatic;  ///< metres for 1 unit of the file's numbers
   bool heal = true;
-  double sew_tolerance = k_automatic;    ///< metres
-  double small = k_automatic;            ///< metres
+  double sew_tolerance = k_automatic;  ///< metres
+  double small = k_automatic;          ///< metres
   bool cap = false;
-  double time_limit = 600.0;             ///< seconds
+  double time_limit = 600.0;  ///< seconds
 };
 template <>
 struct Schema<ReadCadOptions> {
   static constexpr std::string_view stage = "read_cad";
   using T = ReadCadOptions;
   static constexpr std::array fields = {
-      Field<T>{.name = "unit", .member = &T::unit, .unit = Unit::metre, .min = 1e-9, .max = 1e6, .help = "metres for 1 unit of the file's numbers, instead of what its header says", .automatic = "the header's unit; BREP, which has none: 1"},
+      Field<T>{.name = "unit",
+               .member = &T::unit,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .max = 1e6,
+               .help = "metres for 1 unit of the file's numbers, instead of what its header says",
+               .automatic = "the header's unit; BREP, which has none: 1"},
       Field<T>{.name = "heal", .member = &T::heal, .help = "mend borders, orientation, gaps, small and doubled faces"},
-      Field<T>{.name = "sew_tolerance", .member = &T::sew_tolerance, .unit = Unit::metre, .min = 1e-9, .max = 1.0, .help = "largest gap between faces that is closed by joining their edges", .automatic = "tried up to 1e-5 of the longest side, the least that closes most; edges with common ends also across 1 % of their length"},
-      Field<T>{.name = "small", .member = &T::small, .unit = Unit::metre, .min = 0.0, .max = 1.0, .help = "edges, and strips of faces, shorter than this are dropped", .automatic = "1e-6 of the longest side"},
-      Field<T>{.name = "cap", .member = &T::cap, .help = "close flat openings of shells with plane faces, named after the component: ends of blades and ducts, planes of symmetry"},
+      Field<T>{.name = "sew_tolerance",
+               .member = &T::sew_tolerance,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .max = 1.0,
+               .help = "largest gap between faces that is closed by joining their edges",
+               .automatic = "tried up to 1e-5 of the longest side, the least that closes most; edges with common ends also across 1 % of their length"},
+      Field<T>{.name = "small",
+               .member = &T::small,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "edges, and strips of faces, shorter than this are dropped",
+               .automatic = "1e-6 of the longest side"},
+      Field<T>{.name = "cap",
+               .member = &T::cap,
+               .help = "close flat openings of shells with plane faces, named after the component: ends of blades and ducts, planes of symmetry"},
       Field<T>{.name = "time_limit", .member = &T::time_limit, .unit = Unit::second, .min = 1.0, .max = 1e6, .help = "reading and mending give up after this"},
   };
 };
 
 /// One thing that healing changed.
 struct CadMend {
-  std::string what;    ///< "small edge removed"
+  std::string what;  ///< "small edge removed"
   Point place;
   double value = 0.0;  ///< metres: the gap or length that was mended; 0 where it has none
 };
@@ -54,26 +74,26 @@ struct CadFreeEdge {
 /// Free edges that hang together.
 struct CadOpening {
   std::vector<EdgeId> edges;
-  bool is_loop = false;   ///< each corner has two of them
-  bool is_flat = false;   ///< in a plane, to 1e-4 of the length: `cap` would close a loop
-  Point place;            ///< middle of its corners
-  Vec3 normal;            ///< of the plane, where flat
-  double length = 0.0;    ///< of all edges, metres
+  bool is_loop = false;  ///< each corner has two of them
+  bool is_flat = false;  ///< in a plane, to 1e-4 of the length: `cap` would close a loop
+  Point place;           ///< middle of its corners
+  Vec3 normal;           ///< of the plane, where flat
+  double length = 0.0;   ///< of all edges, metres
 };
 
 struct CadReport {
   cad::CadFormat format = cad::CadFormat::step;
-  std::string file_unit;            ///< as the file names it; "none" for BREP
-  double unit = 1.0;                ///< metres for 1 unit of the file, as applied
+  std::string file_unit;  ///< as the file names it; "none" for BREP
+  double unit = 1.0;      ///< metres for 1 unit of the file, as applied
   std::size_t n_faces = 0;
-  std::size_t n_closed = 0;         ///< closed solids
-  std::size_t n_open = 0;           ///< shells with free edges, and loose faces
-  std::size_t n_named_parts = 0;    ///< solids, shells and instances with names of the file
+  std::size_t n_closed = 0;       ///< closed solids
+  std::size_t n_open = 0;         ///< shells with free edges, and loose faces
+  std::size_t n_named_parts = 0;  ///< solids, shells and instances with names of the file
   std::size_t n_named_faces = 0;
   std::vector<CadMend> mended;
   std::vector<CadFreeEdge> free_edges;
   std::vector<CadOpening> openings;  ///< the free edges once more, by what hangs together
-  std::vector<ErrorPlace> faults;   ///< what OpenCASCADE's check still objects to
+  std::vector<ErrorPlace> faults;    ///< what OpenCASCADE's check still objects to
   std::vector<std::string> warnings;
   bool is_closed() const { return n_open == 0 && n_closed > 0; }
 };
@@ -85,10 +105,10 @@ struct CadFile {
 
 namespace cad {
 
-/// Reads the bytes of a file, unpacked. `source` is its name for messages; its stem names components that have no other name. A file without a single face is refused.
-/// Placed instances of assemblies become components of their own, named after the instance, else the product; faces without a name get that of their component.
-/// What cannot be closed is no error: it is listed in the report, and each warning also goes to the log.
-/// \throws Error file_malformed, geometry_failed (OpenCASCADE gave up, the time limit), cancelled.
+/// Reads the bytes of a file, unpacked. `source` is its name for messages; its stem names components that have no other name. A file without a single face is
+/// refused. Placed instances of assemblies become components of their own, named after the instance, else the product; faces without a name get that of their
+/// component. What cannot be closed is no error: it is listed in the report, and each warning also goes to the log. \throws Error file_malformed,
+/// geometry_failed (OpenCASCADE gave up, the time limit), cancelled.
 CadFile read_cad_bytes(std::string_view bytes, CadFormat format, const std::string& source, const ReadCadOptions& options, const RunContext& context);
 
 }  // namespace cad

@@ -42,7 +42,8 @@ template <class Geometry, class Sample>
 void sample_all(Refits<Geometry>& refits, const Sample& sample, const RunContext& context) {
   refits.replacements.resize(refits.originals.size());
   refits.errors.resize(refits.originals.size());
-  parallel_for(context, refits.originals.size(), [&](std::size_t i) { sample(*refits.originals[i], refits.replacements[i], refits.errors[i]); }, 1);
+  parallel_for(
+      context, refits.originals.size(), [&](std::size_t i) { sample(*refits.originals[i], refits.replacements[i], refits.errors[i]); }, 1);
 }
 
 }  // namespace
@@ -58,16 +59,22 @@ Model refitted(const Model& model, double tolerance, RefitReport& report, const 
   for (const ModelFace& face : model.faces) surfaces.note(face.surface.get());
   for (const ModelEdge& edge : model.edges)
     if (!edge.is_degenerate()) curves.note(edge.curve.get());
-  sample_all(surfaces, [&](const Surface& surface, SurfacePtr& replacement, double& error) {
-    const SampledSurface sampled = sample_surface(surface, tolerance);
-    replacement = sampled.surface;
-    error = sampled.error;
-  }, context);
-  sample_all(curves, [&](const Curve& curve, CurvePtr& replacement, double& error) {
-    const SampledCurve sampled = sample_curve(curve, tolerance);
-    replacement = sampled.curve;
-    error = sampled.error;
-  }, context);
+  sample_all(
+      surfaces,
+      [&](const Surface& surface, SurfacePtr& replacement, double& error) {
+        const SampledSurface sampled = sample_surface(surface, tolerance);
+        replacement = sampled.surface;
+        error = sampled.error;
+      },
+      context);
+  sample_all(
+      curves,
+      [&](const Curve& curve, CurvePtr& replacement, double& error) {
+        const SampledCurve sampled = sample_curve(curve, tolerance);
+        replacement = sampled.curve;
+        error = sampled.error;
+      },
+      context);
 
   Model result = model;
   result.shape.reset();

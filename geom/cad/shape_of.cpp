@@ -61,7 +61,8 @@ class ShapeBuilder {
       builder_.UpdateEdge(result, tolerance_of(edge.tolerance));
     } else {
       const Handle(Geom_Curve) curve = geom_of(*edge.curve);
-      if (curve.IsNull()) fail("edge " + std::to_string(e.index()) + " has no exact form in OpenCASCADE", edge.curve->point(0.5 * (edge.range.from + edge.range.to)));
+      if (curve.IsNull())
+        fail("edge " + std::to_string(e.index()) + " has no exact form in OpenCASCADE", edge.curve->point(0.5 * (edge.range.from + edge.range.to)));
       builder_.MakeEdge(result, curve, tolerance_of(edge.tolerance));
     }
     builder_.Add(result, corners_[edge.start.index()].Oriented(TopAbs_FORWARD));
@@ -104,7 +105,8 @@ class ShapeBuilder {
     Handle(Geom2d_Curve) curve = geom_of(*use_at(place).parameter);
     if (!curve.IsNull()) return curve;
     const ParameterCurve& parameter = *use_at(place).parameter;
-    fail("a parameter curve of face " + std::to_string(place.face.index()) + " has no exact form in OpenCASCADE", model_.faces[place.face].surface->point(parameter.point(parameter.domain().from)));
+    fail("a parameter curve of face " + std::to_string(place.face.index()) + " has no exact form in OpenCASCADE",
+         model_.faces[place.face].surface->point(parameter.point(parameter.domain().from)));
   }
 
   void add_face(FaceId f) {

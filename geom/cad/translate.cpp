@@ -1,6 +1,9 @@
 // STEP and IGES through OpenCASCADE's extended documents (XDE), which keep names, colours, layers and assemblies; BREP as it is.
 #include "geom/cad/translate.h"
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
@@ -23,9 +26,6 @@
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_LayerTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -44,8 +44,8 @@ std::string utf8(const TCollection_ExtendedString& text) { return TCollection_As
 
 /// Names that translators put where the file has none.
 bool is_made_up(const std::string& name) {
-  return name.empty() || name == "NONE" || name == "None" || name.starts_with("Open CASCADE") || name.starts_with("=>[") || name == "SOLID" || name == "SHELL" || name == "COMPOUND" || name == "FACE" ||
-         name == "Unnamed" || name.find_first_not_of(" \t") == std::string::npos;
+  return name.empty() || name == "NONE" || name == "None" || name.starts_with("Open CASCADE") || name.starts_with("=>[") || name == "SOLID" ||
+         name == "SHELL" || name == "COMPOUND" || name == "FACE" || name == "Unnamed" || name.find_first_not_of(" \t") == std::string::npos;
 }
 
 std::string name_of(const TDF_Label& label) {
@@ -60,8 +60,10 @@ std::string name_of(const TDF_Label& label) {
 /// Walks a document: assemblies down to their parts, each with the placement and the names on the way.
 class DocumentWalk {
  public:
-  explicit DocumentWalk(const Handle(TDocStd_Document)& document)
-      : shapes_(XCAFDoc_DocumentTool::ShapeTool(document->Main())), colours_(XCAFDoc_DocumentTool::ColorTool(document->Main())), layers_(XCAFDoc_DocumentTool::LayerTool(document->Main())) {}
+  explicit DocumentWalk(const Handle(TDocStd_Document) & document)
+      : shapes_(XCAFDoc_DocumentTool::ShapeTool(document->Main())),
+        colours_(XCAFDoc_DocumentTool::ColorTool(document->Main())),
+        layers_(XCAFDoc_DocumentTool::LayerTool(document->Main())) {}
 
   LabelledShape walk() {
     TDF_LabelSequence roots;
@@ -85,7 +87,10 @@ class DocumentWalk {
       if (!XCAFDoc_ShapeTool::GetReferredShape(component, product)) continue;
       const FaceLabel of_instance = label_of(component);
       const std::string name = !of_instance.name.empty() && !of_instance.name.starts_with("NAUO") ? of_instance.name : name_of(product);
-      visit(product, place * XCAFDoc_ShapeTool::GetLocation(component), name, {.name = {}, .colour = of_instance.colour ? of_instance.colour : merged.colour, .layer = of_instance.layer.empty() ? merged.layer : of_instance.layer});
+      visit(product, place * XCAFDoc_ShapeTool::GetLocation(component), name,
+            {.name = {},
+             .colour = of_instance.colour ? of_instance.colour : merged.colour,
+             .layer = of_instance.layer.empty() ? merged.layer : of_instance.layer});
     }
   }
 
@@ -101,10 +106,8 @@ class DocumentWalk {
       const TopoDS_Shape sub = XCAFDoc_ShapeTool::GetShape(part);
       const FaceLabel own = label_of(part);
       if (sub.IsNull() || own.is_empty()) continue;
-      if (sub.ShapeType() == TopAbs_FACE)
-        result_.labels.Bind(placed(sub), own);
-      else
-        of_parts.Bind(placed(sub), own);
+      if (sub.ShapeType() == TopAbs_FACE) result_.labels.Bind(placed(sub), own);
+      else of_parts.Bind(placed(sub), own);
     }
     const std::string component = unique_component(!instance.empty() ? instance : product);
     const auto add = [&](const TopoDS_Shape& s) {
@@ -224,7 +227,8 @@ Translated translate_step(std::string_view bytes, const std::string& source, con
   reader.SetPropsMode(false);
   ByteStream buffer(bytes);
   std::istream stream(&buffer);
-  if (reader.ChangeReader().ReadStream(source.c_str(), stream) != IFSelect_RetDone) malformed(source, "not a STEP file that OpenCASCADE can parse", "is it complete? the last line should be END-ISO-10303-21;");
+  if (reader.ChangeReader().ReadStream(source.c_str(), stream) != IFSelect_RetDone)
+    malformed(source, "not a STEP file that OpenCASCADE can parse", "is it complete? the last line should be END-ISO-10303-21;");
   Translated result;
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
@@ -267,7 +271,8 @@ Translated translate_iges(std::string_view bytes, const std::string& source, con
 Translated translate_brep(std::string_view bytes, const std::string& source, const Message_ProgressRange& progress) {
   // OpenCASCADE's reader prints to the terminal what it misses.
   for (const std::string_view section : {"\nLocations ", "\nCurve2ds ", "\nCurves ", "\nPolygon3D ", "\nSurfaces ", "\nTriangulations ", "\nTShapes "})
-    if (bytes.find(section) == std::string_view::npos) malformed(source, "no section \"" + std::string(section.substr(1, section.size() - 2)) + "\"", "is it complete, and text rather than binary BREP?");
+    if (bytes.find(section) == std::string_view::npos)
+      malformed(source, "no section \"" + std::string(section.substr(1, section.size() - 2)) + "\"", "is it complete, and text rather than binary BREP?");
   ByteStream buffer(bytes);
   std::istream stream(&buffer);
   TopoDS_Shape shape;
@@ -284,9 +289,10 @@ Translated translate_brep(std::string_view bytes, const std::string& source, con
 
 /// Metres for one unit as STEP spells it in FileUnits; 0 where we do not know it.
 double metres_of(const std::string& unit) {
-  static const std::map<std::string, double> k_units = {{"METRE", 1.0},       {"MILLIMETRE", 1e-3}, {"CENTIMETRE", 1e-2}, {"DECIMETRE", 0.1},  {"KILOMETRE", 1e3}, {"MICROMETRE", 1e-6},
-                                                        {"INCH", 0.0254},     {"FOOT", 0.3048},     {"FEET", 0.3048},     {"YARD", 0.9144},    {"MILE", 1609.344}, {"metre", 1.0},
-                                                        {"millimetre", 1e-3}, {"centimetre", 1e-2}, {"inch", 0.0254},     {"foot", 0.3048},    {"METER", 1.0},     {"MILLIMETER", 1e-3}};
+  static const std::map<std::string, double> k_units = {
+      {"METRE", 1.0},       {"MILLIMETRE", 1e-3}, {"CENTIMETRE", 1e-2}, {"DECIMETRE", 0.1}, {"KILOMETRE", 1e3}, {"MICROMETRE", 1e-6},
+      {"INCH", 0.0254},     {"FOOT", 0.3048},     {"FEET", 0.3048},     {"YARD", 0.9144},   {"MILE", 1609.344}, {"metre", 1.0},
+      {"millimetre", 1e-3}, {"centimetre", 1e-2}, {"inch", 0.0254},     {"foot", 0.3048},   {"METER", 1.0},     {"MILLIMETER", 1e-3}};
   const auto it = k_units.find(unit);
   return it == k_units.end() ? 0.0 : it->second;
 }

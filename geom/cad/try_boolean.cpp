@@ -37,8 +37,8 @@ BOPAlgo_Operation occt_operation(BooleanOperation operation) {
 }
 
 /// An operation whose intersections are known.
-void run_operation(const BooleanTask& task, const std::vector<BooleanPart>& parts, double tolerance, const RunContext& context, const Message_ProgressRange& progress,
-                   const std::function<void(BRepAlgoAPI_BooleanOperation&)>& take) {
+void run_operation(const BooleanTask& task, const std::vector<BooleanPart>& parts, double tolerance, const RunContext& context,
+                   const Message_ProgressRange& progress, const std::function<void(BRepAlgoAPI_BooleanOperation&)>& take) {
   Message_ProgressScope steps(progress, nullptr, 1.0);
   const auto set_options = [&](auto& algorithm) {
     algorithm.SetNonDestructive(true);
@@ -121,7 +121,8 @@ std::string measure_result(BooleanTry& result, const std::string& what, std::vec
     return "the " + what + " is not closed";
   }
   std::vector<FaceMeasures> measures(result.model.faces.size());
-  parallel_for(context, measures.size(), [&](std::size_t f) { measures[f] = face_measures(result.model, FaceId(static_cast<std::uint64_t>(f))); }, 1);
+  parallel_for(
+      context, measures.size(), [&](std::size_t f) { measures[f] = face_measures(result.model, FaceId(static_cast<std::uint64_t>(f))); }, 1);
   for (std::size_t f = 0; f < measures.size(); ++f) {
     areas[result.origin_of_face[f].part] += measures[f].area;
     result.volume += measures[f].volume;
@@ -135,14 +136,19 @@ double size_of(const std::vector<BooleanPart>& parts) {
   return size;
 }
 
-std::optional<BooleanTry> climb(const BooleanTask& task, const std::vector<BooleanPart>& parts, double size, const Judge& judge, std::vector<UniteTry>& tries, const RunContext& context) {
+std::optional<BooleanTry> climb(const BooleanTask& task, const std::vector<BooleanPart>& parts, double size, const Judge& judge, std::vector<UniteTry>& tries,
+                                const RunContext& context) {
   for (const double tolerance : tolerances(task, size)) {
     BooleanTry result = try_once(task, parts, tolerance, judge, context);
     tries.push_back(result.outcome);
     if (result.outcome.problem.empty()) return result;
     context.debug(task.attempted + " with tolerance " + std::to_string(tolerance) + " m: " + result.outcome.problem);
     // No larger tolerance makes it faster.
-    if (result.is_late) throw Error({.code = ErrorCode::geometry_failed, .attempted = task.attempted + " (" + names_of(parts) + ")", .problem = result.outcome.problem, .hint = "give it a larger time_limit"});
+    if (result.is_late)
+      throw Error({.code = ErrorCode::geometry_failed,
+                   .attempted = task.attempted + " (" + names_of(parts) + ")",
+                   .problem = result.outcome.problem,
+                   .hint = "give it a larger time_limit"});
   }
   return std::nullopt;
 }

@@ -17,10 +17,10 @@ enum class BooleanOperation { fuse, cut, common };
 
 struct BooleanTask {
   BooleanOperation operation = BooleanOperation::fuse;  ///< of the first part with all others
-  std::string attempted;           ///< "uniting the parts"
-  std::string stage;               ///< of the timers: "unite"
-  double tolerance = k_automatic;  ///< metres; automatic: the ladder
-  double time_limit = 0.0;         ///< seconds, of a try
+  std::string attempted;                                ///< "uniting the parts"
+  std::string stage;                                    ///< of the timers: "unite"
+  double tolerance = k_automatic;                       ///< metres; automatic: the ladder
+  double time_limit = 0.0;                              ///< seconds, of a try
 };
 
 struct BooleanTry {
@@ -39,10 +39,12 @@ using Judge = std::function<void(BooleanTry&)>;
 
 /// The first try that `judge` takes; nothing where none is; all are added to `tries`. `size`: the longest side that the ladder is a share of.
 /// \throws Error(geometry_failed) for a try that takes too long, Error(cancelled)
-std::optional<BooleanTry> climb(const BooleanTask& task, const std::vector<BooleanPart>& parts, double size, const Judge& judge, std::vector<UniteTry>& tries, const RunContext& context);
+std::optional<BooleanTry> climb(const BooleanTask& task, const std::vector<BooleanPart>& parts, double size, const Judge& judge, std::vector<UniteTry>& tries,
+                                const RunContext& context);
 
-/// The first objection that any result may meet: faults of OpenCASCADE's check, free edges (their places go to outcome.places); empty where there is none. Then the areas that are left of each
-/// part, m^2, and the volume of the result are measured. \p what names it in messages: "half". \pre one entry of `areas` per part, 0
+/// The first objection that any result may meet: faults of OpenCASCADE's check, free edges (their places go to outcome.places); empty where there is none. Then
+/// the areas that are left of each part, m^2, and the volume of the result are measured. \p what names it in messages: "half". \pre one entry of `areas` per
+/// part, 0
 std::string measure_result(BooleanTry& result, const std::string& what, std::vector<double>& areas, const RunContext& context);
 
 /// Longest side of the largest part.

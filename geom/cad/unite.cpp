@@ -1,5 +1,5 @@
-// OpenCASCADE's general fuse with growing tolerances, after a look at the contacts. Steps of a try: intersections, fuse, origins of the faces, model, proof. When no
-// tolerance is enough, pairs that touch are tried one by one, to name the one that fails.
+// OpenCASCADE's general fuse with growing tolerances, after a look at the contacts. Steps of a try: intersections, fuse, origins of the faces, model, proof.
+// When no tolerance is enough, pairs that touch are tried one by one, to name the one that fails.
 #include "geom/cad/unite.h"
 
 #include <BRepBndLib.hxx>
@@ -39,7 +39,8 @@ std::string volume_objection(const std::vector<Part>& parts, double volume) {
     largest = std::max(largest, part.volume);
   }
   if (volume >= largest - k_volume_share * sum && volume <= sum * (1.0 + k_volume_share)) return {};
-  return "the volume of the result, " + number_text(volume) + " m^3, is not between that of the largest part, " + number_text(largest) + ", and the sum, " + number_text(sum);
+  return "the volume of the result, " + number_text(volume) + " m^3, is not between that of the largest part, " + number_text(largest) + ", and the sum, " +
+         number_text(sum);
 }
 
 /// The first part of which too much or too little is left.
@@ -48,7 +49,8 @@ std::string area_objection(const std::vector<Part>& parts, const std::vector<dou
     const PartExposure& exposure = parts[p].exposure;
     const double least = (exposure.outside - k_area_share) * parts[p].area, most = (exposure.outside + exposure.unsure + k_area_share) * parts[p].area;
     if (areas[p] < least || areas[p] > most)
-      return number_text(areas[p]) + " m^2 of \"" + parts[p].name() + "\" are left, but " + number_text(exposure.outside * parts[p].area) + " m^2 of it lie outside of the other parts";
+      return number_text(areas[p]) + " m^2 of \"" + parts[p].name() + "\" are left, but " + number_text(exposure.outside * parts[p].area) +
+             " m^2 of it lie outside of the other parts";
   }
   return {};
 }
@@ -62,8 +64,10 @@ std::string objection(Try& result, const std::vector<Part>& parts, const RunCont
 }
 
 std::optional<Try> climb(const std::vector<Part>& parts, const UniteOptions& options, double size, std::vector<UniteTry>& tries, const RunContext& context) {
-  const BooleanTask task{.operation = BooleanOperation::fuse, .attempted = k_attempted, .stage = "unite", .tolerance = options.tolerance, .time_limit = options.time_limit};
-  return climb(task, parts, size, [&](Try& result) { result.outcome.problem = objection(result, parts, context); }, tries, context);
+  const BooleanTask task{
+      .operation = BooleanOperation::fuse, .attempted = k_attempted, .stage = "unite", .tolerance = options.tolerance, .time_limit = options.time_limit};
+  return climb(
+      task, parts, size, [&](Try& result) { result.outcome.problem = objection(result, parts, context); }, tries, context);
 }
 
 bool is_near(const Part& a, const Part& b, double gap) {

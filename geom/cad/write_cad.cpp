@@ -1,4 +1,5 @@
-// Steps: splines for what has no exact form, the shape without placements, an extended document (XDE) that carries names, colours and layers, the format's writer, a header without date.
+// Steps: splines for what has no exact form, the shape without placements, an extended document (XDE) that carries names, colours and layers, the format's
+// writer, a header without date.
 #include "geom/cad/write_cad.h"
 
 #include <APIHeaderSection_MakeHeader.hxx>
@@ -56,8 +57,12 @@ TCollection_ExtendedString extended(const std::string& text) { return TCollectio
 class DocumentMaker {
  public:
   DocumentMaker(const Model& model, const CadShape::Content& content)
-      : model_(model), content_(content), document_(new TDocStd_Document("MDTV-XCAF")), shapes_(XCAFDoc_DocumentTool::ShapeTool(document_->Main())),
-        colours_(XCAFDoc_DocumentTool::ColorTool(document_->Main())), layers_(XCAFDoc_DocumentTool::LayerTool(document_->Main())) {}
+      : model_(model),
+        content_(content),
+        document_(new TDocStd_Document("MDTV-XCAF")),
+        shapes_(XCAFDoc_DocumentTool::ShapeTool(document_->Main())),
+        colours_(XCAFDoc_DocumentTool::ColorTool(document_->Main())),
+        layers_(XCAFDoc_DocumentTool::LayerTool(document_->Main())) {}
 
   Handle(TDocStd_Document) make() {
     std::vector<bool> is_loose(model_.faces.size(), true);
@@ -95,9 +100,12 @@ class DocumentMaker {
   Handle(XCAFDoc_LayerTool) layers_;
 };
 
-[[noreturn]] void refuse(const std::string& name, const std::string& problem) { throw Error({.code = ErrorCode::geometry_failed, .attempted = "writing " + name, .problem = problem}); }
+[[noreturn]] void refuse(const std::string& name, const std::string& problem) {
+  throw Error({.code = ErrorCode::geometry_failed, .attempted = "writing " + name, .problem = problem});
+}
 
-std::string step_bytes(const Handle(TDocStd_Document) & document, const std::string& name, const WriteCadOptions& options, const Message_ProgressRange& progress) {
+std::string step_bytes(const Handle(TDocStd_Document) & document, const std::string& name, const WriteCadOptions& options,
+                       const Message_ProgressRange& progress) {
   STEPCAFControl_Controller::Init();
   Interface_Static::SetCVal("xstep.cascade.unit", "M");
   Interface_Static::SetCVal("write.step.unit", "M");
@@ -167,7 +175,8 @@ Model exact_for_export(const Model& model, const std::string& name, const WriteC
   Model exact = refitted(model, tolerance, report, context);
   char error[32];
   std::snprintf(error, sizeof error, "%.2g", report.error);
-  context.info("writing " + name + ": " + std::to_string(report.n_surfaces) + " surfaces and " + std::to_string(report.n_curves) + " curves have no exact form; splines within " + error + " m took their places");
+  context.info("writing " + name + ": " + std::to_string(report.n_surfaces) + " surfaces and " + std::to_string(report.n_curves) +
+               " curves have no exact form; splines within " + error + " m took their places");
   return exact;
 }
 

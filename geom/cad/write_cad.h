@@ -19,7 +19,13 @@ struct Schema<WriteCadOptions> {
   static constexpr std::string_view stage = "write_cad";
   using T = WriteCadOptions;
   static constexpr std::array fields = {
-      Field<T>{.name = "tolerance", .member = &T::tolerance, .unit = Unit::metre, .min = 1e-9, .max = 1.0, .help = "surfaces and curves without an exact form (deformed, of functions) become splines within it", .automatic = "1e-6 of the longest side"},
+      Field<T>{.name = "tolerance",
+               .member = &T::tolerance,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .max = 1.0,
+               .help = "surfaces and curves without an exact form (deformed, of functions) become splines within it",
+               .automatic = "1e-6 of the longest side"},
       Field<T>{.name = "step_schema", .member = &T::step_schema, .help = "application protocol of STEP files", .choices = "ap203 ap214 ap242"},
   };
 };
@@ -28,7 +34,8 @@ namespace cad {
 
 /// The bytes of a file. What has no exact form (deformed models, functions) is refitted to options.tolerance and told in the log; all else is exact.
 /// STEP keeps names of solids and faces, colours and layers; IGES colours and layers; BREP geometry alone. No date is written.
-/// `name` stands in the file's header. \throws Error(geometry_failed) for what OpenCASCADE refuses; Error(bad_argument) with the place where the tolerance is not reached; Error(cancelled)
+/// `name` stands in the file's header. \throws Error(geometry_failed) for what OpenCASCADE refuses; Error(bad_argument) with the place where the tolerance is
+/// not reached; Error(cancelled)
 std::string cad_bytes(const Model& model, CadFormat format, const std::string& name, const WriteCadOptions& options, const RunContext& context);
 
 }  // namespace cad

@@ -39,7 +39,8 @@ Location locate(const Triangulation& mesh, const Vec2& place, TriangleId from, s
     const Cell& cell = mesh.cells[t];
     unsigned zero = 0;
     HalfedgeId crossed, border;
-    // The edge to begin with changes from step to step: a walk that always begins with the same may go round in circles where the triangulation is not Delaunay.
+    // The edge to begin with changes from step to step: a walk that always begins with the same may go round in circles where the triangulation is not
+    // Delaunay.
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t c = (first + k) % 3;
       const HalfedgeId h = halfedge(t, c);

@@ -1,4 +1,5 @@
-// Insertion of one vertex (Bowyer 1981, Watson 1981) and the walk that finds its place. Based on: Devillers, Pion, Teillaud, "Walking in a triangulation", 2002.
+// Insertion of one vertex (Bowyer 1981, Watson 1981) and the walk that finds its place. Based on: Devillers, Pion, Teillaud, "Walking in a triangulation",
+// 2002.
 //
 // The cavity grows from the triangle that holds the place, across free edges, depth first. A neighbour joins when it is in conflict with the vertex by the
 // criterion and when the vertex sees both of its other edges from inside, by the exact predicate. So by induction the cavity is star-shaped from the vertex at
@@ -16,12 +17,12 @@ namespace sterna::delaunay {
 
 struct Location {
   enum class Kind {
-    inside,      ///< of the triangle of `halfedge`
-    on_edge,     ///< in the interior of `halfedge`
-    on_vertex,   ///< at the origin of `halfedge`
-    outside,     ///< beyond the hull: `halfedge` belongs to a ghost triangle in conflict
+    inside,         ///< of the triangle of `halfedge`
+    on_edge,        ///< in the interior of `halfedge`
+    on_vertex,      ///< at the origin of `halfedge`
+    outside,        ///< beyond the hull: `halfedge` belongs to a ghost triangle in conflict
     beyond_border,  ///< the walk ended at the border half-edge `halfedge` of a carved domain
-    lost,        ///< the limit of steps was met (triangulations that are not Delaunay in the plane)
+    lost,           ///< the limit of steps was met (triangulations that are not Delaunay in the plane)
   };
   Kind kind = Kind::lost;
   HalfedgeId halfedge;
@@ -33,13 +34,13 @@ Location locate(const Triangulation& mesh, const Vec2& place, TriangleId from, s
 /// Scratch of insertions; keep one for many insertions, so that none of them allocates.
 struct Cavity {
   struct BorderEdge {
-    HalfedgeId outer;  ///< the half-edge outside, invalid on the domain's border
-    VertexId from, to; ///< counter-clockwise around the cavity
+    HalfedgeId outer;   ///< the half-edge outside, invalid on the domain's border
+    VertexId from, to;  ///< counter-clockwise around the cavity
     EdgeFlags flags;
   };
   std::vector<TriangleId> triangles;
-  std::vector<BorderEdge> border;   ///< in order
-  bool is_open = false;             ///< the vertex is on the domain's border: no triangle closes the fan
+  std::vector<BorderEdge> border;  ///< in order
+  bool is_open = false;            ///< the vertex is on the domain's border: no triangle closes the fan
   std::vector<HalfedgeId> stack;
 };
 

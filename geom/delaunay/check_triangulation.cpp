@@ -86,8 +86,11 @@ TriangulationCheck check_triangulation(const Triangulation& mesh) {
 
 std::string TriangulationCheck::text() const {
   std::string text = std::to_string(n_triangles) + " triangles";
-  const std::pair<std::int64_t, const char*> counts[] = {{n_inverted, "inverted"}, {n_bad_twins, "sides with a wrong neighbour"}, {n_bad_flags, "sides with a wrong constraint"},
-                                                         {n_bad_outgoing, "vertices with a wrong half-edge"}, {n_not_delaunay, "edges that are not Delaunay"}};
+  const std::pair<std::int64_t, const char*> counts[] = {{n_inverted, "inverted"},
+                                                         {n_bad_twins, "sides with a wrong neighbour"},
+                                                         {n_bad_flags, "sides with a wrong constraint"},
+                                                         {n_bad_outgoing, "vertices with a wrong half-edge"},
+                                                         {n_not_delaunay, "edges that are not Delaunay"}};
   for (const auto& [count, what] : counts)
     if (count != 0) text += ", " + std::to_string(count) + " " + what;
   return text;

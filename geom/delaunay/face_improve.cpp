@@ -250,7 +250,8 @@ void smooth(FaceState& state, FaceMeshReport& report, const RunContext& context)
       if (!has_moved[cell.vertex[0].index()] && !has_moved[cell.vertex[1].index()] && !has_moved[cell.vertex[2].index()]) continue;
       activate(t);
       for (std::uint32_t c = 0; c < 3; ++c)
-        if (const HalfedgeId h = halfedge(t, c); cell.twin[c].is_valid() && (h < cell.twin[c] || !has_moved[mesh.mesh.apex(cell.twin[c]).index()])) work.push_back(h);
+        if (const HalfedgeId h = halfedge(t, c); cell.twin[c].is_valid() && (h < cell.twin[c] || !has_moved[mesh.mesh.apex(cell.twin[c]).index()]))
+          work.push_back(h);
     }
     report.n_flips += static_cast<std::int64_t>(flip_around(mesh, work, touched));
     for (const TriangleId t : touched) activate(t);

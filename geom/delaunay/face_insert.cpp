@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/delaunay/face_passes.h"
 #include "geom/delaunay/planar.h"
 #include "geom/delaunay/refine.h"
-#include "geom/delaunay/face_passes.h"
 
 namespace sterna::delaunay {
 namespace {
@@ -19,8 +19,8 @@ constexpr double k_max_sag = 0.2;
 constexpr double k_unfold_floor = 0.7;
 /// ... and no vertex is nearer to another than this part of the wanted edge length.
 constexpr double k_unfold_spacing = 0.3;
-/// Circumradius over that of an equilateral triangle with the wanted edges, above which a triangle gets a vertex: that of a right angle between two wanted edges, so that
-/// the triangles of a regular lattice are let alone where it is bent (Rebay 1993).
+/// Circumradius over that of an equilateral triangle with the wanted edges, above which a triangle gets a vertex: that of a right angle between two wanted
+/// edges, so that the triangles of a regular lattice are let alone where it is bent (Rebay 1993).
 constexpr double k_size_threshold = 1.2247;
 constexpr double k_size_threshold2 = k_size_threshold * k_size_threshold;
 /// A new vertex may not be nearer to another than this part of the wanted length.
@@ -30,8 +30,8 @@ constexpr double k_min_spacing_for_quality = 0.5;
 /// From an edge that is done the front grows or shrinks by this factor at most, so sizes change gradually.
 constexpr double k_front_growth = 1.5;
 constexpr double k_front_shrink = 0.7;
-/// A place is right within this part of the edge length. In the first pass errors would add up from layer to layer: with 0.02 a bicubic bump has 92 % vertices of six
-/// neighbours, with 0.002 96 %, and Newton's method rarely needs a step more.
+/// A place is right within this part of the edge length. In the first pass errors would add up from layer to layer: with 0.02 a bicubic bump has 92 % vertices
+/// of six neighbours, with 0.002 96 %, and Newton's method rarely needs a step more.
 constexpr double k_place_tolerance = 0.15;
 constexpr double k_apex_tolerance = 0.002;
 
@@ -76,7 +76,8 @@ void propose_over_edge(const FaceState& state, const Triangle& tri, std::size_t 
   proposal.at = approach(state, middle + ratio * up, uv_middle + ratio * uv_up, k_place_tolerance * spacing, proposal.sample);
 }
 
-/// The same for the apex of an isosceles triangle on edge k, exactly as high: upwards is along the surface at the edge, not in the plane of a triangle that may be far too large.
+/// The same for the apex of an isosceles triangle on edge k, exactly as high: upwards is along the surface at the edge, not in the plane of a triangle that may
+/// be far too large.
 void propose_apex(const FaceState& state, const Triangle& tri, std::size_t k, double height, double spacing, Proposal& proposal) {
   const VertexId a = tri.v[k], b = tri.v[(k + 1) % 3];
   const SurfaceFrame &frame_a = state.mesh.frames[a], &frame_b = state.mesh.frames[b];
@@ -138,7 +139,9 @@ struct UnfoldTask {
     proposal.min_distance = k_unfold_spacing * gather(state, t).size;
     return true;
   }
-  void inserted(const SurfaceTriangulation&, VertexId, const Proposal& proposal) const { state.size.push_back(wanted_size(state, proposal.at, proposal.sample.point)); }
+  void inserted(const SurfaceTriangulation&, VertexId, const Proposal& proposal) const {
+    state.size.push_back(wanted_size(state, proposal.at, proposal.sample.point));
+  }
 };
 
 /// The wanted length at a new vertex: what its place wants, and no jump from its neighbours.
@@ -151,11 +154,11 @@ void push_graded_size(FaceState& state, VertexId p, const Proposal& proposal) {
   state.size.push_back(size);
 }
 
-/// The triangle with the largest circumradius comes first, in relation to its size: so fronts advance where there is most room, keep their shape and meet along few lines.
-/// (First come, first served: dents of a front grow from layer to layer, and every third vertex has five or seven neighbours.)
+/// The triangle with the largest circumradius comes first, in relation to its size: so fronts advance where there is most room, keep their shape and meet along
+/// few lines. (First come, first served: dents of a front grow from layer to layer, and every third vertex has five or seven neighbours.)
 struct SizeTask {
   FaceState& state;
-  bool is_front;  ///< only beside edges that are done
+  bool is_front;                        ///< only beside edges that are done
   Column<TriangleId, double> ratio2{};  ///< size_ratio2 of every triangle; infinite for flat ones
 
   void measure(const SurfaceTriangulation& mesh, TriangleId t) {
@@ -181,10 +184,8 @@ struct SizeTask {
     const double ideal = std::sqrt(std::max(side * side - 0.25 * edge * edge, 0.25 * edge * edge));
     const double centre = centre_height(tri, k);
     const double height = centre > 0.0 ? std::min(ideal, centre) : ideal;
-    if (is_front)
-      propose_apex(state, tri, k, height, side, proposal);
-    else
-      propose_over_edge(state, tri, k, height, side, proposal);
+    if (is_front) propose_apex(state, tri, k, height, side, proposal);
+    else propose_over_edge(state, tri, k, height, side, proposal);
     proposal.size = wanted_size(state, proposal.at, proposal.sample.point);
     proposal.min_distance = k_min_spacing * std::min(side, proposal.size);
     return true;
@@ -227,8 +228,10 @@ void count(FaceState& state, const RefineReport& done, FaceMeshReport& report) {
   report.n_refused += static_cast<std::int64_t>(done.n_too_near + done.n_beyond_border + done.n_folded);
   if (!done.is_limit_met) return;
   const VertexId last(static_cast<std::uint64_t>(state.mesh.points.size() - 1));
-  ErrorInfo info{.code = ErrorCode::overflow, .attempted = "meshing a face",
-                 .problem = "the limit of " + std::to_string(state.options.max_triangles) + " triangles (max_triangles) is met before the edges are as short as wanted"};
+  ErrorInfo info{
+      .code = ErrorCode::overflow,
+      .attempted = "meshing a face",
+      .problem = "the limit of " + std::to_string(state.options.max_triangles) + " triangles (max_triangles) is met before the edges are as short as wanted"};
   info.places.push_back({state.mesh.points[last], "edge length wanted here: " + std::to_string(state.size[last]) + " m"});
   info.hint = "larger edges, a larger curvature_angle or min_edge, or a higher limit";
   throw Error(std::move(info));

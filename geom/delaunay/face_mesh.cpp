@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "geom/base/error.h"
-#include "geom/delaunay/renumber.h"
 #include "geom/delaunay/face_passes.h"
+#include "geom/delaunay/renumber.h"
 
 namespace sterna::delaunay {
 namespace {
@@ -122,14 +122,16 @@ void measure(const FaceMesh& mesh, FaceMeshReport& report) {
     const double area = norm(normal);
     const auto [low, high] = std::minmax({-dot(ab, ca), -dot(bc, ab), -dot(ca, bc)});
     // Without area: one angle is zero, another pi.
-    const double steep = area > 0.0 ? high / area : std::numeric_limits<double>::infinity(), flat = area > 0.0 ? low / area : -std::numeric_limits<double>::infinity();
+    const double steep = area > 0.0 ? high / area : std::numeric_limits<double>::infinity(),
+                 flat = area > 0.0 ? low / area : -std::numeric_limits<double>::infinity();
     if (steep > steepest) {
       steepest = steep;
       report.worst_place = (a + b + c) / 3.0;
     }
     flattest = std::min(flattest, flat);
     if (steep > k_steep || flat < k_flat) ++report.n_outside_20_130;
-    if (dot(normal, mesh.normals[v[0].index()]) < 0.0 || dot(normal, mesh.normals[v[1].index()]) < 0.0 || dot(normal, mesh.normals[v[2].index()]) < 0.0) ++report.n_folded;
+    if (dot(normal, mesh.normals[v[0].index()]) < 0.0 || dot(normal, mesh.normals[v[1].index()]) < 0.0 || dot(normal, mesh.normals[v[2].index()]) < 0.0)
+      ++report.n_folded;
   }
   report.min_angle = std::atan2(1.0, steepest);
   report.max_angle = std::atan2(1.0, flattest);
@@ -140,7 +142,9 @@ void measure(const FaceMesh& mesh, FaceMeshReport& report) {
 void check_border(const FaceBorder& border) {
   for (const auto& loop : border.loops)
     if (loop.size() < 3)
-      throw Error({.code = ErrorCode::bad_argument, .attempted = "meshing a face", .problem = "a loop of the border has " + std::to_string(loop.size()) + " points; three are needed"});
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "meshing a face",
+                   .problem = "a loop of the border has " + std::to_string(loop.size()) + " points; three are needed"});
   if (border.loops.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "meshing a face", .problem = "the face has no border"});
 }
 
@@ -154,7 +158,8 @@ ParameterBox box_of(const FaceBorder& border) {
   return box;
 }
 
-FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeFunction& size, Vec2 mean_speed, const FaceMeshOptions& options, const RunContext& context) {
+FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeFunction& size, Vec2 mean_speed, const FaceMeshOptions& options,
+                   const RunContext& context) {
   check_border(border);
   FaceState state{surface, size, options, box_of(border), {}, {}};
   const SurfaceBorder plane_border = make_border(surface, border);

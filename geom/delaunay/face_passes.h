@@ -9,7 +9,8 @@ namespace sterna::delaunay {
 /// k_unfolded_angle of its normals, or small. Afterwards flips to the criterion of space.
 void unfold(FaceState& state, FaceMeshReport& report, const RunContext& context);
 
-/// First pass: edges of the wanted length. New vertices complete triangles on edges that are done, front by front (Rebay 1993), then wherever one is still too large.
+/// First pass: edges of the wanted length. New vertices complete triangles on edges that are done, front by front (Rebay 1993), then wherever one is still too
+/// large.
 void refine_by_size(FaceState& state, FaceMeshReport& report, const RunContext& context);
 
 /// Second pass: triangles with a small angle get their circumcentre, where it is not too near to something.

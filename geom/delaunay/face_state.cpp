@@ -28,7 +28,9 @@ SurfaceSample sample(const Surface& surface, Uv at) {
 double wanted_size(const FaceState& state, Uv at, const Point& point) {
   const double size = state.wanted(at, point);
   if (!(size > 0.0)) {
-    ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = "meshing a face", .problem = "the wanted edge length is " + std::to_string(size) + " m; it has to be positive"};
+    ErrorInfo info{.code = ErrorCode::bad_argument,
+                   .attempted = "meshing a face",
+                   .problem = "the wanted edge length is " + std::to_string(size) + " m; it has to be positive"};
     info.places.push_back({point, "here"});
     throw Error(std::move(info));
   }

@@ -1,8 +1,8 @@
 // What the steps of mesh_face share: the surface, the triangulation that grows on it, the wanted length of edges at each vertex.
 #pragma once
 
-#include "geom/delaunay/surface_triangulation.h"
 #include "geom/delaunay/face_mesh.h"
+#include "geom/delaunay/surface_triangulation.h"
 
 namespace sterna::delaunay {
 
@@ -10,9 +10,9 @@ struct FaceState {
   const Surface& surface;
   const SizeFunction& wanted;
   const FaceMeshOptions& options;
-  ParameterBox box;                        ///< of the border
+  ParameterBox box;  ///< of the border
   SurfaceTriangulation mesh;
-  Column<VertexId, double> size;           ///< metres, of every vertex of `mesh`
+  Column<VertexId, double> size;  ///< metres, of every vertex of `mesh`
 };
 
 SurfaceSample sample(const Surface& surface, Uv at);

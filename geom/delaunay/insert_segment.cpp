@@ -28,10 +28,12 @@ constexpr std::size_t k_flip_limit_factor = 64;
   const double s = across_c / (across_c - across_d);
   const auto at = [](const Vec2& p) { return Vec3{p.x, p.y, 0.0}; };
   const Vec3 place = at(pc) + s * (at(pd) - at(pc));
-  ErrorInfo info{.code = ErrorCode::self_intersection, .attempted = "triangulating points and segments in the plane",
+  ErrorInfo info{.code = ErrorCode::self_intersection,
+                 .attempted = "triangulating points and segments in the plane",
                  .problem = "two segments cross: between points " + std::to_string(a.value()) + " and " + std::to_string(b.value()) + ", and between points " +
                             std::to_string(c.value()) + " and " + std::to_string(d.value())};
-  info.places.push_back({place, "crossing of the segments " + format_point(at(pa)) + " - " + format_point(at(pb)) + " and " + format_point(at(pc)) + " - " + format_point(at(pd))});
+  info.places.push_back({place, "crossing of the segments " + format_point(at(pa)) + " - " + format_point(at(pb)) + " and " + format_point(at(pc)) + " - " +
+                                    format_point(at(pd))});
   info.hint = "borders may touch at common points only";
   info.geometry.points = {at(pa), at(pb), at(pc), at(pd), place};
   info.geometry.edges = {{0, 1}, {2, 3}};
@@ -89,7 +91,8 @@ void flip_crossing_edges(Triangulation& mesh, VertexId a, VertexId b, std::deque
   std::size_t allowed = k_flip_limit_factor * (crossing.size() + 1) * (crossing.size() + 1);
   while (!crossing.empty()) {
     if (allowed-- == 0)
-      throw Error({.code = ErrorCode::internal, .attempted = "inserting a segment into a triangulation", .problem = "flipping the edges in its way did not end"});
+      throw Error(
+          {.code = ErrorCode::internal, .attempted = "inserting a segment into a triangulation", .problem = "flipping the edges in its way did not end"});
     const Edge edge = crossing.front();
     crossing.pop_front();
     const HalfedgeId h = find_edge(mesh, edge.a, edge.b);
@@ -101,10 +104,8 @@ void flip_crossing_edges(Triangulation& mesh, VertexId a, VertexId b, std::deque
     const Edge other{mesh.origin(h), mesh.target(h)};
     const bool shares_end = other.a == a || other.a == b || other.b == a || other.b == b;
     const bool crosses = !shares_end && mesh.turn(a, b, other.a) * mesh.turn(a, b, other.b) < 0;
-    if (crosses)
-      crossing.push_back(other);
-    else
-      fresh.push_back(other);
+    if (crosses) crossing.push_back(other);
+    else fresh.push_back(other);
   }
 }
 

@@ -1,4 +1,5 @@
-// An order of insertion in which each point is near the one before: rounds of doubling size (biased randomised: Amenta, Choi, Rote 2003), each along Hilbert's curve.
+// An order of insertion in which each point is near the one before: rounds of doubling size (biased randomised: Amenta, Choi, Rote 2003), each along Hilbert's
+// curve.
 #pragma once
 
 #include <cstdint>

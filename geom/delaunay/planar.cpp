@@ -23,7 +23,8 @@ void check_input(std::span<const Vec2> points, std::span<const Segment> segments
     if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y)) fail("point " + std::to_string(i) + " has a coordinate that is not finite");
   for (std::size_t i = 0; i < segments.size(); ++i)
     if (std::max(segments[i].from, segments[i].to) >= points.size())
-      fail("segment " + std::to_string(i) + " ends at point " + std::to_string(std::max(segments[i].from, segments[i].to)) + ", but there are " + std::to_string(points.size()));
+      fail("segment " + std::to_string(i) + " ends at point " + std::to_string(std::max(segments[i].from, segments[i].to)) + ", but there are " +
+           std::to_string(points.size()));
 }
 
 bool is_same_place(const Vec2& a, const Vec2& b) { return a.x == b.x && a.y == b.y; }
@@ -48,7 +49,8 @@ void make_first_triangle(Triangulation& mesh, VertexId a, VertexId b, VertexId c
 bool bring_triangle_to_front(std::span<const Vec2> points, std::vector<std::uint32_t>& order) {
   const auto point = [&](std::size_t i) -> const Vec2& { return points[order[i]]; };
   const auto bring = [&](std::size_t from, std::size_t to) {
-    std::rotate(order.begin() + static_cast<std::ptrdiff_t>(to), order.begin() + static_cast<std::ptrdiff_t>(from), order.begin() + static_cast<std::ptrdiff_t>(from) + 1);
+    std::rotate(order.begin() + static_cast<std::ptrdiff_t>(to), order.begin() + static_cast<std::ptrdiff_t>(from),
+                order.begin() + static_cast<std::ptrdiff_t>(from) + 1);
   };
   std::size_t second = 1;
   while (second < order.size() && is_same_place(point(second), point(0))) ++second;

@@ -30,14 +30,15 @@ enum class Extent {
 };
 
 struct PlanarTriangulation {
-  Triangulation mesh;                ///< vertex i is point i; with Extent::hull the ghost's triangles are in it, with inside they and all outside are not
-  std::vector<VertexId> same_as;     ///< of each point: itself, or the point at the same place that stands for it (its own vertex is unused)
+  Triangulation mesh;             ///< vertex i is point i; with Extent::hull the ghost's triangles are in it, with inside they and all outside are not
+  std::vector<VertexId> same_as;  ///< of each point: itself, or the point at the same place that stands for it (its own vertex is unused)
 };
 
 /// Triangulates points and segments. Points at the same place become one (the one inserted first); a point on a segment splits it; overlapping segments become
 /// one edge, a border where an odd number of borders overlap; segments without length are ignored. All points on one line: no triangles.
 /// About 0.6 us a point; depends on the input alone.
-/// \throws Error(self_intersection) with the place (z = 0) where two segments cross; Error(bad_argument) for a coordinate that is not finite or an index out of range
+/// \throws Error(self_intersection) with the place (z = 0) where two segments cross; Error(bad_argument) for a coordinate that is not finite or an index out of
+/// range
 PlanarTriangulation triangulate_plane(std::span<const Vec2> points, std::span<const Segment> segments, Extent extent, const RunContext& context);
 
 /// The real, living triangles in ascending order of their slots.

@@ -52,10 +52,10 @@ class RefineQueue {
 
 struct RefineReport {
   std::size_t n_inserted = 0;
-  std::size_t n_too_near = 0;        ///< proposals refused, by reason
+  std::size_t n_too_near = 0;  ///< proposals refused, by reason
   std::size_t n_beyond_border = 0;
   std::size_t n_folded = 0;
-  bool is_limit_met = false;         ///< stopped at `max_insertions`; the rest is not refined
+  bool is_limit_met = false;  ///< stopped at `max_insertions`; the rest is not refined
 };
 
 struct Proposal {

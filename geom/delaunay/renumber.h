@@ -5,8 +5,8 @@
 
 namespace sterna::delaunay {
 
-/// Numbers inner vertices along Hilbert's curve in the plane and triangles by their least vertex; drops removed vertices and dead slots. The border keeps its numbers.
-/// \return the former id of every vertex
+/// Numbers inner vertices along Hilbert's curve in the plane and triangles by their least vertex; drops removed vertices and dead slots. The border keeps its
+/// numbers. \return the former id of every vertex
 Column<VertexId, VertexId> renumber(SurfaceTriangulation& surface);
 
 }  // namespace sterna::delaunay

@@ -82,7 +82,7 @@ bool find_pole_edge(const SurfaceTriangulation& surface, HalfedgeId h, PoleEdge&
   }
   edge.poles.clear();
   HalfedgeId out = first;
-  for (; is_fan(out); ) {
+  for (; is_fan(out);) {
     edge.poles.push_back(mesh.target(out));
     const HalfedgeId in = previous(out);
     if (!mesh.twin(in).is_valid() || mesh.is_constrained(in)) return false;
@@ -222,7 +222,8 @@ double worst_after_collapse(const SurfaceTriangulation& surface, HalfedgeId h) {
     if (!is_allowed || x == b || y == b) return;
     is_allowed = mesh.turn(b, x, y) > 0;
     // Beside a pole: flat ones count for nothing, before and after.
-    if (surface.stands_for[b] == surface.stands_for[x] || surface.stands_for[x] == surface.stands_for[y] || surface.stands_for[y] == surface.stands_for[b]) return;
+    if (surface.stands_for[b] == surface.stands_for[x] || surface.stands_for[x] == surface.stands_for[y] || surface.stands_for[y] == surface.stands_for[b])
+      return;
     is_allowed = is_allowed && normal_cosine(surface, b, x, y) >= k_min_normal_cosine;
     worst = std::max(worst, worst_cotangent(surface.points[b], surface.points[x], surface.points[y]));
   });

@@ -31,18 +31,18 @@ struct SurfaceSample {
 /// Border of a face: closed loops, the domain to the left, whatever their order; every vertex belongs to a loop.
 struct SurfaceBorder {
   std::vector<Uv> uv;
-  std::vector<SurfaceSample> samples;               ///< same size
-  std::vector<VertexId> stands_for;                 ///< same size: itself, or for a pole the first of its vertices
-  std::vector<std::vector<std::uint32_t>> loops;    ///< indices of vertices
+  std::vector<SurfaceSample> samples;             ///< same size
+  std::vector<VertexId> stands_for;               ///< same size: itself, or for a pole the first of its vertices
+  std::vector<std::vector<std::uint32_t>> loops;  ///< indices of vertices
 };
 
 struct SurfaceTriangulation {
-  Triangulation mesh;                       ///< mesh.uv = scale * parameters
-  Column<VertexId, Point> points;           ///< metres
-  Column<VertexId, SurfaceFrame> frames;    ///< derivatives by the parameters (not scaled)
-  Column<VertexId, VertexId> stands_for;    ///< itself but at poles
-  std::uint32_t n_border = 0;               ///< vertices below it are the border's and stay where they are
-  Vec2 scale{1.0, 1.0};                     ///< powers of two, so that parameters come back to the bit
+  Triangulation mesh;                     ///< mesh.uv = scale * parameters
+  Column<VertexId, Point> points;         ///< metres
+  Column<VertexId, SurfaceFrame> frames;  ///< derivatives by the parameters (not scaled)
+  Column<VertexId, VertexId> stands_for;  ///< itself but at poles
+  std::uint32_t n_border = 0;             ///< vertices below it are the border's and stay where they are
+  Vec2 scale{1.0, 1.0};                   ///< powers of two, so that parameters come back to the bit
 
   Uv parameters(VertexId v) const { return {mesh.uv[v].x / scale.x, mesh.uv[v].y / scale.y}; }
   Vec2 place(Uv at) const { return {at.u * scale.x, at.v * scale.y}; }
@@ -65,8 +65,9 @@ SurfaceTriangulation triangulate_border(const SurfaceBorder& border, Vec2 scale,
 /// Cosine of 60 degrees: method.md section 0, how far a flipped triangle's normal may be from the surface's.
 inline constexpr double k_min_normal_cosine = 0.5;
 
-/// The empty sphere about the circumcentre in 3-space, through the corners. A flat triangle is never in conflict, nor is one with a corner where the surface looks away
-/// from where it looks at the vertex: on the other side of a nose or a thin edge it is near in space only. (60 in place of 90 degrees leaves leading edges stuck.)
+/// The empty sphere about the circumcentre in 3-space, through the corners. A flat triangle is never in conflict, nor is one with a corner where the surface
+/// looks away from where it looks at the vertex: on the other side of a nose or a thin edge it is near in space only. (60 in place of 90 degrees leaves leading
+/// edges stuck.)
 struct SphereCriterion {
   static constexpr bool k_needs_normals = true;  ///< insert_vertex looks at the normals of the new triangles
   const Column<VertexId, Point>* points;
@@ -79,28 +80,30 @@ struct SphereCriterion {
     // Centre - a = (|v|^2 w x u + |u|^2 v x w) / (2 |w|^2); p is inside when |q|^2 < 2 q . (centre - a).
     if (norm2(q) * norm2(w) >= dot(q, norm2(v) * cross(w, u) + norm2(u) * cross(v, w))) return false;
     const Vec3& normal = (*frames)[p].normal;
-    return dot((*frames)[corner[0]].normal, normal) >= 0.0 && dot((*frames)[corner[1]].normal, normal) >= 0.0 && dot((*frames)[corner[2]].normal, normal) >= 0.0;
+    return dot((*frames)[corner[0]].normal, normal) >= 0.0 && dot((*frames)[corner[1]].normal, normal) >= 0.0 &&
+           dot((*frames)[corner[2]].normal, normal) >= 0.0;
   }
 };
 
 enum class InsertOutcome {
   inserted,
-  too_near,         ///< to a vertex around its cavity
-  beyond_border,    ///< the place is outside the domain, on its border, or hidden behind it
-  folded,           ///< a new triangle would look against the surface's normal
+  too_near,       ///< to a vertex around its cavity
+  beyond_border,  ///< the place is outside the domain, on its border, or hidden behind it
+  folded,         ///< a new triangle would look against the surface's normal
 };
 
 /// Inserts a vertex at `at`, looked for from triangle `near`. Nothing is changed unless `inserted`; then the vertex is the last one.
 /// \param min_distance metres: to the vertices around the cavity
 template <class Criterion>
-InsertOutcome insert_vertex(SurfaceTriangulation& surface, Uv at, const SurfaceSample& sample, TriangleId near, double min_distance, const Criterion& criterion, Cavity& cavity);
+InsertOutcome insert_vertex(SurfaceTriangulation& surface, Uv at, const SurfaceSample& sample, TriangleId near, double min_distance, const Criterion& criterion,
+                            Cavity& cavity);
 
 /// Cotangent of the smallest angle of a triangle in space; the larger, the worse; infinite without area.
 double worst_cotangent(const Point& a, const Point& b, const Point& c);
 
-/// Flips the edge of `h` when its two opposite angles in space sum to more than pi, the smallest angle grows, both new triangles are valid in the plane and look
-/// along the surface (within 60 degrees of the normals of their corners, or nearer than before). At poles, flat triangles are moved out of the way.
-/// \param changed gets the half-edges around the place of a flip
+/// Flips the edge of `h` when its two opposite angles in space sum to more than pi, the smallest angle grows, both new triangles are valid in the plane and
+/// look along the surface (within 60 degrees of the normals of their corners, or nearer than before). At poles, flat triangles are moved out of the way. \param
+/// changed gets the half-edges around the place of a flip
 bool flip_to_criterion(SurfaceTriangulation& surface, HalfedgeId h, std::vector<HalfedgeId>& changed);
 /// Flips until no edge wants to. Ends, since every flip raises the smallest angle of its place. Returns the number of flips.
 std::size_t flip_all(SurfaceTriangulation& surface);
@@ -110,7 +113,8 @@ std::size_t flip_around(SurfaceTriangulation& surface, std::vector<HalfedgeId>& 
 /// Moves inner vertex v when its star stays valid in the plane. \return false: nothing changed
 bool move_vertex(SurfaceTriangulation& surface, VertexId v, Uv to, const SurfaceSample& sample);
 
-/// Worst cotangent of the star of the origin of `h`, an inner vertex, once it is joined to its target; infinite when collapse_edge would refuse whatever is allowed.
+/// Worst cotangent of the star of the origin of `h`, an inner vertex, once it is joined to its target; infinite when collapse_edge would refuse whatever is
+/// allowed.
 double worst_after_collapse(const SurfaceTriangulation& surface, HalfedgeId h);
 /// Joins the origin of `h`, an inner vertex, to its target, when the triangles left are valid in the plane, look along the surface and have no cotangent above
 /// `worst_allowed`. \return false: nothing changed
@@ -131,7 +135,8 @@ inline constexpr std::size_t k_walk_limit = 400;
 bool looks_along_surface(const SurfaceTriangulation& surface, VertexId p, const Cavity& cavity);
 
 template <class Criterion>
-InsertOutcome insert_vertex(SurfaceTriangulation& surface, Uv at, const SurfaceSample& sample, TriangleId near, double min_distance, const Criterion& criterion, Cavity& cavity) {
+InsertOutcome insert_vertex(SurfaceTriangulation& surface, Uv at, const SurfaceSample& sample, TriangleId near, double min_distance, const Criterion& criterion,
+                            Cavity& cavity) {
   Triangulation& mesh = surface.mesh;
   const Vec2 place = surface.place(at);
   const Location location = locate(mesh, place, near, k_walk_limit);

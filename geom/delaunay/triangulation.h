@@ -28,7 +28,7 @@ constexpr HalfedgeId previous(HalfedgeId h) { return HalfedgeId(corner_of(h) == 
 /// Kinds of an edge, combinable.
 using EdgeFlags = std::uint8_t;
 inline constexpr EdgeFlags k_free_edge = 0;
-inline constexpr EdgeFlags k_constrained = 1;  ///< never flipped, never in a cavity
+inline constexpr EdgeFlags k_constrained = 1;    ///< never flipped, never in a cavity
 inline constexpr EdgeFlags k_domain_border = 2;  ///< the domain changes sides here (only together with k_constrained)
 
 /// One triangle, 32 bytes: two in a cache line.
@@ -36,14 +36,14 @@ struct Cell {
   std::array<VertexId, 3> vertex;
   std::array<HalfedgeId, 3> twin;
   std::array<EdgeFlags, 3> flags{};
-  bool is_dead = false;        ///< in the list of free slots
-  std::uint32_t stamp = 0;     ///< changes whenever the slot gets another triangle
+  bool is_dead = false;     ///< in the list of free slots
+  std::uint32_t stamp = 0;  ///< changes whenever the slot gets another triangle
 };
 
 struct Triangulation {
   Column<TriangleId, Cell> cells;
-  Column<VertexId, Vec2> uv;                 ///< places, never of the ghost
-  Column<VertexId, HalfedgeId> outgoing;     ///< one half-edge from each vertex; invalid: not in the triangulation
+  Column<VertexId, Vec2> uv;              ///< places, never of the ghost
+  Column<VertexId, HalfedgeId> outgoing;  ///< one half-edge from each vertex; invalid: not in the triangulation
   std::vector<TriangleId> free_cells;
 
   VertexId origin(HalfedgeId h) const { return cells[triangle_of(h)].vertex[corner_of(h)]; }

@@ -52,14 +52,10 @@ Rgb patch_color(std::size_t index, PatchKind kind) {
 
 Rgb kind_color(CellKind kind) {
   switch (kind) {
-    case CellKind::tetrahedron:
-      return {246, 226, 178};
-    case CellKind::pyramid:
-      return {226, 130, 116};
-    case CellKind::prism:
-      return {132, 178, 220};
-    case CellKind::hexahedron:
-      return {148, 204, 144};
+    case CellKind::tetrahedron: return {246, 226, 178};
+    case CellKind::pyramid: return {226, 130, 116};
+    case CellKind::prism: return {132, 178, 220};
+    case CellKind::hexahedron: return {148, 204, 144};
   }
   return k_no_value;
 }

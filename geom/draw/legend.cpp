@@ -123,8 +123,8 @@ Layout layout_of(const DrawOptions& options, const Scene& scene, bool has_title,
   for (const Swatch& swatch : scene.swatches) needed = std::max(needed, measure.width_of(swatch.text, t) + 3.2 * t);
   for (const DrawMark& mark : marks) needed = std::max(needed, measure.width_of(mark.text, k_small * t) + 3.2 * t);
   if (scene.bar)
-    needed = std::max(
-        {needed, measure.width_of(title_of(*scene.bar), k_small * t) + 2.0 * t, measure.width_of(range_text(*scene.bar), k_small * t) + 1.2 * t, (scene.bar->limits.empty() ? k_least_panel : k_panel_with_limits) * t});
+    needed = std::max({needed, measure.width_of(title_of(*scene.bar), k_small * t) + 2.0 * t, measure.width_of(range_text(*scene.bar), k_small * t) + 1.2 * t,
+                       (scene.bar->limits.empty() ? k_least_panel : k_panel_with_limits) * t});
   needed = std::min({needed, k_most_panel * t, 0.4 * layout.width});
   const bool is_short = !scene.bar && marks.empty() && scene.swatches.size() <= k_most_inset;
   (is_short ? layout.inset : layout.panel) = needed;
@@ -207,10 +207,8 @@ void draw_marks(Canvas& canvas, const Layout& layout, const Camera& camera, std:
     canvas.circle(at.x, at.y, 0.5 * t, k_mark_color, 0.14 * t);
     const auto near =
         std::find_if(labels.begin(), labels.end(), [&](const Label& label) { return std::hypot(label.at.x - at.x, label.at.y - at.y) < k_same_mark * t; });
-    if (near == labels.end())
-      labels.push_back({at, std::to_string(i + 1)});
-    else
-      near->numbers += ", " + std::to_string(i + 1);
+    if (near == labels.end()) labels.push_back({at, std::to_string(i + 1)});
+    else near->numbers += ", " + std::to_string(i + 1);
   }
   for (const Label& label : labels) {
     const double width = canvas.width_of(label.numbers, t) + 0.4 * t, x = std::max(0.0, std::min(label.at.x + 0.7 * t, layout.width - layout.panel - width));

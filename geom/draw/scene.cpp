@@ -182,14 +182,10 @@ class SceneBuilder {
     for (std::size_t f = 0; f < mesh_.boundary_triangles.size(); ++f) add_face(mesh_.boundary_triangles[f], f);
     for (std::size_t f = 0; f < mesh_.boundary_quads.size(); ++f) add_face(mesh_.boundary_quads[f], mesh_.boundary_triangles.size() + f);
     const bool by_figure = coloring_ == Coloring::face_figure || (coloring_ == Coloring::quality && !plane_);
-    if (coloring_ == Coloring::patch)
-      color_faces_by_patch();
-    else if (by_figure)
-      color_faces_by_figure();
-    else if (coloring_ == Coloring::kind && !plane_)
-      color_faces_by_kind();
-    else
-      color_faces([](std::size_t) { return k_plain_wall; });
+    if (coloring_ == Coloring::patch) color_faces_by_patch();
+    else if (by_figure) color_faces_by_figure();
+    else if (coloring_ == Coloring::kind && !plane_) color_faces_by_kind();
+    else color_faces([](std::size_t) { return k_plain_wall; });
   }
 
   template <class ColorOf>

@@ -74,7 +74,7 @@ void BoxTree::for_each_overlap(const Box& box, const Visit& visit) const {
 }
 
 struct NearestHit {
-  TriangleId triangle;                                          ///< invalid when nothing lies within the limit
+  TriangleId triangle;  ///< invalid when nothing lies within the limit
   Point point;
   double distance = std::numeric_limits<double>::infinity();
 };
@@ -103,8 +103,8 @@ class TriangleTree {
  private:
   /// What a node looks like from afar: moments of its area vectors a about the centre, with r from the centre to each triangle's centroid.
   struct FarField {
-    Vec3 dipole;                      ///< sum of a
-    std::array<double, 6> second{};   ///< of sum r a^T: xx, yy, zz, xy + yx, yz + zy, zx + xz
+    Vec3 dipole;                     ///< sum of a
+    std::array<double, 6> second{};  ///< of sum r a^T: xx, yy, zz, xy + yx, yz + zy, zx + xz
     Vec3 center;
     double radius = 0.0;
     double area = 0.0;

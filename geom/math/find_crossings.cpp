@@ -1,10 +1,13 @@
-// Crossing pairs of a set of triangles: a tree of boxes over triangles in the order of a space-filling curve, a cheap proof that neighbours do not cross, the exact test for the rest.
+// Crossing pairs of a set of triangles: a tree of boxes over triangles in the order of a space-filling curve, a cheap proof that neighbours do not cross, the
+// exact test for the rest.
 //
-// 1. Triangles along Morton's curve (their centres in 2^21 cells of each axis), eight to a leaf, leaves in a tree of eight children each, level by level: no pointers, and what is
+// 1. Triangles along Morton's curve (their centres in 2^21 cells of each axis), eight to a leaf, leaves in a tree of eight children each, level by level: no
+// pointers, and what is
 //    near in space is near in memory.
 // 2. Boxes as floats about the middle of all: each is a monotone function of its double, so boxes that overlap still do.
 // 3. Each leaf walks the tree for the leaves after it that overlap; of those the pairs of triangles whose boxes overlap.
-// 4. Most of them are neighbours on a smooth surface: seen along an axis, an edge of one separates them (two triangles whose projections are apart but for what they share
+// 4. Most of them are neighbours on a smooth surface: seen along an axis, an edge of one separates them (two triangles whose projections are apart but for what
+// they share
 //    cannot cross). By a filter of orient2d that is sure or silent; triangles_cross decides whatever remains.
 #include <algorithm>
 #include <array>
@@ -78,7 +81,8 @@ struct alignas(32) Packet {
     constexpr std::array<std::uint32_t, k_width> bit{1, 2, 4, 8, 16, 32, 64, 128};
     std::uint32_t mask = 0;
     for (std::size_t k = 0; k < k_width; ++k) {
-      const bool is_hit = (low[0][k] <= b.high[0]) & (high[0][k] >= b.low[0]) & (low[1][k] <= b.high[1]) & (high[1][k] >= b.low[1]) & (low[2][k] <= b.high[2]) & (high[2][k] >= b.low[2]);
+      const bool is_hit = (low[0][k] <= b.high[0]) & (high[0][k] >= b.low[0]) & (low[1][k] <= b.high[1]) & (high[1][k] >= b.low[1]) & (low[2][k] <= b.high[2]) &
+                          (high[2][k] >= b.low[2]);
       mask |= is_hit ? bit[k] : 0u;
     }
     return mask;
@@ -101,8 +105,8 @@ float rounded(double x) {
 }
 
 struct TriangleLeaves {
-  std::vector<std::uint32_t> order;           ///< triangles along the curve; leaf i has 8 i .. 8 i + 7
-  std::vector<std::vector<Packet>> levels;    ///< [0]: boxes of triangles, a packet for each leaf; [l + 1]: of the packets of level l
+  std::vector<std::uint32_t> order;         ///< triangles along the curve; leaf i has 8 i .. 8 i + 7
+  std::vector<std::vector<Packet>> levels;  ///< [0]: boxes of triangles, a packet for each leaf; [l + 1]: of the packets of level l
   std::size_t n_leaves() const { return levels.empty() ? 0 : levels[0].size(); }
 };
 
@@ -171,10 +175,8 @@ void for_each_leaf(const TriangleLeaves& tree, const FloatBox& box, std::size_t 
     for (; mask != 0; mask &= mask - 1) {
       const std::size_t child = step.packet * k_width + static_cast<std::size_t>(std::countr_zero(mask));
       if (child < least) continue;
-      if (step.level == 1)
-        visit(child);
-      else
-        stack[n++] = {step.level - 1, child};
+      if (step.level == 1) visit(child);
+      else stack[n++] = {step.level - 1, child};
     }
   }
 }
@@ -214,8 +216,8 @@ Pair gather(std::span<const Vec3> points, const Corners& a, const Corners& b) {
   return pair;
 }
 
-/// An edge of `a` that ends at all shared corners has the rest of `a` strictly on one side and the rest of `b` strictly on the other: then their common points project
-/// into the shared ones, and since `a` has area in the projection they are the shared ones.
+/// An edge of `a` that ends at all shared corners has the rest of `a` strictly on one side and the rest of `b` strictly on the other: then their common points
+/// project into the shared ones, and since `a` has area in the projection they are the shared ones.
 bool edge_separates(const std::array<const Vec3*, 3>& a, const std::array<const Vec3*, 3>& b, std::size_t n_shared, std::size_t u, std::size_t v) {
   constexpr std::size_t k_edge[3][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}};
   // Shared are: none (three edges will do), corner 0 (two), corners 0 and 1 (one).
@@ -251,8 +253,8 @@ void shorten(std::vector<std::array<std::uint32_t, 2>>& pairs, std::size_t limit
 
 }  // namespace
 
-CrossingPairs find_crossings(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
-                             const RunContext& context, std::size_t limit) {
+CrossingPairs find_crossings(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles, const RunContext& context,
+                             std::size_t limit) {
   check_input(points, triangles);
   const TriangleLeaves tree = make_leaves(points, triangles, context);
 
@@ -277,7 +279,8 @@ CrossingPairs find_crossings(std::span<const Vec3> points, std::span<const std::
           const auto k = static_cast<std::size_t>(std::countr_zero(mine));
           std::uint32_t theirs = packet.overlapping(own.box(k));
           if (other == leaf) theirs &= ~((2u << k) - 1u);
-          for (; theirs != 0; theirs &= theirs - 1) test(tree.order[leaf * k_width + k], tree.order[other * k_width + static_cast<std::size_t>(std::countr_zero(theirs))]);
+          for (; theirs != 0; theirs &= theirs - 1)
+            test(tree.order[leaf * k_width + k], tree.order[other * k_width + static_cast<std::size_t>(std::countr_zero(theirs))]);
         }
       });
     }

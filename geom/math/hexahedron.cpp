@@ -16,8 +16,8 @@ namespace sterna {
 namespace {
 
 using exact::Bounded;
-using exact::Triple;
 using exact::difference;
+using exact::Triple;
 
 /// Bisections of the cube before giving up; a cell that is still undecided then has a Jacobian within 1e-5 of its largest of zero.
 constexpr int k_max_bisections = 24;

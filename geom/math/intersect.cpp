@@ -38,9 +38,7 @@ std::optional<int> projection_axis(const Vec3& a, const Vec3& b, const Vec3& c) 
 }
 
 /// Counter-clockwise in the projection.
-Corners counter_clockwise(const Corners& t, int axis) {
-  return orient(t[0], t[1], t[2], axis) > 0 ? t : Corners{t[0], t[2], t[1]};
-}
+Corners counter_clockwise(const Corners& t, int axis) { return orient(t[0], t[1], t[2], axis) > 0 ? t : Corners{t[0], t[2], t[1]}; }
 
 /// Whether a line along an edge of `a` has all points of `b` strictly on its outer side; a counter-clockwise, b a triangle or a segment.
 template <std::size_t N>
@@ -66,8 +64,8 @@ bool is_in_sector(const Vec3& apex, const Vec3& from, const Vec3& to, const Vec3
 bool coplanar_sectors_meet(const Corners& a, const Corners& b, int axis) {
   const Corners p = counter_clockwise(a, axis);
   const Corners q = counter_clockwise(b, axis);
-  return is_in_sector(p[0], p[1], p[2], q[1], axis) || is_in_sector(p[0], p[1], p[2], q[2], axis) ||
-         is_in_sector(q[0], q[1], q[2], p[1], axis) || is_in_sector(q[0], q[1], q[2], p[2], axis);
+  return is_in_sector(p[0], p[1], p[2], q[1], axis) || is_in_sector(p[0], p[1], p[2], q[2], axis) || is_in_sector(q[0], q[1], q[2], p[1], axis) ||
+         is_in_sector(q[0], q[1], q[2], p[2], axis);
 }
 
 // ---------------------------------------------------------------- generic position
@@ -140,9 +138,7 @@ bool segments_meet(const Segment& s, const Segment& t) {
   if (!axis) axis = projection_axis(t.from, t.to, s.from);
   // All on one line: intervals.
   if (!axis) return !is_before(s.to, t.from) && !is_before(t.to, s.from);
-  const auto straddles = [&](const Segment& u, const Segment& v) {
-    return orient(u.from, u.to, v.from, *axis) * orient(u.from, u.to, v.to, *axis) <= 0;
-  };
+  const auto straddles = [&](const Segment& u, const Segment& v) { return orient(u.from, u.to, v.from, *axis) * orient(u.from, u.to, v.to, *axis) <= 0; };
   return straddles(s, t) && straddles(t, s);
 }
 
@@ -208,9 +204,7 @@ bool cross_beyond_corner(const Corners& a, const Corners& b) {
   return first != -inside && second != -inside;
 }
 
-bool cross_beyond_edge(const Corners& a, const Corners& b) {
-  return orient3d(a[0], a[1], a[2], b[2]) == 0 && cross_beyond_edge_slowly(a, b);
-}
+bool cross_beyond_edge(const Corners& a, const Corners& b) { return orient3d(a[0], a[1], a[2], b[2]) == 0 && cross_beyond_edge_slowly(a, b); }
 
 /// Brings the shared corners to the front, in the same order in both; returns their number. A corner that a triangle repeats counts once, and the
 /// copies stay behind it.

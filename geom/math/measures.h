@@ -13,9 +13,7 @@ inline double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) { retur
 /// Angle at `a` in radians.
 inline double corner_angle(const Vec3& a, const Vec3& b, const Vec3& c) { return angle_between(b - a, c - a); }
 /// Signed volume, m^3; positive when d lies on the normal's side of (a, b, c).
-inline double tet_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  return dot(cross(b - a, c - a), d - a) / 6.0;
-}
+inline double tet_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return dot(cross(b - a, c - a), d - a) / 6.0; }
 /// Smallest and largest dihedral angle of a tetrahedron in radians.
 std::array<double, 2> tet_dihedral_range(const std::array<Vec3, 4>& p);
 

@@ -8,10 +8,10 @@ namespace sterna {
 namespace {
 
 using exact::Bounded;
+using exact::difference;
 using exact::Expansion;
 using exact::LongExpansion;
 using exact::Triple;
-using exact::difference;
 
 // Roundings carried by a term of each determinant as written below (rule at exact::Bounded).
 // orient2d: two differences, product, subtraction.
@@ -38,8 +38,7 @@ auto incircle_determinant(const Vec2& a, const Vec2& b, const Vec2& c, const Vec
   const T ax = difference<T>(d.x, a.x), ay = difference<T>(d.y, a.y);
   const T bx = difference<T>(d.x, b.x), by = difference<T>(d.y, b.y);
   const T cx = difference<T>(d.x, c.x), cy = difference<T>(d.y, c.y);
-  return (ax * ax + ay * ay) * (bx * cy - by * cx) + (bx * bx + by * by) * (cx * ay - cy * ax) +
-         (cx * cx + cy * cy) * (ax * by - ay * bx);
+  return (ax * ax + ay * ay) * (bx * cy - by * cx) + (bx * bx + by * by) * (cx * ay - cy * ax) + (cx * cx + cy * cy) * (ax * by - ay * bx);
 }
 
 template <class T>

@@ -8,12 +8,12 @@
 namespace sterna {
 
 struct SphericalCap {
-  Vec3 axis;            ///< unit
-  double angle = 0.0;   ///< radians, largest angle between the axis and a vector
+  Vec3 axis;           ///< unit
+  double angle = 0.0;  ///< radians, largest angle between the axis and a vector
 };
 
-/// Incremental (Welzl 1991, on the sphere); exact to rounding for vectors within a hemisphere. Beyond that the angle is still the true one of the returned axis.
-/// \pre not empty, unit vectors
+/// Incremental (Welzl 1991, on the sphere); exact to rounding for vectors within a hemisphere. Beyond that the angle is still the true one of the returned
+/// axis. \pre not empty, unit vectors
 SphericalCap smallest_spherical_cap(std::span<const Vec3> vectors);
 
 }  // namespace sterna

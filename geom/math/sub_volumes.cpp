@@ -70,9 +70,9 @@ bool are_sub_volumes_positive(const WedgePoints& p) {
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
     const Vec3 &a = p[k], &b = p[i], &c = p[j], &a1 = p[k + 3], &b1 = p[i + 3], &c1 = p[j + 3];
-    if (!is_positive(b, a, {c}, {a1, b1, c1})) return false;        // bottom, runs c b a
-    if (!is_positive(a1, b1, {c1}, {a, b, c})) return false;        // top
-    if (!is_positive(a, b, {b1, a1}, {c, c1})) return false;        // side a b b1 a1, four edges
+    if (!is_positive(b, a, {c}, {a1, b1, c1})) return false;  // bottom, runs c b a
+    if (!is_positive(a1, b1, {c1}, {a, b, c})) return false;  // top
+    if (!is_positive(a, b, {b1, a1}, {c, c1})) return false;  // side a b b1 a1, four edges
     if (!is_positive(b, b1, {a1, a}, {c, c1})) return false;
     if (!is_positive(b1, a1, {a, b}, {c, c1})) return false;
     if (!is_positive(a1, a, {b, b1}, {c, c1})) return false;

@@ -106,8 +106,7 @@ std::vector<Box> boxes_of(const std::vector<Corners>& triangles, const RunContex
 
 }  // namespace
 
-TriangleTree::TriangleTree(const TriMesh& mesh, const RunContext& context)
-    : corners_(corners_of(mesh, context)), tree_(boxes_of(corners_, context), context) {
+TriangleTree::TriangleTree(const TriMesh& mesh, const RunContext& context) : corners_(corners_of(mesh, context)), tree_(boxes_of(corners_, context), context) {
   far_field_.resize(tree_.nodes().size());
   if (far_field_.empty()) return;
   // Children before parents.
@@ -129,8 +128,8 @@ TriangleTree::FarField TriangleTree::far_field_of(std::size_t index) const {
   const auto add_moments = [&](const Vec3& dipole, const Vec3& center) {
     const Vec3 r = center - f.center;
     f.dipole += dipole;
-    const double terms[6] = {r.x * dipole.x, r.y * dipole.y, r.z * dipole.z,
-                             r.x * dipole.y + r.y * dipole.x, r.y * dipole.z + r.z * dipole.y, r.z * dipole.x + r.x * dipole.z};
+    const double terms[6] = {
+        r.x * dipole.x, r.y * dipole.y, r.z * dipole.z, r.x * dipole.y + r.y * dipole.x, r.y * dipole.z + r.z * dipole.y, r.z * dipole.x + r.x * dipole.z};
     for (std::size_t k = 0; k < 6; ++k) f.second[k] += terms[k];
   };
   const auto set_center = [&] {
@@ -161,8 +160,7 @@ NearestHit TriangleTree::nearest(const Point& p, double limit) const {
   NearestHit best;
   const auto nodes = tree_.nodes();
   if (nodes.empty()) return best;
-  const double rounding =
-      k_distance_rounding * (largest_coordinate(p) + largest_coordinate(nodes[0].box.min) + largest_coordinate(nodes[0].box.max));
+  const double rounding = k_distance_rounding * (largest_coordinate(p) + largest_coordinate(nodes[0].box.min) + largest_coordinate(nodes[0].box.max));
   double squared_bound = squared(limit + rounding);
   struct Pending {
     std::uint32_t node;

@@ -20,10 +20,10 @@ namespace sterna {
 namespace {
 
 using exact::Bounded;
+using exact::difference;
 using exact::Expansion;
 using exact::LongExpansion;
 using exact::Triple;
-using exact::difference;
 
 enum class Verdict { invalid, valid, undecided };
 

@@ -102,7 +102,8 @@ Corners corners_of(const HybridMesh& mesh, const Face& face) {
 
 class Scanner {
  public:
-  Scanner(const HybridMesh& mesh, const CellNumbers& cells, const GateTable& limits, const RunContext& context) : mesh_(mesh), limits_(limits), context_(context), places_(mesh, cells) {}
+  Scanner(const HybridMesh& mesh, const CellNumbers& cells, const GateTable& limits, const RunContext& context)
+      : mesh_(mesh), limits_(limits), context_(context), places_(mesh, cells) {}
 
   /// Cells, each by itself.
   void scan_cells(const CellNumbers& cells, CellCentredScan& scan) {
@@ -257,8 +258,8 @@ void CellCentredScan::merge(const CellCentredScan& other) {
   cell_openness.merge(other.cell_openness);
 }
 
-CellCentredScan scan_cell_centred(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, std::span<const std::uint32_t> neighbours,
-                                  const GateTable& limits, const RunContext& context) {
+CellCentredScan scan_cell_centred(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match,
+                                  std::span<const std::uint32_t> neighbours, const GateTable& limits, const RunContext& context) {
   CellCentredScan scan(limits);
   Scanner scanner(mesh, cells, limits, context);
   scanner.scan_cells(cells, scan);

@@ -1,7 +1,8 @@
-// What cell-centred solvers feel of a mesh: OpenFOAM's measures of faces and cells (quality.md §3), with its face and cell centres, so that the figures are checkMesh's.
+// What cell-centred solvers feel of a mesh: OpenFOAM's measures of faces and cells (quality.md §3), with its face and cell centres, so that the figures are
+// checkMesh's.
 //
-// Face centre: of a triangle the mean of its corners; of a quadrilateral the mean of the triangles around its middle, weighted by area. Cell centre: the mean of the pyramids from the
-// mean of its face centres to its faces, weighted by volume.
+// Face centre: of a triangle the mean of its corners; of a quadrilateral the mean of the triangles around its middle, weighted by area. Cell centre: the mean
+// of the pyramids from the mean of its face centres to its faces, weighted by volume.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@ namespace sterna::check_parts {
 
 /// Size, middle and flatness of a face as OpenFOAM has them.
 struct FaceShape {
-  Vec3 area;              ///< m^2, along the normal
+  Vec3 area;  ///< m^2, along the normal
   Point centre;
   double flatness = 1.0;  ///< |area| over the sum of the areas of its triangles around its centre; 1 for triangles
 };
@@ -30,7 +31,8 @@ struct CellShape {
 };
 CellShape cell_shape(const HybridMesh& mesh, const Cell& cell);
 
-/// Statistics over all faces and cells. Ids of faces: 8 cell + local number for sides of columns (corner 0..2) and tops (7) inside columns; k_of_slot + slot for others. Of cells: their numbers.
+/// Statistics over all faces and cells. Ids of faces: 8 cell + local number for sides of columns (corner 0..2) and tops (7) inside columns; k_of_slot + slot
+/// for others. Of cells: their numbers.
 struct CellCentredScan {
   static constexpr std::uint64_t k_of_slot = std::uint64_t{1} << 63;
   explicit CellCentredScan(const GateTable& limits);
@@ -41,8 +43,8 @@ struct CellCentredScan {
 /// Parallel; holds 32 bytes for each cell that is no explicit tetrahedron.
 /// \param neighbours of find_open_sides
 /// \pre no G1 violation; `match` was made with pairs
-CellCentredScan scan_cell_centred(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, std::span<const std::uint32_t> neighbours,
-                                  const GateTable& limits, const RunContext& context);
+CellCentredScan scan_cell_centred(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match,
+                                  std::span<const std::uint32_t> neighbours, const GateTable& limits, const RunContext& context);
 /// The gates into the report.
 void judge_cell_centred(const CellCentredScan& scan, const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, CheckReport& report);
 

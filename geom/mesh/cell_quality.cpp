@@ -16,7 +16,8 @@ struct CornerEdges {
 };
 constexpr std::array<CornerEdges, 4> k_pyramid = {{{0, 1, 3, 4}, {1, 2, 0, 4}, {2, 3, 1, 4}, {3, 0, 2, 4}}};
 constexpr std::array<CornerEdges, 6> k_prism = {{{0, 1, 2, 3}, {1, 2, 0, 4}, {2, 0, 1, 5}, {3, 5, 4, 0}, {4, 3, 5, 1}, {5, 4, 3, 2}}};
-constexpr std::array<CornerEdges, 8> k_hexahedron = {{{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}}};
+constexpr std::array<CornerEdges, 8> k_hexahedron = {
+    {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}}};
 
 double triple(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross(b, c)); }
 
@@ -27,18 +28,21 @@ double over_lengths(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 double least(std::span<const CornerEdges> corners, std::span<const Vec3> p) {
   double least = std::numeric_limits<double>::infinity();
-  for (const CornerEdges& corner : corners) least = std::min(least, over_lengths(p[corner.a] - p[corner.at], p[corner.b] - p[corner.at], p[corner.c] - p[corner.at]));
+  for (const CornerEdges& corner : corners)
+    least = std::min(least, over_lengths(p[corner.a] - p[corner.at], p[corner.b] - p[corner.at], p[corner.c] - p[corner.at]));
   return least;
 }
 
 double of_tetrahedron(std::span<const Vec3> p) {
   double longest = 0.0;
-  for (std::size_t k = 0; k < 4; ++k) longest = std::max(longest, distance(p[k], p[(k + 1) % 4]) * distance(p[k], p[(k + 2) % 4]) * distance(p[k], p[(k + 3) % 4]));
+  for (std::size_t k = 0; k < 4; ++k)
+    longest = std::max(longest, distance(p[k], p[(k + 1) % 4]) * distance(p[k], p[(k + 2) % 4]) * distance(p[k], p[(k + 3) % 4]));
   return longest > 0.0 ? std::numbers::sqrt2 * triple(p[1] - p[0], p[2] - p[0], p[3] - p[0]) / longest : 0.0;
 }
 
 double of_hexahedron(std::span<const Vec3> p) {
-  const Vec3 x = p[1] + p[2] + p[5] + p[6] - p[0] - p[3] - p[4] - p[7], y = p[2] + p[3] + p[6] + p[7] - p[0] - p[1] - p[4] - p[5], z = p[4] + p[5] + p[6] + p[7] - p[0] - p[1] - p[2] - p[3];
+  const Vec3 x = p[1] + p[2] + p[5] + p[6] - p[0] - p[3] - p[4] - p[7], y = p[2] + p[3] + p[6] + p[7] - p[0] - p[1] - p[4] - p[5],
+             z = p[4] + p[5] + p[6] + p[7] - p[0] - p[1] - p[2] - p[3];
   return std::min(least(k_hexahedron, p), over_lengths(x, y, z));
 }
 

@@ -12,10 +12,11 @@ using namespace check_parts;
 namespace {
 
 /// \pre quality is measured
-void judge_cell_centres(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, std::span<const std::uint32_t> neighbours, const CheckOptions& options,
-                        const RunContext& context, CheckReport& report) {
+void judge_cell_centres(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match,
+                        std::span<const std::uint32_t> neighbours, const CheckOptions& options, const RunContext& context, CheckReport& report) {
   if (!report.dual_checked) return;  // the mesh does not conform: said already
-  if (options.cell_centred) return judge_cell_centred(scan_cell_centred(mesh, cells, slots, match, neighbours, options.limits, context), mesh, cells, slots, report);
+  if (options.cell_centred)
+    return judge_cell_centred(scan_cell_centred(mesh, cells, slots, match, neighbours, options.limits, context), mesh, cells, slots, report);
   for (GateResult& gate : report.gates)
     if (info_of(gate.measure).gate == "OF") gate.reason = "cell_centred = false";
 }
@@ -39,13 +40,13 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
     std::vector<std::uint32_t> neighbours;
     const FaceSlots slots(mesh, cells, find_open_sides(mesh.layers, context, with_cell_centres ? &neighbours : nullptr));
     const std::vector<double> volumes = options.quality ? tet_volumes(mesh, context) : std::vector<double>{};
-    const FaceMatch match =
-        match_faces(slots, mesh.points.size(), static_cast<std::uint64_t>(std::max<std::int64_t>(options.faces_at_a_time, 1)), volumes, with_cell_centres, options.limits, context);
+    const FaceMatch match = match_faces(slots, mesh.points.size(), static_cast<std::uint64_t>(std::max<std::int64_t>(options.faces_at_a_time, 1)), volumes,
+                                        with_cell_centres, options.limits, context);
     report_faces(mesh, slots, match, findings);
     context.progress(0.3);
 
-    const CellScan scan = scan_explicit_cells(known ? known->columns : scan_columns(mesh, options.quality, options.limits, context), mesh, cells, options.quality,
-                                              options.limits, context);
+    const CellScan scan = scan_explicit_cells(known ? known->columns : scan_columns(mesh, options.quality, options.limits, context), mesh, cells,
+                                              options.quality, options.limits, context);
     for (const std::uint64_t number : scan.invalid)
       findings.add(Violation::invalid_cell, [&] {
         const Point center = cells.center(number);

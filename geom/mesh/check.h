@@ -48,12 +48,12 @@ struct Finding {
 };
 
 struct Quality {
-  double min_wedge_quality = 1.0;      ///< scaled Jacobian of the worst prism
-  double min_dihedral = 0.0;           ///< radians, over the explicit tets
-  double max_dihedral = 0.0;           ///< radians, over the explicit tets
-  Point worst_prism;                   ///< where min_wedge_quality was found
-  Point worst_tet;                     ///< where min_dihedral was found
-  Point most_obtuse_tet;               ///< where max_dihedral was found
+  double min_wedge_quality = 1.0;  ///< scaled Jacobian of the worst prism
+  double min_dihedral = 0.0;       ///< radians, over the explicit tets
+  double max_dihedral = 0.0;       ///< radians, over the explicit tets
+  Point worst_prism;               ///< where min_wedge_quality was found
+  Point worst_tet;                 ///< where min_dihedral was found
+  Point most_obtuse_tet;           ///< where max_dihedral was found
   /// Skew angle (13) of the prisms: share below 6, below 18, above 60 degrees. Pyramids and tets of columns over collapsed lines count as prisms above 60.
   double skew_below_6 = 0.0, skew_below_18 = 0.0, skew_above_60 = 0.0;
 };
@@ -61,17 +61,17 @@ struct Quality {
 /// What became of the layer on one patch, by area (G12). Full: at least 0.9 of the target height; compressed: below layers x first height.
 struct PatchCoverage {
   std::string patch;
-  double area = 0.0;  ///< m^2 of wall
-  double full = 0.0, reduced = 0.0, compressed = 0.0, collapsed = 0.0;         ///< shares of it; they sum to 1
-  std::vector<std::pair<std::string, double>> lost;  ///< share of the area below full height by reason, largest first
+  double area = 0.0;                                                    ///< m^2 of wall
+  double full = 0.0, reduced = 0.0, compressed = 0.0, collapsed = 0.0;  ///< shares of it; they sum to 1
+  std::vector<std::pair<std::string, double>> lost;                     ///< share of the area below full height by reason, largest first
 };
 
 /// Two sides that were found to be each other's image.
 struct PeriodicMatchReport {
-  std::string first, second;             ///< patches
-  Vec3 translation;                      ///< m, from the first to the second
-  std::int64_t n_nodes = 0, n_faces = 0; ///< of one side
-  double worst = 0.0;                    ///< m, largest distance of an image from its partner
+  std::string first, second;              ///< patches
+  Vec3 translation;                       ///< m, from the first to the second
+  std::int64_t n_nodes = 0, n_faces = 0;  ///< of one side
+  double worst = 0.0;                     ///< m, largest distance of an image from its partner
 };
 
 struct CheckReport {
@@ -79,19 +79,19 @@ struct CheckReport {
   std::int64_t n_nodes = 0;
   std::int64_t n_boundary_triangles = 0, n_boundary_quads = 0;
   std::vector<std::pair<Violation, std::int64_t>> counts;  ///< violations found, by kind; empty = VALID
-  std::vector<Finding> findings;                            ///< the first few of each kind, in mesh order
-  double layer_volume = 0.0, layer_volume_error = 0.0;      ///< m^3; error relative to layer_volume, limit 1e-11
-  double tet_volume = 0.0, tet_volume_error = 0.0;          ///< likewise for the tets
+  std::vector<Finding> findings;                           ///< the first few of each kind, in mesh order
+  double layer_volume = 0.0, layer_volume_error = 0.0;     ///< m^3; error relative to layer_volume, limit 1e-11
+  double tet_volume = 0.0, tet_volume_error = 0.0;         ///< likewise for the tets
   double total_volume = 0.0;
-  double dual_volume = 0.0;            ///< m^3, sum of all control volumes; equals total_volume to rounding
+  double dual_volume = 0.0;  ///< m^3, sum of all control volumes; equals total_volume to rounding
   Quality quality;
-  std::vector<GateResult> gates;       ///< QUALITY, in the order of Measure; empty when quality was not asked for
-  std::vector<PatchCoverage> coverage; ///< of wall patches under layers, where the mesh says what was asked for
+  std::vector<GateResult> gates;              ///< QUALITY, in the order of Measure; empty when quality was not asked for
+  std::vector<PatchCoverage> coverage;        ///< of wall patches under layers, where the mesh says what was asked for
   std::vector<PeriodicMatchReport> periodic;  ///< those of HybridMesh::periodic that match
-  bool is_complete = true;             ///< false: indices out of range or points not finite, so that nothing else could be checked
-  bool intersections_checked = false;  ///< G2 was asked for and tried
-  bool dual_checked = false;           ///< G4 was tried: faces conform
-  bool quality_measured = false;       ///< `quality` and `gates` are filled
+  bool is_complete = true;                    ///< false: indices out of range or points not finite, so that nothing else could be checked
+  bool intersections_checked = false;         ///< G2 was asked for and tried
+  bool dual_checked = false;                  ///< G4 was tried: faces conform
+  bool quality_measured = false;              ///< `quality` and `gates` are filled
   bool is_valid() const { return counts.empty(); }
   /// Worst state of the QUALITY gates; not_checked when none was.
   GateState quality_state() const;

@@ -140,7 +140,8 @@ CellScan scan_columns(const HybridMesh& mesh, bool with_quality, const GateTable
       merge, k_column_chunk);
 }
 
-CellScan scan_explicit_cells(CellScan columns, const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const GateTable& limits, const RunContext& context) {
+CellScan scan_explicit_cells(CellScan columns, const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const GateTable& limits,
+                             const RunContext& context) {
   CellScan scan = std::move(columns);
   const auto add_block = [&](std::uint64_t first_number, const auto& block) {
     scan = parallel_reduce(

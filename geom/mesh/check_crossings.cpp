@@ -38,7 +38,8 @@ CrossingCandidates collect_candidates(const HybridMesh& mesh, const FaceSlots& s
 
 }  // namespace
 
-CrossingCandidates crossing_candidates(const HybridMesh& mesh, const FaceSlots& slots, std::span<const std::uint32_t> doubled, std::span<const std::uint32_t> envelope) {
+CrossingCandidates crossing_candidates(const HybridMesh& mesh, const FaceSlots& slots, std::span<const std::uint32_t> doubled,
+                                       std::span<const std::uint32_t> envelope) {
   // The two sides of a sheet without thickness count once, and so do their nodes.
   const SheetSides sheets = find_sheet_sides(mesh);
   CrossingCandidates candidates;
@@ -51,7 +52,8 @@ CrossingCandidates crossing_candidates(const HybridMesh& mesh, const FaceSlots& 
   return candidates;
 }
 
-void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const CrossingTest* ahead, const RunContext& context, Findings& findings) {
+void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const CrossingTest* ahead, const RunContext& context,
+                     Findings& findings) {
   const CrossingCandidates candidates = collect_candidates(mesh, slots, match);
   const bool is_done = ahead && ahead->triangles == candidates.triangles;
   const CrossingPairs crossings = is_done ? ahead->crossings : find_crossings(mesh.points.raw(), candidates.triangles, context);

@@ -3,7 +3,8 @@
 
 namespace sterna::check_parts {
 
-DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const DualScan* ahead, const GateTable& limits, const RunContext& context, Findings& findings) {
+DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const DualScan* ahead, const GateTable& limits, const RunContext& context,
+                    Findings& findings) {
   DualScan scan = scan_dual(mesh, limits, context, ahead);
   std::vector<std::uint8_t> is_bad(scan.suspects.size(), 0);
   parallel_for(context, scan.suspects.size(), [&](std::size_t i) { is_bad[i] = !are_sub_volumes_positive(mesh, cells.cell(scan.suspects[i])); });
@@ -19,8 +20,9 @@ DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const Dual
   for (const GatePlace& place : closure.places) {
     if (n_open == 0) break;
     --n_open;
-    findings.add(Violation::open_dual_cell,
-                 [&] { return std::pair(place.position, "the control volume of " + place.what + " is open by " + std::to_string(place.value) + " of its surface"); });
+    findings.add(Violation::open_dual_cell, [&] {
+      return std::pair(place.position, "the control volume of " + place.what + " is open by " + std::to_string(place.value) + " of its surface");
+    });
   }
   findings.add_more(Violation::open_dual_cell, n_open);
   return scan;

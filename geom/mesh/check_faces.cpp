@@ -44,7 +44,8 @@ KeyedFace canonical(std::uint32_t slot, const Face& face) {
 }
 
 /// Decides one face from all its occurrences, cells first (boundary slots are the highest).
-void judge(const FaceSlots& slots, const FaceKey* face, std::size_t n, std::span<const double> tet_volumes, std::span<std::uint32_t> cap_neighbours, FaceMatch& match) {
+void judge(const FaceSlots& slots, const FaceKey* face, std::size_t n, std::span<const double> tet_volumes, std::span<std::uint32_t> cap_neighbours,
+           FaceMatch& match) {
   std::size_t n_cells = 0;
   while (n_cells < n && !slots.is_boundary(face[n_cells].slot())) ++n_cells;
   const std::size_t n_boundary = n - n_cells;
@@ -90,8 +91,8 @@ void append(FaceMatch& all, FaceMatch&& more) {
 
 }  // namespace
 
-FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, std::span<const double> tet_volumes, bool with_pairs, const GateTable& limits,
-                      const RunContext& context) {
+FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, std::span<const double> tet_volumes, bool with_pairs,
+                      const GateTable& limits, const RunContext& context) {
   const auto make_match = [&] {
     FaceMatch match;
     match.with_pairs = with_pairs;
@@ -168,12 +169,8 @@ void report_faces(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatc
                      ? slots.name(issue.slot) + " points into its cell, " + slots.name(issue.other)
                      : slots.name(issue.slot) + " and " + slots.name(issue.other) + near_patch(mesh, center) + " lie on the same side of their " + shape;
           break;
-        case Violation::stray_boundary_face:
-          what = slots.name(issue.slot) + " is a face of no cell";
-          break;
-        default:
-          what = slots.name(issue.slot) + " marks the face of " + slots.name(issue.other) + " again";
-          break;
+        case Violation::stray_boundary_face: what = slots.name(issue.slot) + " is a face of no cell"; break;
+        default: what = slots.name(issue.slot) + " marks the face of " + slots.name(issue.other) + " again"; break;
       }
       return std::pair(center, std::move(what));
     });

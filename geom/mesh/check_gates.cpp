@@ -25,8 +25,11 @@ void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlo
                  const GateTable& limits, const RunContext& context, CheckReport& report) {
   const auto node = [&](std::uint64_t id) { return describe_node(mesh, id); };
   const auto cell = [&](std::uint64_t id) { return std::pair(cells.center(id), cells.name(id)); };
-  const auto face = [&](std::uint64_t id) { return std::pair(slots.center(static_cast<std::uint32_t>(id)), "face of " + slots.name(static_cast<std::uint32_t>(id))); };
-  for (const MeasureInfo& info : measures()) report.gates.push_back(not_checked(info.measure, limits, dual == nullptr ? k_not_conforming : "the mesh has none"));
+  const auto face = [&](std::uint64_t id) {
+    return std::pair(slots.center(static_cast<std::uint32_t>(id)), "face of " + slots.name(static_cast<std::uint32_t>(id)));
+  };
+  for (const MeasureInfo& info : measures())
+    report.gates.push_back(not_checked(info.measure, limits, dual == nullptr ? k_not_conforming : "the mesh has none"));
   for (const Measure measure : {Measure::cad_distance, Measure::cad_normal}) report.gates[static_cast<std::size_t>(measure)].reason = k_no_model;
   const auto put = [&](GateResult result) { report.gates[static_cast<std::size_t>(result.measure)] = std::move(result); };
 
@@ -35,7 +38,8 @@ void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlo
   put(scan.max_dihedral.result(cell));
   if (dual == nullptr) return;
   if (match.tet_growth) put(match.tet_growth->result(face));
-  for (const GateScan* measure : {&dual->closure, &dual->orthogonality, &dual->sub_volume_ratio, &dual->face_area_ratio, &dual->relative_face_area_ratio, &dual->edge_ratio})
+  for (const GateScan* measure :
+       {&dual->closure, &dual->orthogonality, &dual->sub_volume_ratio, &dual->face_area_ratio, &dual->relative_face_area_ratio, &dual->edge_ratio})
     put(measure->result(node));
   if (mesh.layers.n_columns() == 0) report.gates[static_cast<std::size_t>(Measure::relative_face_area_ratio)].reason = "the mesh has no columns of layers";
   judge_interface(mesh, cells, slots, match, limits, context, report);

@@ -55,8 +55,8 @@ class IndexWalker {
       add_unsafe("columns: " + std::to_string(layers.n_lines()) + " lines, numbers of layers for " + std::to_string(layers.line_layers.size()));
       return;
     }
-    for (const std::uint64_t k :
-         find_bad(context_, layers.line_layers.size(), [&](std::size_t line) { return layers.line_layers[line] < 1 || layers.line_layers[line] > layers.n_layers; }))
+    for (const std::uint64_t k : find_bad(context_, layers.line_layers.size(),
+                                          [&](std::size_t line) { return layers.line_layers[line] < 1 || layers.line_layers[line] > layers.n_layers; }))
       add_unsafe("line " + std::to_string(k) + ": " + std::to_string(layers.line_layers[k]) + " layers, expected 1 to " + std::to_string(layers.n_layers));
     for (const std::uint64_t k :
          find_bad(context_, layers.n_lines(), [&](std::size_t line) { return layers.is_collapsed[line] > 1 || end_of_line(line) > mesh_.points.size(); }))
@@ -142,9 +142,7 @@ class IndexWalker {
   }
 
  private:
-  std::uint64_t end_of_line(std::size_t k) const {
-    return std::uint64_t{mesh_.layers.first_node[k]} + 1 + static_cast<std::uint64_t>(mesh_.layers.n_steps(k));
-  }
+  std::uint64_t end_of_line(std::size_t k) const { return std::uint64_t{mesh_.layers.first_node[k]} + 1 + static_cast<std::uint64_t>(mesh_.layers.n_steps(k)); }
 
   void add_unsafe(std::string what) {
     is_safe_ = false;

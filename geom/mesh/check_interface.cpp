@@ -12,7 +12,8 @@ constexpr double k_regular_volumes = 3.0;
 
 struct InterfaceScan {
   explicit InterfaceScan(const GateTable& limits)
-      : height(info_of(Measure::interface_height), limits[Measure::interface_height]), volume(info_of(Measure::interface_volume), limits[Measure::interface_volume]) {}
+      : height(info_of(Measure::interface_height), limits[Measure::interface_height]),
+        volume(info_of(Measure::interface_volume), limits[Measure::interface_volume]) {}
   GateScan height, volume;  ///< ids are slots of the prism's face
 };
 
@@ -46,7 +47,9 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
         all.volume.merge(more.volume);
         return all;
       });
-  const auto face = [&](std::uint64_t id) { return std::pair(slots.center(static_cast<std::uint32_t>(id)), "top of " + slots.name(static_cast<std::uint32_t>(id))); };
+  const auto face = [&](std::uint64_t id) {
+    return std::pair(slots.center(static_cast<std::uint32_t>(id)), "top of " + slots.name(static_cast<std::uint32_t>(id)));
+  };
   for (const GateScan* measure : {&scan.height, &scan.volume}) {
     GateResult result = measure->result(face);
     if (measure->empty()) result.reason = "no tet stands on a prism";

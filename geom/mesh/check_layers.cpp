@@ -16,7 +16,8 @@ constexpr double k_height_slack = 1e-9;
 constexpr std::size_t k_line_chunk = 1024;
 constexpr const char* k_no_request = "the mesh does not say what was asked for";
 
-/// Unit normals of the symmetry patches at the feet of lines that stand on them: the body goes on behind with its mirror image, so normals there are means with theirs.
+/// Unit normals of the symmetry patches at the feet of lines that stand on them: the body goes on behind with its mirror image, so normals there are means with
+/// theirs.
 class MirrorFeet {
  public:
   explicit MirrorFeet(const HybridMesh& mesh) {
@@ -31,7 +32,8 @@ class MirrorFeet {
   }
   /// The part of a normal at a node that lies in the planes that the node is on.
   Vec3 mirrored(NodeId node, Vec3 normal) const {
-    for (auto foot = std::lower_bound(feet_.begin(), feet_.end(), node, [](const Foot& a, NodeId b) { return a.node < b; }); foot != feet_.end() && foot->node == node; ++foot)
+    for (auto foot = std::lower_bound(feet_.begin(), feet_.end(), node, [](const Foot&a, NodeId b) { return a.node < b; });
+         foot != feet_.end() && foot->node == node; ++foot)
       normal = normal - dot(normal, foot->normal) * foot->normal;
     return normalized(normal);
   }
@@ -63,7 +65,8 @@ struct LayerScan {
 class LineScanner {
  public:
   /// `is_compressed` has one entry per line, which is set where the mesh's request can be used.
-  LineScanner(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const MirrorFeet& feet, const GateTable& limits, bool is_request_usable, std::vector<std::uint8_t>& is_compressed)
+  LineScanner(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const MirrorFeet& feet, const GateTable& limits, bool is_request_usable,
+              std::vector<std::uint8_t>& is_compressed)
       : mesh_(mesh), lines_(lines), fans_(fans), feet_(feet), is_compressed_(is_compressed), is_request_usable_(is_request_usable), scan_(limits) {}
 
   LayerScan take() { return std::move(scan_); }
@@ -124,7 +127,8 @@ class LineScanner {
     for (int j = 0; j < n; ++j) heights_[static_cast<std::size_t>(j)] = distance(point(line, j), point(line, j + 1));
   }
 
-  /// Where lines were asked for different growths, the limit is the largest of them: a line that was asked for less is measured as if its ratios were as much larger.
+  /// Where lines were asked for different growths, the limit is the largest of them: a line that was asked for less is measured as if its ratios were as much
+  /// larger.
   double growth_scale(std::uint32_t line) const {
     const LayerRequest& request = mesh_.request;
     if (!lines_.are_columns() || line >= request.line_max_growth.size()) return 1.0;
@@ -210,8 +214,8 @@ PatchCoverage share_out(const HybridMesh& mesh, std::uint32_t patch, const Patch
   return result;
 }
 
-void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::vector<std::uint8_t>& is_compressed, const GateTable& limits, const RunContext& context,
-                    CheckReport& report) {
+void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::vector<std::uint8_t>& is_compressed, const GateTable& limits,
+                    const RunContext& context, CheckReport& report) {
   double full = 0.0, collapsed = 0.0, total = 0.0;
   for (const auto& [patch, areas] : measure_coverage(mesh, lines, is_compressed, context)) {
     report.coverage.push_back(share_out(mesh, patch, areas));
@@ -248,7 +252,8 @@ void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatc
   const auto put = [&](GateResult result) { report.gates[static_cast<std::size_t>(result.measure)] = std::move(result); };
   const LayerLines lines(mesh, slots, match, context);
   if (!lines.reason().empty()) {
-    for (const Measure measure : {Measure::stack_growth, Measure::stack_angle, Measure::first_height, Measure::coverage, Measure::collapsed, Measure::layer_step})
+    for (const Measure measure :
+         {Measure::stack_growth, Measure::stack_angle, Measure::first_height, Measure::coverage, Measure::collapsed, Measure::layer_step})
       put(not_checked(measure, limits, lines.reason()));
     return;
   }

@@ -71,8 +71,8 @@ std::string CellNumbers::name(std::uint64_t number) const {
     const std::uint64_t column = number / n_layers, layer = number % n_layers;
     const int n_collapsed = layers.n_collapsed(column);
     const CellKind kind = n_collapsed == 0 ? CellKind::prism : n_collapsed == 1 ? CellKind::pyramid : CellKind::tetrahedron;
-    return of_kind(kind, n_cells_of_kind(layers, column, n_collapsed) + layer) + " (column " + std::to_string(column) + ", layer " +
-           std::to_string(layer) + ")";
+    return of_kind(kind, n_cells_of_kind(layers, column, n_collapsed) + layer) + " (column " + std::to_string(column) + ", layer " + std::to_string(layer) +
+           ")";
   }
   if (number < first_[1]) return of_kind(CellKind::prism, in_columns(0) + number - first_[0]);
   if (number < first_[2]) return of_kind(CellKind::pyramid, in_columns(1) + number - first_[1]);

@@ -51,7 +51,8 @@ class Findings {
   std::vector<Finding> kept_;
 };
 
-/// Numbers the cells: column * n_layers + layer (fully collapsed columns, and those of fewer than n_layers layers, hold numbers without cells), then prisms, pyramids, hexahedra, tetrahedra.
+/// Numbers the cells: column * n_layers + layer (fully collapsed columns, and those of fewer than n_layers layers, hold numbers without cells), then prisms,
+/// pyramids, hexahedra, tetrahedra.
 class CellNumbers {
  public:
   explicit CellNumbers(const HybridMesh& mesh);
@@ -176,12 +177,12 @@ struct FaceIssue {
 };
 
 struct FaceMatch {
-  std::vector<FaceIssue> issues;         ///< sorted
-  std::vector<std::uint32_t> outer;      ///< cell faces with a boundary face
+  std::vector<FaceIssue> issues;              ///< sorted
+  std::vector<std::uint32_t> outer;           ///< cell faces with a boundary face
   std::vector<std::uint32_t> outer_boundary;  ///< the boundary face of each of them
-  std::vector<std::uint32_t> interface;  ///< faces of layer cells that a tet shares with opposite sense: the envelope
+  std::vector<std::uint32_t> interface;       ///< faces of layer cells that a tet shares with opposite sense: the envelope
   std::vector<std::uint32_t> interface_tets;  ///< the tet's face of each of them
-  std::optional<GateScan> tet_growth;    ///< ids are slots; only when asked for
+  std::optional<GateScan> tet_growth;         ///< ids are slots; only when asked for
   bool with_pairs = false;
   std::vector<std::array<std::uint32_t, 2>> pairs;  ///< faces that two cells share; only when asked for
   std::vector<std::uint32_t> cap_neighbours;  ///< of explicit prisms, bottom and top: slot on the other side of a face that two cells share, else k_no_slot
@@ -206,12 +207,13 @@ bool check_indices(const HybridMesh& mesh, const CellNumbers& cells, const RunCo
 std::vector<OpenSide> find_open_sides(const LayerBlock& layers, const RunContext& context, std::vector<std::uint32_t>* neighbours = nullptr);
 /// At most `faces_at_a_time` faces are held at a time, or those of one lowest node if they are more.
 /// Volume ratios over the faces between explicit tets are measured when `tet_volumes` has the tets' volumes.
-FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, std::span<const double> tet_volumes, bool with_pairs, const GateTable& limits,
-                      const RunContext& context);
+FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_t faces_at_a_time, std::span<const double> tet_volumes, bool with_pairs,
+                      const GateTable& limits, const RunContext& context);
 void report_faces(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, Findings& findings);
 CellScan scan_columns(const HybridMesh& mesh, bool with_quality, const GateTable& limits, const RunContext& context);
 /// Adds the explicit cells to what was found in the columns.
-CellScan scan_explicit_cells(CellScan columns, const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const GateTable& limits, const RunContext& context);
+CellScan scan_explicit_cells(CellScan columns, const HybridMesh& mesh, const CellNumbers& cells, bool with_quality, const GateTable& limits,
+                             const RunContext& context);
 /// Volumes of the explicit tets, m^3; zero where not positive.
 std::vector<double> tet_volumes(const HybridMesh& mesh, const RunContext& context);
 /// Compares the cells' volumes with the flux through outer faces and envelope; fills the report's volumes.
@@ -228,20 +230,24 @@ struct CrossingTest {
   CrossingPairs crossings;
 };
 /// All boundary faces but \p doubled ones, and \p envelope; both ascending.
-CrossingCandidates crossing_candidates(const HybridMesh& mesh, const FaceSlots& slots, std::span<const std::uint32_t> doubled, std::span<const std::uint32_t> envelope);
+CrossingCandidates crossing_candidates(const HybridMesh& mesh, const FaceSlots& slots, std::span<const std::uint32_t> doubled,
+                                       std::span<const std::uint32_t> envelope);
 /// boundary_intersection, envelope_intersection. Takes the result of `ahead` if that was about the same triangles.
-void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const CrossingTest* ahead, const RunContext& context, Findings& findings);
+void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const CrossingTest* ahead, const RunContext& context,
+                     Findings& findings);
 /// overlapping_parts; does nothing when faces or crossings were found wrong, since then no side of a boundary is the fluid's.
 void check_cover(const HybridMesh& mesh, const FaceSlots& slots, const RunContext& context, Findings& findings);
 
 /// negative_sub_volume, open_dual_cell (G4), and the nodes' statistics. \pre no G1 violation
-DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const DualScan* ahead, const GateTable& limits, const RunContext& context, Findings& findings);
+DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const DualScan* ahead, const GateTable& limits, const RunContext& context,
+                    Findings& findings);
 /// off_symmetry_plane (G20).
 void check_symmetry(const HybridMesh& mesh, const RunContext& context, Findings& findings);
 /// Each of HybridMesh::periodic, within periodic_tolerance(); fills the report's list of those that match.
 void check_periodic(const HybridMesh& mesh, CheckReport& report, Findings& findings);
 /// Gates of layers: G8, G10 - G13, and the coverage by patch. G9 is measured face by face at the interface.
-void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const GateTable& limits, const RunContext& context, CheckReport& report);
+void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const GateTable& limits, const RunContext& context,
+                  CheckReport& report);
 void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, const GateTable& limits,
                      const RunContext& context, CheckReport& report);
 /// The QUALITY gates into the report.

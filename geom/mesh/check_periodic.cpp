@@ -12,7 +12,9 @@ void check_periodic(const HybridMesh& mesh, CheckReport& report, Findings& findi
   const double tolerance = mesh.periodic.empty() ? 0.0 : periodic_tolerance(mesh);
   for (const PeriodicSides& sides : mesh.periodic) {
     if (sides.first.index() >= mesh.patches.size() || sides.second.index() >= mesh.patches.size()) {
-      findings.add(Violation::bad_index, [&] { return std::pair(Point{}, "periodic sides " + std::to_string(sides.first.value()) + " and " + std::to_string(sides.second.value()) + " are no patches"); });
+      findings.add(Violation::bad_index, [&] {
+        return std::pair(Point{}, "periodic sides " + std::to_string(sides.first.value()) + " and " + std::to_string(sides.second.value()) + " are no patches");
+      });
       continue;
     }
     try {
@@ -20,18 +22,21 @@ void check_periodic(const HybridMesh& mesh, CheckReport& report, Findings& findi
       const double off = distance(match.translation, sides.translation);
       if (!(off <= tolerance)) {
         findings.add(Violation::periodic_mismatch, [&] {
-          return std::pair(mesh.points[match.nodes.front()[0]], "periodic sides " + patch_name(mesh, sides.first) + " and " + patch_name(mesh, sides.second) + " are " + format_point(match.translation) +
-                                                                    " m apart, not " + format_point(sides.translation) + " m: " + number_text(off, 3) + " m off");
+          return std::pair(mesh.points[match.nodes.front()[0]], "periodic sides " + patch_name(mesh, sides.first) + " and " + patch_name(mesh, sides.second) +
+                                                                    " are " + format_point(match.translation) + " m apart, not " +
+                                                                    format_point(sides.translation) + " m: " + number_text(off, 3) + " m off");
         });
         continue;
       }
-      report.periodic.push_back({mesh.patches[sides.first].name, mesh.patches[sides.second].name, sides.translation, static_cast<std::int64_t>(match.nodes.size()),
-                                 static_cast<std::int64_t>(match.faces.size()), match.worst});
+      report.periodic.push_back({mesh.patches[sides.first].name, mesh.patches[sides.second].name, sides.translation,
+                                 static_cast<std::int64_t>(match.nodes.size()), static_cast<std::int64_t>(match.faces.size()), match.worst});
     } catch (const Error& error) {
       if (error.code() != ErrorCode::bad_argument) throw;
       const ErrorInfo& info = error.info();
       for (const ErrorPlace& place : info.places)
-        findings.add(Violation::periodic_mismatch, [&] { return std::pair(place.position, "periodic sides " + patch_name(mesh, sides.first) + " and " + patch_name(mesh, sides.second) + ": " + place.what); });
+        findings.add(Violation::periodic_mismatch, [&] {
+          return std::pair(place.position, "periodic sides " + patch_name(mesh, sides.first) + " and " + patch_name(mesh, sides.second) + ": " + place.what);
+        });
       if (info.places.empty()) findings.add(Violation::periodic_mismatch, [&] { return std::pair(Point{}, info.problem); });
       findings.add_more(Violation::periodic_mismatch, std::max<std::int64_t>(info.n_places - static_cast<std::int64_t>(info.places.size()), 0));
     }

@@ -72,7 +72,8 @@ std::string gate_text(const GateResult& gate) {
   if (const std::string limits = limits_text(info, gate.limits); !limits.empty()) text += " (" + limits + ")";
   text += "\n";
   if (gate.state == GateState::pass) return text;
-  for (const GatePlace& place : gate.places) text += "         " + shown_text(info, place.value) + " at " + format_point(place.position) + ": " + place.what + "\n";
+  for (const GatePlace& place : gate.places)
+    text += "         " + shown_text(info, place.value) + " at " + format_point(place.position) + ": " + place.what + "\n";
   return text;
 }
 
@@ -87,13 +88,15 @@ Json histogram_json(const GateResult& gate, const MeasureInfo& info) {
   const auto last = std::find_if(gate.histogram.rbegin(), gate.histogram.rend(), is_filled).base();
   const std::vector<double> edges = info.classes.edges();
   Json json = {{"is_log", info.classes.per_octave > 0}, {"edges", Json::array()}, {"counts", Json(std::vector<double>(first, last))}};
-  for (auto i = first - gate.histogram.begin(); i <= last - gate.histogram.begin(); ++i) json["edges"].push_back(in_report_unit(info, edges[static_cast<std::size_t>(i)]));
+  for (auto i = first - gate.histogram.begin(); i <= last - gate.histogram.begin(); ++i)
+    json["edges"].push_back(in_report_unit(info, edges[static_cast<std::size_t>(i)]));
   return json;
 }
 
 Json to_json(const GateResult& gate) {
   const MeasureInfo& info = info_of(gate.measure);
-  Json json = {{"gate", info.gate}, {"measure", info.name}, {"title", info.title}, {"unit", info.is_angle ? "deg" : ""}, {"bound", info.is_low_bad ? "lower" : "upper"}};
+  Json json = {
+      {"gate", info.gate}, {"measure", info.name}, {"title", info.title}, {"unit", info.is_angle ? "deg" : ""}, {"bound", info.is_low_bad ? "lower" : "upper"}};
   json["state"] = gate.state == GateState::fail ? "fail" : to_string(gate.state);
   json["limits"] = {{"hard", number(in_report_unit(info, gate.limits.hard))},
                     {"target", number(in_report_unit(info, gate.limits.target))},
@@ -116,7 +119,8 @@ Json to_json(const GateResult& gate) {
 }
 
 Json to_json(const PatchCoverage& patch) {
-  Json json = {{"patch", patch.patch}, {"area", patch.area}, {"full", patch.full}, {"reduced", patch.reduced}, {"compressed", patch.compressed}, {"collapsed", patch.collapsed}};
+  Json json = {{"patch", patch.patch},           {"area", patch.area},          {"full", patch.full}, {"reduced", patch.reduced},
+               {"compressed", patch.compressed}, {"collapsed", patch.collapsed}};
   json["lost"] = Json::object();
   for (const auto& [reason, share] : patch.lost) json["lost"][reason] = share;
   return json;
@@ -134,44 +138,25 @@ std::string coverage_text(const PatchCoverage& patch) {
 
 std::string_view to_string(Violation v) {
   switch (v) {
-    case Violation::unmatched_face:
-      return "unmatched_face";
-    case Violation::overmatched_face:
-      return "overmatched_face";
-    case Violation::same_sense_face:
-      return "same_sense_face";
-    case Violation::stray_boundary_face:
-      return "stray_boundary_face";
-    case Violation::duplicate_marker:
-      return "duplicate_marker";
-    case Violation::bad_index:
-      return "bad_index";
-    case Violation::bad_point:
-      return "bad_point";
-    case Violation::unused_node:
-      return "unused_node";
-    case Violation::boundary_intersection:
-      return "boundary_intersection";
-    case Violation::envelope_intersection:
-      return "envelope_intersection";
-    case Violation::invalid_cell:
-      return "invalid_cell";
-    case Violation::volume_mismatch:
-      return "volume_mismatch";
-    case Violation::broken_line:
-      return "broken_line";
-    case Violation::overlapping_parts:
-      return "overlapping_parts";
-    case Violation::no_cells:
-      return "no_cells";
-    case Violation::negative_sub_volume:
-      return "negative_sub_volume";
-    case Violation::open_dual_cell:
-      return "open_dual_cell";
-    case Violation::off_symmetry_plane:
-      return "off_symmetry_plane";
-    case Violation::periodic_mismatch:
-      return "periodic_mismatch";
+    case Violation::unmatched_face: return "unmatched_face";
+    case Violation::overmatched_face: return "overmatched_face";
+    case Violation::same_sense_face: return "same_sense_face";
+    case Violation::stray_boundary_face: return "stray_boundary_face";
+    case Violation::duplicate_marker: return "duplicate_marker";
+    case Violation::bad_index: return "bad_index";
+    case Violation::bad_point: return "bad_point";
+    case Violation::unused_node: return "unused_node";
+    case Violation::boundary_intersection: return "boundary_intersection";
+    case Violation::envelope_intersection: return "envelope_intersection";
+    case Violation::invalid_cell: return "invalid_cell";
+    case Violation::volume_mismatch: return "volume_mismatch";
+    case Violation::broken_line: return "broken_line";
+    case Violation::overlapping_parts: return "overlapping_parts";
+    case Violation::no_cells: return "no_cells";
+    case Violation::negative_sub_volume: return "negative_sub_volume";
+    case Violation::open_dual_cell: return "open_dual_cell";
+    case Violation::off_symmetry_plane: return "off_symmetry_plane";
+    case Violation::periodic_mismatch: return "periodic_mismatch";
   }
   return "";
 }
@@ -188,22 +173,16 @@ std::string_view title_of_gate(std::string_view gate) {
 std::string_view gate_of(Violation v) {
   switch (v) {
     case Violation::boundary_intersection:
-    case Violation::envelope_intersection:
-      return "G2";
-    case Violation::invalid_cell:
-      return "G3";
+    case Violation::envelope_intersection: return "G2";
+    case Violation::invalid_cell: return "G3";
     case Violation::negative_sub_volume:
-    case Violation::open_dual_cell:
-      return "G4";
+    case Violation::open_dual_cell: return "G4";
     case Violation::off_symmetry_plane:
-    case Violation::periodic_mismatch:
-      return "G20";
+    case Violation::periodic_mismatch: return "G20";
     case Violation::volume_mismatch:
     case Violation::overlapping_parts:
-    case Violation::no_cells:
-      return "tiling";
-    default:
-      return "G1";
+    case Violation::no_cells: return "tiling";
+    default: return "G1";
   }
 }
 
@@ -242,8 +221,8 @@ std::string to_text(const CheckReport& report) {
                    report.tet_volume, report.tet_volume_error, report.total_volume);
   }
   for (const PeriodicMatchReport& sides : report.periodic)
-    text += "  periodic: " + sides.first + " and " + sides.second + ", " + n(sides.n_nodes) + " nodes, " + n(sides.n_faces) + " faces, " + format_point(sides.translation) + " m apart, within " +
-            number_text(sides.worst, 3) + " m\n";
+    text += "  periodic: " + sides.first + " and " + sides.second + ", " + n(sides.n_nodes) + " nodes, " + n(sides.n_faces) + " faces, " +
+            format_point(sides.translation) + " m apart, within " + number_text(sides.worst, 3) + " m\n";
   if (report.quality_measured) {
     const Quality& q = report.quality;
     text += format("  prisms: worst scaled Jacobian %.3g at ", q.min_wedge_quality) + format_point(q.worst_prism) +
@@ -294,16 +273,17 @@ std::string to_json(const CheckReport& report) {
   for (const Finding& finding : report.findings)
     json["findings"].push_back(
         {{"violation", to_string(finding.violation)}, {"gate", gate_of(finding.violation)}, {"position", to_array(finding.position)}, {"what", finding.what}});
-  json["volume"] = {{"layer", report.layer_volume},
-                    {"layer_error", report.layer_volume_error},
-                    {"tetrahedra", report.tet_volume},
-                    {"tetrahedra_error", report.tet_volume_error},
-                    {"total", report.total_volume},
-                    {"dual", report.dual_checked ? Json(report.dual_volume) : Json(nullptr)}};
+  json["volume"] = {{"layer", report.layer_volume},    {"layer_error", report.layer_volume_error},
+                    {"tetrahedra", report.tet_volume}, {"tetrahedra_error", report.tet_volume_error},
+                    {"total", report.total_volume},    {"dual", report.dual_checked ? Json(report.dual_volume) : Json(nullptr)}};
   json["periodic"] = Json::array();
   for (const PeriodicMatchReport& sides : report.periodic)
-    json["periodic"].push_back(
-        {{"first", sides.first}, {"second", sides.second}, {"translation", to_array(sides.translation)}, {"nodes", sides.n_nodes}, {"faces", sides.n_faces}, {"worst_distance", sides.worst}});
+    json["periodic"].push_back({{"first", sides.first},
+                                {"second", sides.second},
+                                {"translation", to_array(sides.translation)},
+                                {"nodes", sides.n_nodes},
+                                {"faces", sides.n_faces},
+                                {"worst_distance", sides.worst}});
   json["measures"] = Json::array();
   for (const GateResult& gate : report.gates) json["measures"].push_back(to_json(gate));
   json["coverage"] = Json::array();

@@ -81,7 +81,8 @@ Plane plane_along(const HybridMesh& mesh, const std::vector<NodeId>& nodes, cons
   std::vector<long double> offsets;
   for (const NodeId node : nodes) offsets.push_back(dot(plane.normal, Wide(mesh.points[node])));
   plane.offset = median(std::move(offsets));
-  plane.text = text_of("(%.9g, %.9g, %.9g) . x = %.9g m", static_cast<double>(plane.normal.x), static_cast<double>(plane.normal.y), static_cast<double>(plane.normal.z), static_cast<double>(plane.offset));
+  plane.text = text_of("(%.9g, %.9g, %.9g) . x = %.9g m", static_cast<double>(plane.normal.x), static_cast<double>(plane.normal.y),
+                       static_cast<double>(plane.normal.z), static_cast<double>(plane.offset));
   return plane;
 }
 
@@ -100,7 +101,8 @@ Wide area_vector(const HybridMesh& mesh, PatchId patch, const Wide& origin) {
     for (const auto& face : faces) {
       if (face.patch != patch) continue;
       const Wide first = Wide(mesh.points[face.nodes[0]]) - origin;
-      for (std::size_t k = 2; k < face.nodes.size(); ++k) sum = sum + cross(Wide(mesh.points[face.nodes[k - 1]]) - origin - first, Wide(mesh.points[face.nodes[k]]) - origin - first);
+      for (std::size_t k = 2; k < face.nodes.size(); ++k)
+        sum = sum + cross(Wide(mesh.points[face.nodes[k - 1]]) - origin - first, Wide(mesh.points[face.nodes[k]]) - origin - first);
     }
   };
   add(mesh.boundary_triangles);
@@ -117,7 +119,9 @@ Plane oblique_plane(const HybridMesh& mesh, PatchId patch, std::vector<NodeId> n
   if (!(dot(across, across) > 0.0L)) return axis_plane(mesh, nodes, 0);
   const Plane guess = plane_along(mesh, nodes, across);
   const auto half = nodes.begin() + static_cast<std::ptrdiff_t>((nodes.size() + 1) / 2);
-  std::sort(nodes.begin(), nodes.end(), [&](NodeId a, NodeId b) { return std::pair(std::abs(guess.distance(mesh.points[a])), a) < std::pair(std::abs(guess.distance(mesh.points[b])), b); });
+  std::sort(nodes.begin(), nodes.end(), [&](NodeId a, NodeId b) {
+    return std::pair(std::abs(guess.distance(mesh.points[a])), a) < std::pair(std::abs(guess.distance(mesh.points[b])), b);
+  });
   nodes.erase(half, nodes.end());
   const auto farthest = [&](const auto& measure) {
     NodeId best = nodes.front();
@@ -161,8 +165,9 @@ void check_symmetry(const HybridMesh& mesh, const RunContext& context, Findings&
     if (2 * off.size() > nodes.size()) consider(oblique_plane(mesh, patch, nodes));  // no plane of an axis
     for (const NodeId node : off)
       findings.add(Violation::off_symmetry_plane, [&] {
-        return std::pair(mesh.points[node], "node " + std::to_string(node.value()) + " of patch " + patch_name(mesh, patch) + " is " + number_text(plane.distance(mesh.points[node]), 3) +
-                                                " m off the plane " + plane.text + ", limit " + number_text(tolerance, 3) + " m");
+        return std::pair(mesh.points[node], "node " + std::to_string(node.value()) + " of patch " + patch_name(mesh, patch) + " is " +
+                                                number_text(plane.distance(mesh.points[node]), 3) + " m off the plane " + plane.text + ", limit " +
+                                                number_text(tolerance, 3) + " m");
       });
   }
 }

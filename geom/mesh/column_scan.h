@@ -14,7 +14,7 @@ struct PrismMeasures {
   bool is_surely_valid = false;  ///< false: ask is_wedge_valid
   double volume = 0.0;           ///< m^3
   double quality = 0.0;
-  double skew = 0.0;             ///< radians
+  double skew = 0.0;  ///< radians
 };
 
 class ColumnScan {

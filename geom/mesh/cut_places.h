@@ -31,7 +31,8 @@ struct CutPlace {
 /// \post every plane crosses walls; at least three places, if the mesh has a boundary of some extent
 std::vector<CutPlace> automatic_cuts(const HybridMesh& mesh, const RunContext& context);
 
-/// Mean normal of the patches of kind symmetry, out of the fluid: half models are looked at from the other side, so that the body is before its symmetry plane. Zero without such patches.
+/// Mean normal of the patches of kind symmetry, out of the fluid: half models are looked at from the other side, so that the body is before its symmetry plane.
+/// Zero without such patches.
 Vec3 symmetry_normal(const HybridMesh& mesh);
 
 }  // namespace sterna

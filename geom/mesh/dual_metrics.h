@@ -17,14 +17,14 @@ namespace sterna {
 
 /// Of one node's control volume. NaN where a figure does not exist.
 struct NodeMetrics {
-  double orthogonality = 0.0;     ///< radians: mean of pi/2 less the angle between dual face and edge, weighted by dual face area
-  double face_area_ratio = 0.0;   ///< largest over smallest dual face, boundary faces included; infinite when one has no area
+  double orthogonality = 0.0;             ///< radians: mean of pi/2 less the angle between dual face and edge, weighted by dual face area
+  double face_area_ratio = 0.0;           ///< largest over smallest dual face, boundary faces included; infinite when one has no area
   double relative_face_area_ratio = 0.0;  ///< the same over l_t / H: longest edge along the layer over height of the control volume along its line; lines only,
                                           ///< below their top. 1.5 for a regular triangulation, stacked straight
-  double sub_volume_ratio = 0.0;  ///< largest over smallest sub-tet; infinite when one is not positive
-  double edge_ratio = 0.0;        ///< longest over shortest edge, edges along the stack (lines, growth edges of prisms) left out; NaN at hexahedra
-  double closure = 0.0;           ///< length of the sum of all dual face normals over the sum of their areas
-  double volume = 0.0;            ///< m^3, sum of the sub-tets
+  double sub_volume_ratio = 0.0;          ///< largest over smallest sub-tet; infinite when one is not positive
+  double edge_ratio = 0.0;                ///< longest over shortest edge, edges along the stack (lines, growth edges of prisms) left out; NaN at hexahedra
+  double closure = 0.0;                   ///< length of the sum of all dual face normals over the sum of their areas
+  double volume = 0.0;                    ///< m^3, sum of the sub-tets
 };
 
 /// Metrics of every node; a node without cells has NaN. For pictures and tests: `check` needs no such table.

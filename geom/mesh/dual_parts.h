@@ -81,7 +81,7 @@ class NodeDual {
     Vec3 normal;
   };
   struct Corner {
-    std::uint8_t next, previous;         ///< neighbours of the corner on the face
+    std::uint8_t next, previous;  ///< neighbours of the corner on the face
     std::uint8_t size;
     std::array<std::uint8_t, 4> nodes;
   };

@@ -112,14 +112,11 @@ void find_factor(const FamilyMember& coarse, const FamilyMember& fine, const Fam
     step.factor = factor;
     step.factor_from = from;
   };
-  if (!is_automatic(tolerances.factor))
-    choose(tolerances.factor, "the option factor");
+  if (!is_automatic(tolerances.factor)) choose(tolerances.factor, "the option factor");
   else if (coarse.refinement && fine.refinement && *fine.refinement > *coarse.refinement)
     choose(*fine.refinement / *coarse.refinement, "the refinements asked for");
-  else if (step.factor_by_edges > 0.0)
-    choose(step.factor_by_edges, "the mean wall edges");
-  else
-    choose(step.factor_by_nodes, "the nodes");
+  else if (step.factor_by_edges > 0.0) choose(step.factor_by_edges, "the mean wall edges");
+  else choose(step.factor_by_nodes, "the nodes");
   if (step.factor > 1.0 && fine.nodes > coarse.nodes) return;
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = "checking a family of meshes",
@@ -159,10 +156,8 @@ FamilyStep check_step(const FamilyMember& coarse, const FamilyMember& fine, cons
   StepRules rules(coarse, fine, tolerances, step);
   rules.add("nodes", "factor by nodes, cube root of their ratio", static_cast<double>(coarse.nodes), static_cast<double>(fine.nodes), step.factor_by_nodes, f,
             std::abs(step.factor_by_nodes / f - 1.0), tolerances.nodes);
-  if (step.factor_by_edges > 0.0)
-    rules.ratio("wall_edge", "factor by mean wall edges, m", coarse.wall_edge, fine.wall_edge, tolerances.wall_edge);
-  else
-    rules.skip("wall_edge", "factor by mean wall edges", (coarse.wall_edge > 0.0 ? fine.name : coarse.name) + " has no patch of kind wall");
+  if (step.factor_by_edges > 0.0) rules.ratio("wall_edge", "factor by mean wall edges, m", coarse.wall_edge, fine.wall_edge, tolerances.wall_edge);
+  else rules.skip("wall_edge", "factor by mean wall edges", (coarse.wall_edge > 0.0 ? fine.name : coarse.name) + " has no patch of kind wall");
   rules.compare(&FamilyMember::first_height, "first_height", "first height asked for, m", k_no_request,
                 [&](double a, double b) { rules.ratio("first_height", "first height asked for, m", a, b, tolerances.first_height); });
   rules.compare(&FamilyMember::measured_first, "measured_first", "median first height, m", k_no_columns,
@@ -170,10 +165,8 @@ FamilyStep check_step(const FamilyMember& coarse, const FamilyMember& fine, cons
   rules.compare(&FamilyMember::layers, "layers", "number of layers", k_no_columns,
                 [&](int a, int b) { rules.add("layers", "number of layers", a, b, b, f * a, std::abs(b - f * a), tolerances.layers * 0.5 * (1.0 + f)); });
   rules.compare(&FamilyMember::constant_layers, "constant_layers", "layers of constant height", k_no_columns, [&](int a, int b) {
-    if (a == 1 && b == 1)
-      rules.skip("constant_layers", "layers of constant height", "both grow from the wall on");
-    else
-      rules.add("constant_layers", "layers of constant height", a, b, b, f * a, std::abs(b - f * a), tolerances.layers * 0.5 * (1.0 + f));
+    if (a == 1 && b == 1) rules.skip("constant_layers", "layers of constant height", "both grow from the wall on");
+    else rules.add("constant_layers", "layers of constant height", a, b, b, f * a, std::abs(b - f * a), tolerances.layers * 0.5 * (1.0 + f));
   });
   rules.compare(&FamilyMember::growth, "growth", "growth asked for", k_no_request,
                 [&](double a, double b) { rules.growth("growth", "growth asked for", a, b, tolerances.growth); });

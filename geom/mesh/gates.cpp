@@ -22,7 +22,15 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
     {M::orthogonality, "G5", "orthogonality", "SU2 orthogonality", "nodes", true, true, {5 * k_degree, 20 * k_degree, 35 * k_degree, 0.999}, {0, k_right, 45}},
     {M::sub_volume_ratio, "G6", "sub_volume_ratio", "SU2 CV sub-volume ratio", "nodes", false, false, {1e5, 1e3, 200, 0.999}, {1, 0x1p24, 48, 2}},
     {M::face_area_ratio, "G7", "face_area_ratio", "SU2 CV face area aspect ratio", "nodes", false, false, {k_none, k_none, k_none, 1.0}, {1, 0x1p24, 48, 2}},
-    {M::relative_face_area_ratio, "G7", "relative_face_area_ratio", "the same over edge / height", "nodes", false, false, {k_none, 1.5, k_none, 1.0}, {1, 0x1p12, 48, 4}},
+    {M::relative_face_area_ratio,
+     "G7",
+     "relative_face_area_ratio",
+     "the same over edge / height",
+     "nodes",
+     false,
+     false,
+     {k_none, 1.5, k_none, 1.0},
+     {1, 0x1p12, 48, 4}},
     {M::stack_growth, "G8", "stack_growth", "growth along a line", "area", false, false, {1.5, k_none, 1.2, 0.999}, {1, 2, 50}},
     {M::interface_height, "G9", "interface_height", "last height / (0.816 edge)", "prisms", false, false, {8, k_none, 3, 0.99}, {1, 0x1p8, 48, 6}},
     {M::interface_volume, "G9", "interface_volume", "3 tet / prism volume", "prisms", false, false, {8, k_none, 3, 0.99}, {1, 0x1p8, 48, 6}},
@@ -32,11 +40,27 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
     {M::collapsed, "G12", "collapsed", "area without layers", "area", false, false, {k_none, 0.0, k_none, 1.0}, {}},
     {M::layer_step, "G13", "layer_step", "layers lost over an edge", "edges", false, false, {1, 0, k_none, 1.0}, {}},
     {M::min_dihedral, "G14", "min_dihedral", "smallest dihedral of a tet", "tets", true, true, {5 * k_degree, 12 * k_degree, k_none, 1.0}, {0, k_right, 45}},
-    {M::max_dihedral, "G14", "max_dihedral", "largest dihedral of a tet", "tets", true, false, {170 * k_degree, 155 * k_degree, k_none, 1.0}, {60 * k_degree, 180 * k_degree, 60}},
+    {M::max_dihedral,
+     "G14",
+     "max_dihedral",
+     "largest dihedral of a tet",
+     "tets",
+     true,
+     false,
+     {170 * k_degree, 155 * k_degree, k_none, 1.0},
+     {60 * k_degree, 180 * k_degree, 60}},
     {M::tet_growth, "G15", "tet_growth", "volume ratio of tets at a face", "faces", false, false, {20, k_none, 4, 0.999}, {1, 0x1p8, 48, 6}},
     {M::edge_ratio, "G16", "edge_ratio", "edge ratio at a node", "nodes", false, false, {100, k_none, 10, 0.999}, {1, 0x1p10, 50, 5}},
     // quality.md §3; limits are those at which checkMesh and meshQualityDict object. Aspect ratios of y+ = 1 prisms are beyond any limit of theirs: shown only.
-    {M::non_orthogonality, "OF", "non_orthogonality", "OpenFOAM non-orthogonality", "inner faces", true, false, {90 * k_degree, 70 * k_degree, 65 * k_degree, 0.999}, {0, k_right, 45}},
+    {M::non_orthogonality,
+     "OF",
+     "non_orthogonality",
+     "OpenFOAM non-orthogonality",
+     "inner faces",
+     true,
+     false,
+     {90 * k_degree, 70 * k_degree, 65 * k_degree, 0.999},
+     {0, k_right, 45}},
     {M::skewness, "OF", "skewness", "OpenFOAM skewness", "faces", false, false, {20, 4, k_none, 1.0}, {0x1p-6, 0x1p4, 40, 4}},
     {M::face_weight, "OF", "face_weight", "OpenFOAM face weight", "inner faces", false, true, {k_none, 0.05, k_none, 1.0}, {0, 0.5, 50}},
     {M::volume_ratio, "OF", "volume_ratio", "OpenFOAM volume ratio", "inner faces", false, true, {k_none, 0.01, k_none, 1.0}, {0, 1, 50}},
@@ -99,7 +123,8 @@ std::string_view to_string(GateState state) {
   return "";
 }
 
-GateScan::GateScan(const MeasureInfo& info, const GateLimits& limits) : measure_(info.measure), limits_(limits), sign_(info.is_low_bad ? -1.0 : 1.0), classes_(&info.classes) {
+GateScan::GateScan(const MeasureInfo& info, const GateLimits& limits)
+    : measure_(info.measure), limits_(limits), sign_(info.is_low_bad ? -1.0 : 1.0), classes_(&info.classes) {
   const auto badness_of = [&](double limit) { return is_none(limit) ? k_infinity : sign_ * limit; };
   hard_ = badness_of(limits.hard);
   target_ = badness_of(limits.target);

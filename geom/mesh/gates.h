@@ -14,33 +14,33 @@ namespace sterna {
 
 /// One measured quantity of a gate; a gate may have several.
 enum class Measure : std::uint8_t {
-  scaled_jacobian,   ///< G3: wedge_quality of each prism
-  dual_closure,      ///< G4: sum of a dual cell's face normals over the sum of their areas
-  orthogonality,     ///< G5: SU2's, per node
-  sub_volume_ratio,  ///< G6: SU2's, per node
-  face_area_ratio,   ///< G7: SU2's CV face area aspect ratio, per node
+  scaled_jacobian,           ///< G3: wedge_quality of each prism
+  dual_closure,              ///< G4: sum of a dual cell's face normals over the sum of their areas
+  orthogonality,             ///< G5: SU2's, per node
+  sub_volume_ratio,          ///< G6: SU2's, per node
+  face_area_ratio,           ///< G7: SU2's CV face area aspect ratio, per node
   relative_face_area_ratio,  ///< G7: the same over l_t / H, longest edge along the layer over height of the dual cell
-  stack_growth,      ///< G8: heights of consecutive cells of a line, the larger over the smaller
-  interface_height,  ///< G9: last layer height over 0.816 mean envelope edge, or its inverse
-  interface_volume,  ///< G9: thrice the tet's over the prism's volume, or its inverse
-  stack_angle,       ///< G10: steepest of the first cells against the wall's facets, less the best possible
-  first_height,      ///< G11: relative deviation of the first height along the vertex normal
-  coverage,          ///< G12: share of the wall's area with its full height
-  collapsed,         ///< G12: share of the wall's area without cells
-  layer_step,        ///< G13: difference of the number of layers over an edge
-  min_dihedral,      ///< G14
-  max_dihedral,      ///< G14
-  tet_growth,        ///< G15: volumes of two tets with a common face, the larger over the smaller
-  edge_ratio,        ///< G16: longest over shortest edge of a node, edges of its stack left out
-  non_orthogonality,  ///< OpenFOAM's, per inner face: angle between its normal and the line of the centres of its cells
-  skewness,          ///< OpenFOAM's, per face: how far that line passes the face's centre, over the face's reach (or 0.2 of the line)
-  face_weight,       ///< OpenFOAM's, per inner face: share of the nearer centre in the distance of both from the face's plane
-  volume_ratio,      ///< OpenFOAM's, per inner face: smaller over larger volume of its cells
-  face_flatness,     ///< OpenFOAM's, per quadrilateral: area over the sum of the areas of its triangles around its middle
-  cell_aspect_ratio, ///< OpenFOAM's, per cell; reported only
-  cell_openness,     ///< OpenFOAM's, per cell: sum of its face normals over the sum of their sizes
-  cad_distance,      ///< G17: distance of a wall node from the model, over the body length (surfmesh/model/deviation.h)
-  cad_normal,        ///< G18: facet normal against the model's at the facet's centroid (the same)
+  stack_growth,              ///< G8: heights of consecutive cells of a line, the larger over the smaller
+  interface_height,          ///< G9: last layer height over 0.816 mean envelope edge, or its inverse
+  interface_volume,          ///< G9: thrice the tet's over the prism's volume, or its inverse
+  stack_angle,               ///< G10: steepest of the first cells against the wall's facets, less the best possible
+  first_height,              ///< G11: relative deviation of the first height along the vertex normal
+  coverage,                  ///< G12: share of the wall's area with its full height
+  collapsed,                 ///< G12: share of the wall's area without cells
+  layer_step,                ///< G13: difference of the number of layers over an edge
+  min_dihedral,              ///< G14
+  max_dihedral,              ///< G14
+  tet_growth,                ///< G15: volumes of two tets with a common face, the larger over the smaller
+  edge_ratio,                ///< G16: longest over shortest edge of a node, edges of its stack left out
+  non_orthogonality,         ///< OpenFOAM's, per inner face: angle between its normal and the line of the centres of its cells
+  skewness,                  ///< OpenFOAM's, per face: how far that line passes the face's centre, over the face's reach (or 0.2 of the line)
+  face_weight,               ///< OpenFOAM's, per inner face: share of the nearer centre in the distance of both from the face's plane
+  volume_ratio,              ///< OpenFOAM's, per inner face: smaller over larger volume of its cells
+  face_flatness,             ///< OpenFOAM's, per quadrilateral: area over the sum of the areas of its triangles around its middle
+  cell_aspect_ratio,         ///< OpenFOAM's, per cell; reported only
+  cell_openness,             ///< OpenFOAM's, per cell: sum of its face normals over the sum of their sizes
+  cad_distance,              ///< G17: distance of a wall node from the model, over the body length (surfmesh/model/deviation.h)
+  cad_normal,                ///< G18: facet normal against the model's at the facet's centroid (the same)
 };
 inline constexpr std::size_t k_n_measures = static_cast<std::size_t>(Measure::cad_normal) + 1;
 
@@ -110,13 +110,13 @@ struct GateResult {
   Measure measure = Measure::scaled_jacobian;
   GateLimits limits{};
   GateState state = GateState::not_checked;
-  std::string reason;             ///< why it was not checked
+  std::string reason;  ///< why it was not checked
   double worst = 0.0;
-  double total = 0.0;             ///< number of items, or m^2 where areas are counted
-  double share_within = 0.0;      ///< share of it within limits.usual; within limits.target where there is no usual limit
-  std::int64_t n_beyond_hard = 0; ///< items
-  std::vector<GatePlace> places;  ///< the worst ten that miss a limit (any, for a measure without limits), worst first
-  std::vector<double> histogram;  ///< items, or m^2, of each class of MeasureInfo::classes; empty where the measure has none
+  double total = 0.0;              ///< number of items, or m^2 where areas are counted
+  double share_within = 0.0;       ///< share of it within limits.usual; within limits.target where there is no usual limit
+  std::int64_t n_beyond_hard = 0;  ///< items
+  std::vector<GatePlace> places;   ///< the worst ten that miss a limit (any, for a measure without limits), worst first
+  std::vector<double> histogram;   ///< items, or m^2, of each class of MeasureInfo::classes; empty where the measure has none
 };
 
 /// Running statistics of one measure: weight within the usual limit, and the worst items. Merging is independent of how items were dealt to the parts

@@ -80,7 +80,9 @@ Cutting place_vertices(const TriMesh& surface, const CutPlane& plane) {
     cutting.distance[v] = std::abs(d) <= plane.tolerance ? 0.0 : d;
     if (cutting.distance[v] == 0.0) cutting.mesh.points[v][plane.axis] = plane.at;
   }
-  ErrorInfo info = error_at(plane, ErrorCode::mesh_invalid, "moving vertices by up to " + std::to_string(plane.tolerance) + " m into the plane turns triangles over", "lower the tolerance of half");
+  ErrorInfo info =
+      error_at(plane, ErrorCode::mesh_invalid, "moving vertices by up to " + std::to_string(plane.tolerance) + " m into the plane turns triangles over",
+               "lower the tolerance of half");
   for (const TriangleId t : surface.triangles.ids()) {
     const auto d = distances(cutting, t);
     if (is_in_plane(d) || !is_kept_in_part(d) || (d[0] != 0.0 && d[1] != 0.0 && d[2] != 0.0)) continue;
@@ -263,7 +265,8 @@ void require_reach(const TriMesh& surface, const TriMesh& half, const CutPlane& 
     if (from_plane(v) < from_plane(nearest)) nearest = v;
   ErrorInfo info = error_at(plane, ErrorCode::bad_argument,
                             half.n_triangles() == 0 ? "nothing of the surface is on the side that is kept"
-                                                    : "the surface does not reach the plane: its nearest vertex is " + std::to_string(from_plane(nearest)) + " m away, the tolerance is " + std::to_string(plane.tolerance) + " m",
+                                                    : "the surface does not reach the plane: its nearest vertex is " + std::to_string(from_plane(nearest)) +
+                                                          " m away, the tolerance is " + std::to_string(plane.tolerance) + " m",
                             "give axis, at and keep of the plane that the model ends on");
   add_place(info, surface.points[nearest], "nearest vertex");
   throw Error(std::move(info));
@@ -281,7 +284,8 @@ void require_rim(const TriMesh& half, const CutPlane& plane, const RunContext& c
   const Topology topology(half, context);
   const Box box = bounding_box(half);
   std::vector<std::uint8_t> n_rim_edges(half.n_vertices(), 0);
-  ErrorInfo open = error_at(plane, ErrorCode::open_surface, "", "the surface has holes beside the plane: close them; a half model's rim has to be within the tolerance of the plane");
+  ErrorInfo open = error_at(plane, ErrorCode::open_surface, "",
+                            "the surface has holes beside the plane: close them; a half model's rim has to be within the tolerance of the plane");
   ErrorInfo touching = error_at(plane, ErrorCode::non_manifold_surface, "", "move the plane a little, or lower tolerance and snap");
   std::size_t n_pinched = 0;
   for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
@@ -290,20 +294,24 @@ void require_rim(const TriMesh& half, const CutPlane& plane, const RunContext& c
     const VertexId from = topology.from(h), to = topology.to(h);
     const bool is_in_this = half.points[from][plane.axis] == plane.at && half.points[to][plane.axis] == plane.at;
     if (!is_in_this && !is_in_some_plane(half, box, topology, h))
-      add_place(open, 0.5 * (half.points[from] + half.points[to]), "an edge with one triangle, " + std::to_string(std::abs(half.points[from][plane.axis] - plane.at)) + " m from the plane");
+      add_place(open, 0.5 * (half.points[from] + half.points[to]),
+                "an edge with one triangle, " + std::to_string(std::abs(half.points[from][plane.axis] - plane.at)) + " m from the plane");
     else if (++n_rim_edges[from.index()] == 2) {
       ++n_pinched;
       add_place(touching, half.points[from], "the rim touches itself");
     }
   }
   if (open.n_places > 0) {
-    open.problem = "the rim is not closed in the plane: " + std::to_string(open.n_places) + " edges with one triangle lie neither in it nor in another plane x, y or z = constant where the surface ends";
+    open.problem = "the rim is not closed in the plane: " + std::to_string(open.n_places) +
+                   " edges with one triangle lie neither in it nor in another plane x, y or z = constant where the surface ends";
     throw Error(std::move(open));
   }
   for (const VertexId v : half.points.ids())
-    if (half.points[v][plane.axis] == plane.at && n_rim_edges[v.index()] == 0) add_place(touching, half.points[v], "the surface touches the plane from its side");
+    if (half.points[v][plane.axis] == plane.at && n_rim_edges[v.index()] == 0)
+      add_place(touching, half.points[v], "the surface touches the plane from its side");
   if (touching.n_places == 0) return;
-  touching.problem = std::to_string(n_pinched) + " vertices where the rim touches itself, " + std::to_string(static_cast<std::size_t>(touching.n_places) - n_pinched) + " where the surface touches the plane beside it";
+  touching.problem = std::to_string(n_pinched) + " vertices where the rim touches itself, " +
+                     std::to_string(static_cast<std::size_t>(touching.n_places) - n_pinched) + " where the surface touches the plane beside it";
   throw Error(std::move(touching));
 }
 
@@ -318,8 +326,9 @@ TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunCon
   TriMesh half = cutter.take();
   require_reach(surface, half, plane);
   require_rim(half, plane, context);
-  context.debug("half at " + plane.text() + ": " + std::to_string(half.n_triangles()) + " of " + std::to_string(surface.n_triangles()) + " triangles, " + std::to_string(cutter.n_cut()) +
-                " were cut; " + std::to_string(snapped.n_moved) + " vertices moved into the plane by up to " + std::to_string(snapped.farthest) + " m");
+  context.debug("half at " + plane.text() + ": " + std::to_string(half.n_triangles()) + " of " + std::to_string(surface.n_triangles()) + " triangles, " +
+                std::to_string(cutter.n_cut()) + " were cut; " + std::to_string(snapped.n_moved) + " vertices moved into the plane by up to " +
+                std::to_string(snapped.farthest) + " m");
   return half;
 }
 

@@ -17,15 +17,15 @@ struct HalfOptions {
   double snap = 0.1;
 };
 
-/// Vertices within the tolerance are moved into the plane, so that a half model stays as it is but for them; triangles across it are cut, new vertices are shared by their
-/// neighbours; what is beyond it, and triangles in it (the flat side of a closed half model), are left out. Before the cut, vertices are moved along an edge to where it meets
-/// the plane when that is near (`snap`) and no triangle turns by more than 20 degrees: there are no slivers beside the rim. With snap = 0 the cut is exact.
-/// Kept vertices and triangles keep their order, the rim's new vertices follow them; patches that lost all triangles are left out.
-/// \pre edges with one triangle or two with opposite sense
-/// A surface that ends in other planes x, y or z = constant, as the half of which this is the quarter, ends in them still, to the bit.
-/// \post every edge with one triangle has both ends in the plane, exactly, or in such another one; such edges form closed loops; no other vertex is in the plane
-/// \throws Error(bad_argument) when the surface does not reach the plane; (open_surface) with places when it has rims elsewhere; (non_manifold_surface) where the rim touches itself
-/// or the surface touches the plane beside it; (mesh_invalid) when moving vertices within the tolerance would turn a triangle over
+/// Vertices within the tolerance are moved into the plane, so that a half model stays as it is but for them; triangles across it are cut, new vertices are
+/// shared by their neighbours; what is beyond it, and triangles in it (the flat side of a closed half model), are left out. Before the cut, vertices are moved
+/// along an edge to where it meets the plane when that is near (`snap`) and no triangle turns by more than 20 degrees: there are no slivers beside the rim.
+/// With snap = 0 the cut is exact. Kept vertices and triangles keep their order, the rim's new vertices follow them; patches that lost all triangles are left
+/// out. \pre edges with one triangle or two with opposite sense A surface that ends in other planes x, y or z = constant, as the half of which this is the
+/// quarter, ends in them still, to the bit. \post every edge with one triangle has both ends in the plane, exactly, or in such another one; such edges form
+/// closed loops; no other vertex is in the plane \throws Error(bad_argument) when the surface does not reach the plane; (open_surface) with places when it has
+/// rims elsewhere; (non_manifold_surface) where the rim touches itself or the surface touches the plane beside it; (mesh_invalid) when moving vertices within
+/// the tolerance would turn a triangle over
 TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunContext& context);
 
 template <>
@@ -36,8 +36,17 @@ struct Schema<HalfOptions> {
       Field<O>{.name = "axis", .member = &O::axis, .help = "the coordinate that is constant in the plane", .choices = "x y z"},
       Field<O>{.name = "at", .member = &O::at, .unit = Unit::metre, .help = "the value of this coordinate in the plane"},
       Field<O>{.name = "keep", .member = &O::keep, .help = "the side that is kept: of larger (+) or smaller (-) coordinates", .choices = "+ -"},
-      Field<O>{.name = "tolerance", .member = &O::tolerance, .unit = Unit::metre, .min = 0.0, .help = "vertices this near to the plane are moved into it", .automatic = "1e-6 of the longest side of the surface's box"},
-      Field<O>{.name = "snap", .member = &O::snap, .min = 0.0, .max = 0.4, .help = "vertices this near to the plane, as a share of their shortest edge, are moved along an edge into it: no slivers; 0: an exact cut"},
+      Field<O>{.name = "tolerance",
+               .member = &O::tolerance,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "vertices this near to the plane are moved into it",
+               .automatic = "1e-6 of the longest side of the surface's box"},
+      Field<O>{.name = "snap",
+               .member = &O::snap,
+               .min = 0.0,
+               .max = 0.4,
+               .help = "vertices this near to the plane, as a share of their shortest edge, are moved along an edge into it: no slivers; 0: an exact cut"},
   };
 };
 

@@ -4,10 +4,8 @@ namespace sterna {
 namespace {
 
 constexpr std::array<LocalFace, 4> k_tet_faces = {{{{0, 2, 1, 0}, 3}, {{0, 1, 3, 0}, 3}, {{1, 2, 3, 0}, 3}, {{2, 0, 3, 0}, 3}}};
-constexpr std::array<LocalFace, 5> k_pyramid_faces = {
-    {{{0, 3, 2, 1}, 4}, {{0, 1, 4, 0}, 3}, {{1, 2, 4, 0}, 3}, {{2, 3, 4, 0}, 3}, {{3, 0, 4, 0}, 3}}};
-constexpr std::array<LocalFace, 5> k_prism_faces = {
-    {{{0, 1, 4, 3}, 4}, {{1, 2, 5, 4}, 4}, {{2, 0, 3, 5}, 4}, {{0, 2, 1, 0}, 3}, {{3, 4, 5, 0}, 3}}};
+constexpr std::array<LocalFace, 5> k_pyramid_faces = {{{{0, 3, 2, 1}, 4}, {{0, 1, 4, 0}, 3}, {{1, 2, 4, 0}, 3}, {{2, 3, 4, 0}, 3}, {{3, 0, 4, 0}, 3}}};
+constexpr std::array<LocalFace, 5> k_prism_faces = {{{{0, 1, 4, 3}, 4}, {{1, 2, 5, 4}, 4}, {{2, 0, 3, 5}, 4}, {{0, 2, 1, 0}, 3}, {{3, 4, 5, 0}, 3}}};
 constexpr std::array<LocalFace, 6> k_hex_faces = {
     {{{0, 3, 2, 1}, 4}, {{0, 1, 5, 4}, 4}, {{1, 2, 6, 5}, 4}, {{2, 3, 7, 6}, 4}, {{0, 4, 7, 3}, 4}, {{4, 5, 6, 7}, 4}}};
 

@@ -58,9 +58,7 @@ struct LayerBlock {
   /// Last node of a line: on the envelope, or the wall node where it is collapsed.
   NodeId top(std::uint32_t line) const { return NodeId(first_node[line] + static_cast<std::uint32_t>(n_steps(line))); }
   /// Node of layer j (0 = wall) on line k.
-  NodeId node(std::uint32_t line, int j) const {
-    return NodeId(first_node[line] + (is_collapsed[line] ? 0u : static_cast<std::uint32_t>(j)));
-  }
+  NodeId node(std::uint32_t line, int j) const { return NodeId(first_node[line] + (is_collapsed[line] ? 0u : static_cast<std::uint32_t>(j))); }
   int n_collapsed(std::size_t column) const {
     const auto& b = base[column];
     return is_collapsed[b[0]] + is_collapsed[b[1]] + is_collapsed[b[2]];
@@ -71,13 +69,13 @@ struct LayerBlock {
 
 /// What was asked of the layer: its first height, growth and coverage are measured against it. Unknown for a mesh that was read from a file.
 struct LayerRequest {
-  double first_height = 0.0;          ///< m; 0 = nothing is known; the smallest where lines differ
-  double max_growth = 0.0;            ///< largest ratio of heights of consecutive cells; the largest where lines differ
+  double first_height = 0.0;              ///< m; 0 = nothing is known; the smallest where lines differ
+  double max_growth = 0.0;                ///< largest ratio of heights of consecutive cells; the largest where lines differ
   std::vector<double> line_first_height;  ///< per line; empty: first_height everywhere
   std::vector<double> line_max_growth;    ///< per line; empty: max_growth everywhere
-  std::vector<double> target_height;  ///< m, of the whole layer, per line
-  std::vector<std::uint8_t> reason;   ///< per line: why it is lower than its target, index of `reasons`
-  std::vector<std::string> reasons;   ///< for people
+  std::vector<double> target_height;      ///< m, of the whole layer, per line
+  std::vector<std::uint8_t> reason;       ///< per line: why it is lower than its target, index of `reasons`
+  std::vector<std::string> reasons;       ///< for people
   bool is_known() const { return first_height > 0.0; }
   double first_height_of(std::size_t line) const { return line_first_height.empty() ? first_height : line_first_height[line]; }
   double max_growth_of(std::size_t line) const { return line_max_growth.empty() ? max_growth : line_max_growth[line]; }
@@ -100,7 +98,8 @@ struct CellCounts {
   std::int64_t total() const { return tetrahedra + pyramids + prisms + hexahedra; }
 };
 
-/// Two patches of which the second is the first, moved: flow that leaves through one comes in through the other. Node by node and face by face (geom/mesh/periodic.h).
+/// Two patches of which the second is the first, moved: flow that leaves through one comes in through the other. Node by node and face by face
+/// (geom/mesh/periodic.h).
 struct PeriodicSides {
   PatchId first, second;
   Vec3 translation;  ///< m, from the first to the second
@@ -111,7 +110,7 @@ struct PeriodicSides {
 struct HybridMesh {
   Column<NodeId, Point> points;  ///< metres
   LayerBlock layers;
-  LayerRequest request;          ///< of `layers`
+  LayerRequest request;  ///< of `layers`
   std::vector<std::array<NodeId, 6>> prisms;
   std::vector<std::array<NodeId, 5>> pyramids;
   std::vector<std::array<NodeId, 8>> hexahedra;

@@ -30,7 +30,8 @@ inline Packed arc_sine(Packed x) {
   const Packed one = all(1.0);
   const Packed magnitude = least(one, most(x, -x));
   Packed p = all(-0.0012624911);
-  for (const double coefficient : {0.0066700901, -0.0170881256, 0.0308918810, -0.0501743046, 0.0889789874, -0.2145988016, 1.5707963050}) p = p * magnitude + coefficient;
+  for (const double coefficient : {0.0066700901, -0.0170881256, 0.0308918810, -0.0501743046, 0.0889789874, -0.2145988016, 1.5707963050})
+    p = p * magnitude + coefficient;
   const Packed angle = all(0.5 * std::numbers::pi) - root(one - magnitude) * p;
   return x < all(0.0) ? -angle : angle;
 }

@@ -195,9 +195,9 @@ std::vector<std::vector<double>> layer_fields(const HybridMesh& mesh, const Cell
   if (mesh.layers.n_columns() == 0 && mesh.prisms.empty()) return std::vector(k_n_layer_fields, std::vector<double>(mesh.boundary_triangles.size(), k_none));
   const FaceSlots slots(mesh, cells, {});
   // Columns know their lines; stacks of explicit prisms are found by the faces that prisms share.
-  const FaceMatch match = mesh.layers.n_columns() > 0
-                              ? FaceMatch{}
-                              : match_faces(slots, mesh.points.size(), static_cast<std::uint64_t>(CheckOptions{}.faces_at_a_time), {}, false, GateTable{}, context);
+  const FaceMatch match = mesh.layers.n_columns() > 0 ? FaceMatch{}
+                                                      : match_faces(slots, mesh.points.size(), static_cast<std::uint64_t>(CheckOptions{}.faces_at_a_time), {},
+                                                                    false, GateTable{}, context);
   const LayerLines lines(mesh, slots, match, context);
   return measure_columns(mesh, lines, context);
 }

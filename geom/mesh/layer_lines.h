@@ -43,7 +43,7 @@ class LayerLines {
   std::span<const std::array<std::uint32_t, 3>> triangles_;
   std::vector<std::array<std::uint32_t, 3>> own_triangles_;
   std::vector<PatchId> patches_;
-  std::vector<std::uint64_t> first_;   ///< of stacks: nodes of a line
+  std::vector<std::uint64_t> first_;  ///< of stacks: nodes of a line
   std::vector<std::uint32_t> nodes_;
 };
 

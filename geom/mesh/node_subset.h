@@ -36,7 +36,8 @@ class NodeSubset {
     std::vector<std::uint32_t> result;
     result.reserve(size());
     for (std::size_t w = 0; w < bits_.size(); ++w)
-      for (std::uint64_t word = bits_[w]; word != 0; word &= word - 1) result.push_back(static_cast<std::uint32_t>(64 * w) + static_cast<std::uint32_t>(std::countr_zero(word)));
+      for (std::uint64_t word = bits_[w]; word != 0; word &= word - 1)
+        result.push_back(static_cast<std::uint32_t>(64 * w) + static_cast<std::uint32_t>(std::countr_zero(word)));
     return result;
   }
 

@@ -29,7 +29,8 @@ std::string metres(double value) { return in_metres(value, 3); }
 
 class Matcher {
  public:
-  Matcher(std::span<const Point> points, const Side& first, const Side& second, double tolerance) : points_(points), first_(first), second_(second), tolerance_(tolerance) {}
+  Matcher(std::span<const Point> points, const Side& first, const Side& second, double tolerance)
+      : points_(points), first_(first), second_(second), tolerance_(tolerance) {}
 
   PeriodicMatch match() {
     for (const Side* side : {&first_, &second_})
@@ -93,7 +94,8 @@ class Matcher {
       const Point image = points_[n] + match_.translation;
       double least = std::numeric_limits<double>::infinity();
       std::uint32_t nearest = 0;
-      for (auto it = std::lower_bound(sorted.begin(), sorted.end(), std::pair(image[axis] - tolerance_, std::uint32_t{0})); it != sorted.end() && it->first <= image[axis] + tolerance_; ++it) {
+      for (auto it = std::lower_bound(sorted.begin(), sorted.end(), std::pair(image[axis] - tolerance_, std::uint32_t{0}));
+           it != sorted.end() && it->first <= image[axis] + tolerance_; ++it) {
         const double d = distance(image, points_[it->second]);
         if (d >= least) continue;
         least = d;
@@ -125,7 +127,8 @@ class Matcher {
       else note((points_[face.nodes[0]] + points_[face.nodes[1]] + points_[face.nodes[2]]) / 3.0, "no face at its image");
     }
     if (error_.n_places > 0) fail(std::to_string(error_.n_places) + " faces have no partner");
-    if (first_.faces.size() != second_.faces.size()) fail(std::to_string(first_.faces.size()) + " faces on one side, " + std::to_string(second_.faces.size()) + " on the other");
+    if (first_.faces.size() != second_.faces.size())
+      fail(std::to_string(first_.faces.size()) + " faces on one side, " + std::to_string(second_.faces.size()) + " on the other");
   }
 
   std::span<const Point> points_;

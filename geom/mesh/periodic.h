@@ -14,10 +14,10 @@ namespace sterna {
 inline constexpr double k_periodic_share = 1e-10;
 
 struct PeriodicMatch {
-  Vec3 translation;                                ///< m, from the first patch to the second
-  std::vector<std::array<NodeId, 2>> nodes;        ///< partners, ascending by the first
-  std::vector<std::array<std::uint32_t, 2>> faces; ///< partners: boundary triangles, then quadrilaterals of the mesh (numbered behind the triangles)
-  double worst = 0.0;                              ///< m, largest distance of an image from its partner
+  Vec3 translation;                                 ///< m, from the first patch to the second
+  std::vector<std::array<NodeId, 2>> nodes;         ///< partners, ascending by the first
+  std::vector<std::array<std::uint32_t, 2>> faces;  ///< partners: boundary triangles, then quadrilaterals of the mesh (numbered behind the triangles)
+  double worst = 0.0;                               ///< m, largest distance of an image from its partner
 };
 
 /// k_periodic_share of the longest side of the mesh's box, m.

@@ -102,7 +102,8 @@ SheetSides find_sheet_sides(const HybridMesh& mesh) {
   const std::size_t n_triangles = mesh.boundary_triangles.size(), n_faces = n_triangles + mesh.boundary_quads.size();
   std::vector<std::uint32_t> faces;
   for (std::size_t i = 0; i < n_faces; ++i)
-    if (is_interface(i < n_triangles ? mesh.boundary_triangles[i].patch : mesh.boundary_quads[i - n_triangles].patch)) faces.push_back(static_cast<std::uint32_t>(i));
+    if (is_interface(i < n_triangles ? mesh.boundary_triangles[i].patch : mesh.boundary_quads[i - n_triangles].patch))
+      faces.push_back(static_cast<std::uint32_t>(i));
   return Finder().find(mesh.points.raw(), n_faces, faces, [&](std::uint32_t face) {
     FaceNodes nodes;
     if (face < n_triangles) {

@@ -11,8 +11,8 @@ namespace sterna {
 
 inline constexpr std::uint32_t k_no_side = 0xffffffffu;
 
-/// For each boundary face of a mesh (triangles, then quadrilaterals) the one that lies on it, turned over, corner on corner to the bit; k_no_side for others. Empty
-/// when there are none. Only faces of patches of kind interface are looked at. Serial, O(n log n) in their number.
+/// For each boundary face of a mesh (triangles, then quadrilaterals) the one that lies on it, turned over, corner on corner to the bit; k_no_side for others.
+/// Empty when there are none. Only faces of patches of kind interface are looked at. Serial, O(n log n) in their number.
 struct SheetSides {
   std::vector<std::uint32_t> other_side;  ///< of each face
   std::vector<std::uint32_t> twin;        ///< of each node: itself, or the node of the first side in its place (the first side is that of the smaller number)

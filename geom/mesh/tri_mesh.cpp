@@ -43,9 +43,7 @@ void append(TriMesh& mesh, const TriMesh& other) {
   std::vector<PatchId> other2mesh;
   for (const Patch& patch : other.patches) {
     const auto found = std::find(mesh.patches.begin(), mesh.patches.end(), patch);
-    other2mesh.push_back(found != mesh.patches.end()
-                             ? PatchId(static_cast<std::uint64_t>(found - mesh.patches.begin()))
-                             : mesh.patches.push_back(patch));
+    other2mesh.push_back(found != mesh.patches.end() ? PatchId(static_cast<std::uint64_t>(found - mesh.patches.begin())) : mesh.patches.push_back(patch));
   }
   for (const Point& p : other.points) mesh.points.push_back(p);
   for (const TriangleId t : other.triangles.ids()) {

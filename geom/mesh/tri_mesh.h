@@ -24,9 +24,9 @@ struct Patch {
 /// Plain struct of columns. Invariants (checked by surfmesh::stitch_surface and geom/mesh/check.h, not by this type): indices in range;
 /// every edge has one or two triangles, two with opposite sense; normals (right-hand rule) point into the fluid, out of the body.
 struct TriMesh {
-  Column<VertexId, Point> points;                     ///< metres
+  Column<VertexId, Point> points;  ///< metres
   Column<TriangleId, TriangleVertices> triangles;
-  Column<TriangleId, PatchId> triangle_patch;         ///< same size as triangles
+  Column<TriangleId, PatchId> triangle_patch;  ///< same size as triangles
   Column<PatchId, Patch> patches;
 
   std::size_t n_vertices() const { return points.size(); }

@@ -65,15 +65,15 @@ enum class FrameShape { points, circle, ellipse, double_ellipse, egg, isikveren,
 /// Cross section of a body in a plane x = const; of shape `loop`: anywhere.
 struct BodyFrame {
   std::string name;
-  Point center;          ///< component axes
-  double height = 1.0;   ///< full, metres
+  Point center;         ///< component axes
+  double height = 1.0;  ///< full, metres
   double width = 1.0;
   FrameShape shape = FrameShape::circle;
   bool is_symmetric = true;
-  int n_points = 7;        ///< spline points of the half section that a formula is sampled with
-  double exponent = 2.0;   ///< ellipse: |y|^n + |z|^n = 1
-  double offset = 0.0;     ///< double ellipse: height of the widest place, of the half height
-  double distortion = 0.0; ///< Huegelschaeffer's egg
+  int n_points = 7;                               ///< spline points of the half section that a formula is sampled with
+  double exponent = 2.0;                          ///< ellipse: |y|^n + |z|^n = 1
+  double offset = 0.0;                            ///< double ellipse: height of the widest place, of the half height
+  double distortion = 0.0;                        ///< Huegelschaeffer's egg
   double zp = 0.0, a0 = 0.0, a1 = 0.0, b1 = 0.0;  ///< Isikveren's section, as CEASIOM has it
   /// Shape `points`: right half from the bottom (0, -1) to the top (0, 1), u = y / (width / 2), v = z / (height / 2).
   std::vector<Uv> points;
@@ -103,8 +103,8 @@ struct Body {
   ComponentKind kind = ComponentKind::body;  ///< of those with an inlet lip: always a nacelle
   Placement placement;
   BodyTangents tangents = BodyTangents::bessel;  ///< from frame to frame
-  bool has_mirror_image = false;  ///< a second one stands on the other side of y = 0
-  std::vector<BodyFrame> frames;  ///< ascending x; at least 2
+  bool has_mirror_image = false;                 ///< a second one stands on the other side of y = 0
+  std::vector<BodyFrame> frames;                 ///< ascending x; at least 2
   std::optional<InletLip> lip;
   EndCap nose, tail;
   std::optional<MeshCriterion> criterion;
@@ -127,10 +127,10 @@ struct WingPatch {
   };
   /// The moving part is a solid of its own; what the wing keeps has a cut-out with a cove and side walls, and ends at the patch's border.
   struct Slot {
-    std::vector<Place> hinge;      ///< where the hinge fraction crosses the sides, at the sections of the border
-    double from = 0.0, to = 0.0;   ///< sections between which the moving part stands, within the border's
-    bool is_flat = false;          ///< the moving part's nose
-    Transform motion;              ///< of the moving part, component axes
+    std::vector<Place> hinge;     ///< where the hinge fraction crosses the sides, at the sections of the border
+    double from = 0.0, to = 0.0;  ///< sections between which the moving part stands, within the border's
+    bool is_flat = false;         ///< the moving part's nose
+    Transform motion;             ///< of the moving part, component axes
     friend bool operator==(const Slot&, const Slot&) = default;
   };
   std::string name;
@@ -142,20 +142,20 @@ struct WingPatch {
 
 struct WingSection {
   std::string name;
-  Point leading_edge;     ///< component axes
+  Point leading_edge;  ///< component axes
   double chord = 1.0;
-  double twist = 0.0;     ///< about +y: nose up
-  double dihedral = 0.0;  ///< about +x
-  double yaw = 0.0;       ///< about +z
-  std::string airfoil;    ///< label
-  std::vector<Uv> points; ///< unit chord, u = x, v = z: trailing edge, upper side, leading edge, lower side, trailing edge
+  double twist = 0.0;      ///< about +y: nose up
+  double dihedral = 0.0;   ///< about +x
+  double yaw = 0.0;        ///< about +z
+  std::string airfoil;     ///< label
+  std::vector<Uv> points;  ///< unit chord, u = x, v = z: trailing edge, upper side, leading edge, lower side, trailing edge
   /// Not empty: the airfoil stands in component axes as given here, same order; chord and angles above do not count.
   std::vector<Point> loop;
-  bool is_row = false;      ///< `loop` holds the very points that surfaces are made through (section_rows.h), nothing is sampled again
-  bool is_break = false;    ///< a kink of the wing stands here
-  bool is_reversed = false; ///< airfoil upside down
-  int n_approximation = -1; ///< points of sumo's least-squares airfoil; -1: interpolate
-  std::string naca;         ///< designation that a file names instead of points
+  bool is_row = false;       ///< `loop` holds the very points that surfaces are made through (section_rows.h), nothing is sampled again
+  bool is_break = false;     ///< a kink of the wing stands here
+  bool is_reversed = false;  ///< airfoil upside down
+  int n_approximation = -1;  ///< points of sumo's least-squares airfoil; -1: interpolate
+  std::string naca;          ///< designation that a file names instead of points
   std::optional<double> extend_leading_x, extend_leading_y, extend_trailing_x, extend_trailing_y;  ///< sumo's fairing airfoils; kept, not applied
   friend bool operator==(const WingSection&, const WingSection&) = default;
 };
@@ -165,12 +165,12 @@ struct Wing {
   std::string name;
   Placement placement;
   bool is_symmetric = false;
-  bool has_winglet = false;  ///< elliptic arcs replace the part before the winglet's root, where there is one (winglet_blend.h)
+  bool has_winglet = false;       ///< elliptic arcs replace the part before the winglet's root, where there is one (winglet_blend.h)
   bool has_mirror_image = false;  ///< a second one stands on the other side of y = 0 (a wing that does not reach it)
   bool is_pylon = false;
-  bool is_cubic = false;     ///< along the span between breaks; else straight
-  std::vector<WingSection> sections;  ///< at least 2
-  std::optional<double> trailing_edge; ///< metres of thickness, 0 = sharp; nothing: as the airfoils have it
+  bool is_cubic = false;                ///< along the span between breaks; else straight
+  std::vector<WingSection> sections;    ///< at least 2
+  std::optional<double> trailing_edge;  ///< metres of thickness, 0 = sharp; nothing: as the airfoils have it
   EndCap right_tip{CapShape::strip, 1.0};
   EndCap left_tip{CapShape::strip, 1.0};  ///< that of the last section when not symmetric
   std::optional<MeshCriterion> criterion;
@@ -183,7 +183,7 @@ struct Wing {
 /// Profile of a cowl at an angle about the axis.
 struct CowlSection {
   std::string name;
-  double angle = 0.0;  ///< radians, right-hand rule about +x from the top: towards the left wing
+  double angle = 0.0;       ///< radians, right-hand rule about +x from the top: towards the left wing
   std::vector<Uv> profile;  ///< u = x, v = distance from the axis: trailing edge, inner side, leading edge, outer side, trailing edge
   friend bool operator==(const CowlSection&, const CowlSection&) = default;
 };
@@ -196,9 +196,9 @@ struct Cowl {
 struct CowlNacelle {
   std::string name;
   Transform placement;
-  std::vector<Cowl> cowls;         ///< fan cowl, core cowl
+  std::vector<Cowl> cowls;  ///< fan cowl, core cowl
   bool has_mirror_image = false;
-  std::vector<Uv> center_body;     ///< u = x, v = radius, from the nose; empty: none
+  std::vector<Uv> center_body;  ///< u = x, v = radius, from the nose; empty: none
   friend bool operator==(const CowlNacelle&, const CowlNacelle&) = default;
 };
 
@@ -227,13 +227,13 @@ enum class OtherSide { none, same, opposite };
 /// A control surface that is turned; by no angle: a patch with its name.
 struct Deflection {
   ControlSurface surface;
-  double angle = 0.0;   ///< radians; positive: trailing edge down (leading edge flaps: leading edge down; all-moving: nose up)
+  double angle = 0.0;                    ///< radians; positive: trailing edge down (leading edge flaps: leading edge down; all-moving: nose up)
   double fairing = k_automatic_fairing;  ///< sealed: metres along the span over which it returns to the wing beside its ends; must be positive
   ControlGap gap = ControlGap::sealed;
-  double slot = k_automatic_slot;     ///< open: metres between the wing's cove and the moving part's nose
-  double end_gap = k_automatic_slot;  ///< open: metres along the span between the moving part and each end
-  bool has_flat_nose = false;         ///< open: else round about the hinge
-  OtherSide other_side = OtherSide::none;  ///< the image is called as make_components calls mirror images ("aileron" -> "aileronLeft")
+  double slot = k_automatic_slot;                      ///< open: metres between the wing's cove and the moving part's nose
+  double end_gap = k_automatic_slot;                   ///< open: metres along the span between the moving part and each end
+  bool has_flat_nose = false;                          ///< open: else round about the hinge
+  OtherSide other_side = OtherSide::none;              ///< the image is called as make_components calls mirror images ("aileron" -> "aileronLeft")
   static constexpr double k_automatic_fairing = -1.0;  ///< a tenth of the mean chord at its ends
   static constexpr double k_automatic_slot = -1.0;     ///< a hundredth of the mean chord at its ends
   friend bool operator==(const Deflection&, const Deflection&) = default;
@@ -265,7 +265,7 @@ struct Turbofan {
 };
 struct JetEngine {
   std::string name;
-  std::optional<double> mass_flow;  ///< kg/s
+  std::optional<double> mass_flow;                          ///< kg/s
   std::optional<double> inflow_velocity, outflow_velocity;  ///< through the surface, m/s
   std::optional<Turbofan> turbofan;
   std::vector<EngineRegion> intakes, nozzles;

@@ -14,8 +14,8 @@ namespace sterna {
 /// Section in its plane, u = x / chord (aft), v = z / chord (up).
 struct Airfoil {
   std::string name;
-  std::vector<Uv> points;         ///< trailing edge, upper side, leading edge, lower side, trailing edge; no two neighbours coincide
-  std::size_t leading_edge = 0;   ///< the point of least x
+  std::vector<Uv> points;        ///< trailing edge, upper side, leading edge, lower side, trailing edge; no two neighbours coincide
+  std::size_t leading_edge = 0;  ///< the point of least x
   /// Distance of the two ends, of the chord; 0: sharp.
   double trailing_edge_thickness() const;
 };
@@ -52,9 +52,9 @@ Airfoil normalized(const Airfoil& airfoil);
 
 /// The section as curves in the plane y = 0, point (x, 0, z): cubic splines of the chord length through all points.
 struct AirfoilCurves {
-  CurvePtr around;          ///< t in [0, 1] from the trailing edge over the upper side
-  double leading_edge = 0.5; ///< its t: least x
-  CurvePtr upper, lower;    ///< from the leading edge to the trailing edge, t in [0, 1]
+  CurvePtr around;            ///< t in [0, 1] from the trailing edge over the upper side
+  double leading_edge = 0.5;  ///< its t: least x
+  CurvePtr upper, lower;      ///< from the leading edge to the trailing edge, t in [0, 1]
 };
 AirfoilCurves airfoil_curves(const Airfoil& airfoil);
 

@@ -64,7 +64,8 @@ class Parser {
     throw Error({.code = ErrorCode::file_malformed,
                  .attempted = attempted_,
                  .problem = (line > 0 ? "line " + std::to_string(line) + ": " : std::string()) + problem,
-                 .hint = "an airfoil file is a name and then x z, from the trailing edge over the upper side (Selig), or with counts and each side from the leading edge (Lednicer)"});
+                 .hint = "an airfoil file is a name and then x z, from the trailing edge over the upper side (Selig), or with counts and each side from the "
+                         "leading edge (Lednicer)"});
   }
 
   /// The numbers of a line; nothing when any of its words is none.
@@ -90,7 +91,8 @@ class Parser {
       const auto values = numbers(lines_[at_].text);
       if (!lines_[at_].text.empty() && values && values->size() == 2) return;
       if (name_.empty()) name_ = std::string(lines_[at_].text);
-      if (lines_[at_].number > k_max_header_lines) fail(lines_[at_].number, "no line of two numbers in the first " + std::to_string(k_max_header_lines) + " lines");
+      if (lines_[at_].number > k_max_header_lines)
+        fail(lines_[at_].number, "no line of two numbers in the first " + std::to_string(k_max_header_lines) + " lines");
     }
     if (lines_.empty()) fail(0, "the file is empty");
     fail(lines_.back().number, "the file ends here and holds no points");
@@ -111,9 +113,12 @@ class Parser {
       }
       points_.push_back({{x, z}, line.number});
     }
-    if (points_.size() < k_fewest_points) fail(points_.empty() ? lines_.back().number : points_.back().line, std::to_string(points_.size()) + " points, at least " + std::to_string(k_fewest_points) + " are needed");
+    if (points_.size() < k_fewest_points)
+      fail(points_.empty() ? lines_.back().number : points_.back().line,
+           std::to_string(points_.size()) + " points, at least " + std::to_string(k_fewest_points) + " are needed");
     if (!counts_.empty() && counts_[0] + counts_[1] != points_.size())
-      fail(points_.back().line, "the counts say " + std::to_string(counts_[0]) + " + " + std::to_string(counts_[1]) + " points, there are " + std::to_string(points_.size()));
+      fail(points_.back().line,
+           "the counts say " + std::to_string(counts_[0]) + " + " + std::to_string(counts_[1]) + " points, there are " + std::to_string(points_.size()));
   }
 
   /// Both sides run aft from the leading edge: x falls back once, by most of the chord.
@@ -131,7 +136,8 @@ class Parser {
   std::vector<NumberedPoint> from_lednicer() const {
     const auto middle = points_.begin() + static_cast<std::ptrdiff_t>(counts_[0]);
     for (const auto& [begin, end] : {std::pair{points_.begin(), middle}, std::pair{middle, points_.end()}})
-      if (end - begin < 2 || !(begin->p.u < (end - 1)->p.u)) fail(begin == points_.end() ? points_.back().line : begin->line, "this side does not run aft from the leading edge");
+      if (end - begin < 2 || !(begin->p.u < (end - 1)->p.u))
+        fail(begin == points_.end() ? points_.back().line : begin->line, "this side does not run aft from the leading edge");
     std::vector<NumberedPoint> around(points_.begin(), middle);
     std::reverse(around.begin(), around.end());
     const bool repeats_nose = around.back().p == middle->p;
@@ -166,18 +172,21 @@ class Parser {
     std::vector<NumberedPoint> distinct;
     for (const NumberedPoint& p : points)
       if (distinct.empty() || std::hypot(p.p.u - distinct.back().p.u, p.p.v - distinct.back().p.v) > airfoil_parts::k_same_point) distinct.push_back(p);
-    if (distinct.size() < k_fewest_points) fail(points.front().line, std::to_string(distinct.size()) + " different points, at least " + std::to_string(k_fewest_points) + " are needed");
+    if (distinct.size() < k_fewest_points)
+      fail(points.front().line, std::to_string(distinct.size()) + " different points, at least " + std::to_string(k_fewest_points) + " are needed");
     for (std::size_t i = 1; i + 1 < distinct.size(); ++i) {
       const Uv a = distinct[i].p - distinct[i - 1].p, b = distinct[i + 1].p - distinct[i].p;
       const double turn = std::abs(std::atan2(a.u * b.v - a.v * b.u, a.u * b.u + a.v * b.v));
-      if (turn > k_sharpest_turn) fail(distinct[i].line, "the section turns back on itself here, by " + std::to_string(static_cast<int>(turn * 57.29577951)) + " degrees");
+      if (turn > k_sharpest_turn)
+        fail(distinct[i].line, "the section turns back on itself here, by " + std::to_string(static_cast<int>(turn * 57.29577951)) + " degrees");
     }
     std::vector<Uv> plain;
     for (const NumberedPoint& p : distinct) plain.push_back(p.p);
     const std::size_t nose = airfoil_parts::least_x(plain);
     if (nose == 0 || nose + 1 == plain.size()) fail(distinct[nose].line, "the points do not go around the section: the first or the last one is the foremost");
     constexpr double k_open_ends = 0.25;  // of the chord
-    if (std::abs(plain.front().u - plain.back().u) > k_open_ends) fail(distinct.back().line, "the two ends of the section are apart: x = " + std::to_string(plain.front().u) + " and " + std::to_string(plain.back().u));
+    if (std::abs(plain.front().u - plain.back().u) > k_open_ends)
+      fail(distinct.back().line, "the two ends of the section are apart: x = " + std::to_string(plain.front().u) + " and " + std::to_string(plain.back().u));
   }
 
   std::string attempted_, name_;

@@ -11,7 +11,9 @@ namespace {
 /// Part of a turn by which a whole one may be missed: rounding of the files that give angles.
 constexpr double k_whole_turn = 1e-12;
 
-[[noreturn]] void refuse(const std::string& attempted, std::string problem) { throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = std::move(problem)}); }
+[[noreturn]] void refuse(const std::string& attempted, std::string problem) {
+  throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = std::move(problem)});
+}
 
 bool is_turn(Interval range) { return std::abs(range.length() - k_full_turn.to) <= k_whole_turn * k_full_turn.to; }
 
@@ -73,7 +75,8 @@ CylinderSurface::CylinderSurface(const Frame& frame, double radius, const Parame
 ConeSurface::ConeSurface(const Frame& frame, double radius, double half_angle, const ParameterBox& box)
     : RoundSurface(frame, box, "making a cone"), radius_(radius), half_angle_(half_angle) {
   if (!(radius >= 0.0) || !std::isfinite(radius)) refuse("making a cone", "its radius is " + std::to_string(radius) + " m, must not be negative");
-  if (!(std::abs(half_angle) > 0.0 && std::abs(half_angle) < 0.5 * std::numbers::pi)) refuse("making a cone", "its half angle is " + std::to_string(half_angle) + " rad, must be between 0 and pi/2");
+  if (!(std::abs(half_angle) > 0.0 && std::abs(half_angle) < 0.5 * std::numbers::pi))
+    refuse("making a cone", "its half angle is " + std::to_string(half_angle) + " rad, must be between 0 and pi/2");
 }
 
 RoundSurface::Profile ConeSurface::profile(double v) const {
@@ -81,7 +84,8 @@ RoundSurface::Profile ConeSurface::profile(double v) const {
   return {radius_ + v * s, s, 0.0, v * c, c, 0.0};
 }
 
-SphereSurface::SphereSurface(const Frame& frame, double radius, const ParameterBox& box) : RoundSurface(frame, box, "making a sphere"), radius_(checked_radius(radius, "making a sphere")) {}
+SphereSurface::SphereSurface(const Frame& frame, double radius, const ParameterBox& box)
+    : RoundSurface(frame, box, "making a sphere"), radius_(checked_radius(radius, "making a sphere")) {}
 
 RoundSurface::Profile SphereSurface::profile(double v) const {
   const double c = radius_ * std::cos(v), s = radius_ * std::sin(v);

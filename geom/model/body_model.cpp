@@ -21,9 +21,9 @@ constexpr double k_min_crown = 0.25;
 
 /// A ring of the body's surface: where an end begins.
 struct Ring {
-  std::vector<Point> poles;     ///< of the ring's curve along u
-  std::vector<Vec3> outwards;   ///< from each pole along the body, away from it; not unit
-  std::array<EdgeId, 2> halves; ///< right, left
+  std::vector<Point> poles;         ///< of the ring's curve along u
+  std::vector<Vec3> outwards;       ///< from each pole along the body, away from it; not unit
+  std::array<EdgeId, 2> halves;     ///< right, left
   std::array<CornerId, 2> corners;  ///< bottom, top
 };
 
@@ -86,7 +86,8 @@ bool is_point(const std::vector<Point>& row) {
 
 void BodyBuilder::check_frames() const {
   const auto refuse = [&](const std::string& problem, const Point& place) {
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "making body '" + body_.name + "'", .problem = problem, .places = {{map_.point(place), "frame"}}});
+    throw Error(
+        {.code = ErrorCode::bad_argument, .attempted = "making body '" + body_.name + "'", .problem = problem, .places = {{map_.point(place), "frame"}}});
   };
   if (body_.frames.size() < 2) refuse("it has " + std::to_string(body_.frames.size()) + " frames; at least 2 are needed", {});
   for (std::size_t i = 1; i < rows_.size(); ++i) {
@@ -105,8 +106,8 @@ std::array<EdgeId, 2> BodyBuilder::ring_edges(const NurbsSurfaceForm& form, doub
 }
 
 /// Right and left half of a surface that is closed along u.
-void BodyBuilder::halves(const NurbsSurfaceForm& form, const std::array<EdgeId, 2>& from, const std::array<EdgeId, 2>& to, const std::array<CornerId, 2>& from_corners,
-                         const std::array<CornerId, 2>& to_corners, FaceRole role, const std::string& name) {
+void BodyBuilder::halves(const NurbsSurfaceForm& form, const std::array<EdgeId, 2>& from, const std::array<EdgeId, 2>& to,
+                         const std::array<CornerId, 2>& from_corners, const std::array<CornerId, 2>& to_corners, FaceRole role, const std::string& name) {
   const auto surface = std::make_shared<NurbsSurface>(form, true, false, "bicubic spline");
   const Interval v = surface->domain().v;
   const EdgeId bottom = builder_.edge(line_of_constant_u(form, 0.0), v, from_corners[0], to_corners[0], "bottom");
@@ -174,8 +175,8 @@ void BodyBuilder::end(const Ring& ring, const EndCap& cap, FaceRole role, const 
   else builder_.plane({ring.halves[0], ring.halves[1]}, role, patch);
 }
 
-/// Half ellipses from the right to the left half, at every height of the ring, as rational quadratics: side, side + bulge, crest, side + bulge, side. The bulge is
-/// half the distance of both sides times the height, straight ahead; bottom and top are poles.
+/// Half ellipses from the right to the left half, at every height of the ring, as rational quadratics: side, side + bulge, crest, side + bulge, side. The bulge
+/// is half the distance of both sides times the height, straight ahead; bottom and top are poles.
 void BodyBuilder::strip(const Ring& ring, double height, FaceRole role, const std::string& name) {
   const NurbsCurveForm<Point> around = *builder_.model().edges[ring.halves[0]].curve->exact_nurbs();
   const NurbsCurveForm<Point> right = restricted(around, {0.0, 0.5}), left = reversed(restricted(around, {0.5, 1.0}));
@@ -240,8 +241,10 @@ void BodyBuilder::lip(const Ring& ring) {
   const Vec3 inwards = map_.vector({1.0, 0.0, 0.0});
   const double depth = lip.axial_offset * radius, narrowing = lip.radial_offset * radius;
   if (!(lip.axial_offset > 0.0 && lip.radial_offset < 1.0))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "making body '" + body_.name + "'",
-                 .problem = "an inlet lip needs a positive axial offset (it is " + std::to_string(lip.axial_offset) + ") and a radial offset below 1 (" + std::to_string(lip.radial_offset) + ")"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "making body '" + body_.name + "'",
+                 .problem = "an inlet lip needs a positive axial offset (it is " + std::to_string(lip.axial_offset) + ") and a radial offset below 1 (" +
+                            std::to_string(lip.radial_offset) + ")"});
   double slope = 0.0;
   for (const Vec3& v : ring.outwards) slope += norm(v) / static_cast<double>(ring.outwards.size());
   constexpr double k_round = 0.5522847498307936;  // a cubic with such arms is a quarter circle
@@ -255,7 +258,8 @@ void BodyBuilder::lip(const Ring& ring) {
   for (std::size_t i = 0; i < form.n_u; ++i) {
     const Point& p = ring.poles[i];
     fan.push_back(middle + (1.0 - lip.radial_offset) * (p - middle) + depth * inwards);
-    form.poles.insert(form.poles.end(), {p, p + k_round * lip.shape * narrowing / slope * ring.outwards[i], fan.back() - k_round * lip.shape * depth * inwards, fan.back()});
+    form.poles.insert(form.poles.end(),
+                      {p, p + k_round * lip.shape * narrowing / slope * ring.outwards[i], fan.back() - k_round * lip.shape * depth * inwards, fan.back()});
   }
   const Point bottom = line_of_constant_v(form, 1.0)->point(0.0), top = line_of_constant_v(form, 1.0)->point(0.5);
   const std::array<CornerId, 2> corners{builder_.corner(bottom), builder_.corner(top)};

@@ -9,12 +9,20 @@
 namespace sterna {
 namespace {
 
-[[noreturn]] void refuse(const std::string& attempted, const std::string& problem) { throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = problem}); }
+[[noreturn]] void refuse(const std::string& attempted, const std::string& problem) {
+  throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = problem});
+}
 
 BodyFrame point_frame(double x) { return {.name = "x" + std::to_string(x), .center = {x, 0.0, 0.0}, .shape = FrameShape::loop, .loop = {{x, 0.0, 0.0}}}; }
 
 BodyFrame frame(double x, double width, double height, double exponent = 2.0) {
-  return {.name = "x" + std::to_string(x), .center = {x, 0.0, 0.0}, .height = height, .width = width, .shape = FrameShape::ellipse, .n_points = 11, .exponent = exponent};
+  return {.name = "x" + std::to_string(x),
+          .center = {x, 0.0, 0.0},
+          .height = height,
+          .width = width,
+          .shape = FrameShape::ellipse,
+          .n_points = 11,
+          .exponent = exponent};
 }
 
 }  // namespace
@@ -30,7 +38,8 @@ Body body_of_revolution(const std::string& name, const Placement& placement, con
   if (profile.size() < 2) refuse(attempted, "its profile has " + std::to_string(profile.size()) + " points; at least 2 are needed");
   Body body{.name = name, .kind = kind, .placement = placement, .tangents = is_straight ? BodyTangents::linear : BodyTangents::monotone};
   for (std::size_t i = 0; i < profile.size(); ++i) {
-    const std::string point = "point " + std::to_string(i + 1) + " of its profile (x = " + number_text(profile[i].u) + ", radius " + number_text(profile[i].v) + ")";
+    const std::string point =
+        "point " + std::to_string(i + 1) + " of its profile (x = " + number_text(profile[i].u) + ", radius " + number_text(profile[i].v) + ")";
     const bool is_end = i == 0 || i + 1 == profile.size();
     if (i > 0 && !(profile[i].u > profile[i - 1].u)) refuse(attempted, point + " does not lie behind the one before it");
     if (!(profile[i].v > 0.0) && !(is_end && profile[i].v == 0.0)) refuse(attempted, point + " needs a positive radius; it may be 0 at the ends only");
@@ -45,7 +54,8 @@ Body boom_body(const std::string& name, const Point& from, const Point& to, cons
   const double nose = is_automatic(o.nose_length) ? o.diameter : o.nose_length, tail = is_automatic(o.tail_length) ? 2.0 * o.diameter : o.tail_length;
   const double length = distance(from, to), radius = 0.5 * o.diameter;
   if (!(nose + tail < length))
-    refuse("making boom '" + name + "'", "its ends are " + std::to_string(nose) + " m and " + std::to_string(tail) + " m long; together they must be shorter than the boom, " + std::to_string(length) + " m");
+    refuse("making boom '" + name + "'", "its ends are " + std::to_string(nose) + " m and " + std::to_string(tail) +
+                                             " m long; together they must be shorter than the boom, " + std::to_string(length) + " m");
   Body body = body_of_revolution(name, placement_along(from, to), {{nose, radius}, {length - tail, radius}}, true, ComponentKind::boom);
   body.nose = {CapShape::dome, nose / radius};
   body.tail = {CapShape::dome, tail / radius};
@@ -56,7 +66,9 @@ Body fairing_body(const std::string& name, const Point& position, const FairingO
   FairingOptions checked = o;
   require_options(options_of(checked), "making fairing '" + name + "'");
   Body body{.name = name, .kind = ComponentKind::fairing, .placement = {position, {}}};
-  const auto add = [&](double x, double size) { body.frames.push_back(size > 0.0 ? frame(x * o.length, size * o.width, size * o.height, o.exponent) : point_frame(x * o.length)); };
+  const auto add = [&](double x, double size) {
+    body.frames.push_back(size > 0.0 ? frame(x * o.length, size * o.width, size * o.height, o.exponent) : point_frame(x * o.length));
+  };
   constexpr int k_front = 10, k_rear = 8;  // a quarter ellipse to the largest section, a parabola to the point
   for (int i = 0; i < k_front; ++i) {
     const double a = 0.5 * std::numbers::pi * i / k_front;
@@ -75,7 +87,8 @@ Body sting_body(const std::string& name, const Point& from, const Point& to, con
   const double length = distance(from, to), radius = 0.5 * o.diameter, end = is_automatic(o.end_diameter) ? radius : 0.5 * o.end_diameter;
   std::vector<Uv> profile{{0.0, radius}};
   if (!is_automatic(o.cone_start)) {
-    if (!(o.cone_start < length)) refuse("making sting '" + name + "'", "its cone starts at " + std::to_string(o.cone_start) + " m, but it is only " + std::to_string(length) + " m long");
+    if (!(o.cone_start < length))
+      refuse("making sting '" + name + "'", "its cone starts at " + std::to_string(o.cone_start) + " m, but it is only " + std::to_string(length) + " m long");
     if (o.cone_start > 0.0) profile.push_back({o.cone_start, radius});
   } else if (end != radius) {
     refuse("making sting '" + name + "'", "it has an end_diameter (" + std::to_string(2.0 * end) + " m) but no cone_start");

@@ -22,7 +22,8 @@ struct BodyEnds {
 Model make_body(const Body& body, ComponentKind kind, const BodyEnds& ends = {}, const Transform& map = {});
 
 /// Upper and lower side between every pair of sections (wings that are cubic: between breaks), a trailing edge face where that is blunt, flat or round
-/// tips; patches cut out of these faces, on the same surfaces. Sections whose trailing edges are sharp and blunt in turn are all made sharp. Winglets with their blend (winglet_blend.h).
+/// tips; patches cut out of these faces, on the same surfaces. Sections whose trailing edges are sharp and blunt in turn are all made sharp. Winglets with
+/// their blend (winglet_blend.h).
 Model make_wing(const Wing& wing, const Transform& map = {});
 
 /// Rings of cowls and the center body, a closed solid each. Sections are splined around the axis through points every k_cowl_angles-th of a turn (a circle

@@ -30,7 +30,8 @@ std::vector<Uv> point_list(const Document& document, const Node& list, const cha
   };
   const std::vector<double> a = column(first), b = column(second);
   if (a.size() != b.size())
-    file.fail(list, std::string("the lists '") + first + "' and '" + second + "' have " + std::to_string(a.size()) + " and " + std::to_string(b.size()) + " numbers");
+    file.fail(list,
+              std::string("the lists '") + first + "' and '" + second + "' have " + std::to_string(a.size()) + " and " + std::to_string(b.size()) + " numbers");
   std::vector<Uv> points;
   for (std::size_t i = 0; i < a.size(); ++i)
     if (points.empty() || !is_same(points.back(), {a[i], b[i]})) points.push_back({a[i], b[i]});
@@ -145,7 +146,8 @@ std::vector<Uv> read_fuselage_profile(Document& document, const Node& from, cons
   if (!list && !standard) document.file.fail(node, "the profile has neither a pointList nor a standardProfile");
   std::vector<Uv> points = list ? point_list(document, list, "y", "z") : standard_profile(document, standard);
   const std::string symmetry = document.file.text(node, "symmetry");
-  const bool is_open = points.size() > 2 && !is_same(points.front(), points.back()) && std::abs(points.front().u) <= k_same_point && std::abs(points.back().u) <= k_same_point;
+  const bool is_open =
+      points.size() > 2 && !is_same(points.front(), points.back()) && std::abs(points.front().u) <= k_same_point && std::abs(points.back().u) <= k_same_point;
   const bool is_half = is_open && (std::all_of(points.begin(), points.end(), [](Uv p) { return p.u >= -k_same_point; }) ||
                                    std::all_of(points.begin(), points.end(), [](Uv p) { return p.u <= k_same_point; }));
   if (is_half && symmetry.empty()) document.file.tell(node, "the profile is one half and open; the other half was added");
@@ -160,9 +162,8 @@ std::vector<Uv> read_fuselage_profile(Document& document, const Node& from, cons
   while (points.size() > 1 && is_same(points.front(), points.back())) points.pop_back();
   if (points.size() < 4) document.file.fail(node, "a fuselage profile needs 4 points; it has " + std::to_string(points.size()));
   orient(points, 1.0);
-  const auto lowest = std::min_element(points.begin(), points.end(), [](Uv a, Uv b) {
-    return std::abs(a.v - b.v) > k_same_point ? a.v < b.v : std::abs(a.u) < std::abs(b.u);
-  });
+  const auto lowest =
+      std::min_element(points.begin(), points.end(), [](Uv a, Uv b) { return std::abs(a.v - b.v) > k_same_point ? a.v < b.v : std::abs(a.u) < std::abs(b.u); });
   std::rotate(points.begin(), lowest, points.end());
   return points;
 }

@@ -106,7 +106,8 @@ void Reader::header() {
   std::string version = XmlFile::child_text(header, "cpacsVersion");
   for (const Node info : header.child("versionInfos").children("versionInfo"))
     if (const std::string v = XmlFile::child_text(info, "cpacsVersion"); !v.empty()) version = v;
-  if (!version.empty() && version.front() != '2' && version.front() != '3') file_.fail(header, "CPACS version " + version + " is not supported; versions 2 and 3 are");
+  if (!version.empty() && version.front() != '2' && version.front() != '3')
+    file_.fail(header, "CPACS version " + version + " is not supported; versions 2 and 3 are");
   file_.tell_unknown(root.child("vehicles"), "xsi:type uID", "aircraft engines profiles");
 }
 
@@ -153,7 +154,8 @@ std::map<std::string, Vec3> Reader::positionings(const Node& component) {
     const std::string to = XmlFile::child_text(node, "toSectionUID");
     if (to.empty()) file_.fail(node, "the element 'toSectionUID' is missing");
     const Vec3 vector = length * Vec3{std::sin(sweep), std::cos(sweep) * std::cos(dihedral), std::cos(sweep) * std::sin(dihedral)};
-    if (!steps.emplace(to, Step{node, XmlFile::child_text(node, "fromSectionUID"), vector}).second) file_.fail(node, "section '" + to + "' is positioned twice");
+    if (!steps.emplace(to, Step{node, XmlFile::child_text(node, "fromSectionUID"), vector}).second)
+      file_.fail(node, "section '" + to + "' is positioned twice");
   }
   std::map<std::string, Vec3> positions;
   for (const auto& [section, step] : steps) {
@@ -190,13 +192,16 @@ std::vector<Reader::Element> Reader::chain(const Node& component) {
   if (first == order.end()) file_.fail(component, order.empty() ? "the component has no segments" : "the segments run in a circle");
   std::vector<std::string> uids{*first};
   while (next.contains(uids.back())) uids.push_back(next.at(uids.back()).to);
-  if (uids.size() != next.size() + 1) file_.fail(component, "the segments are not one chain: " + std::to_string(uids.size() - 1) + " of " + std::to_string(next.size()) + " follow from '" + *first + "'");
+  if (uids.size() != next.size() + 1)
+    file_.fail(component,
+               "the segments are not one chain: " + std::to_string(uids.size() - 1) + " of " + std::to_string(next.size()) + " follow from '" + *first + "'");
   const std::map<std::string, Vec3> positions = positionings(component);
   std::vector<Element> elements;
   for (const std::string& uid : uids) {
     const Node element = document_.resolve(component, uid);
     const Node section = element.parent().parent();
-    if (std::string_view(element.name()) != "element" || std::string_view(section.name()) != "section") file_.fail(element, "segments join elements of sections; this is '" + std::string(element.name()) + "'");
+    if (std::string_view(element.name()) != "element" || std::string_view(section.name()) != "section")
+      file_.fail(element, "segments join elements of sections; this is '" + std::string(element.name()) + "'");
     const auto position = positions.find(file_.text(section, "uID"));
     elements.push_back({element, translation(position == positions.end() ? Vec3{} : position->second) * read_transformation(document_, section).matrix() *
                                      read_transformation(document_, element).matrix()});
@@ -296,10 +301,12 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
           const char* const hinge_eta = is_trailing ? "etaLE" : "etaTE";
           const double eta = value(hinge_eta, "eta"), xsi = value(is_trailing ? "xsiLE" : "xsiTE", "xsi");
           const double other_eta = value(is_trailing ? "etaTE" : "etaLE", "eta");
-          if (other_eta != eta) file_.tell(border, "the border is taken along the flow at " + std::string(hinge_eta) + "; its other end is at " + exact_text(other_eta));
+          if (other_eta != eta)
+            file_.tell(border, "the border is taken along the flow at " + std::string(hinge_eta) + "; its other end is at " + exact_text(other_eta));
           Node reference = document_.find(XmlFile::child_text(border.child(hinge_eta), "referenceUID"));
           if (!reference || !reference.child("fromElementUID")) reference = segment;
-          const std::size_t from = index_of(reference, XmlFile::child_text(reference, "fromElementUID")), to = index_of(reference, XmlFile::child_text(reference, "toElementUID"));
+          const std::size_t from = index_of(reference, XmlFile::child_text(reference, "fromElementUID")),
+                            to = index_of(reference, XmlFile::child_text(reference, "toElementUID"));
           const double at = span_at(from, to, eta);
           const double along = is_turned ? 1.0 - at : at;
           surface.hinge.push_back({wing.is_symmetric ? 0.5 * along : along, xsi});
@@ -324,7 +331,8 @@ void Reader::fuselage(const Node& node) {
     frame.name = file_.text(element.node, "uID");
     frame.shape = FrameShape::loop;
     const Transform map = place * element.place;
-    for (const Uv p : read_fuselage_profile(document_, element.node, XmlFile::child_text(element.node, "profileUID"))) frame.loop.push_back(map.point({0.0, p.u, p.v}));
+    for (const Uv p : read_fuselage_profile(document_, element.node, XmlFile::child_text(element.node, "profileUID")))
+      frame.loop.push_back(map.point({0.0, p.u, p.v}));
     Point low = frame.loop.front(), high = low;
     for (const Point& p : frame.loop)
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -369,9 +377,11 @@ AircraftReading Reader::read() {
   const Node aircraft = file_.root().child("vehicles").child("aircraft");
   const Node model = aircraft.child("model");
   if (!model) file_.fail(file_.root(), "the file has no aircraft model");
-  for (Node other = model.next_sibling("model"); other; other = other.next_sibling("model")) file_.tell(other, "only the first model is read; this one was left out");
+  for (Node other = model.next_sibling("model"); other; other = other.next_sibling("model"))
+    file_.tell(other, "only the first model is read; this one was left out");
   read_model(model);
-  if (reading_.aircraft.wings.empty() && reading_.aircraft.bodies.empty() && reading_.aircraft.nacelles.empty()) file_.fail(model, "the model has no wing, fuselage or nacelle");
+  if (reading_.aircraft.wings.empty() && reading_.aircraft.bodies.empty() && reading_.aircraft.nacelles.empty())
+    file_.fail(model, "the model has no wing, fuselage or nacelle");
   reading_.messages = std::move(file_.messages());
   return std::move(reading_);
 }

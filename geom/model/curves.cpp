@@ -19,7 +19,9 @@ constexpr double k_right_angle = 1e-9;
 /// Part of a domain by which a view may reach beyond it: rounding of its own limits.
 constexpr double k_overreach = 1e-9;
 
-[[noreturn]] void refuse(std::string attempted, std::string problem) { throw Error({.code = ErrorCode::bad_argument, .attempted = std::move(attempted), .problem = std::move(problem)}); }
+[[noreturn]] void refuse(std::string attempted, std::string problem) {
+  throw Error({.code = ErrorCode::bad_argument, .attempted = std::move(attempted), .problem = std::move(problem)});
+}
 
 void check_domain(Interval domain, const char* attempted) {
   if (!std::isfinite(domain.from) || !std::isfinite(domain.to) || !(domain.from < domain.to))
@@ -30,7 +32,8 @@ void check_domain(Interval domain, const char* attempted) {
 
 LineCurve::LineCurve(const Point& origin, const Vec3& direction, Interval domain) : origin_(origin), direction_(direction), domain_(domain) {
   check_domain(domain, "making a line");
-  if (!is_finite(origin) || !is_finite(direction) || !(norm(direction) > 0.0)) refuse("making a line", "its direction " + format_point(direction) + " has no length, or it is not finite");
+  if (!is_finite(origin) || !is_finite(direction) || !(norm(direction) > 0.0))
+    refuse("making a line", "its direction " + format_point(direction) + " has no length, or it is not finite");
 }
 
 std::optional<NurbsCurveForm<Point>> LineCurve::exact_nurbs() const {
@@ -48,7 +51,8 @@ EllipseCurve::EllipseCurve(const Point& centre, const Vec3& x, const Vec3& y, In
   check_domain(domain, "making a circle or an ellipse");
   if (!(norm(x) > 0.0) || !(norm(y) > 0.0) || !is_finite(centre) || !(std::abs(dot(x, y)) <= k_right_angle * norm(x) * norm(y)))
     refuse("making a circle or an ellipse", "its half axes " + format_point(x) + " and " + format_point(y) + " have no length or are not at right angles");
-  if (domain.length() > k_turn && !is_periodic_) refuse("making a circle or an ellipse", "its domain is longer than a turn: " + std::to_string(domain.length()) + " rad");
+  if (domain.length() > k_turn && !is_periodic_)
+    refuse("making a circle or an ellipse", "its domain is longer than a turn: " + std::to_string(domain.length()) + " rad");
 }
 
 Point EllipseCurve::point(double t) const { return centre_ + std::cos(t) * x_ + std::sin(t) * y_; }
@@ -71,7 +75,8 @@ CurveView::CurveView(CurvePtr base, Interval domain, double scale, double shift)
   const double a = scale * domain.from + shift, b = scale * domain.to + shift;
   const double slack = k_overreach * all.length();
   if (!base_->is_periodic() && (std::min(a, b) < all.from - slack || std::max(a, b) > all.to + slack))
-    refuse("taking a part of a curve", "[" + std::to_string(a) + ", " + std::to_string(b) + "] is not within its domain [" + std::to_string(all.from) + ", " + std::to_string(all.to) + "]");
+    refuse("taking a part of a curve", "[" + std::to_string(a) + ", " + std::to_string(b) + "] is not within its domain [" + std::to_string(all.from) + ", " +
+                                           std::to_string(all.to) + "]");
 }
 
 bool CurveView::is_periodic() const {

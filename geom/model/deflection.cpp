@@ -42,7 +42,7 @@ double smooth_step(double t) {
 /// Where a deflection acts along the span, and how far beside its ends it fades.
 struct Reach {
   double from, to;
-  double fade;  ///< of the span
+  double fade;           ///< of the span
   double slot = 0.0;     ///< metres
   double end_gap = 0.0;  ///< of the span
 };
@@ -51,7 +51,8 @@ Reach reach_of(const Deflection& d, const WingSpan& span) {
   const double from = std::max(d.surface.hinge.front().span, 0.0), to = std::min(d.surface.hinge.back().span, 1.0);
   const double chord = 0.5 * (norm(chord_vector(span.row(span.place_of(from)))) + norm(chord_vector(span.row(span.place_of(to)))));
   const double fairing = d.fairing == Deflection::k_automatic_fairing ? 0.1 * chord : d.fairing;
-  const double slot = d.slot == Deflection::k_automatic_slot ? 0.01 * chord : d.slot, end_gap = d.end_gap == Deflection::k_automatic_slot ? 0.01 * chord : d.end_gap;
+  const double slot = d.slot == Deflection::k_automatic_slot ? 0.01 * chord : d.slot,
+               end_gap = d.end_gap == Deflection::k_automatic_slot ? 0.01 * chord : d.end_gap;
   if (d.gap == ControlGap::open) return {from, to, 0.0, slot, end_gap / span.length()};
   return {from, to, fairing / span.length()};
 }
@@ -92,21 +93,28 @@ HingePlace hinge_place(const Row& row, double fraction) {
 void check(const Wing& wing, const std::vector<Deflection>& deflections) {
   for (const Deflection& d : deflections) {
     if (d.surface.wing != wing.name) refuse(ErrorCode::bad_argument, d, "it belongs to wing '" + d.surface.wing + "', not to '" + wing.name + "'");
-    if (!(std::abs(d.angle) <= k_max_angle)) refuse(ErrorCode::bad_argument, d, "its angle is " + std::to_string(d.angle * 180.0 / std::numbers::pi) + " degrees; at most 60 are possible");
-    if (d.surface.hinge.size() < 2) refuse(ErrorCode::bad_argument, d, "it has " + std::to_string(d.surface.hinge.size()) + " hinge points; at least 2 are needed");
+    if (!(std::abs(d.angle) <= k_max_angle))
+      refuse(ErrorCode::bad_argument, d, "its angle is " + std::to_string(d.angle * 180.0 / std::numbers::pi) + " degrees; at most 60 are possible");
+    if (d.surface.hinge.size() < 2)
+      refuse(ErrorCode::bad_argument, d, "it has " + std::to_string(d.surface.hinge.size()) + " hinge points; at least 2 are needed");
     for (std::size_t i = 1; i < d.surface.hinge.size(); ++i)
       if (!(d.surface.hinge[i].span > d.surface.hinge[i - 1].span)) refuse(ErrorCode::bad_argument, d, "its hinge points do not ascend along the span");
     if (!(d.surface.hinge.front().span < 1.0 && d.surface.hinge.back().span > 0.0)) refuse(ErrorCode::bad_argument, d, "it lies beyond the tips");
     for (const HingePoint& h : d.surface.hinge)
-      if (!(h.chord >= 0.0 && h.chord <= 1.0)) refuse(ErrorCode::bad_argument, d, "a hinge point lies at " + std::to_string(h.chord) + " of the chord; it must be within 0 and 1");
-    if (d.fairing != Deflection::k_automatic_fairing && !(d.fairing > 0.0)) refuse(ErrorCode::bad_argument, d, "its fairing is " + std::to_string(d.fairing) + " m; it must be positive");
+      if (!(h.chord >= 0.0 && h.chord <= 1.0))
+        refuse(ErrorCode::bad_argument, d, "a hinge point lies at " + std::to_string(h.chord) + " of the chord; it must be within 0 and 1");
+    if (d.fairing != Deflection::k_automatic_fairing && !(d.fairing > 0.0))
+      refuse(ErrorCode::bad_argument, d, "its fairing is " + std::to_string(d.fairing) + " m; it must be positive");
     if (!is_open(d)) continue;
     for (const auto& [value, what] : {std::pair{d.slot, "slot"}, std::pair{d.end_gap, "end gap"}})
-      if (value != Deflection::k_automatic_slot && !(value > 0.0)) refuse(ErrorCode::bad_argument, d, std::string("its ") + what + " is " + std::to_string(value) + " m; it must be positive");
+      if (value != Deflection::k_automatic_slot && !(value > 0.0))
+        refuse(ErrorCode::bad_argument, d, std::string("its ") + what + " is " + std::to_string(value) + " m; it must be positive");
     if (d.surface.kind == ControlKind::all_moving) continue;
-    if (!(d.surface.hinge.front().span > 0.0 && d.surface.hinge.back().span < 1.0)) refuse(ErrorCode::bad_argument, d, "with an open gap it must end before the tips, where the wing goes on beside it");
+    if (!(d.surface.hinge.front().span > 0.0 && d.surface.hinge.back().span < 1.0))
+      refuse(ErrorCode::bad_argument, d, "with an open gap it must end before the tips, where the wing goes on beside it");
     for (const HingePoint& h : d.surface.hinge)
-      if (!(h.chord > k_min_open_chord && h.chord < 1.0 - k_min_open_chord)) refuse(ErrorCode::bad_argument, d, "with an open gap its hinge must lie within 0.03 and 0.97 of the chord, not at " + std::to_string(h.chord));
+      if (!(h.chord > k_min_open_chord && h.chord < 1.0 - k_min_open_chord))
+        refuse(ErrorCode::bad_argument, d, "with an open gap its hinge must lie within 0.03 and 0.97 of the chord, not at " + std::to_string(h.chord));
   }
 }
 
@@ -117,11 +125,13 @@ void check_overlaps(const std::vector<Deflection>& deflections, const WingSpan& 
       if (a.surface.kind != b.surface.kind && a.surface.kind != ControlKind::all_moving && b.surface.kind != ControlKind::all_moving) continue;
       Reach p = reach_of(a, span), q = reach_of(b, span);
       for (const auto& [reach, deflection] : {std::pair{&p, &a}, std::pair{&q, &b}})
-        if (is_open(*deflection)) *reach = {reach->from - reach->end_gap, reach->to + reach->end_gap, 0.0};  // something must be left between
+        if (is_open(*deflection)) *reach = {reach->from - reach->end_gap, reach->to + reach->end_gap, 0.0};     // something must be left between
         else if (deflection->angle == 0.0) *reach = {reach->from + k_same_span, reach->to - k_same_span, 0.0};  // patches may touch
       if (p.from - p.fade < q.to + q.fade && q.from - q.fade < p.to + p.fade)
-        refuse(ErrorCode::bad_argument, a, "with its fairings or end gaps it overlaps '" + b.surface.name + "' along the span: " + std::to_string(p.from - p.fade) + " .. " + std::to_string(p.to + p.fade) + " and " +
-                                               std::to_string(q.from - q.fade) + " .. " + std::to_string(q.to + q.fade) + " of it", "give a smaller fairing or end gap");
+        refuse(ErrorCode::bad_argument, a,
+               "with its fairings or end gaps it overlaps '" + b.surface.name + "' along the span: " + std::to_string(p.from - p.fade) + " .. " +
+                   std::to_string(p.to + p.fade) + " and " + std::to_string(q.from - q.fade) + " .. " + std::to_string(q.to + q.fade) + " of it",
+               "give a smaller fairing or end gap");
     }
 }
 
@@ -162,7 +172,8 @@ void turn(Row& row, double s, const Deflection& d, const WingSpan& span) {
 /// Where the wing ends before an open slot: as far from the middle of the hinge as the moving part's round nose, and the slot more.
 RowCrossing lip_of(const Deflection& d, const Row& row, const RowCrossing& hinge, double slot) {
   const auto [upper, lower] = points_at(row, hinge);
-  const std::optional<RowCrossing> lip = row_at_distance(row, hinge, 0.5 * (upper + lower), 0.5 * distance(upper, lower) + slot, d.surface.kind == ControlKind::trailing_edge);
+  const std::optional<RowCrossing> lip =
+      row_at_distance(row, hinge, 0.5 * (upper + lower), 0.5 * distance(upper, lower) + slot, d.surface.kind == ControlKind::trailing_edge);
   if (!lip) refuse(ErrorCode::bad_argument, d, "its slot of " + std::to_string(slot) + " m is larger than what is left of the section beyond the hinge");
   return *lip;
 }
@@ -189,9 +200,12 @@ double straight_chord(const Deflection& d, const StraightHinge& hinge, const Row
   const Vec3 chord = chord_vector(row);
   const double fraction = dot(at - nose, chord) / norm2(chord), off = distance(hinge_place(row, fraction).point, at);
   if (!(fraction > k_min_open_chord && fraction < 1.0 - k_min_open_chord && off <= k_max_bend * slot))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "deflecting '" + d.surface.name + "'",
-                 .problem = "the straight line between the ends of its hinge leaves the middle of the wing's section by " + std::to_string(off) + " m at " + std::to_string(fraction) + " of the chord; its slot is " + std::to_string(slot) + " m",
-                 .places = {{at, "hinge line"}}, .hint = "give one control surface for each straight piece, or a wider slot"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "deflecting '" + d.surface.name + "'",
+                 .problem = "the straight line between the ends of its hinge leaves the middle of the wing's section by " + std::to_string(off) + " m at " +
+                            std::to_string(fraction) + " of the chord; its slot is " + std::to_string(slot) + " m",
+                 .places = {{at, "hinge line"}},
+                 .hint = "give one control surface for each straight piece, or a wider slot"});
   return fraction;
 }
 
@@ -313,7 +327,9 @@ WingPatch patch_of(const Deflection& d, const WingSpan& span, const std::vector<
   std::sort(at.begin(), at.end());
   WingPatch patch{d.surface.name, d.surface.kind, {}, {}};
   const StraightHinge line = straight_hinge(d, span, reach);
-  if (is_open(d)) patch.slot = WingPatch::Slot{{}, 0.0, 0.0, d.has_flat_nose, rotation(line.from, line.axis, d.surface.kind == ControlKind::leading_edge ? -d.angle : d.angle)};
+  if (is_open(d))
+    patch.slot =
+        WingPatch::Slot{{}, 0.0, 0.0, d.has_flat_nose, rotation(line.from, line.axis, d.surface.kind == ControlKind::leading_edge ? -d.angle : d.angle)};
   const bool has_lips = is_open(d) && d.surface.kind != ControlKind::all_moving;
   double last = -1.0;
   for (const double s : at) {
@@ -321,7 +337,8 @@ WingPatch patch_of(const Deflection& d, const WingSpan& span, const std::vector<
     if (place <= last) continue;
     last = place;
     const Row row = span.row(span.place_of(s));
-    const RowCrossing hinge = d.surface.kind == ControlKind::all_moving ? RowCrossing{} : row_crossing(row, has_lips ? straight_chord(d, line, row, reach.slot) : hinge_chord(d, s));
+    const RowCrossing hinge =
+        d.surface.kind == ControlKind::all_moving ? RowCrossing{} : row_crossing(row, has_lips ? straight_chord(d, line, row, reach.slot) : hinge_chord(d, s));
     const RowCrossing border = has_lips ? lip_of(d, row, hinge, reach.slot) : hinge;
     patch.border.push_back({place, border.upper, border.lower});
     if (patch.slot) patch.slot->hinge.push_back({place, hinge.upper, hinge.lower});
@@ -344,7 +361,10 @@ Deflection image_of(const Deflection& deflection) {
 }
 
 ControlSurface from_root(const Wing& wing, ControlSurface surface) {
-  if (surface.hinge.size() < 2) throw Error({.code = ErrorCode::bad_argument, .attempted = "placing control surface '" + surface.name + "'", .problem = "it has " + std::to_string(surface.hinge.size()) + " hinge points; at least 2 are needed"});
+  if (surface.hinge.size() < 2)
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "placing control surface '" + surface.name + "'",
+                 .problem = "it has " + std::to_string(surface.hinge.size()) + " hinge points; at least 2 are needed"});
   const WingSpan span(wing);
   const double end = static_cast<double>(span.rows().size() - 1);
   for (HingePoint& h : surface.hinge) {
@@ -364,7 +384,8 @@ Wing deflected(const Wing& wing, const std::vector<Deflection>& deflections) {
   snap(all, span);
   check(wing, all);
   check_overlaps(all, span);
-  const bool is_bent = std::any_of(all.begin(), all.end(), [](const Deflection& d) { return is_bending(d) || (is_open(d) && d.surface.kind == ControlKind::all_moving); });
+  const bool is_bent =
+      std::any_of(all.begin(), all.end(), [](const Deflection& d) { return is_bending(d) || (is_open(d) && d.surface.kind == ControlKind::all_moving); });
   const std::vector<Stop> stops = is_bent ? stops_of(span, all) : std::vector<Stop>{};
   Wing result = is_bent ? bent_wing(wing, span, stops, all) : wing;
   for (const Deflection& d : all) result.patches.push_back(patch_of(d, span, stops));

@@ -102,7 +102,8 @@ FaceStretch measure(const Model& model, const ModelFace& face, const SpaceMap& m
 /// Refuses a map that folds space over on the model's faces; returns the largest stretching.
 double check_fold_over(const Model& model, const SpaceMap& map, const RunContext& context) {
   std::vector<FaceStretch> faces(model.faces.size());
-  parallel_for(context, faces.size(), [&](std::size_t f) { faces[f] = measure(model, model.faces.raw()[f], map); }, 1);
+  parallel_for(
+      context, faces.size(), [&](std::size_t f) { faces[f] = measure(model, model.faces.raw()[f], map); }, 1);
   double stretch = 0.0;
   struct Fold {
     double determinant;
@@ -116,11 +117,12 @@ double check_fold_over(const Model& model, const SpaceMap& map, const RunContext
   }
   if (folds.empty()) return stretch;
   std::stable_sort(folds.begin(), folds.end(), [](const Fold& a, const Fold& b) { return a.determinant < b.determinant; });
-  ErrorInfo info{.code = ErrorCode::self_intersection,
-                 .attempted = "deforming a model",
-                 .problem = "space folds over: the determinant of the deformation's Jacobian is " + number_text(folds.front().determinant) + ", must be positive",
-                 .n_places = static_cast<std::int64_t>(folds.size()),
-                 .hint = "make displacements smaller, or let them change over a longer distance"};
+  ErrorInfo info{
+      .code = ErrorCode::self_intersection,
+      .attempted = "deforming a model",
+      .problem = "space folds over: the determinant of the deformation's Jacobian is " + number_text(folds.front().determinant) + ", must be positive",
+      .n_places = static_cast<std::int64_t>(folds.size()),
+      .hint = "make displacements smaller, or let them change over a longer distance"};
   constexpr std::size_t k_places = 5;
   for (std::size_t i = 0; i < std::min(k_places, folds.size()); ++i)
     info.places.push_back({folds[i].place, "face " + model.faces.raw()[folds[i].face].name + ", determinant " + number_text(folds[i].determinant)});
@@ -131,7 +133,8 @@ double check_fold_over(const Model& model, const SpaceMap& map, const RunContext
 
 Model transformed(const Model& model, const Transform& t) {
   Model result = model;
-  replace_geometry(result, [&](const SurfacePtr& s) { return transformed(s, t); }, [&](const CurvePtr& c) { return transformed(c, t); });
+  replace_geometry(
+      result, [&](const SurfacePtr& s) { return transformed(s, t); }, [&](const CurvePtr& c) { return transformed(c, t); });
   for (ModelCorner& corner : result.corners) corner.point = t.point(corner.point);
   if (t.determinant() < 0.0)
     for (ModelFace& face : result.faces) face.is_reversed = !face.is_reversed;
@@ -154,7 +157,8 @@ bool is_word(const std::string& name, std::size_t at, std::size_t size) {
 }  // namespace
 
 std::string mirrored_name(const std::string& name) {
-  constexpr std::array<std::array<std::string_view, 2>, 6> k_sides = {{{"left", "right"}, {"Left", "Right"}, {"LEFT", "RIGHT"}, {"port", "starboard"}, {"Port", "Starboard"}, {"PORT", "STARBOARD"}}};
+  constexpr std::array<std::array<std::string_view, 2>, 6> k_sides = {
+      {{"left", "right"}, {"Left", "Right"}, {"LEFT", "RIGHT"}, {"port", "starboard"}, {"Port", "Starboard"}, {"PORT", "STARBOARD"}}};
   for (const auto& [a, b] : k_sides) {
     for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}}) {
       for (std::size_t at = name.find(from); at != std::string::npos; at = name.find(from, at + 1))
@@ -185,7 +189,8 @@ Model deformed(const Model& model, const SpaceMapPtr& map, const RunContext& con
   const double stretch = check_fold_over(model, *map, context);
   Model result = model;
   replace_geometry(
-      result, [&](const SurfacePtr& s) { return std::make_shared<DeformedSurface>(s, map); }, [&](const CurvePtr& c) { return std::make_shared<DeformedCurve>(c, map); });
+      result, [&](const SurfacePtr& s) { return std::make_shared<DeformedSurface>(s, map); },
+      [&](const CurvePtr& c) { return std::make_shared<DeformedCurve>(c, map); });
   for (ModelCorner& corner : result.corners) corner.point = map->point(corner.point);
   if (stretch > 1.0) scale_tolerances(result, stretch);
   return result;
@@ -198,7 +203,8 @@ TriMesh reevaluated(const TriMesh& mesh, const Column<VertexId, VertexPlace>& pl
   if (places.size() != mesh.n_vertices()) refuse(std::to_string(places.size()) + " places for " + std::to_string(mesh.n_vertices()) + " vertices", {});
   for (const VertexId v : mesh.points.ids())
     if (!places[v].face.is_valid() || places[v].face.index() >= model.faces.size())
-      refuse("vertex " + std::to_string(v.value()) + " has no face of the model, which has " + std::to_string(model.faces.size()), {{mesh.points[v], "vertex"}});
+      refuse("vertex " + std::to_string(v.value()) + " has no face of the model, which has " + std::to_string(model.faces.size()),
+             {{mesh.points[v], "vertex"}});
   TriMesh result = mesh;
   parallel_for(context, mesh.n_vertices(), [&](std::size_t i) {
     const VertexId v(static_cast<std::uint64_t>(i));

@@ -18,7 +18,10 @@ ScatteredDisplacements read_displacements(const std::filesystem::path& path) {
   while (std::getline(file, line)) {
     const int number = ++n_lines;
     const auto fail = [&](const std::string& problem) {
-      throw Error({.code = ErrorCode::file_malformed, .attempted = attempted, .problem = "line " + std::to_string(number) + ": " + problem, .hint = "each line is: x y z dx dy dz, metres"});
+      throw Error({.code = ErrorCode::file_malformed,
+                   .attempted = attempted,
+                   .problem = "line " + std::to_string(number) + ": " + problem,
+                   .hint = "each line is: x y z dx dy dz, metres"});
     };
     line.resize(std::min(line.find('#'), line.size()));
     double values[6];
@@ -31,7 +34,8 @@ ScatteredDisplacements read_displacements(const std::filesystem::path& path) {
       if (n == 6) fail("more than 6 numbers");
       const char* begin = *at == '+' ? at + 1 : at;
       const auto [next, error] = std::from_chars(begin, end, values[n]);
-      if (error != std::errc{} || (next < end && !is_blank(*next)) || !std::isfinite(values[n])) fail("\"" + std::string(at, std::find_if(at, end, is_blank)) + "\" is not a finite number");
+      if (error != std::errc{} || (next < end && !is_blank(*next)) || !std::isfinite(values[n]))
+        fail("\"" + std::string(at, std::find_if(at, end, is_blank)) + "\" is not a finite number");
       at = next;
       ++n;
     }
@@ -40,7 +44,11 @@ ScatteredDisplacements read_displacements(const std::filesystem::path& path) {
     data.at.push_back({values[0], values[1], values[2]});
     data.shift.push_back({values[3], values[4], values[5]});
   }
-  if (data.at.empty()) throw Error({.code = ErrorCode::file_malformed, .attempted = attempted, .problem = n_lines == 0 ? "the file is empty" : "line " + std::to_string(n_lines) + ": the file ends here and holds no points", .hint = "each line is: x y z dx dy dz, metres"});
+  if (data.at.empty())
+    throw Error({.code = ErrorCode::file_malformed,
+                 .attempted = attempted,
+                 .problem = n_lines == 0 ? "the file is empty" : "line " + std::to_string(n_lines) + ": the file ends here and holds no points",
+                 .hint = "each line is: x y z dx dy dz, metres"});
   return data;
 }
 

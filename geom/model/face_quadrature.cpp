@@ -1,5 +1,5 @@
-// Green's theorem on the grid of the surface's knots. With any base line u = b, the integral of g over the face is that of (integral of g from b to u) dv along its
-// border. Every piece of the border takes the knot line to its left as its base, so that its inner integral stays within one cell and is smooth; where the
+// Green's theorem on the grid of the surface's knots. With any base line u = b, the integral of g over the face is that of (integral of g from b to u) dv along
+// its border. Every piece of the border takes the knot line to its left as its base, so that its inner integral stays within one cell and is smooth; where the
 // base changes from one piece to the next, at v, the integral over the columns between both bases up to v is made up for, from a table of whole cells and
 // one partial cell for each column. Steps: pieces of border between crossings with the grid; table; sum over pieces; sum over changes of base; box of samples.
 #include "geom/model/face_quadrature.h"
@@ -14,14 +14,16 @@ namespace sterna {
 namespace {
 
 /// Gauss-Legendre on [0, 1], exact to degree 11: x . (S_u x S_v) of a bicubic surface has degree 8 in each direction.
-constexpr std::array<double, 6> k_nodes = {0.033765242898423975, 0.16939530676686776, 0.38069040695840156, 0.61930959304159849, 0.83060469323313224, 0.96623475710157603};
-constexpr std::array<double, 6> k_weights = {0.085662246189585178, 0.18038078652406929, 0.23395696728634552, 0.23395696728634552, 0.18038078652406929, 0.085662246189585178};
+constexpr std::array<double, 6> k_nodes = {0.033765242898423975, 0.16939530676686776, 0.38069040695840156,
+                                           0.61930959304159849,  0.83060469323313224, 0.96623475710157603};
+constexpr std::array<double, 6> k_weights = {0.085662246189585178, 0.18038078652406929, 0.23395696728634552,
+                                             0.23395696728634552,  0.18038078652406929, 0.085662246189585178};
 /// Pieces of a direction without knots: sines and cosines over a full turn are integrated to rounding by so many.
 constexpr int k_plain_pieces = 12;
 /// Parts of an interval between knots where the pieces are no polynomials of degree 3 or less.
 constexpr int k_parts = 3;
-/// Grids of twice the parts are tried until area and volume agree to this share, or so many are done: kinks that no knot tells of converge slowly, and each try costs
-/// four times the one before. Smooth faces gain a factor of 4000 by each: what agrees to 1e-8 is right to 1e-11.
+/// Grids of twice the parts are tried until area and volume agree to this share, or so many are done: kinks that no knot tells of converge slowly, and each try
+/// costs four times the one before. Smooth faces gain a factor of 4000 by each: what agrees to 1e-8 is right to 1e-11.
 constexpr double k_agreement = 1e-8;
 constexpr int k_tries = 3;
 /// Parts of a piece of border in each of which it may cross a knot line once; more crossings cost accuracy, not more.
@@ -69,14 +71,15 @@ std::size_t cell_of(const std::vector<double>& lines, double at) {
 
 struct BorderPiece {
   const ParameterCurve* curve;
-  double from, to;   ///< in the direction of the border
+  double from, to;  ///< in the direction of the border
   Uv start, end;
   std::size_t column;
 };
 
 class FaceIntegral {
  public:
-  FaceIntegral(const Model& model, FaceId face, const Point& about, int refinement) : model_(model), face_(model.faces[face]), surface_(*face_.surface), about_(about), refinement_(refinement) {}
+  FaceIntegral(const Model& model, FaceId face, const Point& about, int refinement)
+      : model_(model), face_(model.faces[face]), surface_(*face_.surface), about_(about), refinement_(refinement) {}
 
   FaceQuadrature run() {
     find_used_box();
@@ -134,7 +137,8 @@ class FaceIntegral {
   FaceSums over_box(double u0, double u1, double v0, double v1) const {
     FaceSums sum;
     for (std::size_t i = 0; i < k_nodes.size(); ++i)
-      for (std::size_t j = 0; j < k_nodes.size(); ++j) sum.add(k_weights[i] * k_weights[j] * (u1 - u0) * (v1 - v0), integrand({u0 + k_nodes[i] * (u1 - u0), v0 + k_nodes[j] * (v1 - v0)}));
+      for (std::size_t j = 0; j < k_nodes.size(); ++j)
+        sum.add(k_weights[i] * k_weights[j] * (u1 - u0) * (v1 - v0), integrand({u0 + k_nodes[i] * (u1 - u0), v0 + k_nodes[j] * (v1 - v0)}));
     return sum;
   }
 
@@ -175,14 +179,17 @@ class FaceIntegral {
     std::vector<double> stops = steps;
     const std::vector<double> fine = refined(steps, k_border_parts);
     for (std::size_t i = 0; i + 1 < fine.size(); ++i) {
-      add_crossings(u_, fine[i], fine[i + 1], [&](double t) { return curve.point(t).u; }, stops);
-      add_crossings(v_, fine[i], fine[i + 1], [&](double t) { return curve.point(t).v; }, stops);
+      add_crossings(
+          u_, fine[i], fine[i + 1], [&](double t) { return curve.point(t).u; }, stops);
+      add_crossings(
+          v_, fine[i], fine[i + 1], [&](double t) { return curve.point(t).v; }, stops);
     }
     stops = distinct(std::move(stops));
     if (use.is_reversed) std::reverse(stops.begin(), stops.end());
     std::vector<BorderPiece> pieces;
     for (std::size_t i = 0; i + 1 < stops.size(); ++i)
-      pieces.push_back({&curve, stops[i], stops[i + 1], curve.point(stops[i]), curve.point(stops[i + 1]), cell_of(u_, curve.point(0.5 * (stops[i] + stops[i + 1])).u)});
+      pieces.push_back(
+          {&curve, stops[i], stops[i + 1], curve.point(stops[i]), curve.point(stops[i + 1]), cell_of(u_, curve.point(0.5 * (stops[i] + stops[i + 1])).u)});
     return pieces;
   }
 

@@ -13,7 +13,8 @@ constexpr double k_similar = 1e-12;
 
 Vec3 direction_of(const Vec3& v, const char* attempted) {
   const double length = norm(v);
-  if (!(length > 0.0) || !std::isfinite(length)) throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "the direction " + format_point(v) + " has no length"});
+  if (!(length > 0.0) || !std::isfinite(length))
+    throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = "the direction " + format_point(v) + " has no length"});
   return v / length;
 }
 
@@ -43,7 +44,8 @@ bool Transform::is_similarity() const {
 
 Transform Transform::inverse() const {
   const double d = determinant();
-  if (!(std::abs(d) > 0.0)) throw Error({.code = ErrorCode::bad_argument, .attempted = "inverting a transformation", .problem = "it flattens space: its determinant is 0"});
+  if (!(std::abs(d) > 0.0))
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "inverting a transformation", .problem = "it flattens space: its determinant is 0"});
   const Vec3 a = cross(y, z) / d, b = cross(z, x) / d, c = cross(x, y) / d;  // rows of the inverse
   Transform result{{a.x, b.x, c.x}, {a.y, b.y, c.y}, {a.z, b.z, c.z}, {}};
   result.shift = -result.vector(shift);
@@ -68,7 +70,8 @@ Transform rotation(const Point& at, const Vec3& axis, double angle) {
 }
 
 Transform scaling(const Point& about, double factor) {
-  if (!(factor > 0.0) || !std::isfinite(factor)) throw Error({.code = ErrorCode::bad_argument, .attempted = "scaling", .problem = "the factor is " + std::to_string(factor) + ", must be positive"});
+  if (!(factor > 0.0) || !std::isfinite(factor))
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "scaling", .problem = "the factor is " + std::to_string(factor) + ", must be positive"});
   return {{factor, 0.0, 0.0}, {0.0, factor, 0.0}, {0.0, 0.0, factor}, (1.0 - factor) * about};
 }
 

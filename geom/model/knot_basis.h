@@ -49,7 +49,7 @@ class KnotBasis {
 
  private:
   struct Span {
-    Lanes4 coefficient[4];       ///< lane k: function first + k; power of (t - start) / length
+    Lanes4 coefficient[4];  ///< lane k: function first + k; power of (t - start) / length
     double start = 0.0;
     double inverse_length = 1.0;
     std::size_t first = 0;
@@ -61,11 +61,11 @@ class KnotBasis {
   std::vector<double> knots_;
   bool is_periodic_;
   Interval domain_;
-  std::vector<double> ends_;            ///< where each span ends, ascending; spans are those of positive length
+  std::vector<double> ends_;  ///< where each span ends, ascending; spans are those of positive length
   struct Bucket {
     std::uint32_t low = 0, high = 0;  ///< spans that may hold a parameter of the bucket, both inclusive
   };
-  std::vector<Bucket> buckets_;         ///< equal parts of the domain
+  std::vector<Bucket> buckets_;  ///< equal parts of the domain
   double buckets_per_unit_ = 0.0;
   std::vector<Span> spans_;
 };

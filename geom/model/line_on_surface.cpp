@@ -46,7 +46,8 @@ CurvePtr line_on_surface(const NurbsSurfaceForm& form, Uv from, Uv to) {
   for (std::size_t i = 0; i < crossings.size();) {
     std::size_t end = i;
     int multiplicity = 0;
-    for (; end < crossings.size() && crossings[end].t - crossings[i].t <= k_same_crossing; ++end) multiplicity = std::max(multiplicity, crossings[end].multiplicity);
+    for (; end < crossings.size() && crossings[end].t - crossings[i].t <= k_same_crossing; ++end)
+      multiplicity = std::max(multiplicity, crossings[end].multiplicity);
     line.knots.insert(line.knots.end(), static_cast<std::size_t>(std::min(multiplicity, line.degree)), crossings[i].t);
     i = end;
   }

@@ -6,8 +6,9 @@ namespace sterna {
 namespace {
 
 constexpr std::array<std::string_view, 10> k_component_kinds = {"unknown", "body", "wing", "nacelle", "pylon", "fairing", "boom", "sting", "box", "tunnel"};
-constexpr std::array<std::string_view, 22> k_face_roles = {"unknown", "skin",   "upper",        "lower", "leading_edge", "trailing_edge", "tip",      "nose",     "tail",    "inlet_lip", "fan_face",
-                                                           "nozzle",  "jet",    "control",      "control_side", "hinge", "wall",          "inflow",   "outflow",  "symmetry", "farfield", "fillet"};
+constexpr std::array<std::string_view, 22> k_face_roles = {
+    "unknown", "skin", "upper",   "lower",        "leading_edge", "trailing_edge", "tip",    "nose",    "tail",     "inlet_lip", "fan_face",
+    "nozzle",  "jet",  "control", "control_side", "hinge",        "wall",          "inflow", "outflow", "symmetry", "farfield",  "fillet"};
 
 }  // namespace
 

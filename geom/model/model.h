@@ -16,7 +16,7 @@
 
 namespace sterna {
 
-using CornerId = Id<struct CornerTag>;        ///< point where edges end
+using CornerId = Id<struct CornerTag>;  ///< point where edges end
 using EdgeId = Id<struct EdgeTag>;
 using FaceId = Id<struct FaceTag>;
 using SolidId = Id<struct SolidTag>;
@@ -25,7 +25,30 @@ using ComponentId = Id<struct ComponentTag>;
 /// What a component is; decides default sizes of the surface mesh.
 enum class ComponentKind { unknown, body, wing, nacelle, pylon, fairing, boom, sting, box, tunnel };
 /// What a face is within its component; decides bands, caps and boundary conditions.
-enum class FaceRole { unknown, skin, upper, lower, leading_edge, trailing_edge, tip, nose, tail, inlet_lip, fan_face, nozzle, jet, control, control_side, hinge, wall, inflow, outflow, symmetry, farfield, fillet };
+enum class FaceRole {
+  unknown,
+  skin,
+  upper,
+  lower,
+  leading_edge,
+  trailing_edge,
+  tip,
+  nose,
+  tail,
+  inlet_lip,
+  fan_face,
+  nozzle,
+  jet,
+  control,
+  control_side,
+  hinge,
+  wall,
+  inflow,
+  outflow,
+  symmetry,
+  farfield,
+  fillet
+};
 std::string_view to_string(ComponentKind kind);
 std::string_view to_string(FaceRole role);
 
@@ -40,19 +63,19 @@ struct ModelCorner {
 };
 
 struct ModelEdge {
-  CurvePtr curve;           ///< in space; empty for a degenerate edge (a pole)
-  Interval range;           ///< part of the curve that is the edge
-  CornerId start, end;      ///< the same for a closed edge
-  double tolerance = 0.0;   ///< metres: its faces' surfaces pass within it
-  std::string name;         ///< mostly empty: "leading edge", "hinge"
+  CurvePtr curve;          ///< in space; empty for a degenerate edge (a pole)
+  Interval range;          ///< part of the curve that is the edge
+  CornerId start, end;     ///< the same for a closed edge
+  double tolerance = 0.0;  ///< metres: its faces' surfaces pass within it
+  std::string name;        ///< mostly empty: "leading edge", "hinge"
   bool is_degenerate() const { return curve == nullptr; }
 };
 
 /// One use of an edge in the border of a face. The parameter curve has the edge's parameter (same range, same speed).
 struct EdgeUse {
   EdgeId edge;
-  bool is_reversed = false;    ///< the border runs from the edge's end to its start
-  ParameterCurvePtr parameter; ///< in the face's (u, v); never empty
+  bool is_reversed = false;     ///< the border runs from the edge's end to its start
+  ParameterCurvePtr parameter;  ///< in the face's (u, v); never empty
 };
 /// Closed border, in order; the face lies to the left in (u, v) for the outer border, holes run the other way.
 using Border = std::vector<EdgeUse>;
@@ -63,10 +86,10 @@ struct ModelFace {
   bool is_reversed = false;     ///< the outward normal (into the fluid) is -(du x dv)
   ComponentId component;
   FaceRole role = FaceRole::skin;
-  std::string name;             ///< becomes the patch name of meshes; never empty
+  std::string name;                            ///< becomes the patch name of meshes; never empty
   std::optional<std::array<float, 3>> colour;  ///< red, green, blue in [0, 1]
   std::string layer;
-  double tolerance = 0.0;       ///< metres
+  double tolerance = 0.0;              ///< metres
   std::optional<PatchKind> kind = {};  ///< of its patch in meshes; nothing: as its role says
 };
 /// What the fluid meets at a face: what it says, else inflow, outflow, symmetry, farfield where that is its role, else a wall.
@@ -75,7 +98,7 @@ PatchKind patch_kind(const ModelFace& face);
 struct ModelSolid {
   std::string name;
   std::vector<FaceId> faces;
-  bool is_closed = false;       ///< a shell without free edges; `false`: a sheet
+  bool is_closed = false;  ///< a shell without free edges; `false`: a sheet
 };
 
 class CadShape;  ///< geom/cad/shape.h: the same geometry as OpenCASCADE has it
@@ -86,9 +109,9 @@ struct Model {
   Column<CornerId, ModelCorner> corners;
   Column<EdgeId, ModelEdge> edges;
   Column<FaceId, ModelFace> faces;
-  Column<SolidId, ModelSolid> solids;   ///< every face is in one at most; faces of none are loose
-  std::string source_unit = "m";        ///< of the file it came from; the model itself is in metres
-  std::shared_ptr<const CadShape> shape; ///< empty until a boolean or a writer needs it; see cad::shape_of
+  Column<SolidId, ModelSolid> solids;     ///< every face is in one at most; faces of none are loose
+  std::string source_unit = "m";          ///< of the file it came from; the model itself is in metres
+  std::shared_ptr<const CadShape> shape;  ///< empty until a boolean or a writer needs it; see cad::shape_of
 };
 
 /// Uses of every edge: (face, border, place in it), in ascending order of faces.

@@ -31,7 +31,8 @@ struct Row {
   std::vector<double> weights;
 };
 
-CurvePtr curve_through_rows(const std::vector<Row>& rows, int row_degree, const std::vector<double>& row_knots, double at, int degree, const std::vector<double>& knots) {
+CurvePtr curve_through_rows(const std::vector<Row>& rows, int row_degree, const std::vector<double>& row_knots, double at, int degree,
+                            const std::vector<double>& knots) {
   NurbsCurveForm<Point> line;
   line.degree = degree;
   line.knots = knots;
@@ -108,7 +109,9 @@ EdgeUse ModelBuilder::use_along(const Surface& surface, EdgeId id, Uv from, Uv t
       worst = on_edge;
     }
   }
-  if (off > k_off_surface * size) refuse(ErrorCode::internal, what + ": an edge is " + std::to_string(off) + " m off the side that it borders", {{worst, edge.name.empty() ? "edge" : edge.name}});
+  if (off > k_off_surface * size)
+    refuse(ErrorCode::internal, what + ": an edge is " + std::to_string(off) + " m off the side that it borders",
+           {{worst, edge.name.empty() ? "edge" : edge.name}});
   edge.tolerance = std::max(edge.tolerance, off);
   for (const CornerId c : {edge.start, edge.end}) model_.corners[c].tolerance = std::max(model_.corners[c].tolerance, off);
   return {id, is_reversed, is_reversed ? parameter_segment(to, from, edge.range) : parameter_segment(from, to, edge.range)};
@@ -123,7 +126,9 @@ FaceId ModelBuilder::patch(SurfacePtr surface, const ParameterBox& box, const st
 
 FaceId ModelBuilder::face(SurfacePtr surface, const std::vector<Side>& sides, FaceRole role, const std::string& name) {
   Border border;
-  for (std::size_t i = 0; i < sides.size(); ++i) border.push_back(use_along(*surface, sides[i].edge, sides[i].from, sides[i].to, name + " (" + std::string(to_string(role)) + "), side " + std::to_string(i)));
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    border.push_back(
+        use_along(*surface, sides[i].edge, sides[i].from, sides[i].to, name + " (" + std::string(to_string(role)) + "), side " + std::to_string(i)));
   return model_.faces.push_back({.surface = std::move(surface), .borders = {std::move(border)}, .component = component_, .role = role, .name = name});
 }
 
@@ -136,11 +141,13 @@ FaceId ModelBuilder::plane(const std::vector<EdgeId>& border, FaceRole role, con
     CornerId at = edges.size() > 1 && (first.start == second.start || first.start == second.end) && !(edges.size() == 2) ? first.end : first.start;
     for (const EdgeId id : edges) {
       const ModelEdge& edge = model_.edges[id];
-      if (edge.start != at && edge.end != at) refuse(ErrorCode::internal, name + ": the edges of a planar face do not follow each other", {{model_.corners[at].point, "end of one"}});
+      if (edge.start != at && edge.end != at)
+        refuse(ErrorCode::internal, name + ": the edges of a planar face do not follow each other", {{model_.corners[at].point, "end of one"}});
       is_reversed.push_back(edge.start != at);
       at = is_reversed.back() ? edge.start : edge.end;
       constexpr int k_samples = 64;
-      for (int i = 0; i < k_samples; ++i) samples.push_back(at_part(edge, is_reversed.back() ? 1.0 - static_cast<double>(i) / k_samples : static_cast<double>(i) / k_samples));
+      for (int i = 0; i < k_samples; ++i)
+        samples.push_back(at_part(edge, is_reversed.back() ? 1.0 - static_cast<double>(i) / k_samples : static_cast<double>(i) / k_samples));
     }
     return is_reversed;
   };
@@ -163,7 +170,8 @@ FaceId ModelBuilder::plane(const std::vector<EdgeId>& border, FaceRole role, con
   }
   for (const Point& p : samples)
     if (std::abs(frame.local(p).z) > k_off_plane * std::max(size, norm(p)))
-      refuse(ErrorCode::bad_argument, name + ": the border of a flat end is not planar, " + std::to_string(frame.local(p).z) + " m off its plane", {{p, "here"}});
+      refuse(ErrorCode::bad_argument, name + ": the border of a flat end is not planar, " + std::to_string(frame.local(p).z) + " m off its plane",
+             {{p, "here"}});
   const double margin = 0.05 * size;  // edges reach the box of samples and a little more
   box = {{box.u.from - margin, box.u.to + margin}, {box.v.from - margin, box.v.to + margin}};
   const auto flat = [&](const std::vector<EdgeId>& edges, const std::vector<bool>& is_reversed) {
@@ -188,7 +196,8 @@ FaceId ModelBuilder::plane(const std::vector<EdgeId>& border, FaceRole role, con
   };
   std::vector<Border> borders{flat(border, outer)};
   if (!hole.empty()) borders.push_back(flat(hole, inner));
-  return model_.faces.push_back({.surface = std::make_shared<PlaneSurface>(frame, box), .borders = std::move(borders), .component = component_, .role = role, .name = name});
+  return model_.faces.push_back(
+      {.surface = std::make_shared<PlaneSurface>(frame, box), .borders = std::move(borders), .component = component_, .role = role, .name = name});
 }
 
 Model ModelBuilder::closed_solid(const std::string& name) {
@@ -207,7 +216,9 @@ void orient_outwards(Model& model, SolidId solid_id) {
     for (const Border& border : model.faces[f].borders)
       for (const EdgeUse& u : border)
         if (const ModelEdge& edge = model.edges[u.edge]; !edge.is_degenerate() && uses[u.edge].size() != 2)
-          refuse(ErrorCode::internal, "solid '" + solid.name + "' is not closed: an edge of face '" + model.faces[f].name + "' is used " + std::to_string(uses[u.edge].size()) + " times instead of twice",
+          refuse(ErrorCode::internal,
+                 "solid '" + solid.name + "' is not closed: an edge of face '" + model.faces[f].name + "' is used " + std::to_string(uses[u.edge].size()) +
+                     " times instead of twice",
                  {{at_part(edge, 0.5), edge.name.empty() ? "middle of the edge" : edge.name}});
   Column<FaceId, std::uint8_t> is_done(model.faces.size(), 0);
   std::deque<FaceId> queue{solid.faces.front()};
@@ -222,13 +233,15 @@ void orient_outwards(Model& model, SolidId solid_id) {
         if (pair[0].face == pair[1].face) continue;  // a seam
         const EdgeUsePlace& other = pair[0].face == f ? pair[1] : pair[0];
         ModelFace& neighbour = model.faces[other.face];
-        const bool wanted = u.is_reversed != model.faces[f].is_reversed ? use(other).is_reversed : !use(other).is_reversed;  // so that the effective directions differ
+        const bool wanted =
+            u.is_reversed != model.faces[f].is_reversed ? use(other).is_reversed : !use(other).is_reversed;  // so that the effective directions differ
         if (!is_done[other.face]) {
           neighbour.is_reversed = wanted;
           is_done[other.face] = 1;
           queue.push_back(other.face);
         } else if (neighbour.is_reversed != wanted) {
-          refuse(ErrorCode::internal, "solid '" + solid.name + "': faces '" + model.faces[f].name + "' and '" + neighbour.name + "' cannot be oriented alike", {{at_part(model.edges[u.edge], 0.5), "their edge"}});
+          refuse(ErrorCode::internal, "solid '" + solid.name + "': faces '" + model.faces[f].name + "' and '" + neighbour.name + "' cannot be oriented alike",
+                 {{at_part(model.edges[u.edge], 0.5), "their edge"}});
         }
       }
   }

@@ -10,7 +10,8 @@
 
 namespace sterna {
 
-/// The curve of a surface's NURBS form along one parameter line: u = at (its parameter is v) or v = at (u). \pre polynomial or rational form, `at` in the domain
+/// The curve of a surface's NURBS form along one parameter line: u = at (its parameter is v) or v = at (u). \pre polynomial or rational form, `at` in the
+/// domain
 CurvePtr line_of_constant_u(const NurbsSurfaceForm& form, double at);
 CurvePtr line_of_constant_v(const NurbsSurfaceForm& form, double at);
 
@@ -63,7 +64,8 @@ class ModelBuilder {
   ComponentId component_;
 };
 
-/// Turns faces of a solid so that neighbours agree and the solid's volume is positive. \throws Error(internal) where an edge has not two uses or faces cannot agree
+/// Turns faces of a solid so that neighbours agree and the solid's volume is positive. \throws Error(internal) where an edge has not two uses or faces cannot
+/// agree
 void orient_outwards(Model& model, SolidId solid);
 
 /// Turns every face, and so what is fluid and what is body. The shape of OpenCASCADE is dropped.

@@ -28,10 +28,8 @@ class BodySum {
   }
   BodyMeasures measures(const std::string& name, bool has_volume, const Point& about) const {
     BodyMeasures result{.name = name, .n_faces = n_faces_, .area = area_, .volume = has_volume ? volume_ : 0.0, .has_volume = has_volume};
-    if (has_volume && volume_ != 0.0)
-      result.centre = about + volume_moment_ / volume_;
-    else if (area_ > 0.0)
-      result.centre = about + area_moment_ / area_;
+    if (has_volume && volume_ != 0.0) result.centre = about + volume_moment_ / volume_;
+    else if (area_ > 0.0) result.centre = about + area_moment_ / area_;
     if (n_faces_ > 0) result.box = {low_, high_};
     return result;
   }
@@ -81,7 +79,8 @@ ModelMeasures model_measures(const Model& model, const RunContext& context) {
   ModelMeasures result;
   result.about = middle_of(model);
   result.faces.resize(model.faces.size());
-  parallel_for(context, model.faces.size(), [&](std::size_t f) { result.faces.raw()[f] = face_measures(model, FaceId(f), result.about); }, 1);
+  parallel_for(
+      context, model.faces.size(), [&](std::size_t f) { result.faces.raw()[f] = face_measures(model, FaceId(f), result.about); }, 1);
 
   std::vector<BodySum> components(model.components.size());
   BodySum total;
@@ -114,7 +113,8 @@ ModelMeasures model_measures(const Model& model, const RunContext& context) {
     has_volume[model.faces[f].component.index()] = false;
     all_closed = false;
   }
-  for (const ComponentId c : model.components.ids()) result.components.push_back(components[c.index()].measures(model.components[c].name, has_volume[c.index()], result.about));
+  for (const ComponentId c : model.components.ids())
+    result.components.push_back(components[c.index()].measures(model.components[c].name, has_volume[c.index()], result.about));
   result.total = total.measures("total", all_closed, result.about);
   return result;
 }

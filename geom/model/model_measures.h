@@ -23,9 +23,9 @@ struct FaceMeasures {
   double error = 0.0;        ///< m2: what the last refinement of the quadrature changed
   MeasureBox box;            ///< of samples of face and border: short of the face by the sagitta between samples, about 1e-3 of a curved face's size
 };
-/// Gauss quadrature over the knots of the surface within the face's border, any kind of surface, refined until it changes by less than 1e-8, about 1e-11 then; where kinks
-/// that no knot tells of hinder that, `error` says how far it came.
-/// Seams, poles and parameters beyond a period are as in Model; what the surface does outside of the border does not count.
+/// Gauss quadrature over the knots of the surface within the face's border, any kind of surface, refined until it changes by less than 1e-8, about 1e-11 then;
+/// where kinks that no knot tells of hinder that, `error` says how far it came. Seams, poles and parameters beyond a period are as in Model; what the surface
+/// does outside of the border does not count.
 FaceMeasures face_measures(const Model& model, FaceId face, const Point& about = {});
 
 struct SolidMeasures {
@@ -42,12 +42,12 @@ struct BodyMeasures {
   double area = 0.0;    ///< wetted, m2
   double volume = 0.0;  ///< m3; 0 where the faces do not close
   bool has_volume = false;
-  Point centre;         ///< of the volume, else of the area
+  Point centre;  ///< of the volume, else of the area
   MeasureBox box;
 };
 
 struct ModelMeasures {
-  Column<FaceId, FaceMeasures> faces;    ///< about the middle of the model's box
+  Column<FaceId, FaceMeasures> faces;  ///< about the middle of the model's box
   Point about;
   std::vector<BodyMeasures> solids;      ///< in the order of model.solids
   std::vector<BodyMeasures> components;  ///< in the order of model.components

@@ -23,7 +23,11 @@ struct PartSection {
 class PartBuilder {
  public:
   PartBuilder(const Wing& wing, const WingPatch& patch, const std::vector<WingSides>& panels, bool is_blunt)
-      : patch_(patch), panels_(panels), is_flap_(patch.kind == ControlKind::trailing_edge), is_blunt_(is_blunt && is_flap_), builder_({patch.name, wing.is_pylon ? ComponentKind::pylon : ComponentKind::wing}) {}
+      : patch_(patch),
+        panels_(panels),
+        is_flap_(patch.kind == ControlKind::trailing_edge),
+        is_blunt_(is_blunt && is_flap_),
+        builder_({patch.name, wing.is_pylon ? ComponentKind::pylon : ComponentKind::wing}) {}
   Model build();
 
  private:
@@ -71,22 +75,32 @@ PartSection PartBuilder::section(double place) {
 void PartBuilder::faces(const PartSection& a, const PartSection& b, EdgeId& upper_hinge, EdgeId& lower_hinge) {
   const WingSides& sides = panel_at(panels_, b.place, true);
   const double from = sides.v(a.place), to = sides.v(b.place);
-  const auto side = [&](const SplitCurve& start, const SplitCurve& end, double start_hinge, double end_hinge, const NurbsSurfaceForm& form, const SurfacePtr& surface, EdgeId trailing) {
+  const auto side = [&](const SplitCurve& start, const SplitCurve& end, double start_hinge, double end_hinge, const NurbsSurfaceForm& form,
+                        const SurfacePtr& surface, EdgeId trailing) {
     const double far = is_flap_ ? 0.0 : 1.0;
-    const EdgeId hinge = builder_.edge(line_on_surface(form, {start_hinge, from}, {end_hinge, to}), {0.0, 1.0}, is_flap_ ? start.corners.back() : start.corners.front(), is_flap_ ? end.corners.back() : end.corners.front(), "hinge");
+    const EdgeId hinge = builder_.edge(line_on_surface(form, {start_hinge, from}, {end_hinge, to}), {0.0, 1.0},
+                                       is_flap_ ? start.corners.back() : start.corners.front(), is_flap_ ? end.corners.back() : end.corners.front(), "hinge");
     const Uv near_start{start_hinge, from}, near_end{end_hinge, to}, far_start{far, from}, far_end{far, to};
-    if (is_flap_) builder_.face(surface, {{start.edges[0], far_start, near_start}, {hinge, near_start, near_end}, {end.edges[0], near_end, far_end}, {trailing, far_end, far_start}}, FaceRole::control, patch_.name);
-    else builder_.face(surface, {{start.edges[0], near_start, far_start}, {trailing, far_start, far_end}, {end.edges[0], far_end, near_end}, {hinge, near_end, near_start}}, FaceRole::control, patch_.name);
+    if (is_flap_)
+      builder_.face(surface,
+                    {{start.edges[0], far_start, near_start}, {hinge, near_start, near_end}, {end.edges[0], near_end, far_end}, {trailing, far_end, far_start}},
+                    FaceRole::control, patch_.name);
+    else
+      builder_.face(surface,
+                    {{start.edges[0], near_start, far_start}, {trailing, far_start, far_end}, {end.edges[0], far_end, near_end}, {hinge, near_end, near_start}},
+                    FaceRole::control, patch_.name);
     return hinge;
   };
   const auto end_edge = [&](const NurbsSurfaceForm& form, const SplitCurve& start, const SplitCurve& end) {
-    return builder_.edge(line_of_constant_u(form, is_flap_ ? 0.0 : 1.0), {from, to}, is_flap_ ? start.corners.front() : start.corners.back(), is_flap_ ? end.corners.front() : end.corners.back(), is_flap_ ? "trailing edge" : "leading edge");
+    return builder_.edge(line_of_constant_u(form, is_flap_ ? 0.0 : 1.0), {from, to}, is_flap_ ? start.corners.front() : start.corners.back(),
+                         is_flap_ ? end.corners.front() : end.corners.back(), is_flap_ ? "trailing edge" : "leading edge");
   };
   const EdgeId upper_end = end_edge(sides.upper, a.upper, b.upper), lower_end = is_blunt_ ? end_edge(sides.lower, a.lower, b.lower) : upper_end;
   upper_hinge = side(a.upper, b.upper, a.hinge.upper, b.hinge.upper, sides.upper, sides.upper_surface, upper_end);
   lower_hinge = side(a.lower, b.lower, a.hinge.lower, b.hinge.lower, sides.lower, sides.lower_surface, lower_end);
   if (!is_blunt_) return;
-  builder_.patch(trailing_edge_surface(sides), {{0.0, 1.0}, {from, to}}, {a.thickness, lower_end, b.thickness, upper_end}, FaceRole::trailing_edge, patch_.name);
+  builder_.patch(trailing_edge_surface(sides), {{0.0, 1.0}, {from, to}}, {a.thickness, lower_end, b.thickness, upper_end}, FaceRole::trailing_edge,
+                 patch_.name);
 }
 
 Model PartBuilder::build() {
@@ -102,12 +116,15 @@ Model PartBuilder::build() {
   for (std::size_t i = 0; i + 1 < sections.size(); ++i) faces(sections[i], sections[i + 1], upper[i], lower[i]);
   slot_strip(builder_, nose_sections, noses, upper, lower, FaceRole::hinge, patch_.name);
   for (const std::size_t i : {std::size_t{0}, sections.size() - 1})
-    slot_wall(builder_, {sections[i].upper, sections[i].lower, !is_flap_, is_blunt_ ? std::optional(sections[i].thickness) : std::nullopt}, nose_sections[i], FaceRole::control_side, patch_.name);
+    slot_wall(builder_, {sections[i].upper, sections[i].lower, !is_flap_, is_blunt_ ? std::optional(sections[i].thickness) : std::nullopt}, nose_sections[i],
+              FaceRole::control_side, patch_.name);
   return builder_.closed_solid(patch_.name);
 }
 
 }  // namespace
 
-Model make_moving_part(const Wing& wing, const WingPatch& patch, const std::vector<WingSides>& panels, bool is_blunt) { return PartBuilder(wing, patch, panels, is_blunt).build(); }
+Model make_moving_part(const Wing& wing, const WingPatch& patch, const std::vector<WingSides>& panels, bool is_blunt) {
+  return PartBuilder(wing, patch, panels, is_blunt).build();
+}
 
 }  // namespace sterna

@@ -100,7 +100,8 @@ double largest(const Profile& profile) {
 }
 
 Profile six_series_thickness(std::string_view designation, const std::string& family, double t, int n) {
-  const auto table = std::find_if(airfoil_parts::k_mapping_tables.begin(), airfoil_parts::k_mapping_tables.end(), [&](const auto& e) { return e.family == family; });
+  const auto table =
+      std::find_if(airfoil_parts::k_mapping_tables.begin(), airfoil_parts::k_mapping_tables.end(), [&](const auto& e) { return e.family == family; });
   if (table == airfoil_parts::k_mapping_tables.end()) refuse(designation, "there is no family " + family + "; there are 63, 64, 65, 66, 67, 63A, 64A, 65A");
   // Thickness grows with the scale: bisection.
   double low = 0.0, high = 4.0;
@@ -140,8 +141,10 @@ struct FiveDigitLine {
   double m, k1, k2_by_k1;
 };
 /// By place of the largest camber, P = 1 .. 5 (p = P / 20); k1 for the lift coefficient 0.3. TM-4741; NACA Report 610.
-constexpr std::array<FiveDigitLine, 5> k_five_digit = {{{0.0580, 361.400, 0.0}, {0.1260, 51.640, 0.0}, {0.2025, 15.957, 0.0}, {0.2900, 6.643, 0.0}, {0.3910, 3.230, 0.0}}};
-constexpr std::array<FiveDigitLine, 5> k_five_digit_reflexed = {{{0.0, 0.0, 0.0}, {0.1300, 51.990, 0.000764}, {0.2170, 15.793, 0.00677}, {0.3180, 6.520, 0.0303}, {0.4410, 3.191, 0.1355}}};
+constexpr std::array<FiveDigitLine, 5> k_five_digit = {
+    {{0.0580, 361.400, 0.0}, {0.1260, 51.640, 0.0}, {0.2025, 15.957, 0.0}, {0.2900, 6.643, 0.0}, {0.3910, 3.230, 0.0}}};
+constexpr std::array<FiveDigitLine, 5> k_five_digit_reflexed = {
+    {{0.0, 0.0, 0.0}, {0.1300, 51.990, 0.000764}, {0.2170, 15.793, 0.00677}, {0.3180, 6.520, 0.0303}, {0.4410, 3.191, 0.1355}}};
 
 Height five_digit_mean(const FiveDigitLine& line, bool is_reflexed, double lift, double x) {
   const double k = line.k1 * lift / 0.3 / 6.0, m = line.m, d = x - m;
@@ -269,7 +272,8 @@ Airfoil naca_airfoil(std::string_view designation, int n_side) {
     const std::size_t place = static_cast<std::size_t>(digit(match[2], 0)) - 1;
     if (is_reflexed && place == 0) refuse(designation, "there is no reflexed mean line with the camber at 0.05 chords");
     const FiveDigitLine& line = is_reflexed ? k_five_digit_reflexed[place] : k_five_digit[place];
-    return combined(name, four_digit_thickness(checked_thickness(percent(match[4])), n_side), [&](double x) { return five_digit_mean(line, is_reflexed, lift, x); });
+    return combined(name, four_digit_thickness(checked_thickness(percent(match[4])), n_side),
+                    [&](double x) { return five_digit_mean(line, is_reflexed, lift, x); });
   }
   refuse(designation, "it is no designation of the 4-digit, modified, 5-digit, 16-, 6- or 6A-series");
 }

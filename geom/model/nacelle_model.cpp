@@ -122,7 +122,10 @@ std::vector<std::vector<Uv>> profiles_of(const Cowl& cowl) {
 
 Model CowlBuilder::ring(const Cowl& cowl) {
   if (cowl.sections.size() == 2 && std::abs(cowl.sections[1].angle - cowl.sections[0].angle - std::numbers::pi) > k_nothing)
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "making nacelle '" + name_ + "'", .problem = "two sections of a cowl must face each other; they are " + std::to_string(cowl.sections[1].angle - cowl.sections[0].angle) + " rad apart"});
+    throw Error(
+        {.code = ErrorCode::bad_argument,
+         .attempted = "making nacelle '" + name_ + "'",
+         .problem = "two sections of a cowl must face each other; they are " + std::to_string(cowl.sections[1].angle - cowl.sections[0].angle) + " rad apart"});
   const PointGrid grid = turned(profiles_of(cowl));
   PointGrid closed = grid;
   const double size = distance(grid(0, 0), grid(k_cowl_side_points, 0));

@@ -20,7 +20,9 @@ NurbsCurveForm<Point> in_space(const NurbsCurveForm<Uv>& form) {
 }  // namespace
 
 NurbsCurve::NurbsCurve(NurbsCurveForm<Point> form, bool is_periodic)
-    : form_(std::move(form)), basis_(form_.degree, form_.knots, is_periodic, k_attempted), poles_(weighted_poles(form_.poles, form_.weights, basis_.n_functions(), k_attempted)) {}
+    : form_(std::move(form)),
+      basis_(form_.degree, form_.knots, is_periodic, k_attempted),
+      poles_(weighted_poles(form_.poles, form_.weights, basis_.n_functions(), k_attempted)) {}
 
 Point NurbsCurve::point(double t) const {
   BasisValues basis;

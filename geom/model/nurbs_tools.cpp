@@ -45,8 +45,8 @@ std::size_t span_near(int degree, const std::vector<double>& knots, double t) {
 }
 
 /// Poles of one row on other knots of the same degree or of the next higher one.
-void convert_row(int old_degree, const std::vector<double>& old_knots, const Lanes4* old_poles, std::size_t old_stride, int degree, const std::vector<double>& knots, Lanes4* poles,
-                 std::size_t stride) {
+void convert_row(int old_degree, const std::vector<double>& old_knots, const Lanes4* old_poles, std::size_t old_stride, int degree,
+                 const std::vector<double>& knots, Lanes4* poles, std::size_t stride) {
   const auto q = static_cast<std::size_t>(degree);
   const std::size_t n = knots.size() - q - 1;
   for (std::size_t j = 0; j < n; ++j) {
@@ -123,7 +123,9 @@ NurbsSurfaceForm on_knots_u(const NurbsSurfaceForm& form, int degree, const std:
   return result;
 }
 
-NurbsSurfaceForm on_knots_v(const NurbsSurfaceForm& form, int degree, const std::vector<double>& knots) { return exchanged(on_knots_u(exchanged(form), degree, knots)); }
+NurbsSurfaceForm on_knots_v(const NurbsSurfaceForm& form, int degree, const std::vector<double>& knots) {
+  return exchanged(on_knots_u(exchanged(form), degree, knots));
+}
 
 std::vector<double> restricted_knots(int degree, const std::vector<double>& knots, Interval range) {
   const auto order = static_cast<std::size_t>(degree) + 1;
@@ -168,8 +170,10 @@ NurbsCurveForm<Point> restricted(const NurbsCurveForm<Point>& form, Interval ran
 
 NurbsSurfaceForm restricted(const NurbsSurfaceForm& form, Interval range_u, Interval range_v) {
   NurbsSurfaceForm result = form;
-  if (range_u != Interval{form.knots_u.front(), form.knots_u.back()}) result = on_knots_u(result, form.degree_u, restricted_knots(form.degree_u, form.knots_u, range_u));
-  if (range_v != Interval{form.knots_v.front(), form.knots_v.back()}) result = on_knots_v(result, form.degree_v, restricted_knots(form.degree_v, form.knots_v, range_v));
+  if (range_u != Interval{form.knots_u.front(), form.knots_u.back()})
+    result = on_knots_u(result, form.degree_u, restricted_knots(form.degree_u, form.knots_u, range_u));
+  if (range_v != Interval{form.knots_v.front(), form.knots_v.back()})
+    result = on_knots_v(result, form.degree_v, restricted_knots(form.degree_v, form.knots_v, range_v));
   return result;
 }
 

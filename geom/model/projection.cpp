@@ -49,7 +49,9 @@ constexpr double k_golden = 0.6180339887498949;
 
 void check_range(Interval range) {
   if (!std::isfinite(range.from) || !std::isfinite(range.to) || !(range.from < range.to))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "preparing a projection", .problem = "the parameters [" + number_text(range.from) + ", " + number_text(range.to) + "] have no length"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "preparing a projection",
+                 .problem = "the parameters [" + number_text(range.from) + ", " + number_text(range.to) + "] have no length"});
 }
 
 double inside(double t, Interval range, bool wraps) {
@@ -345,7 +347,8 @@ SurfaceFoot SurfaceProjector::nearest(const Point& p) const {
     }
   }
   // Nearest samples first. A cell beside one that came earlier leads to the same foot: only local minima of the samples are starts.
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return std::tie(a.to_middle, a.cell) < std::tie(b.to_middle, b.cell); });
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return std::tie(a.to_middle, a.cell) < std::tie(b.to_middle, b.cell); });
   const std::size_t n_u = stations_u_.size() - 1;
   std::vector<char> is_passed(n_u * n_v, 0);
   for (const Candidate& candidate : candidates) {
@@ -362,7 +365,8 @@ SurfaceFoot SurfaceProjector::nearest(const Point& p) const {
 }
 
 void SurfaceProjector::project(std::span<const Point> points, std::span<const Uv> seeds, std::span<SurfaceFoot> feet, const RunContext& context) const {
-  parallel_for(context, points.size(), [&](std::size_t i) { feet[i] = seeds.empty() ? nearest(points[i]) : seeded(points[i], seeds[i]); }, 512);
+  parallel_for(
+      context, points.size(), [&](std::size_t i) { feet[i] = seeds.empty() ? nearest(points[i]) : seeded(points[i], seeds[i]); }, 512);
 }
 
 // ---------------------------------------------------------------- curves
@@ -431,7 +435,8 @@ CurveFoot CurveProjector::nearest(const Point& p) const {
   };
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < reach_.size(); ++i) candidates.push_back({distance(0.5 * (points_[i] + points_[i + 1]), p) - reach_[i], i});
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return std::tie(a.bound, a.interval) < std::tie(b.bound, b.interval); });
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return std::tie(a.bound, a.interval) < std::tie(b.bound, b.interval); });
   CurveFoot best;
   best.distance = std::numeric_limits<double>::infinity();
   for (const Candidate& candidate : candidates) {

@@ -12,8 +12,8 @@
 namespace sterna {
 
 struct ScatteredDisplacements {
-  std::vector<Point> at;      ///< metres, undeformed
-  std::vector<Vec3> shift;    ///< metres
+  std::vector<Point> at;    ///< metres, undeformed
+  std::vector<Vec3> shift;  ///< metres
 };
 
 /// Text table x y z dx dy dz, one point a line, metres; separated by blanks, tabs, commas or semicolons; '#' starts a comment.
@@ -29,9 +29,20 @@ template <>
 struct Schema<RadialMapOptions> {
   static constexpr std::string_view stage = "deform";
   static constexpr std::array fields = {
-      Field<RadialMapOptions>{.name = "kernel", .member = &RadialMapOptions::kernel, .help = "thin_plate: r^2 log r, smoothest, far-reaching; wendland_c2: smooth bumps that end at the radius", .choices = "thin_plate wendland_c2"},
-      Field<RadialMapOptions>{.name = "radius", .member = &RadialMapOptions::radius, .unit = Unit::metre, .min = 0.0, .help = "of the bumps of wendland_c2", .automatic = "the diagonal of the points' box"},
-      Field<RadialMapOptions>{.name = "linear_part", .member = &RadialMapOptions::linear_part, .help = "reproduce moves, turns and linear bending exactly everywhere (thin_plate always does); without it wendland_c2 leaves what is beyond the radius where it is"},
+      Field<RadialMapOptions>{.name = "kernel",
+                              .member = &RadialMapOptions::kernel,
+                              .help = "thin_plate: r^2 log r, smoothest, far-reaching; wendland_c2: smooth bumps that end at the radius",
+                              .choices = "thin_plate wendland_c2"},
+      Field<RadialMapOptions>{.name = "radius",
+                              .member = &RadialMapOptions::radius,
+                              .unit = Unit::metre,
+                              .min = 0.0,
+                              .help = "of the bumps of wendland_c2",
+                              .automatic = "the diagonal of the points' box"},
+      Field<RadialMapOptions>{.name = "linear_part",
+                              .member = &RadialMapOptions::linear_part,
+                              .help = "reproduce moves, turns and linear bending exactly everywhere (thin_plate always does); without it wendland_c2 leaves "
+                                      "what is beyond the radius where it is"},
   };
 };
 
@@ -48,7 +59,7 @@ class RadialMap final : public SpaceMap {
  private:
   bool is_thin_plate_;
   double radius_;
-  Point origin_;               ///< coordinates are scaled about it by 1 / scale_
+  Point origin_;  ///< coordinates are scaled about it by 1 / scale_
   double scale_;
   std::vector<Vec3> centres_;  ///< scaled
   std::vector<Vec3> weights_;  ///< metres

@@ -19,7 +19,8 @@ std::vector<ChordLine> chord_lines(const Wing& wing) {
   for (const WingSection& section : wing.sections) {
     const std::vector<Point> loop = section_loop(section, std::nullopt);
     const Point trailing = 0.5 * (loop.front() + loop.back());
-    const Point leading = *std::max_element(loop.begin(), loop.end(), [&](const Point& a, const Point& b) { return distance(a, trailing) < distance(b, trailing); });
+    const Point leading =
+        *std::max_element(loop.begin(), loop.end(), [&](const Point& a, const Point& b) { return distance(a, trailing) < distance(b, trailing); });
     lines.push_back({map.point(leading), map.point(trailing)});
   }
   if (wing.is_symmetric)

@@ -11,9 +11,9 @@ namespace sterna {
 /// x and the span direction of each panel (dihedral is unrolled), span along y and z.
 struct WingReference {
   std::string name;
-  double span = 0.0;            ///< largest extent at right angles to x, of the section chords, m
-  double area = 0.0;            ///< planform, m2
-  double projected_area = 0.0;  ///< planform seen from above, m2
+  double span = 0.0;                    ///< largest extent at right angles to x, of the section chords, m
+  double area = 0.0;                    ///< planform, m2
+  double projected_area = 0.0;          ///< planform seen from above, m2
   double mean_geometric_chord = 0.0;    ///< area / span, m
   double mean_aerodynamic_chord = 0.0;  ///< integral of c2 / area, m
   Point aerodynamic_chord_start;        ///< leading edge of the mean aerodynamic chord, in the plane of symmetry for symmetric wings

@@ -22,7 +22,11 @@ constexpr std::array<double, 2> k_between = {0.31, 0.5};
 constexpr double k_seam = 0.1;
 
 [[noreturn]] void refuse(std::string problem, std::vector<ErrorPlace> places = {}, std::string hint = {}) {
-  throw Error({.code = ErrorCode::bad_argument, .attempted = "sampling a function to a spline", .problem = std::move(problem), .places = std::move(places), .hint = std::move(hint)});
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = "sampling a function to a spline",
+               .problem = std::move(problem),
+               .places = std::move(places),
+               .hint = std::move(hint)});
 }
 
 std::string text_of(Uv at) { return "(u, v) = (" + number_text(at.u) + ", " + number_text(at.v) + ")"; }
@@ -34,7 +38,8 @@ struct Stations {
   bool is_periodic = false;
 
   Stations(Interval range, const std::vector<double>& kinks, bool periodic) : breaks(kinks), is_periodic(periodic) {
-    if (!std::isfinite(range.from) || !std::isfinite(range.to) || !(range.from < range.to)) refuse("the parameters [" + number_text(range.from) + ", " + number_text(range.to) + "] have no length");
+    if (!std::isfinite(range.from) || !std::isfinite(range.to) || !(range.from < range.to))
+      refuse("the parameters [" + number_text(range.from) + ", " + number_text(range.to) + "] have no length");
     std::vector<double> stops{range.from};
     for (const double b : breaks) {
       if (!(b > stops.back()) || !(b < range.to)) refuse("break " + number_text(b) + " is not inside, or breaks do not ascend");
@@ -93,8 +98,9 @@ void check_options(const SamplingOptions& o) {
 }
 
 [[noreturn]] void fail_to_reach(double error, double tolerance, int max_intervals, const Point& place, const std::string& where) {
-  refuse("the error is still " + number_text(error) + " m with " + std::to_string(max_intervals) + " intervals along a direction, the tolerance is " + number_text(tolerance) + " m", {{place, where}},
-         "a kink or a step there? Name it as a break; or allow a larger tolerance or more intervals");
+  refuse("the error is still " + number_text(error) + " m with " + std::to_string(max_intervals) + " intervals along a direction, the tolerance is " +
+             number_text(tolerance) + " m",
+         {{place, where}}, "a kink or a step there? Name it as a break; or allow a larger tolerance or more intervals");
 }
 
 struct Worst {
@@ -120,7 +126,8 @@ NurbsSurfaceForm spline_of(Function& f, const Stations& u, const Stations& v) {
 
 void check_seams(Function& f, const Stations& u, const Stations& v, double tolerance) {
   const auto check = [&](Uv a, Uv b) {
-    if (const double gap = distance(f(a), f(b)); gap > k_seam * tolerance) refuse("the function is said to be periodic, but its ends are " + number_text(gap) + " m apart at " + text_of(a), {{f(a), "start"}, {f(b), "end"}});
+    if (const double gap = distance(f(a), f(b)); gap > k_seam * tolerance)
+      refuse("the function is said to be periodic, but its ends are " + number_text(gap) + " m apart at " + text_of(a), {{f(a), "start"}, {f(b), "end"}});
   };
   if (u.is_periodic)
     for (const double b : v.at) check({u.at.front(), b}, {u.at.back(), b});
@@ -171,7 +178,11 @@ SampledSurface sample_surface(const std::function<Point(Uv)>& function, const Pa
 }
 
 SampledSurface sample_surface(const Surface& surface, double tolerance) {
-  SamplingOptions options{.tolerance = tolerance, .breaks_u = surface.breaks_u(), .breaks_v = surface.breaks_v(), .is_periodic_u = surface.is_periodic_u(), .is_periodic_v = surface.is_periodic_v()};
+  SamplingOptions options{.tolerance = tolerance,
+                          .breaks_u = surface.breaks_u(),
+                          .breaks_v = surface.breaks_v(),
+                          .is_periodic_u = surface.is_periodic_u(),
+                          .is_periodic_v = surface.is_periodic_v()};
   const auto enough = [](const std::vector<double>& breaks) { return 4 * k_first_intervals * static_cast<int>(breaks.size() + 1); };
   options.max_intervals = std::max({options.max_intervals, enough(options.breaks_u), enough(options.breaks_v)});
   return sample_surface([&](Uv at) { return surface.point(at); }, surface.domain(), options);
@@ -183,7 +194,8 @@ SampledCurve sample_curve(const std::function<Point(double)>& function, Interval
   Function f(along);
   Stations t(range, options.breaks_u, options.is_periodic_u);
   if (const double gap = distance(f({range.from, 0.0}), f({range.to, 0.0})); t.is_periodic && gap > k_seam * options.tolerance)
-    refuse("the function is said to be periodic, but its ends are " + number_text(gap) + " m apart", {{f({range.from, 0.0}), "start"}, {f({range.to, 0.0}), "end"}});
+    refuse("the function is said to be periodic, but its ends are " + number_text(gap) + " m apart",
+           {{f({range.from, 0.0}), "start"}, {f({range.to, 0.0}), "end"}});
   while (true) {
     std::vector<Point> points;
     for (const double s : t.at) points.push_back(f({s, 0.0}));
@@ -200,7 +212,8 @@ SampledCurve sample_curve(const std::function<Point(double)>& function, Interval
       }
     if (worst.error <= options.tolerance) return {curve, worst.error, worst.at.u, t.at.size()};
     t.split(split);
-    if (t.n_intervals() > static_cast<std::size_t>(options.max_intervals)) fail_to_reach(worst.error, options.tolerance, options.max_intervals, worst.point, "t = " + number_text(worst.at.u));
+    if (t.n_intervals() > static_cast<std::size_t>(options.max_intervals))
+      fail_to_reach(worst.error, options.tolerance, options.max_intervals, worst.point, "t = " + number_text(worst.at.u));
   }
 }
 

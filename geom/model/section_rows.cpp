@@ -155,7 +155,8 @@ std::vector<Point> section_loop(const WingSection& section, const std::optional<
   if (loop.empty()) {
     std::vector<Uv> points = section.points;
     if (points.empty() && !section.naca.empty()) points = naca_airfoil(section.naca).points;
-    if (points.size() < 5) refuse(ErrorCode::bad_argument, "section '" + section.name + "' has " + std::to_string(points.size()) + " airfoil points; at least 5 are needed");
+    if (points.size() < 5)
+      refuse(ErrorCode::bad_argument, "section '" + section.name + "' has " + std::to_string(points.size()) + " airfoil points; at least 5 are needed");
     const Transform place = transform_of({section.leading_edge, {section.dihedral, section.twist, section.yaw}});
     const double up = section.is_reversed ? -section.chord : section.chord;
     for (const Uv p : points) loop.push_back(place.point({section.chord * p.u, 0.0, up * p.v}));
@@ -193,7 +194,8 @@ AirfoilRow airfoil_row(const std::vector<Point>& loop, std::size_t n, const std:
   std::size_t best = 0;
   for (std::size_t i = 0; i < loop.size(); ++i)
     if (distance(loop[i], middle) > distance(loop[best], middle)) best = i;
-  if (best == 0 || best + 1 == loop.size()) refuse(ErrorCode::bad_argument, "section '" + name + "' has no leading edge between its ends", {{loop[best], "farthest point"}});
+  if (best == 0 || best + 1 == loop.size())
+    refuse(ErrorCode::bad_argument, "section '" + name + "' has no leading edge between its ends", {{loop[best], "farthest point"}});
   double low = at[best - 1], high = at[best + 1];
   constexpr double k_golden = 0.6180339887498949;
   for (int i = 0; i < 80; ++i) {
@@ -270,7 +272,9 @@ WingPanel wing_panel(const std::vector<std::vector<Point>>& rows, std::size_t fi
   WingPanel panel{{}, first_row, {}};
   if (is_sampled && n >= 4) {
     for (std::size_t row = first_row; row <= last_row; ++row)
-      panel.v_of_row.push_back(row == first_row ? 0.0 : panel.v_of_row.back() + distance(rows[row - 1].front(), rows[row].front()) + distance(rows[row - 1][grid.n_u / 2], rows[row][grid.n_u / 2]));
+      panel.v_of_row.push_back(row == first_row ? 0.0
+                                                : panel.v_of_row.back() + distance(rows[row - 1].front(), rows[row].front()) +
+                                                      distance(rows[row - 1][grid.n_u / 2], rows[row][grid.n_u / 2]));
     const double length = panel.v_of_row.back();
     for (double& v : panel.v_of_row) v /= length;
     panel.form = spline_surface_form(grid, around, {.tangents = SplineTangents::not_a_knot, .at = panel.v_of_row});
@@ -301,13 +305,17 @@ std::vector<Point> frame_row(const BodyFrame& frame, std::size_t m) {
     std::size_t top = 0;
     for (std::size_t i = 1; i < frame.loop.size(); ++i) {
       const double higher = frame.loop[i].z - frame.loop[top].z;
-      if (higher > k_point_size * size || (higher > -k_point_size * size && std::abs(frame.loop[i].y - frame.center.y) < std::abs(frame.loop[top].y - frame.center.y))) top = i;
+      if (higher > k_point_size * size ||
+          (higher > -k_point_size * size && std::abs(frame.loop[i].y - frame.center.y) < std::abs(frame.loop[top].y - frame.center.y)))
+        top = i;
     }
-    if (top == 0) refuse(ErrorCode::bad_argument, "frame '" + frame.name + "' has its highest point where it begins, at the bottom", {{frame.loop.front(), "first point"}});
+    if (top == 0)
+      refuse(ErrorCode::bad_argument, "frame '" + frame.name + "' has its highest point where it begins, at the bottom", {{frame.loop.front(), "first point"}});
     return halves_of(frame.loop, top, m);
   }
   if (!(frame.width > 0.0 && frame.height > 0.0))
-    refuse(ErrorCode::bad_argument, "frame '" + frame.name + "' is " + std::to_string(frame.width) + " m wide and " + std::to_string(frame.height) + " m high; both must be positive");
+    refuse(ErrorCode::bad_argument,
+           "frame '" + frame.name + "' is " + std::to_string(frame.width) + " m wide and " + std::to_string(frame.height) + " m high; both must be positive");
   const auto place = [&](Uv p) { return frame.center + Vec3{0.0, 0.5 * frame.width * p.u, 0.5 * frame.height * p.v}; };
   if (frame.shape == FrameShape::points) {
     std::vector<Point> loop;

@@ -16,7 +16,9 @@
 namespace sterna {
 namespace {
 
-[[noreturn]] void refuse(const std::string& attempted, const std::string& problem) { throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = problem}); }
+[[noreturn]] void refuse(const std::string& attempted, const std::string& problem) {
+  throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = problem});
+}
 
 /// A duct of rectangular stations: walls between them by cubics (straight or with level ends), flat ends.
 struct DuctStation {
@@ -90,7 +92,8 @@ std::vector<Uv> symmetric_section(double thickness) {
 
 Model make_box(const std::string& name, const Point& from, const Point& to) {
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (!(to[axis] > from[axis])) refuse("making box '" + name + "'", "its corners " + format_point(from) + " and " + format_point(to) + " must ascend in x, y and z");
+    if (!(to[axis] > from[axis]))
+      refuse("making box '" + name + "'", "its corners " + format_point(from) + " and " + format_point(to) + " must ascend in x, y and z");
   ModelBuilder builder({name, ComponentKind::box});
   std::array<CornerId, 8> corners;
   for (std::size_t i = 0; i < 8; ++i) corners[i] = builder.corner({i & 1 ? to.x : from.x, i & 2 ? to.y : from.y, i & 4 ? to.z : from.z});
@@ -99,13 +102,16 @@ Model make_box(const std::string& name, const Point& from, const Point& to) {
     for (const std::size_t bit : {1u, 2u, 4u})
       if (!(i & bit)) edges[i][i | bit] = edges[i | bit][i] = builder.straight_edge(corners[i], corners[i | bit]);
   for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{1, 2}, {2, 4}, {4, 1}})
-    for (const std::size_t side : {std::size_t{0}, 7 - a - b}) builder.plane({edges[side][side | a], edges[side | a][side | a | b], edges[side | a | b][side | b], edges[side | b][side]}, FaceRole::skin, name);
+    for (const std::size_t side : {std::size_t{0}, 7 - a - b})
+      builder.plane({edges[side][side | a], edges[side | a][side | a | b], edges[side | a | b][side | b], edges[side | b][side]}, FaceRole::skin, name);
   return builder.closed_solid(name);
 }
 
 Model make_cylinder(const std::string& name, const Point& from, const Point& to, double radius) {
   const double length = distance(from, to);
-  if (!(length > 0.0) || !(radius > 0.0)) refuse("making cylinder '" + name + "'", "it is " + std::to_string(length) + " m long and has a radius of " + std::to_string(radius) + " m; both must be positive");
+  if (!(length > 0.0) || !(radius > 0.0))
+    refuse("making cylinder '" + name + "'",
+           "it is " + std::to_string(length) + " m long and has a radius of " + std::to_string(radius) + " m; both must be positive");
   ModelBuilder builder({name, ComponentKind::body});
   const Frame frame = frame_along(from, to - from);
   const double pi = std::numbers::pi;
@@ -165,13 +171,16 @@ Body nacelle_body(const std::string& name, const Point& position, const NacelleO
   NacelleOptions checked = o;
   require_options(options_of(checked), "making nacelle '" + name + "'");
   if (!(o.fan_ratio < o.highlight_ratio))
-    refuse("making nacelle '" + name + "'", "fan_ratio is " + std::to_string(o.fan_ratio) + "; it must be below highlight_ratio (" + std::to_string(o.highlight_ratio) + ")");
+    refuse("making nacelle '" + name + "'",
+           "fan_ratio is " + std::to_string(o.fan_ratio) + "; it must be below highlight_ratio (" + std::to_string(o.highlight_ratio) + ")");
   Body body{.name = name, .placement = {position, {}}};
   const auto add = [&](double x, double ratio) {
-    body.frames.push_back({.name = "x" + std::to_string(x), .center = {x * o.length, 0.0, 0.0}, .height = ratio * o.diameter, .width = ratio * o.diameter, .n_points = 11});
+    body.frames.push_back(
+        {.name = "x" + std::to_string(x), .center = {x * o.length, 0.0, 0.0}, .height = ratio * o.diameter, .width = ratio * o.diameter, .n_points = 11});
   };
   // In front a quarter ellipse from the highlight to the largest diameter, behind a parabola to the exit.
-  for (const double t : {0.0, 0.04, 0.15, 0.35, 0.65}) add(t * o.thickest, o.highlight_ratio + (1.0 - o.highlight_ratio) * std::sqrt(1.0 - (1.0 - t) * (1.0 - t)));
+  for (const double t : {0.0, 0.04, 0.15, 0.35, 0.65})
+    add(t * o.thickest, o.highlight_ratio + (1.0 - o.highlight_ratio) * std::sqrt(1.0 - (1.0 - t) * (1.0 - t)));
   for (const double t : {0.0, 0.35, 0.7, 1.0}) add(o.thickest + t * (1.0 - o.thickest), 1.0 - (1.0 - o.exit_ratio) * t * t);
   const double radius = 0.5 * o.highlight_ratio * o.diameter;
   body.lip = InletLip{o.fan_depth * o.length / radius, 1.0 - o.fan_ratio / o.highlight_ratio, 1.0};
@@ -180,7 +189,8 @@ Body nacelle_body(const std::string& name, const Point& position, const NacelleO
 
 Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, const PylonOptions& o) {
   const std::string attempted = "making pylon '" + name + "'";
-  if (!(o.nacelle_from < o.nacelle_to) || !(o.wing_from < o.wing_to)) refuse(attempted, "its leading edges must lie before its trailing edges (nacelle_from < nacelle_to, wing_from < wing_to)");
+  if (!(o.nacelle_from < o.nacelle_to) || !(o.wing_from < o.wing_to))
+    refuse(attempted, "its leading edges must lie before its trailing edges (nacelle_from < nacelle_to, wing_from < wing_to)");
   const Transform nacelle_map = transform_of(nacelle.placement), wing_map = transform_of(wing.placement);
   const Point front = nacelle_map.point(nacelle.frames.front().center), back = nacelle_map.point(nacelle.frames.back().center);
   const double y = 0.5 * (front.y + back.y);
@@ -191,7 +201,9 @@ Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, 
   for (const WingSection& section : wing.sections) {
     const std::vector<Point> loop = section_loop(section, std::nullopt);
     const Point trailing = 0.5 * (loop.front() + loop.back());
-    lines.push_back({wing_map.point(*std::max_element(loop.begin(), loop.end(), [&](const Point& a, const Point& b) { return distance(a, trailing) < distance(b, trailing); })), wing_map.point(trailing)});
+    lines.push_back({wing_map.point(*std::max_element(loop.begin(), loop.end(),
+                                                      [&](const Point& a, const Point& b) { return distance(a, trailing) < distance(b, trailing); })),
+                     wing_map.point(trailing)});
   }
   const double side = wing.is_symmetric && y * lines.front().leading.y < 0.0 ? -1.0 : 1.0;  // the other half of the wing
   const std::size_t n = lines.size();
@@ -212,7 +224,8 @@ Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, 
     return s;
   };
   Wing pylon{.name = name, .is_pylon = true};
-  pylon.sections = {section("nacelle", front + o.nacelle_from * (back - front), front + o.nacelle_to * (back - front)), section("wing", local->leading + o.wing_from * chord, local->leading + o.wing_to * chord)};
+  pylon.sections = {section("nacelle", front + o.nacelle_from * (back - front), front + o.nacelle_to * (back - front)),
+                    section("wing", local->leading + o.wing_from * chord, local->leading + o.wing_to * chord)};
   pylon.trailing_edge = 0.0;
   pylon.right_tip = pylon.left_tip = {CapShape::strip, 0.0};
   return pylon;

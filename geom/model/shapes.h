@@ -16,8 +16,8 @@ Model make_box(const std::string& name, const Point& from, const Point& to);
 /// Solid cylinder between two points. \throws Error(bad_argument) when it has no length or radius
 Model make_cylinder(const std::string& name, const Point& from, const Point& to, double radius);
 
-/// Wind-tunnel test section around the x axis, the fluid inside; the model stands at the origin. Rectangular (width, height: walls <wall>_floor, <wall>_right at starboard,
-/// <wall>_ceiling and <wall>_left), or round (diameter: one wall).
+/// Wind-tunnel test section around the x axis, the fluid inside; the model stands at the origin. Rectangular (width, height: walls <wall>_floor, <wall>_right
+/// at starboard, <wall>_ceiling and <wall>_left), or round (diameter: one wall).
 struct TestSectionOptions {
   double length = k_automatic;
   double width = k_automatic;
@@ -40,15 +40,31 @@ struct Schema<TestSectionOptions> {
       Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-9, .help = "of the straight part", .required = true},
       Field<O>{.name = "width", .member = &O::width, .unit = Unit::metre, .min = 1e-9, .help = "along y", .automatic = "needed, unless it is round"},
       Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 1e-9, .help = "along z", .automatic = "needed, unless it is round"},
-      Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "of a round section, without contraction and diffuser", .automatic = "it is rectangular"},
-      Field<O>{.name = "upstream", .member = &O::upstream, .unit = Unit::metre, .help = "how far the straight part begins before x = 0", .automatic = "half its length"},
+      Field<O>{.name = "diameter",
+               .member = &O::diameter,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "of a round section, without contraction and diffuser",
+               .automatic = "it is rectangular"},
+      Field<O>{.name = "upstream",
+               .member = &O::upstream,
+               .unit = Unit::metre,
+               .help = "how far the straight part begins before x = 0",
+               .automatic = "half its length"},
       Field<O>{.name = "contraction_length", .member = &O::contraction_length, .unit = Unit::metre, .min = 0.0, .help = "of a contraction before it; 0 = none"},
       Field<O>{.name = "contraction_ratio", .member = &O::contraction_ratio, .min = 1.0, .max = 100.0, .help = "of the areas at both ends of the contraction"},
       Field<O>{.name = "diffuser_length", .member = &O::diffuser_length, .unit = Unit::metre, .min = 0.0, .help = "of a diffuser behind it; 0 = none"},
-      Field<O>{.name = "diffuser_angle", .member = &O::diffuser_angle, .unit = Unit::radian, .min = 0.0, .max = 0.7853981633974483, .help = "of each wall of the diffuser against x"},
+      Field<O>{.name = "diffuser_angle",
+               .member = &O::diffuser_angle,
+               .unit = Unit::radian,
+               .min = 0.0,
+               .max = 0.7853981633974483,
+               .help = "of each wall of the diffuser against x"},
       Field<O>{.name = "inflow", .member = &O::inflow, .help = "name of the patch where air comes in"},
       Field<O>{.name = "outflow", .member = &O::outflow, .help = "name of the patch where it leaves"},
-      Field<O>{.name = "wall", .member = &O::wall, .help = "name of the walls: tunnel_floor, tunnel_right (starboard), tunnel_ceiling, tunnel_left; tunnel where it is round"},
+      Field<O>{.name = "wall",
+               .member = &O::wall,
+               .help = "name of the walls: tunnel_floor, tunnel_right (starboard), tunnel_ceiling, tunnel_left; tunnel where it is round"},
   };
 };
 /// \throws Error(bad_argument)
@@ -72,7 +88,8 @@ struct Schema<NacelleOptions> {
       Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-9, .help = "along x", .required = true},
       Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "largest outer one", .required = true},
       Field<O>{.name = "highlight_ratio", .member = &O::highlight_ratio, .min = 0.3, .max = 0.99, .help = "diameter of the front edge, of the largest one"},
-      Field<O>{.name = "fan_ratio", .member = &O::fan_ratio, .min = 0.1, .max = 0.98, .help = "diameter of the fan face, of the largest one; below highlight_ratio"},
+      Field<O>{
+          .name = "fan_ratio", .member = &O::fan_ratio, .min = 0.1, .max = 0.98, .help = "diameter of the fan face, of the largest one; below highlight_ratio"},
       Field<O>{.name = "fan_depth", .member = &O::fan_depth, .min = 0.01, .max = 0.8, .help = "how far the fan face stands behind the front, of the length"},
       Field<O>{.name = "exit_ratio", .member = &O::exit_ratio, .min = 0.1, .max = 0.99, .help = "diameter of the nozzle plane, of the largest one"},
       Field<O>{.name = "thickest", .member = &O::thickest, .min = 0.1, .max = 0.8, .help = "where the largest diameter is, of the length"},
@@ -109,7 +126,8 @@ Placement placement_along(const Point& from, const Point& to);
 
 /// Body of circular sections through profile points: u = x along the axis of `placement`, v = radius; ascending x, radius 0 (a point) only at the ends, which
 /// are flat where it is not. Smooth, nowhere thicker than the points say, or straight between the points. \throws Error(bad_argument) naming the point
-Body body_of_revolution(const std::string& name, const Placement& placement, const std::vector<Uv>& profile, bool is_straight = false, ComponentKind kind = ComponentKind::body);
+Body body_of_revolution(const std::string& name, const Placement& placement, const std::vector<Uv>& profile, bool is_straight = false,
+                        ComponentKind kind = ComponentKind::body);
 
 /// Round tube between two points with half-elliptic ends within its length.
 struct BoomOptions {
@@ -123,8 +141,18 @@ struct Schema<BoomOptions> {
   static constexpr std::string_view stage = "boom";
   static constexpr std::array fields = {
       Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "of the tube", .required = true},
-      Field<O>{.name = "nose_length", .member = &O::nose_length, .unit = Unit::metre, .min = 0.0, .help = "of the rounded front end; 0 = flat", .automatic = "one diameter"},
-      Field<O>{.name = "tail_length", .member = &O::tail_length, .unit = Unit::metre, .min = 0.0, .help = "of the rounded rear end; 0 = flat", .automatic = "two diameters"},
+      Field<O>{.name = "nose_length",
+               .member = &O::nose_length,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "of the rounded front end; 0 = flat",
+               .automatic = "one diameter"},
+      Field<O>{.name = "tail_length",
+               .member = &O::tail_length,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "of the rounded rear end; 0 = flat",
+               .automatic = "two diameters"},
   };
 };
 /// \throws Error(bad_argument) when both ends together are not shorter than the boom
@@ -165,8 +193,14 @@ struct Schema<StingOptions> {
   static constexpr std::string_view stage = "sting";
   static constexpr std::array fields = {
       Field<O>{.name = "diameter", .member = &O::diameter, .unit = Unit::metre, .min = 1e-9, .help = "of the cylinder", .required = true},
-      Field<O>{.name = "cone_start", .member = &O::cone_start, .unit = Unit::metre, .min = 0.0, .help = "distance of the cone from the front end; 0 = all of it is a cone", .automatic = "no cone"},
-      Field<O>{.name = "end_diameter", .member = &O::end_diameter, .unit = Unit::metre, .min = 1e-9, .help = "of the rear end", .automatic = "that of the cylinder"},
+      Field<O>{.name = "cone_start",
+               .member = &O::cone_start,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "distance of the cone from the front end; 0 = all of it is a cone",
+               .automatic = "no cone"},
+      Field<O>{
+          .name = "end_diameter", .member = &O::end_diameter, .unit = Unit::metre, .min = 1e-9, .help = "of the rear end", .automatic = "that of the cylinder"},
   };
 };
 /// \throws Error(bad_argument)

@@ -73,11 +73,13 @@ SplitCurve slot_section(ModelBuilder& builder, const SlotStation& station) {
   const Point upper = builder.model().corners[station.upper].point, lower = builder.model().corners[station.lower].point;
   SectionForm form = section_form(upper, lower, station.bulge);
   const bool is_straight = !station.bulge;
-  const CurvePtr curve = std::make_shared<NurbsCurve>(NurbsCurveForm<Point>{is_straight ? 1 : 2, knots_of_section(is_straight), std::move(form.poles), is_straight ? std::vector<double>{} : std::move(form.weights)});
+  const CurvePtr curve = std::make_shared<NurbsCurve>(NurbsCurveForm<Point>{is_straight ? 1 : 2, knots_of_section(is_straight), std::move(form.poles),
+                                                                            is_straight ? std::vector<double>{} : std::move(form.weights)});
   return builder.split_curve(curve, is_straight ? std::vector<double>{0.0, 1.0} : std::vector<double>{0.0, 0.5, 1.0}, station.upper, station.lower);
 }
 
-void slot_strip(ModelBuilder& builder, const std::vector<SplitCurve>& sections, const std::vector<SlotStation>& stations, const std::vector<EdgeId>& upper, const std::vector<EdgeId>& lower, FaceRole role, const std::string& name) {
+void slot_strip(ModelBuilder& builder, const std::vector<SplitCurve>& sections, const std::vector<SlotStation>& stations, const std::vector<EdgeId>& upper,
+                const std::vector<EdgeId>& lower, FaceRole role, const std::string& name) {
   for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
     const auto form_of = [&](EdgeId id, CornerId start) {
       const ModelEdge& edge = builder.model().edges[id];
@@ -140,16 +142,23 @@ void ruled_wall(ModelBuilder& builder, const SplitCurve& upper, const SplitCurve
 }
 
 void slot_wall(ModelBuilder& builder, const SlotWall& wall, const SplitCurve& section, FaceRole role, const std::string& name) {
-  const CornerId upper = wall.is_slot_at_start ? wall.upper.corners.front() : wall.upper.corners.back(), lower = wall.is_slot_at_start ? wall.lower.corners.front() : wall.lower.corners.back();
+  const CornerId upper = wall.is_slot_at_start ? wall.upper.corners.front() : wall.upper.corners.back(),
+                 lower = wall.is_slot_at_start ? wall.lower.corners.front() : wall.lower.corners.back();
   const EdgeId at_slot = section.edges.size() == 1 ? section.edges.front() : builder.straight_edge(upper, lower);
   const EdgeId at_end = wall.end ? *wall.end : builder.pole(wall.is_slot_at_start ? wall.upper.corners.back() : wall.upper.corners.front());
   ruled_wall(builder, wall.upper, wall.lower, wall.is_slot_at_start ? at_slot : at_end, wall.is_slot_at_start ? at_end : at_slot, role, name);
   if (section.edges.size() == 1) return;
   const NurbsCurveForm<Point> arc = *section.curve->exact_nurbs();
   const std::vector<double> knots{0.0, 0.0, 0.0, 1.0, 1.0, 1.0};
-  const NurbsCurveForm<Point> first{2, knots, {arc.poles[0], arc.poles[1], arc.poles[2]}, {1.0, arc.weights[1], 1.0}}, second{2, knots, {arc.poles[4], arc.poles[3], arc.poles[2]}, {1.0, arc.weights[3], 1.0}};
+  const NurbsCurveForm<Point> first{2, knots, {arc.poles[0], arc.poles[1], arc.poles[2]}, {1.0, arc.weights[1], 1.0}},
+      second{2, knots, {arc.poles[4], arc.poles[3], arc.poles[2]}, {1.0, arc.weights[3], 1.0}};
   const EdgeId pole = builder.pole(section.corners[1]);
-  builder.face(ruled(first, second), {{section.edges[0], {0.0, 0.0}, {1.0, 0.0}}, {pole, {1.0, 0.0}, {1.0, 1.0}}, {section.edges[1], {1.0, 1.0}, {0.0, 1.0}}, {at_slot, {0.0, 1.0}, {0.0, 0.0}}}, role, name);
+  builder.face(ruled(first, second),
+               {{section.edges[0], {0.0, 0.0}, {1.0, 0.0}},
+                {pole, {1.0, 0.0}, {1.0, 1.0}},
+                {section.edges[1], {1.0, 1.0}, {0.0, 1.0}},
+                {at_slot, {0.0, 1.0}, {0.0, 0.0}}},
+               role, name);
 }
 
 SplitCurve pieces(const SplitCurve& split, double from, double to) {

@@ -27,7 +27,8 @@ struct SlotStation {
 SplitCurve slot_section(ModelBuilder& builder, const SlotStation& station);
 
 /// Faces of a cove or nose: between neighbouring stations bounded by upper[i] and lower[i], which lead from station i to i + 1, and by their sections.
-void slot_strip(ModelBuilder& builder, const std::vector<SplitCurve>& sections, const std::vector<SlotStation>& stations, const std::vector<EdgeId>& upper, const std::vector<EdgeId>& lower, FaceRole role, const std::string& name);
+void slot_strip(ModelBuilder& builder, const std::vector<SplitCurve>& sections, const std::vector<SlotStation>& stations, const std::vector<EdgeId>& upper,
+                const std::vector<EdgeId>& lower, FaceRole role, const std::string& name);
 
 /// Wall between the parts of an upper and a lower side's cross section (over their own parameters, both from the slot's section away from it or both towards
 /// it): ruled, and closed by the section at one end, by `end` (an edge between the other ends; nothing: they meet there) at the other.

@@ -69,8 +69,9 @@ void SmxReader::check_turns(const Node& node, const std::vector<Uv>& points) con
     const Uv a = points[i] - points[i - 1], b = points[i + 1] - points[i];
     const double turn = std::atan2(std::abs(a.u * b.v - a.v * b.u), a.u * b.u + a.v * b.v);
     if (turn > k_max_turn)
-      file_.fail(node, "the section turns back by " + exact_text(std::round(turn / k_degree)) + " degrees (at most 175) at point " + std::to_string(i + 1) + " (" +
-                           exact_text(points[i].u) + ", " + exact_text(points[i].v) + ")",
+      file_.fail(node,
+                 "the section turns back by " + exact_text(std::round(turn / k_degree)) + " degrees (at most 175) at point " + std::to_string(i + 1) + " (" +
+                     exact_text(points[i].u) + ", " + exact_text(points[i].v) + ")",
                  "points may be missing, or in the wrong order");
   }
 }
@@ -125,7 +126,9 @@ void SmxReader::normalise(const Node& node, BodyFrame& frame) {
     z_min = std::min(z_min, p.v);
     z_max = std::max(z_max, p.v);
   }
-  if (!(y_max > 0.0) || !(z_max > z_min)) file_.fail(node, "the frame has no width or no height: its points reach from z = " + exact_text(z_min) + " to " + exact_text(z_max) + ", y to " + exact_text(y_max));
+  if (!(y_max > 0.0) || !(z_max > z_min))
+    file_.fail(node, "the frame has no width or no height: its points reach from z = " + exact_text(z_min) + " to " + exact_text(z_max) + ", y to " +
+                         exact_text(y_max));
   if (std::abs(y_max - 1.0) < k_normal_slack && std::abs(z_min + 1.0) < k_normal_slack && std::abs(z_max - 1.0) < k_normal_slack) return;
   const double middle = 0.5 * (z_min + z_max), half = 0.5 * (z_max - z_min);
   for (Uv& p : frame.points) p = {p.u / y_max, (p.v - middle) / half};
@@ -171,8 +174,8 @@ Body SmxReader::body(const Node& node) {
   }
   for (std::size_t i = 1; i < body.frames.size(); ++i)
     if (body.frames[i].center.x == body.frames[i - 1].center.x)
-      file_.tell(node, "frames '" + body.frames[i - 1].name + "' and '" + body.frames[i].name + "' stand in the same plane x = " + exact_text(body.frames[i].center.x) +
-                           "; no surface can be made through both");
+      file_.tell(node, "frames '" + body.frames[i - 1].name + "' and '" + body.frames[i].name +
+                           "' stand in the same plane x = " + exact_text(body.frames[i].center.x) + "; no surface can be made through both");
   if (const Node lip = node.child("NacelleInletLip")) {
     file_.tell_unknown(lip, "axialOffset radialOffset shapeCoef", "");
     body.lip = InletLip{file_.number(lip, "axialOffset", 0.4), file_.number(lip, "radialOffset", 0.2), file_.number(lip, "shapeCoef", 1.0)};
@@ -235,8 +238,11 @@ WingSection SmxReader::section(const Node& node) {
   }
   if (!s.points.empty() && s.points.size() < 5) file_.fail(node, "an airfoil needs 5 points; it has " + std::to_string(s.points.size()));
   check_turns(node, s.points);
-  if (s.n_approximation > 0) file_.tell(node, "the airfoil goes through its points; sumo approximates it by least squares with " + std::to_string(s.n_approximation) + " points (napprox)");
-  if (s.extend_leading_x || s.extend_leading_y || s.extend_trailing_x || s.extend_trailing_y) file_.tell(node, "the airfoil is not extended at its ends (extend_xle ...): sumo's rule is not documented");
+  if (s.n_approximation > 0)
+    file_.tell(node,
+               "the airfoil goes through its points; sumo approximates it by least squares with " + std::to_string(s.n_approximation) + " points (napprox)");
+  if (s.extend_leading_x || s.extend_leading_y || s.extend_trailing_x || s.extend_trailing_y)
+    file_.tell(node, "the airfoil is not extended at its ends (extend_xle ...): sumo's rule is not documented");
   return s;
 }
 
@@ -430,7 +436,8 @@ void SmxReader::resolve(const Aircraft& aircraft) {
   }
   for (const Control& control : aircraft.controls)
     for (const ControlParticipation& p : control.participations)
-      if (!segments.contains(p.segment)) file_.tell(file_.root(), "control '" + control.name + "' moves '" + p.segment + "', which is no segment of a control surface");
+      if (!segments.contains(p.segment))
+        file_.tell(file_.root(), "control '" + control.name + "' moves '" + p.segment + "', which is no segment of a control surface");
   for (std::size_t i = 0; i < aircraft.engines.size(); ++i)
     for (const auto* regions : {&aircraft.engines[i].intakes, &aircraft.engines[i].nozzles})
       for (const EngineRegion& region : *regions)

@@ -126,9 +126,11 @@ void add_shape(Node& node, const BodyFrame& frame) {
 }
 
 void add_body(Node& root, const Body& body) {
-  if (body.tangents == BodyTangents::linear) refuse("body '" + body.name + "' is straight between its frames; .smx has only smooth bodies", "write the model as STEP instead");
+  if (body.tangents == BodyTangents::linear)
+    refuse("body '" + body.name + "' is straight between its frames; .smx has only smooth bodies", "write the model as STEP instead");
   if (body.tangents == BodyTangents::monotone && body.frames.size() > 2)
-    refuse("body '" + body.name + "' never swells beyond its frames; the bodies of .smx do", "make it with along = \"smooth\" or \"akima\", which .smx has, or write the model as STEP");
+    refuse("body '" + body.name + "' never swells beyond its frames; the bodies of .smx do",
+           "make it with along = \"smooth\" or \"akima\", which .smx has, or write the model as STEP");
   if (body.has_mirror_image) refuse("body '" + body.name + "' has a mirror image; .smx wants it as a body of its own", "add the image as a body of its own");
   Node node = root.append_child("BodySkeleton");
   set(node, "akimatg", body.tangents == BodyTangents::akima);
@@ -160,9 +162,12 @@ constexpr double k_closed_airfoil = 1e-6;
 
 void add_wing(Node& root, const Wing& wing) {
   for (const WingSection& s : wing.sections)
-    if (!wing.trailing_edge && s.points.size() > 2 && std::hypot(s.points.front().u - s.points.back().u, s.points.front().v - s.points.back().v) > k_closed_airfoil)
-      refuse("the airfoil of section '" + s.name + "' of wing '" + wing.name + "' is open at its trailing edge, .smx has only sharp ones", "give the wing trailing_edge = 0, or write the model as STEP");
-  if (wing.trailing_edge.value_or(0.0) != 0.0) refuse("wing '" + wing.name + "' has a blunt trailing edge; .smx has only sharp ones", "write the model as STEP instead");
+    if (!wing.trailing_edge && s.points.size() > 2 &&
+        std::hypot(s.points.front().u - s.points.back().u, s.points.front().v - s.points.back().v) > k_closed_airfoil)
+      refuse("the airfoil of section '" + s.name + "' of wing '" + wing.name + "' is open at its trailing edge, .smx has only sharp ones",
+             "give the wing trailing_edge = 0, or write the model as STEP");
+  if (wing.trailing_edge.value_or(0.0) != 0.0)
+    refuse("wing '" + wing.name + "' has a blunt trailing edge; .smx has only sharp ones", "write the model as STEP instead");
   if (wing.has_mirror_image) refuse("wing '" + wing.name + "' has a mirror image; .smx wants it as a wing of its own", "add the image as a wing of its own");
   Node node = root.append_child("WingSkeleton");
   set(node, "flags", std::string(wing.is_symmetric ? "autosym," : "") + (wing.has_winglet ? "detectwinglet," : "") + (wing.is_cubic ? "cubic," : ""));
@@ -170,7 +175,9 @@ void add_wing(Node& root, const Wing& wing) {
   set(node, "origin", wing.placement.origin);
   set(node, "rotation", wing.placement.rotation);
   for (const WingSection& s : wing.sections) {
-    if (!s.loop.empty()) refuse("section '" + s.name + "' of wing '" + wing.name + "' is a free loop; .smx has only airfoils with chord and angles", "write the model as STEP instead");
+    if (!s.loop.empty())
+      refuse("section '" + s.name + "' of wing '" + wing.name + "' is a free loop; .smx has only airfoils with chord and angles",
+             "write the model as STEP instead");
     Node child = node.append_child("WingSection");
     set(child, "airfoil", s.airfoil);
     set(child, "center", s.leading_edge);
@@ -259,12 +266,14 @@ void write_smx(const Aircraft& aircraft, const std::filesystem::path& path) {
     refuse("nacelle '" + aircraft.nacelles.front().name + "' is made of cowls; .smx has only bodies with an inlet lip", "write the model as STEP instead");
   for (const Deflection& deflection : aircraft.deflections)
     if (deflection.angle != 0.0 || deflection.gap != ControlGap::sealed)
-      refuse("control surface '" + deflection.surface.name + "' is deflected or has a gap; .smx has only clean wings", "write the model as STEP instead, or give it no deflection");
+      refuse("control surface '" + deflection.surface.name + "' is deflected or has a gap; .smx has only clean wings",
+             "write the model as STEP instead, or give it no deflection");
   pugi::xml_document document;
   Node declaration = document.append_child(pugi::node_declaration);
   set(declaration, "version", std::string("1.0"));
   set(declaration, "encoding", std::string("UTF-8"));
-  const bool is_part = !aircraft.sumo && aircraft.bodies.size() + aircraft.wings.size() == 1 && aircraft.control_surfaces.empty() && aircraft.controls.empty() && aircraft.engines.empty();
+  const bool is_part = !aircraft.sumo && aircraft.bodies.size() + aircraft.wings.size() == 1 && aircraft.control_surfaces.empty() &&
+                       aircraft.controls.empty() && aircraft.engines.empty();
   if (is_part) {
     for (const Body& body : aircraft.bodies) add_body(document, body);
     for (const Wing& wing : aircraft.wings) add_wing(document, wing);

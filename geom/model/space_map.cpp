@@ -9,13 +9,18 @@ namespace sterna {
 
 FunctionMap::FunctionMap(std::function<Point(const Point&)> function, double step) : function_(std::move(function)), step_(step) {
   if (!(step > 0.0) || !std::isfinite(step))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "deforming by a function", .problem = "the step of its derivatives is " + number_text(step) + " m, must be positive"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "deforming by a function",
+                 .problem = "the step of its derivatives is " + number_text(step) + " m, must be positive"});
 }
 
 Point FunctionMap::point(const Point& p) const {
   const Point q = function_(p);
   if (!is_finite(q))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "deforming by a function", .problem = "the function does not give finite numbers here", .places = {{p, "argument"}}});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "deforming by a function",
+                 .problem = "the function does not give finite numbers here",
+                 .places = {{p, "argument"}}});
   return q;
 }
 
@@ -46,7 +51,12 @@ CurveDerivatives DeformedCurve::derivatives(double t) const {
 SurfaceDerivatives DeformedSurface::derivatives(Uv at) const {
   const SurfaceDerivatives s = base_->derivatives(at);
   const SpaceMapDerivatives d = map_->derivatives(s.point);
-  return {d.point, d.first(s.du), d.first(s.dv), d.first(s.duu) + d.second(s.du, s.du), d.first(s.duv) + d.second(s.du, s.dv), d.first(s.dvv) + d.second(s.dv, s.dv)};
+  return {d.point,
+          d.first(s.du),
+          d.first(s.dv),
+          d.first(s.duu) + d.second(s.du, s.du),
+          d.first(s.duv) + d.second(s.du, s.dv),
+          d.first(s.dvv) + d.second(s.dv, s.dv)};
 }
 
 void DeformedSurface::points(std::span<const Uv> at, std::span<Point> points) const {

@@ -27,8 +27,12 @@ constexpr double k_closed = 1e-9;
   throw Error({.code = ErrorCode::bad_argument, .attempted = std::string(attempted), .problem = std::move(problem), .places = std::move(places)});
 }
 
-bool is_smooth(SplineTangents t) { return t == SplineTangents::natural || t == SplineTangents::clamped || t == SplineTangents::not_a_knot || t == SplineTangents::periodic; }
-bool is_closed(const SplineOptions& o) { return o.tangents == SplineTangents::periodic || (o.is_closed && (o.tangents == SplineTangents::akima || o.tangents == SplineTangents::bessel)); }
+bool is_smooth(SplineTangents t) {
+  return t == SplineTangents::natural || t == SplineTangents::clamped || t == SplineTangents::not_a_knot || t == SplineTangents::periodic;
+}
+bool is_closed(const SplineOptions& o) {
+  return o.tangents == SplineTangents::periodic || (o.is_closed && (o.tangents == SplineTangents::akima || o.tangents == SplineTangents::bessel));
+}
 int degree_of(const SplineOptions& o) { return o.tangents == SplineTangents::linear ? 1 : 3; }
 
 double step_length(double distance, SplineParameters kind) {
@@ -57,12 +61,16 @@ void check_options(const SplineOptions& o, std::size_t n, std::size_t n_rows, st
     for (std::size_t i = 0; i < n; ++i)
       if (!std::isfinite(o.at[i]) || (i > 0 && !(o.at[i] > o.at[i - 1]))) refuse(attempted, "the parameters do not ascend at point " + std::to_string(i));
   }
-  if (!o.start_tangents.empty() && o.start_tangents.size() != n_rows) refuse(attempted, std::to_string(o.start_tangents.size()) + " start tangents for " + std::to_string(n_rows) + " rows");
-  if (!o.end_tangents.empty() && o.end_tangents.size() != n_rows) refuse(attempted, std::to_string(o.end_tangents.size()) + " end tangents for " + std::to_string(n_rows) + " rows");
-  if (o.tangents != SplineTangents::clamped && !(o.start_tangents.empty() && o.end_tangents.empty())) refuse(attempted, "end tangents are given, but the tangents are not `clamped`");
+  if (!o.start_tangents.empty() && o.start_tangents.size() != n_rows)
+    refuse(attempted, std::to_string(o.start_tangents.size()) + " start tangents for " + std::to_string(n_rows) + " rows");
+  if (!o.end_tangents.empty() && o.end_tangents.size() != n_rows)
+    refuse(attempted, std::to_string(o.end_tangents.size()) + " end tangents for " + std::to_string(n_rows) + " rows");
+  if (o.tangents != SplineTangents::clamped && !(o.start_tangents.empty() && o.end_tangents.empty()))
+    refuse(attempted, "end tangents are given, but the tangents are not `clamped`");
   for (std::size_t k = 0; k < o.corners.size(); ++k) {
     const std::size_t c = o.corners[k];
-    if (c == 0 || c + 1 >= n || (k > 0 && c <= o.corners[k - 1])) refuse(attempted, "corner " + std::to_string(c) + " is not an inner point (1 .. " + std::to_string(n - 2) + ") or not in ascending order");
+    if (c == 0 || c + 1 >= n || (k > 0 && c <= o.corners[k - 1]))
+      refuse(attempted, "corner " + std::to_string(c) + " is not an inner point (1 .. " + std::to_string(n - 2) + ") or not in ascending order");
   }
   if (is_closed(o) && !o.corners.empty()) refuse(attempted, "a closed smooth spline has corners; begin it at a corner and leave it open");
   if (is_closed(o) && n < 4) refuse(attempted, "a closed spline of " + std::to_string(n) + " points, at least 4 are needed (the last repeats the first)");
@@ -278,7 +286,7 @@ std::vector<double> knots_of(const Numbers& t, const SplineOptions& o) {
 void append_piece(const Points& p, const Numbers& t, const SplineOptions& o, const EndTangents& ends, Points& poles) {
   const Tangents m = tangents_of(p, t, o, ends);
   const auto h = [&](std::size_t i) { return t[i + 1] - t[i]; };
-  const auto second = [&](std::size_t i) { return p[i] + h(i) / 3.0 * m[i]; };          // Bezier's points of segment i
+  const auto second = [&](std::size_t i) { return p[i] + h(i) / 3.0 * m[i]; };  // Bezier's points of segment i
   const auto third = [&](std::size_t i) { return p[i + 1] - h(i) / 3.0 * m[i + 1]; };
   const std::size_t last = p.size() - 1;
   poles.push_back(second(0));
@@ -314,7 +322,8 @@ EndTangents ends_of(const SplineOptions& o, std::size_t row) {
 
 void check_seam(const Point& first, const Point& last, double length, std::string_view attempted) {
   if (distance(first, last) > k_closed * length)
-    refuse(attempted, "a closed spline whose last point does not repeat the first: they are " + number_text(distance(first, last)) + " m apart", {{first, "first"}, {last, "last"}});
+    refuse(attempted, "a closed spline whose last point does not repeat the first: they are " + number_text(distance(first, last)) + " m apart",
+           {{first, "first"}, {last, "last"}});
 }
 
 // ---------------------------------------------------------------- rows of a grid
@@ -341,7 +350,8 @@ Numbers mean_parameters(std::size_t n, std::size_t n_rows, const Get& get, Splin
   double total = 0.0;
   for (const double step : mean) total += step;
   for (std::size_t i = 0; i + 1 < n; ++i)
-    if (mean[i] <= k_coincident * total) refuse(k_surface, "rows " + std::to_string(i) + " and " + std::to_string(i + 1) + " of points coincide", {{get(i, 0), "first point of the row"}});
+    if (mean[i] <= k_coincident * total)
+      refuse(k_surface, "rows " + std::to_string(i) + " and " + std::to_string(i + 1) + " of points coincide", {{get(i, 0), "first point of the row"}});
   return scaled_sum(mean);
 }
 
@@ -382,13 +392,18 @@ CurvePtr spline_curve(std::span<const Point> points, const SplineOptions& option
 }
 
 NurbsSurfaceForm spline_surface_form(const PointGrid& grid, const SplineOptions& u, const SplineOptions& v) {
-  if (grid.points.size() != grid.n_u * grid.n_v) refuse(k_surface, std::to_string(grid.points.size()) + " points for a grid of " + std::to_string(grid.n_u) + " x " + std::to_string(grid.n_v));
+  if (grid.points.size() != grid.n_u * grid.n_v)
+    refuse(k_surface, std::to_string(grid.points.size()) + " points for a grid of " + std::to_string(grid.n_u) + " x " + std::to_string(grid.n_v));
   check_options(u, grid.n_u, grid.n_v, k_surface);
   check_options(v, grid.n_v, grid.n_u, k_surface);
   for (std::size_t i = 0; i < grid.points.size(); ++i)
     if (!is_finite(grid.points[i])) refuse(k_surface, "point (" + std::to_string(i / grid.n_v) + ", " + std::to_string(i % grid.n_v) + ") is not finite");
-  const Numbers tu = !u.at.empty() ? u.at : mean_parameters(grid.n_u, grid.n_v, [&](std::size_t i, std::size_t row) { return grid(i, row); }, u.parameters);
-  const Numbers tv = !v.at.empty() ? v.at : mean_parameters(grid.n_v, grid.n_u, [&](std::size_t j, std::size_t row) { return grid(row, j); }, v.parameters);
+  const Numbers tu = !u.at.empty() ? u.at
+                                   : mean_parameters(
+                                         grid.n_u, grid.n_v, [&](std::size_t i, std::size_t row) { return grid(i, row); }, u.parameters);
+  const Numbers tv = !v.at.empty() ? v.at
+                                   : mean_parameters(
+                                         grid.n_v, grid.n_u, [&](std::size_t j, std::size_t row) { return grid(row, j); }, v.parameters);
   double extent = 0.0;
   for (const Point& p : grid.points) extent = std::max(extent, distance(p, grid.points.front()));
 
@@ -412,7 +427,9 @@ NurbsSurfaceForm spline_surface_form(const PointGrid& grid, const SplineOptions&
   }
   // The end tangents along v belong to rows of points; rows of poles need theirs: splined along u like the points, without twist where u is clamped.
   const Vec3 none{};
-  const auto splined_tangents = [&](const std::vector<Vec3>& tangents) { return tangents.empty() ? Points{} : poles_of(tangents, tu, u, u.tangents == SplineTangents::clamped ? EndTangents{&none, &none} : EndTangents{}); };
+  const auto splined_tangents = [&](const std::vector<Vec3>& tangents) {
+    return tangents.empty() ? Points{} : poles_of(tangents, tu, u, u.tangents == SplineTangents::clamped ? EndTangents{&none, &none} : EndTangents{});
+  };
   const Points start = splined_tangents(v.start_tangents), end = splined_tangents(v.end_tangents);
   form.poles.resize(form.n_u * form.n_v);
   for (std::size_t i = 0; i < form.n_u; ++i) {
@@ -430,7 +447,10 @@ NurbsSurfaceForm spline_surface_form(const PointGrid& grid, const SplineOptions&
 
 SurfacePtr spline_surface(const PointGrid& grid, const SplineOptions& u, const SplineOptions& v) {
   const int n_cubic = (degree_of(u) == 3 ? 1 : 0) + (degree_of(v) == 3 ? 1 : 0);
-  return std::make_shared<NurbsSurface>(spline_surface_form(grid, u, v), is_closed(u), is_closed(v), n_cubic == 2 ? "bicubic spline" : n_cubic == 1 ? "linear-cubic spline" : "bilinear spline");
+  return std::make_shared<NurbsSurface>(spline_surface_form(grid, u, v), is_closed(u), is_closed(v),
+                                        n_cubic == 2   ? "bicubic spline"
+                                        : n_cubic == 1 ? "linear-cubic spline"
+                                                       : "bilinear spline");
 }
 
 }  // namespace sterna

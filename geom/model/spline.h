@@ -33,11 +33,11 @@ enum class SplineParameters {
 struct SplineOptions {
   SplineTangents tangents = SplineTangents::not_a_knot;
   SplineParameters parameters = SplineParameters::chord_length;
-  std::vector<double> at;               ///< parameters of the points, ascending; empty: made by `parameters`
-  std::vector<Vec3> start_tangents;     ///< clamped: dC/dt at the first point, one for each row of a surface; empty: natural there
-  std::vector<Vec3> end_tangents;       ///< at the last point
-  std::vector<std::size_t> corners;     ///< inner points where the curve may bend: it is splined piece by piece with the same end conditions
-  bool is_closed = false;               ///< akima and bessel: smooth across the seam; the last point repeats the first
+  std::vector<double> at;            ///< parameters of the points, ascending; empty: made by `parameters`
+  std::vector<Vec3> start_tangents;  ///< clamped: dC/dt at the first point, one for each row of a surface; empty: natural there
+  std::vector<Vec3> end_tangents;    ///< at the last point
+  std::vector<std::size_t> corners;  ///< inner points where the curve may bend: it is splined piece by piece with the same end conditions
+  bool is_closed = false;            ///< akima and bessel: smooth across the seam; the last point repeats the first
 };
 
 /// Points in rows: point(i, j) = points[i * n_v + j], i along u.

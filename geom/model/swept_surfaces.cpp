@@ -16,7 +16,9 @@ constexpr double k_turn = 2.0 * std::numbers::pi;
 /// Part of a period by which a whole one may be missed: rounding of the files that give angles.
 constexpr double k_whole_period = 1e-12;
 
-[[noreturn]] void refuse(const char* attempted, std::string problem) { throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = std::move(problem)}); }
+[[noreturn]] void refuse(const char* attempted, std::string problem) {
+  throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = std::move(problem)});
+}
 
 void check_range(Interval range, const char* attempted) {
   if (!std::isfinite(range.from) || !std::isfinite(range.to) || !(range.from < range.to))
@@ -52,7 +54,8 @@ RevolutionSurface::RevolutionSurface(CurvePtr profile, const Point& axis_point, 
     : profile_(std::move(profile)), axis_point_(axis_point), axis_(unit(axis)), angles_(angles) {
   check_range(angles, "making a surface of revolution");
   if (!(norm(axis_) > 0.0)) refuse("making a surface of revolution", "its axis has no direction");
-  if (angles.length() > k_turn * (1.0 + k_whole_period)) refuse("making a surface of revolution", "it goes round by more than a turn: " + std::to_string(angles.length()) + " rad");
+  if (angles.length() > k_turn * (1.0 + k_whole_period))
+    refuse("making a surface of revolution", "it goes round by more than a turn: " + std::to_string(angles.length()) + " rad");
 }
 
 bool RevolutionSurface::is_periodic_u() const { return std::abs(angles_.length() - k_turn) <= k_whole_period * k_turn; }
@@ -157,7 +160,9 @@ std::vector<double> mapped_breaks(const std::vector<double>& breaks, const Surfa
   return result;
 }
 
-bool is_whole(const SurfaceView::Map& map, Interval own, Interval all) { return std::abs(std::abs(map.scale) * own.length() - all.length()) <= k_whole_period * all.length(); }
+bool is_whole(const SurfaceView::Map& map, Interval own, Interval all) {
+  return std::abs(std::abs(map.scale) * own.length() - all.length()) <= k_whole_period * all.length();
+}
 
 }  // namespace
 
@@ -169,18 +174,21 @@ SurfaceView::SurfaceView(SurfacePtr base, const ParameterBox& domain, Map u, Map
   const ParameterBox all = base_->domain();
   const Interval part_u = image(u, is_exchanged ? domain.v : domain.u), part_v = image(v, is_exchanged ? domain.u : domain.v);
   const auto complain = [](const char* name, Interval part, Interval whole) {
-    refuse(k_view, std::string(name) + " in [" + std::to_string(part.from) + ", " + std::to_string(part.to) + "] is not within its domain [" + std::to_string(whole.from) + ", " + std::to_string(whole.to) + "]");
+    refuse(k_view, std::string(name) + " in [" + std::to_string(part.from) + ", " + std::to_string(part.to) + "] is not within its domain [" +
+                       std::to_string(whole.from) + ", " + std::to_string(whole.to) + "]");
   };
   if (!base_->is_periodic_u() && reaches_beyond(part_u, all.u)) complain("u", part_u, all.u);
   if (!base_->is_periodic_v() && reaches_beyond(part_v, all.v)) complain("v", part_v, all.v);
 }
 
 bool SurfaceView::is_periodic_u() const {
-  return is_exchanged_ ? base_->is_periodic_v() && is_whole(v_, domain_.u, base_->domain().v) : base_->is_periodic_u() && is_whole(u_, domain_.u, base_->domain().u);
+  return is_exchanged_ ? base_->is_periodic_v() && is_whole(v_, domain_.u, base_->domain().v)
+                       : base_->is_periodic_u() && is_whole(u_, domain_.u, base_->domain().u);
 }
 
 bool SurfaceView::is_periodic_v() const {
-  return is_exchanged_ ? base_->is_periodic_u() && is_whole(u_, domain_.v, base_->domain().u) : base_->is_periodic_v() && is_whole(v_, domain_.v, base_->domain().v);
+  return is_exchanged_ ? base_->is_periodic_u() && is_whole(u_, domain_.v, base_->domain().u)
+                       : base_->is_periodic_v() && is_whole(v_, domain_.v, base_->domain().v);
 }
 
 SurfaceDerivatives SurfaceView::derivatives(Uv at) const {
@@ -206,12 +214,14 @@ void SurfaceView::points(std::span<const Uv> at, std::span<Point> points) const 
 
 std::vector<double> SurfaceView::breaks_u() const {
   const ParameterBox all = base_->domain();
-  return is_exchanged_ ? mapped_breaks(base_->breaks_v(), v_, domain_.u, base_->is_periodic_v(), all.v.length()) : mapped_breaks(base_->breaks_u(), u_, domain_.u, base_->is_periodic_u(), all.u.length());
+  return is_exchanged_ ? mapped_breaks(base_->breaks_v(), v_, domain_.u, base_->is_periodic_v(), all.v.length())
+                       : mapped_breaks(base_->breaks_u(), u_, domain_.u, base_->is_periodic_u(), all.u.length());
 }
 
 std::vector<double> SurfaceView::breaks_v() const {
   const ParameterBox all = base_->domain();
-  return is_exchanged_ ? mapped_breaks(base_->breaks_u(), u_, domain_.v, base_->is_periodic_u(), all.u.length()) : mapped_breaks(base_->breaks_v(), v_, domain_.v, base_->is_periodic_v(), all.v.length());
+  return is_exchanged_ ? mapped_breaks(base_->breaks_u(), u_, domain_.v, base_->is_periodic_u(), all.u.length())
+                       : mapped_breaks(base_->breaks_v(), v_, domain_.v, base_->is_periodic_v(), all.v.length());
 }
 
 std::optional<NurbsSurfaceForm> SurfaceView::exact_nurbs() const {

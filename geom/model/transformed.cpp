@@ -14,7 +14,9 @@ namespace {
 
 void check(const Transform& t) {
   if (!(std::abs(t.determinant()) > 0.0) || !is_finite(t.x) || !is_finite(t.y) || !is_finite(t.z) || !is_finite(t.shift))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "transforming geometry", .problem = "the transformation flattens space (its determinant is 0) or is not finite"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "transforming geometry",
+                 .problem = "the transformation flattens space (its determinant is 0) or is not finite"});
 }
 
 template <class Form>
@@ -42,12 +44,17 @@ SurfacePtr transformed_analytic(const Surface& surface, const Transform& t) {
   const double s = std::abs(t.scale() - 1.0) <= k_same_size ? 1.0 : t.scale();
   const ParameterBox box = surface.domain();
   if (const auto* plane = dynamic_cast<const PlaneSurface*>(&surface))
-    return with_old_parameters(std::make_shared<PlaneSurface>(transformed_frame(plane->frame(), t), ParameterBox{scaled(box.u, s), scaled(box.v, s)}), box, s, s);
+    return with_old_parameters(std::make_shared<PlaneSurface>(transformed_frame(plane->frame(), t), ParameterBox{scaled(box.u, s), scaled(box.v, s)}), box, s,
+                               s);
   if (const auto* cylinder = dynamic_cast<const CylinderSurface*>(&surface))
-    return with_old_parameters(std::make_shared<CylinderSurface>(transformed_frame(cylinder->frame(), t), s * cylinder->radius(), ParameterBox{box.u, scaled(box.v, s)}), box, 1.0, s);
+    return with_old_parameters(
+        std::make_shared<CylinderSurface>(transformed_frame(cylinder->frame(), t), s * cylinder->radius(), ParameterBox{box.u, scaled(box.v, s)}), box, 1.0, s);
   if (const auto* cone = dynamic_cast<const ConeSurface*>(&surface))
-    return with_old_parameters(std::make_shared<ConeSurface>(transformed_frame(cone->frame(), t), s * cone->radius(), cone->half_angle(), ParameterBox{box.u, scaled(box.v, s)}), box, 1.0, s);
-  if (const auto* sphere = dynamic_cast<const SphereSurface*>(&surface)) return std::make_shared<SphereSurface>(transformed_frame(sphere->frame(), t), s * sphere->radius(), box);
+    return with_old_parameters(
+        std::make_shared<ConeSurface>(transformed_frame(cone->frame(), t), s * cone->radius(), cone->half_angle(), ParameterBox{box.u, scaled(box.v, s)}), box,
+        1.0, s);
+  if (const auto* sphere = dynamic_cast<const SphereSurface*>(&surface))
+    return std::make_shared<SphereSurface>(transformed_frame(sphere->frame(), t), s * sphere->radius(), box);
   if (const auto* torus = dynamic_cast<const TorusSurface*>(&surface))
     return std::make_shared<TorusSurface>(transformed_frame(torus->frame(), t), s * torus->major_radius(), s * torus->minor_radius(), box);
   if (const auto* turned = dynamic_cast<const RevolutionSurface*>(&surface)) {
@@ -72,7 +79,8 @@ std::optional<NurbsCurveForm<Point>> TransformedCurve::exact_nurbs() const {
 
 SurfaceDerivatives TransformedSurface::derivatives(Uv at) const {
   const SurfaceDerivatives d = base_->derivatives(at);
-  return {transform_.point(d.point), transform_.vector(d.du), transform_.vector(d.dv), transform_.vector(d.duu), transform_.vector(d.duv), transform_.vector(d.dvv)};
+  return {transform_.point(d.point), transform_.vector(d.du),  transform_.vector(d.dv),
+          transform_.vector(d.duu),  transform_.vector(d.duv), transform_.vector(d.dvv)};
 }
 
 void TransformedSurface::points(std::span<const Uv> at, std::span<Point> points) const {
@@ -89,9 +97,12 @@ std::optional<NurbsSurfaceForm> TransformedSurface::exact_nurbs() const {
 CurvePtr transformed(const CurvePtr& curve, const Transform& t) {
   check(t);
   if (t == Transform{}) return curve;
-  if (const auto* nurbs = dynamic_cast<const NurbsCurve*>(curve.get())) return std::make_shared<NurbsCurve>(transformed_form(nurbs->form(), t), nurbs->is_periodic());
-  if (const auto* line = dynamic_cast<const LineCurve*>(curve.get())) return std::make_shared<LineCurve>(t.point(line->origin()), t.vector(line->direction()), line->domain());
-  if (const auto* view = dynamic_cast<const CurveView*>(curve.get())) return std::make_shared<CurveView>(transformed(view->base(), t), view->domain(), view->scale(), view->shift());
+  if (const auto* nurbs = dynamic_cast<const NurbsCurve*>(curve.get()))
+    return std::make_shared<NurbsCurve>(transformed_form(nurbs->form(), t), nurbs->is_periodic());
+  if (const auto* line = dynamic_cast<const LineCurve*>(curve.get()))
+    return std::make_shared<LineCurve>(t.point(line->origin()), t.vector(line->direction()), line->domain());
+  if (const auto* view = dynamic_cast<const CurveView*>(curve.get()))
+    return std::make_shared<CurveView>(transformed(view->base(), t), view->domain(), view->scale(), view->shift());
   if (const auto* wrapped = dynamic_cast<const TransformedCurve*>(curve.get())) return transformed(wrapped->base(), t * wrapped->transform());
   if (const auto* ellipse = dynamic_cast<const EllipseCurve*>(curve.get()); ellipse && t.is_similarity())
     return std::make_shared<EllipseCurve>(t.point(ellipse->centre()), t.vector(ellipse->x()), t.vector(ellipse->y()), ellipse->domain());
@@ -104,9 +115,11 @@ SurfacePtr transformed(const SurfacePtr& surface, const Transform& t) {
   const Surface* s = surface.get();
   if (const auto* nurbs = dynamic_cast<const NurbsSurface*>(s))
     return std::make_shared<NurbsSurface>(transformed_form(nurbs->form(), t), nurbs->is_periodic_u(), nurbs->is_periodic_v(), nurbs->kind());
-  if (const auto* extrusion = dynamic_cast<const ExtrusionSurface*>(s)) return std::make_shared<ExtrusionSurface>(transformed(extrusion->curve(), t), t.vector(extrusion->direction()), extrusion->domain().v);
+  if (const auto* extrusion = dynamic_cast<const ExtrusionSurface*>(s))
+    return std::make_shared<ExtrusionSurface>(transformed(extrusion->curve(), t), t.vector(extrusion->direction()), extrusion->domain().v);
   if (const auto* ruled = dynamic_cast<const RuledSurface*>(s)) return std::make_shared<RuledSurface>(transformed(ruled->a(), t), transformed(ruled->b(), t));
-  if (const auto* view = dynamic_cast<const SurfaceView*>(s)) return std::make_shared<SurfaceView>(transformed(view->base(), t), view->domain(), view->map_u(), view->map_v(), view->is_exchanged());
+  if (const auto* view = dynamic_cast<const SurfaceView*>(s))
+    return std::make_shared<SurfaceView>(transformed(view->base(), t), view->domain(), view->map_u(), view->map_v(), view->is_exchanged());
   if (const auto* wrapped = dynamic_cast<const TransformedSurface*>(s)) return transformed(wrapped->base(), t * wrapped->transform());
   if (t.is_similarity())
     if (SurfacePtr result = transformed_analytic(*s, t)) return result;

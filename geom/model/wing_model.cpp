@@ -49,10 +49,10 @@ bool is_planar(const std::vector<Point>& row) {
 
 /// Edges around the cut-out of a slot, gathered while the sides are made.
 struct CutOut {
-  std::vector<double> places;          ///< where the lips have corners
-  std::vector<EdgeId> upper, lower;    ///< lips between them
+  std::vector<double> places;                        ///< where the lips have corners
+  std::vector<EdgeId> upper, lower;                  ///< lips between them
   std::array<SplitCurve, 2> upper_ends, lower_ends;  ///< across the chord at its first and last place
-  std::array<EdgeId, 2> thickness;     ///< of a blunt trailing edge there
+  std::array<EdgeId, 2> thickness;                   ///< of a blunt trailing edge there
 };
 
 /// Ends of a wing where a moving part was cut off: walls.
@@ -72,7 +72,8 @@ class WingBuilder {
   void refuse_fold_back() const;
   void make_panels();
   void make_part(const WingSides& panel, double from_place, double to_place, const Station& from, const Station& to);
-  void make_side(const WingSides& panel, Crossing side, double from_place, double to_place, const Station& from, const Station& to, const SplitCurve& leading, const SplitCurve& trailing);
+  void make_side(const WingSides& panel, Crossing side, double from_place, double to_place, const Station& from, const Station& to, const SplitCurve& leading,
+                 const SplitCurve& trailing);
   Station station(const WingSides& panel, double place);
   const WingPatch* patch_over(ControlKind kind, double from_place, double to_place) const;
   std::vector<double> patch_ends(ControlKind kind, double from_place, double to_place) const;
@@ -94,7 +95,9 @@ class WingBuilder {
 };
 
 void WingBuilder::make_rows() {
-  const auto refuse = [&](const std::string& problem) { throw Error({.code = ErrorCode::bad_argument, .attempted = "making wing '" + wing_.name + "'", .problem = problem}); };
+  const auto refuse = [&](const std::string& problem) {
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "making wing '" + wing_.name + "'", .problem = problem});
+  };
   if (wing_.sections.size() < 2) refuse("it has " + std::to_string(wing_.sections.size()) + " sections; at least 2 are needed");
   made_ = wing_rows(wing_);
   is_blunt_ = made_.is_blunt;
@@ -122,8 +125,11 @@ void WingBuilder::refuse_fold_back() const {
     const double t = std::max(0.0, 1.0 - norm(b) / norm(a));
     const auto between = [&](std::size_t k) { return rows_[i - 2][k].x + t * (rows_[i - 1][k].x - rows_[i - 2][k].x); };
     if (rows_[i][k_side_points].x < between(0) && between(k_side_points) < rows_[i][0].x)
-      throw Error({.code = ErrorCode::bad_argument, .attempted = "making wing '" + wing_.name + "'", .problem = "it folds back onto itself: the panel before and the one behind a section lie over each other",
-                   .places = {{map_.point(rows_[i - 1][k_side_points]), "leading edge of that section"}}, .hint = "give the sections in their order along the span"});
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "making wing '" + wing_.name + "'",
+                   .problem = "it folds back onto itself: the panel before and the one behind a section lie over each other",
+                   .places = {{map_.point(rows_[i - 1][k_side_points]), "leading edge of that section"}},
+                   .hint = "give the sections in their order along the span"});
   }
 }
 
@@ -167,8 +173,10 @@ Station WingBuilder::station(const WingSides& panel, double place) {
   const double v = panel.v(place);
   const CurvePtr upper_curve = line_of_constant_v(panel.upper, v), lower_curve = line_of_constant_v(panel.lower, v);
   const CornerId trailing = builder_.corner(upper_curve->point(upper.front())), leading = builder_.corner(upper_curve->point(upper.back()));
-  const CornerId below = is_blunt_ || flap ? builder_.corner(lower_curve->point(lower.front())) : trailing, leading_below = slat ? builder_.corner(lower_curve->point(lower.back())) : leading;
-  return {builder_.split_curve(upper_curve, upper, trailing, leading), builder_.split_curve(lower_curve, lower, below, leading_below), is_blunt_ && !flap ? builder_.straight_edge(trailing, below) : EdgeId()};
+  const CornerId below = is_blunt_ || flap ? builder_.corner(lower_curve->point(lower.front())) : trailing,
+                 leading_below = slat ? builder_.corner(lower_curve->point(lower.back())) : leading;
+  return {builder_.split_curve(upper_curve, upper, trailing, leading), builder_.split_curve(lower_curve, lower, below, leading_below),
+          is_blunt_ && !flap ? builder_.straight_edge(trailing, below) : EdgeId()};
 }
 
 void WingBuilder::keep_ends(Crossing side, std::size_t patch, bool is_last, const SplitCurve& across) {
@@ -179,7 +187,8 @@ void WingBuilder::keep_ends(Crossing side, std::size_t patch, bool is_last, cons
 }
 
 /// The faces of one side: what the patches leave, and theirs.
-void WingBuilder::make_side(const WingSides& panel, Crossing side, double from_place, double to_place, const Station& from, const Station& to, const SplitCurve& leading, const SplitCurve& trailing) {
+void WingBuilder::make_side(const WingSides& panel, Crossing side, double from_place, double to_place, const Station& from, const Station& to,
+                            const SplitCurve& leading, const SplitCurve& trailing) {
   const bool is_upper = side == &WingPatch::Place::upper;
   const NurbsSurfaceForm& form = is_upper ? panel.upper : panel.lower;
   const SurfacePtr& surface = is_upper ? panel.upper_surface : panel.lower_surface;
@@ -203,7 +212,9 @@ void WingBuilder::make_side(const WingSides& panel, Crossing side, double from_p
     double low = 0.0, high = 1.0;
     for (std::size_t k = 0; k < wing_.patches.size(); ++k) {
       const WingPatch& patch = wing_.patches[k];
-      if (!patch.slot || patch.kind == ControlKind::all_moving || first_place(patch) >= to_place || last_place(patch) <= from_place || place < first_place(patch) || place > last_place(patch)) continue;
+      if (!patch.slot || patch.kind == ControlKind::all_moving || first_place(patch) >= to_place || last_place(patch) <= from_place ||
+          place < first_place(patch) || place > last_place(patch))
+        continue;
       (patch.kind == ControlKind::trailing_edge ? low : high) = crossing_at(patch.border, place).*side;
       if (place == first_place(patch) || place == last_place(patch)) keep_ends(side, k, place == last_place(patch), split);
     }
@@ -224,10 +235,12 @@ void WingBuilder::make_side(const WingSides& panel, Crossing side, double from_p
       const double v = panel.v(end);
       SplitCurve across{line_of_constant_v(form, v), at, {}, {}};
       for (const double u : at) across.corners.push_back(corner({u, v}));
-      for (std::size_t i = 1; i < at.size(); ++i) across.edges.push_back(builder_.edge(across.curve, {at[i - 1], at[i]}, across.corners[i - 1], across.corners[i]));
+      for (std::size_t i = 1; i < at.size(); ++i)
+        across.edges.push_back(builder_.edge(across.curve, {at[i - 1], at[i]}, across.corners[i - 1], across.corners[i]));
       add(across, true, v);
       for (std::size_t k = 0; k < wing_.patches.size(); ++k)
-        if (const WingPatch& patch = wing_.patches[k]; patch.slot && patch.kind == kind && (first_place(patch) == end || last_place(patch) == end)) keep_ends(side, k, last_place(patch) == end, across);
+        if (const WingPatch& patch = wing_.patches[k]; patch.slot && patch.kind == kind && (first_place(patch) == end || last_place(patch) == end))
+          keep_ends(side, k, last_place(patch) == end, across);
     }
     for (std::size_t k = 0; k < wing_.patches.size(); ++k) {  // their borders, along the span
       const WingPatch& patch = wing_.patches[k];
@@ -268,29 +281,37 @@ void WingBuilder::make_part(const WingSides& panel, double from_place, double to
       line.corners.push_back(slot_at(kind, place) ? CornerId() : is_first ? first : is_last ? last : builder_.corner(line.curve->point(line.at.back())));
       if (is_first) continue;
       const std::size_t i = line.edges.size();
-      line.edges.push_back(slot_at(kind, 0.5 * (places[i] + place)) ? EdgeId() : builder_.edge(line.curve, {line.at[i], line.at[i + 1]}, line.corners[i], line.corners[i + 1], name));
+      line.edges.push_back(slot_at(kind, 0.5 * (places[i] + place))
+                               ? EdgeId()
+                               : builder_.edge(line.curve, {line.at[i], line.at[i + 1]}, line.corners[i], line.corners[i + 1], name));
     }
     return line;
   };
-  const std::vector<double> behind = patch_ends(ControlKind::trailing_edge, from_place, to_place), before = patch_ends(ControlKind::leading_edge, from_place, to_place);
+  const std::vector<double> behind = patch_ends(ControlKind::trailing_edge, from_place, to_place),
+                            before = patch_ends(ControlKind::leading_edge, from_place, to_place);
   const SplitCurve leading = along(panel.upper, 1.0, before, from.leading(), to.leading(), "leading edge");
   const SplitCurve upper_trailing = along(panel.upper, 0.0, behind, from.upper.corners.front(), to.upper.corners.front(), "trailing edge");
-  const SplitCurve lower_trailing = is_blunt_ ? along(panel.lower, 0.0, behind, from.lower.corners.front(), to.lower.corners.front(), "trailing edge") : upper_trailing;
+  const SplitCurve lower_trailing =
+      is_blunt_ ? along(panel.lower, 0.0, behind, from.lower.corners.front(), to.lower.corners.front(), "trailing edge") : upper_trailing;
   make_side(panel, &WingPatch::Place::upper, from_place, to_place, from, to, leading, upper_trailing);
   make_side(panel, &WingPatch::Place::lower, from_place, to_place, from, to, leading, lower_trailing);
   if (!is_blunt_) return;
   const SurfacePtr surface = trailing_edge_surface(panel);
   EdgeId thickness = from.thickness;
   for (std::size_t i = 0; i < behind.size(); ++i) {
-    const EdgeId next = i == 0 ? from.thickness : i + 1 == behind.size() ? to.thickness : builder_.straight_edge(upper_trailing.corners[i], lower_trailing.corners[i]);
+    const EdgeId next = i == 0                   ? from.thickness
+                        : i + 1 == behind.size() ? to.thickness
+                                                 : builder_.straight_edge(upper_trailing.corners[i], lower_trailing.corners[i]);
     for (std::size_t k = 0; k < wing_.patches.size(); ++k)
       for (const bool is_last : {false, true})
-        if (wing_.patches[k].slot && (is_last ? last_place(wing_.patches[k]) : first_place(wing_.patches[k])) == behind[i]) cut_outs_[k].thickness[is_last ? 1 : 0] = next;
+        if (wing_.patches[k].slot && (is_last ? last_place(wing_.patches[k]) : first_place(wing_.patches[k])) == behind[i])
+          cut_outs_[k].thickness[is_last ? 1 : 0] = next;
     if (i > 0 && upper_trailing.edges[i - 1].is_valid()) {
       const WingPatch* patch = patch_over(ControlKind::trailing_edge, behind[i - 1], behind[i]);
       if (!patch) patch = patch_over(ControlKind::all_moving, from_place, to_place);
       const ParameterBox box{{0.0, 1.0}, {upper_trailing.at[i - 1], upper_trailing.at[i]}};
-      builder_.patch(surface, box, {thickness, lower_trailing.edges[i - 1], next, upper_trailing.edges[i - 1]}, FaceRole::trailing_edge, patch ? patch->name : wing_.name);
+      builder_.patch(surface, box, {thickness, lower_trailing.edges[i - 1], next, upper_trailing.edges[i - 1]}, FaceRole::trailing_edge,
+                     patch ? patch->name : wing_.name);
     }
     thickness = next;
   }
@@ -307,14 +328,16 @@ void WingBuilder::make_cove(std::size_t k) {
     const auto corner = [&](const std::vector<EdgeId>& lip) { return i == 0 ? model.edges[lip[0]].start : model.edges[lip[i - 1]].end; };
     SlotStation station{corner(out.upper), corner(out.lower), {}};
     const HingeSection hinge = hinge_section(panel_at(panels_, out.places[i], i > 0), patch, out.places[i]);
-    station.bulge = Bulge{hinge.middle, hinge.ahead, 0.5 * (distance(model.corners[station.upper].point, hinge.middle) + distance(model.corners[station.lower].point, hinge.middle))};
+    station.bulge = Bulge{hinge.middle, hinge.ahead,
+                          0.5 * (distance(model.corners[station.upper].point, hinge.middle) + distance(model.corners[station.lower].point, hinge.middle))};
     stations.push_back(station);
     sections.push_back(slot_section(builder_, station));
   }
   slot_strip(builder_, sections, stations, out.upper, out.lower, FaceRole::hinge, wing_.name);
   const bool is_flap = patch.kind == ControlKind::trailing_edge;
   for (const std::size_t end : {0u, 1u})
-    slot_wall(builder_, {out.upper_ends[end], out.lower_ends[end], !is_flap, is_flap && is_blunt_ ? std::optional(out.thickness[end]) : std::nullopt}, end == 0 ? sections.front() : sections.back(), FaceRole::control_side, wing_.name);
+    slot_wall(builder_, {out.upper_ends[end], out.lower_ends[end], !is_flap, is_flap && is_blunt_ ? std::optional(out.thickness[end]) : std::nullopt},
+              end == 0 ? sections.front() : sections.back(), FaceRole::control_side, wing_.name);
 }
 
 void WingBuilder::make_panels() {
@@ -398,7 +421,8 @@ Model WingBuilder::build() {
   make_panels();
   Model model = builder_.closed_solid(wing_.name);
   for (const WingPatch& patch : wing_.patches)
-    if (patch.slot && patch.kind != ControlKind::all_moving) append(model, transformed(make_moving_part(wing_, patch, panels_, is_blunt_), map_ * patch.slot->motion * map_.inverse()));
+    if (patch.slot && patch.kind != ControlKind::all_moving)
+      append(model, transformed(make_moving_part(wing_, patch, panels_, is_blunt_), map_ * patch.slot->motion * map_.inverse()));
   return model;
 }
 

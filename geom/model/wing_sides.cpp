@@ -21,7 +21,8 @@ WingSides wing_sides(WingPanel panel) {
 
 const WingSides& panel_at(const std::vector<WingSides>& panels, double place, bool is_before) {
   std::size_t i = 0;
-  while (i + 1 < panels.size() && (is_before ? place > static_cast<double>(panels[i + 1].first_row) : place >= static_cast<double>(panels[i + 1].first_row))) ++i;
+  while (i + 1 < panels.size() && (is_before ? place > static_cast<double>(panels[i + 1].first_row) : place >= static_cast<double>(panels[i + 1].first_row)))
+    ++i;
   return panels[i];
 }
 

@@ -36,7 +36,8 @@ void insert_blend(WingRows& rows, std::size_t outer) {
     const Meeting shoulder = meeting(inner[k], b[k], tip[k], a[k]);
     if (!shoulder.is_ahead) return;
     for (std::size_t i = 0; i < k_winglet_rows; ++i) {
-      const double t = static_cast<double>(i + 1) / static_cast<double>(k_winglet_rows + 1), p = (1.0 - t) * (1.0 - t), q = 2.0 * weight * t * (1.0 - t), r = t * t;
+      const double t = static_cast<double>(i + 1) / static_cast<double>(k_winglet_rows + 1), p = (1.0 - t) * (1.0 - t), q = 2.0 * weight * t * (1.0 - t),
+                   r = t * t;
       blend[i].push_back((p * a[k] + q * shoulder.point + r * b[k]) / (p + q + r));
     }
   }
@@ -45,7 +46,6 @@ void insert_blend(WingRows& rows, std::size_t outer) {
   rows.is_break[outer] = rows.is_break[outer + 1] = true;
   rows.is_break.insert(rows.is_break.begin() + at, k_winglet_rows, false);
   rows.is_sampled.insert(rows.is_sampled.begin() + at, k_winglet_rows, true);
-
 }
 
 void blend_first(WingRows& rows, bool is_half) {

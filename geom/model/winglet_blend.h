@@ -5,10 +5,10 @@
 
 namespace sterna {
 
-/// From a tip inwards, seen along x: the first panel that leads from a winglet (the panel outside it) to the wing (the panel inside it), where those two enclose at
-/// least k_min_winglet_turn and it stands between them, within the outer k_max_winglet_part of the half span. It is replaced by k_winglet_rows rows along elliptic
-/// arcs: each point of a section goes from the inner to the outer one along the conic that is tangent to the wing there and to the winglet here. `at_both_ends`: the
-/// last row is a tip too. Rows that are there stay. Where no panel fits, nothing changes.
+/// From a tip inwards, seen along x: the first panel that leads from a winglet (the panel outside it) to the wing (the panel inside it), where those two
+/// enclose at least k_min_winglet_turn and it stands between them, within the outer k_max_winglet_part of the half span. It is replaced by k_winglet_rows rows
+/// along elliptic arcs: each point of a section goes from the inner to the outer one along the conic that is tangent to the wing there and to the winglet here.
+/// `at_both_ends`: the last row is a tip too. Rows that are there stay. Where no panel fits, nothing changes.
 void blend_winglets(WingRows& rows, bool at_both_ends);
 
 inline constexpr double k_min_winglet_turn = 0.5235987755982988;  ///< radians: 30 degrees

@@ -68,7 +68,8 @@ XmlFile::XmlFile(const std::filesystem::path& path) : path_(path), document_(std
   const pugi::xml_parse_result result = document_->load_buffer(bytes_.data(), bytes_.size());
   if (!result) {
     const auto [line, column] = line_and_column(bytes_, result.offset);
-    throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + path.string(),
+    throw Error({.code = ErrorCode::file_malformed,
+                 .attempted = "reading " + path.string(),
                  .problem = "line " + std::to_string(line) + ", column " + std::to_string(column) + ": not XML: " + result.description()});
   }
 }
@@ -114,9 +115,7 @@ double XmlFile::number(const pugi::xml_node& node, const char* attribute) const 
   return *value;
 }
 
-double XmlFile::number(const pugi::xml_node& node, const char* attribute, double fallback) const {
-  return optional_number(node, attribute).value_or(fallback);
-}
+double XmlFile::number(const pugi::xml_node& node, const char* attribute, double fallback) const { return optional_number(node, attribute).value_or(fallback); }
 
 std::int64_t XmlFile::integer(const pugi::xml_node& node, const char* attribute, std::int64_t fallback) const {
   const std::optional<double> value = optional_number(node, attribute);

@@ -1,4 +1,5 @@
-// ADF by libcgns (its layer cgio). A node becomes what it is in a CGNS file of HDF5: a group with the attributes "label" and "type", its values in a dataset " data".
+// ADF by libcgns (its layer cgio). A node becomes what it is in a CGNS file of HDF5: a group with the attributes "label" and "type", its values in a dataset "
+// data".
 #include <cgns_io.h>
 
 #include <algorithm>
@@ -16,7 +17,10 @@ using wire::Trouble;
 [[noreturn]] void fail(const std::string& where, const std::string& doing) {
   std::array<char, CGIO_MAX_ERROR_LENGTH + 1> text{};
   cgio_error_message(text.data());
-  throw Failure{.outcome = wire::Outcome::malformed, .where = where, .problem = doing + ": the CGNS library says: " + text.data(), .hint = "the file may have been cut short: copy or write it again"};
+  throw Failure{.outcome = wire::Outcome::malformed,
+                .where = where,
+                .problem = doing + ": the CGNS library says: " + text.data(),
+                .hint = "the file may have been cut short: copy or write it again"};
 }
 
 class AdfNodes {
@@ -34,7 +38,11 @@ class AdfNodes {
  private:
   void add_node(double id, std::uint32_t parent, const std::string& name, const std::string& path, std::uint32_t depth) {
     const std::string where = path.empty() ? "/" : path;
-    if (depth > wire::k_max_depth) throw Failure{.outcome = wire::Outcome::malformed, .where = where, .problem = "nodes are nested more than " + std::to_string(wire::k_max_depth) + " deep", .hint = {}};
+    if (depth > wire::k_max_depth)
+      throw Failure{.outcome = wire::Outcome::malformed,
+                    .where = where,
+                    .problem = "nodes are nested more than " + std::to_string(wire::k_max_depth) + " deep",
+                    .hint = {}};
     int link_length = 0;
     if (cgio_is_link(file_, id, &link_length) != 0) fail(where, "reading the node");
     if (link_length > 0) {
@@ -55,11 +63,13 @@ class AdfNodes {
     if (std::string_view(type.data()) != "MT") add_values(id, own, type.data(), where);
     int n_children = 0, n_found = 0;
     if (cgio_number_children(file_, id, &n_children) != 0) fail(where, "counting the children");
-    if (n_children < 0 || static_cast<std::uint64_t>(n_children) > limits_.file_size) throw Failure{.outcome = wire::Outcome::malformed, .where = where, .problem = "found " + std::to_string(n_children) + " children", .hint = {}};
+    if (n_children < 0 || static_cast<std::uint64_t>(n_children) > limits_.file_size)
+      throw Failure{.outcome = wire::Outcome::malformed, .where = where, .problem = "found " + std::to_string(n_children) + " children", .hint = {}};
     for (int i = 1; i <= n_children; ++i) {
       double child = 0.0;
       std::array<char, CGIO_MAX_NAME_LENGTH + 1> child_name{};
-      if (cgio_children_ids(file_, id, i, 1, &n_found, &child) != 0 || n_found != 1 || cgio_get_name(file_, child, child_name.data()) != 0) fail(where, "reading child " + std::to_string(i));
+      if (cgio_children_ids(file_, id, i, 1, &n_found, &child) != 0 || n_found != 1 || cgio_get_name(file_, child, child_name.data()) != 0)
+        fail(where, "reading child " + std::to_string(i));
       add_node(child, own, child_name.data(), path + "/" + child_name.data(), depth + 1);
     }
   }
@@ -71,14 +81,15 @@ class AdfNodes {
   }
 
   void add_values(double id, std::uint32_t parent, const std::string& type, const std::string& where) {
-    static const std::map<std::string, NumberKind> k_kinds = {{"I4", NumberKind::i4}, {"I8", NumberKind::i8}, {"U4", NumberKind::u4}, {"U8", NumberKind::u8},
+    static const std::map<std::string, NumberKind> k_kinds = {{"I4", NumberKind::i4}, {"I8", NumberKind::i8}, {"U4", NumberKind::u4},   {"U8", NumberKind::u8},
                                                               {"R4", NumberKind::f4}, {"R8", NumberKind::f8}, {"C1", NumberKind::text}, {"B1", NumberKind::u1}};
     Node node{.parent = parent, .role = wire::Role::dataset, .name = " data"};
     const auto kind = k_kinds.find(type);
     std::array<cgsize_t, CGIO_MAX_DIMENSIONS> extents{};
     int rank = 0;
     if (cgio_get_dimensions(file_, id, &rank, extents.data()) != 0) fail(where, "reading the extents");
-    if (rank < 0 || rank > CGIO_MAX_DIMENSIONS) throw Failure{.outcome = wire::Outcome::malformed, .where = where, .problem = "found " + std::to_string(rank) + " extents", .hint = {}};
+    if (rank < 0 || rank > CGIO_MAX_DIMENSIONS)
+      throw Failure{.outcome = wire::Outcome::malformed, .where = where, .problem = "found " + std::to_string(rank) + " extents", .hint = {}};
     bool is_negative = false;
     for (int k = rank; k-- > 0;) {
       is_negative = is_negative || extents[static_cast<std::size_t>(k)] < 0;

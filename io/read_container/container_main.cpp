@@ -1,5 +1,6 @@
-// sterna-read-container: reads an HDF5, NetCDF or ADF file by its library, in a process of its own, because these libraries crash, loop and allocate without bound on damaged or
-// hostile files. The protocol is container_wire.h. Steps: limits; the nodes of the file with their extents, checked against the file's size; the image with their values.
+// sterna-read-container: reads an HDF5, NetCDF or ADF file by its library, in a process of its own, because these libraries crash, loop and allocate without
+// bound on damaged or hostile files. The protocol is container_wire.h. Steps: limits; the nodes of the file with their extents, checked against the file's
+// size; the image with their values.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -20,7 +21,7 @@ using namespace sterna::io;
 
 /// The file again, for libraries that want a path; the descriptor is what keeps others from being opened.
 constexpr const char* k_path = "/proc/self/fd/3";
-constexpr std::uint64_t k_cpu_seconds = 10;               ///< that any file may take: only loops need more
+constexpr std::uint64_t k_cpu_seconds = 10;                ///< that any file may take: only loops need more
 constexpr std::uint64_t k_bytes_per_cpu_second = 1 << 20;  ///< and beyond them; unpacking makes 50 times that
 /// One file may be open beside the five descriptors: links to other files, data in other files and plug-ins of libraries cannot be opened.
 constexpr rlim_t k_descriptors = wire::k_image_fd + 2;
@@ -67,7 +68,10 @@ int main(int argc, char** argv) {
   } catch (const reader::Failure& failure) {
     reader::write_failure(failure);
   } catch (const std::bad_alloc&) {
-    reader::write_failure({.outcome = wire::Outcome::out_of_memory, .where = "the file", .problem = "reading it needs more memory than a file of " + std::to_string(limits.file_size) + " bytes justifies", .hint = {}});
+    reader::write_failure({.outcome = wire::Outcome::out_of_memory,
+                           .where = "the file",
+                           .problem = "reading it needs more memory than a file of " + std::to_string(limits.file_size) + " bytes justifies",
+                           .hint = {}});
   }
   std::_Exit(0);  // the libraries' own ends of a damaged file are not wanted
 }

@@ -1,4 +1,5 @@
-// HDF5 by libhdf5. Links by name and to other files are not followed, and a group or dataset that is reached a second time is a link too, so that no cycle is walked.
+// HDF5 by libhdf5. Links by name and to other files are not followed, and a group or dataset that is reached a second time is a link too, so that no cycle is
+// walked.
 #include <hdf5.h>
 #include <sys/mman.h>
 
@@ -29,7 +30,10 @@ std::string library_reason() {
 }
 
 [[noreturn]] void fail(const std::string& where, const std::string& doing) {
-  throw Failure{.outcome = wire::Outcome::malformed, .where = where, .problem = doing + ": the HDF5 library says: " + library_reason(), .hint = "the file may have been cut short: copy or write it again"};
+  throw Failure{.outcome = wire::Outcome::malformed,
+                .where = where,
+                .problem = doing + ": the HDF5 library says: " + library_reason(),
+                .hint = "the file may have been cut short: copy or write it again"};
 }
 
 /// Closes what the library opened.
@@ -62,11 +66,14 @@ Type type_of(hid_t id) {
     NumberKind kind;
     bool is_big_endian;
   };
-  const std::array<Standard, 20> k_standard = {{{H5T_STD_I8LE, NumberKind::i1, false},    {H5T_STD_U8LE, NumberKind::u1, false},    {H5T_STD_I8BE, NumberKind::i1, true},     {H5T_STD_U8BE, NumberKind::u1, true},
-                                                {H5T_STD_I16LE, NumberKind::i2, false},   {H5T_STD_U16LE, NumberKind::u2, false},   {H5T_STD_I16BE, NumberKind::i2, true},    {H5T_STD_U16BE, NumberKind::u2, true},
-                                                {H5T_STD_I32LE, NumberKind::i4, false},   {H5T_STD_U32LE, NumberKind::u4, false},   {H5T_STD_I32BE, NumberKind::i4, true},    {H5T_STD_U32BE, NumberKind::u4, true},
-                                                {H5T_STD_I64LE, NumberKind::i8, false},   {H5T_STD_U64LE, NumberKind::u8, false},   {H5T_STD_I64BE, NumberKind::i8, true},    {H5T_STD_U64BE, NumberKind::u8, true},
-                                                {H5T_IEEE_F32LE, NumberKind::f4, false},  {H5T_IEEE_F64LE, NumberKind::f8, false},  {H5T_IEEE_F32BE, NumberKind::f4, true},   {H5T_IEEE_F64BE, NumberKind::f8, true}}};
+  const std::array<Standard, 20> k_standard = {
+      {{H5T_STD_I8LE, NumberKind::i1, false},  {H5T_STD_U8LE, NumberKind::u1, false},   {H5T_STD_I8BE, NumberKind::i1, true},
+       {H5T_STD_U8BE, NumberKind::u1, true},   {H5T_STD_I16LE, NumberKind::i2, false},  {H5T_STD_U16LE, NumberKind::u2, false},
+       {H5T_STD_I16BE, NumberKind::i2, true},  {H5T_STD_U16BE, NumberKind::u2, true},   {H5T_STD_I32LE, NumberKind::i4, false},
+       {H5T_STD_U32LE, NumberKind::u4, false}, {H5T_STD_I32BE, NumberKind::i4, true},   {H5T_STD_U32BE, NumberKind::u4, true},
+       {H5T_STD_I64LE, NumberKind::i8, false}, {H5T_STD_U64LE, NumberKind::u8, false},  {H5T_STD_I64BE, NumberKind::i8, true},
+       {H5T_STD_U64BE, NumberKind::u8, true},  {H5T_IEEE_F32LE, NumberKind::f4, false}, {H5T_IEEE_F64LE, NumberKind::f8, false},
+       {H5T_IEEE_F32BE, NumberKind::f4, true}, {H5T_IEEE_F64BE, NumberKind::f8, true}}};
   if (H5Tget_class(id) == H5T_STRING) {
     if (H5Tis_variable_str(id) > 0) return {.kind = NumberKind::text, .is_variable_text = true};
     return {.kind = NumberKind::text, .is_known = true, .text_size = H5Tget_size(id)};
@@ -111,7 +118,11 @@ class Hdf5Nodes {
   static std::string shown(const std::string& path) { return path.empty() ? "/" : path; }
 
   void add_group(hid_t group, std::uint32_t parent, const std::string& name, const std::string& path, std::uint32_t depth) {
-    if (depth > wire::k_max_depth) throw Failure{.outcome = wire::Outcome::malformed, .where = path, .problem = "groups are nested more than " + std::to_string(wire::k_max_depth) + " deep", .hint = {}};
+    if (depth > wire::k_max_depth)
+      throw Failure{.outcome = wire::Outcome::malformed,
+                    .where = path,
+                    .problem = "groups are nested more than " + std::to_string(wire::k_max_depth) + " deep",
+                    .hint = {}};
     const std::uint32_t own = image_.add({.parent = parent, .role = wire::Role::group, .name = name});
     if (depth > 0 && limits_.is_left_out(name)) {
       image_.nodes()[own].role = wire::Role::left_out;
@@ -143,7 +154,8 @@ class Hdf5Nodes {
       static_cast<std::vector<Link>*>(data)->push_back({name, info->type == H5L_TYPE_HARD});
       return 0;
     };
-    if (H5Literate(group, (order & H5P_CRT_ORDER_TRACKED) ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME, H5_ITER_INC, nullptr, take, &links) < 0) fail(shown(path), "listing a group");
+    if (H5Literate(group, (order & H5P_CRT_ORDER_TRACKED) ? H5_INDEX_CRT_ORDER : H5_INDEX_NAME, H5_ITER_INC, nullptr, take, &links) < 0)
+      fail(shown(path), "listing a group");
     return links;
   }
 
@@ -168,7 +180,8 @@ class Hdf5Nodes {
     if (H5Oget_info2(object, &info, H5O_INFO_NUM_ATTRS) < 0) fail(shown(path), "counting the attributes");
     std::string label;
     for (hsize_t i = 0; i < info.num_attrs; ++i) {
-      const Handle attribute(H5Aopen_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, i, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, shown(path), "opening an attribute");
+      const Handle attribute(H5Aopen_by_idx(object, ".", H5_INDEX_NAME, H5_ITER_INC, i, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, shown(path),
+                             "opening an attribute");
       std::array<char, 256> name{};
       if (H5Aget_name(attribute, name.size(), name.data()) < 0) fail(shown(path), "reading the name of an attribute");
       const std::string where = shown(path) + ", attribute \"" + name.data() + "\"";
@@ -229,7 +242,8 @@ class Hdf5Nodes {
 
   void add_dataset(const std::shared_ptr<Handle>& dataset, std::uint32_t parent, const std::string& name, const std::string& path) {
     Node node{.parent = parent, .role = wire::Role::dataset, .name = name};
-    const Handle space(H5Dget_space(*dataset), H5Sclose, path, "reading its extents"), plist(H5Dget_create_plist(*dataset), H5Pclose, path, "reading its layout");
+    const Handle space(H5Dget_space(*dataset), H5Sclose, path, "reading its extents"),
+        plist(H5Dget_create_plist(*dataset), H5Pclose, path, "reading its layout");
     const auto type = std::make_shared<Handle>(H5Dget_type(*dataset), H5Tclose, path, "reading its type");
     const Type known = type_of(*type);
     set_shape(node, known, space, path);
@@ -247,14 +261,16 @@ class Hdf5Nodes {
   void check_layout(hid_t dataset, hid_t plist, hid_t space, Node& node, const std::string& path) const {
     const H5D_layout_t layout = H5Pget_layout(plist);
     if (layout < 0) fail(path, "reading its layout");
-    if (layout == H5D_VIRTUAL || H5Pget_external_count(plist) != 0) return node.give_up(Trouble::unsupported, "its values are in other files or datasets; h5repack joins them");
+    if (layout == H5D_VIRTUAL || H5Pget_external_count(plist) != 0)
+      return node.give_up(Trouble::unsupported, "its values are in other files or datasets; h5repack joins them");
     const std::uint64_t n_bytes = check_size(node, layout == H5D_CHUNKED ? limits_.unpacked() : limits_.file_size);
     if (n_bytes == 0) return;
     if (layout == H5D_CONTIGUOUS) {
       const haddr_t begin = H5Dget_offset(dataset);
       if (begin == HADDR_UNDEF) return node.give_up(Trouble::malformed, "its " + std::to_string(n_bytes) + " bytes were never written");
       if (begin > limits_.file_size - n_bytes)
-        node.give_up(Trouble::malformed, "its " + std::to_string(n_bytes) + " bytes from byte " + std::to_string(begin) + " leave the file of " + std::to_string(limits_.file_size) + " bytes");
+        node.give_up(Trouble::malformed, "its " + std::to_string(n_bytes) + " bytes from byte " + std::to_string(begin) + " leave the file of " +
+                                             std::to_string(limits_.file_size) + " bytes");
     }
     if (layout == H5D_CHUNKED) check_chunks(dataset, plist, space, node, path);
   }
@@ -277,7 +293,8 @@ class Hdf5Nodes {
       unsigned flags = 0;
       std::size_t n_values = 0;
       const H5Z_filter_t filter = H5Pget_filter2(plist, static_cast<unsigned>(i), &flags, &n_values, nullptr, 0, nullptr, nullptr);
-      if (H5Zfilter_avail(filter) <= 0) return node.give_up(Trouble::unsupported, "it is packed by the filter " + std::to_string(filter) + "; h5repack -f NONE unpacks it");
+      if (H5Zfilter_avail(filter) <= 0)
+        return node.give_up(Trouble::unsupported, "it is packed by the filter " + std::to_string(filter) + "; h5repack -f NONE unpacks it");
     }
     hsize_t n_found = 0;
     if (H5Dget_num_chunks(dataset, space, &n_found) < 0) fail(path, "counting its chunks");

@@ -57,7 +57,8 @@ std::uint64_t Node::n_bytes() const {
 std::uint64_t check_size(Node& node, std::uint64_t limit) {
   std::uint64_t n = byte_size(node.kind);
   if (node.extents.size() > wire::k_max_rank) {
-    node.give_up(wire::Trouble::unsupported, "it has " + std::to_string(node.extents.size()) + " extents, at most " + std::to_string(wire::k_max_rank) + " are read");
+    node.give_up(wire::Trouble::unsupported,
+                 "it has " + std::to_string(node.extents.size()) + " extents, at most " + std::to_string(wire::k_max_rank) + " are read");
     return 0;
   }
   for (const std::uint64_t extent : node.extents) {
@@ -66,7 +67,8 @@ std::uint64_t check_size(Node& node, std::uint64_t limit) {
     return 0;
   }
   if (n > limit) {
-    node.give_up(wire::Trouble::malformed, "its " + std::to_string(n) + " bytes are more than the " + std::to_string(limit) + " that the file can hold: it may have been cut short");
+    node.give_up(wire::Trouble::malformed,
+                 "its " + std::to_string(n) + " bytes are more than the " + std::to_string(limit) + " that the file can hold: it may have been cut short");
     return 0;
   }
   return n;
@@ -74,7 +76,8 @@ std::uint64_t check_size(Node& node, std::uint64_t limit) {
 
 std::uint32_t Image::add(Node node) {
   if (nodes_.size() > limits_.file_size / k_smallest_node + 1)
-    throw Failure{.outcome = wire::Outcome::malformed, .where = "the file", .problem = "it leads to more groups and attributes than it has room for", .hint = {}};
+    throw Failure{
+        .outcome = wire::Outcome::malformed, .where = "the file", .problem = "it leads to more groups and attributes than it has room for", .hint = {}};
   nodes_.push_back(std::move(node));
   return static_cast<std::uint32_t>(nodes_.size() - 1);
 }
@@ -86,14 +89,24 @@ void Image::write() {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const Node& node = nodes_[i];
     NodeRecord& record = records[i];
-    record = {.parent = node.parent, .role = node.role, .trouble = node.trouble, .kind = node.kind, .is_big_endian = node.is_big_endian, .name = text.add(node.name), .problem = text.add(node.problem)};
+    record = {.parent = node.parent,
+              .role = node.role,
+              .trouble = node.trouble,
+              .kind = node.kind,
+              .is_big_endian = node.is_big_endian,
+              .name = text.add(node.name),
+              .problem = text.add(node.problem)};
     if (!node.has_values() || node.trouble != wire::Trouble::none) continue;
     record.rank = static_cast<std::uint32_t>(node.extents.size());
     std::copy(node.extents.begin(), node.extents.end(), record.extents);
     record.n_bytes = node.n_bytes();
     record.begin = n_values;  // until the length of the text is known
     if (record.n_bytes > limits_.unpacked() || (n_values += aligned(record.n_bytes)) > limits_.unpacked())
-      throw Failure{.outcome = wire::Outcome::malformed, .where = "the file", .problem = "its arrays unpack to more than " + std::to_string(limits_.unpacked()) + " bytes, which no mesh file of " + std::to_string(limits_.file_size) + " bytes does", .hint = {}};
+      throw Failure{.outcome = wire::Outcome::malformed,
+                    .where = "the file",
+                    .problem = "its arrays unpack to more than " + std::to_string(limits_.unpacked()) + " bytes, which no mesh file of " +
+                               std::to_string(limits_.file_size) + " bytes does",
+                    .hint = {}};
   }
   ImageHeader header{.n_nodes = static_cast<std::uint32_t>(nodes_.size()), .text_size = text.text().size()};
   const std::uint64_t first_value = aligned(sizeof header + sizeof(NodeRecord) * records.size() + text.text().size()), size = first_value + n_values;

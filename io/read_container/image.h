@@ -23,7 +23,9 @@ struct Limits {
   std::uint64_t file_size = 0;
   std::vector<std::string> left_out;
 
-  std::uint64_t unpacked() const { return file_size > UINT64_MAX / wire::k_max_expansion ? UINT64_MAX : std::max(wire::k_expansion_floor, wire::k_max_expansion * file_size); }
+  std::uint64_t unpacked() const {
+    return file_size > UINT64_MAX / wire::k_max_expansion ? UINT64_MAX : std::max(wire::k_expansion_floor, wire::k_max_expansion * file_size);
+  }
   bool is_left_out(std::string_view name) const {
     for (const std::string& word : left_out)
       if (word == name) return true;

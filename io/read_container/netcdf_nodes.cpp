@@ -1,5 +1,5 @@
-// NetCDF by libnetcdf, from memory: so that it notices a file that was cut short, which it fills with zeros when it reads from disk. NetCDF-4 is HDF5 and is looked at as such first:
-// what that finds wrong with a variable (data in other files, chunks that are missing) libnetcdf would not say.
+// NetCDF by libnetcdf, from memory: so that it notices a file that was cut short, which it fills with zeros when it reads from disk. NetCDF-4 is HDF5 and is
+// looked at as such first: what that finds wrong with a variable (data in other files, chunks that are missing) libnetcdf would not say.
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
@@ -36,7 +36,8 @@ std::optional<NumberKind> kind_of(nc_type type) {
 void require(int status, const std::string& where) {
   if (status == NC_NOERR) return;
   if (status == NC_ENOMEM) throw std::bad_alloc();
-  const std::string problem = status == EPERM ? "the file ends before its values do" : std::string("the NetCDF library says: ") + nc_strerror(status);  // EPERM: it would have to grow the file
+  const std::string problem = status == EPERM ? "the file ends before its values do"
+                                              : std::string("the NetCDF library says: ") + nc_strerror(status);  // EPERM: it would have to grow the file
   throw Failure{.outcome = wire::Outcome::malformed, .where = where, .problem = problem, .hint = "the file may have been cut short: copy or write it again"};
 }
 

@@ -1,4 +1,5 @@
-// Values as bytes: for hashing them (keys) and for keeping them (entries of the cache), both by the same description. To the bit: what is read back equals what was written.
+// Values as bytes: for hashing them (keys) and for keeping them (entries of the cache), both by the same description. To the bit: what is read back equals what
+// was written.
 #pragma once
 
 #include <array>
@@ -45,7 +46,7 @@ struct IsId<Id<Tag>> : std::true_type {};
 
 /// Values whose bytes in memory are all there is to them: no padding, no pointers.
 template <class T>
-struct IsPlain : std::bool_constant<((std::is_arithmetic_v<T> || std::is_enum_v<T>) && !std::is_same_v<T, bool>) || IsId<T>::value || std::is_same_v<T, Vec3>> {};
+struct IsPlain : std::bool_constant<((std::is_arithmetic_v<T> || std::is_enum_v<T>)&&!std::is_same_v<T, bool>) || IsId<T>::value || std::is_same_v<T, Vec3>> {};
 template <class T, std::size_t N>
 struct IsPlain<std::array<T, N>> : IsPlain<T> {};
 

@@ -25,7 +25,8 @@ std::string build_id(const dl_phdr_info& object) {
     if (header.p_type != PT_NOTE) continue;
     const std::size_t alignment = header.p_align == 8 ? 8 : 4;
     const auto padded = [&](std::size_t n) { return (n + alignment - 1) / alignment * alignment; };
-    const char* at = reinterpret_cast<const char*>(object.dlpi_addr + header.p_vaddr);  // NOLINT(performance-no-int-to-ptr): that is how the loader says where it is
+    const char* at =
+        reinterpret_cast<const char*>(object.dlpi_addr + header.p_vaddr);  // NOLINT(performance-no-int-to-ptr): that is how the loader says where it is
     const char* end = at + header.p_memsz;
     while (at + sizeof(ElfW(Nhdr)) <= end) {
       ElfW(Nhdr) note;
@@ -70,8 +71,8 @@ std::string build_identity() {
   std::string text = "sterna " STERNA_VERSION "\n";
   for (const std::string& line : lines) text += line + "\n";
 #if defined(__x86_64__)
-  text += std::string("processor") + (__builtin_cpu_supports("avx") ? " avx" : "") + (__builtin_cpu_supports("avx2") ? " avx2" : "") + (__builtin_cpu_supports("fma") ? " fma" : "") +
-          (__builtin_cpu_supports("avx512f") ? " avx512f" : "") + "\n";
+  text += std::string("processor") + (__builtin_cpu_supports("avx") ? " avx" : "") + (__builtin_cpu_supports("avx2") ? " avx2" : "") +
+          (__builtin_cpu_supports("fma") ? " fma" : "") + (__builtin_cpu_supports("avx512f") ? " avx512f" : "") + "\n";
 #endif
   return text;
 }

@@ -1,7 +1,7 @@
-// Caching what a script's function has a say in. A function enters a key by the values that it returned, and where it is asked depends on what it answered before. So an
-// entry keeps its questions: whoever looks for it asks the script's own function the same in the same order, as making the result would. All answers as they are kept: the
-// result is this one, as nothing else differs. One that differs leads to another entry, whose key holds the answers so far. The function is asked exactly what it would be
-// without a cache, so not even one that counts its calls can tell the difference.
+// Caching what a script's function has a say in. A function enters a key by the values that it returned, and where it is asked depends on what it answered
+// before. So an entry keeps its questions: whoever looks for it asks the script's own function the same in the same order, as making the result would. All
+// answers as they are kept: the result is this one, as nothing else differs. One that differs leads to another entry, whose key holds the answers so far. The
+// function is asked exactly what it would be without a cache, so not even one that counts its calls can tell the difference.
 #pragma once
 
 #include <cmath>
@@ -55,10 +55,11 @@ class AskedFunction {
 /// As cached() of stage_cache.h, of what `make` makes with the function. `key` becomes that of the result: with the function's answers in it; or nothing.
 /// \pre reuse.cache and key. The function's own errors come out.
 template <class T>
-T cached_by_answers(const Reuse& reuse, std::string_view stage, std::string_view what, std::optional<ContentKey>& key, const SizeFunction& function, const RunContext& context,
-                    const std::function<T(const SizeFunction&)>& make, const std::function<void(ByteSink&, const T&)>& write, const std::function<T(ByteSource&)>& read) {
+T cached_by_answers(const Reuse& reuse, std::string_view stage, std::string_view what, std::optional<ContentKey>& key, const SizeFunction& function,
+                    const RunContext& context, const std::function<T(const SizeFunction&)>& make, const std::function<void(ByteSink&, const T&)>& write,
+                    const std::function<T(ByteSource&)>& read) {
   const auto same = [](double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; };
-  Transcript known;      // what this run's function was asked so far
+  Transcript known;          // what this run's function was asked so far
   std::size_t n_of_key = 0;  // of them, those that are in the key
   for (;;) {
     Transcript stored;

@@ -40,7 +40,9 @@ class MemorySource final : public ByteSource {
     at_ += n;
   }
   std::uint64_t n_left() const override { return bytes_.size() - at_; }
-  [[noreturn]] void refuse() const override { throw Error({.code = ErrorCode::internal, .attempted = "keeping a model", .problem = "what was written cannot be read"}); }
+  [[noreturn]] void refuse() const override {
+    throw Error({.code = ErrorCode::internal, .attempted = "keeping a model", .problem = "what was written cannot be read"});
+  }
 
  private:
   const std::string& bytes_;
@@ -113,7 +115,8 @@ std::string bytes_of(const ModelValue& value, std::string_view verb, const RunCo
   return {};
 }
 
-/// What a key by content leaves out, but the value of the model or its messages hold. False: there is a function, whose answers are not known before it is asked.
+/// What a key by content leaves out, but the value of the model or its messages hold. False: there is a function, whose answers are not known before it is
+/// asked.
 bool add_names(const ScriptValue& value, KeyMaker& maker) {
   const auto add_inputs = [&](const std::vector<InputFile>& inputs) {
     for (const InputFile& file : inputs) maker.add(file.name);
@@ -170,7 +173,10 @@ class MadeLater {
     const ScriptValue value = verb_.run(call_);
     ModelHandle model = std::get<ModelHandle>(value);
     if (KeyMaker("bytes").add(bytes_of(*model, call_.verb, context)).key() != bytes_key_)
-      throw Error({.code = ErrorCode::geometry_failed, .attempted = call_.attempted(), .problem = "gives another model than before in this run", .hint = "an input file changed meanwhile: run the script again"});
+      throw Error({.code = ErrorCode::geometry_failed,
+                   .attempted = call_.attempted(),
+                   .problem = "gives another model than before in this run",
+                   .hint = "an input file changed meanwhile: run the script again"});
     return model;
   }
   const ScriptVerb& verb_;
@@ -214,7 +220,9 @@ ScriptValue cached_model(const ScriptVerb& verb, const ScriptCall& call) {
   ScriptValue value = verb.run(call);
   if (const auto* model = std::get_if<ModelHandle>(&value)) {
     const std::string bytes = bytes_of(**model, verb.name, context);
-    if (!bytes.empty()) cache->store(verb.name, *key, [&](ByteSink& sink) { write_value(sink, bytes); }, context);
+    if (!bytes.empty())
+      cache->store(
+          verb.name, *key, [&](ByteSink& sink) { write_value(sink, bytes); }, context);
   }
   return value;
 }

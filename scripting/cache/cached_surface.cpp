@@ -41,7 +41,8 @@ std::optional<ContentKey> key_of(const PartTask& task, const RunContext& context
 
 /// Without inputs, which are the models', and without the model.
 void write_parts(ByteSink& sink, const SurfaceValue& surface) {
-  const auto& [mesh, report, options, inputs, union_options, recipe, mesh_report, smooth_angle, layers, model_wall, parts, model_wall_key] = surface;  // all of them: a new one does not compile
+  const auto& [mesh, report, options, inputs, union_options, recipe, mesh_report, smooth_angle, layers, model_wall, parts, model_wall_key] =
+      surface;  // all of them: a new one does not compile
   write_value(sink, mesh);
   write_value(sink, report);
   write_value(sink, recipe);
@@ -84,19 +85,24 @@ std::string names_of(const std::vector<ModelHandle>& models) {
 PartMesher cached_part_mesher(const Reuse& reuse) {
   const PartMesher ordinary = [reuse](const PartTask& task, const RunContext& context) {
     const std::optional<ContentKey> key = reuse.cache ? key_of(task, context) : std::nullopt;
-    const std::string what = task.model.components.size() == 0 ? std::string("of a part") : "of " + task.model.components.raw().front().name + " in its own frame";
+    const std::string what =
+        task.model.components.size() == 0 ? std::string("of a part") : "of " + task.model.components.raw().front().name + " in its own frame";
     return cached<surfmesh::SurfaceMesh>(reuse, k_stage, what, key, context, [&] { return mesh_part(task, context); });
   };
   return starting_mesher(reuse, ordinary, [](const PartTask& task, const RunContext& context) { return key_of(task, context); });
 }
 
-SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const SizeFunction& size, const std::function<SurfaceValue(const SizeFunction&)>& make,
-                            const std::function<Model()>& all, const Reuse& reuse, const RunContext& context) {
+SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const SizeFunction& size,
+                            const std::function<SurfaceValue(const SizeFunction&)>& make, const std::function<Model()>& all, const Reuse& reuse,
+                            const RunContext& context) {
   ReferenceUse* reference = reuse.reference;
   if (reference) reference->begin_surface();
   std::optional<ContentKey> key = reuse.cache ? beside_reference(key_of(models, asked, static_cast<bool>(size), context), reuse, context) : std::nullopt;
-  if (key && reference && !reference->is_this()) key = KeyMaker("call").add(*key).add(reference->surface()).key();  // parts start from those of the same call first
-  if (!reuse.cache || !key) return cached<SurfaceValue>(reuse, k_stage, {}, std::nullopt, context, [&] { return make(size); }, write_parts, std::function<SurfaceValue(ByteSource&)>());
+  if (key && reference && !reference->is_this())
+    key = KeyMaker("call").add(*key).add(reference->surface()).key();  // parts start from those of the same call first
+  if (!reuse.cache || !key)
+    return cached<SurfaceValue>(
+        reuse, k_stage, {}, std::nullopt, context, [&] { return make(size); }, write_parts, std::function<SurfaceValue(ByteSource&)>());
   const std::string what = names_of(models);
   const ReferenceUse::Mark mark = reference ? reference->mark() : ReferenceUse::Mark();
   std::optional<ReferenceUse::Beside> found;
@@ -114,7 +120,8 @@ SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const Surfac
     return make(asked_size);
   };
   SurfaceValue surface = size ? cached_by_answers<SurfaceValue>(reuse, k_stage, what, key, size, context, make_here, write, read)
-                              : cached<SurfaceValue>(reuse, k_stage, what, key, context, [&] { return make_here({}); }, write, std::function<SurfaceValue(ByteSource&)>(read));
+                              : cached<SurfaceValue>(
+                                    reuse, k_stage, what, key, context, [&] { return make_here({}); }, write, std::function<SurfaceValue(ByteSource&)>(read));
   if (found) reference->take(std::move(*found), reuse, context);
   surface.model_wall_key = key;
   return surface;

@@ -17,13 +17,14 @@ namespace sterna::scripting {
 /// "of body, wing, tail": names of components.
 std::string names_of(const std::vector<ModelHandle>& models);
 
-/// mesh_part(), or what it made of the same part before: the same model, its names and kinds, options and rules, wherever it is. Parts whose sizes depend on their place, or of which
-/// it is not known what they were made of, are made anew.
+/// mesh_part(), or what it made of the same part before: the same model, its names and kinds, options and rules, wherever it is. Parts whose sizes depend on
+/// their place, or of which it is not known what they were made of, are made anew.
 PartMesher cached_part_mesher(const Reuse& reuse);
 
-/// What `make` makes of the models, or what it made of the same before. A surface from the cache knows its models, too: what its model wall needs of them is made by `all`
-/// when a vertex has to go there, which is seldom. \throws what make() throws
-SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const SizeFunction& size, const std::function<SurfaceValue(const SizeFunction&)>& make,
-                            const std::function<Model()>& all, const Reuse& reuse, const RunContext& context);
+/// What `make` makes of the models, or what it made of the same before. A surface from the cache knows its models, too: what its model wall needs of them is
+/// made by `all` when a vertex has to go there, which is seldom. \throws what make() throws
+SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const SizeFunction& size,
+                            const std::function<SurfaceValue(const SizeFunction&)>& make, const std::function<Model()>& all, const Reuse& reuse,
+                            const RunContext& context);
 
 }  // namespace sterna::scripting

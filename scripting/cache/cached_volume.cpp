@@ -43,7 +43,8 @@ ContentKey part_envelope_key(const volmesh::PartEnvelopeTask& task, const RunCon
 volmesh::VolumeMeshOptions with_envelopes(volmesh::VolumeMeshOptions options, const Reuse& reuse) {
   const volmesh::PartEnvelopeMaker ordinary = [reuse](const volmesh::PartEnvelopeTask& task, const RunContext& context) {
     const std::optional<ContentKey> key = reuse.cache ? std::optional(part_envelope_key(task, context)) : std::nullopt;
-    return cached<volmesh::PartEnvelope>(reuse, "envelope", triangles_text(task.wall) + " in their own frame", key, context, [&] { return volmesh::part_envelope(task, context); });
+    return cached<volmesh::PartEnvelope>(reuse, "envelope", triangles_text(task.wall) + " in their own frame", key, context,
+                                         [&] { return volmesh::part_envelope(task, context); });
   };
   if (reuse.reference) return starting_envelopes(std::move(options), reuse, ordinary, part_envelope_key);
   if (reuse.cache && !options.parts.empty()) options.part_envelope = ordinary;
@@ -63,8 +64,8 @@ volmesh::EnvelopeStage cached_envelope(const TriMesh& wall, const volmesh::Volum
   });
 }
 
-volmesh::FilledStage cached_tetrahedra(const TriMesh& wall, const volmesh::EnvelopeStage& envelope, const volmesh::VolumeMeshOptions& options, const std::optional<ContentKey>& true_surface, const Reuse& reuse,
-                                       const RunContext& context) {
+volmesh::FilledStage cached_tetrahedra(const TriMesh& wall, const volmesh::EnvelopeStage& envelope, const volmesh::VolumeMeshOptions& options,
+                                       const std::optional<ContentKey>& true_surface, const Reuse& reuse, const RunContext& context) {
   std::optional<ContentKey> key;
   if (reuse.cache && true_surface) {
     volmesh::VolumeMeshOptions of_this_step = options;
@@ -75,7 +76,9 @@ volmesh::FilledStage cached_tetrahedra(const TriMesh& wall, const volmesh::Envel
     key = maker.key();
   }
   bool is_made = false;
-  auto filled = cached<volmesh::FilledStage>(reuse, "tetrahedra", triangles_text(wall), key, context, [&] {
+  auto filled = cached<volmesh::FilledStage>(
+      reuse, "tetrahedra", triangles_text(wall), key, context,
+      [&] {
         is_made = true;
         return volmesh::make_tetrahedra(wall, envelope, options, context);
       },
@@ -84,17 +87,19 @@ volmesh::FilledStage cached_tetrahedra(const TriMesh& wall, const volmesh::Envel
   return filled;
 }
 
-volmesh::VolumeMeshResult cached_finish(const TriMesh& wall, const volmesh::FilledStage& filled, const volmesh::VolumeMeshOptions& options, const Reuse& reuse, const RunContext& context) {
+volmesh::VolumeMeshResult cached_finish(const TriMesh& wall, const volmesh::FilledStage& filled, const volmesh::VolumeMeshOptions& options, const Reuse& reuse,
+                                        const RunContext& context) {
   std::optional<ContentKey> key;
   if (reuse.cache) key = KeyMaker("prisms").add(key_of(wall)).add(key_of(filled)).add(volume_options_key(options)).add(context.seed()).key();
-  auto result = cached<volmesh::VolumeMeshResult>(reuse, "prisms", triangles_text(wall), key, context, [&] { return volmesh::finish_mesh(wall, filled, options, context); }, is_same_mesh_everywhere);
+  auto result = cached<volmesh::VolumeMeshResult>(
+      reuse, "prisms", triangles_text(wall), key, context, [&] { return volmesh::finish_mesh(wall, filled, options, context); }, is_same_mesh_everywhere);
   result.tetra_engine_seconds = filled.tets.engine_seconds;  // whoever joined the parts
   result.tetra_engine_peak_bytes = filled.tets.engine_peak_bytes;
   return result;
 }
 
-volmesh::VolumeMeshResult cached_volume_mesh(const TriMesh& wall, const volmesh::VolumeMeshOptions& options, const volmesh::StageWatch& watch, const std::optional<ContentKey>& true_surface, const Reuse& reuse,
-                                             const RunContext& context) {
+volmesh::VolumeMeshResult cached_volume_mesh(const TriMesh& wall, const volmesh::VolumeMeshOptions& options, const volmesh::StageWatch& watch,
+                                             const std::optional<ContentKey>& true_surface, const Reuse& reuse, const RunContext& context) {
   if (!reuse.cache && !reuse.reference) return volmesh::volume_mesh(wall, options, watch, context);
   volmesh::StageWatch with_envelope = watch;
   with_envelope.envelope = [&](const std::function<volmesh::EnvelopeStage()>& make) {

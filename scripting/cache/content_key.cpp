@@ -23,10 +23,11 @@ std::string value_text(const OptionValue& value) {
   return std::get<std::string>(value);
 }
 
-/// All that is no option of a schema, but for sources, which come behind the envelope, and the true surface, whose key its maker has. The members are listed so that a new one
-/// does not compile until it is in a key.
+/// All that is no option of a schema, but for sources, which come behind the envelope, and the true surface, whose key its maker has. The members are listed so
+/// that a new one does not compile until it is in a key.
 void add_rest(KeyMaker& maker, const volmesh::VolumeMeshOptions& options) {
-  const auto& [family, envelope, first_heights, patches, prisms, farfield, farfield_surface, ends, size, sources, discs, periodic, tetrahedra, improve, smooth_angle, parts, part_envelope, wall_envelope, true_surface] = options;
+  const auto& [family, envelope, first_heights, patches, prisms, farfield, farfield_surface, ends, size, sources, discs, periodic, tetrahedra, improve,
+               smooth_angle, parts, part_envelope, wall_envelope, true_surface] = options;
   maker.add(patches).add(farfield_surface).add(discs).add(periodic).add(smooth_angle).add(parts);
   maker.add(first_heights != nullptr);
   if (first_heights) maker.add(std::vector<double>(first_heights->values().begin(), first_heights->values().end()));
@@ -79,7 +80,8 @@ ContentKey key_of(const SurfaceRecipe& recipe) {
 std::optional<ContentKey> key_of(const SurfaceValue& surface) {
   if (surface.model_wall && !surface.model_wall_key) return std::nullopt;
   KeyMaker maker("surface");
-  const auto& [mesh, report, options, inputs, union_options, recipe, mesh_report, smooth_angle, layers, model_wall, parts, model_wall_key] = surface;  // all members: a new one does not compile
+  const auto& [mesh, report, options, inputs, union_options, recipe, mesh_report, smooth_angle, layers, model_wall, parts, model_wall_key] =
+      surface;  // all members: a new one does not compile
   maker.add(mesh).add(report).add(options).add(inputs).add(union_options).add(recipe).add(mesh_report).add(smooth_angle).add(layers).add(parts);
   if (model_wall) maker.add(*model_wall_key);
   return maker.key();
@@ -112,21 +114,36 @@ ContentKey key_of(const volmesh::EnvelopeStage& stage) { return KeyMaker("envelo
 ContentKey key_of(const volmesh::FilledStage& stage) {
   KeyMaker maker("filled");
   const volmesh::TetraResult& tets = stage.tets;  // without what was measured of the engine
-  maker.add(stage.split_wall).add(stage.envelope).add(stage.layers).add(tets.new_points).add(tets.tetrahedra).add(tets.splits).add(tets.engine).add(tets.is_two_pass).add(tets.failures).add(tets.is_reproducible);
+  maker.add(stage.split_wall)
+      .add(stage.envelope)
+      .add(stage.layers)
+      .add(tets.new_points)
+      .add(tets.tetrahedra)
+      .add(tets.splits)
+      .add(tets.engine)
+      .add(tets.is_two_pass)
+      .add(tets.failures)
+      .add(tets.is_reproducible);
   return maker.add(stage.tetra_failures).add(stage.curving_shares).add(stage.n_split_triangles).key();
 }
 
 std::optional<ContentKey> key_of(const EnvelopeValue& envelope) {
   const std::optional<ContentKey> wall = key_of(*envelope.wall);
   if (!wall) return std::nullopt;
-  const auto& [wall_handle, options, stage, step, classes, n_sources_in_file] = envelope;  // all members: a new one does not compile; classes follow from the rest
+  const auto& [wall_handle, options, stage, step, classes, n_sources_in_file] =
+      envelope;  // all members: a new one does not compile; classes follow from the rest
   return KeyMaker("envelope value").add(*wall).add(volume_options_key(options)).add(key_of(stage)).add(to_string(step)).key();
 }
 
 std::optional<ContentKey> key_of(const TetrahedraValue& tetrahedra) {
   const std::optional<ContentKey> wall = key_of(*tetrahedra.wall);
   if (!wall) return std::nullopt;
-  return KeyMaker("tetrahedra value").add(*wall).add(tetrahedra.n_wall_triangles).add(volume_options_key(tetrahedra.options)).add(key_of(tetrahedra.stage)).key();
+  return KeyMaker("tetrahedra value")
+      .add(*wall)
+      .add(tetrahedra.n_wall_triangles)
+      .add(volume_options_key(tetrahedra.options))
+      .add(key_of(tetrahedra.stage))
+      .key();
 }
 
 ContentKey key_of(const MeshValue& mesh) { return KeyMaker("mesh").add(mesh.mesh).add(mesh.inputs).key(); }

@@ -14,15 +14,24 @@
 namespace sterna::scripting {
 
 // What curves and surfaces are made of.
-template <> inline constexpr std::size_t k_members<Interval> = 2;
-template <> inline constexpr std::size_t k_members<ParameterBox> = 2;
-template <> inline constexpr std::size_t k_members<Frame> = 4;
-template <> inline constexpr std::size_t k_members<SurfaceView::Map> = 2;
-template <class P> inline constexpr std::size_t k_members<NurbsCurveForm<P>> = 4;
-template <> inline constexpr std::size_t k_members<NurbsSurfaceForm> = 8;
-template <> inline constexpr std::size_t k_members<Component> = 2;
-template <> inline constexpr std::size_t k_members<ModelCorner> = 2;
-template <> inline constexpr std::size_t k_members<ModelSolid> = 3;
+template <>
+inline constexpr std::size_t k_members<Interval> = 2;
+template <>
+inline constexpr std::size_t k_members<ParameterBox> = 2;
+template <>
+inline constexpr std::size_t k_members<Frame> = 4;
+template <>
+inline constexpr std::size_t k_members<SurfaceView::Map> = 2;
+template <class P>
+inline constexpr std::size_t k_members<NurbsCurveForm<P>> = 4;
+template <>
+inline constexpr std::size_t k_members<NurbsSurfaceForm> = 8;
+template <>
+inline constexpr std::size_t k_members<Component> = 2;
+template <>
+inline constexpr std::size_t k_members<ModelCorner> = 2;
+template <>
+inline constexpr std::size_t k_members<ModelSolid> = 3;
 
 namespace {
 
@@ -78,7 +87,8 @@ void ModelWriter::shared(const std::shared_ptr<const Model>& model) {
 
 void ModelWriter::content(const Curve& of) {
   if (const auto* line = dynamic_cast<const LineCurve*>(&of)) write_all(sink_, CurveKind::line, line->origin(), line->direction(), line->domain());
-  else if (const auto* ellipse = dynamic_cast<const EllipseCurve*>(&of)) write_all(sink_, CurveKind::ellipse, ellipse->centre(), ellipse->x(), ellipse->y(), ellipse->domain());
+  else if (const auto* ellipse = dynamic_cast<const EllipseCurve*>(&of))
+    write_all(sink_, CurveKind::ellipse, ellipse->centre(), ellipse->x(), ellipse->y(), ellipse->domain());
   else if (const auto* view = dynamic_cast<const CurveView*>(&of)) {
     write_all(sink_, CurveKind::view, view->domain(), view->scale(), view->shift());
     curve(view->base());
@@ -94,18 +104,24 @@ void ModelWriter::content(const Curve& of) {
 
 void ModelWriter::content(const ParameterCurve& of) {
   if (const auto* line = dynamic_cast<const ParameterLine*>(&of)) write_all(sink_, ParameterCurveKind::line, line->origin(), line->direction(), line->domain());
-  else if (const auto* arc = dynamic_cast<const ParameterArc*>(&of)) write_all(sink_, ParameterCurveKind::arc, arc->centre(), arc->x(), arc->y(), arc->domain());
+  else if (const auto* arc = dynamic_cast<const ParameterArc*>(&of))
+    write_all(sink_, ParameterCurveKind::arc, arc->centre(), arc->x(), arc->y(), arc->domain());
   else if (const auto* nurbs = dynamic_cast<const NurbsParameterCurve*>(&of)) write_all(sink_, ParameterCurveKind::nurbs, nurbs->form());
   else throw NotKept{"a curve in a face"};
 }
 
 void ModelWriter::content(const Surface& of) {
   if (const auto* plane = dynamic_cast<const PlaneSurface*>(&of)) write_all(sink_, SurfaceKind::plane, plane->frame(), plane->domain());
-  else if (const auto* cylinder = dynamic_cast<const CylinderSurface*>(&of)) write_all(sink_, SurfaceKind::cylinder, cylinder->frame(), cylinder->radius(), cylinder->domain());
-  else if (const auto* cone = dynamic_cast<const ConeSurface*>(&of)) write_all(sink_, SurfaceKind::cone, cone->frame(), cone->radius(), cone->half_angle(), cone->domain());
-  else if (const auto* sphere = dynamic_cast<const SphereSurface*>(&of)) write_all(sink_, SurfaceKind::sphere, sphere->frame(), sphere->radius(), sphere->domain());
-  else if (const auto* torus = dynamic_cast<const TorusSurface*>(&of)) write_all(sink_, SurfaceKind::torus, torus->frame(), torus->major_radius(), torus->minor_radius(), torus->domain());
-  else if (const auto* nurbs = dynamic_cast<const NurbsSurface*>(&of)) write_all(sink_, SurfaceKind::nurbs, nurbs->form(), nurbs->is_periodic_u(), nurbs->is_periodic_v(), nurbs->kind());
+  else if (const auto* cylinder = dynamic_cast<const CylinderSurface*>(&of))
+    write_all(sink_, SurfaceKind::cylinder, cylinder->frame(), cylinder->radius(), cylinder->domain());
+  else if (const auto* cone = dynamic_cast<const ConeSurface*>(&of))
+    write_all(sink_, SurfaceKind::cone, cone->frame(), cone->radius(), cone->half_angle(), cone->domain());
+  else if (const auto* sphere = dynamic_cast<const SphereSurface*>(&of))
+    write_all(sink_, SurfaceKind::sphere, sphere->frame(), sphere->radius(), sphere->domain());
+  else if (const auto* torus = dynamic_cast<const TorusSurface*>(&of))
+    write_all(sink_, SurfaceKind::torus, torus->frame(), torus->major_radius(), torus->minor_radius(), torus->domain());
+  else if (const auto* nurbs = dynamic_cast<const NurbsSurface*>(&of))
+    write_all(sink_, SurfaceKind::nurbs, nurbs->form(), nurbs->is_periodic_u(), nurbs->is_periodic_v(), nurbs->kind());
   else if (const auto* round = dynamic_cast<const RevolutionSurface*>(&of)) {
     write_all(sink_, SurfaceKind::revolution, round->axis_point(), round->axis(), round->domain().u);
     curve(round->profile());

@@ -1,4 +1,5 @@
-// Exact geometry as bytes: a model's columns and the curves and surfaces behind them. What was shared is shared again, what is read back evaluates to the same bits.
+// Exact geometry as bytes: a model's columns and the curves and surfaces behind them. What was shared is shared again, what is read back evaluates to the same
+// bits.
 #pragma once
 
 #include <cstdint>
@@ -46,7 +47,8 @@ class ModelWriter {
 class ModelReader {
  public:
   /// \p shape_of_next gives the shape of the n-th model (from 0, in the order of writing) that had one
-  ModelReader(ByteSource& source, std::function<std::shared_ptr<const CadShape>(std::size_t)> shape_of_next) : source_(source), shape_of_next_(std::move(shape_of_next)) {}
+  ModelReader(ByteSource& source, std::function<std::shared_ptr<const CadShape>(std::size_t)> shape_of_next)
+      : source_(source), shape_of_next_(std::move(shape_of_next)) {}
   /// \throws Error(file_malformed)
   Model model();
   std::shared_ptr<const Model> shared();

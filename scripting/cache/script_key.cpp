@@ -75,7 +75,8 @@ bool is_of_models(const std::string& option) {
   OptionTable later = volmesh::options_of(volume);
   for (Option& entry : sterna::options_of(surface)) later.push_back(std::move(entry));
   const std::size_t dot = option.find('.');
-  return std::none_of(later.begin(), later.end(), [&](const Option& entry) { return dot == std::string::npos ? option == entry.name : option.substr(0, dot) == entry.stage; });
+  return std::none_of(later.begin(), later.end(),
+                      [&](const Option& entry) { return dot == std::string::npos ? option == entry.name : option.substr(0, dot) == entry.stage; });
 }
 
 }  // namespace

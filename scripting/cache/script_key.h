@@ -8,8 +8,9 @@
 
 namespace sterna::scripting {
 
-/// The verb and its arguments after it has run: numbers and texts as they are, files by their names and contents, tables by their entries, objects by their own keys, functions
-/// by what they were asked and what they returned. Options of the command line count where they may be of models. Nothing where an argument has no key.
+/// The verb and its arguments after it has run: numbers and texts as they are, files by their names and contents, tables by their entries, objects by their own
+/// keys, functions by what they were asked and what they returned. Options of the command line count where they may be of models. Nothing where an argument has
+/// no key.
 std::optional<ContentKey> key_of_call(const ScriptCall& call);
 
 /// The result of a verb; one that is a new model knows what it was made of from now on.

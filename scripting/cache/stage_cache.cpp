@@ -1,6 +1,6 @@
 // An entry is a sealed file (sealed_file.h) <first two digits>/<key>.stage: the stage's name, then what its writer wrote.
-// It is written under a temporary name and renamed, so it is whole whenever it has its name, and a killed process leaves nothing that anybody reads. Readers hold a shared
-// lock; what is to go must be free of locks, and a file that is removed while it is read stays readable.
+// It is written under a temporary name and renamed, so it is whole whenever it has its name, and a killed process leaves nothing that anybody reads. Readers
+// hold a shared lock; what is to go must be free of locks, and a file that is removed while it is read stays readable.
 #include "scripting/cache/stage_cache.h"
 
 #include <fcntl.h>
@@ -60,7 +60,8 @@ std::vector<Listed> listed(const std::filesystem::path& folder) {
 
 void require_folder(const std::filesystem::path& folder) {
   std::error_code error;
-  if (!std::filesystem::is_directory(folder, error)) throw Error({.code = ErrorCode::file_not_found, .attempted = "looking into the cache " + folder.string(), .problem = "there is no such folder"});
+  if (!std::filesystem::is_directory(folder, error))
+    throw Error({.code = ErrorCode::file_not_found, .attempted = "looking into the cache " + folder.string(), .problem = "there is no such folder"});
 }
 
 }  // namespace
@@ -70,7 +71,10 @@ StageCache::StageCache(CacheSettings settings) : settings_(std::move(settings)) 
   std::error_code error;
   std::filesystem::create_directories(settings_.folder, error);
   if (!std::filesystem::is_directory(settings_.folder))
-    throw Error({.code = ErrorCode::write_failed, .attempted = "making the cache " + settings_.folder.string(), .problem = error ? error.message() : "there is a file of that name", .hint = "name a folder"});
+    throw Error({.code = ErrorCode::write_failed,
+                 .attempted = "making the cache " + settings_.folder.string(),
+                 .problem = error ? error.message() : "there is a file of that name",
+                 .hint = "name a folder"});
 }
 
 std::filesystem::path StageCache::path_of(std::string_view stage, const ContentKey& key) const {

@@ -22,11 +22,15 @@ constexpr double k_megabyte = 1e6;
 
 }  // namespace
 
-std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOptions& options, const std::vector<std::string>& cuts, const GateTable& limits, const RunContext& context) {
+std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOptions& options, const std::vector<std::string>& cuts, const GateTable& limits,
+                                          const RunContext& context) {
   const std::string name = std::filesystem::path(input.name).filename().string();
   const RunContext reading = context.part("read", 0.0, k_read_end), writing = context.part("report", k_check_end, 1.0);
   if (is_model_file(input.path))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "a report of " + input.name, .problem = "it is a model, which has no mesh yet", .hint = "`sterna surface " + input.name + " -o wall.vtu` meshes its faces, `sterna mesh` the space around them"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "a report of " + input.name,
+                 .problem = "it is a model, which has no mesh yet",
+                 .hint = "`sterna surface " + input.name + " -o wall.vtu` meshes its faces, `sterna mesh` the space around them"});
   if (io::format_of(input.path).read_volume) {
     const MeshValue mesh = read_mesh(input, reading);
     if (count_cells(mesh.mesh).total() > 0) {
@@ -34,7 +38,8 @@ std::pair<std::string, bool> page_of_file(const InputPath& input, const ReportOp
       return {report_html(mesh, options, cuts, name, writing), !mesh.check->is_valid()};
     }
   }
-  if (!cuts.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "a report of " + input.name, .problem = "it is a surface, which has no cells to cut"});
+  if (!cuts.empty())
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "a report of " + input.name, .problem = "it is a surface, which has no cells to cut"});
   surfmesh::StitchOptions stitching;
   stitching.allow_open = true;
   const std::array files = {input};
@@ -45,17 +50,30 @@ CLI::App* add_report_arguments(CLI::App& app, ReportCommand& report) {
   CLI::App* command = app.add_subcommand("report", "a page (HTML, one file) that shows a mesh: view, cuts, worst places, histograms, gates, coverage, options");
   command->add_option("mesh", report.input, "volume mesh or surface file. `sterna formats` lists what is read")->required();
   command->add_option("-o,--output", report.output, "page.html")->required();
-  command->add_option("--cut", report.cuts, "a place by name (\"leading edge\", \"tip\" ...), \"x=1.2\", or \"point=0,0,0 normal=0,1,0\", shown before the automatic ones; may be given several times")->type_name("CUT")->allow_extra_args(false)->take_all();
-  command->add_option("--gate", report.gates, "limits of a QUALITY gate instead of the usual ones, as of `sterna check`; may be given several times")->type_name("MEASURE:LIMITS")->allow_extra_args(false)->take_all();
+  command
+      ->add_option("--cut", report.cuts,
+                   "a place by name (\"leading edge\", \"tip\" ...), \"x=1.2\", or \"point=0,0,0 normal=0,1,0\", shown before the automatic ones; may be given "
+                   "several times")
+      ->type_name("CUT")
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_option("--gate", report.gates, "limits of a QUALITY gate instead of the usual ones, as of `sterna check`; may be given several times")
+      ->type_name("MEASURE:LIMITS")
+      ->allow_extra_args(false)
+      ->take_all();
   ReportOptions options;
   add_schema_options(*command, sterna::options_of(options), report.options);
-  command->footer("sterna report mesh.cgns -o mesh.html --cut \"leading edge\" --cut x=1.2. Exit status 3 when the mesh is INVALID; the page is written all the same.");
+  command->footer(
+      "sterna report mesh.cgns -o mesh.html --cut \"leading edge\" --cut x=1.2. Exit status 3 when the mesh is INVALID; the page is written all the same.");
   return command;
 }
 
 void require_page_output(const std::filesystem::path& path) {
   if (path.extension() != ".html" && path.extension() != ".htm")
-    throw Error({.code = ErrorCode::unsupported_format, .attempted = "writing the report " + path.string(), .problem = "a report is a page of HTML", .hint = "give the file a name that ends in .html"});
+    throw Error({.code = ErrorCode::unsupported_format,
+                 .attempted = "writing the report " + path.string(),
+                 .problem = "a report is a page of HTML",
+                 .hint = "give the file a name that ends in .html"});
 }
 
 void write_page(const std::string& html, const std::filesystem::path& path, const RunContext& context) {

@@ -48,11 +48,14 @@ float shortened(double value) {
 std::string page_text(const std::string& json, const PageArrays& arrays) {
   std::string text(report_page());
   if (text.empty())
-    throw Error({.code = ErrorCode::unsupported_format, .attempted = "making a report page", .problem = "this sterna was built without the page: npm was not found, or the npm registry could not be reached",
+    throw Error({.code = ErrorCode::unsupported_format,
+                 .attempted = "making a report page",
+                 .problem = "this sterna was built without the page: npm was not found, or the npm registry could not be reached",
                  .hint = "install npm, then run tools/build again; everything else of a report is in `sterna check --json`"});
   const auto fill = [&](std::string_view place, const std::string& content) {
     const std::size_t at = text.find(place);
-    if (at == std::string::npos) throw Error({.code = ErrorCode::internal, .attempted = "making a report page", .problem = "the template has no " + std::string(place)});
+    if (at == std::string::npos)
+      throw Error({.code = ErrorCode::internal, .attempted = "making a report page", .problem = "the template has no " + std::string(place)});
     text.replace(at, place.size(), content);
   };
   fill(k_json_place, escaped(json));

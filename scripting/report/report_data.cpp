@@ -45,8 +45,8 @@ constexpr std::size_t k_most_patches = std::size_t{1} << 16;
 /// Boundary faces as triangles, with the face and the edges that each has of it.
 struct PageTriangles {
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> face;    ///< triangles, then quads
-  std::vector<std::uint8_t> edges;    ///< bit k: corner k to k + 1
+  std::vector<std::uint32_t> face;  ///< triangles, then quads
+  std::vector<std::uint8_t> edges;  ///< bit k: corner k to k + 1
   std::vector<std::uint16_t> patch;
 };
 
@@ -85,16 +85,22 @@ PageTriangles page_triangles(const TriMesh& mesh) {
   return page;
 }
 
-Json field_json(std::string_view name, std::string_view title, std::string_view unit, bool is_log, bool is_low_bad, const GateLimits& limits, const std::vector<float>& values, PageArrays& arrays) {
+Json field_json(std::string_view name, std::string_view title, std::string_view unit, bool is_log, bool is_low_bad, const GateLimits& limits,
+                const std::vector<float>& values, PageArrays& arrays) {
   float low = std::numeric_limits<float>::infinity(), high = -low;
   for (const float v : values)
     if (std::isfinite(v)) {
       low = std::min(low, v);
       high = std::max(high, v);
     }
-  return {{"name", name},       {"title", title},          {"unit", unit},
-          {"values", arrays.add(std::span(values))},       {"min", number(low)},
-          {"max", number(high)}, {"is_log", is_log},       {"low_is_bad", is_low_bad},
+  return {{"name", name},
+          {"title", title},
+          {"unit", unit},
+          {"values", arrays.add(std::span(values))},
+          {"min", number(low)},
+          {"max", number(high)},
+          {"is_log", is_log},
+          {"low_is_bad", is_low_bad},
           {"limits", {{"hard", number(limits.hard)}, {"target", number(limits.target)}, {"usual", number(limits.usual)}}}};
 }
 
@@ -104,7 +110,10 @@ class PageMaker {
   PageMaker(std::span<const Point> points, const PageTriangles& triangles, const Column<PatchId, Patch>& patches, const std::vector<SurfaceField>& fields)
       : points_(points), triangles_(triangles), patches_(patches), fields_(fields) {
     if (patches.size() > k_most_patches)
-      throw Error({.code = ErrorCode::overflow, .attempted = "making a report page", .problem = std::to_string(patches.size()) + " patches; a page tells " + std::to_string(k_most_patches) + " apart", .hint = "merge patches by their names"});
+      throw Error({.code = ErrorCode::overflow,
+                   .attempted = "making a report page",
+                   .problem = std::to_string(patches.size()) + " patches; a page tells " + std::to_string(k_most_patches) + " apart",
+                   .hint = "merge patches by their names"});
     Box bodies, all;
     for (std::size_t t = 0; t < triangles.triangles.size(); ++t)
       for (const std::uint32_t corner : triangles.triangles[t]) {
@@ -208,7 +217,11 @@ Json cut_json(const CutPlace& place, const MeshCut& cut, std::size_t most, PageA
     layer.push_back(polygon.layer >= 0 ? static_cast<float>(polygon.layer + 1) : std::nanf(""));
     volume.push_back(shortened(polygon.volume));
   }
-  Json json = {{"name", place.name}, {"origin", json_of(place.plane.origin)}, {"base", json_of(origin)}, {"normal", json_of(place.plane.normal)}, {"focus", {{"center", json_of(place.focus)}, {"radius", place.radius}}}};
+  Json json = {{"name", place.name},
+               {"origin", json_of(place.plane.origin)},
+               {"base", json_of(origin)},
+               {"normal", json_of(place.plane.normal)},
+               {"focus", {{"center", json_of(place.focus)}, {"radius", place.radius}}}};
   json["shown"] = chosen.size();
   json["total"] = cut.size();
   json["points"] = arrays.add(std::span<const float>(points));
@@ -219,8 +232,10 @@ Json cut_json(const CutPlace& place, const MeshCut& cut, std::size_t most, PageA
   constexpr double k_degrees = 180.0 / std::numbers::pi;
   GateLimits dihedral = info_of(Measure::min_dihedral).limits;
   for (double* limit : {&dihedral.hard, &dihedral.target, &dihedral.usual}) *limit *= k_degrees;
-  json["fields"] = {field_json("shape", "shape of the cell (1 = ideal)", "", false, true, k_no_limits, shape, arrays), field_json("min_dihedral", "smallest dihedral of the tet", "deg", false, true, dihedral, quality, arrays),
-                    field_json("layer", "layer from the wall", "", false, false, k_no_limits, layer, arrays), field_json("volume", "volume", "m^3", true, false, k_no_limits, volume, arrays)};
+  json["fields"] = {field_json("shape", "shape of the cell (1 = ideal)", "", false, true, k_no_limits, shape, arrays),
+                    field_json("min_dihedral", "smallest dihedral of the tet", "deg", false, true, dihedral, quality, arrays),
+                    field_json("layer", "layer from the wall", "", false, false, k_no_limits, layer, arrays),
+                    field_json("volume", "volume", "m^3", true, false, k_no_limits, volume, arrays)};
   return json;
 }
 
@@ -259,9 +274,11 @@ Json facts_json(const MeshValue& value) {
   const CellCounts cells = count_cells(mesh);
   Json facts = Json::array();
   facts.push_back({"nodes", count_text(static_cast<std::int64_t>(mesh.points.size()))});
-  for (const auto& [name, n] : {std::pair("prisms", cells.prisms), std::pair("pyramids", cells.pyramids), std::pair("hexahedra", cells.hexahedra), std::pair("tetrahedra", cells.tetrahedra)})
+  for (const auto& [name, n] : {std::pair("prisms", cells.prisms), std::pair("pyramids", cells.pyramids), std::pair("hexahedra", cells.hexahedra),
+                                std::pair("tetrahedra", cells.tetrahedra)})
     if (n > 0) facts.push_back({name, count_text(n)});
-  facts.push_back({"boundary", count_text(static_cast<std::int64_t>(mesh.boundary_triangles.size())) + " triangles, " + count_text(static_cast<std::int64_t>(mesh.boundary_quads.size())) + " quads"});
+  facts.push_back({"boundary", count_text(static_cast<std::int64_t>(mesh.boundary_triangles.size())) + " triangles, " +
+                                   count_text(static_cast<std::int64_t>(mesh.boundary_quads.size())) + " quads"});
   if (mesh.layers.n_columns() > 0) facts.push_back({"layers", std::string(mesh.layers.is_uniform() ? "" : "up to ") + std::to_string(mesh.layers.n_layers)});
   if (mesh.request.is_known()) facts.push_back({"first height", in_metres(mesh.request.first_height)});
   if (value.origin) {
@@ -275,7 +292,8 @@ Json facts_json(const MeshValue& value) {
 std::string title_of(const ReportOptions& options, std::string_view name) { return options.title == "automatic" ? std::string(name) : options.title; }
 
 /// The user's cuts, then the automatic ones that they do not name. A plane of the user's is looked at where it comes next to the middle of the bodies.
-std::vector<CutPlace> places_of(const HybridMesh& mesh, const std::vector<std::string>& wanted, bool with_automatic, const PageMaker& maker, const RunContext& context) {
+std::vector<CutPlace> places_of(const HybridMesh& mesh, const std::vector<std::string>& wanted, bool with_automatic, const PageMaker& maker,
+                                const RunContext& context) {
   constexpr double k_radius_share = 0.6;  // of the bodies' length: all of them is seen
   std::vector<CutPlace> automatic = automatic_cuts(mesh, context), places;
   for (const std::string& text : wanted) {
@@ -313,7 +331,8 @@ std::string small_page(const ReportOptions& options, const RunContext& context, 
     const auto most = [&](int n) { return std::max<std::size_t>(1, static_cast<std::size_t>(share * n)); };
     std::string page = make(most(options.max_triangles), most(options.max_polygons));
     if (page.size() <= k_most_page_bytes) return page;
-    if (share < k_least) throw Error({.code = ErrorCode::overflow, .attempted = "making a report page", .problem = too_large(page.size()), .hint = "name fewer cuts"});
+    if (share < k_least)
+      throw Error({.code = ErrorCode::overflow, .attempted = "making a report page", .problem = too_large(page.size()), .hint = "name fewer cuts"});
     context.debug(too_large(page.size()) + ": it is thinned");
   }
 }
@@ -325,11 +344,15 @@ void require_report_cuts(const std::vector<std::string>& cuts) {
   for (const std::string& cut : cuts) draw::plane_of(cut);
 }
 
-std::string report_html(const MeshValue& mesh, const ReportOptions& options, const std::vector<std::string>& cuts_wanted, std::string_view name, const RunContext& context) {
+std::string report_html(const MeshValue& mesh, const ReportOptions& options, const std::vector<std::string>& cuts_wanted, std::string_view name,
+                        const RunContext& context) {
   if (!mesh.check || !mesh.check->quality_measured) mesh.check = check(mesh.mesh, {}, context.part("check", 0.0, 0.4));
   const CheckReport& report = *mesh.check;
   if (!report.is_complete)
-    throw Error({.code = ErrorCode::mesh_invalid, .attempted = "making a report page", .problem = "indices or points of the mesh are unusable, so that nothing of it can be shown", .hint = "`sterna check` lists them"});
+    throw Error({.code = ErrorCode::mesh_invalid,
+                 .attempted = "making a report page",
+                 .problem = "indices or points of the mesh are unusable, so that nothing of it can be shown",
+                 .hint = "`sterna check` lists them"});
   const std::vector<SurfaceField> fields = surface_fields(mesh.mesh, context);
   const PageTriangles triangles = page_triangles(mesh.mesh);
   const PageMaker maker(mesh.mesh.points.raw(), triangles, mesh.mesh.patches, fields);

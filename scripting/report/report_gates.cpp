@@ -44,10 +44,23 @@ std::string page_check_json(const CheckReport& report) {
   page["places"] = Json::array();
   int rank = 0;
   for (const Json& finding : check["findings"])
-    page["places"].push_back({{"gate", finding["gate"]}, {"measure", finding["violation"]}, {"title", finding["violation"]}, {"state", "invalid"}, {"value", nullptr}, {"unit", ""}, {"limit", nullptr}, {"at", finding["position"]}, {"what", finding["what"]}, {"rank", ++rank}});
+    page["places"].push_back({{"gate", finding["gate"]},
+                              {"measure", finding["violation"]},
+                              {"title", finding["violation"]},
+                              {"state", "invalid"},
+                              {"value", nullptr},
+                              {"unit", ""},
+                              {"limit", nullptr},
+                              {"at", finding["position"]},
+                              {"what", finding["what"]},
+                              {"rank", ++rank}});
   page["gates"] = Json::array();
   for (const auto& [gate, entry] : check["gates"].items())
-    page["gates"].push_back({{"gate", gate}, {"measure", nullptr}, {"title", title_of_gate(gate)}, {"state", entry["state"]}, {"violations", entry.value("violations", Json(nullptr))}});
+    page["gates"].push_back({{"gate", gate},
+                             {"measure", nullptr},
+                             {"title", title_of_gate(gate)},
+                             {"state", entry["state"]},
+                             {"violations", entry.value("violations", Json(nullptr))}});
   page["histograms"] = Json::array();
   for (const char* state : {"fail", "warn", "pass", "not checked"})
     for (const Json& measure : check["measures"])

@@ -7,7 +7,8 @@
 
 namespace sterna::scripting {
 
-/// JSON object with verdict, quality_verdict, gates (those of the verdict first), places (findings first, then each gate's, worst gates first), histograms and coverage.
+/// JSON object with verdict, quality_verdict, gates (those of the verdict first), places (findings first, then each gate's, worst gates first), histograms and
+/// coverage.
 std::string page_check_json(const CheckReport& report);
 /// The same of what has no gates.
 std::string page_no_check_json();

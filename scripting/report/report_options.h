@@ -28,10 +28,20 @@ struct Schema<scripting::ReportOptions> {
   static constexpr double k_most = 5e6;  ///< triangles and polygons: a browser's patience
   static constexpr std::array fields = {
       Field<O>{.name = "title", .member = &O::title, .help = "of the page; automatic: the file's name"},
-      Field<O>{.name = "automatic_cuts", .member = &O::automatic_cuts, .help = "cut also where that shows most: leading and trailing edge, tip, junction, symmetry plane, sections"},
+      Field<O>{.name = "automatic_cuts",
+               .member = &O::automatic_cuts,
+               .help = "cut also where that shows most: leading and trailing edge, tip, junction, symmetry plane, sections"},
       Field<O>{.name = "times", .member = &O::times, .help = "show times and memory of this run; without them the same mesh gives the same bytes"},
-      Field<O>{.name = "max_triangles", .member = &O::max_triangles, .min = 1, .max = k_most, .help = "of the boundary; above that it is thinned, and the page says so"},
-      Field<O>{.name = "max_polygons", .member = &O::max_polygons, .min = 1, .max = k_most, .help = "of all cuts together; of each those next to its focus are shown"},
+      Field<O>{.name = "max_triangles",
+               .member = &O::max_triangles,
+               .min = 1,
+               .max = k_most,
+               .help = "of the boundary; above that it is thinned, and the page says so"},
+      Field<O>{.name = "max_polygons",
+               .member = &O::max_polygons,
+               .min = 1,
+               .max = k_most,
+               .help = "of all cuts together; of each those next to its focus are shown"},
   };
 };
 

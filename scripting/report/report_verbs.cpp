@@ -27,7 +27,8 @@ std::vector<std::string> read_cuts(TableReader& reader) {
     const auto* text = std::get_if<std::string>(&item);
     const auto* table = std::get_if<TableHandle>(&item);
     const std::optional<std::string> plane = table ? cut_text(**table) : std::nullopt;
-    if (!text && !plane) reader.add_problem(where + ": expected \"leading edge\", { x = 1.2 } or { point = {0, 0, 0}, normal = {0, 1, 0} }, not " + std::string(type_text(item)));
+    if (!text && !plane)
+      reader.add_problem(where + ": expected \"leading edge\", { x = 1.2 } or { point = {0, 0, 0}, normal = {0, 1, 0} }, not " + std::string(type_text(item)));
     cuts.push_back(text ? *text : plane.value_or(""));
   }
   return cuts;
@@ -43,8 +44,10 @@ ScriptValue make_report(const ScriptCall& call) {
   const auto* mesh = std::get_if<MeshHandle>(&object);
   const auto* surface = std::get_if<SurfaceHandle>(&object);
   const auto* file = std::get_if<std::string>(&object);
-  if (std::holds_alternative<ModelHandle>(object) || std::holds_alternative<ComponentHandle>(object)) reader.add_problem("entry 1: a model has no mesh yet: report surface_mesh{ model }");
-  else if (!mesh && !surface && !file) reader.add_problem("entry 1: expected a mesh, a surface or the name of a file, not " + std::string(items.empty() ? "nothing" : type_text(object)));
+  if (std::holds_alternative<ModelHandle>(object) || std::holds_alternative<ComponentHandle>(object))
+    reader.add_problem("entry 1: a model has no mesh yet: report surface_mesh{ model }");
+  else if (!mesh && !surface && !file)
+    reader.add_problem("entry 1: expected a mesh, a surface or the name of a file, not " + std::string(items.empty() ? "nothing" : type_text(object)));
   const auto* output = items.size() > 1 ? std::get_if<std::string>(&items[1]) : nullptr;
   if (!output) reader.add_problem("entry 2: expected the name of the page, such as \"mesh.html\"");
   refuse_items_beyond(reader, 2);
@@ -70,10 +73,14 @@ ScriptValue make_report(const ScriptCall& call) {
 
 std::string report_help() {
   ReportOptions options;
-  return "cuts = { \"leading edge\", { x = 1.2 }, { point = {0, 0, 0}, normal = {0, 1, 0} } }: planes that are shown before the automatic ones\n" + options_help(sterna::options_of(options));
+  return "cuts = { \"leading edge\", { x = 1.2 }, { point = {0, 0, 0}, normal = {0, 1, 0} } }: planes that are shown before the automatic ones\n" +
+         options_help(sterna::options_of(options));
 }
 
-constexpr std::array<ScriptVerb, 1> k_verbs = {{{"report", k_usage, "Writes a page (HTML, one file, opens without a network) that shows a mesh: view, cuts, worst places, histograms, gates, coverage, times, options (docs/report.md).", make_report, report_help, true, "nothing"}}};
+constexpr std::array<ScriptVerb, 1> k_verbs = {{{"report", k_usage,
+                                                 "Writes a page (HTML, one file, opens without a network) that shows a mesh: view, cuts, worst places, "
+                                                 "histograms, gates, coverage, times, options (docs/report.md).",
+                                                 make_report, report_help, true, "nothing"}}};
 
 }  // namespace
 

@@ -31,8 +31,9 @@ Json json_of(const CaseStatus& status) {
   if (status.state == CaseState::failed) json["error"] = {{"code", status.code}, {"message", status.message}, {"places", places_json(status.places)}};
   if (status.state == CaseState::killed) json["killed"] = status.message;
   if (status.state == CaseState::done) {
-    json["mesh"] = status.mesh.verdict.empty() ? Json(nullptr)
-                                               : Json{{"verdict", status.mesh.verdict}, {"cells", status.mesh.cells}, {"quality", status.mesh.quality}, {"worst", status.mesh.worst}};
+    json["mesh"] = status.mesh.verdict.empty()
+                       ? Json(nullptr)
+                       : Json{{"verdict", status.mesh.verdict}, {"cells", status.mesh.cells}, {"quality", status.mesh.quality}, {"worst", status.mesh.worst}};
     json["result"] = Json::parse(status.result);
   }
   if (!status.inputs.empty()) json["inputs"] = status.inputs;
@@ -56,14 +57,16 @@ CaseStatus status_of(const Json& json) {
   }
   if (status.state == CaseState::killed) status.message = json.at("killed");
   if (status.state == CaseState::done) {
-    if (const Json& mesh = json.at("mesh"); !mesh.is_null()) status.mesh = {.verdict = mesh.at("verdict"), .cells = mesh.at("cells"), .quality = mesh.at("quality"), .worst = mesh.at("worst")};
+    if (const Json& mesh = json.at("mesh"); !mesh.is_null())
+      status.mesh = {.verdict = mesh.at("verdict"), .cells = mesh.at("cells"), .quality = mesh.at("quality"), .worst = mesh.at("worst")};
     status.result = json.at("result").dump();
   }
   if (status.state == CaseState::failed) {
     const Json& error = json.at("error");
     status.code = error.at("code");
     status.message = error.at("message");
-    for (const Json& place : error.at("places")) status.places.push_back({{place.at("at").at(0), place.at("at").at(1), place.at("at").at(2)}, place.at("what")});
+    for (const Json& place : error.at("places"))
+      status.places.push_back({{place.at("at").at(0), place.at("at").at(1), place.at("at").at(2)}, place.at("what")});
   }
   return status;
 }
@@ -77,8 +80,7 @@ std::vector<std::string> files_in(const fs::path& folder) {
   std::error_code failure;
   for (fs::recursive_directory_iterator it(folder, failure), end; !failure && it != end; it.increment(failure))
     if (!it->is_directory() || it->is_symlink()) files.push_back(it->path().lexically_relative(folder).generic_string());
-  if (failure && fs::exists(folder))
-    throw Error({.code = ErrorCode::write_failed, .attempted = "listing " + folder.string(), .problem = failure.message()});
+  if (failure && fs::exists(folder)) throw Error({.code = ErrorCode::write_failed, .attempted = "listing " + folder.string(), .problem = failure.message()});
   std::sort(files.begin(), files.end());
   return files;
 }

@@ -1,5 +1,5 @@
-// status.json in the folder of a case: how far it is and, once it is over, all that a later run must know to take it as it is. Nothing in a final status depends on time,
-// place or the number of threads.
+// status.json in the folder of a case: how far it is and, once it is over, all that a later run must know to take it as it is. Nothing in a final status
+// depends on time, place or the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ enum class CaseState {
   none,     ///< never begun, or nothing that can be relied on is known
   running,  ///< in a process, or in one that died without a word
   done,
-  failed,   ///< its function raised an error
-  killed,   ///< its process was ended from outside
+  failed,  ///< its function raised an error
+  killed,  ///< its process was ended from outside
 };
 std::string_view to_string(CaseState state);
 
@@ -37,10 +37,10 @@ struct CaseStatus {
   std::map<std::string, std::string> outputs;  ///< file in the folder -> hash
   std::vector<std::string> found;              ///< files that were in the folder before the case and are not its own
 
-  MeshFigures mesh;          ///< done
-  std::string result;        ///< done: what the function returned, as JSON; "null" for what is not plain
-  std::string code;          ///< failed: the ErrorCode
-  std::string message;       ///< failed: the whole text; killed: by what
+  MeshFigures mesh;                ///< done
+  std::string result;              ///< done: what the function returned, as JSON; "null" for what is not plain
+  std::string code;                ///< failed: the ErrorCode
+  std::string message;             ///< failed: the whole text; killed: by what
   std::vector<ErrorPlace> places;  ///< failed
 
   std::int64_t process = 0;  ///< running
@@ -64,8 +64,8 @@ bool is_current(const CaseStatus& status, const std::filesystem::path& folder, c
 /// Hashes of all files in the folder that are not in `found`, but for status, measure and log; links are not followed.
 std::map<std::string, std::string> outputs_in(const std::filesystem::path& folder, const std::vector<std::string>& found);
 
-/// Removes what an earlier run of the case has left: its outputs, and of one that was killed on its way all that it did not find there. Returns the files that are not
-/// the case's. \throws Error(write_failed) where something cannot be removed
+/// Removes what an earlier run of the case has left: its outputs, and of one that was killed on its way all that it did not find there. Returns the files that
+/// are not the case's. \throws Error(write_failed) where something cannot be removed
 std::vector<std::string> clear_case_folder(const std::filesystem::path& folder, const CaseStatus& before);
 
 /// Removes half-written files that a killed process has left in the folder itself. \pre nobody writes there

@@ -62,7 +62,11 @@ void copy_script(const ScriptSession& session, const fs::path& folder) {
 
 /// Everything that differs between two runs of the same case.
 void write_measure(const ScriptSession& session, double seconds, const fs::path& folder) {
-  nlohmann::ordered_json json = {{"schema", "sterna-case-measure-1"}, {"seconds", seconds}, {"threads", session.context.threads()}, {"host", host_name()}, {"peak_memory_bytes", peak_memory_bytes()}};
+  nlohmann::ordered_json json = {{"schema", "sterna-case-measure-1"},
+                                 {"seconds", seconds},
+                                 {"threads", session.context.threads()},
+                                 {"host", host_name()},
+                                 {"peak_memory_bytes", peak_memory_bytes()}};
   json["reused"] = session.reused;
   json["stage_seconds"] = nlohmann::ordered_json::object();
   for (const StageTime& stage : session.context.times()) json["stage_seconds"][stage.stage] = stage.seconds;

@@ -20,8 +20,8 @@ extern char** environ;
 namespace sterna::scripting {
 namespace {
 
-constexpr int k_poll_ms = 20;            ///< how soon a stop is noticed
-constexpr mode_t k_new_file_mode = 0666; ///< the umask takes its part
+constexpr int k_poll_ms = 20;             ///< how soon a stop is noticed
+constexpr mode_t k_new_file_mode = 0666;  ///< the umask takes its part
 
 /// File actions and attributes of posix_spawn, released with the object: signals as a shell would start it, a group of its own.
 struct Setup {
@@ -55,13 +55,15 @@ pid_t spawn(const std::vector<std::string>& words, const Setup& setup) {
   pid_t pid = -1;
   const int error = posix_spawnp(&pid, arguments.front(), &setup.actions, &setup.attributes, arguments.data(), environ);
   if (error == 0) return pid;
-  throw Error({.code = error == ENOENT ? ErrorCode::file_not_found : ErrorCode::internal, .attempted = "starting " + words.front(), .problem = std::strerror(error)});
+  throw Error(
+      {.code = error == ENOENT ? ErrorCode::file_not_found : ErrorCode::internal, .attempted = "starting " + words.front(), .problem = std::strerror(error)});
 }
 
 struct Pipe {
   Pipe() {
     std::array<int, 2> pair{};
-    if (pipe2(pair.data(), O_CLOEXEC) != 0) throw Error({.code = ErrorCode::internal, .attempted = "starting a command", .problem = std::string("pipe2: ") + std::strerror(errno)});
+    if (pipe2(pair.data(), O_CLOEXEC) != 0)
+      throw Error({.code = ErrorCode::internal, .attempted = "starting a command", .problem = std::string("pipe2: ") + std::strerror(errno)});
     read_end = pair[0];
     write_end = pair[1];
   }

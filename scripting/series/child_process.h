@@ -15,9 +15,8 @@ namespace sterna::scripting {
 /// A worker; killed and reaped at the latest when the object goes.
 class ChildProcess {
  public:
-  /// Starts the program in a process group of its own, with stdout and stderr in `output` (emptied first); it inherits `lock`, where that is not -1, as descriptor
-  /// k_series_lock_descriptor. `folder`: its current folder, if not empty.
-  /// \throws Error(internal) when it cannot be started
+  /// Starts the program in a process group of its own, with stdout and stderr in `output` (emptied first); it inherits `lock`, where that is not -1, as
+  /// descriptor k_series_lock_descriptor. `folder`: its current folder, if not empty. \throws Error(internal) when it cannot be started
   ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& output, int lock, const std::filesystem::path& folder = {});
   ~ChildProcess();
   ChildProcess(ChildProcess&& other) noexcept;

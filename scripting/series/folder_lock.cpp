@@ -47,7 +47,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const RunContext& co
   const std::filesystem::path file = folder / ".lock";
   const auto fail = [&](std::string problem, std::string hint = {}) {
     if (descriptor_ >= 0) close(descriptor_);
-    throw Error({.code = ErrorCode::write_failed, .attempted = "working in the folder " + folder.string(), .problem = std::move(problem), .hint = std::move(hint)});
+    throw Error(
+        {.code = ErrorCode::write_failed, .attempted = "working in the folder " + folder.string(), .problem = std::move(problem), .hint = std::move(hint)});
   };
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);

@@ -53,7 +53,8 @@ CaseStatus death_of(const Running& running, int wait_status) {
   CaseStatus status{.state = CaseState::killed, .key = running.task->key};
   if (WIFSIGNALED(wait_status)) {
     status.message = signal_text(WTERMSIG(wait_status));
-    if (WTERMSIG(wait_status) == SIGKILL && memory_kills() > running.kills_before) status.message += "; the system ran out of memory meanwhile: use fewer tasks";
+    if (WTERMSIG(wait_status) == SIGKILL && memory_kills() > running.kills_before)
+      status.message += "; the system ran out of memory meanwhile: use fewer tasks";
     return status;
   }
   status.state = CaseState::failed;
@@ -81,7 +82,9 @@ void stop_all(std::list<Running>& running, const RunContext& context) {
 
 std::vector<std::string> words_of(const RunnerContext& runner, const CaseTask& task) {
   std::vector<std::string> words = runner.worker;
-  for (const std::string& word : {std::string("--series-case"), runner.plan.name + "/" + std::to_string(task.of->index), std::string("--threads"), std::to_string(runner.threads)}) words.push_back(word);
+  for (const std::string& word :
+       {std::string("--series-case"), runner.plan.name + "/" + std::to_string(task.of->index), std::string("--threads"), std::to_string(runner.threads)})
+    words.push_back(word);
   return words;
 }
 

@@ -34,7 +34,9 @@ void require_parameters(const ScriptTable& table) {
   if (!table.items.empty() || !table.other_keys.empty()) refuse("every parameter of a case needs a name");
   if (table.fields.empty()) refuse("a case without parameters");
   for (const auto& [name, value] : table.fields) {
-    if (!is_plain(value)) refuse(name + ": " + std::string(type_text(value)) + " cannot be a parameter", "parameters are numbers, texts, true or false, and tables of them: make objects inside case = function(p)");
+    if (!is_plain(value))
+      refuse(name + ": " + std::string(type_text(value)) + " cannot be a parameter",
+             "parameters are numbers, texts, true or false, and tables of them: make objects inside case = function(p)");
     if (name == "index") refuse("index: p.index is the number of the case");
   }
 }
@@ -43,7 +45,8 @@ Axis axis_of_list(const ScriptTable& list) {
   Axis axis;
   for (const ScriptValue& item : list.items) {
     const auto* table = std::get_if<TableHandle>(&item);
-    if (!table) refuse("expected tables of parameters, not " + std::string(type_text(item)), "over = { alpha = {0, 4} }  or  over = { {alpha = 0}, {alpha = 4} }");
+    if (!table)
+      refuse("expected tables of parameters, not " + std::string(type_text(item)), "over = { alpha = {0, 4} }  or  over = { {alpha = 0}, {alpha = 4} }");
     require_parameters(**table);
     axis.push_back(**table);
   }
@@ -75,7 +78,8 @@ std::vector<Axis> axes_of(const ScriptTable& over) {
   if (is_of_lists) {
     for (const ScriptValue& item : over.items) {
       const auto* table = std::get_if<TableHandle>(&item);
-      if (!table || !is_list(**table)) refuse("lists of cases and single cases are mixed", "over = { zip{ ... }, beta = {0, 5} }  or  over = { {alpha = 0}, {alpha = 4} }");
+      if (!table || !is_list(**table))
+        refuse("lists of cases and single cases are mixed", "over = { zip{ ... }, beta = {0, 5} }  or  over = { {alpha = 0}, {alpha = 4} }");
       axes.push_back(axis_of_list(**table));
     }
   } else if (!over.items.empty()) {
@@ -138,7 +142,8 @@ std::string name_of(const ScriptTable& parameters) {
 }  // namespace
 
 bool is_safe_name(const std::string& name) {
-  return !name.empty() && name.front() != '.' && name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.+-_=") == std::string::npos;
+  return !name.empty() && name.front() != '.' &&
+         name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.+-_=") == std::string::npos;
 }
 
 std::vector<SeriesCase> cases_of(const ScriptTable& over) {
@@ -170,7 +175,8 @@ ScriptValue zipped(const ScriptTable& lists) {
   auto result = std::make_shared<ScriptTable>();
   std::string first;
   std::size_t n = 0;
-  if (!lists.items.empty() || !lists.other_keys.empty() || lists.fields.empty()) refuse("zip takes lists with names", "zip{ alpha = {0, 4}, bend = {0, 0.02} }");
+  if (!lists.items.empty() || !lists.other_keys.empty() || lists.fields.empty())
+    refuse("zip takes lists with names", "zip{ alpha = {0, 4}, bend = {0, 0.02} }");
   for (const auto& [name, value] : lists.fields) {
     const auto* list = std::get_if<TableHandle>(&value);
     if (!list || !is_list(**list)) refuse(name + ": expected a list, not " + std::string(type_text(value)));
@@ -192,13 +198,20 @@ ScriptValue range_of(const ScriptValue& first, const ScriptValue& last, const Sc
   const auto number = [](const ScriptValue& value, const char* what) {
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
     if (const auto* real = std::get_if<double>(&value); real && std::isfinite(*real)) return *real;
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "range", .problem = std::string(what) + ": expected a number, not " + std::string(type_text(value)), .hint = "range(-4, 12, 2)"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "range",
+                 .problem = std::string(what) + ": expected a number, not " + std::string(type_text(value)),
+                 .hint = "range(-4, 12, 2)"});
   };
   const bool has_step = !std::holds_alternative<std::monostate>(step);
   const double from = number(first, "first value"), to = number(last, "last value"), by = has_step ? number(step, "step") : 1.0;
   const double n = by == 0.0 ? -1.0 : std::floor((to - from) / by + k_range_slack);
-  if (n < 0.0) throw Error({.code = ErrorCode::bad_argument, .attempted = "range", .problem = "from " + number_text(from) + " to " + number_text(to) + " in steps of " + number_text(by) + " there is no value"});
-  if (n >= static_cast<double>(k_max_cases)) throw Error({.code = ErrorCode::bad_argument, .attempted = "range", .problem = "more than " + std::to_string(k_max_cases) + " values"});
+  if (n < 0.0)
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "range",
+                 .problem = "from " + number_text(from) + " to " + number_text(to) + " in steps of " + number_text(by) + " there is no value"});
+  if (n >= static_cast<double>(k_max_cases))
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "range", .problem = "more than " + std::to_string(k_max_cases) + " values"});
   const bool is_whole = std::holds_alternative<std::int64_t>(first) && (!has_step || std::holds_alternative<std::int64_t>(step));
   auto values = std::make_shared<ScriptTable>();
   for (std::int64_t i = 0; i <= static_cast<std::int64_t>(n); ++i) {

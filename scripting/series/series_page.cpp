@@ -61,7 +61,9 @@ void add_quality(const fs::path& folder, Json& entry) {
 
 Json figures_json() {
   Json figures = Json::array();
-  const auto add = [&](std::string_view name, std::string_view title, std::string_view unit, bool is_log) { figures.push_back({{"name", name}, {"title", title}, {"unit", unit}, {"is_log", is_log}}); };
+  const auto add = [&](std::string_view name, std::string_view title, std::string_view unit, bool is_log) {
+    figures.push_back({{"name", name}, {"title", title}, {"unit", unit}, {"is_log", is_log}});
+  };
   add("cells", "cells", "", false);
   add("nodes", "nodes", "", false);
   add("prisms", "prisms", "", false);
@@ -76,7 +78,11 @@ Json case_json(const SeriesPlan& plan, const CaseResult& result, const std::vect
   const CaseStatus& status = result.status;
   const fs::path folder = plan.folder_of(*result.of);
   const std::string relative = folder.filename().generic_string();
-  Json entry = {{"name", result.of->name}, {"folder", relative}, {"state", status.state == CaseState::done ? "done" : status.state == CaseState::none ? "not run" : "failed"}};
+  Json entry = {{"name", result.of->name},
+                {"folder", relative},
+                {"state", status.state == CaseState::done   ? "done"
+                          : status.state == CaseState::none ? "not run"
+                                                            : "failed"}};
   entry["verdict"] = status.mesh.verdict.empty() ? Json(nullptr) : Json(status.mesh.verdict);
   entry["quality"] = status.mesh.quality;
   entry["parameters"] = Json::object();
@@ -117,7 +123,8 @@ void add_pictures(const SeriesPlan& plan, std::span<const CaseResult> results, J
 std::string series_page_html(const SeriesPlan& plan, std::span<const CaseResult> results) {
   if (report_page().empty()) return {};
   const std::vector<std::string> parameters = parameter_names(plan);
-  Json json = {{"schema", "sterna-series-1"}, {"program", "sterna " STERNA_VERSION}, {"title", plan.name}, {"parameters", parameters}, {"figures", figures_json()}, {"cases", Json::array()}};
+  Json json = {{"schema", "sterna-series-1"}, {"program", "sterna " STERNA_VERSION}, {"title", plan.name},
+               {"parameters", parameters},    {"figures", figures_json()},           {"cases", Json::array()}};
   for (const CaseResult& result : results) json["cases"].push_back(case_json(plan, result, parameters));
   add_pictures(plan, results, json["cases"]);
   return page_text(json.dump(-1, ' ', false, Json::error_handler_t::replace), PageArrays{});

@@ -20,7 +20,9 @@ std::string hex(std::uint64_t hash) {
 }
 
 Json json_of(const SeriesPlan& plan, const SeriesCase& c, const ScriptSession& session) {
-  Json json = {{"schema", "sterna-case-1"}, {"program", "sterna " STERNA_VERSION}, {"program_xxh3_128", plan.program_hash}, {"series", plan.name}, {"name", c.name}, {"index", c.index}};
+  Json json = {
+      {"schema", "sterna-case-1"}, {"program", "sterna " STERNA_VERSION}, {"program_xxh3_128", plan.program_hash}, {"series", plan.name}, {"name", c.name},
+      {"index", c.index}};
   json["parameters"] = Json::parse(to_json(std::make_shared<const ScriptTable>(c.parameters)));
   json["script"] = session.script.filename().string();
   json["script_xxh3_64"] = hex(hash_bytes(session.series.script_text));

@@ -21,9 +21,9 @@ struct JobsOptions {
 /// slurm{ partition = "cfd", tasks = 64 }
 struct SlurmOptions {
   std::string partition;
-  int tasks = 0;    ///< cases at a time; 0: as the cluster likes
-  int threads = 1;  ///< of each
-  std::string time; ///< limit of a case as sbatch takes it
+  int tasks = 0;     ///< cases at a time; 0: as the cluster likes
+  int threads = 1;   ///< of each
+  std::string time;  ///< limit of a case as sbatch takes it
 };
 
 struct SeriesOptions {
@@ -47,8 +47,8 @@ struct SeriesPlan {
   std::filesystem::path folder_of(const SeriesCase& c) const { return folder / c.name; }
 };
 
-/// Of all that decides what a case does, but for the files that it reads: script, parameters, name and index, the words of the command line, seed, version and build, the tables of
-/// earlier series. 16 hex digits.
+/// Of all that decides what a case does, but for the files that it reads: script, parameters, name and index, the words of the command line, seed, version and
+/// build, the tables of earlier series. 16 hex digits.
 std::string case_key(const SeriesPlan& plan, const SeriesCase& c, const ScriptSession& session);
 
 /// case.json: the same for people, and for other programs.

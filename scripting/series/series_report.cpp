@@ -35,7 +35,8 @@ std::string quality_of(const CaseStatus& status) {
 std::string reused_of(const CaseResult& result) {
   std::string text = result.is_kept ? "the case" : "";
   const auto add = [&](const std::string& entry) { text += (text.empty() ? "" : ", ") + entry; };
-  // Many stages of one kind from the cache are counted: "3 surface_mesh". What a reference had to do with stands as it was told, without reasons and places: "envelope of wing: made from scratch".
+  // Many stages of one kind from the cache are counted: "3 surface_mesh". What a reference had to do with stands as it was told, without reasons and places:
+  // "envelope of wing: made from scratch".
   std::map<std::string, int> kinds;
   for (const std::string& stage : result.reused)
     if (stage.find(": ") == std::string::npos) ++kinds[stage.substr(0, stage.find(' '))];
@@ -47,7 +48,8 @@ std::string reused_of(const CaseResult& result) {
 
 Json case_json(const SeriesPlan& plan, const CaseResult& result) {
   const CaseStatus& status = result.status;
-  Json json = {{"name", result.of->name}, {"index", result.of->index}, {"parameters", Json::parse(to_json(std::make_shared<const ScriptTable>(result.of->parameters)))}};
+  Json json = {
+      {"name", result.of->name}, {"index", result.of->index}, {"parameters", Json::parse(to_json(std::make_shared<const ScriptTable>(result.of->parameters)))}};
   json["folder"] = plan.folder_of(*result.of).generic_string();
   json["status"] = to_string(status.state);
   if (status.state == CaseState::done) {
@@ -113,7 +115,8 @@ std::string table_text(const SeriesPlan& plan, std::span<const CaseResult> resul
   using Row = std::array<std::string, 6>;
   std::vector<Row> rows = {{"case", "verdict", "cells", "worst quality", "time", "reused"}};
   for (const CaseResult& result : results)
-    rows.push_back({result.of->name, verdict_of(result.status), result.status.mesh.cells > 0 ? count_text(result.status.mesh.cells) : "", quality_of(result.status), duration_text(result.seconds), reused_of(result)});
+    rows.push_back({result.of->name, verdict_of(result.status), result.status.mesh.cells > 0 ? count_text(result.status.mesh.cells) : "",
+                    quality_of(result.status), duration_text(result.seconds), reused_of(result)});
   std::array<std::size_t, 6> widths{};
   for (const Row& row : rows)
     for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
@@ -144,23 +147,28 @@ std::string table_csv(const SeriesPlan& plan, std::span<const CaseResult> result
     const CaseStatus& status = result.status;
     text += csv_text(result.of->name);
     for (const std::string& name : parameters) text += "," + csv_text(plain_text(result.of->parameters, name));
-    text += "," + std::string(to_string(status.state)) + "," + status.mesh.verdict + "," + (status.mesh.verdict.empty() ? "" : std::to_string(status.mesh.cells)) + "," + csv_text(status.mesh.quality) + "," +
-            csv_text(status.mesh.worst) + "," + fmt::format("{:.3f}", result.seconds) + "," + csv_text(reused_of(result)) + "," + csv_text(first_line(status.message)) + "\n";
+    text += "," + std::string(to_string(status.state)) + "," + status.mesh.verdict + "," +
+            (status.mesh.verdict.empty() ? "" : std::to_string(status.mesh.cells)) + "," + csv_text(status.mesh.quality) + "," + csv_text(status.mesh.worst) +
+            "," + fmt::format("{:.3f}", result.seconds) + "," + csv_text(reused_of(result)) + "," + csv_text(first_line(status.message)) + "\n";
   }
   return text;
 }
 
 std::string table_json(const SeriesPlan& plan, std::span<const CaseResult> results) {
   Json json = results_json(plan, results);
-  for (const CaseResult& result : results) json["measure"][result.of->name] = {{"seconds", result.seconds}, {"kept", result.is_kept}, {"reused", result.reused}};
+  for (const CaseResult& result : results)
+    json["measure"][result.of->name] = {{"seconds", result.seconds}, {"kept", result.is_kept}, {"reused", result.reused}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string result_json(const SeriesPlan& plan, std::span<const CaseResult> results) { return results_json(plan, results).dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string result_json(const SeriesPlan& plan, std::span<const CaseResult> results) {
+  return results_json(plan, results).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 std::string result_json_of(const std::string& series_json, const std::filesystem::path& file) {
   Json json = Json::parse(series_json, nullptr, false);
-  if (!json.is_object()) throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + file.string(), .problem = "it is not the table of a series"});
+  if (!json.is_object())
+    throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + file.string(), .problem = "it is not the table of a series"});
   json.erase("measure");
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

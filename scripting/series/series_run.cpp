@@ -38,21 +38,25 @@ ScriptValue result_of_earlier(const ScriptCall& call, const SeriesPlan& plan) {
   const fs::path file = plan.folder / "series.json";
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
-    throw Error({.code = ErrorCode::file_not_found, .attempted = call.attempted(), .problem = "the results of this earlier series are not in " + file.string()});
+    throw Error(
+        {.code = ErrorCode::file_not_found, .attempted = call.attempted(), .problem = "the results of this earlier series are not in " + file.string()});
   return remember(call.session.series, plan, result_json_of({std::istreambuf_iterator<char>(stream), {}}, file));
 }
 
 [[noreturn]] void run_one(const ScriptCall& call, const SeriesPlan& plan) {
   const std::size_t index = call.session.series.settings.worker->index;
   if (index < 1 || index > plan.cases.size())
-    throw Error({.code = ErrorCode::bad_argument, .attempted = call.attempted(), .problem = "there is no case " + std::to_string(index) + " among its " + std::to_string(plan.cases.size())});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = call.attempted(),
+                 .problem = "there is no case " + std::to_string(index) + " among its " + std::to_string(plan.cases.size())});
   run_case(call, plan, plan.cases[index - 1]);
   throw Error({.code = ErrorCode::cancelled, .attempted = call.attempted(), .problem = "the case is over"});
 }
 
 // ---- In the main process -------------------------------------------------------------------------------------------------------------------
 
-/// While it lives, a stop of the program is left to the series: workers and jobs are ended and what became of them is noted, which may take longer than other work may.
+/// While it lives, a stop of the program is left to the series: workers and jobs are ended and what became of them is noted, which may take longer than other
+/// work may.
 class StopNotice {
  public:
   explicit StopNotice(const std::function<void(bool)>& tell) : tell_(tell) {
@@ -131,8 +135,9 @@ class SeriesRun {
     read_measure(plan_.folder_of(c), result);
     ++n_over_;
     const bool is_done = status.state == CaseState::done;
-    context_.log(is_done ? LogLevel::info : LogLevel::warning,
-                 plan_.name + " " + std::to_string(n_over_) + "/" + std::to_string(plan_.cases.size()) + ": " + c.name + ": " + outcome_text(status) + (is_kept ? ", of an earlier run" : ", " + duration_text(result.seconds)));
+    context_.log(is_done ? LogLevel::info : LogLevel::warning, plan_.name + " " + std::to_string(n_over_) + "/" + std::to_string(plan_.cases.size()) + ": " +
+                                                                   c.name + ": " + outcome_text(status) +
+                                                                   (is_kept ? ", of an earlier run" : ", " + duration_text(result.seconds)));
     if (context_.stop_token().stop_requested()) return;  // progress() would throw, and the runner stops the workers more gently
     context_.progress(static_cast<double>(n_over_) / static_cast<double>(plan_.cases.size()));
   }
@@ -141,7 +146,10 @@ class SeriesRun {
   void give_up(const std::vector<std::size_t>& indices) {
     for (const std::size_t i : indices) {
       const SeriesCase& c = plan_.cases[i];
-      CaseStatus status{.state = CaseState::failed, .key = {}, .code = std::string(to_string(ErrorCode::bad_argument)), .message = "the reference case " + plan_.cases[*plan_.reference].name + " gave no result"};
+      CaseStatus status{.state = CaseState::failed,
+                        .key = {},
+                        .code = std::string(to_string(ErrorCode::bad_argument)),
+                        .message = "the reference case " + plan_.cases[*plan_.reference].name + " gave no result"};
       finish(c, status, false);
     }
   }

@@ -19,7 +19,8 @@ struct Schema<scripting::JobsOptions> {
   static constexpr std::string_view stage = "jobs";
   static constexpr std::array fields = {
       Field<O>{.name = "tasks", .member = &O::tasks, .min = 0, .max = 1e6, .help = "cases at a time; 0: one for four cores"},
-      Field<O>{.name = "threads", .member = &O::threads, .min = 0, .max = 1024, .help = "threads of each case; 0: the cores of the machine shared by the tasks"},
+      Field<O>{
+          .name = "threads", .member = &O::threads, .min = 0, .max = 1024, .help = "threads of each case; 0: the cores of the machine shared by the tasks"},
   };
 };
 
@@ -40,7 +41,8 @@ struct Schema<scripting::SeriesOptions> {
   using O = scripting::SeriesOptions;
   static constexpr std::string_view stage = "series";
   static constexpr std::array fields = {
-      Field<O>{.name = "retry", .member = &O::retry, .help = "run again what failed in an earlier run; else only what was killed and what has changed runs again"},
+      Field<O>{
+          .name = "retry", .member = &O::retry, .help = "run again what failed in an earlier run; else only what was killed and what has changed runs again"},
   };
 };
 
@@ -50,9 +52,11 @@ namespace sterna::scripting {
 namespace {
 
 constexpr std::string_view k_series_usage =
-    "series{ \"polar\", over = { alpha = range(-4, 12, 2), beta = {0, 5} }, run = jobs{ 2 }, case = function(p) return volume_mesh{ surface_mesh{ model:rotate{ pitch = p.alpha*deg } }, layers = 30, first_height = 3e-6 }:write(p.name .. \".cgns\") end }";
+    "series{ \"polar\", over = { alpha = range(-4, 12, 2), beta = {0, 5} }, run = jobs{ 2 }, case = function(p) return volume_mesh{ surface_mesh{ "
+    "model:rotate{ pitch = p.alpha*deg } }, layers = 30, first_height = 3e-6 }:write(p.name .. \".cgns\") end }";
 constexpr std::string_view k_jobs_usage = "jobs{ 2, threads = 4 }";
-constexpr std::string_view k_slurm_usage = "slurm{ partition = \"cfd\", tasks = 64, threads = 8, options = { account = \"aero\", mem = \"16G\", exclusive = true } }";
+constexpr std::string_view k_slurm_usage =
+    "slurm{ partition = \"cfd\", tasks = 64, threads = 8, options = { account = \"aero\", mem = \"16G\", exclusive = true } }";
 constexpr std::string_view k_range_usage = "range(-4, 12, 2)";
 constexpr std::string_view k_zip_usage = "zip{ alpha = {0, 4, 8}, bend = {0, 0.01, 0.03} }";
 
@@ -63,7 +67,8 @@ constexpr std::array<std::string_view, 4> k_reserved = {"slurm", "series.json", 
 ScriptValue runner_table(const char* kind, const OptionTable& options, TableHandle extra) {
   auto table = std::make_shared<ScriptTable>();
   table->fields["runner"] = std::string(kind);
-  for (const Option& option : options) table->fields[std::string(option.name)] = std::visit([](const auto& value) -> ScriptValue { return value; }, option.get());
+  for (const Option& option : options)
+    table->fields[std::string(option.name)] = std::visit([](const auto& value) -> ScriptValue { return value; }, option.get());
   if (extra) table->fields["options"] = extra;
   return TableHandle(table);
 }
@@ -151,7 +156,8 @@ void read_over(TableReader& reader, SeriesPlan& plan) {
   const ScriptValue* value = reader.field("over");
   const auto* over = value ? std::get_if<TableHandle>(value) : nullptr;
   if (!over) {
-    reader.add_problem(value ? "over: expected a table, not " + std::string(type_text(*value)) : "over is missing: over = { alpha = range(-4, 12, 2), beta = {0, 5} }");
+    reader.add_problem(value ? "over: expected a table, not " + std::string(type_text(*value))
+                             : "over is missing: over = { alpha = range(-4, 12, 2), beta = {0, 5} }");
     return;
   }
   try {
@@ -209,7 +215,8 @@ void read_reference(TableReader& reader, SeriesPlan& plan) {
     plan.reference = i;
     ++n;
   }
-  if (n != 1) reader.add_problem("reference: " + std::string(n == 0 ? "no case has" : std::to_string(n) + " cases have") + " these parameters: " + to_json(*value));
+  if (n != 1)
+    reader.add_problem("reference: " + std::string(n == 0 ? "no case has" : std::to_string(n) + " cases have") + " these parameters: " + to_json(*value));
 }
 
 void read_cache(TableReader& reader, SeriesPlan& plan) {
@@ -232,7 +239,8 @@ ScriptValue series_verb(const ScriptCall& call) {
   read_run(reader, plan);
   read_reference(reader, plan);
   read_cache(reader, plan);
-  if (const ScriptValue* value = reader.field("case"); value && std::holds_alternative<FunctionHandle>(*value)) plan.function = std::get<FunctionHandle>(*value);
+  if (const ScriptValue* value = reader.field("case"); value && std::holds_alternative<FunctionHandle>(*value))
+    plan.function = std::get<FunctionHandle>(*value);
   else reader.add_problem(value ? "case: expected a function, not " + std::string(type_text(*value)) : "case is missing: case = function(p) ... end");
   reader.read_options(sterna::options_of(plan.options));
   reader.finish();
@@ -247,11 +255,13 @@ std::string help_of() {
 }
 
 constexpr std::array<ScriptVerb, 5> k_verbs = {{
-    {"series", k_series_usage, "Runs a function for many cases, each in a process and a folder of its own; resumes, and ends with one table.", series_verb, help_of<SeriesOptions>, true, "table"},
+    {"series", k_series_usage, "Runs a function for many cases, each in a process and a folder of its own; resumes, and ends with one table.", series_verb,
+     help_of<SeriesOptions>, true, "table"},
     {"jobs", k_jobs_usage, "Runs the cases of a series in processes on this machine, so many at a time.", jobs_verb, help_of<JobsOptions>, false, "table"},
     {"slurm", k_slurm_usage, "Runs the cases of a series as jobs of a Slurm cluster.", slurm_verb, help_of<SlurmOptions>, false, "table"},
     {"range", k_range_usage, "A list of numbers: first, last, step (1 unless given).", range_verb, nullptr, false, "table"},
-    {"zip", k_zip_usage, "Lists side by side, as a list of cases: the first values together, then the second ones, and so on.", zip_verb, nullptr, false, "table"},
+    {"zip", k_zip_usage, "Lists side by side, as a list of cases: the first values together, then the second ones, and so on.", zip_verb, nullptr, false,
+     "table"},
 }};
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Cases as arrays of jobs of Slurm. A job is the same program on the same script; what it has to say is in the folder of its case, so that the queue is asked only for
-// jobs that are gone without a word.
+// Cases as arrays of jobs of Slurm. A job is the same program on the same script; what it has to say is in the folder of its case, so that the queue is asked
+// only for jobs that are gone without a word.
 #include <algorithm>
 #include <chrono>
 #include <fstream>
@@ -19,13 +19,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds k_pause{100};        ///< between two looks at the folders of cases
-constexpr std::chrono::milliseconds k_queue_pause{2000}; ///< between two questions to the queue, which a whole cluster uses
+constexpr std::chrono::milliseconds k_pause{100};         ///< between two looks at the folders of cases
+constexpr std::chrono::milliseconds k_queue_pause{2000};  ///< between two questions to the queue, which a whole cluster uses
 /// Looks at the queue that must miss a job before it counts as lost: its last files may be on their way through the network's file system.
 constexpr int k_misses = 2;
-constexpr std::size_t k_array_size = 1000;               ///< jobs of an array: clusters allow 1001 unless they say otherwise
-constexpr std::chrono::seconds k_cancel_patience{60};    ///< Slurm kills 30 s after it has asked
-constexpr const char* k_jobs_file = "jobs";              ///< in the folder slurm/: numbers of the arrays that may be in the queue
+constexpr std::size_t k_array_size = 1000;             ///< jobs of an array: clusters allow 1001 unless they say otherwise
+constexpr std::chrono::seconds k_cancel_patience{60};  ///< Slurm kills 30 s after it has asked
+constexpr const char* k_jobs_file = "jobs";            ///< in the folder slurm/: numbers of the arrays that may be in the queue
 
 /// For a POSIX shell: in single quotes.
 std::string quoted(const std::string& word) {
@@ -37,7 +37,10 @@ std::string quoted(const std::string& word) {
 CommandResult run_or_throw(const std::vector<std::string>& words, const RunContext& context) {
   CommandResult result = run_command(words, context);
   if (result.status != 0)
-    throw Error({.code = ErrorCode::internal, .attempted = "running " + words.front(), .problem = "exit status " + std::to_string(result.status) + ": " + result.errors, .hint = "ask the cluster's manual for the options that it wants, and give them as slurm{ options = { ... } }"});
+    throw Error({.code = ErrorCode::internal,
+                 .attempted = "running " + words.front(),
+                 .problem = "exit status " + std::to_string(result.status) + ": " + result.errors,
+                 .hint = "ask the cluster's manual for the options that it wants, and give them as slurm{ options = { ... } }"});
   return result;
 }
 
@@ -56,7 +59,8 @@ std::string job_script(std::size_t n_tasks, const fs::path& list, const RunnerCo
   text += "line=$(sed -n \"${SLURM_ARRAY_TASK_ID}p\" " + quoted(list.string()) + ")\n";
   text += "exec";
   for (const std::string& word : runner.worker) text += " " + quoted(word);
-  text += " --threads " + std::to_string(runner.threads) + " --series-case " + quoted(runner.plan.name) + "/\"${line%% *}\" >\"${line#* }/" + k_log_file + "\" 2>&1\n";
+  text += " --threads " + std::to_string(runner.threads) + " --series-case " + quoted(runner.plan.name) + "/\"${line%% *}\" >\"${line#* }/" + k_log_file +
+          "\" 2>&1\n";
   return text;
 }
 
@@ -80,14 +84,17 @@ std::set<std::size_t> jobs_in_queue(const std::string& array, const RunContext& 
   }
   std::istringstream lines(result.output);
   for (std::string id, state; lines >> id >> state;)
-    if (const std::size_t bar = id.find('_'); bar != std::string::npos && id.find_first_not_of("0123456789", bar + 1) == std::string::npos) jobs.insert(std::stoull(id.substr(bar + 1)));
+    if (const std::size_t bar = id.find('_'); bar != std::string::npos && id.find_first_not_of("0123456789", bar + 1) == std::string::npos)
+      jobs.insert(std::stoull(id.substr(bar + 1)));
   return jobs;
 }
 
 class SlurmArray {
  public:
-  SlurmArray(std::span<const CaseTask> tasks, std::size_t number, const RunnerContext& runner) : tasks_(tasks), runner_(runner), misses_(tasks.size(), 0), is_over_(tasks.size(), false) {
-    const fs::path folder = runner.plan.folder / "slurm", list = folder / ("cases-" + std::to_string(number)), script = folder / ("array-" + std::to_string(number) + ".sh");
+  SlurmArray(std::span<const CaseTask> tasks, std::size_t number, const RunnerContext& runner)
+      : tasks_(tasks), runner_(runner), misses_(tasks.size(), 0), is_over_(tasks.size(), false) {
+    const fs::path folder = runner.plan.folder / "slurm", list = folder / ("cases-" + std::to_string(number)),
+                   script = folder / ("array-" + std::to_string(number) + ".sh");
     for (const CaseTask& task : tasks) prepare(task, runner.run);
     io::write_whole(list, list_of(tasks));
     io::write_whole(script, job_script(tasks.size(), list, runner));
@@ -136,7 +143,12 @@ class SlurmArray {
     for (std::size_t i = 0; i < tasks_.size(); ++i) {
       if (is_over_[i]) continue;
       misses_[i] = alive.contains(i + 1) ? 0 : misses_[i] + 1;
-      if (misses_[i] >= k_misses) end(i, settle(tasks_[i], {.state = CaseState::killed, .key = tasks_[i].key, .message = "job " + id_ + "_" + std::to_string(i + 1) + " is gone from the queue and has left no result"}, runner_.run));
+      if (misses_[i] >= k_misses)
+        end(i, settle(tasks_[i],
+                      {.state = CaseState::killed,
+                       .key = tasks_[i].key,
+                       .message = "job " + id_ + "_" + std::to_string(i + 1) + " is gone from the queue and has left no result"},
+                      runner_.run));
     }
   }
 
@@ -171,7 +183,10 @@ void cancel_left_jobs(const fs::path& folder, const RunContext& context) {
   }
   while (!jobs_in_queue(id, context).empty()) {
     if (Clock::now() - begin > k_cancel_patience)
-      throw Error({.code = ErrorCode::internal, .attempted = "cancelling job " + id + " of an earlier run", .problem = "it is still in the queue after a minute", .hint = "scancel --signal=KILL " + id});
+      throw Error({.code = ErrorCode::internal,
+                   .attempted = "cancelling job " + id + " of an earlier run",
+                   .problem = "it is still in the queue after a minute",
+                   .hint = "scancel --signal=KILL " + id});
     std::this_thread::sleep_for(k_queue_pause);
   }
   fs::remove(file);

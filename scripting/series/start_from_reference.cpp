@@ -16,7 +16,8 @@ struct StartedEnvelope {
   volmesh::PartEnvelope part;
   std::string outcome;
 };
-template <> inline constexpr std::size_t k_members<StartedEnvelope> = 2;
+template <>
+inline constexpr std::size_t k_members<StartedEnvelope> = 2;
 
 namespace {
 

@@ -50,8 +50,8 @@ bool is_plain(const ScriptValue& value) {
   if (const auto* table = std::get_if<TableHandle>(&value))
     return (*table)->other_keys.empty() && std::all_of((*table)->items.begin(), (*table)->items.end(), is_plain) &&
            std::all_of((*table)->fields.begin(), (*table)->fields.end(), [](const auto& entry) { return is_plain(entry.second); });
-  return std::holds_alternative<std::monostate>(value) || std::holds_alternative<bool>(value) || std::holds_alternative<std::int64_t>(value) || std::holds_alternative<double>(value) ||
-         std::holds_alternative<std::string>(value);
+  return std::holds_alternative<std::monostate>(value) || std::holds_alternative<bool>(value) || std::holds_alternative<std::int64_t>(value) ||
+         std::holds_alternative<double>(value) || std::holds_alternative<std::string>(value);
 }
 
 std::string to_json(const ScriptValue& value) { return json_of(value).dump(-1, ' ', false, Json::error_handler_t::replace); }
@@ -60,7 +60,8 @@ std::string to_result(const ScriptValue& value) { return is_plain(value) || std:
 
 ScriptValue value_of_json(std::string_view text) {
   const Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded()) throw Error({.code = ErrorCode::file_malformed, .attempted = "reading JSON", .problem = "it is not JSON: " + std::string(text.substr(0, 100))});
+  if (json.is_discarded())
+    throw Error({.code = ErrorCode::file_malformed, .attempted = "reading JSON", .problem = "it is not JSON: " + std::string(text.substr(0, 100))});
   return value_of(json);
 }
 

@@ -12,10 +12,10 @@
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/delaunay/face_state.h"
 #include "geom/delaunay/triangulation.h"
 #include "geom/math/measures.h"
 #include "geom/math/predicates.h"
-#include "geom/delaunay/face_state.h"
 #include "surfmesh/face/point_grid.h"
 
 namespace sterna::surfmesh {
@@ -43,21 +43,21 @@ constexpr double k_same_angle = 0.01;
 struct Place {
   Uv uv;
   Point point;
-  Vec3 normal;   ///< du x dv, unit
+  Vec3 normal;           ///< du x dv, unit
   std::uint32_t id = 0;  ///< of the border for given points; set by `lay` for others
 };
 
 struct RowColumn {
-  std::vector<Place> rows;   ///< [0] on the border
-  double spacing = 0.0;      ///< m, mean length of the two edges along the border
-  double at_top = 0.0;       ///< m, the same in the last row, no more than `spacing`
-  Vec3 direction;            ///< unit, of the next step
+  std::vector<Place> rows;             ///< [0] on the border
+  double spacing = 0.0;                ///< m, mean length of the two edges along the border
+  double at_top = 0.0;                 ///< m, the same in the last row, no more than `spacing`
+  Vec3 direction;                      ///< unit, of the next step
   std::array<double, 2> lean_share{};  ///< of what the columns on the border at the start, the end, lean
-  double lean = 0.0;         ///< rad, of the next step: from right angles towards the run's sense
-  double height = 0.0;       ///< m, of the last row
-  double climbed = 0.0;      ///< m, sum of heights
+  double lean = 0.0;                   ///< rad, of the next step: from right angles towards the run's sense
+  double height = 0.0;                 ///< m, of the last row
+  double climbed = 0.0;                ///< m, sum of heights
   bool is_growing = false;
-  bool is_given = false;     ///< its points are border points
+  bool is_given = false;  ///< its points are border points
   std::size_t n_rows() const { return rows.size() - 1; }
 };
 
@@ -74,12 +74,14 @@ struct Laying {
   const FaceBorder& border;
   Vec2 scale;
   std::vector<std::uint32_t> first_of_loop;
-  std::vector<bool> is_left;   ///< by loop: the face lies to the left of it
+  std::vector<bool> is_left;  ///< by loop: the face lies to the left of it
   std::vector<Run> runs;
   BandMeasures measures;
 };
 
-std::uint32_t border_id(const Laying& laying, std::size_t loop, std::size_t i) { return laying.first_of_loop[loop] + static_cast<std::uint32_t>(i % laying.border.loops[loop].size()); }
+std::uint32_t border_id(const Laying& laying, std::size_t loop, std::size_t i) {
+  return laying.first_of_loop[loop] + static_cast<std::uint32_t>(i % laying.border.loops[loop].size());
+}
 
 /// Sign of the area: outer loops have the face to the left when it is positive, holes when it is negative.
 std::vector<bool> sides_of(const FaceBorder& border) {
@@ -169,7 +171,8 @@ void start_columns(const Laying& laying, Run& run) {
     if (n_given == 0) continue;
     RowColumn& column = run.columns[end == 0 ? 0 : n - 1];
     column.is_given = true;
-    for (std::size_t k = 1; k <= n_given; ++k) column.rows.push_back(place_of(laying, wish.loop, end == 0 ? wish.first + loop.size() - k : wish.first + n - 1 + k));
+    for (std::size_t k = 1; k <= n_given; ++k)
+      column.rows.push_back(place_of(laying, wish.loop, end == 0 ? wish.first + loop.size() - k : wish.first + n - 1 + k));
     const Vec3 tangent = normalized(point(end == 0 ? 1 : n - 1) - point(end == 0 ? 0 : n - 2));
     reach[end] = std::max(k_lean_reach * std::abs(dot(column.rows.back().point - column.rows.front().point, tangent)), column.spacing);
   }
@@ -197,7 +200,8 @@ void set_directions(const Laying& laying, Run& run, std::size_t k) {
   for (const std::size_t end : {0u, 1u}) {
     const RowColumn& given = columns[end == 0 ? 0 : n - 1];
     if (given.is_given && given.n_rows() >= k)
-      if (const Vec3 tangent = tangent_at(end == 0 ? 0 : n - 1, wide); norm2(tangent) > 0.0) run.lean[end] = angle_along(normalized(along_surface(given.rows[k].point - given.rows[k - 1].point, given.rows[k - 1].normal)), tangent);
+      if (const Vec3 tangent = tangent_at(end == 0 ? 0 : n - 1, wide); norm2(tangent) > 0.0)
+        run.lean[end] = angle_along(normalized(along_surface(given.rows[k].point - given.rows[k - 1].point, given.rows[k - 1].normal)), tangent);
   }
   for (std::size_t i = 1; i + 1 < n; ++i) {
     RowColumn& column = columns[i];
@@ -214,8 +218,8 @@ void set_directions(const Laying& laying, Run& run, std::size_t k) {
 
 /// Border points by what they are to a run: its own points and the columns on the border beside it are no obstacle.
 struct Obstacles {
-  PointGrid points;                    ///< all border points of the face, with half their edges as reach
-  std::vector<std::int32_t> run_of;    ///< by border id: -1 none; points of columns on the border belong to their run
+  PointGrid points;                  ///< all border points of the face, with half their edges as reach
+  std::vector<std::int32_t> run_of;  ///< by border id: -1 none; points of columns on the border belong to their run
 };
 
 Obstacles make_obstacles(const Laying& laying) {
@@ -227,7 +231,8 @@ Obstacles make_obstacles(const Laying& laying) {
       points.push_back({loop[i].point, border_id(laying, l, i)});
       // Long edges have points between, so that none is passed through.
       constexpr double k_pieces = 4.0;
-      for (double k = 1.0; k < k_pieces; k += 1.0) points.push_back({loop[i].point + (k / k_pieces) * (loop[(i + 1) % loop.size()].point - loop[i].point), border_id(laying, l, i)});
+      for (double k = 1.0; k < k_pieces; k += 1.0)
+        points.push_back({loop[i].point + (k / k_pieces) * (loop[(i + 1) % loop.size()].point - loop[i].point), border_id(laying, l, i)});
     }
   }
   result.run_of.assign(laying.first_of_loop.back(), -1);
@@ -298,7 +303,9 @@ template <class Visit>
 void for_each_cell(const Laying& laying, const Run& run, std::size_t i, const Visit& visit) {
   const RowColumn &left = run.columns[i], &right = run.columns[i + 1];
   const bool is_left = laying.is_left[run.wish->loop];
-  const auto emit = [&](std::size_t k, const Place& a, const Place& b, const Place& c) { is_left ? visit(k, PlaceTriangle{&a, &b, &c}) : visit(k, PlaceTriangle{&a, &c, &b}); };
+  const auto emit = [&](std::size_t k, const Place& a, const Place& b, const Place& c) {
+    is_left ? visit(k, PlaceTriangle{&a, &b, &c}) : visit(k, PlaceTriangle{&a, &c, &b});
+  };
   const std::size_t n = std::min(left.n_rows(), right.n_rows());
   for (std::size_t k = 1; k <= n; ++k) {
     const Place &a = left.rows[k - 1], &b = right.rows[k - 1], &c = right.rows[k], &d = left.rows[k];
@@ -347,7 +354,8 @@ void limit_rows(const Laying& laying, Run& run) {
 /// Length along and height across of the cell of row k between two columns.
 std::array<double, 2> cell_size(const RowColumn& left, const RowColumn& right, std::size_t k) {
   const Point &a = left.rows[k - 1].point, &b = right.rows[k - 1].point, &c = right.rows[k].point, &d = left.rows[k].point;
-  const double along = 0.5 * (distance(a, b) + distance(d, c)), area = 0.5 * (triangle_area(a, b, c) + triangle_area(a, c, d) + triangle_area(a, b, d) + triangle_area(b, c, d));
+  const double along = 0.5 * (distance(a, b) + distance(d, c)),
+               area = 0.5 * (triangle_area(a, b, c) + triangle_area(a, c, d) + triangle_area(a, b, d) + triangle_area(b, c, d));
   return {along, area / along};
 }
 
@@ -480,13 +488,15 @@ bool take_back(Laying& laying, const std::vector<ErrorPlace>& places, bool all, 
 double RowLaw::next_height(double before, double curvature) const { return std::min(before > 0.0 ? growth * before : first, limits.size_of(curvature)); }
 
 bool is_first_diagonal(const Point& a, const Point& b, const Point& c, const Point& d, bool is_even) {
-  const auto least = [](const Point& p, const Point& q, const Point& r) { return std::min({corner_angle(p, q, r), corner_angle(q, r, p), corner_angle(r, p, q)}); };
+  const auto least = [](const Point& p, const Point& q, const Point& r) {
+    return std::min({corner_angle(p, q, r), corner_angle(q, r, p), corner_angle(r, p, q)});
+  };
   const double first = std::min(least(a, b, c), least(a, c, d)), second = std::min(least(a, b, d), least(b, c, d));
   return std::abs(first - second) < k_same_angle * std::max(first, second) ? is_even : first > second;
 }
 
-BandedFace mesh_banded_face(const Surface& surface, const FaceBorder& border, const std::vector<BandRun>& runs, const SizeFunction& size, Vec2 mean_speed, const FaceMeshOptions& options,
-                            const RunContext& context) {
+BandedFace mesh_banded_face(const Surface& surface, const FaceBorder& border, const std::vector<BandRun>& runs, const SizeFunction& size, Vec2 mean_speed,
+                            const FaceMeshOptions& options, const RunContext& context) {
   Laying laying{surface, border, {delaunay::scale_of_speed(mean_speed.x), delaunay::scale_of_speed(mean_speed.y)}, {0}, sides_of(border), {}, {}};
   for (const auto& loop : border.loops) laying.first_of_loop.push_back(laying.first_of_loop.back() + static_cast<std::uint32_t>(loop.size()));
   for (const BandRun& wish : runs) {

@@ -137,7 +137,9 @@ void CurvatureSizes::limit(const CurvatureLimits& limits) {
   const std::size_t n_u = u_.size(), n_v = v_.size();
   for (std::size_t k = 0; k < size_.size(); ++k) size_[k] = limits.size_of(curvature_[k]);
   if (!std::isfinite(limits.growth)) return;
-  const auto carry = [&](std::size_t from, std::size_t to) { size_[to] = std::min(size_[to], size_[from] + limits.growth * distance(points_[from], points_[to])); };
+  const auto carry = [&](std::size_t from, std::size_t to) {
+    size_[to] = std::min(size_[to], size_[from] + limits.growth * distance(points_[from], points_[to]));
+  };
   for (int round = 0; round < k_growth_rounds; ++round) {
     for (std::size_t i = 0; i < n_u; ++i)
       for (std::size_t j = 0; j < n_v; ++j) {

@@ -16,10 +16,10 @@ double largest_curvature(const SurfaceDerivatives& d);
 
 /// What curvature may ask for.
 struct CurvatureLimits {
-  double angle = 0.2;        ///< rad: an edge spans at most this angle
+  double angle = 0.2;                                            ///< rad: an edge spans at most this angle
   double chord_error = std::numeric_limits<double>::infinity();  ///< m: the middle of an edge is no farther from its arc
-  double min_edge = 0.0;     ///< m: never less
-  double growth = 0.3;       ///< change of the length by distance; infinite: each sample asks for itself
+  double min_edge = 0.0;                                         ///< m: never less
+  double growth = 0.3;                                           ///< change of the length by distance; infinite: each sample asks for itself
   /// Metres, for a radius of curvature; infinite for none.
   double size_of(double curvature) const;
 };

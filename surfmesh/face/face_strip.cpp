@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "geom/math/predicates.h"
 #include "geom/delaunay/face_state.h"
+#include "geom/math/predicates.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -44,7 +44,8 @@ std::optional<BandedFace> mesh_strip(const Surface& surface, const FaceBorder& b
   }
   const auto between = [](Uv a, Uv b, double t) { return (1.0 - t) * a + t * b; };
   // How far the short sides are from straight in (u, v), carried inwards over a few of their lengths.
-  const double width_start = distance(loop[first_side(0)].point, loop[second_side(0)].point), width_end = distance(loop[first_side(n_along)].point, loop[second_side(n_along)].point);
+  const double width_start = distance(loop[first_side(0)].point, loop[second_side(0)].point),
+               width_end = distance(loop[first_side(n_along)].point, loop[second_side(n_along)].point);
   std::vector<double> along{0.0};
   for (std::size_t i = 0; i < n_along; ++i) along.push_back(along.back() + distance(loop[first_side(i)].point, loop[first_side(i + 1)].point));
   const auto fading = [](double way, double width) { return width > 0.0 ? std::max(0.0, 1.0 - way / (k_end_reach * width)) : 0.0; };
@@ -62,7 +63,8 @@ std::optional<BandedFace> mesh_strip(const Surface& surface, const FaceBorder& b
         continue;
       }
       Uv uv = between(loop[first_side(i)].uv, loop[second_side(i)].uv, t);
-      const Uv bent_start = loop[start_side(j)].uv - between(loop[first_side(0)].uv, loop[second_side(0)].uv, t), bent_end = loop[end_side(j)].uv - between(loop[first_side(n_along)].uv, loop[second_side(n_along)].uv, t);
+      const Uv bent_start = loop[start_side(j)].uv - between(loop[first_side(0)].uv, loop[second_side(0)].uv, t),
+               bent_end = loop[end_side(j)].uv - between(loop[first_side(n_along)].uv, loop[second_side(n_along)].uv, t);
       uv = uv + fading(along[i], width_start) * bent_start + fading(along.back() - along[i], width_end) * bent_end;
       grid.id.push_back(static_cast<std::uint32_t>(mesh.points.size()));
       mesh.uv.push_back(uv);
@@ -81,7 +83,8 @@ std::optional<BandedFace> mesh_strip(const Surface& surface, const FaceBorder& b
         add(a, b, d);
         add(b, c, d);
       }
-      const double length = 0.5 * (distance(mesh.points[a], mesh.points[b]) + distance(mesh.points[d], mesh.points[c])), height = 0.5 * (distance(mesh.points[a], mesh.points[d]) + distance(mesh.points[b], mesh.points[c]));
+      const double length = 0.5 * (distance(mesh.points[a], mesh.points[b]) + distance(mesh.points[d], mesh.points[c])),
+                   height = 0.5 * (distance(mesh.points[a], mesh.points[d]) + distance(mesh.points[b], mesh.points[c]));
       result.bands.max_stretch = std::max(result.bands.max_stretch, length / height);
     }
   for (const TriangleVertices& t : mesh.triangles) {

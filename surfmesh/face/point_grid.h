@@ -38,7 +38,9 @@ class PointGrid {
     for (std::int32_t i = std::max(low[0], 0); i <= std::min(high[0], k_last); ++i)
       for (std::int32_t j = std::max(low[1], 0); j <= std::min(high[1], k_last); ++j) {
         const Cell from{i, j, low[2]}, to{i, j, high[2]};
-        for (auto at = std::lower_bound(entries_.begin(), entries_.end(), from, [](const Entry& e, const Cell& c) { return e.cell < c; }); at != entries_.end() && at->cell <= to; ++at) visit(at->point);
+        for (auto at = std::lower_bound(entries_.begin(), entries_.end(), from, [](const Entry&e, const Cell&c) { return e.cell < c; });
+             at != entries_.end() && at->cell <= to; ++at)
+          visit(at->point);
       }
   }
 
@@ -50,7 +52,9 @@ class PointGrid {
     GridPoint point;
   };
   Cell cell_of(const Point& p) const {
-    const auto index = [&](double x, double low) { return static_cast<std::int32_t>(std::clamp(std::floor((x - low) / side_), -1.0, static_cast<double>(k_last) + 1.0)); };
+    const auto index = [&](double x, double low) {
+      return static_cast<std::int32_t>(std::clamp(std::floor((x - low) / side_), -1.0, static_cast<double>(k_last) + 1.0));
+    };
     return {index(p.x, low_.x), index(p.y, low_.y), index(p.z, low_.z)};
   }
 

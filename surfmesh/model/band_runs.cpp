@@ -15,7 +15,8 @@ bool goes_straight(const std::vector<BorderPoint>& loop, std::size_t i) {
 
 }  // namespace
 
-BorderSegments segments_of(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const LabelledBorder& labelled) {
+BorderSegments segments_of(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers,
+                           const LabelledBorder& labelled) {
   BorderSegments result;
   std::size_t first = 0;
   for (const auto& loop : labelled.border.loops) {
@@ -82,8 +83,10 @@ std::vector<BandRun> band_runs(FaceId f, const LabelledBorder& labelled, const B
       }
       // A band that goes on beyond the face has columns on the edges that leave it there.
       const std::size_t last = i + run.n_points - 1;
-      if (const BorderSegment& before = segments[(i + n - 1) % n]; before.edge.is_valid() && bands.crossings[before.edge][before.is_forward ? 1 : 0].is_any) run.n_before = before.n_rows_at_end;
-      if (const BorderSegment& after = segments[last % n]; after.edge.is_valid() && bands.crossings[after.edge][after.is_forward ? 0 : 1].is_any) run.n_after = after.n_rows_at_start;
+      if (const BorderSegment& before = segments[(i + n - 1) % n]; before.edge.is_valid() && bands.crossings[before.edge][before.is_forward ? 1 : 0].is_any)
+        run.n_before = before.n_rows_at_end;
+      if (const BorderSegment& after = segments[last % n]; after.edge.is_valid() && bands.crossings[after.edge][after.is_forward ? 0 : 1].is_any)
+        run.n_after = after.n_rows_at_start;
       runs.push_back(run);
     }
     // All around: it begins anywhere.
@@ -105,7 +108,11 @@ std::optional<BandedFace> mesh_base(const Surface& surface, const LabelledBorder
       }
   if (first[0] == n || first[1] == n || count[0] != count[1]) return std::nullopt;
   const std::size_t from_first_to_second = (first[1] + n - first[0] - count[0]) % n, from_second_to_first = (first[0] + n - first[1] - count[1]) % n;
-  const StripSides sides{.first_long = first[0], .n_along = count[0], .n_across = strip.n_cells, .is_end_pointed = from_first_to_second == 0, .is_start_pointed = from_second_to_first == 0};
+  const StripSides sides{.first_long = first[0],
+                         .n_along = count[0],
+                         .n_across = strip.n_cells,
+                         .is_end_pointed = from_first_to_second == 0,
+                         .is_start_pointed = from_second_to_first == 0};
   return mesh_strip(surface, labelled.border, sides);
 }
 

@@ -307,8 +307,7 @@ Column<VertexId, Point> carried_points(const StructuredMesh& from, const Model& 
     if (const VertexId v = mesh.corner_vertices[c]; v.is_valid() && !corner[v].is_valid()) corner[v] = c;
   parallel_for(context, points.size(), [&](std::size_t i) {
     const VertexId v(static_cast<std::uint64_t>(i));
-    if (corner[v].is_valid())
-      points[v] = model.corners[corner[v]].point;
+    if (corner[v].is_valid()) points[v] = model.corners[corner[v]].point;
     else if (const EdgePlace& place = mesh.edge_places[v]; place.edge.is_valid())
       points[v] = model.edges[place.edge].curve->point(carried(place.t, from.structure.edges[place.edge].range, now.edges[place.edge].range));
     else if (const VertexPlace& at = mesh.places[v]; true)

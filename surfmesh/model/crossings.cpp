@@ -107,7 +107,7 @@ Point nearest_on(const Surface& surface, const Point& target, Uv& at) {
 /// How far the surfaces of two triangles are apart near them; zero where they meet. By turns each is asked for its nearest point to the other's.
 double gap_between(const Model& model, const SurfaceMesh& mesh, TriangleId a, TriangleId b, double depth) {
   constexpr int k_turns = 40;
-  constexpr double k_apart = 0.01;     // of the depth of the crossing: where alternate projections still are after k_turns
+  constexpr double k_apart = 0.01;  // of the depth of the crossing: where alternate projections still are after k_turns
   const auto guess = [&](TriangleId t) -> std::optional<Uv> {
     for (const VertexId v : mesh.mesh.triangles[t])
       if (mesh.places[v].face == mesh.triangle_face[t]) return mesh.places[v].at;
@@ -127,7 +127,8 @@ double gap_between(const Model& model, const SurfaceMesh& mesh, TriangleId a, Tr
   return gap;
 }
 
-/// What edges of two crossing triangles are to be multiplied by; 1: finer ones would cross as well. Facets lie beside their surface by the square of their length.
+/// What edges of two crossing triangles are to be multiplied by; 1: finer ones would cross as well. Facets lie beside their surface by the square of their
+/// length.
 double refining_factor(const Model& model, const SurfaceMesh& mesh, TriangleId a, TriangleId b, bool is_one_part) {
   constexpr double k_most = 0.5, k_least = 0.05;
   constexpr double k_safety = 0.7;
@@ -209,8 +210,11 @@ MeshCrossings find_mesh_crossings(const Model& model, const SurfaceMesh& mesh, c
     result.refinable.push_back({b, factor});
   }
   // Of each triangle the least factor.
-  std::sort(result.refinable.begin(), result.refinable.end(), [](const RefinableTriangle& a, const RefinableTriangle& b) { return std::pair(a.triangle, a.factor) < std::pair(b.triangle, b.factor); });
-  result.refinable.erase(std::unique(result.refinable.begin(), result.refinable.end(), [](const RefinableTriangle& a, const RefinableTriangle& b) { return a.triangle == b.triangle; }), result.refinable.end());
+  std::sort(result.refinable.begin(), result.refinable.end(),
+            [](const RefinableTriangle& a, const RefinableTriangle& b) { return std::pair(a.triangle, a.factor) < std::pair(b.triangle, b.factor); });
+  result.refinable.erase(std::unique(result.refinable.begin(), result.refinable.end(),
+                                     [](const RefinableTriangle& a, const RefinableTriangle& b) { return a.triangle == b.triangle; }),
+                         result.refinable.end());
   return result;
 }
 
@@ -240,8 +244,8 @@ ErrorInfo crossing_error(const Model& model, const SurfaceMesh& mesh, const Mesh
   const auto n_own = count([](const CrossingFaces& c) { return c.is_one_part; });
   const auto n_closed = count([](const CrossingFaces& c) { return !c.is_one_part && c.is_closed; });
   const auto n_open = static_cast<std::ptrdiff_t>(faces.size()) - n_own - n_closed;
-  info.problem = std::to_string(crossings.total) + " pairs of triangles cross or touch, on " + std::to_string(faces.size()) + " pairs of faces (" + std::to_string(n_own) + " within one part, " +
-                 std::to_string(n_closed + n_open) + " between parts that stand in each other or touch)";
+  info.problem = std::to_string(crossings.total) + " pairs of triangles cross or touch, on " + std::to_string(faces.size()) + " pairs of faces (" +
+                 std::to_string(n_own) + " within one part, " + std::to_string(n_closed + n_open) + " between parts that stand in each other or touch)";
   info.n_places = static_cast<std::int64_t>(faces.size());
   for (std::size_t i = 0; i < std::min(k_shown_places, faces.size()); ++i) {
     const CrossingFaces& c = faces[i];
@@ -257,7 +261,10 @@ ErrorInfo crossing_error(const Model& model, const SurfaceMesh& mesh, const Mesh
   const auto advise = [&](const std::string& text) { info.hint += (info.hint.empty() ? "" : "; ") + text; };
   if (n_closed > 0) advise("unite the parts first: union{ ... } or sterna union model.step -o united.step");
   if (n_open > 0) advise("a part that is open cannot be united: close it (cap = true on reading), or leave it out");
-  if (n_own > 0) advise("mend the faces that cross within a part in CAD (a surface that folds cannot be meshed soundly), or, where they only run near to each other, give them a smaller max_edge by name (patches)");
+  if (n_own > 0)
+    advise(
+        "mend the faces that cross within a part in CAD (a surface that folds cannot be meshed soundly), or, where they only run near to each other, give them "
+        "a smaller max_edge by name (patches)");
   info.geometry = draw(mesh, crossings);
   return info;
 }

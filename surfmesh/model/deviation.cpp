@@ -254,10 +254,8 @@ Deviation measure(const Walls& walls, const TriMesh& wall, const ModelWall& mode
   GateScan normals(info_of(Measure::cad_normal), limits[Measure::cad_normal]);
   for (std::size_t i = 0; i < turns.size(); ++i) {
     if (turns[i].is_beside) ++result.n_beside;
-    if (turns[i].is_without)
-      ++result.n_without;
-    else
-      normals.add(turns[i].angle, i);
+    if (turns[i].is_without) ++result.n_without;
+    else normals.add(turns[i].angle, i);
   }
   result.normal = normals.result([&](std::uint64_t i) {
     const Facet& facet = walls.facets[i];

@@ -11,7 +11,8 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Rad: between a new triangle and the surface at the new vertex. At a pointed tip each covers a quarter of the turn, so 45 degrees and the tip's slope are the rule.
+/// Rad: between a new triangle and the surface at the new vertex. At a pointed tip each covers a quarter of the turn, so 45 degrees and the tip's slope are the
+/// rule.
 constexpr double k_largest_turn = 75.0 * std::numbers::pi / 180.0;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
@@ -24,7 +25,9 @@ struct InnerEdge {
   std::array<std::size_t, 2> triangles{};
 };
 
-Vec3 normal_of(const FaceMesh& mesh, const TriangleVertices& v) { return cross(mesh.points[v[1].index()] - mesh.points[v[0].index()], mesh.points[v[2].index()] - mesh.points[v[0].index()]); }
+Vec3 normal_of(const FaceMesh& mesh, const TriangleVertices& v) {
+  return cross(mesh.points[v[1].index()] - mesh.points[v[0].index()], mesh.points[v[2].index()] - mesh.points[v[0].index()]);
+}
 
 TriangleVertices with(TriangleVertices triangle, VertexId old, VertexId now) {
   std::replace(triangle.begin(), triangle.end(), old, now);

@@ -1,4 +1,5 @@
-// Edges between the same two border vertices inside of two faces: at the tip of a body of two halves both cut the last triangle off alike, and no refinement changes that.
+// Edges between the same two border vertices inside of two faces: at the tip of a body of two halves both cut the last triangle off alike, and no refinement
+// changes that.
 #pragma once
 
 #include <span>

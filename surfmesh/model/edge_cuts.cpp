@@ -86,7 +86,8 @@ double t_at_step(const Curve& curve, double from, double end, double step) {
 }
 
 /// Where rows of a band meet an edge that leaves it, from the corner on.
-std::vector<double> row_places(EdgeId e, const ModelEdge& edge, const EdgeSamples& samples, std::size_t end, const CrossingEnd& crossing, const SurfaceSizes& field) {
+std::vector<double> row_places(EdgeId e, const ModelEdge& edge, const EdgeSamples& samples, std::size_t end, const CrossingEnd& crossing,
+                               const SurfaceSizes& field) {
   constexpr double k_share_of_edge = 0.45;  // the other end may have rows, too
   constexpr int k_step_iterations = 4;      // each gains a digit or two: an edge turns little in a step
   const double start = end == 0 ? edge.range.from : edge.range.to, stop = end == 0 ? edge.range.to : edge.range.from;
@@ -197,33 +198,37 @@ EdgeCut cut_like(const EdgeSamples& own, const EdgeSamples& other, const EdgeCut
 
 }  // namespace
 
-Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands, const SurfaceSizes& field, const RunContext& context) {
+Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands,
+                                  const SurfaceSizes& field, const RunContext& context) {
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
   Column<EdgeId, std::vector<Station>> stations(model.edges.size());
   Column<EdgeId, std::size_t> n_segments(model.edges.size(), 1);
   Column<EdgeId, std::array<std::vector<double>, 2>> rows(model.edges.size());
-  parallel_for(context, model.edges.size(), [&](std::size_t i) {
-    const EdgeId e(static_cast<std::uint64_t>(i));
-    if (topology.is_point[e] != 0 || uses[e].empty() || topology.same_as[e].edge != e) return;
-    Interval between = model.edges[e].range;
-    for (const std::size_t end : {0u, 1u})
-      if (bands.crossings[e][end].is_any && !bands.edges[e]) {
-        rows[e][end] = row_places(e, model.edges[e], edges[e], end, bands.crossings[e][end], field);
-        if (!rows[e][end].empty()) (end == 0 ? between.from : between.to) = rows[e][end].back();
-      }
-    const bool has_rows = !rows[e][0].empty() || !rows[e][1].empty();
-    stations[e] = measure(e, model.edges[e], has_rows ? part_of(model.edges[e], edges[e], between.from, between.to) : edges[e], field);
-    constexpr double k_whole = 0.02;  // of a segment: so much more than wanted is as wanted
-    const double metric = stations[e].back().metric;
-    const auto by_size = static_cast<std::size_t>(std::max(1.0, bands.edges[e] ? std::ceil(metric - k_whole) : std::round(metric)));
-    if (bands.n_short[e] > 0) {
-      n_segments[e] = bands.n_short[e];
-      return;
-    }
-    const auto by_turning = static_cast<std::size_t>(std::max(1.0, std::ceil(edges[e].turning / k_largest_turn - 0.01)));
-    const bool is_closed = topology.corner[model.edges[e].start] == topology.corner[model.edges[e].end];
-    n_segments[e] = std::max({by_size, by_turning, is_closed ? k_closed_segments : 1});
-  }, 4);
+  parallel_for(
+      context, model.edges.size(),
+      [&](std::size_t i) {
+        const EdgeId e(static_cast<std::uint64_t>(i));
+        if (topology.is_point[e] != 0 || uses[e].empty() || topology.same_as[e].edge != e) return;
+        Interval between = model.edges[e].range;
+        for (const std::size_t end : {0u, 1u})
+          if (bands.crossings[e][end].is_any && !bands.edges[e]) {
+            rows[e][end] = row_places(e, model.edges[e], edges[e], end, bands.crossings[e][end], field);
+            if (!rows[e][end].empty()) (end == 0 ? between.from : between.to) = rows[e][end].back();
+          }
+        const bool has_rows = !rows[e][0].empty() || !rows[e][1].empty();
+        stations[e] = measure(e, model.edges[e], has_rows ? part_of(model.edges[e], edges[e], between.from, between.to) : edges[e], field);
+        constexpr double k_whole = 0.02;  // of a segment: so much more than wanted is as wanted
+        const double metric = stations[e].back().metric;
+        const auto by_size = static_cast<std::size_t>(std::max(1.0, bands.edges[e] ? std::ceil(metric - k_whole) : std::round(metric)));
+        if (bands.n_short[e] > 0) {
+          n_segments[e] = bands.n_short[e];
+          return;
+        }
+        const auto by_turning = static_cast<std::size_t>(std::max(1.0, std::ceil(edges[e].turning / k_largest_turn - 0.01)));
+        const bool is_closed = topology.corner[model.edges[e].start] == topology.corner[model.edges[e].end];
+        n_segments[e] = std::max({by_size, by_turning, is_closed ? k_closed_segments : 1});
+      },
+      4);
   // Of several edges of one segment between the same corners all but the shortest are divided.
   struct Pair {
     CornerId a, b;
@@ -243,19 +248,25 @@ Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeS
   for (const std::optional<BaseStrip>& strip : bands.strips)
     if (strip) n_segments[strip->long_edge[0]] = std::max(n_segments[strip->long_edge[0]], n_segments[strip->long_edge[1]]);
   Column<EdgeId, EdgeCut> cuts(model.edges.size());
-  parallel_for(context, model.edges.size(), [&](std::size_t i) {
-    const EdgeId e(static_cast<std::uint64_t>(i));
-    if (bands.n_short[e] > 0) {
-      cuts[e] = cut_evenly(model.edges[e], edges[e], bands.n_short[e]);
-      return;
-    }
-    if (!stations[e].empty() && n_segments[e] > 1) cuts[e] = cut_at(model.edges[e], stations[e], n_segments[e]);
-    if (!rows[e][0].empty() || !rows[e][1].empty()) add_rows(model.edges[e], rows[e], cuts[e]);
-  }, 4);
+  parallel_for(
+      context, model.edges.size(),
+      [&](std::size_t i) {
+        const EdgeId e(static_cast<std::uint64_t>(i));
+        if (bands.n_short[e] > 0) {
+          cuts[e] = cut_evenly(model.edges[e], edges[e], bands.n_short[e]);
+          return;
+        }
+        if (!stations[e].empty() && n_segments[e] > 1) cuts[e] = cut_at(model.edges[e], stations[e], n_segments[e]);
+        if (!rows[e][0].empty() || !rows[e][1].empty()) add_rows(model.edges[e], rows[e], cuts[e]);
+      },
+      4);
   for (const std::optional<BaseStrip>& strip : bands.strips)
-    if (strip) cuts[strip->long_edge[1]] = cut_by_shares(model.edges[strip->long_edge[1]], edges[strip->long_edge[1]], edges[strip->long_edge[0]], cuts[strip->long_edge[0]], strip->is_against);
+    if (strip)
+      cuts[strip->long_edge[1]] =
+          cut_by_shares(model.edges[strip->long_edge[1]], edges[strip->long_edge[1]], edges[strip->long_edge[0]], cuts[strip->long_edge[0]], strip->is_against);
   for (const EdgeId e : model.edges.ids())
-    if (const SameEdge& same = topology.same_as[e]; same.edge != e && topology.is_point[e] == 0) cuts[e] = cut_like(edges[e], edges[same.edge], cuts[same.edge], same.is_reversed);
+    if (const SameEdge& same = topology.same_as[e]; same.edge != e && topology.is_point[e] == 0)
+      cuts[e] = cut_like(edges[e], edges[same.edge], cuts[same.edge], same.is_reversed);
   return cuts;
 }
 

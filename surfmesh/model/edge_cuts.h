@@ -12,14 +12,15 @@
 namespace sterna::surfmesh {
 
 struct EdgeCut {
-  std::vector<double> t;       ///< ascending, inside the edge's range: its ends are corners
-  std::vector<Point> points;   ///< curve->point(t); of an edge that is the same as another, that one's
+  std::vector<double> t;                ///< ascending, inside the edge's range: its ends are corners
+  std::vector<Point> points;            ///< curve->point(t); of an edge that is the same as another, that one's
   std::array<std::size_t, 2> n_rows{};  ///< so many of the points next to the start, to the end, are rows of a band there
   friend bool operator==(const EdgeCut&, const EdgeCut&) = default;
 };
 
 /// Lengths equal in the metric 1 / size; closed edges get three segments, two edges between the same corners more than one between them.
 /// Edges of bands have no segment longer than their stretch allows; edges that leave a band begin with the heights of its rows; sides of strips are matched.
-Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands, const SurfaceSizes& field, const RunContext& context);
+Column<EdgeId, EdgeCut> cut_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const WingBands& bands,
+                                  const SurfaceSizes& field, const RunContext& context);
 
 }  // namespace sterna::surfmesh

@@ -44,10 +44,13 @@ EdgeSamples sample_edge(const ModelEdge& edge) {
 
 Column<EdgeId, EdgeSamples> sample_edges(const Model& model, const RunContext& context) {
   Column<EdgeId, EdgeSamples> result(model.edges.size());
-  parallel_for(context, model.edges.size(), [&](std::size_t i) {
-    const EdgeId e(static_cast<std::uint64_t>(i));
-    result[e] = sample_edge(model.edges[e]);
-  }, 16);
+  parallel_for(
+      context, model.edges.size(),
+      [&](std::size_t i) {
+        const EdgeId e(static_cast<std::uint64_t>(i));
+        result[e] = sample_edge(model.edges[e]);
+      },
+      16);
   return result;
 }
 

@@ -66,7 +66,8 @@ void check_estimate(const Model& model, const ModelSizes& sizes, const Column<Ed
     const FaceId f = entries[i].face;
     char size[32];
     std::snprintf(size, sizeof size, "%.3g", sizes.faces[f].max_edge);
-    info.places.push_back({place_on(model, edges, f), "\"" + model.faces[f].name + "\" (face " + std::to_string(f.value()) + "): about " + rounded(entries[i].n) + " with edges of " + size + " m at most"});
+    info.places.push_back({place_on(model, edges, f), "\"" + model.faces[f].name + "\" (face " + std::to_string(f.value()) + "): about " +
+                                                          rounded(entries[i].n) + " with edges of " + size + " m at most"});
   }
   info.hint = "a larger max_edge, min_edge or curvature_angle; are the model's units right?";
   throw Error(std::move(info));
@@ -81,19 +82,27 @@ void check_band_estimate(const Model& model, const WingBands& bands, const Colum
     char first[32];
     std::snprintf(first, sizeof first, "%.3g", bands.edges[e]->first);
     const Point place = edges[e].samples[edges[e].samples.size() / 2].point;
-    throw Error({.code = ErrorCode::overflow, .attempted = k_attempted,
-                 .problem = "a band with a first cell of " + std::string(first) + " m asks for more than " + rounded(n) + " triangles; max_triangles is " + std::to_string(options.max_triangles),
-                 .places = {{place, bands.edges[e]->kind == BandKind::leading ? "leading edge" : "trailing edge"}}, .hint = "a larger chordwise or stretch; are the units right?"});
+    throw Error({.code = ErrorCode::overflow,
+                 .attempted = k_attempted,
+                 .problem = "a band with a first cell of " + std::string(first) + " m asks for more than " + rounded(n) + " triangles; max_triangles is " +
+                            std::to_string(options.max_triangles),
+                 .places = {{place, bands.edges[e]->kind == BandKind::leading ? "leading edge" : "trailing edge"}},
+                 .hint = "a larger chordwise or stretch; are the units right?"});
   }
 }
 
 void check_count(const SurfaceMesh& mesh, const SurfaceMeshOptions& options) {
   const std::size_t n = mesh.mesh.n_triangles();
   if (n == 0)
-    throw Error({.code = ErrorCode::bad_argument, .attempted = k_attempted, .problem = "no triangle is left: edges and faces of the model are shorter than a twentieth of min_edge, and were absorbed",
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "no triangle is left: edges and faces of the model are shorter than a twentieth of min_edge, and were absorbed",
                  .hint = "a smaller min_edge or max_edge; are the model's units right?"});
   if (n <= static_cast<std::size_t>(options.max_triangles)) return;
-  throw Error({.code = ErrorCode::overflow, .attempted = k_attempted, .problem = std::to_string(n) + " triangles are more than max_triangles, " + std::to_string(options.max_triangles), .hint = "a larger max_edge, min_edge or curvature_angle, or a larger max_triangles"});
+  throw Error({.code = ErrorCode::overflow,
+               .attempted = k_attempted,
+               .problem = std::to_string(n) + " triangles are more than max_triangles, " + std::to_string(options.max_triangles),
+               .hint = "a larger max_edge, min_edge or curvature_angle, or a larger max_triangles"});
 }
 
 }  // namespace sterna::surfmesh

@@ -39,7 +39,8 @@ class Inside {
     }
     bins_.resize(std::clamp<std::size_t>(segments_.size() / k_per_bin, 1, k_most_bins));
     for (std::uint32_t i = 0; i < segments_.size(); ++i)
-      for (std::size_t b = bin_of(std::min(segments_[i].a.u, segments_[i].b.u)); b <= bin_of(std::max(segments_[i].a.u, segments_[i].b.u)); ++b) bins_[b].push_back(i);
+      for (std::size_t b = bin_of(std::min(segments_[i].a.u, segments_[i].b.u)); b <= bin_of(std::max(segments_[i].a.u, segments_[i].b.u)); ++b)
+        bins_[b].push_back(i);
   }
   const std::vector<Segment>& segments() const { return segments_; }
   bool operator()(Uv at) const {

@@ -20,8 +20,8 @@ struct FaceGridNode {
 /// Corners in the order (u0, v0), (u1, v0), (u0, v1), (u1, v1).
 struct FaceGridCell {
   std::array<std::uint32_t, 4> nodes{};
-  bool is_used = false;    ///< inside, or crossed by the border
-  bool is_level = false;   ///< nobody in it or near it wants less than the largest size
+  bool is_used = false;   ///< inside, or crossed by the border
+  bool is_level = false;  ///< nobody in it or near it wants less than the largest size
 };
 
 /// Halved again and again, the longer side in space first. A value.
@@ -29,9 +29,9 @@ class FaceGrid {
  public:
   /// What is known of sizes before they are carried over the surface.
   struct Bounds {
-    std::function<double(const Point&)> at;                    ///< m: no edge at a point is wanted shorter
-    std::function<bool(const Point&, double)> is_level_within; ///< no edge within a distance of a point is wanted shorter than `largest`
-    double largest = 0.0;                                      ///< m
+    std::function<double(const Point&)> at;                     ///< m: no edge at a point is wanted shorter
+    std::function<bool(const Point&, double)> is_level_within;  ///< no edge within a distance of a point is wanted shorter than `largest`
+    double largest = 0.0;                                       ///< m
   };
   FaceGrid() = default;
   /// Cells inside or crossed by `loops` (closed polygons, parity) are at most k_cell_sizes times the bound at their corners long, where sizes are not level.
@@ -59,7 +59,7 @@ class FaceGrid {
   friend class FaceGridBuilder;
   static constexpr std::uint32_t k_is_leaf = 0x8000'0000u, k_is_v = 0x4000'0000u, k_index = 0x3fff'ffffu;
   ParameterBox box_;
-  Uv period_;  ///< zero: not periodic
+  Uv period_;                        ///< zero: not periodic
   std::vector<std::uint32_t> tree_;  ///< k_is_leaf | cell, or k_is_v (halved in v) | first of two children
   std::vector<FaceGridCell> leaves_;
   std::vector<FaceGridNode> nodes_;

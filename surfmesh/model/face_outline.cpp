@@ -23,7 +23,8 @@ bool is_inside(const std::vector<Uv>& polygon, Uv at) {
   return inside;
 }
 
-/// Loops that run around the period become one polygon, there and back; a single one ends at the border of the domain on its left. The others of them are empty.
+/// Loops that run around the period become one polygon, there and back; a single one ends at the border of the domain on its left. The others of them are
+/// empty.
 void close_around(const Surface& surface, const std::vector<Uv>& ends, FaceOutline& outline) {
   const std::size_t first = outline.winding.front();
   std::vector<Uv>& polygon = outline.polygons[first];
@@ -86,7 +87,9 @@ FaceOutline outline_of(const Model& model, FaceId id) {
     for (std::uint32_t i = 0; i < face.borders[b].size(); ++i) {
       const EdgeUse& use = face.borders[b][i];
       const Interval range = model.edges[use.edge].range;  // the curve's domain may be larger
-      const auto at = [&](double share) { return use.parameter->point(use.is_reversed ? range.to - share * range.length() : range.from + share * range.length()); };
+      const auto at = [&](double share) {
+        return use.parameter->point(use.is_reversed ? range.to - share * range.length() : range.from + share * range.length());
+      };
       OutlineUse entry{{id, b, i}, {}, 0.0};
       const Uv start = at(0.0);
       if (i > 0) {

@@ -15,8 +15,9 @@ struct OutlineUse {
 };
 struct FaceOutline {
   std::vector<std::vector<OutlineUse>> borders;
-  std::vector<std::vector<Uv>> polygons;  ///< one for each border, sampled finely enough to tell inside from outside; those that wind are one, at the first of them
-  std::vector<std::size_t> winding;       ///< borders that run around a period instead of closing
+  std::vector<std::vector<Uv>>
+      polygons;                      ///< one for each border, sampled finely enough to tell inside from outside; those that wind are one, at the first of them
+  std::vector<std::size_t> winding;  ///< borders that run around a period instead of closing
 };
 
 FaceOutline outline_of(const Model& model, FaceId face);

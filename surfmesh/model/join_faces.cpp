@@ -31,7 +31,8 @@ struct EdgeEntry {
 
 }  // namespace
 
-SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const Column<FaceId, MeshedFace>& faces) {
+SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers,
+                       const Column<FaceId, MeshedFace>& faces) {
   SurfaceMesh result;
   TriMesh& mesh = result.mesh;
   const Column<FaceId, PatchId> patch_of = make_patches(model, mesh);

@@ -9,7 +9,8 @@
 namespace sterna::surfmesh {
 
 /// Faces without a mesh are left out. Vertices: corners, edges, then the inner ones of each face; triangles face by face, turned outwards.
-SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const Column<FaceId, MeshedFace>& faces);
+SurfaceMesh join_faces(const Model& model, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers,
+                       const Column<FaceId, MeshedFace>& faces);
 
 /// Triangles whose edges have more than two triangles, or two that run the same way, or one where the model is not open.
 struct JoinFaults {

@@ -20,7 +20,8 @@ IdType shifted(IdType id, std::size_t by) {
   return id.is_valid() ? IdType(static_cast<std::uint64_t>(id.index() + by)) : id;
 }
 
-void append_mesh(const SurfaceMesh& part, const Transform& placement, const Offsets& at, std::map<std::pair<std::string, PatchKind>, PatchId>& known, SurfaceMesh& all) {
+void append_mesh(const SurfaceMesh& part, const Transform& placement, const Offsets& at, std::map<std::pair<std::string, PatchKind>, PatchId>& known,
+                 SurfaceMesh& all) {
   Column<VertexId, Point> points = part.mesh.points;
   move_points(placement, points);
   for (const Point& p : points) all.mesh.points.push_back(p);

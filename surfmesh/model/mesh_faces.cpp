@@ -12,8 +12,10 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Each use gives its start and its cuts; its end is the start of the next. Absorbed edges give nothing, poles their corner at their start and, by the next use, at their end.
-LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const FaceOutline& outline) {
+/// Each use gives its start and its cuts; its end is the start of the next. Absorbed edges give nothing, poles their corner at their start and, by the next
+/// use, at their end.
+LabelledBorder border_of(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers,
+                         const FaceOutline& outline) {
   LabelledBorder result;
   for (const auto& uses : outline.borders) {
     std::vector<BorderPoint> loop;
@@ -50,13 +52,14 @@ double tolerance_of(const Model& model, FaceId f, EdgeId e) {
   // Files write tolerances of zero; what doubles of that size can hold is no fault.
   constexpr double k_rounding = 1e-12;
   double extent = 0.0;
-  for (const Point& p : {model.corners[edge.start].point, model.corners[edge.end].point, edge.is_degenerate() ? Point{} : edge.curve->point(0.5 * (edge.range.from + edge.range.to))})
+  for (const Point& p : {model.corners[edge.start].point, model.corners[edge.end].point,
+                         edge.is_degenerate() ? Point{} : edge.curve->point(0.5 * (edge.range.from + edge.range.to))})
     extent = std::max(extent, norm(p - Point{}));
   return std::max({edge.tolerance, model.corners[edge.start].tolerance, model.corners[edge.end].tolerance, model.faces[f].tolerance, k_rounding * extent});
 }
 
-/// Where a border passes a corner twice (a hole that touches the border), both get the same (u, v): files have them some rounding apart, and a gap of that width would
-/// be meshed. Of points that follow each other there only the first stays. Poles and seams are far apart in (u, v).
+/// Where a border passes a corner twice (a hole that touches the border), both get the same (u, v): files have them some rounding apart, and a gap of that
+/// width would be meshed. Of points that follow each other there only the first stays. Poles and seams are far apart in (u, v).
 LabelledBorder merge_touching(const Model& model, FaceId f, const LabelledBorder& given) {
   constexpr double k_near = 1e-5;  // of the border's extent in (u, v)
   const Surface& surface = *model.faces[f].surface;
@@ -99,16 +102,18 @@ LabelledBorder merge_touching(const Model& model, FaceId f, const LabelledBorder
 }
 
 /// The face's border, ready to be meshed.
-LabelledBorder labelled_border(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const SurfaceSizes& field) {
+LabelledBorder labelled_border(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers,
+                               const ModelSizes& sizes, const SurfaceSizes& field) {
   LabelledBorder labelled = merge_touching(model, f, border_of(model, f, topology, cuts, numbers, sizes.outlines[f]));
-  add_own_seam(*model.faces[f].surface, [&](Uv at, const Point& p) { return field.on_face(f, at, p); }, labelled);
+  add_own_seam(
+      *model.faces[f].surface, [&](Uv at, const Point& p) { return field.on_face(f, at, p); }, labelled);
   return labelled;
 }
 
 void note_dropped_rows(const BandedFace& banded, MeshedFace& face) {
   if (banded.dropped.empty()) return;
-  face.notes.push_back("rows on \"" + face.summary.name + "\" are left out beside " + std::to_string(banded.dropped.size()) + " points, the first " + format_point(banded.dropped.front()) +
-                       ": the rest of the face could not be meshed around them");
+  face.notes.push_back("rows on \"" + face.summary.name + "\" are left out beside " + std::to_string(banded.dropped.size()) + " points, the first " +
+                       format_point(banded.dropped.front()) + ": the rest of the face could not be meshed around them");
 }
 
 }  // namespace
@@ -181,12 +186,13 @@ BorderVertices number_border(const Model& model, const ModelTopology& topology, 
   return numbers;
 }
 
-std::vector<VertexId> border_ids(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const FaceOutline& outline) {
+std::vector<VertexId> border_ids(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts,
+                                 const BorderVertices& numbers, const FaceOutline& outline) {
   return merge_touching(model, f, border_of(model, f, topology, cuts, numbers, outline)).ids;
 }
 
-MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const WingBands& bands, const SurfaceSizes& field,
-                         int max_triangles, const RunContext& context) {
+MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers,
+                         const ModelSizes& sizes, const WingBands& bands, const SurfaceSizes& field, int max_triangles, const RunContext& context) {
   const ModelFace& face = model.faces[f];
   MeshedFace result;
   result.summary.face = f;
@@ -219,7 +225,8 @@ MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topo
       result.mesh = mesh_face(*face.surface, labelled.border, size, speed, options, context);
     }
     if (bands.strips[f] && result.mesh.n_band == 0)
-      result.notes.push_back("the base of \"" + face.name + "\" near " + format_point(labelled.border.loops.front().front().point) + " could not be laid out as a strip of cells: it is meshed like other faces");
+      result.notes.push_back("the base of \"" + face.name + "\" near " + format_point(labelled.border.loops.front().front().point) +
+                             " could not be laid out as a strip of cells: it is meshed like other faces");
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
     return fail(error.info());

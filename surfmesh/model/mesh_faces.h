@@ -24,26 +24,28 @@ BorderVertices number_border(const Model& model, const ModelTopology& topology, 
 
 struct MeshedFace {
   FaceMesh mesh;
-  std::vector<VertexId> border_ids;     ///< of its first n_border vertices
-  std::optional<ErrorInfo> failure;     ///< instead of a mesh
+  std::vector<VertexId> border_ids;  ///< of its first n_border vertices
+  std::optional<ErrorInfo> failure;  ///< instead of a mesh
   FaceMeshSummary summary;
-  double edge_distance = 0.0;           ///< metres: largest distance of a border point to the surface
+  double edge_distance = 0.0;  ///< metres: largest distance of a border point to the surface
   Point edge_distance_place{};
-  std::vector<LooseEdge> loose_edges;   ///< of this face
+  std::vector<LooseEdge> loose_edges;  ///< of this face
   BandMeasures bands;
-  std::vector<std::string> notes;       ///< rows or strips that had to be left out
+  std::vector<std::string> notes;  ///< rows or strips that had to be left out
 };
 
 /// Vertices of a face's border, in the order in which it is given to mesh_face.
-std::vector<VertexId> border_ids(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const FaceOutline& outline);
+std::vector<VertexId> border_ids(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts,
+                                 const BorderVertices& numbers, const FaceOutline& outline);
 
 /// Meshes face f. Failures that finer edges may cure come back; others are thrown with the face's name.
-MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers, const ModelSizes& sizes, const WingBands& bands, const SurfaceSizes& field,
-                         int max_triangles, const RunContext& context);
+MeshedFace mesh_one_face(const Model& model, FaceId f, const ModelTopology& topology, const Column<EdgeId, EdgeCut>& cuts, const BorderVertices& numbers,
+                         const ModelSizes& sizes, const WingBands& bands, const SurfaceSizes& field, int max_triangles, const RunContext& context);
 
 /// Angles (of the mesh's report), normals and areas of a face's triangles into its summary.
 void measure_face(MeshedFace& face);
-/// Distances of the border's points from the surface, and those beyond the model's tolerances edge by edge. \p edges of the border's points; invalid where it is not known
+/// Distances of the border's points from the surface, and those beyond the model's tolerances edge by edge. \p edges of the border's points; invalid where it
+/// is not known
 void measure_border(const Model& model, const std::vector<EdgeId>& edges, MeshedFace& face);
 
 }  // namespace sterna::surfmesh

@@ -1,5 +1,5 @@
-// The driver. Faces that cannot be meshed, edges with more than two triangles and triangles that cross are all signs of edges too long for what is there: sizes are
-// halved around such places and the faces concerned are meshed again, a few times.
+// The driver. Faces that cannot be meshed, edges with more than two triangles and triangles that cross are all signs of edges too long for what is there: sizes
+// are halved around such places and the faces concerned are meshed again, a few times.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,7 +42,6 @@ struct Meshing {
   Column<EdgeId, EdgeCut> cuts;
   Column<FaceId, MeshedFace> faces;
   std::set<FaceId> to_mesh;
-
 };
 
 /// Cuts edges anew and meshes the faces whose edges changed, and those that are to be meshed again.
@@ -59,12 +58,17 @@ SurfaceMesh mesh_round(Meshing& meshing, const SurfaceSizes& field, const RunCon
   meshing.cuts = std::move(cuts);
   const BorderVertices numbers = number_border(model, meshing.topology, meshing.cuts);
   if (meshing.faces.empty()) meshing.faces.resize(model.faces.size());
-  parallel_for(context, work.size(), [&](std::size_t i) {
-    meshing.faces[work[i]] = mesh_one_face(model, work[i], meshing.topology, meshing.cuts, numbers, meshing.sizes, meshing.bands, field, meshing.options.max_triangles, context);
-  }, 1);
+  parallel_for(
+      context, work.size(),
+      [&](std::size_t i) {
+        meshing.faces[work[i]] =
+            mesh_one_face(model, work[i], meshing.topology, meshing.cuts, numbers, meshing.sizes, meshing.bands, field, meshing.options.max_triangles, context);
+      },
+      1);
   // The others have their border's vertices under new numbers.
   for (const FaceId f : model.faces.ids())
-    if (!std::binary_search(work.begin(), work.end(), f)) meshing.faces[f].border_ids = border_ids(model, f, meshing.topology, meshing.cuts, numbers, meshing.sizes.outlines[f]);
+    if (!std::binary_search(work.begin(), work.end(), f))
+      meshing.faces[f].border_ids = border_ids(model, f, meshing.topology, meshing.cuts, numbers, meshing.sizes.outlines[f]);
   meshing.to_mesh.clear();
   return join_faces(model, meshing.topology, meshing.cuts, numbers, meshing.faces);
 }
@@ -84,7 +88,8 @@ void refine_at(Meshing& meshing, FaceId f, const Point& place, double size, doub
     if (info.places.size() >= k_shown_places) continue;
     Point place;
     if (!face.failure->places.empty()) place = face.failure->places.front().position;
-    else if (const EdgeSamples& samples = meshing.edges[meshing.model.faces[f].borders.front().front().edge]; !samples.samples.empty()) place = samples.samples.front().point;
+    else if (const EdgeSamples& samples = meshing.edges[meshing.model.faces[f].borders.front().front().edge]; !samples.samples.empty())
+      place = samples.samples.front().point;
     info.places.push_back({place, face.failure->attempted + ": " + face.failure->problem});
     if (info.hint.empty()) info.hint = face.failure->hint;
   }
@@ -119,7 +124,9 @@ void refine_triangle(Meshing& meshing, const SurfaceMesh& mesh, TriangleId t, do
 }
 
 [[noreturn]] void throw_faults(const Meshing& meshing, const SurfaceMesh& mesh, const JoinFaults& faults) {
-  ErrorInfo info{.code = ErrorCode::non_manifold_surface, .attempted = k_attempted, .problem = "triangles of faces do not join: edges have one or more than two triangles, or two that run the same way"};
+  ErrorInfo info{.code = ErrorCode::non_manifold_surface,
+                 .attempted = k_attempted,
+                 .problem = "triangles of faces do not join: edges have one or more than two triangles, or two that run the same way"};
   info.n_places = static_cast<std::int64_t>(faults.triangles.size());
   for (std::size_t i = 0; i < std::min(k_shown_places, faults.triangles.size()); ++i) {
     const auto p = corners(mesh.mesh, faults.triangles[i]);
@@ -158,10 +165,11 @@ void check_options(const SurfaceMeshOptions& options) {
   for (const Option& option : options_of(copy))
     if (option.kind != OptionKind::number || option.automatic.empty() || !is_automatic(std::get<double>(option.get()))) set_option(option, option.get());
   if (options.min_edge > options.max_edge)  // false where either is automatic
-    throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = k_attempted,
-                 .problem = "min_edge = " + number_text(options.min_edge, k_digits) + " m is above max_edge = " + number_text(options.max_edge, k_digits) + " m",
-                 .hint = "curvature and narrow places ask for no edges below min_edge; leave it automatic for 2 % of max_edge"});
+    throw Error(
+        {.code = ErrorCode::bad_argument,
+         .attempted = k_attempted,
+         .problem = "min_edge = " + number_text(options.min_edge, k_digits) + " m is above max_edge = " + number_text(options.max_edge, k_digits) + " m",
+         .hint = "curvature and narrow places ask for no edges below min_edge; leave it automatic for 2 % of max_edge"});
 }
 
 }  // namespace
@@ -170,7 +178,8 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   return mesh_model(model, options, patches, SpaceSizes{}, context);
 }
 
-SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked, const RunContext& context) {
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+                       const RunContext& context) {
   check_options(options);
   Meshing meshing{model, options, sample_edges(model, context), {}, {}, {}, {}, {}, {}, {}, {}};
   meshing.sizes = sizes_of_faces(model, meshing.edges, options, patches, context);
@@ -181,7 +190,8 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   check_band_estimate(model, meshing.bands, meshing.edges, options);
   meshing.sizes.is_covered = [&](FaceId f, const Point& p) { return meshing.bands.covers(meshing.edges, f, p); };
   add_sources(model, meshing.edges, meshing.topology, options, meshing.sizes, context, &meshing.bands);
-  if (looks_for_gaps(options)) add_gap_sources(model, SurfaceSizes(model, meshing.edges, meshing.topology, meshing.sizes, {}, context, true), options, meshing.sizes, context);
+  if (looks_for_gaps(options))
+    add_gap_sources(model, SurfaceSizes(model, meshing.edges, meshing.topology, meshing.sizes, {}, context, true), options, meshing.sizes, context);
   SurfaceMesh mesh;
   MeshCrossings crossings;
   std::size_t n_crossing_before = static_cast<std::size_t>(-1);
@@ -221,7 +231,8 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
   mesh.report.max_smooth_angle = smooth.angle;
   mesh.report.smooth_angle_place = smooth.place;
   if (smooth.angle > k_largest_smooth_turn)
-    context.warn("the mesh turns by " + number_text(std::round(smooth.angle * 180.0 / std::numbers::pi), k_digits) + " degrees at " + format_point(smooth.place) +
+    context.warn("the mesh turns by " + number_text(std::round(smooth.angle * 180.0 / std::numbers::pi), k_digits) + " degrees at " +
+                 format_point(smooth.place) +
                  ", where the model is smooth: layers will take it for an edge (shorter edges there: max_edge, min_edge, curvature_angle; or the model folds)");
   return mesh;
 }
@@ -231,12 +242,13 @@ std::string to_text(const SurfaceMeshReport& report) {
   const auto number = [](double value) { return number_text(value, k_digits); };
   std::int64_t n = 0;
   for (const FaceMeshSummary& face : report.faces) n += face.n_triangles;
-  std::string text = std::to_string(n) + " triangles on " + std::to_string(report.faces.size()) + " faces; angles " + number(report.min_angle / k_deg) + " .. " + number(report.max_angle / k_deg) +
-                     " degrees, " + number(100.0 * report.share_20_130) + " % of the triangles within [20, 130]; mean radius ratio " +
-                     number(report.mean_radius_ratio) + "\n";
+  std::string text = std::to_string(n) + " triangles on " + std::to_string(report.faces.size()) + " faces; angles " + number(report.min_angle / k_deg) +
+                     " .. " + number(report.max_angle / k_deg) + " degrees, " + number(100.0 * report.share_20_130) +
+                     " % of the triangles within [20, 130]; mean radius ratio " + number(report.mean_radius_ratio) + "\n";
   text += "least angles";
   for (std::size_t i = 0; i < report.least_angles.size(); ++i)
-    if (report.least_angles[i] > 0) text += " " + std::to_string(10 * i) + "-" + std::to_string(10 * (i + 1)) + ": " + std::to_string(report.least_angles[i]) + ",";
+    if (report.least_angles[i] > 0)
+      text += " " + std::to_string(10 * i) + "-" + std::to_string(10 * (i + 1)) + ": " + std::to_string(report.least_angles[i]) + ",";
   text += " 1 % below " + number(report.angle_quantile_1 / k_deg) + " degrees\n";
   if (report.worst_face.is_valid()) {
     const FaceMeshSummary& worst = report.faces[report.worst_face.index()];
@@ -244,23 +256,28 @@ std::string to_text(const SurfaceMeshReport& report) {
   }
   if (report.worst_normal_face.is_valid()) {
     const FaceMeshSummary& worst = report.faces[report.worst_normal_face.index()];
-    text += "normals within the curvature angle on " + number(100.0 * report.share_normals) + " % of the area; farthest off on \"" + worst.name + "\" at " + format_point(worst.normal_place) + ", " +
-            number(worst.max_normal_angle / k_deg) + " degrees for " + number(worst.curvature_angle / k_deg) + "\n";
+    text += "normals within the curvature angle on " + number(100.0 * report.share_normals) + " % of the area; farthest off on \"" + worst.name + "\" at " +
+            format_point(worst.normal_place) + ", " + number(worst.max_normal_angle / k_deg) + " degrees for " + number(worst.curvature_angle / k_deg) + "\n";
   }
   if (const BandSummary& bands = report.bands; bands.n_triangles > 0) {
-    text += "bands: " + std::to_string(bands.n_triangles) + " triangles beside " + std::to_string(bands.n_edges) + " edges and on " + std::to_string(bands.n_strips) + " bases of trailing edges, not counted in the angles above; stretched up to " +
-            number(bands.max_stretch) + " (bases " + number(bands.max_strip_stretch) + "), growing by up to " + number(bands.max_growth) + "\n";
+    text += "bands: " + std::to_string(bands.n_triangles) + " triangles beside " + std::to_string(bands.n_edges) + " edges and on " +
+            std::to_string(bands.n_strips) + " bases of trailing edges, not counted in the angles above; stretched up to " + number(bands.max_stretch) +
+            " (bases " + number(bands.max_strip_stretch) + "), growing by up to " + number(bands.max_growth) + "\n";
   }
   for (const std::string& note : report.bands.notes) text += note + "\n";
   text += report.n_free_edges == 0 ? "closed" : "open: " + std::to_string(report.n_free_edges) + " free edges of triangles";
   text += "; edges within " + number(report.max_edge_distance) + " m of their surfaces";
   if (!report.loose_edges.empty()) {
     const LooseEdge& loose = report.loose_edges.front();
-    text += "; " + std::to_string(report.loose_edges.size()) + " edges beyond their tolerance, first: " + number(loose.distance) + " m for " + number(loose.tolerance) + " m beside \"" + report.faces[loose.face.index()].name + "\" at " + format_point(loose.place);
+    text += "; " + std::to_string(report.loose_edges.size()) + " edges beyond their tolerance, first: " + number(loose.distance) + " m for " +
+            number(loose.tolerance) + " m beside \"" + report.faces[loose.face.index()].name + "\" at " + format_point(loose.place);
   }
   constexpr double k_flat = 1e-6;  // rad: as good as nothing
-  if (report.max_smooth_angle > k_flat) text += "; smooth places turn by up to " + number(report.max_smooth_angle / k_deg) + " degrees an edge, at " + format_point(report.smooth_angle_place);
-  if (!report.absorbed.empty()) text += "; " + std::to_string(report.absorbed.size()) + " small parts absorbed, first: " + report.absorbed.front().what + " at " + format_point(report.absorbed.front().place);
+  if (report.max_smooth_angle > k_flat)
+    text += "; smooth places turn by up to " + number(report.max_smooth_angle / k_deg) + " degrees an edge, at " + format_point(report.smooth_angle_place);
+  if (!report.absorbed.empty())
+    text += "; " + std::to_string(report.absorbed.size()) + " small parts absorbed, first: " + report.absorbed.front().what + " at " +
+            format_point(report.absorbed.front().place);
   if (report.n_crossings > 0) text += "; " + std::to_string(report.n_crossings) + " pairs of triangles cross";
   return text + "\n";
 }

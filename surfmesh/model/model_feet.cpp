@@ -64,10 +64,8 @@ ModelFoot ModelWall::foot(const Point& p, TriangleId triangle, const std::array<
   for (std::size_t k = 0; k < 3; ++k) {
     const std::vector<Uv> places = places_in(known, f, v[k]);
     for (const Uv& at : places) try_seed(at);
-    if (places.size() == 1)
-      middle = middle + weights[k] * places.front();
-    else
-      is_plain = false;
+    if (places.size() == 1) middle = middle + weights[k] * places.front();
+    else is_plain = false;
   }
   if (is_plain) try_seed(middle);  // across a seam it lies elsewhere and is no nearer
   const SurfaceFoot found = seed ? projector.seeded(p, *seed) : projector.nearest(p);

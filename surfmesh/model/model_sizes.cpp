@@ -90,8 +90,10 @@ void resolve_bands(const std::string& name, const SurfaceMeshOptions& options, s
   };
   for (const PatchSurfaceOptions& rule : patches) {
     if (!matches_glob(name, rule.names)) continue;
-    if (overrule(sizes.leading.chordwise, rule.leading_edge_chordwise) | overrule(sizes.leading.stretch, rule.leading_edge_stretch)) sizes.leading.rule = rule.names;
-    if (overrule(sizes.trailing.chordwise, rule.trailing_edge_chordwise) | overrule(sizes.trailing.stretch, rule.trailing_edge_stretch)) sizes.trailing.rule = rule.names;
+    if (overrule(sizes.leading.chordwise, rule.leading_edge_chordwise) | overrule(sizes.leading.stretch, rule.leading_edge_stretch))
+      sizes.leading.rule = rule.names;
+    if (overrule(sizes.trailing.chordwise, rule.trailing_edge_chordwise) | overrule(sizes.trailing.stretch, rule.trailing_edge_stretch))
+      sizes.trailing.rule = rule.names;
     overrule(sizes.leading.growth, rule.leading_edge_growth);
     overrule(sizes.trailing.growth, rule.trailing_edge_growth);
     overrule(sizes.trailing_cells, rule.trailing_edge_cells);
@@ -105,7 +107,9 @@ void resolve_bands(const std::string& name, const SurfaceMeshOptions& options, s
 }
 
 bool is_min_edge_given(const std::string& name, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches) {
-  return !is_automatic(options.min_edge) || std::any_of(patches.begin(), patches.end(), [&](const PatchSurfaceOptions& rule) { return !is_automatic(rule.min_edge) && matches_glob(name, rule.names); });
+  return !is_automatic(options.min_edge) || std::any_of(patches.begin(), patches.end(), [&](const PatchSurfaceOptions& rule) {
+    return !is_automatic(rule.min_edge) && matches_glob(name, rule.names);
+  });
 }
 
 /// Where nobody gave a min_edge, the automatic one would end a chord error that is far too small, and the mesh would be another than asked for without a word.
@@ -122,7 +126,8 @@ void require_chord_error_in_reach(const Model& model, const SurfaceMeshOptions& 
   if (n <= options.max_triangles) return;
   throw Error({.code = ErrorCode::overflow,
                .attempted = "meshing the model's surface",
-               .problem = "chord_error = " + number_text(least) + " m asks for about " + number_text(n, 2) + " triangles; max_triangles is " + std::to_string(options.max_triangles),
+               .problem = "chord_error = " + number_text(least) + " m asks for about " + number_text(n, 2) + " triangles; max_triangles is " +
+                          std::to_string(options.max_triangles),
                .hint = "a larger chord_error, or a min_edge, where it ends; are the model's units right?"});
 }
 
@@ -197,7 +202,8 @@ struct NarrowPlace {
 
 /// Where two edges of a face run near to each other, edges are to be no longer than the face is wide there. Beside a corner that two edges share that is
 /// so only when they are nearer than k_narrow_corner of the distance from the corner: wider corners are filled by triangles as they are.
-void add_narrow_places(const Model& model, FaceId f, const Column<EdgeId, EdgeSamples>& edges, const FaceSizes& sizes, double narrow, std::vector<NarrowPlace>& places) {
+void add_narrow_places(const Model& model, FaceId f, const Column<EdgeId, EdgeSamples>& edges, const FaceSizes& sizes, double narrow,
+                       std::vector<NarrowPlace>& places) {
   constexpr double k_narrow_corner = 0.35;
   constexpr double k_at_corner = 1e-6;  // of the edge's length: the corner itself has no distance to the other edge
   constexpr double k_least_of_min_edge = 0.2;
@@ -233,7 +239,8 @@ void add_narrow_places(const Model& model, FaceId f, const Column<EdgeId, EdgeSa
 }
 
 /// What an edge asks for at its samples: its own curvature, that of its faces beside it, its length where that is short, and the lesser size of its faces.
-std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePlace>& uses, const EdgeSamples& samples, const ModelSizes& sizes, double intersection_factor) {
+std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePlace>& uses, const EdgeSamples& samples, const ModelSizes& sizes,
+                                double intersection_factor) {
   double least = sizes.largest;
   CurvatureLimits limits = sizes.faces[uses.front().face].limits;
   for (const EdgeUsePlace& place : uses) {
@@ -243,7 +250,8 @@ std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePla
     limits.chord_error = std::min(limits.chord_error, sizes.faces[place.face].limits.chord_error);
   }
   const auto component_of = [&](const EdgeUsePlace& place) { return model.faces[place.face].component; };
-  if (std::any_of(uses.begin(), uses.end(), [&](const EdgeUsePlace& place) { return component_of(place) != component_of(uses.front()); })) least = std::max(limits.min_edge, intersection_factor * least);
+  if (std::any_of(uses.begin(), uses.end(), [&](const EdgeUsePlace& place) { return component_of(place) != component_of(uses.front()); }))
+    least = std::max(limits.min_edge, intersection_factor * least);
   if (samples.length < least) least = std::max(limits.min_edge, samples.length);
   std::vector<double> result;
   for (const EdgeSample& s : samples.samples) {
@@ -281,17 +289,21 @@ double distance_to_segment(const Point& p, const Point& a, const Point& b) {
   return distance(p, a + t * along);
 }
 
-ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
+ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options,
+                          std::span<const PatchSurfaceOptions> patches, const RunContext& context) {
   check_rules(model, patches);
   ModelSizes sizes;
   sizes.growth = change_by_distance(options);
   sizes.outlines.resize(model.faces.size());
   sizes.faces.resize(model.faces.size());
-  parallel_for(context, model.faces.size(), [&](std::size_t i) {
-    const FaceId f(static_cast<std::uint64_t>(i));
-    sizes.outlines[f] = outline_of(model, f);
-    sizes.faces[f].curvature = std::make_unique<CurvatureSizes>(*model.faces[f].surface, box_of(sizes.outlines[f]), sizes.outlines[f].polygons);
-  }, 1);
+  parallel_for(
+      context, model.faces.size(),
+      [&](std::size_t i) {
+        const FaceId f(static_cast<std::uint64_t>(i));
+        sizes.outlines[f] = outline_of(model, f);
+        sizes.faces[f].curvature = std::make_unique<CurvatureSizes>(*model.faces[f].surface, box_of(sizes.outlines[f]), sizes.outlines[f].polygons);
+      },
+      1);
   double of_model = 0.0;
   const Column<ComponentId, double> automatic = default_sizes(model, sizes, edges, of_model);
   for (const FaceId f : model.faces.ids()) {
@@ -306,33 +318,45 @@ ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>&
     sizes.largest = std::max(sizes.largest, sizes.faces[f].max_edge);
   }
   require_chord_error_in_reach(model, options, patches, sizes);
-  parallel_for(context, model.faces.size(), [&](std::size_t i) {
-    const FaceId f(static_cast<std::uint64_t>(i));
-    sizes.faces[f].curvature->limit(sizes.faces[f].limits);
-  }, 1);
+  parallel_for(
+      context, model.faces.size(),
+      [&](std::size_t i) {
+        const FaceId f(static_cast<std::uint64_t>(i));
+        sizes.faces[f].curvature->limit(sizes.faces[f].limits);
+      },
+      1);
   return sizes;
 }
 
-void add_place_sizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, const SpaceSizes& asked, ModelSizes& sizes) {
+void add_place_sizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, const SpaceSizes& asked,
+                     ModelSizes& sizes) {
   sizes.places = PlaceSizes(model, edges, sizes, asked, options.refinement);
   for (const SizeSource& s : asked.samples) sizes.in_space.push_back({s.point, s.size / options.refinement});
 }
 
-void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options, ModelSizes& sizes, const RunContext& context, const WingBands* bands) {
+void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options,
+                 ModelSizes& sizes, const RunContext& context, const WingBands* bands) {
   std::vector<std::vector<SizeSource>> of_faces(model.faces.size());
-  parallel_for(context, model.faces.size(), [&](std::size_t i) {
-    const FaceId f(static_cast<std::uint64_t>(i));
-    if (topology.is_absorbed[f] != 0) return;
-    sizes.faces[f].curvature->for_each_inside([&](const Point& p, double size) {
-      if (size < sizes.faces[f].max_edge && !(sizes.is_covered && sizes.is_covered(f, p))) of_faces[i].push_back({p, size});
-    });
-  }, 1);
+  parallel_for(
+      context, model.faces.size(),
+      [&](std::size_t i) {
+        const FaceId f(static_cast<std::uint64_t>(i));
+        if (topology.is_absorbed[f] != 0) return;
+        sizes.faces[f].curvature->for_each_inside([&](const Point& p, double size) {
+          if (size < sizes.faces[f].max_edge && !(sizes.is_covered && sizes.is_covered(f, p))) of_faces[i].push_back({p, size});
+        });
+      },
+      1);
   for (const auto& list : of_faces) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());
   std::vector<std::vector<NarrowPlace>> narrow(model.faces.size());
-  parallel_for(context, model.faces.size(), [&](std::size_t i) {
-    const FaceId f(static_cast<std::uint64_t>(i));
-    if (topology.is_absorbed[f] == 0 && !(bands && bands->is_strip_in_band(f))) add_narrow_places(model, f, edges, sizes.faces[f], options.narrow / options.refinement, narrow[i]);
-  }, 1);
+  parallel_for(
+      context, model.faces.size(),
+      [&](std::size_t i) {
+        const FaceId f(static_cast<std::uint64_t>(i));
+        if (topology.is_absorbed[f] == 0 && !(bands && bands->is_strip_in_band(f)))
+          add_narrow_places(model, f, edges, sizes.faces[f], options.narrow / options.refinement, narrow[i]);
+      },
+      1);
   Column<EdgeId, std::vector<NarrowPlace>> narrow_of_edge(model.edges.size());
   for (const auto& list : narrow)
     for (const NarrowPlace& place : list) narrow_of_edge[place.edge].push_back(place);
@@ -343,14 +367,17 @@ void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, c
     add_sources_along(*model.edges[e].curve, edges[e].samples, size, list);
     sizes.edge_sizes[e] = std::move(size);
   };
-  parallel_for(context, model.edges.size(), [&](std::size_t i) {
-    const EdgeId e(static_cast<std::uint64_t>(i));
-    if (uses[e].empty() || edges[e].samples.empty() || topology.is_point[e] != 0) return;
-    std::vector<double> size = sizes_along(model, uses[e], edges[e], sizes, options.intersection_factor);
-    for (const NarrowPlace& place : narrow_of_edge[e]) size[place.sample] = std::min(size[place.sample], place.size);
-    if (bands) bands->overrule(edges, uses[e], e, sizes.largest, size);
-    ask_along(e, std::move(size), of_edges[i]);
-  }, 16);
+  parallel_for(
+      context, model.edges.size(),
+      [&](std::size_t i) {
+        const EdgeId e(static_cast<std::uint64_t>(i));
+        if (uses[e].empty() || edges[e].samples.empty() || topology.is_point[e] != 0) return;
+        std::vector<double> size = sizes_along(model, uses[e], edges[e], sizes, options.intersection_factor);
+        for (const NarrowPlace& place : narrow_of_edge[e]) size[place.sample] = std::min(size[place.sample], place.size);
+        if (bands) bands->overrule(edges, uses[e], e, sizes.largest, size);
+        ask_along(e, std::move(size), of_edges[i]);
+      },
+      16);
   for (const auto& list : of_edges) sizes.sources.insert(sizes.sources.end(), list.begin(), list.end());
 }
 

@@ -22,14 +22,14 @@ struct BandWish {
   double chordwise = k_automatic;  ///< m, first cell
   double stretch = k_automatic;    ///< longest cell along : first cell across
   double growth = 1.2;
-  std::string rule;                ///< names that asked; empty: the options for all
+  std::string rule;  ///< names that asked; empty: the options for all
   bool is_any() const { return !is_automatic(chordwise) || !is_automatic(stretch); }
 };
 
 struct FaceSizes {
   double max_edge = 0.0;
   BandWish leading, trailing;
-  double trailing_cells = k_automatic;  ///< across a blunt trailing edge
+  double trailing_cells = k_automatic;                 ///< across a blunt trailing edge
   double leading_factor = 1.0, trailing_factor = 1.0;  ///< of max_edge at a wing's leading and trailing edges
   bool has_tip_strips = false;
   CurvatureLimits limits;
@@ -39,25 +39,29 @@ struct FaceSizes {
 struct ModelSizes {
   Column<FaceId, FaceOutline> outlines;
   Column<FaceId, FaceSizes> faces;
-  Column<EdgeId, std::vector<double>> edge_sizes;  ///< m, at the samples of each edge: what its curvature, that of its faces beside it, narrow faces and its length ask for
-  std::vector<SizeSource> sources;  ///< the same in space, and the curvature of faces: where sizes may be small
-  std::vector<SizeSource> in_space; ///< sources of the user that count on all faces
-  PlaceSizes places;                ///< what is asked for by place: never more than max_edge
+  Column<EdgeId, std::vector<double>>
+      edge_sizes;                    ///< m, at the samples of each edge: what its curvature, that of its faces beside it, narrow faces and its length ask for
+  std::vector<SizeSource> sources;   ///< the same in space, and the curvature of faces: where sizes may be small
+  std::vector<SizeSource> in_space;  ///< sources of the user that count on all faces
+  PlaceSizes places;                 ///< what is asked for by place: never more than max_edge
   std::function<bool(FaceId, const Point&)> is_covered;  ///< curvature asks for nothing there, because a band answers for it; empty: nowhere
-  double growth = 0.2;              ///< change of length by distance
-  double largest = 0.0;             ///< max_edge of all faces
+  double growth = 0.2;                                   ///< change of length by distance
+  double largest = 0.0;                                  ///< max_edge of all faces
 };
 
 /// \throws Error(bad_argument) for a rule that no face's name matches
-ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
+ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options,
+                          std::span<const PatchSurfaceOptions> patches, const RunContext& context);
 
 /// Fills `edge_sizes` and `sources`; what is absorbed, or within a band, asks for nothing.
 struct ModelTopology;
 struct WingBands;
-void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options, ModelSizes& sizes, const RunContext& context, const WingBands* bands = nullptr);
+void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options,
+                 ModelSizes& sizes, const RunContext& context, const WingBands* bands = nullptr);
 
 /// Sets `places`: factors of wings, sources of the user. \pre sizes_of_faces
-void add_place_sizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, const SpaceSizes& asked, ModelSizes& sizes);
+void add_place_sizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, const SpaceSizes& asked,
+                     ModelSizes& sizes);
 
 double distance_to_segment(const Point& p, const Point& a, const Point& b);
 

@@ -30,7 +30,8 @@ double limit_of(const ModelEdge& edge, const std::vector<EdgeUsePlace>& uses, co
   return std::max(k_shortest * shortest, edge.tolerance);
 }
 
-void absorb_short_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses, const ModelSizes& sizes, ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
+void absorb_short_edges(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses,
+                        const ModelSizes& sizes, ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
   for (const EdgeId e : model.edges.ids()) {
     const ModelEdge& edge = model.edges[e];
     bool is_point = edge.is_degenerate();
@@ -55,7 +56,8 @@ double distance_of(const EdgeSamples& a, const EdgeSamples& b, double limit) {
   double largest = 0.0;
   for (const EdgeSample& s : a.samples) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k + 1 < b.samples.size() && nearest > 0.0; ++k) nearest = std::min(nearest, distance_to_segment(s.point, b.samples[k].point, b.samples[k + 1].point));
+    for (std::size_t k = 0; k + 1 < b.samples.size() && nearest > 0.0; ++k)
+      nearest = std::min(nearest, distance_to_segment(s.point, b.samples[k].point, b.samples[k + 1].point));
     largest = std::max(largest, nearest);
     if (largest > limit) break;
   }
@@ -63,7 +65,8 @@ double distance_of(const EdgeSamples& a, const EdgeSamples& b, double limit) {
 }
 
 /// Faces that are a line or a point: every edge is walked there and back, and there is nothing between (a seam's face has that too, but has an area).
-void absorb_lines(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses, const ModelSizes& sizes, ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
+void absorb_lines(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses, const ModelSizes& sizes,
+                  ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
   for (const FaceId f : model.faces.ids()) {
     std::map<EdgeId, int> balance;
     double length = 0.0, limit = 0.0;
@@ -78,26 +81,32 @@ void absorb_lines(const Model& model, const Column<EdgeId, EdgeSamples>& edges, 
         if (!longest.is_valid() || edges[use.edge].length > edges[longest].length) longest = use.edge;
       }
     if (balance.empty() || topology.is_absorbed[f] != 0) continue;
-    if (std::any_of(balance.begin(), balance.end(), [](const auto& entry) { return entry.second != 0; }) || sizes.faces[f].curvature->area() > limit * length) continue;
+    if (std::any_of(balance.begin(), balance.end(), [](const auto& entry) { return entry.second != 0; }) || sizes.faces[f].curvature->area() > limit * length)
+      continue;
     topology.is_absorbed[f] = 1;
-    absorbed.push_back({"face " + model.faces[f].name + ", which is a line", edges[longest].samples[edges[longest].samples.size() / 2].point, sizes.faces[f].curvature->area() / length});
+    absorbed.push_back({"face " + model.faces[f].name + ", which is a line", edges[longest].samples[edges[longest].samples.size() / 2].point,
+                        sizes.faces[f].curvature->area() / length});
   }
 }
 
 /// Faces whose border is two edges that are the same line within the limit.
-void absorb_strips(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses, const ModelSizes& sizes, ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
+void absorb_strips(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const Column<EdgeId, std::vector<EdgeUsePlace>>& uses, const ModelSizes& sizes,
+                   ModelTopology& topology, std::vector<AbsorbedPart>& absorbed) {
   for (const FaceId f : model.faces.ids()) {
     std::vector<EdgeId> left;
     for (const Border& border : model.faces[f].borders)
       for (const EdgeUse& use : border)
         if (topology.is_point[use.edge] == 0) left.push_back(use.edge);
     if (left.empty()) topology.is_absorbed[f] = 1;
-    if (left.empty()) absorbed.push_back({"face " + model.faces[f].name + ", all of whose edges are points", model.corners[model.edges[model.faces[f].borders.front().front().edge].start].point, 0.0});
+    if (left.empty())
+      absorbed.push_back({"face " + model.faces[f].name + ", all of whose edges are points",
+                          model.corners[model.edges[model.faces[f].borders.front().front().edge].start].point, 0.0});
     if (left.size() != 2 || left[0] == left[1] || model.faces[f].borders.size() != 1) continue;
     const SameEdge a = find(topology, left[0]), b = find(topology, left[1]);
     if (a.edge == b.edge) continue;
     const ModelEdge &edge_a = model.edges[a.edge], &edge_b = model.edges[b.edge];
-    const CornerId from_a = topology.corner[edge_a.start], to_a = topology.corner[edge_a.end], from_b = topology.corner[edge_b.start], to_b = topology.corner[edge_b.end];
+    const CornerId from_a = topology.corner[edge_a.start], to_a = topology.corner[edge_a.end], from_b = topology.corner[edge_b.start],
+                   to_b = topology.corner[edge_b.end];
     const bool is_along = from_a == from_b && to_a == to_b, is_against = from_a == to_b && to_a == from_b;
     if (from_a == to_a || (!is_along && !is_against)) continue;
     const double limit = std::max(limit_of(edge_a, uses[a.edge], sizes), limit_of(edge_b, uses[b.edge], sizes));
@@ -114,7 +123,8 @@ void absorb_strips(const Model& model, const Column<EdgeId, EdgeSamples>& edges,
 }  // namespace
 
 ModelTopology absorb_small_parts(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelSizes& sizes, std::vector<AbsorbedPart>& absorbed) {
-  ModelTopology topology{Column<CornerId, CornerId>(model.corners.size()), Column<EdgeId, std::uint8_t>(model.edges.size(), 0), Column<EdgeId, SameEdge>(model.edges.size()), Column<FaceId, std::uint8_t>(model.faces.size(), 0)};
+  ModelTopology topology{Column<CornerId, CornerId>(model.corners.size()), Column<EdgeId, std::uint8_t>(model.edges.size(), 0),
+                         Column<EdgeId, SameEdge>(model.edges.size()), Column<FaceId, std::uint8_t>(model.faces.size(), 0)};
   for (const CornerId c : model.corners.ids()) topology.corner[c] = c;
   for (const EdgeId e : model.edges.ids()) topology.same_as[e] = {e, false};
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);

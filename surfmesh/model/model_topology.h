@@ -20,8 +20,8 @@ struct ModelTopology {
   Column<FaceId, std::uint8_t> is_absorbed;
 };
 
-/// Edges shorter than their tolerance or than a twentieth of the shortest edge wanted become points; then faces of two edges that are nowhere farther apart than that
-/// (the base of a trailing edge that is all but sharp) become a line. Appends to `absorbed`.
+/// Edges shorter than their tolerance or than a twentieth of the shortest edge wanted become points; then faces of two edges that are nowhere farther apart
+/// than that (the base of a trailing edge that is all but sharp) become a line. Appends to `absorbed`.
 ModelTopology absorb_small_parts(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelSizes& sizes, std::vector<AbsorbedPart>& absorbed);
 
 }  // namespace sterna::surfmesh

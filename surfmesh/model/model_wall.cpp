@@ -20,7 +20,8 @@ std::pair<VertexId, VertexId> ordered(VertexId a, VertexId b) { return {std::min
 }  // namespace
 
 ModelWall::ModelWall(Model model, const SurfaceMesh& mesh)
-    : ModelWall([model = std::move(model)] { return model; }, WallPlaces{mesh.places, mesh.edge_places, mesh.corner_vertices, mesh.triangle_face}, mesh.mesh.triangles) {}
+    : ModelWall([model = std::move(model)] { return model; }, WallPlaces{mesh.places, mesh.edge_places, mesh.corner_vertices, mesh.triangle_face},
+                mesh.mesh.triangles) {}
 
 ModelWall::ModelWall(std::function<Model()> model, WallPlaces places, Column<TriangleId, TriangleVertices> triangles)
     : model_(std::move(model)), places_(std::move(places)), triangles_(std::move(triangles)) {}
@@ -34,8 +35,8 @@ ModelWall::Knowledge& ModelWall::knowledge() const {
     Column<VertexId, CornerId> corner_of(places_.places.size());
     for (const CornerId c : places_.corner_vertices.ids())
       if (const VertexId v = places_.corner_vertices[c]; v.is_valid()) corner_of[v] = c;
-    knowledge_ = std::make_unique<Knowledge>(
-        Knowledge{std::move(model), std::move(segments), std::vector<LazyProjector>(n_faces), std::vector<LazyRegion>(n_faces), std::move(uses), std::move(corner_of)});
+    knowledge_ = std::make_unique<Knowledge>(Knowledge{std::move(model), std::move(segments), std::vector<LazyProjector>(n_faces),
+                                                       std::vector<LazyRegion>(n_faces), std::move(uses), std::move(corner_of)});
   });
   return *knowledge_;
 }
@@ -60,7 +61,8 @@ std::vector<ModelWall::Segment> ModelWall::find_segments(const Model& model) con
     for (; next < cuts.size() && cuts[next].edge == e; ++next) go_to(cuts[next]);
     if (!edge.is_degenerate()) go_to({e, edge.range.to, places_.corner_vertices[edge.end]});
   }
-  std::sort(segments.begin(), segments.end(), [](const Segment& a, const Segment& b) { return std::tuple(a.low, a.high, a.edge) < std::tuple(b.low, b.high, b.edge); });
+  std::sort(segments.begin(), segments.end(),
+            [](const Segment& a, const Segment& b) { return std::tuple(a.low, a.high, a.edge) < std::tuple(b.low, b.high, b.edge); });
   return segments;
 }
 
@@ -69,7 +71,8 @@ ModelWall::ModelWall(const ModelWall& other, const Transform& motion)
 
 const ModelWall::Segment* ModelWall::segment_of(const Knowledge& known, VertexId a, VertexId b) {
   const auto key = ordered(a, b);
-  const auto at = std::lower_bound(known.segments.begin(), known.segments.end(), key, [](const Segment& s, const auto& k) { return std::pair(s.low, s.high) < k; });
+  const auto at =
+      std::lower_bound(known.segments.begin(), known.segments.end(), key, [](const Segment& s, const auto& k) { return std::pair(s.low, s.high) < k; });
   return at != known.segments.end() && std::pair(at->low, at->high) == key ? &*at : nullptr;
 }
 

@@ -33,7 +33,7 @@ struct ModelFoot {
   Uv at;
   Point point;
   double distance = std::numeric_limits<double>::infinity();  ///< m
-  bool is_inside = true;  ///< of the face's border, or on it; false: on the surface, but beyond the border
+  bool is_inside = true;                                      ///< of the face's border, or on it; false: on the surface, but beyond the border
 };
 
 /// The outward normal of a face.
@@ -52,15 +52,15 @@ class ModelWall {
   /// The same wall elsewhere. \pre `motion` is a rotation and a shift
   ModelWall(const ModelWall& other, const Transform& motion);
 
-  /// The nearest point of the model around a point on a triangle: on the edge of the model that the triangle's edge lies on where the weight of the corner opposite
-  /// to it is exactly zero, else on the face's surface. Thread-safe. \p weights barycentric, not negative
+  /// The nearest point of the model around a point on a triangle: on the edge of the model that the triangle's edge lies on where the weight of the corner
+  /// opposite to it is exactly zero, else on the face's surface. Thread-safe. \p weights barycentric, not negative
   Point nearest(const Point& p, TriangleId triangle, const std::array<double, 3>& weights) const;
 
-  /// The point of the surface of the triangle's face that is nearest around the triangle, and whether it belongs to the face. Thread-safe. \p weights barycentric,
-  /// where on the triangle
+  /// The point of the surface of the triangle's face that is nearest around the triangle, and whether it belongs to the face. Thread-safe. \p weights
+  /// barycentric, where on the triangle
   ModelFoot foot(const Point& p, TriangleId triangle, const std::array<double, 3>& weights) const;
-  /// The nearest point on the part of the model's edge that the triangle's side opposite to corner `k` lies on, as a place of the triangle's face; nothing for a side inside
-  /// the face. Thread-safe.
+  /// The nearest point on the part of the model's edge that the triangle's side opposite to corner `k` lies on, as a place of the triangle's face; nothing for
+  /// a side inside the face. Thread-safe.
   std::optional<ModelFoot> edge_foot(const Point& p, TriangleId triangle, std::size_t k) const;
   /// Whether a vertex is inside the triangle's face, not on its border.
   bool is_inner(TriangleId triangle, VertexId v) const;

@@ -99,8 +99,8 @@ bool is_inside(const std::vector<BorderPoint>& polygon, Uv at) {
 }
 
 struct Seam {
-  std::size_t start = 0;         ///< of the first loop
-  std::size_t other_start = 0;   ///< of the second, if there is one
+  std::size_t start = 0;        ///< of the first loop
+  std::size_t other_start = 0;  ///< of the second, if there is one
   Uv from, to;
 };
 
@@ -155,7 +155,8 @@ void add_own_seam(const Surface& surface, const std::function<double(Uv, const P
   const Loop* second = around.size() > 1 ? &loops[around[1]] : nullptr;
   const Uv period = first.around;
   const Point place = first.points.front().point;
-  if (around.size() > 2 || (period.u != 0.0 && period.v != 0.0)) fail(surface, "its borders run around it " + std::to_string(around.size()) + " times, or around both of its periods", place);
+  if (around.size() > 2 || (period.u != 0.0 && period.v != 0.0))
+    fail(surface, "its borders run around it " + std::to_string(around.size()) + " times, or around both of its periods", place);
   if (second != nullptr && !(second->around + period == Uv{})) fail(surface, "two borders run around its period the same way", place);
   // The face lies to the left: of +u at greater v, of +v at smaller u.
   const ParameterBox domain = surface.domain();

@@ -69,7 +69,9 @@ Column<ComponentId, std::shared_ptr<WingFactors>> find_wings(const Model& model,
     if (model.components[c].kind == ComponentKind::wing || model.components[c].kind == ComponentKind::pylon) wings[c] = std::make_shared<WingFactors>();
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
   const auto role_of = [&](const EdgeUsePlace& place) { return model.faces[place.face].role; };
-  const auto is_skin = [&](const EdgeUsePlace& place) { return role_of(place) == FaceRole::upper || role_of(place) == FaceRole::lower || role_of(place) == FaceRole::control; };
+  const auto is_skin = [&](const EdgeUsePlace& place) {
+    return role_of(place) == FaceRole::upper || role_of(place) == FaceRole::lower || role_of(place) == FaceRole::control;
+  };
   struct Sharp {
     EdgeId edge;
     double x;
@@ -82,7 +84,8 @@ Column<ComponentId, std::shared_ptr<WingFactors>> find_wings(const Model& model,
       if (!c.is_valid() || !wings[c]) continue;
       for (const EdgeSample& s : edges[e].samples) boxes[c].add(s.point);
       // Only faces of another role make it the border of a tip or a base.
-      const bool is_border = std::any_of(uses[e].begin(), uses[e].end(), [&](const EdgeUsePlace& other) { return is_skin(other) && model.faces[other.face].component == c; });
+      const bool is_border =
+          std::any_of(uses[e].begin(), uses[e].end(), [&](const EdgeUsePlace& other) { return is_skin(other) && model.faces[other.face].component == c; });
       if (is_border && role_of(place) == FaceRole::tip) add_lines(edges[e], wings[c]->tips);
       if (is_border && role_of(place) == FaceRole::trailing_edge) add_lines(edges[e], wings[c]->trailing);
     }
@@ -112,7 +115,8 @@ Column<ComponentId, std::shared_ptr<WingFactors>> find_wings(const Model& model,
 
 PlaceSizes::PlaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelSizes& sizes, const SpaceSizes& asked, double refinement)
     : faces_(model.faces.size()), regions_(asked.regions), function_(asked.function), refinement_(refinement), growth_(sizes.growth * refinement) {
-  const bool has_factors = std::any_of(sizes.faces.begin(), sizes.faces.end(), [](const FaceSizes& f) { return f.leading_factor != 1.0 || f.trailing_factor != 1.0 || f.has_tip_strips; });
+  const bool has_factors = std::any_of(sizes.faces.begin(), sizes.faces.end(),
+                                       [](const FaceSizes& f) { return f.leading_factor != 1.0 || f.trailing_factor != 1.0 || f.has_tip_strips; });
   Column<ComponentId, std::shared_ptr<WingFactors>> wings(model.components.size());
   if (has_factors) wings = find_wings(model, edges);
   for (const FaceId f : model.faces.ids()) {
@@ -135,7 +139,9 @@ double PlaceSizes::operator()(FaceId f, const Point& p) const {
   if (!function_) return size;
   const double by_function = function_(p);
   if (!(by_function > 0.0)) {
-    ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = "meshing the model's surface", .problem = "the function of sizes gives " + std::to_string(by_function) + " m; lengths of edges are positive"};
+    ErrorInfo info{.code = ErrorCode::bad_argument,
+                   .attempted = "meshing the model's surface",
+                   .problem = "the function of sizes gives " + std::to_string(by_function) + " m; lengths of edges are positive"};
     info.places.push_back({p, "here"});
     throw Error(std::move(info));
   }

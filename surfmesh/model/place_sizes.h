@@ -15,8 +15,8 @@ namespace sterna::surfmesh {
 struct ModelSizes;
 struct SpaceSizes;
 
-/// Factors of the largest edge over a wing (sumo.md section 2): at its leading and trailing edges, blending to one over a quarter of the way around the section; in strips
-/// beside its tips.
+/// Factors of the largest edge over a wing (sumo.md section 2): at its leading and trailing edges, blending to one over a quarter of the way around the
+/// section; in strips beside its tips.
 class WingFactors {
  public:
   struct Line {
@@ -28,8 +28,8 @@ class WingFactors {
   double operator()(const Point& p, double leading_factor, double trailing_factor, bool has_strips) const;
 };
 
-/// Wings and pylons of a model, by component; nothing for the others. Leading edges are edges between an upper and a lower face that are smooth or, of two sharp ones, the one
-/// with the smaller x; trailing edges are the other and the borders of bases.
+/// Wings and pylons of a model, by component; nothing for the others. Leading edges are edges between an upper and a lower face that are smooth or, of two
+/// sharp ones, the one with the smaller x; trailing edges are the other and the borders of bases.
 Column<ComponentId, std::shared_ptr<WingFactors>> find_wings(const Model& model, const Column<EdgeId, EdgeSamples>& edges);
 
 class PlaceSizes {
@@ -59,7 +59,7 @@ class PlaceSizes {
   std::function<double(const Point&, double)> regions_;
   std::function<double(const Point&)> function_;
   double refinement_ = 1.0;
-  double growth_ = 0.0;     ///< of sizes by distance, before refinement
+  double growth_ = 0.0;  ///< of sizes by distance, before refinement
 };
 
 }  // namespace sterna::surfmesh

@@ -65,7 +65,8 @@ void add_over(const Facet& facet, const SizeSource& source, std::vector<SizeSour
   const double longest = std::max({distance(facet.p[0], facet.p[1]), distance(facet.p[1], facet.p[2]), distance(facet.p[2], facet.p[0])});
   const double n = std::clamp(std::ceil(longest / source.size), 1.0, k_most);
   for (double i = 0.5; i < n; i += 1.0)
-    for (double k = 0.5; i + k <= n; k += 1.0) sources.push_back({facet.p[0] + (i / n) * (facet.p[1] - facet.p[0]) + (k / n) * (facet.p[2] - facet.p[0]), source.size});
+    for (double k = 0.5; i + k <= n; k += 1.0)
+      sources.push_back({facet.p[0] + (i / n) * (facet.p[1] - facet.p[0]) + (k / n) * (facet.p[2] - facet.p[0]), source.size});
 }
 
 }  // namespace
@@ -87,32 +88,37 @@ void add_gap_sources(const Model& model, const SurfaceSizes& field, const Surfac
   // Of a gap the size asked for is share * width: wider ones than this part of the largest edge ask for nothing.
   const double share_of_gap = options.gap_cells > 0.0 ? 1.0 / (options.gap_cells * options.refinement) : 0.0;
   const double share_of_part = is_automatic(options.thickness_factor) ? 0.0 : options.thickness_factor / options.refinement;
-  parallel_for(context, facets.size(), [&](std::size_t i) {
-    const Facet& from = facets[i];
-    const Point middle = (from.p[0] + from.p[1] + from.p[2]) / 3.0;
-    const FaceSizes& own = sizes.faces[from.face];
-    for (const auto& [share, way] : {std::pair(share_of_gap, from.normal), std::pair(share_of_part, -1.0 * from.normal)}) {
-      if (share == 0.0) continue;
-      const double reach = own.max_edge / share;
-      Box box;
-      box.add(middle);
-      box.add(middle + reach * way);
-      double nearest = reach;
-      std::uint32_t at = 0;
-      tree.for_each_overlap(box, [&](std::uint32_t k) {
-        if (dot(facets[k].normal, from.normal) > -k_facing_cosine) return true;
-        const std::optional<double> t = hit(middle, way, reach, facets[k]);
-        if (t && (*t < nearest || (*t == nearest && k < at))) {
-          nearest = *t;
-          at = k;
+  parallel_for(
+      context, facets.size(),
+      [&](std::size_t i) {
+        const Facet& from = facets[i];
+        const Point middle = (from.p[0] + from.p[1] + from.p[2]) / 3.0;
+        const FaceSizes& own = sizes.faces[from.face];
+        for (const auto& [share, way] : {std::pair(share_of_gap, from.normal), std::pair(share_of_part, -1.0 * from.normal)}) {
+          if (share == 0.0) continue;
+          const double reach = own.max_edge / share;
+          Box box;
+          box.add(middle);
+          box.add(middle + reach * way);
+          double nearest = reach;
+          std::uint32_t at = 0;
+          tree.for_each_overlap(box, [&](std::uint32_t k) {
+            if (dot(facets[k].normal, from.normal) > -k_facing_cosine) return true;
+            const std::optional<double> t = hit(middle, way, reach, facets[k]);
+            if (t && (*t < nearest || (*t == nearest && k < at))) {
+              nearest = *t;
+              at = k;
+            }
+            return true;
+          });
+          if (nearest >= reach) continue;
+          const FaceSizes& other = sizes.faces[facets[at].face];
+          found[i].push_back({facets[at].face,
+                              {middle, std::max(own.limits.min_edge, share * nearest)},
+                              {middle + nearest * way, std::max(other.limits.min_edge, share * nearest)}});
         }
-        return true;
-      });
-      if (nearest >= reach) continue;
-      const FaceSizes& other = sizes.faces[facets[at].face];
-      found[i].push_back({facets[at].face, {middle, std::max(own.limits.min_edge, share * nearest)}, {middle + nearest * way, std::max(other.limits.min_edge, share * nearest)}});
-    }
-  }, 256);
+      },
+      256);
   Column<FaceId, std::vector<SizeSource>> sources(model.faces.size());
   for (std::size_t i = 0; i < facets.size(); ++i)
     for (const Found& f : found[i]) {

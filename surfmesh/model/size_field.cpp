@@ -28,7 +28,9 @@ std::vector<SizeSource> thinned(const std::vector<SizeSource>& sources, double l
     int level = 0;
     std::frexp(s.size, &level);
     const double side = std::ldexp(k_thinning, level);
-    entries.push_back({{level, static_cast<std::int64_t>(std::floor(s.point.x / side)), static_cast<std::int64_t>(std::floor(s.point.y / side)), static_cast<std::int64_t>(std::floor(s.point.z / side))}, s});
+    entries.push_back({{level, static_cast<std::int64_t>(std::floor(s.point.x / side)), static_cast<std::int64_t>(std::floor(s.point.y / side)),
+                        static_cast<std::int64_t>(std::floor(s.point.z / side))},
+                       s});
   }
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.cell != b.cell ? a.cell < b.cell : is_before(a.source, b.source); });
   std::vector<SizeSource> result;
@@ -65,7 +67,9 @@ std::uint32_t SizeField::build(std::uint32_t first, std::uint32_t count) {
     if (node.high[k] - node.low[k] > node.high[axis] - node.low[axis]) axis = k;
   const std::uint32_t half = count / 2;
   const auto begin = sources_.begin() + first;
-  std::nth_element(begin, begin + half, begin + count, [axis](const SizeSource& a, const SizeSource& b) { return a.point[axis] != b.point[axis] ? a.point[axis] < b.point[axis] : is_before(a, b); });
+  std::nth_element(begin, begin + half, begin + count, [axis](const SizeSource& a, const SizeSource& b) {
+    return a.point[axis] != b.point[axis] ? a.point[axis] < b.point[axis] : is_before(a, b);
+  });
   build(first, half);
   const std::uint32_t right = build(first + half, count - half);
   nodes_[id].right = right;
@@ -88,7 +92,8 @@ double SizeField::operator()(const Point& p, double cap, double reach) const {
     if (entry.bound >= best) continue;
     const Node& node = nodes_[entry.node];
     if (node.right == 0) {
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) best = std::min(best, sources_[i].size + growth_ * std::max(0.0, distance(p, sources_[i].point) - reach));
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+        best = std::min(best, sources_[i].size + growth_ * std::max(0.0, distance(p, sources_[i].point) - reach));
       continue;
     }
     const Entry left{bound_of(entry.node + 1), entry.node + 1}, right{bound_of(node.right), node.right};

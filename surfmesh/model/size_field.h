@@ -28,9 +28,9 @@ class SizeField {
  private:
   struct Node {
     Point low, high;
-    double least = 0.0;        ///< size of its sources
+    double least = 0.0;                  ///< size of its sources
     std::uint32_t first = 0, count = 0;  ///< of sources_
-    std::uint32_t right = 0;   ///< child; the left one follows its parent. 0: a leaf
+    std::uint32_t right = 0;             ///< child; the left one follows its parent. 0: a leaf
   };
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
 

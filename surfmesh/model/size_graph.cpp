@@ -7,8 +7,8 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Sine of the angle between a straight way and the surface at its end, above which it is no longer taken for a way along the surface: an arc with that angle at
-/// both ends is 0.7 % longer than its chord.
+/// Sine of the angle between a straight way and the surface at its end, above which it is no longer taken for a way along the surface: an arc with that angle
+/// at both ends is 0.7 % longer than its chord.
 constexpr double k_plain_sine = 0.2;
 /// A way may bend by 60 degrees from its straight line at a node: the grid has a neighbour within 35 degrees of every direction.
 constexpr double k_forward_cosine = 0.5;
@@ -88,7 +88,9 @@ struct Carrier {
     for (std::uint32_t n = 0; n < graph.points.size(); ++n) {
       if (graph.is_passing[n] == 0) continue;
       bool has_gain = false;
-      for_neighbours(n, [&](std::uint32_t m) { has_gain = has_gain || graph.sizes[n] + growth * distance(graph.points[n], graph.points[m]) < graph.sizes[m] * (1.0 - k_least_gain); });
+      for_neighbours(n, [&](std::uint32_t m) {
+        has_gain = has_gain || graph.sizes[n] + growth * distance(graph.points[n], graph.points[m]) < graph.sizes[m] * (1.0 - k_least_gain);
+      });
       if (has_gain) first.push_back({graph.sizes[n], n});
     }
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue(std::greater<>{}, std::move(first));

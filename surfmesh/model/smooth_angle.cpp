@@ -1,5 +1,5 @@
-// Each face measures its inner edges and lists those of its border with the exact normals at their ends; lists are sorted together, and edges of two triangles whose
-// normals agree on both sides are measured, too.
+// Each face measures its inner edges and lists those of its border with the exact normals at their ends; lists are sorted together, and edges of two triangles
+// whose normals agree on both sides are measured, too.
 #include "surfmesh/model/smooth_angle.h"
 
 #include <algorithm>
@@ -73,7 +73,11 @@ FaceAngles measure_face(const ModelFace& model_face, FaceId f, const MeshedFace&
     }
     ++i;
     if (e.high >= mesh.n_border) continue;  // of a triangle that stands for a point of a pole
-    BorderEdge edge{.face = f, .triangle = e.triangle, .exact = {exact_normal(e.low), exact_normal(e.high)}, .normal = normal(e.triangle), .middle = 0.5 * (mesh.points[e.low] + mesh.points[e.high])};
+    BorderEdge edge{.face = f,
+                    .triangle = e.triangle,
+                    .exact = {exact_normal(e.low), exact_normal(e.high)},
+                    .normal = normal(e.triangle),
+                    .middle = 0.5 * (mesh.points[e.low] + mesh.points[e.high])};
     edge.low = face.border_ids[e.low].value();
     edge.high = face.border_ids[e.high].value();
     if (edge.low > edge.high) {
@@ -95,10 +99,13 @@ bool is_tangent(const BorderEdge& a, const BorderEdge& b) {
 
 SmoothAngle measure_smooth_angle(const Model& model, const Column<FaceId, MeshedFace>& faces, const RunContext& context) {
   Column<FaceId, FaceAngles> angles(faces.size());
-  parallel_for(context, faces.size(), [&](std::size_t i) {
-    const FaceId f(static_cast<std::uint64_t>(i));
-    if (!faces[f].failure) angles[f] = measure_face(model.faces[f], f, faces[f]);
-  }, 1);
+  parallel_for(
+      context, faces.size(),
+      [&](std::size_t i) {
+        const FaceId f(static_cast<std::uint64_t>(i));
+        if (!faces[f].failure) angles[f] = measure_face(model.faces[f], f, faces[f]);
+      },
+      1);
   SmoothAngle best;
   std::vector<BorderEdge> border;
   for (const FaceAngles& face : angles) {

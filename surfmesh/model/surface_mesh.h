@@ -45,12 +45,12 @@ struct SurfaceMeshOptions {
 
 /// What faces (patches) whose names match ask for instead; not a number: as the options above say.
 struct PatchSurfaceOptions {
-  std::string names;                      ///< glob: "wing*", "*" any run of characters, "?" any one
-  double max_edge = k_automatic;          ///< m
-  double min_edge = k_automatic;          ///< m
-  double curvature_angle = k_automatic;   ///< rad
-  double chord_error = k_automatic;       ///< m
-  double leading_edge_chordwise = k_automatic;   ///< m
+  std::string names;                            ///< glob: "wing*", "*" any run of characters, "?" any one
+  double max_edge = k_automatic;                ///< m
+  double min_edge = k_automatic;                ///< m
+  double curvature_angle = k_automatic;         ///< rad
+  double chord_error = k_automatic;             ///< m
+  double leading_edge_chordwise = k_automatic;  ///< m
   double leading_edge_stretch = k_automatic;
   double leading_edge_growth = k_automatic;
   double trailing_edge_chordwise = k_automatic;  ///< m
@@ -79,32 +79,32 @@ struct FaceMeshSummary {
   FaceId face;
   std::string name;
   std::int64_t n_triangles = 0;
-  std::int64_t n_band = 0;            ///< of them in bands and strips, which the angles here say nothing of
-  double min_angle = 0.0;             ///< rad
+  std::int64_t n_band = 0;  ///< of them in bands and strips, which the angles here say nothing of
+  double min_angle = 0.0;   ///< rad
   double max_angle = 0.0;
   Point worst_place{};                ///< where the smallest angle is
   std::int64_t n_outside_20_130 = 0;  ///< triangles with an angle outside [20, 130] degrees
   double max_normal_angle = 0.0;      ///< rad: between a triangle and the surface at a corner of it
   Point normal_place{};
-  double curvature_angle = 0.0;       ///< rad: what it was to be at most
-  double area = 0.0;                  ///< m^2, of its triangles
-  double area_above = 0.0;            ///< m^2, of those whose normals are off by more
+  double curvature_angle = 0.0;  ///< rad: what it was to be at most
+  double area = 0.0;             ///< m^2, of its triangles
+  double area_above = 0.0;       ///< m^2, of those whose normals are off by more
 };
 
 /// A thing of the model that the mesh does not show.
 struct AbsorbedPart {
-  std::string what;    ///< "edge shorter than its tolerance", with the names of faces
+  std::string what;  ///< "edge shorter than its tolerance", with the names of faces
   Point place;
-  double size = 0.0;   ///< metres
+  double size = 0.0;  ///< metres
 };
 
 /// Two faces whose triangles cross, or one whose own do.
 struct CrossingFaces {
   FaceId first, second;
   std::int64_t n_pairs = 0;
-  Point place{};               ///< of the first pair
-  bool is_one_part = false;    ///< both of one solid, or of one sheet
-  bool is_closed = false;      ///< the parts of both
+  Point place{};             ///< of the first pair
+  bool is_one_part = false;  ///< both of one solid, or of one sheet
+  bool is_closed = false;    ///< the parts of both
 };
 
 /// An edge whose vertices are farther from a face of it than the model's tolerances say.
@@ -118,8 +118,8 @@ struct LooseEdge {
 
 /// Bands along leading and trailing edges, and strips on blunt trailing edges.
 struct BandSummary {
-  std::int64_t n_edges = 0;        ///< of the model with rows beside them
-  std::int64_t n_strips = 0;       ///< bases
+  std::int64_t n_edges = 0;   ///< of the model with rows beside them
+  std::int64_t n_strips = 0;  ///< bases
   std::int64_t n_triangles = 0;
   double max_stretch = 0.0;        ///< of cells in rows: length along : length across
   double max_strip_stretch = 0.0;  ///< of cells on bases
@@ -130,45 +130,46 @@ struct BandSummary {
 struct SurfaceMeshReport {
   std::vector<FaceMeshSummary> faces;  ///< as in the model
   std::vector<AbsorbedPart> absorbed;
-  double min_angle = 0.0;              ///< rad; these four of isotropic triangles, those of bands apart
+  double min_angle = 0.0;  ///< rad; these four of isotropic triangles, those of bands apart
   double max_angle = 0.0;
-  double mean_radius_ratio = 0.0;      ///< 2 r / R, 1 = equilateral: by area
+  double mean_radius_ratio = 0.0;              ///< 2 r / R, 1 = equilateral: by area
   std::array<std::int64_t, 6> least_angles{};  ///< triangles by their least angle: below 10 degrees, below 20, ... up to 60
-  double angle_quantile_1 = 0.0;       ///< rad: 1 % of the triangles have a smaller least angle
-  double share_20_130 = 1.0;           ///< of the triangles: all angles within
-  FaceId worst_face;                   ///< where min_angle is
-  double max_edge_distance = 0.0;      ///< metres: from a vertex on an edge to a face of it
+  double angle_quantile_1 = 0.0;               ///< rad: 1 % of the triangles have a smaller least angle
+  double share_20_130 = 1.0;                   ///< of the triangles: all angles within
+  FaceId worst_face;                           ///< where min_angle is
+  double max_edge_distance = 0.0;              ///< metres: from a vertex on an edge to a face of it
   Point edge_distance_place{};
   std::vector<LooseEdge> loose_edges;  ///< by falling distance / tolerance
   FaceId worst_normal_face;            ///< whose normals exceed the wanted angle by most; invalid where none does
   double share_normals = 1.0;          ///< of the area: triangles within the curvature angle of the surface's normals at their corners
   double max_smooth_angle = 0.0;       ///< rad: largest turn between two triangles where the model has no crease; what a feature angle has to exceed
   Point smooth_angle_place{};
-  std::int64_t n_free_edges = 0;       ///< of triangles: along free edges of the model
-  int n_rounds = 1;                    ///< of meshing; above 1 where places had to be refined to come out right
-  std::int64_t n_crossings = 0;        ///< pairs of triangles that cross and could not be refined away
+  std::int64_t n_free_edges = 0;         ///< of triangles: along free edges of the model
+  int n_rounds = 1;                      ///< of meshing; above 1 where places had to be refined to come out right
+  std::int64_t n_crossings = 0;          ///< pairs of triangles that cross and could not be refined away
   std::vector<CrossingFaces> crossings;  ///< by falling number; of the first 100 000 pairs
   BandSummary bands;
 };
 
 /// A surface mesh that remembers its model.
 struct SurfaceMesh {
-  TriMesh mesh;                                ///< a patch for each name of a face; vertices: corners, then edges', then inner ones, part by part where parts were joined (join_parts.h)
-  Column<VertexId, VertexPlace> places;        ///< vertices on edges: on the first face that uses them
+  TriMesh mesh;  ///< a patch for each name of a face; vertices: corners, then edges', then inner ones, part by part where parts were joined (join_parts.h)
+  Column<VertexId, VertexPlace> places;  ///< vertices on edges: on the first face that uses them
   Column<VertexId, EdgePlace> edge_places;
   Column<CornerId, VertexId> corner_vertices;  ///< of the model's corners; invalid where no triangle has it
   Column<TriangleId, FaceId> triangle_face;
-  Column<TriangleId, std::uint8_t> is_band;    ///< laid in rows, possibly stretched
+  Column<TriangleId, std::uint8_t> is_band;  ///< laid in rows, possibly stretched
   SurfaceMeshReport report;
 };
 
 /// Meshes a whole model. Vertices inside faces are exactly on their surface, those on edges exactly on the edge's curve, corners are the model's.
 /// Normals point outwards as the model's faces say. Closed models give closed meshes; elsewhere boundary loops are the model's free edges.
-/// \throws Error(geometry_failed) naming the faces that cannot be meshed, with places; Error(bad_argument) for sizes that are not positive or a rule that no face's name
-/// matches; Error(overflow) beyond max_triangles, at once where sizes and areas say so; Error(non_manifold_surface) where triangles of faces do not join;
-/// Error(self_intersection) where triangles cross that finer ones do not part, unless options.crossings says otherwise
+/// \throws Error(geometry_failed) naming the faces that cannot be meshed, with places; Error(bad_argument) for sizes that are not positive or a rule that no
+/// face's name matches; Error(overflow) beyond max_triangles, at once where sizes and areas say so; Error(non_manifold_surface) where triangles of faces do not
+/// join; Error(self_intersection) where triangles cross that finer ones do not part, unless options.crossings says otherwise
 SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const RunContext& context);
-SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked, const RunContext& context);
+SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, std::span<const PatchSurfaceOptions> patches, const SpaceSizes& asked,
+                       const RunContext& context);
 
 /// Several lines for people.
 std::string to_text(const SurfaceMeshReport& report);
@@ -182,28 +183,112 @@ struct Schema<surfmesh::SurfaceMeshOptions> {
   using O = surfmesh::SurfaceMeshOptions;
   static constexpr std::string_view stage = "surface_mesh";
   static constexpr std::array fields = {
-      Field<O>{.name = "max_edge", .member = &O::max_edge, .unit = Unit::metre, .min = 1e-9, .help = "longest edge wanted", .automatic = "8 % of the mean circumference of bodies, 15 % of the mean chord of wings, else 2 % of the component's longest side and a quarter of the root of each face's area"},
-      Field<O>{.name = "min_edge", .member = &O::min_edge, .unit = Unit::metre, .min = 0.0, .help = "curvature and narrow places ask for no shorter edges", .automatic = "2 % of the longest edge"},
-      Field<O>{.name = "curvature_angle", .member = &O::curvature_angle, .unit = Unit::radian, .min = 0.001, .max = 1.6, .help = "an edge spans at most this angle of the surface"},
-      Field<O>{.name = "chord_error", .member = &O::chord_error, .unit = Unit::metre, .min = 1e-9, .help = "an edge's middle is at most this far from the surface", .automatic = "no limit"},
+      Field<O>{.name = "max_edge",
+               .member = &O::max_edge,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "longest edge wanted",
+               .automatic = "8 % of the mean circumference of bodies, 15 % of the mean chord of wings, else 2 % of the component's longest side and a quarter "
+                            "of the root of each face's area"},
+      Field<O>{.name = "min_edge",
+               .member = &O::min_edge,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "curvature and narrow places ask for no shorter edges",
+               .automatic = "2 % of the longest edge"},
+      Field<O>{.name = "curvature_angle",
+               .member = &O::curvature_angle,
+               .unit = Unit::radian,
+               .min = 0.001,
+               .max = 1.6,
+               .help = "an edge spans at most this angle of the surface"},
+      Field<O>{.name = "chord_error",
+               .member = &O::chord_error,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "an edge's middle is at most this far from the surface",
+               .automatic = "no limit"},
       Field<O>{.name = "growth", .member = &O::growth, .min = 1.01, .max = 3.0, .help = "ratio of the lengths of edges that follow each other, at most"},
-      Field<O>{.name = "refinement", .member = &O::refinement, .min = 0.01, .max = 100.0, .help = "lengths, angles and growth - 1 are divided by it: 1.5 for the next finer mesh of a family; give volume_mesh the same", .choices = "extra_coarse=0.4444444444444444 coarse=0.6666666666666666 medium=1 fine=1.5 extra_fine=2.25"},
-      Field<O>{.name = "narrow", .member = &O::narrow, .min = 0.1, .max = 100.0, .help = "edges along narrow faces are at most this many times their width (never below a fifth of min_edge)"},
-      Field<O>{.name = "leading_edge_factor", .member = &O::leading_edge_factor, .min = 0.01, .max = 1.0, .help = "of the longest edge, at leading edges of wings made of sections; one from half of the chord on"},
-      Field<O>{.name = "trailing_edge_factor", .member = &O::trailing_edge_factor, .min = 0.01, .max = 1.0, .help = "of the longest edge, at trailing edges of such wings"},
-      Field<O>{.name = "tip_strips", .member = &O::tip_strips, .help = "of such wings 0.4 of the longest edge within 3 % of the span from tips, 0.6 within 6 %"},
-      Field<O>{.name = "intersection_factor", .member = &O::intersection_factor, .min = 0.01, .max = 1.0, .help = "of the longest edge of their faces, along edges in which components of a union meet"},
-      Field<O>{.name = "gap_cells", .member = &O::gap_cells, .min = 0.0, .max = 20.0, .help = "edges that fit across a gap between faces that look at each other; 0: gaps are not looked for"},
-      Field<O>{.name = "thickness_factor", .member = &O::thickness_factor, .min = 0.1, .max = 100.0, .help = "edges are at most this many times as long as the part is thick", .automatic = "no limit"},
-      Field<O>{.name = "crossings", .member = &O::crossings, .help = "triangles that cross are refined; what still crosses is an error, or kept with a warning; ignore: not looked for", .choices = "error warn ignore"},
-      Field<O>{.name = "max_triangles", .member = &O::max_triangles, .min = 1, .max = 2e9, .help = "more than that are an error, at once where sizes and areas foretell it"},
-      Field<O>{.name = "leading_edge_chordwise", .member = &O::leading_edge_chordwise, .unit = Unit::metre, .min = 1e-9, .help = "first cell beside leading edges of wings, in a band of stretched triangles", .automatic = "no band, or the longest edge by the stretch"},
-      Field<O>{.name = "leading_edge_stretch", .member = &O::leading_edge_stretch, .min = 1.0, .max = 50.0, .help = "longest cell along : first cell across", .automatic = "no band, or 10"},
+      Field<O>{.name = "refinement",
+               .member = &O::refinement,
+               .min = 0.01,
+               .max = 100.0,
+               .help = "lengths, angles and growth - 1 are divided by it: 1.5 for the next finer mesh of a family; give volume_mesh the same",
+               .choices = "extra_coarse=0.4444444444444444 coarse=0.6666666666666666 medium=1 fine=1.5 extra_fine=2.25"},
+      Field<O>{.name = "narrow",
+               .member = &O::narrow,
+               .min = 0.1,
+               .max = 100.0,
+               .help = "edges along narrow faces are at most this many times their width (never below a fifth of min_edge)"},
+      Field<O>{.name = "leading_edge_factor",
+               .member = &O::leading_edge_factor,
+               .min = 0.01,
+               .max = 1.0,
+               .help = "of the longest edge, at leading edges of wings made of sections; one from half of the chord on"},
+      Field<O>{.name = "trailing_edge_factor",
+               .member = &O::trailing_edge_factor,
+               .min = 0.01,
+               .max = 1.0,
+               .help = "of the longest edge, at trailing edges of such wings"},
+      Field<O>{
+          .name = "tip_strips", .member = &O::tip_strips, .help = "of such wings 0.4 of the longest edge within 3 % of the span from tips, 0.6 within 6 %"},
+      Field<O>{.name = "intersection_factor",
+               .member = &O::intersection_factor,
+               .min = 0.01,
+               .max = 1.0,
+               .help = "of the longest edge of their faces, along edges in which components of a union meet"},
+      Field<O>{.name = "gap_cells",
+               .member = &O::gap_cells,
+               .min = 0.0,
+               .max = 20.0,
+               .help = "edges that fit across a gap between faces that look at each other; 0: gaps are not looked for"},
+      Field<O>{.name = "thickness_factor",
+               .member = &O::thickness_factor,
+               .min = 0.1,
+               .max = 100.0,
+               .help = "edges are at most this many times as long as the part is thick",
+               .automatic = "no limit"},
+      Field<O>{.name = "crossings",
+               .member = &O::crossings,
+               .help = "triangles that cross are refined; what still crosses is an error, or kept with a warning; ignore: not looked for",
+               .choices = "error warn ignore"},
+      Field<O>{.name = "max_triangles",
+               .member = &O::max_triangles,
+               .min = 1,
+               .max = 2e9,
+               .help = "more than that are an error, at once where sizes and areas foretell it"},
+      Field<O>{.name = "leading_edge_chordwise",
+               .member = &O::leading_edge_chordwise,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "first cell beside leading edges of wings, in a band of stretched triangles",
+               .automatic = "no band, or the longest edge by the stretch"},
+      Field<O>{.name = "leading_edge_stretch",
+               .member = &O::leading_edge_stretch,
+               .min = 1.0,
+               .max = 50.0,
+               .help = "longest cell along : first cell across",
+               .automatic = "no band, or 10"},
       Field<O>{.name = "leading_edge_growth", .member = &O::leading_edge_growth, .min = 1.01, .max = 1.2, .help = "ratio of rows that follow each other"},
-      Field<O>{.name = "trailing_edge_chordwise", .member = &O::trailing_edge_chordwise, .unit = Unit::metre, .min = 1e-9, .help = "first cell beside trailing edges of wings, on both sides", .automatic = "no band, or the longest edge by the stretch"},
-      Field<O>{.name = "trailing_edge_stretch", .member = &O::trailing_edge_stretch, .min = 1.0, .max = 50.0, .help = "longest cell along : first cell across", .automatic = "no band, or 10"},
+      Field<O>{.name = "trailing_edge_chordwise",
+               .member = &O::trailing_edge_chordwise,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "first cell beside trailing edges of wings, on both sides",
+               .automatic = "no band, or the longest edge by the stretch"},
+      Field<O>{.name = "trailing_edge_stretch",
+               .member = &O::trailing_edge_stretch,
+               .min = 1.0,
+               .max = 50.0,
+               .help = "longest cell along : first cell across",
+               .automatic = "no band, or 10"},
       Field<O>{.name = "trailing_edge_growth", .member = &O::trailing_edge_growth, .min = 1.01, .max = 1.2, .help = "ratio of rows that follow each other"},
-      Field<O>{.name = "trailing_edge_cells", .member = &O::trailing_edge_cells, .min = 1.0, .max = 100.0, .help = "cells across the base of blunt trailing edges (rounded to a whole number)", .automatic = "as sizes say; with a band its first cell"},
+      Field<O>{.name = "trailing_edge_cells",
+               .member = &O::trailing_edge_cells,
+               .min = 1.0,
+               .max = 100.0,
+               .help = "cells across the base of blunt trailing edges (rounded to a whole number)",
+               .automatic = "as sizes say; with a band its first cell"},
   };
 };
 

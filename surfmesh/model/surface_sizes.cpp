@@ -78,7 +78,9 @@ struct SurfaceSizes::Builder {
     field.edges_.resize(model.edges.size());
     for (const EdgeId e : model.edges.ids())
       for (const Stop& s : stops[e]) field.edges_[e].push_back({s.t, graph.sizes[s.node]});
-    parallel_for(context, model.faces.size(), [&](std::size_t i) { keep_face(FaceId(static_cast<std::uint64_t>(i)), first_node[FaceId(static_cast<std::uint64_t>(i))]); }, 1);
+    parallel_for(
+        context, model.faces.size(),
+        [&](std::size_t i) { keep_face(FaceId(static_cast<std::uint64_t>(i)), first_node[FaceId(static_cast<std::uint64_t>(i))]); }, 1);
   }
 
   /// Samples of the edge, thinned to the distance that sizes need there, or with places between them.
@@ -194,7 +196,10 @@ struct SurfaceSizes::Builder {
     }
     const double cap = sizes.faces[f].max_edge;
     const FaceGrid::Bounds bounds{.at = [&, f](const Point& p) { return field.bound_(p, sizes.places(f, p)); },
-                                  .is_level_within = [&, f, cap](const Point& p, double reach) { return !keeps_grids && sizes.places.is_level_within(f, p, reach) && field.bound_(p, cap, reach) >= cap; },
+                                  .is_level_within =
+                                      [&, f, cap](const Point& p, double reach) {
+                                        return !keeps_grids && sizes.places.is_level_within(f, p, reach) && field.bound_(p, cap, reach) >= cap;
+                                      },
                                   .largest = cap};
     field.faces_[f].grid = FaceGrid(*model.faces[f].surface, box, loops, bounds);
   }
@@ -210,7 +215,8 @@ struct SurfaceSizes::Builder {
       std::vector<Stop>& list = stops[e];
       for (std::size_t k = 0; k < list.size(); ++k) {
         const bool is_end = k == 0 || k + 1 == list.size();
-        list[k].node = is_end ? topology.corner[k == 0 ? model.edges[e].start : model.edges[e].end].value() : graph.add_node(list[k].point, list[k].normals, list[k].asked, true);
+        list[k].node = is_end ? topology.corner[k == 0 ? model.edges[e].start : model.edges[e].end].value()
+                              : graph.add_node(list[k].point, list[k].normals, list[k].asked, true);
         graph.sizes[list[k].node] = std::min(graph.sizes[list[k].node], list[k].asked);
         if (k > 0) join(list[k - 1].node, list[k].node);
       }
@@ -220,7 +226,8 @@ struct SurfaceSizes::Builder {
       const SameEdge& same = topology.same_as[e];
       if (same.edge == e || stops[e].empty() || stops[same.edge].empty()) continue;
       for (const Stop& s : stops[e]) {
-        const auto nearest = std::min_element(stops[same.edge].begin(), stops[same.edge].end(), [&](const Stop& a, const Stop& b) { return norm2(a.point - s.point) < norm2(b.point - s.point); });
+        const auto nearest = std::min_element(stops[same.edge].begin(), stops[same.edge].end(),
+                                              [&](const Stop& a, const Stop& b) { return norm2(a.point - s.point) < norm2(b.point - s.point); });
         join(s.node, nearest->node);
       }
     }
@@ -262,7 +269,8 @@ struct SurfaceSizes::Builder {
     std::size_t hanging = 0;
     for (std::size_t c = 0; c < face.grid.cells().size(); ++c) {
       std::vector<std::uint32_t>& list = stops_in[c];
-      for (; hanging < face.grid.hanging().size() && face.grid.hanging()[hanging].cell == c; ++hanging) list.push_back(first + face.grid.hanging()[hanging].node);
+      for (; hanging < face.grid.hanging().size() && face.grid.hanging()[hanging].cell == c; ++hanging)
+        list.push_back(first + face.grid.hanging()[hanging].node);
       if (face.grid.cells()[c].is_level || (!face.grid.cells()[c].is_used && list.empty())) continue;
       std::sort(list.begin(), list.end());
       list.erase(std::unique(list.begin(), list.end()), list.end());
@@ -315,7 +323,8 @@ struct SurfaceSizes::Builder {
   }
 };
 
-SurfaceSizes::SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes, std::vector<SizeSource> in_space, const RunContext& context, bool keeps_grids)
+SurfaceSizes::SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes,
+                           std::vector<SizeSource> in_space, const RunContext& context, bool keeps_grids)
     : bound_({}, sizes.growth, sizes.largest), growth_(sizes.growth), largest_(sizes.largest) {
   in_space.insert(in_space.end(), sizes.in_space.begin(), sizes.in_space.end());
   std::vector<SizeSource> all = sizes.sources;
@@ -330,7 +339,8 @@ double SurfaceSizes::on_face(FaceId face, Uv at, const Point& point) const {
   const FaceGrid::Place place = field.grid.find(at);
   const Cell& cell = field.cells[place.cell];
   const double s = place.s, t = place.t;
-  double size = (1.0 - t) * ((1.0 - s) * static_cast<double>(cell.sizes[0]) + s * static_cast<double>(cell.sizes[1])) + t * ((1.0 - s) * static_cast<double>(cell.sizes[2]) + s * static_cast<double>(cell.sizes[3]));
+  double size = (1.0 - t) * ((1.0 - s) * static_cast<double>(cell.sizes[0]) + s * static_cast<double>(cell.sizes[1])) +
+                t * ((1.0 - s) * static_cast<double>(cell.sizes[2]) + s * static_cast<double>(cell.sizes[3]));
   for (std::uint32_t i = cell.first; i < cell.first + cell.n_segments; ++i) {
     const Segment& segment = field.segments[i];
     const auto size_a = static_cast<double>(segment.size_a), size_b = static_cast<double>(segment.size_b);

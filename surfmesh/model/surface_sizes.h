@@ -21,9 +21,10 @@ namespace sterna::surfmesh {
 /// Away from where it is asked for within about 5 % of the formula. Linear in the number of triangles that such sizes make, but for the order of the carrying.
 class SurfaceSizes {
  public:
-  /// `in_space`: sources that count on all faces within their reach, besides those of `sizes`. With `keeps_grids` the nodes of grid() stay, and cells are no longer than two edges
-  /// everywhere.
-  SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes, std::vector<SizeSource> in_space, const RunContext& context, bool keeps_grids = false);
+  /// `in_space`: sources that count on all faces within their reach, besides those of `sizes`. With `keeps_grids` the nodes of grid() stay, and cells are no
+  /// longer than two edges everywhere.
+  SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes,
+               std::vector<SizeSource> in_space, const RunContext& context, bool keeps_grids = false);
 
   /// Metres, from many threads. \pre the face is not absorbed
   double on_face(FaceId face, Uv at, const Point& point) const;

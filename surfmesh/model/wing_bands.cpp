@@ -43,9 +43,9 @@ struct Side {
 };
 
 struct Look {
-  Vec3 normal;    ///< as the model has it
-  Vec3 inwards;   ///< along the surface, from the edge into the face
-  Vec3 bend;      ///< 1/m: curvature in that direction, towards its centre
+  Vec3 normal;   ///< as the model has it
+  Vec3 inwards;  ///< along the surface, from the edge into the face
+  Vec3 bend;     ///< 1/m: curvature in that direction, towards its centre
   bool is_valid = false;
 };
 
@@ -72,9 +72,9 @@ Look look(const Model& model, const Side& side, double share) {
 /// The same for the faces of a solid and those of the fluid around it, whose normals look the other way.
 struct Shape {
   int n_smooth = 0, n_sharp = 0;
-  int n_base = 0;           ///< convex ones less concave ones
-  double looks = 0.0;       ///< mean x of where the edge looks
-  double curvature = 0.0;   ///< mean across, the lesser side's
+  int n_base = 0;          ///< convex ones less concave ones
+  double looks = 0.0;      ///< mean x of where the edge looks
+  double curvature = 0.0;  ///< mean across, the lesser side's
 };
 
 Shape shape_of(const Model& model, const Side& a, const Side& b) {
@@ -136,7 +136,7 @@ struct Finding {
   const ModelSizes& sizes;
   const ModelTopology& topology;
   WingBands bands;
-  Column<EdgeId, std::vector<Side>> sides;   ///< of edges that stand for themselves, faces that are left
+  Column<EdgeId, std::vector<Side>> sides;  ///< of edges that stand for themselves, faces that are left
 
   const FaceSizes& of(const Side& side) const { return sizes.faces[side.place.face]; }
   bool is_strip(const Side& side) const { return bands.strips[side.place.face].has_value(); }
@@ -181,7 +181,8 @@ std::optional<BaseStrip> strip_of(const Finding& finding, FaceId f) {
   std::size_t a = 0, b = 2;
   if (uses.size() == 4 && uses[1].length + uses[3].length > uses[0].length + uses[2].length) a = 1, b = 3;
   if (uses.size() == 3) {
-    const std::size_t shortest = static_cast<std::size_t>(std::min_element(uses.begin(), uses.end(), [](const Use& p, const Use& q) { return p.length < q.length; }) - uses.begin());
+    const std::size_t shortest =
+        static_cast<std::size_t>(std::min_element(uses.begin(), uses.end(), [](const Use& p, const Use& q) { return p.length < q.length; }) - uses.begin());
     a = shortest == 0 ? 1 : 0;
     b = shortest == 2 ? 1 : 2;
   }
@@ -217,8 +218,10 @@ void find_strips(Finding& finding) {
   for (const FaceId f : finding.model.faces.ids()) {
     std::optional<BaseStrip> strip = strip_of(finding, f);
     if (!strip) {
-      if (finding.topology.is_absorbed[f] != 0 && finding.model.faces[f].role == FaceRole::trailing_edge && !is_automatic(finding.sizes.faces[f].trailing_cells))
-        finding.bands.notes.push_back("the base of \"" + finding.model.faces[f].name + "\" is too narrow for cells (smaller edges: min_edge); its trailing edge is sharp in the mesh");
+      if (finding.topology.is_absorbed[f] != 0 && finding.model.faces[f].role == FaceRole::trailing_edge &&
+          !is_automatic(finding.sizes.faces[f].trailing_cells))
+        finding.bands.notes.push_back("the base of \"" + finding.model.faces[f].name +
+                                      "\" is too narrow for cells (smaller edges: min_edge); its trailing edge is sharp in the mesh");
       continue;
     }
     double cells = finding.sizes.faces[f].trailing_cells;
@@ -238,10 +241,13 @@ void find_strips(Finding& finding) {
     for (const EdgeId e : strip->short_edges) finding.bands.n_short[e] = std::max(finding.bands.n_short[e], strip->n_cells);
     finding.bands.strips[f] = std::move(strip);
   }
-  const bool is_asked = std::any_of(finding.sizes.faces.begin(), finding.sizes.faces.end(), [](const FaceSizes& face) { return !is_automatic(face.trailing_cells); });
-  const bool is_found = std::any_of(finding.bands.strips.begin(), finding.bands.strips.end(), [](const std::optional<BaseStrip>& strip) { return strip.has_value(); });
+  const bool is_asked =
+      std::any_of(finding.sizes.faces.begin(), finding.sizes.faces.end(), [](const FaceSizes& face) { return !is_automatic(face.trailing_cells); });
+  const bool is_found =
+      std::any_of(finding.bands.strips.begin(), finding.bands.strips.end(), [](const std::optional<BaseStrip>& strip) { return strip.has_value(); });
   if (is_asked && !is_found && finding.bands.notes.empty())
-    finding.bands.notes.push_back("trailing_edge cells: no face of the model is the base of a blunt trailing edge (four sides, narrow, looking aft); sharp ones have no cells");
+    finding.bands.notes.push_back(
+        "trailing_edge cells: no face of the model is the base of a blunt trailing edge (four sides, narrow, looking aft); sharp ones have no cells");
   // A short side that two strips share has the finer one's cells; neighbours along the span follow.
   for (bool is_changed = true; is_changed;) {
     is_changed = false;
@@ -296,7 +302,8 @@ void find_edges(Finding& finding) {
     band.first = std::min(max_edge, is_automatic(wish.chordwise) ? max_edge / stretch : wish.chordwise);
     band.longest = std::min(max_edge, stretch * band.first);
     for (const Side& side : sides)
-      if (const auto& strip = finding.bands.strips[side.place.face]) band.longest = std::min(band.longest, k_largest_stretch * strip->width / static_cast<double>(strip->n_cells));
+      if (const auto& strip = finding.bands.strips[side.place.face])
+        band.longest = std::min(band.longest, k_largest_stretch * strip->width / static_cast<double>(strip->n_cells));
     finding.bands.edges[e] = std::move(band);
     finding.bands.is_unused = false;
     for (const Side& side : sides)
@@ -443,13 +450,19 @@ void note_missing(Finding& finding) {
   const auto note = [&](const std::string& rule, const std::string& what, const std::string& hint) {
     std::string names;
     for (const FaceId f : finding.model.faces.ids())
-      if (const std::string& name = finding.model.faces[f].name; (rule.empty() || matches_glob(name, rule)) && may_be_wing(finding.model, f) && names.find("\"" + name + "\"") == std::string::npos && names.size() < 80) names += (names.empty() ? "\"" : ", \"") + name + "\"";
+      if (const std::string& name = finding.model.faces[f].name; (rule.empty() || matches_glob(name, rule)) && may_be_wing(finding.model, f) &&
+                                                                 names.find("\"" + name + "\"") == std::string::npos && names.size() < 80)
+        names += (names.empty() ? "\"" : ", \"") + name + "\"";
     finding.bands.notes.push_back("no edge of " + (names.empty() ? "the model" : "faces " + names) + " is a " + what + ": " + hint);
   };
   for (const auto& [rule, is_found] : leading)
-    if (!is_found) note(rule, "leading edge", "that is an edge between two smooth faces where they turn most, or a sharp one, that looks forward (-x); a face that wraps the nose has none until it is split there");
+    if (!is_found)
+      note(rule, "leading edge",
+           "that is an edge between two smooth faces where they turn most, or a sharp one, that looks forward (-x); a face that wraps the nose has none until "
+           "it is split there");
   for (const auto& [rule, is_found] : trailing)
-    if (!is_found) note(rule, "trailing edge", "that is a sharp edge between two faces, or one of the long sides of a narrow base of four sides, that looks aft (+x)");
+    if (!is_found)
+      note(rule, "trailing edge", "that is a sharp edge between two faces, or one of the long sides of a narrow base of four sides, that looks aft (+x)");
 }
 
 }  // namespace
@@ -468,7 +481,8 @@ bool WingBands::covers(const Column<EdgeId, EdgeSamples>& samples, FaceId f, con
   return false;
 }
 
-void WingBands::overrule(const Column<EdgeId, EdgeSamples>& samples, const std::vector<EdgeUsePlace>& uses, EdgeId e, double largest, std::vector<double>& sizes) const {
+void WingBands::overrule(const Column<EdgeId, EdgeSamples>& samples, const std::vector<EdgeUsePlace>& uses, EdgeId e, double largest,
+                         std::vector<double>& sizes) const {
   if (edges[e]) {
     sizes = edges[e]->spacing;
   } else if (n_short[e] > 0) {
@@ -476,7 +490,8 @@ void WingBands::overrule(const Column<EdgeId, EdgeSamples>& samples, const std::
     sizes.assign(sizes.size(), is_short_ending[e] != 0 ? samples[e].length / static_cast<double>(n_short[e]) : largest);
   } else if (!is_unused) {
     for (std::size_t k = 0; k < sizes.size(); ++k)
-      if (std::all_of(uses.begin(), uses.end(), [&](const EdgeUsePlace& place) { return covers(samples, place.face, samples[e].samples[k].point); })) sizes[k] = largest;
+      if (std::all_of(uses.begin(), uses.end(), [&](const EdgeUsePlace& place) { return covers(samples, place.face, samples[e].samples[k].point); }))
+        sizes[k] = largest;
   }
 }
 
@@ -489,7 +504,8 @@ WingBands find_wing_bands(const Model& model, const Column<EdgeId, EdgeSamples>&
   bands.n_short.resize(model.edges.size(), 0);
   bands.is_short_ending.resize(model.edges.size());
   bands.bands_of_face.resize(model.faces.size());
-  const bool is_any = std::any_of(sizes.faces.begin(), sizes.faces.end(), [](const FaceSizes& f) { return f.leading.is_any() || f.trailing.is_any() || !is_automatic(f.trailing_cells); });
+  const bool is_any = std::any_of(sizes.faces.begin(), sizes.faces.end(),
+                                  [](const FaceSizes& f) { return f.leading.is_any() || f.trailing.is_any() || !is_automatic(f.trailing_cells); });
   if (!is_any) return std::move(bands);
   gather_sides(finding);
   find_strips(finding);

@@ -134,12 +134,12 @@ std::string in_addition(const std::vector<std::string>& others) {
 /// Counts of the defects beside the one that is reported.
 std::vector<std::string> other_defects(const Defects& defects, const Orientation& orientation, bool boundary, bool pinched, bool conflicts) {
   std::vector<std::string> others;
-  if (boundary && !defects.boundary.empty())
-    others.push_back(count_of(static_cast<std::int64_t>(defects.boundary.size()), "boundary edge", "boundary edges"));
+  if (boundary && !defects.boundary.empty()) others.push_back(count_of(static_cast<std::int64_t>(defects.boundary.size()), "boundary edge", "boundary edges"));
   if (pinched && !defects.pinched.empty())
     others.push_back(count_of(static_cast<std::int64_t>(defects.pinched.size()), "vertex with several fans of facets", "vertices with several fans of facets"));
   if (conflicts && !orientation.conflicts.empty())
-    others.push_back(count_of(static_cast<std::int64_t>(orientation.conflicts.size()), "component without a consistent orientation", "components without a consistent orientation"));
+    others.push_back(count_of(static_cast<std::int64_t>(orientation.conflicts.size()), "component without a consistent orientation",
+                              "components without a consistent orientation"));
   return others;
 }
 
@@ -185,7 +185,8 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
   info.n_places = n;
   for (const Edge& edge : defects.boundary) {
     if (info.places.size() < k_max_places)
-      info.places.push_back({middle(surface, edge), "edge of one facet, " + short_number(length(surface, edge)) + " m long, " + facet_name(surface, edges.at(edge)[0] / 3)});
+      info.places.push_back(
+          {middle(surface, edge), "edge of one facet, " + short_number(length(surface, edge)) + " m long, " + facet_name(surface, edges.at(edge)[0] / 3)});
     add_edge(surface, edge, info.geometry);
   }
   const double shortest = std::accumulate(defects.boundary.begin(), defects.boundary.end(), std::numeric_limits<double>::infinity(),
@@ -229,8 +230,8 @@ void add_pinched(const WorkingSurface& surface, const Defects& defects, ErrorInf
 
 }  // namespace
 
-void throw_on_defects(const WorkingSurface& surface, const EdgeTable& edges, const Defects& defects, const Orientation& orientation, const StitchOptions& options,
-                      const RunContext& context) {
+void throw_on_defects(const WorkingSurface& surface, const EdgeTable& edges, const Defects& defects, const Orientation& orientation,
+                      const StitchOptions& options, const RunContext& context) {
   if (!defects.crowded.empty()) throw_crowded(surface, edges, defects, orientation);
   if (!defects.boundary.empty() && !options.allow_open) throw_open(surface, edges, defects, orientation, options, context);
   if (!defects.pinched.empty()) throw_pinched(surface, defects, orientation);
@@ -250,7 +251,8 @@ void throw_self_intersection(const WorkingSurface& surface, const CrossingPairs&
     problems.push_back(std::move(text));
   }
   if (!flat.empty())
-    problems.push_back(count_of(static_cast<std::int64_t>(flat.size()), "facet has", "facets have") + " no area and cannot be removed without changing the surface");
+    problems.push_back(count_of(static_cast<std::int64_t>(flat.size()), "facet has", "facets have") +
+                       " no area and cannot be removed without changing the surface");
   info.problem = problems.front() + (problems.size() > 1 ? "; " + problems.back() : "");
   info.n_places = crossings.total + static_cast<std::int64_t>(flat.size());
   const auto area = [&](std::uint32_t t) {
@@ -281,7 +283,9 @@ void throw_self_intersection(const WorkingSurface& surface, const CrossingPairs&
 
 void throw_empty(const WorkingSurface& surface, const StitchReport& report) {
   ErrorInfo info = start_error(ErrorCode::empty_surface, surface);
-  info.problem = report.n_triangles_read == 0 ? "there is no facet" : "no facet is left: all " + std::to_string(report.n_triangles_read) + " are degenerate or doubled without thickness";
+  info.problem = report.n_triangles_read == 0
+                     ? "there is no facet"
+                     : "no facet is left: all " + std::to_string(report.n_triangles_read) + " are degenerate or doubled without thickness";
   info.hint = "look whether the file holds a surface";
   throw Error(std::move(info));
 }

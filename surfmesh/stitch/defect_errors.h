@@ -15,8 +15,8 @@ namespace sterna::surfmesh {
 ///   2. boundary edges (unless open surfaces are allowed): open_surface, places = edges;
 ///   3. pinched vertices: non_manifold_surface, places = vertices;
 ///   4. no consistent orientation: not_orientable, places = components.
-void throw_on_defects(const WorkingSurface& surface, const EdgeTable& edges, const Defects& defects, const Orientation& orientation, const StitchOptions& options,
-                      const RunContext& context);
+void throw_on_defects(const WorkingSurface& surface, const EdgeTable& edges, const Defects& defects, const Orientation& orientation,
+                      const StitchOptions& options, const RunContext& context);
 
 /// \throws Error(self_intersection), places = crossing pairs + facets of zero area that could not be removed.
 [[noreturn]] void throw_self_intersection(const WorkingSurface& surface, const CrossingPairs& crossings, const std::vector<std::uint32_t>& flat);

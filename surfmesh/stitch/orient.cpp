@@ -18,10 +18,10 @@ constexpr std::uint32_t k_none = 0xffffffffu;
 struct Component {
   std::vector<std::uint32_t> facets;
   Box box;
-  double volume = 0.0;          ///< signed, with consistent orientation, file units cubed
-  double area_as_read = 0.0;    ///< area of facets with the sense of the first facet minus the others'
+  double volume = 0.0;        ///< signed, with consistent orientation, file units cubed
+  double area_as_read = 0.0;  ///< area of facets with the sense of the first facet minus the others'
   bool is_closed = true;
-  std::uint32_t depth = 0;      ///< number of closed components around it
+  std::uint32_t depth = 0;        ///< number of closed components around it
   std::uint32_t parent = k_none;  ///< the innermost of them
 };
 
@@ -132,7 +132,8 @@ Orientation flood_orientation(const WorkingSurface& surface, const EdgeTable& ed
   return result;
 }
 
-void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation, bool is_fluid_inside, StitchReport& report, const RunContext& context) {
+void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation, bool is_fluid_inside, StitchReport& report,
+                    const RunContext& context) {
   std::vector<Component> components = measure_components(surface, edges, orientation);
   find_nesting(surface, orientation, components, context);
   report.n_components = orientation.n_components;

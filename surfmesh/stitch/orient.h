@@ -10,16 +10,17 @@ namespace sterna::surfmesh {
 
 /// Orientation found by flood fill, relative to the file's.
 struct Orientation {
-  std::vector<std::uint32_t> component;        ///< per facet; connected over edges with two facets, numbered by first facet
+  std::vector<std::uint32_t> component;  ///< per facet; connected over edges with two facets, numbered by first facet
   std::uint32_t n_components = 0;
-  std::vector<char> is_flipped;                ///< per facet: opposite to the first facet of its component
-  std::vector<Edge> conflicts;                 ///< one edge for each component that has no consistent orientation
+  std::vector<char> is_flipped;  ///< per facet: opposite to the first facet of its component
+  std::vector<Edge> conflicts;   ///< one edge for each component that has no consistent orientation
 };
 Orientation flood_orientation(const WorkingSurface& surface, const EdgeTable& edges);
 
-/// Applies a consistent orientation: closed components by signed volume and nesting depth (0 = a body, normals out; 1 = a cavity in it, normals into the cavity;
-/// 2 = a body in the cavity ...), open ones by the majority of their area. Depths are found by winding numbers.
-/// \pre no crowded edge, orientation without conflicts.
-void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation, bool is_fluid_inside, StitchReport& report, const RunContext& context);
+/// Applies a consistent orientation: closed components by signed volume and nesting depth (0 = a body, normals out; 1 = a cavity in it, normals into the
+/// cavity; 2 = a body in the cavity ...), open ones by the majority of their area. Depths are found by winding numbers. \pre no crowded edge, orientation
+/// without conflicts.
+void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation, bool is_fluid_inside, StitchReport& report,
+                    const RunContext& context);
 
 }  // namespace sterna::surfmesh

@@ -30,10 +30,8 @@ std::string stem_of(const std::string& source) {
 std::string clean_name(std::string_view name) {
   std::string clean;
   for (const char c : name) {
-    if (is_allowed(c))
-      clean += c;
-    else if (!clean.empty() && clean.back() != '_')
-      clean += '_';
+    if (is_allowed(c)) clean += c;
+    else if (!clean.empty() && clean.back() != '_') clean += '_';
   }
   while (!clean.empty() && clean.back() == '_') clean.pop_back();
   if (!clean.empty() && clean.front() >= '0' && clean.front() <= '9') clean.insert(0, "patch_");

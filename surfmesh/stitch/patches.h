@@ -18,7 +18,8 @@ std::string clean_name(std::string_view name);
 /// The mesh: vertices numbered by first use, patches in the order of the files, unused ones dropped. \pre coordinates in metres.
 TriMesh make_mesh(const WorkingSurface& surface, const std::vector<std::string>& names);
 
-/// Splits each patch into the regions that edges which bend by more than `angle` (rad) cut off; the regions of wing become wing_1, wing_2 ..., by first triangle.
+/// Splits each patch into the regions that edges which bend by more than `angle` (rad) cut off; the regions of wing become wing_1, wing_2 ..., by first
+/// triangle.
 void split_patches(TriMesh& mesh, double angle, const RunContext& context);
 
 }  // namespace sterna::surfmesh

@@ -16,7 +16,8 @@ namespace {
 
 void report_welding(StitchReport& report) {
   if (report.n_unused_vertices > 0) report.messages.push_back("dropped " + count_of(report.n_unused_vertices, "unused vertex", "unused vertices"));
-  if (report.n_welded_exact > 0) report.messages.push_back("welded " + count_of(report.n_welded_exact, "vertex", "vertices") + " to others with the same coordinates");
+  if (report.n_welded_exact > 0)
+    report.messages.push_back("welded " + count_of(report.n_welded_exact, "vertex", "vertices") + " to others with the same coordinates");
 }
 
 /// Logs the messages from the n_logged-th on: before each step that may throw, so that an error comes with the repairs that led to it.
@@ -94,9 +95,10 @@ StitchResult stitch_surface(const std::vector<SurfaceSoup>& soups, const StitchO
   if (!report.is_closed) report.messages.push_back("the surface has a boundary, as allowed");
   log_messages(report, n_logged, context);
   context.debug("surface: " + count_of(static_cast<std::int64_t>(result.mesh.n_triangles()), "triangle", "triangles") + ", " +
-               count_of(static_cast<std::int64_t>(result.mesh.n_vertices()), "vertex", "vertices") + ", " + count_of(report.n_components, "component", "components") +
-               ", " + count_of(static_cast<std::int64_t>(result.mesh.patches.size()), "patch", "patches") + ", body length " +
-               short_number(body_length(result.mesh)) + " m (unit of the file: " + short_number(options.unit) + " m)");
+                count_of(static_cast<std::int64_t>(result.mesh.n_vertices()), "vertex", "vertices") + ", " +
+                count_of(report.n_components, "component", "components") + ", " +
+                count_of(static_cast<std::int64_t>(result.mesh.patches.size()), "patch", "patches") + ", body length " +
+                short_number(body_length(result.mesh)) + " m (unit of the file: " + short_number(options.unit) + " m)");
   result.report = std::move(report);
   context.progress(1.0);
   return result;

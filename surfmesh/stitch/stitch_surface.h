@@ -12,10 +12,11 @@
 namespace sterna::surfmesh {
 
 struct StitchOptions {
-  double unit = 1.0;                      ///< metres per file unit
-  double weld_tolerance = k_automatic;    ///< m; exact duplicates are always welded
-  double split_angle = k_automatic;       ///< rad; automatic = patches from the file's names, else one patch
-  std::string fluid = "automatic";        ///< side of the outermost surface on which the fluid is; automatic: outside, unless the file is ours and says otherwise (its reader knows)
+  double unit = 1.0;                    ///< metres per file unit
+  double weld_tolerance = k_automatic;  ///< m; exact duplicates are always welded
+  double split_angle = k_automatic;     ///< rad; automatic = patches from the file's names, else one patch
+  std::string fluid =
+      "automatic";  ///< side of the outermost surface on which the fluid is; automatic: outside, unless the file is ours and says otherwise (its reader knows)
   bool allow_open = false;
   bool check_intersections = true;
 };
@@ -24,10 +25,10 @@ struct StitchReport {
   std::int64_t n_triangles_read = 0, n_vertices_read = 0;
   std::int64_t n_welded_exact = 0, n_welded_near = 0;
   std::int64_t n_degenerate_removed = 0, n_duplicate_removed = 0, n_unused_vertices = 0;
-  std::int64_t n_flipped = 0;             ///< triangles whose orientation was repaired
+  std::int64_t n_flipped = 0;  ///< triangles whose orientation was repaired
   std::int64_t n_components = 0;
   bool is_closed = true;
-  std::vector<std::string> messages;      ///< one sentence for each repair, as logged
+  std::vector<std::string> messages;  ///< one sentence for each repair, as logged
 };
 
 struct StitchResult {
@@ -38,8 +39,8 @@ struct StitchResult {
 /// Joins the soups to one surface. Repairs, each with a message: welding; unused vertices dropped; facets with a repeated vertex, copies of facets and doubled
 /// sheets without thickness dropped; facets of exactly zero area flipped away (the surface stays the same set of points); inconsistent or inverted orientation.
 /// Closed components are oriented by signed volume and nesting (winding numbers): a body outwards, a shell inside a body's solid as a cavity in it whatever its
-/// sense in the file (with a message: the outer flow does not reach it), a shell in a cavity as a body again. With fluid = "inside" the outermost shells enclose the fluid (a tunnel, a
-/// complete domain): they are oriented inwards, the shells in them as bodies. Open ones keep the sense of most of their area.
+/// sense in the file (with a message: the outer flow does not reach it), a shell in a cavity as a body again. With fluid = "inside" the outermost shells
+/// enclose the fluid (a tunnel, a complete domain): they are oriented inwards, the shells in them as bodies. Open ones keep the sense of most of their area.
 /// Automatic welding beyond equal coordinates happens only when the surface is open, only between vertices of its boundary, within 1e-9 of the body length
 /// (files in single precision: 2.5e-7 of the largest coordinate), and only if that closes edges without making another defect; so small features survive.
 /// Patches: [A-Za-z0-9_.-], unique; without names in the file "wall", with several files the file's stem; split by angle: name_1, name_2 ...
@@ -61,12 +62,30 @@ struct Schema<surfmesh::StitchOptions> {
   using O = surfmesh::StitchOptions;
   static constexpr std::string_view stage = "surface";
   static constexpr std::array fields = {
-      Field<O>{.name = "unit", .member = &O::unit, .unit = Unit::metre, .min = 1e-9, .max = 1e9, .help = "length of one unit of the file (mm, cm, inch, ft are numbers)"},
-      Field<O>{.name = "weld_tolerance", .member = &O::weld_tolerance, .unit = Unit::metre, .min = 0.0, .help = "vertices nearer than this become one",
+      Field<O>{.name = "unit",
+               .member = &O::unit,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .max = 1e9,
+               .help = "length of one unit of the file (mm, cm, inch, ft are numbers)"},
+      Field<O>{.name = "weld_tolerance",
+               .member = &O::weld_tolerance,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "vertices nearer than this become one",
                .automatic = "equal coordinates; if the surface is then open, its boundary within 1e-9 of the body length, 2.5e-7 for single precision"},
-      Field<O>{.name = "split_angle", .member = &O::split_angle, .unit = Unit::radian, .min = 0.0, .max = 3.15, .help = "split into patches along edges that bend by more than this",
+      Field<O>{.name = "split_angle",
+               .member = &O::split_angle,
+               .unit = Unit::radian,
+               .min = 0.0,
+               .max = 3.15,
+               .help = "split into patches along edges that bend by more than this",
                .automatic = "patches as named in the file, else one"},
-      Field<O>{.name = "fluid", .member = &O::fluid, .help = "on which side of the outermost surface the fluid is: around bodies, or inside of a tunnel or of a complete domain. automatic: outside, unless the manifest beside the file says otherwise", .choices = "automatic outside inside"},
+      Field<O>{.name = "fluid",
+               .member = &O::fluid,
+               .help = "on which side of the outermost surface the fluid is: around bodies, or inside of a tunnel or of a complete domain. automatic: outside, "
+                       "unless the manifest beside the file says otherwise",
+               .choices = "automatic outside inside"},
       Field<O>{.name = "allow_open", .member = &O::allow_open, .help = "accept a surface with a boundary"},
       Field<O>{.name = "check_intersections", .member = &O::check_intersections, .help = "test every pair of triangles exactly for intersection"},
   };

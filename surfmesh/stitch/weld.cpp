@@ -79,7 +79,8 @@ void check_tolerance(const WorkingSurface& surface, double tolerance) {
   ErrorInfo info;
   info.code = ErrorCode::bad_argument;
   info.attempted = "welding the vertices of the surface";
-  info.problem = "weld_tolerance is " + short_number(tolerance) + " m, more than " + short_number(100.0 * k_max_weld) + " % of the body length of " + short_number(length) + " m";
+  info.problem = "weld_tolerance is " + short_number(tolerance) + " m, more than " + short_number(100.0 * k_max_weld) + " % of the body length of " +
+                 short_number(length) + " m";
   info.hint = "a tolerance below the shortest edge; weld_tolerance is in metres, whatever the unit of the file";
   throw Error(std::move(info));
 }
@@ -162,7 +163,8 @@ WorkingSurface weld_exact(const std::vector<SurfaceSoup>& soups, const StitchOpt
         }
         facet[k] = soup2surface[v];
       }
-      if (soup.patch[t] >= soup.patch_names.size()) throw_malformed(soup, t, "belongs to patch " + std::to_string(soup.patch[t]) + " of " + std::to_string(soup.patch_names.size()));
+      if (soup.patch[t] >= soup.patch_names.size())
+        throw_malformed(soup, t, "belongs to patch " + std::to_string(soup.patch[t]) + " of " + std::to_string(soup.patch_names.size()));
       surface.facets.push_back(facet);
       surface.patch.push_back(surface.first_patch[s] + soup.patch[t]);
       surface.origin.push_back({s, t});

@@ -23,12 +23,12 @@ struct FacetOrigin {
 struct WorkingSurface {
   std::vector<Vec3> points;
   std::vector<Facet> facets;
-  std::vector<std::uint32_t> patch;  ///< per facet: first_patch[soup] + the soup's own patch number
-  std::vector<FacetOrigin> origin;   ///< per facet
+  std::vector<std::uint32_t> patch;        ///< per facet: first_patch[soup] + the soup's own patch number
+  std::vector<FacetOrigin> origin;         ///< per facet
   std::vector<std::uint32_t> first_patch;  ///< per soup, one more at the end
-  double to_metres = 1.0;            ///< metres per unit of `points`
-  bool is_single_precision = false;  ///< some file stores 32-bit floats
-  std::vector<std::string> sources;  ///< file name of each soup
+  double to_metres = 1.0;                  ///< metres per unit of `points`
+  bool is_single_precision = false;        ///< some file stores 32-bit floats
+  std::vector<std::string> sources;        ///< file name of each soup
 
   std::size_t n_facets() const { return facets.size(); }
   /// Box of the vertices in use.

@@ -68,7 +68,8 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
   Stopwatch watch;
   const std::string file = path.filename().string();
   const RunContext context({.threads = settings.threads, .log = [&](LogLevel level, std::string_view text) {
-                              if (settings.is_verbose && level != LogLevel::info) std::printf("    %.*s\n", static_cast<int>(text.size()), text.data()), std::fflush(stdout);
+                              if (settings.is_verbose && level != LogLevel::info)
+                                std::printf("    %.*s\n", static_cast<int>(text.size()), text.data()), std::fflush(stdout);
                             }});
   std::size_t n_components = 0, n_faces = 0;
   try {
@@ -96,9 +97,12 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
     const double read = watch.lap();
     const ModelMeasures after = model_measures(again.model, context);
     const bool same_names = names_of(united.model) == names_of(again.model);
-    std::printf("| %s | %zu | %zu | %s | %zu | %zu | %zu | %.8g | %.8g | %s, %zu mended | %.1e | %.1e | %s | %.2f | %.2f (%.2f) | %.2f | %.2f | %.2f | %.2f |\n", file.c_str(), n_components, n_faces, tries_text(united.report.tries).c_str(), united.report.n_bodies,
-                united.model.faces.size(), united.report.doubts.size(), before.total.area, before.total.volume, again.report.is_closed() ? "closed" : "OPEN", again.report.mended.size(), relative_change(before.total.area, after.total.area),
-                relative_change(before.total.volume, after.total.volume), same_names ? "kept" : "LOST", load, unite, unite_cpu, seconds_of("unite/contacts"), measure, write, read);
+    std::printf(
+        "| %s | %zu | %zu | %s | %zu | %zu | %zu | %.8g | %.8g | %s, %zu mended | %.1e | %.1e | %s | %.2f | %.2f (%.2f) | %.2f | %.2f | %.2f | %.2f |\n",
+        file.c_str(), n_components, n_faces, tries_text(united.report.tries).c_str(), united.report.n_bodies, united.model.faces.size(),
+        united.report.doubts.size(), before.total.area, before.total.volume, again.report.is_closed() ? "closed" : "OPEN", again.report.mended.size(),
+        relative_change(before.total.area, after.total.area), relative_change(before.total.volume, after.total.volume), same_names ? "kept" : "LOST", load,
+        unite, unite_cpu, seconds_of("unite/contacts"), measure, write, read);
     if (settings.is_verbose)
       for (const StageTime& stage : context.times()) std::printf("    %6.2f s %s\n", stage.seconds, stage.stage.c_str());
     if (settings.is_verbose)
@@ -124,7 +128,9 @@ int main(int argc, char** argv) {
     else if (argument == "--verbose") settings.is_verbose = true;
     else files.emplace_back(argument);
   }
-  std::puts("| file | components | faces | tolerances tried, m | bodies | faces of the union | doubts | area, m^2 | volume, m^3 | STEP again | area differs | volume differs | names | load, s | unite, s (of processors) | contacts of it, s | measure, s | write, s | read, s |");
+  std::puts(
+      "| file | components | faces | tolerances tried, m | bodies | faces of the union | doubts | area, m^2 | volume, m^3 | STEP again | area differs | volume "
+      "differs | names | load, s | unite, s (of processors) | contacts of it, s | measure, s | write, s | read, s |");
   std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   for (const std::filesystem::path& file : files) print_row(file, settings);
 }

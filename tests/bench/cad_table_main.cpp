@@ -34,7 +34,8 @@ bool closes_with_caps(const std::filesystem::path& path) {
 
 std::string closed_text(const std::filesystem::path& path, const CadReport& report) {
   if (report.is_closed()) return "closed";
-  return std::string(closes_with_caps(path) ? "with caps; without: " : "open: ") + std::to_string(report.openings.size()) + " openings of " + std::to_string(report.free_edges.size()) + " edges" + (report.free_edges.empty() ? "" : ", first at " + format_point(report.free_edges.front().place));
+  return std::string(closes_with_caps(path) ? "with caps; without: " : "open: ") + std::to_string(report.openings.size()) + " openings of " +
+         std::to_string(report.free_edges.size()) + " edges" + (report.free_edges.empty() ? "" : ", first at " + format_point(report.free_edges.front().place));
 }
 
 /// Peak of the whole process: of one file only where the program is called for that file alone.
@@ -61,8 +62,9 @@ void print_row(const std::filesystem::path& path) {
     const double megabytes = peak_megabytes();
     const ModelMeasures data = model_measures(file.model, RunContext());
     const CadReport& r = file.report;
-    std::printf("| %s | %zu | %zu | %s | %zu / %zu | %s | %s | %zu | %.6g | %.6g | %.0e | %.2f | %.0f |\n", path.filename().c_str(), r.n_faces, r.n_closed, r.file_unit.c_str(), r.n_named_parts, r.n_named_faces, mended_text(r).c_str(),
-                closed_text(path, r).c_str(), r.faults.size(), data.total.area, data.total.volume, step_change(file, data), seconds, megabytes);
+    std::printf("| %s | %zu | %zu | %s | %zu / %zu | %s | %s | %zu | %.6g | %.6g | %.0e | %.2f | %.0f |\n", path.filename().c_str(), r.n_faces, r.n_closed,
+                r.file_unit.c_str(), r.n_named_parts, r.n_named_faces, mended_text(r).c_str(), closed_text(path, r).c_str(), r.faults.size(), data.total.area,
+                data.total.volume, step_change(file, data), seconds, megabytes);
     if (std::getenv("CAD_TABLE_VERBOSE")) std::printf("%s\n", to_text(r).c_str());
   } catch (const Error& error) {
     std::printf("| %s | error: %s |\n", path.filename().c_str(), error.what());

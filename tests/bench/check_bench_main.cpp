@@ -35,8 +35,8 @@ void timed(const char* name, std::int64_t n_cells, const std::function<void()>& 
   const double cpu_start = cpu_seconds();
   f();
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  std::printf("%-24s %8.2f s  %7.2f M cells/s   cpu %8.2f s   peak %.0f MB\n", name, seconds, 1e-6 * static_cast<double>(n_cells) / seconds, cpu_seconds() - cpu_start,
-              peak_megabytes());
+  std::printf("%-24s %8.2f s  %7.2f M cells/s   cpu %8.2f s   peak %.0f MB\n", name, seconds, 1e-6 * static_cast<double>(n_cells) / seconds,
+              cpu_seconds() - cpu_start, peak_megabytes());
   std::fflush(stdout);
 }
 

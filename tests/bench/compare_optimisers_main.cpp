@@ -1,6 +1,6 @@
-// All optimisers of the envelope from the same start, with the same upper heights, on real surfaces (method.md §6). For each surface a table as Markdown: objective and its
-// gain, smallest scaled Jacobian and skew shares (13) of the macro-elements, area-weighted height, evaluations, time.
-// usage: compare_optimisers [options] surface...        with the settings of shared/data/baselines.md: 35 layers, first height 1e-6 body lengths
+// All optimisers of the envelope from the same start, with the same upper heights, on real surfaces (method.md §6). For each surface a table as Markdown:
+// objective and its gain, smallest scaled Jacobian and skew shares (13) of the macro-elements, area-weighted height, evaluations, time. usage:
+// compare_optimisers [options] surface...        with the settings of shared/data/baselines.md: 35 layers, first height 1e-6 body lengths
 //   --evaluations=300   of NLopt (own methods stop by themselves, at 30 sweeps or evaluations)
 //   --solvers=a,b,...   of the names in solvers() below; default all
 //   --slack=      of NLopt's constraint (NloptSettings::slack)
@@ -58,7 +58,7 @@ struct Answer {
   int n_evaluations = 0;
   std::size_t n_taken_back = 0;
   std::string stopped;
-  double solver_f = 0.0;  ///< f_1 + f_2 of the solver's own last point, before acceptance
+  double solver_f = 0.0;        ///< f_1 + f_2 of the solver's own last point, before acceptance
   std::vector<double> history;  ///< f_1 + f_2 after each evaluation
 };
 
@@ -159,9 +159,9 @@ void print_row(const std::string& name, const Task& task, const Answer& answer, 
   const PaperObjective f = problem.objective(problem.unknowns(answer.envelope), {}, task.context);
   const SkewShares skew = skew_shares(task.base, answer.envelope);
   const double total = f.total();
-  std::printf("| %s | %.6f | %.6f | %.6f | %.6f | %.6f | %.2g | %.1f | %.1f | %.2f | %.2f | %d | %.2f | %zu | %s |\n", name.c_str(), f.f1, f.f2, total, f_start - total, f_start - answer.solver_f,
-              smallest_scaled_jacobian(task.base, answer.envelope, task.context), skew.below_6, skew.below_18, skew.above_60, height_share(task.base, answer.envelope),
-              answer.n_evaluations, seconds, answer.n_taken_back, answer.stopped.c_str());
+  std::printf("| %s | %.6f | %.6f | %.6f | %.6f | %.6f | %.2g | %.1f | %.1f | %.2f | %.2f | %d | %.2f | %zu | %s |\n", name.c_str(), f.f1, f.f2, total,
+              f_start - total, f_start - answer.solver_f, smallest_scaled_jacobian(task.base, answer.envelope, task.context), skew.below_6, skew.below_18,
+              skew.above_60, height_share(task.base, answer.envelope), answer.n_evaluations, seconds, answer.n_taken_back, answer.stopped.c_str());
   std::fflush(stdout);
 }
 
@@ -192,9 +192,13 @@ void compare(const std::string& file, const Settings& settings) {
   }
   const double evaluation = std::chrono::duration<double>(Clock::now() - before).count() / k_repeats;
   const double processor = static_cast<double>(std::clock() - processor_before) / CLOCKS_PER_SEC / k_repeats;
-  std::printf("\n%s: %zu triangles, %zu vertices, %zu unknowns; envelope before in %.2f s; one evaluation with gradients %.1f ms on %d threads, %.1f ms of processor time\n\n", file.c_str(),
-              wall.n_triangles(), wall.n_vertices(), problem.n_unknowns(), build_seconds, 1e3 * evaluation, settings.threads, 1e3 * processor);
-  std::printf("| solver | f1 | f2 | f | gain | before acceptance | min sJ | < 6 deg %% | < 18 deg %% | > 60 deg %% | height %% | evaluations | s | taken back | stopped |\n");
+  std::printf(
+      "\n%s: %zu triangles, %zu vertices, %zu unknowns; envelope before in %.2f s; one evaluation with gradients %.1f ms on %d threads, %.1f ms of processor "
+      "time\n\n",
+      file.c_str(), wall.n_triangles(), wall.n_vertices(), problem.n_unknowns(), build_seconds, 1e3 * evaluation, settings.threads, 1e3 * processor);
+  std::printf(
+      "| solver | f1 | f2 | f | gain | before acceptance | min sJ | < 6 deg %% | < 18 deg %% | > 60 deg %% | height %% | evaluations | s | taken back | "
+      "stopped |\n");
   std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   print_row("start", task, {.envelope = start, .stopped = "", .solver_f = f.total()}, f.total(), 0.0);
   for (const Solver& solver : solvers()) {
@@ -228,9 +232,11 @@ Settings parse(int argc, char** argv) {
   }
   for (const std::string& wanted : settings.solvers) {
     const std::vector<Solver> known = solvers();
-    if (std::none_of(known.begin(), known.end(), [&](const Solver& s) { return s.name == wanted; })) throw std::invalid_argument("there is no solver " + wanted);
+    if (std::none_of(known.begin(), known.end(), [&](const Solver& s) { return s.name == wanted; }))
+      throw std::invalid_argument("there is no solver " + wanted);
   }
-  if (settings.surfaces.empty()) throw std::invalid_argument("usage: compare_optimisers [--evaluations=N] [--solvers=mma,ccsaq,...] [--threads=N] [--history] surface...");
+  if (settings.surfaces.empty())
+    throw std::invalid_argument("usage: compare_optimisers [--evaluations=N] [--solvers=mma,ccsaq,...] [--threads=N] [--history] surface...");
   return settings;
 }
 

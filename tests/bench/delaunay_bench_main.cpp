@@ -24,8 +24,8 @@ void measure(const char* name, const std::vector<Vec2>& points) {
   start = std::clock();
   const auto result = delaunay::triangulate_plane(points, {}, delaunay::Extent::hull, context);
   const double seconds = seconds_since(start);
-  std::printf("%-10s %9zu points %7.3f s %7.3f M points/s  order alone %6.3f s  (%.1f times)  %zu triangles\n", name, n_sorted, seconds, static_cast<double>(points.size()) / seconds * 1e-6,
-              sorting, seconds / sorting, result.mesh.n_triangles());
+  std::printf("%-10s %9zu points %7.3f s %7.3f M points/s  order alone %6.3f s  (%.1f times)  %zu triangles\n", name, n_sorted, seconds,
+              static_cast<double>(points.size()) / seconds * 1e-6, sorting, seconds / sorting, result.mesh.n_triangles());
 }
 
 }  // namespace

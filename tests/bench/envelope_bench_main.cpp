@@ -60,14 +60,13 @@ struct Row {
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     const double here = status_megabytes("VmHWM:");
     peak = std::max(peak, here);
-    std::printf("| %s | %d | %s | %.3f | %.3f | %.0f | %s/s/core | %.0f |\n", surface.c_str(), threads, stage, seconds, cpu, n_elements / seconds / threads, element, here);
+    std::printf("| %s | %d | %s | %.3f | %.3f | %.0f | %s/s/core | %.0f |\n", surface.c_str(), threads, stage, seconds, cpu, n_elements / seconds / threads,
+                element, here);
     std::fflush(stdout);
   }
 };
 
-TriMesh read(const std::string& path, const RunContext& context) {
-  return surfmesh::stitch_surface({io::read_surface_file(path, context)}, {}, context).mesh;
-}
+TriMesh read(const std::string& path, const RunContext& context) { return surfmesh::stitch_surface({io::read_surface_file(path, context)}, {}, context).mesh; }
 
 /// What every optimiser of stage 6 costs, all from the same start.
 void time_optimisers(Row& row, const LayerBase& base, EnvelopeOptions options, int n_evaluations, const RunContext& context) {
@@ -82,7 +81,8 @@ void time_optimisers(Row& row, const LayerBase& base, EnvelopeOptions options, i
               [&] { nlopt_optimise(base, start, h_u, h_l, {.method = method, .max_evaluations = n_evaluations}, report, context); });
   }
   OptimiseReport report;
-  row.timed("our descent", n, "vertex evaluations", [&] { optimise(base, start, h_u, h_l, {.max_evaluations = n_evaluations, .tolerance = 0.0}, report, context); });
+  row.timed("our descent", n, "vertex evaluations",
+            [&] { optimise(base, start, h_u, h_l, {.max_evaluations = n_evaluations, .tolerance = 0.0}, report, context); });
 }
 
 struct Settings {
@@ -95,7 +95,8 @@ struct Settings {
 void run(const std::string& path, const TriMesh& wall, int threads, const Settings& settings) {
   const int n_layers = settings.n_layers;
   const RunContext context({.threads = threads, .log = [](LogLevel level, std::string_view text) {
-                              if (level != LogLevel::debug || std::getenv("STERNA_BENCH_VERBOSE")) std::fprintf(stderr, "%.*s\n", static_cast<int>(text.size()), text.data());
+                              if (level != LogLevel::debug || std::getenv("STERNA_BENCH_VERBOSE"))
+                                std::fprintf(stderr, "%.*s\n", static_cast<int>(text.size()), text.data());
                             }});
   Row row{path.substr(path.rfind('/') + 1), threads};
   const double n = static_cast<double>(wall.n_triangles());
@@ -136,13 +137,15 @@ void run(const std::string& path, const TriMesh& wall, int threads, const Settin
   std::printf("%s: %lld crossing pairs; %lld of %lld cells proved, worst quality %.3g at (%.6g, %.6g, %.6g), layer %d\n", row.surface.c_str(),
               static_cast<long long>(crossings.total), static_cast<long long>(certificate.n_proved), static_cast<long long>(certificate.n_cells),
               certificate.min_quality, certificate.worst_place.x, certificate.worst_place.y, certificate.worst_place.z, certificate.worst_layer);
-  std::printf("  c_t reduced on %lld of %zu lines: %lld straight, %lld up to 1/4, %lld to 1/2, %lld to 3/4, %lld below 1\n", static_cast<long long>(extrusion.n_straightened),
-              extrusion.layers.n_lines(), static_cast<long long>(c[0]), static_cast<long long>(c[1]), static_cast<long long>(c[2]), static_cast<long long>(c[3]),
-              static_cast<long long>(c[4]));
-  std::printf("  first node within 2 %%: %.3f %% of full lines (worst %.3g), %.3f %% of the smooth facets' area (mean of three %.3f %%, worst %.3g); %.2f %% of the area at ridges, "
-              "%lld compressed, %lld collapsed\n\n",
-              100.0 * first.vertex_share, first.worst_vertex, 100.0 * first.facet_share, 100.0 * first.facet_mean_share, first.worst_facet, 100.0 * first.ridge_area,
-              static_cast<long long>(first.n_compressed), static_cast<long long>(first.n_collapsed));
+  std::printf("  c_t reduced on %lld of %zu lines: %lld straight, %lld up to 1/4, %lld to 1/2, %lld to 3/4, %lld below 1\n",
+              static_cast<long long>(extrusion.n_straightened), extrusion.layers.n_lines(), static_cast<long long>(c[0]), static_cast<long long>(c[1]),
+              static_cast<long long>(c[2]), static_cast<long long>(c[3]), static_cast<long long>(c[4]));
+  std::printf(
+      "  first node within 2 %%: %.3f %% of full lines (worst %.3g), %.3f %% of the smooth facets' area (mean of three %.3f %%, worst %.3g); %.2f %% of the "
+      "area at ridges, "
+      "%lld compressed, %lld collapsed\n\n",
+      100.0 * first.vertex_share, first.worst_vertex, 100.0 * first.facet_share, 100.0 * first.facet_mean_share, first.worst_facet, 100.0 * first.ridge_area,
+      static_cast<long long>(first.n_compressed), static_cast<long long>(first.n_collapsed));
 }
 
 }  // namespace

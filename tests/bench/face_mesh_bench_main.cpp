@@ -47,16 +47,21 @@ void measure(const test::FaceShape& shape, double factor, const char* vtk) {
   surfmesh::FaceMeshOptions options;
   options.curvature_angle = 0.6;
   const std::clock_t start = std::clock();
-  const surfmesh::FaceMesh mesh = surfmesh::mesh_face(*shape.surface, border, [&](Uv, const Point&) { return size; }, options, context);
+  const surfmesh::FaceMesh mesh = surfmesh::mesh_face(
+      *shape.surface, border, [&](Uv, const Point&) { return size; }, options, context);
   const double seconds = seconds_since(start);
   const surfmesh::FaceMeshReport& r = mesh.report;
   const double deg = 180.0 / std::numbers::pi;
   const double n = static_cast<double>(mesh.triangles.size());
   const test::TriangleQuality q = test::measure_triangles(mesh.points, mesh.triangles);
-  std::printf("%-13s x%-5g %8zu tris %7.3f s %6.0f k/s (%.1f x plane) ratio %.4f 1%% %.1f six %.1f %% angles %5.1f..%5.1f outside %lld (%.3f %%) folded %lld | unfold %lld size %lld quality %lld refused %lld flips %lld moves %lld collapses %lld worst %s\n",
-              shape.name.c_str(), factor, mesh.triangles.size(), seconds, n / seconds * 1e-3, seconds / planar_seconds(mesh.points.size(), context), q.radius_ratio, q.angle_quantile_1, 100.0 * q.share_of_six, r.min_angle * deg, r.max_angle * deg,
-              static_cast<long long>(r.n_outside_20_130), 100.0 * static_cast<double>(r.n_outside_20_130) / n, static_cast<long long>(r.n_folded), static_cast<long long>(r.n_unfolding),
-              static_cast<long long>(r.n_first_pass), static_cast<long long>(r.n_second_pass), static_cast<long long>(r.n_refused), static_cast<long long>(r.n_flips), static_cast<long long>(r.n_moves), static_cast<long long>(r.n_collapses), format_point(r.worst_place).c_str());
+  std::printf(
+      "%-13s x%-5g %8zu tris %7.3f s %6.0f k/s (%.1f x plane) ratio %.4f 1%% %.1f six %.1f %% angles %5.1f..%5.1f outside %lld (%.3f %%) folded %lld | unfold "
+      "%lld size %lld quality %lld refused %lld flips %lld moves %lld collapses %lld worst %s\n",
+      shape.name.c_str(), factor, mesh.triangles.size(), seconds, n / seconds * 1e-3, seconds / planar_seconds(mesh.points.size(), context), q.radius_ratio,
+      q.angle_quantile_1, 100.0 * q.share_of_six, r.min_angle * deg, r.max_angle * deg, static_cast<long long>(r.n_outside_20_130),
+      100.0 * static_cast<double>(r.n_outside_20_130) / n, static_cast<long long>(r.n_folded), static_cast<long long>(r.n_unfolding),
+      static_cast<long long>(r.n_first_pass), static_cast<long long>(r.n_second_pass), static_cast<long long>(r.n_refused), static_cast<long long>(r.n_flips),
+      static_cast<long long>(r.n_moves), static_cast<long long>(r.n_collapses), format_point(r.worst_place).c_str());
   if (vtk != nullptr) write_vtk(vtk, mesh);
 }
 
@@ -67,12 +72,9 @@ int main(int argc, char** argv) {
   std::string name;
   const char* vtk = nullptr;
   for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "-name") == 0 && i + 1 < argc)
-      name = argv[++i];
-    else if (std::strcmp(argv[i], "-vtk") == 0 && i + 1 < argc)
-      vtk = argv[++i];
-    else
-      factors.push_back(std::strtod(argv[i], nullptr));
+    if (std::strcmp(argv[i], "-name") == 0 && i + 1 < argc) name = argv[++i];
+    else if (std::strcmp(argv[i], "-vtk") == 0 && i + 1 < argc) vtk = argv[++i];
+    else factors.push_back(std::strtod(argv[i], nullptr));
   }
   if (factors.empty()) factors = {1.0, 4.0};
   for (const test::FaceShape& shape : test::face_shapes())

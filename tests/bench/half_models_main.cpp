@@ -1,5 +1,5 @@
-// Half models against whole ones: cells, validity, the plane, with layers as in ../shared/data/baselines.md (25 layers, first height 1e-6 of the body length L, growth 1.3, farfield 20 L).
-// usage: half_models [--threads 2] [--layers 25] [--write FOLDER] [--half-only] SURFACE...     surfaces are symmetric about y = 0
+// Half models against whole ones: cells, validity, the plane, with layers as in ../shared/data/baselines.md (25 layers, first height 1e-6 of the body length L,
+// growth 1.3, farfield 20 L). usage: half_models [--threads 2] [--layers 25] [--write FOLDER] [--half-only] SURFACE...     surfaces are symmetric about y = 0
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -45,8 +45,9 @@ Row row(const std::string& name, const TriMesh& wall, double length, int n_layer
     look(result.mesh.boundary_triangles);
     look(result.mesh.boundary_quads);
     const CellCounts& cells = result.check.cells;
-    std::printf("| %s | %zu | %lld | %lld | %zu | %.2f | %.3f | %.1e | %s |\n", name.c_str(), wall.n_triangles(), static_cast<long long>(cells.prisms + cells.pyramids), static_cast<long long>(cells.tetrahedra),
-                result.mesh.boundary_quads.size(), 100.0 * result.layer.coverage, seconds, off / length, result.check.is_valid() ? "VALID" : "INVALID");
+    std::printf("| %s | %zu | %lld | %lld | %zu | %.2f | %.3f | %.1e | %s |\n", name.c_str(), wall.n_triangles(),
+                static_cast<long long>(cells.prisms + cells.pyramids), static_cast<long long>(cells.tetrahedra), result.mesh.boundary_quads.size(),
+                100.0 * result.layer.coverage, seconds, off / length, result.check.is_valid() ? "VALID" : "INVALID");
     if (!file.empty()) io::write_volume_file(result.mesh, file, context);
     return {static_cast<double>(cells.total()), result.check.is_valid()};
   } catch (const Error& error) {
@@ -71,7 +72,9 @@ int main(int argc, char** argv) {
     else files.push_back(word);
   }
   const RunContext context({.threads = threads});
-  std::printf("| surface | triangles | prisms, pyramids | tetrahedra | side quads | coverage %% | s | largest |y| on the plane / L | |\n|---|---|---|---|---|---|---|---|---|\n");
+  std::printf(
+      "| surface | triangles | prisms, pyramids | tetrahedra | side quads | coverage %% | s | largest |y| on the plane / L | "
+      "|\n|---|---|---|---|---|---|---|---|---|\n");
   bool is_good = true;
   for (const std::string& file : files) {
     try {

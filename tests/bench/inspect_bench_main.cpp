@@ -43,10 +43,8 @@ void print_envelope(const TriMesh& wall, const VolumeMeshOptions& options, const
     const double a = site.base.vertex_area[v], h = stage.envelope.height[v];
     all += a;
     if (h >= 0.9 * stage.envelope.target[v]) full += a;
-    if (h == 0.0)
-      collapsed += a;
-    else if (h < scale.compressed(v))
-      compressed += a;
+    if (h == 0.0) collapsed += a;
+    else if (h < scale.compressed(v)) compressed += a;
   }
   std::printf("| %s | %zu | %.2f | %.2f | %.3f | %.3f | %.3f | %.3f | %.1f |\n", name.c_str(), wall.n_triangles(), 100.0 * report.layer.coverage,
               100.0 * full / all, 100.0 * report.layer.compressed, 100.0 * compressed / all, 100.0 * report.layer.collapsed, 100.0 * collapsed / all,

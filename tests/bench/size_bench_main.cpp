@@ -1,6 +1,7 @@
 // How fast a size field is built and read.
 // usage: size_bench SURFACE...
-// Places: around the vertices of the wall, in their order (as engines ask, neighbour after neighbour) and shuffled, at distances of 0.1 to 1000 times the local edge.
+// Places: around the vertices of the wall, in their order (as engines ask, neighbour after neighbour) and shuffled, at distances of 0.1 to 1000 times the local
+// edge.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -61,8 +62,9 @@ void measure(const char* path) {
               [&](const Vec3& a, const Vec3& b) { return field(a) < field(b); });
   const double in_order = rate(field, places);
   std::shuffle(places.begin(), places.end(), random);
-  std::printf("| %s | %zu | %.2f | %llu | %.1f | %.2f | %.2f |\n", path, wall.n_triangles(), building, static_cast<unsigned long long>(field.view().header().n_leaves),
-              static_cast<double>(field.bytes().size()) / 1e6, in_order / 1e6, rate(field, places) / 1e6);
+  std::printf("| %s | %zu | %.2f | %llu | %.1f | %.2f | %.2f |\n", path, wall.n_triangles(), building,
+              static_cast<unsigned long long>(field.view().header().n_leaves), static_cast<double>(field.bytes().size()) / 1e6, in_order / 1e6,
+              rate(field, places) / 1e6);
 }
 
 }  // namespace

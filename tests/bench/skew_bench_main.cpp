@@ -1,6 +1,6 @@
-// Skew (13), coverage, heights and the certificate's minima of the extruded layer, with and without the optimiser, with the settings of shared/data/baselines.md.
-// usage: skew_bench surface...        Markdown table on standard output; histograms of 45 bins of 2 degrees as lines "histogram NAME none|descent counts..."
-// (tests/tools/draw_skew.py draws them). Several parts of one body: PART+PART+...
+// Skew (13), coverage, heights and the certificate's minima of the extruded layer, with and without the optimiser, with the settings of
+// shared/data/baselines.md. usage: skew_bench surface...        Markdown table on standard output; histograms of 45 bins of 2 degrees as lines "histogram NAME
+// none|descent counts..." (tests/tools/draw_skew.py draws them). Several parts of one body: PART+PART+...
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -109,9 +109,9 @@ void run(const std::string& argument, const RunContext& context) {
     const Skew skew = measure_skew(options, envelope, x, context);
     const LayerReport report = report_layer(base, options, envelope, x, context);
     const LayerCertificate certificate = certify_layer(x.layers, x.points, context);
-    std::printf("| %s | %zu | %s | %.1f | %.1f | %.2f | %.1f | %.1f | %.2f | %.2f | %.3f | %.2g | %.2f | %.2f |\n", name.c_str(), wall.n_triangles(), optimiser, skew.below(6.0),
-                skew.below(18.0), 100.0 - skew.below(60.0), ceiling(base, 6.0), ceiling(base, 18.0), 100.0 * report.mean_height_share, 100.0 * report.coverage, report.target_over_eq1,
-                certificate.min_quality, seconds, processor);
+    std::printf("| %s | %zu | %s | %.1f | %.1f | %.2f | %.1f | %.1f | %.2f | %.2f | %.3f | %.2g | %.2f | %.2f |\n", name.c_str(), wall.n_triangles(), optimiser,
+                skew.below(6.0), skew.below(18.0), 100.0 - skew.below(60.0), ceiling(base, 6.0), ceiling(base, 18.0), 100.0 * report.mean_height_share,
+                100.0 * report.coverage, report.target_over_eq1, certificate.min_quality, seconds, processor);
     std::fprintf(stderr, "histogram %s %s", name.c_str(), optimiser);
     for (const std::int64_t count : skew.bins) std::fprintf(stderr, " %.4f", 100.0 * static_cast<double>(count) / static_cast<double>(skew.n));
     std::fprintf(stderr, "\n");
@@ -123,7 +123,9 @@ void run(const std::string& argument, const RunContext& context) {
 
 int main(int argc, char** argv) {
   const RunContext context({.threads = 2});
-  std::puts("| surface | triangles | optimiser | < 6 deg % | < 18 deg % | > 60 deg % | ceiling 6 | ceiling 18 | mean h / h_target % | coverage % | h_target / eq. (1) | least scaled Jacobian | envelope s | processor s |");
+  std::puts(
+      "| surface | triangles | optimiser | < 6 deg % | < 18 deg % | > 60 deg % | ceiling 6 | ceiling 18 | mean h / h_target % | coverage % | h_target / eq. "
+      "(1) | least scaled Jacobian | envelope s | processor s |");
   std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   for (int i = 1; i < argc; ++i) run(argv[i], context);
 }

@@ -1,9 +1,9 @@
 // Our evaluators of spline surfaces against OpenCASCADE's, in one run: agreement of points and derivatives, ratio of speeds; projections per second.
 // usage: spline_bench
-// Each derivative is a sum of poles times derivatives of basis functions that cancel: over intervals of length h second derivatives of the functions grow as 1 / h^2, while
-// the sum does not. Its rounding errors are relative to the sum of the absolute terms, whoever evaluates. So the differences are measured against that sum; an
-// evaluator in 113 bits (__float128) tells how far each of both is from the truth.
-// Exit status 1 when any value differs by more than 1e-12 of its terms, from OpenCASCADE's or from the truth, or when we are slower.
+// Each derivative is a sum of poles times derivatives of basis functions that cancel: over intervals of length h second derivatives of the functions grow as 1
+// / h^2, while the sum does not. Its rounding errors are relative to the sum of the absolute terms, whoever evaluates. So the differences are measured against
+// that sum; an evaluator in 113 bits (__float128) tells how far each of both is from the truth. Exit status 1 when any value differs by more than 1e-12 of its
+// terms, from OpenCASCADE's or from the truth, or when we are slower.
 #include <GeomAdaptor_Surface.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Standard_Version.hxx>
@@ -118,7 +118,8 @@ QuadBasis quad_basis(int degree, const std::vector<double>& knots, double t) {
   functions[0][p] = 1;
   for (std::size_t q = 1; q <= p; ++q)
     for (std::size_t i = p - q; i <= p; ++i)
-      functions[q][i] = share((Quad(t) - knot(i)) * functions[q - 1][i], knot(i + q) - knot(i)) + share((knot(i + q + 1) - Quad(t)) * functions[q - 1][i + 1], knot(i + q + 1) - knot(i + 1));
+      functions[q][i] = share((Quad(t) - knot(i)) * functions[q - 1][i], knot(i + q) - knot(i)) +
+                        share((knot(i + q + 1) - Quad(t)) * functions[q - 1][i + 1], knot(i + q + 1) - knot(i + 1));
   const auto derived = [&](const std::vector<Quad>& lower, std::size_t q) {
     std::vector<Quad> d(p + 2, Quad(0));
     for (std::size_t i = p - q; i <= p; ++i) d[i] = Quad(q) * (share(lower[i], knot(i + q) - knot(i)) - share(lower[i + 1], knot(i + q + 1) - knot(i + 1)));
@@ -171,9 +172,9 @@ Truth truth_at(const NurbsSurfaceForm& form, Uv at) {
 
 /// Largest differences over all places and the six values.
 struct Agreement {
-  double between = 0.0, ours = 0.0, theirs = 0.0;                ///< shares of the terms
-  double our_share = 0.0, their_share = 0.0;                     ///< of the largest value on the surface, from the truth
-  const char* worst = "";                                        ///< what is farthest from the truth by that measure
+  double between = 0.0, ours = 0.0, theirs = 0.0;  ///< shares of the terms
+  double our_share = 0.0, their_share = 0.0;       ///< of the largest value on the surface, from the truth
+  const char* worst = "";                          ///< what is farthest from the truth by that measure
 };
 
 Agreement agreement(const NurbsSurface& ours, const Geom_BSplineSurface& theirs, const std::vector<Uv>& places) {
@@ -187,7 +188,8 @@ Agreement agreement(const NurbsSurface& ours, const Geom_BSplineSurface& theirs,
     gp_Pnt q;
     gp_Vec du, dv, duu, dvv, duv;
     theirs.D2(at.u, at.v, q, du, dv, duu, dvv, duv);
-    const Vec3 a[6] = {d.point, d.du, d.dv, d.duu, d.duv, d.dvv}, b[6] = {vec(q.XYZ()), vec(du.XYZ()), vec(dv.XYZ()), vec(duu.XYZ()), vec(duv.XYZ()), vec(dvv.XYZ())};
+    const Vec3 a[6] = {d.point, d.du, d.dv, d.duu, d.duv, d.dvv},
+               b[6] = {vec(q.XYZ()), vec(du.XYZ()), vec(dv.XYZ()), vec(duu.XYZ()), vec(duv.XYZ()), vec(dvv.XYZ())};
     for (int k = 0; k < 6; ++k) {
       largest[k] = std::max(largest[k], norm(truth.value[k]));
       our_error[k] = std::max(our_error[k], distance(a[k], truth.value[k]));
@@ -231,8 +233,9 @@ bool compare(const char* name, const NurbsSurface& ours) {
     theirs->D2(p.u, p.v, q, du, dv, duu, dvv, duv);
     return duv.X();
   });
-  std::printf("%-18s %8.1e %8.1e %8.1e  %8.1e %8.1e %-4s %6.2f %6.2f %6.1f  %6.2f %6.2f %6.2f %6.1f %6.1f%s\n", name, agree.between, agree.ours, agree.theirs, agree.our_share, agree.their_share, agree.worst, our_point / 1e6,
-              their_point / 1e6, our_point / their_point, our_second / 1e6, their_second / 1e6, their_plain / 1e6, our_second / their_second, our_second / their_plain, sum == 1.2345 ? "!" : "");
+  std::printf("%-18s %8.1e %8.1e %8.1e  %8.1e %8.1e %-4s %6.2f %6.2f %6.1f  %6.2f %6.2f %6.2f %6.1f %6.1f%s\n", name, agree.between, agree.ours, agree.theirs,
+              agree.our_share, agree.their_share, agree.worst, our_point / 1e6, their_point / 1e6, our_point / their_point, our_second / 1e6,
+              their_second / 1e6, their_plain / 1e6, our_second / their_second, our_second / their_plain, sum == 1.2345 ? "!" : "");
   return std::max(agree.between, agree.ours) <= k_agreement && our_point > their_point && our_second > std::max(their_second, their_plain);
 }
 
@@ -264,7 +267,8 @@ void projections(const SurfacePtr& surface) {
 int main() {
   std::printf("OpenCASCADE %s; best of %d rounds of %d random places; millions of evaluations a second\n", OCC_VERSION_COMPLETE, k_rounds, k_places);
   std::printf("%-18s %-26s  %-22s %-20s  %s\n", "", "differences / terms", "/ largest, from truth", "points", "second derivatives");
-  std::printf("%-18s %8s %8s %8s  %8s %8s %-4s %6s %6s %6s  %6s %6s %6s %6s %6s\n", "surface", "between", "ours", "OCCT", "ours", "OCCT", "of", "ours", "OCCT", "ratio", "ours", "adapt.", "plain", "ratio", "ratio");
+  std::printf("%-18s %8s %8s %8s  %8s %8s %-4s %6s %6s %6s  %6s %6s %6s %6s %6s\n", "surface", "between", "ours", "OCCT", "ours", "OCCT", "of", "ours", "OCCT",
+              "ratio", "ours", "adapt.", "plain", "ratio", "ratio");
   const SplineOptions cubic{}, akima{.tangents = SplineTangents::akima}, linear{.tangents = SplineTangents::linear};
   const PointGrid grid = wing_grid();
   bool is_good = compare("bicubic, C2", NurbsSurface(spline_surface_form(grid, cubic, cubic)));
@@ -274,7 +278,8 @@ int main() {
   for (std::size_t i = 0; i < rational.poles.size(); ++i) rational.weights.push_back(1.0 + 0.3 * std::sin(static_cast<double>(i)));
   is_good = compare("bicubic, rational", NurbsSurface(rational)) && is_good;
   const NurbsSurfaceForm plain = spline_surface_form(grid, cubic, cubic);
-  is_good = compare("degree 5 x 5", NurbsSurface(on_knots_v(on_knots_u(plain, 5, elevated_knots(plain.knots_u, 2)), 5, elevated_knots(plain.knots_v, 2)))) && is_good;
+  is_good =
+      compare("degree 5 x 5", NurbsSurface(on_knots_v(on_knots_u(plain, 5, elevated_knots(plain.knots_u, 2)), 5, elevated_knots(plain.knots_v, 2)))) && is_good;
   projections(std::make_shared<NurbsSurface>(plain));
   std::printf(is_good ? "all agree to %.0e, and ours are faster\n" : "NOT all agree to %.0e and are faster\n", k_agreement);
   return is_good ? 0 : 1;

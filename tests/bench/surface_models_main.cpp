@@ -1,8 +1,9 @@
 // The surface mesher on whole models: CAD files, .smx and CPACS aircraft (united). One row each; processor time of the meshing alone.
-// usage: surface_models [-max METRES] [-angle DEGREES] [-growth G] [-refine F] [-narrow N] [-gaps CELLS] [-thickness FACTOR] [-intersection FACTOR] [-wing FACTOR] [-nostrips] [-threads N] [-parts] [-nocheck] [-strict] [-out FOLDER] [-raw FOLDER] [-distance MESH] [-v] FILE ...
-//   -parts: aircraft are not united; -nocheck: crossings are not looked for; -strict: they are errors, else counted; -out: writes FOLDER/<stem>.vtu and .su2; -v: the worst faces too
-//   -raw: writes FOLDER/<stem>.tri, the numbers of tools/compare_gmsh: int64 points, int64 triangles, points as 3 doubles, triangles as 3 int32
-//   -distance: of such meshes (given before FILE) how far triangles are from FILE's faces; FILE is then not meshed
+// usage: surface_models [-max METRES] [-angle DEGREES] [-growth G] [-refine F] [-narrow N] [-gaps CELLS] [-thickness FACTOR] [-intersection FACTOR] [-wing
+// FACTOR] [-nostrips] [-threads N] [-parts] [-nocheck] [-strict] [-out FOLDER] [-raw FOLDER] [-distance MESH] [-v] FILE ...
+//   -parts: aircraft are not united; -nocheck: crossings are not looked for; -strict: they are errors, else counted; -out: writes FOLDER/<stem>.vtu and .su2;
+//   -v: the worst faces too -raw: writes FOLDER/<stem>.tri, the numbers of tools/compare_gmsh: int64 points, int64 triangles, points as 3 doubles, triangles as
+//   3 int32 -distance: of such meshes (given before FILE) how far triangles are from FILE's faces; FILE is then not meshed
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -124,7 +125,8 @@ FaceTarget make_target(const Model& model, const ModelFace& face) {
 }
 
 double distance_to_box(const Point& p, const Box& box) {
-  const Vec3 d{std::max({box.min.x - p.x, 0.0, p.x - box.max.x}), std::max({box.min.y - p.y, 0.0, p.y - box.max.y}), std::max({box.min.z - p.z, 0.0, p.z - box.max.z})};
+  const Vec3 d{std::max({box.min.x - p.x, 0.0, p.x - box.max.x}), std::max({box.min.y - p.y, 0.0, p.y - box.max.y}),
+               std::max({box.min.z - p.z, 0.0, p.z - box.max.z})};
   return norm(d);
 }
 
@@ -149,15 +151,18 @@ void print_distances(const Model& model, const std::vector<std::string>& meshes,
     const RawMesh mesh = read_raw(path);
     const std::size_t step = (mesh.triangles.size() + k_most - 1) / k_most, n = step == 0 ? 0 : mesh.triangles.size() / step;
     std::vector<double> edges(n), middles(n);
-    parallel_for(context, n, [&](std::size_t i) {
-      Point p[3];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto& x = mesh.points[static_cast<std::size_t>(mesh.triangles[i * step][k])];
-        p[k] = {x[0], x[1], x[2]};
-      }
-      for (std::size_t k = 0; k < 3; ++k) edges[i] = std::max(edges[i], distance_to_faces(0.5 * (p[k] + p[(k + 1) % 3]), targets));
-      middles[i] = distance_to_faces((p[0] + p[1] + p[2]) / 3.0, targets);
-    }, 64);
+    parallel_for(
+        context, n,
+        [&](std::size_t i) {
+          Point p[3];
+          for (std::size_t k = 0; k < 3; ++k) {
+            const auto& x = mesh.points[static_cast<std::size_t>(mesh.triangles[i * step][k])];
+            p[k] = {x[0], x[1], x[2]};
+          }
+          for (std::size_t k = 0; k < 3; ++k) edges[i] = std::max(edges[i], distance_to_faces(0.5 * (p[k] + p[(k + 1) % 3]), targets));
+          middles[i] = distance_to_faces((p[0] + p[1] + p[2]) / 3.0, targets);
+        },
+        64);
     double most = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < n; ++i) most = std::max({most, edges[i], middles[i]}), sum += middles[i];
     std::printf("DISTANCE %s %zu %.6e %.6e\n", path.c_str(), n, most, sum / static_cast<double>(std::max<std::size_t>(n, 1)));
@@ -187,15 +192,18 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
       double normal_angle = 0.0;
       for (const auto& face : r.faces) normal_angle = std::max(normal_angle, face.max_normal_angle);
       const test::TriangleQuality q = test::measure_triangles(mesh.mesh.points.raw(), mesh.mesh.triangles.raw());
-      std::printf("| %s | %zu | %s | %zu | %.2f | %.0f | %.2f | %.1f | %.4f | %.1f | %.3f | %.0f | %.1e | %lld | %zu | %d | %s | %.1f |\n", name.c_str(), model.faces.size(), is_closed ? "closed" : "open", mesh.mesh.n_triangles(), meshing,
-                  n / meshing * 1e-3, r.min_angle / k_deg, r.angle_quantile_1 / k_deg, q.radius_ratio, 100.0 * q.share_of_six, 100.0 * r.share_20_130, normal_angle / k_deg, r.max_edge_distance, static_cast<long long>(r.n_crossings), r.absorbed.size(), r.n_rounds, worst.c_str(), reading);
+      std::printf("| %s | %zu | %s | %zu | %.2f | %.0f | %.2f | %.1f | %.4f | %.1f | %.3f | %.0f | %.1e | %lld | %zu | %d | %s | %.1f |\n", name.c_str(),
+                  model.faces.size(), is_closed ? "closed" : "open", mesh.mesh.n_triangles(), meshing, n / meshing * 1e-3, r.min_angle / k_deg,
+                  r.angle_quantile_1 / k_deg, q.radius_ratio, 100.0 * q.share_of_six, 100.0 * r.share_20_130, normal_angle / k_deg, r.max_edge_distance,
+                  static_cast<long long>(r.n_crossings), r.absorbed.size(), r.n_rounds, worst.c_str(), reading);
       if (settings.is_verbose) {
         std::vector<surfmesh::FaceMeshSummary> faces = r.faces;
         std::sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.n_outside_20_130 > b.n_outside_20_130; });
         for (std::size_t i = 0; i < std::min<std::size_t>(8, faces.size()); ++i)
-          std::printf("    face %u \"%s\" %s: %lld triangles, %lld outside, angles %.2f .. %.1f at %s, normals %.1f at %s\n", faces[i].face.value(), faces[i].name.c_str(), model.faces[faces[i].face].surface->kind().c_str(),
-                      static_cast<long long>(faces[i].n_triangles), static_cast<long long>(faces[i].n_outside_20_130), faces[i].min_angle / k_deg, faces[i].max_angle / k_deg, format_point(faces[i].worst_place).c_str(),
-                      faces[i].max_normal_angle / k_deg, format_point(faces[i].normal_place).c_str());
+          std::printf("    face %u \"%s\" %s: %lld triangles, %lld outside, angles %.2f .. %.1f at %s, normals %.1f at %s\n", faces[i].face.value(),
+                      faces[i].name.c_str(), model.faces[faces[i].face].surface->kind().c_str(), static_cast<long long>(faces[i].n_triangles),
+                      static_cast<long long>(faces[i].n_outside_20_130), faces[i].min_angle / k_deg, faces[i].max_angle / k_deg,
+                      format_point(faces[i].worst_place).c_str(), faces[i].max_normal_angle / k_deg, format_point(faces[i].normal_place).c_str());
         for (const auto& a : r.absorbed) std::printf("    absorbed %s %g m at %s\n", a.what.c_str(), a.size, format_point(a.place).c_str());
         std::printf("    edge distance %g at %s\n", r.max_edge_distance, format_point(r.edge_distance_place).c_str());
       }
@@ -219,7 +227,9 @@ void print_row(const std::filesystem::path& path, const Settings& settings) {
 int main(int argc, char** argv) {
   Settings settings;
   settings.options.crossings = "warn";
-  std::puts("| file | faces | model | triangles | cpu s | k/s | min angle | 1 % | radius ratio | six % | in [20, 130] % | normals | edges to faces, m | crossings | absorbed | rounds | worst | read s |");
+  std::puts(
+      "| file | faces | model | triangles | cpu s | k/s | min angle | 1 % | radius ratio | six % | in [20, 130] % | normals | edges to faces, m | crossings | "
+      "absorbed | rounds | worst | read s |");
   std::puts("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   for (int i = 1; i < argc; ++i) {
     const auto number = [&] { return i + 1 < argc ? std::strtod(argv[++i], nullptr) : 0.0; };

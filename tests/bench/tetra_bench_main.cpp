@@ -1,8 +1,8 @@
-// What the engines make of real surfaces, with the settings of ../shared/data/baselines.md: 35 layers, first height 1e-6 of the body length L, growth at most 1.4,
-// thickness at most 0.1 L, wall perpendicularity 0.1, farfield 20 L.
-// usage: tetra_bench [--threads 2] [--engines hxt,tetgen] [--layers 35] SURFACE...      parts of one body are joined with +: wing.stl+flap.stl
-// One table row for each surface and engine. "ours" is everything of the stage but the engine's own run: boundary, size field, transfer, process, verification.
-// That the boundary comes back to the bit is proven in each run (verify.h); a row that could not be made says why.
+// What the engines make of real surfaces, with the settings of ../shared/data/baselines.md: 35 layers, first height 1e-6 of the body length L, growth at
+// most 1.4, thickness at most 0.1 L, wall perpendicularity 0.1, farfield 20 L. usage: tetra_bench [--threads 2] [--engines hxt,tetgen] [--layers 35] SURFACE...
+// parts of one body are joined with +: wing.stl+flap.stl One table row for each surface and engine. "ours" is everything of the stage but the engine's own run:
+// boundary, size field, transfer, process, verification. That the boundary comes back to the bit is proven in each run (verify.h); a row that could not be made
+// says why.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,7 +66,8 @@ TetFigures figures_of(const HybridMesh& mesh) {
     std::array<Vec3, 4> p;
     for (std::size_t k = 0; k < 4; ++k) p[k] = mesh.points[nodes[k]];
     double shortest = distance(p[0], p[1]);
-    for (const auto& [i, j] : {std::pair{0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}) shortest = std::min(shortest, distance(p[static_cast<std::size_t>(i)], p[static_cast<std::size_t>(j)]));
+    for (const auto& [i, j] : {std::pair{0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}})
+      shortest = std::min(shortest, distance(p[static_cast<std::size_t>(i)], p[static_cast<std::size_t>(j)]));
     figures.angle.push_back(k_degrees * tet_dihedral_range(p)[0]);
     figures.radius_edge.push_back(circumradius(p) / shortest);
   }
@@ -103,14 +104,17 @@ void print_row(const std::string& name, const std::string& engine, const Setting
     const auto n = static_cast<double>(result.mesh.tetrahedra.size());
     const double inside = result.tetra_engine_seconds, around = seconds_of(context, "tetrahedra") - inside;
     const GateResult& growth = result.check.gate(Measure::tet_growth);
-    std::printf("| %s | %zu | %s | %.0f | %.0f | %.2f | %.2f | %.0f | %.2f | %.0f | %lld | %lld | %lld | %.2f | %.2f | %.1f | %.1f | %.2f | %.2f | %.1f | %.3f |\n",
-                name.substr(name.rfind('/') + 1).c_str(), wall.n_triangles(), result.tetra_engine.c_str(), n, n / inside / 1000.0, inside, around, 100.0 * around / inside,
-                seconds_of(context, "improve"), result.tetra_engine_peak_bytes / k_bytes_per_mb, static_cast<long long>(result.improvement.n_bad_before),
-                static_cast<long long>(result.improvement.n_bad_after), static_cast<long long>(result.improvement.n_bad_free_after),
-                k_degrees * result.improvement.min_angle_before, figures.angle.front(), quantile(figures.angle, 0.01), quantile(figures.angle, 0.5),
-                quantile(figures.radius_edge, 0.5), quantile(figures.radius_edge, 0.99), growth.worst, 100.0 * growth.share_within);
+    std::printf(
+        "| %s | %zu | %s | %.0f | %.0f | %.2f | %.2f | %.0f | %.2f | %.0f | %lld | %lld | %lld | %.2f | %.2f | %.1f | %.1f | %.2f | %.2f | %.1f | %.3f |\n",
+        name.substr(name.rfind('/') + 1).c_str(), wall.n_triangles(), result.tetra_engine.c_str(), n, n / inside / 1000.0, inside, around,
+        100.0 * around / inside, seconds_of(context, "improve"), result.tetra_engine_peak_bytes / k_bytes_per_mb,
+        static_cast<long long>(result.improvement.n_bad_before), static_cast<long long>(result.improvement.n_bad_after),
+        static_cast<long long>(result.improvement.n_bad_free_after), k_degrees * result.improvement.min_angle_before, figures.angle.front(),
+        quantile(figures.angle, 0.01), quantile(figures.angle, 0.5), quantile(figures.radius_edge, 0.5), quantile(figures.radius_edge, 0.99), growth.worst,
+        100.0 * growth.share_within);
   } catch (const Error& error) {
-    std::printf("| %s | | %s | %s: %s |\n", name.substr(name.rfind('/') + 1).c_str(), engine.c_str(), error.info().attempted.c_str(), error.info().problem.c_str());
+    std::printf("| %s | | %s | %s: %s |\n", name.substr(name.rfind('/') + 1).c_str(), engine.c_str(), error.info().attempted.c_str(),
+                error.info().problem.c_str());
   }
   std::fflush(stdout);
 }
@@ -130,8 +134,11 @@ int main(int argc, char** argv) {
     std::fputs("usage: tetra_bench [--threads 2] [--engines hxt,tetgen] [--layers 35] SURFACE...\n", stderr);
     return 2;
   }
-  std::puts("| surface | triangles | engine | tets | k tets/s | engine s | ours s | ours % | improve s | engine MB | bad before | bad after | away from boundary | min deg before | min deg | 1 % deg | "
-            "median deg | median R/l | 99 % R/l | worst growth | growth <= 4 % |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+  std::puts(
+      "| surface | triangles | engine | tets | k tets/s | engine s | ours s | ours % | improve s | engine MB | bad before | bad after | away from boundary | "
+      "min deg before | min deg | 1 % deg | "
+      "median deg | median R/l | 99 % R/l | worst growth | growth <= 4 % "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   for (const std::string& surface : settings.surfaces)
     for (const std::string& engine : settings.engines) print_row(surface, engine, settings);
   return 0;

@@ -1,7 +1,7 @@
 // Writes a mesh of columns and tetrahedra in each format named, and reads it back: speed against a plain write of as many bytes in the same run (SU2: against
 // fprintf of the same content), and memory beside the mesh.
-//   write_volumes N FOLDER EXTENSION...      N^2 squares of the plate, 30 layers, 4 shells of tetrahedra: N = 870 has 26.5 M nodes, 45.4 M prisms, 18.2 M tetrahedra
-//   write_volumes --write N FOLDER EXTENSION...      without reading
+//   write_volumes N FOLDER EXTENSION...      N^2 squares of the plate, 30 layers, 4 shells of tetrahedra: N = 870 has 26.5 M nodes, 45.4 M prisms, 18.2 M
+//   tetrahedra write_volumes --write N FOLDER EXTENSION...      without reading
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -65,7 +65,8 @@ void bend(sterna::HybridMesh& mesh) {
 
 /// What a .sterna file holds unpacked: coordinates, columns, tetrahedra, boundary.
 std::uint64_t unpacked_bytes(const sterna::HybridMesh& mesh) {
-  return 24 * mesh.points.size() + 12 * mesh.layers.n_columns() + 5 * mesh.layers.n_lines() + 16 * mesh.tetrahedra.size() + 16 * mesh.boundary_triangles.size() + 20 * mesh.boundary_quads.size();
+  return 24 * mesh.points.size() + 12 * mesh.layers.n_columns() + 5 * mesh.layers.n_lines() + 16 * mesh.tetrahedra.size() +
+         16 * mesh.boundary_triangles.size() + 20 * mesh.boundary_quads.size();
 }
 
 /// SU2 as one writes it first: fprintf, a line a call, 17 digits.
@@ -89,7 +90,8 @@ double write_with_fprintf(const sterna::HybridMesh& mesh, const std::filesystem:
     for (const auto& face : mesh.boundary_triangles)
       if (face.patch == patch) std::fprintf(file, "5 %u %u %u\n", face.nodes[0].value(), face.nodes[1].value(), face.nodes[2].value());
     for (const auto& face : mesh.boundary_quads)
-      if (face.patch == patch) std::fprintf(file, "9 %u %u %u %u\n", face.nodes[0].value(), face.nodes[1].value(), face.nodes[2].value(), face.nodes[3].value());
+      if (face.patch == patch)
+        std::fprintf(file, "9 %u %u %u %u\n", face.nodes[0].value(), face.nodes[1].value(), face.nodes[2].value(), face.nodes[3].value());
   }
   std::fflush(file);
   ::fsync(::fileno(file));
@@ -113,15 +115,15 @@ void run(const sterna::HybridMesh& mesh, const std::string& extension, const Set
   const std::uint64_t n = size_of(path);
   const double plain = write_plain(plain_path, n);
   std::filesystem::remove(plain_path);
-  std::printf("%-14s write %7.3f GB %7.2f s %6.3f GB/s  plain write %6.2f s: %4.0f %%  extra memory %6.3f GB\n", extension.c_str(), static_cast<double>(n) / 1e9, seconds,
-              static_cast<double>(n) / 1e9 / seconds, plain, 100.0 * plain / seconds, extra / 1e9);
+  std::printf("%-14s write %7.3f GB %7.2f s %6.3f GB/s  plain write %6.2f s: %4.0f %%  extra memory %6.3f GB\n", extension.c_str(),
+              static_cast<double>(n) / 1e9, seconds, static_cast<double>(n) / 1e9 / seconds, plain, 100.0 * plain / seconds, extra / 1e9);
   std::fflush(stdout);
   if (extension == ".sterna") {
     const std::uint64_t n_unpacked = unpacked_bytes(mesh);
     const double plain_unpacked = write_plain(plain_path, n_unpacked);
     std::filesystem::remove(plain_path);
-    std::printf("%-14s unpacked %4.3f GB %17.3f GB/s  plain write %6.2f s: %4.0f %%\n", "", static_cast<double>(n_unpacked) / 1e9, static_cast<double>(n_unpacked) / 1e9 / seconds, plain_unpacked,
-                100.0 * plain_unpacked / seconds);
+    std::printf("%-14s unpacked %4.3f GB %17.3f GB/s  plain write %6.2f s: %4.0f %%\n", "", static_cast<double>(n_unpacked) / 1e9,
+                static_cast<double>(n_unpacked) / 1e9 / seconds, plain_unpacked, 100.0 * plain_unpacked / seconds);
   }
   if (extension == ".su2") {
     const double with_fprintf = write_with_fprintf(mesh, plain_path);

@@ -1,5 +1,5 @@
-// Container files (CGNS, TAU, VTKHDF) are read by libraries in a process of its own, which fuzzers need not try: what runs in ours begins with the image of the file that comes
-// from there. So the inputs of these targets are images: here read_container() takes the file for one.
+// Container files (CGNS, TAU, VTKHDF) are read by libraries in a process of its own, which fuzzers need not try: what runs in ours begins with the image of the
+// file that comes from there. So the inputs of these targets are images: here read_container() takes the file for one.
 #pragma once
 
 #include <filesystem>

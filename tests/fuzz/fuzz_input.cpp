@@ -63,7 +63,8 @@ std::vector<Target> all_targets() {
     for (const io::Format& format : io::formats()) {
       if (is_volume ? !format.read_volume : !format.read_surface) continue;
       const auto same = std::find_if(targets.begin(), targets.end(), [&](const Target& target) {
-        return target.is_volume == is_volume && (is_volume ? target.format->read_volume == format.read_volume : target.format->read_surface == format.read_surface);
+        return target.is_volume == is_volume &&
+               (is_volume ? target.format->read_volume == format.read_volume : target.format->read_surface == format.read_surface);
       });
       const std::vector<std::string_view> variants = words(entry(k_variants, format.name));
       for (const std::string_view extension : variants) targets.push_back({&format, is_volume, std::string(extension)});

@@ -32,7 +32,8 @@ std::vector<std::string_view> words(std::string_view text);
 /// Every reader once; one that goes by the extension once for each.
 std::vector<Target> all_targets();
 
-/// The files of one input, in memory where the system has such a folder; removed at the end. Parts are separated by k_part_end, in the order main file, companions.
+/// The files of one input, in memory where the system has such a folder; removed at the end. Parts are separated by k_part_end, in the order main file,
+/// companions.
 class InputFiles {
  public:
   explicit InputFiles(const Target& target);

@@ -29,14 +29,18 @@ std::string unless_sound(const std::string& what, const T&... values) {
 std::string flaw_of(const Body& body) {
   if (body.frames.size() < 2) return "body " + body.name + " has " + std::to_string(body.frames.size()) + " frames";
   std::string flaw = unless_sound("body " + body.name, body.placement.origin, body.placement.rotation, body.nose.height, body.tail.height);
-  for (const BodyFrame& frame : body.frames) flaw += unless_sound("frame " + frame.name, frame.center, frame.height, frame.width, frame.exponent, frame.offset, frame.distortion, frame.points, frame.loop);
+  for (const BodyFrame& frame : body.frames)
+    flaw +=
+        unless_sound("frame " + frame.name, frame.center, frame.height, frame.width, frame.exponent, frame.offset, frame.distortion, frame.points, frame.loop);
   return flaw;
 }
 
 std::string flaw_of(const Wing& wing) {
   if (wing.sections.size() < 2) return "wing " + wing.name + " has " + std::to_string(wing.sections.size()) + " sections";
   std::string flaw = unless_sound("wing " + wing.name, wing.placement.origin, wing.placement.rotation, wing.right_tip.height, wing.left_tip.height);
-  for (const WingSection& section : wing.sections) flaw += unless_sound("section " + section.name, section.leading_edge, section.chord, section.twist, section.dihedral, section.yaw, section.points, section.loop);
+  for (const WingSection& section : wing.sections)
+    flaw += unless_sound("section " + section.name, section.leading_edge, section.chord, section.twist, section.dihedral, section.yaw, section.points,
+                         section.loop);
   return flaw;
 }
 
@@ -66,16 +70,21 @@ std::string read_airfoil_file(const std::filesystem::path& path, const RunContex
 
 std::string read_displacement_file(const std::filesystem::path& path, const RunContext&) {
   const ScatteredDisplacements data = read_displacements(path);
-  if (data.at.empty() || data.at.size() != data.shift.size()) return std::to_string(data.shift.size()) + " displacements of " + std::to_string(data.at.size()) + " points";
+  if (data.at.empty() || data.at.size() != data.shift.size())
+    return std::to_string(data.shift.size()) + " displacements of " + std::to_string(data.at.size()) + " points";
   return unless_sound("the table", data.at, data.shift);
 }
 
 constexpr std::array k_readers = {
     ModelReader{"sumo", ".smx", read_smx_file,
                 "<?xml version=\"1.0\"?>\n<Assembly name=\"a\" sumoVersion=\"2.7\"><BodySkeleton name=\"b\" origin=\"0 0 0\" rotation=\"0 0 0\">"
-                "<BodyFrame name=\"f\" center=\"0 0 0\" height=\"1\" width=\"1\" shape=\"circle\"/><BodyFrame name=\"g\" center=\"1 0 0\" height=\"1\" width=\"1\" shape=\"circle\"/></BodySkeleton>"
-                "<WingSkeleton name=\"w\" origin=\"0 0 0\" rotation=\"0 0 0\"><WingSection name=\"s\" center=\"0 1 0\" chord=\"1\">1 0;0 0;1 0</WingSection></WingSkeleton></Assembly>\n"},
-    ModelReader{"CPACS", ".xml", read_cpacs_file, "<?xml version=\"1.0\"?>\n<cpacs><header><cpacsVersion>3.0</cpacsVersion></header><vehicles><aircraft><model uID=\"m\"/></aircraft></vehicles></cpacs>\n"},
+                "<BodyFrame name=\"f\" center=\"0 0 0\" height=\"1\" width=\"1\" shape=\"circle\"/><BodyFrame name=\"g\" center=\"1 0 0\" height=\"1\" "
+                "width=\"1\" shape=\"circle\"/></BodySkeleton>"
+                "<WingSkeleton name=\"w\" origin=\"0 0 0\" rotation=\"0 0 0\"><WingSection name=\"s\" center=\"0 1 0\" chord=\"1\">1 0;0 0;1 "
+                "0</WingSection></WingSkeleton></Assembly>\n"},
+    ModelReader{"CPACS", ".xml", read_cpacs_file,
+                "<?xml version=\"1.0\"?>\n<cpacs><header><cpacsVersion>3.0</cpacsVersion></header><vehicles><aircraft><model "
+                "uID=\"m\"/></aircraft></vehicles></cpacs>\n"},
     ModelReader{"airfoil", ".dat", read_airfoil_file, "plate\n1 0.01\n0.5 0.02\n0 0\n0.5 -0.02\n1 -0.01\n"},
     ModelReader{"displacements", ".txt", read_displacement_file, "# x y z dx dy dz\n0 0 0 0 0 0.1\n1, 0, 0, 0, 0, 0.2\n"},
 };

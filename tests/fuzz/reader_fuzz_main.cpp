@@ -1,5 +1,5 @@
-// libFuzzer target for every reader of the table of formats and of models' files. Whatever the bytes: a reader gives a sound mesh, or throws sterna::Error that says where and why.
-// The environment variable STERNA_FUZZ names the target ("UGRID:volume:.lb8.ugrid"). Beside libFuzzer's options:
+// libFuzzer target for every reader of the table of formats and of models' files. Whatever the bytes: a reader gives a sound mesh, or throws sterna::Error that
+// says where and why. The environment variable STERNA_FUZZ names the target ("UGRID:volume:.lb8.ugrid"). Beside libFuzzer's options:
 //   reader_fuzz --list                          prints the targets, one a line
 //   reader_fuzz --seeds FOLDER SAMPLES...       fills FOLDER with inputs of the target from our own writers and from the folders SAMPLES
 // Built by the preset "fuzz"; run by tests/fuzz/run_fuzzers.

@@ -20,7 +20,8 @@ std::array<NodeId, N> nodes(const std::uint32_t (&numbers)[N]) {
 /// A hexahedron, a pyramid on its top, a prism at its side, a tetrahedron between these (mix4 of formats.md).
 HybridMesh four_cells() {
   HybridMesh mesh;
-  mesh.points.raw() = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0.5, 2}, {2, 0, 0.5}, {2, 1, 0.5}, {1.5, 0.5, 1.8}};
+  mesh.points.raw() = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},     {0, 1, 0},   {0, 0, 1},   {1, 0, 1},
+                       {1, 1, 1}, {0, 1, 1}, {0.5, 0.5, 2}, {2, 0, 0.5}, {2, 1, 0.5}, {1.5, 0.5, 1.8}};
   mesh.hexahedra = {nodes({0, 1, 2, 3, 4, 5, 6, 7})};
   mesh.pyramids = {nodes({4, 5, 6, 7, 8})};
   mesh.prisms = {nodes({1, 5, 9, 2, 6, 10})};
@@ -29,7 +30,7 @@ HybridMesh four_cells() {
   const PatchId wall(0), symmetry(1), farfield(2);
   mesh.boundary_quads = {{nodes({0, 3, 2, 1}), wall},     {nodes({0, 1, 5, 4}), symmetry},  {nodes({2, 3, 7, 6}), farfield},
                          {nodes({0, 4, 7, 3}), farfield}, {nodes({5, 9, 10, 6}), farfield}, {nodes({9, 1, 2, 10}), farfield}};
-  mesh.boundary_triangles = {{nodes({1, 9, 5}), symmetry}, {nodes({4, 5, 8}), farfield},  {nodes({6, 7, 8}), farfield},  {nodes({7, 4, 8}), farfield},
+  mesh.boundary_triangles = {{nodes({1, 9, 5}), symmetry},  {nodes({4, 5, 8}), farfield},  {nodes({6, 7, 8}), farfield},  {nodes({7, 4, 8}), farfield},
                              {nodes({2, 6, 10}), farfield}, {nodes({5, 6, 11}), farfield}, {nodes({6, 8, 11}), farfield}, {nodes({8, 5, 11}), farfield}};
   return mesh;
 }
@@ -56,7 +57,9 @@ void write_everything(const std::filesystem::path& path, const RunContext& conte
   for (auto* const numbers : {&envelope.height, &envelope.target, &envelope.eq1, &envelope.cap}) numbers->raw().assign(4, 0.5);
   envelope.limit.raw().assign(4, 1);
   const io::StoredTetrahedra tetrahedra{.n_boundary_points = 4, .new_points = {{0.3, 0.3, 0.3}}, .tetrahedra = {{0, 1, 2, 4}}};
-  io::write_sterna({.surface = &surface, .envelope = &envelope, .tetrahedra = &tetrahedra, .mesh = &mesh, .manifest = "{}", .certificate = "{}", .quality = "{}"}, path, context);
+  io::write_sterna(
+      {.surface = &surface, .envelope = &envelope, .tetrahedra = &tetrahedra, .mesh = &mesh, .manifest = "{}", .certificate = "{}", .quality = "{}"}, path,
+      context);
 }
 
 class SeedFolder {
@@ -106,7 +109,8 @@ int write_seeds(const Target& target, const std::filesystem::path& folder, std::
     }
   }
   if (target.extension() == ".sterna") add_written("x.sterna", [&](const std::filesystem::path& path) { write_everything(path, context); });
-  if (target.model) add_written("x" + target.extensions, [&](const std::filesystem::path& path) { std::ofstream(path, std::ios::binary) << target.model->seed; });
+  if (target.model)
+    add_written("x" + target.extensions, [&](const std::filesystem::path& path) { std::ofstream(path, std::ios::binary) << target.model->seed; });
   for (const std::filesystem::path& samples : sample_folders) {
     if (!std::filesystem::is_directory(samples)) continue;
     std::vector<std::filesystem::path> paths;

@@ -34,7 +34,8 @@ TEST_F(CommandLine, HelpAndVersionSucceedOnStdout) {
   EXPECT_EQ(sterna({"--version"}).output, "sterna 0.1.0\n");
   const ProcessResult help = sterna({"--help"});
   EXPECT_EQ(help.status, k_exit_success);
-  for (const char* part : {"run", "mesh", "check", "info", "convert", "formats", "Exit status: 0 success"}) EXPECT_NE(help.output.find(part), std::string::npos) << part;
+  for (const char* part : {"run", "mesh", "check", "info", "convert", "formats", "Exit status: 0 success"})
+    EXPECT_NE(help.output.find(part), std::string::npos) << part;
   const ProcessResult mesh = sterna({"mesh", "--help"});
   for (const char* part : {"--layers", "--first-height", "--max-growth", "--farfield-radius", "--unit", "--split-angle", "--set"})
     EXPECT_NE(mesh.output.find(part), std::string::npos) << part;
@@ -92,7 +93,8 @@ TEST_F(CommandLine, SurfacesInFormatsOfVolumesAreSurfaces) {
 TEST_F(CommandLine, AllWrongOptionsAreNamedTogether) {
   const ProcessResult result = sterna({"mesh", "box.stl", "-o", "m.su2", "--layers", "0", "--split-angle", "40", "--set", "envelope.max_grwoth=2"});
   EXPECT_EQ(result.status, k_exit_usage);
-  for (const char* part : {"error: ", "4 problems", "envelope.layers: 0 is not allowed", "write degrees as 40deg", "did you mean \"envelope.max_growth\"?", "needs first_height"})
+  for (const char* part :
+       {"error: ", "4 problems", "envelope.layers: 0 is not allowed", "write degrees as 40deg", "did you mean \"envelope.max_growth\"?", "needs first_height"})
     EXPECT_NE(result.errors.find(part), std::string::npos) << part << " in\n" << result.errors;
   EXPECT_EQ(result.output, "");
 }
@@ -148,7 +150,8 @@ TEST_F(CommandLine, AnOpenSurfaceIsDrawn) {
   EXPECT_NE(result.errors.find("(0.5, 0.5, 0)"), std::string::npos) << result.errors;
   EXPECT_EQ(files(), (std::vector<std::string>{"box.stl", "m.su2.trouble.vtu", "open.stl"}));
   std::filesystem::create_directory(folder / "dump");
-  EXPECT_NE(sterna({"mesh", "open.stl", "--first-height", "1e-3", "-o", "m.su2", "--dump-dir", "dump"}).errors.find("dump/m.su2.trouble.vtu"), std::string::npos);
+  EXPECT_NE(sterna({"mesh", "open.stl", "--first-height", "1e-3", "-o", "m.su2", "--dump-dir", "dump"}).errors.find("dump/m.su2.trouble.vtu"),
+            std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(folder / "dump" / "m.su2.trouble.vtu"));
 }
 
@@ -180,7 +183,9 @@ TEST_F(CommandLine, ConvertKeepsWhatItIs) {
 }
 
 TEST_F(CommandLine, OpenFoamCasesByEachOfTheirNames) {
-  write("tet.su2", "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nNMARK= 1\nMARKER_TAG= skin\nMARKER_ELEMS= 4\n5 0 2 1\n5 0 1 3\n5 1 2 3\n5 2 0 3\n");
+  write("tet.su2",
+        "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nNMARK= 1\nMARKER_TAG= skin\nMARKER_ELEMS= 4\n5 0 2 1\n5 0 1 3\n5 1 2 3\n5 2 0 "
+        "3\n");
   std::filesystem::create_directories(folder / "old.foam");  // a case that is a folder, as samples are
   ASSERT_EQ(sterna({"convert", "tet.su2", "new.foam"}).status, k_exit_success);
   ASSERT_EQ(sterna({"convert", "tet.su2", "old.foam"}).status, k_exit_success);
@@ -208,7 +213,9 @@ TEST_F(CommandLine, OpenFoamCasesByEachOfTheirNames) {
 }
 
 TEST_F(CommandLine, ConvertTakesVolumesToVolumesAndTheirBoundaryWhenAsked) {
-  write("tet.su2", "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nNMARK= 1\nMARKER_TAG= skin\nMARKER_ELEMS= 4\n5 0 2 1\n5 0 1 3\n5 1 2 3\n5 2 0 3\n");
+  write("tet.su2",
+        "NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nNMARK= 1\nMARKER_TAG= skin\nMARKER_ELEMS= 4\n5 0 2 1\n5 0 1 3\n5 1 2 3\n5 2 0 "
+        "3\n");
   ASSERT_EQ(sterna({"convert", "tet.su2", "tet.lb8.ugrid"}).status, k_exit_success);
   const ProcessResult info = sterna({"info", "tet.lb8.ugrid"});
   for (const char* part : {"1 tetrahedron", "\"skin\"", "no faults found"}) EXPECT_NE(info.output.find(part), std::string::npos) << info.output;
@@ -220,12 +227,15 @@ TEST_F(CommandLine, ConvertTakesVolumesToVolumesAndTheirBoundaryWhenAsked) {
 }
 
 TEST_F(CommandLine, ModelsAreConvertedUnitedDescribedAndChecked) {
-  write("parts.lua", "box{ {0,0,0}, {1,1,1} }:write 'a.step' box{ {0.5,0.25,0.25}, {2,0.75,0.75}, name='arm' }:write 'b.step' fuselage{ name='body', frames={ {x=0,diameter=1}, {x=3,diameter=1} } }:model():write 'body.smx' "
-                     "surface{ function(u, v) return u, v, u*v end, name = 'sheet' }:write 'sheet.brep'");
+  write("parts.lua",
+        "box{ {0,0,0}, {1,1,1} }:write 'a.step' box{ {0.5,0.25,0.25}, {2,0.75,0.75}, name='arm' }:write 'b.step' fuselage{ name='body', frames={ "
+        "{x=0,diameter=1}, {x=3,diameter=1} } }:model():write 'body.smx' "
+        "surface{ function(u, v) return u, v, u*v end, name = 'sheet' }:write 'sheet.brep'");
   ASSERT_EQ(sterna({"run", "parts.lua", "-q"}).status, k_exit_success);
   ASSERT_EQ(sterna({"union", "a.step", "b.step", "-o", "c.step"}).status, k_exit_success);
   const ProcessResult info = sterna({"info", "c.step"});
-  for (const char* part : {"1 closed solid", "volume 1.25 m^3", "seen from above 1.5 m^2", "no open edge"}) EXPECT_NE(info.output.find(part), std::string::npos) << part << " in\n" << info.output;
+  for (const char* part : {"1 closed solid", "volume 1.25 m^3", "seen from above 1.5 m^2", "no open edge"})
+    EXPECT_NE(info.output.find(part), std::string::npos) << part << " in\n" << info.output;
   const ProcessResult smx = sterna({"info", "body.smx"});
   EXPECT_NE(smx.output.find("\"body\", body"), std::string::npos) << smx.output;
   for (const char* name : {"c.iges", "c.brep", "c2.step"}) EXPECT_EQ(sterna({"convert", "c.step", name}).status, k_exit_success) << name;
@@ -233,7 +243,8 @@ TEST_F(CommandLine, ModelsAreConvertedUnitedDescribedAndChecked) {
   EXPECT_EQ(sterna({"check", "body.step"}).status, k_exit_success);
   const ProcessResult open = sterna({"check", "sheet.brep"});
   EXPECT_EQ(open.status, k_exit_invalid);
-  for (const char* part : {"4 open edges", "face \"sheet\"", "(1, 1, 1)", "OPEN"}) EXPECT_NE(open.output.find(part), std::string::npos) << part << " in\n" << open.output;
+  for (const char* part : {"4 open edges", "face \"sheet\"", "(1, 1, 1)", "OPEN"})
+    EXPECT_NE(open.output.find(part), std::string::npos) << part << " in\n" << open.output;
   const std::vector<std::pair<std::vector<std::string>, std::string>> refused = {
       {{"convert", "c.step", "c.smx"}, ".smx holds components as data"},
       {{"convert", "c.step", "c.stl"}, "models are not written in this format"},
@@ -270,7 +281,8 @@ TEST_F(CommandLine, UnionOfSurfaceFiles) {
   std::ofstream moved(folder / "moved.stl");
   for (std::string line; std::getline(box, line);) {
     double x = 0.0, y = 0.0, z = 0.0;
-    if (std::sscanf(line.c_str(), " vertex %lf %lf %lf", &x, &y, &z) == 3) moved << "vertex " << x + 0.5 << " " << 0.5 * y + 0.25 << " " << 0.5 * z + 0.25 << "\n";
+    if (std::sscanf(line.c_str(), " vertex %lf %lf %lf", &x, &y, &z) == 3)
+      moved << "vertex " << x + 0.5 << " " << 0.5 * y + 0.25 << " " << 0.5 * z + 0.25 << "\n";
     else moved << line << "\n";
   }
   moved.close();

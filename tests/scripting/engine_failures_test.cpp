@@ -1,4 +1,5 @@
-// What becomes of a Lua script when the tetrahedra engine dies, runs out of memory, or the boundary crosses itself: an error for pcall, soon, and the script goes on.
+// What becomes of a Lua script when the tetrahedra engine dies, runs out of memory, or the boundary crosses itself: an error for pcall, soon, and the script
+// goes on.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -18,7 +19,8 @@ namespace {
 using testing::HasSubstr;
 using Clock = std::chrono::steady_clock;
 
-/// An event must become an error and the script go on: promised within 5 s, measured as 0.4 to 2.4 s on a quiet machine; this limit only tells it from a hang on a busy one.
+/// An event must become an error and the script go on: promised within 5 s, measured as 0.4 to 2.4 s on a quiet machine; this limit only tells it from a hang
+/// on a busy one.
 constexpr double k_prompt_seconds = 60.0;
 
 /// Makes the box's tetrahedra so many (some millions) that no engine is ready within seconds.

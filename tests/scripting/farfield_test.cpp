@@ -20,9 +20,12 @@ class Farfield : public testing::Test {
   Farfield() : folder(test::scratch()) { std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder / "box.stl"); }
 
   std::string run_text(const std::string& text) {
-    std::ofstream(folder / "case.lua") << "local wall = read_surface 'box.stl'\nlocal function mesh(wall, far) return volume_mesh{ wall, layers = 4, first_height = 1e-3, farfield = far } end\n" + text;
+    std::ofstream(folder / "case.lua") << "local wall = read_surface 'box.stl'\nlocal function mesh(wall, far) return volume_mesh{ wall, layers = 4, "
+                                          "first_height = 1e-3, farfield = far } end\n" +
+                                              text;
     std::string printed;
-    run_script({.script = folder / "case.lua", .overrides = {}, .print = [&](std::string_view line) { printed += std::string(line) + "\n"; }, .on_mesh = {}}, RunContext({.threads = 2}));
+    run_script({.script = folder / "case.lua", .overrides = {}, .print = [&](std::string_view line) { printed += std::string(line) + "\n"; }, .on_mesh = {}},
+               RunContext({.threads = 2}));
     return printed;
   }
   std::string error_of(const std::string& text) {
@@ -64,7 +67,8 @@ TEST_F(Farfield, HalfModelsAreMeshed) {
 TEST_F(Farfield, MistakesAreToldAtTheirLine) {
   EXPECT_THAT(error_of("mesh(wall, sphere{ radius = 100, egde = 3 })"), HasSubstr("case.lua:3: sphere: unknown key \"egde\", did you mean \"edge\"?"));
   EXPECT_THAT(error_of("mesh(wall, box{ {0, 0}, {1, 1, 1}, edge = 2 })"), HasSubstr("case.lua:3: box: expected two points"));
-  EXPECT_THAT(error_of("mesh(wall, box{ {-4, -4, -4}, {6, 4, 4}, edge = 2, sides = { x_min = 'inlet' } })"), HasSubstr("sides.x_min: \"inlet\" is no kind of a patch"));
+  EXPECT_THAT(error_of("mesh(wall, box{ {-4, -4, -4}, {6, 4, 4}, edge = 2, sides = { x_min = 'inlet' } })"),
+              HasSubstr("sides.x_min: \"inlet\" is no kind of a patch"));
   EXPECT_THAT(error_of("mesh(wall, 'dodecahedron')"), HasSubstr("\"dodecahedron\" is no shape"));
   EXPECT_THAT(error_of("mesh(wall, 'none')"), HasSubstr("encloses no fluid"));
   EXPECT_THAT(error_of("mesh(wall, 3)"), HasSubstr("farfield: expected a table"));
@@ -80,13 +84,17 @@ TEST_F(Farfield, TextsAreOptions) {
     return all;
   };
   EXPECT_EQ(of("none"), "farfield_shape=none;");
-  EXPECT_EQ(of("sphere 1 2 3mm radius=100 edge=20"), "farfield_shape=sphere;farfield_radius=100;farfield_edge=20;farfield_center_x=1;farfield_center_y=2;farfield_center_z=3mm;");
+  EXPECT_EQ(of("sphere 1 2 3mm radius=100 edge=20"),
+            "farfield_shape=sphere;farfield_radius=100;farfield_edge=20;farfield_center_x=1;farfield_center_y=2;farfield_center_z=3mm;");
   EXPECT_EQ(of("tunnel.stl inlet=inflow"), "farfield_shape=surface;farfield_surface=tunnel.stl;farfield_sides=inlet=inflow;");
   for (const char* wrong : {"", "cube", "box 1 2 3", "box -1 -1 -1 1 1 1 x_min=inlet", "sphere 1"}) EXPECT_THROW(farfield_of_text(wrong), Error) << wrong;
 }
 
 TEST_F(Farfield, OnTheCommandLine) {
-  const test::ProcessResult mesh = test::run_process(test::sterna_program(), {"mesh", "box.stl", "--layers", "4", "--first-height", "1e-3", "--half", "--set", "half.at=0.5", "--farfield", "box -4 0.5 -4 6 4 4 edge=2 x_min=inflow", "-o", "half.su2"}, folder);
+  const test::ProcessResult mesh = test::run_process(test::sterna_program(),
+                                                     {"mesh", "box.stl", "--layers", "4", "--first-height", "1e-3", "--half", "--set", "half.at=0.5",
+                                                      "--farfield", "box -4 0.5 -4 6 4 4 edge=2 x_min=inflow", "-o", "half.su2"},
+                                                     folder);
   EXPECT_EQ(mesh.status, k_exit_success) << mesh.errors;
   const test::ProcessResult info = test::run_process(test::sterna_program(), {"info", "half.su2"}, folder);
   for (const char* part : {"inflow", "symmetry", "farfield"}) EXPECT_THAT(info.output, HasSubstr(part));

@@ -36,7 +36,8 @@ class FirstMesh : public testing::Test {
 TEST_F(FirstMesh, CommandLineWritesCheckedMeshAndManifest) {
   const ProcessResult result = mesh_box("box.su2", {"-o", "box.vtu", "--stats", "stats.json"});
   ASSERT_EQ(result.status, k_exit_success) << result.errors;
-  for (const char* part : {"12 triangles", "1 unit of the file = 1 m", "prisms in 8 layers", "verdict     VALID", " in hxt, ", "memory", "stages", "wrote box.su2"})
+  for (const char* part :
+       {"12 triangles", "1 unit of the file = 1 m", "prisms in 8 layers", "verdict     VALID", " in hxt, ", "memory", "stages", "wrote box.su2"})
     EXPECT_NE(result.errors.find(part), std::string::npos) << part << " in\n" << result.errors;
   for (const char* name : {"box.su2", "box.su2.json", "box.vtu", "box.vtu.json", "stats.json"}) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
   const std::string manifest = contents(folder / "box.su2.json");
@@ -58,7 +59,8 @@ TEST_F(FirstMesh, CommandLineWritesCheckedMeshAndManifest) {
   for (const char* part : {"\"quality\"", "\"sub_volume_ratio\""}) EXPECT_NE(manifest.find(part), std::string::npos) << part;
   const ProcessResult info = sterna({"info", "box.su2"});
   EXPECT_EQ(info.status, k_exit_success) << info.errors;
-  for (const char* part : {"prisms", "tetrahedra", "farfield", "longest side"}) EXPECT_NE(info.output.find(part), std::string::npos) << part << " in\n" << info.output;
+  for (const char* part : {"prisms", "tetrahedra", "farfield", "longest side"})
+    EXPECT_NE(info.output.find(part), std::string::npos) << part << " in\n" << info.output;
 }
 
 TEST_F(FirstMesh, TheNativeFileHoldsWhatIsKnown) {
@@ -78,10 +80,12 @@ TEST_F(FirstMesh, RulesForPatchesComeFromCommandLineAndScriptAndStayInTheManifes
   ASSERT_EQ(result.status, k_exit_success) << result.errors;
   EXPECT_NE(result.errors.find("one number of layers: 10, the largest asked for"), std::string::npos) << result.errors;
   const std::string manifest = contents(folder / "box.su2.json");
-  for (const char* part : {"\"patch_rules\"", "\"names\": \"*_1\"", "\"first_height\": 0.002", "\"blend\": 0.2", "\"VALID\""}) EXPECT_NE(manifest.find(part), std::string::npos) << part;
+  for (const char* part : {"\"patch_rules\"", "\"names\": \"*_1\"", "\"first_height\": 0.002", "\"blend\": 0.2", "\"VALID\""})
+    EXPECT_NE(manifest.find(part), std::string::npos) << part;
 
-  std::ofstream(folder / "case.lua") << "volume_mesh{ read_surface{ 'box.stl', split_angle = 60*deg }, layers = 8, first_height = 1e-3, farfield = sphere{ radius = 10 },\n"
-                                        "  patches = { ['*'] = { blend = 0.2 }, ['*_1'] = { layers = 10, first_height = 2*mm } }, stages = 'box.sterna' }:write 'script.su2'";
+  std::ofstream(folder / "case.lua")
+      << "volume_mesh{ read_surface{ 'box.stl', split_angle = 60*deg }, layers = 8, first_height = 1e-3, farfield = sphere{ radius = 10 },\n"
+         "  patches = { ['*'] = { blend = 0.2 }, ['*_1'] = { layers = 10, first_height = 2*mm } }, stages = 'box.sterna' }:write 'script.su2'";
   const ProcessResult script = sterna({"run", "case.lua"});
   ASSERT_EQ(script.status, k_exit_success) << script.errors;
   EXPECT_EQ(contents(folder / "script.su2"), contents(folder / "box.su2"));
@@ -89,8 +93,11 @@ TEST_F(FirstMesh, RulesForPatchesComeFromCommandLineAndScriptAndStayInTheManifes
   ASSERT_EQ(again.status, k_exit_success) << again.errors;
   EXPECT_EQ(contents(folder / "again.su2"), contents(folder / "box.su2"));
 
-  for (const auto& [rule, text] : std::vector<std::pair<std::string, std::string>>{{"fuselage*:layers=3", "no patch has a name like \"fuselage*\""}, {"*:layres=3", "did you mean \"layers\"?"},
-                                                                                   {"*:layers=3.5", "layers"}, {"*:kind=slipp", "slip"}, {"*", "is not NAMES:OPTION=VALUE"}}) {
+  for (const auto& [rule, text] : std::vector<std::pair<std::string, std::string>>{{"fuselage*:layers=3", "no patch has a name like \"fuselage*\""},
+                                                                                   {"*:layres=3", "did you mean \"layers\"?"},
+                                                                                   {"*:layers=3.5", "layers"},
+                                                                                   {"*:kind=slipp", "slip"},
+                                                                                   {"*", "is not NAMES:OPTION=VALUE"}}) {
     const ProcessResult refused = mesh_box("no.su2", {"--patch", rule});
     EXPECT_NE(refused.status, k_exit_success) << rule;
     EXPECT_NE(refused.errors.find(text), std::string::npos) << refused.errors;
@@ -100,7 +107,8 @@ TEST_F(FirstMesh, RulesForPatchesComeFromCommandLineAndScriptAndStayInTheManifes
 /// Stopped behind each step, written, read, continued: the same files as of the run that was not stopped. A wing: layers meet, heights are lowered.
 TEST_F(FirstMesh, StepsAreContinuedToTheSameBytes) {
   STERNA_NEEDS_SHARED_DATA();
-  const std::string wing = "local wall = read_surface{ '" + (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() + "', split_angle = 60*deg }\n";
+  const std::string wing =
+      "local wall = read_surface{ '" + (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() + "', split_angle = 60*deg }\n";
   const std::string layer = "layers = 8, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 5 * wall.length }";
   const std::string fill = "wall_perpendicularity = 0.2, size_growth = 1.8";
   const auto run = [&](const std::string& name, const std::string& text) {
@@ -111,19 +119,24 @@ TEST_F(FirstMesh, StepsAreContinuedToTheSameBytes) {
   };
   run("whole", wing + "volume_mesh{ wall, " + layer + ", " + fill + ", improve_rounds = 5, stages = 'all.sterna' }:write 'whole.su2'");
   run("envelope", wing + "make_envelope{ wall, " + layer + " }:write('env.sterna', 'env.vtu')");
-  const std::string told = run("tetrahedra", "local s = read_stages 'env.sterna'\nassert(not s.tetrahedra and not s.mesh)\nprint(s.envelope, s.envelope.wall)\n"
-                                             "local tets = tetrahedra{ s.envelope, " + fill + " }\nprint(tets)\ntets:write 'tets.sterna'");
+  const std::string told = run("tetrahedra",
+                               "local s = read_stages 'env.sterna'\nassert(not s.tetrahedra and not s.mesh)\nprint(s.envelope, s.envelope.wall)\n"
+                               "local tets = tetrahedra{ s.envelope, " +
+                                   fill + " }\nprint(tets)\ntets:write 'tets.sterna'");
   EXPECT_NE(told.find("Envelope: "), std::string::npos) << told;
   EXPECT_NE(told.find("880 triangles, closed, 4 patches"), std::string::npos) << told;
   EXPECT_NE(told.find("Tetrahedra: "), std::string::npos) << told;
   run("prisms", "local s = read_stages 'tets.sterna'\nassert(not s.mesh)\nprisms{ s.envelope, s.tetrahedra, improve_rounds = 5 }:write 'prisms.su2'");
-  run("memory", wing + "local env = make_envelope{ wall, " + layer + " }\nlocal tets = tetrahedra{ env, size = { size_growth = 1.8 }, prisms = { wall_perpendicularity = 0.2 } }\nprisms{ env, tets, improve_rounds = 5 }:write 'memory.su2'");
+  run("memory", wing + "local env = make_envelope{ wall, " + layer +
+                    " }\nlocal tets = tetrahedra{ env, size = { size_growth = 1.8 }, prisms = { wall_perpendicularity = 0.2 } }\nprisms{ env, tets, "
+                    "improve_rounds = 5 }:write 'memory.su2'");
   run("last", "local s = read_stages 'all.sterna'\nassert(s.mesh.prisms > 0)\ns.mesh:write 'last.su2'\nprisms{ s.envelope, s.tetrahedra }:write 'again.su2'");
   const std::string whole = contents(folder / "whole.su2");
   EXPECT_GT(whole.size(), 100000u);
   for (const char* name : {"prisms.su2", "memory.su2", "last.su2", "again.su2"}) EXPECT_TRUE(contents(folder / name) == whole) << name;
 
-  const ProcessResult continued = sterna({"mesh", "env.sterna", "--wall-perpendicularity", "0.2", "--size-growth", "1.8", "--improve-rounds", "5", "-o", "command.su2"});
+  const ProcessResult continued =
+      sterna({"mesh", "env.sterna", "--wall-perpendicularity", "0.2", "--size-growth", "1.8", "--improve-rounds", "5", "-o", "command.su2"});
   EXPECT_EQ(continued.status, k_exit_success) << continued.errors;
   EXPECT_NE(continued.errors.find("continuing behind the envelope of env.sterna"), std::string::npos) << continued.errors;
   EXPECT_TRUE(contents(folder / "command.su2") == whole);
@@ -149,7 +162,8 @@ TEST_F(FirstMesh, StepsThatDoNotFitAreRefused) {
     EXPECT_NE(result.status, k_exit_success);
     return result.errors;
   };
-  const std::string env = "local wall = read_surface 'box.stl'\nlocal env = make_envelope{ wall, layers = 4, first_height = 1e-3, farfield = sphere{ radius = 10 } }\n";
+  const std::string env =
+      "local wall = read_surface 'box.stl'\nlocal env = make_envelope{ wall, layers = 4, first_height = 1e-3, farfield = sphere{ radius = 10 } }\n";
   const auto expect_told = [&](const std::string& text, const std::string& part) {
     const std::string errors = error_of(text);
     EXPECT_NE(errors.find(part), std::string::npos) << errors;

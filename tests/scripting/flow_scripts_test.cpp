@@ -28,8 +28,11 @@ class FlowScripts : public ScriptFixture {
 };
 
 TEST_F(FlowScripts, y_plus_prints_what_it_is_and_counts_as_a_number) {
-  const std::string text = run("local y = y_plus{ 1, mach = 0.78, altitude = 11000, length = 4.2 } print(y) print(y.reynolds > 2e7, 2*y == y + y, y < 1e-4, -y < 0, y/y, y.height == 1*y)");
-  EXPECT_THAT(text, AllOf(HasSubstr("y+ 1 at the first node: first height"), HasSubstr("11000 m of the standard atmosphere"), HasSubstr("true\ttrue\ttrue\ttrue\t1.0\ttrue")));
+  const std::string text =
+      run("local y = y_plus{ 1, mach = 0.78, altitude = 11000, length = 4.2 } print(y) print(y.reynolds > 2e7, 2*y == y + y, y < 1e-4, -y < 0, y/y, y.height "
+          "== 1*y)");
+  EXPECT_THAT(text, AllOf(HasSubstr("y+ 1 at the first node: first height"), HasSubstr("11000 m of the standard atmosphere"),
+                          HasSubstr("true\ttrue\ttrue\ttrue\t1.0\ttrue")));
   EXPECT_NEAR(number("y_plus{ 1, reynolds = 5e6, length = 275.80*inch }/inch"), 0.001478, 0.02 * 0.001478);  // DPW-4, medium
   EXPECT_NEAR(number("y_plus{ 1, flow{ reynolds = 5e6, length = 1 }, at = 'cell_centre' } / y_plus{ 1, reynolds = 5e6, length = 1 }"), 2.0, 1e-12);
   EXPECT_NEAR(number("boundary_layer{ reynolds = 1e7, length = 2, factor = 1.3 } / boundary_layer{ reynolds = 1e7, length = 2 }"), 1.3, 1e-12);
@@ -41,7 +44,8 @@ TEST_F(FlowScripts, wrong_flow_conditions_are_told_at_their_line) {
   EXPECT_THAT(error("y_plus{ 1, speed = 1, altitude = 0, length = 1*mm }"), HasSubstr("Reynolds number"));
   EXPECT_THAT(error("y_plus{ 1, law = 'karman', reynolds = 1e6, length = 1 }"), HasSubstr("ittc57"));
   EXPECT_THAT(error("local x = 2 * flow{ reynolds = 1e6, length = 1 }"), HasSubstr("flow conditions are no number"));
-  EXPECT_THAT(error("volume_mesh{ read_surface 'ball.off', first_height = flow{ reynolds = 1e6, length = 1 } }"), HasSubstr("flow conditions is not allowed here"));
+  EXPECT_THAT(error("volume_mesh{ read_surface 'ball.off', first_height = flow{ reynolds = 1e6, length = 1 } }"),
+              HasSubstr("flow conditions is not allowed here"));
 }
 
 TEST_F(FlowScripts, a_total_height_leaves_one_of_layers_and_growth_to_follow) {
@@ -54,7 +58,9 @@ TEST_F(FlowScripts, a_total_height_leaves_one_of_layers_and_growth_to_follow) {
   EXPECT_THAT(error(mesh + "layers = 6, max_growth = 1.2, total_height = 0.1 }"), HasSubstr("one too many"));
   EXPECT_THAT(error(mesh + "total_height = 0.1 }"), HasSubstr("needs layers or max_growth"));
   EXPECT_THAT(error(mesh + "layers = 20, total_height = 0.1 }"), HasSubstr("at most 10 layers have room"));
-  run(mesh + "layers = 6, patches = { wall = { first_height = y_plus{ 100, reynolds = 1e6, length = 1 }, total_height = boundary_layer{ reynolds = 1e6, length = 2 } } } } print(m)");
+  run(mesh +
+      "layers = 6, patches = { wall = { first_height = y_plus{ 100, reynolds = 1e6, length = 1 }, total_height = boundary_layer{ reynolds = 1e6, length = 2 } "
+      "} } } print(m)");
   EXPECT_THAT(log_, HasSubstr("y+ 100"));
 }
 
@@ -74,14 +80,17 @@ TEST_F(FlowScripts, first_heights_by_a_function_of_place) {
   }
   // The steps by hand, also continued from a file, give the same; a constant function is the number; a rule's number wins, and so does the command line's.
   run(height + "local w, ff = read_surface 'ball.off', sphere{ radius = 8 } make_envelope{ w, " + more + "h }:write(" + out("e.sterna") +
-      ") local e = read_stages(" + out("e.sterna") + ").envelope local t = tetrahedra{ e } t:write(" + out("t.sterna") + ") local s = read_stages(" + out("t.sterna") +
-      ") prisms{ s.envelope, s.tetrahedra }:write(" + out("steps.su2") + ")");
+      ") local e = read_stages(" + out("e.sterna") + ").envelope local t = tetrahedra{ e } t:write(" + out("t.sterna") + ") local s = read_stages(" +
+      out("t.sterna") + ") prisms{ s.envelope, s.tetrahedra }:write(" + out("steps.su2") + ")");
   EXPECT_EQ(text_of("steps.su2"), text_of("by_place.su2"));
-  run("local w = read_surface 'ball.off' volume_mesh{ w, " + more + "0.01 }:write(" + out("number.su2") + ") volume_mesh{ w, " + more + "function() return 0.01 end }:write(" + out("constant.su2") + ")");
+  run("local w = read_surface 'ball.off' volume_mesh{ w, " + more + "0.01 }:write(" + out("number.su2") + ") volume_mesh{ w, " + more +
+      "function() return 0.01 end }:write(" + out("constant.su2") + ")");
   EXPECT_EQ(text_of("constant.su2"), text_of("number.su2"));
-  run("volume_mesh{ read_surface 'ball.off', patches = { wall = { first_height = 0.01 } }, " + more + "function(x) return 0.02 + 0.001*x end }:write(" + out("rule.su2") + ")");
+  run("volume_mesh{ read_surface 'ball.off', patches = { wall = { first_height = 0.01 } }, " + more + "function(x) return 0.02 + 0.001*x end }:write(" +
+      out("rule.su2") + ")");
   EXPECT_EQ(text_of("rule.su2"), text_of("number.su2"));
-  run("volume_mesh{ read_surface 'ball.off', " + more + "function(x) return 0.02 + 0.001*x end }:write(" + out("line.su2") + ")", {{"envelope.first_height", "0.01"}});
+  run("volume_mesh{ read_surface 'ball.off', " + more + "function(x) return 0.02 + 0.001*x end }:write(" + out("line.su2") + ")",
+      {{"envelope.first_height", "0.01"}});
   EXPECT_EQ(text_of("line.su2"), text_of("number.su2"));
   const std::string refined = height + "volume_mesh{ read_surface 'ball.off', refinement = 2, " + more + "h } ";
   run(refined);
@@ -99,20 +108,24 @@ TEST_F(FlowScripts, wrong_functions_of_first_height_are_told_with_their_place) {
 TEST_F(FlowScripts, members_of_a_family) {
   EXPECT_EQ(run("for _, m in ipairs(family{}) do print(m.name, string.format('%.4f', m.refinement)) end"), "coarse\t0.6667\nmedium\t1.0000\nfine\t1.5000\n");
   EXPECT_EQ(run("local f = family{ levels = 4, factor = 2, medium = 4 } print(#f, f[1].name, f[1].refinement)"), "4\tcoarse_3\t0.125\n");
-  const std::string printed = run("local function count(f) return volume_mesh{ read_surface 'ball.off', layers = 8, first_height = 0.01, max_growth = 1.2, refinement = f, farfield = sphere{ radius = 8 } }.prisms end print(count 'medium', count(0.5))");
+  const std::string printed =
+      run("local function count(f) return volume_mesh{ read_surface 'ball.off', layers = 8, first_height = 0.01, max_growth = 1.2, refinement = f, farfield = "
+          "sphere{ radius = 8 } }.prisms end print(count 'medium', count(0.5))");
   EXPECT_THAT(log_, HasSubstr("4 layers instead of 8, growth 1.44 instead of 1.2, first height 0.02 m instead of 0.01 m"));
   std::istringstream words(printed);
   int medium = 0, coarse = 0;
   words >> medium >> coarse;
   EXPECT_EQ(medium, 2 * coarse);
   EXPECT_THAT(error("volume_mesh{ read_surface 'ball.off', layers = 8, first_height = 0.01, refinement = 'finer' }"), HasSubstr("fine"));
-  run("local s = surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_edge = 0.4, refinement = 'coarse', patches = { ['box*'] = { kind = 'slip' } } } print(s) pcall(volume_mesh, { s, layers = 2, first_height = 0.01 })");
+  run("local s = surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_edge = 0.4, refinement = 'coarse', patches = { ['box*'] = { kind = 'slip' } } } print(s) "
+      "pcall(volume_mesh, { s, layers = 2, first_height = 0.01 })");
   EXPECT_THAT(log_, HasSubstr("the surface was made with refinement 0.6667, the volume with 1"));
 }
 
 TEST_F(FlowScripts, layers_asked_for_with_the_surface) {
-  const std::string text = run("local s = surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_edge = 0.25, patches = { ['*'] = { max_edge = 0.3, layers = 3, first_height = 0.01 } } } "
-                               "print(volume_mesh{ s, farfield = sphere{ radius = 9 } })");
+  const std::string text =
+      run("local s = surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_edge = 0.25, patches = { ['*'] = { max_edge = 0.3, layers = 3, first_height = 0.01 } } } "
+          "print(volume_mesh{ s, farfield = sphere{ radius = 9 } })");
   EXPECT_THAT(text, HasSubstr("prisms"));
   EXPECT_THAT(error("surface_mesh{ box{ {0,0,0}, {1,1,1} }, patches = { box = { kind = 'slipp' } } }"), HasSubstr("slip"));
 }
@@ -131,18 +144,80 @@ std::map<std::string, std::string> keys_of(const std::string& text) {
 }
 
 /// Keys of config_template.cfg of SU2 8.
-const std::set<std::string> k_su2_keys = {
-    "SOLVER", "KIND_TURB_MODEL", "MATH_PROBLEM", "RESTART_SOL", "SYSTEM_MEASUREMENTS", "MACH_NUMBER", "AOA", "SIDESLIP_ANGLE", "INIT_OPTION", "FREESTREAM_OPTION", "FREESTREAM_PRESSURE", "FREESTREAM_TEMPERATURE",
-    "REYNOLDS_NUMBER", "REYNOLDS_LENGTH", "FLUID_MODEL", "VISCOSITY_MODEL", "REF_AREA", "REF_LENGTH", "REF_ORIGIN_MOMENT_X", "REF_ORIGIN_MOMENT_Y", "REF_ORIGIN_MOMENT_Z", "REF_DIMENSIONALIZATION", "MARKER_HEATFLUX",
-    "MARKER_ISOTHERMAL", "MARKER_EULER", "MARKER_SYM", "MARKER_FAR", "INLET_TYPE", "MARKER_INLET", "MARKER_OUTLET", "MARKER_SUPERSONIC_INLET", "MARKER_SUPERSONIC_OUTLET", "ACTDISK_TYPE", "ACTDISK_JUMP",
-    "MARKER_ACTDISK", "MARKER_PLOTTING", "MARKER_MONITORING", "NUM_METHOD_GRAD", "CFL_NUMBER", "CFL_ADAPT", "CFL_ADAPT_PARAM", "CONV_NUM_METHOD_FLOW", "MUSCL_FLOW", "SLOPE_LIMITER_FLOW", "TIME_DISCRE_FLOW",
-    "CONV_NUM_METHOD_TURB", "MUSCL_TURB", "TIME_DISCRE_TURB", "LINEAR_SOLVER", "LINEAR_SOLVER_PREC", "LINEAR_SOLVER_ERROR", "LINEAR_SOLVER_ITER", "MGLEVEL", "ITER", "CONV_FIELD", "CONV_RESIDUAL_MINVAL",
-    "CONV_STARTITER", "MESH_FILENAME", "MESH_FORMAT", "TABULAR_FORMAT", "CONV_FILENAME", "RESTART_FILENAME", "VOLUME_FILENAME", "SURFACE_FILENAME", "OUTPUT_FILES", "SCREEN_OUTPUT", "HISTORY_OUTPUT"};
+const std::set<std::string> k_su2_keys = {"SOLVER",
+                                          "KIND_TURB_MODEL",
+                                          "MATH_PROBLEM",
+                                          "RESTART_SOL",
+                                          "SYSTEM_MEASUREMENTS",
+                                          "MACH_NUMBER",
+                                          "AOA",
+                                          "SIDESLIP_ANGLE",
+                                          "INIT_OPTION",
+                                          "FREESTREAM_OPTION",
+                                          "FREESTREAM_PRESSURE",
+                                          "FREESTREAM_TEMPERATURE",
+                                          "REYNOLDS_NUMBER",
+                                          "REYNOLDS_LENGTH",
+                                          "FLUID_MODEL",
+                                          "VISCOSITY_MODEL",
+                                          "REF_AREA",
+                                          "REF_LENGTH",
+                                          "REF_ORIGIN_MOMENT_X",
+                                          "REF_ORIGIN_MOMENT_Y",
+                                          "REF_ORIGIN_MOMENT_Z",
+                                          "REF_DIMENSIONALIZATION",
+                                          "MARKER_HEATFLUX",
+                                          "MARKER_ISOTHERMAL",
+                                          "MARKER_EULER",
+                                          "MARKER_SYM",
+                                          "MARKER_FAR",
+                                          "INLET_TYPE",
+                                          "MARKER_INLET",
+                                          "MARKER_OUTLET",
+                                          "MARKER_SUPERSONIC_INLET",
+                                          "MARKER_SUPERSONIC_OUTLET",
+                                          "ACTDISK_TYPE",
+                                          "ACTDISK_JUMP",
+                                          "MARKER_ACTDISK",
+                                          "MARKER_PLOTTING",
+                                          "MARKER_MONITORING",
+                                          "NUM_METHOD_GRAD",
+                                          "CFL_NUMBER",
+                                          "CFL_ADAPT",
+                                          "CFL_ADAPT_PARAM",
+                                          "CONV_NUM_METHOD_FLOW",
+                                          "MUSCL_FLOW",
+                                          "SLOPE_LIMITER_FLOW",
+                                          "TIME_DISCRE_FLOW",
+                                          "CONV_NUM_METHOD_TURB",
+                                          "MUSCL_TURB",
+                                          "TIME_DISCRE_TURB",
+                                          "LINEAR_SOLVER",
+                                          "LINEAR_SOLVER_PREC",
+                                          "LINEAR_SOLVER_ERROR",
+                                          "LINEAR_SOLVER_ITER",
+                                          "MGLEVEL",
+                                          "ITER",
+                                          "CONV_FIELD",
+                                          "CONV_RESIDUAL_MINVAL",
+                                          "CONV_STARTITER",
+                                          "MESH_FILENAME",
+                                          "MESH_FORMAT",
+                                          "TABULAR_FORMAT",
+                                          "CONV_FILENAME",
+                                          "RESTART_FILENAME",
+                                          "VOLUME_FILENAME",
+                                          "SURFACE_FILENAME",
+                                          "OUTPUT_FILES",
+                                          "SCREEN_OUTPUT",
+                                          "HISTORY_OUTPUT"};
 
 TEST_F(FlowScripts, su2_configuration_of_a_body_in_a_farfield) {
-  run("local wing = wing{ name = 'main', symmetric = true, position = {1, 0, 0}, sections = { { y = 0, chord = 2, airfoil = 'naca0012' }, { y = 5, chord = 1, airfoil = 'naca0012' } } }\n"
+  run("local wing = wing{ name = 'main', symmetric = true, position = {1, 0, 0}, sections = { { y = 0, chord = 2, airfoil = 'naca0012' }, { y = 5, chord = 1, "
+      "airfoil = 'naca0012' } } }\n"
       "local m = volume_mesh{ read_surface 'ball.off', layers = 4, first_height = 0.01, farfield = sphere{ radius = 8 } }\n"
-      "m:su2_config{ " + out("case.cfg") + ", mach = 0.5, altitude = 0, length = 2, alpha = 2*deg, reference = wing }");
+      "m:su2_config{ " +
+      out("case.cfg") + ", mach = 0.5, altitude = 0, length = 2, alpha = 2*deg, reference = wing }");
   const auto keys = keys_of(text_of("case.cfg"));
   for (const auto& [key, value] : keys) EXPECT_TRUE(k_su2_keys.contains(key)) << key;
   const auto at = [&](const char* key) { return keys.contains(key) ? keys.at(key) : std::string("absent"); };
@@ -160,9 +235,12 @@ TEST_F(FlowScripts, su2_configuration_of_a_body_in_a_farfield) {
 }
 
 TEST_F(FlowScripts, su2_configuration_refuses_what_cannot_be_known) {
-  const std::string mesh = "local m = volume_mesh{ read_surface 'ball.off', layers = 2, first_height = 0.02, farfield = sphere{ radius = 8 } } m:su2_config{ " + out("case.cfg") + ", ";
-  EXPECT_THAT(error(mesh + "speed = 5, density = 1000, viscosity = 1e-3, length = 1 }"), AllOf(HasSubstr("Mach number cannot be known"), HasSubstr("temperature cannot be known"), HasSubstr("reference area cannot be known")));
-  EXPECT_THAT(error(mesh + "mach = 0.5, altitude = 0, length = 1, reference_area = 1, boundaries = { prop = { thrust = 5 } } }"), HasSubstr("is called \"prop\""));
+  const std::string mesh = "local m = volume_mesh{ read_surface 'ball.off', layers = 2, first_height = 0.02, farfield = sphere{ radius = 8 } } m:su2_config{ " +
+                           out("case.cfg") + ", ";
+  EXPECT_THAT(error(mesh + "speed = 5, density = 1000, viscosity = 1e-3, length = 1 }"),
+              AllOf(HasSubstr("Mach number cannot be known"), HasSubstr("temperature cannot be known"), HasSubstr("reference area cannot be known")));
+  EXPECT_THAT(error(mesh + "mach = 0.5, altitude = 0, length = 1, reference_area = 1, boundaries = { prop = { thrust = 5 } } }"),
+              HasSubstr("is called \"prop\""));
   EXPECT_THAT(error(mesh + "mach = 0.5, altitude = 0, length = 1, reference_area = 1, mesh = 'a.vtu' }"), HasSubstr("SU2 reads .su2 and .cgns"));
   EXPECT_FALSE(std::filesystem::exists(folder_ / "case.cfg"));
 }
@@ -170,11 +248,14 @@ TEST_F(FlowScripts, su2_configuration_refuses_what_cannot_be_known) {
 /// One cube of tetrahedra would do; only boundary faces and kinds are looked at.
 HybridMesh box_mesh(const std::vector<std::pair<std::string, PatchKind>>& kinds) {
   HybridMesh mesh;
-  for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{1, 1, 0}, Point{0, 1, 0}, Point{0, 0, 1}, Point{1, 0, 1}, Point{1, 1, 1}, Point{0, 1, 1}}) mesh.points.push_back(p);
+  for (const Point& p : {Point{0, 0, 0}, Point{1, 0, 0}, Point{1, 1, 0}, Point{0, 1, 0}, Point{0, 0, 1}, Point{1, 0, 1}, Point{1, 1, 1}, Point{0, 1, 1}})
+    mesh.points.push_back(p);
   for (const auto& [name, kind] : kinds) mesh.patches.push_back({name, kind});
-  const std::array<std::array<std::uint32_t, 4>, 6> faces = {{{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}}};  // x-, x+, y-, y+, z-, z+
+  const std::array<std::array<std::uint32_t, 4>, 6> faces = {
+      {{0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}}};  // x-, x+, y-, y+, z-, z+
   for (std::size_t f = 0; f < faces.size(); ++f)
-    mesh.boundary_quads.push_back({{NodeId(faces[f][0]), NodeId(faces[f][1]), NodeId(faces[f][2]), NodeId(faces[f][3])}, PatchId(std::min(f, kinds.size() - 1))});
+    mesh.boundary_quads.push_back(
+        {{NodeId(faces[f][0]), NodeId(faces[f][1]), NodeId(faces[f][2]), NodeId(faces[f][3])}, PatchId(std::min(f, kinds.size() - 1))});
   return mesh;
 }
 
@@ -208,7 +289,8 @@ TEST(Su2Config, tunnels_get_the_conditions_of_their_flow) {
 }
 
 TEST(Su2Config, discs_need_what_they_do) {
-  const HybridMesh mesh = box_mesh({{"prop", PatchKind::interface}, {"prop.back", PatchKind::interface}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
+  const HybridMesh mesh =
+      box_mesh({{"prop", PatchKind::interface}, {"prop.back", PatchKind::interface}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
   EXPECT_THROW(su2_config(mesh, {.mesh = "a.su2"}, flow, {.area = 1.0}, {}, RunContext()), Error);
   const auto keys = keys_of(su2_config(mesh, {.mesh = "a.su2"}, flow, {.area = 1.0}, {{"prop", {.thrust = 50.0}}}, RunContext()));
@@ -219,8 +301,10 @@ TEST(Su2Config, discs_need_what_they_do) {
 
 /// As CEASIOMpy writes it.
 constexpr const char* k_ceasiompy_config =
-    "InputFormat = stl\nNLayers = 6\nFeatureAngle = 40\nInitialHeight = 0.01\nMaxGrowthRatio = 1.2\nMaxLayerThickness = 10\nFarfieldRadius = 20\nOutputFormat = su2\n"
-    "HolePosition = 0.0 0.0 0.0\nFarfieldCenter = 0.0 0.0 0.0\nHeightIterations = 8\nNormalIterations = 8\nMaxCritIterations = 128\nLaplaceIterations = 8\nSymmetry = false\n";
+    "InputFormat = stl\nNLayers = 6\nFeatureAngle = 40\nInitialHeight = 0.01\nMaxGrowthRatio = 1.2\nMaxLayerThickness = 10\nFarfieldRadius = 20\nOutputFormat "
+    "= su2\n"
+    "HolePosition = 0.0 0.0 0.0\nFarfieldCenter = 0.0 0.0 0.0\nHeightIterations = 8\nNormalIterations = 8\nMaxCritIterations = 128\nLaplaceIterations = "
+    "8\nSymmetry = false\n";
 
 TEST(PentagrowConfig, of_ceasiompy) {
   const PentagrowCase given = read_pentagrow_config(k_ceasiompy_config, "rans.cfg");
@@ -241,10 +325,14 @@ TEST(PentagrowConfig, of_ceasiompy) {
 
 TEST(PentagrowConfig, every_key) {
   const PentagrowCase given = read_pentagrow_config(
-      "# all of them\nInputFormat = cgns\nOutputFormat = bmsh, zml, cgns, tau\nNLayers = 35 # comment\nInitialHeight = 1e-6\nMaxLayerThickness = 0.5\nMaxRelativeHeight = 4\nMaxGrowthRatio = 1.3\nFeatureAngle = 31\n"
-      "SharpEdgeAngle = 130\nSplineNormals = Yes\nWallNormalTransition = 0.1\nHeightIterations = 4\nNormalIterations = 40\nLaplaceIterations = 3\nMaxCritIterations = 50\nUntangleGrid = n\nMaxOptimizationTime = 0\n"
-      "VerboseOptimization = true\nFarfieldRadius = 50\nFarfieldSubdivision = 2\nHolePosition = 1 2 3 4 5 6\nTetgenPath = /usr/bin/tetgen\nTetgenOptions = -pq1.3VYa0.1S500\nMaxSteinerPoints = 100\nMaxGlobalEdgeLength = 3\n"
-      "TetGrowthFactor = 1.4\nTetEdgeSmoothing = 64\nTetEdgeDistrib = 2\nRefineBoxCount = 2\nRefineBoxXLimits = 0 1 2 3\nRefineBoxYLimits = 0 1 0 1\nRefineBoxZLimits = 0 1 0 1\nRefineBoxEdgeLength = 0.1 0.2\n"
+      "# all of them\nInputFormat = cgns\nOutputFormat = bmsh, zml, cgns, tau\nNLayers = 35 # comment\nInitialHeight = 1e-6\nMaxLayerThickness = "
+      "0.5\nMaxRelativeHeight = 4\nMaxGrowthRatio = 1.3\nFeatureAngle = 31\n"
+      "SharpEdgeAngle = 130\nSplineNormals = Yes\nWallNormalTransition = 0.1\nHeightIterations = 4\nNormalIterations = 40\nLaplaceIterations = "
+      "3\nMaxCritIterations = 50\nUntangleGrid = n\nMaxOptimizationTime = 0\n"
+      "VerboseOptimization = true\nFarfieldRadius = 50\nFarfieldSubdivision = 2\nHolePosition = 1 2 3 4 5 6\nTetgenPath = /usr/bin/tetgen\nTetgenOptions = "
+      "-pq1.3VYa0.1S500\nMaxSteinerPoints = 100\nMaxGlobalEdgeLength = 3\n"
+      "TetGrowthFactor = 1.4\nTetEdgeSmoothing = 64\nTetEdgeDistrib = 2\nRefineBoxCount = 2\nRefineBoxXLimits = 0 1 2 3\nRefineBoxYLimits = 0 1 0 "
+      "1\nRefineBoxZLimits = 0 1 0 1\nRefineBoxEdgeLength = 0.1 0.2\n"
       "NearfieldEdgeLength = -1\nNearfieldSize = 2\nNearfieldCenter = 0 0 0\nNearfieldSemiAxes = 3 2 1\nPass = both\nSymmetry = y\nYPlaneCut = 0.5\n",
       "all.cfg");
   EXPECT_EQ(given.outputs.size(), 3u);
@@ -267,7 +355,9 @@ TEST(PentagrowConfig, every_key) {
   EXPECT_EQ(near[0].to.x, 3.0);
   std::string notes;
   for (const std::string& note : given.notes) notes += note + "\n";
-  for (const char* part : {"all.cfg:3: OutputFormat", "all.cfg:10: SharpEdgeAngle", "UntangleGrid", "TetgenPath", "TetEdgeSmoothing", "MaxSteinerPoints", "NearfieldEdgeLength"}) EXPECT_THAT(notes, HasSubstr(part));
+  for (const char* part :
+       {"all.cfg:3: OutputFormat", "all.cfg:10: SharpEdgeAngle", "UntangleGrid", "TetgenPath", "TetEdgeSmoothing", "MaxSteinerPoints", "NearfieldEdgeLength"})
+    EXPECT_THAT(notes, HasSubstr(part));
 }
 
 TEST(PentagrowConfig, defaults_are_those_of_the_code) {
@@ -294,7 +384,8 @@ TEST(PentagrowConfig, mistakes_are_told_by_line_and_all_at_once) {
   EXPECT_THAT(message("NLayers = 20\n\nInitialHieght = 1e-5\n"), HasSubstr("a.cfg:3: unknown key \"InitialHieght\", did you mean \"InitialHeight\"?"));
   EXPECT_THAT(message("nlayers = 20\n"), HasSubstr("did you mean \"NLayers\"?"));
   EXPECT_THAT(message("NLayers = many\nSymmetry = maybe\nFarfieldCenter = 1 2\nnonsense\n"),
-              AllOf(HasSubstr("4 problems"), HasSubstr("a.cfg:1: NLayers: \"many\" is no number"), HasSubstr("a.cfg:2: Symmetry = maybe: expected y, yes"), HasSubstr("a.cfg:3: FarfieldCenter: found 2 numbers, expected 3"), HasSubstr("a.cfg:4: \"nonsense\" is not Key = value")));
+              AllOf(HasSubstr("4 problems"), HasSubstr("a.cfg:1: NLayers: \"many\" is no number"), HasSubstr("a.cfg:2: Symmetry = maybe: expected y, yes"),
+                    HasSubstr("a.cfg:3: FarfieldCenter: found 2 numbers, expected 3"), HasSubstr("a.cfg:4: \"nonsense\" is not Key = value")));
   EXPECT_THAT(message("Pass = first\n"), HasSubstr("--stages"));
   EXPECT_THAT(message("OutputFormat = zml\n"), HasSubstr("use cgns, su2, bmsh or tau"));
   EXPECT_THAT(message("RelativeHeight = 4\n"), HasSubstr("did you mean \"MaxRelativeHeight\"?"));
@@ -306,7 +397,8 @@ TEST_F(FlowScripts, the_program_called_pentagrow) {
   io::write_surface_file(test::sphere(6), folder_ / "wall.stl", RunContext());
   const test::ProcessResult result = test::run_process(std::filesystem::path(STERNA_BINARY_DIR) / "pentagrow", {"wall.stl", "rans.cfg"}, folder_);
   EXPECT_EQ(result.status, 0) << result.errors;
-  for (const char* name : {"hybrid.su2", "outermost.vtu", "boundaries.smesh", "sumcos.txt", "diagnose.txt"}) EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
+  for (const char* name : {"hybrid.su2", "outermost.vtu", "boundaries.smesh", "sumcos.txt", "diagnose.txt"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
   const SurfaceSoup boundary = io::read_surface_file(folder_ / "boundaries.smesh", RunContext());
   EXPECT_EQ(boundary.triangles.size(), 20u * 36u + 1280u);
   EXPECT_THAT(text_of("diagnose.txt"), HasSubstr("0 elements are tangled"));
@@ -322,7 +414,8 @@ TEST_F(FlowScripts, heights_from_the_flow_on_the_command_line) {
     all.insert(all.end(), more);
     return test::run_process(test::sterna_program(), all, folder_);
   };
-  const test::ProcessResult made = with({"--layers", "6", "--first-height", "y_plus 100 reynolds=1e6 length=2", "--total-height", "boundary_layer factor=1.5 reynolds=1e6 length=2", "--patch", "wall:total_height=0.05"});
+  const test::ProcessResult made = with({"--layers", "6", "--first-height", "y_plus 100 reynolds=1e6 length=2", "--total-height",
+                                         "boundary_layer factor=1.5 reynolds=1e6 length=2", "--patch", "wall:total_height=0.05"});
   EXPECT_EQ(made.status, 0) << made.errors;
   EXPECT_THAT(made.output + made.errors, AllOf(HasSubstr("y+ 100 at the first node"), HasSubstr("6 layers grow by")));
   EXPECT_THAT(with({"--layers", "6", "--first-height", "y_plus 1 reynolds=1e6 lenght=2"}).errors, HasSubstr("length"));

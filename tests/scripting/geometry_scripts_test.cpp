@@ -37,17 +37,24 @@ TEST_F(GeometryScripts, ModelsAreMovedTurnedScaledAndMirrored) {
   EXPECT_NEAR(number("box{ {0, 0, 0}, {2, 1, 1} }:rotate{ axis = {0, 0, 1}, angle = 90*deg }.max[2]"), 2.0, 1e-12);
   EXPECT_NEAR(number("box{ {0, 0, 0}, {1, 1, 1} }:move{ 1, 2, 3 }.max[3]"), 4.0, 1e-12);
   EXPECT_NEAR(number("box{ {0, 0, 0}, {1, 2, 3} }:scale(0.1):measures().volume"), 0.006, 0.006 * k_exact);
-  EXPECT_EQ(run("local m = box{ {0, 1, 0}, {1, 2, 1}, name = 'left pod' }:mirror{} print(m.components[1], math.abs(m.min[2] + 2) < 1e-12, m:measures().volume > 0.999)"), "right pod\ttrue\ttrue\n");
+  EXPECT_EQ(run("local m = box{ {0, 1, 0}, {1, 2, 1}, name = 'left pod' }:mirror{} print(m.components[1], math.abs(m.min[2] + 2) < 1e-12, m:measures().volume "
+                "> 0.999)"),
+            "right pod\ttrue\ttrue\n");
 }
 
 TEST_F(GeometryScripts, BodiesAreNowhereThickerThanTheirFrames) {
   // Two short steps beside a long one: parabolas through three points would swell to twice the width.
-  EXPECT_NEAR(number("(function() local m = fuselage{ frames = { {x=0,diameter=0}, {x=2,diameter=4}, {x=20,diameter=4}, {x=30,diameter=0.5} } }:model() return m.max[2] - m.min[2] end)()"), 4.0, 1e-3);
-  EXPECT_NEAR(number("(function() local m = body_of_revolution{ profile = { {0,0}, {1,0.1}, {10,0.1}, {11,0} } }:model() return m.max[3] - m.min[3] end)()"), 0.2, 1e-4);
+  EXPECT_NEAR(number("(function() local m = fuselage{ frames = { {x=0,diameter=0}, {x=2,diameter=4}, {x=20,diameter=4}, {x=30,diameter=0.5} } }:model() return "
+                     "m.max[2] - m.min[2] end)()"),
+              4.0, 1e-3);
+  EXPECT_NEAR(number("(function() local m = body_of_revolution{ profile = { {0,0}, {1,0.1}, {10,0.1}, {11,0} } }:model() return m.max[3] - m.min[3] end)()"),
+              0.2, 1e-4);
 }
 
 TEST_F(GeometryScripts, WhatSmxCannotHoldIsRefused) {
-  const std::string wing = "local w = wing{ name = 'w', symmetric = true, sections = { {y=0,chord=1,airfoil='naca0012'}, {y=3} }%s } %s aircraft{ w, unite = false }:write(" + out("w.smx") + ")";
+  const std::string wing =
+      "local w = wing{ name = 'w', symmetric = true, sections = { {y=0,chord=1,airfoil='naca0012'}, {y=3} }%s } %s aircraft{ w, unite = false }:write(" +
+      out("w.smx") + ")";
   const auto with = [&](const std::string& option, const std::string& then) {
     std::string text = wing;
     text.replace(text.find("%s"), 2, option);
@@ -55,17 +62,22 @@ TEST_F(GeometryScripts, WhatSmxCannotHoldIsRefused) {
     return text;
   };
   EXPECT_THAT(error(with("", "")), AllOf(HasSubstr("open at its trailing edge"), HasSubstr("trailing_edge = 0")));
-  EXPECT_THAT(error(with(", trailing_edge = 0", "w:deflect{ 'flap', from = {0.2, 0.7}, to = {0.6, 0.7}, angle = 30*deg }")), HasSubstr("control surface 'flap' is deflected"));
-  EXPECT_THAT(error("aircraft{ fuselage{ name='b', frames = { {x=0,diameter=1}, {x=2,diameter=2}, {x=4,diameter=1} } }, unite = false }:write(" + out("b.smx") + ")"), HasSubstr("never swells beyond its frames"));
+  EXPECT_THAT(error(with(", trailing_edge = 0", "w:deflect{ 'flap', from = {0.2, 0.7}, to = {0.6, 0.7}, angle = 30*deg }")),
+              HasSubstr("control surface 'flap' is deflected"));
+  EXPECT_THAT(
+      error("aircraft{ fuselage{ name='b', frames = { {x=0,diameter=1}, {x=2,diameter=2}, {x=4,diameter=1} } }, unite = false }:write(" + out("b.smx") + ")"),
+      HasSubstr("never swells beyond its frames"));
 }
 
 TEST_F(GeometryScripts, WingsThatFoldBackAndTurnsInDegreesAreErrors) {
-  EXPECT_THAT(error("wing{ sections = { {y=0,chord=1,airfoil='naca0012'}, {y=3,chord=1.5}, {y=2} }, tip = 'flat' }:model()"), AllOf(HasSubstr("it folds back onto itself"), HasSubstr("order along the span")));
+  EXPECT_THAT(error("wing{ sections = { {y=0,chord=1,airfoil='naca0012'}, {y=3,chord=1.5}, {y=2} }, tip = 'flat' }:model()"),
+              AllOf(HasSubstr("it folds back onto itself"), HasSubstr("order along the span")));
   EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:rotate{ pitch = 30 }"), HasSubstr("pitch"));
 }
 
 TEST_F(GeometryScripts, NamesAreChangedAndSelected) {
-  EXPECT_EQ(run("local m = assembly{ box{ {0,0,0}, {1,1,1} }, box{ {2,0,0}, {3,1,1} }, cylinder{ {5,0,0}, {6,0,0}, radius = 1 } } print(table.concat(m.components, ' ')) print(m['box*'], m:select('cyl?nder').faces) "
+  EXPECT_EQ(run("local m = assembly{ box{ {0,0,0}, {1,1,1} }, box{ {2,0,0}, {3,1,1} }, cylinder{ {5,0,0}, {6,0,0}, radius = 1 } } "
+                "print(table.concat(m.components, ' ')) print(m['box*'], m:select('cyl?nder').faces) "
                 "print(table.concat(m:rename{ box2 = 'crate' }.patches, ' '))"),
             "box box2 cylinder\nModel: 2 components, 12 faces, 2 closed solids, 3 x 1 x 1 m\t4\nbox crate cylinder\n");
   EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:rename{ boxx = 'a' }"), HasSubstr("no component and no face is named \"boxx\", did you mean \"box\"?"));
@@ -76,7 +88,8 @@ TEST_F(GeometryScripts, FunctionsDeformModels) {
   // A shear keeps volumes; a stretch of z by 1 + y / 10 has the volume of its formula.
   EXPECT_NEAR(number("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0.3*z, 0, 0 end }:measures().volume"), 1.0, 1e-6);
   EXPECT_NEAR(number("box{ {0,0,0}, {1,2,1} }:deform{ function(x, y, z) return 0, 0, 0.1*y*z end, tolerance = 1e-9 }:measures().volume"), 2.2, 1e-7);
-  EXPECT_NEAR(number("box{ {0,0,0}, {1,2,1} }:deform{ { {0,0,0,0,0,0.5}, {1,0,0,0,0,0.5}, {0,1,0,0,0,0.5}, {0,0,1,0,0,0.5}, {1,1,1,0,0,0.5} } }.min[3]"), 0.5, 1e-9);
+  EXPECT_NEAR(number("box{ {0,0,0}, {1,2,1} }:deform{ { {0,0,0,0,0,0.5}, {1,0,0,0,0,0.5}, {0,1,0,0,0,0.5}, {0,0,1,0,0,0.5}, {1,1,1,0,0,0.5} } }.min[3]"), 0.5,
+              1e-9);
   std::ofstream(folder_ / "bend.dat") << "# x y z dx dy dz\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n0 0 1 0 0 1\n";
   EXPECT_NEAR(number("box{ {0,0,0}, {1,2,1} }:deform{ 'bend.dat', kernel = 'wendland_c2' }.min[3]"), 1.0, 1e-9);
   EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0 end }"), HasSubstr("must return 3 numbers here, but value 3 is nil"));
@@ -87,12 +100,16 @@ TEST_F(GeometryScripts, FunctionsDeformModels) {
 }
 
 TEST_F(GeometryScripts, AFunctionMayCallVerbsAndItsErrorIsTheirs) {
-  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) local b = box{ {0,0,0}, {1,1,1} } return 0, 0, box{ {0,0,0} } end }"), HasSubstr("expected two points"));
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) local b = box{ {0,0,0}, {1,1,1} } return 0, 0, box{ {0,0,0} } end }"),
+              HasSubstr("expected two points"));
   EXPECT_NEAR(number("box{ {0,0,0}, {1,1,1} }:deform{ function(x, y, z) return 0, 0, box{ {0,0,0}, {1,1,1} }.length end }.min[3]"), 1.0, 1e-9);
 }
 
 TEST_F(GeometryScripts, DeformedModelsAreTheSameForAnyNumberOfThreads) {
-  const std::string text = "local m = box{ {0,0,0}, {1,2,1} }:deform{ function(x, y, z) return 0.02*math.sin(3*y), 0, 0.1*y^3 end } print(string.format('%.17g', m:measures().volume)) m:write(" + out("bent.step") + ")";
+  const std::string text =
+      "local m = box{ {0,0,0}, {1,2,1} }:deform{ function(x, y, z) return 0.02*math.sin(3*y), 0, 0.1*y^3 end } print(string.format('%.17g', "
+      "m:measures().volume)) m:write(" +
+      out("bent.step") + ")";
   std::string bytes;
   for (const int threads : {1, 2, 7}) {
     const std::string printed = run(text, {}, threads);
@@ -104,7 +121,9 @@ TEST_F(GeometryScripts, DeformedModelsAreTheSameForAnyNumberOfThreads) {
 }
 
 TEST_F(GeometryScripts, SurfacesOfFunctionsAreCheckedSplines) {
-  const std::string ball = "surface{ function(u, v) return math.cos(u)*math.cos(v), math.sin(u)*math.cos(v), math.sin(v) end, u = {0, 2*math.pi}, v = {-math.pi/2, math.pi/2}, periodic_u = true, tolerance = 1e-6, name = 'ball' }";
+  const std::string ball =
+      "surface{ function(u, v) return math.cos(u)*math.cos(v), math.sin(u)*math.cos(v), math.sin(v) end, u = {0, 2*math.pi}, v = {-math.pi/2, math.pi/2}, "
+      "periodic_u = true, tolerance = 1e-6, name = 'ball' }";
   EXPECT_NEAR(number(ball + ":measures().volume"), 4.0 / 3.0 * k_pi, 2e-5);
   EXPECT_NEAR(number("surface{ function(u, v) return u, v, 0 end, u = {0, 2}, v = {0, 3} }:measures().area"), 6.0, 1e-9);
   EXPECT_EQ(run("print(surface{ function(u, v) return u, v, u*v end }.is_closed)"), "false\n");
@@ -118,7 +137,8 @@ TEST_F(GeometryScripts, Airfoils) {
   EXPECT_NEAR(number("airfoil{ 'naca0012', trailing_edge = 0.01 }.trailing_edge"), 0.01, 1e-12);
   EXPECT_EQ(run("print(#airfoil{ 'naca0012', points = 30 }.points)"), "61\n");
   EXPECT_LT(number("#airfoil{ 'naca0012', within = 1e-4 }.points"), 100.0);
-  EXPECT_NEAR(number("airfoil{ {1, 0}, {0.7, 0.05}, {0.3, 0.08}, {0.1, 0.05}, {0, 0}, {0.1, -0.05}, {0.3, -0.08}, {0.7, -0.05}, {1, 0} }.thickness"), 0.16, 0.01);
+  EXPECT_NEAR(number("airfoil{ {1, 0}, {0.7, 0.05}, {0.3, 0.08}, {0.1, 0.05}, {0, 0}, {0.1, -0.05}, {0.3, -0.08}, {0.7, -0.05}, {1, 0} }.thickness"), 0.16,
+              0.01);
   EXPECT_THAT(error("airfoil 'naca99'"), HasSubstr("naca99"));
   EXPECT_THAT(error("airfoil 'absent.dat'"), HasSubstr("absent.dat"));
   EXPECT_THAT(error("airfoil{ 'naca0012', points = 30, within = 1e-4 }"), HasSubstr("give one of them"));
@@ -127,12 +147,18 @@ TEST_F(GeometryScripts, Airfoils) {
 TEST_F(GeometryScripts, BodiesHaveTheSizesOfTheirFrames) {
   // A tube with flat ends, straight.
   EXPECT_NEAR(number("fuselage{ frames = { {x=0, diameter=2}, {x=5, diameter=2} }, nose='flat', tail='flat' }:model():measures().volume"), 5.0 * k_pi, 5e-4);
-  EXPECT_NEAR(number("fuselage{ frames = { {x=0, diameter=2}, {x=5, diameter=2} } }:model():measures().volume"), 5.0 * k_pi + 4.0 / 3.0 * k_pi, 2e-3);  // half balls
-  EXPECT_NEAR(number("fuselage{ along='linear', nose='flat', tail='flat', frames = { {x=0, width=2, height=1}, {x=4, width=2, height=1} } }:model():measures().volume"), 2.0 * k_pi, 1e-3);
-  EXPECT_NEAR(number("fuselage{ along='linear', nose='flat', tail='flat', frames = { {x=0, points={{0,-1},{0.8,-0.6},{1,0},{0.8,0.6},{0,1}}}, {x=4, diameter=2} } }:model().max[1]"), 4.0, 1e-9);
+  EXPECT_NEAR(number("fuselage{ frames = { {x=0, diameter=2}, {x=5, diameter=2} } }:model():measures().volume"), 5.0 * k_pi + 4.0 / 3.0 * k_pi,
+              2e-3);  // half balls
+  EXPECT_NEAR(
+      number("fuselage{ along='linear', nose='flat', tail='flat', frames = { {x=0, width=2, height=1}, {x=4, width=2, height=1} } }:model():measures().volume"),
+      2.0 * k_pi, 1e-3);
+  EXPECT_NEAR(number("fuselage{ along='linear', nose='flat', tail='flat', frames = { {x=0, points={{0,-1},{0.8,-0.6},{1,0},{0.8,0.6},{0,1}}}, {x=4, "
+                     "diameter=2} } }:model().max[1]"),
+              4.0, 1e-9);
   EXPECT_NEAR(number("body_of_revolution{ profile = {{0,0},{2,1},{4,1}}, straight = true }:model():measures().volume"), 2.0 * k_pi / 3.0 + 2.0 * k_pi, 1e-3);
   EXPECT_NEAR(number("sting{ from={0,0,0}, to={2,0,0}, diameter=0.2 }:model():measures().volume"), 0.02 * k_pi, 1e-5);
-  EXPECT_THAT(run("local b = boom{ name='b', symmetric=true, from={0,1,0}, to={3,1,0.5}, diameter=0.2 } print(b) print(table.concat(b:model().components, ' ')) print(fairing{ length=2, width=1, height=1 }.kind)"),
+  EXPECT_THAT(run("local b = boom{ name='b', symmetric=true, from={0,1,0}, to={3,1,0.5}, diameter=0.2 } print(b) print(table.concat(b:model().components, ' "
+                  "')) print(fairing{ length=2, width=1, height=1 }.kind)"),
               AllOf(HasSubstr("Boom \"b\": "), HasSubstr(" frames, 3.041 m long, and its mirror image\nb bLeft\nfairing\n")));
 }
 
@@ -143,38 +169,53 @@ TEST_F(GeometryScripts, WingsFromFewNumbers) {
   // The quarter chord line is swept by 30 degrees over the panel's own length.
   EXPECT_NEAR(number(plain + ":at(1, 0.25)[1]"), 0.5 + 4.0 / std::cos(5.0 * k_pi / 180.0) * std::tan(k_pi / 6.0), 1e-6);
   EXPECT_NEAR(number(plain + ":at(0.5, 0.25)[2]"), 2.0, 1e-6);
-  EXPECT_NEAR(number("wing{ sections={ {chord=2, airfoil='naca0010'}, {z=3, chord=2} } }:model().max[3]"), 3.0, 0.11);                  // an upright fin with a round tip
-  EXPECT_LT(number("wing{ tip='flat', sections={ {chord=2, airfoil='naca0010'}, {z=3, chord=2} } }:model().max[2]"), 0.11);              // whose thickness is across
+  EXPECT_NEAR(number("wing{ sections={ {chord=2, airfoil='naca0010'}, {z=3, chord=2} } }:model().max[3]"), 3.0, 0.11);       // an upright fin with a round tip
+  EXPECT_LT(number("wing{ tip='flat', sections={ {chord=2, airfoil='naca0010'}, {z=3, chord=2} } }:model().max[2]"), 0.11);  // whose thickness is across
   // Twist lifts the nose: the leading edge stays, the trailing edge goes down.
   EXPECT_LT(number("wing{ sections={ {y=0, chord=1, airfoil='naca0012', twist=5*deg}, {y=2, twist=5*deg} } }:at(0.5, 1)[3]"), -0.08);
-  EXPECT_EQ(run("print(table.concat(wing{ symmetric=true, position={0,1,0}, sections={ {chord=1, airfoil='naca0012'}, {y=2} } }:model().components, ' '))"), "wing wingLeft\n");
-  EXPECT_EQ(run("local w = wing{ symmetric=true, spanwise='cubic', sections={ {chord=1, airfoil='naca0012'}, {y=2}, {y=4, chord=0.6} }, winglet={ height=0.5, bend=0.3 } } print(w:model().is_closed, w:at(1, 0)[3] > 0.4)"), "true\ttrue\n");
+  EXPECT_EQ(run("print(table.concat(wing{ symmetric=true, position={0,1,0}, sections={ {chord=1, airfoil='naca0012'}, {y=2} } }:model().components, ' '))"),
+            "wing wingLeft\n");
+  EXPECT_EQ(run("local w = wing{ symmetric=true, spanwise='cubic', sections={ {chord=1, airfoil='naca0012'}, {y=2}, {y=4, chord=0.6} }, winglet={ height=0.5, "
+                "bend=0.3 } } print(w:model().is_closed, w:at(1, 0)[3] > 0.4)"),
+            "true\ttrue\n");
 }
 
 TEST_F(GeometryScripts, ControlSurfacesAreDeflectedOrNamed) {
   const std::string wing = "local w = wing{ symmetric=true, sections={ {y=0, chord=1, airfoil='naca0012'}, {y=4, chord=1} } } ";
   const std::string clean = run(wing + "print(w:model():measures().volume)");
-  EXPECT_EQ(run(wing + "w:control{ 'flap', from={0.2, 0.7}, to={0.5, 0.7} } local m = w:model() print(m.is_closed, table.concat(m.patches, ' '):find('flapLeft') ~= nil) print(m.faces)").substr(0, 9), "true\ttrue");
-  EXPECT_EQ(run(wing + "w:deflect{ 'aileron', from={0.6, 0.7}, to={0.9, 0.7}, angle=25*deg, other_side='opposite' } local m = w:model() print(m.is_closed, m.min[3] < -0.1, m.max[3] > 0.1) print(w)"),
+  EXPECT_EQ(run(wing + "w:control{ 'flap', from={0.2, 0.7}, to={0.5, 0.7} } local m = w:model() print(m.is_closed, table.concat(m.patches, ' "
+                       "'):find('flapLeft') ~= nil) print(m.faces)")
+                .substr(0, 9),
+            "true\ttrue");
+  EXPECT_EQ(run(wing + "w:deflect{ 'aileron', from={0.6, 0.7}, to={0.9, 0.7}, angle=25*deg, other_side='opposite' } local m = w:model() print(m.is_closed, "
+                       "m.min[3] < -0.1, m.max[3] > 0.1) print(w)"),
             "true\ttrue\ttrue\nWing \"wing\": 2 sections, span 8 m, area 8 m^2, mean aerodynamic chord 1 m, both halves, aileron +25 deg\n");
   EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, angle=1*deg }"), HasSubstr("needs from and to, or hinge"));
   EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, to={0.9, 0.7} }"), HasSubstr("needs angle"));
   EXPECT_THAT(error(wing + "w:deflect{ 'a', from={0.6, 0.7}, to={0.9, 0.7}, angle=10 }"), HasSubstr("write degrees as 40*deg"));
-  EXPECT_THAT(error(wing + "w:control{ 'a', from={0.6, 0.7}, to={0.9, 0.7} } w:control{ 'a', from={0.1, 0.7}, to={0.2, 0.7} }"), HasSubstr("has a control surface \"a\" already"));
-  EXPECT_THAT(error("boom{ from={0,0,0}, to={1,0,0}, diameter=0.1 }:control{ 'a', from={0.6, 0.7}, to={0.9, 0.7} }"), HasSubstr("is for wings, not for a boom"));
+  EXPECT_THAT(error(wing + "w:control{ 'a', from={0.6, 0.7}, to={0.9, 0.7} } w:control{ 'a', from={0.1, 0.7}, to={0.2, 0.7} }"),
+              HasSubstr("has a control surface \"a\" already"));
+  EXPECT_THAT(error("boom{ from={0,0,0}, to={1,0,0}, diameter=0.1 }:control{ 'a', from={0.6, 0.7}, to={0.9, 0.7} }"),
+              HasSubstr("is for wings, not for a boom"));
 }
 
 TEST_F(GeometryScripts, AnAircraftIsUnitedAndWritten) {
-  const std::string parts = "local b = fuselage{ name='body', along='smooth', frames={ {x=0, diameter=0.6}, {x=2, diameter=1.2}, {x=6, diameter=1} } } "
-                            "local w = wing{ name='wing', symmetric=true, position={2, 0, 0.1}, sections={ {y=0, chord=1.5, airfoil='naca2412'}, {y=4, chord=0.8} } } "
-                            "local e = nacelle{ name='engine', symmetric=true, position={1.8, 2, -0.75}, length=1.2, diameter=0.6, intake='fan', exhaust='jet' } local p = pylon{ w, e } ";
-  EXPECT_EQ(run(parts + "local a = aircraft{ b, w, e, p } print(a.is_closed, #a.solids) local c = a.components table.sort(c) print(table.concat(c, ' ')) a:write(" + out("a.step") + ") local r = read_cad " + out("a.step") +
-                " print(math.abs(r:measures().volume / a:measures().volume - 1) < 1e-6, math.abs(r:measures().area / a:measures().area - 1) < 1e-6)"),
-            "true\t1\nbody engine engineLeft pylon pylonLeft wing\ntrue\ttrue\n");
-  EXPECT_EQ(run(parts + "local a = aircraft{ b, w, e, p, unite=false } local c = a.patches table.sort(c) print(#a.solids, table.concat(c, ' '))"), "6\tbody engine engineLeft fan fanLeft jet jetLeft pylon pylonLeft wing\n");
+  const std::string parts =
+      "local b = fuselage{ name='body', along='smooth', frames={ {x=0, diameter=0.6}, {x=2, diameter=1.2}, {x=6, diameter=1} } } "
+      "local w = wing{ name='wing', symmetric=true, position={2, 0, 0.1}, sections={ {y=0, chord=1.5, airfoil='naca2412'}, {y=4, chord=0.8} } } "
+      "local e = nacelle{ name='engine', symmetric=true, position={1.8, 2, -0.75}, length=1.2, diameter=0.6, intake='fan', exhaust='jet' } local p = pylon{ w, "
+      "e } ";
+  EXPECT_EQ(
+      run(parts + "local a = aircraft{ b, w, e, p } print(a.is_closed, #a.solids) local c = a.components table.sort(c) print(table.concat(c, ' ')) a:write(" +
+          out("a.step") + ") local r = read_cad " + out("a.step") +
+          " print(math.abs(r:measures().volume / a:measures().volume - 1) < 1e-6, math.abs(r:measures().area / a:measures().area - 1) < 1e-6)"),
+      "true\t1\nbody engine engineLeft pylon pylonLeft wing\ntrue\ttrue\n");
+  EXPECT_EQ(run(parts + "local a = aircraft{ b, w, e, p, unite=false } local c = a.patches table.sort(c) print(#a.solids, table.concat(c, ' '))"),
+            "6\tbody engine engineLeft fan fanLeft jet jetLeft pylon pylonLeft wing\n");
   EXPECT_THAT(error(parts + "aircraft{ b, w, w }"), HasSubstr("two components are named \"wing\""));
   EXPECT_THAT(error(parts + "aircraft{ b, 3 }"), HasSubstr("entry 2: expected a component (wing{...}, fuselage{...}) or a model, not a number"));
-  EXPECT_EQ(run(parts + "local m = aircraft{ b, name='x' } m:write(" + out("b.smx") + ") print(read_smx(" + out("b.smx") + "))").substr(0, 20), "Model: 1 component, ");
+  EXPECT_EQ(run(parts + "local m = aircraft{ b, name='x' } m:write(" + out("b.smx") + ") print(read_smx(" + out("b.smx") + "))").substr(0, 20),
+            "Model: 1 component, ");
   EXPECT_THAT(error(parts + "aircraft{ b, unite=false }:move{ 0, 0, 1 }:write(" + out("b.smx") + ")"), HasSubstr("it was changed by move"));
   EXPECT_THAT(error(parts + "b:model():write(" + out("b.stl") + ")"), HasSubstr("models are not written in this format"));
 }
@@ -189,7 +230,8 @@ TEST_F(GeometryScripts, UnionsOfModelsAndOfSurfaces) {
   std::ofstream moved(folder_ / "moved.stl");
   for (std::string line; std::getline(box, line);) {
     double x = 0.0, y = 0.0, z = 0.0;
-    if (std::sscanf(line.c_str(), " vertex %lf %lf %lf", &x, &y, &z) == 3) moved << "vertex " << x + 0.5 << " " << 0.5 * y + 0.25 << " " << 0.5 * z + 0.25 << "\n";
+    if (std::sscanf(line.c_str(), " vertex %lf %lf %lf", &x, &y, &z) == 3)
+      moved << "vertex " << x + 0.5 << " " << 0.5 * y + 0.25 << " " << 0.5 * z + 0.25 << "\n";
     else moved << line << "\n";
   }
   moved.close();
@@ -197,17 +239,22 @@ TEST_F(GeometryScripts, UnionsOfModelsAndOfSurfaces) {
 }
 
 TEST_F(GeometryScripts, HelpOfEveryVerbNamesItsOptions) {
-  const std::string text = run("for _, v in ipairs{ fuselage, wing, nacelle, pylon, boom, fairing, body_of_revolution, sting, aircraft, airfoil, surface, test_section, read_cad, union } do help(v) end help 'deflect' help 'deform' help()");
-  for (const char* part : {"sweep_at = 0.25", "highlight_ratio = 0.82", "nose_length = automatic", "cone_start", "periodic_u", "contraction_ratio", "sew_tolerance", "gap = ", "linear_part", "model:rotate", "wing:deflect"})
+  const std::string text =
+      run("for _, v in ipairs{ fuselage, wing, nacelle, pylon, boom, fairing, body_of_revolution, sting, aircraft, airfoil, surface, test_section, read_cad, "
+          "union } do help(v) end help 'deflect' help 'deform' help()");
+  for (const char* part : {"sweep_at = 0.25", "highlight_ratio = 0.82", "nose_length = automatic", "cone_start", "periodic_u", "contraction_ratio",
+                           "sew_tolerance", "gap = ", "linear_part", "model:rotate", "wing:deflect"})
     EXPECT_THAT(text, HasSubstr(part));
 }
 
 TEST_F(GeometryScripts, AllProblemsOfATableAreToldTogether) {
   EXPECT_THAT(error("wing{ name='w', sections={ {y=0, chrod=2}, {y=1, chord=-1, airfoil='naca0012'} }, tip='pointed' }"),
-              AllOf(HasSubstr("3 problems in this table"), HasSubstr("tip: \"pointed\""), HasSubstr("section 1: 3 problems"), HasSubstr("unknown key \"chrod\", did you mean \"chord\"?"), HasSubstr("section 2: chord: -1 is not allowed")));
+              AllOf(HasSubstr("3 problems in this table"), HasSubstr("tip: \"pointed\""), HasSubstr("section 1: 3 problems"),
+                    HasSubstr("unknown key \"chrod\", did you mean \"chord\"?"), HasSubstr("section 2: chord: -1 is not allowed")));
   EXPECT_THAT(error("fuselage{ frames={ {x=0, diameter=1}, {diameter=1} } }"), AllOf(HasSubstr("frame 2: needs x")));
   EXPECT_THAT(error("nacelle{ length=3 }"), HasSubstr("needs diameter"));
-  EXPECT_THAT(error("wing{ sections={ {y=0, chord=2, airfoil='naca0012', twist=5}, {y=1} } }"), AllOf(HasSubstr("twist: 5 rad (286.479 deg) is not allowed"), HasSubstr("write degrees as 40*deg")));
+  EXPECT_THAT(error("wing{ sections={ {y=0, chord=2, airfoil='naca0012', twist=5}, {y=1} } }"),
+              AllOf(HasSubstr("twist: 5 rad (286.479 deg) is not allowed"), HasSubstr("write degrees as 40*deg")));
 }
 
 }  // namespace

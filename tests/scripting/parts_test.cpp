@@ -65,7 +65,8 @@ TEST(Parts, AMotionThatMovesNothingChangesNothing) {
 }
 
 TEST(Parts, ATunnelChangesNothingForAModelInIt) {
-  const SurfaceValue still = meshed({rod()}), first = meshed({moved(rod(), k_turn), tunnel()}), second = meshed({moved(rod(), translation({0.2, 0.1, 0.3}) * k_turn), tunnel()});
+  const SurfaceValue still = meshed({rod()}), first = meshed({moved(rod(), k_turn), tunnel()}),
+                     second = meshed({moved(rod(), translation({0.2, 0.1, 0.3}) * k_turn), tunnel()});
   ASSERT_EQ(first.parts.size(), 2u);
   ASSERT_EQ(second.parts.size(), 2u);
   EXPECT_TRUE(first.report.is_closed);
@@ -76,7 +77,8 @@ TEST(Parts, ATunnelChangesNothingForAModelInIt) {
 }
 
 TEST(Parts, SeveralModelsKeepTheirPlacesInAnAssembly) {
-  const ModelHandle a = std::make_shared<const ModelValue>(moved(rod(), k_turn)), b = std::make_shared<const ModelValue>(moved(rod(), translation({0, 0, 0.6})));
+  const ModelHandle a = std::make_shared<const ModelValue>(moved(rod(), k_turn)),
+                    b = std::make_shared<const ModelValue>(moved(rod(), translation({0, 0, 0.6})));
   const ModelValue apart = assemble_united({a, b}, k_context);
   ASSERT_EQ(apart.parts.size(), 2u);
   EXPECT_EQ(apart.parts[0].placement, k_turn);
@@ -100,7 +102,8 @@ TEST(Parts, WhatPassesThroughTheTunnelIsMeshedWhereItIs) {
 }
 
 TEST(Parts, SurfacesMoveAsModelsDo) {
-  const SurfaceValue still = meshed({rod()}), once = moved_surface(still, translation({0, 0, 0.25}) * k_turn), twice = moved_surface(moved_surface(still, k_turn), translation({0, 0, 0.25}));
+  const SurfaceValue still = meshed({rod()}), once = moved_surface(still, translation({0, 0, 0.25}) * k_turn),
+                     twice = moved_surface(moved_surface(still, k_turn), translation({0, 0, 0.25}));
   EXPECT_EQ(once.mesh.points.raw(), twice.mesh.points.raw());
   ASSERT_EQ(twice.parts.size(), 1u);
   EXPECT_EQ(twice.parts.front().own->points.raw(), still.mesh.points.raw());
@@ -108,8 +111,10 @@ TEST(Parts, SurfacesMoveAsModelsDo) {
 
 TEST_F(PartScripts, ATriangulatedModelStandsInATunnelAtAnyAttitude) {
   run("surface_mesh{ cylinder{ {-0.5, 0, 0}, {0.5, 0, 0}, radius = 0.2, name = 'rod' }, max_edge = 0.2, curvature_angle = 0.4 }:write(" + out("rod.stl") + ")");
-  const std::string text = run("local rod = read_surface(" + out("rod.stl") + ") local tunnel = surface_mesh{ test_section{ length = 4, width = 2, height = 2, walls = 'slip' } } "
-                               "for _, a in ipairs{ 0, 8 } do local wall = assembly{ rod:rotate{ pitch = a*deg }, tunnel } local m = volume_mesh{ wall, layers = 8, first_height = 1e-4 } "
+  const std::string text = run("local rod = read_surface(" + out("rod.stl") +
+                               ") local tunnel = surface_mesh{ test_section{ length = 4, width = 2, height = 2, walls = 'slip' } } "
+                               "for _, a in ipairs{ 0, 8 } do local wall = assembly{ rod:rotate{ pitch = a*deg }, tunnel } local m = volume_mesh{ wall, layers "
+                               "= 8, first_height = 1e-4 } "
                                "print(wall.is_closed, m.coverage > 0.99) end");
   EXPECT_EQ(text, "true\ttrue\ntrue\ttrue\n");
   EXPECT_THAT(error("local a = surface_mesh{ box{ {0,0,0}, {1,1,1} } } assembly{ a, a:move{ 0.1, 0.1, 0.1 } }"), HasSubstr("pairs of their triangles cross"));

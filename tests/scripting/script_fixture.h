@@ -21,8 +21,12 @@ class ScriptFixture : public testing::Test {
     std::ofstream(folder_ / "case.lua") << text;
     std::string printed;
     log_.clear();
-    const RunContext context({.threads = threads, .log = [&](LogLevel level, std::string_view line) { log_ += (level == LogLevel::warning ? "warning: " : "") + std::string(line) + "\n"; }});
-    run_script({.script = folder_ / "case.lua", .overrides = overrides, .print = [&](std::string_view line) { printed += std::string(line) + "\n"; }, .on_mesh = {}}, context);
+    const RunContext context({.threads = threads, .log = [&](LogLevel level, std::string_view line) {
+                                log_ += (level == LogLevel::warning ? "warning: " : "") + std::string(line) + "\n";
+                              }});
+    run_script(
+        {.script = folder_ / "case.lua", .overrides = overrides, .print = [&](std::string_view line) { printed += std::string(line) + "\n"; }, .on_mesh = {}},
+        context);
     return printed;
   }
   double number(const std::string& expression) { return std::stod(run("print(string.format('%.17g', " + expression + "))")); }

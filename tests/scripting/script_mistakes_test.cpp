@@ -42,7 +42,8 @@ TEST(ScriptMistakes, EachHasItsMessageAtFileAndLine) {
       ADD_FAILURE() << "ran without an error";
     } catch (const Error& error) {
       EXPECT_EQ(to_string(error.code()), expected.code) << error.what();
-      for (const std::string& part : expected.parts) EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << "missing: " << part << "\nin: " << error.what();
+      for (const std::string& part : expected.parts)
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << "missing: " << part << "\nin: " << error.what();
     }
   }
   EXPECT_GE(n_scripts, 60);

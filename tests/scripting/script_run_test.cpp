@@ -1,7 +1,7 @@
 #include "scripting/script_run.h"
 
-#include <chrono>
 #include <gmock/gmock.h>
+#include <chrono>
 #include <fstream>
 #include <span>
 #include <sstream>
@@ -44,7 +44,8 @@ Error error_of(const std::string& text, RunSettings settings = {}, OptionOverrid
 TEST(ScriptRun, SeesItsSandboxAndNothingElse) {
   EXPECT_EQ(run_text("for _, name in ipairs{ 'dofile', 'loadfile', 'load', 'io', 'os', 'debug', 'package', 'coroutine' } do print(rawget(_G, name)) end"),
             "nil\nnil\nnil\nnil\nnil\nnil\nnil\nnil\n");
-  EXPECT_EQ(run_text("print(type(table.sort), type(string.format), type(math.pi), type(utf8.char), type(require))"), "function\tfunction\tnumber\tfunction\tfunction\n");
+  EXPECT_EQ(run_text("print(type(table.sort), type(string.format), type(math.pi), type(utf8.char), type(require))"),
+            "function\tfunction\tnumber\tfunction\tfunction\n");
   EXPECT_EQ(run_text("print(mm, cm, inch, ft, 180*deg == math.pi)"), "0.001\t0.01\t0.0254\t0.3048\ttrue\n");
 }
 
@@ -56,8 +57,9 @@ TEST(ScriptRun, RandomNumbersFollowFromTheSeedAlone) {
 }
 
 TEST(ScriptRun, PairsGoesInTheSameOrderInEveryRun) {
-  EXPECT_EQ(run_text("local s = '' for k, v in pairs{ wing = 1, body = 2, tail = 3, engine = 4, 5, 6, [2.5] = 7 } do s = s .. k .. '=' .. v .. ' ' end print(s)"),
-            "1=5 2=6 2.5=7 body=2 engine=4 tail=3 wing=1 \n");
+  EXPECT_EQ(
+      run_text("local s = '' for k, v in pairs{ wing = 1, body = 2, tail = 3, engine = 4, 5, 6, [2.5] = 7 } do s = s .. k .. '=' .. v .. ' ' end print(s)"),
+      "1=5 2=6 2.5=7 body=2 engine=4 tail=3 wing=1 \n");
   EXPECT_EQ(run_text("local n = 0 for k, v in pairs{ [true] = 1, [print] = 2, a = 3 } do n = n + v end print(n)"), "6\n");
   EXPECT_EQ(run_text("local t = { a = 1, b = 2, c = 3 } local s = '' for k in pairs(t) do s = s .. k; t.b = nil end print(s)"), "ac\n");
   EXPECT_EQ(run_text("for k in pairs(setmetatable({}, { __pairs = function() return next, { x = 1 }, nil end })) do print(k) end"), "x\n");
@@ -79,11 +81,13 @@ TEST(ScriptRun, ModulesLieBesideTheScript) {
 TEST(ScriptRun, MemoryIsCapped) {
   const std::filesystem::path script = test::scratch() / "case.lua";
   // Lua's own allocations, and those of a verb that is under way when the memory ends.
-  for (const char* text : {"local t = {} for i = 1, 1e9 do t[i] = string.rep('x', 1000) .. i end", "local t = {} while true do t[#t + 1] = sphere{ radius = 1 } end",
-                           "local t = {} while true do t[#t + 1] = { pairs = help } end", "string.rep('x', 1e9)"}) {
+  for (const char* text :
+       {"local t = {} for i = 1, 1e9 do t[i] = string.rep('x', 1000) .. i end", "local t = {} while true do t[#t + 1] = sphere{ radius = 1 } end",
+        "local t = {} while true do t[#t + 1] = { pairs = help } end", "string.rep('x', 1e9)"}) {
     std::ofstream(script) << text;
     try {
-      run_script({.script = script, .overrides = {}, .print = [](std::string_view) {}, .on_mesh = {}, .memory_limit = std::size_t{4} << 20}, RunContext({.threads = 1}));
+      run_script({.script = script, .overrides = {}, .print = [](std::string_view) {}, .on_mesh = {}, .memory_limit = std::size_t{4} << 20},
+                 RunContext({.threads = 1}));
       ADD_FAILURE() << text;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::script_failed);
@@ -132,17 +136,20 @@ TEST(ScriptRun, MistakesInSourcesAreToldWhereTheyAre) {
   EXPECT_THAT(message("box{ {0, 0, 0}, {1, 1, 1}, radius = 1 }"), testing::HasSubstr("unknown key \"radius\""));
   EXPECT_THAT(message("line{ {0, 0, 0}, {1, 1, 1}, size = -1 }"), testing::HasSubstr("size"));
   EXPECT_THAT(message("cylinder{ {0, 0, 0}, {1, 0, 0}, size = 1 }"), testing::HasSubstr("a cylinder needs a radius"));
-  EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, sources = { 3 } }"), testing::HasSubstr("sources, entry 1: expected a source"));
+  EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, sources = { 3 } }"),
+              testing::HasSubstr("sources, entry 1: expected a source"));
   EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, sources = { size_samples 'absent.vtu' } }"), testing::HasSubstr("absent.vtu"));
 }
 
 TEST(ScriptRun, ActuatorDiscsAreCheckedWhereTheyAreMade) {
-  EXPECT_EQ(run_text("local d = actuator_disc{ name = 'prop', center = {-0.4, 0, 0}, radius = 120*cm } print(d.name, d.radius, d.center[1])"), "prop\t1.2\t-0.4\n");
+  EXPECT_EQ(run_text("local d = actuator_disc{ name = 'prop', center = {-0.4, 0, 0}, radius = 120*cm } print(d.name, d.radius, d.center[1])"),
+            "prop\t1.2\t-0.4\n");
   const auto message = [](const std::string& text) { return std::string(error_of(text).what()); };
   EXPECT_THAT(message("actuator_disc{ radius = 1 }"), testing::HasSubstr("center: is needed"));
   EXPECT_THAT(message("actuator_disc{ center = {0, 0, 0} }"), testing::HasSubstr("radius"));
   EXPECT_THAT(message("actuator_disc{ center = {0, 0, 0}, radius = 1, inner = 0.2 }"), testing::HasSubstr("unknown key \"inner\""));
-  EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, interfaces = { 3 } }"), testing::HasSubstr("interfaces, entry 1: expected actuator_disc"));
+  EXPECT_THAT(message("volume_mesh{ read_surface 'box.stl', first_height = 1e-3, interfaces = { 3 } }"),
+              testing::HasSubstr("interfaces, entry 1: expected actuator_disc"));
 }
 
 TEST(ScriptRun, OverridesOfTheCommandLineWin) {
@@ -153,7 +160,8 @@ TEST(ScriptRun, OverridesOfTheCommandLineWin) {
 
 TEST(ScriptRun, HelpNamesEveryOptionWithItsRange) {
   const std::string text = run_text("help(volume_mesh) help() help 'mesh:check' help(read_surface) help(sphere)");
-  for (const char* part : {"layers = 30  (1 .. 1000)", "first_height = required [m]", "split_angle", "findings_per_kind = 10", "mesh:write", "radius = automatic"})
+  for (const char* part :
+       {"layers = 30  (1 .. 1000)", "first_height = required [m]", "split_angle", "findings_per_kind = 10", "mesh:write", "radius = automatic"})
     EXPECT_NE(text.find(part), std::string::npos) << part;
   EXPECT_EQ(error_of("help(3)").code(), ErrorCode::bad_argument);
 }

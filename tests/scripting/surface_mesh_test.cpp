@@ -26,7 +26,8 @@ class SurfaceMeshVerb : public ScriptFixture {
 TEST_F(SurfaceMeshVerb, AClosedModelMakesAWallForVolumeMesh) {
   EXPECT_EQ(run("local w = surface_mesh{ box{ {0,0,0}, {1,1,1}, name='block' }, max_edge=0.5 } "
                 "print(w.is_closed, w.crossings, w.absorbed, w.min_angle > 25*deg, table.concat(w.patches, ' '), w.length) "
-                "local m = volume_mesh{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=10 } } m:check() m:write(" + out("block.su2") + ") print(m.prisms == 3*w.triangles)")
+                "local m = volume_mesh{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=10 } } m:check() m:write(" +
+                out("block.su2") + ") print(m.prisms == 3*w.triangles)")
                 .find("true\t0\t0\ttrue\tblock\t1"),
             0u);
   EXPECT_THAT(log_, AllOf(HasSubstr("closed, 1 patch"), HasSubstr("worst angle on \"block\" at (")));
@@ -35,17 +36,22 @@ TEST_F(SurfaceMeshVerb, AClosedModelMakesAWallForVolumeMesh) {
 }
 
 TEST_F(SurfaceMeshVerb, PatchesHaveSizesOfTheirOwnAndTheLongerPatternWins) {
-  const std::string model = "local m = assembly{ box{ {0,0,0}, {1,1,1}, name='wing' }, box{ {3,0,0}, {4,1,1}, name='wing_tip' } } local function n(o) o[1] = m o.max_edge = 0.5 return surface_mesh(o).triangles end ";
+  const std::string model =
+      "local m = assembly{ box{ {0,0,0}, {1,1,1}, name='wing' }, box{ {3,0,0}, {4,1,1}, name='wing_tip' } } local function n(o) o[1] = m o.max_edge = 0.5 "
+      "return surface_mesh(o).triangles end ";
   EXPECT_EQ(run(model + "local all, tip, both = n{}, n{ patches={ wing_tip={ max_edge=0.25 } } }, n{ patches={ ['wing*']={ max_edge=0.25 } } } "
                         "print(tip > 1.5*all, both > 1.2*tip, n{ patches={ ['wing*']={ max_edge=0.25 }, wing_tip={ max_edge=0.5 } } } < both)"),
             "true\ttrue\ttrue\n");
   // Models as entries stand side by side, components too; --set wins.
-  EXPECT_EQ(run("print(table.concat(surface_mesh{ box{ {0,0,0}, {1,1,1} }, box{ {2,0,0}, {3,1,1} }, boom{ from={0,0,3}, to={2,0,3}, diameter=0.5 } }.patches, ' '))"), "box box2 boom\n");
+  EXPECT_EQ(
+      run("print(table.concat(surface_mesh{ box{ {0,0,0}, {1,1,1} }, box{ {2,0,0}, {3,1,1} }, boom{ from={0,0,3}, to={2,0,3}, diameter=0.5 } }.patches, ' '))"),
+      "box box2 boom\n");
   EXPECT_EQ(run("print(surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_edge=0.1 }.triangles < 200)", {{"surface_mesh.max_edge", "0.5"}}), "true\n");
 }
 
 TEST_F(SurfaceMeshVerb, OpenSurfacesAndCrossingsAreTold) {
-  EXPECT_EQ(run("print(surface_mesh{ surface{ function(u, v) return u, v, 0.1*u*v end, u={0,1}, v={0,1}, name='sheet' }, max_edge=0.3 }.is_closed)"), "false\n");
+  EXPECT_EQ(run("print(surface_mesh{ surface{ function(u, v) return u, v, 0.1*u*v end, u={0,1}, v={0,1}, name='sheet' }, max_edge=0.3 }.is_closed)"),
+            "false\n");
   EXPECT_THAT(log_, AllOf(HasSubstr("open: "), HasSubstr("along 1 m of face \"sheet\" about (0, 0.5, 0)")));
   const std::string boxes = "surface_mesh{ box{ {0,0,0}, {1,1,1} }, box{ {0.5,0.3,0.3}, {2,0.7,0.7}, name='bar' }, max_edge=0.4";
   EXPECT_THAT(error(boxes + " }"), AllOf(HasSubstr("pairs of triangles cross"), HasSubstr("\"bar\""), HasSubstr("union{")));
@@ -56,12 +62,15 @@ TEST_F(SurfaceMeshVerb, OpenSurfacesAndCrossingsAreTold) {
 
 TEST_F(SurfaceMeshVerb, MistakesAreNamedTogether) {
   const std::string block = "box{ {0,0,0}, {1,1,1}, name='block' }";
-  EXPECT_THAT(error("surface_mesh{ " + block + ", max_egde = 1 }"), HasSubstr("case.lua:1: surface_mesh: unknown key \"max_egde\", did you mean \"max_edge\"?"));
+  EXPECT_THAT(error("surface_mesh{ " + block + ", max_egde = 1 }"),
+              HasSubstr("case.lua:1: surface_mesh: unknown key \"max_egde\", did you mean \"max_edge\"?"));
   EXPECT_THAT(error("surface_mesh{ " + block + ", max_edge=-1, curvature_angle=12, patches={ block={ max_egde=1, leading_edge={ chordwse=0.004 } }, tip=3 } }"),
               AllOf(HasSubstr("4 problems in this table"), HasSubstr("max_edge: -1 is not allowed"), HasSubstr("write degrees as 40*deg"),
-                    HasSubstr("patches[\"block\"]: 2 problems"), HasSubstr("unknown key \"max_egde\", did you mean \"max_edge\"?"), HasSubstr("unknown key \"leading_edge.chordwse\""),
+                    HasSubstr("patches[\"block\"]: 2 problems"), HasSubstr("unknown key \"max_egde\", did you mean \"max_edge\"?"),
+                    HasSubstr("unknown key \"leading_edge.chordwse\""),
                     HasSubstr("patches[\"tip\"]: expected a table of what these patches ask for instead, like { max_edge = 0.1 }, not a number")));
-  EXPECT_THAT(error("surface_mesh{ " + block + ", patches={ ['wing*']={ max_edge=1 } } }"), AllOf(HasSubstr("no face has a name like \"wing*\""), HasSubstr("block")));
+  EXPECT_THAT(error("surface_mesh{ " + block + ", patches={ ['wing*']={ max_edge=1 } } }"),
+              AllOf(HasSubstr("no face has a name like \"wing*\""), HasSubstr("block")));
   EXPECT_THAT(error("surface_mesh{}"), HasSubstr("needs a model"));
   EXPECT_THAT(error("surface_mesh{ 'a.step' }"), HasSubstr("entry 1: expected a model (from read_cad, aircraft ...) or a component, not a text"));
   EXPECT_THAT(error("surface_mesh{ surface_mesh{ " + block + " } }"), HasSubstr("which is made of triangles already: volume_mesh takes it"));
@@ -71,17 +80,21 @@ TEST_F(SurfaceMeshVerb, MistakesAreNamedTogether) {
 TEST_F(SurfaceMeshVerb, SourcesAndFunctionsMakeShorterEdges) {
   const std::string model = "local m = box{ {0,0,0}, {4,4,4}, name='block' } local function n(o) o[1] = m o.max_edge = 1 return surface_mesh(o) end ";
   EXPECT_EQ(run(model + "local plain = n{}.triangles "
-                        "print(n{ sources={ sphere{ {0,0,0}, radius=0.5, size=0.05 } } }.triangles > 5*plain, n{ sources={ point{ {0,0,9}, size=0.05 } } }.triangles == plain, "
+                        "print(n{ sources={ sphere{ {0,0,0}, radius=0.5, size=0.05 } } }.triangles > 5*plain, n{ sources={ point{ {0,0,9}, size=0.05 } } "
+                        "}.triangles == plain, "
                         "n{ size=function(x, y, z) return 0.1 + z end }.triangles > 5*plain)"),
             "true\ttrue\ttrue\n");
-  EXPECT_THAT(error(model + "n{ sources={ 3 }, size=0.2 }"), AllOf(HasSubstr("2 problems"), HasSubstr("sources, entry 1: expected a source"), HasSubstr("size: expected a function of x, y, z")));
-  EXPECT_THAT(error(model + "n{ sources={ sphere{ {0,0,0}, raduis=0.5, size=0.05 } } }"), AllOf(HasSubstr("unknown key \"raduis\", did you mean \"radius\"?"), HasSubstr("sphere takes a point, size, radius")));
+  EXPECT_THAT(error(model + "n{ sources={ 3 }, size=0.2 }"),
+              AllOf(HasSubstr("2 problems"), HasSubstr("sources, entry 1: expected a source"), HasSubstr("size: expected a function of x, y, z")));
+  EXPECT_THAT(error(model + "n{ sources={ sphere{ {0,0,0}, raduis=0.5, size=0.05 } } }"),
+              AllOf(HasSubstr("unknown key \"raduis\", did you mean \"radius\"?"), HasSubstr("sphere takes a point, size, radius")));
   EXPECT_THAT(error(model + "n{ size=function(x, y, z) return -z end }"), HasSubstr("the function of sizes gives"));
   EXPECT_THAT(error(model + "n{ size=function(x, y, z) return nil + 1 end }"), HasSubstr("case.lua:1"));
   EXPECT_THAT(run("help(surface_mesh)"), AllOf(HasSubstr("gap_cells"), HasSubstr("sources = {")));
   // Manifests keep them, files of steps too.
   run("local w = surface_mesh{ box{ {0,0,0}, {1,1,1}, name='block' }, max_edge=0.5, sources={ point{ {0,0,0}, size=0.2 } } } "
-      "volume_mesh{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=10 } }:write(" + out("s.su2") + ")");
+      "volume_mesh{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=10 } }:write(" +
+      out("s.su2") + ")");
   EXPECT_THAT(text_of("s.su2.json"), AllOf(HasSubstr("\"surface_sources\""), HasSubstr("\"kind\": \"point\"")));
 }
 
@@ -98,13 +111,20 @@ TEST_F(SurfaceMeshVerb, TheCommandLineTakesPatchesAndSources) {
     for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) n += std::stoi(text.substr(at + key.size()));
     return n;
   };
-  const int plain = triangles({}), wing = triangles({"--patch", "wing*:max_edge=0.1", "--patch", "*:curvature_angle=20,min_edge=1mm"}), source = triangles({"--source", "line 3 0 0 4 0 0 size=0.05 radius=50mm"});
+  const int plain = triangles({}), wing = triangles({"--patch", "wing*:max_edge=0.1", "--patch", "*:curvature_angle=20,min_edge=1mm"}),
+            source = triangles({"--source", "line 3 0 0 4 0 0 size=0.05 radius=50mm"});
   EXPECT_GT(wing, 5 * plain);
   EXPECT_GT(source, 3 * plain);
   for (const auto& [arguments, text] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{"--patch", "wing*:max_egde=0.1"}, "did you mean \"max_edge\"?"}, {{"--patch", "wing"}, "is not NAMES:OPTION=VALUE"}, {{"--patch", "tail:max_edge=0.1"}, "no face has a name like \"tail\""},
-           {{"--source", "ball 0 0 0 size=1"}, "\"ball\" is no source"}, {{"--source", "point 0 0 size=1"}, "coordinates come in threes"}, {{"--source", "sphere 0 0 0 size=1 raduis=2"}, "did you mean \"radius\"?"},
-            {{"--source", "line 0 0 0 1 0 0 size=1 thickness=2"}, "line takes two points, size, radius"}, {{"--source", "point 0 0 0 size=12deg"}, "is an angle, expected a length"}, {{"--max-edge", "12deg"}, "is an angle, expected a length"}}) {
+           {{"--patch", "wing*:max_egde=0.1"}, "did you mean \"max_edge\"?"},
+           {{"--patch", "wing"}, "is not NAMES:OPTION=VALUE"},
+           {{"--patch", "tail:max_edge=0.1"}, "no face has a name like \"tail\""},
+           {{"--source", "ball 0 0 0 size=1"}, "\"ball\" is no source"},
+           {{"--source", "point 0 0 size=1"}, "coordinates come in threes"},
+           {{"--source", "sphere 0 0 0 size=1 raduis=2"}, "did you mean \"radius\"?"},
+           {{"--source", "line 0 0 0 1 0 0 size=1 thickness=2"}, "line takes two points, size, radius"},
+           {{"--source", "point 0 0 0 size=12deg"}, "is an angle, expected a length"},
+           {{"--max-edge", "12deg"}, "is an angle, expected a length"}}) {
     std::vector<std::string> all = {"surface", "two.step", "-o", "w.su2"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     const test::ProcessResult result = sterna(all);
@@ -115,7 +135,8 @@ TEST_F(SurfaceMeshVerb, TheCommandLineTakesPatchesAndSources) {
 
 TEST_F(SurfaceMeshVerb, AFileOfStepsKeepsTheOptions) {
   run("local w = surface_mesh{ box{ {0,0,0}, {1,1,1}, name='block' }, max_edge=0.5, patches={ ['b*']={ max_edge=0.4, curvature_angle=20*deg } } } "
-      "local e = make_envelope{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=10 } } e:write(" + out("steps.sterna") + ") local t = tetrahedra{ e } prisms{ e, t }:write(" + out("a.su2") + ")");
+      "local e = make_envelope{ w, layers=3, first_height=1e-3, farfield=sphere{ radius=10 } } e:write(" +
+      out("steps.sterna") + ") local t = tetrahedra{ e } prisms{ e, t }:write(" + out("a.su2") + ")");
   run("local s = read_stages(" + out("steps.sterna") + ") prisms{ s.envelope, tetrahedra{ s.envelope } }:write(" + out("b.su2") + ")");
   EXPECT_EQ(text_of("a.su2"), text_of("b.su2"));
   const auto after_name = [](std::string text) { return text.substr(text.find("\"seed\"")); };
@@ -124,11 +145,15 @@ TEST_F(SurfaceMeshVerb, AFileOfStepsKeepsTheOptions) {
 }
 
 TEST_F(SurfaceMeshVerb, TheCommandLineMeshesModels) {
-  run("local b = box{ {0,0,0}, {1,1,1}, name='block' } b:write(" + out("block.step") + ") "
+  run("local b = box{ {0,0,0}, {1,1,1}, name='block' } b:write(" + out("block.step") +
+      ") "
       "aircraft{ fuselage{ name='body', along='akima', frames={ {x=0, diameter=0.6}, {x=2, diameter=1}, {x=4, diameter=0.5} } }, "
-      "wing{ name='wing', symmetric=true, trailing_edge=0, position={1.5,0,0}, sections={ {y=0, chord=1, airfoil='naca0012'}, {y=2, chord=0.6} } }, unite=false }:write(" + out("plane.smx") + ")");
+      "wing{ name='wing', symmetric=true, trailing_edge=0, position={1.5,0,0}, sections={ {y=0, chord=1, airfoil='naca0012'}, {y=2, chord=0.6} } }, "
+      "unite=false }:write(" +
+      out("plane.smx") + ")");
   EXPECT_THAT(sterna({"--help"}).output, HasSubstr("surface"));
-  EXPECT_THAT(sterna({"surface", "--help"}).output, AllOf(HasSubstr("--max-edge"), HasSubstr("--curvature-angle"), HasSubstr("--refinement"), HasSubstr("--cap")));
+  EXPECT_THAT(sterna({"surface", "--help"}).output,
+              AllOf(HasSubstr("--max-edge"), HasSubstr("--curvature-angle"), HasSubstr("--refinement"), HasSubstr("--cap")));
   const test::ProcessResult made = sterna({"surface", "block.step", "-o", "wall.su2", "--max-edge", "0.5", "--curvature-angle", "12"});
   EXPECT_EQ(made.status, k_exit_success) << made.errors;
   EXPECT_THAT(made.errors, AllOf(HasSubstr("wrote wall.su2: TriMesh: "), HasSubstr("closed, 1 patch"), HasSubstr("worst angle on \"block\"")));
@@ -137,7 +162,8 @@ TEST_F(SurfaceMeshVerb, TheCommandLineMeshesModels) {
   const test::ProcessResult plane = sterna({"surface", "plane.smx", "-o", "plane.stl", "--set", "surface_mesh.curvature_angle=20deg"});
   EXPECT_EQ(plane.status, k_exit_success) << plane.errors;
   EXPECT_THAT(plane.errors, AllOf(HasSubstr("closed, "), Not(HasSubstr("triangles cross"))));
-  const test::ProcessResult mesh = sterna({"mesh", "block.step", "--layers", "3", "--first-height", "1e-3", "--set", "surface_mesh.max_edge=0.5", "-o", "m.su2"});
+  const test::ProcessResult mesh =
+      sterna({"mesh", "block.step", "--layers", "3", "--first-height", "1e-3", "--set", "surface_mesh.max_edge=0.5", "-o", "m.su2"});
   EXPECT_EQ(mesh.status, k_exit_success) << mesh.errors;
   EXPECT_THAT(text_of("m.su2.json"), AllOf(HasSubstr("block.step"), HasSubstr("\"max_edge\": 0.5"), HasSubstr("\"VALID\"")));
 }
@@ -150,7 +176,9 @@ TEST_F(SurfaceMeshVerb, TheCommandLineRefusesWhatItCannotMean) {
       {{"surface", "block.step", "-o", "w.su2", "--set", "surface_mesh.max_egde=1"}, k_exit_usage, "did you mean \"surface_mesh.max_edge\"?"},
       {{"surface", "block.step", "-o", "w.docx"}, k_exit_failed, "w.docx"},
       {{"surface", "wall.stl", "-o", "w.su2"}, k_exit_usage, "it is no model"},
-      {{"surface", "block.step", "-o", "w.su2", "--max-edge", "0.2", "--max-edge", "0.3"}, k_exit_usage, "surface_mesh.max_edge is given twice, as 0.2 and as 0.3"},
+      {{"surface", "block.step", "-o", "w.su2", "--max-edge", "0.2", "--max-edge", "0.3"},
+       k_exit_usage,
+       "surface_mesh.max_edge is given twice, as 0.2 and as 0.3"},
       {{"surface", "block.step", "-o", "w.su2", "--max-edge", "0.2", "--set", "surface_mesh.max_edge=0.3"}, k_exit_usage, "given twice"},
       {{"surface", "block.step", "-o", "w.su2", "--max-edge", "0.2", "--min-edge", "0.3"}, k_exit_usage, "min_edge = 0.3 m is above max_edge = 0.2 m"},
       {{"surface", "nothing.step", "-o", "/proc/w.su2"}, k_exit_failed, "writing /proc/w.su2"},
@@ -172,12 +200,16 @@ TEST_F(SurfaceMeshVerb, TheFeatureAngleFollowsFromTheSurfaceMeshAlsoThroughAFile
   EXPECT_GT(angle, 20.0);
   EXPECT_LT(angle, 40.0);
   EXPECT_THAT(log_, AllOf(HasSubstr("smooth places turn by up to"), HasSubstr("where the model is smooth"), HasSubstr("least angles ")));
-  EXPECT_THAT(text_of("wall.su2.json"), AllOf(HasSubstr("\"schema\": \"sterna-surface-1\""), HasSubstr("\"max_smooth_angle\""), HasSubstr("\"max_edge\": 0.6"), HasSubstr("\"mean_radius_ratio\"")));
+  EXPECT_THAT(text_of("wall.su2.json"), AllOf(HasSubstr("\"schema\": \"sterna-surface-1\""), HasSubstr("\"max_smooth_angle\""), HasSubstr("\"max_edge\": 0.6"),
+                                              HasSubstr("\"mean_radius_ratio\"")));
   const std::string read = "local w = read_surface(" + out("wall.su2") + ") ";
   EXPECT_NEAR(std::stod(run(read + make)), angle, 1e-9);
   EXPECT_EQ(run(read + "print(w.smooth_angle > 10*deg)"), "true\n");
   // The user's own value wins; a manifest of another state of the file does not count.
-  EXPECT_EQ(std::lround(std::stod(run(read + "local e = make_envelope{ w, layers=3, first_height=1e-3, feature_angle=50*deg, farfield=sphere{ radius=20 } } print(e.feature_angle / deg)"))), 50);
+  EXPECT_EQ(std::lround(std::stod(run(
+                read +
+                "local e = make_envelope{ w, layers=3, first_height=1e-3, feature_angle=50*deg, farfield=sphere{ radius=20 } } print(e.feature_angle / deg)"))),
+            50);
   std::ofstream(folder_ / "wall.su2", std::ios::app) << "% edited\n";
   EXPECT_EQ(run(read + "print(pcall(function() return w.smooth_angle end))").substr(0, 5), "false");
   EXPECT_THAT(log_, HasSubstr("does not count"));
@@ -185,7 +217,9 @@ TEST_F(SurfaceMeshVerb, TheFeatureAngleFollowsFromTheSurfaceMeshAlsoThroughAFile
 
 TEST_F(SurfaceMeshVerb, SplitsOfTheBoundaryPutNewVerticesOnTheModel) {
   run("local w = surface_mesh{ cylinder{ {0,0,0}, {2,0,0}, radius=1, name='can' }, max_edge=0.6, curvature_angle=30*deg } "
-      "volume_mesh{ w, layers=4, first_height=1e-3, farfield=sphere{ radius=15 }, sources={ sphere{ {3,0,0}, radius=1, size=0.1 } }, tetrahedra={ boundary_splits='always', radius_edge=1.6 } }:write(" + out("can.su2") + ")");
+      "volume_mesh{ w, layers=4, first_height=1e-3, farfield=sphere{ radius=15 }, sources={ sphere{ {3,0,0}, radius=1, size=0.1 } }, tetrahedra={ "
+      "boundary_splits='always', radius_edge=1.6 } }:write(" +
+      out("can.su2") + ")");
   EXPECT_THAT(text_of("can.su2.json"), HasSubstr("boundary_triangles_added_by_splits"));
   const HybridMesh mesh = io::read_volume_file(folder_ / "can.su2", RunContext{});
   int n_wall = 0;

@@ -33,7 +33,9 @@ TEST(TableReader, EveryOptionOfEveryStageCanBeGivenFlatAndNested) {
   volmesh::VolumeMeshOptions options, defaults;
   for (const Option& option : volmesh::options_of(defaults)) {
     const OptionValue value = option.default_value;
-    const ScriptValue given = std::visit([](const auto& v) -> ScriptValue { return v; }, std::holds_alternative<double>(value) && is_automatic(std::get<double>(value)) ? OptionValue(std::min(1e9, option.max)) : value);
+    const ScriptValue given =
+        std::visit([](const auto& v) -> ScriptValue { return v; },
+                   std::holds_alternative<double>(value) && is_automatic(std::get<double>(value)) ? OptionValue(std::min(1e9, option.max)) : value);
     for (const bool is_nested : {false, true}) {
       ScriptTable input;
       if (is_nested) input.fields[std::string(option.stage)] = table({{std::string(option.name), given}});
@@ -59,7 +61,8 @@ TEST(TableReader, ReportsAllProblemsOfATableTogether) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::bad_argument);
     const std::string text = error.what();
-    for (const char* part : {"case.lua:5: volume_mesh: 6 problems", "\"layres\", did you mean \"layers\"?", "max_growth: 9", "layers: true", "feature_angle: a table", "entry 1", "[7]"})
+    for (const char* part : {"case.lua:5: volume_mesh: 6 problems", "\"layres\", did you mean \"layers\"?", "max_growth: 9", "layers: true",
+                             "feature_angle: a table", "entry 1", "[7]"})
       EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
   }
   EXPECT_EQ(options.envelope.layers, 30);

@@ -20,31 +20,40 @@ class TunnelScripts : public ScriptFixture {};
 constexpr double k_pi = std::numbers::pi;
 
 /// A body on a sting that leaves a section of 4 x 2 x 2 m through its outflow plane.
-const std::string k_parts = "local body, rod = cylinder{ {-1, 0, 0}, {0.3, 0, 0}, radius = 0.2, name = 'body' }, cylinder{ {0.2, 0, 0}, {4, 0, 0}, radius = 0.1, name = 'sting' } "
-                            "local tunnel = test_section{ length = 4, width = 2, height = 2, inflow = 'inlet', outflow = 'outlet', max_edge = 0.5, walls = { layers = 8, first_height = 1e-4 }, ceiling = 'slip' } ";
+const std::string k_parts =
+    "local body, rod = cylinder{ {-1, 0, 0}, {0.3, 0, 0}, radius = 0.2, name = 'body' }, cylinder{ {0.2, 0, 0}, {4, 0, 0}, radius = 0.1, name = 'sting' } "
+    "local tunnel = test_section{ length = 4, width = 2, height = 2, inflow = 'inlet', outflow = 'outlet', max_edge = 0.5, walls = { layers = 8, first_height "
+    "= 1e-4 }, ceiling = 'slip' } ";
 
 TEST_F(TunnelScripts, SectionsAreRectangularRoundOrTheUsers) {
-  EXPECT_EQ(run("print(table.concat(test_section{ length = 4, width = 2, height = 1 }.patches, ' '))"), "tunnel_floor tunnel_right tunnel_ceiling tunnel_left inflow outflow\n");
+  EXPECT_EQ(run("print(table.concat(test_section{ length = 4, width = 2, height = 1 }.patches, ' '))"),
+            "tunnel_floor tunnel_right tunnel_ceiling tunnel_left inflow outflow\n");
   EXPECT_NEAR(number("-test_section{ length = 4, diameter = 2 }:measures().volume"), 4.0 * k_pi, 1e-7);
   EXPECT_EQ(run("print(test_section{ length = 4, width = 2, height = 1, position = {10, 0, 3} }.min[1])"), "8.0\n");
-  EXPECT_EQ(run("local b = box{ {0,0,0}, {4,2,2}, name = 'shell' } local t = test_section{ b, walls = 'slip' } print(surface_mesh{ t }.patches[1])"), "shell\n");
+  EXPECT_EQ(run("local b = box{ {0,0,0}, {4,2,2}, name = 'shell' } local t = test_section{ b, walls = 'slip' } print(surface_mesh{ t }.patches[1])"),
+            "shell\n");
   EXPECT_NEAR(number("test_section{ box{ {0,0,0}, {4,2,2} } }:measures().volume"), -16.0, 1e-9);  // turned, since the fluid is inside
   EXPECT_THAT(error("test_section{ length = 4, width = 2 }"), HasSubstr("needs width and height, or the diameter"));
   EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, diameter = 1 }"), HasSubstr("has neither width nor height"));
-  EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, floor = 'slippery', walls = { layer = 3 } }"), AllOf(HasSubstr("not \"slippery\""), HasSubstr("layer")));
+  EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, floor = 'slippery', walls = { layer = 3 } }"),
+              AllOf(HasSubstr("not \"slippery\""), HasSubstr("layer")));
   EXPECT_THAT(error("test_section{ length = 4, diameter = 2, floor = 'slip' }"), HasSubstr("a round section has one wall"));
   EXPECT_THAT(error("test_section{ box{ {0,0,0}, {1,1,1} }, inflow = 'nosuch' }"), HasSubstr("inflow: expected the name of faces of the model"));
-  EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, patches = { wing = { max_edge = 1 } } }"), HasSubstr("no face of the tunnel has a name like \"wing\""));
+  EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, patches = { wing = { max_edge = 1 } } }"),
+              HasSubstr("no face of the tunnel has a name like \"wing\""));
 }
 
 TEST_F(TunnelScripts, AModelOnAStingIsTakenOutOfTheTunnelAtAnyAttitude) {
-  const std::string text = run(k_parts + "for _, a in ipairs{ -4, 12 } do local m = assembly{ body, rod }:rotate{ pitch = a*deg, yaw = 5*deg } "
-                                         "local wall = surface_mesh{ m, tunnel, max_edge = 0.1, growth = 1.3 } "
-                                         "print(#m.solids, wall.is_closed, wall.crossings, wall.triangles < 12000, table.concat(wall.patches, ' ')) wall:write(" + out("wall.su2") + ") end");
+  const std::string text = run(k_parts +
+                               "for _, a in ipairs{ -4, 12 } do local m = assembly{ body, rod }:rotate{ pitch = a*deg, yaw = 5*deg } "
+                               "local wall = surface_mesh{ m, tunnel, max_edge = 0.1, growth = 1.3 } "
+                               "print(#m.solids, wall.is_closed, wall.crossings, wall.triangles < 12000, table.concat(wall.patches, ' ')) wall:write(" +
+                               out("wall.su2") + ") end");
   const std::string line = "1\ttrue\t0\ttrue\ttunnel_floor inlet tunnel_right outlet tunnel_left tunnel_ceiling sting body\n";
   EXPECT_EQ(text, line + line);
   const std::string manifest = text_of("wall.su2.json");
-  for (const auto& [name, kind] : {std::pair{"tunnel_ceiling", "slip"}, {"tunnel_floor", "wall"}, {"inlet", "inflow"}, {"outlet", "outflow"}, {"sting", "wall"}})
+  for (const auto& [name, kind] :
+       {std::pair{"tunnel_ceiling", "slip"}, {"tunnel_floor", "wall"}, {"inlet", "inflow"}, {"outlet", "outflow"}, {"sting", "wall"}})
     EXPECT_THAT(manifest, HasSubstr("\"name\": \"" + std::string(name) + "\",\n      \"kind\": \"" + kind + "\"")) << manifest;
   // They come back with the file, and are written anew, as are the layers that the walls ask for.
   EXPECT_THAT(manifest, AllOf(HasSubstr("\"layers\""), HasSubstr("\"names\": \"tunnel_left\""), HasSubstr("\"first_height\": 0.0001")));
@@ -53,24 +62,35 @@ TEST_F(TunnelScripts, AModelOnAStingIsTakenOutOfTheTunnelAtAnyAttitude) {
 TEST_F(TunnelScripts, TunnelsAreMeshedAlsoWhenTheyComeFromFiles) {
   run("local rod = sting{ name = 'sting', from = { 0.3, 0, 0 }, to = { 4, 0, 0 }, diameter = 0.2, cone_start = 0.5, end_diameter = 0.25 }:model() "
       "local tunnel = test_section{ length = 4, width = 2, height = 2, walls = { layers = 6, first_height = 1e-4, max_edge = 0.4 } } "
-      "local wall = surface_mesh{ rod, tunnel, max_edge = 0.15, growth = 1.3 } wall:write(" + out("room.su2") + ", " + out("room.stl") + ")");
+      "local wall = surface_mesh{ rod, tunnel, max_edge = 0.15, growth = 1.3 } wall:write(" +
+      out("room.su2") + ", " + out("room.stl") + ")");
   // With the manifest beside it, kinds, layers and the fluid's side are known.
   EXPECT_EQ(run("local m = volume_mesh{ read_surface(" + out("room.su2") + "), layers = 8, first_height = 1e-5 } m:check()").substr(0, 5), "VALID");
-  EXPECT_EQ(run("local m = volume_mesh{ read_surface{ " + out("room.stl") + ", fluid = 'inside' }, layers = 8, first_height = 1e-5, "
-                "patches = { ['*'] = { kind = 'slip' }, ['sting*'] = { kind = 'wall' } } } m:check()").substr(0, 5), "VALID");
+  EXPECT_EQ(run("local m = volume_mesh{ read_surface{ " + out("room.stl") +
+                ", fluid = 'inside' }, layers = 8, first_height = 1e-5, "
+                "patches = { ['*'] = { kind = 'slip' }, ['sting*'] = { kind = 'wall' } } } m:check()")
+                .substr(0, 5),
+            "VALID");
 }
 
 TEST_F(TunnelScripts, PeriodicSidesOfACascade) {
   // A body between the sides, its steps kept, continued and read again.
-  const std::string surface = "local body = cylinder{ {-0.4, 0, 0}, {0.4, 0, 0}, radius = 0.3, name = 'body' } "
-                              "local row = test_section{ length = 4, width = 2, height = 2, walls = 'slip', max_edge = 0.4 } local wall = surface_mesh{ body, row, max_edge = 0.2, growth = 1.3 } ";
-  EXPECT_EQ(run(surface + "local m = volume_mesh{ wall, layers = 6, first_height = 1e-3, periodic = { { 'tunnel_left', 'tunnel_right' } }, stages = " + out("steps.sterna") + " } m:write(" + out("row.sterna") + ") m:check()").substr(0, 5), "VALID");
+  const std::string surface =
+      "local body = cylinder{ {-0.4, 0, 0}, {0.4, 0, 0}, radius = 0.3, name = 'body' } "
+      "local row = test_section{ length = 4, width = 2, height = 2, walls = 'slip', max_edge = 0.4 } local wall = surface_mesh{ body, row, max_edge = 0.2, "
+      "growth = 1.3 } ";
+  EXPECT_EQ(run(surface + "local m = volume_mesh{ wall, layers = 6, first_height = 1e-3, periodic = { { 'tunnel_left', 'tunnel_right' } }, stages = " +
+                out("steps.sterna") + " } m:write(" + out("row.sterna") + ") m:check()")
+                .substr(0, 5),
+            "VALID");
   EXPECT_THAT(log_, HasSubstr("periodic sides tunnel_left and tunnel_right: "));
   const std::string manifest = text_of("row.sterna.json");
   EXPECT_THAT(manifest, AllOf(HasSubstr("\"periodic_sides\""), HasSubstr("\"worst_distance\""), HasSubstr("\"periodic\"")));
   EXPECT_THAT(run("read_mesh(" + out("row.sterna") + "):check()"), HasSubstr("periodic: tunnel_left and tunnel_right"));
-  EXPECT_THAT(run("local s = read_stages(" + out("steps.sterna") + ") prisms{ s.envelope, s.tetrahedra }:check()"), HasSubstr("periodic: tunnel_left and tunnel_right"));
-  run("read_mesh(" + out("row.sterna") + "):su2_config{ " + out("row.cfg") + ", mesh = 'row.su2', flow{ mach = 0.3, altitude = 0, length = 0.8 }, reference_area = 1 }");
+  EXPECT_THAT(run("local s = read_stages(" + out("steps.sterna") + ") prisms{ s.envelope, s.tetrahedra }:check()"),
+              HasSubstr("periodic: tunnel_left and tunnel_right"));
+  run("read_mesh(" + out("row.sterna") + "):su2_config{ " + out("row.cfg") +
+      ", mesh = 'row.su2', flow{ mach = 0.3, altitude = 0, length = 0.8 }, reference_area = 1 }");
   EXPECT_THAT(text_of("row.cfg"), HasSubstr("MARKER_PERIODIC= ( tunnel_left, tunnel_right, 0, 0, 0, 0, 0, 0, 0, 2, 0 )"));
   // A single pair needs no list; what is no pair, and what does not match, is refused.
   const std::string mesh = surface + "volume_mesh{ wall, layers = 6, first_height = 1e-3, periodic = ";
@@ -81,9 +101,11 @@ TEST_F(TunnelScripts, PeriodicSidesOfACascade) {
 }
 
 TEST_F(TunnelScripts, KindsAreSetByName) {
-  EXPECT_EQ(run("local m = box{ {0,0,0}, {1,1,1} }:kinds{ ['b*'] = 'slip' } surface_mesh{ m, max_edge = 0.5 }:write(" + out("box.su2") + ") print('ok')"), "ok\n");
+  EXPECT_EQ(run("local m = box{ {0,0,0}, {1,1,1} }:kinds{ ['b*'] = 'slip' } surface_mesh{ m, max_edge = 0.5 }:write(" + out("box.su2") + ") print('ok')"),
+            "ok\n");
   EXPECT_THAT(text_of("box.su2.json"), HasSubstr("\"kind\": \"slip\""));
-  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:kinds{ wing = 'slip', box = 'walls' }"), AllOf(HasSubstr("no face has a name like \"wing\""), HasSubstr("not \"walls\"")));
+  EXPECT_THAT(error("box{ {0,0,0}, {1,1,1} }:kinds{ wing = 'slip', box = 'walls' }"),
+              AllOf(HasSubstr("no face has a name like \"wing\""), HasSubstr("not \"walls\"")));
 }
 
 TEST_F(TunnelScripts, BodiesThatDoNotBelongThereAreErrors) {
@@ -93,16 +115,22 @@ TEST_F(TunnelScripts, BodiesThatDoNotBelongThereAreErrors) {
 }
 
 TEST_F(TunnelScripts, AssembliesAreUnitedWhereTheyTouch) {
-  EXPECT_EQ(run(k_parts + "print(#assembly{ body, rod }.solids, #assembly{ body, rod, unite = false }.solids, #assembly{ body, rod, tunnel }.solids, #assembly{ body, rod:move{ 0, 0, 1 } }.solids)"), "1\t2\t2\t2\n");
+  EXPECT_EQ(run(k_parts + "print(#assembly{ body, rod }.solids, #assembly{ body, rod, unite = false }.solids, #assembly{ body, rod, tunnel }.solids, "
+                          "#assembly{ body, rod:move{ 0, 0, 1 } }.solids)"),
+            "1\t2\t2\t2\n");
 }
 
 TEST_F(TunnelScripts, HalfOfAModelHasItsRimInThePlane) {
-  const std::string text = run("local m = aircraft{ fuselage{ name = 'body', frames = { { x = 0.3, diameter = 0.5 }, { x = 2, diameter = 1 }, { x = 5, diameter = 0.6 } } }, "
-                               "wing{ name = 'wing', symmetric = true, position = { 1.5, 0, -0.2 }, trailing_edge = 0.01, sections = { { y = 0, chord = 1.2, airfoil = 'naca2412' }, { y = 3, chord = 0.7 } } } } "
-                               "local right = half(m) local o = { max_edge = 0.2, curvature_angle = 25*deg, min_edge = 0.02 } "
-                               "o[1] = right local wall = surface_mesh(o) o[1] = m local whole = surface_mesh(o) "
-                               "print(right.is_closed, wall.crossings, math.abs(wall.triangles / whole.triangles - 0.5) < 0.03) wall:write(" + out("half.obj") + ") "
-                               "print(math.abs(2*right:measures().area / m:measures().area - 1) < 1e-5)");
+  const std::string text =
+      run("local m = aircraft{ fuselage{ name = 'body', frames = { { x = 0.3, diameter = 0.5 }, { x = 2, diameter = 1 }, { x = 5, diameter = 0.6 } } }, "
+          "wing{ name = 'wing', symmetric = true, position = { 1.5, 0, -0.2 }, trailing_edge = 0.01, sections = { { y = 0, chord = 1.2, airfoil = 'naca2412' "
+          "}, { y = 3, chord = 0.7 } } } } "
+          "local right = half(m) local o = { max_edge = 0.2, curvature_angle = 25*deg, min_edge = 0.02 } "
+          "o[1] = right local wall = surface_mesh(o) o[1] = m local whole = surface_mesh(o) "
+          "print(right.is_closed, wall.crossings, math.abs(wall.triangles / whole.triangles - 0.5) < 0.03) wall:write(" +
+          out("half.obj") +
+          ") "
+          "print(math.abs(2*right:measures().area / m:measures().area - 1) < 1e-5)");
   EXPECT_EQ(text, "false\t0\ttrue\ntrue\n");
   std::ifstream file(folder_ / "half.obj");
   std::size_t n_rim = 0;

@@ -49,11 +49,13 @@ std::string draw_classes(const volmesh::LayerBase& base, const volmesh::Classifi
   }
   std::stable_sort(order.begin(), order.end(), [&](TriangleId a, TriangleId b) { return depth[a.index()] < depth[b.index()]; });
 
-  std::string svg = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n", k_width + 0.0, height);
+  std::string svg =
+      fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
+                  k_width + 0.0, height);
   for (const TriangleId t : order) {
     const auto p = corners(wall, t);
-    svg += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z\" fill=\"#f6f4ee\" stroke=\"#d0ccc0\" stroke-width=\"0.6\"/>\n", x_of(p[0]), y_of(p[0]), x_of(p[1]),
-                       y_of(p[1]), x_of(p[2]), y_of(p[2]));
+    svg += fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}L{:.1f} {:.1f}Z\" fill=\"#f6f4ee\" stroke=\"#d0ccc0\" stroke-width=\"0.6\"/>\n", x_of(p[0]),
+                       y_of(p[0]), x_of(p[1]), y_of(p[1]), x_of(p[2]), y_of(p[2]));
     for (int k = 0; k < 3; ++k) {
       const HalfedgeId h = halfedge(t, k);
       if (!classes.is_feature[h]) continue;

@@ -22,12 +22,12 @@ bool is_all_required();
 
 /// For what not every machine has (data, programs and modules of other packages): skips the test where `is_there` is false, fails it where is_all_required().
 /// \param what what is missing
-#define STERNA_NEEDS(is_there, what)                                                                     \
-  do {                                                                                                   \
-    if (!(is_there)) {                                                                                   \
+#define STERNA_NEEDS(is_there, what)                                                                        \
+  do {                                                                                                      \
+    if (!(is_there)) {                                                                                      \
       if (sterna::test::is_all_required()) FAIL() << "STERNA_REQUIRE_DATA=1, but " << what << " is absent"; \
-      GTEST_SKIP() << what << " is absent here";                                                         \
-    }                                                                                                    \
+      GTEST_SKIP() << what << " is absent here";                                                            \
+    }                                                                                                       \
   } while (false)
 
 /// First line of every test that reads ../shared/data.

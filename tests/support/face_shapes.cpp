@@ -143,7 +143,9 @@ surfmesh::FaceBorder box_border(const Surface& surface, const ParameterBox& box,
   const bool is_closed_u = distance(surface.point(a), surface.point(b)) + distance(surface.point(0.5 * (a + d)), surface.point(0.5 * (b + c))) < 1e-12;
   const bool is_closed_v = distance(surface.point(a), surface.point(d)) + distance(surface.point(0.5 * (a + b)), surface.point(0.5 * (c + d))) < 1e-12;
   // Both sides of a seam take their points from the first of them.
-  const auto point = [&](Uv at) { return surface.point({is_closed_u && at.u == box.u.to ? box.u.from : at.u, is_closed_v && at.v == box.v.to ? box.v.from : at.v}); };
+  const auto point = [&](Uv at) {
+    return surface.point({is_closed_u && at.u == box.u.to ? box.u.from : at.u, is_closed_v && at.v == box.v.to ? box.v.from : at.v});
+  };
   // Opposite edges are cut in the same sense, so that the sides of a seam match.
   struct Side {
     Edge edge;

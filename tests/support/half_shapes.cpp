@@ -50,7 +50,8 @@ HybridMesh half_shell_of_all_kinds(int f, const HalfShellOptions& options) {
   for (const PatchId patch : mesh.patches.ids())
     if (mesh.patches[patch].kind == PatchKind::symmetry) symmetry = patch;
   const auto add = [&](const char* name, PatchKind kind) { return mesh.patches.push_back({name, kind}); };
-  const PatchId slip = add("slip_wall", PatchKind::slip), inflow = add("inflow", PatchKind::inflow), outflow = add("outflow", PatchKind::outflow), disc = add("disc", PatchKind::interface);
+  const PatchId slip = add("slip_wall", PatchKind::slip), inflow = add("inflow", PatchKind::inflow), outflow = add("outflow", PatchKind::outflow),
+                disc = add("disc", PatchKind::interface);
   const auto assign = [&](auto& faces) {
     for (auto& face : faces) {
       if (face.patch != symmetry) continue;

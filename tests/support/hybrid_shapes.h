@@ -11,11 +11,11 @@ namespace sterna::test {
 
 struct ShellOptions {
   int n_layers = 3;
-  double layer_height = 0.4;             ///< of the whole layer, in units of the rays
-  double ratio = 1.5;                    ///< growth ratio of the layers
-  int n_shells = 2;                      ///< shells of prisms, each split into three tets, between the layer and the outer boundary
-  double outer_height = 2.0;             ///< of the outer boundary, in units of the rays; > layer_height
-  std::vector<std::uint32_t> collapsed;  ///< wall vertices whose line has no height
+  double layer_height = 0.4;               ///< of the whole layer, in units of the rays
+  double ratio = 1.5;                      ///< growth ratio of the layers
+  int n_shells = 2;                        ///< shells of prisms, each split into three tets, between the layer and the outer boundary
+  double outer_height = 2.0;               ///< of the outer boundary, in units of the rays; > layer_height
+  std::vector<std::uint32_t> collapsed;    ///< wall vertices whose line has no height
   std::vector<std::uint16_t> line_layers;  ///< per wall vertex, at most n_layers; empty: n_layers everywhere
 };
 

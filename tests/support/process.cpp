@@ -44,7 +44,8 @@ bool takes_interrupt(pid_t process) {
 
 }  // namespace
 
-ProcessResult run_process(const std::filesystem::path& program, const std::vector<std::string>& arguments, const std::filesystem::path& folder, double interrupt_after) {
+ProcessResult run_process(const std::filesystem::path& program, const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                          double interrupt_after) {
   const std::filesystem::path output = temporary_file(), errors = temporary_file();
   std::vector<std::string> words = {program.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());

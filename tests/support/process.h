@@ -18,7 +18,8 @@ struct ProcessResult {
 };
 
 /// Runs `program` in `folder` and waits. With interrupt_after >= 0 it gets SIGINT so many seconds after it began to wait for one.
-ProcessResult run_process(const std::filesystem::path& program, const std::vector<std::string>& arguments, const std::filesystem::path& folder, double interrupt_after = -1.0);
+ProcessResult run_process(const std::filesystem::path& program, const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+                          double interrupt_after = -1.0);
 
 /// A program that runs while the test goes on; killed and reaped at the latest when the object goes. Its output is dropped.
 class StartedProcess {

@@ -12,8 +12,8 @@ bool has_number_behind(const std::string& text, std::string_view word) {
   return false;
 }
 
-/// Of containers: the path of a group, dataset or attribute; a variable or an attribute by its name or, where that cannot be read, its number. Where the library cannot even open the file,
-/// its head; where it dies or what it hands over makes no sense as a whole, it is named.
+/// Of containers: the path of a group, dataset or attribute; a variable or an attribute by its name or, where that cannot be read, its number. Where the
+/// library cannot even open the file, its head; where it dies or what it hands over makes no sense as a whole, it is named.
 bool names_node(std::string_view problem) {
   constexpr std::string_view k_head = "the head of the file: ";
   if (problem.starts_with(k_head)) return problem.find("library says: ") != std::string_view::npos || problem.find("ends before") != std::string_view::npos;
@@ -22,7 +22,8 @@ bool names_node(std::string_view problem) {
     const char first = problem[begin.size()];
     return std::isdigit(static_cast<unsigned char>(first)) || (first == '"' && problem.find('"', begin.size() + 1) > begin.size() + 1);
   }
-  for (const std::string_view whole : {"the file is empty", "the file: reading it needs more memory than ", "the file: the HDF5 library ", "the file: the NetCDF library ", "the file: the CGNS library ", "the file: sterna-read-container made no sense of it: ",
+  for (const std::string_view whole : {"the file is empty", "the file: reading it needs more memory than ", "the file: the HDF5 library ",
+                                       "the file: the NetCDF library ", "the file: the CGNS library ", "the file: sterna-read-container made no sense of it: ",
                                        "the file: its arrays unpack to more than ", "the file: it leads to more groups and attributes than "})
     if (problem.starts_with(whole)) return true;
   return problem.starts_with('/') && problem.find(": ") != std::string_view::npos;
@@ -31,7 +32,8 @@ bool names_node(std::string_view problem) {
 }  // namespace
 
 std::string flaw_of(const SurfaceSoup& soup) {
-  if (soup.patch.size() != soup.triangles.size()) return std::to_string(soup.patch.size()) + " patch numbers for " + std::to_string(soup.triangles.size()) + " triangles";
+  if (soup.patch.size() != soup.triangles.size())
+    return std::to_string(soup.patch.size()) + " patch numbers for " + std::to_string(soup.triangles.size()) + " triangles";
   for (std::size_t i = 0; i < soup.points.size(); ++i)
     if (!is_finite(soup.points[i])) return "point " + std::to_string(i) + " is not finite";
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {

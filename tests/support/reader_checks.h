@@ -13,8 +13,8 @@ namespace sterna::test {
 std::string flaw_of(const SurfaceSoup& soup);
 std::string flaw_of(const HybridMesh& mesh);
 
-/// Whether the text of a refusal says where in the file: at which line or byte, in which cell (formats that store faces), or, for containers that describe themselves
-/// (CGNS, TAU, VTKHDF), in which group, dataset, variable or attribute.
+/// Whether the text of a refusal says where in the file: at which line or byte, in which cell (formats that store faces), or, for containers that describe
+/// themselves (CGNS, TAU, VTKHDF), in which group, dataset, variable or attribute.
 bool says_where(const Error& error, bool is_container);
 
 }  // namespace sterna::test

@@ -44,10 +44,11 @@ class Builder {
 }  // namespace
 
 TriMesh cube_room(int n) {
-  return voxel_boundary({n, n, n}, 1.0 / n, [](int, int, int) { return true; },
-                        [](const Point&, const Vec3& normal) {
-                          return Patch{std::string(normal.x != 0 ? "x" : normal.y != 0 ? "y" : "z") + (normal.x + normal.y + normal.z > 0 ? "0" : "1"), PatchKind::wall};
-                        });
+  return voxel_boundary(
+      {n, n, n}, 1.0 / n, [](int, int, int) { return true; },
+      [](const Point&, const Vec3& normal) {
+        return Patch{std::string(normal.x != 0 ? "x" : normal.y != 0 ? "y" : "z") + (normal.x + normal.y + normal.z > 0 ? "0" : "1"), PatchKind::wall};
+      });
 }
 
 // Places of the triangle's grid: i steps along the lower side, j along the upper one, i + j <= n; k along y.
@@ -55,7 +56,9 @@ TriMesh wedge_room(double angle, int n, double length) {
   Builder builder;
   const int m = std::max(1, static_cast<int>(std::lround(n * length)));
   const Vec3 lower = {1.0 / n, 0, 0}, upper = Vec3{std::cos(angle), 0, std::sin(angle)} / static_cast<double>(n), along = {0, length / m, 0};
-  const auto at = [&](int i, int j, int k) { return builder.vertex({i, j, k}, static_cast<double>(i) * lower + static_cast<double>(j) * upper + static_cast<double>(k) * along); };
+  const auto at = [&](int i, int j, int k) {
+    return builder.vertex({i, j, k}, static_cast<double>(i) * lower + static_cast<double>(j) * upper + static_cast<double>(k) * along);
+  };
   // y points away from someone who sees x to the right and z up.
   for (int i = 0; i < n; ++i)
     for (int j = 0; i + j < n; ++j) {

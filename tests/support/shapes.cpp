@@ -51,8 +51,11 @@ TriMesh cube(int n) {
 
 TriMesh sphere(int f, double radius) {
   const double g = (1.0 + std::sqrt(5.0)) / 2.0;
-  const std::array<Vec3, 12> v = {{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}}};
-  const std::array<std::array<int, 3>, 20> faces = {{{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8}, {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}}};
+  const std::array<Vec3, 12> v = {
+      {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}}};
+  const std::array<std::array<int, 3>, 20> faces = {{{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                                                     {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                                                     {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
   TriMesh mesh;
   mesh.patches.push_back({"sphere", PatchKind::wall});
   std::map<std::tuple<long, long, long>, VertexId> known;
@@ -60,7 +63,8 @@ TriMesh sphere(int f, double radius) {
     std::vector<std::vector<VertexId>> rows(static_cast<std::size_t>(f) + 1);
     for (int i = 0; i <= f; ++i) {
       for (int j = 0; j <= i; ++j) {
-        const Vec3 p = v[static_cast<std::size_t>(face[0])] * ((f - i) / static_cast<double>(f)) + v[static_cast<std::size_t>(face[1])] * ((i - j) / static_cast<double>(f)) +
+        const Vec3 p = v[static_cast<std::size_t>(face[0])] * ((f - i) / static_cast<double>(f)) +
+                       v[static_cast<std::size_t>(face[1])] * ((i - j) / static_cast<double>(f)) +
                        v[static_cast<std::size_t>(face[2])] * (j / static_cast<double>(f));
         const auto key = std::tuple{std::lround(p.x * 1e9), std::lround(p.y * 1e9), std::lround(p.z * 1e9)};
         const auto [it, is_new] = known.try_emplace(key);

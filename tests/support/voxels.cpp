@@ -5,7 +5,8 @@
 
 namespace sterna::test {
 
-TriMesh voxel_boundary(const std::array<int, 3>& n, double size, const std::function<bool(int, int, int)>& is_fluid, const std::function<Patch(const Point&, const Vec3&)>& patch_of) {
+TriMesh voxel_boundary(const std::array<int, 3>& n, double size, const std::function<bool(int, int, int)>& is_fluid,
+                       const std::function<Patch(const Point&, const Vec3&)>& patch_of) {
   TriMesh mesh;
   std::map<std::array<int, 3>, VertexId> number;
   const auto is_inside = [&](const std::array<int, 3>& c) {

@@ -17,7 +17,8 @@ namespace {
 const RunContext k_run{};
 
 TriMesh read(const char* file) {
-  return surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces" / "clean" / file, k_run)}, {.check_intersections = false}, k_run).mesh;
+  return surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces" / "clean" / file, k_run)}, {.check_intersections = false}, k_run)
+      .mesh;
 }
 
 struct Sizes {
@@ -55,8 +56,15 @@ void expect_rim(const TriMesh& half, double at) {
   EXPECT_LE(*std::max_element(n_from.begin(), n_from.end()), 1);
 }
 
-constexpr std::array k_full_models = {"dlr_f6_184k.stl",           "derived_crm_wb_dpw_coarse_full.off", "wing_body_79k.stl",       "flow360_airplane_airplaneGeometry.stl", "flowpanel_cessna_cessna.msh",
-                                      "vspgeom_geom2_geom2.stl", "pymeshlab_airplane_airplane.obj",    "meshpy_ka6d_ka-6d.ply", "pygeo_bwb.stl"};
+constexpr std::array k_full_models = {"dlr_f6_184k.stl",
+                                      "derived_crm_wb_dpw_coarse_full.off",
+                                      "wing_body_79k.stl",
+                                      "flow360_airplane_airplaneGeometry.stl",
+                                      "flowpanel_cessna_cessna.msh",
+                                      "vspgeom_geom2_geom2.stl",
+                                      "pymeshlab_airplane_airplane.obj",
+                                      "meshpy_ka6d_ka-6d.ply",
+                                      "pygeo_bwb.stl"};
 
 /// What both sides of a plane have together, over what the whole has, less one.
 struct Missing {
@@ -73,7 +81,9 @@ Missing cut_in_two(const TriMesh& full, const HalfOptions& options) {
     const Sizes sizes = sizes_of(half, options.at);
     missing.area += sizes.area / whole.area;
     missing.volume += sizes.volume / whole.volume;
-    if (options.snap > 0.0) { EXPECT_GT(sizes.least_height, 0.1 * std::min(whole.least_height, 0.4)); }
+    if (options.snap > 0.0) {
+      EXPECT_GT(sizes.least_height, 0.1 * std::min(whole.least_height, 0.4));
+    }
   }
   return missing;
 }

@@ -60,7 +60,8 @@ TEST(Stitch, WithTheFluidInsideTheOuterShellTurnsInwardsAndBodiesInItDoNot) {
   StitchOptions options;
   options.fluid = "inside";
   for (const bool is_turned : {false, true}) {
-    const auto [mesh, report] = surfmesh::stitch_surface({is_turned ? inside_out(soup_of(room)) : soup_of(room), is_turned ? inside_out(soup_of(body)) : soup_of(body)}, options, RunContext{});
+    const auto [mesh, report] = surfmesh::stitch_surface(
+        {is_turned ? inside_out(soup_of(room)) : soup_of(room), is_turned ? inside_out(soup_of(body)) : soup_of(body)}, options, RunContext{});
     EXPECT_NEAR(volume(mesh), volume(body) - 64.0, 1e-12);
     EXPECT_EQ(report.n_components, 2);
   }
@@ -237,10 +238,8 @@ SurfaceSoup cube_with_flat_facets(int n, bool as_fan) {
     } else {
       std::size_t low = 0, high = chain.size() - 1;
       for (bool at_low = true; high - low > 1; at_low = !at_low) {
-        if (at_low)
-          add_facet(soup, chain[high], chain[low + 1], chain[low]), ++low;
-        else
-          add_facet(soup, chain[high], chain[high - 1], chain[low]), --high;
+        if (at_low) add_facet(soup, chain[high], chain[low + 1], chain[low]), ++low;
+        else add_facet(soup, chain[high], chain[high - 1], chain[low]), --high;
       }
     }
   }

@@ -1,6 +1,6 @@
 // Actuator discs: their triangles, their two sides, and the mesh around them.
-#include "tests/support/error_of.h"
 #include "volmesh/actuator_disc.h"
+#include "tests/support/error_of.h"
 
 #include <gmock/gmock.h>
 
@@ -13,8 +13,8 @@
 #include "geom/mesh/sheets.h"
 #include "geom/mesh/topology.h"
 #include "tests/support/shapes.h"
-#include "volmesh/outer/farfield.h"
 #include "volmesh/improve/improve.h"
+#include "volmesh/outer/farfield.h"
 #include "volmesh/tetra/size_field.h"
 #include "volmesh/tetra/tetra.h"
 
@@ -80,9 +80,13 @@ TEST(ActuatorDisc, TrianglesCoverDiscsAndRings) {
       EXPECT_NEAR(area_of(mesh), polygon(1.0) - polygon(inner), 1e-12);
       // No triangle has all corners on the rims.
       for (const TriangleVertices& v : mesh.triangles) {
-        EXPECT_TRUE(std::ranges::any_of(v, [&](VertexId w) { return std::ranges::none_of(topology.outgoing(w), [&](HalfedgeId h) { return topology.is_boundary(h) || topology.is_boundary(previous(h)); }); }));
+        EXPECT_TRUE(std::ranges::any_of(v, [&](VertexId w) {
+          return std::ranges::none_of(topology.outgoing(w), [&](HalfedgeId h) { return topology.is_boundary(h) || topology.is_boundary(previous(h)); });
+        }));
       }
-      if (edge < 0.5 && inner < 0.9) { EXPECT_GT(smallest_angle(mesh), 25.0 * std::numbers::pi / 180.0); }
+      if (edge < 0.5 && inner < 0.9) {
+        EXPECT_GT(smallest_angle(mesh), 25.0 * std::numbers::pi / 180.0);
+      }
     }
   }
 }
@@ -178,8 +182,12 @@ TEST(ActuatorDisc, NoFluxGetsThroughASheet) {
       if (side[n.index()] == 0) upstream += 2.0 - mesh.points[n].x;
     }
     ASSERT_NE(seen, 3);
-    if (seen == 1) { EXPECT_GT(upstream, -1e-9); }
-    if (seen == 2) { EXPECT_LT(upstream, 1e-9); }
+    if (seen == 1) {
+      EXPECT_GT(upstream, -1e-9);
+    }
+    if (seen == 2) {
+      EXPECT_LT(upstream, 1e-9);
+    }
   }
 }
 
@@ -192,7 +200,8 @@ TEST(ActuatorDisc, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(touching.hint, HasSubstr("leave a gap"));
   ASSERT_FALSE(touching.places.empty());
   EXPECT_NEAR(touching.places[0].position.x, 0.0, 1e-9);
-  EXPECT_EQ(add({{.name = "a", .center = {3, 0, 0}, .radius = 1.0}, {.name = "b", .center = {3, 0, 0}, .axis = {0, 1, 0}, .radius = 1.0}}).code, ErrorCode::self_intersection);
+  EXPECT_EQ(add({{.name = "a", .center = {3, 0, 0}, .radius = 1.0}, {.name = "b", .center = {3, 0, 0}, .axis = {0, 1, 0}, .radius = 1.0}}).code,
+            ErrorCode::self_intersection);
   EXPECT_THAT(add({{.name = "a", .center = {3, 0, 0}, .radius = 1.0}, {.name = "a", .center = {5, 0, 0}, .radius = 1.0}}).problem, HasSubstr("already"));
   EXPECT_THAT(add({{.radius = -1.0}}).problem, HasSubstr("radius"));
   EXPECT_THAT(add({{.radius = 1.0, .inner_radius = 1.0}}).problem, HasSubstr("inner radius"));

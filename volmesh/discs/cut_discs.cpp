@@ -49,14 +49,12 @@ class Cutter {
       if (!cut) continue;
       const Point middle = 0.5 * ((*cut)[0] + (*cut)[1]);
       switch (reach_of(*cut)) {
-        case Reach::outside:
-          continue;
+        case Reach::outside: continue;
         case Reach::rim:
           ++n_at_rims;
           if (at_rims.size() < k_max_places) at_rims.push_back({middle, "the disc's rim meets patch \"" + name(t) + "\""});
           [[fallthrough]];
-        case Reach::inside:
-          break;
+        case Reach::inside: break;
       }
       is_active_[t] = has_any = true;
       is_layered = is_layered && has_layer_[mesh_.triangle_patch[t]] != 0;

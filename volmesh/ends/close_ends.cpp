@@ -1,5 +1,6 @@
-// Steps: tops take the place of rim vertices; chains between end patches are cut again beyond the layer (`cut_chain`); each end patch is triangulated within its loops,
-// which are borders to other patches, chains, and the rim's edges between tops. Of periodic sides the second gets the chains and triangles of the first, moved.
+// Steps: tops take the place of rim vertices; chains between end patches are cut again beyond the layer (`cut_chain`); each end patch is triangulated within
+// its loops, which are borders to other patches, chains, and the rim's edges between tops. Of periodic sides the second gets the chains and triangles of the
+// first, moved.
 #include "volmesh/ends/close_ends.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace {
 
 constexpr double k_least_chain = 1e-6;  ///< of a chain's length: what the layers must leave of it
 
-using Edge = std::array<VertexId, 2>;   ///< of the result
+using Edge = std::array<VertexId, 2>;  ///< of the result
 
 /// Position along a polygon by arc length.
 class Polyline {
@@ -132,7 +133,10 @@ class Closer {
     const std::vector<VertexId> backwards(at.rbegin(), at.rend());
     for (const EndChain& other : domain_.chains)
       if (other.outer == at || other.outer == backwards) return ChainImage{&other, way};
-    throw Error({.code = ErrorCode::internal, .attempted = "ending the layer on periodic sides", .problem = "a common edge of patches on one side has no partner on the other", .places = {{domain_.outer.points[chain.outer.front()], "it starts here"}}});
+    throw Error({.code = ErrorCode::internal,
+                 .attempted = "ending the layer on periodic sides",
+                 .problem = "a common edge of patches on one side has no partner on the other",
+                 .places = {{domain_.outer.points[chain.outer.front()], "it starts here"}}});
   }
 
   bool is_end(PatchId patch) const {
@@ -292,7 +296,8 @@ class Closer {
     }
     const EndTriangles triangles = triangulate_end(made->region, options_.ends, context_);
     add_triangles(triangles, made->vertices, end.patch);
-    if (std::ranges::find(domain_.periodic, end.patch, &PeriodicEnds::first) != domain_.periodic.end()) firsts_.emplace(end.patch, First{std::move(made), triangles});
+    if (std::ranges::find(domain_.periodic, end.patch, &PeriodicEnds::first) != domain_.periodic.end())
+      firsts_.emplace(end.patch, First{std::move(made), triangles});
   }
 
   void copy_side(const EndPatch& end, const PeriodicEnds& sides) {
@@ -306,15 +311,15 @@ class Closer {
   const EnvelopeShape& envelope_;
   const CloseEndsOptions& options_;
   const RunContext& context_;
-  Topology topology_;                  ///< of domain_.outer
-  Column<VertexId, VertexId> new_of_;  ///< of a vertex of domain_.outer
-  std::map<std::uint64_t, std::vector<Edge>> replaced_;  ///< by an edge of a chain: what stands for it, all at its first edge
-  std::map<const EndChain*, std::vector<VertexId>> polygons_;            ///< what stands for a chain
+  Topology topology_;                                          ///< of domain_.outer
+  Column<VertexId, VertexId> new_of_;                          ///< of a vertex of domain_.outer
+  std::map<std::uint64_t, std::vector<Edge>> replaced_;        ///< by an edge of a chain: what stands for it, all at its first edge
+  std::map<const EndChain*, std::vector<VertexId>> polygons_;  ///< what stands for a chain
   struct First {
     std::unique_ptr<Region> made;
     EndTriangles triangles;
   };
-  std::map<PatchId, First> firsts_;    ///< first sides of periodic pairs
+  std::map<PatchId, First> firsts_;  ///< first sides of periodic pairs
   ClosedOuter result_;
 };
 

@@ -65,7 +65,8 @@ int sense_of(const EndRegion& from, const EndRegion& to, const std::vector<std::
   std::sort(opposite.begin(), opposite.end());
   if (same == edges) return 1;
   if (opposite == edges) return -1;
-  ErrorInfo info = end_error(to, ErrorCode::bad_argument, "the loops' edges are not those of the periodic partner \"" + from.name + "\", in one sense or the other");
+  ErrorInfo info =
+      end_error(to, ErrorCode::bad_argument, "the loops' edges are not those of the periodic partner \"" + from.name + "\", in one sense or the other");
   const auto note = [&](const std::vector<EndEdge>& a, const std::vector<EndEdge>& b, const char* what) {
     std::vector<EndEdge> only;
     std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only));
@@ -86,13 +87,12 @@ EndTriangles copy_translated(const EndRegion& from, const EndTriangles& triangle
   const Partners partners(to, tolerance);
   std::vector<std::uint32_t> partner(from.points.size(), Partners::k_none);
   std::vector<std::uint8_t> is_taken(to.points.size(), 0);
-  ErrorInfo info = end_error(to, ErrorCode::bad_argument, "loops do not match the periodic partner \"" + from.name + "\" within " + in_metres(tolerance, k_end_digits));
+  ErrorInfo info =
+      end_error(to, ErrorCode::bad_argument, "loops do not match the periodic partner \"" + from.name + "\" within " + in_metres(tolerance, k_end_digits));
   for (const std::uint32_t i : loop_points(from)) {
     partner[i] = partners.find(from.points[i] + translation);
-    if (partner[i] == Partners::k_none)
-      add_place(info, from.points[i] + translation, "a point of the partner is here, none of this patch");
-    else if (is_taken[partner[i]]++ != 0)
-      add_place(info, to.points[partner[i]], "two points of the partner for one of this patch");
+    if (partner[i] == Partners::k_none) add_place(info, from.points[i] + translation, "a point of the partner is here, none of this patch");
+    else if (is_taken[partner[i]]++ != 0) add_place(info, to.points[partner[i]], "two points of the partner for one of this patch");
   }
   for (const std::uint32_t i : loop_points(to))
     if (is_taken[i] == 0) add_place(info, to.points[i], "a point of this patch is here, none of the partner");

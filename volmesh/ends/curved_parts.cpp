@@ -22,8 +22,8 @@ namespace {
 constexpr double k_steepest = 0.342;
 /// Cosine of 40 degrees: edges of the original that turn more are edges of the geometry (facets of a tunnel of 16 sides turn by 22).
 constexpr double k_crease = 0.766;
-/// How much around a footprint is meshed anew: so many of its own lengths around each footprint edge, and rings of the original's triangles around what that touches. The more,
-/// the smoother the sizes; the first that has a projection is taken.
+/// How much around a footprint is meshed anew: so many of its own lengths around each footprint edge, and rings of the original's triangles around what that
+/// touches. The more, the smoother the sizes; the first that has a projection is taken.
 struct Reach {
   double lengths;
   int rings;
@@ -102,17 +102,17 @@ class Splitter {
   const RunContext& context_;
   TriangleTree tree_;
   std::size_t n_;
-  std::vector<std::uint32_t> twin_;           ///< of each half-edge 3 t + c
-  std::vector<std::uint32_t> point_;          ///< of each vertex: the point of the region at its place, later its number among the new points; k_none: not needed yet
-  std::vector<std::uint8_t> is_replaced_;     ///< border half-edges of the original that are no edges of the region
-  std::vector<EndEdge> footprints_;           ///< edges of the region that are not the original's
+  std::vector<std::uint32_t> twin_;   ///< of each half-edge 3 t + c
+  std::vector<std::uint32_t> point_;  ///< of each vertex: the point of the region at its place, later its number among the new points; k_none: not needed yet
+  std::vector<std::uint8_t> is_replaced_;  ///< border half-edges of the original that are no edges of the region
+  std::vector<EndEdge> footprints_;        ///< edges of the region that are not the original's
   std::vector<std::uint32_t> footprint_piece_;
   std::vector<std::uint32_t> footprint_triangle_;  ///< nearest to its middle
-  std::vector<std::uint32_t> piece_;          ///< of each triangle
+  std::vector<std::uint32_t> piece_;               ///< of each triangle
   std::uint32_t n_pieces_ = 0;
-  std::vector<std::uint8_t> is_touched_;      ///< pieces
-  std::vector<State> state_;                  ///< of each triangle
-  std::vector<std::vector<TriangleId>> cuts_; ///< each one part
+  std::vector<std::uint8_t> is_touched_;       ///< pieces
+  std::vector<State> state_;                   ///< of each triangle
+  std::vector<std::vector<TriangleId>> cuts_;  ///< each one part
 };
 
 void Splitter::match() {
@@ -143,10 +143,8 @@ void Splitter::match() {
   for (std::uint32_t h = 0; h < 3 * n_; ++h) {
     if (twin_[h] != k_none) continue;
     const EndEdge edge{point_[from(h)], point_[to(h)]};
-    if (std::binary_search(edges.begin(), edges.end(), edge))
-      border.push_back(edge);
-    else
-      is_replaced_[h] = 1;
+    if (std::binary_search(edges.begin(), edges.end(), edge)) border.push_back(edge);
+    else is_replaced_[h] = 1;
   }
   std::sort(border.begin(), border.end());
   std::set_difference(edges.begin(), edges.end(), border.begin(), border.end(), std::back_inserter(footprints_));
@@ -247,13 +245,17 @@ void Splitter::choose_cut(std::uint32_t piece) {
       for (std::vector<TriangleId>& cut : connected(triangles, State::cut)) cuts_.push_back(std::move(cut));
       return;
     }
-  ErrorInfo info = end_error(region_, ErrorCode::geometry_failed, "the surface turns by more than 70 degrees from its mean around the footprint of the layers, which has no projection without folds");
+  ErrorInfo info =
+      end_error(region_, ErrorCode::geometry_failed,
+                "the surface turns by more than 70 degrees from its mean around the footprint of the layers, which has no projection without folds");
   for (std::size_t e = 0; e < footprints_.size(); ++e)
     if (footprint_piece_[e] == piece) {
       add_place(info, middle(footprints_[e]), "edge of the footprint");
       break;
     }
-  info.hint = "give the sides of this patch names of their own (each with less curvature), make its triangles smaller around the body, or lower max_thickness of the layers";
+  info.hint =
+      "give the sides of this patch names of their own (each with less curvature), make its triangles smaller around the body, or lower max_thickness of the "
+      "layers";
   throw Error(std::move(info));
 }
 
@@ -395,6 +397,8 @@ void Splitter::assign_footprints(std::vector<EndPart>& parts) {
 
 }  // namespace
 
-std::vector<EndPart> split_curved(const EndRegion& region, EndTriangles& result, const RunContext& context) { return Splitter(region, result, context).split(); }
+std::vector<EndPart> split_curved(const EndRegion& region, EndTriangles& result, const RunContext& context) {
+  return Splitter(region, result, context).split();
+}
 
 }  // namespace sterna::volmesh

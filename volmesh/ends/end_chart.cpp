@@ -84,7 +84,8 @@ std::optional<Vec3> flat_normal(const TriMesh& original) {
   const Point centre = box.center();
   for (const TriangleVertices& triangle : original.triangles)
     for (const VertexId v : triangle)
-      if (std::abs(dot(original.points[v] - centre, normal) - dot(original.points[original.triangles[TriangleId(0u)][0]] - centre, normal)) > tolerance) return std::nullopt;
+      if (std::abs(dot(original.points[v] - centre, normal) - dot(original.points[original.triangles[TriangleId(0u)][0]] - centre, normal)) > tolerance)
+        return std::nullopt;
   return normal;
 }
 
@@ -103,7 +104,8 @@ class PlanePiece final : public Surface {
 
 class ProjectedPiece final : public Surface {
  public:
-  ProjectedPiece(const EndFrame& frame, const ParameterBox& box, const ConstraintSurface& surface, const TriMesh& flat, std::vector<std::array<double, 3>> heights, const RunContext& context)
+  ProjectedPiece(const EndFrame& frame, const ParameterBox& box, const ConstraintSurface& surface, const TriMesh& flat,
+                 std::vector<std::array<double, 3>> heights, const RunContext& context)
       : frame_(frame), box_(box), surface_(surface), flat_(flat, context), corners_(flat.n_triangles()), heights_(std::move(heights)) {
     for (const TriangleId t : flat.triangles.ids()) corners_[t] = corners(flat, t);
     tolerance_ = k_height_tolerance * std::max(bounding_box(flat).longest_side(), largest_coordinate(bounding_box(flat)));
@@ -178,7 +180,8 @@ std::optional<EndFrame> plane_of(const EndRegion& region) {
   Box box;
   for (const Point& p : points) box.add(p);
   if (dynamic_cast<const ConstraintPlane*>(region.surface) == nullptr) {
-    if (region.original == nullptr) throw Error(end_error(region, ErrorCode::bad_argument, "the surface is curved, but the patch as it was given (original) is missing"));
+    if (region.original == nullptr)
+      throw Error(end_error(region, ErrorCode::bad_argument, "the surface is curved, but the patch as it was given (original) is missing"));
     const std::optional<Vec3> normal = flat_normal(*region.original);
     if (!normal) return std::nullopt;
     const EndFrame frame = frame_through(*normal, points);
@@ -190,14 +193,16 @@ std::optional<EndFrame> plane_of(const EndRegion& region) {
   ErrorInfo info = end_error(region, ErrorCode::bad_argument, "points of loops are off the plane");
   for (const Point& p : points)
     if (const double off = region.surface->inside_distance(p); std::abs(off) > k_on_plane * box.longest_side())
-      add_place(info, p, in_metres(off, k_end_digits) + " from the plane; at most " + in_metres(k_on_plane * box.longest_side(), k_end_digits) + " are allowed");
+      add_place(info, p,
+                in_metres(off, k_end_digits) + " from the plane; at most " + in_metres(k_on_plane * box.longest_side(), k_end_digits) + " are allowed");
   if (info.n_places > 0) throw Error(std::move(info));
   return frame;
 }
 
 SurfacePtr plane_surface(const EndFrame& frame, const ParameterBox& box) { return std::make_shared<PlanePiece>(frame, box); }
 
-SurfacePtr projected_surface(const EndFrame& frame, const ParameterBox& box, const ConstraintSurface& surface, const TriMesh& original, std::span<const TriangleId> triangles, const RunContext& context) {
+SurfacePtr projected_surface(const EndFrame& frame, const ParameterBox& box, const ConstraintSurface& surface, const TriMesh& original,
+                             std::span<const TriangleId> triangles, const RunContext& context) {
   TriMesh flat;
   std::vector<std::array<double, 3>> heights;
   for (const TriangleId t : triangles) {

@@ -33,6 +33,7 @@ SurfacePtr plane_surface(const EndFrame& frame, const ParameterBox& box);
 
 /// Points of `surface` over the plane of `frame`, along its normal: first guess from the original's triangles, then Newton's method.
 /// \pre no triangle of `original` is steeper than its projection allows; `surface` outlives the result
-SurfacePtr projected_surface(const EndFrame& frame, const ParameterBox& box, const ConstraintSurface& surface, const TriMesh& original, std::span<const TriangleId> triangles, const RunContext& context);
+SurfacePtr projected_surface(const EndFrame& frame, const ParameterBox& box, const ConstraintSurface& surface, const TriMesh& original,
+                             std::span<const TriangleId> triangles, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -16,7 +16,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr const char* k_crossing_hint = "footprints of layers may not overlap, nor leave the patch: lower max_thickness of the layers that end here, move the bodies apart, or make the patch larger";
+constexpr const char* k_crossing_hint =
+    "footprints of layers may not overlap, nor leave the patch: lower max_thickness of the layers that end here, move the bodies apart, or make the patch "
+    "larger";
 
 /// For each point that edges use its first place among them; same points as `loops`, once each.
 std::vector<std::uint32_t> used_points(std::span<const EndEdge> edges) {
@@ -99,19 +101,22 @@ void prove(const EndRegion& region, const EndPart& part, const EndTriangles& res
   const std::span<const std::array<std::uint32_t, 3>> triangles(result.triangles.begin() + static_cast<std::ptrdiff_t>(first_triangle), result.triangles.end());
   const EndCheck check = check_end(part.edges, triangles);
   if (!check.reversed.empty() && check.reversed.size() == part.edges.size()) {
-    ErrorInfo info = end_error(region, ErrorCode::bad_argument, "all edges run the wrong way: the region has to be to their left, seen against the surface's normal into the domain");
+    ErrorInfo info = end_error(region, ErrorCode::bad_argument,
+                               "all edges run the wrong way: the region has to be to their left, seen against the surface's normal into the domain");
     add_place(info, place(check.reversed.front()), "for example this edge");
     throw Error(std::move(info));
   }
   if (!check.missing.empty() || !check.open.empty()) {
-    ErrorInfo info = end_error(region, ErrorCode::self_intersection, "loops lie on the wrong side of each other: a hole within a hole, or outside of the outer border");
+    ErrorInfo info =
+        end_error(region, ErrorCode::self_intersection, "loops lie on the wrong side of each other: a hole within a hole, or outside of the outer border");
     for (const EndEdge& edge : check.missing) add_place(info, place(edge), "the region is not to the left of this edge");
     for (const EndEdge& edge : check.open) add_place(info, place(edge), "the region would end here");
     info.hint = k_crossing_hint;
     throw Error(std::move(info));
   }
-  ErrorInfo info = end_error(region, ErrorCode::internal, "the triangulation is not one: Euler number " + std::to_string(check.euler_number) + " of " + std::to_string(check.n_components) + " parts with " +
-                                                              std::to_string(check.n_loops) + " borders");
+  ErrorInfo info = end_error(region, ErrorCode::internal,
+                             "the triangulation is not one: Euler number " + std::to_string(check.euler_number) + " of " + std::to_string(check.n_components) +
+                                 " parts with " + std::to_string(check.n_loops) + " borders");
   for (const EndEdge& edge : check.repeated) add_place(info, place(edge), "edge of more than two triangles");
   for (const TriangleVertices& t : mesh.triangles) {
     const auto at = [&](VertexId v) { return Vec2{mesh.uv[v.index()].u, mesh.uv[v.index()].v}; };
@@ -137,7 +142,9 @@ void check_closed(const EndRegion& region, const EndTriangles& result, std::span
   for (const std::uint32_t i : used_points(edges)) {
     const auto n_begin = std::upper_bound(begins.begin(), begins.end(), i) - std::lower_bound(begins.begin(), begins.end(), i);
     const auto n_end = std::upper_bound(ends.begin(), ends.end(), i) - std::lower_bound(ends.begin(), ends.end(), i);
-    if (n_begin != n_end) add_place(info, point_of(region, result, i), "point " + std::to_string(i) + ": " + std::to_string(n_end) + " edges end and " + std::to_string(n_begin) + " begin here");
+    if (n_begin != n_end)
+      add_place(info, point_of(region, result, i),
+                "point " + std::to_string(i) + ": " + std::to_string(n_end) + " edges end and " + std::to_string(n_begin) + " begin here");
   }
   if (info.n_places > 0) throw Error(std::move(info));
 }
@@ -170,7 +177,8 @@ std::vector<std::vector<std::uint32_t>> closed_loops(std::span<const EndEdge> ed
 
 void mesh_part(const EndRegion& region, const EndPart& part, const EndOptions& options, EndTriangles& result, const RunContext& context) {
   if (!part.triangles.empty()) {
-    ErrorInfo info = end_error(region, ErrorCode::geometry_failed, "the footprint of the layers crosses a sharp edge of the patch, or leaves the part of it that is meshed anew");
+    ErrorInfo info = end_error(region, ErrorCode::geometry_failed,
+                               "the footprint of the layers crosses a sharp edge of the patch, or leaves the part of it that is meshed anew");
     info.hint = k_crossing_hint;
     check_closed(region, result, part.edges, std::move(info));
   }
@@ -185,7 +193,8 @@ void mesh_part(const EndRegion& region, const EndPart& part, const EndOptions& o
   delaunay::FaceMesh mesh;
   try {
     const ParameterBox box = delaunay::box_of(border.border);
-    const SurfacePtr surface = part.triangles.empty() ? plane_surface(part.frame, box) : projected_surface(part.frame, box, *region.surface, *region.original, part.triangles, context);
+    const SurfacePtr surface = part.triangles.empty() ? plane_surface(part.frame, box)
+                                                      : projected_surface(part.frame, box, *region.surface, *region.original, part.triangles, context);
     mesh = delaunay::mesh_face(*surface, border.border, size, Vec2{1.0, 1.0}, face_options, context);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
@@ -196,7 +205,8 @@ void mesh_part(const EndRegion& region, const EndPart& part, const EndOptions& o
   result.triangles.reserve(first_triangle + mesh.triangles.size());
   for (const TriangleVertices& t : mesh.triangles) {
     auto& triangle = result.triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) triangle[k] = t[k].value() < mesh.n_border ? border.point[t[k].index()] : static_cast<std::uint32_t>(n_before + t[k].index() - mesh.n_border);
+    for (std::size_t k = 0; k < 3; ++k)
+      triangle[k] = t[k].value() < mesh.n_border ? border.point[t[k].index()] : static_cast<std::uint32_t>(n_before + t[k].index() - mesh.n_border);
   }
   prove(region, part, result, first_triangle, mesh);
   if (mesh.report.min_angle < result.min_angle) {

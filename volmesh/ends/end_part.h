@@ -20,8 +20,8 @@ using EndEdge = std::array<std::uint32_t, 2>;
 struct EndPart {
   std::vector<EndEdge> edges;
   EndFrame frame;
-  std::vector<TriangleId> triangles;        ///< of the original, that cover it; empty: a plane
-  std::vector<SizePlace> curvature_sizes;   ///< what the surface's curvature allows
+  std::vector<TriangleId> triangles;       ///< of the original, that cover it; empty: a plane
+  std::vector<SizePlace> curvature_sizes;  ///< what the surface's curvature allows
 };
 
 /// A point of the region, or of those that came later.

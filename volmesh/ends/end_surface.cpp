@@ -14,11 +14,13 @@ void check_input(const EndRegion& region) {
   ErrorInfo info = end_error(region, ErrorCode::bad_argument, "edges of loops are not usable");
   for (const EndEdge& edge : region.edges) {
     if (edge[0] >= region.points.size() || edge[1] >= region.points.size()) {
-      add_place(info, Point{}, "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + ", of " + std::to_string(region.points.size()) + " points");
+      add_place(info, Point{},
+                "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + ", of " + std::to_string(region.points.size()) + " points");
       continue;
     }
     const Point &a = region.points[edge[0]], &b = region.points[edge[1]];
-    if (!is_finite(a) || !is_finite(b)) add_place(info, Point{}, "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + " has a coordinate that is not finite");
+    if (!is_finite(a) || !is_finite(b))
+      add_place(info, Point{}, "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + " has a coordinate that is not finite");
     if (a == b) add_place(info, a, "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + " has no length");
   }
   if (info.n_places > 0) throw Error(std::move(info));
@@ -35,7 +37,8 @@ void prove_whole(const EndRegion& region, const EndTriangles& result) {
   add(check.missing, "edge of the loops without a triangle");
   add(check.open, "edge where triangles end");
   add(check.repeated, "edge of more than two triangles");
-  info.hint = "footprints may not cross sharp edges of the patch or leave it: give its sides names of their own, or lower max_thickness of the layers that end here";
+  info.hint =
+      "footprints may not cross sharp edges of the patch or leave it: give its sides names of their own, or lower max_thickness of the layers that end here";
   throw Error(std::move(info));
 }
 

@@ -1,4 +1,5 @@
-// One end surface: a patch of the outer boundary on which prismatic layers end (symmetry plane, slip tunnel wall, fan face, ...), triangulated anew around their footprint.
+// One end surface: a patch of the outer boundary on which prismatic layers end (symmetry plane, slip tunnel wall, fan face, ...), triangulated anew around
+// their footprint.
 #pragma once
 
 #include <array>
@@ -21,37 +22,38 @@ struct EndRegion {
   const ConstraintSurface* surface = nullptr;       ///< \pre not null
   std::vector<Point> points;                        ///< of the loops, on the surface; points that no edge uses do not count
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< of closed loops, in any order; kept as they are, never split
-  /// The patch as it was given (all of the mesh), normals into the domain; null for a ConstraintPlane only. Its border is among the edges where no layer ends on it.
+  /// The patch as it was given (all of the mesh), normals into the domain; null for a ConstraintPlane only. Its border is among the edges where no layer ends
+  /// on it.
   const TriMesh* original = nullptr;
   /// Longest edge wanted at a place, metres; empty: as long as the growth from the loops allows.
   std::function<double(const Point&)> size;
-  std::string name;                                 ///< of the patch, for messages
+  std::string name;  ///< of the patch, for messages
 };
 
 struct EndOptions {
-  double size_growth = 1.3;                              ///< ratio of the edges of neighbouring triangles away from the loops
-  double min_angle = 25.0 * std::numbers::pi / 180.0;    ///< rad: goal; smaller ones stay where loops force them
+  double size_growth = 1.3;                            ///< ratio of the edges of neighbouring triangles away from the loops
+  double min_angle = 25.0 * std::numbers::pi / 180.0;  ///< rad: goal; smaller ones stay where loops force them
   int max_triangles = 20'000'000;
 };
 
 struct EndTriangles {
   std::vector<Point> new_points;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices: EndRegion::points, then new_points; normals into the domain
-  std::int64_t n_kept = 0;     ///< triangles of `original` that are as they were; they come first
-  double min_angle = 0.0;      ///< rad, smallest angle of the others, loops' corners included
-  Point worst_place{};         ///< where it is
+  std::int64_t n_kept = 0;                              ///< triangles of `original` that are as they were; they come first
+  double min_angle = 0.0;                               ///< rad, smallest angle of the others, loops' corners included
+  Point worst_place{};                                  ///< where it is
 };
 
-/// Triangulates the region. Edge lengths: h(x) = min over the loops' points of (mean length of their edges + (size_growth - 1) distance), no longer than `size`.
-/// Planes: as a whole; new points have the coordinate of the loops' points (the median) to the bit when the normal is along a coordinate axis, and lie in the plane to rounding
-/// otherwise. Other surfaces: smooth pieces of the original without a footprint stay as they are; a piece whose normals are within 70 degrees of their mean is meshed in
-/// that projection, new points put on the surface, angles judged in space, edges short enough for the surface's curvature; of any other piece (a whole cylinder, a sphere) only the
-/// neighbourhood of the footprint is. Edges of the original that turn by more than 40 degrees stay; footprints may touch but not cross them.
-/// The result is proved before it is returned: every edge exactly once a border edge in its sense, no other border, all triangles positive in their plane, Euler number.
-/// One thread; depends on the input alone; 200 to 300 k triangles/s on planes.
-/// \throws Error(bad_argument) for loops that are not closed or run the wrong way, points off the surface, a curved surface without original;
-/// Error(self_intersection) where loops cross or touch along an edge, or lie on the wrong side of each other (footprints that overlap or leave the patch), with place and
-/// patch; Error(geometry_failed) where even the neighbourhood of a footprint has no projection; Error(overflow) for more than max_triangles
+/// Triangulates the region. Edge lengths: h(x) = min over the loops' points of (mean length of their edges + (size_growth - 1) distance), no longer than
+/// `size`. Planes: as a whole; new points have the coordinate of the loops' points (the median) to the bit when the normal is along a coordinate axis, and lie
+/// in the plane to rounding otherwise. Other surfaces: smooth pieces of the original without a footprint stay as they are; a piece whose normals are within 70
+/// degrees of their mean is meshed in that projection, new points put on the surface, angles judged in space, edges short enough for the surface's curvature;
+/// of any other piece (a whole cylinder, a sphere) only the neighbourhood of the footprint is. Edges of the original that turn by more than 40 degrees stay;
+/// footprints may touch but not cross them. The result is proved before it is returned: every edge exactly once a border edge in its sense, no other border,
+/// all triangles positive in their plane, Euler number. One thread; depends on the input alone; 200 to 300 k triangles/s on planes. \throws Error(bad_argument)
+/// for loops that are not closed or run the wrong way, points off the surface, a curved surface without original; Error(self_intersection) where loops cross or
+/// touch along an edge, or lie on the wrong side of each other (footprints that overlap or leave the patch), with place and patch; Error(geometry_failed) where
+/// even the neighbourhood of a footprint has no projection; Error(overflow) for more than max_triangles
 EndTriangles triangulate_end(const EndRegion& region, const EndOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh
@@ -63,8 +65,13 @@ struct Schema<volmesh::EndOptions> {
   using O = volmesh::EndOptions;
   static constexpr std::string_view stage = "ends";
   static constexpr std::array fields = {
-      Field<O>{.name = "ends_growth", .member = &O::size_growth, .min = 1.02, .max = 2.0, .help = "ratio of the edges of neighbouring triangles on patches where layers end, away from the layers"},
-      Field<O>{.name = "ends_min_angle", .member = &O::min_angle, .unit = Unit::radian, .min = 0.0, .max = 0.55, .help = "goal for the angles of these triangles"},
+      Field<O>{.name = "ends_growth",
+               .member = &O::size_growth,
+               .min = 1.02,
+               .max = 2.0,
+               .help = "ratio of the edges of neighbouring triangles on patches where layers end, away from the layers"},
+      Field<O>{
+          .name = "ends_min_angle", .member = &O::min_angle, .unit = Unit::radian, .min = 0.0, .max = 0.55, .help = "goal for the angles of these triangles"},
       Field<O>{.name = "ends_max_triangles", .member = &O::max_triangles, .min = 1, .max = 1e9, .help = "of one patch; beyond it is an error"},
   };
 };

@@ -14,7 +14,8 @@ struct SizePlace {
   double size = 0.0;  ///< metres
 };
 
-/// h(x) = min over the places of (size + slope * distance), in a tree of boxes that know their smallest size. Reading it is thread-safe, about half a microsecond.
+/// h(x) = min over the places of (size + slope * distance), in a tree of boxes that know their smallest size. Reading it is thread-safe, about half a
+/// microsecond.
 class LoopSizes {
  public:
   /// \pre places finite, sizes positive, slope > 0
@@ -29,8 +30,8 @@ class LoopSizes {
   struct Node {
     Box box;
     double least = std::numeric_limits<double>::infinity();  ///< size in the box
-    std::uint32_t first = 0;  ///< leaf: first place; inner: left child, the right one follows it
-    std::uint32_t count = 0;  ///< leaf: number of places; inner: 0
+    std::uint32_t first = 0;                                 ///< leaf: first place; inner: left child, the right one follows it
+    std::uint32_t count = 0;                                 ///< leaf: number of places; inner: 0
   };
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
   double bound(const Node& node, const Point& p) const;

@@ -152,8 +152,9 @@ void require_proved(const EnvelopeCertificate& certificate) {
   if (certificate.is_proved()) return;
   throw Error({.code = ErrorCode::envelope_failed,
                .attempted = "proving the layer",
-               .problem = std::to_string(certificate.n_crossings) + " crossing pairs of boundary triangles, " + std::to_string(certificate.n_swallowings) + " surfaces within a layer, " + std::to_string(certificate.n_invalid_macro_elements) +
-                          " invalid macro-elements, " + std::to_string(certificate.n_invalid_layer_cells) + " invalid cells of the layer",
+               .problem = std::to_string(certificate.n_crossings) + " crossing pairs of boundary triangles, " + std::to_string(certificate.n_swallowings) +
+                          " surfaces within a layer, " + std::to_string(certificate.n_invalid_macro_elements) + " invalid macro-elements, " +
+                          std::to_string(certificate.n_invalid_layer_cells) + " invalid cells of the layer",
                .places = {{certificate.worst_macro_element.place, "worst macro-element: " + certificate.worst_macro_element.what},
                           {certificate.worst_layer_cell.place, "worst cell: " + certificate.worst_layer_cell.what}},
                .hint = "report this surface"});

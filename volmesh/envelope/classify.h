@@ -23,7 +23,7 @@ struct VertexClass {
 
 struct Classification {
   Column<VertexId, VertexClass> vertex;
-  double feature_angle = 0.0;               ///< rad, that was used
+  double feature_angle = 0.0;                   ///< rad, that was used
   Column<HalfedgeId, std::uint8_t> is_feature;  ///< 1 on both half-edges of a feature edge
 };
 

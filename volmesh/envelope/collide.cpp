@@ -57,7 +57,12 @@ std::string_view to_string(BoundaryPart part) {
 }
 
 Collider::Collider(const LayerBase& base, const TriMesh* outer, const RunContext& context, const OuterLinks* links)
-    : base_(base), outer_(outer), links_(links && !links->empty() ? links : nullptr), is_collapsed_(base.wall.n_vertices(), 0), tree_(base.wall, context), wall_(fixed_boxes(base.wall, tree_, context)) {
+    : base_(base),
+      outer_(outer),
+      links_(links && !links->empty() ? links : nullptr),
+      is_collapsed_(base.wall.n_vertices(), 0),
+      tree_(base.wall, context),
+      wall_(fixed_boxes(base.wall, tree_, context)) {
   const std::size_t n = base.wall.n_vertices();
   points_.resize(2 * n + (outer ? outer->n_vertices() : 0));
   parallel_for(context, n, [&](std::size_t i) { points_[i] = points_[n + i] = base.wall.points[VertexId(i)]; });
@@ -73,9 +78,7 @@ Collider::Collider(const LayerBase& base, const TriMesh* outer, const RunContext
   outer_boxes_ = fixed_boxes(*outer, outer_tree_, context);
 }
 
-std::uint32_t Collider::top_point(VertexId v) const {
-  return v.value() + (is_down(v) ? 0u : static_cast<std::uint32_t>(base_.wall.n_vertices()));
-}
+std::uint32_t Collider::top_point(VertexId v) const { return v.value() + (is_down(v) ? 0u : static_cast<std::uint32_t>(base_.wall.n_vertices())); }
 
 Collider::Corners Collider::points_of(const BoundaryTriangle& triangle) const {
   if (triangle.part == BoundaryPart::wall) return values(base_.wall.triangles[TriangleId(triangle.index)]);
@@ -236,7 +239,8 @@ double Collider::clear_share(const BoundaryCrossing& pair, const EnvelopeShape& 
   for (std::size_t i = 0; i < 2; ++i) {
     const Corners own = points_of(pair[i]);
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t found = static_cast<std::size_t>(std::find(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(n_known), own[k]) - known.begin());
+      const std::size_t found =
+          static_cast<std::size_t>(std::find(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(n_known), own[k]) - known.begin());
       triangle[i][k] = static_cast<std::uint32_t>(found);
       if (found < n_known) continue;
       points[n_known] = points_[own[k]];

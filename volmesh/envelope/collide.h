@@ -39,8 +39,8 @@ struct OuterLinks {
 
 class Collider {
  public:
-  /// `outer` may be null; all must outlive this. With `links`, the outer boundary begins at the wall's rim; its triangles on a constraint surface do not count against
-  /// triangles of top and sides that have a vertex on that surface: they will be made anew around the layer. Memory: about 150 bytes per wall triangle.
+  /// `outer` may be null; all must outlive this. With `links`, the outer boundary begins at the wall's rim; its triangles on a constraint surface do not count
+  /// against triangles of top and sides that have a vertex on that surface: they will be made anew around the layer. Memory: about 150 bytes per wall triangle.
   Collider(const LayerBase& base, const TriMesh* outer, const RunContext& context, const OuterLinks* links = nullptr);
 
   /// Brings the top to where `shape` has it; with `stretched`, marked vertices to `stretch` times their height. Cheap where nothing moved.
@@ -70,7 +70,8 @@ class Collider {
   /// Triangles of all parts that are there: those of the top that are not the wall's, and sides with an area.
   std::int64_t n_triangles() const;
 
-  /// Triangles whose box overlaps the given one, appended to `found` in a fixed order: of the wall; wall triangles whose macro-element does; of the outer boundary.
+  /// Triangles whose box overlaps the given one, appended to `found` in a fixed order: of the wall; wall triangles whose macro-element does; of the outer
+  /// boundary.
   void find_walls(const Box& box, std::vector<std::uint32_t>& found) const;
   void find_cells(const Box& box, std::vector<std::uint32_t>& found) const;
   void find_outer(const Box& box, std::vector<std::uint32_t>& found) const;

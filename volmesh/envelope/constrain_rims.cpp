@@ -53,7 +53,8 @@ std::size_t count_rims(const TriMesh& wall, const std::vector<Edge>& edges) {
   return n;
 }
 
-[[noreturn]] void reject(const TriMesh& wall, const std::vector<Edge>& edges, std::string problem, const std::vector<VertexId>& where, const std::string& what) {
+[[noreturn]] void reject(const TriMesh& wall, const std::vector<Edge>& edges, std::string problem, const std::vector<VertexId>& where,
+                         const std::string& what) {
   ErrorInfo info{.code = ErrorCode::open_surface,
                  .attempted = "constraining the rims of the wall",
                  .problem = std::to_string(count_rims(wall, edges)) + " rims with " + std::to_string(edges.size()) + " edges: " + std::move(problem),
@@ -85,7 +86,8 @@ std::vector<AxisPlane> candidates_of_edges(const TriMesh& wall, const std::vecto
       if (std::abs(a - b) > tolerance || std::abs(a - c) <= tolerance) continue;
       in_order.push_back({axis, std::min(a, b), distance(wall.points[e.from], wall.points[e.to])});
     }
-    std::sort(in_order.begin(), in_order.end(), [](const AxisPlane& p, const AxisPlane& q) { return p.value < q.value || (p.value == q.value && p.support < q.support); });
+    std::sort(in_order.begin(), in_order.end(),
+              [](const AxisPlane& p, const AxisPlane& q) { return p.value < q.value || (p.value == q.value && p.support < q.support); });
     for (const AxisPlane& p : in_order) {
       if (!found.empty() && found.back().axis == axis && p.value - found.back().value <= tolerance) found.back().support += p.support;
       else found.push_back(p);

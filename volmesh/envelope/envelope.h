@@ -19,17 +19,17 @@ std::string_view to_string(HeightLimit limit);
 
 /// Where the envelope is; what a proposal consists of.
 struct EnvelopeShape {
-  Column<VertexId, Vec3> direction;          ///< unit growth direction
-  Column<VertexId, double> height;           ///< m along the direction; 0 = collapsed
+  Column<VertexId, Vec3> direction;  ///< unit growth direction
+  Column<VertexId, double> height;   ///< m along the direction; 0 = collapsed
 
   bool is_collapsed(VertexId v) const { return height[v] == 0.0; }
   Point point(const TriMesh& wall, VertexId v) const { return wall.points[v] + height[v] * direction[v]; }
 };
 
 struct Envelope : EnvelopeShape {
-  Column<VertexId, double> target;           ///< m, h_target of method.md §2
-  Column<VertexId, double> eq1;              ///< m, height by eq. (1) without caps
-  Column<VertexId, double> cap;              ///< m, largest height that the stages so far allow (starts as target)
+  Column<VertexId, double> target;  ///< m, h_target of method.md §2
+  Column<VertexId, double> eq1;     ///< m, height by eq. (1) without caps
+  Column<VertexId, double> cap;     ///< m, largest height that the stages so far allow (starts as target)
   Column<VertexId, HeightLimit> limit;
 };
 
@@ -48,8 +48,8 @@ class EnvelopeScale {
   /// `base` must outlive this.
   EnvelopeScale(const LayerBase& base, const EnvelopeOptions& options);
 
-  double h0(VertexId v) const { return demand_->is_empty() ? first_height_ : demand_->first_height[v]; }          ///< m, first height
-  int n(VertexId v) const { return demand_->is_empty() ? layers_ : demand_->layers[v]; }                          ///< layers
+  double h0(VertexId v) const { return demand_->is_empty() ? first_height_ : demand_->first_height[v]; }  ///< m, first height
+  int n(VertexId v) const { return demand_->is_empty() ? layers_ : demand_->layers[v]; }                  ///< layers
   double max_growth(VertexId v) const { return demand_->is_empty() ? max_growth_ : demand_->max_growth[v]; }
   double max_thickness(VertexId v) const { return demand_->is_empty() ? max_thickness_ : demand_->max_thickness[v]; }  ///< m
   /// m, what all layers together are to have; automatic: eq. (1) of method.md.

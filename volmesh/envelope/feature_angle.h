@@ -11,8 +11,8 @@ namespace sterna::volmesh {
 /// deviations. Smooth surfaces end below the gap, features begin above it; without a gap its emptiest part counts. Radians.
 double feature_angle_of(const LayerBase& base, const EnvelopeOptions& options, const RunContext& context);
 
-/// The same for a wall of which the largest dihedral turn at smooth places may be known (automatic: it is not): then the least angle of at least 20 degrees that is above that, if there
-/// is one up to 60 degrees. The log says what decided.
+/// The same for a wall of which the largest dihedral turn at smooth places may be known (automatic: it is not): then the least angle of at least 20 degrees
+/// that is above that, if there is one up to 60 degrees. The log says what decided.
 double decide_feature_angle(const LayerBase& base, const EnvelopeOptions& options, double smooth_angle, const RunContext& context);
 
 }  // namespace sterna::volmesh

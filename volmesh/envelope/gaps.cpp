@@ -9,9 +9,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_remaining_edges = 0.2;    ///< of the longer local envelope edge stays between two layers, for tets
-constexpr double k_remaining_share = 0.5;    ///< of a gap that is too narrow for that
-constexpr double k_opposing_cosine = 0.7;    ///< walls that face the line within 45 degrees oppose it; the rest is left to the exact test
+constexpr double k_remaining_edges = 0.2;  ///< of the longer local envelope edge stays between two layers, for tets
+constexpr double k_remaining_share = 0.5;  ///< of a gap that is too narrow for that
+constexpr double k_opposing_cosine = 0.7;  ///< walls that face the line within 45 degrees oppose it; the rest is left to the exact test
 constexpr int k_level_sweeps = 3;
 
 /// Parameter along the segment p + s d (s in [0, 1]) where it meets the triangle, or a negative number. Rounding does not matter: heights keep a reserve.
@@ -125,7 +125,7 @@ class GapFinder {
   const Collider& collider_;
   const Envelope& envelope_;
   const Column<VertexId, std::uint32_t>* group_;  ///< may be null
-  Column<VertexId, double> edge_;  ///< m, local envelope edge
+  Column<VertexId, double> edge_;                 ///< m, local envelope edge
 };
 
 }  // namespace

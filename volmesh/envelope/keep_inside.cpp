@@ -14,11 +14,9 @@ constexpr int k_inside_bisections = 12;     ///< halvings: 0.02 % of the height
 constexpr int k_chord_steps = 4;            ///< each reduces the error of the chord's length by the angle it turns, squared
 constexpr double k_seat_tolerance = 1e-12;  ///< of the body length: rounding of a point on the surface
 constexpr int k_max_seat_rounds = 24;
-constexpr double k_seat_shrink = 0.7;       ///< of the height, where the point on the surface is not possible; 24 rounds reach 2e-4 of it, then it collapses
+constexpr double k_seat_shrink = 0.7;  ///< of the height, where the point on the surface is not possible; 24 rounds reach 2e-4 of it, then it collapses
 
-const ConstraintSurface& surface_of(const LayerBase& base, VertexId v) {
-  return *base.surfaces[static_cast<std::size_t>(base.constraint[v].on[0])];
-}
+const ConstraintSurface& surface_of(const LayerBase& base, VertexId v) { return *base.surfaces[static_cast<std::size_t>(base.constraint[v].on[0])]; }
 
 bool is_seated(const LayerBase& base, const Envelope& envelope, VertexId v) {
   return std::abs(surface_of(base, v).inside_distance(envelope.point(base.wall, v))) <= k_seat_tolerance * base.body_length;

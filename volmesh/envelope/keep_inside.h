@@ -6,8 +6,8 @@
 
 namespace sterna::volmesh {
 
-/// Whether an envelope vertex at `growth` from its wall vertex keeps clear of every surface that concerns the wall vertex and that it is not on: at least 5 % of the wall vertex's
-/// own distance. For planes this holds for the whole envelope when it holds at its vertices.
+/// Whether an envelope vertex at `growth` from its wall vertex keeps clear of every surface that concerns the wall vertex and that it is not on: at least 5 %
+/// of the wall vertex's own distance. For planes this holds for the whole envelope when it holds at its vertices.
 bool is_inside(const LayerBase& base, VertexId v, const Vec3& growth);
 
 /// Lowers heights until every vertex is inside, as the gap to the mirrored body would ask (HeightLimit::gap). \post is_inside() everywhere.

@@ -21,19 +21,20 @@ struct LayerBase {
 
   const TriMesh& wall;
   Topology topology;
-  double body_length;                          ///< m
-  Column<VertexId, VertexConstraint> constraint;                    ///< what directions and envelope points obey; all free by default
+  double body_length;                                              ///< m
+  Column<VertexId, VertexConstraint> constraint;                   ///< what directions and envelope points obey; all free by default
   std::vector<std::shared_ptr<const ConstraintSurface>> surfaces;  ///< that VertexConstraint::on numbers
-  Column<VertexId, std::uint64_t> near;        ///< Constraints::near
-  Column<TriangleId, Vec3> unit_normal;        ///< of each triangle
-  Column<TriangleId, double> area;             ///< m^2
-  Column<VertexId, Vec3> vertex_normal;        ///< unit, angle-weighted mean of the incident normals (Thuermer & Wuethrich 1998), within the constraint
-  Column<VertexId, Vec3> visible_direction;    ///< unit, within the constraint; sees the worst incident normal best: axis of the smallest cap that holds them all
-  Column<VertexId, double> visibility;         ///< cosine between visible_direction and the worst incident normal; <= 0: no direction sees all faces
-  Column<VertexId, double> mean_edge;          ///< m, l_j of eq. (1)
-  Column<VertexId, double> vertex_area;        ///< m^2, a third of the incident triangles
+  Column<VertexId, std::uint64_t> near;                            ///< Constraints::near
+  Column<TriangleId, Vec3> unit_normal;                            ///< of each triangle
+  Column<TriangleId, double> area;                                 ///< m^2
+  Column<VertexId, Vec3> vertex_normal;      ///< unit, angle-weighted mean of the incident normals (Thuermer & Wuethrich 1998), within the constraint
+  Column<VertexId, Vec3> visible_direction;  ///< unit, within the constraint; sees the worst incident normal best: axis of the smallest cap that holds them all
+  Column<VertexId, double> visibility;       ///< cosine between visible_direction and the worst incident normal; <= 0: no direction sees all faces
+  Column<VertexId, double> mean_edge;        ///< m, l_j of eq. (1)
+  Column<VertexId, double> vertex_area;      ///< m^2, a third of the incident triangles
 
-  /// Vertices that must grow alike (where walls end on periodic sides), each group ascending; and each vertex's group (empty: there are none), k_no_group where it grows by itself.
+  /// Vertices that must grow alike (where walls end on periodic sides), each group ascending; and each vertex's group (empty: there are none), k_no_group where
+  /// it grows by itself.
   std::vector<std::vector<VertexId>> groups;
   Column<VertexId, std::uint32_t> group;
   static constexpr std::uint32_t k_no_group = 0xffffffffu;
@@ -41,7 +42,7 @@ struct LayerBase {
   /// \pre constraints of partners are equal but for the sense of their axes
   void let_grow_alike(const std::vector<std::array<VertexId, 2>>& partners);
 
-  LayerDemand demand;                          ///< what patches ask of the layer instead of the options (patch_layers.h); empty by default
+  LayerDemand demand;  ///< what patches ask of the layer instead of the options (patch_layers.h); empty by default
 
   bool concerns(std::size_t surface, VertexId v) const { return near.empty() || (surface < 64 && (near[v] >> surface & 1u) != 0); }
 

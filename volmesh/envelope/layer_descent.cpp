@@ -9,12 +9,12 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_max_halvings = 6;                ///< of a step that raises the objective, before the vertex waits for its neighbours
-constexpr std::size_t k_max_incident = 64;       ///< triangles at a vertex that moves; beyond it the vertex stays
-constexpr double k_max_step = 0.5;               ///< of h_u
-constexpr double k_sufficient = 1e-4;            ///< Armijo's share of the predicted decrease
-constexpr double k_min_turning_share = 0.2;      ///< least curvature against turning, of what a vertex on a plane has
-constexpr std::size_t k_visit_chunk = 256;       ///< vertices of a colour per task: a visit costs some microseconds
+constexpr int k_max_halvings = 6;            ///< of a step that raises the objective, before the vertex waits for its neighbours
+constexpr std::size_t k_max_incident = 64;   ///< triangles at a vertex that moves; beyond it the vertex stays
+constexpr double k_max_step = 0.5;           ///< of h_u
+constexpr double k_sufficient = 1e-4;        ///< Armijo's share of the predicted decrease
+constexpr double k_min_turning_share = 0.2;  ///< least curvature against turning, of what a vertex on a plane has
+constexpr std::size_t k_visit_chunk = 256;   ///< vertices of a colour per task: a visit costs some microseconds
 
 /// Solves (B^T H B) c = B^T r for the columns B = directions[0 .. n), by elimination without pivoting (H is positive definite); returns B c.
 Vec3 solve_within(const SymmetricBlock& h, const std::array<Vec3, 3>& directions, int n, const Vec3& r) {

@@ -17,10 +17,10 @@ inline constexpr double k_top_cosine_onset = 0.25;  ///< cosine between growth e
 inline constexpr double k_middle_onset = 0.3;       ///< b_1 + sqrt(b_0 b_2) of the exact wedge test
 /// Least values of an element's quantities; barriers begin above them.
 struct ElementMargins {
-  double area = 0.01;          ///< share of the wall's area
-  double top = 0.05;           ///< cosine between growth edge and envelope normal
-  double top_of_wall = 0.2;    ///< the same, of that between growth edge and wall normal, where this is less
-  double middle = 0.0;         ///< b_1 + sqrt(b_0 b_2)
+  double area = 0.01;        ///< share of the wall's area
+  double top = 0.05;         ///< cosine between growth edge and envelope normal
+  double top_of_wall = 0.2;  ///< the same, of that between growth edge and wall normal, where this is less
+  double middle = 0.0;       ///< b_1 + sqrt(b_0 b_2)
 };
 /// Those of is_macro_valid (validity.cpp).
 inline constexpr ElementMargins k_least_margins = {};
@@ -41,8 +41,7 @@ inline double barrier_value(double x, double onset) {
 inline Barrier barrier(double x, double onset) {
   const double q = x / onset;
   const double l = std::log(q), below = q - 1.0;
-  return {-below * below * l, -(2.0 * below * l + below * below / q) / onset,
-          (-2.0 * l - 4.0 * below / q + below * below / (q * q)) / (onset * onset)};
+  return {-below * below * l, -(2.0 * below * l + below * below / q) / onset, (-2.0 * l - 4.0 * below / q + below * below / (q * q)) / (onset * onset)};
 }
 
 /// Weights of f_3 and of the barrier for one corner of one element.
@@ -52,13 +51,13 @@ struct ElementWeights {
 
 struct LayerElement {
   const ElementMargins* margins = &k_least_margins;
-  Vec3 n_wall;                       ///< unit
-  double wall_area2 = 0.0;           ///< twice the area
-  std::array<Vec3, 2> e, top;        ///< edges 0-1 and 0-2 at wall and envelope
-  std::array<Vec3, 3> unit;          ///< growth edges
+  Vec3 n_wall;                 ///< unit
+  double wall_area2 = 0.0;     ///< twice the area
+  std::array<Vec3, 2> e, top;  ///< edges 0-1 and 0-2 at wall and envelope
+  std::array<Vec3, 3> unit;    ///< growth edges
   std::array<double, 3> length{};
   // The rest is set by measure().
-  Vec3 n_top, n_middle;              ///< Bernstein coefficients of the normal over the height; n_wall * wall_area2 is the first
+  Vec3 n_top, n_middle;  ///< Bernstein coefficients of the normal over the height; n_wall * wall_area2 is the first
   double top_area2 = 0.0, area = 0.0;
   std::array<double, 3> wall_cosine{}, top_cosine{}, middle{};
 

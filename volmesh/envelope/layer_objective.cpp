@@ -10,10 +10,10 @@ namespace {
 
 /// Bounds that are closer than this ratio fix the vertex (method.md §6).
 constexpr double k_min_bound_ratio = 1.05;
-constexpr double k_far = 0.2;       ///< slack above which hold_back() lets an element have any step
+constexpr double k_far = 0.2;            ///< slack above which hold_back() lets an element have any step
 constexpr double k_wide_reserve = 0.01;  ///< slack above the wide margins that an element has at the start to get them
-constexpr int k_max_halvings = 12;  ///< of a vertex's step before it stays where it is
-constexpr double k_on_bound = 1e-12;  ///< of h_u; clamp() meets bounds to rounding
+constexpr int k_max_halvings = 12;       ///< of a vertex's step before it stays where it is
+constexpr double k_on_bound = 1e-12;     ///< of h_u; clamp() meets bounds to rounding
 /// Cosine between mean facet normal and vertex normal below which the mean normal is no direction to grow in.
 constexpr double k_min_rise = 0.5;
 
@@ -122,7 +122,8 @@ void LayerObjective::store(const Vec3Field& y, Envelope& envelope) const {
     const VertexId v(i);
     Vec3 g = h_u_[i] * y[i];
     const VertexConstraint& constraint = base_.constraint[v];
-    if (constraint.freedom == Freedom::surface) g = base_.surfaces[static_cast<std::size_t>(constraint.on[0])]->closest(base_.wall.points[v] + g) - base_.wall.points[v];
+    if (constraint.freedom == Freedom::surface)
+      g = base_.surfaces[static_cast<std::size_t>(constraint.on[0])]->closest(base_.wall.points[v] + g) - base_.wall.points[v];
     envelope.height[v] = norm(g);
     envelope.direction[v] = normalized(g);
   }
@@ -243,7 +244,8 @@ void LayerObjective::slacks(const Vec3Field& y, std::vector<float>& slack, const
   });
 }
 
-std::size_t LayerObjective::hold_back(const Vec3Field& from, const std::vector<float>& slack_from, double keep, Vec3Field& to, const RunContext& context) const {
+std::size_t LayerObjective::hold_back(const Vec3Field& from, const std::vector<float>& slack_from, double keep, Vec3Field& to,
+                                      const RunContext& context) const {
   std::vector<std::uint8_t> dirty(size(), 1), halvings(size(), 0);
   std::size_t n_held = 0;
   while (true) {

@@ -20,11 +20,11 @@ struct ObjectiveWeights {
 
 /// Parts of the objective at one point.
 struct ObjectiveValue {
-  double f1 = 0.0;       ///< eq. (8), over the moving vertices
-  double f2 = 0.0;       ///< eq. (9)
-  double f3 = 0.0;       ///< eq. (8) with the envelope's normals
+  double f1 = 0.0;  ///< eq. (8), over the moving vertices
+  double f2 = 0.0;  ///< eq. (9)
+  double f3 = 0.0;  ///< eq. (8) with the envelope's normals
   double barrier = 0.0;
-  double total = 0.0;    ///< weighted sum
+  double total = 0.0;  ///< weighted sum
 };
 
 /// The unknowns are the growth vectors of all vertices over their upper heights, y = (envelope point - wall point) / h_u: one Vec3 each, of which the
@@ -51,7 +51,8 @@ class LayerObjective {
   /// What minimises f_1 + f_2 when macro-elements are left aside: every vertex for itself.
   Vec3Field separable_optimum(const Vec3Field& y, const RunContext& context) const;
 
-  /// \pre every element feasible, unless the weights of f_3 and barrier are zero: then elements are not looked at. gradient: with respect to y, within the constraints; null: value only.
+  /// \pre every element feasible, unless the weights of f_3 and barrier are zero: then elements are not looked at. gradient: with respect to y, within the
+  /// constraints; null: value only.
   ObjectiveValue evaluate(const Vec3Field& y, Vec3Field* gradient, const RunContext& context);
   /// One pass over the vertices of `active`, colour by colour: each goes to the minimum of its local quadratic model, as far as the objective falls and all its
   /// elements stay feasible. Afterwards `active` marks what should be visited again. The total falls monotonically. Returns the number of visits.
@@ -63,7 +64,8 @@ class LayerObjective {
 
   /// Distance of every element from infeasibility (0), in the units of the barrier's terms.
   void slacks(const Vec3Field& y, std::vector<float>& slack, const RunContext& context) const;
-  /// Draws vertices of `to` back towards `from`, until every element keeps at least `keep` of its slack in `from` (or is far from the barrier). Returns how many vertices were drawn back.
+  /// Draws vertices of `to` back towards `from`, until every element keeps at least `keep` of its slack in `from` (or is far from the barrier). Returns how
+  /// many vertices were drawn back.
   std::size_t hold_back(const Vec3Field& from, const std::vector<float>& slack_from, double keep, Vec3Field& to, const RunContext& context) const;
 
  private:
@@ -85,14 +87,14 @@ class LayerObjective {
   std::vector<double> h_u_, h_l_share_, least_length_;
   std::vector<std::uint8_t> is_moving_;
   std::size_t n_moving_ = 0, n_elements_ = 0;
-  double n_counted_ = 0.0;  ///< moving vertices by their mirror share: n_v of (9)
-  std::vector<Vec3> normal_;       ///< direction in which heights are measured: the vertex normal within the constraint
-  std::vector<Vec3> normal_sum_;   ///< sum of the unit normals of the standing incident triangles
+  double n_counted_ = 0.0;        ///< moving vertices by their mirror share: n_v of (9)
+  std::vector<Vec3> normal_;      ///< direction in which heights are measured: the vertex normal within the constraint
+  std::vector<Vec3> normal_sum_;  ///< sum of the unit normals of the standing incident triangles
   std::vector<double> n_incident_;
-  std::vector<double> mirror_share_;  ///< of the whole body's vertex that is here: 1, 1/2 on a plane, 1/4 on a line; counts in f_2
-  std::vector<std::uint8_t> is_element_;  ///< no collapsed corner, some corner moves
+  std::vector<double> mirror_share_;            ///< of the whole body's vertex that is here: 1, 1/2 on a plane, 1/4 on a line; counts in f_2
+  std::vector<std::uint8_t> is_element_;        ///< no collapsed corner, some corner moves
   std::vector<std::uint8_t> has_wide_margins_;  ///< likewise per triangle
-  std::vector<Vec3> corner_gradient_;     ///< 3 per element, scratch of evaluate()
+  std::vector<Vec3> corner_gradient_;           ///< 3 per element, scratch of evaluate()
   std::vector<std::uint8_t> has_gradient_;
   std::vector<std::vector<std::uint32_t>> colours_;  ///< moving vertices that share no element with others of their colour
 };

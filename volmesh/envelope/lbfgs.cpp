@@ -44,9 +44,7 @@ void SymmetricBlock::add_identity(double w) {
   zz += w;
 }
 
-Vec3 SymmetricBlock::operator*(const Vec3& v) const {
-  return {xx * v.x + xy * v.y + zx * v.z, xy * v.x + yy * v.y + yz * v.z, zx * v.x + yz * v.y + zz * v.z};
-}
+Vec3 SymmetricBlock::operator*(const Vec3& v) const { return {xx * v.x + xy * v.y + zx * v.z, xy * v.x + yy * v.y + yz * v.z, zx * v.x + yz * v.y + zz * v.z}; }
 
 SymmetricBlock SymmetricBlock::inverse() const {
   SymmetricBlock adjoint{yy * zz - yz * yz, zz * xx - zx * zx, xx * yy - xy * xy, yz * zx - xy * zz, zx * xy - yz * xx, xy * yz - zx * yy};

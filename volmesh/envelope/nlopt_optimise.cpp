@@ -21,8 +21,8 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr double k_walk_end = 1e-6;  ///< sum of violated g, dimensionless, at which the walk to feasibility ends; g_1,min is 1e-2
-constexpr int k_max_halvings = 8;     ///< of a vertex's way from the start, before it goes back there
-constexpr double k_shrink = 0.9;      ///< of a growth edge, per step of the walk's second part
+constexpr int k_max_halvings = 8;    ///< of a vertex's way from the start, before it goes back there
+constexpr double k_shrink = 0.9;     ///< of a growth edge, per step of the walk's second part
 
 /// What the C callbacks see. NLopt gets the sums of (8) and (9) times n_v rather than the means: its estimate of the curvature, rho, starts at 1 and never
 /// falls below 1e-5, while that of a mean over a million vertices is 1e-6, which would keep the steps far too short. The minimum is the same.
@@ -34,7 +34,7 @@ struct Run {
   bool is_walking = false;  ///< minimises the sum of violated g alone
   nlopt_opt optimiser = nullptr;
   int n_evaluations = 0;
-  PaperObjective last;      ///< at the point of the latest evaluation; NLopt asks for the constraint at a point after the objective
+  PaperObjective last;  ///< at the point of the latest evaluation; NLopt asks for the constraint at a point after the objective
   double best_value = std::numeric_limits<double>::infinity();
   std::vector<double> best{};  ///< best feasible point; when walking, the least infeasible one
   std::exception_ptr trouble{};
@@ -100,10 +100,11 @@ double constraint_callback(unsigned n, const double* z, double* gradient, void* 
 void require_success(nlopt_result result, std::string_view what) {
   if (result >= 0) return;
   if (result == NLOPT_OUT_OF_MEMORY) throw std::bad_alloc();
-  throw Error({.code = ErrorCode::envelope_failed,
-               .attempted = "optimising the envelope with NLopt",
-               .problem = std::string(what) + ": " + (result == NLOPT_INVALID_ARGS ? "invalid arguments" : "failure") + " (NLopt code " + std::to_string(result) + ")",
-               .hint = "use optimiser = \"descent\""});
+  throw Error(
+      {.code = ErrorCode::envelope_failed,
+       .attempted = "optimising the envelope with NLopt",
+       .problem = std::string(what) + ": " + (result == NLOPT_INVALID_ARGS ? "invalid arguments" : "failure") + " (NLopt code " + std::to_string(result) + ")",
+       .hint = "use optimiser = \"descent\""});
 }
 
 /// Why the run ended; rounding limits are an end like any other.

@@ -10,14 +10,14 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_memory = 7;       ///< pairs of the L-BFGS approximation
-constexpr double k_keep = 0.2;            ///< of its slack that an element near the barrier keeps in one step of L-BFGS
-constexpr double k_max_step = 0.5;        ///< of h_u, of a vertex in one step of L-BFGS
-constexpr double k_first_step = 0.25;     ///< of the steepest descent step that would undo f_1 on a plane
-constexpr double k_sufficient = 1e-4;     ///< Armijo's share of the predicted decrease
+constexpr std::size_t k_memory = 7;    ///< pairs of the L-BFGS approximation
+constexpr double k_keep = 0.2;         ///< of its slack that an element near the barrier keeps in one step of L-BFGS
+constexpr double k_max_step = 0.5;     ///< of h_u, of a vertex in one step of L-BFGS
+constexpr double k_first_step = 0.25;  ///< of the steepest descent step that would undo f_1 on a plane
+constexpr double k_sufficient = 1e-4;  ///< Armijo's share of the predicted decrease
 constexpr int k_max_backtracks = 8;
-constexpr int k_patience = 4;             ///< iterations of L-BFGS over which the gain must exceed the tolerance
-constexpr double k_rest = 2e-3;           ///< of h_u: a vertex that moves less rests until a neighbour moves more
+constexpr int k_patience = 4;    ///< iterations of L-BFGS over which the gain must exceed the tolerance
+constexpr double k_rest = 2e-3;  ///< of h_u: a vertex that moves less rests until a neighbour moves more
 
 bool is_converged(const std::vector<ObjectiveValue>& history, std::size_t patience, double tolerance) {
   if (history.size() < patience + 2) return false;

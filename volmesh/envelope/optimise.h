@@ -16,19 +16,19 @@ enum class OptimiseMethod {
 
 struct OptimiseSettings {
   OptimiseMethod method = OptimiseMethod::descent;
-  int max_evaluations = 30;     ///< of the objective; a sweep of the descent counts as one
+  int max_evaluations = 30;  ///< of the objective; a sweep of the descent counts as one
   /// Lengths of growth vectors, m, below which those that start longer do not go; empty: none.
   Column<VertexId, double> height_floor = {};
-  double tolerance = 1e-3;      ///< the run ends when an iteration gains less than this share of what was gained so far
+  double tolerance = 1e-3;  ///< the run ends when an iteration gains less than this share of what was gained so far
   ObjectiveWeights weights;
 };
 
 struct OptimiseReport {
   int n_evaluations = 0;
-  std::size_t n_moving = 0;              ///< vertices that take part
-  std::size_t n_taken_back = 0;          ///< vertices that went back to the start because the end was not accepted there
-  std::vector<ObjectiveValue> history;   ///< start, then every accepted iterate; total falls monotonically
-  std::string_view stopped;              ///< why
+  std::size_t n_moving = 0;             ///< vertices that take part
+  std::size_t n_taken_back = 0;         ///< vertices that went back to the start because the end was not accepted there
+  std::vector<ObjectiveValue> history;  ///< start, then every accepted iterate; total falls monotonically
+  std::string_view stopped;             ///< why
 };
 
 /// Upper heights for the optimisation: what stage 5 left where layers or gaps limit it, else the cap (method.md §6).

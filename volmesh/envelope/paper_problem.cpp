@@ -29,7 +29,8 @@ struct PaperProblem::Violated {
   std::array<Vec3, 3> gradient;
 };
 
-PaperProblem::PaperProblem(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double g1_min, const RunContext& context)
+PaperProblem::PaperProblem(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double g1_min,
+                           const RunContext& context)
     : base_(base), g1_min_(g1_min), vertex2place_(base.wall.n_vertices(), k_none), upper_(h_u), growth_(base.wall.n_vertices()) {
   parallel_for(context, growth_.size(), [&](std::size_t i) { growth_[VertexId(i)] = start.height[VertexId(i)] * start.direction[VertexId(i)]; });
   for (const VertexId v : start.height.ids()) {

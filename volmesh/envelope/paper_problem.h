@@ -18,9 +18,9 @@ struct PaperObjective {
 
 /// The constraint (5): sums over what is violated.
 struct PaperConstraint {
-  double g1 = 0.0;               ///< sum of positive g_1 of eq. (6)
-  double g2 = 0.0;               ///< sum of positive g_2 of eq. (7)
-  std::int64_t n_violated = 0;   ///< g_1 and g_2 counted apart
+  double g1 = 0.0;              ///< sum of positive g_1 of eq. (6)
+  double g2 = 0.0;              ///< sum of positive g_2 of eq. (7)
+  std::int64_t n_violated = 0;  ///< g_1 and g_2 counted apart
   double total() const { return g1 + g2; }
 };
 
@@ -43,8 +43,8 @@ class PaperProblem {
   PaperProblem(const LayerBase& base, const Envelope& start, const Column<VertexId, double>& h_u, double h_l, double g1_min, const RunContext& context);
 
   std::size_t n_unknowns() const { return n_unknowns_; }
-  std::size_t n_vertices() const { return vertices_.size(); }     ///< n_v of eq. (9)
-  std::size_t n_elements() const { return elements_.size(); }     ///< n_c of eq. (8)
+  std::size_t n_vertices() const { return vertices_.size(); }  ///< n_v of eq. (9)
+  std::size_t n_elements() const { return elements_.size(); }  ///< n_c of eq. (8)
   bool takes_part(VertexId v) const { return vertex2place_[v] != k_none; }
 
   /// Heights within [h_l, h_u] (the start's height where it is below h_l), tangential unknowns within a cone that holds the start.
@@ -76,12 +76,12 @@ class PaperProblem {
   /// A vertex that takes part.
   struct Place {
     VertexId vertex;
-    std::uint32_t first = 0;     ///< unknown
+    std::uint32_t first = 0;  ///< unknown
     std::uint8_t n_tangents = 0;
     double n_triangles = 0.0;
-    double h_u = 0.0;            ///< m
-    std::array<Vec3, 3> axis;    ///< t_1, t_2 (as many as n_tangents), then n: unit
-    Vec3 normal_sum;             ///< of its triangles' unit normals
+    double h_u = 0.0;          ///< m
+    std::array<Vec3, 3> axis;  ///< t_1, t_2 (as many as n_tangents), then n: unit
+    Vec3 normal_sum;           ///< of its triangles' unit normals
   };
   struct Weights {
     double first, second;  ///< of f_1 against f_2, g_1 against g_2
@@ -102,8 +102,8 @@ class PaperProblem {
   Column<VertexId, std::uint32_t> vertex2place_;
   std::vector<TriangleId> elements_;
   PaperBounds bounds_;
-  Column<VertexId, double> upper_;             ///< m, h_u of every vertex that is not collapsed
-  mutable Column<VertexId, Vec3> growth_;      ///< m; scratch of constraint(), constant where a vertex does not take part
+  Column<VertexId, double> upper_;         ///< m, h_u of every vertex that is not collapsed
+  mutable Column<VertexId, Vec3> growth_;  ///< m; scratch of constraint(), constant where a vertex does not take part
 };
 
 }  // namespace sterna::volmesh

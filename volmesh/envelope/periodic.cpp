@@ -36,7 +36,8 @@ Vec3 common_direction(const LayerBase& base, const Envelope& envelope, const std
 
 }  // namespace
 
-std::vector<VertexId> equalise_partners(const LayerBase& base, const EnvelopeOptions& options, Collider* collider, Envelope& envelope, const RunContext& context) {
+std::vector<VertexId> equalise_partners(const LayerBase& base, const EnvelopeOptions& options, Collider* collider, Envelope& envelope,
+                                        const RunContext& context) {
   if (base.groups.empty()) return {};
   const EnvelopeScale scale = scale_of(base, options);
   const EnvelopeShape before = envelope;

@@ -8,11 +8,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_pair_reserve = 0.98;  ///< of the largest share at which a pair of triangles is clear
+constexpr double k_pair_reserve = 0.98;      ///< of the largest share at which a pair of triangles is clear
 constexpr double k_clearance_factor = 0.95;  ///< once nothing collides: leaves a gap for tets between retracted layers
 constexpr int k_regrow_rounds = 6;
 constexpr std::uint8_t k_not_tried = 255;  ///< failures after which there are no more steps
-constexpr std::uint8_t k_first_step = 1;  ///< the largest step of regrowth rarely keeps the clearance
+constexpr std::uint8_t k_first_step = 1;   ///< the largest step of regrowth rarely keeps the clearance
 
 void sort_unique(std::vector<VertexId>& vertices) {
   std::sort(vertices.begin(), vertices.end());
@@ -23,7 +23,9 @@ void sort_unique(std::vector<VertexId>& vertices) {
 std::vector<VertexId> lower_pairs(const Collider& collider, const std::vector<BoundaryCrossing>& pairs, bool must_collapse, const EnvelopeScale& scale,
                                   Envelope& envelope, const RunContext& context) {
   std::vector<double> share(pairs.size(), 0.0);
-  if (!must_collapse) parallel_for(context, pairs.size(), [&](std::size_t i) { share[i] = k_pair_reserve * collider.clear_share(pairs[i], envelope); }, 16);
+  if (!must_collapse)
+    parallel_for(
+        context, pairs.size(), [&](std::size_t i) { share[i] = k_pair_reserve * collider.clear_share(pairs[i], envelope); }, 16);
   // A vertex of several pairs takes the lowest height; all from the heights before this round.
   std::vector<std::pair<VertexId, double>> wanted;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -74,14 +76,13 @@ EnvelopeSurface envelope_surface(const LayerBase& base, const EnvelopeShape& env
   });
   parallel_for(context, surface.triangles.size(), [&](std::size_t i) {
     const TriangleVertices& v = base.wall.triangles[TriangleId(i)];
-    for (std::size_t k = 0; k < 3; ++k)
-      surface.triangles[i][k] = v[k].value() + (envelope.is_collapsed(v[k]) ? 0u : static_cast<std::uint32_t>(n));
+    for (std::size_t k = 0; k < 3; ++k) surface.triangles[i][k] = v[k].value() + (envelope.is_collapsed(v[k]) ? 0u : static_cast<std::uint32_t>(n));
   });
   return surface;
 }
 
-std::vector<VertexId> apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, ShapeChange change,
-                                        const RunContext& context, double clearance) {
+std::vector<VertexId> apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, ShapeChange change, const RunContext& context,
+                                        double clearance) {
   if (change.vertices.empty()) return {};
   std::vector<VertexId> vertices = change.vertices;
   TrialChange trial(base, envelope, std::move(change), context);

@@ -26,12 +26,13 @@ void smooth_tangled_regions(const LayerBase& base, const Classification& classes
 /// Adds `rings` rings of neighbours to the marked vertices.
 void grow_region(const LayerBase& base, int rings, Column<VertexId, std::uint8_t>& region, const RunContext& context);
 
-/// One Laplacian sweep of the envelope's points, less that of the wall's, at smooth vertices of the region; a proposal, not tested. Heights do not fall below their present value or a
-/// few percent below the target, whichever is lower.
+/// One Laplacian sweep of the envelope's points, less that of the wall's, at smooth vertices of the region; a proposal, not tested. Heights do not fall below
+/// their present value or a few percent below the target, whichever is lower.
 Envelope relaxed(const LayerBase& base, const Classification& classes, const Column<VertexId, std::uint8_t>& region, const Envelope& envelope,
                  const RunContext& context);
 
-/// Laplacian of the envelope's points, less that of the wall's, at smooth vertices, accepted only where macro-elements stay valid; heights stay near their target.
+/// Laplacian of the envelope's points, less that of the wall's, at smooth vertices, accepted only where macro-elements stay valid; heights stay near their
+/// target.
 void smooth_envelope(const LayerBase& base, const Classification& classes, int sweeps, Envelope& envelope, const RunContext& context);
 
 }  // namespace sterna::volmesh

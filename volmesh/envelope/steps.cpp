@@ -23,7 +23,8 @@ std::string_view to_string(EnvelopeStep step) { return k_names[static_cast<std::
 
 EnvelopeStep envelope_step_of(std::string_view text) {
   const auto found = std::find(k_names.begin(), k_names.end(), text);
-  if (found == k_names.end()) throw Error({.code = ErrorCode::bad_argument, .attempted = "reading an envelope", .problem = "\"" + std::string(text) + "\" is no step of it"});
+  if (found == k_names.end())
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "reading an envelope", .problem = "\"" + std::string(text) + "\" is no step of it"});
   return static_cast<EnvelopeStep>(found - k_names.begin());
 }
 
@@ -37,7 +38,9 @@ void smooth_step(const LayerBase& base, const Classification& classes, const Env
   keep_inside(base, options, envelope, context);
 }
 
-void untangle_step(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context) { untangle_edges(base, options, envelope, context); }
+void untangle_step(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context) {
+  untangle_edges(base, options, envelope, context);
+}
 
 void unwarp_step(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context) {
   unwarp(base, options, HeightLimit::warp, envelope, context);

@@ -1,4 +1,5 @@
-// The steps of build_envelope() one by one, for who wants to look at or change what is between them. In their order, with the same options, they give its envelope to the bit.
+// The steps of build_envelope() one by one, for who wants to look at or change what is between them. In their order, with the same options, they give its
+// envelope to the bit.
 #pragma once
 
 #include <cstdint>

@@ -14,15 +14,15 @@ namespace {
 /// Lines that converge by less than this do not meet within any layer (1e6 edge lengths away).
 constexpr double k_parallel = 1e-6;
 constexpr int k_untangle_smoothing_sweeps = 3;
-constexpr int k_lowering_rounds = 100;    ///< of unwarp; 3 to 10 are usual, and elements that are still invalid then collapse
-constexpr int k_ring_sweeps = 3;          ///< rings over which the height rises again around a collapsed vertex
-constexpr int k_bisection_steps = 12;     ///< halvings in log h: 1 % of the height over four decades
-constexpr double k_smallest_scale = 1e-5; ///< of the largest height of an element: where its bisection starts
-constexpr double k_reserve = 0.98;        ///< keep a little below the largest valid height, so that neighbours need not move again
-constexpr double k_regrow_share = 0.97;   ///< of the height at which growth lines meet that regrowth may reach
+constexpr int k_lowering_rounds = 100;     ///< of unwarp; 3 to 10 are usual, and elements that are still invalid then collapse
+constexpr int k_ring_sweeps = 3;           ///< rings over which the height rises again around a collapsed vertex
+constexpr int k_bisection_steps = 12;      ///< halvings in log h: 1 % of the height over four decades
+constexpr double k_smallest_scale = 1e-5;  ///< of the largest height of an element: where its bisection starts
+constexpr double k_reserve = 0.98;         ///< keep a little below the largest valid height, so that neighbours need not move again
+constexpr double k_regrow_share = 0.97;    ///< of the height at which growth lines meet that regrowth may reach
 constexpr int k_regrow_rounds = 12;
 constexpr std::array<double, 4> k_regrow_factors = {1.3, 1.12, 1.05, 1.02};  ///< growth of a height in one step, after so many failures
-constexpr double k_step_gradient = 1.0;   ///< slope along edges that may stand beside lowered places
+constexpr double k_step_gradient = 1.0;                                      ///< slope along edges that may stand beside lowered places
 
 /// The element with its tallest corners cut to `height`.
 MacroElement cut(MacroElement element, double height) {
@@ -68,8 +68,7 @@ std::array<double, 2> edge_height_limits(const Point& p1, const Vec3& d1, const 
 }
 
 // Only downwards: a lowered height is reached by a slope and not by a step.
-void level_steps(const LayerBase& base, const EnvelopeOptions& options, int sweeps, HeightLimit reason, Envelope& envelope,
-                 const RunContext& context) {
+void level_steps(const LayerBase& base, const EnvelopeOptions& options, int sweeps, HeightLimit reason, Envelope& envelope, const RunContext& context) {
   const EnvelopeScale scale = scale_of(base, options);
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     Column<VertexId, double> bound = envelope.height;
@@ -95,8 +94,8 @@ void untangle_edges(const LayerBase& base, const EnvelopeOptions& options, Envel
     double lowest = envelope.height[v];
     for (const VertexId other : base.topology.neighbours(v)) {
       if (envelope.is_collapsed(other)) continue;
-      lowest = std::min(lowest, options.untangle_share * edge_height_limits(base.wall.points[v], envelope.direction[v],
-                                                                            base.wall.points[other], envelope.direction[other])[0]);
+      lowest = std::min(lowest, options.untangle_share *
+                                    edge_height_limits(base.wall.points[v], envelope.direction[v], base.wall.points[other], envelope.direction[other])[0]);
     }
     limit[v] = lowest;
     is_limited[v] = lowest < envelope.height[v];
@@ -122,7 +121,9 @@ void sort_unique(std::vector<VertexId>& vertices) {
 std::vector<VertexId> lower_elements(const LayerBase& base, const std::vector<TriangleId>& bad, bool must_collapse, const EnvelopeScale& scale,
                                      HeightLimit reason, Envelope& envelope, const RunContext& context) {
   std::vector<double> bound(bad.size(), 0.0);
-  if (!must_collapse) parallel_for(context, bad.size(), [&](std::size_t i) { bound[i] = valid_cut(macro_element(base, envelope, bad[i])); }, 64);
+  if (!must_collapse)
+    parallel_for(
+        context, bad.size(), [&](std::size_t i) { bound[i] = valid_cut(macro_element(base, envelope, bad[i])); }, 64);
   std::vector<VertexId> lowered;
   for (std::size_t i = 0; i < bad.size(); ++i) {
     const TriangleVertices& vertices = base.wall.triangles[bad[i]];

@@ -11,8 +11,7 @@ namespace sterna::volmesh {
 void untangle_edges(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
 
 /// Lowers heights so that they rise by at most one edge length per edge beside lower (standing) neighbours, `sweeps` rings far.
-void level_steps(const LayerBase& base, const EnvelopeOptions& options, int sweeps, HeightLimit reason, Envelope& envelope,
-                 const RunContext& context);
+void level_steps(const LayerBase& base, const EnvelopeOptions& options, int sweeps, HeightLimit reason, Envelope& envelope, const RunContext& context);
 
 /// The limits of eq. (2) for one edge: heights at both ends where the growth lines meet, infinity where they do not converge.
 /// \pre directions are unit vectors.

@@ -96,8 +96,7 @@ std::vector<TriangleId> poor_macros(const LayerBase& base, const EnvelopeShape& 
       });
 }
 
-std::vector<TriangleId> invalid_macros(const LayerBase& base, const EnvelopeShape& shape, const RunContext& context,
-                                       const std::vector<VertexId>* around) {
+std::vector<TriangleId> invalid_macros(const LayerBase& base, const EnvelopeShape& shape, const RunContext& context, const std::vector<VertexId>* around) {
   using List = std::vector<TriangleId>;
   const bool is_list = around && around->size() < base.wall.n_vertices() / k_list_share;
   List candidates;

@@ -34,7 +34,8 @@ void require_turbulent(double reynolds) {
   if (reynolds >= k_least_reynolds && reynolds <= k_largest_reynolds) return;
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = "estimating the boundary layer",
-               .problem = print_text("Reynolds number %g is outside of %g .. %g, where laws of the turbulent flat plate mean something", reynolds, k_least_reynolds, k_largest_reynolds),
+               .problem = print_text("Reynolds number %g is outside of %g .. %g, where laws of the turbulent flat plate mean something", reynolds,
+                                     k_least_reynolds, k_largest_reynolds),
                .hint = "check the length and its unit; or give the height in metres"});
 }
 
@@ -63,7 +64,8 @@ double layer_thickness(const ThicknessOptions& options, const FlowState& flow) {
 std::string describe(const FirstHeight& first) {
   const FrictionLaw& law = law_of(first.options.law);
   const bool is_outside = first.flow.reynolds < law.from || first.flow.reynolds > law.to;
-  std::string text = print_text("y+ %g %s: first height %.4g m (cf %.4g by ", first.y_plus, first.options.at == "node" ? "at the first node" : "in the middle of the first cell", first.height, first.skin_friction);
+  std::string text = print_text("y+ %g %s: first height %.4g m (cf %.4g by ", first.y_plus,
+                                first.options.at == "node" ? "at the first node" : "in the middle of the first cell", first.height, first.skin_friction);
   text += law.name;
   if (is_outside) text += print_text(", which was fitted to Re %g .. %g", law.from, law.to);
   if (!is_automatic(first.friction_velocity)) text += print_text(", u_tau %.4g m/s", first.friction_velocity);
@@ -71,7 +73,8 @@ std::string describe(const FirstHeight& first) {
 }
 
 std::string describe_thickness(const ThicknessOptions& options, const FlowState& flow) {
-  return print_text("turbulent boundary layer: %.4g m (", layer_thickness(options, flow)) + (options.factor == 1.0 ? "" : print_text("%g times its thickness by ", options.factor)) + options.thickness_law + "; " + describe(flow) + ")";
+  return print_text("turbulent boundary layer: %.4g m (", layer_thickness(options, flow)) +
+         (options.factor == 1.0 ? "" : print_text("%g times its thickness by ", options.factor)) + options.thickness_law + "; " + describe(flow) + ")";
 }
 
 }  // namespace sterna::volmesh

@@ -33,16 +33,16 @@ inline constexpr double k_least_reynolds = 1e4;
 inline constexpr double k_largest_reynolds = 1e11;
 
 struct FirstHeight {
-  double height = 0.0;               ///< m: what first_height is to be
+  double height = 0.0;  ///< m: what first_height is to be
   double y_plus = 0.0;
-  double wall_distance = 0.0;        ///< m, that has the y+: the first node's, or half the first cell's height
+  double wall_distance = 0.0;  ///< m, that has the y+: the first node's, or half the first cell's height
   double skin_friction = 0.0;
   double friction_velocity = k_automatic;  ///< m/s; automatic where the speed is not known
   FirstHeightOptions options;
   FlowState flow;
 };
-/// y = y+ nu / u_tau with u_tau = U sqrt(cf/2), so y = y+ (L/Re) / sqrt(cf/2): free-stream values, which at an adiabatic wall in compressible flow give y+ a little
-/// below the wanted. Cell-centred solvers measure y+ at the middle of the first cell, node-centred ones at its upper nodes. \throws as skin_friction
+/// y = y+ nu / u_tau with u_tau = U sqrt(cf/2), so y = y+ (L/Re) / sqrt(cf/2): free-stream values, which at an adiabatic wall in compressible flow give y+ a
+/// little below the wanted. Cell-centred solvers measure y+ at the middle of the first cell, node-centred ones at its upper nodes. \throws as skin_friction
 FirstHeight first_height(const FirstHeightOptions& options, const FlowState& flow);
 
 /// m, factor times the thickness (99 % of the speed) of a turbulent layer after the flow's length:
@@ -65,9 +65,20 @@ struct Schema<volmesh::FirstHeightOptions> {
   using O = volmesh::FirstHeightOptions;
   static constexpr std::string_view stage = "y_plus";
   static constexpr std::array fields = {
-      Field<O>{.name = "y_plus", .member = &O::y_plus, .min = 1e-6, .max = 1e5, .help = "wanted dimensionless wall distance; the same as the first entry", .automatic = "the first entry"},
-      Field<O>{.name = "at", .member = &O::at, .help = "where the solver measures it: node-centred ones at the first node, cell-centred ones in the middle of the first cell", .choices = "node cell_centre"},
-      Field<O>{.name = "law", .member = &O::law, .help = "of skin friction on a flat plate: local at the length, or (the last two) mean over it", .choices = "schlichting seventh_root kays_crawford prandtl prandtl_schlichting ittc57"},
+      Field<O>{.name = "y_plus",
+               .member = &O::y_plus,
+               .min = 1e-6,
+               .max = 1e5,
+               .help = "wanted dimensionless wall distance; the same as the first entry",
+               .automatic = "the first entry"},
+      Field<O>{.name = "at",
+               .member = &O::at,
+               .help = "where the solver measures it: node-centred ones at the first node, cell-centred ones in the middle of the first cell",
+               .choices = "node cell_centre"},
+      Field<O>{.name = "law",
+               .member = &O::law,
+               .help = "of skin friction on a flat plate: local at the length, or (the last two) mean over it",
+               .choices = "schlichting seventh_root kays_crawford prandtl prandtl_schlichting ittc57"},
   };
 };
 
@@ -76,7 +87,11 @@ struct Schema<volmesh::ThicknessOptions> {
   using O = volmesh::ThicknessOptions;
   static constexpr std::string_view stage = "boundary_layer";
   static constexpr std::array fields = {
-      Field<O>{.name = "factor", .member = &O::factor, .min = 0.01, .max = 100.0, .help = "times the thickness: 1.2 to 1.5 leaves the edge of the boundary layer inside"},
+      Field<O>{.name = "factor",
+               .member = &O::factor,
+               .min = 0.01,
+               .max = 100.0,
+               .help = "times the thickness: 1.2 to 1.5 leaves the edge of the boundary layer inside"},
       Field<O>{.name = "thickness_law", .member = &O::thickness_law, .help = "0.37 L Re^-0.2 or 0.16 L Re^(-1/7)", .choices = "fifth_root seventh_root"},
   };
 };

@@ -15,10 +15,11 @@ class Problems {
   void add(const std::string& text) { text_ += (text_.empty() ? "" : "; ") + text; }
   void finish() const {
     if (text_.empty()) return;
-    throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "finding the flow conditions",
-                 .problem = text_,
-                 .hint = "give length and one of: mach (or speed) and altitude; mach (or speed), temperature and pressure; speed, density and viscosity; reynolds"});
+    throw Error(
+        {.code = ErrorCode::bad_argument,
+         .attempted = "finding the flow conditions",
+         .problem = text_,
+         .hint = "give length and one of: mach (or speed) and altitude; mach (or speed), temperature and pressure; speed, density and viscosity; reynolds"});
   }
 
  private:

@@ -23,8 +23,8 @@ struct FlowConditions {
 
 /// k_automatic: cannot be known from what was given, and is not needed for the Reynolds number.
 struct FlowState {
-  double length = k_automatic;       ///< m, that the Reynolds number is made with
-  double reynolds = k_automatic;     ///< speed * density * length / viscosity
+  double length = k_automatic;    ///< m, that the Reynolds number is made with
+  double reynolds = k_automatic;  ///< speed * density * length / viscosity
   double mach = k_automatic;
   double speed = k_automatic;        ///< m/s
   double temperature = k_automatic;  ///< K
@@ -34,9 +34,9 @@ struct FlowState {
   double altitude = k_automatic;     ///< m, where the standard atmosphere was used
 };
 
-/// One of: altitude with mach or speed (air of the standard atmosphere); temperature and pressure or density, with mach or speed (air); density, viscosity and speed (any
-/// fluid); reynolds alone, or with temperature and mach or speed, from which the density follows (air). Always the length. A viscosity of the user's replaces Sutherland's.
-/// \throws Error(bad_argument) with everything that is missing or says the same twice; as standard_atmosphere
+/// One of: altitude with mach or speed (air of the standard atmosphere); temperature and pressure or density, with mach or speed (air); density, viscosity and
+/// speed (any fluid); reynolds alone, or with temperature and mach or speed, from which the density follows (air). Always the length. A viscosity of the user's
+/// replaces Sutherland's. \throws Error(bad_argument) with everything that is missing or says the same twice; as standard_atmosphere
 FlowState flow_state(const FlowConditions& given);
 
 /// "Re 2.14e+07 at 4.2 m, Mach 0.78, 230.2 m/s, 216.7 K, 22632 Pa, 0.3639 kg/m^3, 1.422e-05 Pa s, 11000 m of the standard atmosphere": what is known.
@@ -52,12 +52,32 @@ struct Schema<volmesh::FlowConditions> {
   static constexpr std::string_view stage = "flow";
   static constexpr std::string_view not_given = "not given";
   static constexpr std::array fields = {
-      Field<O>{.name = "length", .member = &O::length, .unit = Unit::metre, .min = 1e-9, .help = "reference length of the Reynolds number: the mean chord, or the run of the flow to the place that counts", .automatic = "must be given"},
-      Field<O>{.name = "reynolds", .member = &O::reynolds, .min = 1.0, .max = 1e12, .help = "Reynolds number of the length", .automatic = "of speed, density and viscosity"},
+      Field<O>{.name = "length",
+               .member = &O::length,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "reference length of the Reynolds number: the mean chord, or the run of the flow to the place that counts",
+               .automatic = "must be given"},
+      Field<O>{.name = "reynolds",
+               .member = &O::reynolds,
+               .min = 1.0,
+               .max = 1e12,
+               .help = "Reynolds number of the length",
+               .automatic = "of speed, density and viscosity"},
       Field<O>{.name = "mach", .member = &O::mach, .min = 1e-6, .max = 30.0, .help = "Mach number", .automatic = not_given},
       Field<O>{.name = "speed", .member = &O::speed, .min = 1e-9, .max = 1e5, .help = "m/s, instead of the Mach number", .automatic = not_given},
-      Field<O>{.name = "altitude", .member = &O::altitude, .unit = Unit::metre, .min = -5000.0, .max = 84852.0, .help = "geopotential (pressure) altitude in the U.S. standard atmosphere 1976 (ICAO)", .automatic = not_given},
-      Field<O>{.name = "temperature_offset", .member = &O::temperature_offset, .min = -150.0, .max = 150.0, .help = "K, the air at the altitude is so much warmer than standard (ISA+15: 15)"},
+      Field<O>{.name = "altitude",
+               .member = &O::altitude,
+               .unit = Unit::metre,
+               .min = -5000.0,
+               .max = 84852.0,
+               .help = "geopotential (pressure) altitude in the U.S. standard atmosphere 1976 (ICAO)",
+               .automatic = not_given},
+      Field<O>{.name = "temperature_offset",
+               .member = &O::temperature_offset,
+               .min = -150.0,
+               .max = 150.0,
+               .help = "K, the air at the altitude is so much warmer than standard (ISA+15: 15)"},
       Field<O>{.name = "temperature", .member = &O::temperature, .min = 50.0, .max = 5000.0, .help = "K, static, of air", .automatic = not_given},
       Field<O>{.name = "pressure", .member = &O::pressure, .min = 1e-6, .max = 1e10, .help = "Pa, static, of air", .automatic = not_given},
       Field<O>{.name = "density", .member = &O::density, .min = 1e-12, .max = 1e5, .help = "kg/m^3", .automatic = "of temperature and pressure"},

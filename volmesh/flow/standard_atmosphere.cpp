@@ -10,16 +10,17 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_gravity = 9.80665;            ///< m/s^2
-constexpr double k_sea_level_pressure = 101325.0;  ///< Pa
+constexpr double k_gravity = 9.80665;               ///< m/s^2
+constexpr double k_sea_level_pressure = 101325.0;   ///< Pa
 constexpr double k_sea_level_temperature = 288.15;  ///< K
-constexpr double k_least_temperature = 50.0;     ///< K: far below any air; Sutherland's formula means nothing there
+constexpr double k_least_temperature = 50.0;        ///< K: far below any air; Sutherland's formula means nothing there
 
 struct Layer {
   double base;   ///< m, geopotential
   double lapse;  ///< K/m
 };
-constexpr std::array<Layer, 7> k_layers = {{{0.0, -6.5e-3}, {11000.0, 0.0}, {20000.0, 1e-3}, {32000.0, 2.8e-3}, {47000.0, 0.0}, {51000.0, -2.8e-3}, {71000.0, -2e-3}}};
+constexpr std::array<Layer, 7> k_layers = {
+    {{0.0, -6.5e-3}, {11000.0, 0.0}, {20000.0, 1e-3}, {32000.0, 2.8e-3}, {47000.0, 0.0}, {51000.0, -2.8e-3}, {71000.0, -2e-3}}};
 
 /// Pressure at the height dh above where it is p and the temperature t.
 double pressure_above(double p, double t, double lapse, double dh) {
@@ -47,7 +48,8 @@ AirState standard_atmosphere(double altitude, double temperature_offset) {
   if (!(air.temperature >= k_least_temperature))
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "finding the state of the air",
-                 .problem = print_text("with an offset of %g K the air at %g m has %g K, expected at least %g", temperature_offset, altitude, air.temperature, k_least_temperature)});
+                 .problem = print_text("with an offset of %g K the air at %g m has %g K, expected at least %g", temperature_offset, altitude, air.temperature,
+                                       k_least_temperature)});
   air.density = air.pressure / (k_gas_constant * air.temperature);
   return air;
 }

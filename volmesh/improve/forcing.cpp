@@ -77,7 +77,8 @@ bool can_share(const TetraBoundary& boundary, std::uint32_t triangle, std::uint3
 
 }  // namespace
 
-std::vector<std::uint32_t> forcing_triangles(const TetraBoundary& boundary, std::span<const std::uint32_t> wanted, double low, double high, const RunContext& context) {
+std::vector<std::uint32_t> forcing_triangles(const TetraBoundary& boundary, std::span<const std::uint32_t> wanted, double low, double high,
+                                             const RunContext& context) {
   std::vector<Core> cores(wanted.size());
   std::vector<Box> boxes(wanted.size());
   for (std::size_t i = 0; i < wanted.size(); ++i) {

@@ -23,21 +23,22 @@ struct ImproveReport {
   std::int64_t n_bad_before = 0;  ///< tetrahedra with a dihedral angle beyond the limits
   std::int64_t n_bad_after = 0;
   std::int64_t n_bad_free_after = 0;  ///< of these without a vertex on the boundary
-  double min_angle_before = 0.0;  ///< radians
+  double min_angle_before = 0.0;      ///< radians
   double min_angle_after = 0.0;
   double max_angle_before = 0.0;
   double max_angle_after = 0.0;
   int rounds = 0;
-  std::int64_t n_at_boundary = 0;     ///< all tetrahedra with a vertex on the boundary
-  std::int64_t n_forced = 0;          ///< bad ones that the boundary is proven to force, see remaining.h; what is neither forced nor within the limits is a failure of improvement
+  std::int64_t n_at_boundary = 0;  ///< all tetrahedra with a vertex on the boundary
+  std::int64_t n_forced =
+      0;  ///< bad ones that the boundary is proven to force, see remaining.h; what is neither forced nor within the limits is a failure of improvement
   std::vector<ErrorPlace> remaining;  ///< each bad one, worst first: its centre, its angles, the sharpest angle of the boundary at it; the first 10 000
 };
 
-/// Works on every tetrahedron with a dihedral angle beyond the limits, worst first: edge removal (rings of 3 to 10: 2-3, 4-4, ...), multi-face removal, smoothing,
-/// contraction and insertion of interior vertices, and short detours over worse ones; each change proven positive with exact predicates and accepted only when it lowers
-/// a sum of costs without a tetrahedron worse than the worst that it removes or than half of the limit, so the smallest quality of the mesh never falls.
-/// Disjoint neighbourhoods of bad tetrahedra are worked on in parallel: same bytes for any number of threads.
-/// \pre verify_tetrahedra() passed. \post it passes again; points of the boundary and its triangles as before.
+/// Works on every tetrahedron with a dihedral angle beyond the limits, worst first: edge removal (rings of 3 to 10: 2-3, 4-4, ...), multi-face removal,
+/// smoothing, contraction and insertion of interior vertices, and short detours over worse ones; each change proven positive with exact predicates and accepted
+/// only when it lowers a sum of costs without a tetrahedron worse than the worst that it removes or than half of the limit, so the smallest quality of the mesh
+/// never falls. Disjoint neighbourhoods of bad tetrahedra are worked on in parallel: same bytes for any number of threads. \pre verify_tetrahedra() passed.
+/// \post it passes again; points of the boundary and its triangles as before.
 ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tets, const ImproveOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh
@@ -49,9 +50,23 @@ struct Schema<volmesh::ImproveOptions> {
   using O = volmesh::ImproveOptions;
   static constexpr std::string_view stage = "improve";
   static constexpr std::array fields = {
-      Field<O>{.name = "improve_min_angle", .member = &O::improve_min_angle, .unit = Unit::radian, .min = 0.0, .max = 0.6, .help = "tetrahedra with a smaller dihedral angle are worked on"},
-      Field<O>{.name = "improve_max_angle", .member = &O::improve_max_angle, .unit = Unit::radian, .min = 2.0, .max = 3.14, .help = "tetrahedra with a larger dihedral angle are worked on"},
-      Field<O>{.name = "improve_rounds", .member = &O::improve_rounds, .min = 0, .max = 1000, .help = "passes over the bad tetrahedra; 0 leaves the mesh as the engine made it"},
+      Field<O>{.name = "improve_min_angle",
+               .member = &O::improve_min_angle,
+               .unit = Unit::radian,
+               .min = 0.0,
+               .max = 0.6,
+               .help = "tetrahedra with a smaller dihedral angle are worked on"},
+      Field<O>{.name = "improve_max_angle",
+               .member = &O::improve_max_angle,
+               .unit = Unit::radian,
+               .min = 2.0,
+               .max = 3.14,
+               .help = "tetrahedra with a larger dihedral angle are worked on"},
+      Field<O>{.name = "improve_rounds",
+               .member = &O::improve_rounds,
+               .min = 0,
+               .max = 1000,
+               .help = "passes over the bad tetrahedra; 0 leaves the mesh as the engine made it"},
   };
 };
 

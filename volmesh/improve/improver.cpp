@@ -9,7 +9,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_group = 300;      ///< bad tetrahedra: the more, the fewer lie between two groups; few enough to keep some cores busy
+constexpr std::size_t k_group = 300;  ///< bad tetrahedra: the more, the fewer lie between two groups; few enough to keep some cores busy
 constexpr std::uint32_t k_ring_shift = 28;
 /// Rings of vertices around the bad ones that a group claims; every third pass another ring, for those that one did not help.
 constexpr std::uint32_t rings_of(int pass) { return pass % 3 == 2 ? 2 : 1; }
@@ -91,7 +91,8 @@ int Improver::run(int max_passes) {
     owner_.assign(points_.size(), k_none);
     local_.resize(points_.size());
     for (std::uint32_t ring = 0; ring <= rings_of(pass); ++ring)
-      parallel_for(context_, jobs.size(), [&](std::size_t i) { claim_ring(jobs[i], static_cast<std::uint32_t>(i), ring); }, k_job_chunk);
+      parallel_for(
+          context_, jobs.size(), [&](std::size_t i) { claim_ring(jobs[i], static_cast<std::uint32_t>(i), ring); }, k_job_chunk);
     parallel_chunks(context_, jobs.size(), k_job_chunk, [&](std::size_t begin, std::size_t end) {
       Region region(limits_);
       for (std::size_t i = begin; i < end; ++i) work(jobs[i], static_cast<std::uint32_t>(i), region);
@@ -120,7 +121,8 @@ std::vector<Improver::Job> Improver::choose_jobs(int pass) const {
   for (const Bad& bad : bad_) {
     const Corners& c = tets_[bad.tet];
     const bool is_at_boundary = std::min({c[0], c[1], c[2], c[3]}) < n_fixed_;
-    if (n_failures_[bad.tet] > 0 && n_failures_[bad.tet] >= max_failures({points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]}, is_at_boundary)) continue;
+    if (n_failures_[bad.tet] > 0 && n_failures_[bad.tet] >= max_failures({points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]}, is_at_boundary))
+      continue;
     std::uint64_t code = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       double x = 0.0;
@@ -139,7 +141,8 @@ std::vector<Improver::Job> Improver::choose_jobs(int pass) const {
   return jobs;
 }
 
-/// Claims what lies around the vertices that it owns. Nearer to a bad tetrahedron counts first, then the number; so the owners do not depend on the order of the claims.
+/// Claims what lies around the vertices that it owns. Nearer to a bad tetrahedron counts first, then the number; so the owners do not depend on the order of
+/// the claims.
 void Improver::claim_ring(Job& job, std::uint32_t number, std::uint32_t ring) {
   const std::uint32_t rank = ring << k_ring_shift | number;
   const auto claim = [&](std::uint32_t v) {
@@ -189,7 +192,8 @@ void Improver::work(Job& job, std::uint32_t number, Region& region) {
   for (std::size_t i = 0; i < corners.size(); ++i)
     for (std::size_t k = 0; k < 4; ++k) corners[i][k] = local_[tets_[job.tets[i]][k]];
   for (const std::uint32_t t : job.bad)
-    if (const auto place = std::ranges::lower_bound(job.tets, t); place != job.tets.end() && *place == t) job.worked.push_back(static_cast<std::uint32_t>(place - job.tets.begin()));
+    if (const auto place = std::ranges::lower_bound(job.tets, t); place != job.tets.end() && *place == t)
+      job.worked.push_back(static_cast<std::uint32_t>(place - job.tets.begin()));
 
   region.assign(points, roles, corners);
   for (const std::uint32_t t : job.worked) job.n_failures.push_back(n_failures_[job.tets[t]]);

@@ -13,9 +13,9 @@
 
 namespace sterna::volmesh {
 
-/// Each pass: the bad tetrahedra along a space-filling curve, so many to a group; a group owns the vertices around its bad ones unless a group before it does; the
-/// tetrahedra between vertices of one group are a Region of their own; the results are put back in order. A tetrahedron that its nearest neighbourhood could not help
-/// gets a wider one; one that this cannot help either is left until something changes beside it.
+/// Each pass: the bad tetrahedra along a space-filling curve, so many to a group; a group owns the vertices around its bad ones unless a group before it does;
+/// the tetrahedra between vertices of one group are a Region of their own; the results are put back in order. A tetrahedron that its nearest neighbourhood
+/// could not help gets a wider one; one that this cannot help either is left until something changes beside it.
 class Improver {
  public:
   using Corners = std::array<std::uint32_t, 4>;
@@ -33,16 +33,16 @@ class Improver {
     std::uint32_t tet;
   };
   struct Job {
-    std::vector<std::uint32_t> bad;       ///< that the group is for
-    std::vector<std::uint32_t> vertices;  ///< ascending in the end: local to global
-    std::size_t n_inner = 0;              ///< of these, of all rings but the last
-    std::vector<std::uint32_t> tets;      ///< ascending
-    std::vector<std::uint32_t> worked;    ///< places in `tets` of its bad ones
-    std::vector<std::uint8_t> n_failures; ///< of these
+    std::vector<std::uint32_t> bad;        ///< that the group is for
+    std::vector<std::uint32_t> vertices;   ///< ascending in the end: local to global
+    std::size_t n_inner = 0;               ///< of these, of all rings but the last
+    std::vector<std::uint32_t> tets;       ///< ascending
+    std::vector<std::uint32_t> worked;     ///< places in `tets` of its bad ones
+    std::vector<std::uint8_t> n_failures;  ///< of these
     bool has_changed = false;
-    std::vector<Vec3> points;             ///< of the local vertices, new ones at the end
-    std::vector<std::uint32_t> removed;   ///< of `tets`
-    std::vector<Corners> added;           ///< local corners
+    std::vector<Vec3> points;            ///< of the local vertices, new ones at the end
+    std::vector<std::uint32_t> removed;  ///< of `tets`
+    std::vector<Corners> added;          ///< local corners
   };
 
   double quality(const Corners& c) const { return tet_quality(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]], limits_.obtuse_weight); }
@@ -63,12 +63,12 @@ class Improver {
   std::vector<Corners>& tets_;
   const RunContext& context_;
   std::vector<Vec3> points_;
-  std::vector<std::uint8_t> n_failures_;  ///< of each tetrahedron: how often nothing helped it
-  std::vector<Bad> bad_;                ///< may name tetrahedra twice, or good ones, until drop_good()
-  std::vector<std::uint32_t> first_, incident_;     ///< tetrahedra at each vertex as they were at first
-  std::vector<std::vector<std::uint32_t>> later_;   ///< and those that came to it since
-  std::vector<std::uint32_t> owner_;                ///< of each vertex: ring around the bad ones in the highest bits, number of the job in the others
-  std::vector<std::uint32_t> local_;                ///< of each vertex: place among its job's vertices
+  std::vector<std::uint8_t> n_failures_;           ///< of each tetrahedron: how often nothing helped it
+  std::vector<Bad> bad_;                           ///< may name tetrahedra twice, or good ones, until drop_good()
+  std::vector<std::uint32_t> first_, incident_;    ///< tetrahedra at each vertex as they were at first
+  std::vector<std::vector<std::uint32_t>> later_;  ///< and those that came to it since
+  std::vector<std::uint32_t> owner_;               ///< of each vertex: ring around the bad ones in the highest bits, number of the job in the others
+  std::vector<std::uint32_t> local_;               ///< of each vertex: place among its job's vertices
 };
 
 }  // namespace sterna::volmesh

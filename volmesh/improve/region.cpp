@@ -10,7 +10,8 @@ namespace {
 /// A bad tetrahedron away from the boundary costs as much as so many at it.
 constexpr double k_interior_weight = 20.0;
 
-/// A detour may cost so much at first, and goes so many changes far; it is the dearest of all, so each tetrahedron gets one, after others around it had their chance.
+/// A detour may cost so much at first, and goes so many changes far; it is the dearest of all, so each tetrahedron gets one, after others around it had their
+/// chance.
 constexpr double k_detour = 2.0;
 constexpr int k_detour_steps = 12;
 constexpr int k_failures_before_detour = 2;
@@ -45,7 +46,8 @@ bool Region::touches_boundary(const Face& face) const {
   return std::ranges::any_of(face, [&](std::uint32_t v) { return roles_[v] == VertexRole::boundary; });
 }
 
-/// Below the target a step, so that their number counts, and a slope, so that the worst gain most; above it a little up to twice the target, so that others keep clear of it.
+/// Below the target a step, so that their number counts, and a slope, so that the worst gain most; above it a little up to twice the target, so that others
+/// keep clear of it.
 double Region::cost_of(double quality, bool is_boundary) const {
   const double x = quality / limits_.target;
   if (x >= 2.0) return 0.0;

@@ -19,12 +19,13 @@ enum class VertexRole : std::uint8_t {
   boundary,  ///< of the domain: stays
 };
 
-/// How often nothing may help a tetrahedron before it is given up. Away from the boundary all can be helped, sooner or later; slender ones at it hardly ever, and they are many.
+/// How often nothing may help a tetrahedron before it is given up. Away from the boundary all can be helped, sooner or later; slender ones at it hardly ever,
+/// and they are many.
 int max_failures(const std::array<Vec3, 4>& corners, bool is_at_boundary);
 
-/// Local mesh. Corners are local vertices. Each tetrahedron below twice the target has a cost (cost()), more for one without a vertex on the domain's boundary, where its
-/// angles may force bad ones. Every operation replaces some tetrahedra by others that fill the same space, all proven positive (exact), of a smaller sum of costs, and
-/// none worse than the worst that it removes or than the floor of the limits.
+/// Local mesh. Corners are local vertices. Each tetrahedron below twice the target has a cost (cost()), more for one without a vertex on the domain's boundary,
+/// where its angles may force bad ones. Every operation replaces some tetrahedra by others that fill the same space, all proven positive (exact), of a smaller
+/// sum of costs, and none worse than the worst that it removes or than the floor of the limits.
 class Region {
  public:
   using Corners = std::array<std::uint32_t, 4>;
@@ -32,7 +33,7 @@ class Region {
     Corners corners;
     double quality = 0.0;
     double cost = 0.0;
-    std::uint32_t tried = 0;       ///< clock when nothing helped it
+    std::uint32_t tried = 0;      ///< clock when nothing helped it
     std::uint8_t n_failures = 0;  ///< how often nothing helped it
     bool is_alive = true;
   };
@@ -40,20 +41,20 @@ class Region {
   explicit Region(const QualityLimits& limits) : limits_(limits) {}
   /// Starts anew; memory is kept. \pre tetrahedra positive.
   void assign(std::span<const Vec3> points, std::span<const VertexRole> roles, std::span<const Corners> tets);
-  /// Works on the bad ones of these tetrahedra and on all bad ones that take their place, worst first, until they reach the target, nothing helps as they and their
-  /// neighbours are, or nothing helped max_failures() times. `n_failures` of the given ones so far. True when something changed.
+  /// Works on the bad ones of these tetrahedra and on all bad ones that take their place, worst first, until they reach the target, nothing helps as they and
+  /// their neighbours are, or nothing helped max_failures() times. `n_failures` of the given ones so far. True when something changed.
   bool improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures);
   const QualityLimits& limits() const { return limits_; }
   std::span<const Vec3> points() const { return points_; }  ///< those given, moved perhaps, then new ones
-  std::span<const Tet> tets() const { return tets_; }      ///< those given, dead perhaps, then new ones
+  std::span<const Tet> tets() const { return tets_; }       ///< those given, dead perhaps, then new ones
 
  private:
   using Face = std::array<std::uint32_t, 3>;
   struct Change {
-    double drop = 0.0;                    ///< of the sum of costs
+    double drop = 0.0;  ///< of the sum of costs
     std::vector<std::uint32_t> removed;
     std::vector<Corners> added;
-    std::uint32_t moved = k_none;         ///< vertex that goes to `place`; points().size(): a new one
+    std::uint32_t moved = k_none;  ///< vertex that goes to `place`; points().size(): a new one
     Vec3 place;
   };
   static constexpr std::uint32_t k_none = 0xffffffffu;
@@ -100,7 +101,7 @@ class Region {
     std::vector<std::uint32_t> tets;
     std::vector<Face> faces;  ///< around them
     Vec3 place;
-    double drop = 0.0;        ///< of the sum of costs with the point there
+    double drop = 0.0;  ///< of the sum of costs with the point there
   };
   /// The best around a tetrahedron for a point there, if any.
   std::optional<Cavity> cavity_of(std::uint32_t tet, const Vec3& place) const;
@@ -125,10 +126,10 @@ class Region {
     std::size_t n_added = 0;
     std::uint32_t moved = k_none;
     bool is_new = false;
-    Vec3 place;                          ///< of `moved` before
+    Vec3 place;  ///< of `moved` before
     double drop = 0.0;
   };
-  std::vector<Applied> log_;              ///< while a detour is under way
+  std::vector<Applied> log_;  ///< while a detour is under way
   bool is_logging_ = false;
 };
 

@@ -1,7 +1,7 @@
 // Changes of connectivity without new points.
 // Edge removal: the tetrahedra around an edge are replaced by pairs over the best triangulation of the ring of vertices around it (2-3 for a ring of 3, 4-4
-// for 4, ...), found by dynamic programming (Klincsek 1980). Multi-face removal is its inverse: faces that lie between the same two vertices give way to the edge
-// between them. Based on: Shewchuk, Two discrete optimization algorithms for the topological improvement of tetrahedral meshes (2002).
+// for 4, ...), found by dynamic programming (Klincsek 1980). Multi-face removal is its inverse: faces that lie between the same two vertices give way to the
+// edge between them. Based on: Shewchuk, Two discrete optimization algorithms for the topological improvement of tetrahedral meshes (2002).
 
 #include <algorithm>
 #include <limits>
@@ -11,19 +11,18 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_max_ring = 10; ///< longer rings hardly ever win
-constexpr int k_max_faces_deep = 4;    ///< recursion from the first face
+constexpr std::size_t k_max_ring = 10;  ///< longer rings hardly ever win
+constexpr int k_max_faces_deep = 4;     ///< recursion from the first face
 
-std::size_t corner_of(const Region::Corners& c, std::uint32_t v) {
-  return static_cast<std::size_t>(std::ranges::find(c, v) - c.begin());
-}
+std::size_t corner_of(const Region::Corners& c, std::uint32_t v) { return static_cast<std::size_t>(std::ranges::find(c, v) - c.begin()); }
 bool has(const Region::Corners& c, std::uint32_t v) { return corner_of(c, v) < 4; }
 
 /// The other two corners x, y such that (a, b, x, y) is positive.
 std::array<std::uint32_t, 2> other_two(const Region::Corners& c, std::uint32_t a, std::uint32_t b) {
   const std::size_t i = corner_of(c, a), j = corner_of(c, b);
   // Even permutations of 0123 by their first two places.
-  constexpr std::uint8_t k_rest[4][4][2] = {{{0, 0}, {2, 3}, {3, 1}, {1, 2}}, {{3, 2}, {0, 0}, {0, 3}, {2, 0}}, {{1, 3}, {3, 0}, {0, 0}, {0, 1}}, {{2, 1}, {0, 2}, {1, 0}, {0, 0}}};
+  constexpr std::uint8_t k_rest[4][4][2] = {
+      {{0, 0}, {2, 3}, {3, 1}, {1, 2}}, {{3, 2}, {0, 0}, {0, 3}, {2, 0}}, {{1, 3}, {3, 0}, {0, 0}, {0, 1}}, {{2, 1}, {0, 2}, {1, 0}, {0, 0}}};
   return {c[k_rest[i][j][0]], c[k_rest[i][j][1]]};
 }
 
@@ -124,9 +123,10 @@ void Region::try_faces(std::uint32_t tet, std::size_t corner, Change& best) {
   best = std::move(change);
 }
 
-/// The side (u, v) of the faces chosen so far, seen counter-clockwise from `above`: either it stays a side and carries a new tetrahedron, or the face beyond it joins.
-/// Its cost, less that of the tetrahedra at the faces that join.
-double Region::extend_faces(std::uint32_t u, std::uint32_t v, std::uint32_t above, std::uint32_t below, std::uint32_t from_above, int depth, Change& change) const {
+/// The side (u, v) of the faces chosen so far, seen counter-clockwise from `above`: either it stays a side and carries a new tetrahedron, or the face beyond it
+/// joins. Its cost, less that of the tetrahedra at the faces that join.
+double Region::extend_faces(std::uint32_t u, std::uint32_t v, std::uint32_t above, std::uint32_t below, std::uint32_t from_above, int depth,
+                            Change& change) const {
   const Corners side{u, v, below, above};
   const double as_side = cost(side);
   if (as_side > 0.0 && depth < k_max_faces_deep) {

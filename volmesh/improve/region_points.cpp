@@ -1,7 +1,7 @@
 // Changes that move, remove or add points.
-// Smoothing goes down the sum of the costs of the tetrahedra around a point, along its gradient with steps that shrink; where the worst of them stand against each other, the
-// direction is the shortest vector in the convex hull of their gradients, along which all of them gain (Freitag and Ollivier-Gooch 1997). Insertion takes tetrahedra
-// away around a bad one until the cavity's faces see a new point well (Klingner and Shewchuk 2007).
+// Smoothing goes down the sum of the costs of the tetrahedra around a point, along its gradient with steps that shrink; where the worst of them stand against
+// each other, the direction is the shortest vector in the convex hull of their gradients, along which all of them gain (Freitag and Ollivier-Gooch 1997).
+// Insertion takes tetrahedra away around a bad one until the cavity's faces see a new point well (Klingner and Shewchuk 2007).
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_max_steps = 14;           ///< of one smoothing
-constexpr double k_nearly_worst = 1.08;   ///< qualities within this factor of the worst share the direction
+constexpr int k_max_steps = 14;          ///< of one smoothing
+constexpr double k_nearly_worst = 1.08;  ///< qualities within this factor of the worst share the direction
 constexpr std::size_t k_max_gradients = 8;
-constexpr double k_difference = 1e-4;     ///< step of the numerical gradients over the size of the star: half of the digits of the quality
-constexpr std::size_t k_max_cavity = 100; ///< tetrahedra
+constexpr double k_difference = 1e-4;      ///< step of the numerical gradients over the size of the star: half of the digits of the quality
+constexpr std::size_t k_max_cavity = 100;  ///< tetrahedra
 /// Of points above a face, in radii of its inscribed circle.
 constexpr std::array<double, 3> k_heights = {0.5, 1.0, 2.0};
 constexpr std::size_t k_smoothed_places = 3;
@@ -52,7 +52,9 @@ std::pair<Vec3, double> Region::best_place(std::span<const Face> faces, const Ve
   for (const Face& face : faces)
     for (const std::uint32_t v : face) longest = std::max(longest, norm2(points_[v] - p));
   const double size = std::sqrt(longest), step = k_difference * size;
-  const auto quality_at = [&](const Face& f, const Vec3& apex) { return tet_quality(points_[f[0]], points_[f[1]], points_[f[2]], apex, limits_.obtuse_weight); };
+  const auto quality_at = [&](const Face& f, const Vec3& apex) {
+    return tet_quality(points_[f[0]], points_[f[1]], points_[f[2]], apex, limits_.obtuse_weight);
+  };
   double reach = 0.2 * size;
   for (int i_step = 0; i_step < k_max_steps && now > 0.0 && reach > 1e-3 * size; ++i_step) {
     // Gradients of the qualities that cost anything, worst first.
@@ -151,8 +153,8 @@ void Region::try_contractions(std::uint32_t tet, Change& best) {
   }
 }
 
-/// At its centre, above its faces (there a point serves two flat triangles that one flat tetrahedron joins), and when that was in vain at its neighbours' centres and
-/// in the middle of its edges. The places are ranked as they are; only the best are worth smoothing.
+/// At its centre, above its faces (there a point serves two flat triangles that one flat tetrahedron joins), and when that was in vain at its neighbours'
+/// centres and in the middle of its edges. The places are ranked as they are; only the best are worth smoothing.
 void Region::try_insertions(std::uint32_t tet, Change& best) {
   const Corners c = tets_[tet].corners;
   const auto center = [&](const Corners& x) { return 0.25 * (points_[x[0]] + points_[x[1]] + points_[x[2]] + points_[x[3]]); };

@@ -98,12 +98,13 @@ class Surroundings {
   }
 
   const TetraBoundary& boundary_;
-  std::vector<double> corner_;  ///< smallest at each wanted vertex
+  std::vector<double> corner_;                                      ///< smallest at each wanted vertex
   std::map<std::array<std::uint32_t, 2>, std::uint32_t> triangle_;  ///< at each wanted side
 };
 
 /// Finds what forces each, of the boundary triangles that they lie on.
-void find_forcing(const TetraBoundary& boundary, const TetraResult& tets, const Surroundings& surroundings, const ImproveOptions& options, std::vector<Remaining>& bad, const RunContext& context) {
+void find_forcing(const TetraBoundary& boundary, const TetraResult& tets, const Surroundings& surroundings, const ImproveOptions& options,
+                  std::vector<Remaining>& bad, const RunContext& context) {
   std::vector<std::uint32_t> wanted;
   for (const Remaining& r : bad)
     for (const std::uint32_t t : surroundings.faces(tets.tetrahedra[r.tet])) wanted.push_back(t);
@@ -117,7 +118,8 @@ void find_forcing(const TetraBoundary& boundary, const TetraResult& tets, const 
 
 }  // namespace
 
-void list_remaining(const TetraBoundary& boundary, const TetraResult& tets, std::span<const std::uint32_t> bad_tets, const ImproveOptions& options, ImproveReport& report, const RunContext& context) {
+void list_remaining(const TetraBoundary& boundary, const TetraResult& tets, std::span<const std::uint32_t> bad_tets, const ImproveOptions& options,
+                    ImproveReport& report, const RunContext& context) {
   if (bad_tets.empty()) return;
   const std::size_t n_fixed = boundary.points.size();
   const auto place = [&](std::uint32_t v) { return v < n_fixed ? boundary.points[v] : tets.new_points[v - n_fixed]; };

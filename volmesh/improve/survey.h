@@ -14,8 +14,8 @@ namespace sterna::volmesh {
 struct AngleSurvey {
   double smallest = std::numbers::pi;  ///< dihedral angles, radians
   double largest = 0.0;
-  std::int64_t n_at_boundary = 0;      ///< tetrahedra with a vertex on it
-  std::vector<std::uint32_t> bad;      ///< tetrahedra beyond the limits, ascending
+  std::int64_t n_at_boundary = 0;  ///< tetrahedra with a vertex on it
+  std::vector<std::uint32_t> bad;  ///< tetrahedra beyond the limits, ascending
 };
 
 /// \pre every tetrahedron positive. Parallel, 60 ns for each.

@@ -20,8 +20,8 @@ inline QualityLimits quality_limits(double min_angle, double max_angle) {
   return {.target = std::sin(min_angle), .obtuse_weight = std::sin(min_angle) / std::sin(max_angle)};
 }
 
-/// Smallest sine of the six dihedral angles, those of obtuse angles times `obtuse_weight` (Klingner and Shewchuk 2007), in (0, 1]; -1 for a tetrahedron that is not
-/// positive. 0.05 us.
+/// Smallest sine of the six dihedral angles, those of obtuse angles times `obtuse_weight` (Klingner and Shewchuk 2007), in (0, 1]; -1 for a tetrahedron that is
+/// not positive. 0.05 us.
 inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double obtuse_weight) {
   const Vec3 ab = b - a, ac = c - a, ad = d - a;
   // Twice the faces' area vectors, inwards; face k is opposite corner k. |n_i x n_j| = 6 V times the length of the edge that faces i and j share.

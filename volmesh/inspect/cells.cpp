@@ -67,12 +67,9 @@ class CellSurvey {
         misfit.places.push_back({v, badness});
         misfit.area += area;
       };
-      if (scale_.h0(v) > cells.edge)
-        note(tall, scale_.h0(v) / cells.edge);
-      else if (r > ratio)
-        note(thick, r);
-      else if (r * ratio < 1.0)
-        note(thin, 1.0 / r);
+      if (scale_.h0(v) > cells.edge) note(tall, scale_.h0(v) / cells.edge);
+      else if (r > ratio) note(thick, r);
+      else if (r * ratio < 1.0) note(thin, 1.0 / r);
     }
     for (Misfit* misfit : {&thin, &thick, &tall}) misfit->area /= all;
     survey_.add_field("top_ratio", "last layer over 0.816 edges, as asked for", "", true, map_.field(top));
@@ -129,7 +126,8 @@ class CellSurvey {
     add(std::move(finding), thin, true);
   }
 
-  /// The least number of layers, more than there are, with which the last one is not thinner than the limit allows; 0 where none does (another cap is reached first).
+  /// The least number of layers, more than there are, with which the last one is not thinner than the limit allows; 0 where none does (another cap is reached
+  /// first).
   int enough_layers(VertexId v, double ratio) const {
     if (!is_automatic(scale_.total_height(v))) return 0;  // more layers of a given height are thinner
     for (int n = scale_.n(v) + 1; n <= k_most_layers; ++n)

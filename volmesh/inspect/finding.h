@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "geom/base/error.h"
-#include "geom/mesh/tri_mesh_field.h"
 #include "geom/mesh/tri_mesh.h"
+#include "geom/mesh/tri_mesh_field.h"
 
 namespace sterna::volmesh {
 

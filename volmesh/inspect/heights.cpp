@@ -65,13 +65,10 @@ enum class Cause : std::uint8_t { gap, corner, other };
 Cause cause_of(HeightLimit limit) {
   switch (limit) {
     case HeightLimit::gap:
-    case HeightLimit::collision:
-      return Cause::gap;
+    case HeightLimit::collision: return Cause::gap;
     case HeightLimit::untangle:
-    case HeightLimit::warp:
-      return Cause::corner;
-    default:
-      return Cause::other;
+    case HeightLimit::warp: return Cause::corner;
+    default: return Cause::other;
   }
 }
 
@@ -94,10 +91,8 @@ class HeightSurvey {
     std::vector<LayerPrediction::OfPatch> patches(base_.wall.patches.size());
     for (const VertexId v : base_.wall.points.ids()) {
       const double a = base_.vertex_area[v];
-      if (is_full(v))
-        layer.coverage += a;
-      else
-        lost[static_cast<std::size_t>(envelope_.limit[v])] += a;
+      if (is_full(v)) layer.coverage += a;
+      else lost[static_cast<std::size_t>(envelope_.limit[v])] += a;
       if (is_compressed(v)) layer.compressed += a;
       if (envelope_.is_collapsed(v)) layer.collapsed += a;
     }
@@ -140,10 +135,8 @@ class HeightSurvey {
     std::vector<Suspect<VertexId>> lowered, compressed, collapsed;
     for (const VertexId v : base_.wall.points.ids()) {
       if (base_.topology.outgoing(v).empty() || base_.constraint[v].freedom == Freedom::fixed) continue;
-      if (envelope_.is_collapsed(v))
-        collapsed.push_back({v, 1.0});
-      else if (is_compressed(v))
-        compressed.push_back({v, -envelope_.height[v] / scale_.compressed(v)});
+      if (envelope_.is_collapsed(v)) collapsed.push_back({v, 1.0});
+      else if (is_compressed(v)) compressed.push_back({v, -envelope_.height[v] / scale_.compressed(v)});
       if (!is_full(v)) lowered.push_back({v, -share_of(v)});
     }
     if (!lowered.empty()) add_lowered(lowered);

@@ -37,10 +37,8 @@ void survey_visibility(const Survey& survey, const LayerBase& base, const WallMa
     const double angle = std::acos(std::clamp(base.visibility[v], -1.0, 1.0));
     degrees[v.index()] = angle / k_degree;
     if (base.topology.outgoing(v).empty()) continue;
-    if (base.visibility[v] <= k_visible)
-      hidden.push_back({v, angle});
-    else if (angle > limit)
-      hard.push_back({v, angle});
+    if (base.visibility[v] <= k_visible) hidden.push_back({v, angle});
+    else if (angle > limit) hard.push_back({v, angle});
   }
   survey.add_field("visibility_angle", "angle at which the best direction sees the worst facet", "deg", true, map.field(degrees));
   if (!hidden.empty()) {

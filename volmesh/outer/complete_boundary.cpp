@@ -23,7 +23,7 @@ bool is_given(const FarfieldOptions& options) {
   FarfieldOptions defaults, copy = options;
   const OptionTable table = sterna::options_of(copy), of_defaults = sterna::options_of(defaults);
   for (std::size_t i = 0; i < table.size(); ++i) {
-    if (table[i].name == "farfield_sides") continue;  // of planes, too
+    if (table[i].name == "farfield_sides") continue;                             // of planes, too
     if (table[i].name == "farfield_edge" && copy.farfield_edge < 0.0) continue;  // a share of the automatic one
     const OptionValue value = table[i].get();
     if (const auto* number = std::get_if<double>(&value)) {
@@ -65,7 +65,11 @@ bool is_enclosing(const TriMesh& mesh, const Topology& topology, std::span<const
   const auto is_domain = [&](std::uint32_t c) { return volumes[c] < 0.0; };
   const auto n_domains = std::count_if(outer.begin(), outer.end(), is_domain);
   if (n_domains == 0 || n_domains == static_cast<std::ptrdiff_t>(outer.size())) return n_domains > 0;
-  ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = k_attempted, .problem = "of the " + std::to_string(outer.size()) + " outermost parts " + std::to_string(n_domains) + " have their normals inwards, as the boundary of a domain, the others outwards, as bodies", .hint = "turn the triangles of the parts that are wrong"};
+  ErrorInfo info{.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "of the " + std::to_string(outer.size()) + " outermost parts " + std::to_string(n_domains) +
+                            " have their normals inwards, as the boundary of a domain, the others outwards, as bodies",
+                 .hint = "turn the triangles of the parts that are wrong"};
   for (const TriangleId t : mesh.triangles.ids())
     if (std::find(outer.begin(), outer.end(), components.component[t]) != outer.end() && is_domain(components.component[t])) {
       info.places.push_back({corners(mesh, t)[0], "normals inwards"});
@@ -79,7 +83,10 @@ void check_encloses(const TriMesh& surface, const Topology& topology, std::span<
   const Components components = connected_components(surface, topology);
   const TriangleTree tree(shape, context);
   std::vector<std::uint8_t> is_seen(components.count, 0);
-  ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = k_attempted, .problem = "the farfield's surface does not enclose the bodies", .hint = "it has to be around all of them; of half models, cut or uncut"};
+  ErrorInfo info{.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "the farfield's surface does not enclose the bodies",
+                 .hint = "it has to be around all of them; of half models, cut or uncut"};
   for (const TriangleId t : surface.triangles.ids()) {
     if (is_seen[components.component[t]] != 0) continue;
     const Point p = corners(surface, t)[0];
@@ -95,9 +102,13 @@ void turn(TriMesh& mesh) {
 }
 
 /// The user's surface with normals into the fluid, and farfield where nothing better is known.
-TriMesh shape_of_user(const TriMesh& surface, const Topology& topology, const OuterOptions& options, std::span<const EndPlane> ends, const RunContext& context) {
+TriMesh shape_of_user(const TriMesh& surface, const Topology& topology, const OuterOptions& options, std::span<const EndPlane> ends,
+                      const RunContext& context) {
   if (!options.surface || options.surface->n_triangles() == 0)
-    throw Error({.code = ErrorCode::bad_argument, .attempted = k_attempted, .problem = "the farfield's shape is \"surface\", but there is no surface", .hint = "give farfield_surface, or farfield = a surface; .sterna files do not keep it"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "the farfield's shape is \"surface\", but there is no surface",
+                 .hint = "give farfield_surface, or farfield = a surface; .sterna files do not keep it"});
   TriMesh shape = *options.surface;
   const Topology of_shape(shape, context);
   const bool is_closed = of_shape.n_boundary_halfedges() == 0;
@@ -106,7 +117,8 @@ TriMesh shape_of_user(const TriMesh& surface, const Topology& topology, const Ou
   const std::vector<double> volumes = volumes_of(shape, components, its_ends);
   if (volumes[outermost(shape, components, its_ends).front()] > 0.0) turn(shape);
   if (is_closed) check_encloses(surface, topology, ends, shape, context);
-  const bool is_unknown = options.farfield.farfield_sides.empty() && std::all_of(shape.patches.begin(), shape.patches.end(), [](const Patch& patch) { return patch.kind == PatchKind::wall; });
+  const bool is_unknown = options.farfield.farfield_sides.empty() &&
+                          std::all_of(shape.patches.begin(), shape.patches.end(), [](const Patch& patch) { return patch.kind == PatchKind::wall; });
   if (is_unknown) {
     context.info("the farfield's surface has walls alone: taken as farfield; farfield_sides gives its patches other kinds");
     for (Patch& patch : shape.patches) patch.kind = PatchKind::farfield;
@@ -148,7 +160,8 @@ const Patch* patch_in_plane(const TriMesh& shape, const EndPlane& end) {
   std::vector<double> area(shape.patches.size(), 0.0);
   for (const TriangleId t : shape.triangles.ids()) {
     const auto [a, b, c] = corners(shape, t);
-    if (std::abs(a[end.axis] - end.at) <= tolerance && std::abs(b[end.axis] - end.at) <= tolerance && std::abs(c[end.axis] - end.at) <= tolerance) area[shape.triangle_patch[t].index()] += triangle_area(a, b, c);
+    if (std::abs(a[end.axis] - end.at) <= tolerance && std::abs(b[end.axis] - end.at) <= tolerance && std::abs(c[end.axis] - end.at) <= tolerance)
+      area[shape.triangle_patch[t].index()] += triangle_area(a, b, c);
   }
   if (area.empty()) return nullptr;
   const auto most = std::max_element(area.begin(), area.end());
@@ -198,19 +211,26 @@ void check_rules(std::span<const SideRule> rules, const TriMesh* shape, std::spa
     std::string names;
     for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
     const std::string nearest = nearest_name(rule.side, known);
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "farfield_sides", .problem = "there is no side \"" + rule.side + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"), .hint = names.empty() ? "the surface is closed and encloses its fluid: nothing is added" : "there are " + names});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "farfield_sides",
+                 .problem = "there is no side \"" + rule.side + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"),
+                 .hint = names.empty() ? "the surface is closed and encloses its fluid: nothing is added" : "there are " + names});
   }
 }
 
 TriMesh cut(TriMesh shape, std::span<const EndPlane> ends, const RunContext& context) {
-  for (const EndPlane& end : ends) shape = half_of(shape, {.axis = std::string(1, "xyz"[end.axis]), .at = end.at, .keep = end.inward > 0.0 ? "+" : "-", .snap = k_shape_snap}, context);
+  for (const EndPlane& end : ends)
+    shape = half_of(shape, {.axis = std::string(1, "xyz"[end.axis]), .at = end.at, .keep = end.inward > 0.0 ? "+" : "-", .snap = k_shape_snap}, context);
   return shape;
 }
 
 /// Names that the surface has already get a number, unless the kind is the same, too.
 void make_names_new(const TriMesh& surface, Patch& patch) {
   const std::string name = patch.name;
-  const auto is_taken = [&] { return std::any_of(surface.patches.begin(), surface.patches.end(), [&](const Patch& other) { return other.name == patch.name && other.kind != patch.kind; }); };
+  const auto is_taken = [&] {
+    return std::any_of(surface.patches.begin(), surface.patches.end(),
+                       [&](const Patch& other) { return other.name == patch.name && other.kind != patch.kind; });
+  };
   for (int n = 2; is_taken(); ++n) patch.name = name + "_" + std::to_string(n);
 }
 
@@ -223,9 +243,15 @@ void snap_rims(const Constraints& rims, std::span<const EndPlane> ends, TriMesh&
 
 void require_fluid(const FarfieldOptions& farfield, bool is_enclosed) {
   if (is_enclosed && farfield.farfield_shape != "none" && is_given(farfield))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = k_attempted, .problem = "a farfield is given, but the surface encloses its fluid already: its outermost part has normals inwards", .hint = "leave the farfield out, or turn the surface if it is a body"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "a farfield is given, but the surface encloses its fluid already: its outermost part has normals inwards",
+                 .hint = "leave the farfield out, or turn the surface if it is a body"});
   if (!is_enclosed && farfield.farfield_shape == "none")
-    throw Error({.code = ErrorCode::bad_argument, .attempted = k_attempted, .problem = "no farfield is wanted, but the surface encloses no fluid: its outermost parts have normals outwards, as bodies", .hint = "give a farfield; of a surface around its fluid the normals have to point inwards"});
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "no farfield is wanted, but the surface encloses no fluid: its outermost parts have normals outwards, as bodies",
+                 .hint = "give a farfield; of a surface around its fluid the normals have to point inwards"});
 }
 
 }  // namespace

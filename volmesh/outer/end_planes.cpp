@@ -84,18 +84,21 @@ std::vector<double> graded(double first, double last) {
 }
 
 /// Edges along the line of two planes, divided; added to the rims of both.
-void join_on_line(TriMesh& mesh, std::span<const EndPlane> ends, std::size_t k, std::size_t l, std::vector<std::vector<Edge>>& rims, std::vector<std::vector<Edge>>& lines) {
+void join_on_line(TriMesh& mesh, std::span<const EndPlane> ends, std::size_t k, std::size_t l, std::vector<std::vector<Edge>>& rims,
+                  std::vector<std::vector<Edge>>& lines) {
   const std::size_t along = 3 - ends[k].axis - ends[l].axis;
   std::vector<VertexId> on_line;
   for (const Edge& edge : rims[k])
     for (const VertexId v : edge)
       if (is_in(mesh.points[v], ends[l])) on_line.push_back(v);
-  std::sort(on_line.begin(), on_line.end(), [&](VertexId a, VertexId b) { return mesh.points[a][along] < mesh.points[b][along] || (mesh.points[a][along] == mesh.points[b][along] && a < b); });
+  std::sort(on_line.begin(), on_line.end(),
+            [&](VertexId a, VertexId b) { return mesh.points[a][along] < mesh.points[b][along] || (mesh.points[a][along] == mesh.points[b][along] && a < b); });
   on_line.erase(std::unique(on_line.begin(), on_line.end()), on_line.end());
   if (on_line.size() % 2 != 0) {
     ErrorInfo info{.code = ErrorCode::open_surface,
                    .attempted = k_attempted,
-                   .problem = "rims meet the line of the planes " + name_of(ends[k]) + " and " + name_of(ends[l]) + " in " + std::to_string(on_line.size()) + " vertices; the fluid's part of it begins and ends at one each",
+                   .problem = "rims meet the line of the planes " + name_of(ends[k]) + " and " + name_of(ends[l]) + " in " + std::to_string(on_line.size()) +
+                              " vertices; the fluid's part of it begins and ends at one each",
                    .hint = "rims may cross this line, not touch it, nor may a third plane cut it"};
     for (const VertexId v : on_line)
       if (info.places.size() < k_max_places) info.places.push_back({mesh.points[v], "a rim meets the line"});
@@ -119,7 +122,8 @@ void join_on_line(TriMesh& mesh, std::span<const EndPlane> ends, std::size_t k, 
   }
 }
 
-void triangulate(TriMesh& mesh, const EndPlane& end, const std::vector<Edge>& rim, const std::vector<Edge>& lines, const Patch& patch, const RunContext& context) {
+void triangulate(TriMesh& mesh, const EndPlane& end, const std::vector<Edge>& rim, const std::vector<Edge>& lines, const Patch& patch,
+                 const RunContext& context) {
   const std::size_t u = (end.axis + 1) % 3, v = (end.axis + 2) % 3;
   std::vector<VertexId> vertices;
   for (const auto* edges : {&rim, &lines})
@@ -196,7 +200,11 @@ std::vector<double> volumes_of(const TriMesh& mesh, const Components& components
     if (std::none_of(ends.begin(), ends.end(), [&](const EndPlane& end) { return end.axis == k; })) axis = k;
   for (std::size_t k = 0; k < 3 && axis == 3; ++k)
     if (std::count_if(ends.begin(), ends.end(), [&](const EndPlane& end) { return end.axis == k; }) == 1) axis = k;
-  if (axis == 3) throw Error({.code = ErrorCode::open_surface, .attempted = k_attempted, .problem = "the surface ends on two planes across each of the three axes", .hint = "give the surface with its sides"});
+  if (axis == 3)
+    throw Error({.code = ErrorCode::open_surface,
+                 .attempted = k_attempted,
+                 .problem = "the surface ends on two planes across each of the three axes",
+                 .hint = "give the surface with its sides"});
   for (const EndPlane& end : ends)
     if (end.axis == axis) origin = end.at;
   std::vector<double> volumes(components.count, 0.0);

@@ -12,18 +12,27 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_margin = 0.25;             ///< body lengths between wall and sphere: room for the layer and a few tetrahedra
+constexpr double k_margin = 0.25;  ///< body lengths between wall and sphere: room for the layer and a few tetrahedra
 constexpr std::size_t k_most_triangles = 20'000'000;
 constexpr std::uint32_t k_not_made = 0xffffffff;
 
 /// The regular icosahedron with coordinates 0, +-1, +-golden ratio; faces counter-clockwise seen from outside.
 const double k_golden = (1.0 + std::sqrt(5.0)) / 2.0;
-const std::array<Vec3, 12> k_corners = {{{-1, k_golden, 0}, {1, k_golden, 0}, {-1, -k_golden, 0}, {1, -k_golden, 0},
-                                         {0, -1, k_golden}, {0, 1, k_golden}, {0, -1, -k_golden}, {0, 1, -k_golden},
-                                         {k_golden, 0, -1}, {k_golden, 0, 1}, {-k_golden, 0, -1}, {-k_golden, 0, 1}}};
-constexpr std::array<std::array<std::uint32_t, 3>, 20> k_faces = {{{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
-                                                                  {11, 10, 2}, {10, 7, 6}, {7, 1, 8},   {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-                                                                  {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+const std::array<Vec3, 12> k_corners = {{{-1, k_golden, 0},
+                                         {1, k_golden, 0},
+                                         {-1, -k_golden, 0},
+                                         {1, -k_golden, 0},
+                                         {0, -1, k_golden},
+                                         {0, 1, k_golden},
+                                         {0, -1, -k_golden},
+                                         {0, 1, -k_golden},
+                                         {k_golden, 0, -1},
+                                         {k_golden, 0, 1},
+                                         {-k_golden, 0, -1},
+                                         {-k_golden, 0, 1}}};
+constexpr std::array<std::array<std::uint32_t, 3>, 20> k_faces = {{{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                                                                   {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                                                                   {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
 /// Edge of the icosahedron over its circumradius.
 const double k_edge_ratio = 2.0 / std::sqrt(1.0 + k_golden * k_golden);
 
@@ -88,7 +97,9 @@ ErrorInfo bad(std::string problem, std::string hint) {
 std::uint32_t frequency(double radius, double edge) {
   const double f = std::max(1.0, std::round(k_edge_ratio * radius / edge));
   if (20.0 * f * f > static_cast<double>(k_most_triangles)) {
-    throw Error(bad("an edge of " + in_metres(edge) + " on a radius of " + in_metres(radius) + " needs more than " + std::to_string(k_most_triangles) + " triangles", "raise farfield.farfield_edge"));
+    throw Error(
+        bad("an edge of " + in_metres(edge) + " on a radius of " + in_metres(radius) + " needs more than " + std::to_string(k_most_triangles) + " triangles",
+            "raise farfield.farfield_edge"));
   }
   return static_cast<std::uint32_t>(f);
 }
@@ -127,8 +138,8 @@ void check_encloses(const TriMesh& wall, const Vec3& center, double inner, doubl
   }
   const double needed = distance(farthest, center) + k_margin * length;
   if (needed <= inner) return;
-  ErrorInfo error = bad("the sphere's flat triangles come within " + in_metres(inner) + " of its centre, but the wall and a margin of " + std::to_string(k_margin) +
-                            " body lengths reach out to " + in_metres(needed),
+  ErrorInfo error = bad("the sphere's flat triangles come within " + in_metres(inner) + " of its centre, but the wall and a margin of " +
+                            std::to_string(k_margin) + " body lengths reach out to " + in_metres(needed),
                         "raise farfield.farfield_radius (default 50 body lengths, here " + in_metres(k_default_radius * length) + ")");
   error.places.push_back({farthest, "farthest point of the wall"});
   throw Error(std::move(error));
@@ -137,7 +148,8 @@ void check_encloses(const TriMesh& wall, const Vec3& center, double inner, doubl
 }  // namespace
 
 TriMesh farfield_sphere(const TriMesh& wall, const FarfieldOptions& options, const RunContext& context, std::span<const EndPlane> ends) {
-  if (wall.triangles.empty()) throw Error({.code = ErrorCode::empty_surface, .attempted = "making the farfield sphere", .problem = "the wall has no triangles"});
+  if (wall.triangles.empty())
+    throw Error({.code = ErrorCode::empty_surface, .attempted = "making the farfield sphere", .problem = "the wall has no triangles"});
   const double length = body_length(wall);
   const Vec3 center = center_of(wall, options, ends);
   const double radius = is_automatic(options.farfield_radius) ? k_default_radius * length : options.farfield_radius;

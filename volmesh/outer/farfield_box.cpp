@@ -27,7 +27,8 @@ BoxSize size_of_box(const TriMesh& wall, const FarfieldOptions& options, std::sp
   BoxSize size;
   const Box of_wall = bounding_box(wall);
   const double reach = k_default_radius * body_length(wall);
-  const std::array from = {options.farfield_from_x, options.farfield_from_y, options.farfield_from_z}, to = {options.farfield_to_x, options.farfield_to_y, options.farfield_to_z};
+  const std::array from = {options.farfield_from_x, options.farfield_from_y, options.farfield_from_z},
+                   to = {options.farfield_to_x, options.farfield_to_y, options.farfield_to_z};
   for (std::size_t k = 0; k < 3; ++k) {
     size.box.min[k] = of_wall.center()[k] - reach;
     size.box.max[k] = of_wall.center()[k] + reach;
@@ -56,10 +57,13 @@ void check_encloses(const TriMesh& wall, const Box& box, std::span<const EndPlan
     const double at = is_upper ? box.max[k] : box.min[k];
     const auto beyond = [&](const Point& p) { return is_upper ? p[k] - at : at - p[k]; };
     const Point farthest = *std::max_element(wall.points.begin(), wall.points.end(), [&](const Point& p, const Point& q) { return beyond(p) < beyond(q); });
-    const bool is_end = std::any_of(ends.begin(), ends.end(), [&](const EndPlane& end) { return end.axis == k && (end.inward > 0.0) != is_upper && beyond({end.at, end.at, end.at}) <= k_coincident * box.longest_side(); });
+    const bool is_end = std::any_of(ends.begin(), ends.end(), [&](const EndPlane& end) {
+      return end.axis == k && (end.inward > 0.0) != is_upper && beyond({end.at, end.at, end.at}) <= k_coincident * box.longest_side();
+    });
     if (is_end || beyond(farthest) + margin <= 0.0) continue;
-    info.problem += (info.problem.empty() ? "" : "; ") + std::string("its side ") + k_names[side] + " at " + in_metres(at) + " has the wall " + (beyond(farthest) > 0.0 ? "beyond it by " : "inside by ") +
-                    in_metres(std::abs(beyond(farthest))) + " only, needed are " + in_metres(margin);
+    info.problem += (info.problem.empty() ? "" : "; ") + std::string("its side ") + k_names[side] + " at " + in_metres(at) + " has the wall " +
+                    (beyond(farthest) > 0.0 ? "beyond it by " : "inside by ") + in_metres(std::abs(beyond(farthest))) + " only, needed are " +
+                    in_metres(margin);
     info.places.push_back({farthest, std::string("farthest point of the wall towards ") + k_names[side]});
   }
   if (!info.places.empty()) throw Error(std::move(info));
@@ -109,15 +113,18 @@ class BoxMesh {
     for (const VertexId p : loop) polygon.push_back({mesh_.points[p][u], mesh_.points[p][v]});
     std::array<double, 4> spacing{};
     for (std::size_t i = 0; i < 4; ++i) spacing[i] = length(i % 2 == 0 ? u : v) / static_cast<double>(around[i]->size() - 1);
-    const PolygonFill fill = fill_polygon(polygon, [&](const Vec2& p) {
-      const std::array<double, 4> distance = {p.y - size_.box.min[v], size_.box.max[u] - p.x, size_.box.max[v] - p.y, p.x - size_.box.min[u]};
-      LocalSize local{size_.edge[side], distance[0]};
-      for (std::size_t i = 0; i < 4; ++i) {
-        local.edge = std::min(local.edge, spacing[i] + k_edge_growth * std::max(0.0, distance[i]));
-        local.from_border = std::min(local.from_border, distance[i]);
-      }
-      return local;
-    }, context);
+    const PolygonFill fill = fill_polygon(
+        polygon,
+        [&](const Vec2& p) {
+          const std::array<double, 4> distance = {p.y - size_.box.min[v], size_.box.max[u] - p.x, size_.box.max[v] - p.y, p.x - size_.box.min[u]};
+          LocalSize local{size_.edge[side], distance[0]};
+          for (std::size_t i = 0; i < 4; ++i) {
+            local.edge = std::min(local.edge, spacing[i] + k_edge_growth * std::max(0.0, distance[i]));
+            local.from_border = std::min(local.from_border, distance[i]);
+          }
+          return local;
+        },
+        context);
     for (std::size_t i = loop.size(); i < fill.points.size(); ++i) {
       Point p;
       p[k] = side % 2 == 1 ? size_.box.max[k] : size_.box.min[k];

@@ -1,4 +1,5 @@
-// A circular cylinder: two rings of straight edges, its ends filled as polygons, its side unrolled to a rectangle between the rings and a seam, filled and rolled up.
+// A circular cylinder: two rings of straight edges, its ends filled as polygons, its side unrolled to a rectangle between the rings and a seam, filled and
+// rolled up.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,7 +34,8 @@ CylinderSize size_of_cylinder(const TriMesh& wall, const FarfieldOptions& option
   for (const EndPlane& end : ends)
     if (end.axis != 0) center[end.axis] = end.at;
   const double reach = k_default_radius * body_length(wall);
-  const std::array given_from = {options.farfield_from_x, options.farfield_from_y, options.farfield_from_z}, given_to = {options.farfield_to_x, options.farfield_to_y, options.farfield_to_z};
+  const std::array given_from = {options.farfield_from_x, options.farfield_from_y, options.farfield_from_z},
+                   given_to = {options.farfield_to_x, options.farfield_to_y, options.farfield_to_z};
   size.from = center - Vec3{reach, 0, 0};
   Point to = center + Vec3{reach, 0, 0};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -41,7 +43,11 @@ CylinderSize size_of_cylinder(const TriMesh& wall, const FarfieldOptions& option
     if (!is_automatic(given_to[k])) to[k] = given_to[k];
   }
   size.length = distance(size.from, to);
-  if (!(size.length > 0.0)) throw Error({.code = ErrorCode::bad_argument, .attempted = k_attempted, .problem = "both ends are at " + format_point(to), .hint = "give farfield_from and farfield_to"});
+  if (!(size.length > 0.0))
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "both ends are at " + format_point(to),
+                 .hint = "give farfield_from and farfield_to"});
   size.axis = (to - size.from) / size.length;
   // Of the coordinate axes the one behind the steepest: of a cylinder along x, y.
   std::size_t steepest = 0;
@@ -69,12 +75,16 @@ void check_encloses(const TriMesh& wall, const CylinderSize& size) {
   const auto require = [&](const std::string& what, const auto& needed, double given) {
     const Point farthest = *std::max_element(wall.points.begin(), wall.points.end(), [&](const Point& p, const Point& q) { return needed(p) < needed(q); });
     if (needed(farthest) + margin <= given) return;
-    info.problem += (info.problem.empty() ? "" : "; ") + what + " are " + in_metres(given) + ", the wall and a margin of 0.02 body lengths need " + in_metres(needed(farthest) + margin);
+    info.problem += (info.problem.empty() ? "" : "; ") + what + " are " + in_metres(given) + ", the wall and a margin of 0.02 body lengths need " +
+                    in_metres(needed(farthest) + margin);
     info.places.push_back({farthest, "farthest point of the wall"});
   };
-  require("inside the flat triangles of its side", [&](const Point& p) { return norm((p - size.from) - dot(p - size.from, size.axis) * size.axis); }, inner);
-  require("before its start", [&](const Point& p) { return -dot(p - size.from, size.axis); }, 0.0);
-  require("from its start to its end", [&](const Point& p) { return dot(p - size.from, size.axis); }, size.length);
+  require(
+      "inside the flat triangles of its side", [&](const Point& p) { return norm((p - size.from) - dot(p - size.from, size.axis) * size.axis); }, inner);
+  require(
+      "before its start", [&](const Point& p) { return -dot(p - size.from, size.axis); }, 0.0);
+  require(
+      "from its start to its end", [&](const Point& p) { return dot(p - size.from, size.axis); }, size.length);
   if (!info.places.empty()) throw Error(std::move(info));
 }
 
@@ -89,7 +99,9 @@ class CylinderMesh {
   TriMesh take() { return std::move(mesh_); }
 
  private:
-  Point on_side(double angle, double along) const { return size_.from + along * size_.axis + size_.radius * (std::cos(angle) * size_.e1 + std::sin(angle) * size_.e2); }
+  Point on_side(double angle, double along) const {
+    return size_.from + along * size_.axis + size_.radius * (std::cos(angle) * size_.e1 + std::sin(angle) * size_.e2);
+  }
   std::vector<VertexId> make_ring(int n, double along) {
     std::vector<VertexId> ring;
     for (int i = 0; i < n; ++i) ring.push_back(mesh_.points.push_back(on_side(k_two_pi * i / n, along)));
@@ -99,11 +111,15 @@ class CylinderMesh {
     const auto n = static_cast<double>(ring.size());
     const double spacing = 2.0 * size_.radius * std::sin(std::numbers::pi / n), inner = size_.radius * std::cos(std::numbers::pi / n);
     std::vector<Vec2> polygon;
-    for (std::size_t i = 0; i < ring.size(); ++i) polygon.push_back({size_.radius * std::cos(k_two_pi * static_cast<double>(i) / n), size_.radius * std::sin(k_two_pi * static_cast<double>(i) / n)});
-    const PolygonFill fill = fill_polygon(polygon, [&](const Vec2& p) {
-      const double from_border = inner - std::hypot(p.x, p.y);
-      return LocalSize{std::min(wanted, spacing + k_edge_growth * std::max(0.0, from_border)), from_border};
-    }, context);
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      polygon.push_back({size_.radius * std::cos(k_two_pi * static_cast<double>(i) / n), size_.radius * std::sin(k_two_pi * static_cast<double>(i) / n)});
+    const PolygonFill fill = fill_polygon(
+        polygon,
+        [&](const Vec2& p) {
+          const double from_border = inner - std::hypot(p.x, p.y);
+          return LocalSize{std::min(wanted, spacing + k_edge_growth * std::max(0.0, from_border)), from_border};
+        },
+        context);
     std::vector<VertexId> vertices = ring;
     for (std::size_t i = ring.size(); i < fill.points.size(); ++i)
       vertices.push_back(mesh_.points.push_back(size_.from + along * size_.axis + fill.points[i].x * size_.e1 + fill.points[i].y * size_.e2));
@@ -130,11 +146,15 @@ class CylinderMesh {
     add(0.0, width, start[0]);
     for (std::size_t i = start.size(); i-- > 1;) add(0.0, width * static_cast<double>(i) / static_cast<double>(start.size()), start[i]);
     const double first = width / static_cast<double>(start.size()), last = width / static_cast<double>(end.size());
-    const PolygonFill fill = fill_polygon(polygon, [&](const Vec2& p) {
-      const double edge = std::min({size_.side, first + k_edge_growth * std::max(0.0, p.x), last + k_edge_growth * std::max(0.0, size_.length - p.x)});
-      return LocalSize{edge, std::min({p.x, size_.length - p.x, p.y, width - p.y})};
-    }, context);
-    for (std::size_t i = polygon.size(); i < fill.points.size(); ++i) vertices.push_back(mesh_.points.push_back(on_side(fill.points[i].y / size_.radius, fill.points[i].x)));
+    const PolygonFill fill = fill_polygon(
+        polygon,
+        [&](const Vec2& p) {
+          const double edge = std::min({size_.side, first + k_edge_growth * std::max(0.0, p.x), last + k_edge_growth * std::max(0.0, size_.length - p.x)});
+          return LocalSize{edge, std::min({p.x, size_.length - p.x, p.y, width - p.y})};
+        },
+        context);
+    for (std::size_t i = polygon.size(); i < fill.points.size(); ++i)
+      vertices.push_back(mesh_.points.push_back(on_side(fill.points[i].y / size_.radius, fill.points[i].x)));
     add_patch(mesh_, "side", fill.triangles, vertices, false);
   }
 
@@ -147,7 +167,8 @@ class CylinderMesh {
 TriMesh farfield_cylinder(const TriMesh& wall, const FarfieldOptions& options, std::span<const EndPlane> ends, const RunContext& context) {
   const CylinderSize size = size_of_cylinder(wall, options, ends);
   const double disc = std::numbers::pi * size.radius * size.radius;
-  require_affordable(triangles_of(disc, size.start) + triangles_of(disc, size.end) + triangles_of(k_two_pi * size.radius * size.length, size.side), k_attempted);
+  require_affordable(triangles_of(disc, size.start) + triangles_of(disc, size.end) + triangles_of(k_two_pi * size.radius * size.length, size.side),
+                     k_attempted);
   check_encloses(wall, size);
   return CylinderMesh(size, context).take();
 }

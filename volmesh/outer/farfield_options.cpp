@@ -10,11 +10,15 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::array k_kinds = {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface};
+constexpr std::array k_kinds = {PatchKind::wall,    PatchKind::slip,     PatchKind::symmetry, PatchKind::inflow,
+                                PatchKind::outflow, PatchKind::farfield, PatchKind::interface};
 constexpr const char* k_attempted = "farfield_sides";
 
 [[noreturn]] void refuse(const std::string& entry, const std::string& problem) {
-  throw Error({.code = ErrorCode::bad_argument, .attempted = k_attempted, .problem = "\"" + entry + "\": " + problem, .hint = "such as \"x_min=inflow x_max=outflow,name:exit,edge:0.5\""});
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = k_attempted,
+               .problem = "\"" + entry + "\": " + problem,
+               .hint = "such as \"x_min=inflow x_max=outflow,name:exit,edge:0.5\""});
 }
 
 SideRule parse_side(const std::string& entry) {

@@ -26,11 +26,11 @@ struct FarfieldOptions {
   std::string farfield_surface;
 };
 
-/// What the user says of one side of the outer shape: of a box x_min .. z_max, of a cylinder start, end, side, of other shapes the names of their patches; and of the planes
-/// that bodies end on: symmetry, or where there are several symmetry_y, symmetry_z, symmetry_y_min ...
+/// What the user says of one side of the outer shape: of a box x_min .. z_max, of a cylinder start, end, side, of other shapes the names of their patches; and
+/// of the planes that bodies end on: symmetry, or where there are several symmetry_y, symmetry_z, symmetry_y_min ...
 struct SideRule {
   std::string side;
-  std::string name;           ///< of its patch; empty: the kind's
+  std::string name;  ///< of its patch; empty: the kind's
   PatchKind kind = PatchKind::farfield;
   bool has_kind = false;      ///< false: `kind` was not given
   double edge = k_automatic;  ///< m
@@ -54,19 +54,71 @@ struct Schema<volmesh::FarfieldOptions> {
   using O = volmesh::FarfieldOptions;
   static constexpr std::string_view stage = "farfield";
   static constexpr std::array fields = {
-      Field<O>{.name = "farfield_shape", .member = &O::farfield_shape, .help = "what is put around the bodies; automatic: a sphere, or nothing where the surface encloses its fluid", .choices = "automatic sphere box cylinder surface none"},
-      Field<O>{.name = "farfield_radius", .member = &O::farfield_radius, .unit = Unit::metre, .min = 1e-9, .help = "radius of the sphere about the centre of the wall's box, or of the cylinder", .automatic = "50 body lengths"},
-      Field<O>{.name = "farfield_edge", .member = &O::farfield_edge, .unit = Unit::metre, .min = 1e-9, .help = "edge length of its triangles", .automatic = "about a fifth of the radius, or of half the box's longest side"},
-      Field<O>{.name = "farfield_center_x", .member = &O::farfield_center_x, .unit = Unit::metre, .help = "centre of the sphere", .automatic = "of the wall's box, or in the plane of a half model"},
-      Field<O>{.name = "farfield_center_y", .member = &O::farfield_center_y, .unit = Unit::metre, .help = "centre of the sphere", .automatic = "of the wall's box, or in the plane of a half model"},
-      Field<O>{.name = "farfield_center_z", .member = &O::farfield_center_z, .unit = Unit::metre, .help = "centre of the sphere", .automatic = "of the wall's box, or in the plane of a half model"},
-      Field<O>{.name = "farfield_from_x", .member = &O::farfield_from_x, .unit = Unit::metre, .help = "lower corner of the box, or centre of the cylinder's first end", .automatic = "50 body lengths off; the plane of a half model; the axis"},
-      Field<O>{.name = "farfield_from_y", .member = &O::farfield_from_y, .unit = Unit::metre, .help = "lower corner of the box, or centre of the cylinder's first end", .automatic = "50 body lengths off; the plane of a half model; the axis"},
-      Field<O>{.name = "farfield_from_z", .member = &O::farfield_from_z, .unit = Unit::metre, .help = "lower corner of the box, or centre of the cylinder's first end", .automatic = "50 body lengths off; the plane of a half model; the axis"},
-      Field<O>{.name = "farfield_to_x", .member = &O::farfield_to_x, .unit = Unit::metre, .help = "upper corner of the box, or centre of the cylinder's second end", .automatic = "50 body lengths off; the plane of a half model; the axis"},
-      Field<O>{.name = "farfield_to_y", .member = &O::farfield_to_y, .unit = Unit::metre, .help = "upper corner of the box, or centre of the cylinder's second end", .automatic = "50 body lengths off; the plane of a half model; the axis"},
-      Field<O>{.name = "farfield_to_z", .member = &O::farfield_to_z, .unit = Unit::metre, .help = "upper corner of the box, or centre of the cylinder's second end", .automatic = "50 body lengths off; the plane of a half model; the axis"},
-      Field<O>{.name = "farfield_sides", .member = &O::farfield_sides, .help = "kinds, names and edge lengths of its sides (box: x_min .. z_max; cylinder: start, end, side; else patches) and of a half model's plane (symmetry): \"x_min=inflow x_max=outflow,name:exit,edge:0.5\"; empty: all farfield"},
+      Field<O>{.name = "farfield_shape",
+               .member = &O::farfield_shape,
+               .help = "what is put around the bodies; automatic: a sphere, or nothing where the surface encloses its fluid",
+               .choices = "automatic sphere box cylinder surface none"},
+      Field<O>{.name = "farfield_radius",
+               .member = &O::farfield_radius,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "radius of the sphere about the centre of the wall's box, or of the cylinder",
+               .automatic = "50 body lengths"},
+      Field<O>{.name = "farfield_edge",
+               .member = &O::farfield_edge,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "edge length of its triangles",
+               .automatic = "about a fifth of the radius, or of half the box's longest side"},
+      Field<O>{.name = "farfield_center_x",
+               .member = &O::farfield_center_x,
+               .unit = Unit::metre,
+               .help = "centre of the sphere",
+               .automatic = "of the wall's box, or in the plane of a half model"},
+      Field<O>{.name = "farfield_center_y",
+               .member = &O::farfield_center_y,
+               .unit = Unit::metre,
+               .help = "centre of the sphere",
+               .automatic = "of the wall's box, or in the plane of a half model"},
+      Field<O>{.name = "farfield_center_z",
+               .member = &O::farfield_center_z,
+               .unit = Unit::metre,
+               .help = "centre of the sphere",
+               .automatic = "of the wall's box, or in the plane of a half model"},
+      Field<O>{.name = "farfield_from_x",
+               .member = &O::farfield_from_x,
+               .unit = Unit::metre,
+               .help = "lower corner of the box, or centre of the cylinder's first end",
+               .automatic = "50 body lengths off; the plane of a half model; the axis"},
+      Field<O>{.name = "farfield_from_y",
+               .member = &O::farfield_from_y,
+               .unit = Unit::metre,
+               .help = "lower corner of the box, or centre of the cylinder's first end",
+               .automatic = "50 body lengths off; the plane of a half model; the axis"},
+      Field<O>{.name = "farfield_from_z",
+               .member = &O::farfield_from_z,
+               .unit = Unit::metre,
+               .help = "lower corner of the box, or centre of the cylinder's first end",
+               .automatic = "50 body lengths off; the plane of a half model; the axis"},
+      Field<O>{.name = "farfield_to_x",
+               .member = &O::farfield_to_x,
+               .unit = Unit::metre,
+               .help = "upper corner of the box, or centre of the cylinder's second end",
+               .automatic = "50 body lengths off; the plane of a half model; the axis"},
+      Field<O>{.name = "farfield_to_y",
+               .member = &O::farfield_to_y,
+               .unit = Unit::metre,
+               .help = "upper corner of the box, or centre of the cylinder's second end",
+               .automatic = "50 body lengths off; the plane of a half model; the axis"},
+      Field<O>{.name = "farfield_to_z",
+               .member = &O::farfield_to_z,
+               .unit = Unit::metre,
+               .help = "upper corner of the box, or centre of the cylinder's second end",
+               .automatic = "50 body lengths off; the plane of a half model; the axis"},
+      Field<O>{.name = "farfield_sides",
+               .member = &O::farfield_sides,
+               .help = "kinds, names and edge lengths of its sides (box: x_min .. z_max; cylinder: start, end, side; else patches) and of a half model's plane "
+                       "(symmetry): \"x_min=inflow x_max=outflow,name:exit,edge:0.5\"; empty: all farfield"},
       Field<O>{.name = "farfield_surface", .member = &O::farfield_surface, .help = "file of the closed surface, for the shape \"surface\""},
   };
 };

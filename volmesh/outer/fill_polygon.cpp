@@ -9,9 +9,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_radius_share = 0.72;      ///< of the wanted edge: larger circumcircles get a point; 0.577 is that of the equilateral triangle
-constexpr double k_border_share = 0.5;       ///< of the wanted edge: nearer to the border no points
-constexpr double k_distance_share = 0.55;    ///< of the wanted edge: nearer to another vertex no points
+constexpr double k_radius_share = 0.72;    ///< of the wanted edge: larger circumcircles get a point; 0.577 is that of the equilateral triangle
+constexpr double k_border_share = 0.5;     ///< of the wanted edge: nearer to the border no points
+constexpr double k_distance_share = 0.55;  ///< of the wanted edge: nearer to another vertex no points
 constexpr std::size_t k_most_points = 20'000'000;
 
 struct Circle {
@@ -74,7 +74,8 @@ PolygonFill fill_polygon(std::span<const Vec2> polygon, const std::function<Loca
   return fill;
 }
 
-std::vector<std::array<std::uint32_t, 3>> triangulate_rims(std::span<const Vec2> points, std::span<const std::array<std::uint32_t, 2>> segments, const RunContext& context) {
+std::vector<std::array<std::uint32_t, 3>> triangulate_rims(std::span<const Vec2> points, std::span<const std::array<std::uint32_t, 2>> segments,
+                                                           const RunContext& context) {
   std::vector<delaunay::Segment> borders;
   for (const auto& [from, to] : segments) borders.push_back({from, to, true});
   const delaunay::PlanarTriangulation plane = delaunay::triangulate_plane(points, borders, delaunay::Extent::inside, context);

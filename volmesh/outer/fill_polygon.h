@@ -18,8 +18,8 @@ struct LocalSize {
 };
 
 struct PolygonFill {
-  std::vector<Vec2> points;                              ///< those of the polygon first
-  std::vector<std::array<std::uint32_t, 3>> triangles;   ///< counter-clockwise
+  std::vector<Vec2> points;                             ///< those of the polygon first
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise
 };
 
 /// Delaunay refinement of the polygon. \pre counter-clockwise
@@ -28,6 +28,7 @@ PolygonFill fill_polygon(std::span<const Vec2> polygon, const std::function<Loca
 
 /// Triangles, counter-clockwise, of what is inside an odd number of the rims that the segments make; no new points.
 /// \throws Error(self_intersection) with the place (z = 0) where segments cross
-std::vector<std::array<std::uint32_t, 3>> triangulate_rims(std::span<const Vec2> points, std::span<const std::array<std::uint32_t, 2>> segments, const RunContext& context);
+std::vector<std::array<std::uint32_t, 3>> triangulate_rims(std::span<const Vec2> points, std::span<const std::array<std::uint32_t, 2>> segments,
+                                                           const RunContext& context);
 
 }  // namespace sterna::volmesh

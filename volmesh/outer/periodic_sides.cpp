@@ -1,5 +1,5 @@
-// Steps for each pair: find_patch; flatten the first; border vertices of both, their partners (match_borders) and the sense of the edges between them; the second's vertices
-// onto the images, where its triangles are the image of the first's, else the first's triangles instead.
+// Steps for each pair: find_patch; flatten the first; border vertices of both, their partners (match_borders) and the sense of the edges between them; the
+// second's vertices onto the images, where its triangles are the image of the first's, else the first's triangles instead.
 #include "volmesh/outer/periodic_sides.h"
 
 #include <algorithm>
@@ -19,8 +19,8 @@ namespace {
 constexpr std::size_t k_max_places = 10;
 constexpr double k_facing_cosine = -0.999;  ///< between the normals of sides that face each other: k_side_tolerance leaves less than that
 
-constexpr double k_slide = 0.35;            ///< of the shorter edge at a border vertex: how far it may go along the border, so that its triangles stay sound
-constexpr double k_slide_off = 0.03;        ///< of that edge: how far the image may be off the border: curved borders are polygons
+constexpr double k_slide = 0.35;      ///< of the shorter edge at a border vertex: how far it may go along the border, so that its triangles stay sound
+constexpr double k_slide_off = 0.03;  ///< of that edge: how far the image may be off the border: curved borders are polygons
 
 using Edge = std::array<VertexId, 2>;
 
@@ -134,7 +134,9 @@ class Joiner {
   /// Partners of `first` among `second`, added to `partner`; whether all have one of their own. \throws where they do not, when they must
   bool match(const std::vector<VertexId>& first, const std::vector<VertexId>& second, std::map<VertexId, VertexId>& partner, bool must) {
     std::vector<std::pair<double, VertexId>> sorted;
-    const auto key = [](const Point& p) { return p.x + 0.7 * p.y + 0.4 * p.z; };  // differs between points of sides along coordinate axes; changes by no more than sqrt(3) times the way
+    const auto key = [](const Point& p) {
+      return p.x + 0.7 * p.y + 0.4 * p.z;
+    };  // differs between points of sides along coordinate axes; changes by no more than sqrt(3) times the way
     for (const VertexId v : second) sorted.emplace_back(key(mesh_.points[v]), v);
     std::ranges::sort(sorted);
     std::set<VertexId> is_taken;
@@ -143,7 +145,8 @@ class Joiner {
       const Point image = mesh_.points[v] + result_.translation;
       double least = std::numeric_limits<double>::infinity();
       VertexId nearest;
-      for (auto it = std::ranges::lower_bound(sorted, std::pair(key(image) - 2.0 * tolerance_, VertexId(0u))); it != sorted.end() && it->first <= key(image) + 2.0 * tolerance_; ++it) {
+      for (auto it = std::ranges::lower_bound(sorted, std::pair(key(image) - 2.0 * tolerance_, VertexId(0u)));
+           it != sorted.end() && it->first <= key(image) + 2.0 * tolerance_; ++it) {
         const double d = distance(image, mesh_.points[it->second]);
         if (d > tolerance_ || d >= least) continue;
         least = d;
@@ -159,14 +162,15 @@ class Joiner {
     is_matched = is_matched && first.size() == second.size();
     if (!must) return is_matched;
     for (const VertexId v : second)
-      if (!is_taken.contains(v)) note(mesh_.points[v], "is the image of no vertex, the nearest image is " + metres(distance_to(first, mesh_.points[v] - result_.translation)) + " off");
+      if (!is_taken.contains(v))
+        note(mesh_.points[v], "is the image of no vertex, the nearest image is " + metres(distance_to(first, mesh_.points[v] - result_.translation)) + " off");
     if (error_.n_places > 0)
-      fail(std::to_string(error_.n_places) + " border vertices have no partner within " + metres(tolerance_) + " (" + std::to_string(first.size()) + " on \"" + names_.first + "\", " +
-           std::to_string(second.size()) + " on \"" + names_.second + "\", " + format_point(result_.translation) + " m apart)");
+      fail(std::to_string(error_.n_places) + " border vertices have no partner within " + metres(tolerance_) + " (" + std::to_string(first.size()) + " on \"" +
+           names_.first + "\", " + std::to_string(second.size()) + " on \"" + names_.second + "\", " + format_point(result_.translation) + " m apart)");
     return true;
   }
-  /// Borders along the same lines, cut into as many edges, but not at the same places: a mesher's, whose sizes on the two sides differ a little. The translation is that of
-  /// their boxes then, and vertices of the second side go along its border to the images. Whether that is possible.
+  /// Borders along the same lines, cut into as many edges, but not at the same places: a mesher's, whose sizes on the two sides differ a little. The
+  /// translation is that of their boxes then, and vertices of the second side go along its border to the images. Whether that is possible.
   bool slide(const std::vector<Edge>& first, const std::vector<Edge>& second, const RunContext& context) {
     const std::vector<VertexId> of_first = vertices_of(first), of_second = vertices_of(second);
     if (of_first.size() != of_second.size()) return false;
@@ -203,7 +207,8 @@ class Joiner {
       partner[v] = nearest;
     }
     partner_ = std::move(partner);
-    context.info("border vertices of periodic side \"" + names_.second + "\" are moved along it to the images of those of \"" + names_.first + "\", by " + metres(farthest) + " at most");
+    context.info("border vertices of periodic side \"" + names_.second + "\" are moved along it to the images of those of \"" + names_.first + "\", by " +
+                 metres(farthest) + " at most");
     return true;
   }
 
@@ -216,7 +221,8 @@ class Joiner {
   void require_same_edges(const std::vector<Edge>& first, const std::vector<Edge>& second) {
     const std::set<Edge> others(second.begin(), second.end());
     for (const Edge& edge : first)
-      if (!others.contains({partner_.at(edge[1]), partner_.at(edge[0])})) note(0.5 * (mesh_.points[edge[0]] + mesh_.points[edge[1]]), "no border edge at its image");
+      if (!others.contains({partner_.at(edge[1]), partner_.at(edge[0])}))
+        note(0.5 * (mesh_.points[edge[0]] + mesh_.points[edge[1]]), "no border edge at its image");
     if (error_.n_places > 0) fail("the borders have the same vertices, but " + std::to_string(error_.n_places) + " edges differ");
   }
 
@@ -295,7 +301,10 @@ void require_one_pair_each(std::span<const PeriodicNames> names) {
   for (const PeriodicNames& pair : names)
     for (const std::string& name : {pair.first, pair.second})
       if (pair.first != pair.second && !seen.insert(name).second)
-        throw Error({.code = ErrorCode::bad_argument, .attempted = "making sides periodic", .problem = "patch \"" + name + "\" is in two pairs", .hint = "each side has one partner"});
+        throw Error({.code = ErrorCode::bad_argument,
+                     .attempted = "making sides periodic",
+                     .problem = "patch \"" + name + "\" is in two pairs",
+                     .hint = "each side has one partner"});
 }
 
 }  // namespace

@@ -29,6 +29,7 @@ void require_affordable(double n_triangles, const std::string& attempted);
 inline double common_edge(double given, double usual) { return is_automatic(given) ? usual : given > 0.0 ? given : -given * usual; }
 double edge_of_side(std::span<const SideRule> rules, const std::string& side, double common);
 /// Adds triangles by their vertices as a patch of kind farfield. \param is_turned their sense is turned
-void add_patch(TriMesh& mesh, const std::string& name, std::span<const std::array<std::uint32_t, 3>> triangles, const std::vector<VertexId>& vertices, bool is_turned);
+void add_patch(TriMesh& mesh, const std::string& name, std::span<const std::array<std::uint32_t, 3>> triangles, const std::vector<VertexId>& vertices,
+               bool is_turned);
 
 }  // namespace sterna::volmesh

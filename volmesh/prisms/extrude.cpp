@@ -137,7 +137,8 @@ double Extruder::valid_share_of_curving(const Envelope& envelope, std::size_t co
 /// Limits c_t at the lines of invalid columns to what bisection finds; returns the columns that no c_t makes valid.
 Extruder::Columns Extruder::reduce_curving(const Envelope& envelope, const Columns& bad) {
   std::vector<double> share(bad.size());
-  parallel_for(context_, bad.size(), [&](std::size_t i) { share[i] = valid_share_of_curving(envelope, bad[i]); }, 8);
+  parallel_for(
+      context_, bad.size(), [&](std::size_t i) { share[i] = valid_share_of_curving(envelope, bad[i]); }, 8);
   Columns hopeless;
   for (std::size_t i = 0; i < bad.size(); ++i) {
     if (share[i] == k_hopeless) {

@@ -13,9 +13,9 @@
 namespace sterna::volmesh {
 
 struct Extrusion {
-  LayerBlock layers;           ///< line k stands on wall vertex k; base triangle = wall triangle
-  std::vector<Point> points;   ///< nodes of all lines, line by line from the wall up
-  std::int64_t n_straightened = 0;            ///< lines whose c_t was reduced
+  LayerBlock layers;                             ///< line k stands on wall vertex k; base triangle = wall triangle
+  std::vector<Point> points;                     ///< nodes of all lines, line by line from the wall up
+  std::int64_t n_straightened = 0;               ///< lines whose c_t was reduced
   std::array<std::int64_t, 5> curving_shares{};  ///< of them, by c_t over the wanted one: 0, up to 1/4, 1/2, 3/4, below 1
 };
 
@@ -49,7 +49,7 @@ class Extruder {
   EnvelopeScale scale_;
   RunContext context_;
   Curving curving_;
-  LayerBlock layers_;          ///< all lines have the nodes of all their layers here, collapsed ones too
+  LayerBlock layers_;  ///< all lines have the nodes of all their layers here, collapsed ones too
   std::vector<Point> points_;
   /// What each line was placed with.
   struct Placed {

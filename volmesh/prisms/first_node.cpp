@@ -46,9 +46,7 @@ FirstNodeReport first_node_report(const LayerBase& base, const Classification& c
                                   const Extrusion& extrusion, const RunContext& context) {
   const EnvelopeScale scale = scale_of(base, options);
   const auto is_full = [&](VertexId v) { return normal_height(base, envelope, v) >= scale.compressed(v); };
-  const auto first_step = [&](VertexId v) {
-    return extrusion.points[extrusion.layers.node(v.value(), 1).index()] - base.wall.points[v];
-  };
+  const auto first_step = [&](VertexId v) { return extrusion.points[extrusion.layers.node(v.value(), 1).index()] - base.wall.points[v]; };
   const Tally vertices = parallel_reduce(
       context, base.wall.n_vertices(), Tally{},
       [&](std::size_t begin, std::size_t end) {

@@ -7,13 +7,14 @@
 
 namespace sterna::volmesh {
 
-/// Height of the layer at a vertex along its wall normal, m: h (d . n). It is what the layer law divides, so that the first node is h0 off the wall whatever the
-/// line's curve and slant; the layer is compressed (equally spaced, h0 not met) where it is below n h0. At least 0.1 h: steeper lines would not be told apart.
+/// Height of the layer at a vertex along its wall normal, m: h (d . n). It is what the layer law divides, so that the first node is h0 off the wall whatever
+/// the line's curve and slant; the layer is compressed (equally spaced, h0 not met) where it is below n h0. At least 0.1 h: steeper lines would not be told
+/// apart.
 double normal_height(const LayerBase& base, const Envelope& envelope, VertexId v);
 
-/// Distance of the first node along the wall normal over h0. Along a facet's normal it is smaller by the cosine between the two normals; the factor makes the cells
-/// on the vertex's triangles h0 high on average (inverse area-weighted mean cosine) and the lowest of them within 2 % where that can be, but stays at most 1.019:
-/// within the 2 % by which the distance along the wall normal may differ from h0 (G11).
+/// Distance of the first node along the wall normal over h0. Along a facet's normal it is smaller by the cosine between the two normals; the factor makes the
+/// cells on the vertex's triangles h0 high on average (inverse area-weighted mean cosine) and the lowest of them within 2 % where that can be, but stays at
+/// most 1.019: within the 2 % by which the distance along the wall normal may differ from h0 (G11).
 double first_height_factor(const LayerBase& base, VertexId v);
 
 /// Nodes p_0 .. p_n of a line: p_j = p + t_j (s_j h_n n + (1 - s_j)(e - p)) with envelope point e, wall normal n, h_n = normal_height and eq. (11) for

@@ -18,7 +18,10 @@ struct Schema<volmesh::PrismOptions> {
   using O = volmesh::PrismOptions;
   static constexpr std::string_view stage = "prisms";
   static constexpr std::array fields = {
-      Field<O>{.name = "wall_perpendicularity", .member = &O::wall_perpendicularity, .min = 0.0, .max = 1.0,
+      Field<O>{.name = "wall_perpendicularity",
+               .member = &O::wall_perpendicularity,
+               .min = 0.0,
+               .max = 1.0,
                .help = "c_t of the layer curves: how far from the wall they stay normal to it; 0 = straight"},
   };
 };

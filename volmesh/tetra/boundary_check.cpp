@@ -58,18 +58,19 @@ void check_counts_and_indices(const TetraBoundary& boundary, const RunContext& c
   const std::size_t n_points = boundary.points.size();
   if (boundary.triangles.empty()) throw Error(info(ErrorCode::bad_argument, "the boundary has no triangles"));
   if (n_points > k_count_limit || boundary.triangles.size() > k_count_limit) {
-    throw Error(info(ErrorCode::overflow, std::to_string(n_points) + " points and " + std::to_string(boundary.triangles.size()) + " triangles, limit " + std::to_string(k_count_limit)));
+    throw Error(info(ErrorCode::overflow, std::to_string(n_points) + " points and " + std::to_string(boundary.triangles.size()) + " triangles, limit " +
+                                              std::to_string(k_count_limit)));
   }
-  const Offenders bad = find_all(context, boundary.triangles.size(), [&](std::size_t t) {
-    return std::ranges::any_of(boundary.triangles[t], [&](std::uint32_t v) { return v >= n_points; });
-  });
+  const Offenders bad = find_all(context, boundary.triangles.size(),
+                                 [&](std::size_t t) { return std::ranges::any_of(boundary.triangles[t], [&](std::uint32_t v) { return v >= n_points; }); });
   if (bad.empty()) return;
-  ErrorInfo error = info(ErrorCode::bad_argument, std::to_string(bad.size()) + " triangles with a vertex index out of range, limit " + std::to_string(n_points));
+  ErrorInfo error =
+      info(ErrorCode::bad_argument, std::to_string(bad.size()) + " triangles with a vertex index out of range, limit " + std::to_string(n_points));
   for (std::size_t i = 0; i < std::min(bad.size(), k_places_named); ++i) {
     const auto& t = boundary.triangles[bad[i]];
     const auto known = std::ranges::find_if(t, [&](std::uint32_t v) { return v < n_points; });
-    error.places.push_back({known == t.end() ? Vec3{} : boundary.points[*known],
-                            "triangle " + std::to_string(bad[i]) + " (" + std::to_string(t[0]) + ", " + std::to_string(t[1]) + ", " + std::to_string(t[2]) + ")"});
+    error.places.push_back({known == t.end() ? Vec3{} : boundary.points[*known], "triangle " + std::to_string(bad[i]) + " (" + std::to_string(t[0]) + ", " +
+                                                                                     std::to_string(t[1]) + ", " + std::to_string(t[2]) + ")"});
   }
   error.n_places = static_cast<std::int64_t>(bad.size());
   throw Error(std::move(error));
@@ -77,7 +78,9 @@ void check_counts_and_indices(const TetraBoundary& boundary, const RunContext& c
 
 void check_coordinates(const TetraBoundary& boundary, const RunContext& context) {
   const Offenders infinite = find_all(context, boundary.points.size(), [&](std::size_t i) { return !is_finite(boundary.points[i]); });
-  if (!infinite.empty()) throw_for_points(info(ErrorCode::bad_argument, std::to_string(infinite.size()) + " points with a coordinate that is not finite"), boundary, infinite, "is not finite");
+  if (!infinite.empty())
+    throw_for_points(info(ErrorCode::bad_argument, std::to_string(infinite.size()) + " points with a coordinate that is not finite"), boundary, infinite,
+                     "is not finite");
   for (const Vec3& hole : boundary.hole_points) {
     if (!is_finite(hole)) throw Error(info(ErrorCode::bad_argument, "a hole point is not finite"));
   }
@@ -90,7 +93,8 @@ void check_points_used(const TetraBoundary& boundary, std::span<const std::array
       for (const std::uint32_t v : t) is_used[v] = 1;
   }
   const Offenders unused = find_all(context, is_used.size(), [&](std::size_t i) { return !is_used[i]; });
-  if (!unused.empty()) throw_for_points(info(ErrorCode::bad_argument, std::to_string(unused.size()) + " points that no triangle uses"), boundary, unused, "is unused");
+  if (!unused.empty())
+    throw_for_points(info(ErrorCode::bad_argument, std::to_string(unused.size()) + " points that no triangle uses"), boundary, unused, "is unused");
 }
 
 void check_no_twin_points(const TetraBoundary& boundary, const RunContext& context) {
@@ -108,7 +112,8 @@ void check_no_twin_points(const TetraBoundary& boundary, const RunContext& conte
   if (twins.empty()) return;
   for (std::size_t& i : twins) i = order[i];
   std::ranges::sort(twins);
-  throw_for_points(info(ErrorCode::self_intersection, std::to_string(twins.size()) + " points at the place of another one", "weld them, or move the touching parts of the boundary apart"),
+  throw_for_points(info(ErrorCode::self_intersection, std::to_string(twins.size()) + " points at the place of another one",
+                        "weld them, or move the touching parts of the boundary apart"),
                    boundary, twins, "lies on another point");
 }
 
@@ -123,7 +128,9 @@ void check_triangles(const TetraBoundary& boundary, const RunContext& context) {
     const auto& t = boundary.triangles[i];
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || is_degenerate(boundary.points[t[0]], boundary.points[t[1]], boundary.points[t[2]]);
   });
-  if (!flat.empty()) throw_for_triangles(info(ErrorCode::bad_argument, std::to_string(flat.size()) + " triangles whose corners are equal or lie on a line"), boundary, flat, "without area");
+  if (!flat.empty())
+    throw_for_triangles(info(ErrorCode::bad_argument, std::to_string(flat.size()) + " triangles whose corners are equal or lie on a line"), boundary, flat,
+                        "without area");
 }
 
 struct DirectedEdge {
@@ -139,7 +146,8 @@ void check_edges(const TetraBoundary& boundary, const RunContext& context) {
       edges[3 * t + k] = {std::min(a, b) << 32 | std::max(a, b), t << 1 | static_cast<std::uint64_t>(a > b)};
     }
   });
-  parallel_sort(context, edges, [](const DirectedEdge& a, const DirectedEdge& b) { return a.vertices != b.vertices ? a.vertices < b.vertices : a.use < b.use; });
+  parallel_sort(context, edges,
+                [](const DirectedEdge& a, const DirectedEdge& b) { return a.vertices != b.vertices ? a.vertices < b.vertices : a.use < b.use; });
   Offenders open, tangled;
   for (std::size_t i = 0; i < edges.size();) {
     std::size_t end = i + 1;
@@ -152,10 +160,12 @@ void check_edges(const TetraBoundary& boundary, const RunContext& context) {
     i = end;
   }
   if (!open.empty()) {
-    throw_for_triangles(info(ErrorCode::open_surface, std::to_string(open.size()) + " edges with one triangle only; the boundary must be closed"), boundary, open, "has an open edge");
+    throw_for_triangles(info(ErrorCode::open_surface, std::to_string(open.size()) + " edges with one triangle only; the boundary must be closed"), boundary,
+                        open, "has an open edge");
   }
   if (!tangled.empty()) {
-    throw_for_triangles(info(ErrorCode::non_manifold_surface, std::to_string(tangled.size()) + " edges with more than two triangles or two of the same sense"), boundary, tangled, "has such an edge");
+    throw_for_triangles(info(ErrorCode::non_manifold_surface, std::to_string(tangled.size()) + " edges with more than two triangles or two of the same sense"),
+                        boundary, tangled, "has such an edge");
   }
 }
 

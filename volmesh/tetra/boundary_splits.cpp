@@ -29,7 +29,8 @@ class Finder {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return parents[i]; });
     for (const std::size_t i : order) {
-      if (parents[i] >= boundary_.triangles.size()) throw_invalid("a face belongs to boundary triangle " + std::to_string(parents[i]) + " of " + std::to_string(boundary_.triangles.size()));
+      if (parents[i] >= boundary_.triangles.size())
+        throw_invalid("a face belongs to boundary triangle " + std::to_string(parents[i]) + " of " + std::to_string(boundary_.triangles.size()));
       splits_.triangles.push_back(triangles[i]);
       splits_.parents.push_back(parents[i]);
     }
@@ -143,7 +144,8 @@ class Finder {
 
 }  // namespace
 
-BoundarySplits find_splits(const TetraBoundary& boundary, std::span<const Vec3> points, std::span<const Triangle> triangles, std::span<const std::uint32_t> parents) {
+BoundarySplits find_splits(const TetraBoundary& boundary, std::span<const Vec3> points, std::span<const Triangle> triangles,
+                           std::span<const std::uint32_t> parents) {
   return Finder(boundary, points).find(triangles, parents);
 }
 

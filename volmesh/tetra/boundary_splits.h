@@ -20,15 +20,15 @@ struct BoundarySplits {
     std::uint32_t triangle = 0;
     std::array<double, 3> weights{};
   };
-  std::vector<Vec3> points;                              ///< m; node number = n boundary points + index
-  std::vector<Origin> origins;                           ///< of each point
-  std::vector<std::array<std::uint32_t, 3>> triangles;   ///< all triangles of the new boundary, same sense as their parents, in the order of these
-  std::vector<std::uint32_t> parents;                    ///< of each: the triangle that it is a part of
+  std::vector<Vec3> points;                             ///< m; node number = n boundary points + index
+  std::vector<Origin> origins;                          ///< of each point
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< all triangles of the new boundary, same sense as their parents, in the order of these
+  std::vector<std::uint32_t> parents;                   ///< of each: the triangle that it is a part of
   bool empty() const { return points.empty(); }
 };
 
-/// Finds origins and senses, and proves that the triangles of each parent tile it: corners in it, positive areas in its barycentric coordinates, which sum to 1.
-/// \p points: all nodes that `triangles` use, boundary points first, then only such as some triangle uses; \p parents: of each triangle, in any order.
+/// Finds origins and senses, and proves that the triangles of each parent tile it: corners in it, positive areas in its barycentric coordinates, which sum
+/// to 1. \p points: all nodes that `triangles` use, boundary points first, then only such as some triangle uses; \p parents: of each triangle, in any order.
 /// \throws Error(tetra_result_invalid) with the first place when it is no such subdivision.
 BoundarySplits find_splits(const TetraBoundary& boundary, std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
                            std::span<const std::uint32_t> parents);

@@ -27,7 +27,8 @@ namespace {
 
 constexpr std::size_t k_triangles_tried = 8;  ///< per shell, the largest
 /// Where a triangle is pierced; uneven, so that lines miss the edges and vertices of regular meshes. The next is taken where the line meets an edge.
-constexpr std::array<std::array<double, 3>, 5> k_weights = {{{0.43, 0.31, 0.26}, {0.2713, 0.4127, 0.316}, {0.361, 0.2117, 0.4273}, {0.5519, 0.1709, 0.2772}, {0.1373, 0.2939, 0.5688}}};
+constexpr std::array<std::array<double, 3>, 5> k_weights = {
+    {{0.43, 0.31, 0.26}, {0.2713, 0.4127, 0.316}, {0.361, 0.2117, 0.4273}, {0.5519, 0.1709, 0.2772}, {0.1373, 0.2939, 0.5688}}};
 
 struct Crossing {
   TriangleId triangle;
@@ -227,7 +228,8 @@ std::vector<Point> find_cavity_points(const TriMesh& wall, const RunContext& con
   const Wall surface(wall, shells, context);
   const std::vector<std::vector<TriangleId>> triangles = largest_triangles(wall, shells);
   std::vector<Candidate> candidates(shells.count);
-  parallel_for(context, candidates.size(), [&](std::size_t shell) { candidates[shell] = roomiest_point(surface, wall, triangles[shell]); }, 1);
+  parallel_for(
+      context, candidates.size(), [&](std::size_t shell) { candidates[shell] = roomiest_point(surface, wall, triangles[shell]); }, 1);
 
   // One point per region, the one with the most room, in the place of its first shell.
   std::vector<Candidate> kept;

@@ -123,10 +123,12 @@ std::optional<EngineFailure> judge_exit(EngineKind kind, const HelperExit& exit,
   const bool is_reply = header.magic == wire::k_reply_magic;
   if (exit.is_success() && is_reply && header.outcome == wire::Outcome::ok) return std::nullopt;
   if (exit.is_time_over) {
-    return failure(FailureKind::limit, kind, "stopped after the time limit of " + with_unit(options.time_limit, "s"), "raise tetrahedra.time_limit, or coarsen the surface");
+    return failure(FailureKind::limit, kind, "stopped after the time limit of " + with_unit(options.time_limit, "s"),
+                   "raise tetrahedra.time_limit, or coarsen the surface");
   }
   if (is_reply && header.outcome == wire::Outcome::out_of_memory) {
-    return failure(FailureKind::limit, kind, "out of memory: the limit of the helper is " + megabytes(options.memory_limit) + ", it had used " + megabytes(header.peak_bytes),
+    return failure(FailureKind::limit, kind,
+                   "out of memory: the limit of the helper is " + megabytes(options.memory_limit) + ", it had used " + megabytes(header.peak_bytes),
                    "raise tetrahedra.memory_limit, or coarsen the surface");
   }
   const std::string name(display_name(kind));
@@ -159,7 +161,8 @@ std::optional<EngineFailure> judge_count(EngineKind kind, const wire::ReplyHeade
 }
 
 /// Boundary points come right after the boundary's own, in the engine's order; those in the volume follow.
-void adopt_splits(const TetraBoundary& boundary, std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint32_t> parents, TetraResult& result) {
+void adopt_splits(const TetraBoundary& boundary, std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const std::uint32_t> parents,
+                  TetraResult& result) {
   const std::size_t n_old = boundary.points.size();
   const std::size_t n_new = result.new_points.size();
   std::vector<std::uint8_t> is_on_boundary(n_new, 0);
@@ -189,16 +192,18 @@ void adopt_splits(const TetraBoundary& boundary, std::span<const std::array<std:
   result.splits = find_splits(boundary, points, renumbered, parents);
 }
 
-TetraResult read_result(EngineKind kind, const wire::ReplyHeader& header, const SharedBlock& reply, const std::byte* data, const EngineInput& input, const Request& request,
-                        const RunContext& context) {
+TetraResult read_result(EngineKind kind, const wire::ReplyHeader& header, const SharedBlock& reply, const std::byte* data, const EngineInput& input,
+                        const Request& request, const RunContext& context) {
   const std::size_t n_boundary = request.points().size();
-  const std::size_t expected = sizeof header + sizeof(Vec3) * header.n_points + sizeof(std::array<std::uint32_t, 4>) * header.n_tetrahedra + sizeof(std::array<std::uint32_t, 4>) * header.n_triangles;
+  const std::size_t expected = sizeof header + sizeof(Vec3) * header.n_points + sizeof(std::array<std::uint32_t, 4>) * header.n_tetrahedra +
+                               sizeof(std::array<std::uint32_t, 4>) * header.n_triangles;
   if (reply.size() != expected) throw_invalid_reply(kind, std::to_string(reply.size()) + " bytes instead of " + std::to_string(expected));
   if (header.n_points < n_boundary) throw_invalid_reply(kind, std::to_string(header.n_points) + " points come back of " + std::to_string(n_boundary));
   const auto* points = reinterpret_cast<const Vec3*>(data + sizeof header);
   for (std::size_t i = 0; i < n_boundary; ++i) {
     if (points[i] == request.points()[i]) continue;
-    throw_invalid_reply(kind, "boundary point " + std::to_string(i) + " comes back in another place", {{request.points()[i] / request.scale(), "sent"}, {points[i] / request.scale(), "came back"}});
+    throw_invalid_reply(kind, "boundary point " + std::to_string(i) + " comes back in another place",
+                        {{request.points()[i] / request.scale(), "sent"}, {points[i] / request.scale(), "came back"}});
   }
   TetraResult result;
   result.engine = to_string(kind);
@@ -209,8 +214,10 @@ TetraResult read_result(EngineKind kind, const wire::ReplyHeader& header, const 
   parallel_for(context, result.new_points.size(), [&](std::size_t i) { result.new_points[i] = points[n_boundary + i] / request.scale(); });
   if (header.n_tetrahedra > 0) std::memcpy(result.tetrahedra.data(), points + header.n_points, sizeof(result.tetrahedra[0]) * header.n_tetrahedra);
   if (header.n_triangles > 0) {
-    const auto* triangles = reinterpret_cast<const std::array<std::uint32_t, 3>*>(data + sizeof header + sizeof(Vec3) * header.n_points + sizeof(result.tetrahedra[0]) * header.n_tetrahedra);
-    adopt_splits(input.boundary, {triangles, header.n_triangles}, {reinterpret_cast<const std::uint32_t*>(triangles + header.n_triangles), header.n_triangles}, result);
+    const auto* triangles = reinterpret_cast<const std::array<std::uint32_t, 3>*>(data + sizeof header + sizeof(Vec3) * header.n_points +
+                                                                                  sizeof(result.tetrahedra[0]) * header.n_tetrahedra);
+    adopt_splits(input.boundary, {triangles, header.n_triangles}, {reinterpret_cast<const std::uint32_t*>(triangles + header.n_triangles), header.n_triangles},
+                 result);
   }
   if (input.joined) part_sheets(input.boundary, *input.joined, result);
   return result;
@@ -252,7 +259,8 @@ EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraO
       const StageTimer timer(context, "tetrahedra/helper");
       LateData size_field;
       if (input.sizes) size_field = [&] { return input.sizes->is_ready() ? input.sizes->get().bytes() : std::span<const std::byte>(); };
-      return run_helper({.task = engine_task(), .path = helper, .arguments = {}, .late = size_field, .time_limit = options.time_limit}, request.block().descriptor(), reply.descriptor(), context);
+      return run_helper({.task = engine_task(), .path = helper, .arguments = {}, .late = size_field, .time_limit = options.time_limit},
+                        request.block().descriptor(), reply.descriptor(), context);
     }();
     transfer.emplace(context, "tetrahedra/transfer");
     if (!exit.output.empty()) context.debug(std::string(display_name(kind)) + ": " + exit.output);

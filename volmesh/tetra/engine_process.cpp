@@ -4,7 +4,8 @@
 
 namespace sterna::volmesh {
 
-static_assert(wire::k_request_fd == k_helper_request_fd && wire::k_reply_fd == k_helper_reply_fd && wire::k_size_fd == k_helper_late_fd && wire::k_size_ready_fd == k_helper_late_ready_fd);
+static_assert(wire::k_request_fd == k_helper_request_fd && wire::k_reply_fd == k_helper_reply_fd && wire::k_size_fd == k_helper_late_fd &&
+              wire::k_size_ready_fd == k_helper_late_ready_fd);
 
 HelperTask engine_task() {
   return {.helper = "the tetrahedra engine",

@@ -29,7 +29,8 @@ struct Rung {
 };
 
 std::string text_of(const Rung& rung) {
-  return std::string(display_name(rung.engine)) + (rung.splits == SplitMode::none ? "" : " with splits of the boundary's triangles") + (rung.is_two_pass ? " in two passes" : "");
+  return std::string(display_name(rung.engine)) + (rung.splits == SplitMode::none ? "" : " with splits of the boundary's triangles") +
+         (rung.is_two_pass ? " in two passes" : "");
 }
 
 /// What is to be tried, in this order.
@@ -41,7 +42,8 @@ std::vector<Rung> rungs_of(const TetraBoundary& boundary, const TetraOptions& op
     if (options.engine == "hxt") throw_bad("two_pass", "true\" with engine \"hxt", "only TetGen has two passes: leave the engine automatic, or choose tetgen");
     rungs = {{EngineKind::tetgen, SplitMode::none, true}, {EngineKind::hxt}};
   }
-  if (boundary.has_sheets && options.boundary_splits == "always") throw_bad("boundary_splits", "always", "triangles beside sheets without thickness (actuator discs) cannot be split");
+  if (boundary.has_sheets && options.boundary_splits == "always")
+    throw_bad("boundary_splits", "always", "triangles beside sheets without thickness (actuator discs) cannot be split");
   if (options.boundary_splits == "always") {
     if (options.engine == "hxt") throw_bad("boundary_splits", "always", "HXT keeps the boundary: leave the engine automatic, or choose tetgen");
     if (!boundary.take_splits) throw_bad("boundary_splits", "always", "nothing here can take splits of the boundary");
@@ -76,8 +78,8 @@ EngineOutcome taken(EngineOutcome outcome, const TetraBoundary& boundary) {
 }
 
 /// One run of an engine, or two.
-EngineOutcome run(const Rung& rung, const TetraBoundary& boundary, const JoinedBoundary* joined, const BoundaryParts& parts, SizeSupply* sizes, const TetraOptions& options,
-                  const RunContext& context) {
+EngineOutcome run(const Rung& rung, const TetraBoundary& boundary, const JoinedBoundary* joined, const BoundaryParts& parts, SizeSupply* sizes,
+                  const TetraOptions& options, const RunContext& context) {
   if (!rung.is_two_pass) return run_engine(rung.engine, {boundary, parts, sizes, rung.splits, joined}, options, context);
   TetraOptions coarse = options;
   coarse.radius_edge = std::max(options.radius_edge, k_coarse_radius_edge);
@@ -85,7 +87,8 @@ EngineOutcome run(const Rung& rung, const TetraBoundary& boundary, const JoinedB
   if (!first.result) return first;
   context.info("first pass: " + std::to_string(first.result->tetrahedra.size()) + " tetrahedra");
   const SizeSource samples = nodal_sizes(boundary, *first.result, context);
-  if (samples.points.empty()) return run_engine(rung.engine, {boundary, parts, sizes, rung.splits, joined}, options, context);  // nothing in the volume to take sizes from
+  if (samples.points.empty())
+    return run_engine(rung.engine, {boundary, parts, sizes, rung.splits, joined}, options, context);  // nothing in the volume to take sizes from
   const SizeField field = sizes ? sizes->with(samples, boundary, context) : build_size_field(boundary, std::span(&samples, 1), {}, context);
   SizeSupply second_sizes(field);
   EngineOutcome second = run_engine(rung.engine, {boundary, parts, &second_sizes, rung.splits, joined}, options, context);
@@ -105,7 +108,8 @@ TetraResult fill_with(const TetraBoundary& boundary, SizeSupply* sizes, const Te
   PreflightReport seen;
   const BoundaryParts parts = [&] {
     const StageTimer timer(context, "tetrahedra/boundary");
-    const TetraBoundary closed = joined ? TetraBoundary{.points = joined->points, .triangles = joined->triangles(), .hole_points = boundary.hole_points} : boundary;
+    const TetraBoundary closed =
+        joined ? TetraBoundary{.points = joined->points, .triangles = joined->triangles(), .hole_points = boundary.hole_points} : boundary;
     const auto sheets = joined ? joined->sheets() : std::span<const std::array<std::uint32_t, 3>>();
     check_boundary(closed, context, sheets);
     if (!boundary.is_clear) judge(seen = preflight(boundary, {}, context), boundary, context);

@@ -9,13 +9,13 @@
 // - It does not say that it ran out of memory; a crash is possible then too.
 // - With more than one thread its answer differs from run to run.
 
+#include <gmsh.h>
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
-#include <gmsh.h>
 #include <new>
 #include <string>
 #include <vector>
@@ -24,9 +24,9 @@
 
 // HXT says "failed" when it gets no memory. The program's own allocation functions come before those of the C library, which they call, and take note.
 extern "C" {
-void* __libc_malloc(std::size_t size);  // NOLINT(readability-identifier-naming): glibc's name
-void* __libc_calloc(std::size_t count, std::size_t size);  // NOLINT(readability-identifier-naming): glibc's name
-void* __libc_realloc(void* block, std::size_t size);  // NOLINT(readability-identifier-naming): glibc's name
+void* __libc_malloc(std::size_t size);                           // NOLINT(readability-identifier-naming): glibc's name
+void* __libc_calloc(std::size_t count, std::size_t size);        // NOLINT(readability-identifier-naming): glibc's name
+void* __libc_realloc(void* block, std::size_t size);             // NOLINT(readability-identifier-naming): glibc's name
 void* __libc_memalign(std::size_t alignment, std::size_t size);  // NOLINT(readability-identifier-naming): glibc's name
 }
 
@@ -41,8 +41,8 @@ void* noted(void* block, std::size_t size) {
   return block;
 }
 
-constexpr int k_hxt = 10;       ///< Mesh.Algorithm3D
-constexpr int k_triangle = 2;   ///< Gmsh's element types
+constexpr int k_hxt = 10;      ///< Mesh.Algorithm3D
+constexpr int k_triangle = 2;  ///< Gmsh's element types
 constexpr int k_tetrahedron = 4;
 
 /// HXT keeps its points about as far apart as it is told, so that edges come out longer: their geometric mean is 1.44 times the size (measured in a field of
@@ -52,7 +52,8 @@ constexpr double k_size_factor = 1.0 / 1.44;
 void set_options(const wire::RequestHeader& header) {
   gmsh::option::setNumber("General.Terminal", 1);
   gmsh::option::setNumber("General.Verbosity", 2);  // warnings and errors
-  for (const char* threads : {"General.NumThreads", "Mesh.MaxNumThreads1D", "Mesh.MaxNumThreads2D", "Mesh.MaxNumThreads3D"}) gmsh::option::setNumber(threads, 1);
+  for (const char* threads : {"General.NumThreads", "Mesh.MaxNumThreads1D", "Mesh.MaxNumThreads2D", "Mesh.MaxNumThreads3D"})
+    gmsh::option::setNumber(threads, 1);
   gmsh::option::setNumber("Mesh.Algorithm3D", k_hxt);
   gmsh::option::setNumber("Mesh.Optimize", header.improve_below > 0.0 ? 1 : 0);
   gmsh::option::setNumber("Mesh.OptimizeThreshold", header.improve_below);

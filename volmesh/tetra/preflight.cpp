@@ -14,19 +14,19 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_chunk = 512;             ///< triangles per task: about 2 ms
-constexpr std::int64_t k_findings_kept = 1000;   ///< of each kind
+constexpr std::size_t k_chunk = 512;            ///< triangles per task: about 2 ms
+constexpr std::int64_t k_findings_kept = 1000;  ///< of each kind
 constexpr std::size_t k_places_named = 10;
-constexpr int k_digits = 3;                      ///< of numbers in messages
+constexpr int k_digits = 3;  ///< of numbers in messages
 /// A triangle flatter than this (height over longest edge) has no normal that could separate it from others.
 constexpr double k_flat = 1e-6;
 /// Rounding error of a distance to a plane over the largest coordinate, generously.
 constexpr double k_rounding = 1e-12;
 
 struct Shape {
-  Vec3 normal;             ///< unit; zero for a flat triangle
+  Vec3 normal;  ///< unit; zero for a flat triangle
   double mean_edge = 0.0;
-  double flatness = 0.0;   ///< smallest height over longest edge
+  double flatness = 0.0;  ///< smallest height over longest edge
 };
 
 Shape shape_of(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -196,8 +196,8 @@ std::string text_of(const PreflightFinding& finding) {
 }  // namespace
 
 std::string_view to_string(Trouble trouble) {
-  constexpr std::array<std::string_view, 5> texts = {"pairs of triangles that cross", "pairs of triangles with the same vertices", "pairs of neighbours folded onto each other",
-                                                     "slivers", "pairs of triangles close to each other"};
+  constexpr std::array<std::string_view, 5> texts = {"pairs of triangles that cross", "pairs of triangles with the same vertices",
+                                                     "pairs of neighbours folded onto each other", "slivers", "pairs of triangles close to each other"};
   return texts[static_cast<std::size_t>(trouble)];
 }
 
@@ -240,7 +240,8 @@ void add_suspects(const PreflightReport& report, const TetraBoundary& boundary, 
     error.n_places += report.count(trouble);
     for (const PreflightFinding& finding : report.findings) {
       if (finding.trouble != trouble) continue;
-      if (error.places.size() < k_places_named) error.places.push_back(place_of_triangle(boundary, finding.triangles[0], text_of(finding) + " (hard for engines)"));
+      if (error.places.size() < k_places_named)
+        error.places.push_back(place_of_triangle(boundary, finding.triangles[0], text_of(finding) + " (hard for engines)"));
       for (const std::uint32_t t : finding.triangles) add_triangle(error.geometry, boundary, t);
     }
   }
@@ -256,9 +257,11 @@ void judge(const PreflightReport& report, const TetraBoundary& boundary, const R
   }
   const std::int64_t n_fatal = report.count(Trouble::crossing) + report.count(Trouble::duplicate);
   if (n_fatal == 0) return;
-  ErrorInfo error{.code = ErrorCode::self_intersection, .attempted = "checking the boundary of the tetrahedra", .n_places = n_fatal, .hint = "remove the crossings"};
+  ErrorInfo error{
+      .code = ErrorCode::self_intersection, .attempted = "checking the boundary of the tetrahedra", .n_places = n_fatal, .hint = "remove the crossings"};
   for (const Trouble trouble : {Trouble::crossing, Trouble::duplicate}) {
-    if (report.count(trouble) > 0) error.problem += (error.problem.empty() ? "" : ", ") + std::to_string(report.count(trouble)) + " " + std::string(to_string(trouble));
+    if (report.count(trouble) > 0)
+      error.problem += (error.problem.empty() ? "" : ", ") + std::to_string(report.count(trouble)) + " " + std::string(to_string(trouble));
   }
   for (const PreflightFinding& finding : report.findings) {
     if (finding.trouble != Trouble::crossing && finding.trouble != Trouble::duplicate) continue;

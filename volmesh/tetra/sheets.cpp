@@ -1,5 +1,5 @@
-// Parting: the corners of tetrahedra at a point with two sides are joined over faces that are not the sheet's; what is joined lies on one side, and a face of the
-// sheet tells which.
+// Parting: the corners of tetrahedra at a point with two sides are joined over faces that are not the sheet's; what is joined lies on one side, and a face of
+// the sheet tells which.
 
 #include "volmesh/tetra/sheets.h"
 
@@ -95,7 +95,9 @@ JoinedBoundary join_sheets(const TetraBoundary& boundary, const RunContext& cont
   };
   for (std::uint32_t t = 0; t < boundary.triangles.size(); ++t)
     if (std::ranges::any_of(boundary.triangles[t], has_twin)) candidates.push_back({SortedFace(joined_corners(t)), t});
-  std::ranges::sort(candidates, [](const Candidate& a, const Candidate& b) { return a.face.corners != b.face.corners ? a.face.corners < b.face.corners : a.triangle < b.triangle; });
+  std::ranges::sort(candidates, [](const Candidate& a, const Candidate& b) {
+    return a.face.corners != b.face.corners ? a.face.corners < b.face.corners : a.triangle < b.triangle;
+  });
   std::vector<std::uint8_t> is_sheet(boundary.triangles.size(), 0);
   std::vector<std::array<std::uint32_t, 2>> sides;
   for (std::size_t i = 0; i + 1 < candidates.size(); ++i) {
@@ -124,13 +126,15 @@ JoinedBoundary join_sheets(const TetraBoundary& boundary, const RunContext& cont
       has_inner_point |= sources[0] != sources[1];
       if (sources[0] == sources[1]) continue;
       if (is_known[place[v]] && sources[0] != v)
-        throw_bad("the triangles of one side of a sheet use points of both of its sides", {{boundary.points[v], "point " + std::to_string(v)}}, "the sides' triangles must come in the same order");
+        throw_bad("the triangles of one side of a sheet use points of both of its sides", {{boundary.points[v], "point " + std::to_string(v)}},
+                  "the sides' triangles must come in the same order");
       if (sources[0] != v) std::swap(sources[0], sources[1]);
       is_known[place[v]] = 1;
     }
     if (has_inner_point) continue;
     const Triangle& t = boundary.triangles[front];
-    throw_bad("a sheet's triangle has all corners on its free rim", {{(boundary.points[t[0]] + boundary.points[t[1]] + boundary.points[t[2]]) / 3.0, "triangle " + std::to_string(front)}},
+    throw_bad("a sheet's triangle has all corners on its free rim",
+              {{(boundary.points[t[0]] + boundary.points[t[1]] + boundary.points[t[2]]) / 3.0, "triangle " + std::to_string(front)}},
               "every triangle of a sheet needs a corner inside");
   }
   joined.n_sheets = sides.size();

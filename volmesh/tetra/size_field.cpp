@@ -18,8 +18,8 @@
 namespace sterna::volmesh {
 namespace {
 
-/// Largest edge of a leaf over the size at its centre. 2 keeps the leaves at about a thirtieth of the tetrahedra; along a plane wall, where sizes grow linearly,
-/// interpolation is exact whatever the edge.
+/// Largest edge of a leaf over the size at its centre. 2 keeps the leaves at about a thirtieth of the tetrahedra; along a plane wall, where sizes grow
+/// linearly, interpolation is exact whatever the edge.
 constexpr double k_edge_over_size = 2.0;
 /// Room around the boundary's box, as a share of its edge: places on the boundary are inside of the root to rounding and beyond.
 constexpr double k_margin = 1e-3;
@@ -110,11 +110,14 @@ void Builder::refine() {
     context_.check_stop();
     const double edge = edge_of(depth);
     std::vector<std::uint8_t> is_split(level.size(), 0);
-    parallel_for(context_, level.size(), [&](std::size_t i) {
-      Octant& o = level[i];
-      const Vec3 center = origin_ + edge * Vec3{o.x + 0.5, o.y + 0.5, o.z + 0.5};
-      is_split[i] = depth < SizeFieldView::k_max_depth && edge > edge_over_size_ * size_at(center, o.hint);
-    }, 256);
+    parallel_for(
+        context_, level.size(),
+        [&](std::size_t i) {
+          Octant& o = level[i];
+          const Vec3 center = origin_ + edge * Vec3{o.x + 0.5, o.y + 0.5, o.z + 0.5};
+          is_split[i] = depth < SizeFieldView::k_max_depth && edge > edge_over_size_ * size_at(center, o.hint);
+        },
+        256);
     std::vector<Octant> next;
     const std::size_t next_first = nodes_.size();
     for (std::size_t i = 0; i < level.size(); ++i) {
@@ -191,11 +194,13 @@ SizeField Builder::pack(const std::vector<float>& values, double growth) const {
 }
 
 void require_sane(const TetraBoundary& boundary, std::span<const SizeSource> sources, double growth) {
-  if (boundary.triangles.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = "building the size field", .problem = "the boundary has no triangles"});
+  if (boundary.triangles.empty())
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "building the size field", .problem = "the boundary has no triangles"});
   for (std::size_t i = 0; i < sources.size(); ++i) {
     std::string problem = problem_of(sources[i], growth);
     const double n_leaves = volume_of(sources[i]) / std::pow(k_edge_over_size * std::max(sources[i].size, sources[i].size_end), 3.0);
-    if (problem.empty() && n_leaves > static_cast<double>(k_max_leaves)) problem = "its region at this size is more than " + std::to_string(k_max_leaves) + " leaves of the field";
+    if (problem.empty() && n_leaves > static_cast<double>(k_max_leaves))
+      problem = "its region at this size is more than " + std::to_string(k_max_leaves) + " leaves of the field";
     if (problem.empty()) continue;
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "building the size field",

@@ -32,7 +32,7 @@ class SizeField {
   explicit SizeField(std::vector<double> words) : words_(std::move(words)), view_(view()) {}
   SizeField(const SizeField& other) : SizeField(other.words_) {}
   SizeField& operator=(const SizeField& other) { return *this = SizeField(other); }
-  SizeField(SizeField&&) = default;             ///< a vector keeps its memory when it is moved
+  SizeField(SizeField&&) = default;  ///< a vector keeps its memory when it is moved
   SizeField& operator=(SizeField&&) = default;
 
  private:
@@ -54,8 +54,17 @@ struct Schema<volmesh::SizeFieldOptions> {
   using O = volmesh::SizeFieldOptions;
   static constexpr std::string_view stage = "size";
   static constexpr std::array fields = {
-      Field<O>{.name = "size_growth", .member = &O::size_growth, .min = 1.02, .max = 2.0, .help = "largest ratio of the sizes of neighbouring tetrahedra away from boundary and sources"},
-      Field<O>{.name = "size_max", .member = &O::size_max, .unit = Unit::metre, .min = 1e-12, .help = "longest edge of tetrahedra in the volume", .automatic = "no limit"},
+      Field<O>{.name = "size_growth",
+               .member = &O::size_growth,
+               .min = 1.02,
+               .max = 2.0,
+               .help = "largest ratio of the sizes of neighbouring tetrahedra away from boundary and sources"},
+      Field<O>{.name = "size_max",
+               .member = &O::size_max,
+               .unit = Unit::metre,
+               .min = 1e-12,
+               .help = "longest edge of tetrahedra in the volume",
+               .automatic = "no limit"},
   };
 };
 

@@ -26,7 +26,7 @@ class SizeFieldView {
     double edge = 0.0;                   ///< of the root, m
     double smallest = 0.0;               ///< over all corners, m
     double largest = 0.0;
-    double growth = 0.0;                 ///< the growth limit it was built with
+    double growth = 0.0;  ///< the growth limit it was built with
   };
   static_assert(sizeof(Header) == 80);
 
@@ -53,7 +53,8 @@ class SizeFieldView {
   double operator()(double x, double y, double z) const {
     constexpr double k_steps = 1 << k_max_depth;
     const double u[3] = {place(x, 0), place(y, 1), place(z, 2)};
-    const std::uint32_t at[3] = {static_cast<std::uint32_t>(u[0] * k_steps), static_cast<std::uint32_t>(u[1] * k_steps), static_cast<std::uint32_t>(u[2] * k_steps)};
+    const std::uint32_t at[3] = {static_cast<std::uint32_t>(u[0] * k_steps), static_cast<std::uint32_t>(u[1] * k_steps),
+                                 static_cast<std::uint32_t>(u[2] * k_steps)};
     std::uint32_t node = nodes_[0];
     int bit = k_max_depth;
     while (!(node & k_leaf_bit) && bit > 0) {

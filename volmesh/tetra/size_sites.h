@@ -23,8 +23,8 @@ class SizeSites {
   /// Built in parallel, O(n log n). \pre at least one site, finite coordinates.
   SizeSites(std::span<const SizeSite> sites, double slope, const RunContext& context);
 
-  /// The minimum over all sites, exact to rounding. \p hint: a site to start from, changed to the one that gave the minimum (any value below size() is correct; a
-  /// neighbour's makes the search short).
+  /// The minimum over all sites, exact to rounding. \p hint: a site to start from, changed to the one that gave the minimum (any value below size() is correct;
+  /// a neighbour's makes the search short).
   double smallest(const Vec3& p, std::uint32_t& hint) const;
   std::size_t size() const { return sites_.size(); }
 

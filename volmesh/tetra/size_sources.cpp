@@ -80,7 +80,8 @@ std::string problem_of(const SizeSource& source, double growth) {
   if (!(source.height >= 0.0) || !(source.spread >= 0.0) || !std::isfinite(source.height + source.spread)) return "height and spread must not be negative";
   if (!(norm(cross(source.direction, source.to - source.from)) > 0.0)) return "direction must not lie along the edge of the wake";
   if (source.size_end < 0.0 || !std::isfinite(source.size_end)) return "size_end must be positive";
-  if (source.size_end > 0.0 && std::abs(source.size_end - source.size) > (growth - 1.0) * source.length) return "size_end differs from size by more than growth allows over this length";
+  if (source.size_end > 0.0 && std::abs(source.size_end - source.size) > (growth - 1.0) * source.length)
+    return "size_end differs from size by more than growth allows over this length";
   return "";
 }
 

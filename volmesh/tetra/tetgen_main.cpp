@@ -11,19 +11,21 @@
 // - An open boundary gives 0 tetrahedra and no error; an index out of range is read as it is.
 // - Points that it adds and removes again during boundary recovery are left out of the answer, but not with -J (pygeo_bwb).
 // - A tetunsuitable callback is asked for every tetrahedron, and obeyed; its volume argument is nothing.
-// - Without -Y it splits boundary triangles; each face of the answer has the marker of the facet that it is a part of. Even without -q it splits thousands on an
+// - Without -Y it splits boundary triangles; each face of the answer has the marker of the facet that it is a part of. Even without -q it splits thousands on
+// an
 //   envelope of bodies (pygeo_bwb: 2671 of 4964; with -q1.2 all of them, 24 parts each): edges must be Delaunay then. With -Y points in the volume do that.
-// - -q with -Y next to strips of triangles that are 2000 times longer than wide does not end: every new point's cavity holds thousands of points, and it is rejected
+// - -q with -Y next to strips of triangles that are 2000 times longer than wide does not end: every new point's cavity holds thousands of points, and it is
+// rejected
 //   because it encroaches upon the boundary (NACA0012).
 // - Its tetrahedra are positive in CGNS order; two runs are identical to the bit.
 
+#include <tetgen.h>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <new>
 #include <optional>
 #include <string>
-#include <tetgen.h>
 #include <vector>
 
 #include "volmesh/tetra/helper_side.h"
@@ -71,8 +73,8 @@ struct BorrowedInput {
   tetgenio io;
 };
 
-/// A tetrahedron is split when its circumradius over the wanted edge length exceeds this: then the geometric mean of the edges is the wanted length (measured in a field
-/// of constant size). A regular tetrahedron of that length has 0.61.
+/// A tetrahedron is split when its circumradius over the wanted edge length exceeds this: then the geometric mean of the edges is the wanted length (measured
+/// in a field of constant size). A regular tetrahedron of that length has 0.61.
 constexpr double k_radius_limit = 1.1 / 1.46;
 
 /// What TetGen's callback, which gets no data of ours, needs; set once, before TetGen runs.
@@ -118,7 +120,8 @@ constexpr const char* k_split_to_recover = "pMQT1e-16";
 /// The new boundary in an answer with faces.
 struct SplitSurface {
   /// Points in the volume are left out where `is_boundary_only`.
-  SplitSurface(const tetgenio& out, std::size_t n_kept, bool is_boundary_only) : triangles(out.trifacelist, out.trifacelist + 3 * static_cast<std::size_t>(out.numberoftrifaces)) {
+  SplitSurface(const tetgenio& out, std::size_t n_kept, bool is_boundary_only)
+      : triangles(out.trifacelist, out.trifacelist + 3 * static_cast<std::size_t>(out.numberoftrifaces)) {
     const auto n_points = static_cast<std::size_t>(out.numberofpoints);
     parents.reserve(triangles.size() / 3);
     for (std::size_t t = 0; t < triangles.size() / 3; ++t) parents.push_back(out.trifacemarkerlist[t] - 1);
@@ -168,8 +171,8 @@ void tetrahedralize_surface(const Request& request, const Surface& surface, std:
       break;
     }
   }
-  helper::reply_mesh(out.pointlist, static_cast<std::size_t>(out.numberofpoints), out.tetrahedronlist, static_cast<std::size_t>(out.numberoftetrahedra), watch.seconds() - sizes_of_callback()->waited_seconds(),
-                     split ? split->reply() : helper::SplitBoundary{});
+  helper::reply_mesh(out.pointlist, static_cast<std::size_t>(out.numberofpoints), out.tetrahedronlist, static_cast<std::size_t>(out.numberoftetrahedra),
+                     watch.seconds() - sizes_of_callback()->waited_seconds(), split ? split->reply() : helper::SplitBoundary{});
 }
 
 int run(const Request& request) {

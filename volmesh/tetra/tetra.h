@@ -36,37 +36,37 @@ struct TetraOptions {
 
 struct TetraResult;
 
-/// Takes over a result whose engine has split triangles of the boundary (TetraResult::splits is not empty): carries the splits to whatever the boundary belongs to.
-/// Throws where that cannot be done; the attempt has failed then.
+/// Takes over a result whose engine has split triangles of the boundary (TetraResult::splits is not empty): carries the splits to whatever the boundary belongs
+/// to. Throws where that cannot be done; the attempt has failed then.
 using SplitTaker = std::function<void(TetraResult&)>;
 
 /// Closed boundary of the domain: triangles whose right-hand normals point INTO the domain (envelope outwards of the body, farfield inwards).
 struct TetraBoundary {
   std::span<const Vec3> points;
   std::span<const std::array<std::uint32_t, 3>> triangles;
-  std::span<const Vec3> hole_points;  ///< one strictly inside each cavity that is not to be meshed
-  bool is_clear = false;              ///< the caller has proven that the triangles meet in shared vertices and edges only; else fill() does
-  std::span<const std::string> patch_names = {};           ///< for messages; may be missing
-  std::span<const std::uint32_t> triangle_patch = {};      ///< index into patch_names for each triangle; empty without them
-  SplitTaker take_splits = {};                             ///< empty: no engine may split the triangles
-  /// Some triangles lie back to back on others: the two sides of sheets without thickness inside the domain (actuator discs). Their points at the same place are two,
-  /// but on a rim that ends free in the domain: there both sides share one, and every triangle has a corner that is not. A rim may also lie on edges of the
-  /// rest of the boundary, which has two points at each place there, too. All triangles together are closed and manifold by their indices.
+  std::span<const Vec3> hole_points;                   ///< one strictly inside each cavity that is not to be meshed
+  bool is_clear = false;                               ///< the caller has proven that the triangles meet in shared vertices and edges only; else fill() does
+  std::span<const std::string> patch_names = {};       ///< for messages; may be missing
+  std::span<const std::uint32_t> triangle_patch = {};  ///< index into patch_names for each triangle; empty without them
+  SplitTaker take_splits = {};                         ///< empty: no engine may split the triangles
+  /// Some triangles lie back to back on others: the two sides of sheets without thickness inside the domain (actuator discs). Their points at the same place
+  /// are two, but on a rim that ends free in the domain: there both sides share one, and every triangle has a corner that is not. A rim may also lie on edges
+  /// of the rest of the boundary, which has two points at each place there, too. All triangles together are closed and manifold by their indices.
   bool has_sheets = false;
 };
 
 /// \post points of the boundary come first, in order, to the bit; every boundary triangle is a face of exactly one tet; every tet positive (exact);
 /// no other outer face. With splits all that holds for the boundary as split: its points are the old ones and those of the splits, its triangles theirs.
 struct TetraResult {
-  std::vector<Vec3> new_points;                         ///< Steiner points in the volume; node number = n boundary points (with those of splits) + index
-  std::vector<std::array<std::uint32_t, 4>> tetrahedra; ///< CGNS order, positive volume
-  BoundarySplits splits;                                ///< empty: the boundary is as it was
-  std::string engine;                                   ///< what made them: "tetgen" or "hxt"
-  bool is_two_pass = false;                             ///< a coarse mesh gave the sizes
-  std::vector<std::string> failures;                    ///< of the attempts before, in order
-  bool is_reproducible = true;                          ///< false when a time or memory limit decided which engine made them
-  double engine_seconds = 0.0;                          ///< inside the engine alone; log only
-  double engine_peak_bytes = 0.0;                       ///< of the helper process; log only
+  std::vector<Vec3> new_points;                          ///< Steiner points in the volume; node number = n boundary points (with those of splits) + index
+  std::vector<std::array<std::uint32_t, 4>> tetrahedra;  ///< CGNS order, positive volume
+  BoundarySplits splits;                                 ///< empty: the boundary is as it was
+  std::string engine;                                    ///< what made them: "tetgen" or "hxt"
+  bool is_two_pass = false;                              ///< a coarse mesh gave the sizes
+  std::vector<std::string> failures;                     ///< of the attempts before, in order
+  bool is_reproducible = true;                           ///< false when a time or memory limit decided which engine made them
+  double engine_seconds = 0.0;                           ///< inside the engine alone; log only
+  double engine_peak_bytes = 0.0;                        ///< of the helper process; log only
 };
 
 /// What fill() throws when engines have failed.
@@ -84,20 +84,19 @@ class FillError : public Error {
 };
 
 /// Runs an engine in its helper process, found beside the running executable or one folder above it, and proves its answer (verify.h).
-/// Engines: "tetgen", TetGen 1.5 with its radius-edge ratio; "hxt", HXT of Gmsh; "automatic" is hxt, or tetgen where hxt is not built in (docs/tetrahedra.md: better
-/// meshes in less time on the clean surfaces). Both keep the boundary
-/// and make edges of about the length that the size field asks for; without one (nullptr) TetGen's sizes follow from the radius-edge ratio, HXT's from the boundary.
-/// Coordinates are scaled by a power of two first, so a mesh in other units is the same mesh.
-/// Before any engine runs, the boundary is checked, exactly where it must be (preflight.h); what engines find hard is logged. Of a clear boundary that is looked
-/// for while the first engine runs.
-/// Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof, too many new points), the other engine is tried, then TetGen with
-/// leave to split triangles of the boundary where it cannot keep them (`boundary_splits` "ladder", and a boundary with take_splits). With "always" TetGen comes
-/// first and splits them where tetrahedra become better by it, too. A time or memory limit ends the call unless `fall_back_on_limits`. Every step is logged as a warning and kept in the result.
-/// Sheets are one layer of facets for the engines (sheets.h); what comes back is parted. No engine may split triangles then.
-/// With `two_pass` TetGen comes first and runs twice: a coarse mesh without sizes, then the mesh with the smoothed sizes at its nodes and the size field, the smaller ones.
-/// A stop of the context or the time limit kills the helper at once; it never outlives the call.
-/// \throws FillError when the engines have failed; Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface, non_manifold_surface, self_intersection,
-/// not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory limit); tetra_result_invalid; cancelled. Each with places where there are any; of several failures the first.
+/// Engines: "tetgen", TetGen 1.5 with its radius-edge ratio; "hxt", HXT of Gmsh; "automatic" is hxt, or tetgen where hxt is not built in (docs/tetrahedra.md:
+/// better meshes in less time on the clean surfaces). Both keep the boundary and make edges of about the length that the size field asks for; without one
+/// (nullptr) TetGen's sizes follow from the radius-edge ratio, HXT's from the boundary. Coordinates are scaled by a power of two first, so a mesh in other
+/// units is the same mesh. Before any engine runs, the boundary is checked, exactly where it must be (preflight.h); what engines find hard is logged. Of a
+/// clear boundary that is looked for while the first engine runs. Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof,
+/// too many new points), the other engine is tried, then TetGen with leave to split triangles of the boundary where it cannot keep them (`boundary_splits`
+/// "ladder", and a boundary with take_splits). With "always" TetGen comes first and splits them where tetrahedra become better by it, too. A time or memory
+/// limit ends the call unless `fall_back_on_limits`. Every step is logged as a warning and kept in the result. Sheets are one layer of facets for the engines
+/// (sheets.h); what comes back is parted. No engine may split triangles then. With `two_pass` TetGen comes first and runs twice: a coarse mesh without sizes,
+/// then the mesh with the smoothed sizes at its nodes and the size field, the smaller ones. A stop of the context or the time limit kills the helper at once;
+/// it never outlives the call. \throws FillError when the engines have failed; Error bad_argument (index, coordinate, unused point, repeated or collinear
+/// corners), open_surface, non_manifold_surface, self_intersection, not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own
+/// error, time or memory limit); tetra_result_invalid; cancelled. Each with places where there are any; of several failures the first.
 TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, const TetraOptions& options, const RunContext& context);
 /// Engines begin with the boundary and wait for the sizes when they need them. \throws what the making of the size field throws, too.
 TetraResult fill(const TetraBoundary& boundary, SizeSupply& sizes, const TetraOptions& options, const RunContext& context);
@@ -117,18 +116,52 @@ struct Schema<volmesh::TetraOptions> {
   using O = volmesh::TetraOptions;
   static constexpr std::string_view stage = "tetrahedra";
   static constexpr std::array fields = {
-      Field<O>{.name = "engine", .member = &O::engine, .help = "what makes the tetrahedra; automatic: hxt, or tetgen where that is not built in", .choices = "automatic tetgen hxt"},
-      Field<O>{.name = "radius_edge", .member = &O::radius_edge, .min = 1.01, .max = 10.0, .help = "largest circumradius over shortest edge of a tetrahedron (tetgen only)"},
-      Field<O>{.name = "two_pass", .member = &O::two_pass, .help = "TetGen makes a coarse mesh first (radius-edge ratio 1.5), whose smoothed edge lengths are sizes for the mesh itself"},
-      Field<O>{.name = "hxt_improve_below", .member = &O::hxt_improve_below, .min = 0.0, .max = 1.0, .help = "HXT improves tetrahedra of a lower quality than this (1 = regular); 0: none"},
+      Field<O>{.name = "engine",
+               .member = &O::engine,
+               .help = "what makes the tetrahedra; automatic: hxt, or tetgen where that is not built in",
+               .choices = "automatic tetgen hxt"},
+      Field<O>{.name = "radius_edge",
+               .member = &O::radius_edge,
+               .min = 1.01,
+               .max = 10.0,
+               .help = "largest circumradius over shortest edge of a tetrahedron (tetgen only)"},
+      Field<O>{.name = "two_pass",
+               .member = &O::two_pass,
+               .help = "TetGen makes a coarse mesh first (radius-edge ratio 1.5), whose smoothed edge lengths are sizes for the mesh itself"},
+      Field<O>{.name = "hxt_improve_below",
+               .member = &O::hxt_improve_below,
+               .min = 0.0,
+               .max = 1.0,
+               .help = "HXT improves tetrahedra of a lower quality than this (1 = regular); 0: none"},
       Field<O>{.name = "memory_limit", .member = &O::memory_limit, .unit = Unit::byte, .min = 1e8, .help = "address space of the helper process"},
-      Field<O>{.name = "time_limit", .member = &O::time_limit, .unit = Unit::second, .min = 0.1, .help = "the helper is stopped after this time", .automatic = "none"},
-      Field<O>{.name = "max_new_points", .member = &O::max_new_points, .min = 0.0, .max = 1e9, .help = "a result with more points inside the volume is a failure", .automatic = "no limit"},
-      Field<O>{.name = "boundary_splits", .member = &O::boundary_splits, .help = "whether TetGen may split triangles on top of the layer and of the farfield; the wall's are split with them. ladder: after other failures, where it cannot keep them; always: also for better tetrahedra", .choices = "never ladder always"},
-      Field<O>{.name = "try_other_engine", .member = &O::try_other_engine, .help = "when the engine fails in a way that it will repeat, the other one is tried"},
-      Field<O>{.name = "repair_boundary", .member = &O::repair_boundary, .help = "when all that fails in a way that it will repeat, the layer is made lower and smoother around slivers, folds and gaps of its top, and everything is tried again"},
-      Field<O>{.name = "fall_back_on_limits", .member = &O::fall_back_on_limits, .help = "the other engine is tried after a time or memory limit too; such a result is marked as not reproducible"},
-      Field<O>{.name = "helper_folder", .member = &O::helper_folder, .help = "where sterna-tet-tetgen and sterna-tet-hxt are; empty: beside the sterna executable"},
+      Field<O>{.name = "time_limit",
+               .member = &O::time_limit,
+               .unit = Unit::second,
+               .min = 0.1,
+               .help = "the helper is stopped after this time",
+               .automatic = "none"},
+      Field<O>{.name = "max_new_points",
+               .member = &O::max_new_points,
+               .min = 0.0,
+               .max = 1e9,
+               .help = "a result with more points inside the volume is a failure",
+               .automatic = "no limit"},
+      Field<O>{.name = "boundary_splits",
+               .member = &O::boundary_splits,
+               .help = "whether TetGen may split triangles on top of the layer and of the farfield; the wall's are split with them. ladder: after other "
+                       "failures, where it cannot keep them; always: also for better tetrahedra",
+               .choices = "never ladder always"},
+      Field<O>{
+          .name = "try_other_engine", .member = &O::try_other_engine, .help = "when the engine fails in a way that it will repeat, the other one is tried"},
+      Field<O>{.name = "repair_boundary",
+               .member = &O::repair_boundary,
+               .help = "when all that fails in a way that it will repeat, the layer is made lower and smoother around slivers, folds and gaps of its top, and "
+                       "everything is tried again"},
+      Field<O>{.name = "fall_back_on_limits",
+               .member = &O::fall_back_on_limits,
+               .help = "the other engine is tried after a time or memory limit too; such a result is marked as not reproducible"},
+      Field<O>{
+          .name = "helper_folder", .member = &O::helper_folder, .help = "where sterna-tet-tetgen and sterna-tet-hxt are; empty: beside the sterna executable"},
   };
 };
 

@@ -1,5 +1,6 @@
 // Faces are matched by vertex numbers without a global sort: they are thrown into buckets by their lowest vertex (counting, then scattering; both in fixed
-// chunks), each bucket in cache to its vertices in the same way, and the two dozen faces of a vertex are sorted and compared. A boundary triangle takes part as the face of a cell outside.
+// chunks), each bucket in cache to its vertices in the same way, and the two dozen faces of a vertex are sorted and compared. A boundary triangle takes part as
+// the face of a cell outside.
 
 #include "volmesh/tetra/verify.h"
 
@@ -90,9 +91,7 @@ struct FaceEntry {
   int face() const { return static_cast<int>(high_tag >> 1 & 3); }
   bool is_odd() const { return (high_tag & 1) != 0; }
   bool same_vertices(const FaceEntry& b) const { return low_middle == b.low_middle && high() == b.high(); }
-  friend bool operator<(const FaceEntry& a, const FaceEntry& b) {
-    return a.low_middle != b.low_middle ? a.low_middle < b.low_middle : a.high_tag < b.high_tag;
-  }
+  friend bool operator<(const FaceEntry& a, const FaceEntry& b) { return a.low_middle != b.low_middle ? a.low_middle < b.low_middle : a.high_tag < b.high_tag; }
 };
 
 FaceEntry make_entry(std::array<std::uint32_t, 3> v, std::size_t owner, int face) {

@@ -2,9 +2,10 @@
 // It includes nothing of sterna.
 //
 // Request: RequestHeader; 3 doubles per point; 3 doubles per hole point; 3 int32 per triangle (indices into the points); 1 int32 per triangle (its surface);
-//          1 int32 per surface (its region), 1 int32 per surface (the region on the second side of a sheet that parts two, else -1). The last triangles and the last
-//          surfaces are those of sheets: inner facets of the region.
-// Reply:   ReplyHeader, then (outcome ok only) 3 doubles per point, all of them, 4 int32 per tetrahedron; where the engine was allowed to split boundary triangles,
+//          1 int32 per surface (its region), 1 int32 per surface (the region on the second side of a sheet that parts two, else -1). The last triangles and the
+//          last surfaces are those of sheets: inner facets of the region.
+// Reply:   ReplyHeader, then (outcome ok only) 3 doubles per point, all of them, 4 int32 per tetrahedron; where the engine was allowed to split boundary
+// triangles,
 //          3 int32 per triangle of the new boundary and 1 int32 for each: the triangle of the request that it is a part of.
 #pragma once
 
@@ -14,8 +15,8 @@ namespace sterna::volmesh::wire {
 
 inline constexpr int k_request_fd = 3;
 inline constexpr int k_reply_fd = 4;
-inline constexpr int k_size_fd = 5;        ///< the size field, once it is there
-inline constexpr int k_size_ready_fd = 6;  ///< pipe: then its length in bytes comes here, a uint64
+inline constexpr int k_size_fd = 5;                                   ///< the size field, once it is there
+inline constexpr int k_size_ready_fd = 6;                             ///< pipe: then its length in bytes comes here, a uint64
 inline constexpr std::uint64_t k_request_magic = 0x3651455254455453;  ///< "STETREQ6" in memory; the last digit is the version
 inline constexpr std::uint64_t k_reply_magic = 0x3350455254455453;    ///< "STETREP3"
 
@@ -31,12 +32,12 @@ struct RequestHeader {
   std::uint64_t n_points = 0;
   std::uint64_t n_holes = 0;
   std::uint64_t n_triangles = 0;
-  std::uint64_t n_surfaces = 0;    ///< connected components of the boundary, then those of the sheets
+  std::uint64_t n_surfaces = 0;      ///< connected components of the boundary, then those of the sheets
   std::uint64_t has_size_field = 0;  ///< 0: the engine extends the sizes of the boundary
-  std::uint64_t memory_limit = 0;  ///< address space in bytes
-  double scale = 1.0;              ///< coordinates in the request over metres
-  double radius_edge = 0.0;        ///< largest circumradius over shortest edge; TetGen only
-  double improve_below = 0.0;      ///< the engine improves tetrahedra of a lower quality (1 = regular); 0: none; HXT only
+  std::uint64_t memory_limit = 0;    ///< address space in bytes
+  double scale = 1.0;                ///< coordinates in the request over metres
+  double radius_edge = 0.0;          ///< largest circumradius over shortest edge; TetGen only
+  double improve_below = 0.0;        ///< the engine improves tetrahedra of a lower quality (1 = regular); 0: none; HXT only
   Splits splits = Splits::none;
   std::uint64_t n_sheet_surfaces = 0;  ///< of the surfaces, the last
 };
@@ -56,8 +57,8 @@ struct ReplyHeader {
   std::uint64_t n_points = 0;
   std::uint64_t n_tetrahedra = 0;
   std::uint64_t n_triangles = 0;  ///< of the new boundary; 0: it is the request's
-  double engine_seconds = 0.0;  ///< wall time inside the engine
-  double peak_bytes = 0.0;      ///< largest resident size of the helper so far
+  double engine_seconds = 0.0;    ///< wall time inside the engine
+  double peak_bytes = 0.0;        ///< largest resident size of the helper so far
 };
 
 static_assert(sizeof(RequestHeader) == 96 && sizeof(ReplyHeader) == 56);

@@ -27,7 +27,12 @@ class Needs : public testing::Test {
 
 TEST_F(Needs, FailWhereEverythingIsRequired) {
   ::setenv(k_name, "1", 1);
-  EXPECT_FATAL_FAILURE({ STERNA_NEEDS(false, "the tool " << "x"); }, "STERNA_REQUIRE_DATA=1, but the tool x is absent");
+  EXPECT_FATAL_FAILURE(
+      {
+        STERNA_NEEDS(false, "the tool "
+                                << "x");
+      },
+      "STERNA_REQUIRE_DATA=1, but the tool x is absent");
   STERNA_NEEDS(true, "what is there");
 }
 

@@ -17,7 +17,8 @@ TEST(Parallel, EveryIndexOnceForAnyThreadCount) {
   for (const int threads : {1, 2, 7}) {
     const RunContext context({.threads = threads});
     std::vector<int> hits(100001);
-    parallel_for(context, hits.size(), [&](std::size_t i) { ++hits[i]; }, 37);
+    parallel_for(
+        context, hits.size(), [&](std::size_t i) { ++hits[i]; }, 37);
     EXPECT_TRUE(std::all_of(hits.begin(), hits.end(), [](int h) { return h == 1; }));
   }
 }
@@ -27,12 +28,15 @@ std::size_t threads_inside(const RunContext& context, std::size_t wanted) {
   std::mutex mutex;
   std::condition_variable arrival;
   std::set<std::thread::id> seen;
-  parallel_for(context, wanted, [&](std::size_t) {
-    std::unique_lock lock(mutex);
-    seen.insert(std::this_thread::get_id());
-    arrival.notify_all();
-    arrival.wait_for(lock, std::chrono::seconds(20), [&] { return seen.size() >= wanted; });
-  }, 1);
+  parallel_for(
+      context, wanted,
+      [&](std::size_t) {
+        std::unique_lock lock(mutex);
+        seen.insert(std::this_thread::get_id());
+        arrival.notify_all();
+        arrival.wait_for(lock, std::chrono::seconds(20), [&] { return seen.size() >= wanted; });
+      },
+      1);
   return seen.size();
 }
 
@@ -52,10 +56,13 @@ TEST(Parallel, AContextTakesNoMoreThreadsThanItsOwn) {
   const RunContext two({.threads = 2});
   std::mutex mutex;
   std::set<std::thread::id> seen;
-  parallel_for(two, 200, [&](std::size_t) {
-    const std::scoped_lock lock(mutex);
-    seen.insert(std::this_thread::get_id());
-  }, 1);
+  parallel_for(
+      two, 200,
+      [&](std::size_t) {
+        const std::scoped_lock lock(mutex);
+        seen.insert(std::this_thread::get_id());
+      },
+      1);
   EXPECT_LE(seen.size(), 2u);
 }
 
@@ -94,9 +101,12 @@ TEST(Parallel, SortMatchesTheSerialOne) {
 TEST(Parallel, TheLowestChunksExceptionReachesTheCaller) {
   const RunContext context({.threads = 2});
   try {
-    parallel_for(context, 1000, [](std::size_t i) {
-      if (i % 100 == 50) throw std::runtime_error(std::to_string(i));
-    }, 10);
+    parallel_for(
+        context, 1000,
+        [](std::size_t i) {
+          if (i % 100 == 50) throw std::runtime_error(std::to_string(i));
+        },
+        10);
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_STREQ(error.what(), "50");
@@ -107,7 +117,12 @@ TEST(Parallel, StopRequestEndsTheLoop) {
   std::stop_source source;
   const RunContext context({.threads = 2, .stop = source.get_token()});
   try {
-    parallel_for(context, 1000000, [&](std::size_t i) { if (i == 5) source.request_stop(); }, 10);
+    parallel_for(
+        context, 1000000,
+        [&](std::size_t i) {
+          if (i == 5) source.request_stop();
+        },
+        10);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::cancelled);

@@ -132,7 +132,8 @@ TEST(UniteMeshes, AStingKeepsPatchesAndTheSurfaceAwayFromTheCurve) {
   // Every vertex lies on the surface of its patch, within the deviation.
   const TriangleTree on_body(body, quiet()), on_sting(sting, quiet());
   for (const TriangleId t : result.mesh.triangles.ids())
-    for (const Point& p : corners(result.mesh, t)) EXPECT_LT((result.mesh.triangle_patch[t] == PatchId(0) ? on_body : on_sting).nearest(p).distance, 0.005) << format_point(p);
+    for (const Point& p : corners(result.mesh, t))
+      EXPECT_LT((result.mesh.triangle_patch[t] == PatchId(0) ? on_body : on_sting).nearest(p).distance, 0.005) << format_point(p);
   EXPECT_LT(result.report.max_deviation, 0.005);
 }
 

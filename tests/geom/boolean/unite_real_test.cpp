@@ -12,7 +12,8 @@ namespace {
 
 UnionPart nasty(const std::string& file) {
   const RunContext context = quiet();
-  const surfmesh::StitchResult stitched = surfmesh::stitch_surface({io::read_surface_file(shared_data() / "surfaces" / "nasty" / file, context)}, {.check_intersections = false}, context);
+  const surfmesh::StitchResult stitched =
+      surfmesh::stitch_surface({io::read_surface_file(shared_data() / "surfaces" / "nasty" / file, context)}, {.check_intersections = false}, context);
   return {file, stitched.mesh};
 }
 

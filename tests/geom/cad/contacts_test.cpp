@@ -130,7 +130,8 @@ TEST(Unite, StopsSoonAfterItIsAskedTo) {
 
 TEST(Unite, APairThatDoesNotUniteIsNamed) {
   // With a tolerance beyond the wire's radius nothing is left of it that could be closed.
-  const std::vector<Model> parts = {test::cylinder(1.0, 2.0, {}, "drum"), test::cylinder(0.5, 2.0, {0, 0, 1}, "pipe"), test::cylinder(0.02, 2.0, {0.8, 0, 1}, "wire")};
+  const std::vector<Model> parts = {test::cylinder(1.0, 2.0, {}, "drum"), test::cylinder(0.5, 2.0, {0, 0, 1}, "pipe"),
+                                    test::cylinder(0.02, 2.0, {0.8, 0, 1}, "wire")};
   try {
     cad::unite(parts, {.tolerance = 0.1}, RunContext());
     FAIL();
@@ -143,7 +144,8 @@ TEST(Unite, APairThatDoesNotUniteIsNamed) {
 }
 
 TEST(Unite, TheSameBytesForAnyNumberOfThreads) {
-  const std::vector<Model> parts = {tube("body", 0.5), tube("post", 0.2, {.origin = {2, 0, 0}, .rotation = {0, -0.5 * pi, 0}}), test::cylinder(0.3, 2.0, {1, 0, -1.5}, "strut")};
+  const std::vector<Model> parts = {tube("body", 0.5), tube("post", 0.2, {.origin = {2, 0, 0}, .rotation = {0, -0.5 * pi, 0}}),
+                                    test::cylinder(0.3, 2.0, {1, 0, -1.5}, "strut")};
   std::vector<std::string> bytes;
   for (const int threads : {1, 2, 7}) {
     const RunContext context({.threads = threads});

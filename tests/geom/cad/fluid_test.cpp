@@ -104,7 +104,8 @@ TEST(FluidDomain, AWingOnASideWallLosesItsOtherHalf) {
     WingSection s{.name = "s", .leading_edge = {-0.5 * chord, y, 0.0}, .chord = chord};
     for (int i = 0; i <= 60; ++i) {
       const double a = 2.0 * pi * i / 60.0, x = 0.5 * (1.0 + std::cos(a));
-      s.points.push_back({x, (i <= 30 ? 1.0 : -1.0) * 0.6 * (0.2969 * std::sqrt(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1036 * x * x * x * x)});
+      s.points.push_back(
+          {x, (i <= 30 ? 1.0 : -1.0) * 0.6 * (0.2969 * std::sqrt(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1036 * x * x * x * x)});
     }
     return s;
   };

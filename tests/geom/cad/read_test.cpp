@@ -27,7 +27,8 @@ void expect_consistent(const Model& model) {
         if (edge.is_degenerate()) continue;
         for (const double share : {0.0, 0.31, 1.0}) {
           const double t = edge.range.from + share * edge.range.length();
-          EXPECT_LE(distance(edge.curve->point(t), face.surface->point(use.parameter->point(t))), 1.5 * edge.tolerance + 1e-7)  // between the places where it was measured it may be a little more
+          EXPECT_LE(distance(edge.curve->point(t), face.surface->point(use.parameter->point(t))),
+                    1.5 * edge.tolerance + 1e-7)  // between the places where it was measured it may be a little more
 
               << "face " << f.index() << " (" << face.surface->kind() << ") edge " << use.edge.index() << " at " << format_point(edge.curve->point(t));
         }
@@ -86,7 +87,8 @@ TEST(ReadCad, WhatIsOpenIsListedWithPlaces) {
 
 TEST(ReadCad, TheNacelleAndTheWingAreConsistent) {
   STERNA_NEEDS_SHARED_DATA();
-  for (const char* name : {"tigl_nacelle_nacelle.stp", "tigl_simplewing_simplewing.brep", "netgen_parts_screw.step", "gmsh_wing_fuselage_wing_fuselage.step", "onera_m6_su2_geom_oneram6.IGS"}) {
+  for (const char* name : {"tigl_nacelle_nacelle.stp", "tigl_simplewing_simplewing.brep", "netgen_parts_screw.step", "gmsh_wing_fuselage_wing_fuselage.step",
+                           "onera_m6_su2_geom_oneram6.IGS"}) {
     SCOPED_TRACE(name);
     expect_consistent(read(name).model);
   }

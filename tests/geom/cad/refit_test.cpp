@@ -29,7 +29,8 @@ SpaceMapPtr bending() {
 WingSection section(Point leading, double chord) {
   WingSection s{.name = "s", .leading_edge = leading, .chord = chord};
   for (int i = 0; i <= 24; ++i) {
-    const double a = 2.0 * M_PI * i / 24.0, x = 0.5 * (1.0 + std::cos(a)), t = 0.06 * (1.4845 * std::sqrt(x) - 0.63 * x - 1.758 * x * x + 1.4215 * x * x * x - 0.518 * x * x * x * x);
+    const double a = 2.0 * M_PI * i / 24.0, x = 0.5 * (1.0 + std::cos(a)),
+                 t = 0.06 * (1.4845 * std::sqrt(x) - 0.63 * x - 1.758 * x * x + 1.4215 * x * x * x - 0.518 * x * x * x * x);
     s.points.push_back({x, i <= 12 ? t : -t});
   }
   s.points.front().v = s.points.back().v = 0.0;

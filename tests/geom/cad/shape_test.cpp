@@ -65,7 +65,8 @@ TEST(CadShape, StepKeepsNamesColoursAndLayers) {
 
 TEST(CadShape, TheSameModelGivesTheSameBytes) {
   for (const cad::CadFormat format : {cad::CadFormat::step, cad::CadFormat::iges, cad::CadFormat::brep})
-    EXPECT_EQ(cad::cad_bytes(test::cylinder(1, 2), format, "can", {}, RunContext()), cad::cad_bytes(test::cylinder(1, 2), format, "can", {}, RunContext())) << to_string(format);
+    EXPECT_EQ(cad::cad_bytes(test::cylinder(1, 2), format, "can", {}, RunContext()), cad::cad_bytes(test::cylinder(1, 2), format, "can", {}, RunContext()))
+        << to_string(format);
 }
 
 TEST(CadShape, ASurfaceWithoutExactFormIsNamedWithItsPlace) {

@@ -117,7 +117,8 @@ TEST(SmallCadCases, MendingKeepsTheVolumeOfAThinWing) {
   // The strip is 5e-7 of the area, and without it 2e-5 of the volume would be open.
   const Model model = wedge(20.0, 0.02, 1e-6);
   const BodyMeasures before = model_measures(model, RunContext()).total;
-  const CadFile again = cad::read_cad_bytes(cad::cad_bytes(model, cad::CadFormat::step, "wedge.step", {}, RunContext()), cad::CadFormat::step, "wedge.step", {}, RunContext());
+  const CadFile again =
+      cad::read_cad_bytes(cad::cad_bytes(model, cad::CadFormat::step, "wedge.step", {}, RunContext()), cad::CadFormat::step, "wedge.step", {}, RunContext());
   const BodyMeasures after = model_measures(again.model, RunContext()).total;
   EXPECT_TRUE(again.report.is_closed()) << to_text(again.report);
   EXPECT_NEAR(after.area, before.area, 1e-6 * before.area) << to_text(again.report);

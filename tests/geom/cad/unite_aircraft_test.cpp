@@ -108,8 +108,10 @@ TEST_P(UniteAircraft, IsClosedAndTheSameFromStep) {
 }
 
 // The others are in tests/bench/aircraft_union_main.cpp.
-INSTANTIATE_TEST_SUITE_P(Corpus, UniteAircraft, testing::Values(std::pair("smx/torture.smx", 1u), std::pair("smx/underwingnacelle.smx", 1u), std::pair("smx/delta.smx", 1u), std::pair("cpacs/simpletest.cpacs.xml", 1u),
-                                                                std::pair("cpacs/canards.xml", 1u), std::pair("cpacs/landingGears.xml", 2u), std::pair("cpacs/onera_m6.xml", 1u)));
+INSTANTIATE_TEST_SUITE_P(Corpus, UniteAircraft,
+                         testing::Values(std::pair("smx/torture.smx", 1u), std::pair("smx/underwingnacelle.smx", 1u), std::pair("smx/delta.smx", 1u),
+                                         std::pair("cpacs/simpletest.cpacs.xml", 1u), std::pair("cpacs/canards.xml", 1u),
+                                         std::pair("cpacs/landingGears.xml", 2u), std::pair("cpacs/onera_m6.xml", 1u)));
 
 }  // namespace
 }  // namespace sterna

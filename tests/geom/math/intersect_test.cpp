@@ -28,14 +28,10 @@ RationalPoint rational(const Vec3& p) { return {BigRational(p.x), BigRational(p.
 RationalPoint operator-(const RationalPoint& a, const RationalPoint& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 RationalPoint advance(const RationalPoint& p, const BigRational& s, const RationalPoint& d) { return {p.x + s * d.x, p.y + s * d.y, p.z + s * d.z}; }
 BigRational inner(const RationalPoint& a, const RationalPoint& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-RationalPoint outer(const RationalPoint& a, const RationalPoint& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+RationalPoint outer(const RationalPoint& a, const RationalPoint& b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 bool is_zero(const RationalPoint& a) { return a.x == 0 && a.y == 0 && a.z == 0; }
 
-bool is_on_segment(const RationalPoint& p, const RationalPoint& a, const RationalPoint& b) {
-  return is_zero(outer(b - a, p - a)) && inner(p - a, p - b) <= 0;
-}
+bool is_on_segment(const RationalPoint& p, const RationalPoint& a, const RationalPoint& b) { return is_zero(outer(b - a, p - a)) && inner(p - a, p - b) <= 0; }
 using RationalTriangle = std::array<RationalPoint, 3>;
 bool is_in_triangle(const RationalPoint& p, const RationalTriangle& t) {
   const RationalPoint n = outer(t[1] - t[0], t[2] - t[0]);
@@ -173,7 +169,8 @@ TEST(TrianglesIntersect, HandDerivedCasesMirroredTurnedMovedAndScaled) {
 }
 
 TEST(TrianglesCross, HandDerivedSharedCornersAndEdges) {
-  const std::vector<Vec3> p = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 4, 0}, {1, 1, 0}, {0, 0, 4}, {-4, 0, 0}, {0, -4, 0}, {2, 0, 0}, {9, 0, 0}, {1, 1, 3}, {-1, -1, 3}};
+  const std::vector<Vec3> p = {{0, 0, 0},  {4, 0, 0},  {0, 4, 0}, {4, 4, 0}, {1, 1, 0}, {0, 0, 4},
+                               {-4, 0, 0}, {0, -4, 0}, {2, 0, 0}, {9, 0, 0}, {1, 1, 3}, {-1, -1, 3}};
   const Indices floor = {0, 1, 2};
   const auto cross_both_ways = [&](const Indices& b) {
     const bool result = triangles_cross(p, floor, b);
@@ -376,7 +373,6 @@ TEST(FindCrossings, StopsWhenCancelled) {
     EXPECT_EQ(error.code(), ErrorCode::cancelled);
   }
 }
-
 
 }  // namespace
 }  // namespace sterna

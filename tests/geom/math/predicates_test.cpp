@@ -17,12 +17,8 @@ std::vector<double> row(const Vec2& p) { return {p.x, p.y}; }
 std::vector<double> row(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 int exact_orient2d(const Vec2& a, const Vec2& b, const Vec2& c) { return test::reference_sign({row(a), row(b), row(c)}, false); }
-int exact_orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  return test::reference_sign({row(a), row(b), row(c), row(d)}, false);
-}
-int exact_incircle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
-  return test::reference_sign({row(d), row(a), row(b), row(c)}, true);
-}
+int exact_orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return test::reference_sign({row(a), row(b), row(c), row(d)}, false); }
+int exact_incircle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) { return test::reference_sign({row(d), row(a), row(b), row(c)}, true); }
 /// det[x - e, |x - e|^2] is negative inside for a positive tetrahedron.
 int exact_insphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e) {
   return -test::reference_sign({row(e), row(a), row(b), row(c), row(d)}, true);
@@ -146,9 +142,7 @@ TEST(Predicates, InsphereMatchesBigIntegersNearASphere) {
     }
     const int expected = exact_insphere(p[0], p[1], p[2], p[3], p[4]);
     n_zero += expected == 0;
-    for_all_orders<5>([&](const auto& o, int parity) {
-      ASSERT_EQ(insphere(p[o[0]], p[o[1]], p[o[2]], p[o[3]], p[o[4]]), parity * expected) << n;
-    });
+    for_all_orders<5>([&](const auto& o, int parity) { ASSERT_EQ(insphere(p[o[0]], p[o[1]], p[o[2]], p[o[3]], p[o[4]]), parity * expected) << n; });
   }
   EXPECT_GE(n_zero, 40);
 }

@@ -50,8 +50,8 @@ TEST(CellCentred, StretchedCubesHaveTheRatioOfTheirFaces) {
   EXPECT_NEAR(worst(report, Measure::cell_aspect_ratio), 10.0, 1e-11);
 }
 
-/// A cube [0, 1]^3 with a pyramid of height 0.5: centres at z = 0.5 and 1.125. Of a side of the pyramid the middle is (0.5, 1/6, 7/6): its normal from the centre ends (0, 0.1458, 0.1458) away from
-/// that, and the side reaches 0.4714 in this direction.
+/// A cube [0, 1]^3 with a pyramid of height 0.5: centres at z = 0.5 and 1.125. Of a side of the pyramid the middle is (0.5, 1/6, 7/6): its normal from the
+/// centre ends (0, 0.1458, 0.1458) away from that, and the side reaches 0.4714 in this direction.
 TEST(CellCentred, APyramidOnACube) {
   const CheckReport report = report_of(test::hexahedron_with_roof());
   EXPECT_NEAR(worst(report, Measure::non_orthogonality), 0.0, 1e-7);
@@ -70,7 +70,8 @@ TEST(CellCentred, FlatnessOfATwistedQuad) {
 }
 
 TEST(CellCentred, ColumnsAndExplicitCellsAndThreadsAgree) {
-  for (const auto& [name, mesh] : {std::pair("shell", test::sphere_shell(2, {.collapsed = {0, 5, 7}})), std::pair("plate", test::plate_block(3)), std::pair("two", test::two_shells(1, 3, 5))}) {
+  for (const auto& [name, mesh] : {std::pair("shell", test::sphere_shell(2, {.collapsed = {0, 5, 7}})), std::pair("plate", test::plate_block(3)),
+                                   std::pair("two", test::two_shells(1, 3, 5))}) {
     SCOPED_TRACE(name);
     const CheckReport columns = report_of(mesh), cells = report_of(explicit_cells(mesh)), serial = report_of(mesh, 1), seven = report_of(mesh, 7);
     for (const Measure measure : k_measured) {
@@ -88,13 +89,16 @@ TEST(CellCentred, TheWorstFaceIsWhereItIs) {
   HybridMesh mesh = test::hexahedra_block(3);
   for (Point& p : mesh.points)
     if (distance(p, {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0}) < 1e-9) p = {0.5, 0.5, 0.5};
-  const GateResult gate = check(mesh, {.intersections = false, .limits = [] {
-                                          GateTable limits;
-                                          limits[Measure::non_orthogonality] = {10.0 * k_degree, 5.0 * k_degree, std::nan(""), 1.0};
-                                          return limits;
-                                        }()},
-                                 RunContext({.threads = 2}))
-                               .gate(Measure::non_orthogonality);
+  const GateResult gate = check(mesh,
+                                {.intersections = false,
+                                 .limits =
+                                     [] {
+                                       GateTable limits;
+                                       limits[Measure::non_orthogonality] = {10.0 * k_degree, 5.0 * k_degree, std::nan(""), 1.0};
+                                       return limits;
+                                     }()},
+                                RunContext({.threads = 2}))
+                              .gate(Measure::non_orthogonality);
   ASSERT_FALSE(gate.places.empty());
   EXPECT_EQ(gate.state, GateState::fail);
   EXPECT_LT(distance(gate.places.front().position, {0.42, 0.42, 0.42}), 0.35);

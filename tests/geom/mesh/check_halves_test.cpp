@@ -28,9 +28,11 @@ void expect_same_verdicts(const CheckReport& columns, const CheckReport& cells) 
   EXPECT_EQ(columns.cells.pyramids, cells.cells.pyramids);
   EXPECT_NEAR(columns.total_volume, cells.total_volume, 1e-13 * columns.total_volume);  // the same terms in another order
   EXPECT_NEAR(columns.dual_volume, cells.dual_volume, 1e-13 * columns.dual_volume);
-  std::vector<Measure> measures = {Measure::scaled_jacobian, Measure::dual_closure, Measure::orthogonality, Measure::sub_volume_ratio, Measure::face_area_ratio, Measure::edge_ratio};
+  std::vector<Measure> measures = {Measure::scaled_jacobian,  Measure::dual_closure,    Measure::orthogonality,
+                                   Measure::sub_volume_ratio, Measure::face_area_ratio, Measure::edge_ratio};
   // Tetrahedra of columns are the layer's there, and tetrahedra like all others here.
-  if (columns.cells.pyramids == 0) measures.insert(measures.end(), {Measure::min_dihedral, Measure::max_dihedral, Measure::tet_growth, Measure::interface_height, Measure::interface_volume});
+  if (columns.cells.pyramids == 0)
+    measures.insert(measures.end(), {Measure::min_dihedral, Measure::max_dihedral, Measure::tet_growth, Measure::interface_height, Measure::interface_volume});
   for (const Measure measure : measures) {
     const GateResult &a = columns.gate(measure), &b = cells.gate(measure);
     SCOPED_TRACE(info_of(measure).name);
@@ -73,7 +75,8 @@ TEST(CheckHalves, FaultsOfQuadsAreFoundInBothForms) {
   expect(Violation::unmatched_face, 1, "a quad is missing", [](HybridMesh& m) { m.boundary_quads.erase(m.boundary_quads.begin() + 7); });
   expect(Violation::duplicate_marker, 1, "a quad is there twice", [](HybridMesh& m) { m.boundary_quads.push_back({m.boundary_quads[7].nodes, PatchId(0)}); });
   expect(Violation::same_sense_face, 1, "a quad points inwards", [](HybridMesh& m) { std::swap(m.boundary_quads[7].nodes[1], m.boundary_quads[7].nodes[3]); });
-  expect(Violation::stray_boundary_face, 1, "a quad with another cycle", [](HybridMesh& m) { std::swap(m.boundary_quads[7].nodes[0], m.boundary_quads[7].nodes[1]); });
+  expect(Violation::stray_boundary_face, 1, "a quad with another cycle",
+         [](HybridMesh& m) { std::swap(m.boundary_quads[7].nodes[0], m.boundary_quads[7].nodes[1]); });
   expect(Violation::stray_boundary_face, 2, "a quad as two triangles", [](HybridMesh& m) {
     const BoundaryQuad q = m.boundary_quads[7];
     m.boundary_quads.erase(m.boundary_quads.begin() + 7);
@@ -94,8 +97,10 @@ TEST(CheckHalves, SymmetryPlanesMayLieAnyhow) {
       nodes.insert(nodes.end(), face.nodes.begin(), face.nodes.end());
       normal = normalized(cross(mesh.points[face.nodes[1]] - mesh.points[face.nodes[0]], mesh.points[face.nodes[3]] - mesh.points[face.nodes[0]]));
     }
-    const NodeId on_wall = mesh.layers.node(static_cast<std::uint32_t>(std::find(mesh.layers.first_node.begin(), mesh.layers.first_node.end(), std::min_element(nodes.begin(), nodes.end())->value()) -
-                                                                       mesh.layers.first_node.begin()), 0);
+    const NodeId on_wall = mesh.layers.node(static_cast<std::uint32_t>(std::find(mesh.layers.first_node.begin(), mesh.layers.first_node.end(),
+                                                                                 std::min_element(nodes.begin(), nodes.end())->value()) -
+                                                                       mesh.layers.first_node.begin()),
+                                            0);
     for (const NodeId node : {on_wall, NodeId(on_wall.value() + 1)}) {
       HybridMesh moved = mesh;
       moved.points[node] += 1e-9 * normal;

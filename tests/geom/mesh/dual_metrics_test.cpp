@@ -28,7 +28,8 @@ Column<NodeId, NodeMetrics> metrics_of(const HybridMesh& mesh) {
   const auto result = dual_metrics(mesh, RunContext({.threads = 1}));
   const auto other = dual_metrics(mesh, RunContext({.threads = 7}));
   for (const NodeId node : result.ids()) {
-    EXPECT_TRUE(result[node].orthogonality == other[node].orthogonality && result[node].volume == other[node].volume && result[node].closure == other[node].closure);
+    EXPECT_TRUE(result[node].orthogonality == other[node].orthogonality && result[node].volume == other[node].volume &&
+                result[node].closure == other[node].closure);
   }
   return result;
 }
@@ -52,8 +53,9 @@ void expect_as_naive(const HybridMesh& mesh, double relative = 1e-9) {
 }
 
 TEST(DualMetrics, AgreeWithTheDefinitionsInBothForms) {
-  for (const HybridMesh& mesh : {sphere_shell(3), cube_shell(3, {.n_layers = 7, .ratio = 1.3}), plate_block(3), plate_block(3, {.n_layers = 1}), plate_block(4, {.n_layers = 2}),
-                                 sphere_shell(5, {.n_layers = 9, .layer_height = 0.1, .ratio = 1.4}), hexahedra_block(3), hexahedron_with_roof()}) {
+  for (const HybridMesh& mesh :
+       {sphere_shell(3), cube_shell(3, {.n_layers = 7, .ratio = 1.3}), plate_block(3), plate_block(3, {.n_layers = 1}), plate_block(4, {.n_layers = 2}),
+        sphere_shell(5, {.n_layers = 9, .layer_height = 0.1, .ratio = 1.4}), hexahedra_block(3), hexahedron_with_roof()}) {
     expect_as_naive(mesh);
     expect_as_naive(explicit_cells(mesh));
   }
@@ -74,7 +76,8 @@ TEST(DualMetrics, AgreeAboutBodiesWithOwnNumbersOfLayers) {
   }
 }
 
-HybridMesh one_cell(const std::vector<Point>& points, const std::vector<std::array<std::size_t, 3>>& triangles, const std::vector<std::array<std::size_t, 4>>& quads) {
+HybridMesh one_cell(const std::vector<Point>& points, const std::vector<std::array<std::size_t, 3>>& triangles,
+                    const std::vector<std::array<std::size_t, 4>>& quads) {
   HybridMesh mesh;
   mesh.points = Column<NodeId, Point>(points);
   mesh.patches.push_back({"all", PatchKind::wall});
@@ -84,7 +87,8 @@ HybridMesh one_cell(const std::vector<Point>& points, const std::vector<std::arr
 }
 
 HybridMesh right_prism(double height) {
-  HybridMesh mesh = one_cell({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, height}, {1, 0, height}, {0, 1, height}}, {{0, 2, 1}, {3, 4, 5}}, {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}});
+  HybridMesh mesh = one_cell({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, height}, {1, 0, height}, {0, 1, height}}, {{0, 2, 1}, {3, 4, 5}},
+                             {{0, 1, 4, 3}, {1, 2, 5, 4}, {2, 0, 3, 5}});
   mesh.prisms.push_back({NodeId(0), NodeId(1), NodeId(2), NodeId(3), NodeId(4), NodeId(5)});
   return mesh;
 }
@@ -118,7 +122,7 @@ TEST(DualMetrics, RightPrismsByHand) {
     // Boundary piece (-h/4, -h/4, -1/6).
     const double boundary = std::sqrt(h * h / 8 + 1.0 / 36);
     EXPECT_NEAR(m[NodeId(0)].face_area_ratio, std::max({side, top, boundary}) / std::min({side, top, boundary}), 1e-9 * boundary / side);
-    EXPECT_NEAR(m[NodeId(0)].edge_ratio, 1.0, 1e-15);               // the growth edge does not count
+    EXPECT_NEAR(m[NodeId(0)].edge_ratio, 1.0, 1e-15);  // the growth edge does not count
     EXPECT_NEAR(m[NodeId(1)].edge_ratio, std::sqrt(2.0), 1e-15);
     for (const NodeId node : mesh.points.ids()) {
       EXPECT_NEAR(m[node].sub_volume_ratio, 1.0, 1e-9);  // 36 sub-tets of h/72, as the image of any straight prism
@@ -159,9 +163,9 @@ TEST(DualMetrics, CubeAndCubeOfTets) {
 }
 
 TEST(DualMetrics, PyramidByHand) {
-  // Apex over the middle of a unit square, height 1, volume 1/3. Centroid (1/2, 1/2, 1/5). At the apex: sub-tets on a side (area vector half of 0 1 4), cut from
-  // the centroid: the side's tet to the centroid has volume (1/3 - base tet 1/3 * 1/5) / 4 = 1/15, a sixth for each of its six sub-tets: 1/90. On the base: the
-  // pyramid over it to the centroid has 1/15, an eighth for each of its sub-tets: 1/120.
+  // Apex over the middle of a unit square, height 1, volume 1/3. Centroid (1/2, 1/2, 1/5). At the apex: sub-tets on a side (area vector half of 0 1 4), cut
+  // from the centroid: the side's tet to the centroid has volume (1/3 - base tet 1/3 * 1/5) / 4 = 1/15, a sixth for each of its six sub-tets: 1/90. On the
+  // base: the pyramid over it to the centroid has 1/15, an eighth for each of its sub-tets: 1/120.
   HybridMesh mesh = one_cell({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, 0.5, 1}}, {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}, {{0, 3, 2, 1}});
   mesh.pyramids.push_back({NodeId(0), NodeId(1), NodeId(2), NodeId(3), NodeId(4)});
   const auto m = metrics_of(mesh);
@@ -212,10 +216,12 @@ TEST(DualMetrics, RealMesh) {
   EXPECT_NEAR(result.check.dual_volume, result.check.total_volume, 1e-12 * result.check.total_volume);
   EXPECT_LT(result.check.gate(Measure::dual_closure).worst, 1e-12);
   for (const MeasureInfo& info : measures())
-    EXPECT_EQ(result.check.gate(info.measure).state == GateState::not_checked, info.measure == Measure::cad_distance || info.measure == Measure::cad_normal) << info.name;  // these need a model
+    EXPECT_EQ(result.check.gate(info.measure).state == GateState::not_checked, info.measure == Measure::cad_distance || info.measure == Measure::cad_normal)
+        << info.name;  // these need a model
   // The same mesh as a file would have it: lines are found again.
   const CheckReport cells = check(explicit_cells(result.mesh), {.intersections = false}, RunContext({.threads = 2}));
-  for (const Measure measure : {Measure::stack_growth, Measure::stack_angle, Measure::layer_step, Measure::interface_height, Measure::interface_volume, Measure::sub_volume_ratio})
+  for (const Measure measure :
+       {Measure::stack_growth, Measure::stack_angle, Measure::layer_step, Measure::interface_height, Measure::interface_volume, Measure::sub_volume_ratio})
     EXPECT_NEAR(cells.gate(measure).worst, result.check.gate(measure).worst, 1e-9 * std::abs(cells.gate(measure).worst)) << info_of(measure).name;
   EXPECT_EQ(cells.gate(Measure::first_height).state, GateState::not_checked);
 }

@@ -87,7 +87,8 @@ TEST(Half, ExactCutsHaveHalfTheAreaAndVolume) {
     for (const double at : {0.0, 0.1234, -0.61}) {
       double areas = 0.0, volumes = 0.0;
       for (const char keep : {'+', '-'}) {
-        const TriMesh half = half_of(moved(sphere, at == 0.0 ? Vec3{} : Vec3{0.01, 0.02, 0.03}), {.axis = std::string(1, axis), .at = at, .keep = std::string(1, keep), .tolerance = 1e-15, .snap = 0.0}, k_run);
+        const TriMesh half = half_of(moved(sphere, at == 0.0 ? Vec3{} : Vec3{0.01, 0.02, 0.03}),
+                                     {.axis = std::string(1, axis), .at = at, .keep = std::string(1, keep), .tolerance = 1e-15, .snap = 0.0}, k_run);
         expect_rim(half, k, at);
         areas += area(half);
         Vec3 to_plane;

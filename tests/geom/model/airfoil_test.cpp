@@ -81,15 +81,17 @@ TEST(Airfoil, GeneratedSectionsAgreeWithPublishedCoordinates) {
     const char *file, *name;
     double nine_of_ten, all;  // limits of the distances of the file's points from ours: 90 % of them, and the largest
   };
-  for (const Case& c : {
-           // Formulas: what is left is our polyline's sagitta (3e-6 at the nose, with 400 points a side) and the files' last digit (5e-6 in the second two).
-           Case{"n0012.dat", "0012", 2e-6, 4e-6}, Case{"naca0012.dat", "0012", 2e-6, 4e-6}, Case{"naca0006.dat", "NACA 0006", 5e-6, 6e-6}, Case{"naca23012.dat", "naca23012", 8e-6, 1e-5},
-           // Mapping: the tables of 1945, worked by hand, against the functions of 1974. Beyond 90 %: the nose of 63A210 (1.3e-4); of 66(3)-218 the one station 0.65 on both sides (2.0e-4).
-           Case{"naca63a210.dat", "63A210", 8e-5, 1.4e-4}, Case{"naca663218.dat", "66(3)-218", 7e-5, 2.1e-4},
-           // This file's nose (x < 0.025) is 2.5e-4 blunter than that of the mapping, which 64A010 has to 4e-5.
-           Case{"n64015a.dat", "642-015A", 2.3e-4, 2.6e-4},
-           // This file closes the edge, which is 2.1e-4 from the middle by definition.
-           Case{"naca64a010.dat", "64-010A", 3e-5, 2.2e-4}}) {
+  for (const Case& c :
+       {// Formulas: what is left is our polyline's sagitta (3e-6 at the nose, with 400 points a side) and the files' last digit (5e-6 in the second two).
+        Case{"n0012.dat", "0012", 2e-6, 4e-6}, Case{"naca0012.dat", "0012", 2e-6, 4e-6}, Case{"naca0006.dat", "NACA 0006", 5e-6, 6e-6},
+        Case{"naca23012.dat", "naca23012", 8e-6, 1e-5},
+        // Mapping: the tables of 1945, worked by hand, against the functions of 1974. Beyond 90 %: the nose of 63A210 (1.3e-4); of 66(3)-218 the one station
+        // 0.65 on both sides (2.0e-4).
+        Case{"naca63a210.dat", "63A210", 8e-5, 1.4e-4}, Case{"naca663218.dat", "66(3)-218", 7e-5, 2.1e-4},
+        // This file's nose (x < 0.025) is 2.5e-4 blunter than that of the mapping, which 64A010 has to 4e-5.
+        Case{"n64015a.dat", "642-015A", 2.3e-4, 2.6e-4},
+        // This file closes the edge, which is 2.1e-4 from the middle by definition.
+        Case{"naca64a010.dat", "64-010A", 3e-5, 2.2e-4}}) {
     SCOPED_TRACE(c.file);
     std::vector<double> distances = deviations(read_airfoil(file(c.file)), naca_airfoil(c.name, 400));
     std::sort(distances.begin(), distances.end());
@@ -103,8 +105,9 @@ TEST(Airfoil, NacaSectionsHaveTheThicknessAndCamberOfTheirName) {
     const char* name;
     double thickness, thickness_at, lift_or_camber;
   };
-  for (const Case& c : {Case{"0012", 0.12, 0.30, 0}, Case{"2412", 0.12, 0.30, 0.02}, Case{"4418", 0.18, 0.30, 0.04}, Case{"0012-64", 0.12, 0.40, 0}, Case{"0010-35", 0.10, 0.50, 0}, Case{"23012", 0.12, 0.30, 0.018},
-                        Case{"16-012", 0.12, 0.50, 0}, Case{"63-012", 0.12, 0.35, 0}, Case{"64-012", 0.12, 0.375, 0}, Case{"65-012", 0.12, 0.40, 0}, Case{"66-012", 0.12, 0.45, 0}, Case{"67-012", 0.12, 0.48, 0},
+  for (const Case& c : {Case{"0012", 0.12, 0.30, 0}, Case{"2412", 0.12, 0.30, 0.02}, Case{"4418", 0.18, 0.30, 0.04}, Case{"0012-64", 0.12, 0.40, 0},
+                        Case{"0010-35", 0.10, 0.50, 0}, Case{"23012", 0.12, 0.30, 0.018}, Case{"16-012", 0.12, 0.50, 0}, Case{"63-012", 0.12, 0.35, 0},
+                        Case{"64-012", 0.12, 0.375, 0}, Case{"65-012", 0.12, 0.40, 0}, Case{"66-012", 0.12, 0.45, 0}, Case{"67-012", 0.12, 0.48, 0},
                         Case{"63A012", 0.12, 0.37, 0}, Case{"64A012", 0.12, 0.39, 0}, Case{"65A012", 0.12, 0.42, 0}}) {
     SCOPED_TRACE(c.name);
     const Airfoil airfoil = naca_airfoil(c.name, 120);
@@ -126,8 +129,8 @@ TEST(Airfoil, NacaSectionsHaveTheThicknessAndCamberOfTheirName) {
   EXPECT_GT(deviation(naca_airfoil("65-618 a=0.5"), naca_airfoil("65-618", 400)), 1e-3);
 }
 
-/// 0012-63 is not 0012: TM-4741's modified sections have a cubic aft of the largest thickness (d0 = 0.002, d1 = 0.234, d2 = -0.068571, d3 = -0.093878 for 0.3 and t = 0.2) and
-/// another quadratic and cubic term ahead of it. By these formulas the two differ by 1.57e-3 at x = 0.633, and by 8.2e-4 at most ahead of 0.3.
+/// 0012-63 is not 0012: TM-4741's modified sections have a cubic aft of the largest thickness (d0 = 0.002, d1 = 0.234, d2 = -0.068571, d3 = -0.093878 for 0.3
+/// and t = 0.2) and another quadratic and cubic term ahead of it. By these formulas the two differ by 1.57e-3 at x = 0.633, and by 8.2e-4 at most ahead of 0.3.
 TEST(Airfoil, ModifiedSectionsFollowTheirOwnFormula) {
   const Airfoil modified = naca_airfoil("0012-63", 400), plain = naca_airfoil("0012", 400);
   EXPECT_NEAR(deviation(modified, plain), 1.567e-3, 1e-5);  // a distance across a side that slopes by 6 degrees there
@@ -143,7 +146,8 @@ TEST(Airfoil, ModifiedSectionsFollowTheirOwnFormula) {
 }
 
 TEST(Airfoil, DesignationsThatAreNoneAreRefused) {
-  for (const char* bad : {"", "NACA", "12", "2012x", "62-215", "26012", "21112", "0000", "0099", "0012-68", "16-2", "63A", "2012-6", "67A210", "66A210"}) EXPECT_THAT(message_of([&] { (void)naca_airfoil(bad); }), testing::HasSubstr("NACA airfoil")) << bad;
+  for (const char* bad : {"", "NACA", "12", "2012x", "62-215", "26012", "21112", "0000", "0099", "0012-68", "16-2", "63A", "2012-6", "67A210", "66A210"})
+    EXPECT_THAT(message_of([&] { (void)naca_airfoil(bad); }), testing::HasSubstr("NACA airfoil")) << bad;
   EXPECT_THAT(message_of([] { (void)naca_airfoil("2012"); }), testing::HasSubstr("second digit is 0"));
 }
 
@@ -195,7 +199,8 @@ TEST(Airfoil, TrailingEdgesOpenAndClose) {
     const Airfoil other = with_trailing_edge(airfoil, t);
     EXPECT_NEAR(other.trailing_edge_thickness(), t, 1e-5 * (1 + t)) << t;
     EXPECT_EQ(other.points[other.leading_edge], airfoil.points[airfoil.leading_edge]);
-    // Both sides are turned, not squeezed: their lengths change by what the ends move along them, half the thickness times the mean line's slope at the edge (2 m / (1 - p) = 1/15 of 2412).
+    // Both sides are turned, not squeezed: their lengths change by what the ends move along them, half the thickness times the mean line's slope at the edge (2
+    // m / (1 - p) = 1/15 of 2412).
     const double along = 0.5 * std::max(0.0, airfoil.trailing_edge_thickness() - t) / 15.0;
     const auto length = [](const Airfoil& a, Uv end) { return std::hypot(end.u - a.points[a.leading_edge].u, end.v - a.points[a.leading_edge].v); };
     if (t < airfoil.trailing_edge_thickness()) {

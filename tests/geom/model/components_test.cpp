@@ -36,7 +36,9 @@ void expect_closed(const Model& model, double relative_tolerance = 1e-8) {
     EXPECT_FALSE(face.name.empty());
     for (const Border& border : face.borders)
       for (std::size_t i = 0; i < border.size(); ++i) {
-        const auto end_of = [&](const EdgeUse& use, bool last) { return use.parameter->point(last != use.is_reversed ? use.parameter->domain().to : use.parameter->domain().from); };
+        const auto end_of = [&](const EdgeUse& use, bool last) {
+          return use.parameter->point(last != use.is_reversed ? use.parameter->domain().to : use.parameter->domain().from);
+        };
         const Uv a = end_of(border[i], true), b = end_of(border[(i + 1) % border.size()], false);
         EXPECT_LT(std::hypot(a.u - b.u, a.v - b.v), 1e-9) << face.name;
         const ModelEdge& edge = model.edges[border[i].edge];
@@ -220,7 +222,8 @@ TEST(Components, a_section_with_only_a_naca_designation_is_made) {
   wing.right_tip = wing.left_tip = {CapShape::strip, 0.0};
   const Model model = make_wing(wing);
   expect_closed(model);
-  // Area of the 4-digit section: 5 t (0.2969 / 1.5 - 0.126 / 2 - 0.3516 / 3 + 0.2843 / 4 - 0.1015 / 5) on both sides, of the chord squared; less the wedge that closes it.
+  // Area of the 4-digit section: 5 t (0.2969 / 1.5 - 0.126 / 2 - 0.3516 / 3 + 0.2843 / 4 - 0.1015 / 5) on both sides, of the chord squared; less the wedge that
+  // closes it.
   EXPECT_NEAR(solid_measures(model, SolidId(0)).volume, 3.0 * 4.0 * (2.0 * 0.6 * (0.2969 / 1.5 - 0.063 - 0.1172 + 0.071075 - 0.0203) - 0.00126), 3e-3);
 }
 
@@ -265,9 +268,9 @@ TEST_P(RealAircraft, all_components_are_closed_solids) {
 
 INSTANTIATE_TEST_SUITE_P(files, RealAircraft,
                          testing::Values("smx/bjet.smx", "smx/delta.smx", "smx/torture.smx", "smx/underwingnacelle.smx", "smx/utility.smx", "smx/widebody.smx",
-                                         "cpacs/CPACS_30_D150.xml", "cpacs/boxWing.xml", "cpacs/canards.xml", "cpacs/d150.xml", "cpacs/landingGears.xml", "cpacs/nacelles.xml",
-                                         "cpacs/onera_m6.xml", "cpacs/simpletest-flaps.cpacs.xml", "cpacs/simpletest-halfmodel.cpacs.xml", "cpacs/simpletest-nacelle.xml",
-                                         "cpacs/simpletest-pylon-nacelle.cpacs.xml", "cpacs/simpletest.cpacs.xml"),
+                                         "cpacs/CPACS_30_D150.xml", "cpacs/boxWing.xml", "cpacs/canards.xml", "cpacs/d150.xml", "cpacs/landingGears.xml",
+                                         "cpacs/nacelles.xml", "cpacs/onera_m6.xml", "cpacs/simpletest-flaps.cpacs.xml", "cpacs/simpletest-halfmodel.cpacs.xml",
+                                         "cpacs/simpletest-nacelle.xml", "cpacs/simpletest-pylon-nacelle.cpacs.xml", "cpacs/simpletest.cpacs.xml"),
                          [](const auto& info) {
                            std::string name = info.param;
                            for (char& c : name)

@@ -60,7 +60,8 @@ INSTANTIATE_TEST_SUITE_P(all_twelve, CpacsFiles,
                                          RealFile{"simpletest-pylon-nacelle.cpacs.xml", 1, 2, 1, 0}, RealFile{"simpletest.cpacs.xml", 1, 1, 0, 0}),
                          [](const auto& info) {
                            std::string name = info.param.name;
-                           std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+                           std::replace_if(
+                               name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
                            return name;
                          });
 
@@ -94,7 +95,7 @@ TEST(Cpacs, children_move_with_parents_and_absolute_ones_do_not) {
   const Aircraft aircraft = read_real("simpletest-pylon-nacelle.cpacs.xml").aircraft;
   const Wing& pylon = aircraft.wings.at(1);
   EXPECT_TRUE(pylon.is_pylon);
-  EXPECT_NEAR(aircraft.nacelles.at(0).placement.shift.y, 1.0, 1e-12);    // the pylon's
+  EXPECT_NEAR(aircraft.nacelles.at(0).placement.shift.y, 1.0, 1e-12);  // the pylon's
   EXPECT_NEAR(aircraft.nacelles[0].placement.shift.z, -0.12 - 0.41, 1e-12);
   EXPECT_EQ(aircraft.nacelles[0].cowls.at(0).sections.size(), 3u);
   EXPECT_EQ(aircraft.nacelles[0].center_body.size(), 4u);
@@ -127,7 +128,8 @@ TEST(Cpacs, control_surfaces_become_patches_on_both_halves) {
     EXPECT_NEAR(low, 0.2, 1e-9) << name;
     EXPECT_NEAR(high, 0.82, 1e-9) << name;
   }
-  for (const char* flap : {"FlapInner", "FlapInnerLeft", "FlapOuter", "FlapOuterLeft"}) EXPECT_TRUE(std::any_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& f) { return f.name == flap; })) << flap;
+  for (const char* flap : {"FlapInner", "FlapInnerLeft", "FlapOuter", "FlapOuterLeft"})
+    EXPECT_TRUE(std::any_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& f) { return f.name == flap; })) << flap;
 }
 
 /// A wing of two sections; `section` is put into the first one, `profiles` after the wing.
@@ -135,15 +137,22 @@ std::string wing_file(const std::string& element, const std::string& airfoil, co
   const auto section = [&](const std::string& n, const std::string& inside) {
     return "<section uID='S" + n + "'><elements><element uID='E" + n + "'><airfoilUID>A</airfoilUID>" + inside + "</element></elements></section>\n";
   };
-  return "<cpacs><header><cpacsVersion>3.2</cpacsVersion></header><vehicles><aircraft><model uID='M'><wings><wing " + wing + ">\n<sections>" + section("1", element) + section("2", "") +
-         "</sections><positionings>" + positionings + "<positioning><length>2</length><toSectionUID>S2</toSectionUID></positioning></positionings>"
+  return "<cpacs><header><cpacsVersion>3.2</cpacsVersion></header><vehicles><aircraft><model uID='M'><wings><wing " + wing + ">\n<sections>" +
+         section("1", element) + section("2", "") + "</sections><positionings>" + positionings +
+         "<positioning><length>2</length><toSectionUID>S2</toSectionUID></positioning></positionings>"
          "<segments><segment uID='G'><fromElementUID>E1</fromElementUID><toElementUID>E2</toElementUID></segment></segments></wing></wings></model></aircraft>"
-         "<profiles><wingAirfoils><wingAirfoil uID='A'>" + airfoil + "</wingAirfoil></wingAirfoils></profiles></vehicles></cpacs>";
+         "<profiles><wingAirfoils><wingAirfoil uID='A'>" +
+         airfoil + "</wingAirfoil></wingAirfoils></profiles></vehicles></cpacs>";
 }
 const char* const k_diamond = "<pointList><x>1;0.5;0;0.5;1</x><y>0;0;0;0;0</y><z>0;-0.1;0;0.1;0</z></pointList>";
 
 TEST(Cpacs, an_element_is_scaled_then_turned_about_its_own_axes_then_moved) {
-  const Wing wing = read_text(wing_file("<transformation><scaling><x>2</x><z>3</z></scaling><rotation><x>90</x><z>90</z></rotation><translation><y>5</y></translation></transformation>", k_diamond)).aircraft.wings[0];
+  const Wing wing =
+      read_text(
+          wing_file(
+              "<transformation><scaling><x>2</x><z>3</z></scaling><rotation><x>90</x><z>90</z></rotation><translation><y>5</y></translation></transformation>",
+              k_diamond))
+          .aircraft.wings[0];
   // x' y' z'': the turn about z acts first, then that about x. (1, 0, 0) -> (2, 0, 0) -> (0, 2, 0) -> (0, 0, 2); (0, 0, 1) -> (0, 0, 3) -> (0, -3, 0).
   const std::vector<Point>& loop = wing.sections[0].loop;
   EXPECT_NEAR(distance(loop[0], {0.0, 5.0, 2.0}), 0.0, 1e-12);
@@ -156,15 +165,22 @@ TEST(Cpacs, wings_that_reach_the_plane_of_symmetry_are_one_and_others_have_an_im
   const Wing whole = read_text(wing_file("", k_diamond, "", "uID='W' symmetry='x-z-plane'")).aircraft.wings[0];
   EXPECT_TRUE(whole.is_symmetric);
   EXPECT_NEAR(whole.sections[0].leading_edge.y, 2.0, 1e-12);  // the tip comes first
-  const Wing apart = read_text(wing_file("<transformation><translation><y>0.5</y></translation></transformation>", k_diamond, "", "uID='W' symmetry='x-z-plane'")).aircraft.wings[0];
+  const Wing apart =
+      read_text(wing_file("<transformation><translation><y>0.5</y></translation></transformation>", k_diamond, "", "uID='W' symmetry='x-z-plane'"))
+          .aircraft.wings[0];
   EXPECT_TRUE(apart.has_mirror_image);
   EXPECT_FALSE(apart.is_symmetric);
 }
 
 TEST(Cpacs, class_shape_airfoils_have_their_thickness) {
   // N1 = 0.5, N2 = 1, B = {a, a}: z = a sqrt(x) (1 - x), largest at x = 1/3.
-  const Wing wing = read_text(wing_file("", "<cst2D><upperN1>0.5</upperN1><upperN2>1</upperN2><upperB>0.2;0.2</upperB><lowerN1>0.5</lowerN1><lowerN2>1</lowerN2><lowerB>-0.1;-0.1</lowerB>"
-                                            "<trailingEdgeThickness>0.01</trailingEdgeThickness></cst2D>")).aircraft.wings[0];
+  const Wing wing =
+      read_text(
+          wing_file(
+              "",
+              "<cst2D><upperN1>0.5</upperN1><upperN2>1</upperN2><upperB>0.2;0.2</upperB><lowerN1>0.5</lowerN1><lowerN2>1</lowerN2><lowerB>-0.1;-0.1</lowerB>"
+              "<trailingEdgeThickness>0.01</trailingEdgeThickness></cst2D>"))
+          .aircraft.wings[0];
   const std::vector<Point>& loop = wing.sections[0].loop;
   EXPECT_NEAR(loop.front().z, 0.005, 1e-12);
   EXPECT_NEAR(loop.back().z, -0.005, 1e-12);
@@ -186,13 +202,18 @@ TEST(Cpacs, errors_name_line_and_path) {
     return {};
   };
   EXPECT_THAT(error_of(wing_file("", "<pointList><x>1;0</x><z>0;0;0</z></pointList>")), HasSubstr("the lists 'x' and 'z' have 2 and 3 numbers"));
-  EXPECT_THAT(error_of(wing_file("<transformation><scaling><x>wide</x></scaling></transformation>", k_diamond)), HasSubstr("section[S1]/elements/element[E1]/transformation/scaling/x: 'wide' is not a finite number"));
-  EXPECT_THAT(error_of(wing_file("", k_diamond, "<positioning><length>1</length><fromSectionUID>S1</fromSectionUID><toSectionUID>S1</toSectionUID></positioning>")), HasSubstr("run in a circle"));
+  EXPECT_THAT(error_of(wing_file("<transformation><scaling><x>wide</x></scaling></transformation>", k_diamond)),
+              HasSubstr("section[S1]/elements/element[E1]/transformation/scaling/x: 'wide' is not a finite number"));
+  EXPECT_THAT(
+      error_of(wing_file("", k_diamond, "<positioning><length>1</length><fromSectionUID>S1</fromSectionUID><toSectionUID>S1</toSectionUID></positioning>")),
+      HasSubstr("run in a circle"));
   EXPECT_THAT(error_of("<cpacs><header><cpacsVersion>1.5</cpacsVersion></header></cpacs>"), HasSubstr("version 1.5 is not supported"));
   EXPECT_THAT(error_of("<cpacs/>"), HasSubstr("no aircraft model"));
   std::string broken = wing_file("", k_diamond);
   broken.replace(broken.find("<airfoilUID>A<"), 14, "<airfoilUID>B<");
-  EXPECT_THAT(error_of(broken), HasSubstr("line 2, /cpacs/vehicles/aircraft/model[M]/wings/wing[W]/sections/section[S1]/elements/element[E1]: the file has no element with the uID 'B'"));
+  EXPECT_THAT(
+      error_of(broken),
+      HasSubstr("line 2, /cpacs/vehicles/aircraft/model[M]/wings/wing[W]/sections/section[S1]/elements/element[E1]: the file has no element with the uID 'B'"));
 }
 
 }  // namespace

@@ -229,7 +229,8 @@ TEST(Deflection, cubic_wings_bend_between_smooth_rows) {
 }
 
 TEST(Deflection, flap_aileron_slat_and_tip_at_once) {
-  ControlSurface aileron = flap(0.12, 0.2, 0.75), slat = flap(0.1, 0.45, 0.15, ControlKind::leading_edge), tip = flap(-0.02, 0.06, 0.0, ControlKind::all_moving);
+  ControlSurface aileron = flap(0.12, 0.2, 0.75), slat = flap(0.1, 0.45, 0.15, ControlKind::leading_edge),
+                 tip = flap(-0.02, 0.06, 0.0, ControlKind::all_moving);
   aileron.name = "Aileron";
   slat.name = "Slat";
   tip.name = "Tip";
@@ -239,10 +240,13 @@ TEST(Deflection, flap_aileron_slat_and_tip_at_once) {
                                                             {.surface = tip, .angle = 0.1, .other_side = OtherSide::none}}));
   EXPECT_LT(solid_measures(model, SolidId(0)).open, 1e-6);
   expect_valid(model);
-  for (const char* name : {"Flap", "FlapLeft", "Aileron", "AileronLeft", "Slat", "SlatLeft", "Tip"}) EXPECT_GT(area_of(model, name, FaceRole::control), 0.3) << name;
+  for (const char* name : {"Flap", "FlapLeft", "Aileron", "AileronLeft", "Slat", "SlatLeft", "Tip"})
+    EXPECT_GT(area_of(model, name, FaceRole::control), 0.3) << name;
 }
 
-Deflection open_flap(ControlSurface surface, double angle = 0.0) { return {.surface = std::move(surface), .angle = angle, .gap = ControlGap::open, .slot = 0.03, .end_gap = 0.05}; }
+Deflection open_flap(ControlSurface surface, double angle = 0.0) {
+  return {.surface = std::move(surface), .angle = angle, .gap = ControlGap::open, .slot = 0.03, .end_gap = 0.05};
+}
 
 double volume_of(const Model& model, std::size_t solid) { return solid_measures(model, SolidId(solid)).volume; }
 
@@ -270,7 +274,8 @@ TEST(Deflection, an_open_gap_makes_a_solid_of_its_own_behind_a_cove) {
         const double half_nose = 0.5 * M_PI * r * r * (length - 0.1), half_cove = 0.5 * M_PI * (r + 0.03) * (r + 0.03) * length;
         EXPECT_GT(missing, 0.5 * (half_cove - half_nose));
         EXPECT_LT(missing, half_cove - (is_flat ? 0.0 : half_nose) + 0.1 * 2.0 * chordwise * 2.0 * r);
-        EXPECT_NEAR(area_of(model, "Flap", FaceRole::control_side), area_of(model, "wing", FaceRole::control_side), 0.45 * area_of(model, "wing", FaceRole::control_side));
+        EXPECT_NEAR(area_of(model, "Flap", FaceRole::control_side), area_of(model, "wing", FaceRole::control_side),
+                    0.45 * area_of(model, "wing", FaceRole::control_side));
         EXPECT_GT(area_of(model, "Flap", FaceRole::hinge), 2.0 * r * 2.3 * 0.99);
         EXPECT_GT(area_of(model, "wing", FaceRole::hinge), 0.8 * area_of(model, "Flap", FaceRole::hinge));
         EXPECT_EQ(area_of(model, "wing", FaceRole::control), 0.0);
@@ -320,7 +325,10 @@ TEST(Deflection, open_and_sealed_surfaces_on_one_wing_with_their_images) {
   tab.name = "Tab";
   Deflection flaps = open_flap(flap(0.22, 0.42, 0.7), 0.5);
   flaps.other_side = OtherSide::same;
-  const std::vector<Deflection> all{flaps, {.surface = aileron, .angle = 0.1, .fairing = 0.1, .other_side = OtherSide::opposite}, {.surface = slat, .angle = 0.3, .other_side = OtherSide::same}, {.surface = tab, .other_side = OtherSide::same}};
+  const std::vector<Deflection> all{flaps,
+                                    {.surface = aileron, .angle = 0.1, .fairing = 0.1, .other_side = OtherSide::opposite},
+                                    {.surface = slat, .angle = 0.3, .other_side = OtherSide::same},
+                                    {.surface = tab, .other_side = OtherSide::same}};
   Wing swept = straight_wing();
   swept.sections[0].leading_edge.x = 1.5;
   swept.sections[0].chord = 1.2;
@@ -332,7 +340,8 @@ TEST(Deflection, open_and_sealed_surfaces_on_one_wing_with_their_images) {
     for (const SolidId s : model.solids.ids()) EXPECT_LT(solid_measures(model, s).open, 1e-6);
     expect_valid(model);
     EXPECT_NEAR(volume_of(model, 1), volume_of(model, 2), 1e-9);
-    for (const char* name : {"Flap", "FlapLeft", "Aileron", "AileronLeft", "Slat", "SlatLeft", "Tab", "TabLeft"}) EXPECT_GT(area_of(model, name, FaceRole::control), 0.1) << name;
+    for (const char* name : {"Flap", "FlapLeft", "Aileron", "AileronLeft", "Slat", "SlatLeft", "Tab", "TabLeft"})
+      EXPECT_GT(area_of(model, name, FaceRole::control), 0.1) << name;
   }
 }
 
@@ -372,7 +381,8 @@ TEST(Deflection, rudder_of_the_bjet_with_an_open_gap) {
   STERNA_NEEDS_SHARED_DATA();
   const Aircraft aircraft = read_smx(test::shared_data() / "smx/bjet.smx", RunContext()).aircraft;
   const auto fin = std::find_if(aircraft.wings.begin(), aircraft.wings.end(), [](const Wing& wing) { return wing.name == "Fin"; });
-  const auto rudder = std::find_if(aircraft.control_surfaces.begin(), aircraft.control_surfaces.end(), [](const ControlSurface& s) { return s.name == "Rudder"; });
+  const auto rudder =
+      std::find_if(aircraft.control_surfaces.begin(), aircraft.control_surfaces.end(), [](const ControlSurface& s) { return s.name == "Rudder"; });
   ASSERT_TRUE(fin != aircraft.wings.end() && rudder != aircraft.control_surfaces.end());
   const Model model = make_wing(deflected(*fin, {{.surface = *rudder, .angle = 20.0 * k_degree, .gap = ControlGap::open}}));
   EXPECT_TRUE(free_edges(model).empty());

@@ -51,7 +51,11 @@ std::vector<SurfacePtr> all_surfaces() {
 }
 
 std::vector<Transform> all_transforms() {
-  return {translation({1, 2, 3}), rotation({1, 0, 0}, {1, 1, 0.3}, 0.8), scaling({0, 1, 0}, 0.001), mirroring({0, 0.5, 0}, {0.1, 1, 0}), rotation({}, {0, 1, 0}, 1.0) * mirroring({}, {1, 0, 0}) * scaling({}, 3.0),
+  return {translation({1, 2, 3}),
+          rotation({1, 0, 0}, {1, 1, 0.3}, 0.8),
+          scaling({0, 1, 0}, 0.001),
+          mirroring({0, 0.5, 0}, {0.1, 1, 0}),
+          rotation({}, {0, 1, 0}, 1.0) * mirroring({}, {1, 0, 0}) * scaling({}, 3.0),
           Transform{{1, 0.2, 0}, {0, 2, 0.1}, {0.3, 0, 0.7}, {1, 1, 1}}};
 }
 
@@ -169,7 +173,11 @@ TEST(RadialMap, InterpolatesAndReproducesLinearMaps) {
 
 TEST(RadialMap, DerivativesAgainstDifferences) {
   for (const char* kernel : {"thin_plate", "wendland_c2"}) {
-    const SpaceMapPtr map = std::make_shared<RadialMap>(scattered(60, [](const Point& p) { return Vec3{0.02 * std::sin(p.x), 0.03 * p.x * p.y, 0.05 * p.x * p.x}; }), RadialMapOptions{.kernel = kernel});
+    const SpaceMapPtr map = std::make_shared<RadialMap>(scattered(60,
+                                                                  [](const Point& p) {
+                                                                    return Vec3{0.02 * std::sin(p.x), 0.03 * p.x * p.y, 0.05 * p.x * p.x};
+                                                                  }),
+                                                        RadialMapOptions{.kernel = kernel});
     const FunctionMap numerical([&](const Point& p) { return map->point(p); }, 2e-3);
     std::mt19937_64 random(9);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -177,7 +185,9 @@ TEST(RadialMap, DerivativesAgainstDifferences) {
       const Point p{3.0 + 4.0 * unit(random), unit(random), unit(random)};
       const SpaceMapDerivatives a = map->derivatives(p), b = numerical.derivatives(p);
       EXPECT_LE(distance(a.dx, b.dx) + distance(a.dy, b.dy) + distance(a.dz, b.dz), 1e-6);
-      EXPECT_LE(distance(a.dxx, b.dxx) + distance(a.dyy, b.dyy) + distance(a.dzz, b.dzz) + distance(a.dxy, b.dxy) + distance(a.dxz, b.dxz) + distance(a.dyz, b.dyz), 2e-3);
+      EXPECT_LE(
+          distance(a.dxx, b.dxx) + distance(a.dyy, b.dyy) + distance(a.dzz, b.dzz) + distance(a.dxy, b.dxy) + distance(a.dxz, b.dxz) + distance(a.dyz, b.dyz),
+          2e-3);
     }
   }
 }
@@ -192,7 +202,10 @@ std::string message_of(const std::function<void()>& f) {
 }
 
 TEST(RadialMap, MistakesHaveTheirPlaceAndLine) {
-  EXPECT_THAT(message_of([] { RadialMap({{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}, {{0, 0, 1}, {0, 0, 0}, {0, 0, 2}}}); }), testing::AllOf(testing::HasSubstr("points 1 and 3"), testing::HasSubstr("(0, 0, 0)")));
+  EXPECT_THAT(message_of([] {
+                RadialMap({{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}, {{0, 0, 1}, {0, 0, 0}, {0, 0, 2}}});
+              }),
+              testing::AllOf(testing::HasSubstr("points 1 and 3"), testing::HasSubstr("(0, 0, 0)")));
   EXPECT_EQ(RadialMap({{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}, {{0, 0, 1}, {0, 0, 0}, {0, 0, 1}}}).n_points(), 2u);
   EXPECT_THAT(message_of([] { RadialMap(ScatteredDisplacements{}); }), testing::HasSubstr("no points"));
   const std::filesystem::path file = test::scratch() / "shift.txt";
@@ -283,7 +296,11 @@ TEST(DeformedModel, SharedStaysSharedAndEdgesStayOnFaces) {
 
 TEST(DeformedModel, FoldOverIsAnErrorWithItsPlace) {
   const RunContext context({.threads = 2});
-  const SpaceMapPtr fold = std::make_shared<FunctionMap>([](const Point& p) { return Point{p.x - 1.5 * std::exp(-4.0 * (p.x - 1.0) * (p.x - 1.0)) * (p.x - 1.0), p.y, p.z}; }, 1e-3);
+  const SpaceMapPtr fold = std::make_shared<FunctionMap>(
+      [](const Point& p) {
+        return Point{p.x - 1.5 * std::exp(-4.0 * (p.x - 1.0) * (p.x - 1.0)) * (p.x - 1.0), p.y, p.z};
+      },
+      1e-3);
   try {
     (void)deformed(two_faces(), fold, context);
     FAIL() << "folded space was accepted";

@@ -25,7 +25,8 @@ Model patch(SurfacePtr surface, const std::vector<Uv>& outline, double beyond = 
   for (const Uv& at : outline) corners.push_back(model.corners.push_back({surface->point(at)}));
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const Uv a = outline[i], b = outline[(i + 1) % outline.size()];
-    const EdgeId edge = model.edges.push_back({.curve = segment(surface->point(a), surface->point(b)), .range = {0.0, 1.0}, .start = corners[i], .end = corners[(i + 1) % outline.size()]});
+    const EdgeId edge = model.edges.push_back(
+        {.curve = segment(surface->point(a), surface->point(b)), .range = {0.0, 1.0}, .start = corners[i], .end = corners[(i + 1) % outline.size()]});
     face.borders[0].push_back({edge, false, std::make_shared<ParameterLine>(a, b - a, Interval{-beyond, 1.0 + beyond})});
   }
   model.faces.push_back(face);
@@ -36,7 +37,8 @@ TEST(ModelMeasures, a_plane_with_a_round_hole) {
   const Frame frame{{0, 0, 2}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   Model model = patch(std::make_shared<PlaneSurface>(frame, ParameterBox{{0, 4}, {0, 3}}), {{0, 0}, {4, 0}, {4, 3}, {0, 3}});
   const CornerId corner = model.corners.push_back({{2.5, 1.5, 2}});
-  const EdgeId hole = model.edges.push_back({.curve = circle({{2, 1.5, 2}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.5, k_full_turn), .range = k_full_turn, .start = corner, .end = corner});
+  const EdgeId hole = model.edges.push_back(
+      {.curve = circle({{2, 1.5, 2}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.5, k_full_turn), .range = k_full_turn, .start = corner, .end = corner});
   model.faces[FaceId(0)].borders.push_back({{hole, true, std::make_shared<ParameterArc>(Uv{2, 1.5}, Uv{0.5, 0}, Uv{0, 0.5}, k_full_turn)}});
   const FaceMeasures m = face_measures(model, FaceId(0));
   const double area = 12.0 - k_pi * 0.25;

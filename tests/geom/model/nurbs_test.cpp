@@ -101,7 +101,10 @@ TEST(NurbsCurve, EndsAreTheEndPolesAndEndPiecesGoOn) {
 }
 
 TEST(NurbsCurve, BreaksAreKnotsOfLowContinuity) {
-  const NurbsCurve curve({3, {0, 0, 0, 0, 1, 2, 2, 3, 3, 3, 4, 4, 4, 4}, std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {3, 0, 0}, {4, 0, 2}, {5, 0, 0}, {6, 0, 0}, {7, 3, 0}, {8, 0, 0}, {9, 0, 0}}, {}});
+  const NurbsCurve curve({3,
+                          {0, 0, 0, 0, 1, 2, 2, 3, 3, 3, 4, 4, 4, 4},
+                          std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {3, 0, 0}, {4, 0, 2}, {5, 0, 0}, {6, 0, 0}, {7, 3, 0}, {8, 0, 0}, {9, 0, 0}},
+                          {}});
   EXPECT_EQ(curve.breaks(), (std::vector<double>{2.0, 3.0}));
 }
 

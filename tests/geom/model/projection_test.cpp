@@ -25,7 +25,8 @@ SurfacePtr wing() {
       const double a = 2.0 * k_pi * i / 32.0, y = j / 6.0, chord = 3.0 - 2.0 * y;
       const double x = 0.5 * (1.0 + std::cos(a)), t = 0.6 * (0.2969 * std::sqrt(x) - 0.126 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1036 * x * x * x * x);
       const double z = i <= 16 ? t : -t, twist = 0.1 * y;
-      grid.points.push_back({4.0 * y + chord * (x * std::cos(twist) + z * std::sin(twist)), 12.0 * y, chord * (z * std::cos(twist) - x * std::sin(twist)) + y * y});
+      grid.points.push_back(
+          {4.0 * y + chord * (x * std::cos(twist) + z * std::sin(twist)), 12.0 * y, chord * (z * std::cos(twist) - x * std::sin(twist)) + y * y});
     }
   return spline_surface(grid, {}, {});
 }
@@ -55,7 +56,8 @@ TEST(SurfaceProjector, FindsTheFootOfNormalsOnAWing) {
 TEST(SurfaceProjector, NearestAgreesWithBruteForce) {
   const Frame frame = frame_along({0.3, -0.2, 1.0}, {1.0, 2.0, 0.5});
   const std::vector<SurfacePtr> surfaces{wing(), std::make_shared<SphereSurface>(frame, 1.5), std::make_shared<TorusSurface>(frame, 2.0, 0.6),
-                                         std::make_shared<CylinderSurface>(frame, 0.7, ParameterBox{k_full_turn, {-1, 2}}), std::make_shared<ConeSurface>(frame, 0.0, 0.4, ParameterBox{k_full_turn, {0, 2}})};
+                                         std::make_shared<CylinderSurface>(frame, 0.7, ParameterBox{k_full_turn, {-1, 2}}),
+                                         std::make_shared<ConeSurface>(frame, 0.0, 0.4, ParameterBox{k_full_turn, {0, 2}})};
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (const SurfacePtr& s : surfaces) {
@@ -138,8 +140,8 @@ TEST(SurfaceProjector, SameForAnyNumberOfThreads) {
 TEST(CurveProjector, AgreesWithBruteForceAndKeepsToTheEnds) {
   std::vector<Point> points;
   for (int i = 0; i <= 20; ++i) points.push_back({std::cos(0.6 * i), std::sin(0.6 * i), 0.1 * i * std::cos(0.2 * i)});
-  const std::vector<CurvePtr> curves{spline_curve(points, {}), spline_curve(points, {.tangents = SplineTangents::akima}), circle(frame_along({1, 0, 0}, {1, 1, 1}), 2.0, k_full_turn),
-                                     circle({}, 2.0, {0.3, 1.9}), segment({0, 0, 0}, {1, 2, 3})};
+  const std::vector<CurvePtr> curves{spline_curve(points, {}), spline_curve(points, {.tangents = SplineTangents::akima}),
+                                     circle(frame_along({1, 0, 0}, {1, 1, 1}), 2.0, k_full_turn), circle({}, 2.0, {0.3, 1.9}), segment({0, 0, 0}, {1, 2, 3})};
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
   for (const CurvePtr& c : curves) {

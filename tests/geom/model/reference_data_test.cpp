@@ -14,7 +14,10 @@ namespace sterna {
 namespace {
 
 WingSection diamond(Point leading, double chord) {
-  return {.name = "s", .leading_edge = leading, .chord = chord, .points = {{1.0, 0.0}, {0.6, 0.05}, {0.2, 0.05}, {0.0, 0.0}, {0.2, -0.05}, {0.6, -0.05}, {1.0, 0.0}}};
+  return {.name = "s",
+          .leading_edge = leading,
+          .chord = chord,
+          .points = {{1.0, 0.0}, {0.6, 0.05}, {0.2, 0.05}, {0.0, 0.0}, {0.2, -0.05}, {0.6, -0.05}, {1.0, 0.0}}};
 }
 
 TEST(ReferenceData, a_trapezoid_has_its_formulas) {
@@ -31,8 +34,9 @@ TEST(ReferenceData, a_trapezoid_has_its_formulas) {
   EXPECT_NEAR(r.aspect_ratio, 100.0 / 15.0, 1e-12);
 }
 
-// Schmitt and Charpin, AGARD AR-138 (1979), quoted from memory (no copy is stored here): semi span 1.1963 m, root 0.8059 m, taper 0.562, mean aerodynamic chord 0.64607 m, half area 0.7532 m2. The
-// file says 1.1963 along the swept leading edge instead of along the span, so its span is that times cos 30 degrees: 0.866 of the published.
+// Schmitt and Charpin, AGARD AR-138 (1979), quoted from memory (no copy is stored here): semi span 1.1963 m, root 0.8059 m, taper 0.562, mean aerodynamic chord
+// 0.64607 m, half area 0.7532 m2. The file says 1.1963 along the swept leading edge instead of along the span, so its span is that times cos 30 degrees: 0.866
+// of the published.
 TEST(ReferenceData, onera_m6) {
   STERNA_NEEDS_SHARED_DATA();
   Wing wing = read_cpacs(test::shared_data() / "cpacs/onera_m6.xml", RunContext()).aircraft.wings.at(0);
@@ -46,8 +50,8 @@ TEST(ReferenceData, onera_m6) {
   EXPECT_NEAR(stretched.area, 2 * 0.7532, 0.005 * 2 * 0.7532);
 }
 
-// The file itself states area 122.4 m2 and mean chord 4.193 m (<reference>). Its header says that the shape comes from the A320-200, which spans 33.91 m without
-// wing tip fences (that number from memory; no source is stored here).
+// The file itself states area 122.4 m2 and mean chord 4.193 m (<reference>). Its header says that the shape comes from the A320-200, which spans 33.91 m
+// without wing tip fences (that number from memory; no source is stored here).
 TEST(ReferenceData, d150) {
   STERNA_NEEDS_SHARED_DATA();
   const Aircraft aircraft = read_cpacs(test::shared_data() / "cpacs/d150.xml", RunContext()).aircraft;
@@ -56,7 +60,8 @@ TEST(ReferenceData, d150) {
   ASSERT_TRUE(aircraft.reference_area && aircraft.reference_length);
   EXPECT_NEAR(r.projected_area, *aircraft.reference_area, 0.005 * 122.4);
   EXPECT_NEAR(r.mean_aerodynamic_chord, *aircraft.reference_length, 0.005 * 4.193);
-  const WingReference older = wing_reference(read_cpacs(test::shared_data() / "cpacs/CPACS_30_D150.xml", RunContext()).aircraft.wings.at(0));  // the same aircraft in another file
+  const WingReference older =
+      wing_reference(read_cpacs(test::shared_data() / "cpacs/CPACS_30_D150.xml", RunContext()).aircraft.wings.at(0));  // the same aircraft in another file
   EXPECT_NEAR(older.span, r.span, 1e-3);
   EXPECT_NEAR(older.projected_area, r.projected_area, 1e-3);
   const std::vector<BodyMeasures> parts = model_measures(make_components(aircraft, RunContext()), RunContext()).solids;

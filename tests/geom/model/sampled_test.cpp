@@ -63,7 +63,10 @@ TEST(SampledSurface, BreaksAndPeriodsAreKept) {
   const SampledSurface s = sample_surface(kinked, {{0, 1}, {0, 1}}, {.tolerance = 1e-9, .breaks_u = {0.37}});
   EXPECT_EQ(s.surface->breaks_u(), std::vector<double>{0.37});
   EXPECT_LE(error_of(*s.surface, kinked), 1e-9);
-  EXPECT_THAT(message_of([&] { (void)sample_surface(kinked, {{0, 1}, {0, 1}}, {.tolerance = 1e-9, .max_intervals = 60}); }), testing::AllOf(testing::HasSubstr("with 60 intervals"), testing::HasSubstr("(0.36")));
+  EXPECT_THAT(message_of([&] {
+                (void)sample_surface(kinked, {{0, 1}, {0, 1}}, {.tolerance = 1e-9, .max_intervals = 60});
+              }),
+              testing::AllOf(testing::HasSubstr("with 60 intervals"), testing::HasSubstr("(0.36")));
 
   for (const Surface* surface : {static_cast<const Surface*>(new SphereSurface({}, 2.0)), static_cast<const Surface*>(new TorusSurface({}, 2.0, 0.5))}) {
     const std::unique_ptr<const Surface> owner(surface);
@@ -88,7 +91,10 @@ TEST(SampledSurface, MistakesAreNamed) {
   EXPECT_THAT(message_of([&] { (void)sample_surface(plane, {{0, 1}, {1, 1}}, {}); }), testing::HasSubstr("no length"));
   EXPECT_THAT(message_of([&] { (void)sample_surface(plane, {{0, 1}, {0, 1}}, {.is_periodic_u = true}); }), testing::HasSubstr("said to be periodic"));
   EXPECT_THAT(message_of([&] { (void)sample_surface(plane, {{0, 1}, {0, 1}}, {.breaks_u = {2.0}}); }), testing::HasSubstr("not inside"));
-  EXPECT_THAT(message_of([&] { (void)sample_surface([](Uv p) { return Point{std::log(p.u - 0.5), 0, 0}; }, {{0, 1}, {0, 1}}, {}); }), testing::HasSubstr("finite numbers at (u, v) = (0"));
+  EXPECT_THAT(message_of([&] {
+                (void)sample_surface([](Uv p) { return Point{std::log(p.u - 0.5), 0, 0}; }, {{0, 1}, {0, 1}}, {});
+              }),
+              testing::HasSubstr("finite numbers at (u, v) = (0"));
 }
 
 TEST(SampledCurve, ToleranceHoldsBetweenTheSamples) {
@@ -98,7 +104,10 @@ TEST(SampledCurve, ToleranceHoldsBetweenTheSamples) {
   double error = 0.0;
   for (int i = 0; i <= 3000; ++i) error = std::max(error, distance(c.curve->point(i * k_full_turn.to / 3000.0), ellipse.point(i * k_full_turn.to / 3000.0)));
   EXPECT_LE(error, 1.2e-7);
-  EXPECT_THAT(message_of([] { (void)sample_curve([](double t) { return Point{t, std::abs(t - 0.3), 0}; }, {0, 1}, {.tolerance = 1e-9, .max_intervals = 40}); }), testing::HasSubstr("t = 0.29"));
+  EXPECT_THAT(message_of([] {
+                (void)sample_curve([](double t) { return Point{t, std::abs(t - 0.3), 0}; }, {0, 1}, {.tolerance = 1e-9, .max_intervals = 40});
+              }),
+              testing::HasSubstr("t = 0.29"));
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ std::string body_with(const std::string& inside, const std::string& attributes =
   return "<Assembly>\n<BodySkeleton name='B' origin='0 0 0' rotation='0 0 0' " + attributes + ">\n" + inside + "\n</BodySkeleton>\n</Assembly>\n";
 }
 std::string circle_at(double x) {
-  return "<BodyFrame name='F" + std::to_string(x) + "' center='" + std::to_string(x) + " 0 0' height='1' width='1'><CircularShapeConstraint npoints='7' radius='2'/></BodyFrame>\n";
+  return "<BodyFrame name='F" + std::to_string(x) + "' center='" + std::to_string(x) +
+         " 0 0' height='1' width='1'><CircularShapeConstraint npoints='7' radius='2'/></BodyFrame>\n";
 }
 
 struct RealFile {
@@ -84,8 +85,8 @@ TEST(Smx, frame_points_are_normalised_and_the_shape_stays) {
   STERNA_NEEDS_SHARED_DATA();
   const BodyFrame frame = read_smx(test::shared_data() / "smx/sumo_empty.smx", RunContext()).aircraft.bodies[0].frames[1];
   EXPECT_EQ(frame.name, "FuselageFrame55");
-  EXPECT_NEAR(frame.width, 2 * 0.5279, 1e-12);             // the file's largest y
-  EXPECT_NEAR(frame.height, 1.3516 - 0.52531, 1e-12);       // its z from 0.52531 to 1.3516
+  EXPECT_NEAR(frame.width, 2 * 0.5279, 1e-12);         // the file's largest y
+  EXPECT_NEAR(frame.height, 1.3516 - 0.52531, 1e-12);  // its z from 0.52531 to 1.3516
   EXPECT_NEAR(frame.center.z, 0.5 * (1.3516 + 0.52531), 1e-12);
   EXPECT_NEAR(frame.center.z + 0.5 * frame.height * frame.points[1].v, 0.52531, 1e-12);
   EXPECT_NEAR(0.5 * frame.width * frame.points[1].u, 0.020473, 1e-12);
@@ -100,7 +101,8 @@ TEST(Smx, a_shape_replaces_points_and_a_circle_its_size) {
 }
 
 TEST(Smx, frames_are_sorted_and_a_lip_makes_the_nose_flat) {
-  const AircraftReading reading = read_text(body_with("<NacelleInletLip axialOffset='0.3'/>" + circle_at(3) + circle_at(1) + "<Cap shape='RingCap' height='1' side='south'/>"));
+  const AircraftReading reading =
+      read_text(body_with("<NacelleInletLip axialOffset='0.3'/>" + circle_at(3) + circle_at(1) + "<Cap shape='RingCap' height='1' side='south'/>"));
   const Body& body = reading.aircraft.bodies[0];
   EXPECT_LT(body.frames[0].center.x, body.frames[1].center.x);
   EXPECT_THAT(reading.messages, Contains(HasSubstr("sorted by x")));
@@ -114,7 +116,8 @@ TEST(Smx, frames_are_sorted_and_a_lip_makes_the_nose_flat) {
 TEST(Smx, caps_that_are_missing_are_flat_domes_of_bodies_and_round_strips_of_wings) {
   const Body body = read_text(body_with(circle_at(0) + circle_at(1))).aircraft.bodies[0];
   EXPECT_EQ(body.nose, (EndCap{CapShape::dome, 0.0}));
-  EXPECT_EQ(read_text(body_with(circle_at(0) + circle_at(1) + "<Caps height_north='0.5' height_south='2'/>")).aircraft.bodies[0].nose, (EndCap{CapShape::strip, 2.0}));
+  EXPECT_EQ(read_text(body_with(circle_at(0) + circle_at(1) + "<Caps height_north='0.5' height_south='2'/>")).aircraft.bodies[0].nose,
+            (EndCap{CapShape::strip, 2.0}));
   const std::string section = "<WingSection name='S' center='0 1 0.5' chord='1' dihedral='0.1'>1 0  0.5 0.06  0 0  0.5 -0.06  1 0</WingSection>\n";
   const auto wing = [&](const std::string& flags) {
     return read_text("<Assembly><WingSkeleton name='W' " + flags + ">" + section + section + "</WingSkeleton></Assembly>").aircraft.wings[0];
@@ -136,10 +139,11 @@ TEST(Smx, unknown_things_are_told_and_left_out) {
 }
 
 TEST(Smx, references_to_nothing_are_told) {
-  const AircraftReading reading = read_text(
-      "<Assembly><BodySkeleton name='B'>" + circle_at(0) + circle_at(1) +
-      "</BodySkeleton><ControlSystem><ControlSrf name='Flap' wing='Nowhere' type='TEF'><Hingepoint spanpos='0.1' chordpos='0.7'/><Hingepoint spanpos='0.2' chordpos='0.7'/>"
-      "</ControlSrf><Control name='C'><Participation id='FlapSegment7' factor='1'/></Control></ControlSystem></Assembly>");
+  const AircraftReading reading =
+      read_text("<Assembly><BodySkeleton name='B'>" + circle_at(0) + circle_at(1) +
+                "</BodySkeleton><ControlSystem><ControlSrf name='Flap' wing='Nowhere' type='TEF'><Hingepoint spanpos='0.1' chordpos='0.7'/><Hingepoint "
+                "spanpos='0.2' chordpos='0.7'/>"
+                "</ControlSrf><Control name='C'><Participation id='FlapSegment7' factor='1'/></Control></ControlSystem></Assembly>");
   EXPECT_THAT(reading.messages, Contains(HasSubstr("there is no wing 'Nowhere'")));
   EXPECT_THAT(reading.messages, Contains(HasSubstr("'FlapSegment7'")));
 }
@@ -150,9 +154,11 @@ TEST(Smx, errors_name_line_and_path) {
               HasSubstr("line 3, /Assembly/BodySkeleton[B]/BodyFrame[F]: attribute 'height' is -1; it must be positive"));
   EXPECT_THAT(error_of(body_with("<BodyFrame name='F' center='0 zero 0' height='1' width='1'/>")), HasSubstr("'zero' is not a finite number"));
   EXPECT_THAT(error_of(body_with("<BodyFrame name='F' center='0 0' height='1' width='1'/>")), HasSubstr("has 2 numbers instead of 3"));
-  EXPECT_THAT(error_of(body_with("<BodyFrame name='F' center='0 0 0' height='1' width='1'> 0 -1 1 0 0.5 </BodyFrame>")), HasSubstr("5 numbers cannot be pairs"));
+  EXPECT_THAT(error_of(body_with("<BodyFrame name='F' center='0 0 0' height='1' width='1'> 0 -1 1 0 0.5 </BodyFrame>")),
+              HasSubstr("5 numbers cannot be pairs"));
   EXPECT_THAT(error_of(body_with("<BodyFrame name='F' center='0 0 0' height='1' width='1'> 0 -1 1 0 1 0 0 1 </BodyFrame>")), HasSubstr("4 points; it has 3"));
-  EXPECT_THAT(error_of(body_with("<BodyFrame name='F' center='0 0 0' height='1' width='1'> 0 -1  1 0  0 1  0.5 0.5  0.1 0.9</BodyFrame>")), HasSubstr("turns back by 180 degrees"));
+  EXPECT_THAT(error_of(body_with("<BodyFrame name='F' center='0 0 0' height='1' width='1'> 0 -1  1 0  0 1  0.5 0.5  0.1 0.9</BodyFrame>")),
+              HasSubstr("turns back by 180 degrees"));
   EXPECT_THAT(error_of(body_with(circle_at(0))), HasSubstr("a body needs 2 frames"));
   EXPECT_THAT(error_of("<Mesh/>"), HasSubstr("the root of a .smx file"));
   EXPECT_THAT(error_of("<Assembly/>"), HasSubstr("there is no body and no wing"));
@@ -176,7 +182,8 @@ TEST(Smx, what_smx_cannot_hold_is_refused_by_name) {
 TEST(Smx, a_section_may_have_only_a_naca_designation) {
   const auto wing = [](const std::string& naca) {
     const std::string section = " chord='1' naca='" + naca + "'/>";
-    return "<Assembly><WingSkeleton name='W'><WingSection name='a' center='0 1 0'" + section + "<WingSection name='b' center='0 0 0'" + section + "</WingSkeleton></Assembly>";
+    return "<Assembly><WingSkeleton name='W'><WingSection name='a' center='0 1 0'" + section + "<WingSection name='b' center='0 0 0'" + section +
+           "</WingSkeleton></Assembly>";
   };
   const AircraftReading reading = read_text(wing("23012"));
   EXPECT_TRUE(reading.messages.empty());

@@ -12,7 +12,8 @@
 namespace sterna {
 namespace {
 
-constexpr SplineTangents k_cubic[] = {SplineTangents::natural, SplineTangents::clamped, SplineTangents::not_a_knot, SplineTangents::akima, SplineTangents::bessel, SplineTangents::monotone};
+constexpr SplineTangents k_cubic[] = {SplineTangents::natural, SplineTangents::clamped, SplineTangents::not_a_knot,
+                                      SplineTangents::akima,   SplineTangents::bessel,  SplineTangents::monotone};
 
 std::vector<Point> helix(int n, double turns = 0.8) {
   std::vector<Point> points;
@@ -54,7 +55,8 @@ TEST(Spline, ReproducesCubicsWhereItMust) {
     on_parabola.push_back(parabola(t));
   }
   const CurvePtr open = spline_curve(on_cubic, {.tangents = SplineTangents::not_a_knot, .at = at});
-  const CurvePtr clamped = spline_curve(on_cubic, {.tangents = SplineTangents::clamped, .at = at, .start_tangents = {{-1.0, 0.0, -1.0}}, .end_tangents = {{11.0, 8.0, -1.0}}});
+  const CurvePtr clamped =
+      spline_curve(on_cubic, {.tangents = SplineTangents::clamped, .at = at, .start_tangents = {{-1.0, 0.0, -1.0}}, .end_tangents = {{11.0, 8.0, -1.0}}});
   const CurvePtr bessel = spline_curve(on_parabola, {.tangents = SplineTangents::bessel, .at = at});
   for (double t = 0.0; t <= 2.0; t += 0.05) {
     EXPECT_LE(distance(open->point(t), cubic(t)), 1e-13);
@@ -144,7 +146,8 @@ TEST(Spline, MonotoneTangentsNeverCarryACoordinateBeyondItsTwoPoints) {
     }
   EXPECT_GT(beyond_of_bessel, 0.01);
   // Smooth all the same.
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) EXPECT_LE(norm(monotone->derivatives(t[i] - 1e-9).first - monotone->derivatives(t[i] + 1e-9).first), 1e-5) << i;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i)
+    EXPECT_LE(norm(monotone->derivatives(t[i] - 1e-9).first - monotone->derivatives(t[i] + 1e-9).first), 1e-5) << i;
 }
 
 TEST(Spline, CornersStaySharpAndPiecesAreIndependent) {
@@ -158,7 +161,8 @@ TEST(Spline, CornersStaySharpAndPiecesAreIndependent) {
     std::vector<Point> moved = points;
     moved[4] = {3, 2, 0};
     const std::vector<double> fixed_at{0, 1, 2, 3, 4};
-    const CurvePtr a = spline_curve(points, {.tangents = tangents, .at = fixed_at, .corners = {2}}), b = spline_curve(moved, {.tangents = tangents, .at = fixed_at, .corners = {2}});
+    const CurvePtr a = spline_curve(points, {.tangents = tangents, .at = fixed_at, .corners = {2}}),
+                   b = spline_curve(moved, {.tangents = tangents, .at = fixed_at, .corners = {2}});
     EXPECT_LE(distance(a->point(1.4), b->point(1.4)), 1e-15);
   }
 }
@@ -195,7 +199,8 @@ PointGrid wing_grid(std::size_t n_u, std::size_t n_v) {
   PointGrid grid{n_u, n_v, {}};
   for (std::size_t i = 0; i < n_u; ++i)
     for (std::size_t j = 0; j < n_v; ++j) {
-      const double a = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n_u - 1), y = static_cast<double>(j) / static_cast<double>(n_v - 1);
+      const double a = 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n_u - 1),
+                   y = static_cast<double>(j) / static_cast<double>(n_v - 1);
       const double chord = 2.0 - y;
       grid.points.push_back({y + chord * 0.5 * (1.0 + std::cos(a)), 5.0 * y, chord * 0.06 * std::sin(a) + 0.1 * y * y});
     }
@@ -205,7 +210,8 @@ PointGrid wing_grid(std::size_t n_u, std::size_t n_v) {
 
 TEST(SplineSurface, GoesThroughTheGridInEveryCombination) {
   const PointGrid grid = wing_grid(13, 6);
-  const SplineTangents all[] = {SplineTangents::natural, SplineTangents::not_a_knot, SplineTangents::akima, SplineTangents::bessel, SplineTangents::linear, SplineTangents::periodic};
+  const SplineTangents all[] = {SplineTangents::natural, SplineTangents::not_a_knot, SplineTangents::akima,
+                                SplineTangents::bessel,  SplineTangents::linear,     SplineTangents::periodic};
   for (const SplineTangents tu : all)
     for (const SplineTangents tv : all) {
       if (tv == SplineTangents::periodic) continue;
@@ -250,7 +256,8 @@ TEST(SplineSurface, PolesAndClampedBordersWork) {
     start.push_back({0, std::numbers::pi * std::sin(a), -std::numbers::pi * std::cos(a)});
     end.push_back({0, -std::numbers::pi * std::sin(a), std::numbers::pi * std::cos(a)});
   }
-  const SurfacePtr surface = spline_surface(grid, {}, {.tangents = SplineTangents::clamped, .parameters = SplineParameters::uniform, .start_tangents = start, .end_tangents = end});
+  const SurfacePtr surface =
+      spline_surface(grid, {}, {.tangents = SplineTangents::clamped, .parameters = SplineParameters::uniform, .start_tangents = start, .end_tangents = end});
   for (double u = 0.0; u <= 1.0; u += 0.125) {
     EXPECT_LE(distance(surface->point({u, 0.0}), {-1, 0, 0}), 1e-14);
     for (double v = 0.0; v <= 1.0; v += 0.1) EXPECT_NEAR(norm(surface->point({u, v})), 1.0, 2e-3);

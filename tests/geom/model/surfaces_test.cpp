@@ -43,7 +43,8 @@ TEST(AnalyticSurfaces, SatisfyTheirEquations) {
   const TorusSurface torus(k_frame, 2.0, 0.4);
   for (double u = 0.0; u < 6.2; u += 0.37)
     for (double v = -1.5; v < 1.5; v += 0.21) {
-      const Vec3 a = k_frame.local(cylinder.point({u, v})), b = k_frame.local(cone.point({u, v})), c = k_frame.local(sphere.point({u, v})), d = k_frame.local(torus.point({u, v}));
+      const Vec3 a = k_frame.local(cylinder.point({u, v})), b = k_frame.local(cone.point({u, v})), c = k_frame.local(sphere.point({u, v})),
+                 d = k_frame.local(torus.point({u, v}));
       EXPECT_NEAR(std::hypot(a.x, a.y), 0.7, 1e-14);
       EXPECT_NEAR(a.z, v, 1e-14);
       EXPECT_NEAR(std::hypot(b.x, b.y), 0.5 + b.z * std::tan(0.3), 1e-14);
@@ -56,7 +57,8 @@ TEST(AnalyticSurfaces, SatisfyTheirEquations) {
       const double e = dot(s.du, s.du), f = dot(s.du, s.dv), g = dot(s.dv, s.dv), l = dot(n, s.duu), m = dot(n, s.duv), k = dot(n, s.dvv);
       EXPECT_NEAR((l * k - m * m) / (e * g - f * f), 1.0 / (1.3 * 1.3), 1e-10);
     }
-  for (const Surface* s : {static_cast<const Surface*>(&cylinder), static_cast<const Surface*>(&cone), static_cast<const Surface*>(&sphere), static_cast<const Surface*>(&torus)}) {
+  for (const Surface* s : {static_cast<const Surface*>(&cylinder), static_cast<const Surface*>(&cone), static_cast<const Surface*>(&sphere),
+                           static_cast<const Surface*>(&torus)}) {
     test::expect_derivatives(*s);
     EXPECT_TRUE(s->is_periodic_u());
     EXPECT_FALSE(s->exact_nurbs());
@@ -84,7 +86,8 @@ TEST(Curves, LinesArcsAndViews) {
     EXPECT_NEAR(p.x * p.x / 4 + p.y * p.y / 0.25, 1.0, 1e-14);
   }
   const CurvePtr spline = spline_curve(wave(9, 0.0), {.tangents = SplineTangents::akima});
-  for (const CurvePtr& view : {part_of(spline, {0.2, 0.7}), reparametrised(spline, {-3, 4}), reversed(spline), reversed(part_of(reparametrised(spline, {1, 2}), {1.3, 1.9}))}) {
+  for (const CurvePtr& view :
+       {part_of(spline, {0.2, 0.7}), reparametrised(spline, {-3, 4}), reversed(spline), reversed(part_of(reparametrised(spline, {1, 2}), {1.3, 1.9}))}) {
     test::expect_derivatives(*view);
     test::expect_exact_nurbs(*view);
     const auto form = view->exact_nurbs();
@@ -140,7 +143,8 @@ TEST(SurfaceView, PartsReversalsAndExchangesAreTheSameSurface) {
     for (int j = 0; j < 6; ++j) grid.points.push_back({1.0 * i, 0.8 * j, std::sin(0.5 * i) * std::cos(0.4 * j)});
   const SurfacePtr base = spline_surface(grid, {.tangents = SplineTangents::akima}, {});
   const SurfacePtr part = part_of(base, {{0.2, 0.9}, {0.3, 0.5}});
-  for (const SurfacePtr& view : {part, reparametrised(part, {{-5, 5}, {1, 3}}), reversed_u(part), reversed_v(base), exchanged(part), exchanged(reversed_u(reparametrised(part, {{0, 4}, {0, 2}})))}) {
+  for (const SurfacePtr& view : {part, reparametrised(part, {{-5, 5}, {1, 3}}), reversed_u(part), reversed_v(base), exchanged(part),
+                                 exchanged(reversed_u(reparametrised(part, {{0, 4}, {0, 2}})))}) {
     test::expect_derivatives(*view, 30);
     test::expect_exact_nurbs(*view);
     test::expect_batch(*view);

@@ -41,7 +41,8 @@ TEST(SurfaceCgns, RoundTripInBothContainers) {
     io::write_surface_file(cube, path, RunContext({.threads = 2}));
     const SurfaceSoup soup = read_surface(path);
     EXPECT_EQ(soup.points, cube.points.raw());
-    EXPECT_EQ(triangles_by_patch(soup), (std::map<std::string, int>{{cube.patches[PatchId(0)].name, static_cast<int>(cube.n_triangles()) - 1}, {"lid & <base>", 1}}));
+    EXPECT_EQ(triangles_by_patch(soup),
+              (std::map<std::string, int>{{cube.patches[PatchId(0)].name, static_cast<int>(cube.n_triangles()) - 1}, {"lid & <base>", 1}}));
     EXPECT_NEAR(volume_of(soup), 1.0, 1e-14);
     const std::string program = "/usr/bin/cgnscheck";
     STERNA_NEEDS(std::filesystem::exists(program), "cgnscheck of the package cgns-convert");

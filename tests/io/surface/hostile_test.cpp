@@ -41,7 +41,8 @@ std::vector<std::filesystem::path> victims() {
       const std::string name = entry.path().filename().string();
       bool is_wanted = entry.is_regular_file() && entry.file_size() <= k_small;
       is_wanted = is_wanted && std::any_of(starts.begin(), starts.end(), [&](const std::string& start) { return name.starts_with(start); });
-      const auto ends = {".stl", ".obj", ".off", ".ply", ".msh", ".su2", ".ugrid", ".vtk", ".vtu", ".nas", ".bdf", ".tri", ".smesh", ".poly", ".zml", ".wgs", ".fmt", ".p3d", ".xyz"};
+      const auto ends = {".stl", ".obj", ".off",   ".ply",  ".msh", ".su2", ".ugrid", ".vtk", ".vtu", ".nas",
+                         ".bdf", ".tri", ".smesh", ".poly", ".zml", ".wgs", ".fmt",   ".p3d", ".xyz"};
       if (is_wanted && std::any_of(ends.begin(), ends.end(), [&](const char* end) { return name.ends_with(end); })) files.push_back(entry.path());
     }
   };
@@ -140,7 +141,8 @@ TEST(Hostile, DamagedGzip) {
 }
 
 TEST(Hostile, MissingFolderAndEmptyFile) {
-  for (const char* name : {"a.stl", "a.obj", "a.off", "a.ply", "a.msh", "a.su2", "a.lb8.ugrid", "a.vtk", "a.vtp", "a.nas", "a.tri", "a.smesh", "a.zml", "a.wgs", "a.fmt"}) {
+  for (const char* name :
+       {"a.stl", "a.obj", "a.off", "a.ply", "a.msh", "a.su2", "a.lb8.ugrid", "a.vtk", "a.vtp", "a.nas", "a.tri", "a.smesh", "a.zml", "a.wgs", "a.fmt"}) {
     const std::filesystem::path folder = scratch();
     const auto code_of = [&] {
       try {

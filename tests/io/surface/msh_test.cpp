@@ -16,7 +16,9 @@ const std::string k_v2 =
     "$Elements\n3\n1 1 2 1 1 900 10\n2 2 2 7 3 900 10 40\n3 3 2 0 4 10 20 30 40\n$EndElements\n";
 
 SurfaceSoup read(const std::string& text) { return read_surface_text("mesh.msh", text); }
-void refused(const std::string& text, const std::vector<std::string>& texts, ErrorCode code = ErrorCode::file_malformed) { expect_refused("mesh.msh", text, code, texts); }
+void refused(const std::string& text, const std::vector<std::string>& texts, ErrorCode code = ErrorCode::file_malformed) {
+  expect_refused("mesh.msh", text, code, texts);
+}
 
 TEST(SurfaceMsh, BothVersionsGiveTheSame) {
   const SurfaceSoup soup = read(k_v4);
@@ -51,7 +53,8 @@ TEST(SurfaceMsh, BinarySamplesAreTheTextOnes) {
   const auto samples = shared_data() / "formats";
   expect_same_soup(read_surface(samples / "pt.v22bin.msh"), read_surface(samples / "pt.v22.msh"));
   expect_same_soup(read_surface(samples / "mix4.v22bin.msh"), read_surface(samples / "mix4.v22.msh"));
-  const SurfaceSoup text = read_surface(samples / "pt.v41.msh"), binary = read_surface(samples / "pt.v41bin.msh");  // gmsh has put the nodes and groups in its own order
+  const SurfaceSoup text = read_surface(samples / "pt.v41.msh"),
+                    binary = read_surface(samples / "pt.v41bin.msh");  // gmsh has put the nodes and groups in its own order
   EXPECT_NEAR(volume_of(binary), volume_of(text), 1e-15);
   EXPECT_EQ(binary.triangles.size(), text.triangles.size());
 }

@@ -24,10 +24,12 @@ TEST(SurfaceObj, SpellingsOfAFace) {
   EXPECT_EQ(soup.triangles.size(), 2u);
   EXPECT_DOUBLE_EQ(area_z(soup), 1.0);
   EXPECT_FALSE(soup.has_names);
-  for (const char* face : {"f -4 -3 -2 -1\n", "f 1/1 2/1 3/1 4/1\n", "f 1//1 2//1 3//1 4//1\n", "f 1/1/1 2/2/2 3/3/3 4/4/4 # comment\n", "f 1 2 \\\n 3 4\n", "fo 1 2 3 4\n"})
+  for (const char* face :
+       {"f -4 -3 -2 -1\n", "f 1/1 2/1 3/1 4/1\n", "f 1//1 2//1 3//1 4//1\n", "f 1/1/1 2/2/2 3/3/3 4/4/4 # comment\n", "f 1 2 \\\n 3 4\n", "fo 1 2 3 4\n"})
     expect_same_soup(read_surface_text("a.obj", k_square + face), soup);
   expect_same_soup(read_surface_text("a.obj", "f 1 2 3 4\n" + k_square), soup);  // positive numbers may come first
-  expect_same_soup(read_surface_text("a.obj", "mtllib a.mtl\n" + replaced(k_square, "v 1 1 0", "v 1 1 0 1.0") + "vt 0 0\nvn 0 0 1\ns off\nl 1 2\nf 1 2 3 4\n"), soup);
+  expect_same_soup(read_surface_text("a.obj", "mtllib a.mtl\n" + replaced(k_square, "v 1 1 0", "v 1 1 0 1.0") + "vt 0 0\nvn 0 0 1\ns off\nl 1 2\nf 1 2 3 4\n"),
+                   soup);
 }
 
 TEST(SurfaceObj, GroupsThenObjectsThenMaterialsNameThePatches) {
@@ -55,7 +57,7 @@ TEST(SurfaceOff, HandWrittenCase) {
   const SurfaceSoup soup = read_surface(path, &warnings);
   EXPECT_EQ(soup.triangles.size(), 5u);
   EXPECT_DOUBLE_EQ(area_z(soup), 3.5);  // the square 1, the pentagon 2.5 by the shoelace formula
-  ASSERT_EQ(warnings.size(), 1u);  // the segment
+  ASSERT_EQ(warnings.size(), 1u);       // the segment
   expect_same_soup(read_surface_text("a.off", with_crlf(bytes_of(path))), soup);
 }
 
@@ -100,7 +102,8 @@ TEST(SurfacePly, PropertiesBeyondTheSurfaceArePassedOver) {
 TEST(SurfacePly, BytesOfEitherOrder) {
   const auto file = [](bool is_big) {
     std::string bytes = "ply\nformat binary_" + std::string(is_big ? "big" : "little") +
-                        "_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar uint vertex_indices\nend_header\n";
+                        "_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar uint "
+                        "vertex_indices\nend_header\n";
     const auto add = [&](std::uint32_t bits) {
       for (int i = 0; i < 4; ++i) bytes += static_cast<char>(bits >> (8 * (is_big ? 3 - i : i)) & 0xffu);
     };

@@ -19,7 +19,7 @@ using test::scratch;
 /// What a format keeps of a coordinate: relative to the largest one.
 double precision_of(const Format& format, std::size_t n_patches = 6) {
   if (format.name == "STL binary" || (format.name == "STL" && n_patches == 1) || format.name == "Cart3D binary") return 1.2e-7;  // 2^-23: a float
-  if (format.name == "Nastran") return 1e-9;                                        // 16 characters, of which 10 are digits at worst
+  if (format.name == "Nastran") return 1e-9;  // 16 characters, of which 10 are digits at worst
   return 0.0;
 }
 
@@ -29,7 +29,13 @@ std::string numbered(std::size_t i) { return "patch_" + std::to_string(i + 1); }
 /// A glider of 1.5 k triangles, cut into patches by place.
 TriMesh glider() {
   TriMesh mesh = to_tri_mesh(test::read_surface(test::shared_data() / "surfaces" / "clean" / "meshpy_ka6d_ka-6d.ply"));
-  mesh.patches = {{"left wing"}, {"right_wing"}, {"Rumpf-\xC3\xBC" "bergang"}, {"tail", PatchKind::slip}, {"symmetry", PatchKind::symmetry}, {"a,b(c)"}};
+  mesh.patches = {{"left wing"},
+                  {"right_wing"},
+                  {"Rumpf-\xC3\xBC"
+                   "bergang"},
+                  {"tail", PatchKind::slip},
+                  {"symmetry", PatchKind::symmetry},
+                  {"a,b(c)"}};
   const Box box = bounding_box(mesh);
   for (const TriangleId t : mesh.triangles.ids()) {
     const auto p = corners(mesh, t);
@@ -111,7 +117,8 @@ TEST(SurfaceRoundTrip, EveryWriterKeepsConnectivityCoordinatesAndNames) {
       std::size_t found = mesh.patches.size();
       for (std::size_t i = 0; i < mesh.patches.size(); ++i) {
         const bool is_told = std::any_of(log.begin(), log.end(), [&](const std::string& line) {
-          return line.find("\"" + mesh.patches.raw()[i].name + "\"") != std::string::npos && (patch.name == numbered(i) || line.find("\"" + patch.name + "\"") != std::string::npos);
+          return line.find("\"" + mesh.patches.raw()[i].name + "\"") != std::string::npos &&
+                 (patch.name == numbered(i) || line.find("\"" + patch.name + "\"") != std::string::npos);
         });
         if (patch.name == mesh.patches.raw()[i].name || (is_told && found == mesh.patches.size())) found = i;
       }
@@ -272,13 +279,16 @@ TEST_P(SurfaceReaders, Agree) {
 
 // meshio reads no SU2 file without elements; Gmsh 4.8 neither SU2, OFF nor VTK 5.1.
 INSTANTIATE_TEST_SUITE_P(Independent, SurfaceReaders,
-                         ::testing::Values(Independent{"meshio", "STL text", ".stl", false}, Independent{"meshio", "STL binary", ".stl", false}, Independent{"meshio", "OFF", ".off", false},
-                                           Independent{"meshio", "OBJ", ".obj", false}, Independent{"meshio", "Gmsh MSH", ".msh", true}, Independent{"meshio", "Gmsh MSH 2.2", ".msh", true},
+                         ::testing::Values(Independent{"meshio", "STL text", ".stl", false}, Independent{"meshio", "STL binary", ".stl", false},
+                                           Independent{"meshio", "OFF", ".off", false}, Independent{"meshio", "OBJ", ".obj", false},
+                                           Independent{"meshio", "Gmsh MSH", ".msh", true}, Independent{"meshio", "Gmsh MSH 2.2", ".msh", true},
                                            Independent{"meshio", "VTU", ".vtu", true}, Independent{"meshio", "Nastran", ".nas", true},
-                                           Independent{"gmsh", "STL text", ".stl", true}, Independent{"gmsh", "STL binary", ".stl", false}, Independent{"gmsh", "Gmsh MSH", ".msh", true},
-                                           Independent{"gmsh", "Gmsh MSH 2.2", ".msh", true}, Independent{"gmsh", "Medit", ".mesh", true}, Independent{"gmsh", "Nastran", ".bdf", true},
-                                           Independent{"vtk", "STL text", ".stl", true}, Independent{"vtk", "STL binary", ".stl", false}, Independent{"vtk", "OBJ", ".obj", false},
-                                           Independent{"vtk", "PLY", ".ply", false}, Independent{"vtk", "VTK", ".vtk", true}, Independent{"vtk", "VTK text", ".vtk", true},
+                                           Independent{"gmsh", "STL text", ".stl", true}, Independent{"gmsh", "STL binary", ".stl", false},
+                                           Independent{"gmsh", "Gmsh MSH", ".msh", true}, Independent{"gmsh", "Gmsh MSH 2.2", ".msh", true},
+                                           Independent{"gmsh", "Medit", ".mesh", true}, Independent{"gmsh", "Nastran", ".bdf", true},
+                                           Independent{"vtk", "STL text", ".stl", true}, Independent{"vtk", "STL binary", ".stl", false},
+                                           Independent{"vtk", "OBJ", ".obj", false}, Independent{"vtk", "PLY", ".ply", false},
+                                           Independent{"vtk", "VTK", ".vtk", true}, Independent{"vtk", "VTK text", ".vtk", true},
                                            Independent{"vtk", "VTP", ".vtp", true}, Independent{"vtk", "VTU", ".vtu", true}));
 
 }  // namespace

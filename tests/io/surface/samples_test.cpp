@@ -20,16 +20,40 @@ struct Sample {
   bool is_single = false;
 };
 
-constexpr Sample k_samples[] = {
-    {".ascii.stl", Names::named, true},       {".bin.stl", Names::none, false, true},  {".bin_attr.stl", Names::none, false, true}, {".bin_solidheader.stl", Names::none, false, true},
-    {".obj", Names::named, true},             {".off", Names::none, true},             {"_tri.off", Names::none, true},             {".ascii.ply", Names::numbered, true},
-    {".bin.ply", Names::numbered, false},     {".v22.msh", Names::named, true},        {".v41.msh", Names::named, true},            {".su2", Names::named, true},
-    {".lb8.ugrid", Names::named, false},      {".b8.ugrid", Names::named, false},      {".lb8l.ugrid", Names::named, false},
-    {".ugrid", Names::named, true},           {".v22bin.msh", Names::named, false},    {".ascii.vtk", Names::numbered, true},       {".bin.vtk", Names::numbered, false},
-    {".v51.vtk", Names::numbered, true},      {".v51bin.vtk", Names::numbered, false}, {"_surf.vtk", Names::numbered, true},        {".ascii.vtu", Names::numbered, true},
-    {".b64.vtu", Names::numbered, true},      {".b64zlib.vtu", Names::numbered, true}, {".raw.vtu", Names::numbered, false},        {".raw32.vtu", Names::numbered, false},
-    {".rawzlib.vtu", Names::numbered, false}, {".small.nas", Names::numbered, true},   {".large.nas", Names::numbered, true},       {".tri", Names::numbered, true},
-    {".bin.tri", Names::numbered, false, true}, {".smesh", Names::numbered, true},     {"_plc.poly", Names::numbered, true}};
+constexpr Sample k_samples[] = {{".ascii.stl", Names::named, true},
+                                {".bin.stl", Names::none, false, true},
+                                {".bin_attr.stl", Names::none, false, true},
+                                {".bin_solidheader.stl", Names::none, false, true},
+                                {".obj", Names::named, true},
+                                {".off", Names::none, true},
+                                {"_tri.off", Names::none, true},
+                                {".ascii.ply", Names::numbered, true},
+                                {".bin.ply", Names::numbered, false},
+                                {".v22.msh", Names::named, true},
+                                {".v41.msh", Names::named, true},
+                                {".su2", Names::named, true},
+                                {".lb8.ugrid", Names::named, false},
+                                {".b8.ugrid", Names::named, false},
+                                {".lb8l.ugrid", Names::named, false},
+                                {".ugrid", Names::named, true},
+                                {".v22bin.msh", Names::named, false},
+                                {".ascii.vtk", Names::numbered, true},
+                                {".bin.vtk", Names::numbered, false},
+                                {".v51.vtk", Names::numbered, true},
+                                {".v51bin.vtk", Names::numbered, false},
+                                {"_surf.vtk", Names::numbered, true},
+                                {".ascii.vtu", Names::numbered, true},
+                                {".b64.vtu", Names::numbered, true},
+                                {".b64zlib.vtu", Names::numbered, true},
+                                {".raw.vtu", Names::numbered, false},
+                                {".raw32.vtu", Names::numbered, false},
+                                {".rawzlib.vtu", Names::numbered, false},
+                                {".small.nas", Names::numbered, true},
+                                {".large.nas", Names::numbered, true},
+                                {".tri", Names::numbered, true},
+                                {".bin.tri", Names::numbered, false, true},
+                                {".smesh", Names::numbered, true},
+                                {"_plc.poly", Names::numbered, true}};
 
 struct Body {
   const char* name;
@@ -40,8 +64,9 @@ struct Body {
   std::size_t n_points;
 };
 
-const Body k_bodies[] = {{"pt", 2.0 / 3.0, {{"wall", 1}, {"side", 6}, {"farfield", 3}}, {{"patch_1", 1}, {"patch_2", 6}, {"patch_3", 3}}, 10, 7},
-                         {"mix4", 1.0 + 1.0 / 3.0 + 0.65, {{"wall", 2}, {"symmetry", 3}, {"farfield", 15}}, {{"patch_1", 2}, {"patch_2", 3}, {"patch_3", 15}}, 20, 12}};
+const Body k_bodies[] = {
+    {"pt", 2.0 / 3.0, {{"wall", 1}, {"side", 6}, {"farfield", 3}}, {{"patch_1", 1}, {"patch_2", 6}, {"patch_3", 3}}, 10, 7},
+    {"mix4", 1.0 + 1.0 / 3.0 + 0.65, {{"wall", 2}, {"symmetry", 3}, {"farfield", 15}}, {{"patch_1", 2}, {"patch_2", 3}, {"patch_3", 15}}, 20, 12}};
 
 TEST(Samples, EveryFormatGivesTheSameSurface) {
   STERNA_NEEDS_SHARED_DATA();
@@ -97,8 +122,7 @@ TEST(Samples, OldSu2WithTrailingIndices) {
 
 TEST(Samples, VariantsThatAreNotReadAreNamed) {
   STERNA_NEEDS_SHARED_DATA();
-  const std::pair<const char*, const char*> files[] = {
-      {"real_su2_square.su2", "NDIME= 2"}, {"n0012_113-33.su2", "NDIME= 2"}};
+  const std::pair<const char*, const char*> files[] = {{"real_su2_square.su2", "NDIME= 2"}, {"n0012_113-33.su2", "NDIME= 2"}};
   for (const auto& [file, text] : files) {
     try {
       read_surface(shared_data() / "formats" / file);

@@ -8,7 +8,9 @@
 namespace sterna::test {
 namespace {
 
-std::string facet(const std::string& z) { return "facet normal 0 0 1\nouter loop\nvertex 0 0 " + z + "\nvertex 1 0 " + z + "\nvertex 0 1 " + z + "\nendloop\nendfacet\n"; }
+std::string facet(const std::string& z) {
+  return "facet normal 0 0 1\nouter loop\nvertex 0 0 " + z + "\nvertex 1 0 " + z + "\nvertex 0 1 " + z + "\nendloop\nendfacet\n";
+}
 
 std::string binary(std::uint32_t n_announced, std::size_t n_facets, float z = 1.0f, const std::string& header = "binary") {
   std::string bytes = header;
@@ -25,7 +27,8 @@ std::string binary(std::uint32_t n_announced, std::size_t n_facets, float z = 1.
 void refused(const std::string& content, const std::vector<std::string>& texts) { expect_refused("a.stl", content, ErrorCode::file_malformed, texts); }
 
 TEST(SurfaceStl, SolidsArePatches) {
-  const SurfaceSoup soup = read_surface_text("a.stl", "solid left wing\n" + facet("0") + "endsolid left wing\nsolid\n" + facet("1") + facet("2") + "endsolid\nsolid left wing\n" + facet("3") + "endsolid\n");
+  const SurfaceSoup soup = read_surface_text("a.stl", "solid left wing\n" + facet("0") + "endsolid left wing\nsolid\n" + facet("1") + facet("2") +
+                                                          "endsolid\nsolid left wing\n" + facet("3") + "endsolid\n");
   EXPECT_EQ(triangles_by_patch(soup), (std::map<std::string, int>{{"left wing", 2}, {"solid_2", 2}}));
   EXPECT_TRUE(soup.has_names);
   EXPECT_FALSE(soup.single_precision);

@@ -10,7 +10,9 @@ const std::string k_tetrahedron =
     "NMARK= 2\nMARKER_TAG= wing\nMARKER_ELEMS= 3\n5 0 2 1\n5 0 1 3\n5 0 3 2\nMARKER_TAG= tip\nMARKER_ELEMS= 1\n5 1 2 3\n";
 
 SurfaceSoup read(const std::string& text) { return read_surface_text("mesh.su2", text); }
-void refused(const std::string& text, const std::vector<std::string>& texts, ErrorCode code = ErrorCode::file_malformed) { expect_refused("mesh.su2", text, code, texts); }
+void refused(const std::string& text, const std::vector<std::string>& texts, ErrorCode code = ErrorCode::file_malformed) {
+  expect_refused("mesh.su2", text, code, texts);
+}
 
 TEST(SurfaceSu2, MarkersArePatches) {
   const SurfaceSoup soup = read(k_tetrahedron);
@@ -36,7 +38,8 @@ TEST(SurfaceSu2, SpellingsInTheWildAreTheSameFile) {
   expect_same_soup(read(replaced(k_tetrahedron, "1 0 0\n", "1.0D+0, 0., -0e-400\n")), soup);
   expect_same_soup(read("% comment\n\n" + replaced(k_tetrahedron, "NELEM", "%\n% elements = 1\n%\nNELEM")), soup);
   expect_same_soup(read(replaced(k_tetrahedron, "NMARK= 2\n", "NMARK= 3\nMARKER_TAG= SEND_RECEIVE\nMARKER_ELEMS= 2\nSEND_TO= -1\n1 0 0 0\n1 1 0 0\n")), soup);
-  expect_same_soup(read("NZONE= 1\nIZONE= 1\n" + k_tetrahedron + "NPERIODIC= 1\nPERIODIC_INDEX= 0\n0 0 0\n0 0 0\n0 0 0\nFFD_NBOX= 1\nFFD_CORNER_POINTS= 1\n1 2 3\n"), soup);
+  expect_same_soup(
+      read("NZONE= 1\nIZONE= 1\n" + k_tetrahedron + "NPERIODIC= 1\nPERIODIC_INDEX= 0\n0 0 0\n0 0 0\n0 0 0\nFFD_NBOX= 1\nFFD_CORNER_POINTS= 1\n1 2 3\n"), soup);
 }
 
 TEST(SurfaceSu2, BlocksComeInAnyOrder) {
@@ -79,7 +82,8 @@ TEST(SurfaceSu2, ZonesAreJoined) {
 
 TEST(SurfaceSu2, LinesInMarkersAreLeftOutAndTold) {
   std::vector<std::string> warnings;
-  const std::string text = "NDIME= 3\nNELEM= 2\n5 0 1 2\n5 1 3 2\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n1 1 0\nNMARK= 1\nMARKER_TAG= edge\nMARKER_ELEMS= 2\n3 0 1\n3 1 3\n";
+  const std::string text =
+      "NDIME= 3\nNELEM= 2\n5 0 1 2\n5 1 3 2\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n1 1 0\nNMARK= 1\nMARKER_TAG= edge\nMARKER_ELEMS= 2\n3 0 1\n3 1 3\n";
   const SurfaceSoup soup = read_surface_text("mesh.su2", text, &warnings);
   EXPECT_EQ(soup.triangles.size(), 2u);
   ASSERT_EQ(warnings.size(), 1u);

@@ -80,7 +80,8 @@ std::string packed(std::string_view content) {
   }
   const auto size = static_cast<std::uint32_t>(content.size());
   EXPECT_LT(size, 65536u);
-  return std::string("\x1f\x8b\x08\0\0\0\0\0\0\xff", 10) + '\x01' + number(size, 2) + number(~size, 2) + std::string(content) + number(~crc, 4) + number(size, 4);
+  return std::string("\x1f\x8b\x08\0\0\0\0\0\0\xff", 10) + '\x01' + number(size, 2) + number(~size, 2) + std::string(content) + number(~crc, 4) +
+         number(size, 4);
 }
 
 std::string with_crlf(std::string_view text) {

@@ -47,7 +47,8 @@ std::string tetrahedron(bool is_wide, bool is_big, std::int64_t last_corner = 4,
 }
 
 TEST(SurfaceUgrid, EveryWidthAndByteOrder) {
-  for (const auto& [name, is_wide, is_big] : {std::tuple{"t.lb8.ugrid", false, false}, {"t.b8.ugrid", false, true}, {"t.lb8l.ugrid", true, false}, {"T.B8L.UGRID", true, true}}) {
+  for (const auto& [name, is_wide, is_big] :
+       {std::tuple{"t.lb8.ugrid", false, false}, {"t.b8.ugrid", false, true}, {"t.lb8l.ugrid", true, false}, {"T.B8L.UGRID", true, true}}) {
     SCOPED_TRACE(name);
     const SurfaceSoup soup = read_surface_text(name, tetrahedron(is_wide, is_big));
     EXPECT_NEAR(volume_of(soup), 1.0 / 6.0, 1e-15);
@@ -79,7 +80,8 @@ TEST(SurfaceUgrid, NamesOfTheMapbcBesideIt) {
 TEST(SurfaceUgrid, ADamagedMapbcIsAnError) {
   const std::filesystem::path folder = scratch();
   write_bytes(folder / "a.lb8.ugrid", tetrahedron(false, false));
-  for (const auto& [text, where] : {std::pair{"2\n5 4000 wing\n", "end of the file"}, {"2\n5 wall wing\n2 5000 far\n", "line 2"}, {"-1\n", "line 1"}, {"names\n", "line 1"}}) {
+  for (const auto& [text, where] :
+       {std::pair{"2\n5 4000 wing\n", "end of the file"}, {"2\n5 wall wing\n2 5000 far\n", "line 2"}, {"-1\n", "line 1"}, {"names\n", "line 1"}}) {
     write_bytes(folder / "a.mapbc", text);
     try {
       read_surface(folder / "a.lb8.ugrid");
@@ -93,7 +95,9 @@ TEST(SurfaceUgrid, ADamagedMapbcIsAnError) {
 }
 
 TEST(SurfaceUgrid, MistakesAreToldWithTheirByte) {
-  const auto refused = [](const char* name, const std::string& bytes, const std::vector<std::string>& texts) { expect_refused(name, bytes, ErrorCode::file_malformed, texts); };
+  const auto refused = [](const char* name, const std::string& bytes, const std::vector<std::string>& texts) {
+    expect_refused(name, bytes, ErrorCode::file_malformed, texts);
+  };
   const std::string whole = tetrahedron(false, false);
   refused("t.b8.ugrid", whole, {"byte 28", "coordinates of the points"});  // the other byte order: 83886080 points
   refused("t.lb8.ugrid", tetrahedron(false, false, 6), {"byte 192", "found point 6", "1 to 5"});

@@ -54,7 +54,8 @@ TEST(LegacyVtk, MistakesAreTold) {
   expect_refused("a.vtk", replaced(good, "4 2 3 5 4", "4 2 3 5 6"), ErrorCode::file_malformed, {"node 6, there are 6"});
   expect_refused("a.vtk", replaced(good, "4 2 3 5 4", "5 2 3 5 4"), ErrorCode::file_malformed, {"block at line 16", "beyond the announced 5"});
   expect_refused("a.vtk", replaced(good, "1 1 0 0 2 0 1 2 0", "1 1 0 0 2 0 1 2 nan"), ErrorCode::file_malformed, {"line 13"});
-  expect_refused("a.vtk", replaced(good, "marker 1 3 vtkIdType\n0 2 3", "marker 1 2 vtkIdType\n0 2"), ErrorCode::file_malformed, {"found 2 values of \"marker\" for 3 cells"});
+  expect_refused("a.vtk", replaced(good, "marker 1 3 vtkIdType\n0 2 3", "marker 1 2 vtkIdType\n0 2"), ErrorCode::file_malformed,
+                 {"found 2 values of \"marker\" for 3 cells"});
   expect_refused("a.vtk", replaced(good, "float", "floa"), ErrorCode::file_malformed, {"expected a type"});
 }
 
@@ -81,7 +82,8 @@ TEST(Nastran, FieldsOfEveryKindAndNames) {
 
 TEST(Nastran, CoordinatesKeepTenDigitsAtLeast) {
   TriMesh mesh;
-  const std::vector<double> values = {0.0, -0.0, 1.0, -1.0 / 3.0, 12345.678901234567, -1.2345678901234567e-11, 9.87654321987654e+102, 2.2250738585072014e-308, 0.1, -99999999.123456789};
+  const std::vector<double> values = {
+      0.0, -0.0, 1.0, -1.0 / 3.0, 12345.678901234567, -1.2345678901234567e-11, 9.87654321987654e+102, 2.2250738585072014e-308, 0.1, -99999999.123456789};
   for (const double value : values) mesh.points.push_back({value, 0.0, 0.0});
   mesh.triangles = {{VertexId(0), VertexId(1), VertexId(2)}};
   mesh.triangle_patch = {PatchId(0)};
@@ -148,7 +150,8 @@ TEST(Cart3d, MistakesAreTold) {
 TEST(Cart3d, BigEndianRecords) {
   STERNA_NEEDS_SHARED_DATA();
   std::string bytes = bytes_of(shared_data() / "formats" / "mix4.bin.tri");
-  for (std::size_t i = 0; i + 4 <= bytes.size(); i += 4) std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(i), bytes.begin() + static_cast<std::ptrdiff_t>(i) + 4);
+  for (std::size_t i = 0; i + 4 <= bytes.size(); i += 4)
+    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(i), bytes.begin() + static_cast<std::ptrdiff_t>(i) + 4);
   expect_same_soup(read_surface_text("big.tri", bytes), read_surface(shared_data() / "formats" / "mix4.bin.tri"));
 }
 

@@ -121,7 +121,9 @@ TEST(AtomicFile, CancelLeavesTheOldFile) {
 }
 
 /// Sets a file's time of change back.
-void make_old(const std::filesystem::path& path) { std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now() - std::chrono::minutes(5)); }
+void make_old(const std::filesystem::path& path) {
+  std::filesystem::last_write_time(path, std::filesystem::file_time_type::clock::now() - std::chrono::minutes(5));
+}
 
 TEST(AtomicFile, RemovesWhatKilledRunsLeft) {
   const auto folder = test::scratch();

@@ -19,7 +19,8 @@ TEST(CgnsRead, SamplesOfEveryVersionAndContainer) {
   STERNA_NEEDS_SHARED_DATA();
   const auto samples = test::shared_data() / "formats";
   // v46 and pt.mixed.v46 have 64-bit integers; pt.mixed.adf2 is one that the library of version 3.4 writes and does not read.
-  for (const std::string file : {"pt.hdf5", "pt.adf", "pt.adf2", "pt.legacybc.adf", "pt.elementrange.hdf5", "pt.mixed", "pt.mixed.nooffset.v254", "pt.hdf5.v46", "pt.adf.v46", "pt.mixed.v46", "pt.mixed.adf2"}) {
+  for (const std::string file : {"pt.hdf5", "pt.adf", "pt.adf2", "pt.legacybc.adf", "pt.elementrange.hdf5", "pt.mixed", "pt.mixed.nooffset.v254", "pt.hdf5.v46",
+                                 "pt.adf.v46", "pt.mixed.v46", "pt.mixed.adf2"}) {
     SCOPED_TRACE(file);
     const HybridMesh mesh = read(samples / (file + ".cgns"));
     EXPECT_EQ(mesh.points.size(), 7u);
@@ -48,7 +49,8 @@ TEST(CgnsRead, RealFiles) {
 
 TEST(Cgns, RoundTripToTheBitInBothContainers) {
   const auto folder = test::scratch();
-  for (const HybridMesh& mesh : {test::mixed_mesh(), test::mesh_of_six_patches(), test::hexahedron_with_roof(), test::sphere_shell(6, {.collapsed = {0, 20, 21}})}) {
+  for (const HybridMesh& mesh :
+       {test::mixed_mesh(), test::mesh_of_six_patches(), test::hexahedron_with_roof(), test::sphere_shell(6, {.collapsed = {0, 20, 21}})}) {
     for (const std::string extension : {".cgns", ".adf.cgns"}) {
       SCOPED_TRACE(extension);
       const auto file = folder / ("mesh" + extension);
@@ -70,7 +72,8 @@ TEST(Cgns, RoundTripWith64BitIntegers) {
   const RunContext context({.threads = 2});
   write_volume_cgns(test::mesh_of_six_patches(), file, CgnsIntegers::always_64, context);
   test::expect_equal_meshes(read(file), test::mesh_of_six_patches());
-  test::expect_error(ErrorCode::unsupported_format, "no 64-bit integers", [&] { write_volume_cgns(test::mixed_mesh(), "mesh.adf.cgns", CgnsIntegers::always_64, context); });
+  test::expect_error(ErrorCode::unsupported_format, "no 64-bit integers",
+                     [&] { write_volume_cgns(test::mixed_mesh(), "mesh.adf.cgns", CgnsIntegers::always_64, context); });
 }
 
 TEST(CgnsWrite, CgnscheckFindsNothing) {
@@ -108,8 +111,8 @@ TEST(Cgns, NamesThatCgnsCannotTakeAreMappedAndComeBack) {
     const auto file = test::scratch() / name;
     std::vector<std::string> warnings;
     write_volume_file(mesh, file, RunContext({.threads = 1, .log = [&](LogLevel level, std::string_view line) {
-                        if (level == LogLevel::warning) warnings.emplace_back(line);
-                      }}));
+                                                if (level == LogLevel::warning) warnings.emplace_back(line);
+                                              }}));
     ASSERT_EQ(warnings.size(), 2u);
     EXPECT_THAT(warnings[0], testing::HasSubstr(longer + "/1\" is named \"a patch whose name is longer"));
     EXPECT_EQ(read(file).patches, mesh.patches);
@@ -144,14 +147,19 @@ TEST(CgnsRead, OtherFilesAreRefused) {
 
 /// A tetrahedron whose four faces are one section "faces", with a condition that lists some of them.
 HybridMesh tetrahedron_with(const CgnsOutputNode& condition, std::vector<std::string>* warnings = nullptr) {
-  const auto numbers = [](std::vector<std::uint64_t> extents, const std::vector<std::int32_t>& values) { return output_numbers(NumberKind::i4, std::move(extents), values); };
+  const auto numbers = [](std::vector<std::uint64_t> extents, const std::vector<std::int32_t>& values) {
+    return output_numbers(NumberKind::i4, std::move(extents), values);
+  };
   CgnsOutputNode zone = cgns_node("Zone", "Zone_t", numbers({1, 3}, {4, 1, 0}));
-  zone.children = {cgns_node("ZoneType", "ZoneType_t", output_text("Unstructured")), cgns_node("GridCoordinates", "GridCoordinates_t"), cgns_node("cell", "Elements_t", numbers({2}, {10, 0})),
-                   cgns_node("faces", "Elements_t", numbers({2}, {5, 0})), cgns_node("ZoneBC", "ZoneBC_t")};
+  zone.children = {cgns_node("ZoneType", "ZoneType_t", output_text("Unstructured")), cgns_node("GridCoordinates", "GridCoordinates_t"),
+                   cgns_node("cell", "Elements_t", numbers({2}, {10, 0})), cgns_node("faces", "Elements_t", numbers({2}, {5, 0})),
+                   cgns_node("ZoneBC", "ZoneBC_t")};
   for (int axis = 0; axis < 3; ++axis)
-    zone.children[1].children.push_back(cgns_node(std::string("Coordinate") + "XYZ"[axis], "DataArray_t",
-                                                  output_numbers<float>(NumberKind::f4, {4}, {0, axis == 0 ? 1.0f : 0.0f, axis == 1 ? 1.0f : 0.0f, axis == 2 ? 1.0f : 0.0f})));
-  zone.children[2].children = {cgns_node("ElementRange", "IndexRange_t", numbers({2}, {1, 1})), cgns_node("ElementConnectivity", "DataArray_t", numbers({4}, {1, 3, 2, 4}))};  // flipped
+    zone.children[1].children.push_back(
+        cgns_node(std::string("Coordinate") + "XYZ"[axis], "DataArray_t",
+                  output_numbers<float>(NumberKind::f4, {4}, {0, axis == 0 ? 1.0f : 0.0f, axis == 1 ? 1.0f : 0.0f, axis == 2 ? 1.0f : 0.0f})));
+  zone.children[2].children = {cgns_node("ElementRange", "IndexRange_t", numbers({2}, {1, 1})),
+                               cgns_node("ElementConnectivity", "DataArray_t", numbers({4}, {1, 3, 2, 4}))};  // flipped
   zone.children[3].children = {cgns_node("ElementRange", "IndexRange_t", numbers({2}, {2, 5})),
                                cgns_node("ElementConnectivity", "DataArray_t", numbers({12}, {1, 2, 3, 1, 2, 4, 2, 3, 4, 3, 1, 4}))};
   zone.children[4].children = {condition};
@@ -179,18 +187,22 @@ TEST(CgnsRead, ConditionsListElementsOrNodesInManyWays) {
   const auto points = [](const std::string& name, const std::vector<std::int32_t>& values) {
     return cgns_node(name, name.ends_with("Range") ? "IndexRange_t" : "IndexArray_t", output_numbers(NumberKind::i4, {1, values.size()}, values));
   };
-  const CgnsOutputNode face_center = cgns_node("GridLocation", "GridLocation_t", output_text("FaceCenter")), lid = cgns_node("FamilyName", "FamilyName_t", output_text("lid"));
-  const std::vector<Patch> inflow = {{"faces", PatchKind::wall}, {"bc", PatchKind::inflow}}, family = {{"faces", PatchKind::wall}, {"lid", PatchKind::farfield}};
+  const CgnsOutputNode face_center = cgns_node("GridLocation", "GridLocation_t", output_text("FaceCenter")),
+                       lid = cgns_node("FamilyName", "FamilyName_t", output_text("lid"));
+  const std::vector<Patch> inflow = {{"faces", PatchKind::wall}, {"bc", PatchKind::inflow}},
+                           family = {{"faces", PatchKind::wall}, {"lid", PatchKind::farfield}};
   EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("PointRange", {4, 5}), face_center})).patches.raw(), inflow);
   EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {3})})).patches.raw(), inflow);
   EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("PointList", {2, 3, 4})})).patches.raw(), inflow);  // nodes
   EXPECT_EQ(tetrahedron_with(condition("FamilySpecified", {points("PointList", {5}), face_center, lid})).patches.raw(), family);
-  EXPECT_EQ(tetrahedron_with(condition("BCSymmetryPlane", {points("ElementRange", {2, 5}), lid})).patches.raw(), (std::vector<Patch>{{"lid", PatchKind::symmetry}}));
+  EXPECT_EQ(tetrahedron_with(condition("BCSymmetryPlane", {points("ElementRange", {2, 5}), lid})).patches.raw(),
+            (std::vector<Patch>{{"lid", PatchKind::symmetry}}));
   std::vector<std::string> warnings;
   EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {1})}), &warnings).patches.raw(), inflow);  // numbers without the cells before them
   EXPECT_EQ(tetrahedron_with(condition("BCInflow", {points("ElementList", {9})}), &warnings).patches.raw(), (std::vector<Patch>{{"faces", PatchKind::wall}}));
   EXPECT_THAT(warnings, testing::ElementsAre(testing::HasSubstr("lists volume cells"), testing::HasSubstr("lists no boundary face")));
-  test::expect_error(ErrorCode::file_malformed, "/Base/Zone/ZoneBC/bc/PointList: found the node 5, expected 1 to 4", [&] { tetrahedron_with(condition("BCInflow", {points("PointList", {5})})); });
+  test::expect_error(ErrorCode::file_malformed, "/Base/Zone/ZoneBC/bc/PointList: found the node 5, expected 1 to 4",
+                     [&] { tetrahedron_with(condition("BCInflow", {points("PointList", {5})})); });
 }
 
 /// A wrong number at a place that the message must name.

@@ -36,7 +36,8 @@ std::string image_bytes() {
   nodes[1] = {.parent = 0, .role = wire::Role::attribute, .kind = NumberKind::text, .rank = 1, .name = place("label"), .extents = {4}};
   nodes[2] = {.parent = 0, .role = wire::Role::dataset, .kind = NumberKind::i4, .rank = 2, .name = place("numbers"), .extents = {2, 3}};
   nodes[3] = {.parent = 0, .role = wire::Role::group, .name = place("group")};
-  nodes[4] = {.parent = 3, .role = wire::Role::dataset, .trouble = wire::Trouble::unsupported, .name = place("packed"), .problem = place("it is packed by magic")};
+  nodes[4] = {
+      .parent = 3, .role = wire::Role::dataset, .trouble = wire::Trouble::unsupported, .name = place("packed"), .problem = place("it is packed by magic")};
   const std::uint64_t values = sizeof(wire::ImageHeader) + sizeof(wire::NodeRecord) * nodes.size() + text.size();
   nodes[1].begin = values;
   nodes[1].n_bytes = 4;
@@ -75,7 +76,8 @@ TEST(ContainerImage, IsATree) {
   EXPECT_EQ(numbers.extents, (std::vector<std::uint64_t>{2, 3}));
   EXPECT_EQ(numbers.integer(5), 6);
   EXPECT_EQ(numbers.where, "/numbers");
-  test::expect_error(ErrorCode::unsupported_format, "/group/packed: it is packed by magic", [&] { image.data(image.child(image.child(image.root(), "group"), "packed")); });
+  test::expect_error(ErrorCode::unsupported_format, "/group/packed: it is packed by magic",
+                     [&] { image.data(image.child(image.child(image.root(), "group"), "packed")); });
   test::expect_error(ErrorCode::file_malformed, "/group/none: there is no such group", [&] { image.child(image.child(image.root(), "group"), "none"); });
   test::expect_error(ErrorCode::file_malformed, "/group: this is not a dataset", [&] { image.data(image.child(image.root(), "group")); });
 }
@@ -116,13 +118,16 @@ std::filesystem::path hdf5_file() { return test::write_text("a.vtkhdf", "\x89HDF
 
 TEST(ContainerHelper, ItsDeathIsAnErrorOfTheFile) {
   const auto path = hdf5_file();
-  const auto read_with = [&](const std::string& script) { read_container(path, ContainerFormat::hdf5, {}, k_quiet, folder_with_helper(path.parent_path(), script)); };
+  const auto read_with = [&](const std::string& script) {
+    read_container(path, ContainerFormat::hdf5, {}, k_quiet, folder_with_helper(path.parent_path(), script));
+  };
   test::expect_error(ErrorCode::file_malformed, "a.vtkhdf: the file: the HDF5 library crashed on it: signal 11", [&] { read_with("kill -SEGV $$"); });
   test::expect_error(ErrorCode::file_malformed, "the HDF5 library came to no end", [&] { read_with("kill -XCPU $$"); });
   test::expect_error(ErrorCode::file_malformed, "exit status 3; its last words: \"oh\"", [&] { read_with("echo oh; exit 3"); });
   test::expect_error(ErrorCode::file_malformed, "the image has 0 bytes", [&] { read_with("exit 0"); });
   test::expect_error(ErrorCode::file_malformed, "another version", [&] { read_with("head -c 500 /dev/zero >&4"); });
-  test::expect_error(ErrorCode::unsupported_format, "build the target sterna-read-container", [&] { read_container(path, ContainerFormat::hdf5, {}, k_quiet, "/no_such_folder"); });
+  test::expect_error(ErrorCode::unsupported_format, "build the target sterna-read-container",
+                     [&] { read_container(path, ContainerFormat::hdf5, {}, k_quiet, "/no_such_folder"); });
 }
 
 TEST(ContainerHelper, AStopEndsIt) {
@@ -186,7 +191,9 @@ TEST(ContainerHdf5, NoMoreIsBelievedThanTheFileCanHold) {
     make_dataset(file, "in_another_file", {100}, outside);
     H5Pclose(outside);
   });
-  const auto refused = [&](const char* name, ErrorCode code, const char* text) { test::expect_error(code, text, [&] { image.data(image.child(image.root(), name)); }); };
+  const auto refused = [&](const char* name, ErrorCode code, const char* text) {
+    test::expect_error(code, text, [&] { image.data(image.child(image.root(), name)); });
+  };
   refused("huge", ErrorCode::file_malformed, "that the file can hold");
   refused("never_written", ErrorCode::file_malformed, "were never written");
   refused("bomb", ErrorCode::file_malformed, "that the file can hold");

@@ -26,7 +26,10 @@ TEST(Edge, RoundTripOfMixedMeshes) {
   const auto folder = test::scratch();
   for (const std::string name : {"mesh.bmsh", "mesh.v2.bmsh"}) {
     SCOPED_TRACE(name);
-    for (const HybridMesh& mesh : {test::six_patch_mesh(" \xC3\xBC" "ber"), test::hexahedra_block(3), test::hexahedron_with_roof()}) test::expect_round_trip(mesh, folder / name, CellOrder::same);
+    for (const HybridMesh& mesh : {test::six_patch_mesh(" \xC3\xBC"
+                                                        "ber"),
+                                   test::hexahedra_block(3), test::hexahedron_with_roof()})
+      test::expect_round_trip(mesh, folder / name, CellOrder::same);
   }
   EXPECT_THAT(test::files_in(folder), testing::ElementsAre("mesh.aboc", "mesh.bmsh", "mesh.v2.bmsh"));
 }
@@ -68,7 +71,9 @@ TEST(Edge, ConditionsInBinary) {
 /// Reverses the bytes of each number of a version 1 file.
 std::string little_endian(const std::string& big) {
   std::string bytes = big;
-  const auto turn = [&](std::size_t at, std::size_t n) { std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.begin() + static_cast<std::ptrdiff_t>(at + n)); };
+  const auto turn = [&](std::size_t at, std::size_t n) {
+    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.begin() + static_cast<std::ptrdiff_t>(at + n));
+  };
   const auto number = [&](std::size_t at) {
     std::size_t value = 0;
     for (std::size_t k = 0; k < 4; ++k) value = value << 8 | static_cast<unsigned char>(big[at + k]);
@@ -112,8 +117,9 @@ TEST(Edge, KindsThatAreLostAreTold) {
   const auto path = test::scratch() / "mesh.bmsh";
   HybridMesh mesh = test::hexahedron_with_roof();
   mesh.patches.raw() = {{"middle", PatchKind::symmetry}, {"inner", PatchKind::interface}};
-  EXPECT_THAT(test::warnings_of_writing(mesh, path), testing::ElementsAre("patch \"middle\" (symmetry) is written with the Edge condition wall / weak euler, which is read as slip",
-                                                                          "patch \"inner\" (interface) is written with the Edge condition wall / weak euler, which is read as slip"));
+  EXPECT_THAT(test::warnings_of_writing(mesh, path),
+              testing::ElementsAre("patch \"middle\" (symmetry) is written with the Edge condition wall / weak euler, which is read as slip",
+                                   "patch \"inner\" (interface) is written with the Edge condition wall / weak euler, which is read as slip"));
   mesh.patches.raw() = {{"symmetry", PatchKind::symmetry}, {"slip", PatchKind::slip}};
   EXPECT_THAT(test::warnings_of_writing(mesh, path), testing::IsEmpty());
   EXPECT_EQ(read(path).patches.raw(), mesh.patches.raw());

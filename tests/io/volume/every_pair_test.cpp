@@ -44,7 +44,8 @@ HybridMesh through(const HybridMesh& mesh, const Variant& variant, const std::fi
                               if (told && level == LogLevel::warning) told->emplace_back(text);
                             }});
   // "polymesh" is the name of a folder, not an extension; OpenFOAM has one mesh in a folder.
-  const std::filesystem::path path = variant.extension.starts_with('.') ? folder / variant.extension.substr(1) / ("mesh" + variant.extension) : folder / "case" / "constant" / variant.extension;
+  const std::filesystem::path path = variant.extension.starts_with('.') ? folder / variant.extension.substr(1) / ("mesh" + variant.extension)
+                                                                        : folder / "case" / "constant" / variant.extension;
   std::filesystem::remove_all(path);
   std::filesystem::create_directories(path.parent_path());
   write_volume_file(mesh, path, context, variant.format->name);
@@ -126,7 +127,8 @@ void expect_names(const HybridMesh& back, const HybridMesh& mesh, const std::vec
     ASSERT_TRUE(patch_of[patch.index()].is_valid()) << "a patch without faces: " << back.patches[patch].name;
     const std::string &found = back.patches[patch].name, &wanted = mesh.patches[patch_of[patch.index()]].name;
     if (found == wanted) continue;
-    EXPECT_TRUE(std::any_of(told.begin(), told.end(), [&](const std::string& line) { return line.find(wanted) != std::string::npos && line.find(found) != std::string::npos; }))
+    EXPECT_TRUE(std::any_of(told.begin(), told.end(),
+                            [&](const std::string& line) { return line.find(wanted) != std::string::npos && line.find(found) != std::string::npos; }))
         << "\"" << wanted << "\" came back as \"" << found << "\", and nobody tells";
   }
 }
@@ -144,7 +146,9 @@ TEST(EveryVolumeFormat, KeepsCellsFacesAndNames) {
     const HybridMesh back = through(mesh, variant, test::scratch(), &told);
     expect_names(back, mesh, expect_same_content(back, content, precision_of(variant)), told);
     EXPECT_EQ(back.patches.size(), 6u);
-    for (const PatchId patch : back.patches.ids()) EXPECT_EQ(std::count_if(mesh.patches.begin(), mesh.patches.end(), [&](const Patch& p) { return p.name == back.patches[patch].name; }), 1) << "plain names need no mapping: " << back.patches[patch].name;
+    for (const PatchId patch : back.patches.ids())
+      EXPECT_EQ(std::count_if(mesh.patches.begin(), mesh.patches.end(), [&](const Patch& p) { return p.name == back.patches[patch].name; }), 1)
+          << "plain names need no mapping: " << back.patches[patch].name;
   }
 }
 
@@ -185,18 +189,23 @@ TEST(EveryVolumeFormat, KeepsBodiesWithOwnNumbersOfLayers) {
       std::vector<std::string> told;
       const HybridMesh back = through(mesh, variant, test::scratch(), &told);
       expect_names(back, mesh, expect_same_content(back, content, 16.0 * precision_of(variant)), told);  // the second body is at 10 to 14
-      if (precision_of(variant) == 0.0) { EXPECT_TRUE(check(back, {}, RunContext({.threads = 2})).is_valid()); }
+      if (precision_of(variant) == 0.0) {
+        EXPECT_TRUE(check(back, {}, RunContext({.threads = 2})).is_valid());
+      }
     }
   }
 }
 
 TEST(EveryVolumeFormat, AwkwardNamesAreKeptOrTold) {
   HybridMesh mesh = test::six_patch_mesh();
-  const std::array<std::string, 6> names = {"wing of the left side, with its flap and slat tracks",             // longer than 32 bytes, blanks
-                                            "wing of the left side, with its flap and slat rails",               // the same up to there
-                                            "Fl\xC3\xBC" "gel-\xE7\xBF\xBC",                                     // UTF-8
-                                            "Fl\xC3\xBCgel \xC3\xBC" "ber dem Rumpf hinter dem Cockpit \xC3\xA4\xC3\xB6\xC3\xBC",  // UTF-8 that is cut somewhere
-                                            "2nd \"wall\"; (a=b){%}", "Wall/of\\paths#1"};
+  const std::array<std::string, 6> names = {"wing of the left side, with its flap and slat tracks",  // longer than 32 bytes, blanks
+                                            "wing of the left side, with its flap and slat rails",   // the same up to there
+                                            "Fl\xC3\xBC"
+                                            "gel-\xE7\xBF\xBC",  // UTF-8
+                                            "Fl\xC3\xBCgel \xC3\xBC"
+                                            "ber dem Rumpf hinter dem Cockpit \xC3\xA4\xC3\xB6\xC3\xBC",  // UTF-8 that is cut somewhere
+                                            "2nd \"wall\"; (a=b){%}",
+                                            "Wall/of\\paths#1"};
   for (std::size_t i = 0; i < names.size(); ++i) mesh.patches[PatchId(static_cast<std::uint64_t>(i))].name = names[i];
   const Content content(mesh);
   for (const Variant& variant : variants()) {

@@ -21,7 +21,9 @@ void write(const HybridMesh& mesh, const std::filesystem::path& path) { write_vo
 
 TEST(Fluent, RoundTripOfMixedMeshes) {
   const auto path = test::scratch() / "mesh.fluent.msh";
-  for (const HybridMesh& mesh : {test::six_patch_mesh("_\xC3\xBC" "ber"), test::hexahedra_block(3), test::hexahedron_with_roof(), test::sphere_shell(4, {.n_layers = 5, .collapsed = {3, 50, 51}})})
+  for (const HybridMesh& mesh : {test::six_patch_mesh("_\xC3\xBC"
+                                                      "ber"),
+                                 test::hexahedra_block(3), test::hexahedron_with_roof(), test::sphere_shell(4, {.n_layers = 5, .collapsed = {3, 50, 51}})})
     test::expect_round_trip(mesh, path, CellOrder::rotated);
 }
 
@@ -29,8 +31,10 @@ TEST(Fluent, KindsThatAreLostAreTold) {
   const auto path = test::scratch() / "mesh.fluent.msh";
   HybridMesh mesh = test::hexahedron_with_roof();
   mesh.patches.raw() = {{"tunnel", PatchKind::slip}, {"slippery", PatchKind::wall}};
-  EXPECT_THAT(test::warnings_of_writing(mesh, path), testing::ElementsAre("patch \"tunnel\" (slip) is written as a Fluent zone of type wall, which is read as wall: set its shear stress to zero in Fluent",
-                                                                          "patch \"slippery\" (wall) is written as a Fluent zone of type wall, which is read as slip"));
+  EXPECT_THAT(
+      test::warnings_of_writing(mesh, path),
+      testing::ElementsAre("patch \"tunnel\" (slip) is written as a Fluent zone of type wall, which is read as wall: set its shear stress to zero in Fluent",
+                           "patch \"slippery\" (wall) is written as a Fluent zone of type wall, which is read as slip"));
   mesh.patches.raw() = {{"slip_tunnel", PatchKind::slip}, {"inner", PatchKind::interface}};
   EXPECT_THAT(test::warnings_of_writing(mesh, path), testing::IsEmpty());
   EXPECT_EQ(read(path).patches.raw(), mesh.patches.raw());
@@ -44,7 +48,8 @@ TEST(Fluent, Samples) {
     EXPECT_EQ(count_cells(mesh).total(), body == "pt" ? 2 : 4);
     EXPECT_NEAR(test::volume_of(mesh), body == "pt" ? 2.0 / 3.0 : 1.983333, 1e-6);  // the figures of formats.md, section 14, to their digits
     EXPECT_NEAR(test::enclosed_volume(mesh), test::volume_of(mesh), 1e-14);
-    EXPECT_EQ(mesh.patches.raw(), (std::vector<Patch>{{"wall", PatchKind::wall}, {body == "pt" ? "side" : "symmetry", PatchKind::symmetry}, {"farfield", PatchKind::farfield}}));
+    EXPECT_EQ(mesh.patches.raw(),
+              (std::vector<Patch>{{"wall", PatchKind::wall}, {body == "pt" ? "side" : "symmetry", PatchKind::symmetry}, {"farfield", PatchKind::farfield}}));
     std::filesystem::copy_file(samples / (body + ".fluent.msh"), folder / (body + ".msh"));
     EXPECT_EQ(read(folder / (body + ".msh")).points, mesh.points);  // told from Gmsh's by what it holds
     const SurfaceSoup wall = read_surface_file(folder / (body + ".msh"), RunContext({.threads = 1}));
@@ -85,8 +90,9 @@ std::string binary_tet(bool is_double) {
   const std::string s = is_double ? "30" : "20";
   const std::string nodes = is_double ? bytes<double>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) : bytes<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1});
   const auto faces = bytes<std::int32_t>({1, 2, 3, 1, 0, 1, 4, 2, 1, 0, 2, 4, 3, 1, 0, 3, 4, 1, 1, 0});
-  return "(0 \"a (comment)\")\n(2 3)\n(10 (0 1 4 0 3))\n(12 (0 1 1 0))\n(13 (0 1 4 0))\n(37 (\"(unbalanced\" (a b)))\n(" + s + "10 (1 1 4 1 3)\n(" + nodes + ")\nEnd of Binary Section   " + s +
-         "10)\n(12 (2 1 1 1 2))\n(20" + "13 (5 1 4 3 3)(" + faces + ")\nEnd of Binary Section   2013)\n(39 (5 wall hull)())\n";
+  return "(0 \"a (comment)\")\n(2 3)\n(10 (0 1 4 0 3))\n(12 (0 1 1 0))\n(13 (0 1 4 0))\n(37 (\"(unbalanced\" (a b)))\n(" + s + "10 (1 1 4 1 3)\n(" + nodes +
+         ")\nEnd of Binary Section   " + s + "10)\n(12 (2 1 1 1 2))\n(20" + "13 (5 1 4 3 3)(" + faces +
+         ")\nEnd of Binary Section   2013)\n(39 (5 wall hull)())\n";
 }
 
 TEST(Fluent, BinarySectionsAreRead) {

@@ -12,7 +12,8 @@
 namespace sterna::io {
 namespace {
 
-/// checkMesh prints all digits here (writePrecision 17); sums of some ten products in another order differ by rounding, which small differences of large coordinates enlarge.
+/// checkMesh prints all digits here (writePrecision 17); sums of some ten products in another order differ by rounding, which small differences of large
+/// coordinates enlarge.
 constexpr double k_printed = 1e-9;
 
 double worst_of(const nlohmann::json& report, const std::string& measure) {
@@ -33,8 +34,10 @@ void expect_same_figures(const std::string& script, const std::filesystem::path&
   const nlohmann::json report = nlohmann::json::parse(check.output);
   const auto output = test::run_openfoam("checkMesh", {"-case", "case.bin.foam", "-allTopology", "-allGeometry"}, folder);
   STERNA_NEEDS(output, "the Debian package openfoam");
-  for (const auto& [measure, label] : {std::pair("non_orthogonality", "Mesh non-orthogonality Max:"), std::pair("skewness", "Max skewness ="), std::pair("cell_aspect_ratio", "aspect ratio ="),
-                                       std::pair("face_flatness", "butterfly) : min ="), std::pair("face_weight", "Face interpolation weight : minimum:"), std::pair("volume_ratio", "Face volume ratio : minimum:")}) {
+  for (const auto& [measure, label] :
+       {std::pair("non_orthogonality", "Mesh non-orthogonality Max:"), std::pair("skewness", "Max skewness ="),
+        std::pair("cell_aspect_ratio", "aspect ratio ="), std::pair("face_flatness", "butterfly) : min ="),
+        std::pair("face_weight", "Face interpolation weight : minimum:"), std::pair("volume_ratio", "Face volume ratio : minimum:")}) {
     const double theirs = test::number_after(*output, label), ours = worst_of(report, measure);
     EXPECT_NEAR(theirs, ours, k_printed * std::abs(ours)) << measure << "\n" << *output;
     testing::Test::RecordProperty(measure, std::to_string(ours));
@@ -44,8 +47,10 @@ void expect_same_figures(const std::string& script, const std::filesystem::path&
 
 TEST(FoamQuality, OfAWingAreCheckMeshs) {
   STERNA_NEEDS_SHARED_DATA();
-  expect_same_figures("local wall = read_surface{ \"" + (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() + "\", split_angle = 60*deg }\n" +
-                          "volume_mesh{ wall, layers = 6, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length } }:write(\"case.bin.foam\", \"case.sterna\")\n",
+  expect_same_figures("local wall = read_surface{ \"" + (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() +
+                          "\", split_angle = 60*deg }\n" +
+                          "volume_mesh{ wall, layers = 6, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length } "
+                          "}:write(\"case.bin.foam\", \"case.sterna\")\n",
                       test::scratch());
 }
 
@@ -53,7 +58,8 @@ TEST(FoamQuality, OfAWingAreCheckMeshs) {
 TEST(FoamQuality, OfAHalfAircraftAreCheckMeshs) {
   const std::string wall = (std::filesystem::path(STERNA_SOURCE_DIR) / "scripts" / "data" / "cessna.msh.gz").string();
   expect_same_figures("local wall = half{ read_surface{ \"" + wall + "\", unit = ft, split_angle = 60*deg } }\n" +
-                          "volume_mesh{ wall, layers = 8, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length } }:write(\"case.bin.foam\", \"case.sterna\")\n",
+                          "volume_mesh{ wall, layers = 8, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length } "
+                          "}:write(\"case.bin.foam\", \"case.sterna\")\n",
                       test::scratch());
 }
 

@@ -69,7 +69,8 @@ class CellPlaces {
     distance_.assign(n_cells, k_far);
     std::vector<std::size_t> front;
     for (std::size_t cell = 0; cell < column_of_.size(); ++cell)
-      if (std::ranges::any_of(layers.base[column_of_[cell]], [&](std::uint32_t line) { return !classes.vertex[VertexId(line)].is_smooth(); })) front.push_back(cell);
+      if (std::ranges::any_of(layers.base[column_of_[cell]], [&](std::uint32_t line) { return !classes.vertex[VertexId(line)].is_smooth(); }))
+        front.push_back(cell);
     for (const std::size_t cell : front) distance_[cell] = 0;
     for (std::size_t steps = 1; !front.empty(); ++steps) {
       std::vector<std::size_t> next;
@@ -90,13 +91,16 @@ class CellPlaces {
 /// Two cells from a ridge: where growth lines turn.
 constexpr std::size_t k_near = 2;
 
-/// A wing from its STL file to OpenFOAM. Its triangles are up to 30 times longer than wide: 72 % of the wall's edges join centres at more than 70 degrees off the edge's normal,
-/// and straight prisms on them have that angle in every layer. Beyond two cells from a ridge the layer adds no face of its own; tetrahedra do, few.
+/// A wing from its STL file to OpenFOAM. Its triangles are up to 30 times longer than wide: 72 % of the wall's edges join centres at more than 70 degrees off
+/// the edge's normal, and straight prisms on them have that angle in every layer. Beyond two cells from a ridge the layer adds no face of its own; tetrahedra
+/// do, few.
 TEST(FoamRealMesh, CheckMeshPassesAndLikesNoFaceOnlyAtRidgesOrWhereTheWallSays) {
   STERNA_NEEDS_SHARED_DATA();
   const auto folder = test::scratch();
-  const std::string script = "local wall = read_surface{ \"" + (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() + "\", split_angle = 60*deg }\n"
-                             "local mesh = volume_mesh{ wall, layers = 6, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length }, stages = \"case.sterna\" }\n"
+  const std::string script = "local wall = read_surface{ \"" + (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() +
+                             "\", split_angle = 60*deg }\n"
+                             "local mesh = volume_mesh{ wall, layers = 6, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length }, "
+                             "stages = \"case.sterna\" }\n"
                              "mesh:write(\"case.bin.foam\", \"text.foam\")\n";
   std::ofstream(folder / "case.lua") << script;
   test::make_foam_case(folder / "case.bin.foam");
@@ -108,7 +112,8 @@ TEST(FoamRealMesh, CheckMeshPassesAndLikesNoFaceOnlyAtRidgesOrWhereTheWallSays) 
   STERNA_NEEDS(binary, "the Debian package openfoam");
   EXPECT_GT(test::number_after(*binary, "prisms:"), 4000.0);
   // Its limit of the aspect ratio is 1000, and wide triangles under thin first cells come near it; quality is the mesh's own, and measured by `sterna check`.
-  const std::vector<std::string> allowed = {"aspect ratio", "skewness", "face tets", "small determinant", "Concave cells", "interpolation weight", "volume ratio"};
+  const std::vector<std::string> allowed = {"aspect ratio",         "skewness",    "face tets", "small determinant", "Concave cells",
+                                            "interpolation weight", "volume ratio"};
   test::expect_clean(*binary, allowed);
   const auto output = test::run_openfoam("checkMesh", {"-case", "text.foam", "-allTopology", "-allGeometry", "-writeSets", "vtk"}, folder);
   STERNA_NEEDS(output, "the Debian package openfoam");
@@ -118,7 +123,8 @@ TEST(FoamRealMesh, CheckMeshPassesAndLikesNoFaceOnlyAtRidgesOrWhereTheWallSays) 
   ASSERT_TRUE(content.surface && content.mesh);
   const auto poly = folder / "text.foam" / "constant" / "polyMesh";
   const CellPlaces places(content, poly);
-  for (const std::size_t face : test::read_labels(poly / "sets" / "skewFaces")) EXPECT_LE(places.distance_of(face), k_near) << "skewness above 4 at face " << face;
+  for (const std::size_t face : test::read_labels(poly / "sets" / "skewFaces"))
+    EXPECT_LE(places.distance_of(face), k_near) << "skewness above 4 at face " << face;
 
   const std::vector<std::size_t> steep = test::read_labels(poly / "sets" / "nonOrthoFaces");
   EXPECT_EQ(static_cast<double>(steep.size()), test::number_after(*output, "non-orthogonal (> 70 degrees) faces:"));
@@ -136,7 +142,8 @@ TEST(FoamRealMesh, CheckMeshPassesAndLikesNoFaceOnlyAtRidgesOrWhereTheWallSays) 
       continue;
     }
     ++n_by_wall;
-    EXPECT_TRUE(places.is_side(face) && places.angle_on_wall(face) > k_limit) << "face " << face << ": the layer is steep away from ridges where the wall is not";
+    EXPECT_TRUE(places.is_side(face) && places.angle_on_wall(face) > k_limit)
+        << "face " << face << ": the layer is steep away from ridges where the wall is not";
   }
   EXPECT_LT(static_cast<double>(n_between_tetrahedra), k_share_of_tetrahedra * static_cast<double>(places.n_inner()));
   RecordProperty("steep_at_ridges", static_cast<int>(n_at_ridges));

@@ -22,7 +22,8 @@ TEST(Foam, RoundTripOfMixedMeshes) {
   for (const std::string name : {"text.foam", "binary.bin.foam"}) {
     SCOPED_TRACE(name);
     std::filesystem::create_directories(folder / name);  // named as a file in it is
-    for (const HybridMesh& mesh : {test::six_patch_mesh(), test::hexahedra_block(3), test::hexahedron_with_roof(), test::sphere_shell(4, {.n_layers = 5, .collapsed = {3, 50, 51}})})
+    for (const HybridMesh& mesh :
+         {test::six_patch_mesh(), test::hexahedra_block(3), test::hexahedron_with_roof(), test::sphere_shell(4, {.n_layers = 5, .collapsed = {3, 50, 51}})})
       test::expect_round_trip(mesh, folder / name / name, CellOrder::rotated);
   }
   test::expect_round_trip(test::six_patch_mesh(), folder / "a" / "case" / "constant" / "polyMesh", CellOrder::rotated);
@@ -65,7 +66,8 @@ TEST(Foam, CheckMeshFindsNothing) {
 TEST(Foam, HostileFiles) {
   const auto scratch = test::scratch(), folder = scratch / "case.foam", poly = scratch / "constant" / "polyMesh";
   write(test::hexahedron_with_roof(), folder);
-  const auto wrong = [&](const std::string& file, const std::string& from, const std::string& to, const std::string& message, ErrorCode code = ErrorCode::file_malformed) {
+  const auto wrong = [&](const std::string& file, const std::string& from, const std::string& to, const std::string& message,
+                         ErrorCode code = ErrorCode::file_malformed) {
     SCOPED_TRACE(file + ": " + to);
     const std::string bytes = test::bytes_of(poly / file);
     std::string text = bytes;

@@ -39,8 +39,14 @@ TEST(HalfMesh, HasQuadsAndTrianglesOfEveryKindInItsPlane) {
 TEST(HalfMesh, IndependentReadersFindTheSame) {
   const auto folder = test::scratch();
   const HybridMesh mesh = half_mesh();
-  for (const auto& [reader, name] : std::vector<std::pair<std::string, std::string>>{
-           {"meshio", "half.su2"}, {"meshio", "half.msh"}, {"meshio", "half.mesh"}, {"meshio", "half.meshb"}, {"gmsh", "half.msh"}, {"vtk", "half.vtu"}, {"vtk", "half.vtkhdf"}, {"vtk-cgns", "half.cgns"}}) {
+  for (const auto& [reader, name] : std::vector<std::pair<std::string, std::string>>{{"meshio", "half.su2"},
+                                                                                     {"meshio", "half.msh"},
+                                                                                     {"meshio", "half.mesh"},
+                                                                                     {"meshio", "half.meshb"},
+                                                                                     {"gmsh", "half.msh"},
+                                                                                     {"vtk", "half.vtu"},
+                                                                                     {"vtk", "half.vtkhdf"},
+                                                                                     {"vtk-cgns", "half.cgns"}}) {
     SCOPED_TRACE(reader + " " + name);
     write(mesh, folder / name);
     const auto report = test::read_independently(reader, folder / name);
@@ -55,17 +61,20 @@ TEST(HalfMesh, CgnscheckFindsNothingAndEveryCondition) {
   const auto output = test::output_of_tool("cgnscheck", {"-V", file.string()});
   STERNA_NEEDS(output, "cgnscheck of the package cgns-convert");
   EXPECT_THAT(*output, testing::AllOf(HasSubstr("checking complete"), Not(HasSubstr("WARNING")), Not(HasSubstr("ERROR"))));
-  for (const char* const condition : {"BCWallViscous", "BCWallInviscid", "BCSymmetryPlane", "BCInflow", "BCOutflow", "BCFarfield", "UserDefined"}) EXPECT_THAT(*output, HasSubstr(condition));
+  for (const char* const condition : {"BCWallViscous", "BCWallInviscid", "BCSymmetryPlane", "BCInflow", "BCOutflow", "BCFarfield", "UserDefined"})
+    EXPECT_THAT(*output, HasSubstr(condition));
 }
 
 TEST(HalfMesh, TauAndFun3dGetTheirConditions) {
   const auto folder = test::scratch();
   write(half_mesh(), folder / "half.taumesh");
   const std::string mapping = test::bytes_of(folder / "half.bmap");
-  for (const char* const condition : {"viscous wall", "euler wall", "symmetry plane", "engine exhaust", "engine inflow", "farfield"}) EXPECT_THAT(mapping, HasSubstr(condition));
+  for (const char* const condition : {"viscous wall", "euler wall", "symmetry plane", "engine exhaust", "engine inflow", "farfield"})
+    EXPECT_THAT(mapping, HasSubstr(condition));
   write(half_mesh(), folder / "half.lb8.ugrid");
   const std::string conditions = test::bytes_of(folder / "half.mapbc");
-  for (const char* const condition : {" 4000 sphere", " 5000 farfield", " 6662 symmetry", " 3000 slip_wall", " 7011 inflow", " 7012 outflow", " 3000 disc"}) EXPECT_THAT(conditions, HasSubstr(condition));
+  for (const char* const condition : {" 4000 sphere", " 5000 farfield", " 6662 symmetry", " 3000 slip_wall", " 7011 inflow", " 7012 outflow", " 3000 disc"})
+    EXPECT_THAT(conditions, HasSubstr(condition));
 }
 
 TEST(HalfMesh, CheckMeshFindsNothing) {
@@ -80,7 +89,8 @@ TEST(HalfMesh, CheckMeshFindsNothing) {
     EXPECT_EQ(test::number_after(*output, "prisms:"), static_cast<double>(count_cells(mesh).prisms));
   }
   const std::string boundary = test::bytes_of(folder / "text.foam" / "constant" / "polyMesh" / "boundary");
-  for (const char* const line : {"type wall;", "type symmetryPlane;", "inGroups 1(slip)", "inGroups 1(inflow)", "inGroups 1(outflow)", "inGroups 1(interface)"}) EXPECT_THAT(boundary, HasSubstr(line));
+  for (const char* const line : {"type wall;", "type symmetryPlane;", "inGroups 1(slip)", "inGroups 1(inflow)", "inGroups 1(outflow)", "inGroups 1(interface)"})
+    EXPECT_THAT(boundary, HasSubstr(line));
 }
 
 /// checkMesh, a potential flow along the plane, and cgnscheck accept halves with planes of one kind and of all.
@@ -91,7 +101,8 @@ TEST(HalfMesh, OtherProgramsAcceptIt) {
   for (const std::string name : {"all.sterna", "half.sterna"}) {
     const test::ProcessResult result = test::run_process(STERNA_SOURCE_DIR "/tools/accept_mesh", {name, "--sterna", test::sterna_program().string()}, folder);
     constexpr int k_not_installed = 77;
-    STERNA_NEEDS((result.status == k_not_installed ? std::optional<int>() : std::optional<int>(result.status)), "the Debian packages openfoam and cgns-convert");
+    STERNA_NEEDS((result.status == k_not_installed ? std::optional<int>() : std::optional<int>(result.status)),
+                 "the Debian packages openfoam and cgns-convert");
     EXPECT_EQ(result.status, 0) << result.output << result.errors;
   }
 }

@@ -26,7 +26,10 @@ TEST(Medit, RoundTripOfMixedMeshes) {
   const auto folder = test::scratch();
   for (const std::string& name : k_files) {
     SCOPED_TRACE(name);
-    for (const HybridMesh& mesh : {test::six_patch_mesh(" \xC3\xBC" "ber"), test::hexahedra_block(3), test::hexahedron_with_roof()}) test::expect_round_trip(mesh, folder / name, CellOrder::same);
+    for (const HybridMesh& mesh : {test::six_patch_mesh(" \xC3\xBC"
+                                                        "ber"),
+                                   test::hexahedra_block(3), test::hexahedron_with_roof()})
+      test::expect_round_trip(mesh, folder / name, CellOrder::same);
   }
   EXPECT_EQ(test::bytes_of(folder / "mesh.meshb"), test::bytes_of(folder / "mesh.v2.meshb"));
   EXPECT_EQ(test::bytes_of(folder / "mesh.names"), "# patches: number kind name\n1 wall box\n2 wall roof\n");
@@ -59,7 +62,8 @@ TEST(Medit, Samples) {
 
 TEST(Medit, Variants) {
   const std::string tet =
-      "MeshVersionFormatted\n1\n# a comment\nDimension\n3\nTetrahedra 1\n1 3 2 4 7\nCorners\n2\n1\n4\nVertices 4\n0 0 0 0\n1. 0 0 0\n0 1 0 0\n0 0 +1e0 0\nNormals 1\n0 -0.5 1e-3\nTriangles 1\n1 2 3 -5\nEnd";
+      "MeshVersionFormatted\n1\n# a comment\nDimension\n3\nTetrahedra 1\n1 3 2 4 7\nCorners\n2\n1\n4\nVertices 4\n0 0 0 0\n1. 0 0 0\n0 1 0 0\n0 0 +1e0 "
+      "0\nNormals 1\n0 -0.5 1e-3\nTriangles 1\n1 2 3 -5\nEnd";
   const HybridMesh mesh = read(test::write_text("tet.mesh", tet));
   EXPECT_DOUBLE_EQ(test::volume_of(mesh), 1.0 / 6.0);
   ASSERT_EQ(mesh.boundary_triangles.size(), 1u);
@@ -70,7 +74,9 @@ TEST(Medit, Variants) {
 /// Turns the numbers of a version 2 file without vertices of integer coordinates; only sections of known shape.
 std::string big_endian(const std::string& little) {
   std::string bytes = little;
-  const auto turn = [&](std::size_t at, std::size_t n) { std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.begin() + static_cast<std::ptrdiff_t>(at + n)); };
+  const auto turn = [&](std::size_t at, std::size_t n) {
+    std::reverse(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.begin() + static_cast<std::ptrdiff_t>(at + n));
+  };
   const auto number = [&](std::size_t at) {
     std::uint32_t value = 0;
     std::memcpy(&value, little.data() + at, 4);
@@ -135,7 +141,8 @@ TEST(Medit, SurfacesThereAndBack) {
 }
 
 TEST(Medit, HostileFiles) {
-  const std::string text = "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\nTriangles\n1\n1 3 2 1\nTetrahedra\n1\n1 2 3 4 1\nEnd\n";
+  const std::string text =
+      "MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\nTriangles\n1\n1 3 2 1\nTetrahedra\n1\n1 2 3 4 1\nEnd\n";
   const auto wrong = [&](const std::string& from, const std::string& to, const std::string& message, ErrorCode code = ErrorCode::file_malformed) {
     SCOPED_TRACE(to);
     std::string changed = text;

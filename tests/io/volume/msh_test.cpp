@@ -21,7 +21,9 @@ TEST(MshVolume, RoundTripOfMixedMeshes) {
   const auto folder = test::scratch();
   for (const std::string name : {"text.msh", "binary.bin.msh"}) {
     SCOPED_TRACE(name);
-    for (const HybridMesh& mesh : {test::six_patch_mesh(" \xC3\xBC" "ber"), test::hexahedra_block(3), test::hexahedron_with_roof()})
+    for (const HybridMesh& mesh : {test::six_patch_mesh(" \xC3\xBC"
+                                                        "ber"),
+                                   test::hexahedra_block(3), test::hexahedron_with_roof()})
       test::expect_round_trip(mesh, folder / name, CellOrder::same, Kinds::by_name);
   }
 }

@@ -14,10 +14,12 @@ namespace sterna::test {
 void make_foam_case(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder / "system");
   const auto header = [](const std::string& object) { return "FoamFile { version 2.0; format ascii; class dictionary; object " + object + "; }\n"; };
-  std::ofstream(folder / "system" / "controlDict")
-      << header("controlDict") << "application none;\nstartFrom startTime;\nstartTime 0;\nstopAt endTime;\nendTime 1;\ndeltaT 1;\nwriteControl timeStep;\nwriteInterval 1;\nwritePrecision 17;\n";
+  std::ofstream(folder / "system" / "controlDict") << header("controlDict")
+                                                   << "application none;\nstartFrom startTime;\nstartTime 0;\nstopAt endTime;\nendTime 1;\ndeltaT "
+                                                      "1;\nwriteControl timeStep;\nwriteInterval 1;\nwritePrecision 17;\n";
   for (const std::string name : {"fvSchemes", "fvSolution"})
-    std::ofstream(folder / "system" / name) << header(name) << "divSchemes{} gradSchemes{} laplacianSchemes{} interpolationSchemes{} snGradSchemes{} ddtSchemes{}\n";
+    std::ofstream(folder / "system" / name) << header(name)
+                                            << "divSchemes{} gradSchemes{} laplacianSchemes{} interpolationSchemes{} snGradSchemes{} ddtSchemes{}\n";
 }
 
 std::optional<std::string> run_openfoam(const std::string& tool, const std::vector<std::string>& arguments, const std::filesystem::path& folder) {
@@ -30,14 +32,16 @@ std::optional<std::string> run_openfoam(const std::string& tool, const std::vect
 }
 
 void expect_clean(const std::string& output, const std::vector<std::string>& allowed) {
-  for (const char* const line : {"Boundary definition OK.", "Cell to face addressing OK.", "Point usage OK.", "Upper triangular ordering OK.", "Face vertices OK.", "Topological cell zip-up check OK.",
-                                 "Face-face connectivity OK.", "Number of regions: 1 (OK).", "Cell volumes OK.", "Face pyramids OK."})
+  for (const char* const line :
+       {"Boundary definition OK.", "Cell to face addressing OK.", "Point usage OK.", "Upper triangular ordering OK.", "Face vertices OK.",
+        "Topological cell zip-up check OK.", "Face-face connectivity OK.", "Number of regions: 1 (OK).", "Cell volumes OK.", "Face pyramids OK."})
     EXPECT_NE(output.find(line), std::string::npos) << line << "\n" << output;
   EXPECT_TRUE(std::regex_search(output, std::regex("Boundary openness \\(.*\\) OK"))) << output;
   std::istringstream lines(output);
   for (std::string line; std::getline(lines, line);) {
     if (line.find("***") == std::string::npos) continue;
-    EXPECT_TRUE(std::any_of(allowed.begin(), allowed.end(), [&](const std::string& part) { return line.find(part) != std::string::npos; })) << line << "\n" << output;
+    EXPECT_TRUE(std::any_of(allowed.begin(), allowed.end(), [&](const std::string& part) { return line.find(part) != std::string::npos; })) << line << "\n"
+                                                                                                                                            << output;
   }
 }
 

@@ -10,8 +10,8 @@
 #include "io/volume_file.h"
 #include "io/volume_foam.h"
 #include "tests/io/volume/volume_tools.h"
-#include "tests/support/reader_checks.h"
 #include "tests/support/data.h"
+#include "tests/support/reader_checks.h"
 
 namespace sterna::test {
 namespace {
@@ -71,7 +71,8 @@ HybridMesh six_patch_mesh(const std::string& suffix) {
   Box box;
   for (const Point& p : mesh.points) box.add(p);
   std::vector<PatchId> sides;
-  const std::pair<const char*, PatchKind> kinds[] = {{"west", PatchKind::outflow}, {"east", PatchKind::inflow}, {"symmetry", PatchKind::symmetry}, {"slip_north", PatchKind::slip}};
+  const std::pair<const char*, PatchKind> kinds[] = {
+      {"west", PatchKind::outflow}, {"east", PatchKind::inflow}, {"symmetry", PatchKind::symmetry}, {"slip_north", PatchKind::slip}};
   PatchId side;
   for (const PatchId patch : mesh.patches.ids()) {
     if (mesh.patches[patch].name == "side") side = patch;
@@ -145,7 +146,8 @@ void expect_no_crash_on_damage(const std::filesystem::path& path, std::size_t k)
       EXPECT_EQ(flaw_of(io::read_volume_file(path, context)), "");
     } catch (const Error& error) {
       EXPECT_TRUE(error.code() != ErrorCode::file_malformed || says_where(error, false)) << error.what();
-      EXPECT_TRUE(error.code() == ErrorCode::file_malformed || error.code() == ErrorCode::unsupported_format || error.code() == ErrorCode::overflow) << error.what();
+      EXPECT_TRUE(error.code() == ErrorCode::file_malformed || error.code() == ErrorCode::unsupported_format || error.code() == ErrorCode::overflow)
+          << error.what();
     }
   };
   for (std::size_t n = 0; n < bytes.size(); n += k) try_to_read(bytes.substr(0, n));

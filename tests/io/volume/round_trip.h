@@ -17,8 +17,8 @@ enum class CellOrder { same, rotated };
 /// Whether the format tells the kinds of patches, or only names, from which they follow as kind_of_name() says.
 enum class Kinds { kept, by_name };
 
-/// `back` is what was read of a file of `mesh`: the same points to the bit, cells of each kind in order, the same boundary faces (in any order) in patches of the same names
-/// and kinds; all boundary faces outwards.
+/// `back` is what was read of a file of `mesh`: the same points to the bit, cells of each kind in order, the same boundary faces (in any order) in patches of
+/// the same names and kinds; all boundary faces outwards.
 void expect_same_after_reading(const HybridMesh& back, const HybridMesh& mesh, CellOrder order, Kinds kinds = Kinds::kept);
 
 /// Writes, reads, compares; the bytes are the same for 2 and 7 threads, and (CellOrder::same) for columns and explicit cells. An old `path` is removed first.
@@ -27,7 +27,8 @@ void expect_round_trip(const HybridMesh& mesh, const std::filesystem::path& path
 /// All bytes of a file, or of all files in a folder (with their names, sorted).
 std::string all_bytes(const std::filesystem::path& path);
 
-/// Reads every k-th shortened and every k-th damaged version of the file: each is read or refused with file_malformed, unsupported_format or overflow, nothing else.
+/// Reads every k-th shortened and every k-th damaged version of the file: each is read or refused with file_malformed, unsupported_format or overflow, nothing
+/// else.
 void expect_no_crash_on_damage(const std::filesystem::path& path, std::size_t k);
 
 /// While it lives, files of this process cannot grow beyond `n` bytes: a full disk that works as root, too.

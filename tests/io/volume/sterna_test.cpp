@@ -25,7 +25,9 @@ struct Everything {
   TriMesh surface = test::cube(3);
   StoredEnvelope envelope;
   StoredTetrahedra tetrahedra;
-  HybridMesh mesh = test::six_patch_mesh(" \xC3\xBC" "ber");
+  HybridMesh mesh = test::six_patch_mesh(
+      " \xC3\xBC"
+      "ber");
 
   Everything() {
     surface.patches.push_back({"lid", PatchKind::slip});
@@ -43,12 +45,21 @@ struct Everything {
     tetrahedra.n_boundary_points = n;
     tetrahedra.new_points = {{0.1, 0.2, 0.3}, {1e-300, -1e300, -0.0}};
     tetrahedra.tetrahedra = {{0, 1, 2, static_cast<std::uint32_t>(n)}, {3, 2, 1, static_cast<std::uint32_t>(n + 1)}};
-    mesh.request = {.first_height = 1e-6, .max_growth = 1.2, .target_height = std::vector<double>(mesh.layers.n_lines(), 0.01), .reason = std::vector<std::uint8_t>(mesh.layers.n_lines(), 1),
+    mesh.request = {.first_height = 1e-6,
+                    .max_growth = 1.2,
+                    .target_height = std::vector<double>(mesh.layers.n_lines(), 0.01),
+                    .reason = std::vector<std::uint8_t>(mesh.layers.n_lines(), 1),
                     .reasons = {"", "gap to wing"}};
   }
 
   SternaParts parts() const {
-    return {.surface = &surface, .envelope = &envelope, .tetrahedra = &tetrahedra, .mesh = &mesh, .manifest = "{\"layers\": 4}", .certificate = "{}", .quality = "{\"worst\": 0.5}"};
+    return {.surface = &surface,
+            .envelope = &envelope,
+            .tetrahedra = &tetrahedra,
+            .mesh = &mesh,
+            .manifest = "{\"layers\": 4}",
+            .certificate = "{}",
+            .quality = "{\"worst\": 0.5}"};
   }
 };
 
@@ -124,7 +135,8 @@ TEST(Sterna, OnlyLinesOfOwnNumbersOfLayersNeedTheSecondVersion) {
   EXPECT_EQ(version(), 1);
   HybridMesh mesh = test::two_shells(2, 3, 7, {.collapsed = {3, 50}});
   const std::size_t n = mesh.layers.n_lines();
-  mesh.request = {.first_height = 1e-6, .max_growth = 1.3, .target_height = std::vector<double>(n, 0.01), .reason = std::vector<std::uint8_t>(n, 0), .reasons = {"none"}};
+  mesh.request = {
+      .first_height = 1e-6, .max_growth = 1.3, .target_height = std::vector<double>(n, 0.01), .reason = std::vector<std::uint8_t>(n, 0), .reasons = {"none"}};
   for (std::size_t i = 0; i < n; ++i) {
     mesh.request.line_first_height.push_back(1e-6 * static_cast<double>(i + 1));
     mesh.request.line_max_growth.push_back(1.3 - 1e-4 * static_cast<double>(i));

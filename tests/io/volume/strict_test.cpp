@@ -1,4 +1,5 @@
-// Damage with a meaning, to a file of every writer: a coordinate that is no number, a file of half its length. Each is refused with file and place, never read as something else.
+// Damage with a meaning, to a file of every writer: a coordinate that is no number, a file of half its length. Each is refused with file and place, never read
+// as something else.
 #include <gtest/gtest.h>
 
 #include <algorithm>

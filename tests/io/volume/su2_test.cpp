@@ -23,7 +23,8 @@ HybridMesh prism_and_tet() {
   mesh.prisms = {{n(0), n(1), n(2), n(3), n(4), n(5)}};
   mesh.tetrahedra = {{n(3), n(4), n(5), n(6)}};
   mesh.patches = {{"wall", PatchKind::wall}, {"side", PatchKind::wall}, {"farfield", PatchKind::farfield}};
-  mesh.boundary_triangles = {{{n(0), n(2), n(1)}, PatchId(0)}, {{n(3), n(4), n(6)}, PatchId(2)}, {{n(4), n(5), n(6)}, PatchId(2)}, {{n(5), n(3), n(6)}, PatchId(2)}};
+  mesh.boundary_triangles = {
+      {{n(0), n(2), n(1)}, PatchId(0)}, {{n(3), n(4), n(6)}, PatchId(2)}, {{n(4), n(5), n(6)}, PatchId(2)}, {{n(5), n(3), n(6)}, PatchId(2)}};
   mesh.boundary_quads = {{{n(0), n(1), n(4), n(3)}, PatchId(1)}, {{n(1), n(2), n(5), n(4)}, PatchId(1)}, {{n(2), n(0), n(3), n(5)}, PatchId(1)}};
   return mesh;
 }
@@ -121,7 +122,8 @@ TEST(Su2Write, RefusesWhatSu2CannotHold) {
 TEST(Su2, RoundTripToTheBit) {
   const auto folder = test::scratch();
   int i = 0;
-  for (const HybridMesh& mesh : {prism_and_tet(), test::mixed_mesh(), test::hexahedron_with_roof(), test::hexahedra_block(3), test::sphere_shell(12, {.collapsed = {0, 20, 21}})}) {
+  for (const HybridMesh& mesh :
+       {prism_and_tet(), test::mixed_mesh(), test::hexahedron_with_roof(), test::hexahedra_block(3), test::sphere_shell(12, {.collapsed = {0, 20, 21}})}) {
     const auto first = folder / (std::to_string(i) + "a.su2"), second = folder / (std::to_string(i) + "b.su2");
     ++i;
     write(mesh, first);
@@ -170,7 +172,8 @@ TEST(Su2Read, Variants) {
   same(replaced(text, "10 3 4 5 6\n", "10 3 4 5 6 1\n% inside\n"));
   same("\tNZONE= 1\nIZONE= 1\n" + text);
   same(replaced(text, "MARKER_TAG= side", "MARKER_TAG= s ide "));
-  same(replaced(replaced(text, "NMARK= 3\n", "NMARK= 4\n"), "MARKER_TAG= side", "MARKER_TAG= SEND_RECEIVE\nMARKER_ELEMS= 2\nSEND_TO= -2\n1 3 0 0\n1 4 0 0\nMARKER_TAG= side"));
+  same(replaced(replaced(text, "NMARK= 3\n", "NMARK= 4\n"), "MARKER_TAG= side",
+                "MARKER_TAG= SEND_RECEIVE\nMARKER_ELEMS= 2\nSEND_TO= -2\n1 3 0 0\n1 4 0 0\nMARKER_TAG= side"));
   std::string crlf;
   for (const char c : text) crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
   same(crlf);
@@ -267,8 +270,7 @@ TEST(Su2Read, TheFirstMistakeIsTold) {
   for (int i = 0; i < 100000; ++i) text += i == 30000 || i == 70000 ? "0 x 0\n" : "0 0 0\n";
   text += "NELEM= 0\nNMARK= 0\n";
   const auto path = write_text("mesh.su2", text);
-  for (const int threads : {1, 2, 7})
-    expect_error(ErrorCode::file_malformed, "line 30003", [&] { read_volume_file(path, RunContext({.threads = threads})); });
+  for (const int threads : {1, 2, 7}) expect_error(ErrorCode::file_malformed, "line 30003", [&] { read_volume_file(path, RunContext({.threads = threads})); });
 }
 
 TEST(Su2Read, NeverCrashesOnCutFiles) {
@@ -315,7 +317,8 @@ TEST(Su2Read, Samples) {
 
 TEST(Su2Write, MeshioAgrees) {
   const auto path = test::scratch() / "mesh.su2";
-  for (const HybridMesh& mesh : {prism_and_tet(), test::mixed_mesh(), test::hexahedron_with_roof(), test::sphere_shell(20, {.n_layers = 5, .collapsed = {3, 50, 51}})}) {
+  for (const HybridMesh& mesh :
+       {prism_and_tet(), test::mixed_mesh(), test::hexahedron_with_roof(), test::sphere_shell(20, {.n_layers = 5, .collapsed = {3, 50, 51}})}) {
     write(mesh, path);
     const auto report = test::read_independently("meshio", path);
     STERNA_NEEDS(report, "the Python module of the independent reader");

@@ -22,7 +22,8 @@ TEST(Tau, SamplesByteForByte) {
     SCOPED_TRACE(name);
     const HybridMesh mesh = read(samples / name);
     const bool is_pt = name.starts_with("pt");
-    EXPECT_EQ(mesh.patches.raw(), (std::vector<Patch>{{"wall", PatchKind::wall}, {is_pt ? "side" : "symmetry", PatchKind::symmetry}, {"farfield", PatchKind::farfield}}));
+    EXPECT_EQ(mesh.patches.raw(),
+              (std::vector<Patch>{{"wall", PatchKind::wall}, {is_pt ? "side" : "symmetry", PatchKind::symmetry}, {"farfield", PatchKind::farfield}}));
     const double volume = is_pt ? 2.0 / 3.0 : 1.0 + 1.0 / 3.0 + 0.65;
     EXPECT_NEAR(test::volume_of(mesh), volume, 1e-14);
     EXPECT_NEAR(test::enclosed_volume(mesh), volume, 1e-14);
@@ -75,7 +76,8 @@ TEST(TauRead, OtherKindsOfNetcdf) {
   const auto folder = test::scratch(), file = folder / "mesh.grid";
   const HybridMesh mesh = test::mesh_of_six_patches();
   write(mesh, file);
-  const std::vector<std::vector<std::string>> kinds = {{"-k", "classic"}, {"-k", "cdf5"}, {"-k", "netCDF-4"}, {"-k", "netCDF-4", "-d", "5", "-s"}, {"-k", "netCDF-4 classic model", "-d", "1"}};
+  const std::vector<std::vector<std::string>> kinds = {
+      {"-k", "classic"}, {"-k", "cdf5"}, {"-k", "netCDF-4"}, {"-k", "netCDF-4", "-d", "5", "-s"}, {"-k", "netCDF-4 classic model", "-d", "1"}};
   for (std::vector<std::string> arguments : kinds) {
     SCOPED_TRACE(arguments[1] + " " + std::to_string(arguments.size()));
     const auto copy = folder / "copy.grid";
@@ -89,13 +91,16 @@ TEST(TauRead, OtherKindsOfNetcdf) {
 
 TEST(TauRead, HeapsOfManyNames) {
   // 700 attributes and variables beside the mesh fill several rows of a heap and a B-tree of two levels.
-  std::string text = "netcdf many {\ndimensions:\n n = 1 ;\n no_of_points = 1 ;\nvariables:\n double points_xc(no_of_points), points_yc(no_of_points), points_zc(no_of_points) ;\n";
+  std::string text =
+      "netcdf many {\ndimensions:\n n = 1 ;\n no_of_points = 1 ;\nvariables:\n double points_xc(no_of_points), points_yc(no_of_points), "
+      "points_zc(no_of_points) ;\n";
   for (int i = 0; i < 700; ++i) text += " int a_variable_with_a_longer_name_" + std::to_string(i) + "(n) ;\n";
   for (int i = 0; i < 700; ++i) text += " :an_attribute_with_a_longer_name_" + std::to_string(i) + " = \"some text for number " + std::to_string(i) + "\" ;\n";
   text += "data:\n points_xc = 1 ;\n points_yc = 2 ;\n points_zc = 3 ;\n}\n";
   const auto folder = test::scratch();
   std::ofstream(folder / "many.cdl") << text;
-  STERNA_NEEDS(test::output_of_tool("ncgen", {"-k", "nc4", "-o", (folder / "many.grid").string(), (folder / "many.cdl").string()}), "ncgen of the package netcdf-bin");
+  STERNA_NEEDS(test::output_of_tool("ncgen", {"-k", "nc4", "-o", (folder / "many.grid").string(), (folder / "many.cdl").string()}),
+               "ncgen of the package netcdf-bin");
   EXPECT_EQ(read(folder / "many.grid").points.raw(), (std::vector<Point>{{1, 2, 3}}));
 }
 
@@ -128,7 +133,8 @@ TEST(TauRead, MistakesAreTold) {
   HybridMesh mesh = test::hexahedron_with_roof();
   mesh.pyramids[0][4] = NodeId(99);
   write(mesh, folder / "mesh.taumesh");
-  test::expect_error(ErrorCode::file_malformed, "variable \"points_of_pyramids\": element 0 has point 99, expected 0 to 8", [&] { read(folder / "mesh.taumesh"); });
+  test::expect_error(ErrorCode::file_malformed, "variable \"points_of_pyramids\": element 0 has point 99, expected 0 to 8",
+                     [&] { read(folder / "mesh.taumesh"); });
   test::expect_error(ErrorCode::file_malformed, "byte 0", [&] { read(test::write_text("text.grid", "NDIME= 3\n")); });
   for (const std::string name : {"points_yc", "boundarymarker_of_surfaces"}) {
     write(test::hexahedron_with_roof(), folder / "mesh.taumesh");
@@ -144,7 +150,8 @@ TEST(TauWrite, AnInterfaceIsTold) {
   HybridMesh mesh = test::hexahedron_with_roof();
   mesh.patches[PatchId(1)] = {"inner", PatchKind::interface};
   const auto path = test::scratch() / "mesh.grid";
-  EXPECT_THAT(test::warnings_of_writing(mesh, path), testing::ElementsAre("patch \"inner\" is an interface, for which TAU has no condition; it is written as an euler wall"));
+  EXPECT_THAT(test::warnings_of_writing(mesh, path),
+              testing::ElementsAre("patch \"inner\" is an interface, for which TAU has no condition; it is written as an euler wall"));
   EXPECT_EQ(read(path).patches[PatchId(1)], (Patch{"inner", PatchKind::slip}));
 }
 

@@ -85,7 +85,8 @@ TEST(Ugrid, RoundTripOfAMixedMeshInEveryVariant) {
       EXPECT_NEAR(test::enclosed_volume(back), test::volume_of(mesh), 1e-12 * test::volume_of(mesh));  // rounding of sums
       for (std::size_t i = 0; i < back.boundary_triangles.size(); ++i)
         EXPECT_EQ(back.patches[back.boundary_triangles[i].patch], mesh.patches[mesh.boundary_triangles[i].patch]);
-      for (std::size_t i = 0; i < back.boundary_quads.size(); ++i) EXPECT_EQ(back.patches[back.boundary_quads[i].patch], mesh.patches[mesh.boundary_quads[i].patch]);
+      for (std::size_t i = 0; i < back.boundary_quads.size(); ++i)
+        EXPECT_EQ(back.patches[back.boundary_quads[i].patch], mesh.patches[mesh.boundary_quads[i].patch]);
       const std::string bytes = test::bytes_of(file);
       write(mesh, file, 1);
       EXPECT_EQ(test::bytes_of(file), bytes);
@@ -105,7 +106,7 @@ TEST(UgridWrite, AnIndependentReaderFindsTheSame) {
     EXPECT_EQ(report->number("points"), static_cast<double>(mesh.points.size()));
     EXPECT_EQ(report->number("cells.wedge"), static_cast<double>(count_cells(mesh).prisms));
     EXPECT_EQ(report->number("cells.tetra"), static_cast<double>(count_cells(mesh).tetrahedra));
-    const double tolerance = name == "mesh.ugrid" ? 1e-8 : 1e-15;  // of a volume of 0.0087; meshio reads the text in single precision
+    const double tolerance = name == "mesh.ugrid" ? 1e-8 : 1e-15;                // of a volume of 0.0087; meshio reads the text in single precision
     EXPECT_NEAR(report->number("enclosed"), -test::volume_of(mesh), tolerance);  // inwards, as NASA's tools have it
     EXPECT_NEAR(report->number("volume.wedge") + report->number("volume.pyramid") + report->number("volume.tetra"), test::volume_of(mesh), tolerance);
   }

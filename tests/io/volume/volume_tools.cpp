@@ -108,8 +108,8 @@ void expect_same_mesh(const IndependentReport& report, const HybridMesh& mesh) {
 std::vector<std::string> warnings_of_writing(const HybridMesh& mesh, const std::filesystem::path& path) {
   std::vector<std::string> warnings;
   io::write_volume_file(mesh, path, RunContext({.threads = 1, .log = [&](LogLevel level, std::string_view line) {
-                          if (level == LogLevel::warning) warnings.emplace_back(line);
-                        }}));
+                                                  if (level == LogLevel::warning) warnings.emplace_back(line);
+                                                }}));
   return warnings;
 }
 
@@ -155,7 +155,8 @@ HybridMesh mixed_mesh() {
 HybridMesh mesh_of_six_patches() {
   HybridMesh mesh = mixed_mesh();
   const auto add = [&](const char* name, PatchKind kind) { return mesh.patches.push_back({name, kind}); };
-  const PatchId symmetry = add("symmetry", PatchKind::symmetry), inflow = add("engine_intake", PatchKind::inflow), outflow = add("engine_exhaust", PatchKind::outflow);
+  const PatchId symmetry = add("symmetry", PatchKind::symmetry), inflow = add("engine_intake", PatchKind::inflow),
+                outflow = add("engine_exhaust", PatchKind::outflow);
   // The sides of the plate by where they lie: y = 0 is the symmetry plane, x = 0 and its opposite are flown through.
   Box box;
   for (const Point& p : mesh.points) box.add(p);
@@ -203,8 +204,9 @@ std::optional<std::string> output_of_tool(const std::string& program, const std:
 
 void expect_survives_damage(const std::filesystem::path& victim, const std::string& name, std::size_t n_attempts) {
   // In memory, where there is room: some thousand files are written.
-  const std::filesystem::path folder =
-      std::filesystem::is_directory("/dev/shm") ? std::filesystem::path("/dev/shm") / ("sterna_volume_test_" + std::to_string(::getpid())) : scratch() / "damaged";
+  const std::filesystem::path folder = std::filesystem::is_directory("/dev/shm")
+                                           ? std::filesystem::path("/dev/shm") / ("sterna_volume_test_" + std::to_string(::getpid()))
+                                           : scratch() / "damaged";
   std::filesystem::create_directories(folder);
   const std::string bytes = bytes_of(victim);
   const std::string format(io::format_of(victim).name);
@@ -221,7 +223,8 @@ void expect_survives_damage(const std::filesystem::path& victim, const std::stri
       EXPECT_TRUE(error.code() == ErrorCode::file_malformed || error.code() == ErrorCode::unsupported_format) << error.what();
     }
   };
-  const std::size_t step = std::max<std::size_t>(1, bytes.size() / n_attempts), step_of_changes = std::max<std::size_t>(1 + step / 8, bytes.size() / (4 * n_attempts));
+  const std::size_t step = std::max<std::size_t>(1, bytes.size() / n_attempts),
+                    step_of_changes = std::max<std::size_t>(1 + step / 8, bytes.size() / (4 * n_attempts));
   for (std::size_t n = 0; n < bytes.size(); n += step) attempt(bytes.substr(0, n), "cut to " + std::to_string(n) + " bytes");
   EXPECT_GT(n_refused, 0);
   constexpr std::string_view k_changes = "\x01\x80\xff\x10\x55";

@@ -72,10 +72,12 @@ void expect_error(ErrorCode code, const std::string& text, const F& f) {
   }
 }
 
-/// Meshes of all kinds of cells come back as they were, and are the same bytes for 1, 2 and 7 threads. `read(path) -> HybridMesh`, `write(mesh, path, threads)`.
+/// Meshes of all kinds of cells come back as they were, and are the same bytes for 1, 2 and 7 threads. `read(path) -> HybridMesh`, `write(mesh, path,
+/// threads)`.
 template <class Read, class Write>
 void expect_round_trips(const std::filesystem::path& file, const Read& read, const Write& write) {
-  for (const HybridMesh& mesh : {mixed_mesh(), mesh_of_six_patches(), hexahedron_with_roof(), sphere_shell(6, {.collapsed = {0, 20, 21}}), two_shells(2, 3, 7, {.collapsed = {0, 50}})}) {
+  for (const HybridMesh& mesh : {mixed_mesh(), mesh_of_six_patches(), hexahedron_with_roof(), sphere_shell(6, {.collapsed = {0, 20, 21}}),
+                                 two_shells(2, 3, 7, {.collapsed = {0, 50}})}) {
     write(mesh, file, 2);
     expect_equal_meshes(read(file), mesh);
     const std::string bytes = bytes_of(file);

@@ -23,15 +23,17 @@ void expect_agreement(const std::string& mesh, const std::filesystem::path& fold
   ASSERT_EQ(compared.status, 0) << compared.output << compared.errors;
   const nlohmann::json result = nlohmann::json::parse(compared.output);
   EXPECT_GE(result[cells].get<std::int64_t>(), at_least);
-  for (const char* measure : {"tet_scaled_jacobian", "tet_dihedral_vtk_deg", "tet_dihedral_ours_deg", "tet_volume_relative", "hex_scaled_jacobian"}) EXPECT_LT(result[measure].get<double>(), k_agreement) << measure;
+  for (const char* measure : {"tet_scaled_jacobian", "tet_dihedral_vtk_deg", "tet_dihedral_ours_deg", "tet_volume_relative", "hex_scaled_jacobian"})
+    EXPECT_LT(result[measure].get<double>(), k_agreement) << measure;
   testing::Test::RecordProperty("compared", compared.output);
 }
 
 TEST(VtkQuality, TetrahedraOfARealMesh) {
   STERNA_NEEDS_SHARED_DATA();
   const auto folder = test::scratch();
-  std::ofstream(folder / "case.lua") << "local wall = read_surface{ \"" << (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() << "\", split_angle = 60*deg }\n"
-                                     << "volume_mesh{ wall, layers = 6, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length } }:write(\"case.sterna\")\n";
+  std::ofstream(folder / "case.lua")
+      << "local wall = read_surface{ \"" << (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() << "\", split_angle = 60*deg }\n"
+      << "volume_mesh{ wall, layers = 6, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length } }:write(\"case.sterna\")\n";
   const test::ProcessResult run = test::run_process(test::sterna_program(), {"--quiet", "run", "case.lua"}, folder);
   ASSERT_EQ(run.status, 0) << run.output << run.errors;
   expect_agreement("case.sterna", folder, "tetrahedra", 10000);

@@ -40,7 +40,8 @@ TEST(VtkHdf, RoundTripToTheBit) {
 
 TEST(VtkHdfWrite, VtkFindsTheSame) {
   const auto path = test::scratch() / "mesh.vtkhdf";
-  for (const HybridMesh& mesh : {test::mesh_of_six_patches(), test::hexahedron_with_roof(), test::sphere_shell(28, {.n_layers = 5, .collapsed = {3, 50, 51}})}) {
+  for (const HybridMesh& mesh :
+       {test::mesh_of_six_patches(), test::hexahedron_with_roof(), test::sphere_shell(28, {.n_layers = 5, .collapsed = {3, 50, 51}})}) {
     write(mesh, path);
     const auto report = test::read_independently("vtk", path);
     STERNA_NEEDS(report, "the Python module of the independent reader");
@@ -59,20 +60,30 @@ TEST(VtkHdf, NamesComeBackWhole) {
   mesh.patches[PatchId(1)].name = std::string(300, 'x');
   std::vector<std::string> warnings;
   write_volume_file(mesh, file, RunContext({.threads = 1, .log = [&](LogLevel level, std::string_view line) {
-                      if (level == LogLevel::warning) warnings.emplace_back(line);
-                    }}));
+                                              if (level == LogLevel::warning) warnings.emplace_back(line);
+                                            }}));
   EXPECT_THAT(warnings, testing::ElementsAre(testing::HasSubstr("left_wing")));
   EXPECT_EQ(read(file).patches, mesh.patches);
 }
 
 /// Two partitions: a tetrahedron each, ids and offsets of their own.
 TEST(VtkHdfRead, PartitionsAreJoined) {
-  const auto dataset = [](std::string name, OutputArray array) { return Hdf5OutputNode{.name = std::move(name), .is_dataset = true, .array = std::move(array)}; };
-  const auto numbers = [&](std::string name, const std::vector<std::int64_t>& values) { return dataset(std::move(name), output_numbers(NumberKind::i8, {values.size()}, values)); };
+  const auto dataset = [](std::string name, OutputArray array) {
+    return Hdf5OutputNode{.name = std::move(name), .is_dataset = true, .array = std::move(array)};
+  };
+  const auto numbers = [&](std::string name, const std::vector<std::int64_t>& values) {
+    return dataset(std::move(name), output_numbers(NumberKind::i8, {values.size()}, values));
+  };
   Hdf5OutputNode grid{.name = "VTKHDF"};
   grid.attributes = {text_attribute("Type", "UnstructuredGrid", 17)};
-  grid.children = {numbers("NumberOfPoints", {4, 5}), numbers("NumberOfCells", {1, 2}), numbers("NumberOfConnectivityIds", {4, 6}), numbers("Connectivity", {0, 1, 2, 3, 1, 2, 3, 4, 0, 1}), numbers("Offsets", {0, 4, 0, 4, 6}),
-                   numbers("Types", {10, 10, 3}), dataset("Points", output_numbers<float>(NumberKind::f4, {9, 3}, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 9, 9, 9, 2, 0, 0, 3, 0, 0, 2, 0, 1, 2, 1, 0}))};
+  grid.children = {
+      numbers("NumberOfPoints", {4, 5}),
+      numbers("NumberOfCells", {1, 2}),
+      numbers("NumberOfConnectivityIds", {4, 6}),
+      numbers("Connectivity", {0, 1, 2, 3, 1, 2, 3, 4, 0, 1}),
+      numbers("Offsets", {0, 4, 0, 4, 6}),
+      numbers("Types", {10, 10, 3}),
+      dataset("Points", output_numbers<float>(NumberKind::f4, {9, 3}, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 9, 9, 9, 2, 0, 0, 3, 0, 0, 2, 0, 1, 2, 1, 0}))};
   Hdf5OutputNode root;
   root.children = {grid};
   const auto path = test::scratch() / "two.hdf";
@@ -104,7 +115,8 @@ TEST(VtkHdfRead, NeverCrashesOnDamagedFiles) {
   const auto file = test::scratch() / "mesh.vtkhdf";
   write(test::hexahedron_with_roof(), file);
   test::expect_survives_damage(file, "damaged.vtkhdf", test::k_few_attempts);
-  if (test::has_shared_data()) test::expect_survives_damage(test::shared_data() / "formats/pt.vtkhdf", "damaged.hdf", test::k_few_attempts);  // groups of the old style, no checksums
+  if (test::has_shared_data())
+    test::expect_survives_damage(test::shared_data() / "formats/pt.vtkhdf", "damaged.hdf", test::k_few_attempts);  // groups of the old style, no checksums
 }
 
 }  // namespace

@@ -153,9 +153,11 @@ TEST(VtuRead, Samples) {
 /// A tetrahedron with one marked face, as text.
 constexpr const char* k_tet =
     "<?xml version=\"1.0\"?>\n<!-- made by hand --><VTKFile type='UnstructuredGrid' byte_order='LittleEndian'><UnstructuredGrid>\n"
-    "<Piece NumberOfPoints=\"4\" NumberOfCells=\"3\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 1</DataArray></Points>\n"
+    "<Piece NumberOfPoints=\"4\" NumberOfCells=\"3\"><Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 "
+    "1</DataArray></Points>\n"
     "<Cells><DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">0 2 1 3 0 1 2 0 1</DataArray>"
-    "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">4 7 9</DataArray><DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10 5 3</DataArray></Cells>\n"
+    "<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">4 7 9</DataArray><DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10 5 "
+    "3</DataArray></Cells>\n"
     "<CellData><DataArray type=\"Int32\" Name=\"ids\" format=\"ascii\">0 7 0</DataArray></CellData></Piece></UnstructuredGrid></VTKFile>\n";
 
 TEST(VtuRead, WindingsAreRepairedAndLinesDropped) {
@@ -166,7 +168,8 @@ TEST(VtuRead, WindingsAreRepairedAndLinesDropped) {
   ASSERT_EQ(mesh.boundary_triangles.size(), 1u);
   EXPECT_EQ(mesh.boundary_triangles[0].nodes, (std::array{NodeId(0), NodeId(2), NodeId(1)}));
   EXPECT_EQ(mesh.patches[PatchId(0)].name, "patch_7");
-  EXPECT_THAT(log, testing::ElementsAre(testing::HasSubstr("left out: 1"), testing::HasSubstr("flipped: 1 of kind tetrahedron"), testing::HasSubstr("turned outwards: 1")));
+  EXPECT_THAT(log, testing::ElementsAre(testing::HasSubstr("left out: 1"), testing::HasSubstr("flipped: 1 of kind tetrahedron"),
+                                        testing::HasSubstr("turned outwards: 1")));
 }
 
 TEST(VtuRead, MistakesAreTold) {

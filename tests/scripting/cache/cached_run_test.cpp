@@ -35,9 +35,15 @@ class CachedRun : public testing::Test {
     std::ofstream(folder_ / "case.lua") << text;
     log_.clear();
     Files files;
-    const RunContext context({.threads = threads, .log = [&](LogLevel level, std::string_view line) { log_ += (level == LogLevel::warning ? "warning: " : "") + std::string(line) + "\n"; }});
+    const RunContext context({.threads = threads, .log = [&](LogLevel level, std::string_view line) {
+                                log_ += (level == LogLevel::warning ? "warning: " : "") + std::string(line) + "\n";
+                              }});
     const StageCache cache({.folder = folder_ / "cache"});
-    run_script({.script = folder_ / "case.lua", .overrides = overrides, .print = [&](std::string_view line) { files["printed"] += std::string(line) + "\n"; }, .cache = is_cached ? &cache : nullptr}, context);
+    run_script({.script = folder_ / "case.lua",
+                .overrides = overrides,
+                .print = [&](std::string_view line) { files["printed"] += std::string(line) + "\n"; },
+                .cache = is_cached ? &cache : nullptr},
+               context);
     for (const auto& entry : std::filesystem::directory_iterator(folder_ / "out")) files[entry.path().filename().string()] = bytes_of(entry.path());
     return files;
   }
@@ -101,8 +107,12 @@ TEST_F(CachedRun, OfACadFileEveryOutputHasTheSameBytesWithoutColdAndWarm) {
 }
 
 TEST_F(CachedRun, AStageIsMadeAnewFromTheOneOnThatHasAnotherOption) {
-  const std::string more = "local mesh = volume_mesh{ surface_mesh{ box{ {0,0,0}, {2,1,1}, name='b' }, max_edge=EDGE }, layers=2, first_height=0.01, farfield=sphere{ radius=6, edge=3 }, improve_rounds=ROUNDS } mesh:write 'OUT/a.su2'";
-  const auto text = [&](const std::string& edge, const std::string& rounds) { return std::regex_replace(std::regex_replace(more, std::regex("EDGE"), edge), std::regex("ROUNDS"), rounds); };
+  const std::string more =
+      "local mesh = volume_mesh{ surface_mesh{ box{ {0,0,0}, {2,1,1}, name='b' }, max_edge=EDGE }, layers=2, first_height=0.01, farfield=sphere{ radius=6, "
+      "edge=3 }, improve_rounds=ROUNDS } mesh:write 'OUT/a.su2'";
+  const auto text = [&](const std::string& edge, const std::string& rounds) {
+    return std::regex_replace(std::regex_replace(more, std::regex("EDGE"), edge), std::regex("ROUNDS"), rounds);
+  };
   run(text("0.7", "30"), true);
   const Files fewer = run(text("0.7", "2"), true);
   EXPECT_EQ(n_reused(), 2);
@@ -116,11 +126,12 @@ TEST_F(CachedRun, AStageIsMadeAnewFromTheOneOnThatHasAnotherOption) {
 }
 
 TEST_F(CachedRun, StepsByHandAndStagesInAFileAreTheSameToo) {
-  const std::string text = k_model +
-                           "local w = surface_mesh{ m, max_edge=0.8 } local ff = sphere{ radius=6, edge=3 } "
-                           "local e = make_envelope{ w, layers=2, first_height=0.01, farfield=ff } local t = tetrahedra{ e, farfield=ff } local mesh = prisms{ e, t } "
-                           "e:write 'OUT/e.sterna' t:write 'OUT/t.sterna' mesh:write 'OUT/m.sterna' "
-                           "volume_mesh{ w, layers=2, first_height=0.01, farfield=ff, stages='OUT/s.sterna' }:write 'OUT/v.sterna'";
+  const std::string text =
+      k_model +
+      "local w = surface_mesh{ m, max_edge=0.8 } local ff = sphere{ radius=6, edge=3 } "
+      "local e = make_envelope{ w, layers=2, first_height=0.01, farfield=ff } local t = tetrahedra{ e, farfield=ff } local mesh = prisms{ e, t } "
+      "e:write 'OUT/e.sterna' t:write 'OUT/t.sterna' mesh:write 'OUT/m.sterna' "
+      "volume_mesh{ w, layers=2, first_height=0.01, farfield=ff, stages='OUT/s.sterna' }:write 'OUT/v.sterna'";
   const Files without = run(text, false);
   expect_same(run(text, true), without, "cold");
   EXPECT_THAT(log_, HasSubstr("envelope of ")) << "volume_mesh has it from make_envelope";
@@ -131,7 +142,8 @@ TEST_F(CachedRun, StepsByHandAndStagesInAFileAreTheSameToo) {
 TEST_F(CachedRun, NewVerticesOfAWallFromTheCacheLieOnTheModel) {
   const std::string text =
       "local w = surface_mesh{ cylinder{ {0,0,0}, {2,0,0}, radius=1, name='can' }, max_edge=0.6, curvature_angle=30*deg } "
-      "volume_mesh{ w, layers=4, first_height=1e-3, farfield=sphere{ radius=15 }, improve_rounds=ROUNDS, sources={ sphere{ {3,0,0}, radius=1, size=0.15 } }, tetrahedra={ boundary_splits='always', radius_edge=1.6 } }:write 'OUT/a.su2'";
+      "volume_mesh{ w, layers=4, first_height=1e-3, farfield=sphere{ radius=15 }, improve_rounds=ROUNDS, sources={ sphere{ {3,0,0}, radius=1, size=0.15 } }, "
+      "tetrahedra={ boundary_splits='always', radius_edge=1.6 } }:write 'OUT/a.su2'";
   run(std::regex_replace(text, std::regex("ROUNDS"), "3"), true);
   const std::string again = std::regex_replace(text, std::regex("ROUNDS"), "4");
   const Files warm = run(again, true);
@@ -145,7 +157,8 @@ TEST_F(CachedRun, NewVerticesOfAWallFromTheCacheLieOnTheModel) {
 /// Reading, uniting, moving, halving, meshing and writing, so that kept models are used in every way. FOUR is an engineer's change from case to case.
 const std::string k_models =
     "local body = fuselage{ name='body', frames={ {x=0, height=0}, {x=1, height=1}, {x=4, height=1}, {x=6, height=0.1} } } "
-    "local w = wing{ name='wing', symmetric=true, position={2, 0, -0.1}, sections={ { y=0, chord=1.4, airfoil='naca0012' }, { y=3, chord=0.7, airfoil='naca0012' } } } "
+    "local w = wing{ name='wing', symmetric=true, position={2, 0, -0.1}, sections={ { y=0, chord=1.4, airfoil='naca0012' }, { y=3, chord=0.7, "
+    "airfoil='naca0012' } } } "
     "local plane = aircraft{ body, w } print(plane) "
     "local tank = read_cad 'IN/tank.step' print(tank, tank.report) "
     "local both = assembly{ plane, tank:move{ 2, 0, -3 } } local united = union{ tank, box{ {1, -0.2, -0.2}, {3, 0.2, 0.2}, name='bar' } } "
@@ -161,7 +174,8 @@ TEST_F(CachedRun, ModelsComeBackAsTheyWere) {
   for (const char* stage : {"aircraft", "read_cad", "union"}) EXPECT_EQ(kept.count(stage), 1u) << stage;
   EXPECT_GE(kept.at("assembly"), 2);
   expect_same(run(text("4"), true), without, "warm");
-  EXPECT_THAT(log_, AllOf(HasSubstr("aircraft: from the cache"), HasSubstr("read_cad of "), HasSubstr("union of "), HasSubstr("assembly of "), Not(HasSubstr("once more"))));
+  EXPECT_THAT(log_, AllOf(HasSubstr("aircraft: from the cache"), HasSubstr("read_cad of "), HasSubstr("union of "), HasSubstr("assembly of "),
+                          Not(HasSubstr("once more"))));
   const Files other = run(text("5"), false);
   EXPECT_FALSE(other.at("m.stl") == without.at("m.stl"));
   expect_same(run(text("5"), true), other, "another place of the union");
@@ -171,7 +185,10 @@ TEST_F(CachedRun, ModelsComeBackAsTheyWere) {
 TEST_F(CachedRun, WhatOpenCascadeNeedsOfAKeptModelIsMadeWhenItIsAskedFor) {
   run("cylinder{ {0,0,0}, {2,0,0}, radius=0.5, name='tank' }:write 'IN/tank.step'", false);
   const std::string read = "local tank = read_cad 'IN/tank.step' ";
-  const auto text = [&](const std::string& name) { return read + "union{ tank, box{ {1, -0.2, -0.2}, {3, 0.2, 0.2}, name='" + name + "' } }:write('OUT/u.brep') tank:write('OUT/t.brep', 'OUT/t.step') half{ tank }:write 'OUT/h.brep' "; };
+  const auto text = [&](const std::string& name) {
+    return read + "union{ tank, box{ {1, -0.2, -0.2}, {3, 0.2, 0.2}, name='" + name +
+           "' } }:write('OUT/u.brep') tank:write('OUT/t.brep', 'OUT/t.step') half{ tank }:write 'OUT/h.brep' ";
+  };
   run(read, true);
   for (const char* name : {"bar", "rod"}) {
     const Files without = run(text(name), false);
@@ -185,7 +202,8 @@ TEST_F(CachedRun, WhatOpenCascadeNeedsOfAKeptModelIsMadeWhenItIsAskedFor) {
 TEST_F(CachedRun, ComponentsCountAsTheyAreAtTheCall) {
   const std::string text =
       "local w = wing{ name='w', sections={ { y=0, chord=1, airfoil='naca0012' }, { y=2, chord=1, airfoil='naca0012' } } } "
-      "local first = aircraft{ w } w:move{ 0, 0, 1 } local second = aircraft{ w } first:write 'OUT/first.brep' second:write 'OUT/second.brep' print(first.min[3], second.min[3])";
+      "local first = aircraft{ w } w:move{ 0, 0, 1 } local second = aircraft{ w } first:write 'OUT/first.brep' second:write 'OUT/second.brep' "
+      "print(first.min[3], second.min[3])";
   const Files without = run(text, false);
   EXPECT_FALSE(without.at("first.brep") == without.at("second.brep"));
   expect_same(run(text, true), without, "cold");
@@ -195,9 +213,11 @@ TEST_F(CachedRun, ComponentsCountAsTheyAreAtTheCall) {
 
 TEST_F(CachedRun, RealModelsComeBackAsTheyWere) {
   STERNA_NEEDS_SHARED_DATA();
-  for (const char* file : {"cad/tigl_simplewing_simplewing.brep", "cad/onera_m6_su2_geom_oneram6.IGS", "cad/gmsh_t106_blade_mesh_T106_V3.step", "cpacs/simpletest-nacelle.xml"}) {
+  for (const char* file :
+       {"cad/tigl_simplewing_simplewing.brep", "cad/onera_m6_su2_geom_oneram6.IGS", "cad/gmsh_t106_blade_mesh_T106_V3.step", "cpacs/simpletest-nacelle.xml"}) {
     const std::string path = (test::shared_data() / file).string();
-    const std::string text = std::string("local m = ") + (path.ends_with(".xml") ? "read_cpacs" : "read_cad") + " '" + path + "' print(m) m:rotate{ pitch=2*deg }:write 'OUT/m.step'";
+    const std::string text = std::string("local m = ") + (path.ends_with(".xml") ? "read_cpacs" : "read_cad") + " '" + path +
+                             "' print(m) m:rotate{ pitch=2*deg }:write 'OUT/m.step'";
     const Files without = run(text, false);
     expect_same(run(text, true), without, std::string(file) + ", cold");
     EXPECT_EQ(n_reused(), 0) << file;
@@ -210,9 +230,12 @@ TEST_F(CachedRun, RealModelsComeBackAsTheyWere) {
 
 TEST_F(CachedRun, AFunctionCountsByWhatItReturns) {
   const auto text = [](const std::string& function) {
-    return "local n = 0 local f = " + function + " local w = surface_mesh{ box{ {0,0,0}, {2,1,1}, name='b' }, max_edge=0.9, size=function(x, y, z) n = n + 1 return f(x, y, z) end } w:write 'OUT/w.stl' print(n, w)";
+    return "local n = 0 local f = " + function +
+           " local w = surface_mesh{ box{ {0,0,0}, {2,1,1}, name='b' }, max_edge=0.9, size=function(x, y, z) n = n + 1 return f(x, y, z) end } w:write "
+           "'OUT/w.stl' print(n, w)";
   };
-  const std::string f = "function(x, y, z) return 0.3 + 0.2*x end", other = "function(x, y, z) return x > 1 and 0.2 or 0.3 + 0.2*x end", third = "function(x, y, z) return 0.4 end";
+  const std::string f = "function(x, y, z) return 0.3 + 0.2*x end", other = "function(x, y, z) return x > 1 and 0.2 or 0.3 + 0.2*x end",
+                    third = "function(x, y, z) return 0.4 end";
   const Files of_f = run(text(f), false), of_other = run(text(other), false), of_third = run(text(third), false);
   EXPECT_FALSE(of_f.at("w.stl") == of_other.at("w.stl"));
   expect_same(run(text(f), true), of_f, "cold");
@@ -235,7 +258,8 @@ TEST_F(CachedRun, AFunctionCountsByWhatItReturns) {
 
 TEST_F(CachedRun, AFunctionWithAMemoryIsNotFooled) {
   const std::string text =
-      "local n = 0 local w = surface_mesh{ box{ {0,0,0}, {2,1,1}, name='b' }, max_edge=0.9, size=function(x, y, z) n = n + 1 return n % 7 == PHASE and 0.35 or 0.5 end } w:write 'OUT/w.stl' print(n, math.random())";
+      "local n = 0 local w = surface_mesh{ box{ {0,0,0}, {2,1,1}, name='b' }, max_edge=0.9, size=function(x, y, z) n = n + 1 return n % 7 == PHASE and 0.35 or "
+      "0.5 end } w:write 'OUT/w.stl' print(n, math.random())";
   for (const char* phase : {"0", "3", "0", "3", "5"}) {
     const std::string with_phase = std::regex_replace(text, std::regex("PHASE"), phase);
     expect_same(run(with_phase, true), run(with_phase, false), phase);
@@ -243,7 +267,9 @@ TEST_F(CachedRun, AFunctionWithAMemoryIsNotFooled) {
 }
 
 TEST_F(CachedRun, ErrorsOfAFunctionAreTheUsersAlsoWhenItIsAskedForTheCache) {
-  const std::string text = "local ok, e = pcall(surface_mesh, { box{ {0,0,0}, {2,1,1}, name='b' }, max_edge=0.9, size=function(x, y, z) if x > LIMIT then error('too far') end return 0.5 end }) print(ok, ok or e.message:match('too far'))";
+  const std::string text =
+      "local ok, e = pcall(surface_mesh, { box{ {0,0,0}, {2,1,1}, name='b' }, max_edge=0.9, size=function(x, y, z) if x > LIMIT then error('too far') end "
+      "return 0.5 end }) print(ok, ok or e.message:match('too far'))";
   const auto printed = [&](const std::string& limit) { return run(std::regex_replace(text, std::regex("LIMIT"), limit), true).at("printed"); };
   EXPECT_EQ(printed("5"), "true\ttrue\n");
   EXPECT_EQ(printed("1"), "false\ttoo far\n");
@@ -255,24 +281,28 @@ TEST_F(CachedRun, ModelsAreWhatTheyWereMadeOf) {
     run("local m = " + model + " surface_mesh{ m, max_edge=0.9 }", true);
     std::istringstream lines(log_);  // of the whole surface; a part that was moved only is known before
     for (std::string line; std::getline(lines, line);)
-      if (line.find("surface_mesh of ") != std::string::npos && line.ends_with(": from the cache") && line.find("in its own frame") == std::string::npos) return true;
+      if (line.find("surface_mesh of ") != std::string::npos && line.ends_with(": from the cache") && line.find("in its own frame") == std::string::npos)
+        return true;
     return false;
   };
   const std::string box = "box{ {0,0,0}, {2,1,1}, name='b' }";
   EXPECT_FALSE(reused(box));
   EXPECT_TRUE(reused(box));
   EXPECT_TRUE(reused("box{ name='b', {0,0,0}, {4/2,1,1} }"));
-  for (const std::string other :
-       {"box{ {0,0,0}, {2,1,1.25}, name='b' }", "box{ {0,0,0}, {2,1,1}, name='c' }", "BOX:move{ 0, 0, 1 }", "BOX:rotate{ pitch=0.1 }", "BOX:rotate{ pitch=0.1, about={1,0,0} }", "BOX:scale(0.8)",
-        "BOX:mirror{}", "BOX:rename{ b='d' }", "BOX:kinds{ b='slip' }", "assembly{ BOX, cylinder{ {4,0,0}, {5,0,0}, radius=0.5, name='c' } }", "BOX:deform{ function(x, y, z) return 0, 0, 0.1*x end }",
-        "BOX:deform{ function(x, y, z) return 0, 0, 0.2*x end }", "wing{ name='w', sections={ { y=0, chord=1, airfoil='naca0012' }, { y=2, chord=1, airfoil='naca0012' } } }",
-        "wing{ name='w', sections={ { y=0, chord=1, airfoil='naca0012' }, { y=2, chord=1, airfoil='naca0015' } } }"}) {
+  for (const std::string other : {"box{ {0,0,0}, {2,1,1.25}, name='b' }", "box{ {0,0,0}, {2,1,1}, name='c' }", "BOX:move{ 0, 0, 1 }", "BOX:rotate{ pitch=0.1 }",
+                                  "BOX:rotate{ pitch=0.1, about={1,0,0} }", "BOX:scale(0.8)", "BOX:mirror{}", "BOX:rename{ b='d' }", "BOX:kinds{ b='slip' }",
+                                  "assembly{ BOX, cylinder{ {4,0,0}, {5,0,0}, radius=0.5, name='c' } }",
+                                  "BOX:deform{ function(x, y, z) return 0, 0, 0.1*x end }", "BOX:deform{ function(x, y, z) return 0, 0, 0.2*x end }",
+                                  "wing{ name='w', sections={ { y=0, chord=1, airfoil='naca0012' }, { y=2, chord=1, airfoil='naca0012' } } }",
+                                  "wing{ name='w', sections={ { y=0, chord=1, airfoil='naca0012' }, { y=2, chord=1, airfoil='naca0015' } } }"}) {
     const std::string model = std::regex_replace(other, std::regex("BOX"), box);
     EXPECT_FALSE(reused(model)) << model;
     EXPECT_TRUE(reused(model)) << model;
   }
   EXPECT_TRUE(reused(box + ":deform{ function(a, b, c) local s = 0.2*a return 0, 0, s/2 end }")) << "the same values";
-  run("local w = wing{ name='w', sections={ { y=0, chord=1, airfoil='naca0012' }, { y=2, chord=1, airfoil='naca0012' } } } w:move{ 0, 0, 1 } surface_mesh{ w, max_edge=0.9 }", true);
+  run("local w = wing{ name='w', sections={ { y=0, chord=1, airfoil='naca0012' }, { y=2, chord=1, airfoil='naca0012' } } } w:move{ 0, 0, 1 } surface_mesh{ w, "
+      "max_edge=0.9 }",
+      true);
   EXPECT_EQ(n_reused(), 0) << "components change in place";
 }
 
@@ -297,7 +327,8 @@ TEST_F(CachedRun, DamagedEntriesOfARunAreMadeAnew) {
 }
 
 TEST_F(CachedRun, TwoProcessesAtOnceAndOneThatIsKilled) {
-  std::ofstream(folder_ / "case.lua") << "volume_mesh{ surface_mesh{ box{ {0,0,0}, {2,1,1}, name='b' }, max_edge=0.5 }, layers=3, first_height=0.01, farfield=sphere{ radius=6, edge=2 } }:write 'a.su2'";
+  std::ofstream(folder_ / "case.lua") << "volume_mesh{ surface_mesh{ box{ {0,0,0}, {2,1,1}, name='b' }, max_edge=0.5 }, layers=3, first_height=0.01, "
+                                         "farfield=sphere{ radius=6, edge=2 } }:write 'a.su2'";
   const auto started = [&](const std::string& name, const std::vector<std::string>& more, double interrupt_after = -1.0) {
     std::filesystem::create_directories(folder_ / name);
     std::vector<std::string> arguments = {"run", "../case.lua", "--threads", "1"};
@@ -307,10 +338,12 @@ TEST_F(CachedRun, TwoProcessesAtOnceAndOneThatIsKilled) {
   ASSERT_EQ(started("plain", {}).status, 0);
   // Killed at several moments, one after the other; how far each comes depends on the machine, and the last may come to its end.
   for (const char* seconds : {"0.02", "0.05", "0.1", "0.2", "0.4"})
-    test::run_process("/usr/bin/timeout", {"-s", "KILL", seconds, test::sterna_program().string(), "run", "../case.lua", "--cache", "../cache"}, folder_ / "plain");
+    test::run_process("/usr/bin/timeout", {"-s", "KILL", seconds, test::sterna_program().string(), "run", "../case.lua", "--cache", "../cache"},
+                      folder_ / "plain");
   std::vector<std::thread> processes;
   std::vector<test::ProcessResult> results(2);
-  for (int i = 0; i < 2; ++i) processes.emplace_back([&, i] { results[static_cast<std::size_t>(i)] = started("at_once_" + std::to_string(i), {"--cache", "../cache"}); });
+  for (int i = 0; i < 2; ++i)
+    processes.emplace_back([&, i] { results[static_cast<std::size_t>(i)] = started("at_once_" + std::to_string(i), {"--cache", "../cache"}); });
   for (std::thread& process : processes) process.join();
   const test::ProcessResult last = started("last", {"--cache", "../cache"});
   for (const test::ProcessResult& result : {results[0], results[1], last}) {
@@ -320,7 +353,8 @@ TEST_F(CachedRun, TwoProcessesAtOnceAndOneThatIsKilled) {
   EXPECT_THAT(last.errors, HasSubstr("volume_mesh of "));
   for (const char* name : {"at_once_0", "at_once_1", "last"})
     for (const char* file : {"a.su2", "a.su2.json"}) EXPECT_TRUE(bytes_of(folder_ / name / file) == bytes_of(folder_ / "plain" / file)) << name << " " << file;
-  EXPECT_THAT(test::run_process(test::sterna_program(), {"cache", "--folder", "cache", "--list"}, folder_).output, AllOf(HasSubstr("surface_mesh"), HasSubstr("envelope"), HasSubstr("volume_mesh")));
+  EXPECT_THAT(test::run_process(test::sterna_program(), {"cache", "--folder", "cache", "--list"}, folder_).output,
+              AllOf(HasSubstr("surface_mesh"), HasSubstr("envelope"), HasSubstr("volume_mesh")));
   EXPECT_THAT(test::run_process(test::sterna_program(), {"cache", "--folder", "cache", "--clear"}, folder_).output, HasSubstr("removed 3 entries"));
 }
 
@@ -329,7 +363,8 @@ TEST_F(CachedRun, MeshOfTheCommandLineHasItsCacheToo) {
   for (const std::string input : {"b.stl", "b.step"}) {
     const auto mesh = [&](const std::string& output, const std::vector<std::string>& more) {
       std::filesystem::create_directories(folder_ / output);
-      std::vector<std::string> arguments = {"mesh", input, "--layers", "2", "--first-height", "0.01", "--farfield", "sphere radius=6 edge=3", "-o", output + "/a.su2"};
+      std::vector<std::string> arguments = {"mesh",           input, "--layers", "2", "--first-height", "0.01", "--farfield", "sphere radius=6 edge=3", "-o",
+                                            output + "/a.su2"};
       arguments.insert(arguments.end(), more.begin(), more.end());
       return test::run_process(test::sterna_program(), arguments, folder_);
     };
@@ -338,7 +373,8 @@ TEST_F(CachedRun, MeshOfTheCommandLineHasItsCacheToo) {
     const test::ProcessResult warm = mesh("warm", {"--cache", "of_mesh", "--stats", "stats.json"});
     EXPECT_THAT(warm.errors, HasSubstr("from the cache"));
     for (const char* folder : {"cold", "warm"})
-      for (const char* file : {"a.su2", "a.su2.json"}) EXPECT_TRUE(bytes_of(folder_ / folder / file) == bytes_of(folder_ / "plain" / file)) << input << " " << folder << " " << file;
+      for (const char* file : {"a.su2", "a.su2.json"})
+        EXPECT_TRUE(bytes_of(folder_ / folder / file) == bytes_of(folder_ / "plain" / file)) << input << " " << folder << " " << file;
   }
 }
 

@@ -90,9 +90,13 @@ TEST(ContentKeys, EveryOptionOfASurfaceMeshIsInItsKey) {
     change(option);
     EXPECT_TRUE(seen.insert(key_of(recipe)).second) << option.name;
   }
-  double surfmesh::PatchSurfaceOptions::*const members[] = {
-      &surfmesh::PatchSurfaceOptions::max_edge, &surfmesh::PatchSurfaceOptions::min_edge, &surfmesh::PatchSurfaceOptions::curvature_angle, &surfmesh::PatchSurfaceOptions::chord_error,
-      &surfmesh::PatchSurfaceOptions::leading_edge_chordwise, &surfmesh::PatchSurfaceOptions::trailing_edge_cells, &surfmesh::PatchSurfaceOptions::trailing_edge_factor};
+  double surfmesh::PatchSurfaceOptions::*const members[] = {&surfmesh::PatchSurfaceOptions::max_edge,
+                                                            &surfmesh::PatchSurfaceOptions::min_edge,
+                                                            &surfmesh::PatchSurfaceOptions::curvature_angle,
+                                                            &surfmesh::PatchSurfaceOptions::chord_error,
+                                                            &surfmesh::PatchSurfaceOptions::leading_edge_chordwise,
+                                                            &surfmesh::PatchSurfaceOptions::trailing_edge_cells,
+                                                            &surfmesh::PatchSurfaceOptions::trailing_edge_factor};
   for (const auto member : members) {
     SurfaceRecipe recipe;
     recipe.patches = {{.names = "wing*"}};

@@ -18,15 +18,19 @@ using testing::HasSubstr;
 
 class StageCacheTest : public testing::Test {
  protected:
-  StageCache cache(double limit = k_cache_limit, const std::string& identity = "this build") const { return StageCache({.folder = folder_, .limit = limit, .identity = identity}); }
+  StageCache cache(double limit = k_cache_limit, const std::string& identity = "this build") const {
+    return StageCache({.folder = folder_, .limit = limit, .identity = identity});
+  }
   static ContentKey key(int number) { return KeyMaker("test").add(number).key(); }
   void store(const StageCache& cache, int number, const std::string& text) {
-    cache.store("stage", key(number), [&](ByteSink& sink) { write_value(sink, text); }, context_);
+    cache.store(
+        "stage", key(number), [&](ByteSink& sink) { write_value(sink, text); }, context_);
   }
   /// "-": there is none.
   std::string find(const StageCache& cache, int number) {
     std::string text = "-";
-    const bool is_found = cache.find("stage", key(number), [&](ByteSource& source) { read_value(source, text); }, context_);
+    const bool is_found = cache.find(
+        "stage", key(number), [&](ByteSource& source) { read_value(source, text); }, context_);
     return is_found ? text : "-";
   }
   std::filesystem::path only_file() const {
@@ -55,7 +59,8 @@ TEST_F(StageCacheTest, WhatWasStoredComesBackAndNothingElse) {
   EXPECT_EQ(find(one, 1), "a text");
   EXPECT_EQ(find(one, 2), std::string(3'000'000, 'x') + "end");
   EXPECT_EQ(find(one, 3), "-");
-  EXPECT_FALSE(one.find("another stage", key(1), [](ByteSource&) { ADD_FAILURE(); }, context_));
+  EXPECT_FALSE(one.find(
+      "another stage", key(1), [](ByteSource&) { ADD_FAILURE(); }, context_));
   EXPECT_EQ(find(cache(), 1), "a text") << "another process";
   EXPECT_EQ(find(cache(k_cache_limit, "another build"), 1), "-");
   EXPECT_EQ(log_, "");
@@ -74,7 +79,8 @@ TEST_F(StageCacheTest, DamagedEntriesAreNoticedRemovedAndMadeAnew) {
   store(one, 1, text);
   const std::filesystem::path path = only_file();
   const std::string whole = bytes_of(path);
-  std::vector<std::string> damaged = {"", whole.substr(0, 10), whole.substr(0, 48), whole.substr(0, whole.size() - 1), whole + "x", std::string(whole.size(), '\0')};
+  std::vector<std::string> damaged = {
+      "", whole.substr(0, 10), whole.substr(0, 48), whole.substr(0, whole.size() - 1), whole + "x", std::string(whole.size(), '\0')};
   for (std::size_t i = 0; i < whole.size(); ++i) {
     damaged.push_back(whole);
     damaged.back()[i] = static_cast<char>(damaged.back()[i] ^ 4);
@@ -104,7 +110,13 @@ TEST_F(StageCacheTest, AnEntryUnderTheNameOfAnotherIsRefused) {
 TEST_F(StageCacheTest, ReadersThatFindSomethingElseRemoveTheEntry) {
   const StageCache one = cache();
   store(one, 1, "one");
-  EXPECT_FALSE(one.find("stage", key(1), [](ByteSource& source) { std::vector<double> numbers; read_value(source, numbers); }, context_));
+  EXPECT_FALSE(one.find(
+      "stage", key(1),
+      [](ByteSource& source) {
+        std::vector<double> numbers;
+        read_value(source, numbers);
+      },
+      context_));
   EXPECT_THAT(log_, HasSubstr("damaged"));
   EXPECT_TRUE(StageCache::entries(folder_).empty());
 }
@@ -134,13 +146,16 @@ TEST_F(StageCacheTest, WhatIsBeingReadDoesNotGo) {
   const StageCache one = cache(1500.0);
   store(one, 1, std::string(1000, 'x'));
   bool is_read = false;
-  ASSERT_TRUE(one.find("stage", key(1), [&](ByteSource& source) {
-    store(cache(1500.0), 2, std::string(1000, 'y'));
-    EXPECT_EQ(StageCache::entries(folder_).size(), 2u);
-    std::string text;
-    read_value(source, text);
-    is_read = text == std::string(1000, 'x');
-  }, context_));
+  ASSERT_TRUE(one.find(
+      "stage", key(1),
+      [&](ByteSource& source) {
+        store(cache(1500.0), 2, std::string(1000, 'y'));
+        EXPECT_EQ(StageCache::entries(folder_).size(), 2u);
+        std::string text;
+        read_value(source, text);
+        is_read = text == std::string(1000, 'x');
+      },
+      context_));
   EXPECT_TRUE(is_read);
 }
 

@@ -17,7 +17,8 @@ class CheckScript : public ScriptFixture {
   std::vector<std::string> problems(const std::string& text, OptionOverrides arguments = {}) {
     std::ofstream(folder_ / "case.lua") << text;
     ScriptCheck check;
-    check_script({.script = folder_ / "case.lua", .overrides = {}, .print = {}, .on_mesh = {}, .arguments = std::move(arguments)}, check, RunContext({.threads = 1}));
+    check_script({.script = folder_ / "case.lua", .overrides = {}, .print = {}, .on_mesh = {}, .arguments = std::move(arguments)}, check,
+                 RunContext({.threads = 1}));
     std::vector<std::string> found;
     for (const ErrorHandle& problem : check.problems) found.emplace_back(problem->what());
     return found;
@@ -25,7 +26,12 @@ class CheckScript : public ScriptFixture {
   std::string run_with(const std::string& text, OptionOverrides arguments) {
     std::ofstream(folder_ / "case.lua") << text;
     std::string printed;
-    run_script({.script = folder_ / "case.lua", .overrides = {}, .print = [&](std::string_view line) { printed += std::string(line) + "\n"; }, .on_mesh = {}, .arguments = std::move(arguments)}, RunContext({.threads = 1}));
+    run_script({.script = folder_ / "case.lua",
+                .overrides = {},
+                .print = [&](std::string_view line) { printed += std::string(line) + "\n"; },
+                .on_mesh = {},
+                .arguments = std::move(arguments)},
+               RunContext({.threads = 1}));
     return printed;
   }
   std::string error_with(const std::string& text, OptionOverrides arguments) {
@@ -60,7 +66,8 @@ tetrahedra{ kept.envelope }
 
 TEST_F(CheckScript, ACorrectScriptIsCorrectAndWritesNothing) {
   EXPECT_THAT(problems(k_whole_case), testing::IsEmpty());
-  EXPECT_THAT(problems("local c = envelope.classify{ surface_mesh{ box{ {0,0,0}, {1,1,1} } } } local e = envelope.initial{ surface_mesh{ box{ {0,0,0}, {1,1,1} } }, c, first_height = 1e-3 }\n"
+  EXPECT_THAT(problems("local c = envelope.classify{ surface_mesh{ box{ {0,0,0}, {1,1,1} } } } local e = envelope.initial{ surface_mesh{ box{ {0,0,0}, {1,1,1} "
+                       "} }, c, first_height = 1e-3 }\n"
                        "for _, step in ipairs{ 'smooth', 'untangle', 'unwarp', 'retract', 'optimise' } do e = envelope[step]{ e } end e:write 'e.vtu'"),
               testing::IsEmpty());
   std::vector<std::string> files;
@@ -113,7 +120,9 @@ TEST_F(CheckScript, TheFunctionOfASeriesRunsOnceAndNothingIsMade) {
   EXPECT_EQ(files, std::vector<std::string>{"case.lua"});
 }
 
-TEST_F(CheckScript, WhatAScriptCatchesIsNoMistake) { EXPECT_THAT(problems("local ok, e = pcall(read_surface, 'absent.stl') assert(not ok and e.code == 'file_not_found')"), testing::IsEmpty()); }
+TEST_F(CheckScript, WhatAScriptCatchesIsNoMistake) {
+  EXPECT_THAT(problems("local ok, e = pcall(read_surface, 'absent.stl') assert(not ok and e.code == 'file_not_found')"), testing::IsEmpty());
+}
 
 TEST_F(CheckScript, IsACommand) {
   std::ofstream(folder_ / "case.lua") << "volume_mesh{ layers = 0 }\nread_surfaces 'a.stl'\n";
@@ -136,7 +145,8 @@ TEST_F(CheckScript, ArgumentsHaveTheTypeOfTheirDefaults) {
 
 TEST_F(CheckScript, WrongArgumentsAreErrorsWithASuggestion) {
   EXPECT_THAT(error_with("args{ alpha = 0 }", {{"alhpa", "4"}}), HasSubstr("this script has no argument alhpa, did you mean alpha?"));
-  EXPECT_THAT(error_with("args{ alpha = 0, half = true }", {{"alpha", "steep"}, {"half", "2"}}), testing::AllOf(HasSubstr("argument alpha=steep: expected a number"), HasSubstr("argument half=2: expected true or false")));
+  EXPECT_THAT(error_with("args{ alpha = 0, half = true }", {{"alpha", "steep"}, {"half", "2"}}),
+              testing::AllOf(HasSubstr("argument alpha=steep: expected a number"), HasSubstr("argument half=2: expected true or false")));
   EXPECT_THAT(error_with("args{ 'alpha' }", {}), HasSubstr("argument alpha is missing: sterna run case.lua alpha=VALUE"));
   EXPECT_THAT(error_with("print(args.alpha)", {{"alhpa", "4"}}), HasSubstr("argument alpha was not given, but alhpa was"));
   std::ofstream(folder_ / "case.lua") << "print(args{ alpha = 0 }.alpha)";
@@ -145,9 +155,11 @@ TEST_F(CheckScript, WrongArgumentsAreErrorsWithASuggestion) {
 }
 
 TEST_F(CheckScript, WorkersOfASeriesGetTheArguments) {
-  std::ofstream(folder_ / "case.lua") << "local p = args{ alpha = 0, name = '' }\nlocal r = series{ 's', over = { x = {1, 2} }, cache = false, case = function(q) return { y = p.alpha + q.x, name = p.name } end }\n"
+  std::ofstream(folder_ / "case.lua") << "local p = args{ alpha = 0, name = '' }\nlocal r = series{ 's', over = { x = {1, 2} }, cache = false, case = "
+                                         "function(q) return { y = p.alpha + q.x, name = p.name } end }\n"
                                          "print(r.cases[1].result.y, r.cases[2].result.y, r.cases[2].result.name)";
-  const test::ProcessResult result = test::run_process(test::sterna_program(), {"run", "case.lua", "alpha=-4", "name=a b=c", "--set", "envelope.layers=3"}, folder_);
+  const test::ProcessResult result =
+      test::run_process(test::sterna_program(), {"run", "case.lua", "alpha=-4", "name=a b=c", "--set", "envelope.layers=3"}, folder_);
   EXPECT_EQ(result.status, 0) << result.errors;
   EXPECT_THAT(result.output, HasSubstr("-3\t-2\ta b=c\n"));
   EXPECT_EQ(test::run_process(test::sterna_program(), {"run", "case.lua", "alhpa=4"}, folder_).status, 2);
@@ -157,29 +169,41 @@ TEST_F(CheckScript, WorkersOfASeriesGetTheArguments) {
 
 TEST_F(CheckScript, StepsByHandRefuseWhatTheyDoNotDo) {
   const std::string two = "local wall = surface_mesh{ box{ {0,0,0}, {1,1,1} }, box{ {4,0,0}, {5,1,1} }:rotate{ pitch = 10*deg }, max_edge = 0.5 }\n";
-  EXPECT_THAT(error(two + "envelope.classify{ wall }"), testing::AllOf(HasSubstr("envelope.classify: the wall has 2 parts whose envelopes are made in their own frames"), HasSubstr("make_envelope{ wall, ... } does all of it")));
-  EXPECT_THAT(error("local wall = surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_edge = 0.5 }:move{ 0, 0, 1 } envelope.classify{ wall }"), HasSubstr("the wall has 1 part whose envelopes are made in their own frames"));
+  EXPECT_THAT(error(two + "envelope.classify{ wall }"),
+              testing::AllOf(HasSubstr("envelope.classify: the wall has 2 parts whose envelopes are made in their own frames"),
+                             HasSubstr("make_envelope{ wall, ... } does all of it")));
+  EXPECT_THAT(error("local wall = surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_edge = 0.5 }:move{ 0, 0, 1 } envelope.classify{ wall }"),
+              HasSubstr("the wall has 1 part whose envelopes are made in their own frames"));
 }
 
 TEST_F(CheckScript, StepsInTheirOrderGiveTheSameBytesAsOneVerb) {
   const std::string wall = "local wall = surface_mesh{ box{ {0,0,0}, {1,1,1} }, max_edge = 0.3 }\n";
-  run(wall + "local env = make_envelope{ wall, layers = 4, first_height = 0.01, max_growth = 1.3 } env:write(" + out("one.sterna") + ") prisms{ env, tetrahedra{ env, farfield = sphere{ radius = 5 } } }:write(" + out("one.su2") + ")");
+  run(wall + "local env = make_envelope{ wall, layers = 4, first_height = 0.01, max_growth = 1.3 } env:write(" + out("one.sterna") +
+      ") prisms{ env, tetrahedra{ env, farfield = sphere{ radius = 5 } } }:write(" + out("one.su2") + ")");
   const std::string printed = run(wall +
                                   "local class = envelope.classify{ wall } print(class)\n"
                                   "local env = envelope.initial{ wall, class, layers = 4, first_height = 0.01, max_growth = 1.3 } print(env, env.step)\n"
                                   "env = envelope.smooth{ env }; env = envelope.untangle{ env }\n"
-                                  "env:write(" + out("between.sterna") + ") env = read_stages(" + out("between.sterna") + ").envelope print(env.step)\n"
+                                  "env:write(" +
+                                  out("between.sterna") + ") env = read_stages(" + out("between.sterna") +
+                                  ").envelope print(env.step)\n"
                                   "env = envelope.unwarp{ env }; env = envelope.retract{ env }; env = envelope.optimise{ env } print(env)\n"
-                                  "env:write(" + out("steps.sterna") + ") env:write(" + out("env.vtu") + ") prisms{ env, tetrahedra{ env, farfield = sphere{ radius = 5 } } }:write(" + out("steps.su2") + ")");
-  EXPECT_THAT(printed, testing::AllOf(HasSubstr("Classification: "), HasSubstr("Envelope, initial: "), HasSubstr("\tinitial\n"), HasSubstr("untangled\nEnvelope: ")));
+                                  "env:write(" +
+                                  out("steps.sterna") + ") env:write(" + out("env.vtu") +
+                                  ") prisms{ env, tetrahedra{ env, farfield = sphere{ radius = 5 } } }:write(" + out("steps.su2") + ")");
+  EXPECT_THAT(printed,
+              testing::AllOf(HasSubstr("Classification: "), HasSubstr("Envelope, initial: "), HasSubstr("\tinitial\n"), HasSubstr("untangled\nEnvelope: ")));
   EXPECT_EQ(text_of("one.su2"), text_of("steps.su2"));
 }
 
 TEST_F(CheckScript, EnvelopesThatAreNotReadyAreRefusedWithAReason) {
-  const std::string first = "local wall = surface_mesh{ union{ box{ {0,0,0}, {1,1,1} }, box{ {0.4,0.4,0.5}, {0.6,0.6,2} } }, max_edge = 0.2 } local class = envelope.classify{ wall }\n"
-                            "local env = envelope.initial{ wall, class, layers = 4, first_height = 0.05, max_thickness = 0.6 }\n";
+  const std::string first =
+      "local wall = surface_mesh{ union{ box{ {0,0,0}, {1,1,1} }, box{ {0.4,0.4,0.5}, {0.6,0.6,2} } }, max_edge = 0.2 } local class = envelope.classify{ wall "
+      "}\n"
+      "local env = envelope.initial{ wall, class, layers = 4, first_height = 0.05, max_thickness = 0.6 }\n";
   EXPECT_THAT(error(first + "tetrahedra{ class }"), HasSubstr("it has no heights yet"));
-  EXPECT_THAT(error(first + "tetrahedra{ env }"), testing::AllOf(HasSubstr("only initial"), HasSubstr("of its elements are invalid"), HasSubstr("envelope.unwarp{ env }")));
+  EXPECT_THAT(error(first + "tetrahedra{ env }"),
+              testing::AllOf(HasSubstr("only initial"), HasSubstr("of its elements are invalid"), HasSubstr("envelope.unwarp{ env }")));
   EXPECT_THAT(error(first + "envelope.retract{ env }"), HasSubstr("expected an envelope that is unwarped at least; this one is initial only"));
   EXPECT_THAT(error("envelope.smoth{}"), HasSubstr("did you mean envelope.smooth?"));
   EXPECT_THAT(error(first + "envelope.smooth{ env, height_sweep = 3 }"), HasSubstr("did you mean \"height_sweeps\"?"));
@@ -188,7 +212,8 @@ TEST_F(CheckScript, EnvelopesThatAreNotReadyAreRefusedWithAReason) {
 // ---- Help, tracebacks ------------------------------------------------------------------------------------------------------------------------
 
 TEST_F(CheckScript, HelpKnowsVerbsObjectsAndOptions) {
-  EXPECT_THAT(run("help(surface_mesh{ box{ {0,0,0}, {1,1,1} } })"), testing::AllOf(HasSubstr("surface: A triangulated surface"), HasSubstr("surface:write"), HasSubstr("is_closed: ")));
+  EXPECT_THAT(run("help(surface_mesh{ box{ {0,0,0}, {1,1,1} } })"),
+              testing::AllOf(HasSubstr("surface: A triangulated surface"), HasSubstr("surface:write"), HasSubstr("is_closed: ")));
   EXPECT_THAT(run("help 'mesh'"), testing::AllOf(HasSubstr("mesh:check"), HasSubstr("coverage: ")));
   EXPECT_THAT(run("help 'surface:write'"), HasSubstr("Writes a surface."));
   EXPECT_THAT(run("help 'first_height'"), testing::AllOf(HasSubstr("volume_mesh: first_height = required"), HasSubstr("make_envelope: first_height")));
@@ -199,25 +224,31 @@ TEST_F(CheckScript, HelpKnowsVerbsObjectsAndOptions) {
 
 TEST_F(CheckScript, FieldsAreThoseThatAreDocumented) {
   const std::string setup =
-      "local model = box{ {0,0,0}, {1,1,1} } local surface = surface_mesh{ model, max_edge = 0.5 } local envelope = make_envelope{ surface, layers = 2, first_height = 0.02 }\n"
-      "local tetrahedra = tetrahedra{ envelope, farfield = sphere{ radius = 5 } } local mesh = prisms{ envelope, tetrahedra } local airfoil = airfoil 'naca0012'\n"
+      "local model = box{ {0,0,0}, {1,1,1} } local surface = surface_mesh{ model, max_edge = 0.5 } local envelope = make_envelope{ surface, layers = 2, "
+      "first_height = 0.02 }\n"
+      "local tetrahedra = tetrahedra{ envelope, farfield = sphere{ radius = 5 } } local mesh = prisms{ envelope, tetrahedra } local airfoil = airfoil "
+      "'naca0012'\n"
       "local component = wing{ sections = { { y = 0, chord = 1, airfoil = 'naca0012' }, { y = 2 } } } local _, error = pcall(sphere, { radius = -1 })\n"
-      "local all = { model = model, surface = surface, envelope = envelope, tetrahedra = tetrahedra, mesh = mesh, airfoil = airfoil, component = component, error = error }\n";
+      "local all = { model = model, surface = surface, envelope = envelope, tetrahedra = tetrahedra, mesh = mesh, airfoil = airfoil, component = component, "
+      "error = error }\n";
   for (const ObjectKind& kind : object_kinds()) {
     const std::string name(kind.name);
     // The message about a field that is not there lists those that are.
-    const std::string message = run(setup + "if all." + name + " then print(select(2, pcall(function() return all." + name + ".no_such_field end)).message) end");
+    const std::string message =
+        run(setup + "if all." + name + " then print(select(2, pcall(function() return all." + name + ".no_such_field end)).message) end");
     if (message.empty()) continue;  // a kind that this test cannot make
     const std::string list = ", " + message.substr(message.find("try: ") + 5, message.find('\n', message.find("try: ")) - message.find("try: ") - 5) + ", ";
     int n_there = 0;
     for (const FieldDoc& field : kind.fields) n_there += list.find(", " + std::string(field.name) + ", ") != std::string::npos ? 1 : 0;
-    EXPECT_EQ(n_there + static_cast<int>(kind.methods().size()), std::count(list.begin(), list.end(), ',') - 1) << name << " has fields that are not documented: " << list;
+    EXPECT_EQ(n_there + static_cast<int>(kind.methods().size()), std::count(list.begin(), list.end(), ',') - 1)
+        << name << " has fields that are not documented: " << list;
   }
 }
 
 TEST_F(CheckScript, ErrorsOutOfFunctionsHaveATraceback) {
   const std::string text = error("local function inner(r)\n  return sphere{ radius = r }\nend\nlocal function outer()\n  return (inner(-1))\nend\nouter()\n");
-  EXPECT_THAT(text, testing::AllOf(HasSubstr("case.lua:2: sphere"), HasSubstr("called from, innermost first:"), HasSubstr("case.lua:5: in"), HasSubstr("case.lua:7: in the script")));
+  EXPECT_THAT(text, testing::AllOf(HasSubstr("case.lua:2: sphere"), HasSubstr("called from, innermost first:"), HasSubstr("case.lua:5: in"),
+                                   HasSubstr("case.lua:7: in the script")));
   EXPECT_THAT(error("sphere{ radius = -1 }"), testing::Not(HasSubstr("called from")));
 }
 

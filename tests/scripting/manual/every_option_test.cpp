@@ -1,4 +1,5 @@
-// Every option of every verb is set once through Lua, read off the verbs' own help, so that a new verb is here by itself; every option of every command once through the command line.
+// Every option of every verb is set once through Lua, read off the verbs' own help, so that a new verb is here by itself; every option of every command once
+// through the command line.
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -23,7 +24,8 @@ namespace {
 /// The example with one more entry in its table, or another value of one that it has.
 std::string with_entry(const std::string& example, const std::string& name, const std::string& entry) {
   const std::regex given("([{,] *)" + name + " = [^,{}]*[^,{} ]");
-  if (std::regex_search(example, given)) return std::regex_replace(example, given, "$1" + std::regex_replace(entry, std::regex("\\$"), "$$$$"), std::regex_constants::format_first_only);
+  if (std::regex_search(example, given))
+    return std::regex_replace(example, given, "$1" + std::regex_replace(entry, std::regex("\\$"), "$$$$"), std::regex_constants::format_first_only);
   const std::size_t end = example.rfind('}');
   if (end != std::string::npos) return example.substr(0, end) + ", " + entry + " }" + example.substr(end + 1);
   const std::size_t open = example.find_first_of(" (");  // verb "text", object:method(...)
@@ -36,7 +38,8 @@ std::string with_entry(const std::string& example, const std::string& name, cons
 /// Where an option stands in the table of its verb: itself, or in a table in it that the line above it in the help names.
 std::string entry_of(const OptionGroup& group, const std::string& assignment) {
   std::smatch match;
-  if (std::regex_search(group.title, match, std::regex("patches = \\{ \\[\"[^\"]*\"\\] = \\{ \\.\\.\\. \\} \\}"))) return "patches = { [\"*\"] = { " + assignment + " } }";
+  if (std::regex_search(group.title, match, std::regex("patches = \\{ \\[\"[^\"]*\"\\] = \\{ \\.\\.\\. \\} \\}")))
+    return "patches = { [\"*\"] = { " + assignment + " } }";
   if (std::regex_search(group.title, match, std::regex("(\\w+) = \\{ \\{"))) return std::string(match[1]) + " = { { " + assignment + " } }";
   return assignment;
 }
@@ -67,35 +70,50 @@ const std::map<std::string, std::string> k_statements = {
     {"fuselage.distortion", "fuselage{ frames = { { x = 0, diameter = 1 }, { x = 3, width = 2, height = 2, shape = 'egg', distortion = 0.2 } } }"},
     {"fuselage.points", "fuselage{ frames = { { x = 0, points = { {0, -1}, {1, 0}, {0, 1} } }, { x = 3, points = { {0, -1}, {1, 0}, {0, 1} } } } }"},
     {"wing.winglet", "wing{ sections = { { y = 0, chord = 2, airfoil = 'naca0012' }, { y = 5, chord = 1 } }, winglet = { height = 1, cant = 80*deg } }"},
-    {"wing:deflect.hinge", "wing{ sections = { { y = 0, chord = 2, airfoil = 'naca0012' }, { y = 5, chord = 1 } } }:deflect{ 'flap', hinge = { {0.1, 0.7}, {0.5, 0.7} }, angle = 5*deg }"},
-    {"wing:control.hinge", "wing{ sections = { { y = 0, chord = 2, airfoil = 'naca0012' }, { y = 5, chord = 1 } } }:control{ 'flap', hinge = { {0.1, 0.7}, {0.5, 0.7} } }"},
+    {"wing:deflect.hinge",
+     "wing{ sections = { { y = 0, chord = 2, airfoil = 'naca0012' }, { y = 5, chord = 1 } } }:deflect{ 'flap', hinge = { {0.1, 0.7}, {0.5, 0.7} }, angle = "
+     "5*deg }"},
+    {"wing:control.hinge",
+     "wing{ sections = { { y = 0, chord = 2, airfoil = 'naca0012' }, { y = 5, chord = 1 } } }:control{ 'flap', hinge = { {0.1, 0.7}, {0.5, 0.7} } }"},
 };
 
 /// Flow conditions that go together.
-const std::vector<std::string> k_flows = {"mach = 0.5, altitude = 1000, temperature_offset = 10, length = 2", "speed = 60, temperature = 293, pressure = 101325, length = 0.3",
+const std::vector<std::string> k_flows = {"mach = 0.5, altitude = 1000, temperature_offset = 10, length = 2",
+                                          "speed = 60, temperature = 293, pressure = 101325, length = 0.3",
                                           "speed = 60, density = 1.2, viscosity = 1.8e-5, length = 0.3", "reynolds = 5e6, length = 7"};
-const std::map<std::string_view, std::string> k_flow_verbs = {{"flow", "flow{ "}, {"y_plus", "y_plus{ 1, "}, {"boundary_layer", "boundary_layer{ "}, {"mesh:su2_config", "mesh:su2_config{ 'case.cfg', reference_area = 1, "}};
+const std::map<std::string_view, std::string> k_flow_verbs = {{"flow", "flow{ "},
+                                                              {"y_plus", "y_plus{ 1, "},
+                                                              {"boundary_layer", "boundary_layer{ "},
+                                                              {"mesh:su2_config", "mesh:su2_config{ 'case.cfg', reference_area = 1, "}};
 
 /// The statements in which an option may be set: the examples with it in their table.
 std::vector<std::string> statements_for(const ScriptVerb& verb, const OptionGroup& group, const OptionDoc& option) {
   if (const auto known = k_statements.find(std::string(verb.name) + "." + option.name); known != k_statements.end()) return {known->second};
   std::vector<std::string> statements;
-  const std::string assignment = option.name + " = " + (option.name == "airfoil" ? "'naca0012'" : option.value == "{x, y, z}" ? "{1, 5, 0.5}" : other_value(option));
+  const std::string assignment = option.name + " = " +
+                                 (option.name == "airfoil"      ? "'naca0012'"
+                                  : option.value == "{x, y, z}" ? "{1, 5, 0.5}"
+                                                                : other_value(option));
   if (const auto verb_of_flow = k_flow_verbs.find(verb.name); verb_of_flow != k_flow_verbs.end()) {
-    if (group.title.find("boundaries = {") != std::string::npos) return {verb_of_flow->second + k_flows.front() + ", boundaries = { prop = { " + assignment + " } } }"};
+    if (group.title.find("boundaries = {") != std::string::npos)
+      return {verb_of_flow->second + k_flows.front() + ", boundaries = { prop = { " + assignment + " } } }"};
     for (const std::string& flow : k_flows)
       if ((", " + flow).find(", " + option.name + " = ") != std::string::npos) return {verb_of_flow->second + flow + " }"};
   }
   const std::string root = "wing{ sections = { { y = 0, chord = 2, airfoil = 'naca0012' }, { ";
-  if (group.title.starts_with("each section")) return {root + assignment + ", y = 5 } } }", root + assignment + " } } }", root + "y = 5, " + assignment + ", z = 1 } } }"};
+  if (group.title.starts_with("each section"))
+    return {root + assignment + ", y = 5 } } }", root + assignment + " } } }", root + "y = 5, " + assignment + ", z = 1 } } }"};
   if (group.title.starts_with("winglet")) return {root + "y = 5, chord = 1 } }, winglet = { height = 1, " + assignment + " } }"};
   for (const std::string& example : examples_of(verb)) {
     if (const std::size_t patch = example.find("[\"Body*\"] = { "); patch != std::string::npos && group.title.find("patches = {") != std::string::npos) {
       statements.push_back(example.substr(0, patch + 14) + assignment + ", " + example.substr(patch + 14));
       continue;
     }
-    if (option.value.starts_with("{") && example.find(" " + option.name + " = {") != std::string::npos) statements.push_back(example);  // a point or list that is there already
-    else statements.push_back(with_entry(example, option.name, entry_of(group, option.name + " = " + (option.value == "{x, y, z}" ? "{1, 0, 0.5}" : other_value(option)))));
+    if (option.value.starts_with("{") && example.find(" " + option.name + " = {") != std::string::npos)
+      statements.push_back(example);  // a point or list that is there already
+    else
+      statements.push_back(
+          with_entry(example, option.name, entry_of(group, option.name + " = " + (option.value == "{x, y, z}" ? "{1, 0, 0.5}" : other_value(option)))));
   }
   return statements;
 }
@@ -103,8 +121,12 @@ std::vector<std::string> statements_for(const ScriptVerb& verb, const OptionGrou
 class EveryOption : public testing::Test {
  protected:
   EveryOption() {
-    for (const char* name : {"wing.stl", "body.stl", "sting.stl", "model.step", "model.igs", "sting.step", "widebody.smx", "d150.xml", "mesh.su2", "case.sterna", "sizes.vtu"}) std::ofstream(folder_ / name) << "";
-    state_ = std::make_unique<ScriptState>(ScriptSettings{.script = folder_ / "case.lua", .overrides = {}, .print = [](std::string_view) {}, .on_mesh = {}, .check = &check_}, RunContext({.threads = 1}));
+    for (const char* name :
+         {"wing.stl", "body.stl", "sting.stl", "model.step", "model.igs", "sting.step", "widebody.smx", "d150.xml", "mesh.su2", "case.sterna", "sizes.vtu"})
+      std::ofstream(folder_ / name) << "";
+    state_ = std::make_unique<ScriptState>(
+        ScriptSettings{.script = folder_ / "case.lua", .overrides = {}, .print = [](std::string_view) {}, .on_mesh = {}, .check = &check_},
+        RunContext({.threads = 1}));
     state_->run(std::string(manual_setup()), "=setup");
   }
 
@@ -147,7 +169,8 @@ TEST_F(EveryOption, ThroughLua) {
           if (!problem.empty()) continue;
           n_read_back += is_set(option.name) ? 1 : 0;
           // The same one letter wrong is an error that names it.
-          const std::string wrong = option.name + "q", misspelt = std::regex_replace(statement, std::regex("([{,] *)" + option.name + " ="), "$1" + wrong + " =");
+          const std::string wrong = option.name + "q",
+                            misspelt = std::regex_replace(statement, std::regex("([{,] *)" + option.name + " ="), "$1" + wrong + " =");
           EXPECT_FALSE(problems_of(misspelt).empty()) << verb->name << ": " << misspelt;
           break;
         }
@@ -184,7 +207,8 @@ void expect_all_set(const Case& command, bool with_set, const std::filesystem::p
   for (const Option& option : command.options) {
     const auto& shown = json.at(std::string(option.stage)).at(std::string(option.name));
     const OptionValue wanted = other_value(option);
-    EXPECT_TRUE(std::visit([&](const auto& value) { return shown == nlohmann::json(value); }, wanted)) << option.stage << "." << option.name << ": " << shown << " instead of " << text_of(wanted);
+    EXPECT_TRUE(std::visit([&](const auto& value) { return shown == nlohmann::json(value); }, wanted))
+        << option.stage << "." << option.name << ": " << shown << " instead of " << text_of(wanted);
     EXPECT_NE(wanted, option.default_value) << option.name;
   }
 }
@@ -204,7 +228,8 @@ TEST(EveryOptionOfCommands, IsSetAsAnOptionAndWithSet) {
   for (Option& option : sterna::options_of(writing)) converting.push_back(std::move(option));
   OptionTable of_model = volmesh::options_of(volume);
   for (Option& option : model_surface_options(surface, reading)) of_model.push_back(std::move(option));
-  const Case mesh{{"mesh", "box.stl", "-o", "m.su2"}, all_options(stitch, volume)}, mesh_of_model{{"mesh", "m.step", "-o", "m.su2"}, of_model}, of_surface{{"surface", "m.step", "-o", "s.stl"}, model_surface_options(surface, reading)},
+  const Case mesh{{"mesh", "box.stl", "-o", "m.su2"}, all_options(stitch, volume)}, mesh_of_model{{"mesh", "m.step", "-o", "m.su2"}, of_model},
+      of_surface{{"surface", "m.step", "-o", "s.stl"}, model_surface_options(surface, reading)},
       halving{{"half", "box.stl", "-o", "h.stl"}, sterna::options_of(half)}, uniting{{"union", "box.stl", "-o", "u.stl"}, sterna::options_of(unite)},
       of_models{{"union", "m.step", "-o", "u.step"}, sterna::options_of(unite_models)}, convert{{"convert", "m.step", "c.step"}, converting};
   DrawOptions draw;

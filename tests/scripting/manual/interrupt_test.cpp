@@ -35,7 +35,9 @@ TEST_P(Interrupt, EndsWithinASecondAndLeavesNothing) {
   std::ofstream(folder / "case.lua") << work.script << "\nprint 'ended'\n";
   const auto names = [&] {
     std::vector<std::string> found;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) if (!entry.path().filename().string().starts_with("written.vtu")) found.push_back(entry.path().lexically_relative(folder).string());  // whole, from the loop before
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+      if (!entry.path().filename().string().starts_with("written.vtu"))
+        found.push_back(entry.path().lexically_relative(folder).string());  // whole, from the loop before
     std::sort(found.begin(), found.end());
     return found;
   };
@@ -59,24 +61,30 @@ TEST_P(Interrupt, EndsWithinASecondAndLeavesNothing) {
   RecordProperty("seconds", std::to_string(quickest));
 }
 
-
 const Work k_work[] = {
     {"loop", "", "while true do end"},
     {"pcall", "", "while true do pcall(function() while true do end end) print 'went on' end"},
     {"xpcall", "", "while true do xpcall(function() while true do end end, function() while true do end end) print 'went on' end"},
     {"pcall_of_a_verb", "", "for i = 1, 1e9 do pcall(surface_mesh, { box{ {0, 0, 0}, {1, 1, 1} }, max_edge = 0.003 }) print 'went on' end"},
-    {"metamethod", "", "local t = setmetatable({}, { __index = function(t, k) return t[k + 1] end, __close = function() while true do end end }) do local c <close> = t while true do end end"},
+    {"metamethod", "",
+     "local t = setmetatable({}, { __index = function(t, k) return t[k + 1] end, __close = function() while true do end end }) do local c <close> = t while "
+     "true do end end"},
     {"rep_and_gsub", "", "while true do string.rep('ab', 2^28):gsub('a', 'x') end"},
     {"pattern", "", "string.find(string.rep('a', 100000), '.-.-.-.-.-b')"},
-    {"sort", "", "local t = {} for i = 1, 2^23 do t[i] = (i * 7919) % 1000003 end while true do table.sort(t) table.sort(t, function(a, b) return a > b end) end"},
+    {"sort", "",
+     "local t = {} for i = 1, 2^23 do t[i] = (i * 7919) % 1000003 end while true do table.sort(t) table.sort(t, function(a, b) return a > b end) end"},
     {"move", "", "table.move({}, 1, 2^40, 2)"},
     {"callback", "", "box{ {0, 0, 0}, {1, 1, 1} }:deform{ function() while true do end end }"},
     {"surface_mesh", "", "surface_mesh{ box{ {0, 0, 0}, {1, 1, 1} }, max_edge = 0.002 }"},
-    {"union", "", "local all = {} for i = 1, 12 do all[i] = body_of_revolution{ name = 'b' .. i, position = {0.3 * i, 0.1 * i, 0}, profile = { {0, 0}, {0.5, 0.6}, {1, 0.8}, {2, 0.9}, {3, 0.5}, {4, 0} } } end union(all)"},
-    {"envelope", "surface_mesh{ box{ {0, 0, 0}, {1, 1, 1} }, max_edge = 0.012 }:write 'wall.stl'", "local wall = read_surface 'wall.stl' while true do make_envelope{ wall, first_height = 1e-4 } end", 1.5},
+    {"union", "",
+     "local all = {} for i = 1, 12 do all[i] = body_of_revolution{ name = 'b' .. i, position = {0.3 * i, 0.1 * i, 0}, profile = { {0, 0}, {0.5, 0.6}, {1, "
+     "0.8}, {2, 0.9}, {3, 0.5}, {4, 0} } } end union(all)"},
+    {"envelope", "surface_mesh{ box{ {0, 0, 0}, {1, 1, 1} }, max_edge = 0.012 }:write 'wall.stl'",
+     "local wall = read_surface 'wall.stl' while true do make_envelope{ wall, first_height = 1e-4 } end", 1.5},
     {"tetrahedra", "make_envelope{ surface_mesh{ box{ {0, 0, 0}, {1, 1, 1} }, max_edge = 0.03 }, layers = 3, first_height = 1e-2 }:write 'env.sterna'",
      "tetrahedra{ read_stages('env.sterna').envelope, sources = { box{ {-1, -1, -1}, {2, 2, 2}, size = 0.02 } } }", 2.0},
-    {"reading", "local wall = surface_mesh{ box{ {0, 0, 0}, {1, 1, 1} }, max_edge = 0.006 } wall:write 'wall.stl'", "for i = 1, 1e9 do read_surface 'wall.stl' end"},
+    {"reading", "local wall = surface_mesh{ box{ {0, 0, 0}, {1, 1, 1} }, max_edge = 0.006 } wall:write 'wall.stl'",
+     "for i = 1, 1e9 do read_surface 'wall.stl' end"},
     {"writing", "", "local wall = surface_mesh{ box{ {0, 0, 0}, {1, 1, 1} }, max_edge = 0.02 } for i = 1, 1e9 do wall:write 'written.vtu' end", 1.2},
 };
 INSTANTIATE_TEST_SUITE_P(Everything, Interrupt, testing::ValuesIn(k_work), [](const auto& info) { return std::string(info.param.name); });

@@ -13,7 +13,8 @@ namespace sterna::scripting {
 namespace {
 
 /// A point with a wanted size, for size_samples.
-constexpr const char* k_sizes_vtu = R"(<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"><UnstructuredGrid><Piece NumberOfPoints="1" NumberOfCells="1">
+constexpr const char* k_sizes_vtu =
+    R"(<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64"><UnstructuredGrid><Piece NumberOfPoints="1" NumberOfCells="1">
 <PointData><DataArray type="Float64" Name="size" format="ascii">0.5</DataArray></PointData>
 <Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">2 0 0</DataArray></Points>
 <Cells><DataArray type="Int64" Name="connectivity" format="ascii">0</DataArray><DataArray type="Int64" Name="offsets" format="ascii">1</DataArray><DataArray type="UInt8" Name="types" format="ascii">1</DataArray></Cells>
@@ -42,7 +43,8 @@ TEST(Manual, EveryExampleRuns) {
   const std::filesystem::path folder = test::scratch();
   const InFolder in(folder);
   std::ofstream("sizes.vtu") << k_sizes_vtu;
-  if (!std::filesystem::exists("wall.stl")) std::filesystem::copy(std::filesystem::path(STERNA_SOURCE_DIR) / "tests" / "data" / "scripts" / "box.stl", "wall.stl");
+  if (!std::filesystem::exists("wall.stl"))
+    std::filesystem::copy(std::filesystem::path(STERNA_SOURCE_DIR) / "tests" / "data" / "scripts" / "box.stl", "wall.stl");
   const bool has_cpacs = std::filesystem::exists(test::shared_data() / "cpacs" / "simpletest.cpacs.xml");
   if (has_cpacs) std::filesystem::copy(test::shared_data() / "cpacs" / "simpletest.cpacs.xml", "d150.xml");
   ScriptState state({.script = folder / "case.lua", .overrides = {}, .print = [](std::string_view) {}, .on_mesh = {}}, RunContext({.threads = 2}));

@@ -33,7 +33,8 @@ std::string number_text(double value) {
 OptionValue other_value(const Option& option) {
   switch (option.kind) {
     case OptionKind::boolean: return !std::get<bool>(option.default_value);
-    case OptionKind::integer: return static_cast<std::int64_t>(other_number(static_cast<double>(std::get<std::int64_t>(option.default_value)), option.min, option.max, true));
+    case OptionKind::integer:
+      return static_cast<std::int64_t>(other_number(static_cast<double>(std::get<std::int64_t>(option.default_value)), option.min, option.max, true));
     case OptionKind::text: return option.choices.empty() ? "other" : first_other_word(std::string(option.choices), std::get<std::string>(option.default_value));
     case OptionKind::number: break;
   }
@@ -51,7 +52,8 @@ std::string text_of(const OptionValue& value) {
 std::string other_value(const OptionDoc& option) {
   if (option.value == "true" || option.value == "false") return option.value == "true" ? "false" : "true";
   if (option.range.starts_with("one of ")) {
-    const std::string words = std::regex_replace(option.range.substr(7), std::regex(","), " "), value = option.value.substr(0, option.value.find_last_of('"') + 1);
+    const std::string words = std::regex_replace(option.range.substr(7), std::regex(","), " "),
+                      value = option.value.substr(0, option.value.find_last_of('"') + 1);
     return "\"" + first_other_word(words, value.size() > 2 ? value.substr(1, value.size() - 2) : "") + "\"";
   }
   if (option.value.starts_with('"') || (option.value == "required" && option.range.empty())) return "\"other\"";

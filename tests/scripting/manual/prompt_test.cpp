@@ -29,7 +29,8 @@ class Prompt : public testing::Test {
 };
 
 TEST_F(Prompt, PrintsExpressionsAndGoesOnAfterErrors) {
-  const test::ProcessResult result = say("1 + 1\nx = box{ {0,0,0}, {1,1,1} }\nx\nvolume_mash{}\nfor i = 1, 2 do\n  print(i)\nend\nx.faces\nnil + 1\n'still here'\n");
+  const test::ProcessResult result =
+      say("1 + 1\nx = box{ {0,0,0}, {1,1,1} }\nx\nvolume_mash{}\nfor i = 1, 2 do\n  print(i)\nend\nx.faces\nnil + 1\n'still here'\n");
   EXPECT_THAT(result.output, HasSubstr("2\nModel: 1 component, 6 faces"));
   EXPECT_THAT(result.output, HasSubstr("\n1\n2\n6\nstill here\n"));
   EXPECT_THAT(result.errors, testing::AllOf(HasSubstr("did you mean volume_mesh?"), HasSubstr("arithmetic on a nil value")));

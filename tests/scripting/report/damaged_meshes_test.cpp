@@ -1,4 +1,5 @@
-// A real mesh, damaged on purpose in one way at a time: the gate that should fail does, at the right place, in `sterna check --json` as in the page of `sterna report`.
+// A real mesh, damaged on purpose in one way at a time: the gate that should fail does, at the right place, in `sterna check --json` as in the page of `sterna
+// report`.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,8 +56,9 @@ class DamagedMeshes : public testing::Test {
       mesh_ = *base();
       return;
     }
-    std::ofstream(folder_ / "case.lua") << "local wall = read_surface{ \"" << (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() << "\", split_angle = 60*deg }\n"
-                                        << "volume_mesh{ wall, layers = 6, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length } }:write(\"case.sterna\")\n";
+    std::ofstream(folder_ / "case.lua")
+        << "local wall = read_surface{ \"" << (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() << "\", split_angle = 60*deg }\n"
+        << "volume_mesh{ wall, layers = 6, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length } }:write(\"case.sterna\")\n";
     const test::ProcessResult run = test::run_process(test::sterna_program(), {"--quiet", "run", "case.lua"}, folder_);
     ASSERT_EQ(run.status, 0) << run.output << run.errors;
     base() = explicit_cells(io::read_volume_file(folder_ / "case.sterna", RunContext({.threads = 2})));
@@ -156,7 +158,8 @@ TEST_F(DamagedMeshes, PinchedLayer) {
   const Point bottom = mesh_.points[prism[0]], top = mesh_.points[prism[3]];
   const double within = reach_of(mesh_, prism);
   const auto is_of_boundary = [&](NodeId node) {
-    return std::any_of(mesh_.boundary_triangles.begin(), mesh_.boundary_triangles.end(), [&](const BoundaryTriangle& t) { return std::find(t.nodes.begin(), t.nodes.end(), node) != t.nodes.end(); });
+    return std::any_of(mesh_.boundary_triangles.begin(), mesh_.boundary_triangles.end(),
+                       [&](const BoundaryTriangle& t) { return std::find(t.nodes.begin(), t.nodes.end(), node) != t.nodes.end(); });
   };
   const bool is_first = is_of_boundary(prism[0]);
   constexpr double k_left = 0.1;  // of the layer's height
@@ -182,10 +185,13 @@ TEST_F(DamagedMeshes, Sliver) {
     const auto& tet = mesh_.tetrahedra[t];
     for (std::size_t k = 0; k < 4; ++k) {
       if (!is_free[tet[k].index()]) continue;
-      const Point before = mesh_.points[tet[k]], base = (mesh_.points[tet[(k + 1) % 4]] + mesh_.points[tet[(k + 2) % 4]] + mesh_.points[tet[(k + 3) % 4]]) / 3.0;
+      const Point before = mesh_.points[tet[k]],
+                  base = (mesh_.points[tet[(k + 1) % 4]] + mesh_.points[tet[(k + 2) % 4]] + mesh_.points[tet[(k + 3) % 4]]) / 3.0;
       mesh_.points[tet[k]] = base + k_left * (before - base);
-      const bool is_valid = std::all_of(around[tet[k].index()].begin(), around[tet[k].index()].end(), [&](std::uint32_t other) { return is_tet_valid(points_of<4>(mesh_, mesh_.tetrahedra[other])); });
-      if (is_valid && tet_dihedral_range(points_of<4>(mesh_, tet))[0] < std::numbers::pi / 180.0) return expect_failure("G14", "min_dihedral", middle_of(mesh_, tet), reach_of(mesh_, tet), true);
+      const bool is_valid = std::all_of(around[tet[k].index()].begin(), around[tet[k].index()].end(),
+                                        [&](std::uint32_t other) { return is_tet_valid(points_of<4>(mesh_, mesh_.tetrahedra[other])); });
+      if (is_valid && tet_dihedral_range(points_of<4>(mesh_, tet))[0] < std::numbers::pi / 180.0)
+        return expect_failure("G14", "min_dihedral", middle_of(mesh_, tet), reach_of(mesh_, tet), true);
       mesh_.points[tet[k]] = before;
     }
   }

@@ -54,7 +54,8 @@ TEST_F(Report, HoldsTheMeshItsGatesPlacesAndHistograms) {
 }
 
 TEST_F(Report, WithoutTimesTheSameBytesForAnyNumberOfThreads) {
-  for (const int threads : {1, 2, 7}) run(mesh_script() + "report{ mesh, " + out("box" + std::to_string(threads) + ".html") + ", title = 'box', times = false }", {}, threads);
+  for (const int threads : {1, 2, 7})
+    run(mesh_script() + "report{ mesh, " + out("box" + std::to_string(threads) + ".html") + ", title = 'box', times = false }", {}, threads);
   // The manifest names the page's file.
   const auto without_name = [&](int threads) {
     std::string text = text_of("box" + std::to_string(threads) + ".html");
@@ -83,7 +84,8 @@ TEST_F(Report, RefusesWhatItCannotShow) {
   EXPECT_THAT(error(mesh_script() + "report{ mesh }"), HasSubstr("entry 2"));
   EXPECT_THAT(error("report{ 5, 'x.html' }"), HasSubstr("expected a mesh, a surface or the name of a file"));
   EXPECT_THAT(error("report{ 'nothing.su2', 'x.html' }"), HasSubstr("nothing.su2"));
-  EXPECT_THAT(error(mesh_script() + "report{ mesh, 'x.html', cuts = { { x = 1000 } } }"), HasSubstr("the plane is at 1000 m along (1, 0, 0), the mesh reaches from"));
+  EXPECT_THAT(error(mesh_script() + "report{ mesh, 'x.html', cuts = { { x = 1000 } } }"),
+              HasSubstr("the plane is at 1000 m along (1, 0, 0), the mesh reaches from"));
   EXPECT_THAT(error(mesh_script() + "report{ mesh, 'x.html', cuts = { 'leadin edge' } }"), HasSubstr("leadin edge"));
   EXPECT_THAT(error(mesh_script() + "report{ wall, 'x.html', cuts = 'tip' }"), HasSubstr("no cells to cut"));
   EXPECT_THAT(error(mesh_script() + "report{ mesh, 'x.html', titel = 'box' }"), HasSubstr("title"));
@@ -91,7 +93,8 @@ TEST_F(Report, RefusesWhatItCannotShow) {
 
 TEST_F(Report, OfFiles) {
   run(mesh_script() + "mesh:write(" + out("box.su2") + ")");
-  run("report{ " + out("box.su2") + ", " + out("box.html") + ", cuts = {} } report{ '" STERNA_SOURCE_DIR "/tests/data/scripts/box.stl', " + out("wall.html") + " }");
+  run("report{ " + out("box.su2") + ", " + out("box.html") + ", cuts = {} } report{ '" STERNA_SOURCE_DIR "/tests/data/scripts/box.stl', " + out("wall.html") +
+      " }");
   EXPECT_EQ(test::page_json(folder_ / "box.html")["title"], "box.su2");
   EXPECT_EQ(test::page_json(folder_ / "wall.html")["kind"], "surface");
 }
@@ -104,7 +107,8 @@ TEST_F(Report, CellsAreAVtuBesideTheMesh) {
 }
 
 TEST_F(Report, GatesOfTheUserDecideVerdictManifestAndPage) {
-  const std::string printed = run(mesh_script() + "mesh:check{ gates = { orthogonality = { hard = 89*deg, target = 89.5*deg, usual = false } } } mesh:write(" + out("box.su2") + ") report{ mesh, " + out("box.html") + " }");
+  const std::string printed = run(mesh_script() + "mesh:check{ gates = { orthogonality = { hard = 89*deg, target = 89.5*deg, usual = false } } } mesh:write(" +
+                                  out("box.su2") + ") report{ mesh, " + out("box.html") + " }");
   EXPECT_THAT(printed, HasSubstr("FAIL"));
   EXPECT_THAT(text_of("box.su2.json"), HasSubstr("\"failed\": [\n"));
   const nlohmann::json manifest = nlohmann::json::parse(text_of("box.su2.json")), page = test::page_json(folder_ / "box.html");

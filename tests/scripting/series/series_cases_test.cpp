@@ -80,7 +80,8 @@ TEST(SeriesCases, RangesMeetTheirEnd) {
 }
 
 TEST(ValueJson, KeepsKindsAndDigits) {
-  for (const char* text : {"0.1", "5", "5.0", "true", "\"a\\\"b\"", "[1,2.5,\"x\"]", "{\"a\":{\"b\":[1]}}", "1e-06"}) EXPECT_EQ(to_json(value_of_json(text)), text);
+  for (const char* text : {"0.1", "5", "5.0", "true", "\"a\\\"b\"", "[1,2.5,\"x\"]", "{\"a\":{\"b\":[1]}}", "1e-06"})
+    EXPECT_EQ(to_json(value_of_json(text)), text);
   EXPECT_TRUE(std::holds_alternative<double>(value_of_json("5.0")));
   EXPECT_EQ(to_json(std::numeric_limits<double>::quiet_NaN()), "null");
   EXPECT_THROW(value_of_json("{"), Error);

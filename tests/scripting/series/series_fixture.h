@@ -25,7 +25,9 @@ inline std::map<std::string, std::string> snapshot(const std::filesystem::path& 
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(series)) {
     const std::string name = entry.path().lexically_relative(series).string(), last = entry.path().filename().string();
-    if (!entry.is_regular_file() || last == "measure.json" || last == "log.txt" || last == "series.csv" || last == "series.html" || last == ".lock" || name.starts_with("slurm/")) continue;
+    if (!entry.is_regular_file() || last == "measure.json" || last == "log.txt" || last == "series.csv" || last == "series.html" || last == ".lock" ||
+        name.starts_with("slurm/"))
+      continue;
     std::string text = contents(entry.path());
     if (name == "series.json") text.resize(std::min(text.size(), text.find("\n  \"measure\"")));
     files[name] = text;
@@ -46,7 +48,8 @@ inline std::string difference(const std::map<std::string, std::string>& a, const
 
 class SeriesFixture : public testing::Test {
  protected:
-  test::ProcessResult run(const std::string& script, std::vector<std::string> words = {}, const std::filesystem::path& folder = {}, double interrupt_after = -1.0) {
+  test::ProcessResult run(const std::string& script, std::vector<std::string> words = {}, const std::filesystem::path& folder = {},
+                          double interrupt_after = -1.0) {
     const std::filesystem::path where = folder.empty() ? folder_ : folder;
     write(script, where);
     words.insert(words.begin(), {"run", "case.lua"});

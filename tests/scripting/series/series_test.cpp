@@ -56,7 +56,8 @@ TEST_F(Series, EveryCaseHasAFolderWithAllThatBelongsToIt) {
   EXPECT_THAT(result.output, HasSubstr("4\t1\t0.02\tVALID"));
   EXPECT_THAT(result.output, HasSubstr("series small: 4 cases"));
   const std::string folder = "small/height=0.01_layers=2/";
-  for (const char* name : {"case.json", "log.txt", "mesh.su2", "mesh.su2.json", "quality.json", "status.json", "measure.json", "script/case.lua", "script/sizes.lua"})
+  for (const char* name :
+       {"case.json", "log.txt", "mesh.su2", "mesh.su2.json", "quality.json", "status.json", "measure.json", "script/case.lua", "script/sizes.lua"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / (folder + name))) << name;
   EXPECT_EQ(text_of(folder + "script/case.lua"), k_small);
   EXPECT_THAT(text_of(folder + "log.txt"), HasSubstr("case height=0.01_layers=2 is number 1"));
@@ -66,7 +67,8 @@ TEST_F(Series, EveryCaseHasAFolderWithAllThatBelongsToIt) {
   EXPECT_THAT(failed, HasSubstr("\"code\": \"script_failed\""));
   EXPECT_THAT(failed, HasSubstr("case.lua:9: no such thing"));
   EXPECT_THAT(text_of("small/series.json"), HasSubstr("\"failed\": 1"));
-  EXPECT_THAT(text_of("small/series.csv"), HasSubstr("case,height,layers,status,verdict,cells,quality,worst,seconds,reused,error\nheight=0.01_layers=2,0.01,2,done,VALID,"));
+  EXPECT_THAT(text_of("small/series.csv"),
+              HasSubstr("case,height,layers,status,verdict,cells,quality,worst,seconds,reused,error\nheight=0.01_layers=2,0.01,2,done,VALID,"));
 }
 
 /// A table of all cases, also of those that failed, with what each wrote: pictures in it, pages linked.
@@ -296,10 +298,12 @@ TEST_F(Series, SaysWhatIsWrongWithItsTable) {
   EXPECT_THAT(result.errors, HasSubstr("case is missing"));
   EXPECT_THAT(result.errors, HasSubstr("unknown key \"cases\", did you mean \"case\"?"));
   EXPECT_THAT(result.errors, HasSubstr("cache: expected true, false or the name of a folder, not a number"));
-  EXPECT_THAT(run("series{ 'a', over = { x = {1, 2} }, reference = { x = 3 }, case = function() end }").errors, HasSubstr("reference: no case has these parameters: {\"x\":3}"));
+  EXPECT_THAT(run("series{ 'a', over = { x = {1, 2} }, reference = { x = 3 }, case = function() end }").errors,
+              HasSubstr("reference: no case has these parameters: {\"x\":3}"));
   EXPECT_THAT(run("series{ 'a/b', over = { x = {1} }, case = function() end }").errors, HasSubstr("\"a/b\" cannot be its name"));
   EXPECT_THAT(run("local o = { 'a', over = { x = {1} }, case = function() end } series(o) series(o)").errors, HasSubstr("there is a series \"a\" already"));
-  EXPECT_THAT(run("series{ 'a', over = { x = {1} }, case = function() series{ 'b', over = { x = {1} }, case = function() end } end }").errors, HasSubstr("a case cannot hold a series of its own"));
+  EXPECT_THAT(run("series{ 'a', over = { x = {1} }, case = function() series{ 'b', over = { x = {1} }, case = function() end } end }").errors,
+              HasSubstr("a case cannot hold a series of its own"));
   EXPECT_THAT(run("jobs{ 2.5 }").errors, HasSubstr("tasks"));
   EXPECT_THAT(run("slurm{ options = { mem = print } }").errors, HasSubstr("options.mem: expected a text, a number or true, not a function"));
 }

@@ -54,7 +54,8 @@ fs::path temporary_folder() {
 /// Ends a daemon: asks first.
 void end(StartedProcess& process) {
   process.signal(SIGTERM);
-  for (const auto begin = Clock::now(); !process.has_ended() && Clock::now() - begin < std::chrono::seconds(10);) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  for (const auto begin = Clock::now(); !process.has_ended() && Clock::now() - begin < std::chrono::seconds(10);)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
 
 }  // namespace
@@ -93,7 +94,8 @@ void SlurmCluster::start_munge() {
     if (run("mungekey", {"--create"}, folder_).status != 0) throw std::runtime_error("no key for munge");
     own_folder("/etc/munge", *user);
   }
-  munge_ = std::make_unique<StartedProcess>(program("runuser"), std::vector<std::string>{"-u", "munge", "--", program("munged").string(), "--foreground", "--force"}, folder_);
+  munge_ = std::make_unique<StartedProcess>(program("runuser"),
+                                            std::vector<std::string>{"-u", "munge", "--", program("munged").string(), "--foreground", "--force"}, folder_);
   for (const auto begin = Clock::now(); run("munge", {"-n"}, folder_).status != 0;) {
     if (Clock::now() - begin > k_patience || munge_->has_ended()) throw std::runtime_error("munged does not come up: " + contents("/var/log/munge/munged.log"));
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -106,11 +108,14 @@ void SlurmCluster::write_conf() {
   fs::create_directories(folder_ / "ctld");
   fs::create_directories(folder_ / "d");
   std::ofstream(folder_ / "slurm.conf") << "ClusterName=test\nSlurmctldHost=" << host << "(127.0.0.1)\nSlurmctldPort=" << port << "\nSlurmdPort=" << port + 1
-                                        << "\nSlurmUser=root\nAuthType=auth/munge\nStateSaveLocation=" << f << "/ctld\nSlurmdSpoolDir=" << f << "/d\nSlurmctldPidFile=" << f << "/ctld.pid\nSlurmdPidFile=" << f
-                                        << "/d.pid\nSlurmctldLogFile=" << f << "/ctld.log\nSlurmdLogFile=" << f
-                                        << "/d.log\nProctrackType=proctrack/linuxproc\nTaskPlugin=task/none\nSchedulerType=sched/backfill\nSelectType=select/cons_tres\nSelectTypeParameters=CR_CPU\n"
+                                        << "\nSlurmUser=root\nAuthType=auth/munge\nStateSaveLocation=" << f << "/ctld\nSlurmdSpoolDir=" << f
+                                        << "/d\nSlurmctldPidFile=" << f << "/ctld.pid\nSlurmdPidFile=" << f << "/d.pid\nSlurmctldLogFile=" << f
+                                        << "/ctld.log\nSlurmdLogFile=" << f
+                                        << "/d.log\nProctrackType=proctrack/linuxproc\nTaskPlugin=task/none\nSchedulerType=sched/backfill\nSelectType=select/"
+                                           "cons_tres\nSelectTypeParameters=CR_CPU\n"
                                            "ReturnToService=2\nMpiDefault=none\nNodeName="
-                                        << host << " NodeAddr=127.0.0.1 CPUs=2 State=UNKNOWN\nPartitionName=cfd Nodes=" << host << " Default=YES MaxTime=INFINITE State=UP\n";
+                                        << host << " NodeAddr=127.0.0.1 CPUs=2 State=UNKNOWN\nPartitionName=cfd Nodes=" << host
+                                        << " Default=YES MaxTime=INFINITE State=UP\n";
 }
 
 void SlurmCluster::wait_until_idle() {

@@ -31,7 +31,9 @@ class SlurmSeries : public SeriesFixture {
   /// Meshes, manifests and quality of all cases, and the table.
   std::map<std::string, std::string> results() const {
     auto files = snapshot(folder_ / "polar");
-    std::erase_if(files, [](const auto& file) { return file.first.find("/script/") != std::string::npos || file.first.ends_with("case.json") || file.first.ends_with("status.json"); });
+    std::erase_if(files, [](const auto& file) {
+      return file.first.find("/script/") != std::string::npos || file.first.ends_with("case.json") || file.first.ends_with("status.json");
+    });
     return files;
   }
 };
@@ -43,7 +45,8 @@ TEST_F(SlurmSeries, RunsAsJobsAndIsCancelledAndSurvivesLostJobs) {
   const test::SlurmCluster cluster;
 
   // The whole series: the same bytes as in a pool.
-  const test::ProcessResult jobs = run(tunnel_series("run = slurm{ partition = 'cfd', tasks = 2, time = '00:20:00', options = { comment = 'a test', nice = 10 } },"));
+  const test::ProcessResult jobs =
+      run(tunnel_series("run = slurm{ partition = 'cfd', tasks = 2, time = '00:20:00', options = { comment = 'a test', nice = 10 } },"));
   EXPECT_EQ(jobs.status, 1) << jobs.errors;
   EXPECT_THAT(jobs.output, HasSubstr("12\t2\t0"));
   EXPECT_THAT(text_of("polar/slurm/array-1.sh"), HasSubstr("#SBATCH --array=1-14%2\n"));

@@ -31,7 +31,8 @@ FaceMeshOptions coarse_curvature() {
 }
 
 FaceMesh mesh_shape(const test::FaceShape& shape, double size) {
-  return mesh_face(*shape.surface, test::box_border(*shape.surface, shape.box, size), [size](Uv, const Point&) { return size; }, coarse_curvature(), k_context);
+  return mesh_face(
+      *shape.surface, test::box_border(*shape.surface, shape.box, size), [size](Uv, const Point&) { return size; }, coarse_curvature(), k_context);
 }
 
 double area_of(const FaceMesh& mesh) {
@@ -89,7 +90,8 @@ TEST_P(Shapes, AreSoundAndWellShaped) {
     const FaceBorder border = test::box_border(*shape.surface, shape.box, shape.size / factor);
     const FaceMesh mesh = mesh_shape(shape, shape.size / factor);
     expect_sound(mesh, *shape.surface, border);
-    EXPECT_LE(mesh.report.n_outside_20_130, shape.n_narrow) << "angles " << mesh.report.min_angle / k_deg << " .. " << mesh.report.max_angle / k_deg << " at " << format_point(mesh.report.worst_place);
+    EXPECT_LE(mesh.report.n_outside_20_130, shape.n_narrow)
+        << "angles " << mesh.report.min_angle / k_deg << " .. " << mesh.report.max_angle / k_deg << " at " << format_point(mesh.report.worst_place);
     // Equilateral triangles of the wanted edge cover the face: fewer than a third off would need edges 15 % longer.
     const double ideal = area_of(mesh) / (0.25 * std::numbers::sqrt3 * shape.size * shape.size / (factor * factor));
     EXPECT_GT(static_cast<double>(mesh.triangles.size()), 0.75 * ideal);
@@ -118,8 +120,8 @@ INSTANTIATE_TEST_SUITE_P(FaceMesh, Shapes, testing::Range(0, static_cast<int>(te
                          [](const auto& info) { return test::face_shapes()[static_cast<std::size_t>(info.param)].name; });
 
 TEST(FaceMesh, TrianglesAreNearlyEquilateral) {
-  // Measured: radius ratio 0.992 to 0.996, 1 % of angles below 44 to 47 degrees, 88 to 95 % vertices of six neighbours. Before fronts advanced where there is most
-  // room these were 0.96, 41 and 60 %; the limits are halfway to where a front that loses its shape would lead.
+  // Measured: radius ratio 0.992 to 0.996, 1 % of angles below 44 to 47 degrees, 88 to 95 % vertices of six neighbours. Before fronts advanced where there is
+  // most room these were 0.96, 41 and 60 %; the limits are halfway to where a front that loses its shape would lead.
   for (const test::FaceShape& shape : test::face_shapes()) {
     if (shape.name != "sphere" && shape.name != "bump" && shape.name != "torus" && shape.name != "wing") continue;
     SCOPED_TRACE(shape.name);
@@ -143,7 +145,8 @@ FaceBorder plane_border(const std::vector<std::vector<Uv>>& loops) {
 
 std::vector<Uv> circle(Uv centre, double radius, int n) {
   std::vector<Uv> points;
-  for (int i = 0; i < n; ++i) points.push_back({centre.u + radius * std::cos(2 * std::numbers::pi * i / n), centre.v + radius * std::sin(2 * std::numbers::pi * i / n)});
+  for (int i = 0; i < n; ++i)
+    points.push_back({centre.u + radius * std::cos(2 * std::numbers::pi * i / n), centre.v + radius * std::sin(2 * std::numbers::pi * i / n)});
   return points;
 }
 
@@ -151,7 +154,8 @@ const PlaneSurface k_plane{Frame{}, {{-10, 10}, {-10, 10}}};
 
 TEST(FaceMesh, HolesStayOpen) {
   const FaceBorder border = plane_border({circle({0, 0}, 2.0, 120), circle({0.5, 0}, 0.5, 40), circle({-0.9, 0.3}, 0.3, 24)});
-  const FaceMesh mesh = mesh_face(k_plane, border, [](Uv, const Point&) { return 0.1; }, {}, k_context);
+  const FaceMesh mesh = mesh_face(
+      k_plane, border, [](Uv, const Point&) { return 0.1; }, {}, k_context);
   expect_sound(mesh, k_plane, border);
   EXPECT_EQ(mesh.report.n_outside_20_130, 0);
   const auto polygon = [](int n, double r) { return 0.5 * n * r * r * std::sin(2 * std::numbers::pi / n); };
@@ -160,15 +164,18 @@ TEST(FaceMesh, HolesStayOpen) {
 
 TEST(FaceMesh, SizesGrowFromAFinePlace) {
   const FaceBorder border = plane_border({circle({0, 0}, 2.0, 60), circle({0, 0}, 0.05, 60)});
-  const FaceMesh mesh = mesh_face(k_plane, border, [](Uv, const Point& p) { return 0.005 + 0.2 * std::abs(norm(p) - 0.05); }, {}, k_context);
+  const FaceMesh mesh = mesh_face(
+      k_plane, border, [](Uv, const Point& p) { return 0.005 + 0.2 * std::abs(norm(p) - 0.05); }, {}, k_context);
   expect_sound(mesh, k_plane, border);
-  EXPECT_EQ(mesh.report.n_outside_20_130, 0) << mesh.report.min_angle / k_deg << " .. " << mesh.report.max_angle / k_deg << format_point(mesh.report.worst_place);
+  EXPECT_EQ(mesh.report.n_outside_20_130, 0) << mesh.report.min_angle / k_deg << " .. " << mesh.report.max_angle / k_deg
+                                             << format_point(mesh.report.worst_place);
   EXPECT_LT(mesh.triangles.size(), 6000u);
 }
 
 TEST(FaceMesh, BorderFinerThanTheInsideGrows) {
   const FaceBorder border = plane_border({circle({0, 0}, 1.0, 600)});
-  const FaceMesh mesh = mesh_face(k_plane, border, [](Uv, const Point&) { return 0.3; }, {}, k_context);
+  const FaceMesh mesh = mesh_face(
+      k_plane, border, [](Uv, const Point&) { return 0.3; }, {}, k_context);
   expect_sound(mesh, k_plane, border);
   EXPECT_EQ(mesh.report.n_outside_20_130, 0);
   EXPECT_LT(mesh.triangles.size(), 6000u);
@@ -179,7 +186,8 @@ TEST(FaceMesh, CoarseBorderAndHugeSizesEnd) {
   for (const auto& loop : {std::vector<Uv>{{0, 0}, {1, 0}, {0, 1}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 0}, {1, 0}, {1, 1e-6}, {0, 1e-6}}}) {
     for (const double size : {100.0, 0.05}) {
       const FaceBorder border = plane_border({loop});
-      const FaceMesh mesh = mesh_face(k_plane, border, [size](Uv, const Point&) { return size; }, {}, k_context);
+      const FaceMesh mesh = mesh_face(
+          k_plane, border, [size](Uv, const Point&) { return size; }, {}, k_context);
       expect_sound(mesh, k_plane, border);
       EXPECT_GE(mesh.triangles.size(), loop.size() - 2);
     }
@@ -196,7 +204,9 @@ TEST(FaceMesh, RandomStarPolygonsEndAndAreSound) {
       loop.push_back({r * std::cos(angle), r * std::sin(angle)});
     }
     const FaceBorder border = plane_border({loop});
-    expect_sound(mesh_face(k_plane, border, [](Uv, const Point&) { return 0.03; }, {}, k_context), k_plane, border);
+    expect_sound(mesh_face(
+                     k_plane, border, [](Uv, const Point&) { return 0.03; }, {}, k_context),
+                 k_plane, border);
   }
 }
 
@@ -204,7 +214,8 @@ TEST(FaceMesh, SphereWithPolesHasTheTopologyOfOne) {
   const SphereSurface sphere(Frame{}, 2.0);
   const ParameterBox box = sphere.domain();
   const FaceBorder border = test::box_border(sphere, box, 0.25);
-  const FaceMesh mesh = mesh_face(sphere, border, [](Uv, const Point&) { return 0.25; }, coarse_curvature(), k_context);
+  const FaceMesh mesh = mesh_face(
+      sphere, border, [](Uv, const Point&) { return 0.25; }, coarse_curvature(), k_context);
   // Joined along its seam it is closed: equal points become one vertex.
   std::map<std::tuple<double, double, double>, int> number;
   for (const Point& p : mesh.points) number.emplace(std::tuple{p.x, p.y, p.z}, static_cast<int>(number.size()));
@@ -233,7 +244,8 @@ TEST(FaceMesh, SphereWithPolesHasTheTopologyOfOne) {
 TEST(FaceMesh, BordersThatCrossAreAnErrorInSpace) {
   const FaceBorder border = plane_border({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}});
   try {
-    mesh_face(k_plane, border, [](Uv, const Point&) { return 0.1; }, {}, k_context);
+    mesh_face(
+        k_plane, border, [](Uv, const Point&) { return 0.1; }, {}, k_context);
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::self_intersection);
@@ -248,7 +260,8 @@ TEST(FaceMesh, LimitAndWrongSizesAreErrors) {
   options.max_triangles = 500;
   const auto code = [&](double size) {
     try {
-      mesh_face(k_plane, border, [size](Uv, const Point&) { return size; }, options, k_context);
+      mesh_face(
+          k_plane, border, [size](Uv, const Point&) { return size; }, options, k_context);
     } catch (const Error& error) {
       return error.code();
     }

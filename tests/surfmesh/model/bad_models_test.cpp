@@ -130,7 +130,8 @@ TEST(BadModels, FacesThatAreALineAreAbsorbed) {
   const EdgeId edge = builder.straight_edge(a, b);
   Model model = make_box("box", {2, 0, 0}, {3, 1, 1});
   Model thread = builder.model();
-  const auto surface = std::make_shared<CylinderSurface>(Frame{.origin = {0, 0, 0}, .x = {0, 1, 0}, .y = {0, 0, 1}, .z = {1, 0, 0}}, 1e-12, ParameterBox{{0.0, 2.0 * std::numbers::pi}, {0.0, 1.0}});
+  const auto surface = std::make_shared<CylinderSurface>(Frame{.origin = {0, 0, 0}, .x = {0, 1, 0}, .y = {0, 0, 1}, .z = {1, 0, 0}}, 1e-12,
+                                                         ParameterBox{{0.0, 2.0 * std::numbers::pi}, {0.0, 1.0}});
   ModelFace face{.surface = surface, .name = "thread"};
   const auto line = [&](double u) { return std::make_shared<ParameterLine>(Uv{u, 0.0}, Uv{0.0, 1.0}, Interval{0.0, 1.0}); };
   face.borders.push_back({{edge, false, line(0.0)}, {edge, true, line(std::numbers::pi)}});
@@ -145,14 +146,19 @@ TEST(BadModels, FacesThatAreALineAreAbsorbed) {
 /// A closed tube about x whose skin has two circles for borders and no seam; `n` edges in each circle.
 Model tube_without_seam(int n) {
   const double pi = std::numbers::pi;
-  const auto skin = std::make_shared<CylinderSurface>(Frame{.origin = {0, 0, 0}, .x = {0, 1, 0}, .y = {0, 0, 1}, .z = {1, 0, 0}}, 0.5, ParameterBox{{0.0, 2 * pi}, {0.0, 3.0}});
+  const auto skin = std::make_shared<CylinderSurface>(Frame{.origin = {0, 0, 0}, .x = {0, 1, 0}, .y = {0, 0, 1}, .z = {1, 0, 0}}, 0.5,
+                                                      ParameterBox{{0.0, 2 * pi}, {0.0, 3.0}});
   Model model;
   model.components.push_back({"tube", ComponentKind::body});
   ModelFace side{.surface = skin, .component = ComponentId(std::uint64_t{0}), .name = "side"};
   const auto at = [](int k) { return CornerId(static_cast<std::uint64_t>(k)); };
   for (int end = 0; end < 2; ++end) {
     const double x = 3.0 * end;
-    ModelFace cap{.surface = std::make_shared<PlaneSurface>(Frame{.origin = {x, 0, 0}, .x = {0, 1, 0}, .y = {0, 0, 1}, .z = {1, 0, 0}}, ParameterBox{{-1, 1}, {-1, 1}}), .is_reversed = end == 0, .component = ComponentId(std::uint64_t{0}), .name = end == 0 ? "front" : "back"};
+    ModelFace cap{
+        .surface = std::make_shared<PlaneSurface>(Frame{.origin = {x, 0, 0}, .x = {0, 1, 0}, .y = {0, 0, 1}, .z = {1, 0, 0}}, ParameterBox{{-1, 1}, {-1, 1}}),
+        .is_reversed = end == 0,
+        .component = ComponentId(std::uint64_t{0}),
+        .name = end == 0 ? "front" : "back"};
     const auto circle = std::make_shared<EllipseCurve>(Point{x, 0, 0}, Vec3{0, 0.5, 0}, Vec3{0, 0, 0.5}, Interval{0.0, 2 * pi});
     Border around, inside;
     for (int k = 0; k < n; ++k) {
@@ -188,7 +194,8 @@ TEST(BadModels, FacesAroundAPeriodNeedNoSeam) {
     // A prism of 16 sides has 1 - sin(2 pi / 16) / (2 pi / 16) = 2.6 % less than the cylinder.
     EXPECT_NEAR(volume, std::numbers::pi * 0.25 * 3.0, 0.035 * 2.356);
     // The seam's vertices are the face's own: on no edge, and on the surface.
-    for (const VertexId v : mesh.mesh.points.ids()) EXPECT_LT(distance(model.faces[mesh.places[v].face].surface->point(mesh.places[v].at), mesh.mesh.points[v]), 1e-12);
+    for (const VertexId v : mesh.mesh.points.ids())
+      EXPECT_LT(distance(model.faces[mesh.places[v].face].surface->point(mesh.places[v].at), mesh.mesh.points[v]), 1e-12);
   }
 }
 
@@ -200,9 +207,18 @@ TEST(BadModels, ACapOfASphereNeedsNeitherSeamNorPole) {
     model.corners.push_back({surface->point({0.0, v}), 1e-9});
     const CornerId corner(static_cast<std::uint64_t>(model.corners.size() - 1));
     const double r = std::cos(v);
-    const EdgeId edge = model.edges.push_back({std::make_shared<EllipseCurve>(Point{0, 0, std::sin(v)}, Vec3{r, 0, 0}, Vec3{0, r, 0}, Interval{0.0, 2 * std::numbers::pi}), {0.0, 2 * std::numbers::pi}, corner, corner, 1e-9, ""});
+    const EdgeId edge =
+        model.edges.push_back({std::make_shared<EllipseCurve>(Point{0, 0, std::sin(v)}, Vec3{r, 0, 0}, Vec3{0, r, 0}, Interval{0.0, 2 * std::numbers::pi}),
+                               {0.0, 2 * std::numbers::pi},
+                               corner,
+                               corner,
+                               1e-9,
+                               ""});
     // To the north of the one, to the south of the other.
-    model.faces.push_back({.surface = surface, .borders = {{{edge, v < 0.0, std::make_shared<ParameterLine>(Uv{0.0, v}, Uv{1.0, 0.0}, Interval{0.0, 2 * std::numbers::pi})}}}, .component = ComponentId(std::uint64_t{0}), .name = v > 0.0 ? "north" : "south"});
+    model.faces.push_back({.surface = surface,
+                           .borders = {{{edge, v < 0.0, std::make_shared<ParameterLine>(Uv{0.0, v}, Uv{1.0, 0.0}, Interval{0.0, 2 * std::numbers::pi})}}},
+                           .component = ComponentId(std::uint64_t{0}),
+                           .name = v > 0.0 ? "north" : "south"});
   }
   SurfaceMeshOptions options = edges_of(0.15);
   options.curvature_angle = 0.3;
@@ -242,7 +258,8 @@ TEST(BadModels, EdgesOffTheirFacesAreNamed) {
   EXPECT_TRUE(mesh_model(model, edges_of(0.25), {}, k_context).report.loose_edges.empty());
   const Model moved = make_box("box", {-1e-4, 0, 0}, {1.0001, 1, 1});
   for (const FaceId f : model.faces.ids())
-    if (std::abs(model.faces[f].surface->derivatives({}).du.x) + std::abs(model.faces[f].surface->derivatives({}).dv.x) < 1e-12) model.faces[f].surface = moved.faces[f].surface;
+    if (std::abs(model.faces[f].surface->derivatives({}).du.x) + std::abs(model.faces[f].surface->derivatives({}).dv.x) < 1e-12)
+      model.faces[f].surface = moved.faces[f].surface;
   const SurfaceMesh mesh = mesh_model(model, edges_of(0.25), {}, k_context);
   ASSERT_EQ(mesh.report.loose_edges.size(), 8u);
   for (const LooseEdge& loose : mesh.report.loose_edges) {
@@ -324,7 +341,8 @@ TEST(BadModels, LoopsOfOpenModelsAreTheFreeEdges) {
     const char* file;
     double max_edge;
   };
-  for (const Case& c : {Case{"gmsh_parts_sewfaces.step", 0.002}, Case{"pythonocc_example_45_faces.iges", 0.004}, Case{"ucrm_igs_final_surface.igs", 0.1}, Case{"tigl_nacelle_nacelle.stp", 0.2}, Case{"gmsh_parts_PeriodicFaceWithLargeTolerance.brep", 1.0}}) {
+  for (const Case& c : {Case{"gmsh_parts_sewfaces.step", 0.002}, Case{"pythonocc_example_45_faces.iges", 0.004}, Case{"ucrm_igs_final_surface.igs", 0.1},
+                        Case{"tigl_nacelle_nacelle.stp", 0.2}, Case{"gmsh_parts_PeriodicFaceWithLargeTolerance.brep", 1.0}}) {
     SCOPED_TRACE(c.file);
     const Model model = io::read_cad(test::shared_data() / "cad" / c.file, {}, k_context).model;
     SurfaceMeshOptions options = edges_of(c.max_edge, "ignore");

@@ -52,13 +52,15 @@ TEST(DeformedMesh, AMeshedWingBendsByItsFileOfDisplacements) {
   const TriMesh moved = reevaluated(surface.mesh, surface.places, bent, context);
   EXPECT_EQ(moved.triangles, surface.mesh.triangles);
   EXPECT_EQ(moved.triangle_patch, surface.mesh.triangle_patch);
-  for (const VertexId v : moved.points.ids()) ASSERT_LE(distance(moved.points[v], map->point(surface.mesh.points[v])), 1e-6);  // vertices on edges: within the edge's tolerance
+  for (const VertexId v : moved.points.ids())
+    ASSERT_LE(distance(moved.points[v], map->point(surface.mesh.points[v])), 1e-6);  // vertices on edges: within the edge's tolerance
   double tip = 0.0;
   for (const Point& p : moved.points) tip = std::max(tip, p.z);
   EXPECT_NEAR(tip, 0.25, 0.05);
   for (const TriangleId t : moved.triangles.ids()) ASSERT_GT(dot(normal_of(moved, t), normal_of(surface.mesh, t)), 0.0);
   // The share that chords cut off stays what it was.
-  const double before = volume_of(surface.mesh) / model_measures(wing, context).total.volume, after = volume_of(moved) / model_measures(bent, context).total.volume;
+  const double before = volume_of(surface.mesh) / model_measures(wing, context).total.volume,
+               after = volume_of(moved) / model_measures(bent, context).total.volume;
   EXPECT_NEAR(after, before, 1e-3);
   EXPECT_NEAR(before, 1.0, 0.02);
 }

@@ -79,7 +79,9 @@ TEST(MeshModel, AreaAndVolumeConvergeWithOrderTwo) {
     Model model;
     double size, area, volume;  ///< area 0: not known
   };
-  for (const Case& c : {Case{"sphere", make_ball(1.0), 0.25, 4 * pi, 4 * pi / 3}, Case{"cylinder", make_cylinder("c", {0, 0, 0}, {3, 0, 0}, 1.0), 0.25, 8 * pi, 3 * pi}, Case{"bicubic wing", lens_wing(true), 0.4, 0.0, 0.0}}) {
+  for (const Case& c :
+       {Case{"sphere", make_ball(1.0), 0.25, 4 * pi, 4 * pi / 3}, Case{"cylinder", make_cylinder("c", {0, 0, 0}, {3, 0, 0}, 1.0), 0.25, 8 * pi, 3 * pi},
+        Case{"bicubic wing", lens_wing(true), 0.4, 0.0, 0.0}}) {
     SCOPED_TRACE(c.name);
     std::vector<double> areas, volumes;
     for (const double factor : {1.0, 2.0, 4.0}) {
@@ -217,7 +219,8 @@ TEST(MeshModel, AChordErrorThatNeedsAbsurdlyManyTrianglesIsRefusedAtOnce) {
 
 TEST(SizeField, IsTheLeastOfItsSources) {
   std::vector<SizeSource> sources;
-  for (int i = 0; i < 200; ++i) sources.push_back({{std::sin(12.9898 * i), std::sin(78.233 * i), std::sin(37.719 * i)}, 0.05 + 0.1 * std::abs(std::sin(4.1 * i))});
+  for (int i = 0; i < 200; ++i)
+    sources.push_back({{std::sin(12.9898 * i), std::sin(78.233 * i), std::sin(37.719 * i)}, 0.05 + 0.1 * std::abs(std::sin(4.1 * i))});
   const SizeField field(sources, 0.2, 1.0);
   for (int i = 0; i < 100; ++i) {
     const Point p{2 * std::sin(1.3 * i), 2 * std::sin(2.7 * i), 2 * std::sin(3.9 * i)};

@@ -84,7 +84,8 @@ TEST(SmoothAngle, CountsAcrossEdgesWhereFacesJoinSmoothly) {
     return cross(p[1] - p[0], p[2] - p[0]);
   };
   double largest = 0.0;
-  for (std::size_t i = 0; i < topology.n_halfedges(); ++i) largest = std::max(largest, angle_between(normal(HalfedgeId(i)), normal(topology.twin(HalfedgeId(i)))));
+  for (std::size_t i = 0; i < topology.n_halfedges(); ++i)
+    largest = std::max(largest, angle_between(normal(HalfedgeId(i)), normal(topology.twin(HalfedgeId(i)))));
   EXPECT_NEAR(surface.report.max_smooth_angle, largest, 1e-9);
   EXPECT_LT(largest, 40.0 * k_deg);
 }

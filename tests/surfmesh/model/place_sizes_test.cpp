@@ -42,7 +42,9 @@ double mean_edge(const SurfaceMesh& mesh, const std::function<bool(const Point&)
   return n > 0.0 ? sum / n : std::numeric_limits<double>::infinity();
 }
 
-SurfaceMesh meshed(const Model& model, const SurfaceMeshOptions& options, const SpaceSizes& asked = {}, const RunContext& context = k_context) { return mesh_model(model, options, {}, asked, context); }
+SurfaceMesh meshed(const Model& model, const SurfaceMeshOptions& options, const SpaceSizes& asked = {}, const RunContext& context = k_context) {
+  return mesh_model(model, options, {}, asked, context);
+}
 
 /// A plate with 10 m sides.
 Model slab(double low, double high) { return make_box("slab", {0, 0, low}, {10, 10, high}); }
@@ -53,7 +55,9 @@ TEST(PlaceSizes, SourcesOfTheUserAreMetAndGrow) {
   SurfaceMeshOptions options = edges_of(1.0);
   const Model model = slab(0, 1);
   const SurfaceMesh mesh = meshed(model, options, asked);
-  const auto at = [](double from, double to) { return [=](const Point& p) { return p.z > 0.99 && distance(p, {5, 5, 1}) > from && distance(p, {5, 5, 1}) < to; }; };
+  const auto at = [](double from, double to) {
+    return [=](const Point& p) { return p.z > 0.99 && distance(p, {5, 5, 1}) > from && distance(p, {5, 5, 1}) < to; };
+  };
   EXPECT_NEAR(mean_edge(mesh, at(0.0, 0.4)), 0.05, 0.01);
   EXPECT_NEAR(mean_edge(mesh, at(1.9, 2.1)), 0.05 + 0.2 * 1.5, 0.07);
   EXPECT_GT(mean_edge(mesh, [](const Point& p) { return p.z < 0.01 && distance(p, {0, 0, 0}) < 2.0; }), 0.75);
@@ -119,7 +123,9 @@ TEST(PlaceSizes, WingsAreFinerAtTheirEdgesAndTips) {
     const Model model = wing(is_blunt);
     SurfaceMeshOptions options = edges_of(0.2);
     options.min_edge = 0.15;
-    const auto strip = [](double from, double to) { return [=](const Point& p) { return p.x > from && p.x < to && p.y > 3 && p.y < 7 && std::abs(p.z) > 0.02; }; };
+    const auto strip = [](double from, double to) {
+      return [=](const Point& p) { return p.x > from && p.x < to && p.y > 3 && p.y < 7 && std::abs(p.z) > 0.02; };
+    };
     const double plain = mean_edge(meshed(model, options), strip(1.8, 1.9));
     EXPECT_GT(plain, 0.14);
     options.trailing_edge_factor = 0.4;
@@ -150,7 +156,9 @@ TEST(PlaceSizes, ComponentsMeetInShorterEdges) {
   Model model = make_box("body", {0, 0, 0}, {4, 4, 4});
   const ComponentId other = model.components.push_back({.name = "other", .kind = ComponentKind::unknown});
   for (const FaceId f : model.faces.ids())
-    if (model.faces[f].surface->point({0.0, 0.0}).x < 1e-9 && distance(model.faces[f].surface->point({0.1, 0.1}), model.faces[f].surface->point({0.0, 0.0})) > 0.0 && std::abs(model.faces[f].surface->point({0.1, 0.1}).x) < 1e-9)
+    if (model.faces[f].surface->point({0.0, 0.0}).x < 1e-9 &&
+        distance(model.faces[f].surface->point({0.1, 0.1}), model.faces[f].surface->point({0.0, 0.0})) > 0.0 &&
+        std::abs(model.faces[f].surface->point({0.1, 0.1}).x) < 1e-9)
       model.faces[f].component = other;
   SurfaceMeshOptions options = edges_of(0.5);
   const auto rim = [](const Point& p) { return p.x > 0.0 && p.x < 0.3 && p.y > 1.0 && p.y < 3.0; };

@@ -66,7 +66,8 @@ struct Difference {
   double mean = 0.0;
   std::string place;  ///< of the largest
 };
-Difference difference_on(const Model& model, FaceId f, const ParameterBox& box, const SurfaceSizes& field, const std::function<double(Uv, const Point&)>& exact) {
+Difference difference_on(const Model& model, FaceId f, const ParameterBox& box, const SurfaceSizes& field,
+                         const std::function<double(Uv, const Point&)>& exact) {
   constexpr int n = 5000;
   Difference result;
   for (int i = 0; i < n; ++i) {
@@ -76,7 +77,8 @@ Difference difference_on(const Model& model, FaceId f, const ParameterBox& box, 
     const double off = std::abs(field.on_face(f, at, p) / exact(at, p) - 1.0);
     if (off > result.largest) {
       result.largest = off;
-      result.place = std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + ": " + std::to_string(field.on_face(f, at, p)) + " for " + std::to_string(exact(at, p));
+      result.place = std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + ": " + std::to_string(field.on_face(f, at, p)) + " for " +
+                     std::to_string(exact(at, p));
     }
     result.mean += off / n;
   }
@@ -98,7 +100,8 @@ Model tube(double radius, double length) {
   const CornerId low = builder.corner({radius, 0, 0}), high = builder.corner({radius, 0, length});
   const EdgeId lower = builder.edge(std::make_shared<EllipseCurve>(Point{}, Vec3{radius, 0, 0}, Vec3{0, radius, 0}, k_full_turn), k_full_turn, low, low);
   const EdgeId seam = builder.edge(std::make_shared<LineCurve>(Point{radius, 0, 0}, Vec3{0, 0, 1}, box.v), box.v, low, high);
-  const EdgeId upper = builder.edge(std::make_shared<EllipseCurve>(Point{0, 0, length}, Vec3{radius, 0, 0}, Vec3{0, radius, 0}, k_full_turn), k_full_turn, high, high);
+  const EdgeId upper =
+      builder.edge(std::make_shared<EllipseCurve>(Point{0, 0, length}, Vec3{radius, 0, 0}, Vec3{0, radius, 0}, k_full_turn), k_full_turn, high, high);
   builder.patch(surface, box, {lower, seam, upper, seam}, FaceRole::skin, "tube");
   return builder.model();
 }
@@ -113,7 +116,9 @@ TEST(SurfaceSizes, GrowFromAFineEdgeOverAPlane) {
   const SurfaceSizes made = field.made();
   const ParameterBox box = model.faces[k_first_face].surface->domain();
   const EdgeSamples& line = field.edges[e];
-  const auto exact = [&](Uv, const Point& p) { return std::min(0.3, 0.002 + k_growth * distance_to_segment(p, line.samples.front().point, line.samples.back().point)); };
+  const auto exact = [&](Uv, const Point& p) {
+    return std::min(0.3, 0.002 + k_growth * distance_to_segment(p, line.samples.front().point, line.samples.back().point));
+  };
   const Difference off = difference_on(model, k_first_face, box, made, exact);
   EXPECT_LT(off.largest, 0.06) << off.place;
   EXPECT_LT(off.mean, 0.01);
@@ -126,7 +131,8 @@ TEST(SurfaceSizes, GrowFromAPointOnAnEdgeOverAPlane) {
   const EdgeId e = model.faces[k_first_face].borders[0][1].edge;
   field.ask(e, 12, 0.001);
   const Point source = field.edges[e].samples[12].point;
-  const Difference off = difference_on(model, k_first_face, model.faces[k_first_face].surface->domain(), field.made(), [&](Uv, const Point& p) { return std::min(0.3, 0.001 + k_growth * distance(p, source)); });
+  const Difference off = difference_on(model, k_first_face, model.faces[k_first_face].surface->domain(), field.made(),
+                                       [&](Uv, const Point& p) { return std::min(0.3, 0.001 + k_growth * distance(p, source)); });
   EXPECT_LT(off.largest, 0.08) << off.place;
   EXPECT_LT(off.mean, 0.01);
 }
@@ -136,7 +142,8 @@ TEST(SurfaceSizes, SourcesInSpaceAreMetOnTheFace) {
   const Field field(model, 0.3, 0.2);
   const Point source{0.317, 0.691, 0.0};
   const SurfaceSizes made = field.made({{source, 0.002}});
-  const Difference off = difference_on(model, k_first_face, model.faces[k_first_face].surface->domain(), made, [&](Uv, const Point& p) { return std::min(0.3, 0.002 + k_growth * distance(p, source)); });
+  const Difference off = difference_on(model, k_first_face, model.faces[k_first_face].surface->domain(), made,
+                                       [&](Uv, const Point& p) { return std::min(0.3, 0.002 + k_growth * distance(p, source)); });
   EXPECT_LT(off.largest, 0.15) << off.place;  // within a cell of the place itself
   EXPECT_LT(off.mean, 0.01);
 }
@@ -164,7 +171,8 @@ TEST(SurfaceSizes, DistancesOnASphereRunAroundIt) {
   const EdgeId seam = model.faces[k_first_face].borders[0][1].edge;
   field.ask(seam, field.edges[seam].samples.size() - 1, 0.01);  // the north pole
   const double by_curvature = 2.0 * std::sin(0.75);
-  const Difference off = difference_on(model, k_first_face, model.faces[k_first_face].surface->domain(), field.made(), [&](Uv uv, const Point&) { return std::min(by_curvature, 0.01 + k_growth * (0.5 * pi - uv.v)); });
+  const Difference off = difference_on(model, k_first_face, model.faces[k_first_face].surface->domain(), field.made(),
+                                       [&](Uv uv, const Point&) { return std::min(by_curvature, 0.01 + k_growth * (0.5 * pi - uv.v)); });
   EXPECT_LT(off.largest, 0.08) << off.place;
   EXPECT_LT(off.mean, 0.02);
 }
@@ -178,7 +186,8 @@ TEST(SurfaceSizes, NothingCrossesAGap) {
   const FaceId coarse(1);
   const Difference off = difference_on(model, coarse, model.faces[coarse].surface->domain(), made, [](Uv, const Point&) { return 0.3; });
   EXPECT_LT(off.largest, 1e-6) << off.place;
-  for (const EdgeUse& use : model.faces[coarse].borders[0]) EXPECT_EQ(made.on_edge(use.edge, 0.5 * (model.edges[use.edge].range.from + model.edges[use.edge].range.to)), 0.3);
+  for (const EdgeUse& use : model.faces[coarse].borders[0])
+    EXPECT_EQ(made.on_edge(use.edge, 0.5 * (model.edges[use.edge].range.from + model.edges[use.edge].range.to)), 0.3);
 }
 
 TEST(SurfaceSizes, SizesRunAroundTheEdgeOfABoxAndNotThroughIt) {

@@ -1,4 +1,5 @@
-// Bands of stretched triangles along leading and trailing edges, and strips of cells on blunt trailing edges: what they promise, measured on the triangles themselves.
+// Bands of stretched triangles along leading and trailing edges, and strips of cells on blunt trailing edges: what they promise, measured on the triangles
+// themselves.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -81,8 +82,10 @@ std::set<EdgeId> edges_of(const Model& model, Which which) {
   for (const EdgeId e : model.edges.ids()) {
     if (uses[e].size() != 2 || model.edges[e].is_degenerate()) continue;
     const ModelFace &a = model.faces[uses[e][0].face], &b = model.faces[uses[e][1].face];
-    const bool is_between = (is_side(a.role) && is_side(b.role) && a.role != b.role) || (is_side(a.role) && b.role == FaceRole::trailing_edge) || (is_side(b.role) && a.role == FaceRole::trailing_edge);
-    const Point from = model.edges[e].curve->point(model.edges[e].range.from), to = model.edges[e].curve->point(model.edges[e].range.to), middle = model.edges[e].curve->point(0.5 * (model.edges[e].range.from + model.edges[e].range.to));
+    const bool is_between = (is_side(a.role) && is_side(b.role) && a.role != b.role) || (is_side(a.role) && b.role == FaceRole::trailing_edge) ||
+                            (is_side(b.role) && a.role == FaceRole::trailing_edge);
+    const Point from = model.edges[e].curve->point(model.edges[e].range.from), to = model.edges[e].curve->point(model.edges[e].range.to),
+                middle = model.edges[e].curve->point(0.5 * (model.edges[e].range.from + model.edges[e].range.to));
     if (!is_between || std::abs(to.y - from.y) < 0.1) continue;
     const double leading_edge = 0.5 * std::abs(middle.y);
     if ((middle.x < leading_edge + 0.3) == (which == Which::leading)) result.insert(e);
@@ -188,8 +191,11 @@ TEST(WingBands, BluntTrailingEdgesHaveTheirNumberOfCells) {
     for (const EdgePlace& place : surface.edge_places) ++n_vertices[place.edge];
     int n_short = 0;
     for (const EdgeId e : model.edges.ids()) {
-      const auto is_base = [&](const EdgeUsePlace& use) { return model.faces[use.face].role == FaceRole::trailing_edge && model.faces[use.face].borders[0].size() == 4; };
-      const bool is_short = !model.edges[e].is_degenerate() && std::any_of(uses[e].begin(), uses[e].end(), is_base) && distance(model.edges[e].curve->point(model.edges[e].range.from), model.edges[e].curve->point(model.edges[e].range.to)) < 0.01;
+      const auto is_base = [&](const EdgeUsePlace& use) {
+        return model.faces[use.face].role == FaceRole::trailing_edge && model.faces[use.face].borders[0].size() == 4;
+      };
+      const bool is_short = !model.edges[e].is_degenerate() && std::any_of(uses[e].begin(), uses[e].end(), is_base) &&
+                            distance(model.edges[e].curve->point(model.edges[e].range.from), model.edges[e].curve->point(model.edges[e].range.to)) < 0.01;
       if (!is_short) continue;
       ++n_short;
       EXPECT_EQ(n_vertices[e], static_cast<int>(cells) - 1);

@@ -108,7 +108,8 @@ TEST(HalfDomain, AFloorWithLayersEndsOnFourSidesAndTheirEdges) {
 }
 
 TEST(HalfDomain, FloorAndCeilingWithLayersLeaveTheMiddleOfTheEdges) {
-  const VolumeMeshResult result = meshed(room([](const std::string& name) { return name == "floor" || name == "ceiling" ? PatchKind::wall : PatchKind::slip; }), layers(10, 1e-3));
+  const VolumeMeshResult result =
+      meshed(room([](const std::string& name) { return name == "floor" || name == "ceiling" ? PatchKind::wall : PatchKind::slip; }), layers(10, 1e-3));
   EXPECT_EQ(rim_edges(result), (Edges{{"inlet", 24}, {"outlet", 24}, {"left", 48}, {"right", 48}}));
   EXPECT_GT(result.layer.coverage, 0.999);
 }
@@ -121,7 +122,8 @@ TEST(HalfDomain, FourWallsWithLayersMeetInCornersAndEndOnInletAndOutlet) {
 
 TEST(HalfDomain, AStrutStandsOnAWallAndGoesThroughASlipCeiling) {
   const auto strut = [](int i, int j, int) { return i >= 8 && i < 12 && j >= 5 && j < 7; };
-  const VolumeMeshResult result = meshed(room([](const std::string& name) { return name == "floor" ? PatchKind::wall : PatchKind::slip; }, strut), layers(10, 1e-3));
+  const VolumeMeshResult result =
+      meshed(room([](const std::string& name) { return name == "floor" ? PatchKind::wall : PatchKind::slip; }, strut), layers(10, 1e-3));
   EXPECT_EQ(rim_edges(result), (Edges{{"ceiling", 12}, {"inlet", 12}, {"outlet", 12}, {"left", 24}, {"right", 24}}));
 }
 
@@ -172,7 +174,9 @@ TEST(HalfDomain, AtAnOuterEdgeTheLayerRunsOut) {
   EXPECT_TRUE(result.mesh.boundary_quads.empty());
   double area = 0.0;
   for (const auto& face : result.mesh.boundary_triangles)
-    if (result.mesh.patches[face.patch].name == "jet") area += 0.5 * norm(cross(result.mesh.points[face.nodes[1]] - result.mesh.points[face.nodes[0]], result.mesh.points[face.nodes[2]] - result.mesh.points[face.nodes[0]]));
+    if (result.mesh.patches[face.patch].name == "jet")
+      area += 0.5 * norm(cross(result.mesh.points[face.nodes[1]] - result.mesh.points[face.nodes[0]],
+                               result.mesh.points[face.nodes[2]] - result.mesh.points[face.nodes[0]]));
   EXPECT_NEAR(area, 0.36, 1e-9);
   EXPECT_GT(result.layer.coverage, 0.7);
 }

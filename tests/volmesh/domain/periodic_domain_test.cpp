@@ -53,7 +53,8 @@ TEST(PeriodicDomain, AWingBetweenTwoSides) {
 }
 
 TEST(PeriodicDomain, AFloorWithLayersHasTheSameEdgesAndCornersOnBothSides) {
-  const VolumeMeshResult result = matched(room([](const std::string& name) { return name == "floor" ? PatchKind::wall : PatchKind::slip; }, is_wing), periodic_layers(10, 1e-3));
+  const VolumeMeshResult result =
+      matched(room([](const std::string& name) { return name == "floor" ? PatchKind::wall : PatchKind::slip; }, is_wing), periodic_layers(10, 1e-3));
   EXPECT_EQ(rim_edges(result), (Edges{{"inlet", 12}, {"outlet", 12}, {"left", 40}, {"right", 40}}));
 }
 
@@ -156,11 +157,18 @@ TEST(PeriodicDomain, VerticesOfAMesherGoAlongTheirBorderToTheImages) {
   matched(surface, periodic_layers(8, 1e-3));
   for (Point& p : surface.points)
     if (p.y == 2.0 && p.z == 0.0 && std::abs(p.x - 2.0 - 0.25 / 6.0) < 1e-9) p.z += 0.02;  // off the line
-  EXPECT_THAT(test::error_of([&] { join_periodic_sides(surface, std::array{PeriodicNames{"left", "right"}}, k_context); }).info().problem, HasSubstr("have no partner"));
+  EXPECT_THAT(test::error_of([&] {
+                join_periodic_sides(surface, std::array{PeriodicNames{"left", "right"}}, k_context);
+              })
+                  .info()
+                  .problem,
+              HasSubstr("have no partner"));
 }
 
 TEST(PeriodicDomain, WhatDoesNotMatchIsSaidWithPlacesAndDistances) {
-  const auto problem_of = [](const TriMesh& surface, std::vector<PeriodicNames> pairs) { return test::error_of([&] { volume_mesh(surface, periodic_layers(8, 1e-3, std::move(pairs)), k_context); }).info(); };
+  const auto problem_of = [](const TriMesh& surface, std::vector<PeriodicNames> pairs) {
+    return test::error_of([&] { volume_mesh(surface, periodic_layers(8, 1e-3, std::move(pairs)), k_context); }).info();
+  };
   const TriMesh surface = room(all_slip, is_wing);
   EXPECT_THAT(problem_of(surface, {{"left", "rigth"}}).problem, HasSubstr("did you mean \"right\"?"));
   EXPECT_THAT(problem_of(surface, {{"left", "left"}}).problem, HasSubstr("its own image"));
@@ -178,12 +186,14 @@ TEST(PeriodicDomain, WhatDoesNotMatchIsSaidWithPlacesAndDistances) {
   EXPECT_NEAR(info.places[0].position.x, 4.0 / 3.0, 1e-9);
 
   // The wing ends before the right side, and something without layers has its outline there.
-  const TriMesh patched = test::voxel_boundary({24, 12, 12}, 1.0 / 6.0, [](int i, int j, int k) { return !is_wing(i, j, k); }, [](const Point& p, const Vec3& normal) -> Patch {
-    if (p.y == 0.0) return {"left", PatchKind::slip};
-    if (p.y == 2.0) return {"right", PatchKind::slip};
-    if (std::min(p.x, p.z) == 0.0 || p.x == 4.0 || p.z == 2.0) return {"box", PatchKind::slip};
-    return p.y < 1.0 && normal.y == 0.0 ? Patch{"wing", PatchKind::wall} : Patch{"tip", PatchKind::slip};
-  });
+  const TriMesh patched = test::voxel_boundary(
+      {24, 12, 12}, 1.0 / 6.0, [](int i, int j, int k) { return !is_wing(i, j, k); },
+      [](const Point& p, const Vec3& normal) -> Patch {
+        if (p.y == 0.0) return {"left", PatchKind::slip};
+        if (p.y == 2.0) return {"right", PatchKind::slip};
+        if (std::min(p.x, p.z) == 0.0 || p.x == 4.0 || p.z == 2.0) return {"box", PatchKind::slip};
+        return p.y < 1.0 && normal.y == 0.0 ? Patch{"wing", PatchKind::wall} : Patch{"tip", PatchKind::slip};
+      });
   EXPECT_THAT(problem_of(patched, {{"left", "right"}}).problem, HasSubstr("ends on one periodic side and not on the other"));
 }
 

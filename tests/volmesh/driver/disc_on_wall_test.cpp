@@ -219,7 +219,9 @@ TEST(DiscOnWall, SameBytesWithOneThreadAndByStages) {
 }
 
 TEST(DiscOnWall, SaysWhereItCannotBe) {
-  const auto mesh = [&](std::vector<ActuatorDisc> discs) { return test::error_info_of([&] { volume_mesh(hub(6), options_with(std::move(discs)), k_context); }); };
+  const auto mesh = [&](std::vector<ActuatorDisc> discs) {
+    return test::error_info_of([&] { volume_mesh(hub(6), options_with(std::move(discs)), k_context); });
+  };
   // The rim goes through the wall.
   const ErrorInfo rim = mesh({{.name = "prop", .center = {0, 0.4, 0}, .radius = 0.3}});
   EXPECT_EQ(rim.code, ErrorCode::self_intersection);

@@ -27,7 +27,8 @@ std::size_t n_triangles_of(const HybridMesh& mesh, const std::string& name) {
 
 TEST(Discs, PropellerInFrontOfABodyAndRingAroundIt) {
   const TriMesh wall = test::sphere(8);
-  const std::vector<ActuatorDisc> discs = {{.name = "prop", .center = {-1.7, 0, 0}, .radius = 1.2}, {.name = "fan", .center = {0.2, 0, 0}, .radius = 2.4, .inner_radius = 1.5}};
+  const std::vector<ActuatorDisc> discs = {{.name = "prop", .center = {-1.7, 0, 0}, .radius = 1.2},
+                                           {.name = "fan", .center = {0.2, 0, 0}, .radius = 2.4, .inner_radius = 1.5}};
   for (const char* engine : {"hxt", "tetgen"}) {
     SCOPED_TRACE(engine);
     VolumeMeshOptions options = options_with(discs);

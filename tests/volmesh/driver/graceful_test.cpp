@@ -65,7 +65,8 @@ INSTANTIATE_TEST_SUITE_P(Clean, TooThick,
                                           testing::Values(k_thick, k_thicker)),
                          [](const auto& info) { return std::string(std::get<1>(info.param).name) + std::to_string(info.index); });
 INSTANTIATE_TEST_SUITE_P(Nasty, TooThick,
-                         testing::Combine(testing::Values("nasty/nasty_trimesh_featuretype.STL", "nasty/netgen_parts_hinge.stl", "nasty/netgen_plane_plane.stl"),
+                         testing::Combine(testing::Values("nasty/nasty_trimesh_featuretype.STL", "nasty/netgen_parts_hinge.stl",
+                                                          "nasty/netgen_plane_plane.stl"),
                                           testing::Values(k_thick, k_thicker)),
                          [](const auto& info) { return std::string(std::get<1>(info.param).name) + std::to_string(info.index); });
 

@@ -28,8 +28,8 @@ class DriverLadder : public testing::Test {
   std::string folder_that_fails(int n) {
     const std::filesystem::path folder = test::scratch();
     const std::string count = (folder / "count").string();
-    std::ofstream(folder / "sterna-tet-tetgen") << "#!/bin/sh\necho x >> " << count << "\n[ $(wc -l < " << count << ") -gt " << n << " ] || kill -SEGV $$\nexec "
-                                                << find_helper("sterna-tet-tetgen", {}) << "\n";
+    std::ofstream(folder / "sterna-tet-tetgen") << "#!/bin/sh\necho x >> " << count << "\n[ $(wc -l < " << count << ") -gt " << n
+                                                << " ] || kill -SEGV $$\nexec " << find_helper("sterna-tet-tetgen", {}) << "\n";
     std::ofstream(folder / "sterna-tet-hxt") << "#!/bin/sh\nkill -SEGV $$\n";
     for (const char* name : {"sterna-tet-tetgen", "sterna-tet-hxt"}) std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
     return folder.string();
@@ -61,7 +61,6 @@ TEST_F(DriverLadder, RepairsCanBeForbiddenAndEnd) {
   EXPECT_THROW(mesh(thin_plate(), {.boundary_splits = "never", .helper_folder = folder_that_fails(100)}), Error);
   EXPECT_THAT(log_, HasSubstr("trying again"));
 }
-
 
 TEST_F(DriverLadder, SplitsComeBeforeRepairs) {
   const VolumeMeshResult result = mesh(test::cube(2), {.helper_folder = folder_that_fails(1)});

@@ -1,4 +1,5 @@
-// Envelopes of parts that were made elsewhere and moved: the same at every attitude where nothing is near, lower and valid where something is, for any number of threads.
+// Envelopes of parts that were made elsewhere and moved: the same at every attitude where nothing is near, lower and valid where something is, for any number
+// of threads.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +27,8 @@ struct Scene {
   std::vector<PlacedPart> parts;
 
   void add(const TriMesh& own, const Transform& placement) {
-    PlacedPart part{std::make_shared<const TriMesh>(own), placement, static_cast<std::uint32_t>(surface.n_triangles()), static_cast<std::uint32_t>(surface.n_vertices())};
+    PlacedPart part{std::make_shared<const TriMesh>(own), placement, static_cast<std::uint32_t>(surface.n_triangles()),
+                    static_cast<std::uint32_t>(surface.n_vertices())};
     TriMesh moved = own;
     for (Point& p : moved.points) p = placement == Transform{} ? p : placement.point(p);
     append(surface, moved);

@@ -12,8 +12,8 @@ namespace sterna::volmesh {
 namespace {
 
 struct Case {
-  const char* file;        ///< below shared/data/surfaces
-  double least_coverage;   ///< share of the area with h >= 0.9 h_target: what issue 2 asks, or what was measured less 0.02 where that is not reached
+  const char* file;       ///< below shared/data/surfaces
+  double least_coverage;  ///< share of the area with h >= 0.9 h_target: what issue 2 asks, or what was measured less 0.02 where that is not reached
 };
 
 class RealSurface : public testing::TestWithParam<Case> {};

@@ -39,7 +39,9 @@ void expect_same(const VolumeMeshResult& result, const VolumeMeshResult& whole) 
 void expect_continued(const TriMesh& wall, const VolumeMeshOptions& options) {
   EnvelopeStage envelope;
   FilledStage filled;
-  const VolumeMeshResult whole = volume_mesh(wall, options, {.enveloped = [&](const EnvelopeStage& stage) { envelope = stage; }, .filled = [&](const FilledStage& stage) { filled = stage; }}, k_context);
+  const VolumeMeshResult whole =
+      volume_mesh(wall, options,
+                  {.enveloped = [&](const EnvelopeStage& stage) { envelope = stage; }, .filled = [&](const FilledStage& stage) { filled = stage; }}, k_context);
   EXPECT_EQ(filled.split_wall.has_value(), whole.n_split_triangles > 0);
   expect_same(finish_mesh(wall, filled, options, k_context), whole);
   const FilledStage again = make_tetrahedra(wall, envelope, options, k_context);

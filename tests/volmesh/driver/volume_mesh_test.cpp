@@ -19,8 +19,7 @@ VolumeMeshOptions thin_layers(const TriMesh& wall, int n = 12) {
 void expect_valid(const TriMesh& wall, const VolumeMeshOptions& options) {
   const VolumeMeshResult result = volume_mesh(wall, options, RunContext({.threads = 2}));
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
-  EXPECT_EQ(result.check.cells.prisms + result.check.cells.pyramids,
-            static_cast<std::int64_t>(wall.n_triangles()) * options.envelope.layers);
+  EXPECT_EQ(result.check.cells.prisms + result.check.cells.pyramids, static_cast<std::int64_t>(wall.n_triangles()) * options.envelope.layers);
 }
 
 /// A wing-like wedge: unit chord and span, sharp trailing edge of `angle` radians.
@@ -33,8 +32,8 @@ TriMesh sharp_wedge(double angle) {
     mesh.triangles.push_back({VertexId(a), VertexId(b), VertexId(c)});
     mesh.triangle_patch.push_back(PatchId(0));
   };
-  add(0, 2, 1);  // root
-  add(3, 4, 5);  // tip
+  add(0, 2, 1);                // root
+  add(3, 4, 5);                // tip
   add(1, 2, 5), add(1, 5, 4);  // upper
   add(0, 3, 5), add(0, 5, 2);  // lower
   add(0, 1, 4), add(0, 4, 3);  // front
@@ -122,7 +121,8 @@ TEST(VolumeMesh, NodesOfALineAreConsecutive) {
   for (std::uint32_t line = 0; line < layers.n_lines(); ++line) {
     EXPECT_EQ(result.mesh.points[layers.node(line, 0)], wall.points[VertexId(line)]);
     for (int j = 1; j <= layers.n_layers; ++j) EXPECT_EQ(layers.node(line, j).value(), layers.node(line, j - 1).value() + 1);
-    EXPECT_NEAR(distance(result.mesh.points[layers.node(line, 0)], result.mesh.points[layers.node(line, 1)]), h0, 0.02 * h0);  // first_height_factor raises it to 1.019 h0 at most
+    EXPECT_NEAR(distance(result.mesh.points[layers.node(line, 0)], result.mesh.points[layers.node(line, 1)]), h0,
+                0.02 * h0);  // first_height_factor raises it to 1.019 h0 at most
   }
 }
 

@@ -51,11 +51,11 @@ inline std::vector<Point> rectangle(const Map& map, double u0, double v0, double
 }
 
 struct EndFacts {
-  double area = 0.0;          ///< m^2
-  double least_angle = 180.0; ///< degrees
+  double area = 0.0;           ///< m^2
+  double least_angle = 180.0;  ///< degrees
   double greatest_angle = 0.0;
   std::int64_t n_below_20 = 0;  ///< triangles
-  double greatest_jump = 1.0; ///< ratio of the longest edges of neighbouring triangles
+  double greatest_jump = 1.0;   ///< ratio of the longest edges of neighbouring triangles
 };
 
 /// Border edges are the region's, once each, in their sense; normals along the surface's; new points on it.
@@ -86,10 +86,8 @@ inline EndFacts expect_sound(const EndRegion& region, const EndTriangles& result
   std::size_t n_border = 0;
   for (const auto& [edge, t] : half) {
     const auto twin = half.find({edge[1], edge[0]});
-    if (twin == half.end())
-      ++n_border;
-    else
-      facts.greatest_jump = std::max(facts.greatest_jump, longest[t] / longest[twin->second]);
+    if (twin == half.end()) ++n_border;
+    else facts.greatest_jump = std::max(facts.greatest_jump, longest[t] / longest[twin->second]);
   }
   EXPECT_EQ(n_border, region.edges.size());
   for (const auto& edge : region.edges) {

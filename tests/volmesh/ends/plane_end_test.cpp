@@ -14,7 +14,9 @@ const ConstraintPlane k_symmetry({0, 0, 0}, {0, 1, 0});
 
 /// Symmetrical aerofoil with a sharp trailing edge at (v = 1, u = 0), as a hole (clockwise in (u, v)), its leading edge finer; `n` points a side.
 std::vector<Point> aerofoil_hole(const Map& map, double thickness, int n) {
-  const auto half = [&](double x) { return 5.0 * thickness * (0.2969 * std::sqrt(x) - 0.1260 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1036 * x * x * x * x); };
+  const auto half = [&](double x) {
+    return 5.0 * thickness * (0.2969 * std::sqrt(x) - 0.1260 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1036 * x * x * x * x);
+  };
   const auto at = [&](int i) { return 0.5 * (1.0 - std::cos(k_pi * i / n)); };
   // u is z, v is x: clockwise in (u, v) is leading edge, upper side (u > 0) first ... seen from +y with z to the right and x up.
   std::vector<Point> points;
@@ -101,7 +103,8 @@ TEST(PlaneEnd, NarrowGapsAndLongEdges) {
   EndRegion region{.surface = &k_symmetry, .name = "symmetry"};
   add_loop(region, rectangle(on_xz, -5, -5, 5, 5, 10, 10));
   // Edges of 0.2 with a gap of 1e-3 between two bodies, and one of 0.01 to a third.
-  std::vector<Point> left = rectangle(on_xz, -1, 0, -0.0005, 1, 5, 5), right = rectangle(on_xz, 0.0005, 0, 1, 1, 5, 5), low = rectangle(on_xz, -1, -1, 1, -0.01, 10, 5);
+  std::vector<Point> left = rectangle(on_xz, -1, 0, -0.0005, 1, 5, 5), right = rectangle(on_xz, 0.0005, 0, 1, 1, 5, 5),
+                     low = rectangle(on_xz, -1, -1, 1, -0.01, 10, 5);
   for (std::vector<Point>* loop : {&left, &right, &low}) {
     std::reverse(loop->begin(), loop->end());
     add_loop(region, *loop);

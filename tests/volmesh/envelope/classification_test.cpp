@@ -161,8 +161,12 @@ TEST(FeatureAngle, GapOfTheHistogram) {
   const Classification classes = classify_vertices(base, options, k_context);
   EXPECT_DOUBLE_EQ(classes.feature_angle, angle * k_deg);
   for (const VertexId v : blunt.points.ids()) {
-    if (blunt.points[v].x == 1.0) { EXPECT_FALSE(classes.vertex[v].is_smooth()); }
-    if (blunt.points[v].x < 0.9 && blunt.points[v].y > 0.1 && blunt.points[v].y < 0.9) { EXPECT_TRUE(classes.vertex[v].is_smooth()) << blunt.points[v].x; }
+    if (blunt.points[v].x == 1.0) {
+      EXPECT_FALSE(classes.vertex[v].is_smooth());
+    }
+    if (blunt.points[v].x < 0.9 && blunt.points[v].y > 0.1 && blunt.points[v].y < 0.9) {
+      EXPECT_TRUE(classes.vertex[v].is_smooth()) << blunt.points[v].x;
+    }
   }
   options.feature_angle = 0.5;
   EXPECT_EQ(feature_angle_of(base, options, k_context), 0.5);  // the user's value wins
@@ -177,7 +181,7 @@ TEST(FeatureAngle, FollowsTheLargestSmoothTurnWhereItIsKnown) {
   EXPECT_NEAR(decided(5.0 * k_deg), 20.0, 1e-9);   // flatter edges are no features on any coarse surface
   EXPECT_NEAR(decided(33.0 * k_deg), 34.0, 1e-9);  // a degree above
   EXPECT_NE(log.find("turns by up to 33.0 deg where the model is smooth"), std::string::npos) << log;
-  EXPECT_NEAR(decided(75.0 * k_deg), 40.5, 1.0);   // no angle up to 60 is above it: the gap counts
+  EXPECT_NEAR(decided(75.0 * k_deg), 40.5, 1.0);  // no angle up to 60 is above it: the gap counts
   EXPECT_NEAR(decided(k_automatic), 40.5, 1.0);
   EnvelopeOptions options;
   options.feature_angle = 0.5;
@@ -207,7 +211,9 @@ TEST(Visibility, ReportOfTheCube) {
   ASSERT_EQ(report.hardest.size(), 10u);
   EXPECT_NE(report.hardest[0].what.find("55 degrees"), std::string::npos) << report.hardest[0].what;
   for (std::size_t i = 0; i < 8; ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis) { EXPECT_EQ(std::abs(report.hardest[i].position[axis] - 0.5), 0.5); }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(std::abs(report.hardest[i].position[axis] - 0.5), 0.5);
+    }
 }
 
 }  // namespace

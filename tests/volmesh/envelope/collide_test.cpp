@@ -81,7 +81,9 @@ TEST(Collider, AgreesWithOneSearchOverAllTriangles) {
     const std::set<BoundaryCrossing> expected = slow_crossings(base, &outer, shape);
     EXPECT_EQ(as_set(found), expected);
     EXPECT_EQ(found.size(), expected.size());  // each pair once
-    const auto has = [&](BoundaryPart part) { return std::any_of(found.begin(), found.end(), [part](const BoundaryCrossing& c) { return c[1].part == part; }); };
+    const auto has = [&](BoundaryPart part) {
+      return std::any_of(found.begin(), found.end(), [part](const BoundaryCrossing& c) { return c[1].part == part; });
+    };
     EXPECT_TRUE(has(BoundaryPart::top) && has(BoundaryPart::wall) && has(BoundaryPart::outer));
   }
 }
@@ -127,7 +129,9 @@ TEST(Collider, SidesStandOnTheBoundaryOfTheWall) {
     EXPECT_TRUE(pair[0].part == BoundaryPart::side || pair[1].part == BoundaryPart::side);
     has_side_through_wall = has_side_through_wall || (pair[0].part == BoundaryPart::side && pair[1].part == BoundaryPart::wall);
     // At the share found the two are clear, a little above they cross.
-    if (pair[1].part == BoundaryPart::wall) { EXPECT_NEAR(collider.clear_share(pair, shape), 0.5 / 0.8, 2e-3); }
+    if (pair[1].part == BoundaryPart::wall) {
+      EXPECT_NEAR(collider.clear_share(pair, shape), 0.5 / 0.8, 2e-3);
+    }
   }
   EXPECT_TRUE(has_side_through_wall);
   for (int i = 0; i < 3; ++i) shape.height[VertexId(i)] = 0.4;

@@ -40,9 +40,7 @@ Layer grow(const TriMesh& wall, Constraints constraints, const EnvelopeOptions& 
   return layer;
 }
 
-Layer grow(const TriMesh& wall, const EnvelopeOptions& options) {
-  return grow(wall, constraints_of_rims(wall, Topology(wall, k_context)), options);
-}
+Layer grow(const TriMesh& wall, const EnvelopeOptions& options) { return grow(wall, constraints_of_rims(wall, Topology(wall, k_context)), options); }
 
 EnvelopeOptions layers_of(double h0, int n, double thickness = k_automatic) {
   EnvelopeOptions options;
@@ -85,7 +83,9 @@ std::size_t expect_sound(const Layer& layer) {
       const Vec3 normal = base.surfaces[static_cast<std::size_t>(k)]->normal(base.wall.points[v]);
       for (std::size_t i = first; i < end; ++i, ++n_nodes)
         for (std::size_t axis = 0; axis < 3; ++axis)
-          if (std::abs(normal[axis]) == 1.0) { EXPECT_EQ(layer.extrusion.points[i][axis], base.wall.points[v][axis]) << "layer " << i - first; }
+          if (std::abs(normal[axis]) == 1.0) {
+            EXPECT_EQ(layer.extrusion.points[i][axis], base.wall.points[v][axis]) << "layer " << i - first;
+          }
     }
   }
   return n_nodes;
@@ -137,7 +137,9 @@ TEST(ConstrainRims, SnapsWhatIsNearlyThere) {
   const Constraints constraints = constraints_of_rims(half, Topology(half, k_context));
   snap_to_surfaces(constraints, half);
   for (const VertexId v : half.points.ids())
-    if (constraints.vertex[v].freedom == Freedom::plane) { EXPECT_EQ(half.points[v].y, 0.5); }
+    if (constraints.vertex[v].freedom == Freedom::plane) {
+      EXPECT_EQ(half.points[v].y, 0.5);
+    }
 }
 
 TEST(ConstrainRims, ObliquePlanesMayBeGiven) {
@@ -151,7 +153,9 @@ TEST(ConstrainRims, ObliquePlanesMayBeGiven) {
   const Layer layer = grow(half, constraints_of_planes(half, topology, {&plane, 1}), layers_of(1e-4, 12, 0.1));
   expect_sound(layer);
   for (const VertexId v : half.points.ids())
-    if (layer.base.constraint[v].freedom == Freedom::plane) { EXPECT_NEAR(plane.inside_distance(layer.envelope.point(half, v)), 0.0, 1e-15); }
+    if (layer.base.constraint[v].freedom == Freedom::plane) {
+      EXPECT_NEAR(plane.inside_distance(layer.envelope.point(half, v)), 0.0, 1e-15);
+    }
 }
 
 TEST(ConstrainRims, ErrorsSayWhere) {
@@ -248,7 +252,9 @@ TEST(ConstrainedLayer, BodiesBesideThePlaneKeepClearOfIt) {
   append(wall, pod);
   const Layer layer = grow(wall, layers_of(1e-4, 15, 0.2));
   expect_sound(layer);
-  for (const VertexId v : wall.points.ids()) { EXPECT_TRUE(wall.points[v].y == 0.5 || layer.envelope.point(wall, v).y > 0.5); }
+  for (const VertexId v : wall.points.ids()) {
+    EXPECT_TRUE(wall.points[v].y == 0.5 || layer.envelope.point(wall, v).y > 0.5);
+  }
   // The layer on the side towards the plane takes what it would take beside its mirror image.
   const Layer full = grow(test::with_mirror_image(wall, 1, 0.5), {}, layers_of(1e-4, 15, 0.2));
   for (const VertexId v : wall.points.ids()) {
@@ -267,7 +273,9 @@ TEST(ConstrainedLayer, FixedVerticesStayOnTheWall) {
   expect_sound(layer);
   for (const VertexId v : half.points.ids()) {
     EXPECT_EQ(layer.envelope.is_collapsed(v), half.points[v].y == 0.5);
-    if (layer.envelope.is_collapsed(v)) { EXPECT_EQ(layer.envelope.limit[v], HeightLimit::fixed); }
+    if (layer.envelope.is_collapsed(v)) {
+      EXPECT_EQ(layer.envelope.limit[v], HeightLimit::fixed);
+    }
   }
 }
 

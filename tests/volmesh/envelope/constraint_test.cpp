@@ -53,9 +53,13 @@ TEST(Constraint, TangentAxesAreOrthonormalInsideTheConstraint) {
           const Vec3& t = tangent.axis[static_cast<std::size_t>(i)];
           EXPECT_NEAR(norm(t), 1.0, 1e-14);
           EXPECT_NEAR(dot(t, normal), 0.0, 1e-14);
-          if (freedom != Freedom::free) { EXPECT_NEAR(dot(t, axis), 0.0, 1e-14); }
+          if (freedom != Freedom::free) {
+            EXPECT_NEAR(dot(t, axis), 0.0, 1e-14);
+          }
         }
-        if (tangent.count == 2) { EXPECT_NEAR(dot(tangent.axis[0], tangent.axis[1]), 0.0, 1e-14); }
+        if (tangent.count == 2) {
+          EXPECT_NEAR(dot(tangent.axis[0], tangent.axis[1]), 0.0, 1e-14);
+        }
       }
     }
   EXPECT_EQ(tangential_unknowns({Freedom::free}), 2);

@@ -60,7 +60,9 @@ TEST(Classification, CubeHasCornersRidgesAndSmoothFaces) {
     n_ridges += flags.is_ridge ? 1 : 0;
     EXPECT_FALSE(flags.is_concave);
     EXPECT_EQ(flags.is_smooth(), !flags.is_convex);
-    if (!flags.is_smooth()) { EXPECT_TRUE(flags.is_blunt && !flags.is_sharp); }
+    if (!flags.is_smooth()) {
+      EXPECT_TRUE(flags.is_blunt && !flags.is_sharp);
+    }
   }
   EXPECT_EQ(n_corners, 8);
   EXPECT_EQ(n_ridges, 12 * 3);

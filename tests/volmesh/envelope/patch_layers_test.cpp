@@ -81,7 +81,8 @@ TEST(PatchRules, ANameThatNoPatchHasIsAnErrorWithTheNames) {
     ADD_FAILURE() << "no error";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::bad_argument);
-    for (const char* part : {"no patch has a name like \"z00*\"", "did you mean \"z0\"?", "names are x0, x1, y0"}) EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    for (const char* part : {"no patch has a name like \"z00*\"", "did you mean \"z0\"?", "names are x0, x1, y0"})
+      EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
   }
 }
 
@@ -102,7 +103,8 @@ TEST(DemandOf, IsEmptyWhereNothingDiffers) {
   const LayerBase base(room, k_context);
   const EnvelopeOptions options = layers_of(1e-3, 9);
   EXPECT_TRUE(demand_of(base, options, {}, nullptr, k_context).is_empty());
-  EXPECT_TRUE(demand_of(base, options, std::vector<PatchRule>{{.names = "z*", .layers = 9, .first_height = 1e-3, .blend = 0.3}}, nullptr, k_context).is_empty());
+  EXPECT_TRUE(
+      demand_of(base, options, std::vector<PatchRule>{{.names = "z*", .layers = 9, .first_height = 1e-3, .blend = 0.3}}, nullptr, k_context).is_empty());
   EXPECT_FALSE(demand_of(base, options, std::vector<PatchRule>{{.names = "z*", .layers = 10}}, nullptr, k_context).is_empty());
 }
 
@@ -111,7 +113,9 @@ TEST(DemandOf, BlendsLogarithmsOverTheStatedDistance) {
   constexpr double k_blend = 0.25, k_floor = 1e-3, k_other = 1e-4;
   const TriMesh room = test::cube_room(k_n);
   const LayerBase base(room, k_context);
-  const LayerDemand demand = demand_of(base, layers_of(k_other, 9), std::vector<PatchRule>{{.names = "*", .blend = k_blend}, {.names = "z0", .first_height = k_floor, .max_growth = 1.2}}, nullptr, k_context);
+  const LayerDemand demand =
+      demand_of(base, layers_of(k_other, 9),
+                std::vector<PatchRule>{{.names = "*", .blend = k_blend}, {.names = "z0", .first_height = k_floor, .max_growth = 1.2}}, nullptr, k_context);
   ASSERT_FALSE(demand.is_empty());
   // The share of the other group at x of the blend is k/(1 + k), k = (1 - x)^2 (1 + 2x); its slope is at most 0.86.
   const double steepest = 0.86 / (k_blend * k_n) * std::log(k_floor / k_other);
@@ -140,15 +144,20 @@ TEST(DemandOf, OneNumberOfLayersForWhatIsConnectedAndAnotherForWhatIsNot) {
   const TriMesh body = test::sphere(2);
   const auto n_room = static_cast<std::uint64_t>(walls.n_vertices());
   for (const Point& p : body.points) walls.points.push_back(p + Vec3{5, 0, 0});
-  for (const TriangleVertices& v : body.triangles) walls.triangles.push_back({VertexId(n_room + v[0].index()), VertexId(n_room + v[1].index()), VertexId(n_room + v[2].index())});
+  for (const TriangleVertices& v : body.triangles)
+    walls.triangles.push_back({VertexId(n_room + v[0].index()), VertexId(n_room + v[1].index()), VertexId(n_room + v[2].index())});
   walls.patches.push_back({"body", PatchKind::wall});
   walls.triangle_patch.raw().resize(walls.n_triangles(), PatchId(walls.patches.size() - 1));
   const LayerBase base(walls, k_context);
   std::vector<std::string> log;
   const RunContext context({.threads = 2, .log = [&](LogLevel, std::string_view text) { log.emplace_back(text); }});
-  const LayerDemand demand = demand_of(base, layers_of(1e-3, 9), std::vector<PatchRule>{{.names = "x1", .layers = 12}, {.names = "z*", .layers = 4}, {.names = "body", .layers = 30}}, nullptr, context);
+  const LayerDemand demand =
+      demand_of(base, layers_of(1e-3, 9), std::vector<PatchRule>{{.names = "x1", .layers = 12}, {.names = "z*", .layers = 4}, {.names = "body", .layers = 30}},
+                nullptr, context);
   for (const VertexId v : walls.points.ids()) EXPECT_EQ(demand.layers[v], v.index() < n_room ? 12 : 30);
-  EXPECT_TRUE(std::any_of(log.begin(), log.end(), [](const std::string& line) { return line.find("12, the largest asked for (4 by z0, z1; 9 by") != std::string::npos; })) << log.size();
+  EXPECT_TRUE(std::any_of(log.begin(), log.end(), [](const std::string& line) {
+    return line.find("12, the largest asked for (4 by z0, z1; 9 by") != std::string::npos;
+  })) << log.size();
 }
 
 TEST(PatchLayers, WallsThatMeetHaveTheirOwnFirstHeights) {
@@ -158,10 +167,12 @@ TEST(PatchLayers, WallsThatMeetHaveTheirOwnFirstHeights) {
     if (normal.z != 0.0) return {normal.z > 0.0 ? "floor" : "ceiling", PatchKind::wall};
     return {p.x > 0.01 && p.x < 0.99 && p.y > 0.01 && p.y < 0.99 ? "strut" : "side", PatchKind::wall};
   };
-  const TriMesh wall = test::voxel_boundary({k_n, k_n, k_n}, 1.0 / k_n, [](int i, int j, int) { return i < 5 || i > 6 || j < 5 || j > 6; }, patch);
+  const TriMesh wall = test::voxel_boundary(
+      {k_n, k_n, k_n}, 1.0 / k_n, [](int i, int j, int) { return i < 5 || i > 6 || j < 5 || j > 6; }, patch);
   constexpr double k_strut = 1e-4, k_others = 4e-4, k_blend = 0.3;
   const EnvelopeOptions options = layers_of(k_others, 8);
-  Layer layer(wall, options, {{.names = "*", .blend = k_blend}, {.names = "strut", .layers = 12, .first_height = k_strut}, {.names = "floor", .max_growth = 1.3}});
+  Layer layer(wall, options,
+              {{.names = "*", .blend = k_blend}, {.names = "strut", .layers = 12, .first_height = k_strut}, {.names = "floor", .max_growth = 1.3}});
   layer.expect_sound();
   EXPECT_EQ(layer.extrusion.layers.n_layers, 12);
   EXPECT_TRUE(layer.extrusion.layers.is_uniform());
@@ -174,7 +185,9 @@ TEST(PatchLayers, WallsThatMeetHaveTheirOwnFirstHeights) {
     if (asked == k_strut) ++n_strut;
     if (asked == k_others) ++n_others;
     EXPECT_TRUE(asked >= k_strut * (1.0 - 1e-12) && asked <= k_others * (1.0 + 1e-12));
-    if (own.name == "strut" && std::min(wall.points[v].z, 1.0 - wall.points[v].z) > k_blend) { EXPECT_EQ(asked, k_strut); }
+    if (own.name == "strut" && std::min(wall.points[v].z, 1.0 - wall.points[v].z) > k_blend) {
+      EXPECT_EQ(asked, k_strut);
+    }
     if (normal_height(layer.base, layer.envelope, v) < scale.compressed(v)) continue;
     EXPECT_NEAR(layer.first_height(v) / asked, 1.0, 0.02) << own.name;  // G11
     for (const VertexId other : layer.base.topology.neighbours(v)) EXPECT_LT(scale.h0(v) / scale.h0(other), 1.6);

@@ -88,7 +88,9 @@ TEST(Periodic, PartnersHaveTheNormalsAndEdgesOfAllTheirTriangles) {
 TEST(Periodic, PairsInTwoDirectionsMakeOneGroup) {
   const TriMesh wall = bar(6, 10, 2.0);
   const VertexId a(0u), b(5u), c(7u), d(9u);
-  LayerBase base(wall, k_context, constraints_of_planes(wall, Topology(wall, k_context), std::array{ConstraintPlane({0, 0, 0}, {0, 1, 0}), ConstraintPlane({0, 2, 0}, {0, -1, 0})}));
+  LayerBase base(
+      wall, k_context,
+      constraints_of_planes(wall, Topology(wall, k_context), std::array{ConstraintPlane({0, 0, 0}, {0, 1, 0}), ConstraintPlane({0, 2, 0}, {0, -1, 0})}));
   base.let_grow_alike({{a, b}, {c, d}, {b, d}});
   ASSERT_EQ(base.groups.size(), 1u);
   EXPECT_EQ(base.groups[0], (std::vector<VertexId>{a, b, c, d}));

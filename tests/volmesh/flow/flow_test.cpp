@@ -17,8 +17,9 @@ TEST(StandardAtmosphere, its_tables) {
     double altitude, temperature, pressure, density;
   };
   // U.S. Standard Atmosphere 1976 / ICAO Doc 7488, by geopotential altitude; six digits, as printed.
-  for (const Row& row : {Row{0, 288.15, 101325, 1.225}, Row{-2000, 301.15, 127774, 1.47808}, Row{5000, 255.65, 54019.9, 0.736116}, Row{11000, 216.65, 22632.1, 0.363918}, Row{20000, 216.65, 5474.89, 0.0880349},
-                         Row{32000, 228.65, 868.019, 0.0132250}, Row{47000, 270.65, 110.906, 0.00142753}, Row{51000, 270.65, 66.9389, 0.000861606}, Row{71000, 214.65, 3.95642, 0.0000642110}}) {
+  for (const Row& row : {Row{0, 288.15, 101325, 1.225}, Row{-2000, 301.15, 127774, 1.47808}, Row{5000, 255.65, 54019.9, 0.736116},
+                         Row{11000, 216.65, 22632.1, 0.363918}, Row{20000, 216.65, 5474.89, 0.0880349}, Row{32000, 228.65, 868.019, 0.0132250},
+                         Row{47000, 270.65, 110.906, 0.00142753}, Row{51000, 270.65, 66.9389, 0.000861606}, Row{71000, 214.65, 3.95642, 0.0000642110}}) {
     const AirState air = standard_atmosphere(row.altitude);
     EXPECT_NEAR(air.temperature, row.temperature, 1e-9) << row.altitude;
     EXPECT_NEAR(air.pressure / row.pressure, 1.0, 2e-5) << row.altitude;
@@ -50,18 +51,20 @@ TEST(FirstHeight, the_spacings_of_dpw_4_within_2_percent) {
     double reynolds, y_plus, spacing_in;
   };
   for (const char* law : {"schlichting", "seventh_root"})
-    for (const Level& level : {Level{5e6, 1.0, 0.001478}, Level{5e6, 2.0 / 3.0, 0.000985}, Level{5e6, 4.0 / 9.0, 0.000657}, Level{5e6, 8.0 / 27.0, 0.000438}, Level{20e6, 2.0 / 3.0, 0.000273}}) {
+    for (const Level& level : {Level{5e6, 1.0, 0.001478}, Level{5e6, 2.0 / 3.0, 0.000985}, Level{5e6, 4.0 / 9.0, 0.000657}, Level{5e6, 8.0 / 27.0, 0.000438},
+                               Level{20e6, 2.0 / 3.0, 0.000273}}) {
       const FirstHeight first = first_height({.y_plus = level.y_plus, .law = law}, at_reynolds(level.reynolds, k_chord));
       EXPECT_NEAR(first.height / (level.spacing_in * k_inch), 1.0, 0.02) << law << " Re " << level.reynolds << " y+ " << level.y_plus;
     }
 }
 
 TEST(FirstHeight, laws_agree_where_they_overlap) {
-  // Local laws within a tenth of each other at Re 5e6, as published comparisons have them; means of a plate are 1/0.8 .. 1/0.85 of the local value at its end (exactly 1/0.8 for Re^-0.2).
+  // Local laws within a tenth of each other at Re 5e6, as published comparisons have them; means of a plate are 1/0.8 .. 1/0.85 of the local value at its end
+  // (exactly 1/0.8 for Re^-0.2).
   const double local = skin_friction("schlichting", 5e6);
   for (const char* law : {"seventh_root", "kays_crawford", "prandtl"}) EXPECT_NEAR(skin_friction(law, 5e6) / local, 1.0, 0.1) << law;
   for (const char* law : {"prandtl_schlichting", "ittc57"}) EXPECT_NEAR(skin_friction(law, 5e6) / local, 1.2, 0.06) << law;
-  EXPECT_NEAR(skin_friction("ittc57", 1e7), 0.003, 1e-6);        // 0.075 / 25
+  EXPECT_NEAR(skin_friction("ittc57", 1e7), 0.003, 1e-6);                 // 0.075 / 25
   EXPECT_NEAR(skin_friction("prandtl_schlichting", 1e7), 0.00300, 1e-5);  // table 21.1 of Schlichting
   EXPECT_NEAR(skin_friction("prandtl", 1e5), 0.00592, 1e-8);
   EXPECT_THROW(skin_friction("blasius", 1e6), Error);
@@ -76,7 +79,8 @@ TEST(FirstHeight, is_linear_in_y_plus_and_twice_as_high_for_cell_centres) {
   EXPECT_DOUBLE_EQ(first_height({.y_plus = 1.0, .at = "cell_centre"}, flow).height, 2.0 * one.height);
   // y+ = y u_tau / nu, put together again from what is known of the flow
   EXPECT_NEAR(one.wall_distance * one.friction_velocity * flow.density / flow.viscosity, 1.0, 1e-12);
-  EXPECT_THAT(describe(one), testing::AllOf(testing::HasSubstr("y+ 1 at the first node"), testing::HasSubstr("Mach 0.78"), testing::HasSubstr("11000 m of the standard atmosphere")));
+  EXPECT_THAT(describe(one), testing::AllOf(testing::HasSubstr("y+ 1 at the first node"), testing::HasSubstr("Mach 0.78"),
+                                            testing::HasSubstr("11000 m of the standard atmosphere")));
 }
 
 TEST(FlowState, ways_to_the_same_flow) {
@@ -109,11 +113,13 @@ TEST(FlowState, refuses_what_is_missing_or_told_twice) {
     return std::string("no error");
   };
   EXPECT_THAT(message({.mach = 0.5, .altitude = 0.0}), testing::HasSubstr("length is missing"));
-  EXPECT_THAT(message({.length = 1.0, .mach = 0.5}), testing::AllOf(testing::HasSubstr("the temperature that makes the Mach number a speed"), testing::HasSubstr("density")));
+  EXPECT_THAT(message({.length = 1.0, .mach = 0.5}),
+              testing::AllOf(testing::HasSubstr("the temperature that makes the Mach number a speed"), testing::HasSubstr("density")));
   EXPECT_THAT(message({.length = 1.0, .mach = 0.5, .speed = 100.0, .altitude = 0.0}), testing::HasSubstr("mach and speed"));
   EXPECT_THAT(message({.length = 1.0, .mach = 0.5, .altitude = 0.0, .pressure = 1e5}), testing::HasSubstr("altitude and pressure"));
   EXPECT_THAT(message({.length = 1.0, .reynolds = 1e6, .mach = 0.5, .altitude = 0.0}), testing::HasSubstr("leave one out"));
-  EXPECT_THAT(message({.length = 1.0, .mach = 0.5, .temperature_offset = 10.0, .temperature = 300.0, .pressure = 1e5}), testing::HasSubstr("temperature_offset needs an altitude"));
+  EXPECT_THAT(message({.length = 1.0, .mach = 0.5, .temperature_offset = 10.0, .temperature = 300.0, .pressure = 1e5}),
+              testing::HasSubstr("temperature_offset needs an altitude"));
 }
 
 TEST(BoundaryLayer, its_thickness) {

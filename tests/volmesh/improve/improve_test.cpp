@@ -1,12 +1,12 @@
 #include "volmesh/improve/improve.h"
 
+#include <gmock/gmock.h>
 #include <algorithm>
 #include <cmath>
-#include <gmock/gmock.h>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
-#include <numbers>
 #include <random>
 
 #include "geom/math/measures.h"
@@ -163,7 +163,9 @@ TEST(TetQuality, is_the_smallest_weighted_sine) {
     // Of obtuse angles the largest, of acute ones the smallest has the smallest sine.
     const auto [min, max] = tet_dihedral_range(p);
     const double expected = std::min(min > std::numbers::pi / 2 ? 1.0 : std::sin(min), max > std::numbers::pi / 2 ? 0.6 * std::sin(max) : 1.0);
-    if (max > std::numbers::pi / 2) { EXPECT_NEAR(quality, expected, 1e-9); }
+    if (max > std::numbers::pi / 2) {
+      EXPECT_NEAR(quality, expected, 1e-9);
+    }
     const auto [of_smallest, of_largest] = dihedral_cosines(p[0], p[1], p[2], p[3]);
     EXPECT_NEAR(std::acos(of_smallest), min, 1e-6);
     EXPECT_NEAR(std::acos(of_largest), max, 1e-6);
@@ -176,7 +178,9 @@ TEST(TetQuality, is_the_smallest_weighted_sine) {
 TEST(TetQuality, both_limits_are_one_threshold) {
   const QualityLimits limits = quality_limits(12 * k_degree, 160 * k_degree);
   // Wedges about the z axis with a given angle there, other angles harmless.
-  const auto wedge = [&](double angle) { return tet_quality({0, 0, -0.5}, {0, 0, 0.5}, {1, 0, 0}, {std::cos(angle), std::sin(angle), 0}, limits.obtuse_weight); };
+  const auto wedge = [&](double angle) {
+    return tet_quality({0, 0, -0.5}, {0, 0, 0.5}, {1, 0, 0}, {std::cos(angle), std::sin(angle), 0}, limits.obtuse_weight);
+  };
   EXPECT_NEAR(wedge(12 * k_degree), limits.target, 1e-12);
   EXPECT_NEAR(wedge(160 * k_degree), limits.target, 1e-12);
   EXPECT_LT(wedge(11 * k_degree), limits.target);
@@ -199,7 +203,8 @@ bool improve_all(Region& region) {
 double region_volume(const Region& region) {
   double sum = 0.0;
   for (const Region::Tet& t : region.tets())
-    if (t.is_alive) sum += tet_volume(region.points()[t.corners[0]], region.points()[t.corners[1]], region.points()[t.corners[2]], region.points()[t.corners[3]]);
+    if (t.is_alive)
+      sum += tet_volume(region.points()[t.corners[0]], region.points()[t.corners[1]], region.points()[t.corners[2]], region.points()[t.corners[3]]);
   return sum;
 }
 

@@ -94,8 +94,10 @@ TEST_P(Gradient, MatchesCentralDifferencesAtSecondOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Terms, Gradient,
-                         testing::Values(ObjectiveWeights{.height = 0.0, .top = 0.0, .barrier = 0.0}, ObjectiveWeights{.height = 1.0, .top = 0.0, .barrier = 0.0},
-                                         ObjectiveWeights{.height = 0.0, .top = 1.0, .barrier = 0.0}, ObjectiveWeights{.height = 0.0, .top = 0.0, .barrier = 1.0},
+                         testing::Values(ObjectiveWeights{.height = 0.0, .top = 0.0, .barrier = 0.0},
+                                         ObjectiveWeights{.height = 1.0, .top = 0.0, .barrier = 0.0},
+                                         ObjectiveWeights{.height = 0.0, .top = 1.0, .barrier = 0.0},
+                                         ObjectiveWeights{.height = 0.0, .top = 0.0, .barrier = 1.0},
                                          ObjectiveWeights{.height = 0.5, .top = 0.3, .barrier = 0.02}));
 
 class Methods : public testing::TestWithParam<OptimiseMethod> {};

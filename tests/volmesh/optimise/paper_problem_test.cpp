@@ -69,7 +69,8 @@ TEST(PaperProblem, OneWedgeByHand) {
   const double cosine = -0.1 / std::hypot(1.25, 0.1);
   EXPECT_NEAR(f.f1, ((1.0 - 1.0) + (1.0 - std::sqrt(0.5)) + (1.0 - cosine)) / 3.0, 1e-14);  // (8)
   EXPECT_NEAR(f.f2, ((1.0 - 0.8) + (1.0 - 1.0) + (1.0 + 0.2)) / 3.0, 1e-14);                // (9)
-  // Envelope triangle: (0, 0, .4), (1.5, 0, .5), (0, -.25, -.1): twice its area vector has z = 1.5 * -0.25 - 0; over twice the wall's area, 1: (6) with g_1,min = 0.3
+  // Envelope triangle: (0, 0, .4), (1.5, 0, .5), (0, -.25, -.1): twice its area vector has z = 1.5 * -0.25 - 0; over twice the wall's area, 1: (6) with g_1,min
+  // = 0.3
   const PaperConstraint g = problem.constraint(z, {}, k_context);
   EXPECT_NEAR(g.g1, 0.3 + 0.375, 1e-14);
   EXPECT_NEAR(g.g2, 0.1 / 0.5, 1e-14);  // (7), in units of h_u
@@ -182,8 +183,12 @@ ElementConstraints constraints_of(const LayerBase& base, const Column<VertexId, 
 /// A rough point of a problem on a surface: tilted lines, uneven heights, many violated elements.
 struct RoughCase {
   explicit RoughCase(const std::string& name)
-      : mesh(surface_named(name)), base(mesh, k_context), envelope(initial_envelope(base, layers_for(mesh), k_context)), h_u(upper(base, envelope)),
-        problem(base, envelope, h_u, 1e-6, k_g1_min, k_context), z(problem.unknowns(envelope)) {
+      : mesh(surface_named(name)),
+        base(mesh, k_context),
+        envelope(initial_envelope(base, layers_for(mesh), k_context)),
+        h_u(upper(base, envelope)),
+        problem(base, envelope, h_u, 1e-6, k_g1_min, k_context),
+        z(problem.unknowns(envelope)) {
     for (double& x : z) x += 2.4 * noise.next();
     problem.store(z, envelope, k_context);
   }
@@ -223,8 +228,7 @@ TEST_P(OnSurface, SumsAgreeWithTheEquationsWrittenDownByElement) {
       if (rough.problem.takes_part(v)) f1 += 1.0 - dot(rough.base.unit_normal[t], rough.envelope.direction[v]);
   }
   for (const VertexId v : rough.mesh.points.ids())
-    if (rough.problem.takes_part(v))
-      f2 += 1.0 - rough.envelope.height[v] * dot(rough.envelope.direction[v], rough.base.vertex_normal[v]) / rough.h_u[v];
+    if (rough.problem.takes_part(v)) f2 += 1.0 - rough.envelope.height[v] * dot(rough.envelope.direction[v], rough.base.vertex_normal[v]) / rough.h_u[v];
   const PaperObjective f = rough.problem.objective(rough.z, {}, k_context);
   const PaperConstraint g = rough.problem.constraint(rough.z, {}, k_context);
   EXPECT_NEAR(f.f1, f1 / (3.0 * static_cast<double>(rough.problem.n_elements())), 1e-12);
@@ -289,9 +293,7 @@ TEST_P(OnSurface, EveryGradientMatchesCentralDifferencesAtSecondOrder) {
       size += std::abs(gradient[j] * a[j]);
     }
     ASSERT_GT(size, 0.0) << "no element whose " << value << " changes";
-    const auto error_at = [&](double s) {
-      return (problem.part(part, at(s), {}, k_context) - problem.part(part, at(-s), {}, k_context)) / (2.0 * s) - exact;
-    };
+    const auto error_at = [&](double s) { return (problem.part(part, at(s), {}, k_context) - problem.part(part, at(-s), {}, k_context)) / (2.0 * s) - exact; };
     const double coarse = error_at(4e-3), fine = error_at(2e-3);
     EXPECT_LT(std::abs(fine), 1e-3 * size);
     EXPECT_NEAR(coarse / fine, 4.0, 0.2) << "errors " << coarse / size << " and " << fine / size << " of the slope";  // the next order is s^2 of this one

@@ -118,7 +118,14 @@ TEST(CompleteBoundary, KeepsCavitiesAndSeveralBodies) {
 
 TEST(CompleteBoundary, MakesBoxesOfAnyEdgeLengths) {
   const TriMesh cube = test::cube(2);
-  FarfieldOptions options{.farfield_shape = "box", .farfield_edge = 2.0, .farfield_from_x = -10, .farfield_from_y = -5, .farfield_from_z = -4, .farfield_to_x = 20, .farfield_to_y = 5, .farfield_to_z = 6};
+  FarfieldOptions options{.farfield_shape = "box",
+                          .farfield_edge = 2.0,
+                          .farfield_from_x = -10,
+                          .farfield_from_y = -5,
+                          .farfield_from_z = -4,
+                          .farfield_to_x = 20,
+                          .farfield_to_y = 5,
+                          .farfield_to_z = 6};
   for (const char* sides : {"", "x_min=inflow x_max=outflow,edge:0.5", "y_min=slip,name:floor,edge:0.3 y_max=slip,edge:7"}) {
     options.farfield_sides = sides;
     const TriMesh whole = complete_boundary(cube, {options, {}}, k_run);
@@ -132,15 +139,24 @@ TEST(CompleteBoundary, MakesBoxesOfAnyEdgeLengths) {
     EXPECT_GT(least, 15.0 * k_pi / 180.0) << sides;
   }
   options.farfield_sides = "x_min=inflow x_max=outflow,name:exit z_min=slip z_max=slip";
-  EXPECT_THAT(names_of(complete_boundary(cube, {options, {}}, k_run)), UnorderedElementsAre("cube:wall", "inflow:inflow", "exit:outflow", "farfield:farfield", "slip:slip"));
+  EXPECT_THAT(names_of(complete_boundary(cube, {options, {}}, k_run)),
+              UnorderedElementsAre("cube:wall", "inflow:inflow", "exit:outflow", "farfield:farfield", "slip:slip"));
 }
 
 TEST(CompleteBoundary, MakesCylindersAlongAnyAxis) {
   const TriMesh cube = test::cube(2);
   for (const Vec3 axis : {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, 1}, Vec3{0.6, 0.48, -0.64}}) {
     const Vec3 from = Vec3{0.5, 0.5, 0.5} - 9.0 * axis, to = Vec3{0.5, 0.5, 0.5} + 11.0 * axis;
-    const FarfieldOptions options{.farfield_shape = "cylinder", .farfield_radius = 6.0, .farfield_edge = 1.0, .farfield_from_x = from.x, .farfield_from_y = from.y, .farfield_from_z = from.z, .farfield_to_x = to.x,
-                                  .farfield_to_y = to.y, .farfield_to_z = to.z, .farfield_sides = "start=inflow end=outflow,edge:0.4"};
+    const FarfieldOptions options{.farfield_shape = "cylinder",
+                                  .farfield_radius = 6.0,
+                                  .farfield_edge = 1.0,
+                                  .farfield_from_x = from.x,
+                                  .farfield_from_y = from.y,
+                                  .farfield_from_z = from.z,
+                                  .farfield_to_x = to.x,
+                                  .farfield_to_y = to.y,
+                                  .farfield_to_z = to.z,
+                                  .farfield_sides = "start=inflow end=outflow,edge:0.4"};
     const TriMesh whole = complete_boundary(cube, {options, {}}, k_run);
     expect_complete(cube, whole, 36.0 * k_pi * 20.0 - 1.0, 0.02);
     EXPECT_THAT(names_of(whole), UnorderedElementsAre("cube:wall", "inflow:inflow", "outflow:outflow", "farfield:farfield"));
@@ -155,8 +171,10 @@ TEST(CompleteBoundary, HalvesEveryShape) {
       const TriMesh half = moved(half_of(full, {.axis = axis, .keep = keep}, k_run), {0, 0, 0});
       for (const char* shape : {"automatic", "box", "cylinder"}) {
         SCOPED_TRACE(std::string(axis) + keep + shape);
-        const TriMesh whole = complete_boundary(half, {{.farfield_shape = shape, .farfield_radius = std::string(shape) == "box" ? k_automatic : 30.0}, {}}, k_run);
-        const TriMesh around_full = complete_boundary(full, {{.farfield_shape = shape, .farfield_radius = std::string(shape) == "box" ? k_automatic : 30.0}, {}}, k_run);
+        const TriMesh whole =
+            complete_boundary(half, {{.farfield_shape = shape, .farfield_radius = std::string(shape) == "box" ? k_automatic : 30.0}, {}}, k_run);
+        const TriMesh around_full =
+            complete_boundary(full, {{.farfield_shape = shape, .farfield_radius = std::string(shape) == "box" ? k_automatic : 30.0}, {}}, k_run);
         expect_complete(half, whole, -0.5 * volume(around_full), 0.01);
         expect_plane(whole, "symmetry", k, 0.0, *keep == '+' ? 1.0 : -1.0);
         EXPECT_THAT(names_of(whole), ElementsAre("sphere:wall", "farfield:farfield", "symmetry:symmetry"));
@@ -188,7 +206,8 @@ TEST(CompleteBoundary, TakesTwoPlanes) {
   // A wing between two walls.
   TriMesh strut = half_of(half_of(moved(test::sphere(8), {0, 0.5, 0}), {.at = 0.1}, k_run), {.at = 1.1, .keep = "-"}, k_run);
   for (const char* shape : {"box", "cylinder"}) {
-    const TriMesh whole = complete_boundary(strut, {{.farfield_shape = shape, .farfield_sides = "symmetry_y_min=slip symmetry_y_max=wall,name:floor"}, {}}, k_run);
+    const TriMesh whole =
+        complete_boundary(strut, {{.farfield_shape = shape, .farfield_sides = "symmetry_y_min=slip symmetry_y_max=wall,name:floor"}, {}}, k_run);
     EXPECT_EQ(Topology(whole, k_run).n_boundary_halfedges(), 0u);
     EXPECT_THAT(names_of(whole), ElementsAre("sphere:wall", "farfield:farfield", "slip:slip", "floor:wall"));
     expect_plane(whole, "slip", 1, 0.1, 1.0);
@@ -258,7 +277,13 @@ TEST(CompleteBoundary, SaysWhatIsWrong) {
   EXPECT_EQ(open.code, ErrorCode::open_surface);
   EXPECT_THAT(open.problem, HasSubstr("1 rims with 3 edges"));
   EXPECT_FALSE(open.places.empty());
-  const FarfieldOptions box{.farfield_shape = "box", .farfield_from_x = -10, .farfield_from_y = -5, .farfield_from_z = -4, .farfield_to_x = 20, .farfield_to_y = 1.001, .farfield_to_z = 6};
+  const FarfieldOptions box{.farfield_shape = "box",
+                            .farfield_from_x = -10,
+                            .farfield_from_y = -5,
+                            .farfield_from_z = -4,
+                            .farfield_to_x = 20,
+                            .farfield_to_y = 1.001,
+                            .farfield_to_z = 6};
   const ErrorInfo narrow = error_of(cube, {box, {}});
   EXPECT_THAT(narrow.problem, HasSubstr("y_max at 1.001 m has the wall inside by 0.001 m only, needed are 0.02 m"));
   ASSERT_EQ(narrow.places.size(), 1u);
@@ -271,9 +296,11 @@ TEST(CompleteBoundary, SaysWhatIsWrong) {
 
 TEST(CompleteBoundary, OfHalvesOfRealAircraft) {
   STERNA_NEEDS_SHARED_DATA();
-  for (const char* file : {"dlr_f6_184k.stl", "derived_crm_wb_dpw_coarse_full.off", "wing_body_79k.stl", "flow360_airplane_airplaneGeometry.stl", "vspgeom_geom2_geom2.stl"}) {
+  for (const char* file :
+       {"dlr_f6_184k.stl", "derived_crm_wb_dpw_coarse_full.off", "wing_body_79k.stl", "flow360_airplane_airplaneGeometry.stl", "vspgeom_geom2_geom2.stl"}) {
     SCOPED_TRACE(file);
-    const TriMesh full = surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces" / "clean" / file, k_run)}, {.check_intersections = false}, k_run).mesh;
+    const TriMesh full =
+        surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces" / "clean" / file, k_run)}, {.check_intersections = false}, k_run).mesh;
     const TriMesh half = half_of(full, {}, k_run);
     const TriMesh whole = complete_boundary(half, {}, k_run);
     EXPECT_EQ(Topology(whole, k_run).n_boundary_halfedges(), 0u);

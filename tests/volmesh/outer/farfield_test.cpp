@@ -60,8 +60,8 @@ TEST(FarfieldSphere, HasTheEdgeLengthAskedFor) {
       }
     }
     const double mean = sum / (3.0 * static_cast<double>(sphere.n_triangles()));
-    EXPECT_NEAR(mean / edge, 1.1, 0.15);   // pushing out to the sphere makes edges longer, up to 1.26 in the middle of a face
-    EXPECT_LT(most / least, 1.5);          // of class I subdivision: 1.41 for f = 21, growing slowly with f
+    EXPECT_NEAR(mean / edge, 1.1, 0.15);  // pushing out to the sphere makes edges longer, up to 1.26 in the middle of a face
+    EXPECT_LT(most / least, 1.5);         // of class I subdivision: 1.41 for f = 21, growing slowly with f
   }
 }
 

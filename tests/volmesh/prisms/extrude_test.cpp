@@ -261,13 +261,15 @@ TEST(FirstNode, RidgesAreCountedApart) {
   const Extrusion extrusion = extrude_prisms(base, options, {}, envelope, k_context);
   const FirstNodeReport first = first_node_report(base, classify_vertices(base, options, k_context), options, envelope, extrusion, k_context);
   EXPECT_DOUBLE_EQ(first.vertex_share, 1.0);
-  EXPECT_DOUBLE_EQ(first.facet_share, 1.0);  // the inner triangles of each face
+  EXPECT_DOUBLE_EQ(first.facet_share, 1.0);   // the inner triangles of each face
   EXPECT_NEAR(first.ridge_area, 0.75, 0.01);  // all but the 2 x 2 inner squares of 4 x 4
 }
 
 TEST(FirstNode, WithinTwoPercentOnARealWing) {
   STERNA_NEEDS_SHARED_DATA();
-  const TriMesh wall = surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces/clean/derived_crm_wb_dpw_coarse_full.off", k_context)}, {}, k_context).mesh;
+  const TriMesh wall =
+      surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces/clean/derived_crm_wb_dpw_coarse_full.off", k_context)}, {}, k_context)
+          .mesh;
   const LayerBase base(wall, k_context);
   EnvelopeOptions options = layers_of(1e-6 * base.body_length, 20);
   options.max_thickness = 0.1 * base.body_length;

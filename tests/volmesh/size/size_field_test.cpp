@@ -1,8 +1,8 @@
 #include "volmesh/tetra/size_field.h"
 
+#include <gmock/gmock.h>
 #include <algorithm>
 #include <cmath>
-#include <gmock/gmock.h>
 #include <random>
 
 #include "geom/base/error.h"
@@ -110,13 +110,14 @@ TEST(SizeField, sources_are_met_inside_and_grow_outside) {
 
 TEST(SizeField, a_wake_follows_its_edge_and_grows_downstream) {
   const Shells shells = sphere_in_sphere(4);
-  const SizeSource wake{.kind = SourceKind::wake, .from = {4.0, 0.0, 0.0}, .to = {6.0, 4.0, 0.0}, .length = 10.0, .height = 0.4, .spread = 0.1, .size = 0.1, .size_end = 0.3};
+  const SizeSource wake{
+      .kind = SourceKind::wake, .from = {4.0, 0.0, 0.0}, .to = {6.0, 4.0, 0.0}, .length = 10.0, .height = 0.4, .spread = 0.1, .size = 0.1, .size_end = 0.3};
   const SizeField field = build_size_field(shells.boundary(), std::span(&wake, 1), {}, RunContext());
   EXPECT_NEAR(field({4.5, 0.1, 0.0}), 0.11, 0.02);
   EXPECT_NEAR(field({14.0, 0.5, 0.0}), 0.295, 0.02);
-  EXPECT_NEAR(field({14.0, 0.5, 1.0}), 0.295, 0.03);   // half the height is 0.2 + 0.1 * 9.75 there
+  EXPECT_NEAR(field({14.0, 0.5, 1.0}), 0.295, 0.03);  // half the height is 0.2 + 0.1 * 9.75 there
   EXPECT_NEAR(field({6.0, 3.9, 0.0}), 0.1, 0.02);
-  EXPECT_GT(field({4.5, 3.9, 0.0}), 0.3);              // upstream of the swept edge
+  EXPECT_GT(field({4.5, 3.9, 0.0}), 0.3);  // upstream of the swept edge
 }
 
 TEST(SizeField, size_max_holds_everywhere) {

@@ -137,8 +137,6 @@ void expect_tiling(const Domain& domain, const volmesh::TetraResult& result) {
   EXPECT_NEAR(volume.value() / domain.volume(), 1.0, 1e-11);
 }
 
-bool has_no_children() {
-  return waitpid(-1, nullptr, WNOHANG) == -1 && errno == ECHILD;
-}
+bool has_no_children() { return waitpid(-1, nullptr, WNOHANG) == -1 && errno == ECHILD; }
 
 }  // namespace sterna::test

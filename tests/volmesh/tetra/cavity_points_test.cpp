@@ -88,7 +88,8 @@ TEST(FindCavityPoints, OncePerSolidRegion) {
   const auto points = find(russian);
   ASSERT_EQ(points.size(), 2u);
   for (const Point& p : points) EXPECT_NEAR(winding(russian, p), 1.0, 1e-9);
-  const TriMesh cheese = both(both(test::sphere(6), inside_out(transformed(test::sphere(2), 0.2, {0.4, 0, 0}))), inside_out(transformed(test::cube(1), 0.2, {-0.4, 0, 0})));
+  const TriMesh cheese =
+      both(both(test::sphere(6), inside_out(transformed(test::sphere(2), 0.2, {0.4, 0, 0}))), inside_out(transformed(test::cube(1), 0.2, {-0.4, 0, 0})));
   EXPECT_EQ(find(cheese).size(), 1u);
 }
 

@@ -129,7 +129,8 @@ TEST_F(Ladder, NoEngineWhenTheBoundaryCrossesItself) {
 }
 
 TEST_F(Ladder, EndsAtALimitUnlessToldOtherwise) {
-  EXPECT_THAT(error_info_of([&] { fill(domain_, {.engine = "tetgen", .time_limit = 0.2, .helper_folder = folder("endless", "sleep 100")}); }).problem, HasSubstr("time limit"));
+  EXPECT_THAT(error_info_of([&] { fill(domain_, {.engine = "tetgen", .time_limit = 0.2, .helper_folder = folder("endless", "sleep 100")}); }).problem,
+              HasSubstr("time limit"));
   EXPECT_THAT(log_, testing::SizeIs(1));
   // Killed from outside: as the system does it for lack of memory.
   TetraOptions options = {.engine = "tetgen", .helper_folder = folder("killed", "kill -KILL $$")};

@@ -33,7 +33,8 @@ PreflightReport report_of(const Domain& domain, const PreflightLimits& limits = 
 }
 /// Only this kind of trouble, this often.
 void expect_only(const PreflightReport& report, Trouble trouble, std::int64_t n) {
-  for (const Trouble kind : {Trouble::crossing, Trouble::duplicate, Trouble::folded, Trouble::sliver, Trouble::gap}) EXPECT_EQ(report.count(kind), kind == trouble ? n : 0) << to_string(kind);
+  for (const Trouble kind : {Trouble::crossing, Trouble::duplicate, Trouble::folded, Trouble::sliver, Trouble::gap})
+    EXPECT_EQ(report.count(kind), kind == trouble ? n : 0) << to_string(kind);
 }
 
 TEST(Preflight, NothingOnGoodSurfaces) {
@@ -54,7 +55,9 @@ TEST(Preflight, CrossingsAreThoseOfTheExactTest) {
   EXPECT_EQ(report.count(Trouble::crossing), crossings.total);
   std::size_t i = 0;
   for (const PreflightFinding& finding : report.findings) {
-    if (finding.trouble == Trouble::crossing) { EXPECT_EQ(finding.triangles, crossings.pairs[i++]); }
+    if (finding.trouble == Trouble::crossing) {
+      EXPECT_EQ(finding.triangles, crossings.pairs[i++]);
+    }
   }
   EXPECT_EQ(report_of(domain, {.is_clear = true}).count(Trouble::crossing), 0);
   const ErrorInfo error = test::error_info_of([&] { judge(report, domain.boundary(), RunContext{}); });
@@ -106,7 +109,9 @@ TEST(Preflight, FoldsBelowTheAngle) {
     domain.triangles = {{0, 1, 3}, {0, 3, 2}, {0, 4, 5}, {0, 5, 1}};
     const PreflightReport report = report_of(domain, {.gap = 0.0});
     expect_only(report, Trouble::folded, angle < 0.01745 ? 1 : 0);
-    if (angle < 0.01745) { EXPECT_NEAR(report.findings.front().value, angle, 1e-9); }
+    if (angle < 0.01745) {
+      EXPECT_NEAR(report.findings.front().value, angle, 1e-9);
+    }
   }
 }
 

@@ -63,30 +63,44 @@ TEST_F(HelperProcess, MissingIsNamed) {
 }
 
 TEST_F(HelperProcess, NoProgramIsMissingToo) {
-  EXPECT_EQ(run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = folder_with("not_a_program", "\x7f" "ELF nonsense")}).code, ErrorCode::tetra_engine_missing);
+  EXPECT_EQ(run(domain_around(test::cube(1)), {.engine = "tetgen",
+                                               .helper_folder = folder_with("not_a_program",
+                                                                            "\x7f"
+                                                                            "ELF nonsense")})
+                .code,
+            ErrorCode::tetra_engine_missing);
 }
 
 TEST_F(HelperProcess, IsQuotedWhenItGivesNoAnswer) {
-  const ErrorInfo error = run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("mute", "echo out of paper; echo and of ink >&2; exit 3")});
+  const ErrorInfo error =
+      run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("mute", "echo out of paper; echo and of ink >&2; exit 3")});
   EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
   EXPECT_THAT(error.problem, HasSubstr("exit status 3"));
   EXPECT_THAT(error.problem, HasSubstr("out of paper\nand of ink"));
 }
 
 TEST_F(HelperProcess, MayTalkALot) {
-  const ErrorInfo error = run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("talker", "yes 0123456789 | head -c 3000000; exit 4")});
+  const ErrorInfo error =
+      run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("talker", "yes 0123456789 | head -c 3000000; exit 4")});
   EXPECT_THAT(error.problem, HasSubstr("exit status 4"));
   EXPECT_LT(error.problem.size(), 2000u);
 }
 
 TEST_F(HelperProcess, GarbageIsNoAnswer) {
-  EXPECT_EQ(run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("garbage", "head -c 1000 /dev/zero >&4")}).code, ErrorCode::tetra_engine_failed);
-  EXPECT_EQ(run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("silent", "exec >&- 2>&-; sleep 0.3")}).code, ErrorCode::tetra_engine_failed);
+  EXPECT_EQ(run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("garbage", "head -c 1000 /dev/zero >&4")}).code,
+            ErrorCode::tetra_engine_failed);
+  EXPECT_EQ(run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("silent", "exec >&- 2>&-; sleep 0.3")}).code,
+            ErrorCode::tetra_engine_failed);
 }
 
 TEST_F(HelperProcess, ACutAnswerIsInvalid) {
   // The header of a good reply (56 bytes: magic, ok, no points, one tetrahedron) without what it announces.
-  const ErrorInfo error = run(domain_around(test::cube(1)), {.engine = "tetgen", .helper_folder = script("cut", "printf 'STETREP3' >&4; head -c 8 /dev/zero >&4; printf '\\377\\377\\0\\0\\0\\0\\0\\0\\1\\0\\0\\0\\0\\0\\0\\0' >&4; head -c 24 /dev/zero >&4")});
+  const ErrorInfo error =
+      run(domain_around(test::cube(1)),
+          {.engine = "tetgen",
+           .helper_folder = script(
+               "cut",
+               "printf 'STETREP3' >&4; head -c 8 /dev/zero >&4; printf '\\377\\377\\0\\0\\0\\0\\0\\0\\1\\0\\0\\0\\0\\0\\0\\0' >&4; head -c 24 /dev/zero >&4")});
   EXPECT_EQ(error.code, ErrorCode::tetra_result_invalid);
   EXPECT_THAT(error.problem, HasSubstr("bytes instead of"));
 }

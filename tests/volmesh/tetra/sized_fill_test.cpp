@@ -17,8 +17,12 @@ using test::expect_tiling;
 
 class SizedFill : public testing::TestWithParam<std::string> {
  protected:
-  TetraResult fill(const SizeField& sizes, int threads = 1) const { return volmesh::fill(domain.boundary(), &sizes, {.engine = GetParam()}, RunContext({.threads = threads})); }
-  SizeField field(std::vector<SizeSource> sources, double growth = 1.3) const { return build_size_field(domain.boundary(), sources, {.size_growth = growth}, RunContext{}); }
+  TetraResult fill(const SizeField& sizes, int threads = 1) const {
+    return volmesh::fill(domain.boundary(), &sizes, {.engine = GetParam()}, RunContext({.threads = threads}));
+  }
+  SizeField field(std::vector<SizeSource> sources, double growth = 1.3) const {
+    return build_size_field(domain.boundary(), sources, {.size_growth = growth}, RunContext{});
+  }
   Domain domain = domain_around(test::sphere(8), 10.0);
 };
 INSTANTIATE_TEST_SUITE_P(Engine, SizedFill, testing::Values("tetgen", "hxt"), [](const auto& test) { return test.param; });
@@ -53,9 +57,7 @@ TEST_P(SizedFill, MakesEdgesOfTheWantedLength) {
   EXPECT_NEAR(mean_edge_ratio(domain, result, sizes, {0, 4, 0}, 2.5), 1.1, 0.2);
 }
 
-TEST_P(SizedFill, GrowsAsItIsTold) {
-  EXPECT_GT(fill(field({}, 1.15)).tetrahedra.size(), 1.5 * static_cast<double>(fill(field({}, 1.5)).tetrahedra.size()));
-}
+TEST_P(SizedFill, GrowsAsItIsTold) { EXPECT_GT(fill(field({}, 1.15)).tetrahedra.size(), 1.5 * static_cast<double>(fill(field({}, 1.5)).tetrahedra.size())); }
 
 TEST_P(SizedFill, IsDeterministic) {
   const SizeField sizes = field({});
@@ -76,7 +78,9 @@ TEST(SizedFillBoth, EnginesMakeAboutAsManyTetrahedra) {
   const Domain domain = domain_around(test::sphere(10), 20.0);
   const std::vector<SizeSource> sources = {{.kind = SourceKind::sphere, .radius = 3.0, .size = 0.2}};
   const SizeField sizes = build_size_field(domain.boundary(), sources, {}, RunContext{});
-  const auto count = [&](const char* engine) { return static_cast<double>(fill(domain.boundary(), &sizes, {.engine = engine}, RunContext{}).tetrahedra.size()); };
+  const auto count = [&](const char* engine) {
+    return static_cast<double>(fill(domain.boundary(), &sizes, {.engine = engine}, RunContext{}).tetrahedra.size());
+  };
   const double ratio = count("tetgen") / count("hxt");
   EXPECT_GT(ratio, 1.0 / 1.3);
   EXPECT_LT(ratio, 1.3);

@@ -72,7 +72,8 @@ std::string folder_that_needs_splits() {
   std::filesystem::create_directories(folder);
   // Byte 80 of the request: RequestHeader::splits.
   const std::string real = find_helper("sterna-tet-tetgen", {});
-  std::ofstream(folder / "sterna-tet-tetgen") << "#!/bin/sh\nmode=$(od -An -tu1 -j80 -N1 /proc/self/fd/3)\n[ $mode = 1 ] || kill -SEGV $$\nexec " << real << "\n";
+  std::ofstream(folder / "sterna-tet-tetgen") << "#!/bin/sh\nmode=$(od -An -tu1 -j80 -N1 /proc/self/fd/3)\n[ $mode = 1 ] || kill -SEGV $$\nexec " << real
+                                              << "\n";
   std::ofstream(folder / "sterna-tet-hxt") << "#!/bin/sh\nkill -SEGV $$\n";
   for (const char* name : {"sterna-tet-tetgen", "sterna-tet-hxt"}) std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
   return folder.string();
@@ -127,7 +128,8 @@ TEST_F(FillWithSplits, ARefusalIsAFailureOfTheAttempt) {
   const TetraResult result = fill({.radius_edge = 1.2, .boundary_splits = "always"}, refuse);
   EXPECT_EQ(result.engine, "hxt");
   EXPECT_THAT(result.failures, ElementsAre(HasSubstr("cannot follow")));
-  EXPECT_EQ(error_info_of([&] { fill({.radius_edge = 1.2, .boundary_splits = "always", .try_other_engine = false}, refuse); }).code, ErrorCode::envelope_failed);
+  EXPECT_EQ(error_info_of([&] { fill({.radius_edge = 1.2, .boundary_splits = "always", .try_other_engine = false}, refuse); }).code,
+            ErrorCode::envelope_failed);
 }
 
 TEST_F(FillWithSplits, ContradictionsAreNamed) {

@@ -83,7 +83,7 @@ TEST(TwoPass, SizesOfTheFieldAreObeyedToo) {
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < i; ++j) longest = std::max(longest, distance(p[i], p[j]));
   }
-  EXPECT_GT(n, 1000);          // 2.1 m^3 in tetrahedra of 0.2 m edges, 9.4e-4 m^3 each
+  EXPECT_GT(n, 1000);           // 2.1 m^3 in tetrahedra of 0.2 m edges, 9.4e-4 m^3 each
   EXPECT_LT(longest, 2 * 0.2);  // the wanted length is a mean
 }
 
