@@ -7,7 +7,7 @@
 
 #include "scripting/script_call.h"
 #include "scripting/table_reader.h"
-#include "volmesh/actuator_disc.h"
+#include "volmesh/domain/actuator_disc.h"
 
 namespace sterna::scripting {
 

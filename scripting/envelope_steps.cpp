@@ -14,7 +14,7 @@
 #include "scripting/verb_tools.h"
 #include "volmesh/envelope/certificate.h"
 #include "volmesh/envelope/initial.h"
-#include "volmesh/joint_envelope.h"
+#include "volmesh/parts/joint_envelope.h"
 
 namespace sterna::scripting {
 namespace {

@@ -9,7 +9,7 @@
 #include "scripting/script_check.h"
 #include "scripting/table_reader.h"
 #include "scripting/verb_tools.h"
-#include "volmesh/layer_choice.h"
+#include "volmesh/case/layer_choice.h"
 
 namespace sterna::scripting {
 namespace {

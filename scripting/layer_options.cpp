@@ -9,7 +9,7 @@
 #include "geom/base/error.h"
 #include "scripting/script_function.h"
 #include "scripting/verb_tools.h"
-#include "volmesh/layer_choice.h"
+#include "volmesh/case/layer_choice.h"
 
 namespace sterna::scripting {
 

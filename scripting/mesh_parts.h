@@ -9,7 +9,7 @@
 #include "scripting/models.h"
 #include "scripting/verbs.h"
 #include "surfmesh/model/surface_mesh.h"
-#include "volmesh/placed_part.h"
+#include "volmesh/case/placed_part.h"
 
 namespace sterna::scripting {
 

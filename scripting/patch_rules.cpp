@@ -7,7 +7,7 @@
 #include "geom/base/glob.h"
 #include "scripting/model_surface.h"
 #include "scripting/verb_tools.h"
-#include "volmesh/patch_layers.h"
+#include "volmesh/envelope/patch_layers.h"
 
 namespace sterna::scripting {
 namespace {

@@ -10,7 +10,7 @@
 #include "geom/base/schema.h"
 #include "scripting/table_reader.h"
 #include "scripting/verbs.h"
-#include "volmesh/patch_rule.h"
+#include "volmesh/case/patch_rule.h"
 
 namespace sterna::scripting {
 

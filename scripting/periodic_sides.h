@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scripting/table_reader.h"
-#include "volmesh/outer/periodic_sides.h"
+#include "volmesh/domain/periodic_sides.h"
 
 namespace sterna::scripting {
 

@@ -20,8 +20,8 @@
 #include "scripting/patch_rules.h"
 #include "scripting/periodic_sides.h"
 #include "scripting/summary.h"
-#include "volmesh/assemble.h"
-#include "volmesh/layer_choice.h"
+#include "volmesh/case/layer_choice.h"
+#include "volmesh/layer/assemble.h"
 
 namespace sterna::scripting {
 namespace {

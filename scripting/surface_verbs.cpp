@@ -9,7 +9,7 @@
 #include "scripting/patch_rules.h"
 #include "scripting/script_function.h"
 #include "scripting/source_verbs.h"
-#include "volmesh/patch_layers.h"
+#include "volmesh/envelope/patch_layers.h"
 
 namespace sterna::scripting {
 namespace {

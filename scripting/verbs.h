@@ -16,8 +16,8 @@
 #include "surfmesh/model/model_wall.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "surfmesh/stitch/stitch_surface.h"
-#include "volmesh/patch_rule.h"
-#include "volmesh/placed_part.h"
+#include "volmesh/case/patch_rule.h"
+#include "volmesh/case/placed_part.h"
 #include "volmesh/volume_mesh.h"
 
 namespace sterna::scripting {

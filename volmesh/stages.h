@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "volmesh/domain_parts.h"
+#include "volmesh/domain/domain_parts.h"
 #include "volmesh/envelope/collide.h"
 #include "volmesh/envelope/envelope.h"
 #include "volmesh/volume_mesh.h"

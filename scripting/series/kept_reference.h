@@ -14,9 +14,9 @@
 #include "scripting/cache/provenance.h"
 #include "scripting/cache/reuse.h"
 #include "surfmesh/model/carry_mesh.h"
-#include "volmesh/envelope/options.h"
-#include "volmesh/patch_rule.h"
-#include "volmesh/warm_start.h"
+#include "volmesh/case/envelope_options.h"
+#include "volmesh/case/patch_rule.h"
+#include "volmesh/parts/warm_start.h"
 
 namespace sterna::scripting {
 

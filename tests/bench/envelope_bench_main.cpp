@@ -24,9 +24,9 @@
 #include "volmesh/envelope/nlopt_optimise.h"
 #include "volmesh/envelope/optimise.h"
 #include "volmesh/envelope/retract.h"
-#include "volmesh/prisms/extrude.h"
-#include "volmesh/prisms/first_node.h"
-#include "volmesh/prisms/layer_cells.h"
+#include "volmesh/layer/extrude.h"
+#include "volmesh/layer/first_node.h"
+#include "volmesh/layer/layer_cells.h"
 
 namespace {
 

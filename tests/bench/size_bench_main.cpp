@@ -11,7 +11,7 @@
 
 #include "io/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
-#include "volmesh/outer/farfield.h"
+#include "volmesh/domain/farfield.h"
 #include "volmesh/tetra/size_field.h"
 
 namespace {

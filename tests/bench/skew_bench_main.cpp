@@ -16,9 +16,9 @@
 #include "io/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "volmesh/envelope/build_envelope.h"
-#include "volmesh/layer_report.h"
-#include "volmesh/prisms/extrude.h"
-#include "volmesh/prisms/layer_cells.h"
+#include "volmesh/layer/layer_report.h"
+#include "volmesh/layer/extrude.h"
+#include "volmesh/layer/layer_cells.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 
 #include "geom/base/ids.h"
 #include "geom/base/run_context.h"
+#include "volmesh/case/envelope_options.h"
 #include "volmesh/envelope/layer_base.h"
-#include "volmesh/envelope/options.h"
 
 namespace sterna::volmesh {
 

@@ -7,8 +7,8 @@
 
 #include "geom/base/ids.h"
 #include "geom/base/vec3.h"
+#include "volmesh/case/envelope_options.h"
 #include "volmesh/envelope/layer_base.h"
-#include "volmesh/envelope/options.h"
 
 namespace sterna::volmesh {
 

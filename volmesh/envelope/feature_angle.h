@@ -2,8 +2,8 @@
 #pragma once
 
 #include "geom/base/run_context.h"
+#include "volmesh/case/envelope_options.h"
 #include "volmesh/envelope/layer_base.h"
-#include "volmesh/envelope/options.h"
 
 namespace sterna::volmesh {
 

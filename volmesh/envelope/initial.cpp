@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geom/base/parallel.h"
-#include "volmesh/envelope/growth_law.h"
+#include "volmesh/case/growth_law.h"
 #include "volmesh/envelope/wall_distance.h"
 
 namespace sterna::volmesh {

@@ -3,7 +3,7 @@
 
 #include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
-#include "volmesh/envelope/growth_law.h"
+#include "volmesh/case/growth_law.h"
 #include "volmesh/flow/boundary_layer.h"
 #include "volmesh/inspect/survey.h"
 

@@ -12,7 +12,7 @@
 #include "volmesh/envelope/smooth.h"
 #include "volmesh/envelope/untangle.h"
 #include "volmesh/inspect/survey.h"
-#include "volmesh/prisms/layer_line.h"
+#include "volmesh/layer/layer_line.h"
 
 namespace sterna::volmesh {
 namespace {

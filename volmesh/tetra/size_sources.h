@@ -16,8 +16,8 @@ enum class SourceKind {
   sphere,    ///< centre `from`, `radius`
   cylinder,  ///< axis from `from` to `to`, `radius`, flat ends
   wake,      ///< the slab that the segment `from` to `to` (a trailing edge) sweeps over `length` along `direction`, `height` thick at its start, wider by 2
-         ///< `spread` times the distance from there
-  samples,  ///< `size` at each of `points`, as read from a file
+             ///< `spread` times the distance from there
+  samples,   ///< `size` at each of `points`, as read from a file
 };
 /// "point", "line", ...
 std::string_view to_string(SourceKind kind);

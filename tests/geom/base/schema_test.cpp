@@ -2,7 +2,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/schema.h"
-#include "volmesh/envelope/options.h"
+#include "volmesh/case/envelope_options.h"
 #include "volmesh/volume_mesh.h"
 
 namespace sterna {

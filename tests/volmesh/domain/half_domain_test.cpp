@@ -14,7 +14,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/voxels.h"
 #include "tests/volmesh/domain/room.h"
-#include "volmesh/domain_parts.h"
+#include "volmesh/domain/domain_parts.h"
 #include "volmesh/volume_mesh.h"
 
 namespace sterna::volmesh {

@@ -9,8 +9,8 @@
 #include "tests/support/error_of.h"
 #include "tests/support/shapes.h"
 #include "tests/volmesh/domain/room.h"
-#include "volmesh/outer/complete_boundary.h"
-#include "volmesh/outer/periodic_sides.h"
+#include "volmesh/domain/complete_boundary.h"
+#include "volmesh/domain/periodic_sides.h"
 #include "volmesh/stages.h"
 
 namespace sterna::volmesh {

@@ -19,7 +19,7 @@
 #include "volmesh/envelope/classify.h"
 #include "volmesh/envelope/feature_angle.h"
 #include "volmesh/envelope/initial.h"
-#include "volmesh/visibility_report.h"
+#include "volmesh/layer/visibility_report.h"
 
 namespace sterna::volmesh {
 namespace {

@@ -18,7 +18,7 @@
 #include "volmesh/envelope/keep_inside.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/validity.h"
-#include "volmesh/prisms/extrude.h"
+#include "volmesh/layer/extrude.h"
 
 namespace sterna::volmesh {
 namespace {

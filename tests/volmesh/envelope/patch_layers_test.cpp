@@ -1,5 +1,5 @@
 // Walls with their own layers: what rules for patches ask of each vertex, layers of walls that meet, and layers in concave corners.
-#include "volmesh/patch_layers.h"
+#include "volmesh/envelope/patch_layers.h"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@
 #include "tests/support/voxels.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/validity.h"
-#include "volmesh/prisms/extrude.h"
-#include "volmesh/prisms/layer_cells.h"
-#include "volmesh/prisms/layer_line.h"
+#include "volmesh/layer/extrude.h"
+#include "volmesh/layer/layer_cells.h"
+#include "volmesh/layer/layer_line.h"
 
 namespace sterna::volmesh {
 namespace {

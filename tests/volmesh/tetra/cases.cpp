@@ -11,7 +11,7 @@
 
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
-#include "volmesh/outer/farfield.h"
+#include "volmesh/domain/farfield.h"
 
 namespace sterna::test {
 

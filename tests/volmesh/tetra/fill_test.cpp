@@ -3,7 +3,7 @@
 #include "tests/support/data.h"
 #include "tests/support/shapes.h"
 #include "tests/volmesh/tetra/cases.h"
-#include "volmesh/outer/farfield.h"
+#include "volmesh/domain/farfield.h"
 
 namespace sterna::volmesh {
 namespace {

@@ -1,0 +1,68 @@
+// Periodic sides: the same triangles on both, or an error where their loops differ.
+#include "volmesh/rims/copy_translated.h"
+
+#include <gmock/gmock.h>
+
+#include "geom/base/error.h"
+#include "tests/volmesh/rims/end_cases.h"
+
+namespace sterna::volmesh {
+namespace {
+
+using namespace test_ends;
+
+const RunContext k_context({.threads = 2});
+const ConstraintPlane k_left({0, 0, 0}, {0, 1, 0}), k_right({0, 0.3, 0}, {0, -1, 0});
+
+EndRegion left() {
+  EndRegion region{.surface = &k_left, .name = "left"};
+  add_loop(region, rectangle(on_xz, -1, -1, 1, 1, 12, 12));
+  add_loop(region, circle(on_xz, 0.1, 0.2, -0.3, 60));
+  return region;
+}
+
+/// The other side, seen the other way: points in another order, edges turned, moved by `noise`.
+EndRegion right(double noise) {
+  const EndRegion region = left();
+  EndRegion other{.surface = &k_right, .name = "right"};
+  const auto n = static_cast<std::uint32_t>(region.points.size());
+  for (std::uint32_t i = 0; i < n; ++i) other.points.push_back(region.points[n - 1 - i] + Vec3{noise * std::sin(i), 0.3, noise * std::cos(i)});
+  for (const auto& edge : region.edges) other.edges.push_back({n - 1 - edge[1], n - 1 - edge[0]});
+  return other;
+}
+
+TEST(CopyTranslated, PartnersHaveTheSameTrianglesTurnedOver) {
+  const EndRegion from = left(), to = right(1e-12);
+  const EndTriangles triangles = triangulate_end(from, {}, k_context);
+  const EndTriangles copy = copy_translated(from, triangles, to, {0, 0.3, 0}, 1.0);
+  const EndFacts facts = expect_sound(to, copy, 0.0);
+  EXPECT_GT(facts.least_angle, 20.0);
+  ASSERT_EQ(copy.new_points.size(), triangles.new_points.size());
+  for (std::size_t i = 0; i < copy.new_points.size(); ++i) EXPECT_EQ(copy.new_points[i], (triangles.new_points[i] + Vec3{0, 0.3, 0}));
+}
+
+TEST(CopyTranslated, LoopsThatDifferAreAnErrorWithTheirPlaces) {
+  const EndRegion from = left();
+  const EndTriangles triangles = triangulate_end(from, {}, k_context);
+  const auto failure = [&](const EndRegion& to) {
+    try {
+      copy_translated(from, triangles, to, {0, 0.3, 0}, 1.0);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::bad_argument);
+      EXPECT_THAT(error.info().attempted, testing::HasSubstr("\"right\""));
+      EXPECT_FALSE(error.info().places.empty());
+      return error.info();
+    }
+    ADD_FAILURE() << "no error";
+    return ErrorInfo{};
+  };
+  EndRegion moved = right(0.0), turned = right(0.0);
+  moved.points[5].x += 1e-9;
+  EXPECT_EQ(failure(moved).n_places, 2) << "the point of each side";
+  EXPECT_LT(distance(failure(moved).places[0].position, moved.points[5]), 1e-8);
+  std::swap(turned.edges[3][0], turned.edges[3][1]);
+  EXPECT_THAT(failure(turned).problem, testing::HasSubstr("edges"));
+}
+
+}  // namespace
+}  // namespace sterna::volmesh

@@ -1,0 +1,134 @@
+#include "volmesh/case/layer_choice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/error.h"
+#include "volmesh/case/farfield_options.h"
+#include "volmesh/case/growth_law.h"
+#include "volmesh/flow/print_text.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr int k_most_layers = 1000;       ///< as the option's own range
+constexpr double k_largest_growth = 3.0;  ///< the same
+constexpr double k_rounding = 1e-9;       ///< relative: heights nearer to each other are equal
+
+Error bad(std::string_view where, std::string problem, std::string hint) {
+  return Error(
+      {.code = ErrorCode::bad_argument, .attempted = "choosing the layers of " + std::string(where), .problem = std::move(problem), .hint = std::move(hint)});
+}
+
+/// The fewest layers that reach the height; more than k_most_layers where they do not.
+int fewest_layers(const LayerChoice& c) {
+  int n = 1;
+  while (n <= k_most_layers && layer_height(c.first_height, c.max_growth, n) < c.total_height * (1.0 - k_rounding)) ++n;
+  return n;
+}
+
+void refine(double f, double& length) {
+  if (!is_automatic(length)) length /= f;
+}
+double refined_growth(double f, double growth) { return std::pow(growth, 1.0 / f); }
+int refined_layers(double f, int layers) { return std::clamp(static_cast<int>(std::lround(f * layers)), 1, k_most_layers); }
+
+void refine(double f, FarfieldOptions& farfield) {
+  if (is_automatic(farfield.farfield_edge)) farfield.farfield_edge = -1.0 / f;
+  else farfield.farfield_edge /= f;
+  std::vector<SideRule> sides = parse_sides(farfield.farfield_sides);
+  for (SideRule& side : sides) refine(f, side.edge);
+  farfield.farfield_sides = sides_text(sides);
+}
+
+}  // namespace
+
+LayerChoice solve_layers(LayerChoice c, std::string_view solve_for, std::string_view where) {
+  if (is_automatic(c.total_height) || is_automatic(c.first_height) || c.layers == 0) return c;
+  const std::string heights = print_text("a total height of %.6g m with a first height of %.6g m", c.total_height, c.first_height);
+  if (c.total_height < c.first_height * (1.0 - k_rounding)) throw bad(where, heights + " has no room for one layer", "raise total_height");
+  if (solve_for == "layers") {
+    const int n = fewest_layers(c);
+    if (n > k_most_layers)
+      throw bad(where, heights + print_text(" is not reached by %d layers that grow by %g", k_most_layers, c.max_growth), "raise max_growth or first_height");
+    c.layers = n;
+    return c;
+  }
+  const double growth = growth_for_height(c.first_height, c.total_height, c.layers);
+  if (c.layers * c.first_height > c.total_height * (1.0 + k_rounding))
+    throw bad(where, heights + print_text(" is below %d layers of the first height", c.layers),
+              print_text("at most %d layers have room", static_cast<int>(c.total_height / c.first_height)));
+  if (solve_for == "max_growth") {
+    if (growth > k_largest_growth)
+      throw bad(where, heights + print_text(" in %d layers needs a growth of %.4g, at most %g", c.layers, growth, k_largest_growth), "give more layers");
+    c.max_growth = growth;
+    return c;
+  }
+  if (growth > c.max_growth * (1.0 + k_rounding))
+    throw bad(where, heights + print_text(" in %d layers needs a growth of %.4g, but max_growth is %g", c.layers, growth, c.max_growth),
+              print_text("leave layers or max_growth out; %d layers would do", fewest_layers(c)));
+  return c;
+}
+
+std::string solved_for(bool has_layers, bool has_growth, bool has_height, std::string_view attempted) {
+  if (!has_height) return "none";
+  if (has_layers != has_growth) return has_layers ? "max_growth" : "layers";
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = std::string(attempted),
+               .problem = has_layers ? "layers, max_growth and total_height are one too many: the third follows from the two others"
+                                     : "total_height needs layers or max_growth with it: the other one follows",
+               .hint = has_layers ? "leave one of them out" : "total_height = 0.02, max_growth = 1.2"});
+}
+
+VolumeMeshOptions refined(VolumeMeshOptions options) {
+  const double f = options.family.refinement;
+  if (f == 1.0) return options;
+  options.family.refinement = 1.0;
+  refine(f, options.envelope.first_height);
+  options.envelope.max_growth = refined_growth(f, options.envelope.max_growth);
+  options.envelope.layers = refined_layers(f, options.envelope.layers);
+  for (PatchRule& rule : options.patches) {
+    refine(f, rule.first_height);
+    if (!is_automatic(rule.max_growth)) rule.max_growth = refined_growth(f, rule.max_growth);
+    if (rule.layers > 0) rule.layers = refined_layers(f, rule.layers);
+  }
+  refine(f, options.farfield);
+  options.ends.size_growth = 1.0 + (options.ends.size_growth - 1.0) / f;
+  options.size.size_growth = 1.0 + (options.size.size_growth - 1.0) / f;
+  refine(f, options.size.size_max);
+  for (SizeSource& source : options.sources) {
+    source.size /= f;
+    source.size_end /= f;
+    for (double& size : source.sizes) size /= f;
+  }
+  for (ActuatorDisc& disc : options.discs) disc.edge = is_automatic(disc.edge) ? disc.radius * k_disc_edge / f : disc.edge / f;
+  return options;
+}
+
+VolumeMeshOptions effective_options(const VolumeMeshOptions& user_options, const RunContext& context) {
+  VolumeMeshOptions options = refined(user_options);
+  if (options.first_heights && user_options.family.refinement != 1.0)
+    options.first_heights = options.first_heights->refined(user_options.family.refinement, context);
+  EnvelopeOptions& e = options.envelope;
+  if (const double f = user_options.family.refinement; f != 1.0)
+    context.info(
+        print_text("refinement %.4g of a mesh family: %d layers instead of %d, growth %.4g instead of %.4g", f, e.layers, user_options.envelope.layers,
+                   e.max_growth, user_options.envelope.max_growth) +
+        (is_automatic(e.first_height) ? "" : print_text(", first height %.4g m instead of %.4g m", e.first_height, user_options.envelope.first_height)));
+  if (is_automatic(e.total_height)) return options;
+  if (!is_automatic(e.max_thickness) && e.max_thickness < e.total_height)
+    throw bad("all walls", print_text("total_height %g m is above max_thickness %g m", e.total_height, e.max_thickness), "leave max_thickness out");
+  if (is_automatic(e.first_height)) return options;  // patches have their own, and are solved one by one
+  const LayerChoice solved = solve_layers({e.layers, e.first_height, e.max_growth, e.total_height}, e.solve_for, "all walls");
+  if (e.solve_for == "layers")
+    context.info(print_text("%d layers reach the total height of %.6g m with a growth of %.4g, first height %.6g m", solved.layers, e.total_height,
+                            growth_for_height(e.first_height, e.total_height, solved.layers), e.first_height));
+  if (e.solve_for == "max_growth")
+    context.info(print_text("%d layers grow by %.4g to the total height of %.6g m, first height %.6g m", solved.layers, solved.max_growth, e.total_height,
+                            e.first_height));
+  e.layers = solved.layers;
+  e.max_growth = solved.max_growth;
+  return options;
+}
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,75 @@
+// What patches with such names ask for instead of what holds for all walls. Options only; volmesh/envelope/patch_layers.h makes use of them.
+#pragma once
+
+#include <string>
+
+#include "geom/base/schema.h"
+
+namespace sterna::volmesh {
+
+struct PatchRule {
+  static constexpr int k_as_all = -1;
+  std::string names;  ///< glob: "tunnel*"
+  std::string kind = "as_read";
+  int layers = k_as_all;
+  double first_height = k_automatic;
+  double max_growth = k_automatic;
+  double total_height = k_automatic;
+  double max_thickness = k_automatic;
+  double blend = k_automatic;
+};
+
+}  // namespace sterna::volmesh
+
+namespace sterna {
+
+template <>
+struct Schema<volmesh::PatchRule> {
+  using O = volmesh::PatchRule;
+  static constexpr std::string_view stage = "patches";
+  static constexpr std::string_view as_all = "as of all walls";
+  static constexpr std::array fields = {
+      Field<O>{.name = "names", .member = &O::names, .help = "pattern of the names of patches"},
+      Field<O>{.name = "kind",
+               .member = &O::kind,
+               .help = "of these patches; only a wall carries layers",
+               .choices = "as_read wall slip symmetry inflow outflow farfield interface"},
+      Field<O>{.name = "layers",
+               .member = &O::layers,
+               .min = -1,
+               .max = 1000,
+               .help = "number of prism layers: walls that are connected get the largest asked for; 0: none; -1: as of all walls"},
+      Field<O>{.name = "first_height",
+               .member = &O::first_height,
+               .unit = Unit::metre,
+               .min = 1e-12,
+               .help = "height of the first cell at the wall",
+               .automatic = as_all},
+      Field<O>{.name = "max_growth",
+               .member = &O::max_growth,
+               .min = 1.0,
+               .max = 3.0,
+               .help = "largest ratio of heights of consecutive layers",
+               .automatic = as_all},
+      Field<O>{.name = "total_height",
+               .member = &O::total_height,
+               .unit = Unit::metre,
+               .min = 1e-12,
+               .help = "height of all layers together; max_growth follows, or where max_growth is given here, layers",
+               .automatic = as_all},
+      Field<O>{.name = "max_thickness",
+               .member = &O::max_thickness,
+               .unit = Unit::metre,
+               .min = 1e-12,
+               .help = "largest total height of the layers",
+               .automatic = as_all},
+      Field<O>{.name = "blend",
+               .member = &O::blend,
+               .unit = Unit::metre,
+               .min = 1e-12,
+               .help = "so far from the border with walls that ask for something else it is blended with theirs",
+               .automatic = "3 times the taller layer there, at least 8 edges"},
+  };
+};
+
+}  // namespace sterna

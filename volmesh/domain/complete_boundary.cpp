@@ -1,0 +1,283 @@
+#include "volmesh/domain/complete_boundary.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geom/base/error.h"
+#include "geom/math/bvh.h"
+#include "geom/math/measures.h"
+#include "geom/mesh/half.h"
+#include "geom/mesh/topology.h"
+#include "volmesh/domain/end_planes.h"
+#include "volmesh/domain/farfield.h"
+#include "volmesh/domain/shape_sizes.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr const char* k_attempted = "completing the boundary";
+constexpr double k_shape_snap = 0.3;  ///< share of HalfOptions: the shape's own triangles matter less than good ones at its rim
+
+bool is_given(const FarfieldOptions& options) {
+  FarfieldOptions defaults, copy = options;
+  const OptionTable table = sterna::options_of(copy), of_defaults = sterna::options_of(defaults);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (table[i].name == "farfield_sides") continue;                             // of planes, too
+    if (table[i].name == "farfield_edge" && copy.farfield_edge < 0.0) continue;  // a share of the automatic one
+    const OptionValue value = table[i].get();
+    if (const auto* number = std::get_if<double>(&value)) {
+      if (!is_automatic(*number)) return true;
+    } else if (value != of_defaults[i].get()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Components that reach farthest along some axis that no plane cuts: nothing is around them.
+std::vector<std::uint32_t> outermost(const TriMesh& mesh, const Components& components, std::span<const EndPlane> ends) {
+  std::vector<std::uint32_t> result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (std::any_of(ends.begin(), ends.end(), [&](const EndPlane& end) { return end.axis == k; })) continue;
+    for (const double sense : {-1.0, 1.0}) {
+      TriangleId farthest(0);
+      double most = -1e300;
+      for (const TriangleId t : mesh.triangles.ids())
+        for (const Point& p : corners(mesh, t))
+          if (sense * p[k] > most) {
+            most = sense * p[k];
+            farthest = t;
+          }
+      result.push_back(components.component[farthest]);
+    }
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+/// The surface is all around its fluid. \throws when some of what is outermost is, and some is not
+bool is_enclosing(const TriMesh& mesh, const Topology& topology, std::span<const EndPlane> ends) {
+  const Components components = connected_components(mesh, topology);
+  const std::vector<double> volumes = volumes_of(mesh, components, ends);
+  const std::vector<std::uint32_t> outer = outermost(mesh, components, ends);
+  const auto is_domain = [&](std::uint32_t c) { return volumes[c] < 0.0; };
+  const auto n_domains = std::count_if(outer.begin(), outer.end(), is_domain);
+  if (n_domains == 0 || n_domains == static_cast<std::ptrdiff_t>(outer.size())) return n_domains > 0;
+  ErrorInfo info{.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "of the " + std::to_string(outer.size()) + " outermost parts " + std::to_string(n_domains) +
+                            " have their normals inwards, as the boundary of a domain, the others outwards, as bodies",
+                 .hint = "turn the triangles of the parts that are wrong"};
+  for (const TriangleId t : mesh.triangles.ids())
+    if (std::find(outer.begin(), outer.end(), components.component[t]) != outer.end() && is_domain(components.component[t])) {
+      info.places.push_back({corners(mesh, t)[0], "normals inwards"});
+      break;
+    }
+  throw Error(std::move(info));
+}
+
+/// One vertex of each part, off the planes, is enough: preflight finds what crosses.
+void check_encloses(const TriMesh& surface, const Topology& topology, std::span<const EndPlane> ends, const TriMesh& shape, const RunContext& context) {
+  const Components components = connected_components(surface, topology);
+  const TriangleTree tree(shape, context);
+  std::vector<std::uint8_t> is_seen(components.count, 0);
+  ErrorInfo info{.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "the farfield's surface does not enclose the bodies",
+                 .hint = "it has to be around all of them; of half models, cut or uncut"};
+  for (const TriangleId t : surface.triangles.ids()) {
+    if (is_seen[components.component[t]] != 0) continue;
+    const Point p = corners(surface, t)[0];
+    if (std::any_of(ends.begin(), ends.end(), [&](const EndPlane& end) { return p[end.axis] == end.at; })) continue;
+    is_seen[components.component[t]] = 1;
+    if (std::abs(tree.winding_number(p)) < 0.5) info.places.push_back({p, "this part is outside"});
+  }
+  if (!info.places.empty()) throw Error(std::move(info));
+}
+
+void turn(TriMesh& mesh) {
+  for (TriangleVertices& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+/// The user's surface with normals into the fluid, and farfield where nothing better is known.
+TriMesh shape_of_user(const TriMesh& surface, const Topology& topology, const OuterOptions& options, std::span<const EndPlane> ends,
+                      const RunContext& context) {
+  if (!options.surface || options.surface->n_triangles() == 0)
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "the farfield's shape is \"surface\", but there is no surface",
+                 .hint = "give farfield_surface, or farfield = a surface; .sterna files do not keep it"});
+  TriMesh shape = *options.surface;
+  const Topology of_shape(shape, context);
+  const bool is_closed = of_shape.n_boundary_halfedges() == 0;
+  const std::vector<EndPlane> its_ends = is_closed ? std::vector<EndPlane>{} : std::vector<EndPlane>(ends.begin(), ends.end());
+  const Components components = connected_components(shape, of_shape);
+  const std::vector<double> volumes = volumes_of(shape, components, its_ends);
+  if (volumes[outermost(shape, components, its_ends).front()] > 0.0) turn(shape);
+  if (is_closed) check_encloses(surface, topology, ends, shape, context);
+  const bool is_unknown = options.farfield.farfield_sides.empty() &&
+                          std::all_of(shape.patches.begin(), shape.patches.end(), [](const Patch& patch) { return patch.kind == PatchKind::wall; });
+  if (is_unknown) {
+    context.info("the farfield's surface has walls alone: taken as farfield; farfield_sides gives its patches other kinds");
+    for (Patch& patch : shape.patches) patch.kind = PatchKind::farfield;
+  }
+  return shape;
+}
+
+TriMesh make_shape(const TriMesh& surface, const Topology& topology, const OuterOptions& options, std::span<const EndPlane> ends, const RunContext& context) {
+  const std::string& shape = options.farfield.farfield_shape;
+  if (shape == "box") return farfield_box(surface, options.farfield, ends, context);
+  if (shape == "cylinder") return farfield_cylinder(surface, options.farfield, ends, context);
+  if (shape == "surface") return shape_of_user(surface, topology, options, ends, context);
+  return farfield_sphere(surface, options.farfield, context, ends);
+}
+
+/// Patches as the user wants them; sides that nothing is said of become one "farfield", those of equal name and kind one patch.
+void apply_rules(std::span<const SideRule> rules, bool has_sides, TriMesh& shape) {
+  Column<PatchId, Patch> patches;
+  Column<PatchId, PatchId> old2new;
+  for (Patch patch : shape.patches) {
+    const auto rule = std::find_if(rules.begin(), rules.end(), [&](const SideRule& r) { return r.side == patch.name; });
+    if (rule != rules.end() && (rule->has_kind || !rule->name.empty())) {
+      if (rule->has_kind) patch.kind = rule->kind;
+      if (!rule->name.empty()) patch.name = rule->name;
+      else if (has_sides) patch.name = std::string(to_string(patch.kind));
+    } else if (has_sides) {
+      patch = {"farfield", PatchKind::farfield};
+    }
+    const auto same = std::find(patches.begin(), patches.end(), patch);
+    old2new.push_back(same == patches.end() ? patches.push_back(patch) : PatchId(static_cast<std::uint64_t>(same - patches.begin())));
+  }
+  shape.patches = std::move(patches);
+  for (PatchId& patch : shape.triangle_patch) patch = old2new[patch];
+}
+
+/// The patch of the shape that covers most of a plane, unless that is farfield.
+const Patch* patch_in_plane(const TriMesh& shape, const EndPlane& end) {
+  const double tolerance = k_coincident * bounding_box(shape).longest_side();
+  std::vector<double> area(shape.patches.size(), 0.0);
+  for (const TriangleId t : shape.triangles.ids()) {
+    const auto [a, b, c] = corners(shape, t);
+    if (std::abs(a[end.axis] - end.at) <= tolerance && std::abs(b[end.axis] - end.at) <= tolerance && std::abs(c[end.axis] - end.at) <= tolerance)
+      area[shape.triangle_patch[t].index()] += triangle_area(a, b, c);
+  }
+  if (area.empty()) return nullptr;
+  const auto most = std::max_element(area.begin(), area.end());
+  const Patch& patch = shape.patches[PatchId(static_cast<std::uint64_t>(most - area.begin()))];
+  return *most > 0.0 && patch.kind != PatchKind::farfield ? &patch : nullptr;
+}
+
+std::vector<Patch> default_patches(std::span<const EndPlane> ends) {
+  std::vector<Patch> patches;
+  for (const EndPlane& end : ends) {
+    std::string name = "symmetry";
+    if (ends.size() > 1) name += std::string("_") + "xyz"[end.axis];
+    if (std::count_if(ends.begin(), ends.end(), [&](const EndPlane& other) { return other.axis == end.axis; }) > 1) name += end.inward > 0.0 ? "_min" : "_max";
+    patches.push_back({name, PatchKind::symmetry});
+  }
+  return patches;
+}
+
+/// Patches of the planes: what the rules say of them, or of a box's side there; else what the shape has there; else symmetry.
+std::vector<Patch> patches_of(std::span<const EndPlane> ends, std::span<const SideRule> rules, const TriMesh* shape, bool is_box) {
+  std::vector<Patch> patches = default_patches(ends);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (const Patch* in_plane = shape ? patch_in_plane(*shape, ends[i]) : nullptr) {
+      patches[i] = *in_plane;
+      continue;
+    }
+    const std::string side = std::string(1, "xyz"[ends[i].axis]) + (ends[i].inward > 0.0 ? "_min" : "_max");
+    for (const SideRule& rule : rules) {
+      if (rule.side != patches[i].name && !(is_box && rule.side == side)) continue;
+      if (rule.has_kind) patches[i].kind = rule.kind;
+      if (!rule.name.empty()) patches[i].name = rule.name;
+      else if (rule.has_kind) patches[i].name = std::string(to_string(rule.kind));
+      break;
+    }
+  }
+  return patches;
+}
+
+/// Every rule has to speak of something that is there.
+void check_rules(std::span<const SideRule> rules, const TriMesh* shape, std::span<const Patch> planes) {
+  std::vector<std::string> known;
+  if (shape)
+    for (const Patch& patch : shape->patches) known.push_back(patch.name);
+  for (const Patch& patch : planes) known.push_back(patch.name);
+  for (const SideRule& rule : rules) {
+    if (std::find(known.begin(), known.end(), rule.side) != known.end()) continue;
+    std::string names;
+    for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+    const std::string nearest = nearest_name(rule.side, known);
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "farfield_sides",
+                 .problem = "there is no side \"" + rule.side + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"),
+                 .hint = names.empty() ? "the surface is closed and encloses its fluid: nothing is added" : "there are " + names});
+  }
+}
+
+TriMesh cut(TriMesh shape, std::span<const EndPlane> ends, const RunContext& context) {
+  for (const EndPlane& end : ends)
+    shape = half_of(shape, {.axis = std::string(1, "xyz"[end.axis]), .at = end.at, .keep = end.inward > 0.0 ? "+" : "-", .snap = k_shape_snap}, context);
+  return shape;
+}
+
+/// Names that the surface has already get a number, unless the kind is the same, too.
+void make_names_new(const TriMesh& surface, Patch& patch) {
+  const std::string name = patch.name;
+  const auto is_taken = [&] {
+    return std::any_of(surface.patches.begin(), surface.patches.end(),
+                       [&](const Patch& other) { return other.name == patch.name && other.kind != patch.kind; });
+  };
+  for (int n = 2; is_taken(); ++n) patch.name = name + "_" + std::to_string(n);
+}
+
+/// Rims moved exactly into the planes: a vertex on two of them into both.
+void snap_rims(const Constraints& rims, std::span<const EndPlane> ends, TriMesh& mesh) {
+  for (const VertexId v : rims.vertex.ids())
+    for (const std::int32_t k : rims.vertex[v].on)
+      if (k >= 0) mesh.points[v][ends[static_cast<std::size_t>(k)].axis] = ends[static_cast<std::size_t>(k)].at;
+}
+
+void require_fluid(const FarfieldOptions& farfield, bool is_enclosed) {
+  if (is_enclosed && farfield.farfield_shape != "none" && is_given(farfield))
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "a farfield is given, but the surface encloses its fluid already: its outermost part has normals inwards",
+                 .hint = "leave the farfield out, or turn the surface if it is a body"});
+  if (!is_enclosed && farfield.farfield_shape == "none")
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = k_attempted,
+                 .problem = "no farfield is wanted, but the surface encloses no fluid: its outermost parts have normals outwards, as bodies",
+                 .hint = "give a farfield; of a surface around its fluid the normals have to point inwards"});
+}
+
+}  // namespace
+
+TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, const RunContext& context) {
+  if (surface.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = k_attempted, .problem = "the surface has no triangles"});
+  const Topology topology(surface, context);
+  const Constraints rims = constraints_of_rims(surface, topology);
+  const std::vector<EndPlane> ends = end_planes_of(rims);
+  TriMesh mesh = surface;
+  snap_rims(rims, ends, mesh);
+  const bool is_enclosed = is_enclosing(mesh, topology, ends);
+  require_fluid(options.farfield, is_enclosed);
+  const std::vector<SideRule> rules = parse_sides(options.farfield.farfield_sides);
+  TriMesh shape;
+  if (!is_enclosed) shape = make_shape(mesh, topology, options, ends, context);
+  check_rules(rules, &shape, default_patches(ends));
+  const bool is_box = options.farfield.farfield_shape == "box";
+  if (!is_enclosed) apply_rules(rules, is_box || options.farfield.farfield_shape == "cylinder", shape);
+  std::vector<Patch> of_planes = patches_of(ends, rules, &shape, is_box);
+  shape = is_enclosed ? TriMesh{} : cut(std::move(shape), ends, context);
+  for (Patch& patch : shape.patches) make_names_new(surface, patch);
+  for (Patch& patch : of_planes) make_names_new(surface, patch);
+  append(mesh, shape);
+  if (!ends.empty()) fill_ends(mesh, ends, of_planes, context);
+  return mesh;
+}
+
+}  // namespace sterna::volmesh

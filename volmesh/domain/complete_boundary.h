@@ -1,0 +1,29 @@
+// From the surface that the user has to the closed surface, its patches with kinds, whose inside is the fluid.
+#pragma once
+
+#include <memory>
+
+#include "geom/base/run_context.h"
+#include "geom/mesh/tri_mesh.h"
+#include "volmesh/case/farfield_options.h"
+
+namespace sterna::volmesh {
+
+struct OuterOptions {
+  FarfieldOptions farfield;
+  std::shared_ptr<const TriMesh> surface;  ///< for the shape "surface": closed, or ending in the planes of the bodies
+};
+
+/// Adds what ends the fluid: the outer shape around bodies, and where bodies end in planes x, y or z = constant (half models; constraints_of_rims) these
+/// planes, with the shape cut to its part beside them. A surface that encloses its fluid gets no shape: its outermost part has normals inwards (a tunnel, a
+/// complete domain). The surface's vertices, triangles and patches come first and unchanged, but for vertices of rims, which are moved into their planes to the
+/// bit; then the shape's; then the planes', with long thin triangles between the rims: to be triangulated anew. The planes' patches are of kind symmetry and
+/// called "symmetry", where there are several "symmetry_y" or "symmetry_y_min"; farfield_sides names them otherwise. A plane in which the shape has a patch of
+/// another kind than farfield takes over its name and kind (the side wall of a tunnel that a wing stands on). Of a user's surface, normals are turned into the
+/// fluid; where it has walls alone and farfield_sides says nothing of them, they become farfield. \pre surface manifold, normals into the fluid \post closed
+/// (no boundary edges), manifold; body volumes positive, the outermost negative \throws Error(open_surface) for rims in no plane; (bad_argument) when the shape
+/// does not enclose the bodies, when there is nothing around them (shape none), or when a shape is asked for around a surface that encloses its fluid;
+/// (empty_surface)
+TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, const RunContext& context);
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,371 @@
+// Steps for each disc: find_active (triangles that the plane goes through between the radii), snap vertices near the plane, split, find_outline, find_rims.
+#include "volmesh/domain/cut_discs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "geom/base/error.h"
+#include "geom/math/measures.h"
+#include "geom/mesh/topology.h"
+#include "volmesh/domain/disc_plane.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr double k_snap_share = 0.3;         ///< of an edge: cut nearer to its end, the end moves; triangles keep about a third of their height
+constexpr double k_on_plane = 1e-12;         ///< of the largest coordinate and the radius: rounding of a vertex that is meant to be in the plane
+constexpr double k_least_turn_cosine = 0.8;  ///< between normals of a triangle before and after one of its vertices has moved
+constexpr double k_least_area_share = 0.2;   ///< of its area that a triangle keeps when a vertex moves
+const double k_feature_cosine = std::cos(30.0 * std::numbers::pi / 180.0);  ///< edges that turn by more keep their line
+constexpr std::size_t k_max_places = 10;
+
+class Cutter {
+ public:
+  Cutter(TriMesh& mesh, const ActuatorDisc& disc, const Column<PatchId, std::uint8_t>& has_layer, const Column<VertexId, std::uint32_t>& taken_by,
+         const RunContext& context)
+      : mesh_(mesh), disc_(disc), plane_(disc), has_layer_(has_layer), taken_by_(taken_by), context_(context) {}
+
+  /// Whether the disc meets walls with layers, and nothing else.
+  bool find_active() {
+    Box box;
+    for (const Point& p : mesh_.points) box.add(p);
+    double largest = plane_.outer();
+    for (const Vec3& corner : {box.min, box.max}) largest = std::max({largest, std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)});
+    height_.resize(mesh_.n_vertices());
+    for (const VertexId v : mesh_.points.ids()) {
+      const double h = plane_.height(mesh_.points[v]);
+      height_[v] = std::abs(h) <= k_on_plane * largest ? 0.0 : h;
+    }
+    is_active_.assign(mesh_.n_triangles(), 0);
+    std::vector<ErrorPlace> at_rims;
+    std::int64_t n_at_rims = 0;
+    bool has_any = false, is_layered = true;
+    for (const TriangleId t : mesh_.triangles.ids()) {
+      const std::optional<std::array<Point, 2>> cut = segment(t);
+      if (!cut) continue;
+      const Point middle = 0.5 * ((*cut)[0] + (*cut)[1]);
+      switch (reach_of(*cut)) {
+        case Reach::outside: continue;
+        case Reach::rim:
+          ++n_at_rims;
+          if (at_rims.size() < k_max_places) at_rims.push_back({middle, "the disc's rim meets patch \"" + name(t) + "\""});
+          [[fallthrough]];
+        case Reach::inside: break;
+      }
+      is_active_[t] = has_any = true;
+      is_layered = is_layered && has_layer_[mesh_.triangle_patch[t]] != 0;
+    }
+    if (!has_any || !is_layered) return false;
+    if (n_at_rims > 0)
+      fail(std::to_string(n_at_rims) + " triangles of walls go through its rims", std::move(at_rims), n_at_rims,
+           "a rim of a disc lies in the fluid or inside of the body: choose radius and inner_radius so that they do not cross the wall");
+    return true;
+  }
+
+  void snap() {
+    const Topology topology(mesh_, context_);
+    for (const TriangleId t : mesh_.triangles.ids()) {
+      if (!is_active_[t]) continue;
+      for (const VertexId v : mesh_.triangles[t]) {
+        if (height_[v] != 0.0) continue;
+        mesh_.points[v] = plane_.onto(mesh_.points[v]);
+        if (taken_by_[v] != 0) fail("its outline meets that of another disc", {{mesh_.points[v], "a vertex of both"}}, 1, "discs may not meet");
+      }
+    }
+    struct Candidate {
+      double share;
+      VertexId vertex;
+      bool operator<(const Candidate& b) const { return share != b.share ? share < b.share : vertex < b.vertex; }
+    };
+    std::vector<Candidate> candidates;
+    for (const TriangleId t : mesh_.triangles.ids()) {
+      if (!is_active_[t]) continue;
+      for (int k = 0; k < 3; ++k) {
+        const VertexId a = topology.from(halfedge(t, k)), b = topology.to(halfedge(t, k));
+        if (!crosses(a, b)) continue;
+        const double share = share_of(a, b);
+        if (share < k_snap_share) candidates.push_back({share, a});
+        if (1.0 - share < k_snap_share) candidates.push_back({1.0 - share, b});
+      }
+    }
+    std::sort(candidates.begin(), candidates.end());
+    for (const Candidate& candidate : candidates) snap(topology, candidate.vertex);
+  }
+
+  /// Splits triangles; what each comes from is appended to `made`.
+  Column<TriangleId, TriangleId> split() {
+    Column<TriangleId, TriangleVertices> triangles;
+    Column<TriangleId, PatchId> patches;
+    Column<TriangleId, TriangleId> made;
+    const auto add = [&](TriangleId from, VertexId a, VertexId b, VertexId c) {
+      triangles.push_back({a, b, c});
+      patches.push_back(mesh_.triangle_patch[from]);
+      made.push_back(from);
+    };
+    for (const TriangleId t : mesh_.triangles.ids()) {
+      const TriangleVertices v = mesh_.triangles[t];
+      std::array<bool, 3> is_cut{};  // the edge from corner k
+      int n_cut = 0;
+      for (std::size_t k = 0; is_active_[t] && k < 3; ++k) n_cut += is_cut[k] = crosses(v[k], v[(k + 1) % 3]);
+      if (n_cut == 0) {
+        add(t, v[0], v[1], v[2]);
+        continue;
+      }
+      // Turned so that the only cut edge is opposite to the first corner, or the two cut edges meet there.
+      std::size_t first = 0;
+      while (n_cut == 1 ? !is_cut[(first + 1) % 3] : is_cut[(first + 1) % 3]) ++first;
+      const VertexId a = v[first], b = v[(first + 1) % 3], c = v[(first + 2) % 3];
+      if (n_cut == 1) {
+        const VertexId m = cut_point(b, c);
+        add(t, a, b, m);
+        add(t, a, m, c);
+        continue;
+      }
+      const VertexId m = cut_point(a, b), n = cut_point(a, c);
+      add(t, a, m, n);
+      const double to_c = distance(mesh_.points[m], mesh_.points[c]), to_b = distance(mesh_.points[b], mesh_.points[n]);
+      if (to_c < to_b || (to_c == to_b && c < b)) {
+        add(t, m, b, c);
+        add(t, m, c, n);
+      } else {
+        add(t, m, b, n);
+        add(t, b, c, n);
+      }
+    }
+    mesh_.triangles = std::move(triangles);
+    mesh_.triangle_patch = std::move(patches);
+    Column<TriangleId, std::uint8_t> is_active;
+    for (const TriangleId from : made) is_active.push_back(is_active_[from]);
+    is_active_ = std::move(is_active);
+    return made;
+  }
+
+  CutDisc find_outline() {
+    struct Sides {
+      int upstream = 0, downstream = 0;
+      std::array<VertexId, 2> edge;  ///< as upstream
+    };
+    std::map<std::array<VertexId, 2>, Sides> edges;
+    std::map<VertexId, int> degree;
+    std::vector<ErrorPlace> places;
+    std::int64_t n_places = 0;
+    const auto complain = [&](const Point& p, const char* what) {
+      ++n_places;
+      if (places.size() < k_max_places) places.push_back({p, what});
+    };
+    for (const TriangleId t : mesh_.triangles.ids()) {
+      if (!is_active_[t]) continue;
+      const TriangleVertices& v = mesh_.triangles[t];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const VertexId a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3];
+        if (height_[a] == 0.0) degree.try_emplace(a, 0);
+        if (height_[a] != 0.0 || height_[b] != 0.0) continue;
+        if (height_[c] == 0.0) {
+          if (k == 0) complain((mesh_.points[a] + mesh_.points[b] + mesh_.points[c]) / 3.0, "a triangle of the wall lies in the disc's plane");
+          continue;
+        }
+        Sides& sides = edges[{std::min(a, b), std::max(a, b)}];
+        (height_[c] < 0.0 ? sides.upstream : sides.downstream) += 1;
+        if (height_[c] < 0.0) sides.edge = {a, b};
+      }
+    }
+    CutDisc cut;
+    for (const auto& [key, sides] : edges) {
+      if (sides.upstream != 1 || sides.downstream != 1) {
+        complain(0.5 * (mesh_.points[key[0]] + mesh_.points[key[1]]), "an edge of the wall touches the disc's plane");
+        continue;
+      }
+      cut.outline.push_back(sides.edge);
+      ++degree[key[0]];
+      ++degree[key[1]];
+    }
+    for (const auto& [edge, point] : cut_points_)
+      if (point.n_uses != 2) complain(mesh_.points[point.vertex], "the disc's rim comes too near to the wall");
+    for (const auto& [v, n] : degree)
+      if (n != 2) complain(mesh_.points[v], n == 0 ? "the wall touches the disc's plane" : "outlines of the disc meet");
+    if (n_places > 0)
+      fail("the wall does not go through its plane at " + std::to_string(n_places) + " places, but touches it", std::move(places), n_places,
+           "move the disc along its axis, by some edge lengths of the wall");
+    find_rims(cut);
+    return cut;
+  }
+
+ private:
+  enum class Reach { outside, inside, rim };
+
+  [[noreturn]] void fail(std::string problem, std::vector<ErrorPlace> places, std::int64_t n_places, std::string hint) const {
+    throw Error({.code = ErrorCode::self_intersection,
+                 .attempted = "making actuator disc \"" + disc_.name + "\"",
+                 .problem = std::move(problem),
+                 .places = std::move(places),
+                 .n_places = n_places,
+                 .hint = std::move(hint)});
+  }
+  const std::string& name(TriangleId t) const { return mesh_.patches[mesh_.triangle_patch[t]].name; }
+  bool crosses(VertexId a, VertexId b) const { return (height_[a] < 0.0 && height_[b] > 0.0) || (height_[a] > 0.0 && height_[b] < 0.0); }
+  /// Of the way from a to b, where the plane is.
+  double share_of(VertexId a, VertexId b) const { return height_[a] / (height_[a] - height_[b]); }
+  Point cut_place(VertexId a, VertexId b) const {
+    if (b < a) std::swap(a, b);
+    return plane_.onto(mesh_.points[a] + share_of(a, b) * (mesh_.points[b] - mesh_.points[a]));
+  }
+
+  /// What the triangle has of the plane; nothing for a point.
+  std::optional<std::array<Point, 2>> segment(TriangleId t) const {
+    const TriangleVertices& v = mesh_.triangles[t];
+    std::array<Point, 6> ends;
+    std::size_t n = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (height_[v[k]] == 0.0) ends[n++] = plane_.onto(mesh_.points[v[k]]);
+      if (crosses(v[k], v[(k + 1) % 3])) ends[n++] = cut_place(v[k], v[(k + 1) % 3]);
+    }
+    if (n < 2) return std::nullopt;
+    return std::array{ends[0], ends[1]};
+  }
+
+  Reach reach_of(const std::array<Point, 2>& cut) const {
+    const double a = norm(cut[0] - plane_.center()), b = norm(cut[1] - plane_.center());
+    const Vec3 along = cut[1] - cut[0];
+    const double length2 = norm2(along);
+    const double share = length2 > 0.0 ? std::clamp(dot(plane_.center() - cut[0], along) / length2, 0.0, 1.0) : 0.0;
+    const double nearest = norm(cut[0] + share * along - plane_.center());
+    if (nearest >= plane_.outer() || std::max(a, b) <= plane_.inner()) return Reach::outside;
+    return std::max(a, b) < plane_.outer() && (plane_.inner() == 0.0 || nearest > plane_.inner()) ? Reach::inside : Reach::rim;
+  }
+
+  VertexId cut_point(VertexId a, VertexId b) {
+    const std::array<VertexId, 2> key = {std::min(a, b), std::max(a, b)};
+    const auto [found, is_new] = cut_points_.try_emplace(key);
+    if (!is_new) {
+      ++found->second.n_uses;
+      return found->second.vertex;
+    }
+    if (taken_by_[a] != 0 && taken_by_[a] == taken_by_[b])
+      fail("its outline meets that of another disc", {{cut_place(a, b), "an edge of both"}}, 1, "discs may not meet");
+    found->second = {mesh_.points.push_back(cut_place(a, b)), 1};
+    height_.push_back(0.0);
+    return found->second.vertex;
+  }
+
+  bool is_feature(const Topology& topology, HalfedgeId h) const {
+    const HalfedgeId twin = topology.twin(h);
+    const TriangleId t = triangle_of(h), u = triangle_of(twin);
+    if (mesh_.triangle_patch[t] != mesh_.triangle_patch[u]) return true;
+    return dot(normalized(area_of(t)), normalized(area_of(u))) < k_feature_cosine;
+  }
+  Vec3 area_of(TriangleId t) const {
+    const auto [a, b, c] = corners(mesh_, t);
+    return area_vector(a, b, c);
+  }
+
+  /// Moves a vertex into the plane along its shortest way there on an edge, if an edge still is cut near it and nothing forbids it.
+  void snap(const Topology& topology, VertexId v) {
+    if (height_[v] == 0.0 || taken_by_[v] != 0) return;
+    std::size_t n_features = 0;
+    for (const HalfedgeId h : topology.outgoing(v)) n_features += is_feature(topology, h);
+    if (n_features == 1 || n_features > 2) return;  // a corner
+    HalfedgeId best;
+    double least = 0.0;
+    for (const HalfedgeId h : topology.outgoing(v)) {
+      const VertexId w = topology.to(h);
+      if (!is_active_[triangle_of(h)] || !crosses(v, w) || share_of(v, w) >= k_snap_share) continue;
+      if (n_features == 2 && !is_feature(topology, h)) continue;
+      const double length = share_of(v, w) * distance(mesh_.points[v], mesh_.points[w]);
+      if (best.is_valid() && length >= least) continue;
+      best = h;
+      least = length;
+    }
+    if (!best.is_valid()) return;
+    std::vector<Vec3> before;
+    for (const HalfedgeId h : topology.outgoing(v)) before.push_back(area_of(triangle_of(h)));
+    const Point old = mesh_.points[v];
+    const double old_height = height_[v];
+    mesh_.points[v] = cut_place(v, topology.to(best));
+    height_[v] = 0.0;
+    std::size_t i = 0;
+    for (const HalfedgeId h : topology.outgoing(v)) {
+      const Vec3 now = area_of(triangle_of(h)), was = before[i++];
+      const bool is_flat = std::ranges::all_of(mesh_.triangles[triangle_of(h)], [&](VertexId w) { return height_[w] == 0.0; });
+      if (!is_flat && dot(now, was) > k_least_turn_cosine * norm(now) * norm(was) && norm(now) > k_least_area_share * norm(was)) continue;
+      mesh_.points[v] = old;
+      height_[v] = old_height;
+      return;
+    }
+    // The plane goes through triangles now that it passed by before, with the vertex alone.
+    for (const HalfedgeId h : topology.outgoing(v)) is_active_[triangle_of(h)] = 1;
+  }
+
+  /// Which rims lie in the fluid: the winding number of all the boundary's sections with the plane is one there (the outermost +1, bodies -1).
+  void find_rims(CutDisc& cut) const {
+    const Vec3 n = plane_.normal();
+    const Vec3 m{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
+    const Vec3 u = normalized(cross(n, m.x <= m.y && m.x <= m.z ? Vec3{1, 0, 0} : m.y <= m.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1}));
+    const auto is_fluid = [&](double radius) {
+      const Point p = plane_.center() + radius * u;
+      double turn = 0.0;
+      for (const TriangleId t : mesh_.triangles.ids()) {
+        // Vertices in the plane count as downstream; so sections are closed.
+        const TriangleVertices& v = mesh_.triangles[t];
+        Point in, out;
+        int n_ends = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const VertexId a = v[k], b = v[(k + 1) % 3];
+          if ((height_[a] < 0.0) == (height_[b] < 0.0)) continue;
+          (height_[a] < 0.0 ? in : out) = height_[a] == 0.0 ? plane_.onto(mesh_.points[a]) : height_[b] == 0.0 ? plane_.onto(mesh_.points[b]) : cut_place(a, b);
+          ++n_ends;
+        }
+        if (n_ends != 2) continue;
+        const Vec3 from = in - p, to = out - p;
+        turn += std::atan2(dot(n, cross(from, to)), dot(from, to));
+      }
+      return turn > std::numbers::pi;
+    };
+    cut.has_outer_rim = is_fluid(plane_.outer());
+    cut.has_inner_rim = plane_.inner() > 0.0 && is_fluid(plane_.inner());
+  }
+
+  TriMesh& mesh_;
+  const ActuatorDisc& disc_;
+  DiscPlane plane_;
+  const Column<PatchId, std::uint8_t>& has_layer_;
+  const Column<VertexId, std::uint32_t>& taken_by_;
+  const RunContext& context_;
+  Column<VertexId, double> height_;             ///< above the plane; exactly 0: in it
+  Column<TriangleId, std::uint8_t> is_active_;  ///< the disc's plane goes through it within the radii
+  struct CutPoint {
+    VertexId vertex;
+    int n_uses = 0;  ///< by triangles; two are beside an edge
+  };
+  std::map<std::array<VertexId, 2>, CutPoint> cut_points_;
+};
+
+}  // namespace
+
+DiscCuts cut_discs(TriMesh& boundary, const Column<PatchId, std::uint8_t>& has_layer, const std::vector<ActuatorDisc>& discs, const RunContext& context) {
+  DiscCuts cuts;
+  Column<VertexId, std::uint32_t> taken_by(boundary.n_vertices(), 0);  // by the outline of this disc, counted from 1
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    require_sane(discs[i]);
+    Cutter cutter(boundary, discs[i], has_layer, taken_by, context);
+    if (!cutter.find_active()) continue;
+    cutter.snap();
+    Column<TriangleId, TriangleId> made = cutter.split();
+    if (!cuts.sources.empty())
+      for (TriangleId& from : made) from = cuts.sources[from];
+    cuts.sources = std::move(made);
+    CutDisc cut = cutter.find_outline();
+    cut.disc = i;
+    taken_by.resize(boundary.n_vertices(), 0);
+    for (const auto& edge : cut.outline)
+      for (const VertexId v : edge) taken_by[v] = static_cast<std::uint32_t>(i) + 1;
+    cuts.discs.push_back(std::move(cut));
+    context.check_stop();
+  }
+  return cuts;
+}
+
+}  // namespace sterna::volmesh

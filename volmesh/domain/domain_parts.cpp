@@ -1,0 +1,440 @@
+// Steps: require_closed; numbering of both parts; rims (walk around each rim vertex through the patches without layers: one patch holds it on a surface, two on
+// the line where they meet, more hold it fast); surfaces of the end patches, plane where their vertices are; snapping; which wall vertices are near a surface.
+#include "volmesh/domain/domain_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <queue>
+#include <string>
+
+#include "geom/base/error.h"
+#include "geom/math/measures.h"
+#include "geom/mesh/topology.h"
+#include "volmesh/domain/flat_patch.h"
+#include "volmesh/envelope/constrain_rims.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr std::size_t k_max_places = 10;
+constexpr double k_parallel_sine = 1e-3;   ///< planes at a smaller angle have their line along their common edge
+constexpr double k_forward_cosine = 0.02;  ///< a line along which a layer grows leads away from the wall at least as steeply
+constexpr double k_open_cosine = 0.1;      ///< between a wall's normal and the way into the patch beyond: below, the fluid's angle there is above 174 degrees
+constexpr double k_near_edges = 8.0;       ///< mean edges at a vertex: a layer is not thicker by much, nor does it reach farther along the wall
+constexpr std::uint8_t k_max_masked = 64;  ///< surfaces that a mask has bits for
+
+ErrorInfo error(ErrorCode code, std::string problem, std::string hint) {
+  return {.code = code, .attempted = "volume_mesh", .problem = std::move(problem), .hint = std::move(hint)};
+}
+
+void require_closed(const TriMesh& surface, const Topology& topology) {
+  if (topology.n_boundary_halfedges() == 0) return;
+  ErrorInfo info =
+      error(ErrorCode::open_surface, "the fluid's boundary is open: " + std::to_string(topology.n_boundary_halfedges()) + " edges have one triangle",
+            "close the holes; a half model must end in one plane x, y or z = constant");
+  info.n_places = static_cast<std::int64_t>(topology.n_boundary_halfedges());
+  for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
+    const HalfedgeId h(i);
+    if (!topology.is_boundary(h)) continue;
+    const std::uint32_t next = static_cast<std::uint32_t>(info.geometry.points.size());
+    info.geometry.points.insert(info.geometry.points.end(), {surface.points[topology.from(h)], surface.points[topology.to(h)]});
+    info.geometry.edges.push_back({next, next + 1});
+    if (info.places.size() < k_max_places) info.places.push_back({surface.points[topology.from(h)], "an open edge starts here"});
+  }
+  throw Error(std::move(info));
+}
+
+/// One of the two parts: triangles that are chosen, their vertices and patches numbered anew in the order of the surface.
+struct Part {
+  TriMesh mesh;
+  Column<VertexId, VertexId> surface2part;  ///< invalid where the part has no such vertex
+  Column<PatchId, PatchId> patch2part;
+  Column<TriangleId, TriangleId> part2surface;
+};
+
+template <class Chosen>
+Part part_of(const TriMesh& surface, const Chosen& is_chosen) {
+  Part part;
+  part.surface2part.resize(surface.n_vertices());
+  part.patch2part.resize(surface.patches.size());
+  Column<VertexId, std::uint8_t> is_used(surface.n_vertices(), 0);
+  Column<PatchId, std::uint8_t> has_triangle(surface.patches.size(), 0);
+  for (const TriangleId t : surface.triangles.ids()) {
+    if (!is_chosen(t)) continue;
+    has_triangle[surface.triangle_patch[t]] = 1;
+    for (const VertexId v : surface.triangles[t]) is_used[v] = 1;
+  }
+  for (const VertexId v : surface.points.ids())
+    if (is_used[v]) part.surface2part[v] = part.mesh.points.push_back(surface.points[v]);
+  for (const PatchId p : surface.patches.ids())
+    if (has_triangle[p]) part.patch2part[p] = part.mesh.patches.push_back(surface.patches[p]);
+  for (const TriangleId t : surface.triangles.ids()) {
+    if (!is_chosen(t)) continue;
+    TriangleVertices v = surface.triangles[t];
+    for (VertexId& corner : v) corner = part.surface2part[corner];
+    part.mesh.triangles.push_back(v);
+    part.mesh.triangle_patch.push_back(part.patch2part[surface.triangle_patch[t]]);
+    part.part2surface.push_back(t);
+  }
+  return part;
+}
+
+/// Around a rim vertex, from its border half-edge that leaves to the one that arrives: half-edges from the vertex at which the patch beyond changes.
+struct RimFan {
+  std::vector<PatchId> patches;     ///< of the surface, in the order of the walk
+  std::vector<HalfedgeId> changes;  ///< of the surface, start at the vertex; one less than patches
+};
+
+class Splitter {
+ public:
+  Splitter(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, std::span<const PeriodicPatches> periodic, const RunContext& context)
+      : surface_(surface), has_layer_(has_layer), periodic_(periodic), context_(context), topology_(surface, context) {}
+
+  Domain split() {
+    require_closed(surface_, topology_);
+    wall_ = part_of(surface_, [&](TriangleId t) { return is_layered(t); });
+    outer_ = part_of(surface_, [&](TriangleId t) { return !is_layered(t); });
+    domain_.bodies = bodies();
+    find_rim();
+    keep_periodic();
+    if (!domain_.rim.empty()) hold_rim();
+    if (!domain_.rim.empty()) link();
+    domain_.wall = std::move(wall_.mesh);
+    domain_.outer = std::move(outer_.mesh);
+    domain_.wall2surface = std::move(wall_.part2surface);
+    return std::move(domain_);
+  }
+
+ private:
+  bool is_layered(TriangleId t) const { return has_layer_[surface_.triangle_patch[t]] != 0; }
+
+  /// All closed parts but the one that turns inwards with the largest volume: that encloses the fluid.
+  TriMesh bodies() const {
+    const Components parts = connected_components(surface_, topology_);
+    std::vector<CompensatedSum> sums(parts.count);
+    std::vector<VertexId> first(parts.count);
+    for (const TriangleId t : surface_.triangles.ids()) {
+      VertexId& origin = first[parts.component[t]];
+      if (!origin.is_valid()) origin = surface_.triangles[t][0];
+      const auto [a, b, c] = corners(surface_, t);
+      sums[parts.component[t]].add(tet_volume(surface_.points[origin], a, b, c));
+    }
+    std::size_t container = 0;
+    for (std::size_t k = 0; k < sums.size(); ++k)
+      if (sums[k].value() < sums[container].value()) container = k;
+    if (sums[container].value() >= 0.0)
+      throw Error(error(ErrorCode::not_orientable, "no part of the boundary encloses the fluid",
+                        "normals must point into the fluid: out of bodies, and inwards on what encloses them"));
+    return part_of(surface_, [&](TriangleId t) { return parts.component[t] != container; }).mesh;
+  }
+
+  void link() {
+    domain_.links.line.resize(outer_.mesh.n_vertices());
+    for (const VertexId v : surface_.points.ids())
+      if (outer_.surface2part[v].is_valid()) domain_.links.line[outer_.surface2part[v]] = wall_.surface2part[v];
+    domain_.links.surface.assign(outer_.mesh.n_triangles(), -1);
+    for (const TriangleId t : outer_.mesh.triangles.ids())
+      for (const EndPatch& end : domain_.ends)
+        if (outer_.mesh.triangle_patch[t] == end.patch) domain_.links.surface[t] = end.surface;
+  }
+
+  /// Numbers of periodic sides and of their partners in both parts. \throws where a wall with layers ends on one side and not on the other
+  void keep_periodic() {
+    ErrorInfo info = error(ErrorCode::bad_argument, "",
+                           "the same walls must end on both periodic sides, at the same places: give the patches there the same kind and layers");
+    for (const PeriodicPatches& sides : periodic_) {
+      PeriodicEnds ends{outer_.patch2part[sides.first], outer_.patch2part[sides.second], sides.translation, {}};
+      for (const auto& [a, b] : sides.vertices) {
+        ends.vertices.push_back({outer_.surface2part[a], outer_.surface2part[b]});
+        const VertexId on_first = wall_.surface2part[a], on_second = wall_.surface2part[b];
+        if (on_first.is_valid() && on_second.is_valid()) domain_.partners.push_back({on_first, on_second});
+        if (on_first.is_valid() == on_second.is_valid()) continue;
+        ++info.n_places;
+        if (info.places.size() < k_max_places)
+          info.places.push_back({surface_.points[on_first.is_valid() ? a : b], "a wall with layers is here, none at its image"});
+      }
+      domain_.periodic.push_back(std::move(ends));
+    }
+    if (info.n_places == 0) return;
+    info.problem = "at " + std::to_string(info.n_places) + " vertices a wall with layers ends on one periodic side and not on the other";
+    throw Error(std::move(info));
+  }
+
+  /// What one of two partners may not do, the other does not do either.
+  void share_freedoms() {
+    for (bool is_changed = true; is_changed;) {
+      is_changed = false;
+      for (const auto& [a, b] : domain_.partners) {
+        VertexConstraint &first = domain_.constraints.vertex[a], &second = domain_.constraints.vertex[b];
+        if (first.freedom == second.freedom) continue;
+        first.freedom = second.freedom = Freedom::fixed;
+        is_changed = true;
+      }
+    }
+  }
+
+  void find_rim() {
+    std::vector<std::uint8_t> n_fans(surface_.n_vertices(), 0);
+    std::vector<VertexId> pinched;
+    for (const TriangleId t : wall_.mesh.triangles.ids()) {
+      for (int k = 0; k < 3; ++k) {
+        const HalfedgeId h = halfedge(wall_.part2surface[t], k);
+        const TriangleId beyond = triangle_of(topology_.twin(h));
+        if (is_layered(beyond)) continue;
+        domain_.rim.push_back({halfedge(t, k), outer_.patch2part[surface_.triangle_patch[beyond]]});
+        if (n_fans[topology_.from(h).index()]++ > 0) pinched.push_back(topology_.from(h));
+      }
+    }
+    if (pinched.empty()) return;
+    ErrorInfo info = error(ErrorCode::non_manifold_surface,
+                           "walls with layers touch in " + std::to_string(pinched.size()) + " single points, between patches without layers",
+                           "give one of the patches around the place layers or take those of the walls away (patches = { name = { layers = 0 } })");
+    for (std::size_t i = 0; i < std::min(pinched.size(), k_max_places); ++i)
+      info.places.push_back({surface_.points[pinched[i]], "vertex " + std::to_string(pinched[i].value())});
+    throw Error(std::move(info));
+  }
+
+  RimFan fan_beyond(HalfedgeId rim) const {
+    RimFan fan;
+    // The twin arrives at the vertex; its successor leaves it, one triangle on.
+    for (HalfedgeId h = topology_.twin(rim);; h = topology_.twin(next(h))) {
+      const TriangleId t = triangle_of(h);
+      if (is_layered(t)) return fan;
+      const PatchId patch = surface_.triangle_patch[t];
+      if (!fan.patches.empty() && patch != fan.patches.back()) fan.changes.push_back(topology_.twin(h));
+      if (fan.patches.empty() || patch != fan.patches.back()) fan.patches.push_back(patch);
+    }
+  }
+
+  void hold_rim() {
+    domain_.constraints.vertex.resize(wall_.mesh.n_vertices());
+    for (const RimEdge& edge : domain_.rim)
+      if (std::ranges::none_of(domain_.ends, [&](const EndPatch& end) { return end.patch == edge.patch; })) domain_.ends.push_back({edge.patch, -1});
+    std::sort(domain_.ends.begin(), domain_.ends.end(), [](const EndPatch& a, const EndPatch& b) { return a.patch < b.patch; });
+    make_surfaces();
+
+    std::vector<RimFan> fans;
+    std::vector<VertexId> vertices;  // of the surface
+    for (const RimEdge& edge : domain_.rim) {
+      const HalfedgeId h = surface_halfedge(edge.halfedge);
+      fans.push_back(fan_beyond(h));
+      vertices.push_back(topology_.from(h));
+    }
+    Column<VertexId, Vec3> normal(wall_.mesh.n_vertices());
+    for (const TriangleId t : wall_.mesh.triangles.ids()) {
+      const auto [a, b, c] = corners(wall_.mesh, t);
+      for (const VertexId v : wall_.mesh.triangles[t]) normal[v] += area_vector(a, b, c);
+    }
+    const Column<VertexId, std::uint8_t> is_convex = convex_rim();
+    for (std::size_t i = 0; i < fans.size(); ++i) {
+      const VertexId v = wall_.surface2part[vertices[i]];
+      VertexConstraint& constraint = domain_.constraints.vertex[v];
+      constraint = constraint_of(fans[i], v, normal[v]);
+      if (is_convex[v]) constraint.freedom = Freedom::fixed;
+    }
+    share_freedoms();
+    std::size_t n_fast = 0;
+    Point fast;
+    for (const VertexId on_surface : vertices) {
+      const VertexId v = wall_.surface2part[on_surface];
+      if (domain_.constraints.vertex[v].freedom != Freedom::fixed) continue;
+      ++n_fast;
+      fast = wall_.mesh.points[v];
+    }
+    if (n_fast > 0)
+      context_.warn("no layer at " + std::to_string(n_fast) +
+                    " rim vertices, where more than two patches without layers meet the wall, or where its layer would leave the patch beyond (a wall that "
+                    "ends at an outer edge, as a nacelle at the border of its nozzle); one is at " +
+                    format_point(fast));
+    for (std::size_t i = 0; i < fans.size(); ++i) add_chain(fans[i], vertices[i]);
+    mark_near();
+  }
+
+  /// Rim vertices at which the wall turns away from the patch beyond: there is fluid on both sides of where the layer's side would be.
+  Column<VertexId, std::uint8_t> convex_rim() const {
+    Column<VertexId, std::uint8_t> is_convex(wall_.mesh.n_vertices(), 0);
+    for (const RimEdge& edge : domain_.rim) {
+      const HalfedgeId h = surface_halfedge(edge.halfedge);
+      const auto [a, b, c] = corners(surface_, triangle_of(h));
+      const Point from = surface_.points[topology_.from(h)], to = surface_.points[topology_.to(h)];
+      const Point beyond = surface_.points[topology_.from(previous(topology_.twin(h)))];
+      const Vec3 along = normalized(to - from);
+      const Vec3 inward = normalized(beyond - from - dot(beyond - from, along) * along);
+      if (dot(normalized(area_vector(a, b, c)), inward) > k_open_cosine) continue;
+      is_convex[wall_.surface2part[topology_.from(h)]] = is_convex[wall_.surface2part[topology_.to(h)]] = 1;
+    }
+    return is_convex;
+  }
+
+  HalfedgeId surface_halfedge(HalfedgeId of_wall) const { return halfedge(wall_.part2surface[triangle_of(of_wall)], corner_of(of_wall)); }
+
+  const EndPatch& end_of(PatchId surface_patch) const {
+    const PatchId patch = outer_.patch2part[surface_patch];
+    return *std::ranges::find_if(domain_.ends, [&](const EndPatch& end) { return end.patch == patch; });
+  }
+  bool is_end(PatchId surface_patch) const {
+    const PatchId patch = outer_.patch2part[surface_patch];
+    return std::ranges::any_of(domain_.ends, [&](const EndPatch& end) { return end.patch == patch; });
+  }
+
+  void make_surfaces() {
+    Box walls;
+    for (const Point& p : wall_.mesh.points) walls.add(p);
+    const Point middle = walls.center();
+    const double length = walls.longest_side();
+    const auto tolerance_at = [&](const Point& p) { return k_rim_tolerance * (length + distance(p, middle)); };
+    for (EndPatch& end : domain_.ends) {
+      const PatchVertices vertices(outer_.mesh, end.patch);
+      const FlatFit flat = vertices.fit(tolerance_at);
+      end.surface = static_cast<std::int32_t>(domain_.constraints.surfaces.size());
+      const Patch& patch = outer_.mesh.patches[end.patch];
+      if (flat.is_flat) {
+        const auto plane = std::make_shared<ConstraintPlane>(flat.point, flat.normal);
+        domain_.constraints.surfaces.push_back(plane);
+        snap(vertices.vertices(), *plane);
+      } else if (patch.kind == PatchKind::symmetry) {
+        char text[120];
+        std::snprintf(text, sizeof text, "%.3g m off its mean plane, limit %.3g m", flat.distance, tolerance_at(outer_.mesh.points[flat.farthest]));
+        ErrorInfo info = error(ErrorCode::bad_argument, "the symmetry patch \"" + patch.name + "\" is not plane: a vertex is " + text,
+                               "a symmetry patch must lie in one plane; make it a slip wall (patches = { [\"" + patch.name +
+                                   "\"] = { kind = \"slip\" } }) if it is curved on purpose");
+        info.places.push_back({outer_.mesh.points[flat.farthest], "farthest vertex of " + patch.name});
+        throw Error(std::move(info));
+      } else {
+        TriMesh curved = part_of(outer_.mesh, [&](TriangleId t) { return outer_.mesh.triangle_patch[t] == end.patch; }).mesh;
+        domain_.constraints.surfaces.push_back(std::make_shared<ConstraintTriangles>(std::move(curved), context_));
+      }
+    }
+  }
+
+  /// Vertices of several planes are moved until they are on all of them: axis-parallel ones in one step.
+  void snap(const std::vector<VertexId>& vertices, const ConstraintPlane& plane) {
+    for (const VertexId v : vertices) outer_.mesh.points[v] = plane.closest(outer_.mesh.points[v]);
+    for (const VertexId v : surface_.points.ids()) {
+      const VertexId on_wall = wall_.surface2part[v], on_outer = outer_.surface2part[v];
+      if (on_wall.is_valid() && on_outer.is_valid()) wall_.mesh.points[on_wall] = outer_.mesh.points[on_outer];
+    }
+  }
+
+  VertexConstraint constraint_of(const RimFan& fan, VertexId v, const Vec3& normal) const {
+    VertexConstraint constraint;
+    const EndPatch& first = end_of(fan.patches.front());
+    const ConstraintSurface& surface = *domain_.constraints.surfaces[static_cast<std::size_t>(first.surface)];
+    const bool is_plane = dynamic_cast<const ConstraintPlane*>(&surface) != nullptr;
+    const Point& p = wall_.mesh.points[v];
+    constraint.on[0] = first.surface;
+    constraint.axis = surface.normal(p);
+    constraint.freedom = is_plane ? Freedom::plane : Freedom::surface;
+    if (fan.patches.size() == 1) return constraint;
+    constraint.freedom = Freedom::fixed;
+    if (fan.patches.size() > 2) return constraint;
+    const EndPatch& second = end_of(fan.patches.back());
+    constraint.on[1] = second.surface;
+    if (constraint.on[0] > constraint.on[1]) std::swap(constraint.on[0], constraint.on[1]);
+    const ConstraintSurface& other = *domain_.constraints.surfaces[static_cast<std::size_t>(second.surface)];
+    const HalfedgeId h = fan.changes.front();
+    Vec3 line = normalized(outer_.mesh.points[outer_.surface2part[topology_.to(h)]] - p);
+    const Vec3 meet = cross(surface.normal(p), other.normal(p));
+    if (is_plane && dynamic_cast<const ConstraintPlane*>(&other) && norm(meet) > k_parallel_sine)
+      line = dot(meet, line) > 0.0 ? normalized(meet) : -normalized(meet);
+    constraint.axis = line;
+    if (dot(line, normalized(normal)) > k_forward_cosine) constraint.freedom = Freedom::line;
+    return constraint;
+  }
+
+  /// Half-edges at v between two different patches without layers, at least one of them `patch`.
+  std::vector<HalfedgeId> changes_at(VertexId v) const {
+    std::vector<HalfedgeId> found;
+    for (const HalfedgeId h : topology_.outgoing(v)) {
+      const TriangleId left = triangle_of(h), right = triangle_of(topology_.twin(h));
+      if (surface_.triangle_patch[left] != surface_.triangle_patch[right]) found.push_back(h);
+    }
+    return found;
+  }
+
+  void add_chain(const RimFan& fan, VertexId start) {
+    const VertexId on_wall = wall_.surface2part[start];
+    if (domain_.constraints.vertex[on_wall].freedom != Freedom::line) return;
+    HalfedgeId h = fan.changes.front();
+    const PatchId left = surface_.triangle_patch[triangle_of(h)], right = surface_.triangle_patch[triangle_of(topology_.twin(h))];
+    EndChain chain{{outer_.surface2part[start]}, false, outer_.patch2part[left], outer_.patch2part[right]};
+    for (;;) {
+      const VertexId v = topology_.to(h);
+      chain.outer.push_back(outer_.surface2part[v]);
+      if (wall_.surface2part[v].is_valid()) {
+        chain.ends_on_wall = domain_.constraints.vertex[wall_.surface2part[v]].freedom == Freedom::line;
+        break;
+      }
+      const std::vector<HalfedgeId> changes = changes_at(v);
+      if (changes.size() != 2) break;
+      const HalfedgeId on = topology_.to(changes[0]) == topology_.from(h) ? changes[1] : changes[0];
+      if (surface_.triangle_patch[triangle_of(on)] != left || surface_.triangle_patch[triangle_of(topology_.twin(on))] != right) break;
+      h = on;
+      if (topology_.from(h) == start) break;
+    }
+    // Between two lines of the layer the chain is the same from both ends: that of the lower vertex stands for both.
+    if (chain.ends_on_wall && domain_.constraints.vertex[wall_.surface2part[topology_.to(h)]].freedom == Freedom::line && topology_.to(h) < start) return;
+    domain_.chains.push_back(std::move(chain));
+  }
+
+  /// Vertices from which a layer can reach an end patch along the wall; a plane of symmetry concerns all.
+  void mark_near() {
+    domain_.constraints.near.assign(wall_.mesh.n_vertices(), 0);
+    Column<VertexId, double> mean_edge(wall_.mesh.n_vertices(), 0.0);
+    Column<VertexId, std::uint32_t> n_edges(wall_.mesh.n_vertices(), 0);
+    std::vector<std::vector<std::pair<VertexId, double>>> neighbours(wall_.mesh.n_vertices());
+    for (const TriangleVertices& t : wall_.mesh.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const VertexId a = t[k], b = t[(k + 1) % 3];
+        const double length = distance(wall_.mesh.points[a], wall_.mesh.points[b]);
+        neighbours[a.index()].emplace_back(b, length);
+        neighbours[b.index()].emplace_back(a, length);
+        mean_edge[a] += length;
+        mean_edge[b] += length;
+        ++n_edges[a];
+        ++n_edges[b];
+      }
+    }
+    for (const VertexId v : mean_edge.ids()) mean_edge[v] /= std::max(n_edges[v], 1u);
+    for (const EndPatch& end : domain_.ends) {
+      if (end.surface >= k_max_masked) continue;  // the collider sees these still
+      const std::uint64_t bit = std::uint64_t{1} << end.surface;
+      if (outer_.mesh.patches[end.patch].kind == PatchKind::symmetry) {
+        for (std::uint64_t& mask : domain_.constraints.near) mask |= bit;
+        continue;
+      }
+      using Entry = std::pair<double, std::uint32_t>;
+      std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+      for (const VertexId v : domain_.constraints.vertex.ids())
+        if (domain_.constraints.vertex[v].is_on(static_cast<std::size_t>(end.surface))) queue.emplace(0.0, v.value());
+      while (!queue.empty()) {
+        const auto [reached, number] = queue.top();
+        queue.pop();
+        const VertexId v(number);
+        if ((domain_.constraints.near[v] & bit) != 0 || reached > k_near_edges * mean_edge[v]) continue;
+        domain_.constraints.near[v] |= bit;
+        for (const auto& [other, length] : neighbours[v.index()])
+          if ((domain_.constraints.near[other] & bit) == 0) queue.emplace(reached + length, other.value());
+      }
+    }
+  }
+
+  const TriMesh& surface_;
+  const Column<PatchId, std::uint8_t>& has_layer_;
+  std::span<const PeriodicPatches> periodic_;
+  const RunContext& context_;
+  Topology topology_;
+  Part wall_, outer_;
+  Domain domain_;
+};
+
+}  // namespace
+
+Domain split_domain(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, const RunContext& context,
+                    std::span<const PeriodicPatches> periodic) {
+  return Splitter(surface, has_layer, periodic, context).split();
+}
+
+}  // namespace sterna::volmesh

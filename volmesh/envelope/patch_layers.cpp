@@ -1,0 +1,356 @@
+// Steps of demand_of: layers_of_patches; connected parts and their numbers of layers; groups of patches that ask for the same; how far each group's border is
+// blended; then group by group the distance to it and its share in the vertices within reach.
+#include "volmesh/envelope/patch_layers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "geom/base/error.h"
+#include "geom/base/glob.h"
+#include "geom/base/number_text.h"
+#include "geom/base/parallel.h"
+#include "volmesh/case/growth_law.h"
+#include "volmesh/case/layer_choice.h"
+#include "volmesh/envelope/envelope.h"
+#include "volmesh/envelope/wall_distance.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr int k_digits = 4;              ///< of lengths in the log
+constexpr double k_blend_heights = 3.0;  ///< automatic blend over the taller layer: its top rises by a third of what the border asks for
+constexpr double k_blend_edges = 8.0;    ///< and over the mean edge: neighbouring lines differ by at most a ninth of the whole step (its slope is 0.86 at most)
+
+/// The same number, or both automatic.
+bool is_same(double a, double b) { return a == b || (is_automatic(a) && is_automatic(b)); }
+
+/// What patches of one group ask for, all the same.
+struct Group {
+  double first_height, max_growth, max_thickness;
+  const FirstHeights* by_place;  ///< not null: the first height at each place, not first_height
+  double blend;                  ///< m, automatic at first
+  double total_height;           ///< m, automatic: by the edges
+  bool asks_as(const Group& other) const {
+    return first_height == other.first_height && by_place == other.by_place && max_growth == other.max_growth && max_thickness == other.max_thickness &&
+           is_same(total_height, other.total_height);
+  }
+  bool operator==(const Group& other) const { return asks_as(other) && (blend == other.blend || (is_automatic(blend) && is_automatic(other.blend))); }
+};
+
+std::vector<std::string> names_of(const Column<PatchId, Patch>& patches) {
+  std::vector<std::string> names;
+  for (const Patch& patch : patches) names.push_back(patch.name);
+  return names;
+}
+
+PatchKind kind_of(std::string_view name) {
+  for (const PatchKind kind :
+       {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface})
+    if (to_string(kind) == name) return kind;
+  throw Error({.code = ErrorCode::bad_argument, .attempted = "setting the kinds of patches", .problem = "there is no kind \"" + std::string(name) + "\""});
+}
+
+/// Number of the connected part of each vertex: its lowest vertex. Vertices that must grow alike connect, too.
+Column<VertexId, std::uint32_t> parts_of(const LayerBase& base) {
+  const TriMesh& wall = base.wall;
+  Column<VertexId, std::uint32_t> part(wall.n_vertices());
+  std::iota(part.begin(), part.end(), 0u);
+  const auto root = [&](std::uint32_t v) {
+    while (part.raw()[v] != v) v = part.raw()[v] = part.raw()[part.raw()[v]];
+    return v;
+  };
+  for (const TriangleVertices& t : wall.triangles) {
+    const std::uint32_t a = root(t[0].value()), b = root(t[1].value()), c = root(t[2].value());
+    const std::uint32_t lowest = std::min({a, b, c});
+    part.raw()[a] = part.raw()[b] = part.raw()[c] = lowest;
+  }
+  for (const std::vector<VertexId>& group : base.groups)
+    for (const VertexId v : group) {
+      const std::uint32_t a = root(group.front().value()), b = root(v.value());
+      part.raw()[std::max(a, b)] = std::min(a, b);
+    }
+  for (std::uint32_t& p : part) p = root(p);
+  return part;
+}
+
+void log_part(const TriMesh& wall, const std::map<int, std::set<std::uint32_t>>& asked, const RunContext& context) {
+  const auto list = [](const auto& items, const auto& text) {
+    std::string joined;
+    for (const auto& item : items) joined += (joined.empty() ? "" : ", ") + text(item);
+    return joined;
+  };
+  std::string text;
+  for (const auto& [n, patches] : asked)
+    text += (text.empty() ? "" : "; ") + std::to_string(n) + " by " + list(patches, [&](std::uint32_t p) { return wall.patches[PatchId(p)].name; });
+  context.info("walls that are connected have one number of layers: " + std::to_string(asked.rbegin()->first) + ", the largest asked for (" + text + ")");
+}
+
+/// Per vertex the largest number of layers that a patch of its connected part asks for.
+Column<VertexId, std::uint16_t> numbers_of_layers(const LayerBase& base, const Column<PatchId, PatchLayers>& asked, int otherwise, const RunContext& context) {
+  const TriMesh& wall = base.wall;
+  const Column<VertexId, std::uint32_t> part = parts_of(base);
+  std::map<std::uint32_t, std::map<int, std::set<std::uint32_t>>> asked_of_part;
+  for (const TriangleId t : wall.triangles.ids()) {
+    const PatchId patch = wall.triangle_patch[t];
+    if (asked[patch].carries_layers()) asked_of_part[part[wall.triangles[t][0]]][asked[patch].layers].insert(patch.value());
+  }
+  for (const auto& [number, numbers] : asked_of_part)
+    if (numbers.size() > 1) log_part(wall, numbers, context);
+  Column<VertexId, std::uint16_t> layers(wall.n_vertices());
+  for (const VertexId v : layers.ids()) {
+    const auto found = asked_of_part.find(part[v]);
+    layers[v] = static_cast<std::uint16_t>(found == asked_of_part.end() ? otherwise : found->second.rbegin()->first);
+  }
+  return layers;
+}
+
+/// What the rules of a patch say themselves.
+struct OwnWishes {
+  bool layers = false, first_height = false, growth = false, height = false;
+};
+
+/// With a total height: what follows from the rest. What the patch says itself stands; where it leaves both open, the growth gives way (walls that are
+/// connected share the number of layers), or what all walls are solved for.
+void solve(const OwnWishes& own, const std::string& of_all, const std::string& patch, PatchLayers& layers) {
+  if (!layers.carries_layers() || is_automatic(layers.total_height)) return;
+  if (!own.layers && !own.first_height && !own.growth && !own.height && of_all == "none") return;  // solved with all walls, or proved to agree below
+  std::string solve_for = of_all == "none" ? "max_growth" : of_all;
+  if (own.growth && !own.layers) solve_for = "layers";
+  if (own.layers && !own.growth) solve_for = "max_growth";
+  if (own.layers && own.growth) solve_for = "none";
+  if (own.height && !own.layers && !own.growth) solve_for = "max_growth";
+  const LayerChoice solved = solve_layers({layers.layers, layers.first_height, layers.max_growth, layers.total_height}, solve_for, "patch " + patch);
+  layers.layers = solved.layers;
+  layers.max_growth = solved.max_growth;
+}
+
+class Blender {
+ public:
+  Blender(const LayerBase& base, const EnvelopeOptions& options, const Column<PatchId, PatchLayers>& asked, const FirstHeights* by_place, LayerDemand& demand,
+          const RunContext& context)
+      : base_(base), demand_(demand), context_(context), group_of_patch_(asked.size(), -1) {
+    std::vector<std::uint8_t> is_used(asked.size(), 0);
+    for (const PatchId patch : base.wall.triangle_patch) is_used[patch.index()] = 1;
+    for (const PatchId patch : asked.ids()) {
+      const PatchLayers& layers = asked[patch];
+      if (!layers.carries_layers() || !is_used[patch.index()]) continue;
+      const Group group{layers.first_height,
+                        layers.max_growth,
+                        thickness_limit(layers.max_thickness, layers.total_height, base.body_length),
+                        layers.has_own_first_height ? nullptr : by_place,
+                        layers.blend,
+                        layers.total_height};
+      const auto found = std::find(groups_.begin(), groups_.end(), group);
+      group_of_patch_[patch.index()] = static_cast<int>(found - groups_.begin());
+      if (found == groups_.end()) groups_.push_back(group);
+    }
+    if (groups_.empty())
+      groups_.push_back({options.first_height, options.max_growth, thickness_limit(options.max_thickness, options.total_height, base.body_length), by_place,
+                         k_automatic, options.total_height});
+  }
+
+  void blend() {
+    decide_blends();
+    const std::size_t n = base_.wall.n_vertices();
+    Column<VertexId, double> reach(n, 0.0), weight(n, 0.0);
+    double farthest = 0.0;
+    for (const VertexId v : reach.ids()) for_each_group_at(v, [&](std::size_t g) { reach[v] = std::max(reach[v], groups_[g].blend); });
+    for (const double r : reach) farthest = std::max(farthest, r);
+    for (Column<VertexId, double>* column : {&demand_.first_height, &demand_.max_growth, &demand_.max_thickness}) column->assign(n, 0.0);
+    const bool has_heights = std::any_of(groups_.begin(), groups_.end(), [](const Group& group) { return !is_automatic(group.total_height); });
+    if (has_heights) demand_.total_height.assign(n, 0.0);
+    Column<VertexId, std::uint8_t> is_by_height(has_heights ? n : 0, 0);
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const Column<VertexId, double> distance = distances_to(g, farthest);
+      parallel_for(context_, n, [&](std::size_t i) {
+        const VertexId v(i);
+        const double share = share_at(distance[v], reach[v]);
+        weight[v] += share;
+        demand_.first_height[v] += share * std::log(first_height_at(groups_[g], v));
+        demand_.max_growth[v] += share * groups_[g].max_growth;
+        demand_.max_thickness[v] += share * std::log(groups_[g].max_thickness);
+        if (!has_heights || share == 0.0) return;
+        demand_.total_height[v] += share * std::log(height_at(groups_[g], v));
+        if (!is_automatic(groups_[g].total_height)) is_by_height[v] = 1;
+      });
+    }
+    parallel_for(context_, n, [&](std::size_t i) {
+      const VertexId v(i);
+      finish(v, weight[v]);
+      if (has_heights && is_by_height[v] == 0) demand_.total_height[v] = k_automatic;
+    });
+  }
+
+  void log() const {
+    if (groups_.size() < 2) return;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      std::string names;
+      for (const PatchId patch : base_.wall.patches.ids())
+        if (group_of_patch_[patch.index()] == static_cast<int>(g)) names += (names.empty() ? "" : ", ") + base_.wall.patches[patch].name;
+      context_.info("layers of " + names + ": first height " + (groups_[g].by_place ? "by place" : in_metres(groups_[g].first_height, k_digits)) +
+                    (groups_[g].blend > 0.0 ? ", blended with its neighbours over " + in_metres(groups_[g].blend, k_digits) : ""));
+    }
+  }
+
+ private:
+  /// Calls f(g) for each group with a triangle at v; some more than once.
+  template <class F>
+  void for_each_group_at(VertexId v, const F& f) const {
+    for (const HalfedgeId h : base_.topology.outgoing(v)) {
+      const int g = group_of_patch_[base_.wall.triangle_patch[triangle_of(h)].index()];
+      if (g >= 0) f(static_cast<std::size_t>(g));
+    }
+  }
+
+  /// Automatic blends, by the layers and edges along each group's border.
+  void decide_blends() {
+    std::vector<double> heights(groups_.size(), 0.0), edges(groups_.size(), 0.0), n(groups_.size(), 0.0);
+    for (const VertexId v : base_.wall.points.ids()) {
+      std::set<std::size_t> here;
+      for_each_group_at(v, [&](std::size_t g) { here.insert(g); });
+      if (here.size() < 2) continue;
+      double tallest = 0.0;
+      for (const std::size_t g : here) tallest = std::max(tallest, height_at(groups_[g], v));
+      for (const std::size_t g : here) {
+        if (std::all_of(here.begin(), here.end(), [&](std::size_t other) { return groups_[g].asks_as(groups_[other]); })) continue;
+        heights[g] += tallest;
+        edges[g] += base_.mean_edge[v];
+        n[g] += 1.0;
+      }
+    }
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      if (n[g] == 0.0) groups_[g].blend = 0.0;
+      else if (is_automatic(groups_[g].blend)) groups_[g].blend = std::max(k_blend_heights * heights[g] / n[g], k_blend_edges * edges[g] / n[g]);
+    }
+  }
+
+  double first_height_at(const Group& group, VertexId v) const { return group.by_place ? group.by_place->at(base_.wall.points[v]) : group.first_height; }
+
+  double height_at(const Group& group, VertexId v) const {
+    if (!is_automatic(group.total_height)) return std::min(group.total_height, group.max_thickness);
+    const int n = demand_.layers[v];
+    const double h0 = first_height_at(group, v);
+    return std::min(layer_height(h0, growth_for_edge(h0, base_.mean_edge[v], group.max_growth, n), n), group.max_thickness);
+  }
+
+  Column<VertexId, double> distances_to(std::size_t group, double reach) const {
+    constexpr double k_beyond = 1.0;  // of no reach at all
+    Column<VertexId, double> distance(base_.wall.n_vertices(), reach > 0.0 ? reach : k_beyond);
+    for (const VertexId v : distance.ids())
+      for_each_group_at(v, [&](std::size_t g) {
+        if (g == group) distance[v] = 0.0;
+      });
+    limit_gradient(base_, 1.0, distance);
+    return distance;
+  }
+
+  /// 1 on the group's own patches, 0 from `reach` on; level at both ends, so that the blended field has no bend.
+  static double share_at(double distance, double reach) {
+    if (distance == 0.0) return 1.0;
+    if (distance >= reach) return 0.0;
+    const double x = distance / reach;
+    return (1.0 - x) * (1.0 - x) * (1.0 + 2.0 * x);
+  }
+
+  void finish(VertexId v, double weight) {
+    if (weight == 1.0 || weight == 0.0) {
+      // Without the way through logarithms: exactly what is asked.
+      const Group* own = &groups_.front();
+      for_each_group_at(v, [&](std::size_t g) { own = &groups_[g]; });
+      demand_.first_height[v] = first_height_at(*own, v);
+      demand_.max_growth[v] = own->max_growth;
+      demand_.max_thickness[v] = own->max_thickness;
+      if (!demand_.total_height.empty()) demand_.total_height[v] = own->total_height;
+      return;
+    }
+    demand_.first_height[v] = std::exp(demand_.first_height[v] / weight);
+    demand_.max_growth[v] /= weight;
+    demand_.max_thickness[v] = std::exp(demand_.max_thickness[v] / weight);
+    if (!demand_.total_height.empty()) demand_.total_height[v] = std::exp(demand_.total_height[v] / weight);
+  }
+
+  const LayerBase& base_;
+  LayerDemand& demand_;
+  const RunContext& context_;
+  std::vector<Group> groups_;
+  std::vector<int> group_of_patch_;  ///< -1: no layers, or no triangles
+};
+
+}  // namespace
+
+void apply_patch_kinds(TriMesh& surface, std::span<const PatchRule> rules) {
+  for (const PatchRule& rule : rules) {
+    bool is_used = false;
+    for (Patch& patch : surface.patches) {
+      if (!matches_glob(patch.name, rule.names)) continue;
+      is_used = true;
+      if (rule.kind != PatchRule{}.kind) patch.kind = kind_of(rule.kind);
+    }
+    if (!is_used)
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "setting what is asked of patches",
+                   .problem = "no patch has a name like \"" + rule.names + "\"",
+                   .hint = names_hint(names_of(surface.patches), rule.names)});
+  }
+}
+
+Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& patches, const EnvelopeOptions& options, std::span<const PatchRule> rules) {
+  Column<PatchId, PatchLayers> result;
+  std::string without;
+  for (const Patch& patch : patches) {
+    PatchLayers layers{.layers = options.layers,
+                       .first_height = options.first_height,
+                       .max_growth = options.max_growth,
+                       .total_height = options.total_height,
+                       .max_thickness = options.max_thickness};
+    OwnWishes own;
+    for (const PatchRule& rule : rules) {
+      if (!matches_glob(patch.name, rule.names)) continue;
+      if (rule.layers != PatchRule::k_as_all) layers.layers = rule.layers, own.layers = true;
+      if (!is_automatic(rule.first_height)) layers.first_height = rule.first_height;
+      if (!is_automatic(rule.max_growth)) layers.max_growth = rule.max_growth, own.growth = true;
+      if (!is_automatic(rule.total_height)) layers.total_height = rule.total_height, own.height = true;
+      if (!is_automatic(rule.first_height)) layers.has_own_first_height = own.first_height = true;
+      if (!is_automatic(rule.max_thickness)) layers.max_thickness = rule.max_thickness;
+      if (!is_automatic(rule.blend)) layers.blend = rule.blend;
+    }
+    if (patch.kind != PatchKind::wall) layers.layers = 0;
+    if (layers.carries_layers() && is_automatic(layers.first_height)) without += (without.empty() ? "" : ", ") + patch.name;
+    solve(own, options.solve_for, patch.name, layers);
+    result.push_back(layers);
+  }
+  if (!without.empty())
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "finding what is asked of the layer",
+                 .problem = "first_height is not given for " + without,
+                 .hint = "give it for all walls, or for each of their patches"});
+  return result;
+}
+
+LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
+                      const RunContext& context) {
+  const Column<PatchId, PatchLayers> asked = layers_of_patches(base.wall.patches, options, rules);
+  const auto is_as_all = [&](const PatchLayers& layers) {
+    return !layers.carries_layers() || (!(by_place && !layers.has_own_first_height) && layers.layers == options.layers &&
+                                        layers.first_height == options.first_height && layers.max_growth == options.max_growth &&
+                                        is_same(layers.max_thickness, options.max_thickness) && is_same(layers.total_height, options.total_height));
+  };
+  LayerDemand demand;
+  if (std::all_of(base.wall.triangle_patch.begin(), base.wall.triangle_patch.end(), [&](PatchId patch) { return is_as_all(asked[patch]); })) return demand;
+  demand.layers = numbers_of_layers(base, asked, options.layers, context);
+  Blender blender(base, options, asked, by_place, demand, context);
+  blender.blend();
+  blender.log();
+  for (const std::vector<VertexId>& group : base.groups)
+    for (Column<VertexId, double>* column : {&demand.first_height, &demand.max_growth, &demand.max_thickness}) {
+      double least = (*column)[group.front()];
+      for (const VertexId v : group) least = std::min(least, (*column)[v]);
+      for (const VertexId v : group) (*column)[v] = least;
+    }
+  return demand;
+}
+
+}  // namespace sterna::volmesh

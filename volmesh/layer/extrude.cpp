@@ -1,0 +1,230 @@
+// Steps of Extruder::extrude: place_stale_lines, invalid_among; while any column is invalid: reduce_curving, lower_heights where that does not help, and both
+// again for what changed. Curving falls only and heights fall only, so the rounds end.
+#include "volmesh/layer/extrude.h"
+
+#include <algorithm>
+
+#include "geom/base/error.h"
+#include "geom/base/parallel.h"
+#include "volmesh/envelope/keep_inside.h"
+#include "volmesh/envelope/untangle.h"
+#include "volmesh/layer/layer_cells.h"
+#include "volmesh/layer/layer_line.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr int k_max_repair_rounds = 200;
+constexpr int k_curving_rounds = 8;         ///< rounds that reduce c_t by bisection; later ones straighten the lines and lower heights at once
+constexpr int k_bisections = 6;             ///< c_t to 1/64 of what it was
+constexpr double k_equalise_factor = 1.05;  ///< corners of an invalid cell keep heights within this ratio of the lowest
+constexpr double k_shrink_factor = 0.7;     ///< of the heights of a cell that stays invalid with equal heights and straight lines
+constexpr double k_hopeless = -1.0;         ///< invalid with straight lines
+constexpr std::size_t k_line_chunk = 512;
+constexpr std::size_t k_column_chunk = 256;
+
+template <class T>
+std::vector<T> joined(std::vector<T> a, const std::vector<T>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+template <class T>
+void sort_unique(std::vector<T>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+}  // namespace
+
+Extruder::Extruder(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, const RunContext& context)
+    : base_(base),
+      envelope_options_(envelope_options),
+      scale_(scale_of(base, envelope_options)),
+      context_(context),
+      curving_(base, options.wall_perpendicularity),
+      placed_(base.wall.n_vertices()) {
+  const std::size_t n = base.wall.n_vertices();
+  layers_.n_layers = 0;
+  for (std::size_t i = 0; i < n; ++i) layers_.n_layers = std::max(layers_.n_layers, scale_.n(VertexId(i)));
+  for (std::size_t i = 0; i < n && layers_.is_uniform(); ++i)
+    if (scale_.n(VertexId(i)) != layers_.n_layers) layers_.line_layers.resize(n);
+  for (std::size_t i = 0; i < layers_.line_layers.size(); ++i) layers_.line_layers[i] = static_cast<std::uint16_t>(scale_.n(VertexId(i)));
+  layers_.first_node.resize(n);
+  std::uint64_t n_nodes = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    layers_.first_node[i] = NodeId(n_nodes).value();
+    n_nodes += static_cast<std::uint64_t>(scale_.n(VertexId(i))) + 1;
+  }
+  layers_.is_collapsed.resize(n);
+  layers_.base.resize(base.wall.n_triangles());
+  for (const TriangleId t : IdRange<TriangleId>(base.wall.n_triangles())) {
+    const TriangleVertices& v = base.wall.triangles[t];
+    layers_.base[t.index()] = {v[0].value(), v[1].value(), v[2].value()};
+  }
+  points_.resize(n_nodes);
+}
+
+/// Places the lines whose height, direction or curving is not the one they were placed with; returns them, ascending.
+std::vector<VertexId> Extruder::place_stale_lines(const Envelope& envelope) {
+  return parallel_reduce(
+      context_, base_.wall.n_vertices(), std::vector<VertexId>{},
+      [&](std::size_t begin, std::size_t end) {
+        std::vector<VertexId> stale;
+        LinePlacer placer(base_, scale_);
+        for (std::size_t i = begin; i < end; ++i) {
+          const VertexId v(i);
+          const Placed wanted{envelope.direction[v], envelope.height[v], curving_[v]};
+          if (wanted == placed_[v]) continue;
+          placed_[v] = wanted;
+          layers_.is_collapsed[i] = envelope.is_collapsed(v) ? 1 : 0;
+          placer.place(envelope, v, curving_[v], points_.data() + layers_.first_node[i]);
+          stale.push_back(v);
+        }
+        return stale;
+      },
+      joined<VertexId>, k_line_chunk);
+}
+
+Extruder::Columns Extruder::columns_at(const std::vector<VertexId>& lines) const {
+  Columns columns;
+  for (const VertexId v : lines)
+    for (const HalfedgeId h : base_.topology.outgoing(v)) columns.push_back(triangle_of(h).index());
+  sort_unique(columns);
+  return columns;
+}
+
+/// The invalid ones of some columns, or of all.
+Extruder::Columns Extruder::invalid_among(const Columns* some) const {
+  return parallel_reduce(
+      context_, some ? some->size() : layers_.n_columns(), Columns{},
+      [&](std::size_t begin, std::size_t end) {
+        Columns bad;
+        for (std::size_t i = begin; i < end; ++i) {
+          const std::size_t column = some ? (*some)[i] : i;
+          if (!is_column_certain(column_lines(layers_, points_, column), layers_.layers_of_column(column))) bad.push_back(column);
+        }
+        return bad;
+      },
+      joined<std::size_t>, k_column_chunk);
+}
+
+/// Largest common share of the present c_t of its lines with which a column is valid, to 1/64; k_hopeless where straight lines are not either.
+double Extruder::valid_share_of_curving(const Envelope& envelope, std::size_t column) const {
+  const int n = layers_.layers_of_column(column);
+  const std::size_t per_line = static_cast<std::size_t>(n) + 1;
+  std::vector<Point> nodes(3 * per_line);
+  LinePlacer placer(base_, scale_);
+  const auto is_valid = [&](double share) {
+    ColumnLines lines;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId v(layers_.base[column][k]);
+      placer.place(envelope, v, share * curving_[v], nodes.data() + k * per_line);
+      lines.nodes[k] = nodes.data() + k * per_line;
+      lines.is_collapsed[k] = envelope.is_collapsed(v);
+    }
+    return is_column_certain(lines, n);
+  };
+  if (!is_valid(0.0)) return k_hopeless;
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < k_bisections; ++i) {
+    const double middle = 0.5 * (low + high);
+    (is_valid(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+/// Limits c_t at the lines of invalid columns to what bisection finds; returns the columns that no c_t makes valid.
+Extruder::Columns Extruder::reduce_curving(const Envelope& envelope, const Columns& bad) {
+  std::vector<double> share(bad.size());
+  parallel_for(
+      context_, bad.size(), [&](std::size_t i) { share[i] = valid_share_of_curving(envelope, bad[i]); }, 8);
+  Columns hopeless;
+  for (std::size_t i = 0; i < bad.size(); ++i) {
+    if (share[i] == k_hopeless) {
+      hopeless.push_back(bad[i]);
+      continue;
+    }
+    for (const VertexId v : base_.wall.triangles[TriangleId(bad[i])]) curving_.limit(v, share[i] * curving_[v]);
+  }
+  return hopeless;
+}
+
+/// Equal heights over the corners of invalid columns; where they were equal already, lower ones.
+void Extruder::lower_heights(const Columns& columns, Envelope& envelope) const {
+  std::vector<VertexId> touched;
+  for (const std::size_t c : columns) {
+    const TriangleVertices& v = base_.wall.triangles[TriangleId(c)];
+    double lowest = 0.0, tallest = 0.0;
+    for (const VertexId vertex : v) {
+      const double h = envelope.height[vertex];
+      if (h > 0.0 && (lowest == 0.0 || h < lowest)) lowest = h;
+      tallest = std::max(tallest, h);
+    }
+    const double bound = tallest > k_equalise_factor * lowest ? k_equalise_factor * lowest : k_shrink_factor * lowest;
+    for (const VertexId vertex : v) {
+      lower(envelope, vertex, bound, HeightLimit::prism, scale_);
+      touched.push_back(vertex);
+    }
+  }
+  sort_unique(touched);
+  unwarp(base_, envelope_options_, HeightLimit::prism, envelope, context_, &touched);
+  seat_on_surfaces(base_, envelope_options_, nullptr, envelope, context_);
+}
+
+void Extruder::extrude(Envelope& envelope) {
+  Columns some = columns_at(is_first_ ? std::vector<VertexId>{} : place_stale_lines(envelope));
+  if (is_first_) place_stale_lines(envelope);
+  Columns bad = invalid_among(is_first_ ? nullptr : &some);
+  is_first_ = false;
+  for (int round = 0; !bad.empty(); ++round) {
+    if (round == k_max_repair_rounds) {
+      const auto place = base_.wall.points[base_.wall.triangles[TriangleId(bad.front())][0]];
+      throw Error({.code = ErrorCode::envelope_failed,
+                   .attempted = "extruding prisms",
+                   .problem = std::to_string(bad.size()) + " columns stay invalid after " + std::to_string(round) + " repairs",
+                   .places = {{place, "column " + std::to_string(bad.front())}},
+                   .n_places = static_cast<std::int64_t>(bad.size()),
+                   .hint = "report this surface"});
+    }
+    Columns hopeless;
+    if (round < k_curving_rounds) {
+      hopeless = reduce_curving(envelope, bad);
+    } else {
+      hopeless = bad;
+      for (const std::size_t c : bad)
+        for (const VertexId v : base_.wall.triangles[TriangleId(c)]) curving_.limit(v, 0.0);
+    }
+    context_.debug("extrusion: " + std::to_string(bad.size()) + " invalid columns in round " + std::to_string(round) + ", " + std::to_string(hopeless.size()) +
+                   " of them with straight lines too");
+    if (!hopeless.empty()) lower_heights(hopeless, envelope);
+    curving_.smooth(context_);
+    some = columns_at(place_stale_lines(envelope));
+    some.insert(some.end(), bad.begin(), bad.end());  // also where nothing was left to change in this round
+    sort_unique(some);
+    bad = invalid_among(&some);
+  }
+}
+
+Extrusion Extruder::take() {
+  std::uint64_t next = 0;
+  for (std::size_t i = 0; i < layers_.n_lines(); ++i) {
+    const std::size_t n_nodes = static_cast<std::size_t>(layers_.n_steps(i)) + 1;
+    if (next != layers_.first_node[i]) std::copy_n(points_.begin() + layers_.first_node[i], n_nodes, points_.begin() + static_cast<std::ptrdiff_t>(next));
+    layers_.first_node[i] = static_cast<std::uint32_t>(next);
+    next += n_nodes;
+  }
+  points_.resize(next);
+  Extrusion result{std::move(layers_), std::move(points_), 0, curving_.distribution()};
+  for (const std::int64_t n : result.curving_shares) result.n_straightened += n;
+  return result;
+}
+
+Extrusion extrude_prisms(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, Envelope& envelope,
+                         const RunContext& context) {
+  Extruder extruder(base, envelope_options, options, context);
+  extruder.extrude(envelope);
+  return extruder.take();
+}
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,68 @@
+// Extrusion of the layer: nodes on curved lines between wall and envelope, and the repair of invalid cells (method.md §8, [ET15 §3.4]).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geom/mesh/hybrid_mesh.h"
+#include "volmesh/case/prism_options.h"
+#include "volmesh/envelope/envelope.h"
+#include "volmesh/layer/curving.h"
+
+namespace sterna::volmesh {
+
+struct Extrusion {
+  LayerBlock layers;                             ///< line k stands on wall vertex k; base triangle = wall triangle
+  std::vector<Point> points;                     ///< nodes of all lines, line by line from the wall up
+  std::int64_t n_straightened = 0;               ///< lines whose c_t was reduced
+  std::array<std::int64_t, 5> curving_shares{};  ///< of them, by c_t over the wanted one: 0, up to 1/4, 1/2, 3/4, below 1
+};
+
+/// Makes and remakes the layer of one wall. It keeps nodes and curving between calls: later calls touch the lines whose envelope has changed, and the columns
+/// beside them.
+class Extruder {
+ public:
+  Extruder(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, const RunContext& context);
+
+  /// Nodes by LinePlacer. Columns with an invalid cell (exact tests of cell and dual sub-volumes) are repaired: c_t of their lines to the largest value, found
+  /// by bisection, for which the column is valid, smoothed over the surface (Curving); only where straight lines do not help, heights are made equal over the
+  /// column's corners and then lowered (through `unwarp`), down to collapse. Changes `envelope` accordingly.
+  /// \post every cell is valid with positive dual sub-volumes; top nodes are envelope.point() to the bit.
+  /// \throws Error(envelope_failed) when columns stay invalid after 200 rounds.
+  void extrude(Envelope& envelope);
+  /// The layer of the last extrude(); ends the use of this object.
+  Extrusion take();
+
+ private:
+  using Columns = std::vector<std::size_t>;  ///< of the layer (= wall triangles), ascending
+
+  std::vector<VertexId> place_stale_lines(const Envelope& envelope);
+  Columns columns_at(const std::vector<VertexId>& lines) const;
+  Columns invalid_among(const Columns* some) const;
+  Columns reduce_curving(const Envelope& envelope, const Columns& bad);
+  double valid_share_of_curving(const Envelope& envelope, std::size_t column) const;
+  void lower_heights(const Columns& columns, Envelope& envelope) const;
+
+  const LayerBase& base_;
+  EnvelopeOptions envelope_options_;
+  EnvelopeScale scale_;
+  RunContext context_;
+  Curving curving_;
+  LayerBlock layers_;  ///< all lines have the nodes of all their layers here, collapsed ones too
+  std::vector<Point> points_;
+  /// What each line was placed with.
+  struct Placed {
+    Vec3 direction;
+    double height = -1.0, c_t = 0.0;
+    friend bool operator==(const Placed&, const Placed&) = default;
+  };
+  Column<VertexId, Placed> placed_;
+  bool is_first_ = true;
+};
+
+/// One call of an Extruder.
+Extrusion extrude_prisms(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, Envelope& envelope,
+                         const RunContext& context);
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,114 @@
+#include "volmesh/layer/layer_cells.h"
+
+#include <algorithm>
+
+#include "geom/base/parallel.h"
+#include "geom/math/measures.h"
+#include "geom/math/sub_volumes.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr std::size_t k_column_chunk = 256;  ///< columns, some 10^4 cells
+
+WedgePoints wedge_of(const ColumnLines& lines, int layer) {
+  const auto& [a, b, c] = lines.nodes;
+  return {a[layer], b[layer], c[layer], a[layer + 1], b[layer + 1], c[layer + 1]};
+}
+
+/// Column with one or two collapsed lines, turned so that the odd line comes first; the cyclic sense is kept (LayerBlock::cell).
+struct PartialColumn {
+  std::array<const Point*, 3> nodes;
+  bool is_pyramid;
+};
+PartialColumn partial_column(const ColumnLines& lines) {
+  const bool is_pyramid = lines.is_collapsed[0] + lines.is_collapsed[1] + lines.is_collapsed[2] == 1;
+  std::size_t first = 0;
+  while (lines.is_collapsed[first] != is_pyramid) ++first;
+  return {{lines.nodes[first], lines.nodes[(first + 1) % 3], lines.nodes[(first + 2) % 3]}, is_pyramid};
+}
+std::array<Vec3, 5> pyramid_of(const PartialColumn& column, int layer) {
+  const auto& [a, b, c] = column.nodes;
+  return {b[layer], b[layer + 1], c[layer + 1], c[layer], a[0]};
+}
+std::array<Vec3, 4> tet_of(const PartialColumn& column, int layer) {
+  const auto& [a, b, c] = column.nodes;
+  return {a[layer], b[0], c[0], a[layer + 1]};
+}
+
+int n_collapsed(const ColumnLines& lines) { return lines.is_collapsed[0] + lines.is_collapsed[1] + lines.is_collapsed[2]; }
+
+void add_column(const ColumnLines& lines, std::size_t column, int n_layers, LayerCertificate& certificate) {
+  const int n_down = n_collapsed(lines);
+  if (n_down == 3) return;
+  certificate.n_cells += n_layers;
+  if (n_down > 0) {
+    const PartialColumn partial = partial_column(lines);
+    for (int j = 0; j < n_layers; ++j) certificate.n_proved += partial.is_pyramid ? is_pyramid_valid(pyramid_of(partial, j)) : is_tet_valid(tet_of(partial, j));
+    return;
+  }
+  for (int j = 0; j < n_layers; ++j) {
+    const WedgePoints p = wedge_of(lines, j);
+    certificate.n_proved += is_wedge_valid(p);
+    const double quality = wedge_quality(p);
+    if (!(quality < certificate.min_quality)) continue;
+    certificate.min_quality = quality;
+    certificate.worst_place = (p[0] + p[1] + p[2] + p[3] + p[4] + p[5]) / 6.0;
+    certificate.worst_column = static_cast<std::int64_t>(column);
+    certificate.worst_layer = j;
+  }
+}
+
+}  // namespace
+
+ColumnLines column_lines(const LayerBlock& layers, std::span<const Point> points, std::size_t column) {
+  ColumnLines lines;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t line = layers.base[column][k];
+    lines.nodes[k] = points.data() + layers.first_node[line];
+    lines.is_collapsed[k] = layers.is_collapsed[line] != 0;
+  }
+  return lines;
+}
+
+bool is_column_certain(const ColumnLines& lines, int n_layers) {
+  const int n_down = n_collapsed(lines);
+  if (n_down == 3) return true;
+  if (n_down == 0) {
+    for (int j = 0; j < n_layers; ++j) {
+      const WedgePoints p = wedge_of(lines, j);
+      if (!is_wedge_valid(p) || !are_sub_volumes_positive(p)) return false;
+    }
+    return true;
+  }
+  const PartialColumn partial = partial_column(lines);
+  for (int j = 0; j < n_layers; ++j) {
+    if (!partial.is_pyramid) {
+      if (!is_tet_valid(tet_of(partial, j))) return false;  // its dual is positive with it
+      continue;
+    }
+    const std::array<Vec3, 5> p = pyramid_of(partial, j);
+    if (!is_pyramid_valid(p) || !are_sub_volumes_positive(p)) return false;
+  }
+  return true;
+}
+
+LayerCertificate certify_layer(const LayerBlock& layers, std::span<const Point> points, const RunContext& context) {
+  return parallel_reduce(
+      context, layers.n_columns(), LayerCertificate{},
+      [&](std::size_t begin, std::size_t end) {
+        LayerCertificate part;
+        for (std::size_t c = begin; c < end; ++c) add_column(column_lines(layers, points, c), c, layers.layers_of_column(c), part);
+        return part;
+      },
+      [](LayerCertificate a, const LayerCertificate& b) {
+        const std::int64_t n_cells = a.n_cells + b.n_cells, n_proved = a.n_proved + b.n_proved;
+        if (b.min_quality < a.min_quality) a = b;
+        a.n_cells = n_cells;
+        a.n_proved = n_proved;
+        return a;
+      },
+      k_column_chunk);
+}
+
+}  // namespace sterna::volmesh

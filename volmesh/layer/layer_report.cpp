@@ -1,0 +1,197 @@
+#include "volmesh/layer/layer_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "geom/base/number_text.h"
+#include "geom/base/parallel.h"
+#include "geom/math/measures.h"
+#include "volmesh/layer/layer_line.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr int k_digits = 4;                  ///< of lengths in texts
+constexpr double k_full_height_share = 0.9;  ///< of h_target that counts as covered
+constexpr double k_suspicious_share = 0.5;   ///< of the area compressed: more likely a mistake in the settings than a difficult shape
+
+using LostArea = std::array<double, k_height_limits>;
+
+/// Areas by state, m^2.
+struct Areas {
+  double all = 0.0, full = 0.0, compressed = 0.0, collapsed = 0.0;
+  LostArea lost{};
+};
+
+class Classifier {
+ public:
+  Classifier(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope)
+      : base_(base), envelope_(envelope), scale_(scale_of(base, options)) {}
+  bool is_full(VertexId v) const { return envelope_.height[v] >= k_full_height_share * envelope_.target[v]; }
+  bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < scale_.compressed(v); }
+  void add(VertexId v, double area, Areas& areas) const {
+    areas.all += area;
+    if (is_full(v)) areas.full += area;
+    else areas.lost[static_cast<std::size_t>(envelope_.limit[v])] += area;
+    if (is_compressed(v)) areas.compressed += area;
+    if (envelope_.is_collapsed(v)) areas.collapsed += area;
+  }
+  const EnvelopeScale& scale() const { return scale_; }
+
+ private:
+  const LayerBase& base_;
+  const Envelope& envelope_;
+  EnvelopeScale scale_;
+};
+
+std::vector<std::pair<std::string, double>> shares_of(const Areas& areas) {
+  std::vector<std::pair<std::string, double>> shares;
+  for (std::size_t i = 0; i < areas.lost.size(); ++i)
+    if (areas.lost[i] > 0.0) shares.emplace_back(to_string(static_cast<HeightLimit>(i)), areas.lost[i] / areas.all);
+  std::stable_sort(shares.begin(), shares.end(), [](const auto& x, const auto& y) { return x.second > y.second; });
+  return shares;
+}
+
+std::vector<PatchCoverage> cover_patches(const LayerBase& base, const Classifier& classifier) {
+  std::vector<Areas> areas(base.wall.patches.size());
+  for (const TriangleId t : base.wall.triangles.ids())
+    for (const VertexId v : base.wall.triangles[t]) classifier.add(v, base.area[t] / 3.0, areas[base.wall.triangle_patch[t].index()]);
+  std::vector<PatchCoverage> patches;
+  for (const PatchId p : base.wall.patches.ids()) {
+    const Areas& own = areas[p.index()];
+    const auto share = [&own](double part) { return own.all > 0.0 ? part / own.all : 0.0; };
+    patches.push_back({base.wall.patches[p].name, own.all, share(own.full), share(own.compressed), share(own.collapsed), shares_of(own)});
+  }
+  return patches;
+}
+
+std::string vertex_text(const LayerBase& base, const Envelope& envelope, VertexId v) {
+  const Patch& patch = base.wall.patches[base.wall.triangle_patch[triangle_of(base.topology.outgoing(v).front())]];
+  return "vertex " + std::to_string(v.value()) + " of patch " + patch.name + ": " + std::string(to_string(envelope.limit[v]));
+}
+
+void list_places(const LayerBase& base, const Envelope& envelope, const Classifier& classifier, LayerReport& report) {
+  std::vector<VertexId> compressed;
+  for (const VertexId v : envelope.height.ids()) {
+    if (base.topology.outgoing(v).empty()) continue;  // belongs to no triangle
+    if (classifier.is_compressed(v)) compressed.push_back(v);
+    if (envelope.is_collapsed(v)) report.collapsed.push_back({base.wall.points[v], vertex_text(base, envelope, v)});
+  }
+  report.n_compressed = static_cast<std::int64_t>(compressed.size());
+  std::stable_sort(compressed.begin(), compressed.end(), [&](VertexId a, VertexId b) { return envelope.height[a] < envelope.height[b]; });
+  compressed.resize(std::min(compressed.size(), k_listed_compressed));
+  for (const VertexId v : compressed)
+    report.compressed.push_back({base.wall.points[v], in_metres(envelope.height[v], k_digits) + ", " + vertex_text(base, envelope, v)});
+}
+
+/// Layers that are thinner than their own first cells come from a wrong unit more often than from a difficult shape.
+void warn(const Envelope& envelope, const Classifier& classifier, LayerReport& report) {
+  // Where the target is tallest over what the first cells alone make.
+  const EnvelopeScale& scale = classifier.scale();
+  VertexId v(0);
+  for (const VertexId other : envelope.target.ids())
+    if (envelope.target[other] * scale.compressed(v) > envelope.target[v] * scale.compressed(other)) v = other;
+  const double tallest = envelope.target[v];
+  const bool is_target_low = tallest < scale.compressed(v);
+  if (!is_target_low && report.compressed_area <= k_suspicious_share) return;
+  char share[32];
+  std::snprintf(share, sizeof share, "%.0f %%", 100.0 * report.compressed_area);
+  report.warnings.push_back("the layer is compressed on " + std::string(share) + " of the wall: " + std::to_string(scale.n(v)) + " layers of first_height " +
+                            in_metres(scale.h0(v), k_digits) + " are " + in_metres(scale.compressed(v), k_digits) + " tall" +
+                            (is_target_low ? ", more than the tallest target of " + in_metres(tallest, k_digits) : "") + " (body length " +
+                            in_metres(report.body_length, k_digits) + "); are first_height and the surface in the same unit?");
+}
+
+constexpr double k_regular_height = 0.81649658092772603;  ///< of a regular tetrahedron over its edge
+constexpr double k_interface_ratio = 3.0;
+
+InterfaceReport report_interface(const LayerBase& base, const Classifier& classifier, const Extrusion& extrusion, const RunContext& context) {
+  struct Sums {
+    double within = 0.0, below = 0.0, above = 0.0, full = 0.0, full_within = 0.0;
+  };
+  const LayerBlock& layers = extrusion.layers;
+  const auto node = [&](VertexId v, int layer) { return extrusion.points[layers.node(v.value(), layer).index()]; };
+  const Sums sums = parallel_reduce(
+      context, base.wall.n_triangles(), Sums{},
+      [&](std::size_t begin, std::size_t end) {
+        Sums part;
+        for (std::size_t t = begin; t < end; ++t) {
+          const TriangleVertices& v = base.wall.triangles[TriangleId(t)];
+          std::array<Point, 3> top;
+          double height = 0.0;
+          for (std::size_t k = 0; k < 3; ++k) {
+            const int n_layers = layers.layers_of_line(v[k].value());
+            top[k] = node(v[k], n_layers);
+            height += distance(top[k], node(v[k], n_layers - 1)) / 3.0;
+          }
+          const double edge = (distance(top[0], top[1]) + distance(top[1], top[2]) + distance(top[2], top[0])) / 3.0;
+          const double ratio = height / (k_regular_height * edge);
+          double& sum = ratio > k_interface_ratio ? part.above : ratio * k_interface_ratio < 1.0 ? part.below : part.within;
+          const double area = triangle_area(top[0], top[1], top[2]);
+          sum += area;
+          if (!std::ranges::all_of(v, [&](VertexId corner) { return classifier.is_full(corner); })) continue;
+          part.full += area;
+          if (&sum == &part.within) part.full_within += area;
+        }
+        return part;
+      },
+      [](const Sums& a, const Sums& b) {
+        return Sums{a.within + b.within, a.below + b.below, a.above + b.above, a.full + b.full, a.full_within + b.full_within};
+      });
+  const double all = sums.within + sums.below + sums.above;
+  if (!(all > 0.0)) return {};
+  return {sums.within / all, sums.below / all, sums.above / all, sums.full > 0.0 ? sums.full_within / sums.full : 0.0};
+}
+
+}  // namespace
+
+LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion,
+                         const RunContext& context) {
+  LayerReport report;
+  report.body_length = base.body_length;
+  report.n_vertices = static_cast<std::int64_t>(base.wall.n_vertices());
+  const Classifier classifier(base, options, envelope);
+  Areas areas;
+  double heights = 0.0, targets = 0.0, ratios = 0.0;
+  for (const VertexId v : envelope.height.ids()) {
+    const double a = base.vertex_area[v];
+    classifier.add(v, a, areas);
+    heights += a * envelope.height[v];
+    targets += a * envelope.target[v];
+    ratios += a * envelope.target[v] / envelope.eq1[v];
+  }
+  report.coverage = areas.full / areas.all;
+  report.compressed_area = areas.compressed / areas.all;
+  report.collapsed_area = areas.collapsed / areas.all;
+  report.lost_area = shares_of(areas);
+  report.target_over_eq1 = ratios / areas.all;
+  report.mean_height_share = heights / targets;
+  report.mean_height = heights / areas.all;
+  report.patches = cover_patches(base, classifier);
+  list_places(base, envelope, classifier, report);
+  report.first_node = first_node_report(base, classify_vertices(base, options, context), options, envelope, extrusion, context);
+  report.interface = report_interface(base, classifier, extrusion, context);
+  report.reduced_curving = extrusion.curving_shares;
+  warn(envelope, classifier, report);
+  return report;
+}
+
+LayerRequest layer_request(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope) {
+  LayerRequest request;
+  request.first_height = options.first_height;
+  request.max_growth = options.max_growth;
+  if (const LayerDemand& demand = base.demand; !demand.is_empty()) {
+    request.line_first_height = demand.first_height.raw();
+    request.line_max_growth = demand.max_growth.raw();
+    request.first_height = *std::min_element(demand.first_height.begin(), demand.first_height.end());
+    request.max_growth = *std::max_element(demand.max_growth.begin(), demand.max_growth.end());
+  }
+  request.target_height = envelope.target.raw();
+  for (std::size_t i = 0; i < k_height_limits; ++i) request.reasons.emplace_back(to_string(static_cast<HeightLimit>(i)));
+  request.reason.reserve(envelope.limit.size());
+  for (const HeightLimit limit : envelope.limit) request.reason.push_back(static_cast<std::uint8_t>(limit));
+  return request;
+}
+
+}  // namespace sterna::volmesh

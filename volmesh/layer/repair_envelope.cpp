@@ -1,0 +1,71 @@
+// Steps: find_trouble, rings around it, proposal of heights and directions, apply_where_clear.
+#include "volmesh/layer/repair_envelope.h"
+
+#include <algorithm>
+
+#include "geom/base/parallel.h"
+#include "volmesh/envelope/retract.h"
+#include "volmesh/tetra/preflight.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr double k_lowered = 0.7;    ///< of the mean height around, at the trouble itself: a tenth less would hardly be another boundary, half costs layer
+constexpr std::uint8_t k_rings = 4;  ///< over which the lowering fades, so that no step becomes the next trouble
+constexpr std::uint8_t k_far = 255;
+
+/// Vertices of the top that something is wrong with, as ring 0.
+Column<VertexId, std::uint8_t> find_trouble(const LayerBase& base, const FillBoundary& boundary, bool has_sheets, const std::vector<ErrorPlace>& places,
+                                            const RunContext& context) {
+  Column<VertexId, std::uint8_t> ring(base.wall.n_vertices(), k_far);
+  const TetraBoundary top{.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}, .has_sheets = has_sheets};
+  for (const PreflightFinding& finding : preflight(top, {.is_clear = true}, context).findings)
+    for (const std::uint32_t t : finding.triangles)
+      if (t < base.wall.n_triangles())
+        for (const VertexId v : base.wall.triangles[TriangleId(t)]) ring[v] = 0;
+  for (const ErrorPlace& place : places) {
+    const auto end = boundary.points.begin() + static_cast<std::ptrdiff_t>(base.wall.n_vertices());
+    const auto nearest =
+        std::min_element(boundary.points.begin(), end, [&](const Vec3& a, const Vec3& b) { return distance(a, place.position) < distance(b, place.position); });
+    ring[VertexId(static_cast<std::size_t>(nearest - boundary.points.begin()))] = 0;
+  }
+  return ring;
+}
+
+void number_rings(const LayerBase& base, Column<VertexId, std::uint8_t>& ring) {
+  for (std::uint8_t next = 1; next <= k_rings; ++next)
+    for (const VertexId v : ring.ids())
+      if (ring[v] == k_far && std::ranges::any_of(base.topology.neighbours(v), [&](VertexId w) { return ring[w] == next - 1; })) ring[v] = next;
+}
+
+/// Another height and direction for one vertex. Collapsed vertices and constrained directions stay.
+void calm(const LayerBase& base, const Envelope& envelope, VertexId v, double share, EnvelopeShape& proposal) {
+  if (envelope.is_collapsed(v)) return;
+  double height = envelope.height[v];
+  Vec3 direction = envelope.direction[v];
+  int n = 1;
+  for (const VertexId w : base.topology.neighbours(v)) {
+    if (envelope.is_collapsed(w)) continue;
+    height += envelope.height[w];
+    direction += envelope.direction[w];
+    ++n;
+  }
+  proposal.height[v] = std::min(envelope.height[v], share * height / n);
+  const Vec3 smooth = normalized(direction);
+  if (base.constraint[v].freedom == Freedom::free && base.worst_cosine(v, smooth) >= std::min(base.worst_cosine(v, envelope.direction[v]), 0.5))
+    proposal.direction[v] = smooth;
+}
+
+}  // namespace
+
+std::vector<VertexId> repair_envelope(const LayerBase& base, const FillBoundary& boundary, bool has_sheets, const std::vector<ErrorPlace>& places,
+                                      Collider& collider, Envelope& envelope, const RunContext& context) {
+  Column<VertexId, std::uint8_t> ring = find_trouble(base, boundary, has_sheets, places, context);
+  number_rings(base, ring);
+  EnvelopeShape proposal = envelope;
+  for (const VertexId v : ring.ids())
+    if (ring[v] != k_far) calm(base, envelope, v, k_lowered + (1.0 - k_lowered) * ring[v] / (k_rings + 1.0), proposal);
+  return apply_where_clear(base, collider, envelope, proposal, context, 1.0);
+}
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,197 @@
+#include "volmesh/parts/joint_envelope.h"
+
+#include <algorithm>
+#include <string>
+
+#include "geom/base/glob.h"
+#include "geom/base/parallel.h"
+#include "volmesh/envelope/build_envelope.h"
+#include "volmesh/envelope/keep_inside.h"
+#include "volmesh/envelope/retract.h"
+#include "volmesh/envelope/untangle.h"
+
+namespace sterna::volmesh {
+namespace {
+
+Point placed(const PlacedPart& part, VertexId v) { return part.placement == Transform{} ? part.own->points[v] : part.placement.point(part.own->points[v]); }
+
+TriangleVertices shifted(TriangleVertices v, std::size_t by) {
+  for (VertexId& corner : v) corner = VertexId(static_cast<std::uint64_t>(corner.index() + by));
+  return v;
+}
+
+/// Empty when the part can have its envelope made alone; else why not.
+std::string objection(const Domain& domain, const PlacedPart& part, const Column<TriangleId, TriangleId>& surface2wall, WholePart& whole) {
+  const std::size_t n = part.own->n_triangles();
+  if (n == 0 || part.first_triangle + n > surface2wall.size()) return "it is not on the surface any more";
+  const TriangleId first = surface2wall[TriangleId(part.first_triangle)];
+  for (std::size_t t = 0; t < n; ++t)
+    if (const TriangleId on_wall = surface2wall[TriangleId(part.first_triangle + t)];
+        !first.is_valid() || on_wall != TriangleId(static_cast<std::uint64_t>(first.index() + t)))
+      return "not all of it carries layers";
+  whole.first_triangle = first.index();
+  whole.first_vertex = domain.wall.triangles[first][0].index() - part.own->triangles[TriangleId(0)][0].index();
+  for (std::size_t t = 0; t < n; ++t)
+    if (!(domain.wall.triangles[TriangleId(static_cast<std::uint64_t>(whole.first_triangle + t))] ==
+          shifted(part.own->triangles[TriangleId(t)], whole.first_vertex)))
+      return "its triangles have other vertices";
+  for (const VertexId v : part.own->points.ids())
+    if (!(domain.wall.points[VertexId(static_cast<std::uint64_t>(whole.first_vertex + v.index()))] == placed(part, v)))
+      return "its points are not where they were moved to";
+  return {};
+}
+
+/// Of which whole part a vertex of the wall is, counted from 1; 0: of none.
+Column<VertexId, std::uint32_t> groups_of(const TriMesh& wall, std::span<const PlacedPart> parts, std::span<const WholePart> whole) {
+  Column<VertexId, std::uint32_t> group(wall.n_vertices(), 0);
+  for (std::size_t i = 0; i < whole.size(); ++i)
+    for (std::size_t v = 0; v < parts[whole[i].part].own->n_vertices(); ++v)
+      group[VertexId(static_cast<std::uint64_t>(whole[i].first_vertex + v))] = static_cast<std::uint32_t>(i + 1);
+  return group;
+}
+
+/// The part in its own frame, with the patches that it has on the wall.
+PartEnvelopeTask task_of(const MeshingSite& site, const WholePart& whole) {
+  const PlacedPart& part = site.options.parts[whole.part];
+  PartEnvelopeTask task{.wall = {}, .options = site.given_envelope, .rules = {}, .smooth_angle = part.smooth_angle};
+  task.wall.points = part.own->points;
+  task.wall.triangles = part.own->triangles;
+  const TriMesh& wall = site.domain.wall;
+  Column<PatchId, PatchId> number(wall.patches.size());
+  for (std::size_t t = 0; t < part.own->n_triangles(); ++t) {
+    const PatchId patch = wall.triangle_patch[TriangleId(static_cast<std::uint64_t>(whole.first_triangle + t))];
+    if (!number[patch].is_valid()) number[patch] = task.wall.patches.push_back(wall.patches[patch]);
+    task.wall.triangle_patch.push_back(number[patch]);
+  }
+  for (const PatchRule& rule : site.options.patches)
+    if (std::ranges::any_of(task.wall.patches, [&](const Patch& patch) { return matches_glob(patch.name, rule.names); })) task.rules.push_back(rule);
+  return task;
+}
+
+void resize(Envelope& envelope, std::size_t n) {
+  envelope.direction.resize(n);
+  envelope.height.resize(n);
+  envelope.target.resize(n);
+  envelope.eq1.resize(n);
+  envelope.cap.resize(n);
+  envelope.limit.resize(n);
+}
+
+void take(const Envelope& from, VertexId v, const Transform& placement, Envelope& to, VertexId w) {
+  to.direction[w] = placement == Transform{} ? from.direction[v] : placement.vector(from.direction[v]);
+  to.height[w] = from.height[v];
+  to.target[w] = from.target[v];
+  to.eq1[w] = from.eq1[v];
+  to.cap[w] = from.cap[v];
+  to.limit[w] = from.limit[v];
+}
+
+/// What is left of the wall without its whole parts, with all that its envelope depends on.
+struct Rest {
+  TriMesh wall;
+  Column<VertexId, VertexId> rest2wall;
+  Column<VertexId, VertexId> wall2rest;
+  Constraints constraints;
+  LayerDemand demand;
+  OuterLinks links;
+};
+
+Rest rest_of(const MeshingSite& site, const Column<VertexId, std::uint32_t>& group) {
+  const TriMesh& wall = site.domain.wall;
+  Rest rest;
+  rest.wall2rest.resize(wall.n_vertices());
+  rest.wall.patches = wall.patches;
+  for (const VertexId v : wall.points.ids()) {
+    if (group[v] != 0) continue;
+    rest.wall2rest[v] = rest.wall.points.push_back(wall.points[v]);
+    rest.rest2wall.push_back(v);
+  }
+  for (const TriangleId t : wall.triangles.ids()) {
+    TriangleVertices v = wall.triangles[t];
+    if (group[v[0]] != 0) continue;
+    for (VertexId& corner : v) corner = rest.wall2rest[corner];
+    rest.wall.triangles.push_back(v);
+    rest.wall.triangle_patch.push_back(wall.triangle_patch[t]);
+  }
+  const auto slice = [&](const auto& all, auto& some) {
+    if (all.empty()) return;
+    for (const VertexId v : rest.rest2wall) some.push_back(all[v]);
+  };
+  slice(site.base.constraint, rest.constraints.vertex);
+  slice(site.base.near, rest.constraints.near);
+  rest.constraints.surfaces = site.base.surfaces;
+  slice(site.base.demand.first_height, rest.demand.first_height);
+  slice(site.base.demand.max_growth, rest.demand.max_growth);
+  slice(site.base.demand.max_thickness, rest.demand.max_thickness);
+  slice(site.base.demand.layers, rest.demand.layers);
+  rest.links = site.domain.links;
+  for (VertexId& v : rest.links.line)
+    if (v.is_valid()) v = rest.wall2rest[v];
+  return rest;
+}
+
+void add_rest(const MeshingSite& site, const Column<VertexId, std::uint32_t>& group, Envelope& envelope, const RunContext& context) {
+  const Rest rest = rest_of(site, group);
+  if (rest.wall.n_triangles() == 0) return;
+  LayerBase base(rest.wall, context, rest.constraints);
+  base.demand = rest.demand;
+  EnvelopeOptions options = site.options.envelope;
+  if (is_automatic(options.max_thickness)) options.max_thickness = k_default_thickness_share * site.base.body_length;
+  Collider collider(base, &site.domain.outer, context, &rest.links);
+  const Envelope own = build_envelope(base, options, collider, context);
+  for (const VertexId v : rest.rest2wall.ids()) take(own, v, {}, envelope, rest.rest2wall[v]);
+}
+
+/// Lowers heights until all parts are clear of each other and of what is around them. Returns the vertices that it changed, ascending.
+std::vector<VertexId> clear_of_each_other(MeshingSite& site, const Column<VertexId, std::uint32_t>& group, Envelope& envelope, const RunContext& context) {
+  const EnvelopeShape before = envelope;
+  keep_inside(site.base, site.options.envelope, envelope, context);
+  unwarp(site.base, site.options.envelope, HeightLimit::warp, envelope, context);
+  share_gaps(site.base, site.options.envelope, site.collider, envelope, context, &group);
+  retract_collisions(site.base, site.options.envelope, site.collider, envelope, context);
+  return difference(before, envelope, context).vertices;
+}
+
+}  // namespace
+
+std::vector<WholePart> whole_parts(const Domain& domain, std::span<const PlacedPart> parts, const RunContext& context) {
+  if (parts.empty()) return {};
+  Column<TriangleId, TriangleId> surface2wall;
+  for (const TriangleId t : domain.wall2surface.ids()) {
+    const TriangleId on_surface = domain.wall2surface[t];
+    if (surface2wall.size() <= on_surface.index()) surface2wall.resize(on_surface.index() + 1);
+    surface2wall[on_surface] = t;
+  }
+  std::vector<WholePart> whole;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (!parts[i].own) continue;
+    WholePart part{.part = i};
+    const std::string reason = objection(domain, parts[i], surface2wall, part);
+    if (reason.empty()) whole.push_back(part);
+    else context.info("part " + std::to_string(i + 1) + " of the surface has its layer made where it is: " + reason);
+  }
+  return whole;
+}
+
+Envelope joint_envelope(MeshingSite& site, std::span<const WholePart> parts, const RunContext& context) {
+  const Column<VertexId, std::uint32_t> group = groups_of(site.domain.wall, site.options.parts, parts);
+  Envelope envelope;
+  resize(envelope, site.domain.wall.n_vertices());
+  for (const WholePart& whole : parts) {
+    const PlacedPart& part = site.options.parts[whole.part];
+    const PartEnvelopeTask task = task_of(site, whole);
+    const PartEnvelope own = site.options.part_envelope ? site.options.part_envelope(task, context) : part_envelope(task, context);
+    for (const VertexId v : part.own->points.ids())
+      take(own.envelope, v, part.placement, envelope, VertexId(static_cast<std::uint64_t>(whole.first_vertex + v.index())));
+  }
+  add_rest(site, group, envelope, context);
+  const std::vector<VertexId> lowered = clear_of_each_other(site, group, envelope, context);
+  if (!lowered.empty()) {
+    context.info("layers of parts are lower than alone at " + std::to_string(lowered.size()) + " vertices, where other parts or the outer boundary are near");
+    regrow_clear(site.base, site.collider, envelope, context, &lowered);
+  }
+  seat_on_surfaces(site.base, site.options.envelope, &site.collider, envelope, context);
+  return envelope;
+}
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,339 @@
+// Steps: tops take the place of rim vertices; chains between end patches are cut again beyond the layer (`cut_chain`); each end patch is triangulated within
+// its loops, which are borders to other patches, chains, and the rim's edges between tops. Of periodic sides the second gets the chains and triangles of the
+// first, moved.
+#include "volmesh/rims/close_ends.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "geom/base/error.h"
+#include "geom/math/bvh.h"
+#include "geom/mesh/topology.h"
+#include "volmesh/rims/copy_translated.h"
+#include "volmesh/rims/end_surface.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr double k_least_chain = 1e-6;  ///< of a chain's length: what the layers must leave of it
+
+using Edge = std::array<VertexId, 2>;  ///< of the result
+
+/// Position along a polygon by arc length.
+class Polyline {
+ public:
+  explicit Polyline(std::vector<Point> points) : points_(std::move(points)), at_(points_.size(), 0.0) {
+    for (std::size_t i = 1; i < points_.size(); ++i) at_[i] = at_[i - 1] + distance(points_[i - 1], points_[i]);
+  }
+  double length() const { return at_.back(); }
+  Point point(double s) const {
+    const std::size_t i = segment(s);
+    const double share = (s - at_[i]) / (at_[i + 1] - at_[i]);
+    return points_[i] + share * (points_[i + 1] - points_[i]);
+  }
+  double edge(double s) const {
+    const std::size_t i = segment(s);
+    return at_[i + 1] - at_[i];
+  }
+  double first_edge() const { return at_[1]; }
+  double last_edge() const { return at_.back() - at_[at_.size() - 2]; }
+
+ private:
+  std::size_t segment(double s) const {
+    const auto next = std::upper_bound(at_.begin(), at_.end(), s);
+    return std::clamp<std::size_t>(static_cast<std::size_t>(next - at_.begin()), 1, at_.size() - 1) - 1;
+  }
+  std::vector<Point> points_;
+  std::vector<double> at_;
+};
+
+/// Places between s0 and s1, ends left out, such that edges are about size(s).
+template <class Size>
+std::vector<double> spaced(double s0, double s1, const Size& size) {
+  constexpr int k_samples_per_edge = 8;
+  std::vector<double> at = {s0}, count = {0.0};
+  while (at.back() < s1) {
+    const double here = size(at.back());
+    const double step = std::min(here / k_samples_per_edge, s1 - at.back());
+    const double next = s1 - at.back() <= step * (1.0 + 1e-9) ? s1 : at.back() + step;
+    count.push_back(count.back() + 0.5 * (next - at.back()) * (1.0 / here + 1.0 / size(next)));
+    at.push_back(next);
+  }
+  const int n = std::max(1, static_cast<int>(std::lround(count.back())));
+  std::vector<double> places;
+  std::size_t k = 1;
+  for (int i = 1; i < n; ++i) {
+    const double wanted = count.back() * i / n;
+    while (count[k] < wanted) ++k;
+    const double share = (wanted - count[k - 1]) / (count[k] - count[k - 1]);
+    places.push_back(at[k - 1] + share * (at[k] - at[k - 1]));
+  }
+  return places;
+}
+
+class Closer {
+ public:
+  Closer(const Domain& domain, const LayerBase& base, const EnvelopeShape& envelope, const CloseEndsOptions& options, const RunContext& context)
+      : domain_(domain), base_(base), envelope_(envelope), options_(options), context_(context), topology_(domain.outer, context) {}
+
+  ClosedOuter close() {
+    result_.mesh.patches = domain_.outer.patches;
+    new_of_.resize(domain_.outer.n_vertices());
+    for (const TriangleId t : domain_.outer.triangles.ids()) {
+      if (is_end(domain_.outer.triangle_patch[t]) || is_slit(domain_.outer.triangle_patch[t])) continue;
+      TriangleVertices v = domain_.outer.triangles[t];
+      for (VertexId& corner : v) corner = vertex(corner);
+      result_.mesh.triangles.push_back(v);
+      result_.mesh.triangle_patch.push_back(domain_.outer.triangle_patch[t]);
+    }
+    for (const EndChain& chain : domain_.chains)
+      if (!image_of(chain)) cut_chain(chain);
+    for (const EndChain& chain : domain_.chains)
+      if (const std::optional<ChainImage> image = image_of(chain)) copy_chain(chain, *image);
+    for (const EndPatch& end : domain_.ends)
+      if (!second_side(end.patch)) triangulate(end);
+    for (const EndPatch& end : domain_.ends)
+      if (const PeriodicEnds* sides = second_side(end.patch)) copy_side(end, *sides);
+    return std::move(result_);
+  }
+
+ private:
+  /// A chain of which another is the image, moved; its polygon may run the other way.
+  struct ChainImage {
+    const EndChain* chain;
+    Vec3 translation;
+  };
+
+  const PeriodicEnds* second_side(PatchId patch) const {
+    const auto found = std::ranges::find(domain_.periodic, patch, &PeriodicEnds::second);
+    return found == domain_.periodic.end() ? nullptr : &*found;
+  }
+
+  /// Back along periodic sides while there is one whose second side the chain is on.
+  std::optional<ChainImage> image_of(const EndChain& chain) const {
+    std::vector<VertexId> at = chain.outer;
+    Vec3 way;
+    bool is_image = false;
+    for (const PeriodicEnds& sides : domain_.periodic) {
+      std::vector<VertexId> origin;
+      for (const VertexId v : at) {
+        const auto found = std::ranges::find(sides.vertices, v, [](const auto& pair) { return pair[1]; });
+        if (found == sides.vertices.end()) break;
+        origin.push_back((*found)[0]);
+      }
+      if (origin.size() != at.size()) continue;
+      at = std::move(origin);
+      way += sides.translation;
+      is_image = true;
+    }
+    if (!is_image) return std::nullopt;
+    const std::vector<VertexId> backwards(at.rbegin(), at.rend());
+    for (const EndChain& other : domain_.chains)
+      if (other.outer == at || other.outer == backwards) return ChainImage{&other, way};
+    throw Error({.code = ErrorCode::internal,
+                 .attempted = "ending the layer on periodic sides",
+                 .problem = "a common edge of patches on one side has no partner on the other",
+                 .places = {{domain_.outer.points[chain.outer.front()], "it starts here"}}});
+  }
+
+  bool is_end(PatchId patch) const {
+    return std::ranges::any_of(domain_.ends, [&](const EndPatch& end) { return end.patch == patch; });
+  }
+
+  bool is_slit(PatchId patch) const { return std::ranges::find(domain_.slits, patch, &DiscSlit::patch) != domain_.slits.end(); }
+
+  VertexId add(const Point& p, VertexId line) {
+    result_.line.push_back(line);
+    return result_.mesh.points.push_back(p);
+  }
+  VertexId vertex(VertexId outer) {
+    VertexId& v = new_of_[outer];
+    if (v.is_valid()) return v;
+    const VertexId line = domain_.links.line[outer];
+    return v = add(line.is_valid() ? top(line) : domain_.outer.points[outer], line);
+  }
+  Point top(VertexId line) const { return envelope_.is_collapsed(line) ? base_.wall.points[line] : envelope_.point(base_.wall, line); }
+
+  static std::uint64_t key(VertexId from, VertexId to) { return (static_cast<std::uint64_t>(from.value()) << 32) | to.value(); }
+
+  /// Replaces the edges of a chain by new ones beyond the tops at its ends.
+  void cut_chain(const EndChain& chain) {
+    std::vector<Point> points;
+    for (const VertexId v : chain.outer) points.push_back(domain_.outer.points[v]);
+    const Polyline line(std::move(points));
+    const VertexId first = domain_.links.line[chain.outer.front()];
+    const VertexId last = chain.ends_on_wall ? domain_.links.line[chain.outer.back()] : VertexId{};
+    const double s0 = height(first), s1 = line.length() - (last.is_valid() ? height(last) : 0.0);
+    if (!(s1 - s0 > k_least_chain * line.length())) {
+      throw Error({.code = ErrorCode::envelope_failed,
+                   .attempted = "ending the layer on patches without layers",
+                   .problem = "the layer reaches over all of the common edge of patches \"" + name(chain.left) + "\" and \"" + name(chain.right) + "\"",
+                   .places = {{domain_.outer.points[chain.outer.front()], "the edge starts here"}, {domain_.outer.points[chain.outer.back()], "and ends here"}},
+                   .hint = "make the layer thinner (max_thickness) or the patches larger"});
+    }
+    const double from_start = std::min(base_.mean_edge[first], line.first_edge());
+    const double from_end = last.is_valid() ? std::min(base_.mean_edge[last], line.last_edge()) : line.last_edge();
+    const double slope = options_.ends.size_growth - 1.0;
+    const auto size = [&](double s) {
+      double h = std::min({line.edge(s), from_start + slope * std::abs(s - s0), from_end + slope * std::abs(s1 - s)});
+      if (options_.size) h = std::min(h, options_.size(line.point(s)));
+      return h;
+    };
+    std::vector<VertexId> polygon = {vertex(chain.outer.front())};
+    for (const double s : spaced(s0, s1, size)) polygon.push_back(add(line.point(s), {}));
+    polygon.push_back(vertex(chain.outer.back()));
+    replace(chain, polygon);
+    polygons_.emplace(&chain, std::move(polygon));
+  }
+
+  void copy_chain(const EndChain& chain, const ChainImage& image) {
+    std::vector<VertexId> origin = polygons_.at(image.chain);
+    if (image.chain->outer.size() > 1 && !is_along(chain, image)) std::ranges::reverse(origin);
+    std::vector<VertexId> polygon = {vertex(chain.outer.front())};
+    for (std::size_t i = 1; i + 1 < origin.size(); ++i) polygon.push_back(add(result_.mesh.points[origin[i]] + image.translation, {}));
+    polygon.push_back(vertex(chain.outer.back()));
+    replace(chain, polygon);
+  }
+  bool is_along(const EndChain& chain, const ChainImage& image) const {
+    const Point start = domain_.outer.points[chain.outer.front()] - image.translation;
+    return distance(start, domain_.outer.points[image.chain->outer.front()]) <= distance(start, domain_.outer.points[image.chain->outer.back()]);
+  }
+
+  /// The edges of a polygon in place of those of a chain.
+  void replace(const EndChain& chain, const std::vector<VertexId>& polygon) {
+    for (std::size_t i = 1; i < chain.outer.size(); ++i) {
+      replaced_.emplace(key(chain.outer[i - 1], chain.outer[i]), std::vector<Edge>{});
+      replaced_.emplace(key(chain.outer[i], chain.outer[i - 1]), std::vector<Edge>{});
+    }
+    std::vector<Edge>&forward = replaced_[key(chain.outer[0], chain.outer[1])], &backward = replaced_[key(chain.outer[1], chain.outer[0])];
+    for (std::size_t i = 1; i < polygon.size(); ++i) {
+      forward.push_back({polygon[i - 1], polygon[i]});
+      backward.push_back({polygon[i], polygon[i - 1]});
+    }
+  }
+  double height(VertexId line) const { return envelope_.is_collapsed(line) ? 0.0 : envelope_.height[line]; }
+  const std::string& name(PatchId patch) const { return domain_.outer.patches[patch].name; }
+
+  /// The part of the boundary that an end patch has to cover, and the vertices of the result that its points are.
+  struct Region {
+    EndRegion region;
+    TriMesh original;
+    std::vector<VertexId> vertices;
+    bool has_inner = false;  ///< the original has vertices off its border
+  };
+
+  std::unique_ptr<Region> region_of(const EndPatch& end) {
+    auto made = std::make_unique<Region>();
+    std::vector<Edge> edges;
+    TriMesh& original = made->original;
+    Column<VertexId, VertexId> number(domain_.outer.n_vertices());
+    std::vector<std::uint8_t> is_border(domain_.outer.n_vertices(), 0);
+    for (const TriangleId t : domain_.outer.triangles.ids()) {
+      if (domain_.outer.triangle_patch[t] != end.patch) continue;
+      TriangleVertices own = domain_.outer.triangles[t];
+      for (VertexId& v : own) {
+        if (!number[v].is_valid()) number[v] = original.points.push_back(domain_.outer.points[v]);
+        v = number[v];
+      }
+      original.triangles.push_back(own);
+      for (int k = 0; k < 3; ++k) {
+        const HalfedgeId h = halfedge(t, k);
+        const HalfedgeId twin = topology_.twin(h);
+        if (twin.is_valid() && domain_.outer.triangle_patch[triangle_of(twin)] == end.patch) continue;
+        const VertexId a = topology_.from(h), b = topology_.to(h);
+        is_border[a.index()] = is_border[b.index()] = 1;
+        if (const auto found = replaced_.find(key(a, b)); found != replaced_.end()) edges.insert(edges.end(), found->second.begin(), found->second.end());
+        else edges.push_back({vertex(a), vertex(b)});
+      }
+    }
+    for (const VertexId v : number.ids()) made->has_inner = made->has_inner || (number[v].is_valid() && !is_border[v.index()]);
+    EndRegion& region = made->region;
+    region.surface = domain_.constraints.surfaces[static_cast<std::size_t>(end.surface)].get();
+    region.original = &original;
+    region.name = name(end.patch);
+    Column<VertexId, std::uint32_t> local(result_.mesh.n_vertices(), 0xffffffffu);
+    const auto local_of = [&](VertexId v) {
+      std::uint32_t& i = local[v];
+      if (i == 0xffffffffu) {
+        i = static_cast<std::uint32_t>(made->vertices.size());
+        made->vertices.push_back(v);
+        region.points.push_back(result_.mesh.points[v]);
+      }
+      return i;
+    };
+    for (const Edge& edge : edges) {
+      const std::uint32_t from = local_of(edge[0]), to = local_of(edge[1]);
+      region.edges.push_back({from, to});
+    }
+    return made;
+  }
+
+  void add_triangles(const EndTriangles& made, std::vector<VertexId> vertices, PatchId patch) {
+    for (const Point& p : made.new_points) vertices.push_back(add(p, {}));
+    for (const auto& t : made.triangles) {
+      result_.mesh.triangles.push_back({vertices[t[0]], vertices[t[1]], vertices[t[2]]});
+      result_.mesh.triangle_patch.push_back(patch);
+    }
+  }
+
+  void triangulate(const EndPatch& end) {
+    std::unique_ptr<Region> made = region_of(end);
+    const TriMesh& original = made->original;
+    std::optional<TriangleTree> tree;
+    if (made->has_inner) tree.emplace(original, context_);
+    if (tree || options_.size) {
+      made->region.size = [&](const Point& p) {
+        double h = options_.size ? options_.size(p) : 1e300;
+        if (tree) {
+          const auto [a, b, c] = corners(original, tree->nearest(p).triangle);
+          h = std::min(h, std::max({distance(a, b), distance(b, c), distance(c, a)}));
+        }
+        return h;
+      };
+    }
+    const EndTriangles triangles = triangulate_end(made->region, options_.ends, context_);
+    add_triangles(triangles, made->vertices, end.patch);
+    if (std::ranges::find(domain_.periodic, end.patch, &PeriodicEnds::first) != domain_.periodic.end())
+      firsts_.emplace(end.patch, First{std::move(made), triangles});
+  }
+
+  void copy_side(const EndPatch& end, const PeriodicEnds& sides) {
+    const First& first = firsts_.at(sides.first);
+    const std::unique_ptr<Region> to = region_of(end);
+    add_triangles(copy_translated(first.made->region, first.triangles, to->region, sides.translation, base_.body_length), to->vertices, end.patch);
+  }
+
+  const Domain& domain_;
+  const LayerBase& base_;
+  const EnvelopeShape& envelope_;
+  const CloseEndsOptions& options_;
+  const RunContext& context_;
+  Topology topology_;                                          ///< of domain_.outer
+  Column<VertexId, VertexId> new_of_;                          ///< of a vertex of domain_.outer
+  std::map<std::uint64_t, std::vector<Edge>> replaced_;        ///< by an edge of a chain: what stands for it, all at its first edge
+  std::map<const EndChain*, std::vector<VertexId>> polygons_;  ///< what stands for a chain
+  struct First {
+    std::unique_ptr<Region> made;
+    EndTriangles triangles;
+  };
+  std::map<PatchId, First> firsts_;  ///< first sides of periodic pairs
+  ClosedOuter result_;
+};
+
+}  // namespace
+
+ClosedOuter unlinked(TriMesh outer) {
+  ClosedOuter closed{std::move(outer), {}};
+  closed.line.resize(closed.mesh.n_vertices());
+  return closed;
+}
+
+ClosedOuter close_ends(const Domain& domain, const LayerBase& base, const EnvelopeShape& envelope, const CloseEndsOptions& options, const RunContext& context) {
+  if (!domain.has_rims()) return unlinked(domain.outer);
+  return Closer(domain, base, envelope, options, context).close();
+}
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,117 @@
+#include "volmesh/rims/copy_translated.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <optional>
+
+#include "geom/base/number_text.h"
+#include "volmesh/rims/end_chart.h"
+#include "volmesh/rims/end_errors.h"
+#include "volmesh/rims/end_part.h"
+
+namespace sterna::volmesh {
+namespace {
+
+std::vector<std::uint32_t> loop_points(const EndRegion& region) {
+  std::vector<std::uint32_t> points;
+  for (const EndEdge& edge : region.edges) points.insert(points.end(), edge.begin(), edge.end());
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return points;
+}
+
+/// Points of the partner by x, to be found within a tolerance.
+class Partners {
+ public:
+  Partners(const EndRegion& to, double tolerance) : to_(to), tolerance_(tolerance), order_(loop_points(to)) {
+    std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) { return key(i) != key(j) ? key(i) < key(j) : i < j; });
+  }
+  /// The nearest one; k_none when none is near enough.
+  std::uint32_t find(const Point& p) const {
+    std::uint32_t best = k_none;
+    double least = tolerance_;
+    const double along = key(p);
+    // |key(p) - key(q)| is at most sqrt(3) times the distance.
+    auto at = std::lower_bound(order_.begin(), order_.end(), along - 2.0 * tolerance_, [&](std::uint32_t i, double x) { return key(i) < x; });
+    for (; at != order_.end() && key(*at) <= along + 2.0 * tolerance_; ++at)
+      if (const double d = distance(to_.points[*at], p); d <= least && (best == k_none || d < least)) {
+        least = d;
+        best = *at;
+      }
+    return best;
+  }
+
+  static constexpr std::uint32_t k_none = ~0u;
+
+ private:
+  /// A direction in which points of sides along coordinate axes differ.
+  static double key(const Point& p) { return p.x + 0.7 * p.y + 0.4 * p.z; }
+  double key(std::uint32_t i) const { return key(to_.points[i]); }
+  const EndRegion& to_;
+  double tolerance_;
+  std::vector<std::uint32_t> order_;
+};
+
+/// 1: edges in the same sense, -1: in the opposite one. \throws Error when they are not the same edges
+int sense_of(const EndRegion& from, const EndRegion& to, const std::vector<std::uint32_t>& partner) {
+  std::vector<EndEdge> edges(to.edges), same, opposite;
+  std::sort(edges.begin(), edges.end());
+  for (const EndEdge& edge : from.edges) {
+    same.push_back({partner[edge[0]], partner[edge[1]]});
+    opposite.push_back({partner[edge[1]], partner[edge[0]]});
+  }
+  std::sort(same.begin(), same.end());
+  std::sort(opposite.begin(), opposite.end());
+  if (same == edges) return 1;
+  if (opposite == edges) return -1;
+  ErrorInfo info =
+      end_error(to, ErrorCode::bad_argument, "the loops' edges are not those of the periodic partner \"" + from.name + "\", in one sense or the other");
+  const auto note = [&](const std::vector<EndEdge>& a, const std::vector<EndEdge>& b, const char* what) {
+    std::vector<EndEdge> only;
+    std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only));
+    for (const EndEdge& edge : only) add_place(info, 0.5 * (to.points[edge[0]] + to.points[edge[1]]), what);
+  };
+  std::vector<EndEdge> common;
+  std::set_intersection(opposite.begin(), opposite.end(), edges.begin(), edges.end(), std::back_inserter(common));
+  const std::vector<EndEdge>& moved = common.empty() ? same : opposite;
+  note(moved, edges, "edge of the partner only");
+  note(edges, moved, "edge of this patch only");
+  throw Error(std::move(info));
+}
+
+}  // namespace
+
+EndTriangles copy_translated(const EndRegion& from, const EndTriangles& triangles, const EndRegion& to, const Vec3& translation, double body_length) {
+  const double tolerance = k_periodic_tolerance * body_length;
+  const Partners partners(to, tolerance);
+  std::vector<std::uint32_t> partner(from.points.size(), Partners::k_none);
+  std::vector<std::uint8_t> is_taken(to.points.size(), 0);
+  ErrorInfo info =
+      end_error(to, ErrorCode::bad_argument, "loops do not match the periodic partner \"" + from.name + "\" within " + in_metres(tolerance, k_end_digits));
+  for (const std::uint32_t i : loop_points(from)) {
+    partner[i] = partners.find(from.points[i] + translation);
+    if (partner[i] == Partners::k_none) add_place(info, from.points[i] + translation, "a point of the partner is here, none of this patch");
+    else if (is_taken[partner[i]]++ != 0) add_place(info, to.points[partner[i]], "two points of the partner for one of this patch");
+  }
+  for (const std::uint32_t i : loop_points(to))
+    if (is_taken[i] == 0) add_place(info, to.points[i], "a point of this patch is here, none of the partner");
+  info.hint = "periodic sides need the same layers and the same points where other patches meet them";
+  if (info.n_places > 0) throw Error(std::move(info));
+  const int sense = sense_of(from, to, partner);
+
+  EndTriangles result = triangles;
+  result.worst_place += translation;
+  for (Point& p : result.new_points) p += translation;
+  if (const std::optional<EndFrame> plane = plane_of(to))
+    for (Point& p : result.new_points)
+      for (std::size_t k = 0; k < 3; ++k)
+        if (std::abs(plane->normal[k]) == 1.0) p[k] = plane->origin[k];
+  for (auto& triangle : result.triangles) {
+    for (std::uint32_t& i : triangle) i = i < from.points.size() ? partner[i] : static_cast<std::uint32_t>(i - from.points.size() + to.points.size());
+    if (sense < 0) std::swap(triangle[1], triangle[2]);
+  }
+  return result;
+}
+
+}  // namespace sterna::volmesh

@@ -1,0 +1,19 @@
+// Errors of end surfaces: all name the patch and draw its loops.
+#pragma once
+
+#include <string>
+
+#include "geom/base/error.h"
+#include "volmesh/rims/end_surface.h"
+
+namespace sterna::volmesh {
+
+/// With the loops as geometry; places are added by add_place.
+ErrorInfo end_error(const EndRegion& region, ErrorCode code, std::string problem);
+
+/// Counts all, keeps the first ten.
+void add_place(ErrorInfo& info, const Point& position, std::string what);
+
+inline constexpr int k_end_digits = 3;  ///< of lengths in these errors
+
+}  // namespace sterna::volmesh

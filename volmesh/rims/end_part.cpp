@@ -1,0 +1,218 @@
+// 1. closed_loops   edges to loops
+// 2. loop_sizes     what edges of the loops, and curvature, allow around them
+// 3. mesh_face      of geom/delaunay, in the part's plane
+// 4. prove          edges, senses, Euler number, positive areas
+#include "volmesh/rims/end_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geom/delaunay/face_mesh.h"
+#include "geom/math/predicates.h"
+#include "volmesh/rims/check_end.h"
+#include "volmesh/rims/end_errors.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr const char* k_crossing_hint =
+    "footprints of layers may not overlap, nor leave the patch: lower max_thickness of the layers that end here, move the bodies apart, or make the patch "
+    "larger";
+
+/// For each point that edges use its first place among them; same points as `loops`, once each.
+std::vector<std::uint32_t> used_points(std::span<const EndEdge> edges) {
+  std::vector<std::uint32_t> used;
+  used.reserve(2 * edges.size());
+  for (const EndEdge& edge : edges) used.insert(used.end(), edge.begin(), edge.end());
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  return used;
+}
+
+/// Points of their own at one place would be joined by the triangulation.
+void check_places(const EndRegion& region, const EndTriangles& result, std::span<const EndEdge> edges) {
+  std::vector<std::uint32_t> used = used_points(edges);
+  const auto at = [&](std::uint32_t i) -> const Point& { return point_of(region, result, i); };
+  std::sort(used.begin(), used.end(), [&](std::uint32_t i, std::uint32_t j) {
+    const Point &a = at(i), &b = at(j);
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z != b.z ? a.z < b.z : i < j;
+  });
+  ErrorInfo info = end_error(region, ErrorCode::self_intersection, "loops touch in points that they do not share");
+  for (std::size_t i = 1; i < used.size(); ++i)
+    if (at(used[i - 1]) == at(used[i])) add_place(info, at(used[i]), "points " + std::to_string(used[i - 1]) + " and " + std::to_string(used[i]));
+  info.hint = k_crossing_hint;
+  if (info.n_places > 0) throw Error(std::move(info));
+}
+
+std::vector<SizePlace> places_of(const EndRegion& region, const EndTriangles& result, const EndPart& part) {
+  const std::vector<std::uint32_t> used = used_points(part.edges);
+  std::vector<SizePlace> places(used.size());
+  std::vector<double> n(used.size(), 0.0);
+  for (const EndEdge& edge : part.edges) {
+    const double length = distance(point_of(region, result, edge[0]), point_of(region, result, edge[1]));
+    for (const std::uint32_t i : edge) {
+      const auto k = static_cast<std::size_t>(std::lower_bound(used.begin(), used.end(), i) - used.begin());
+      places[k].size += length;
+      n[k] += 1.0;
+    }
+  }
+  for (std::size_t k = 0; k < used.size(); ++k) {
+    places[k].size /= n[k];
+    places[k].point = point_of(region, result, used[k]);
+  }
+  places.insert(places.end(), part.curvature_sizes.begin(), part.curvature_sizes.end());
+  return places;
+}
+
+struct PartBorder {
+  delaunay::FaceBorder border;
+  std::vector<std::uint32_t> point;  ///< of each vertex, all loops in order
+};
+
+PartBorder border_of(const EndRegion& region, const EndTriangles& result, const EndPart& part) {
+  PartBorder border;
+  for (const std::vector<std::uint32_t>& loop : closed_loops(part.edges)) {
+    border.border.loops.emplace_back();
+    for (const std::uint32_t i : loop) {
+      const Point& p = point_of(region, result, i);
+      border.border.loops.back().push_back({part.frame.place(p), p});
+      border.point.push_back(i);
+    }
+  }
+  return border;
+}
+
+/// The mesher's errors, as trouble of this patch.
+[[noreturn]] void throw_for_patch(const EndRegion& region, const Error& error) {
+  ErrorInfo info = end_error(region, error.code(), error.info().problem);
+  info.places = error.info().places;
+  info.n_places = error.info().n_places;
+  info.hint = error.info().hint;
+  if (error.code() == ErrorCode::self_intersection) {
+    info.problem = "loops cross or touch: " + error.info().problem;
+    info.hint = k_crossing_hint;
+  }
+  throw Error(std::move(info));
+}
+
+void prove(const EndRegion& region, const EndPart& part, const EndTriangles& result, std::size_t first_triangle, const delaunay::FaceMesh& mesh) {
+  const auto place = [&](EndEdge edge) { return 0.5 * (point_of(region, result, edge[0]) + point_of(region, result, edge[1])); };
+  const std::span<const std::array<std::uint32_t, 3>> triangles(result.triangles.begin() + static_cast<std::ptrdiff_t>(first_triangle), result.triangles.end());
+  const EndCheck check = check_end(part.edges, triangles);
+  if (!check.reversed.empty() && check.reversed.size() == part.edges.size()) {
+    ErrorInfo info = end_error(region, ErrorCode::bad_argument,
+                               "all edges run the wrong way: the region has to be to their left, seen against the surface's normal into the domain");
+    add_place(info, place(check.reversed.front()), "for example this edge");
+    throw Error(std::move(info));
+  }
+  if (!check.missing.empty() || !check.open.empty()) {
+    ErrorInfo info =
+        end_error(region, ErrorCode::self_intersection, "loops lie on the wrong side of each other: a hole within a hole, or outside of the outer border");
+    for (const EndEdge& edge : check.missing) add_place(info, place(edge), "the region is not to the left of this edge");
+    for (const EndEdge& edge : check.open) add_place(info, place(edge), "the region would end here");
+    info.hint = k_crossing_hint;
+    throw Error(std::move(info));
+  }
+  ErrorInfo info = end_error(region, ErrorCode::internal,
+                             "the triangulation is not one: Euler number " + std::to_string(check.euler_number) + " of " + std::to_string(check.n_components) +
+                                 " parts with " + std::to_string(check.n_loops) + " borders");
+  for (const EndEdge& edge : check.repeated) add_place(info, place(edge), "edge of more than two triangles");
+  for (const TriangleVertices& t : mesh.triangles) {
+    const auto at = [&](VertexId v) { return Vec2{mesh.uv[v.index()].u, mesh.uv[v.index()].v}; };
+    if (orient2d(at(t[0]), at(t[1]), at(t[2])) <= 0) add_place(info, mesh.points[t[0].index()], "triangle without positive area");
+  }
+  if (info.n_places > 0 || !check.is_planar()) throw Error(std::move(info));
+}
+
+}  // namespace
+
+const Point& point_of(const EndRegion& region, const EndTriangles& result, std::uint32_t i) {
+  return i < region.points.size() ? region.points[i] : result.new_points[i - region.points.size()];
+}
+
+void check_closed(const EndRegion& region, const EndTriangles& result, std::span<const EndEdge> edges, ErrorInfo info) {
+  std::vector<std::uint32_t> begins, ends;
+  for (const EndEdge& edge : edges) {
+    begins.push_back(edge[0]);
+    ends.push_back(edge[1]);
+  }
+  std::sort(begins.begin(), begins.end());
+  std::sort(ends.begin(), ends.end());
+  for (const std::uint32_t i : used_points(edges)) {
+    const auto n_begin = std::upper_bound(begins.begin(), begins.end(), i) - std::lower_bound(begins.begin(), begins.end(), i);
+    const auto n_end = std::upper_bound(ends.begin(), ends.end(), i) - std::lower_bound(ends.begin(), ends.end(), i);
+    if (n_begin != n_end)
+      add_place(info, point_of(region, result, i),
+                "point " + std::to_string(i) + ": " + std::to_string(n_end) + " edges end and " + std::to_string(n_begin) + " begin here");
+  }
+  if (info.n_places > 0) throw Error(std::move(info));
+}
+
+std::vector<std::vector<std::uint32_t>> closed_loops(std::span<const EndEdge> edges) {
+  // Edges by where they begin; of each beginning the next one not taken.
+  const std::vector<std::uint32_t> used = used_points(edges);
+  const auto number = [&](std::uint32_t i) { return static_cast<std::size_t>(std::lower_bound(used.begin(), used.end(), i) - used.begin()); };
+  std::vector<std::size_t> first(used.size() + 1, 0);
+  for (const EndEdge& edge : edges) ++first[number(edge[0]) + 1];
+  for (std::size_t k = 0; k < used.size(); ++k) first[k + 1] += first[k];
+  std::vector<std::size_t> outgoing(edges.size()), fill(first.begin(), first.end() - 1), at(first.begin(), first.end() - 1);
+  for (std::size_t e = 0; e < edges.size(); ++e) outgoing[fill[number(edges[e][0])]++] = e;
+  std::vector<std::uint8_t> is_taken(edges.size(), 0);
+  std::vector<std::vector<std::uint32_t>> loops;
+  for (std::size_t start = 0; start < edges.size(); ++start) {
+    if (is_taken[start] != 0) continue;
+    loops.emplace_back();
+    for (std::size_t e = start; is_taken[e] == 0;) {
+      is_taken[e] = 1;
+      loops.back().push_back(edges[e][0]);
+      if (edges[e][1] == edges[start][0]) break;
+      std::size_t& cursor = at[number(edges[e][1])];
+      while (is_taken[outgoing[cursor]] != 0) ++cursor;
+      e = outgoing[cursor];
+    }
+  }
+  return loops;
+}
+
+void mesh_part(const EndRegion& region, const EndPart& part, const EndOptions& options, EndTriangles& result, const RunContext& context) {
+  if (!part.triangles.empty()) {
+    ErrorInfo info = end_error(region, ErrorCode::geometry_failed,
+                               "the footprint of the layers crosses a sharp edge of the patch, or leaves the part of it that is meshed anew");
+    info.hint = k_crossing_hint;
+    check_closed(region, result, part.edges, std::move(info));
+  }
+  check_places(region, result, part.edges);
+  const PartBorder border = border_of(region, result, part);
+  const LoopSizes grown(places_of(region, result, part), options.size_growth - 1.0);
+  const delaunay::SizeFunction size = [&](Uv, const Point& p) { return region.size ? std::min(grown(p), region.size(p)) : grown(p); };
+  delaunay::FaceMeshOptions face_options;
+  face_options.size_growth = options.size_growth - 1.0;
+  face_options.min_angle = options.min_angle;
+  face_options.max_triangles = options.max_triangles;
+  delaunay::FaceMesh mesh;
+  try {
+    const ParameterBox box = delaunay::box_of(border.border);
+    const SurfacePtr surface = part.triangles.empty() ? plane_surface(part.frame, box)
+                                                      : projected_surface(part.frame, box, *region.surface, *region.original, part.triangles, context);
+    mesh = delaunay::mesh_face(*surface, border.border, size, Vec2{1.0, 1.0}, face_options, context);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled) throw;
+    throw_for_patch(region, error);
+  }
+  const std::size_t first_triangle = result.triangles.size(), n_before = region.points.size() + result.new_points.size();
+  result.new_points.insert(result.new_points.end(), mesh.points.begin() + mesh.n_border, mesh.points.end());
+  result.triangles.reserve(first_triangle + mesh.triangles.size());
+  for (const TriangleVertices& t : mesh.triangles) {
+    auto& triangle = result.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      triangle[k] = t[k].value() < mesh.n_border ? border.point[t[k].index()] : static_cast<std::uint32_t>(n_before + t[k].index() - mesh.n_border);
+  }
+  prove(region, part, result, first_triangle, mesh);
+  if (mesh.report.min_angle < result.min_angle) {
+    result.min_angle = mesh.report.min_angle;
+    result.worst_place = mesh.report.worst_place;
+  }
+}
+
+}  // namespace sterna::volmesh

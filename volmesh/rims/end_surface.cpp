@@ -1,0 +1,61 @@
+#include "volmesh/rims/end_surface.h"
+
+#include "volmesh/rims/check_end.h"
+#include "volmesh/rims/curved_parts.h"
+#include "volmesh/rims/end_errors.h"
+#include "volmesh/rims/end_part.h"
+
+namespace sterna::volmesh {
+namespace {
+
+void check_input(const EndRegion& region) {
+  if (region.surface == nullptr) throw Error(end_error(region, ErrorCode::bad_argument, "the surface is missing"));
+  if (region.edges.empty()) throw Error(end_error(region, ErrorCode::bad_argument, "there are no loops"));
+  ErrorInfo info = end_error(region, ErrorCode::bad_argument, "edges of loops are not usable");
+  for (const EndEdge& edge : region.edges) {
+    if (edge[0] >= region.points.size() || edge[1] >= region.points.size()) {
+      add_place(info, Point{},
+                "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + ", of " + std::to_string(region.points.size()) + " points");
+      continue;
+    }
+    const Point &a = region.points[edge[0]], &b = region.points[edge[1]];
+    if (!is_finite(a) || !is_finite(b))
+      add_place(info, Point{}, "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + " has a coordinate that is not finite");
+    if (a == b) add_place(info, a, "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + " has no length");
+  }
+  if (info.n_places > 0) throw Error(std::move(info));
+}
+
+/// Parts and kept triangles together have the region's border and no other.
+void prove_whole(const EndRegion& region, const EndTriangles& result) {
+  const EndCheck check = check_end(region.edges, result.triangles);
+  if (check.missing.empty() && check.open.empty() && check.repeated.empty()) return;
+  ErrorInfo info = end_error(region, ErrorCode::geometry_failed, "what stays of the patch and what is new around the layers do not fit together");
+  const auto add = [&](const std::vector<EndEdge>& edges, const char* what) {
+    for (const EndEdge& edge : edges) add_place(info, 0.5 * (point_of(region, result, edge[0]) + point_of(region, result, edge[1])), what);
+  };
+  add(check.missing, "edge of the loops without a triangle");
+  add(check.open, "edge where triangles end");
+  add(check.repeated, "edge of more than two triangles");
+  info.hint =
+      "footprints may not cross sharp edges of the patch or leave it: give its sides names of their own, or lower max_thickness of the layers that end here";
+  throw Error(std::move(info));
+}
+
+}  // namespace
+
+EndTriangles triangulate_end(const EndRegion& region, const EndOptions& options, const RunContext& context) {
+  check_input(region);
+  EndTriangles result;
+  check_closed(region, result, region.edges, end_error(region, ErrorCode::bad_argument, "loops of edges are not closed"));
+  result.min_angle = std::numbers::pi;
+  if (const std::optional<EndFrame> plane = plane_of(region)) {
+    mesh_part(region, {region.edges, *plane, {}, {}}, options, result, context);
+    return result;
+  }
+  for (const EndPart& part : split_curved(region, result, context)) mesh_part(region, part, options, result, context);
+  prove_whole(region, result);
+  return result;
+}
+
+}  // namespace sterna::volmesh
