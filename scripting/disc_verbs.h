@@ -7,7 +7,7 @@
 
 #include "scripting/script_call.h"
 #include "scripting/table_reader.h"
-#include "volmesh/domain/actuator_disc.h"
+#include "volmesh/case/actuator_disc.h"
 
 namespace sterna::scripting {
 

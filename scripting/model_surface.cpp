@@ -19,7 +19,7 @@
 #include "scripting/patch_rules.h"
 #include "scripting/series/start_from_reference.h"
 #include "scripting/summary.h"
-#include "volmesh/tetra/size_sources.h"
+#include "volmesh/case/size_sources.h"
 
 namespace sterna {
 

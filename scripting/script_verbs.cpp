@@ -234,7 +234,7 @@ ScriptValue check_mesh(const ScriptCall& call) {
       info.places.push_back({gate.places.front().position, std::string(info_of(gate.measure).title) + ", " + gate.places.front().what});
   }
   for (const auto& [violation, count] : report.counts) info.n_places += count;
-  for (const Finding& finding : report.findings) info.places.push_back({finding.position, std::string(to_string(finding.violation)) + ", " + finding.what});
+  for (const CheckFinding& finding : report.findings) info.places.push_back({finding.position, std::string(to_string(finding.violation)) + ", " + finding.what});
   throw Error(std::move(info));
 }
 

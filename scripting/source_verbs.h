@@ -6,7 +6,7 @@
 
 #include "scripting/script_call.h"
 #include "scripting/table_reader.h"
-#include "volmesh/tetra/size_sources.h"
+#include "volmesh/case/size_sources.h"
 
 namespace sterna::scripting {
 

@@ -329,16 +329,12 @@ volmesh::VolumeMeshOptions knowing(const SurfaceValue& wall, volmesh::VolumeMesh
   if (wall.smooth_angle) options.smooth_angle = *wall.smooth_angle;
   if (!options.first_heights) options.parts = wall.parts;  // else their layers depend on where they are
   options.patches = rules_of(wall, options);
-  if (wall.model_wall)
-    options.true_surface = [model_wall = wall.model_wall](const Point& p, TriangleId triangle, const std::array<double, 3>& weights) {
-      return model_wall->nearest(p, triangle, weights);
-    };
   return options;
 }
 
 EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse) {
   warn_of_other_member(*wall, options, context);
-  return {.wall = wall, .options = options, .stage = cached_envelope(wall->mesh, knowing(*wall, options), reuse, context)};
+  return {.wall = wall, .options = options, .stage = cached_envelope(*wall, knowing(*wall, options), reuse, context)};
 }
 
 TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse) {
@@ -350,19 +346,18 @@ TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::Vo
   return {.wall = envelope.wall,
           .n_wall_triangles = n_triangles(wall),
           .options = options,
-          .stage = cached_tetrahedra(wall.mesh, envelope.stage, knowing(wall, options), true_surface_key(wall), reuse, context)};
+          .stage = cached_tetrahedra(wall, envelope.stage, knowing(wall, options), reuse, context)};
 }
 
 MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse) {
   return mesh_value(*tetrahedra.wall, tetrahedra.n_wall_triangles, options,
-                    cached_finish(tetrahedra.wall->mesh, tetrahedra.stage, knowing(*tetrahedra.wall, options), reuse, context));
+                    cached_finish(*tetrahedra.wall, tetrahedra.stage, knowing(*tetrahedra.wall, options), reuse, context));
 }
 
 MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const std::filesystem::path& stages, const RunContext& context,
                            const Reuse& reuse) {
   warn_of_other_member(wall, options, context);
-  if (stages.empty())
-    return mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall.mesh, knowing(wall, options), {}, true_surface_key(wall), reuse, context));
+  if (stages.empty()) return mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall, knowing(wall, options), {}, reuse, context));
   require_stage_output(stages);
   FinishedParts parts;
   const volmesh::StageWatch watch{
@@ -376,8 +371,7 @@ MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOp
                      .tetrahedra = stored(stage),
                      .json = stage_json(stage, n_triangles(wall))};
           }};
-  MeshValue mesh =
-      mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall.mesh, knowing(wall, options), watch, true_surface_key(wall), reuse, context));
+  MeshValue mesh = mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall, knowing(wall, options), watch, reuse, context));
   write_finished(wall, parts, mesh, stages, context.part("stages", 1.0, 1.0));
   return mesh;
 }

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "volmesh/domain/domain_parts.h"
-#include "volmesh/envelope/collide.h"
 #include "volmesh/envelope/envelope.h"
+#include "volmesh/site/site.h"
+#include "volmesh/tetra/tetra.h"
 #include "volmesh/volume_mesh.h"
 
 namespace sterna::volmesh {
@@ -42,32 +42,19 @@ struct StageWatch {
 };
 
 /// volume_mesh() with someone who looks on.
-VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const StageWatch& watch, const RunContext& context);
+VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const Makers& makers, const StageWatch& watch, const RunContext& context);
 
 /// The first step. \pre, \throws as volume_mesh()
-EnvelopeStage make_envelope(const TriMesh& wall, const VolumeMeshOptions& options, const RunContext& context);
+EnvelopeStage make_envelope(const TriMesh& wall, const VolumeMeshOptions& options, const Makers& makers, const RunContext& context);
 /// The second. Everything that the envelope is made of is proved again. \pre `envelope` of make_envelope() on this wall
 /// \throws Error(bad_argument) for an envelope of another size, else of the stages
-FilledStage make_tetrahedra(const TriMesh& wall, const EnvelopeStage& envelope, const VolumeMeshOptions& options, const RunContext& context);
+FilledStage make_tetrahedra(const TriMesh& wall, const EnvelopeStage& envelope, const VolumeMeshOptions& options, const Makers& makers,
+                            const RunContext& context);
 /// The last: improves, joins, checks. What the stage holds is proved again; options of earlier steps have no effect but in the report.
 /// \throws Error(bad_argument) for parts that do not belong together, else of the stages
 VolumeMeshResult finish_mesh(const TriMesh& wall, FilledStage filled, const VolumeMeshOptions& options, const RunContext& context);
 
 // ---- The same for a driver that does not want to prove anything twice ---------------------------------------------------------------------
-
-/// Wall and outer boundary with what every step needs of them.
-struct MeshingSite {
-  /// \throws as volume_mesh() for what no step can repair
-  MeshingSite(const TriMesh& surface, const VolumeMeshOptions& user_options, const RunContext& context);
-  MeshingSite(const MeshingSite&) = delete;
-  MeshingSite& operator=(const MeshingSite&) = delete;
-
-  VolumeMeshOptions options;       ///< with the feature angle; its true_surface takes triangles of the wall
-  EnvelopeOptions given_envelope;  ///< without it, unless the user gave it
-  Domain domain;
-  LayerBase base;
-  Collider collider;
-};
 
 /// What is known of a layer beside its mesh.
 struct LayerKnowledge {
@@ -76,9 +63,9 @@ struct LayerKnowledge {
   std::optional<LayerCheck> check;
 };
 
-EnvelopeStage make_envelope(MeshingSite& site, const RunContext& context);
+EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunContext& context);
 /// The layer under the envelope, which may get lower, and the tetrahedra around it.
-FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage envelope, LayerKnowledge& knowledge, const RunContext& context);
+FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage envelope, const Makers& makers, LayerKnowledge& knowledge, const RunContext& context);
 VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const ImproveOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh

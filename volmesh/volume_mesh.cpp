@@ -1,24 +1,209 @@
 #include "volmesh/volume_mesh.h"
 
+#include <optional>
 #include <utility>
 
+#include "geom/base/alongside.h"
+#include "geom/base/error.h"
+#include "geom/base/number_text.h"
+#include "volmesh/envelope/build_envelope.h"
+#include "volmesh/envelope/periodic.h"
+#include "volmesh/layer/lay_out.h"
+#include "volmesh/layer/repair_envelope.h"
+#include "volmesh/layer/split_layer.h"
+#include "volmesh/parts/joint_envelope.h"
 #include "volmesh/stages.h"
+#include "volmesh/tetra/size_supply.h"
 
 namespace sterna::volmesh {
+namespace {
 
-VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const RunContext& context) {
-  return volume_mesh(wall, options, {}, context);
+constexpr int k_max_boundary_repairs = 3;
+
+/// The user's own true surface, asked with triangles of the wall.
+TrueSurface true_surface_of(const TrueSurface& of_surface, const Domain& domain) {
+  if (!of_surface) return {};
+  return [of_surface, &wall2surface = domain.wall2surface](const Point& p, TriangleId t, const std::array<double, 3>& weights) {
+    return of_surface(p, wall2surface[t], weights);
+  };
 }
 
-VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const StageWatch& watch, const RunContext& context) {
+/// \p is_clear: proved already; not where patches were triangulated anew.
+TetraBoundary boundary_for_engines(const FillBoundary& boundary, std::span<const Point> holes, bool is_clear, SplitTaker take_splits) {
+  return {boundary.points, boundary.triangles, holes, is_clear, boundary.patch_names, boundary.triangle_patch, std::move(take_splits)};
+}
+
+/// Carries the splits of a result to the layer; where the layer must be lower with them, the volume inside the split boundary, kept now, is filled once more.
+SplitLayer take_splits(const MeshingSite& site, const Envelope& envelope, const Makers& makers, TetraResult& tets, const RunContext& context) {
+  const VolumeMeshOptions& options = site.options;
+  SplitLayer layer = split_layer(site.base, envelope, site.domain.outer, options, true_surface_of(makers.true_surface, site.domain), tets, context);
+  if (layer.is_filled) return layer;
+  TetraOptions keeping = options.tetrahedra;
+  keeping.boundary_splits = "never";
+  const std::vector<Point> holes = find_cavity_points(*layer.wall, context);
+  const TetraBoundary domain = boundary_for_engines(layer.boundary, holes, true, {});
+  SizeSupply sizes(domain, options.sources, options.size, context);
+  tets = fill(domain, sizes, keeping, context);
+  return layer;
+}
+
+/// What one attempt at the tetrahedra has made.
+struct Filling {
+  TetraResult tets;
+  std::optional<SplitLayer> split;  ///< where the engine has split triangles: the layer that has them too
+  std::optional<LayerProof> proof;  ///< of the layer that the tetrahedra are around
+};
+
+/// The tetrahedra around a layer, and meanwhile the layer's proof. \throws FillError
+Filling fill_around(const MeshingSite& site, const Envelope& envelope, const LaidLayer& layer, const Makers& makers, const RunContext& context) {
+  const StageTimer timer(context, "tetrahedra");
+  Filling filling;
+  SplitTaker taker;  // where layers end on other patches, and where sides are periodic, the boundary stays as it is
+  if (!site.domain.has_rims() && site.domain.periodic.empty())
+    taker = [&](TetraResult& of_engine) { filling.split = take_splits(site, envelope, makers, of_engine, context); };
+  const std::vector<Point> holes = find_cavity_points(site.domain.bodies, context);
+  TetraBoundary domain = boundary_for_engines(layer.boundary, holes, !site.domain.has_rims(), taker);
+  domain.has_sheets = !site.options.discs.empty();
+  SizeSupply sizes(domain, site.options.sources, site.options.size, context);
+  Alongside<LayerProof> proof(context, [&sizes, &layer](const RunContext& side) {
+    sizes.wait();  // the engine needs them sooner
+    return prove_layer(layer.mesh, side);
+  });
+  filling.tets = fill(domain, sizes, site.options.tetrahedra, context.part("tetrahedra", 0.25, 0.9));
+  filling.proof.emplace(proof.take());
+  return filling;
+}
+
+/// A calmer envelope after engines have failed. False where there is nothing to repair, or no more leave to.
+bool repair_for_engines(MeshingSite& site, Envelope& envelope, const LaidLayer& layer, const FillError& error, const RunContext& context) {
+  if (!site.options.tetrahedra.repair_boundary || !error.is_repeatable()) return false;
+  const bool has_sheets = !site.options.discs.empty();
+  const std::size_t n_changed = repair_envelope(site.base, layer.boundary, has_sheets, error.info().places, site.collider, envelope, context).size();
+  if (n_changed == 0) return false;
+  context.warn("trying again with a layer that is lower and smoother at " + std::to_string(n_changed) + " vertices around slivers, folds and gaps of its top");
+  return true;
+}
+
+/// The split layer instead of the one that it came from.
+LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOptions& options, const RunContext& context) {
+  context.info("boundary splits: " + std::to_string(split.boundary.points.size() - unsplit.boundary.points.size()) + " new points, " +
+               std::to_string(split.boundary.triangles.size() - unsplit.boundary.triangles.size()) + " more triangles");
+  LaidLayer layer;
+  layer.certificate = split.certificate;
+  layer.report = report_layer(*split.base, options, split.envelope, split.extrusion, context);
+  layer.curving_shares = split.extrusion.curving_shares;
+  layer.mesh = assemble_layers(*split.base, std::move(split.extrusion), unlinked(*split.outer), {});
+  layer.mesh.request = layer_request(*split.base, options, split.envelope);
+  layer.boundary = std::move(split.boundary);
+  return layer;
+}
+
+void require_valid(const CheckReport& report) {
+  if (report.is_valid()) return;
+  ErrorInfo info{.code = ErrorCode::mesh_invalid, .attempted = "checking the finished mesh", .hint = "report this surface"};
+  for (const auto& [violation, count] : report.counts) {
+    info.problem += (info.problem.empty() ? "" : ", ") + std::to_string(count) + " x " + std::string(to_string(violation));
+    info.n_places += count;
+  }
+  for (const CheckFinding& finding : report.findings) info.places.push_back({finding.position, finding.what});
+  throw Error(std::move(info));
+}
+
+}  // namespace
+
+VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const RunContext& context) {
+  return volume_mesh(wall, options, {}, {}, context);
+}
+
+VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const Makers& makers, const StageWatch& watch, const RunContext& context) {
   MeshingSite site(wall, options, context);
-  const auto make = [&] { return make_envelope(site, context); };
+  const auto make = [&] { return make_envelope(site, makers, context); };
   EnvelopeStage envelope = watch.envelope ? watch.envelope(make) : make();
   if (watch.enveloped) watch.enveloped(envelope);
   LayerKnowledge knowledge;
-  FilledStage filled = make_tetrahedra(site, std::move(envelope), knowledge, context);
+  FilledStage filled = make_tetrahedra(site, std::move(envelope), makers, knowledge, context);
   if (watch.filled) watch.filled(filled);
   return finish_mesh(std::move(filled), std::move(knowledge), options.improve, context);
+}
+
+EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunContext& context) {
+  const StageTimer timer(context, "envelope");
+  const RunContext part = context.part("envelope", 0.0, 0.15);
+  const std::vector<WholePart> parts =
+      site.domain.slits.empty() ? whole_parts(site.domain, site.options.parts, context) : std::vector<WholePart>{};  // cut walls are no parts' any more
+  const auto of_wall = [&] {
+    const WallEnvelopeMaker& make = makers.wall_envelope;
+    return make ? make(site.base, site.options.envelope, site.collider, part) : build_envelope(site.base, site.options.envelope, site.collider, part);
+  };
+  EnvelopeStage stage{parts.empty() ? of_wall() : joint_envelope(site, parts, makers.part_envelope, part), site.options.envelope.feature_angle};
+  equalise_partners(site.base, site.options.envelope, &site.collider, stage.envelope, context);
+  return stage;
+}
+
+FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers& makers, LayerKnowledge& knowledge, const RunContext& context) {
+  LaidLayer layer = lay_out(site, stage.envelope, context.part("prisms", 0.15, 0.25));
+  for (const std::string& warning : layer.report.warnings) context.warn(warning);
+
+  FilledStage filled;
+  Filling filling;
+  for (int n_repairs = 0;; ++n_repairs) {
+    try {
+      filling = fill_around(site, stage.envelope, layer, makers, context);
+      break;
+    } catch (const FillError& error) {
+      filled.tetra_failures.insert(filled.tetra_failures.end(), error.failures().begin(), error.failures().end());
+      if (n_repairs == k_max_boundary_repairs || !repair_for_engines(site, stage.envelope, layer, error, context)) throw;
+      layer = lay_out(site, stage.envelope, context);
+    }
+  }
+  if (filling.split) {
+    filled.n_split_triangles = static_cast<std::int64_t>(filling.split->boundary.triangles.size() - layer.boundary.triangles.size());
+    layer = adopted(*filling.split, layer, site.options.envelope, context);
+    filling.proof.emplace(prove_layer(layer.mesh, context));
+    filled.split_wall = *filling.split->wall;
+    stage.envelope = std::move(filling.split->envelope);
+  }
+  require_proved_cells(filling.proof->cells, layer.certificate);
+
+  knowledge = {std::move(layer.report), std::move(layer.certificate), std::move(filling.proof->check)};
+  filled.envelope = std::move(stage);
+  filled.layers = std::move(layer.mesh);
+  filled.curving_shares = layer.curving_shares;
+  filled.tets = std::move(filling.tets);
+  filled.tetra_failures.insert(filled.tetra_failures.end(), filled.tets.failures.begin(), filled.tets.failures.end());
+  return filled;
+}
+
+VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const ImproveOptions& options, const RunContext& context) {
+  VolumeMeshResult result;
+  TetraResult& tets = filled.tets;
+  result.mesh = std::move(filled.layers);
+  result.layer = std::move(knowledge.report);
+  result.certificate = knowledge.certificate;
+  result.tetra_engine = tets.engine + (tets.is_two_pass ? " in two passes" : "");
+  result.tetra_failures = std::move(filled.tetra_failures);
+  result.n_split_triangles = filled.n_split_triangles;
+  result.is_reproducible = tets.is_reproducible;
+  result.tetra_engine_seconds = tets.engine_seconds;
+  result.tetra_engine_peak_bytes = tets.engine_peak_bytes;
+  const FillBoundary boundary = boundary_of(result.mesh);
+  {
+    const StageTimer timer(context, "improve");
+    result.improvement = improve_tetrahedra({boundary.points, boundary.triangles, {}}, tets, options, context);
+  }
+  {
+    const StageTimer timer(context, "assemble");
+    add_tetrahedra(boundary, tets, result.mesh, context);
+  }
+  {
+    const StageTimer timer(context, "check");
+    result.check = check(result.mesh, {}, context.part("check", 0.9, 1.0), &*knowledge.check);
+  }
+  require_valid(result.check);
+  for (const PeriodicMatchReport& sides : result.check.periodic)
+    context.info("periodic sides " + sides.first + " and " + sides.second + ": " + std::to_string(sides.n_nodes) + " nodes and " +
+                 std::to_string(sides.n_faces) + " faces match within " + number_text(sides.worst, 3) + " m");
+  return result;
 }
 
 }  // namespace sterna::volmesh

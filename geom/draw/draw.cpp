@@ -93,9 +93,9 @@ void require_draw_options(const DrawOptions& options) {
 std::vector<DrawMark> marks_of(const CheckReport& report) {
   std::vector<DrawMark> marks;
   for (std::size_t i = 0; i < report.findings.size(); ++i) {
-    const Finding& finding = report.findings[i];
+    const CheckFinding& finding = report.findings[i];
     const bool is_first = std::none_of(report.findings.begin(), report.findings.begin() + static_cast<std::ptrdiff_t>(i),
-                                       [&](const Finding& f) { return f.violation == finding.violation; });
+                                       [&](const CheckFinding& f) { return f.violation == finding.violation; });
     if (is_first)
       marks.push_back({finding.position, std::string(gate_of(finding.violation)) + " " + std::string(to_string(finding.violation)) + ": " + finding.what});
   }

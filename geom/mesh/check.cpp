@@ -84,6 +84,7 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
 
 LayerCheck::LayerCheck(std::unique_ptr<const Parts> parts) : parts_(std::move(parts)) {}
 LayerCheck::LayerCheck(LayerCheck&&) noexcept = default;
+LayerCheck& LayerCheck::operator=(LayerCheck&&) noexcept = default;
 LayerCheck::~LayerCheck() = default;
 
 LayerCheck check_ahead(const HybridMesh& mesh, const CheckOptions& options, const RunContext& context) {

@@ -41,7 +41,7 @@ std::string_view gate_of(Violation v);
 /// "conformity"; of a gate of the verdict VALID.
 std::string_view title_of_gate(std::string_view gate);
 
-struct Finding {
+struct CheckFinding {
   Violation violation;
   Point position;
   std::string what;  ///< entity by name: "prism 12 (column 3, layer 0), patch wing"
@@ -79,7 +79,7 @@ struct CheckReport {
   std::int64_t n_nodes = 0;
   std::int64_t n_boundary_triangles = 0, n_boundary_quads = 0;
   std::vector<std::pair<Violation, std::int64_t>> counts;  ///< violations found, by kind; empty = VALID
-  std::vector<Finding> findings;                           ///< the first few of each kind, in mesh order
+  std::vector<CheckFinding> findings;                           ///< the first few of each kind, in mesh order
   double layer_volume = 0.0, layer_volume_error = 0.0;     ///< m^3; error relative to layer_volume, limit 1e-11
   double tet_volume = 0.0, tet_volume_error = 0.0;         ///< likewise for the tets
   double total_volume = 0.0;
@@ -117,6 +117,7 @@ class LayerCheck {
   struct Parts;
   explicit LayerCheck(std::unique_ptr<const Parts> parts);
   LayerCheck(LayerCheck&&) noexcept;
+  LayerCheck& operator=(LayerCheck&&) noexcept;
   ~LayerCheck();
   /// nullptr: nothing could be found out, the mesh has faults.
   const Parts* parts() const { return parts_.get(); }

@@ -29,7 +29,7 @@ bool Findings::has_any_of(std::string_view gate) const {
 void Findings::store(CheckReport& report) {
   for (std::size_t k = 0; k < k_n_violations; ++k)
     if (counts_[k] > 0) report.counts.emplace_back(static_cast<Violation>(k), counts_[k]);
-  std::stable_sort(kept_.begin(), kept_.end(), [](const Finding& a, const Finding& b) { return a.violation < b.violation; });
+  std::stable_sort(kept_.begin(), kept_.end(), [](const CheckFinding& a, const CheckFinding& b) { return a.violation < b.violation; });
   report.findings = std::move(kept_);
 }
 

@@ -31,7 +31,7 @@ std::vector<T> concatenate(std::vector<T> all, std::vector<T> more) {
 class Findings {
  public:
   explicit Findings(int per_kind) : per_kind_(per_kind) {}
-  /// Counts one violation; `describe() -> Finding-like {Point, string}` is called only when it is kept.
+  /// Counts one violation; `describe() -> CheckFinding-like {Point, string}` is called only when it is kept.
   template <class Describe>
   void add(Violation violation, const Describe& describe) {
     if (counts_[index(violation)]++ >= per_kind_) return;
@@ -48,7 +48,7 @@ class Findings {
   static std::size_t index(Violation violation) { return static_cast<std::size_t>(violation); }
   int per_kind_;
   std::array<std::int64_t, k_n_violations> counts_{};
-  std::vector<Finding> kept_;
+  std::vector<CheckFinding> kept_;
 };
 
 /// Numbers the cells: column * n_layers + layer (fully collapsed columns, and those of fewer than n_layers layers, hold numbers without cells), then prisms,

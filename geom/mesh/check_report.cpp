@@ -239,7 +239,7 @@ std::string to_text(const CheckReport& report) {
   for (const auto& [violation, count] : report.counts) {
     text += "  " + std::string(gate_of(violation)) + " " + std::string(to_string(violation)) + ": " + n(count) + "\n";
     std::int64_t n_shown = 0;
-    for (const Finding& finding : report.findings) {
+    for (const CheckFinding& finding : report.findings) {
       if (finding.violation != violation) continue;
       text += "    at " + format_point(finding.position) + ": " + finding.what + "\n";
       ++n_shown;
@@ -270,7 +270,7 @@ std::string to_json(const CheckReport& report) {
   json["violations"] = Json::object();
   for (const auto& [violation, count] : report.counts) json["violations"][std::string(to_string(violation))] = count;
   json["findings"] = Json::array();
-  for (const Finding& finding : report.findings)
+  for (const CheckFinding& finding : report.findings)
     json["findings"].push_back(
         {{"violation", to_string(finding.violation)}, {"gate", gate_of(finding.violation)}, {"position", to_array(finding.position)}, {"what", finding.what}});
   json["volume"] = {{"layer", report.layer_volume},    {"layer_error", report.layer_volume_error},

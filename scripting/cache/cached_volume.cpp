@@ -39,89 +39,98 @@ ContentKey part_envelope_key(const volmesh::PartEnvelopeTask& task, const RunCon
   return KeyMaker("envelope of a part").add(task.wall).add(sterna::options_of(named)).add(task.rules).add(task.smooth_angle).add(context.seed()).key();
 }
 
-/// The options with makers of envelopes that take from the cache what it has, and start from a reference where there is one.
-volmesh::VolumeMeshOptions with_envelopes(volmesh::VolumeMeshOptions options, const Reuse& reuse) {
+/// Where the wall really is, and makers of envelopes that take from the cache what it has, and start from a reference where there is one.
+volmesh::Makers makers_of(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const Reuse& reuse) {
+  volmesh::Makers makers;
+  if (wall.model_wall)
+    makers.true_surface = [model_wall = wall.model_wall](const Point& p, TriangleId triangle, const std::array<double, 3>& weights) {
+      return model_wall->nearest(p, triangle, weights);
+    };
   const volmesh::PartEnvelopeMaker ordinary = [reuse](const volmesh::PartEnvelopeTask& task, const RunContext& context) {
     const std::optional<ContentKey> key = reuse.cache ? std::optional(part_envelope_key(task, context)) : std::nullopt;
     return cached<volmesh::PartEnvelope>(reuse, "envelope", triangles_text(task.wall) + " in their own frame", key, context,
                                          [&] { return volmesh::part_envelope(task, context); });
   };
-  if (reuse.reference) return starting_envelopes(std::move(options), reuse, ordinary, part_envelope_key);
-  if (reuse.cache && !options.parts.empty()) options.part_envelope = ordinary;
-  return options;
+  if (reuse.reference) return starting_envelopes(std::move(makers), reuse, ordinary, part_envelope_key);
+  if (reuse.cache && !options.parts.empty()) makers.part_envelope = ordinary;
+  return makers;
 }
+
+/// Stands for a wall's true surface in keys; nothing where it is not known what that was made of.
+std::optional<ContentKey> true_surface_key(const SurfaceValue& wall) { return wall.model_wall ? wall.model_wall_key : ContentKey{}; }
 
 }  // namespace
 
-std::optional<ContentKey> true_surface_key(const SurfaceValue& wall) { return wall.model_wall ? wall.model_wall_key : ContentKey{}; }
-
-volmesh::EnvelopeStage cached_envelope(const TriMesh& wall, const volmesh::VolumeMeshOptions& options, const Reuse& reuse, const RunContext& context) {
-  const std::optional<ContentKey> key = reuse.cache ? std::optional(envelope_key(wall, options, context)) : std::nullopt;
-  return cached_with_reference<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall), key, context, [&] {
-    volmesh::EnvelopeStage stage = volmesh::make_envelope(wall, with_envelopes(options, reuse), context);
+volmesh::EnvelopeStage cached_envelope(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const Reuse& reuse, const RunContext& context) {
+  const std::optional<ContentKey> key = reuse.cache ? std::optional(envelope_key(wall.mesh, options, context)) : std::nullopt;
+  return cached_with_reference<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall.mesh), key, context, [&] {
+    volmesh::EnvelopeStage stage = volmesh::make_envelope(wall.mesh, options, makers_of(wall, options, reuse), context);
     tell_other_envelopes(options.parts, reuse, context);
     return stage;
   });
 }
 
-volmesh::FilledStage cached_tetrahedra(const TriMesh& wall, const volmesh::EnvelopeStage& envelope, const volmesh::VolumeMeshOptions& options,
-                                       const std::optional<ContentKey>& true_surface, const Reuse& reuse, const RunContext& context) {
+volmesh::FilledStage cached_tetrahedra(const SurfaceValue& wall, const volmesh::EnvelopeStage& envelope, const volmesh::VolumeMeshOptions& options,
+                                       const Reuse& reuse, const RunContext& context) {
+  const std::optional<ContentKey> true_surface = true_surface_key(wall);
   std::optional<ContentKey> key;
   if (reuse.cache && true_surface) {
     volmesh::VolumeMeshOptions of_this_step = options;
     of_this_step.improve = {};
     KeyMaker maker("tetrahedra");
-    maker.add(key_of(wall)).add(key_of(envelope)).add(volume_options_key(of_this_step)).add(*true_surface).add(context.seed());
+    maker.add(key_of(wall.mesh)).add(key_of(envelope)).add(volume_options_key(of_this_step)).add(*true_surface).add(context.seed());
     add_engines(maker, options.tetrahedra);
     key = maker.key();
   }
   bool is_made = false;
   auto filled = cached<volmesh::FilledStage>(
-      reuse, "tetrahedra", triangles_text(wall), key, context,
+      reuse, "tetrahedra", triangles_text(wall.mesh), key, context,
       [&] {
         is_made = true;
-        return volmesh::make_tetrahedra(wall, envelope, options, context);
+        return volmesh::make_tetrahedra(wall.mesh, envelope, options, makers_of(wall, options, {}), context);
       },
       is_same_everywhere);
   if (!is_made) filled.tets.engine_seconds = filled.tets.engine_peak_bytes = 0.0;  // measured in another run
   return filled;
 }
 
-volmesh::VolumeMeshResult cached_finish(const TriMesh& wall, const volmesh::FilledStage& filled, const volmesh::VolumeMeshOptions& options, const Reuse& reuse,
-                                        const RunContext& context) {
+volmesh::VolumeMeshResult cached_finish(const SurfaceValue& wall, const volmesh::FilledStage& filled, const volmesh::VolumeMeshOptions& options,
+                                        const Reuse& reuse, const RunContext& context) {
   std::optional<ContentKey> key;
-  if (reuse.cache) key = KeyMaker("prisms").add(key_of(wall)).add(key_of(filled)).add(volume_options_key(options)).add(context.seed()).key();
+  if (reuse.cache) key = KeyMaker("prisms").add(key_of(wall.mesh)).add(key_of(filled)).add(volume_options_key(options)).add(context.seed()).key();
   auto result = cached<volmesh::VolumeMeshResult>(
-      reuse, "prisms", triangles_text(wall), key, context, [&] { return volmesh::finish_mesh(wall, filled, options, context); }, is_same_mesh_everywhere);
+      reuse, "prisms", triangles_text(wall.mesh), key, context, [&] { return volmesh::finish_mesh(wall.mesh, filled, options, context); },
+      is_same_mesh_everywhere);
   result.tetra_engine_seconds = filled.tets.engine_seconds;  // whoever joined the parts
   result.tetra_engine_peak_bytes = filled.tets.engine_peak_bytes;
   return result;
 }
 
-volmesh::VolumeMeshResult cached_volume_mesh(const TriMesh& wall, const volmesh::VolumeMeshOptions& options, const volmesh::StageWatch& watch,
-                                             const std::optional<ContentKey>& true_surface, const Reuse& reuse, const RunContext& context) {
-  if (!reuse.cache && !reuse.reference) return volmesh::volume_mesh(wall, options, watch, context);
+volmesh::VolumeMeshResult cached_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const volmesh::StageWatch& watch,
+                                             const Reuse& reuse, const RunContext& context) {
+  if (!reuse.cache && !reuse.reference) return volmesh::volume_mesh(wall.mesh, options, makers_of(wall, options, reuse), watch, context);
   volmesh::StageWatch with_envelope = watch;
   with_envelope.envelope = [&](const std::function<volmesh::EnvelopeStage()>& make) {
-    const std::optional<ContentKey> key = reuse.cache ? std::optional(envelope_key(wall, options, context)) : std::nullopt;
-    return cached_with_reference<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall), key, context, [&] {
+    const std::optional<ContentKey> key = reuse.cache ? std::optional(envelope_key(wall.mesh, options, context)) : std::nullopt;
+    return cached_with_reference<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall.mesh), key, context, [&] {
       volmesh::EnvelopeStage stage = make();
       tell_other_envelopes(options.parts, reuse, context);
       return stage;
     });
   };
-  const auto make = [&] { return volmesh::volume_mesh(wall, with_envelopes(options, reuse), with_envelope, context); };
+  const auto make = [&] { return volmesh::volume_mesh(wall.mesh, options, makers_of(wall, options, reuse), with_envelope, context); };
   if (watch.enveloped || watch.filled) return make();
+  const std::optional<ContentKey> true_surface = true_surface_key(wall);
   std::optional<ContentKey> key;
   if (reuse.cache && true_surface) {
     KeyMaker maker("volume_mesh");
-    maker.add(key_of(wall)).add(volume_options_key(options)).add(*true_surface).add(context.seed());
+    maker.add(key_of(wall.mesh)).add(volume_options_key(options)).add(*true_surface).add(context.seed());
     add_engines(maker, options.tetrahedra);
     key = maker.key();
   }
   bool is_made = false;
   auto result = cached_with_reference<volmesh::VolumeMeshResult>(
-      reuse, "volume_mesh", triangles_text(wall), key, context,
+      reuse, "volume_mesh", triangles_text(wall.mesh), key, context,
       [&] {
         is_made = true;
         return make();

@@ -11,18 +11,15 @@
 
 namespace sterna::scripting {
 
-/// Stands for a wall's true surface in keys; nothing where it is not known what that was made of.
-std::optional<ContentKey> true_surface_key(const SurfaceValue& wall);
-
 /// `options` are those of volmesh, with all that is known of the wall. \throws as the functions of volmesh/stages.h
-volmesh::EnvelopeStage cached_envelope(const TriMesh& wall, const volmesh::VolumeMeshOptions& options, const Reuse& reuse, const RunContext& context);
-volmesh::FilledStage cached_tetrahedra(const TriMesh& wall, const volmesh::EnvelopeStage& envelope, const volmesh::VolumeMeshOptions& options,
-                                       const std::optional<ContentKey>& true_surface, const Reuse& reuse, const RunContext& context);
-volmesh::VolumeMeshResult cached_finish(const TriMesh& wall, const volmesh::FilledStage& filled, const volmesh::VolumeMeshOptions& options, const Reuse& reuse,
-                                        const RunContext& context);
+volmesh::EnvelopeStage cached_envelope(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const Reuse& reuse, const RunContext& context);
+volmesh::FilledStage cached_tetrahedra(const SurfaceValue& wall, const volmesh::EnvelopeStage& envelope, const volmesh::VolumeMeshOptions& options,
+                                       const Reuse& reuse, const RunContext& context);
+volmesh::VolumeMeshResult cached_finish(const SurfaceValue& wall, const volmesh::FilledStage& filled, const volmesh::VolumeMeshOptions& options,
+                                        const Reuse& reuse, const RunContext& context);
 /// All of it: the whole mesh where it is there, else from the envelope on where that is there. With a watch, whose eyes want to see every step, never the whole
 /// mesh.
-volmesh::VolumeMeshResult cached_volume_mesh(const TriMesh& wall, const volmesh::VolumeMeshOptions& options, const volmesh::StageWatch& watch,
-                                             const std::optional<ContentKey>& true_surface, const Reuse& reuse, const RunContext& context);
+volmesh::VolumeMeshResult cached_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const volmesh::StageWatch& watch,
+                                             const Reuse& reuse, const RunContext& context);
 
 }  // namespace sterna::scripting

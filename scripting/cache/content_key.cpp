@@ -23,11 +23,11 @@ std::string value_text(const OptionValue& value) {
   return std::get<std::string>(value);
 }
 
-/// All that is no option of a schema, but for sources, which come behind the envelope, and the true surface, whose key its maker has. The members are listed so
-/// that a new one does not compile until it is in a key.
+/// All that is no option of a schema, but for sources, which come behind the envelope. The members are listed so that a new one does not compile until it is in
+/// a key.
 void add_rest(KeyMaker& maker, const volmesh::VolumeMeshOptions& options) {
   const auto& [family, envelope, first_heights, patches, prisms, farfield, farfield_surface, ends, size, sources, discs, periodic, tetrahedra, improve,
-               smooth_angle, parts, part_envelope, wall_envelope, true_surface] = options;
+               smooth_angle, parts] = options;
   maker.add(patches).add(farfield_surface).add(discs).add(periodic).add(smooth_angle).add(parts);
   maker.add(first_heights != nullptr);
   if (first_heights) maker.add(std::vector<double>(first_heights->values().begin(), first_heights->values().end()));

@@ -78,7 +78,7 @@ inline constexpr std::size_t k_members<ErrorPlace> = 2;
 template <>
 inline constexpr std::size_t k_members<CellCounts> = 4;
 template <>
-inline constexpr std::size_t k_members<Finding> = 3;
+inline constexpr std::size_t k_members<CheckFinding> = 3;
 template <>
 inline constexpr std::size_t k_members<Quality> = 9;
 template <>

@@ -201,17 +201,17 @@ PartMesher starting_mesher(const Reuse& reuse, const PartMesher& ordinary,
   };
 }
 
-volmesh::VolumeMeshOptions starting_envelopes(volmesh::VolumeMeshOptions options, const Reuse& reuse, const volmesh::PartEnvelopeMaker& ordinary,
-                                              const std::function<ContentKey(const volmesh::PartEnvelopeTask&, const RunContext&)>& key) {
-  options.part_envelope = [reuse, ordinary, key](const volmesh::PartEnvelopeTask& task, const RunContext& context) {
+volmesh::Makers starting_envelopes(volmesh::Makers makers, const Reuse& reuse, const volmesh::PartEnvelopeMaker& ordinary,
+                                   const std::function<ContentKey(const volmesh::PartEnvelopeTask&, const RunContext&)>& key) {
+  makers.part_envelope = [reuse, ordinary, key](const volmesh::PartEnvelopeTask& task, const RunContext& context) {
     if (!reuse.reference->is_this()) return part_from_reference(task, reuse, ordinary, beside_reference(key(task, context), reuse, context), context);
     volmesh::PartEnvelope made = ordinary(task, context);
     reuse.reference->keep({connectivity_of(task.wall), task.options, {task.wall.points, made.envelope}});
     return made;
   };
-  options.wall_envelope = [reuse](const volmesh::LayerBase& base, const volmesh::EnvelopeOptions& of_wall, volmesh::Collider& collider,
-                                  const RunContext& context) { return wall_from_reference(base, of_wall, collider, reuse, context); };
-  return options;
+  makers.wall_envelope = [reuse](const volmesh::LayerBase& base, const volmesh::EnvelopeOptions& of_wall, volmesh::Collider& collider,
+                                 const RunContext& context) { return wall_from_reference(base, of_wall, collider, reuse, context); };
+  return makers;
 }
 
 void tell_other_envelopes(const std::vector<volmesh::PlacedPart>& parts, const Reuse& reuse, const RunContext& context) {

@@ -10,7 +10,8 @@
 #include "scripting/cache/stage_cache.h"
 #include "scripting/mesh_parts.h"
 #include "scripting/series/kept_reference.h"
-#include "volmesh/volume_mesh.h"
+#include "volmesh/case/placed_part.h"
+#include "volmesh/parts/makers.h"
 
 namespace sterna::scripting {
 
@@ -20,10 +21,10 @@ namespace sterna::scripting {
 PartMesher starting_mesher(const Reuse& reuse, const PartMesher& ordinary,
                            const std::function<std::optional<ContentKey>(const PartTask&, const RunContext&)>& key = {});
 
-/// The options with makers of envelopes that start from the reference's where the wall has its triangles (volmesh::warm_start), and keep the reference's own.
+/// Makers of envelopes that start from the reference's where the wall has its triangles (volmesh::warm_start), and keep the reference's own.
 /// `ordinary` makes the envelope of a part in any other case, under `key` in the cache. \pre reuse.reference
-volmesh::VolumeMeshOptions starting_envelopes(volmesh::VolumeMeshOptions options, const Reuse& reuse, const volmesh::PartEnvelopeMaker& ordinary,
-                                              const std::function<ContentKey(const volmesh::PartEnvelopeTask&, const RunContext&)>& key);
+volmesh::Makers starting_envelopes(volmesh::Makers makers, const Reuse& reuse, const volmesh::PartEnvelopeMaker& ordinary,
+                                   const std::function<ContentKey(const volmesh::PartEnvelopeTask&, const RunContext&)>& key);
 
 /// Tells of every one of a wall's parts that took over triangles and whose envelope nobody asked for, why that did not start from the reference's. After the
 /// wall's envelope was made.

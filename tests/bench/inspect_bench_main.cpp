@@ -36,7 +36,7 @@ Seconds timed(const std::function<void()>& f) {
 void print_envelope(const TriMesh& wall, const VolumeMeshOptions& options, const InspectReport& report, const std::string& name, const RunContext& context) {
   MeshingSite site(wall, options, context);
   EnvelopeStage stage;
-  const Seconds seconds = timed([&] { stage = make_envelope(site, context); });
+  const Seconds seconds = timed([&] { stage = make_envelope(site, {}, context); });
   const EnvelopeScale scale = scale_of(site.base, site.options.envelope);
   double all = 0.0, full = 0.0, compressed = 0.0, collapsed = 0.0;
   for (const VertexId v : site.base.wall.points.ids()) {

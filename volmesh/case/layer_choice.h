@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "geom/base/run_context.h"
-#include "volmesh/volume_mesh.h"
+#include "volmesh/case/mesh_case.h"
 
 namespace sterna::volmesh {
 

@@ -12,6 +12,7 @@
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
 #include "volmesh/domain/disc_plane.h"
+#include "volmesh/domain/disc_sheets.h"
 
 namespace sterna::volmesh {
 namespace {

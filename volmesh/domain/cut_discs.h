@@ -7,7 +7,7 @@
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/tri_mesh.h"
-#include "volmesh/domain/actuator_disc.h"
+#include "volmesh/case/actuator_disc.h"
 
 namespace sterna::volmesh {
 

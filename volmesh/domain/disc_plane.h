@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geom/base/vec3.h"
-#include "volmesh/domain/actuator_disc.h"
+#include "volmesh/case/actuator_disc.h"
 
 namespace sterna::volmesh {
 

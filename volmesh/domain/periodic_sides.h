@@ -3,19 +3,13 @@
 
 #include <array>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/tri_mesh.h"
+#include "volmesh/case/periodic_names.h"
 
 namespace sterna::volmesh {
-
-/// Names of two patches that are to be each other's image.
-struct PeriodicNames {
-  std::string first, second;
-  friend bool operator==(const PeriodicNames&, const PeriodicNames&) = default;
-};
 
 /// Two patches that are, and their vertices.
 struct PeriodicPatches {

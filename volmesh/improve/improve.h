@@ -2,21 +2,14 @@
 #pragma once
 
 #include <cstdint>
-#include <numbers>
 #include <vector>
 
 #include "geom/base/error.h"
 #include "geom/base/run_context.h"
-#include "geom/base/schema.h"
+#include "volmesh/case/improve_options.h"
 #include "volmesh/tetra/tetra.h"
 
 namespace sterna::volmesh {
-
-struct ImproveOptions {
-  double improve_min_angle = 12.0 * std::numbers::pi / 180.0;
-  double improve_max_angle = 160.0 * std::numbers::pi / 180.0;
-  int improve_rounds = 30;
-};
 
 /// What improvement found and left.
 struct ImproveReport {
@@ -42,32 +35,3 @@ struct ImproveReport {
 ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tets, const ImproveOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh
-
-namespace sterna {
-
-template <>
-struct Schema<volmesh::ImproveOptions> {
-  using O = volmesh::ImproveOptions;
-  static constexpr std::string_view stage = "improve";
-  static constexpr std::array fields = {
-      Field<O>{.name = "improve_min_angle",
-               .member = &O::improve_min_angle,
-               .unit = Unit::radian,
-               .min = 0.0,
-               .max = 0.6,
-               .help = "tetrahedra with a smaller dihedral angle are worked on"},
-      Field<O>{.name = "improve_max_angle",
-               .member = &O::improve_max_angle,
-               .unit = Unit::radian,
-               .min = 2.0,
-               .max = 3.14,
-               .help = "tetrahedra with a larger dihedral angle are worked on"},
-      Field<O>{.name = "improve_rounds",
-               .member = &O::improve_rounds,
-               .min = 0,
-               .max = 1000,
-               .help = "passes over the bad tetrahedra; 0 leaves the mesh as the engine made it"},
-  };
-};
-
-}  // namespace sterna

@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "geom/base/run_context.h"
+#include "volmesh/case/mesh_case.h"
 #include "volmesh/flow/flow_state.h"
 #include "volmesh/inspect/finding.h"
 #include "volmesh/inspect/options.h"
-#include "volmesh/volume_mesh.h"
 
 namespace sterna::volmesh {
 

@@ -11,7 +11,7 @@
 #include "geom/base/parallel.h"
 #include "geom/mesh/topology.h"
 #include "volmesh/inspect/inspect.h"
-#include "volmesh/stages.h"
+#include "volmesh/site/site.h"
 
 namespace sterna::volmesh {
 

@@ -6,6 +6,7 @@
 #include "geom/mesh/hybrid_mesh.h"
 #include "volmesh/layer/extrude.h"
 #include "volmesh/rims/close_ends.h"
+#include "volmesh/rims/slits.h"
 #include "volmesh/tetra/tetra.h"
 
 namespace sterna::volmesh {
@@ -24,12 +25,6 @@ FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, co
 FillBoundary boundary_of(const HybridMesh& layers);
 /// The outer boundary that assemble_layers() got, up to the numbering of its vertices. \p n_wall_patches: how many patches carry layers
 ClosedOuter outer_of(const HybridMesh& layers, std::size_t n_wall_patches);
-
-/// An edge between two lines at which columns end on a patch, as the base triangle has it.
-struct LayerSide {
-  std::uint32_t from = 0, to = 0;  ///< lines
-  PatchId patch;                   ///< of the outer boundary
-};
 
 /// All of the mesh but its tetrahedra. Nodes: lines of the layer, outer boundary. Patches: the wall's, then the outer ones. Boundary triangles: the wall's, the
 /// outer ones, sides of cells beside a collapsed line; quadrilaterals: sides of cells.

@@ -150,6 +150,8 @@ LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, 
                          const RunContext& context) {
   LayerReport report;
   report.body_length = base.body_length;
+  report.feature_angle = options.feature_angle;
+  report.visibility = report_visibility(base);
   report.n_vertices = static_cast<std::int64_t>(base.wall.n_vertices());
   const Classifier classifier(base, options, envelope);
   Areas areas;

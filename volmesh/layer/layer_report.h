@@ -1,11 +1,61 @@
 // What became of the layer, measured against h_target (method.md §2).
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "volmesh/envelope/envelope.h"
 #include "volmesh/layer/extrude.h"
-#include "volmesh/volume_mesh.h"
+#include "volmesh/layer/first_node.h"
+#include "volmesh/layer/visibility_report.h"
 
 namespace sterna::volmesh {
+
+/// Shares of a patch's area, by its triangles' corners. The rest has less than its full height, but its first height.
+struct PatchCoverage {
+  std::string name;
+  double area = 0.0;                                      ///< m^2
+  double full = 0.0;                                      ///< h >= 0.9 h_target
+  double compressed = 0.0;                                ///< 0 < normal_height < n h0: equally spaced, h0 not met
+  double collapsed = 0.0;                                 ///< no layer
+  std::vector<std::pair<std::string, double>> lost_area;  ///< share below 0.9 h_target by reason, largest first
+};
+
+/// Last prism's height over that of a regular tetrahedron on its top, 0.816 times the mean edge there: shares of the envelope's area.
+struct InterfaceReport {
+  double within = 0.0;          ///< ratio in [1/3, 3]
+  double below = 0.0;           ///< thinner
+  double above = 0.0;           ///< thicker
+  double within_of_full = 0.0;  ///< `within` of the triangles with full height at all corners: elsewhere the layer had to be compressed
+};
+
+/// What became of the layer; see method.md §2 for h_target.
+struct LayerReport {
+  double body_length = 0.0;        ///< m
+  double coverage = 0.0;           ///< share of wall area with h >= 0.9 h_target
+  double target_over_eq1 = 0.0;    ///< area mean of h_target over eq. (1)
+  double mean_height_share = 0.0;  ///< area mean h over area mean h_target
+  double mean_height = 0.0;        ///< m, area-weighted
+  double feature_angle = 0.0;      ///< rad, the user's or the one found
+  VisibilityReport visibility;
+  std::int64_t n_vertices = 0;
+  std::int64_t n_compressed = 0;                          ///< normal_height < n h0: equally spaced, h0 not met
+  std::vector<std::pair<std::string, double>> lost_area;  ///< share of wall area below 0.9 h_target by reason, largest first
+  double compressed_area = 0.0;                           ///< share of the wall area
+  double collapsed_area = 0.0;                            ///< share of the wall area
+  std::vector<PatchCoverage> patches;                     ///< in the wall's order
+  std::vector<ErrorPlace> collapsed;                      ///< each collapsed vertex: place, patch and reason
+  std::vector<ErrorPlace> compressed;  ///< the lowest standing vertices below n h0 (k_listed_compressed at most): place, patch, height and reason
+  FirstNodeReport first_node;          ///< how far the first nodes are off the wall
+  InterfaceReport interface;
+  std::array<std::int64_t, 5> reduced_curving{};  ///< lines with less than wall_perpendicularity, by share of it: 0, up to 1/4, 1/2, 3/4, below 1
+  std::vector<std::string> warnings;              ///< what looks like a mistake in the settings, each a sentence; logged too
+};
+
+inline constexpr std::size_t k_listed_compressed = 20;
 
 LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion,
                          const RunContext& context);

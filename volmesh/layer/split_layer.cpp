@@ -112,8 +112,8 @@ bool is_proven(const FillBoundary& boundary, const TetraResult& tets, const RunC
 
 }  // namespace
 
-SplitLayer split_layer(const LayerBase& base, const Envelope& envelope, const TriMesh& outer, const VolumeMeshOptions& options, TetraResult& tets,
-                       const RunContext& context) {
+SplitLayer split_layer(const LayerBase& base, const Envelope& envelope, const TriMesh& outer, const VolumeMeshOptions& options, const TrueSurface& true_surface,
+                       TetraResult& tets, const RunContext& context) {
   Part wall_part{base.wall, 0}, outer_part{outer, base.wall.n_triangles()};
   find_points(tets.splits, wall_part);
   find_points(tets.splits, outer_part);
@@ -121,11 +121,11 @@ SplitLayer split_layer(const LayerBase& base, const Envelope& envelope, const Tr
 
   SplitLayer layer;
   auto wall = std::make_unique<TriMesh>(split_mesh(wall_part, tets.splits, node2vertex));
-  if (options.true_surface) {
+  if (true_surface) {
     parallel_for(context, wall_part.points.size(), [&](std::size_t i) {
       Point& p = wall->points[VertexId(base.wall.n_vertices() + i)];
       const Origin& origin = tets.splits.origins[wall_part.points[i]];
-      p = options.true_surface(p, wall_part.triangle(origin), origin.weights);
+      p = true_surface(p, wall_part.triangle(origin), origin.weights);
     });
   }
   auto split_outer = std::make_unique<TriMesh>(split_mesh(outer_part, tets.splits, node2vertex));

@@ -1,10 +1,23 @@
 // How well the wall's vertices see their faces: whether one growth direction can serve them all.
 #pragma once
 
+#include <array>
+#include <vector>
+
+#include "geom/base/error.h"
 #include "volmesh/envelope/layer_base.h"
-#include "volmesh/volume_mesh.h"
 
 namespace sterna::volmesh {
+
+inline constexpr std::array<double, 4> k_visibility_limits_deg = {30.0, 45.0, 60.0, 80.0};
+
+/// Visibility angle of a vertex: between the direction that sees the worst of its faces best and that face's normal, rad.
+struct VisibilityReport {
+  Column<VertexId, double> angle;
+  double max_angle = 0.0;
+  std::array<double, 4> share_above{};  ///< of the vertices, above k_visibility_limits_deg
+  std::vector<ErrorPlace> hardest;      ///< the worst ten above the first of these limits
+};
 
 VisibilityReport report_visibility(const LayerBase& base);
 

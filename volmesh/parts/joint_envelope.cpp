@@ -173,14 +173,14 @@ std::vector<WholePart> whole_parts(const Domain& domain, std::span<const PlacedP
   return whole;
 }
 
-Envelope joint_envelope(MeshingSite& site, std::span<const WholePart> parts, const RunContext& context) {
+Envelope joint_envelope(MeshingSite& site, std::span<const WholePart> parts, const PartEnvelopeMaker& make, const RunContext& context) {
   const Column<VertexId, std::uint32_t> group = groups_of(site.domain.wall, site.options.parts, parts);
   Envelope envelope;
   resize(envelope, site.domain.wall.n_vertices());
   for (const WholePart& whole : parts) {
     const PlacedPart& part = site.options.parts[whole.part];
     const PartEnvelopeTask task = task_of(site, whole);
-    const PartEnvelope own = site.options.part_envelope ? site.options.part_envelope(task, context) : part_envelope(task, context);
+    const PartEnvelope own = make ? make(task, context) : part_envelope(task, context);
     for (const VertexId v : part.own->points.ids())
       take(own.envelope, v, part.placement, envelope, VertexId(static_cast<std::uint64_t>(whole.first_vertex + v.index())));
   }

@@ -5,13 +5,12 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "geom/base/run_context.h"
-#include "geom/base/schema.h"
 #include "geom/mesh/tri_mesh.h"
+#include "volmesh/case/end_options.h"
 #include "volmesh/envelope/constraint.h"
 
 namespace sterna::volmesh {
@@ -28,12 +27,6 @@ struct EndRegion {
   /// Longest edge wanted at a place, metres; empty: as long as the growth from the loops allows.
   std::function<double(const Point&)> size;
   std::string name;  ///< of the patch, for messages
-};
-
-struct EndOptions {
-  double size_growth = 1.3;                            ///< ratio of the edges of neighbouring triangles away from the loops
-  double min_angle = 25.0 * std::numbers::pi / 180.0;  ///< rad: goal; smaller ones stay where loops force them
-  int max_triangles = 20'000'000;
 };
 
 struct EndTriangles {
@@ -57,23 +50,3 @@ struct EndTriangles {
 EndTriangles triangulate_end(const EndRegion& region, const EndOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh
-
-namespace sterna {
-
-template <>
-struct Schema<volmesh::EndOptions> {
-  using O = volmesh::EndOptions;
-  static constexpr std::string_view stage = "ends";
-  static constexpr std::array fields = {
-      Field<O>{.name = "ends_growth",
-               .member = &O::size_growth,
-               .min = 1.02,
-               .max = 2.0,
-               .help = "ratio of the edges of neighbouring triangles on patches where layers end, away from the layers"},
-      Field<O>{
-          .name = "ends_min_angle", .member = &O::min_angle, .unit = Unit::radian, .min = 0.0, .max = 0.55, .help = "goal for the angles of these triangles"},
-      Field<O>{.name = "ends_max_triangles", .member = &O::max_triangles, .min = 1, .max = 1e9, .help = "of one patch; beyond it is an error"},
-  };
-};
-
-}  // namespace sterna

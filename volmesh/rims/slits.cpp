@@ -8,6 +8,7 @@
 #include "geom/base/error.h"
 #include "geom/math/intersect.h"
 #include "volmesh/domain/disc_plane.h"
+#include "volmesh/domain/disc_sheets.h"
 
 namespace sterna::volmesh {
 namespace {

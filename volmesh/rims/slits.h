@@ -6,9 +6,9 @@
 #include <functional>
 #include <vector>
 
+#include "geom/mesh/hybrid_mesh.h"
 #include "volmesh/domain/cut_discs.h"
 #include "volmesh/domain/domain_parts.h"
-#include "volmesh/layer/assemble.h"
 #include "volmesh/rims/close_ends.h"
 #include "volmesh/rims/end_surface.h"
 
@@ -31,6 +31,12 @@ void add_slits(const TriMesh& boundary, const DiscCuts& cuts, const std::vector<
 /// \throws as close_ends()
 void close_slits(const Domain& domain, const LayerBase& base, const EnvelopeShape& envelope, const std::vector<ActuatorDisc>& discs, const SlitOptions& options,
                  const RunContext& context, ClosedOuter& outer);
+
+/// An edge between two lines at which columns end on a patch, as the base triangle has it.
+struct LayerSide {
+  std::uint32_t from = 0, to = 0;  ///< lines
+  PatchId patch;                   ///< of the outer boundary
+};
 
 /// Where columns end on patches without layers: at rims of the wall, and at outlines of discs on both sides.
 std::vector<LayerSide> layer_sides(const Domain& domain);

@@ -6,17 +6,12 @@
 #include <vector>
 
 #include "geom/base/run_context.h"
-#include "geom/base/schema.h"
+#include "volmesh/case/size_options.h"
+#include "volmesh/case/size_sources.h"
 #include "volmesh/tetra/size_field_view.h"
-#include "volmesh/tetra/size_sources.h"
 #include "volmesh/tetra/tetra.h"
 
 namespace sterna::volmesh {
-
-struct SizeFieldOptions {
-  double size_growth = 1.3;
-  double size_max = k_automatic;
-};
 
 /// h(x) = min over boundary vertices and sources of (their size + (growth - 1) * distance), so that each cell is at most `growth` times its neighbour nearer to
 /// the source; kept as an octree with values at the corners of its leaves, whose edges are at most twice the size at their centres. The size of a boundary
@@ -46,26 +41,3 @@ class SizeField {
 SizeField build_size_field(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh
-
-namespace sterna {
-
-template <>
-struct Schema<volmesh::SizeFieldOptions> {
-  using O = volmesh::SizeFieldOptions;
-  static constexpr std::string_view stage = "size";
-  static constexpr std::array fields = {
-      Field<O>{.name = "size_growth",
-               .member = &O::size_growth,
-               .min = 1.02,
-               .max = 2.0,
-               .help = "largest ratio of the sizes of neighbouring tetrahedra away from boundary and sources"},
-      Field<O>{.name = "size_max",
-               .member = &O::size_max,
-               .unit = Unit::metre,
-               .min = 1e-12,
-               .help = "longest edge of tetrahedra in the volume",
-               .automatic = "no limit"},
-  };
-};
-
-}  // namespace sterna

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "geom/base/run_context.h"
-#include "volmesh/tetra/size_sources.h"
+#include "volmesh/case/size_sources.h"
 #include "volmesh/tetra/tetra.h"
 
 namespace sterna::volmesh {

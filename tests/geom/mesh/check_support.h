@@ -25,7 +25,7 @@ inline void move_points(HybridMesh& mesh, double scale, const Vec3& offset) {
 
 inline double distance_to_first(const CheckReport& report, Violation violation, const Point& place) {
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Finding& finding : report.findings)
+  for (const CheckFinding& finding : report.findings)
     if (finding.violation == violation) nearest = std::min(nearest, distance(finding.position, place));
   return nearest;
 }

@@ -1,5 +1,5 @@
 // Actuator discs: their triangles, their two sides, and the mesh around them.
-#include "volmesh/domain/actuator_disc.h"
+#include "volmesh/domain/disc_sheets.h"
 #include "tests/support/error_of.h"
 
 #include <gmock/gmock.h>

@@ -203,8 +203,8 @@ TEST(PeriodicDomain, StepsGiveTheSameMeshForAnyNumberOfThreads) {
   const VolumeMeshResult whole = volume_mesh(surface, options, k_context);
   for (const int threads : {1, 7}) {
     const RunContext context({.threads = threads});
-    const EnvelopeStage envelope = make_envelope(surface, options, context);
-    const VolumeMeshResult steps = finish_mesh(surface, make_tetrahedra(surface, envelope, options, context), options, context);
+    const EnvelopeStage envelope = make_envelope(surface, options, {}, context);
+    const VolumeMeshResult steps = finish_mesh(surface, make_tetrahedra(surface, envelope, options, {}, context), options, context);
     EXPECT_EQ(steps.mesh.points, whole.mesh.points);
     EXPECT_EQ(steps.mesh.tetrahedra, whole.mesh.tetrahedra);
     ASSERT_EQ(steps.mesh.periodic.size(), 1u);

@@ -201,7 +201,8 @@ TEST(DiscOnWall, NacelleBesideAHalfBody) {
   const VolumeMeshResult result = volume_mesh(wall, options, k_context);
   expect_disc(result, disc, hub_radius(-0.7), 0.9);
   EXPECT_FALSE(result.mesh.layers.is_uniform());
-  const VolumeMeshResult by_hand = finish_mesh(wall, make_tetrahedra(wall, make_envelope(wall, options, k_context), options, k_context), options, k_context);
+  const VolumeMeshResult by_hand =
+      finish_mesh(wall, make_tetrahedra(wall, make_envelope(wall, options, {}, k_context), options, {}, k_context), options, k_context);
   EXPECT_EQ(result.mesh.points, by_hand.mesh.points);
 }
 
@@ -212,7 +213,8 @@ TEST(DiscOnWall, SameBytesWithOneThreadAndByStages) {
   const VolumeMeshResult two = volume_mesh(wall, options, k_context), one = volume_mesh(wall, options, RunContext({.threads = 1}));
   EXPECT_EQ(two.mesh.points, one.mesh.points);
   EXPECT_EQ(two.mesh.tetrahedra, one.mesh.tetrahedra);
-  const VolumeMeshResult by_hand = finish_mesh(wall, make_tetrahedra(wall, make_envelope(wall, options, k_context), options, k_context), options, k_context);
+  const VolumeMeshResult by_hand =
+      finish_mesh(wall, make_tetrahedra(wall, make_envelope(wall, options, {}, k_context), options, {}, k_context), options, k_context);
   EXPECT_EQ(two.mesh.points, by_hand.mesh.points);
   EXPECT_EQ(two.mesh.tetrahedra, by_hand.mesh.tetrahedra);
   EXPECT_EQ(two.mesh.layers.base, by_hand.mesh.layers.base);

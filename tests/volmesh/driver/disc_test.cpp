@@ -56,7 +56,7 @@ TEST(Discs, StagesByHandGiveTheSameMesh) {
   const TriMesh wall = test::sphere(6);
   const VolumeMeshOptions options = options_with({{.name = "prop", .center = {-1.7, 0, 0}, .radius = 1.2}});
   const VolumeMeshResult whole = volume_mesh(wall, options, k_context);
-  FilledStage filled = make_tetrahedra(wall, make_envelope(wall, options, k_context), options, k_context);
+  FilledStage filled = make_tetrahedra(wall, make_envelope(wall, options, {}, k_context), options, {}, k_context);
   const VolumeMeshResult by_hand = finish_mesh(wall, std::move(filled), options, k_context);
   EXPECT_EQ(whole.mesh.points, by_hand.mesh.points);
   EXPECT_EQ(whole.mesh.tetrahedra, by_hand.mesh.tetrahedra);

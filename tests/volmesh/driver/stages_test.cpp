@@ -40,14 +40,14 @@ void expect_continued(const TriMesh& wall, const VolumeMeshOptions& options) {
   EnvelopeStage envelope;
   FilledStage filled;
   const VolumeMeshResult whole =
-      volume_mesh(wall, options,
+      volume_mesh(wall, options, {},
                   {.enveloped = [&](const EnvelopeStage& stage) { envelope = stage; }, .filled = [&](const FilledStage& stage) { filled = stage; }}, k_context);
   EXPECT_EQ(filled.split_wall.has_value(), whole.n_split_triangles > 0);
   expect_same(finish_mesh(wall, filled, options, k_context), whole);
-  const FilledStage again = make_tetrahedra(wall, envelope, options, k_context);
+  const FilledStage again = make_tetrahedra(wall, envelope, options, {}, k_context);
   EXPECT_EQ(again.tets.tetrahedra, filled.tets.tetrahedra);
   expect_same(finish_mesh(wall, again, options, k_context), whole);
-  const EnvelopeStage alone = make_envelope(wall, options, k_context);
+  const EnvelopeStage alone = make_envelope(wall, options, {}, k_context);
   EXPECT_EQ(alone.envelope.height, envelope.envelope.height);
   EXPECT_EQ(alone.envelope.direction, envelope.envelope.direction);
 }
@@ -69,7 +69,7 @@ TEST(Stages, ContinuedMeshesAreTheSameAfterSplits) {
 TEST(Stages, PartsOfDifferentRunsAreRefused) {
   const TriMesh wall = test::cube(3), other = test::cube(2);
   const VolumeMeshOptions options = options_for(wall);
-  const EnvelopeStage envelope = make_envelope(wall, options, k_context);
+  const EnvelopeStage envelope = make_envelope(wall, options, {}, k_context);
   const auto expect_refused = [](const std::string& problem, const auto& call) {
     try {
       call();
@@ -79,8 +79,8 @@ TEST(Stages, PartsOfDifferentRunsAreRefused) {
       EXPECT_NE(std::string(error.what()).find(problem), std::string::npos) << error.what();
     }
   };
-  expect_refused("vertices of the envelope", [&] { make_tetrahedra(other, envelope, options, k_context); });
-  const FilledStage filled = make_tetrahedra(wall, envelope, options, k_context);
+  expect_refused("vertices of the envelope", [&] { make_tetrahedra(other, envelope, options, {}, k_context); });
+  const FilledStage filled = make_tetrahedra(wall, envelope, options, {}, k_context);
   expect_refused("vertices of the envelope", [&] { finish_mesh(other, filled, options, k_context); });
   FilledStage wrong = filled;
   wrong.layers.layers.base[0] = {0, 1, 1};

@@ -6,7 +6,7 @@
 
 #include "geom/math/measures.h"
 #include "tests/support/shapes.h"
-#include "volmesh/volume_mesh.h"
+#include "volmesh/stages.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -50,8 +50,9 @@ TEST(SplitLayer, NewVerticesOfASphereAreOnTheSphere) {
   const TriMesh wall = test::sphere(4);
   VolumeMeshOptions options = with_splits(wall);
   options.sources.push_back({.kind = SourceKind::point, .from = {1.5, 0.1, 0.2}, .size = 0.1});  // the sphere's own triangles need no splits
-  options.true_surface = [](const Point& p, TriangleId, const std::array<double, 3>&) { return p / norm(p); };
-  const VolumeMeshResult result = volume_mesh(wall, options, RunContext({.threads = 2}));
+  const Makers makers{
+      .part_envelope = {}, .wall_envelope = {}, .true_surface = [](const Point& p, TriangleId, const std::array<double, 3>&) { return p / norm(p); }};
+  const VolumeMeshResult result = volume_mesh(wall, options, makers, {}, RunContext({.threads = 2}));
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   EXPECT_GT(result.n_split_triangles, 0);
   EXPECT_GT(result.mesh.layers.n_lines(), wall.n_vertices());

@@ -58,16 +58,17 @@ Scene body_at(const Transform& placement) {
 
 /// The envelope of the only part alone, as the driver asks for it.
 PartEnvelope alone(const Scene& scene, PartEnvelopeTask& task) {
-  VolumeMeshOptions options = scene.options();
+  const VolumeMeshOptions options = scene.options();
   PartEnvelope made;
   int n_calls = 0;
-  options.part_envelope = [&](const PartEnvelopeTask& asked, const RunContext& context) {
+  Makers makers;
+  makers.part_envelope = [&](const PartEnvelopeTask& asked, const RunContext& context) {
     ++n_calls;
     task = asked;
     made = part_envelope(asked, context);
     return made;
   };
-  make_envelope(scene.surface, options, RunContext({.threads = 2}));
+  make_envelope(scene.surface, options, makers, RunContext({.threads = 2}));
   EXPECT_EQ(n_calls, 1);
   return made;
 }
@@ -83,7 +84,7 @@ TEST(PlacedParts, TheEnvelopeOfAPartIsTheSameAtEveryAttitude) {
   EXPECT_EQ(one.envelope.height.raw(), other.envelope.height.raw());
   for (const Transform& placement : {Transform{}, k_pitch, k_yaw}) {
     const Scene scene = body_at(placement);
-    const EnvelopeStage stage = make_envelope(scene.surface, scene.options(), RunContext({.threads = 2}));
+    const EnvelopeStage stage = make_envelope(scene.surface, scene.options(), {}, RunContext({.threads = 2}));
     EXPECT_EQ(stage.envelope.height.raw(), one.envelope.height.raw());  // the only wall with layers, and nothing is near
     for (const VertexId v : stage.envelope.direction.ids()) {
       const Vec3 moved = placement == Transform{} ? one.envelope.direction[v] : placement.vector(one.envelope.direction[v]);
@@ -108,7 +109,8 @@ TEST(PlacedParts, NearAWallOfTheTunnelLayersAreLowerAndValid) {
   const Transform near = translation({0, 0, -2.0 + std::sqrt(0.5) + 0.03}) * rotation({}, {1, 0, 0}, std::atan(1.0));
   const Scene far = body_at(k_pitch), scene = body_at(near);
   const RunContext context({.threads = 2});
-  EXPECT_LT(least_height(make_envelope(scene.surface, scene.options(), context)), 0.5 * least_height(make_envelope(far.surface, far.options(), context)));
+  EXPECT_LT(least_height(make_envelope(scene.surface, scene.options(), {}, context)),
+            0.5 * least_height(make_envelope(far.surface, far.options(), {}, context)));
   const VolumeMeshResult result = volume_mesh(scene.surface, scene.options(), context);
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
 }
@@ -117,7 +119,7 @@ TEST(PlacedParts, PartsNearEachOtherShareTheGap) {
   Scene scene;
   scene.add(body(), translation({-0.55, 0, 0}));
   scene.add(body(), translation({0.55, 0.1, 0.1}) * rotation({}, {0, 0, 1}, std::atan(1.0) * 4.0));  // 0.1 m apart
-  const EnvelopeStage stage = make_envelope(scene.surface, scene.options(), RunContext({.threads = 2}));
+  const EnvelopeStage stage = make_envelope(scene.surface, scene.options(), {}, RunContext({.threads = 2}));
   EXPECT_LT(least_height(stage), 0.06);
   EXPECT_GT(least_height(stage), 0.02);
   const VolumeMeshResult result = volume_mesh(scene.surface, scene.options(), RunContext({.threads = 2}));
@@ -137,9 +139,9 @@ TEST(PlacedParts, WallsAroundThemHaveLayersToo) {
 TEST(PlacedParts, ThreadsDoNotMatter) {
   Scene scene = body_at(translation({0, 0, -2.0 + 0.5 + 0.06}) * rotation({}, {1, 0, 0}, 0.02));
   scene.add(test::sphere(6, 0.3), translation({0, 0, 0.5}) * k_pitch);
-  const EnvelopeStage one = make_envelope(scene.surface, scene.options(), RunContext({.threads = 1}));
+  const EnvelopeStage one = make_envelope(scene.surface, scene.options(), {}, RunContext({.threads = 1}));
   for (const int threads : {2, 7}) {
-    const EnvelopeStage many = make_envelope(scene.surface, scene.options(), RunContext({.threads = threads}));
+    const EnvelopeStage many = make_envelope(scene.surface, scene.options(), {}, RunContext({.threads = threads}));
     EXPECT_EQ(one.envelope.height.raw(), many.envelope.height.raw());
     EXPECT_EQ(one.envelope.direction.raw(), many.envelope.direction.raw());
   }
@@ -148,13 +150,14 @@ TEST(PlacedParts, ThreadsDoNotMatter) {
 TEST(PlacedParts, APartThatIsNotWhereItsPlacementSaysIsMeshedInPlace) {
   Scene scene = body_at(k_pitch);
   scene.surface.points[VertexId(scene.parts.front().first_vertex)].x += 1e-9;
-  VolumeMeshOptions options = scene.options();
+  const VolumeMeshOptions options = scene.options();
   bool is_called = false;
-  options.part_envelope = [&](const PartEnvelopeTask& asked, const RunContext& context) {
+  Makers makers;
+  makers.part_envelope = [&](const PartEnvelopeTask& asked, const RunContext& context) {
     is_called = true;
     return part_envelope(asked, context);
   };
-  make_envelope(scene.surface, options, RunContext({.threads = 2}));
+  make_envelope(scene.surface, options, makers, RunContext({.threads = 2}));
   EXPECT_FALSE(is_called);
 }
 

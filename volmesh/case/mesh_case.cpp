@@ -1,4 +1,4 @@
-#include "volmesh/volume_mesh.h"
+#include "volmesh/case/mesh_case.h"
 
 #include <algorithm>
 

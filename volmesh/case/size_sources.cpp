@@ -1,4 +1,4 @@
-#include "volmesh/tetra/size_sources.h"
+#include "volmesh/case/size_sources.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // Rings of vertices, each as far from the next as edges are long there, turned by half an edge against each other; between two rings, triangles that advance on
 // the ring whose next vertex comes first by its angle.
 
-#include "volmesh/domain/actuator_disc.h"
+#include "volmesh/domain/disc_sheets.h"
 
 #include <algorithm>
 #include <cmath>

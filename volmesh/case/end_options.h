@@ -1,0 +1,36 @@
+// Options of the triangles on patches where layers end (rims/end_surface.h).
+#pragma once
+
+#include <numbers>
+
+#include "geom/base/schema.h"
+
+namespace sterna::volmesh {
+
+struct EndOptions {
+  double size_growth = 1.3;                            ///< ratio of the edges of neighbouring triangles away from the loops
+  double min_angle = 25.0 * std::numbers::pi / 180.0;  ///< rad: goal; smaller ones stay where loops force them
+  int max_triangles = 20'000'000;
+};
+
+}  // namespace sterna::volmesh
+
+namespace sterna {
+
+template <>
+struct Schema<volmesh::EndOptions> {
+  using O = volmesh::EndOptions;
+  static constexpr std::string_view stage = "ends";
+  static constexpr std::array fields = {
+      Field<O>{.name = "ends_growth",
+               .member = &O::size_growth,
+               .min = 1.02,
+               .max = 2.0,
+               .help = "ratio of the edges of neighbouring triangles on patches where layers end, away from the layers"},
+      Field<O>{
+          .name = "ends_min_angle", .member = &O::min_angle, .unit = Unit::radian, .min = 0.0, .max = 0.55, .help = "goal for the angles of these triangles"},
+      Field<O>{.name = "ends_max_triangles", .member = &O::max_triangles, .min = 1, .max = 1e9, .help = "of one patch; beyond it is an error"},
+  };
+};
+
+}  // namespace sterna

@@ -1,0 +1,45 @@
+// Options of the improvement of tetrahedra (improve/improve.h).
+#pragma once
+
+#include <numbers>
+
+#include "geom/base/schema.h"
+
+namespace sterna::volmesh {
+
+struct ImproveOptions {
+  double improve_min_angle = 12.0 * std::numbers::pi / 180.0;
+  double improve_max_angle = 160.0 * std::numbers::pi / 180.0;
+  int improve_rounds = 30;
+};
+
+}  // namespace sterna::volmesh
+
+namespace sterna {
+
+template <>
+struct Schema<volmesh::ImproveOptions> {
+  using O = volmesh::ImproveOptions;
+  static constexpr std::string_view stage = "improve";
+  static constexpr std::array fields = {
+      Field<O>{.name = "improve_min_angle",
+               .member = &O::improve_min_angle,
+               .unit = Unit::radian,
+               .min = 0.0,
+               .max = 0.6,
+               .help = "tetrahedra with a smaller dihedral angle are worked on"},
+      Field<O>{.name = "improve_max_angle",
+               .member = &O::improve_max_angle,
+               .unit = Unit::radian,
+               .min = 2.0,
+               .max = 3.14,
+               .help = "tetrahedra with a larger dihedral angle are worked on"},
+      Field<O>{.name = "improve_rounds",
+               .member = &O::improve_rounds,
+               .min = 0,
+               .max = 1000,
+               .help = "passes over the bad tetrahedra; 0 leaves the mesh as the engine made it"},
+  };
+};
+
+}  // namespace sterna

@@ -1,0 +1,93 @@
+#include "volmesh/layer/lay_out.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "volmesh/domain/disc_sheets.h"
+#include "volmesh/envelope/periodic.h"
+#include "volmesh/envelope/retract.h"
+#include "volmesh/envelope/untangle.h"
+#include "volmesh/layer/extrude.h"
+#include "volmesh/rims/close_ends.h"
+#include "volmesh/rims/slits.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr int k_max_clear_rounds = 10;
+
+/// Extrusion may lower heights, and lowering may bring surfaces together that were clear before: alternate until neither changes anything. What still
+/// changes after some rounds collapses, so it ends. \pre, \post envelope valid and clear.
+Extrusion extrude_clear_of_collisions(const LayerBase& base, const VolumeMeshOptions& options, Collider& collider, Envelope& envelope,
+                                      const RunContext& context) {
+  const EnvelopeScale scale = scale_of(base, options.envelope);
+  Extruder extruder(base, options.envelope, options.prisms, context);
+  for (int round = 0;; ++round) {
+    const EnvelopeShape before = envelope;
+    extruder.extrude(envelope);
+    const std::vector<VertexId> repaired = difference(before, envelope, context).vertices;
+    const bool is_equal = equalise_partners(base, options.envelope, &collider, envelope, context).empty();
+    if ((repaired.empty() || !retract_collisions(base, options.envelope, collider, envelope, context, &repaired)) && is_equal) return extruder.take();
+    if (round < k_max_clear_rounds) continue;
+    std::vector<VertexId> disturbed = difference(before, envelope, context).vertices;
+    for (const VertexId v : disturbed) lower(envelope, v, 0.0, HeightLimit::prism, scale);
+    unwarp(base, options.envelope, HeightLimit::prism, envelope, context, &disturbed);
+    disturbed = difference(before, envelope, context).vertices;
+    retract_collisions(base, options.envelope, collider, envelope, context, &disturbed);
+  }
+}
+
+ClosedOuter closed_around(const MeshingSite& site, const Envelope& envelope, const RunContext& context) {
+  ClosedOuter outer = close_ends(site.domain, site.base, envelope, {site.options.ends, end_sizes(site.options)}, context);
+  std::vector<std::size_t> on_walls;
+  for (const DiscSlit& slit : site.domain.slits) on_walls.push_back(slit.disc);
+  outer.mesh = with_second_sides(std::move(outer.mesh), free_discs(site.options.discs, on_walls));
+  outer.line.resize(outer.mesh.n_vertices());
+  close_slits(site.domain, site.base, envelope, site.options.discs, {site.options.size.size_growth, site.options.ends, end_sizes(site.options)}, context,
+              outer);
+  return outer;
+}
+
+}  // namespace
+
+LaidLayer lay_out(MeshingSite& site, Envelope& envelope, const RunContext& context) {
+  LaidLayer laid;
+  Extrusion extrusion;
+  {
+    const StageTimer timer(context, "prisms");
+    extrusion = extrude_clear_of_collisions(site.base, site.options, site.collider, envelope, context);
+  }
+  {
+    const StageTimer timer(context, "certificate");
+    laid.certificate = certify_envelope(site.base, site.collider, envelope, context);
+    require_proved(laid.certificate);
+  }
+  laid.report = report_layer(site.base, site.options.envelope, envelope, extrusion, context);
+  laid.curving_shares = extrusion.curving_shares;
+  const ClosedOuter outer = closed_around(site, envelope, context);
+  open_slits(site.domain, extrusion.layers, extrusion.points);
+  laid.boundary = fill_boundary(site.base, extrusion, outer);
+  laid.mesh = assemble_layers(site.base, std::move(extrusion), outer, layer_sides(site.domain));
+  laid.mesh.request = layer_request(site.base, site.options.envelope, envelope);
+  open_slits(site.domain, laid.mesh.request);
+  const std::size_t n_wall_patches = site.base.wall.patches.size();
+  for (const PeriodicEnds& sides : site.domain.periodic)
+    laid.mesh.periodic.push_back({PatchId(n_wall_patches + sides.first.index()), PatchId(n_wall_patches + sides.second.index()), sides.translation});
+  return laid;
+}
+
+LayerProof prove_layer(const HybridMesh& mesh, const RunContext& context) {
+  return {certify_layer(mesh.layers, mesh.points.raw(), context), check_ahead(mesh, {}, context)};
+}
+
+void require_proved_cells(const LayerCertificate& cells, EnvelopeCertificate& certificate) {
+  certificate.n_layer_cells = cells.n_cells;
+  certificate.n_invalid_layer_cells = cells.n_cells - cells.n_proved;
+  if (cells.worst_column >= 0)
+    certificate.worst_layer_cell = {cells.min_quality, cells.worst_place,
+                                    "layer " + std::to_string(cells.worst_layer) + " on wall triangle " + std::to_string(cells.worst_column)};
+  require_proved(certificate);
+}
+
+}  // namespace sterna::volmesh

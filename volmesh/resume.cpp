@@ -1,0 +1,112 @@
+// Continuing a volume mesh from the values between its steps: everything that they hold is proved again.
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "geom/base/error.h"
+#include "volmesh/domain/disc_sheets.h"
+#include "volmesh/layer/lay_out.h"
+#include "volmesh/rims/slits.h"
+#include "volmesh/stages.h"
+#include "volmesh/tetra/preflight.h"
+#include "volmesh/tetra/verify.h"
+
+namespace sterna::volmesh {
+namespace {
+
+void require_same(std::size_t found, std::size_t expected, const std::string& what) {
+  if (found != expected)
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "continuing a volume mesh",
+                 .problem = "found " + std::to_string(found) + " " + what + ", expected " + std::to_string(expected),
+                 .hint = "surface, envelope, layers and tetrahedra must come from one run"});
+}
+
+/// That the layer stands on the wall, and that nothing but the outer boundary is beside it.
+void require_layers_on(const Domain& domain, const HybridMesh& layers) {
+  const TriMesh& wall = domain.wall;
+  const bool has_rims = domain.has_rims();
+  require_same(layers.layers.n_lines(), wall.n_vertices() + domain.slit_vertices.size(), "lines of the layer");
+  require_same(layers.layers.n_columns(), wall.n_triangles(), "columns of the layer");
+  std::size_t n_wrong = 0, n_layer_nodes = 0;
+  for (const TriangleId t : wall.triangles.ids())
+    for (std::size_t k = 0; k < 3; ++k) n_wrong += layers.layers.base[t.index()][k] != line_under(domain, t, k) ? 1 : 0;
+  for (std::uint32_t line = 0; line < layers.layers.n_lines(); ++line) {
+    const VertexId under = line < wall.n_vertices() ? VertexId(line) : domain.slit_vertices[line - wall.n_vertices()];
+    n_wrong += layers.layers.first_node[line] != n_layer_nodes || layers.points[NodeId(n_layer_nodes)] != wall.points[under] ? 1 : 0;
+    n_layer_nodes = layers.layers.top(line).index() + 1;
+  }
+  for (std::size_t t = wall.n_triangles(); t < layers.boundary_triangles.size(); ++t)
+    for (const NodeId node : layers.boundary_triangles[t].nodes) n_wrong += !has_rims && node.index() < n_layer_nodes ? 1 : 0;
+  require_same(n_wrong, 0, "lines, columns and outer triangles of the layer that are not where wall and outer boundary are");
+  require_same(
+      layers.prisms.size() + layers.pyramids.size() + layers.hexahedra.size() + layers.tetrahedra.size() + (has_rims ? 0 : layers.boundary_quads.size()), 0,
+      "cells and quadrilaterals beside columns");
+}
+
+/// What make_tetrahedra() knew of the layer when it ended.
+LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& domain, FilledStage& filled, const VolumeMeshOptions& options,
+                       const RunContext& context) {
+  require_clear_input(collider, context);
+  LayerKnowledge knowledge;
+  knowledge.certificate = certify_envelope(base, collider, filled.envelope.envelope, context);
+  EnvelopeOptions envelope_options = options.envelope;
+  envelope_options.feature_angle = filled.envelope.feature_angle;
+  Extrusion extrusion{.layers = std::move(filled.layers.layers),
+                      .points = std::move(filled.layers.points.raw()),
+                      .curving_shares = filled.curving_shares};  // lent: no copy of a large mesh
+  knowledge.report = report_layer(base, envelope_options, filled.envelope.envelope, extrusion, context);
+  filled.layers.layers = std::move(extrusion.layers);
+  filled.layers.points.raw() = std::move(extrusion.points);
+  filled.layers.request = layer_request(base, envelope_options, filled.envelope.envelope);
+  open_slits(domain, filled.layers.request);
+  if (domain.has_rims()) {
+    const FillBoundary boundary = boundary_of(filled.layers);
+    TetraBoundary for_engines{.points = boundary.points,
+                              .triangles = boundary.triangles,
+                              .hole_points = {},
+                              .patch_names = boundary.patch_names,
+                              .triangle_patch = boundary.triangle_patch};
+    for_engines.has_sheets = !options.discs.empty();
+    judge(preflight(for_engines, {}, context), for_engines, context);
+  }
+  LayerProof proof = prove_layer(filled.layers, context);
+  require_proved_cells(proof.cells, knowledge.certificate);
+  knowledge.check.emplace(std::move(proof.check));
+  return knowledge;
+}
+
+}  // namespace
+
+EnvelopeStage make_envelope(const TriMesh& wall, const VolumeMeshOptions& options, const Makers& makers, const RunContext& context) {
+  MeshingSite site(wall, options, context);
+  return make_envelope(site, makers, context);
+}
+
+FilledStage make_tetrahedra(const TriMesh& surface, const EnvelopeStage& envelope, const VolumeMeshOptions& user_options, const Makers& makers,
+                            const RunContext& context) {
+  VolumeMeshOptions options = user_options;
+  options.envelope.feature_angle = envelope.feature_angle;
+  MeshingSite site(surface, options, context);
+  require_same(envelope.envelope.height.size(), site.base.wall.n_vertices(), "vertices of the envelope");
+  LayerKnowledge knowledge;
+  return make_tetrahedra(site, envelope, makers, knowledge, context);
+}
+
+VolumeMeshResult finish_mesh(const TriMesh& surface, FilledStage filled, const VolumeMeshOptions& user_options, const RunContext& context) {
+  const VolumeMeshOptions options = validated(surface, user_options, context);
+  Domain domain;
+  if (filled.split_wall) domain.wall = *filled.split_wall;
+  else domain = domain_around(surface, options, context);
+  require_same(filled.envelope.envelope.height.size(), domain.wall.n_vertices(), "vertices of the envelope");
+  require_layers_on(domain, filled.layers);
+  if (!domain.has_rims()) domain.outer = one_sided(outer_of(filled.layers, domain.wall.patches.size()).mesh);
+  const LayerBase base = base_of(domain, options, context);
+  Collider collider(base, &domain.outer, context, &domain.links);
+  LayerKnowledge knowledge = reprove(base, collider, domain, filled, options, context);
+  const FillBoundary boundary = boundary_of(filled.layers);
+  verify_tetrahedra({.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}}, filled.tets, context);
+  return finish_mesh(std::move(filled), std::move(knowledge), options.improve, context);
+}
+
+}  // namespace sterna::volmesh

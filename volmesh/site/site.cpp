@@ -1,0 +1,109 @@
+#include "volmesh/site/site.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <utility>
+
+#include "geom/base/error.h"
+#include "geom/base/glob.h"
+#include "geom/math/measures.h"
+#include "volmesh/case/layer_choice.h"
+#include "volmesh/domain/complete_boundary.h"
+#include "volmesh/domain/cut_discs.h"
+#include "volmesh/domain/disc_sheets.h"
+#include "volmesh/domain/periodic_sides.h"
+#include "volmesh/envelope/certificate.h"
+#include "volmesh/envelope/feature_angle.h"
+#include "volmesh/envelope/patch_layers.h"
+#include "volmesh/envelope/periodic.h"
+#include "volmesh/rims/slits.h"
+
+namespace sterna::volmesh {
+
+VolumeMeshOptions validated(const TriMesh& wall, VolumeMeshOptions options, const RunContext& context) {
+  require_options(required_options_of(options), "volume_mesh");
+  if (wall.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = "volume_mesh", .problem = "the wall has no triangles"});
+  return effective_options(options, context);
+}
+
+std::function<double(const Point&)> end_sizes(const VolumeMeshOptions& options) {
+  const bool has_max = !is_automatic(options.size.size_max);
+  if (options.sources.empty() && !has_max) return {};
+  return [&options, has_max](const Point& p) {
+    const double slope = options.size.size_growth - 1.0;
+    double h = has_max ? options.size.size_max : 1e300;
+    for (const SizeSource& source : options.sources) {
+      h = std::min(h, size_of(source, p, slope));
+      for (std::size_t i = 0; i < source.points.size(); ++i) h = std::min(h, source.sizes[i] + slope * distance(source.points[i], p));
+    }
+    return h;
+  };
+}
+
+std::vector<ActuatorDisc> free_discs(const std::vector<ActuatorDisc>& discs, const std::vector<std::size_t>& on_walls) {
+  std::vector<ActuatorDisc> free;
+  for (std::size_t i = 0; i < discs.size(); ++i)
+    if (std::ranges::find(on_walls, i) == on_walls.end()) free.push_back(discs[i]);
+  return free;
+}
+
+Domain domain_around(const TriMesh& surface, const VolumeMeshOptions& options, const RunContext& context) {
+  const StageTimer timer(context, "domain");
+  TriMesh given = surface;
+  std::vector<PatchRule> of_given;  // the others are meant for what is added
+  std::ranges::copy_if(options.patches, std::back_inserter(of_given), [&](const PatchRule& rule) {
+    return std::ranges::any_of(given.patches, [&](const Patch& patch) { return matches_glob(patch.name, rule.names); });
+  });
+  apply_patch_kinds(given, of_given);
+  TriMesh boundary = complete_boundary(given, {options.farfield, options.farfield_surface}, context);
+  apply_patch_kinds(boundary, options.patches);
+  const Column<PatchId, PatchLayers> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
+  Column<PatchId, std::uint8_t> has_layer(boundary.patches.size(), 0);
+  for (const PatchId p : layers.ids()) has_layer[p] = layers[p].carries_layers() ? 1 : 0;
+  require_own_names(options.discs, boundary.patches, {});
+  const DiscCuts cuts = cut_discs(boundary, has_layer, options.discs, context);
+  const std::vector<PeriodicPatches> periodic = join_periodic_sides(boundary, options.periodic, context);
+  Domain domain = split_domain(boundary, has_layer, context, periodic);
+  if (domain.wall.n_triangles() == 0)
+    throw Error({.code = ErrorCode::empty_surface,
+                 .attempted = "volume_mesh",
+                 .problem = "no patch carries a layer",
+                 .hint = "at least one patch must be a wall with layers"});
+  std::vector<std::size_t> on_walls;
+  for (const CutDisc& cut : cuts.discs) on_walls.push_back(cut.disc);
+  domain.outer = with_discs(std::move(domain.outer), domain.wall, free_discs(options.discs, on_walls), options.size.size_growth, context);
+  if (!domain.links.empty()) {  // these discs share nothing with the wall
+    domain.links.line.resize(domain.outer.n_vertices());
+    domain.links.surface.resize(domain.outer.n_triangles(), -1);
+  }
+  add_slits(boundary, cuts, options.discs, options.size.size_growth, context, domain);
+  if (!cuts.sources.empty())
+    for (TriangleId& t : domain.wall2surface) t = cuts.sources[t];
+  return domain;
+}
+
+LayerBase base_of(const Domain& domain, const VolumeMeshOptions& options, const RunContext& context) {
+  LayerBase base(domain.wall, context, domain.constraints);
+  base.let_grow_alike(domain.partners);
+  base.demand = demand_of(base, options.envelope, options.patches, options.first_heights.get(), context);
+  return base;
+}
+
+MeshingSite::MeshingSite(const TriMesh& surface, const VolumeMeshOptions& user_options, const RunContext& context)
+    : options(validated(surface, user_options, context)),
+      given_envelope(options.envelope),
+      domain(domain_around(surface, options, context)),
+      base([&] {
+        const StageTimer timer(context, "topology");
+        return base_of(domain, options, context);
+      }()),
+      collider([&] {
+        options.envelope.feature_angle = decide_feature_angle(base, options.envelope, options.smooth_angle, context);
+        const StageTimer timer(context, "preflight");
+        Collider of_wall(base, &domain.outer, context, &domain.links);
+        require_clear_input(of_wall, context);
+        return of_wall;
+      }()) {}
+
+}  // namespace sterna::volmesh
