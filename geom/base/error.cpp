@@ -51,9 +51,22 @@ std::string_view to_string(ErrorCode code) {
   return "internal";
 }
 
+void ErrorInfo::add_place(const Vec3& position, std::string what) {
+  ++n_places;
+  if (places.size() < k_max_places) places.push_back({position, std::move(what)});
+}
+
 Error::Error(ErrorInfo info) : std::runtime_error(compose(info)), info_(std::make_shared<const ErrorInfo>(std::move(info))) {}
 
 std::int64_t Error::n_places() const { return std::max<std::int64_t>(info_->n_places, static_cast<std::int64_t>(info_->places.size())); }
+
+void throw_bad_argument(std::string_view attempted, std::string problem, std::vector<ErrorPlace> places, std::string hint) {
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = std::string(attempted),
+               .problem = std::move(problem),
+               .places = std::move(places),
+               .hint = std::move(hint)});
+}
 
 std::string format_point(const Vec3& p) {
   char buffer[96];

@@ -56,6 +56,9 @@ struct TroubleGeometry {
   bool empty() const { return triangles.empty() && edges.empty() && vertices.empty(); }
 };
 
+inline constexpr std::size_t k_max_places = 10;       ///< that a message names
+inline constexpr std::size_t k_max_geometry = 20000;  ///< triangles that a drawing of trouble has
+
 struct ErrorInfo {
   ErrorCode code = ErrorCode::internal;
   std::string attempted;           ///< "reading wing.stl", "filling the volume with tetrahedra"
@@ -64,6 +67,9 @@ struct ErrorInfo {
   std::int64_t n_places = 0;       ///< 0: as many as `places`
   std::string hint;                ///< what to try; may be empty
   TroubleGeometry geometry;
+
+  /// Counts a place; the first k_max_places are kept.
+  void add_place(const Vec3& position, std::string what);
 };
 
 /// what() is the whole text: "attempted: problem", then the places, then the hint.
@@ -77,6 +83,9 @@ class Error : public std::runtime_error {
  private:
   std::shared_ptr<const ErrorInfo> info_;
 };
+
+/// Error(bad_argument). For what has no place and no better code.
+[[noreturn]] void throw_bad_argument(std::string_view attempted, std::string problem, std::vector<ErrorPlace> places = {}, std::string hint = {});
 
 /// "(x, y, z)" with 6 significant digits, the spelling of coordinates in every message.
 std::string format_point(const Vec3& p);

@@ -33,8 +33,8 @@ constexpr double k_poor_angle = 0.21;
 /// cos of 1 degree: around an input vertex that may move, normals agree within it.
 constexpr double k_flat = 0.99985;
 
-using Vertex = std::uint32_t;
-using EdgeEnds = std::array<Vertex, 2>;
+using StripVertex = std::uint32_t;
+using EdgeEnds = std::array<StripVertex, 2>;
 
 /// An edge with what decides its turn.
 struct RankedEdge {
@@ -94,7 +94,7 @@ class StripRemesher {
     std::vector<std::uint32_t> solid(input.points.size(), k_none);
     std::vector<char> is_on_curve(input.points.size(), 0);
     for (std::size_t t = 0; t < input.triangles.size(); ++t)
-      for (const Vertex v : input.triangles[t].v) {
+      for (const StripVertex v : input.triangles[t].v) {
         if (solid[v] == k_none) solid[v] = input.solid[t];
         if (solid[v] != input.solid[t]) is_on_curve[v] = 1;
       }
@@ -102,12 +102,12 @@ class StripRemesher {
   }
 
   double length(const EdgeEnds& e) const { return distance(mesh_.points[e[0]], mesh_.points[e[1]]); }
-  bool may_change(Vertex v) const { return is_new_[v] || is_in_strip_[v]; }
+  bool may_change(StripVertex v) const { return is_new_[v] || is_in_strip_[v]; }
   bool is_touched(std::uint32_t t) const {
     const auto& v = mesh_.triangles[t].v;
     return may_change(v[0]) || may_change(v[1]) || may_change(v[2]);
   }
-  double tolerance(Vertex a, Vertex b) const { return options_.deviation * std::min(local_[a].longest, local_[b].longest); }
+  double tolerance(StripVertex a, StripVertex b) const { return options_.deviation * std::min(local_[a].longest, local_[b].longest); }
 
   /// Shortest paths along edges from the curve: lengths grow from the curve's, up to the input's own. Paths end beyond the strip's width.
   void measure_strip() {
@@ -115,10 +115,10 @@ class StripRemesher {
     local_ = base_;
     is_in_strip_.assign(n, 0);
     std::vector<double> way(n, std::numeric_limits<double>::infinity());
-    std::vector<Vertex> source(n, 0);
-    using Entry = std::pair<double, Vertex>;
+    std::vector<StripVertex> source(n, 0);
+    using Entry = std::pair<double, StripVertex>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    for (Vertex v = 0; v < n; ++v) {
+    for (StripVertex v = 0; v < n; ++v) {
       if (!curve_[v] || mesh_.star[v].empty()) continue;
       way[v] = 0.0;
       source[v] = v;
@@ -133,7 +133,7 @@ class StripRemesher {
       local_[v].longest = std::min(base_[v].longest, at_curve.longest + (options_.strip_growth - 1.0) * d);
       if (d > options_.strip_width * at_curve.longest) continue;
       is_in_strip_[v] = 1;
-      for (const Vertex w : mesh_.neighbours(v)) {
+      for (const StripVertex w : mesh_.neighbours(v)) {
         const double further = d + length({v, w});
         if (!(further < way[w])) continue;
         way[w] = further;
@@ -178,7 +178,7 @@ class StripRemesher {
     }
   }
 
-  bool collapse(Vertex from, Vertex to, double least_angle) {
+  bool collapse(StripVertex from, StripVertex to, double least_angle) {
     if (!may_change(from)) return false;
     const CollapseLimits limits{.least_angle = least_angle,
                                 .longest = std::max(k_long * std::max(local_[from].longest, local_[to].longest), longest_around(from)),
@@ -189,9 +189,9 @@ class StripRemesher {
     return true;
   }
 
-  double longest_around(Vertex v) const {
+  double longest_around(StripVertex v) const {
     double longest = 0.0;
-    for (const Vertex w : mesh_.neighbours(v)) longest = std::max(longest, length({v, w}));
+    for (const StripVertex w : mesh_.neighbours(v)) longest = std::max(longest, length({v, w}));
     return longest;
   }
 
@@ -216,7 +216,7 @@ class StripRemesher {
   bool flip(const EdgeEnds& e) { return !mesh_.is_kept_edge(e[0], e[1]) && mesh_.flip(e[0], e[1], k_flip_gain, tolerance(e[0], e[1])); }
 
   /// An input vertex may leave its place only in a plane: elsewhere it carries the shape.
-  bool is_free(Vertex v) const {
+  bool is_free(StripVertex v) const {
     if (mesh_.star[v].empty() || !may_change(v) || curve_[v]) return false;
     const StripTriangle& first = mesh_.triangles[mesh_.star[v].front()];
     for (const std::uint32_t t : mesh_.star[v]) {
@@ -227,11 +227,11 @@ class StripRemesher {
   }
 
   void smooth() {
-    for (Vertex v = 0; v < mesh_.points.size(); ++v) {
+    for (StripVertex v = 0; v < mesh_.points.size(); ++v) {
       if (!is_free(v)) continue;
       Vec3 sum;
-      const std::vector<Vertex> around = mesh_.neighbours(v);
-      for (const Vertex w : around) sum += mesh_.points[w];
+      const std::vector<StripVertex> around = mesh_.neighbours(v);
+      for (const StripVertex w : around) sum += mesh_.points[w];
       const Vec3 middle = sum / static_cast<double>(around.size());
       const NearestHit hit = reference_.nearest(middle, local_[v].longest);
       if (hit.triangle.is_valid() && mesh_.move(v, hit.point, tolerance(v, v))) ++n_moved_;

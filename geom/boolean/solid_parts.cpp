@@ -14,18 +14,14 @@
 namespace sterna {
 namespace {
 
-/// Places listed in an error, and triangles drawn (a VTU of that size opens at once).
-constexpr std::size_t k_max_places = 10;
-constexpr std::size_t k_max_geometry = 20000;
-
-constexpr std::string_view k_attempted = "uniting surfaces";
+constexpr std::string_view k_parting_attempt = "uniting surfaces";
 
 std::string part_name(const UnionPart& part, std::size_t index) { return part.name.empty() ? "part " + std::to_string(index + 1) : part.name; }
 
 void require_closed(const TriMesh& mesh, const Topology& topology, const std::string& name) {
   if (topology.n_boundary_halfedges() == 0) return;
   ErrorInfo info{.code = ErrorCode::open_surface,
-                 .attempted = std::string(k_attempted),
+                 .attempted = std::string(k_parting_attempt),
                  .problem = name + " is open: " + std::to_string(topology.n_boundary_halfedges()) + " edges with one triangle only",
                  .n_places = static_cast<std::int64_t>(topology.n_boundary_halfedges()),
                  .hint = "close it; only solids can be united"};
@@ -122,7 +118,7 @@ void find_links(SolidParts& all, const RunContext& context) {
   for (const auto& pair : pairs.pairs) (all.facets[pair[0]].solid == all.facets[pair[1]].solid ? own : all.crossings).push_back(pair);
   if (own.empty()) return;
   ErrorInfo info{.code = ErrorCode::self_intersection,
-                 .attempted = std::string(k_attempted),
+                 .attempted = std::string(k_parting_attempt),
                  .problem = all.names[all.facets[own.front()[0]].solid] + " crosses itself: " + std::to_string(own.size()) + " pairs of triangles",
                  .hint = "only whole closed components may cross each other; repair this one first"};
   add_crossing_places(info, all, own);
@@ -200,10 +196,11 @@ SolidParts find_solids(const std::vector<UnionPart>& parts, UnionReport& report,
   for (std::size_t i = 0; i < parts.size(); ++i) {
     context.check_stop();
     if (parts[i].mesh.n_triangles() == 0)
-      throw Error({.code = ErrorCode::empty_surface, .attempted = std::string(k_attempted), .problem = part_name(parts[i], i) + " has no triangle"});
+      throw Error({.code = ErrorCode::empty_surface, .attempted = std::string(k_parting_attempt), .problem = part_name(parts[i], i) + " has no triangle"});
     add_solids(parts[i], i, patches[i], all, n_turned, context);
   }
-  if (all.solids.empty()) throw Error({.code = ErrorCode::empty_surface, .attempted = std::string(k_attempted), .problem = "there is no surface to unite"});
+  if (all.solids.empty())
+    throw Error({.code = ErrorCode::empty_surface, .attempted = std::string(k_parting_attempt), .problem = "there is no surface to unite"});
   report.n_solids = static_cast<std::int64_t>(all.solids.size());
   if (n_turned > 0) report.messages.push_back(std::to_string(n_turned) + (n_turned == 1 ? " solid was" : " solids were") + " inside out: turned");
   find_links(all, context);

@@ -16,6 +16,7 @@
 #include "geom/boolean/remesh_strip.h"
 #include "geom/boolean/solid_parts.h"
 #include "geom/math/bvh.h"
+#include "geom/math/constants.h"
 #include "geom/math/intersect.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
@@ -24,8 +25,6 @@ namespace sterna {
 namespace {
 
 constexpr std::string_view k_attempted = "uniting surfaces";
-constexpr std::size_t k_max_places = 10;
-constexpr std::size_t k_max_geometry = 20000;
 /// Shares of the progress, from Martlet2 (19 solids, 12 k triangles).
 constexpr double k_find_end = 0.15, k_unite_end = 0.5, k_remesh_end = 0.85;
 
@@ -270,7 +269,6 @@ void require_free_of_crossings(const TriMesh& mesh, const RunContext& context) {
 }
 
 std::string strip_text(const UnionReport& report) {
-  constexpr double k_degrees = 57.29577951308232;
   const auto figures = [](const StripQuality& q) {
     return std::to_string(q.n_triangles) + " triangles, " + std::to_string(q.n_slivers) + " below 5 deg, smallest angle " +
            short_number(k_degrees * q.min_angle) + " deg, shortest edge " + short_number(q.shortest_edge) + " m";

@@ -8,9 +8,7 @@
 namespace sterna::cad {
 namespace {
 
-constexpr const char* k_attempted = "uniting the components";
-/// Places that an error lists.
-constexpr std::size_t k_listed = 5;
+constexpr const char* k_aircraft_attempt = "uniting the components";
 
 /// Numbers of a model in a part of it; parts number in the order in which they meet things.
 template <class Id, class T>
@@ -60,14 +58,14 @@ std::vector<Model> split_solids(const Model& components) {
     for (const FaceId f : solid.faces) is_loose[f.index()] = false;
     parts.push_back(part_of(components, solid));
   }
-  ErrorInfo info{.code = ErrorCode::open_surface, .attempted = k_attempted, .hint = "only closed solids have an inside"};
+  ErrorInfo info{.code = ErrorCode::open_surface, .attempted = k_aircraft_attempt, .hint = "only closed solids have an inside"};
   for (const FaceId f : components.faces.ids()) {
     if (!is_loose[f.index()]) continue;
     ++info.n_places;
     const ModelFace& face = components.faces[f];
     const EdgeUse& use = face.borders.front().front();
     const Interval range = components.edges[use.edge].range;
-    if (info.places.size() < k_listed)
+    if (info.places.size() < k_max_places)
       info.places.push_back({face.surface->point(use.parameter->point(0.5 * (range.from + range.to))), "\"" + face.name + "\""});
   }
   if (info.n_places == 0) return parts;

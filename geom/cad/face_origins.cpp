@@ -11,12 +11,7 @@
 #include "geom/model/model_measures.h"
 
 namespace sterna::cad {
-namespace {
-
-/// Places that an error lists.
-constexpr std::size_t k_listed = 5;
-
-}  // namespace
+namespace {}  // namespace
 
 bool is_closed_model(const Model& model) {
   return !model.solids.empty() && std::all_of(model.solids.begin(), model.solids.end(), [](const ModelSolid& s) { return s.is_closed; });
@@ -40,7 +35,7 @@ BooleanPart boolean_part(const Model& model, const std::string& attempted, const
                    .hint = "only closed parts have an inside"};
     info.places = open_places(model);
     info.n_places = static_cast<std::int64_t>(info.places.size());
-    info.places.resize(std::min(k_listed, info.places.size()));
+    info.places.resize(std::min(k_max_places, info.places.size()));
     throw Error(std::move(info));
   }
   for (const SolidId solid : model.solids.ids()) {

@@ -17,30 +17,24 @@
 namespace sterna::cad {
 namespace {
 
-constexpr const char* k_attempted = "taking the bodies out of their container";
-/// Volumes agree to this share of the container's: as for unions.
-constexpr double k_volume_share = 1e-4;
-/// Area of a part that may be left more or less than samples tell, of the part's area: as for unions.
-constexpr double k_area_share = 0.05;
+constexpr const char* k_fluid_attempt = "taking the bodies out of their container";
 /// A body with less of its area inside only touches the container from outside, as far as samples tell.
 constexpr double k_least_inside = 1e-3;
-/// Places that an error lists.
-constexpr std::size_t k_listed = 5;
 
-[[noreturn]] void fail(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places, const std::string& hint) {
-  ErrorInfo info{.code = code, .attempted = k_attempted, .problem = problem, .places = std::move(places), .hint = hint};
+[[noreturn]] void fail_fluid(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places, const std::string& hint) {
+  ErrorInfo info{.code = code, .attempted = k_fluid_attempt, .problem = problem, .places = std::move(places), .hint = hint};
   info.n_places = static_cast<std::int64_t>(info.places.size());
-  info.places.resize(std::min(k_listed, info.places.size()));
+  info.places.resize(std::min(k_max_places, info.places.size()));
   throw Error(std::move(info));
 }
 
 /// The container with its material outside: a solid of the fluid's shape.
 Model solid_container(const Model& container, const RunContext& context) {
   if (container.solids.size() != 1)
-    fail(ErrorCode::bad_argument, "the container \"" + part_name(container) + "\" has " + std::to_string(container.solids.size()) + " solids", {},
-         "a container is one closed solid");
+    fail_fluid(ErrorCode::bad_argument, "the container \"" + part_name(container) + "\" has " + std::to_string(container.solids.size()) + " solids", {},
+               "a container is one closed solid");
   Model solid = container;
-  if (boolean_part(solid, k_attempted, context).volume < 0.0) turn_inside_out(solid);
+  if (boolean_part(solid, k_fluid_attempt, context).volume < 0.0) turn_inside_out(solid);
   return solid;
 }
 
@@ -60,8 +54,8 @@ Meeting look_at(const std::vector<Model>& parts, FluidReport& report, const RunC
       if (std::minmax(c.first, c.second) == std::minmax(std::size_t{0}, i)) contact = &c;
     const std::string name = "\"" + part_name(parts[i]) + "\"";
     if (contact && contact->kind == ContactKind::inside && contact->first == 0)
-      fail(ErrorCode::bad_argument, name + " fills the container \"" + part_name(parts[0]) + "\"", {{contact->place, "the container lies inside " + name}},
-           "nothing is left for the fluid: scale or move one of them");
+      fail_fluid(ErrorCode::bad_argument, name + " fills the container \"" + part_name(parts[0]) + "\"",
+                 {{contact->place, "the container lies inside " + name}}, "nothing is left for the fluid: scale or move one of them");
     const double share_inside = 1.0 - meeting.contacts.exposures[i].outside;
     const bool is_outside = !contact || contact->kind == ContactKind::apart || share_inside < k_least_inside;
     if (is_outside) outside.push_back({contact ? contact->place : parts[i].corners.raw().front().point, name + " lies outside"});
@@ -72,9 +66,10 @@ Meeting look_at(const std::vector<Model>& parts, FluidReport& report, const RunC
     context.warn("fluid: " + report.doubts.back().what + ", at " + format_point(contact->place));
   }
   if (!outside.empty())
-    fail(ErrorCode::bad_argument,
-         std::to_string(outside.size()) + (outside.size() == 1 ? " body lies" : " bodies lie") + " outside of the container \"" + part_name(parts[0]) + "\"",
-         std::move(outside), "move the body into it, or the container around it");
+    fail_fluid(
+        ErrorCode::bad_argument,
+        std::to_string(outside.size()) + (outside.size() == 1 ? " body lies" : " bodies lie") + " outside of the container \"" + part_name(parts[0]) + "\"",
+        std::move(outside), "move the body into it, or the container around it");
   return meeting;
 }
 
@@ -118,27 +113,27 @@ std::vector<ErrorPlace> pieces_of(const Model& model, const std::vector<SolidMea
 void require_one_piece(const BooleanTry& result, const std::vector<BooleanPart>& parts) {
   std::vector<BooleanPart> bodies(parts.begin() + 1, parts.end());
   if (result.model.faces.empty())
-    fail(ErrorCode::bad_argument, names_of(bodies) + (bodies.size() == 1 ? " fills" : " fill") + " the container \"" + parts.front().name() + "\"", {},
-         "nothing is left for the fluid: scale or move one of them");
+    fail_fluid(ErrorCode::bad_argument, names_of(bodies) + (bodies.size() == 1 ? " fills" : " fill") + " the container \"" + parts.front().name() + "\"", {},
+               "nothing is left for the fluid: scale or move one of them");
   if (result.model.solids.size() == 1) return;
   std::vector<SolidMeasures> measures;
   for (const SolidId s : result.model.solids.ids()) measures.push_back(solid_measures(result.model, s));
-  fail(ErrorCode::bad_argument,
-       names_of(bodies) + (bodies.size() == 1 ? " cuts" : " cut") + " the fluid in \"" + parts.front().name() + "\" into " +
-           std::to_string(result.model.solids.size()) + " parts",
-       pieces_of(result.model, measures), "the fluid is to be one connected region: move the body off the walls, or let it end in one of them");
+  fail_fluid(ErrorCode::bad_argument,
+             names_of(bodies) + (bodies.size() == 1 ? " cuts" : " cut") + " the fluid in \"" + parts.front().name() + "\" into " +
+                 std::to_string(result.model.solids.size()) + " parts",
+             pieces_of(result.model, measures), "the fluid is to be one connected region: move the body off the walls, or let it end in one of them");
 }
 
 Model cut_off(const std::vector<Model>& models, const Meeting& meeting, const FluidOptions& options, FluidReport& report, const RunContext& context) {
   std::vector<BooleanPart> parts;
   const auto add = [&](std::size_t i) {
-    parts.push_back(boolean_part(models[i], k_attempted, context));
+    parts.push_back(boolean_part(models[i], k_fluid_attempt, context));
     parts.back().exposure = meeting.contacts.exposures[i];
   };
   add(0);
   for (const std::size_t i : meeting.cut) add(i);
   const BooleanTask task{
-      .operation = BooleanOperation::cut, .attempted = k_attempted, .stage = "fluid", .tolerance = options.tolerance, .time_limit = options.time_limit};
+      .operation = BooleanOperation::cut, .attempted = k_fluid_attempt, .stage = "fluid", .tolerance = options.tolerance, .time_limit = options.time_limit};
   std::optional<BooleanTry> result = climb(
       task, parts, size_of(parts), [&](BooleanTry& t) { judge_cut(parts, t, context); }, report.tries, context);
   if (!result) {
@@ -147,8 +142,8 @@ Model cut_off(const std::vector<Model>& models, const Meeting& meeting, const Fl
     for (const PartContact& c : meeting.contacts.contacts)
       if (last.places.empty() && c.first == 0 && c.kind != ContactKind::apart)
         places.push_back({c.place, "\"" + part_name(models[c.second]) + "\" meets the container"});
-    fail(ErrorCode::geometry_failed, names_of(parts) + ": " + last.problem + "; tried up to a tolerance of " + std::to_string(last.tolerance) + " m",
-         std::move(places), "move or turn a body a little, so that it neither ends in a wall nor touches it tangentially");
+    fail_fluid(ErrorCode::geometry_failed, names_of(parts) + ": " + last.problem + "; tried up to a tolerance of " + std::to_string(last.tolerance) + " m",
+               std::move(places), "move or turn a body a little, so that it neither ends in a wall nor touches it tangentially");
   }
   require_one_piece(*result, parts);
   return std::move(result->model);
@@ -162,10 +157,10 @@ FluidDomain fluid_domain(const Model& container, std::span<const Model> bodies, 
   for (const Model& body : bodies)
     for (Model& solid : split_solids(body)) solids.push_back(std::move(solid));
   for (Model& body : unite_touching(solids, {.tolerance = options.tolerance, .time_limit = options.time_limit}, context)) parts.push_back(std::move(body));
-  if (parts.size() == 1) fail(ErrorCode::bad_argument, "there are no bodies", {}, "a container alone is meshed as it is");
+  if (parts.size() == 1) fail_fluid(ErrorCode::bad_argument, "there are no bodies", {}, "a container alone is meshed as it is");
   FluidDomain fluid;
   const Meeting meeting = look_at(parts, fluid.report, context);
-  fluid.report.container_volume = boolean_part(parts.front(), k_attempted, context).volume;
+  fluid.report.container_volume = boolean_part(parts.front(), k_fluid_attempt, context).volume;
   for (const std::size_t i : meeting.cut) fluid.report.cut.push_back(part_name(parts[i]));
   fluid.model = meeting.cut.empty() ? parts.front() : cut_off(parts, meeting, options, fluid.report, context);
   turn_inside_out(fluid.model);

@@ -22,7 +22,7 @@
 namespace sterna::cad {
 namespace {
 
-constexpr const char* k_attempted = "taking half of the model";
+constexpr const char* k_half_attempt = "taking half of the model";
 /// What is nearer to the plane than this share of the longest side is in it: where surface meshers and CAD systems split aircraft, they are a hundred times
 /// nearer.
 constexpr double k_tolerance_share = 1e-6;
@@ -32,11 +32,6 @@ constexpr double k_edge_tolerances = 2.0;
 constexpr int k_edge_samples = 24;
 /// The box that stands for the half space is larger than the model by this share of its size.
 constexpr double k_margin = 0.25;
-/// Area that may be left more or less than samples tell, of the area: as for unions.
-constexpr double k_area_share = 0.05;
-constexpr double k_volume_share = 1e-4;
-/// Places that an error lists.
-constexpr std::size_t k_listed = 5;
 constexpr std::string_view k_half_space = "half space";
 
 struct Plane {
@@ -51,10 +46,10 @@ struct Plane {
 
 enum class Side { kept, beyond, in_plane, across };
 
-[[noreturn]] void fail(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places, const std::string& hint) {
-  ErrorInfo info{.code = code, .attempted = k_attempted, .problem = problem, .places = std::move(places), .hint = hint};
+[[noreturn]] void fail_half(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places, const std::string& hint) {
+  ErrorInfo info{.code = code, .attempted = k_half_attempt, .problem = problem, .places = std::move(places), .hint = hint};
   info.n_places = static_cast<std::int64_t>(info.places.size());
-  info.places.resize(std::min(k_listed, info.places.size()));
+  info.places.resize(std::min(k_max_places, info.places.size()));
   throw Error(std::move(info));
 }
 
@@ -135,7 +130,7 @@ void require_rim_in_plane(const Model& model, const Plane& plane, const std::str
     places.push_back({place, "open edge of face \"" + model.faces[uses[e].front().face].name + "\", " + number_text(off) + " m off the plane"});
   }
   if (!places.empty())
-    fail(ErrorCode::open_surface, std::to_string(places.size()) + " free edges are not in the plane " + plane.name(), std::move(places), hint);
+    fail_half(ErrorCode::open_surface, std::to_string(places.size()) + " free edges are not in the plane " + plane.name(), std::move(places), hint);
 }
 
 /// The solids that are not wholly beyond the plane, as one model: united where there are several.
@@ -148,8 +143,8 @@ Model without_other_half(const Model& model, const Plane& plane, const HalfModel
     else parts.push_back(std::move(part));
   }
   if (parts.empty())
-    fail(ErrorCode::bad_argument, "nothing of the model is on the side of " + plane.name() + " that is kept", {},
-         "keep = \"" + std::string(plane.side > 0.0 ? "-" : "+") + "\" keeps the other one");
+    fail_half(ErrorCode::bad_argument, "nothing of the model is on the side of " + plane.name() + " that is kept", {},
+              "keep = \"" + std::string(plane.side > 0.0 ? "-" : "+") + "\" keeps the other one");
   if (parts.size() == 1 && report.n_solids_left_out == 0) return model;
   if (parts.size() == 1) return std::move(parts.front());
   report.was_united = true;
@@ -185,19 +180,20 @@ Model cut_at(const Model& model, const Plane& plane, const MeasureBox& box, cons
   std::vector<BooleanPart> parts;
   const ContactReport contacts = find_contacts(models, context);
   for (std::size_t i = 0; i < models.size(); ++i) {
-    parts.push_back(boolean_part(models[i], k_attempted, context));
+    parts.push_back(boolean_part(models[i], k_half_attempt, context));
     parts.back().exposure = contacts.exposures[i];
   }
   const BooleanTask task{
-      .operation = BooleanOperation::common, .attempted = k_attempted, .stage = "half", .tolerance = k_automatic, .time_limit = options.time_limit};
+      .operation = BooleanOperation::common, .attempted = k_half_attempt, .stage = "half", .tolerance = k_automatic, .time_limit = options.time_limit};
   std::vector<UniteTry> tries;
   std::optional<BooleanTry> result = climb(
       task, parts, cad::longest_side(parts.front().shape->content().shape), [&](BooleanTry& t) { judge_half(parts, t, context); }, tries, context);
   if (!result)
-    fail(ErrorCode::geometry_failed,
-         "the cut at " + plane.name() + " fails: " + tries.back().problem + "; tried up to a tolerance of " + std::to_string(tries.back().tolerance) + " m",
-         tries.back().places,
-         "faces that touch the plane without crossing it, or run along it nearly, are hard to cut: move the plane a little, or cut the triangulated surface");
+    fail_half(
+        ErrorCode::geometry_failed,
+        "the cut at " + plane.name() + " fails: " + tries.back().problem + "; tried up to a tolerance of " + std::to_string(tries.back().tolerance) + " m",
+        tries.back().places,
+        "faces that touch the plane without crossing it, or run along it nearly, are hard to cut: move the plane a little, or cut the triangulated surface");
   const std::vector<FaceOrigin>& origins = result->origin_of_face;
   return select_faces(result->model, [&](FaceId f) { return origins[f.index()].part == 0; });
 }
@@ -231,7 +227,7 @@ void flatten_rim(Model& model, const Plane& plane, HalfModelReport& report) {
 }  // namespace
 
 HalfModel half_model(const Model& given, const HalfModelOptions& options, const RunContext& context) {
-  if (given.faces.empty()) fail(ErrorCode::bad_argument, "it has no faces", {}, "");
+  if (given.faces.empty()) fail_half(ErrorCode::bad_argument, "it has no faces", {}, "");
   const StageTimer timer(context, "half");
   HalfModel half;
   std::vector<MeasureBox> boxes = boxes_of(given, context);
@@ -240,10 +236,10 @@ HalfModel half_model(const Model& given, const HalfModelOptions& options, const 
   std::vector<Side> sides = sides_of(given, plane, context);
   half.report.was_half = count(sides, Side::across) + count(sides, Side::beyond) == 0;
   const bool is_open = !free_edges(given).empty();
-  if (half.report.was_half && count(sides, Side::kept) == 0) fail(ErrorCode::bad_argument, "all of the model is in the plane " + plane.name(), {}, "");
+  if (half.report.was_half && count(sides, Side::kept) == 0) fail_half(ErrorCode::bad_argument, "all of the model is in the plane " + plane.name(), {}, "");
   if (is_open && count(sides, Side::across) > 0)
-    fail(ErrorCode::open_surface, "the model is open, and cannot be cut", open_places(given),
-         "close it first: read_cad{ ..., cap = true } closes flat openings");
+    fail_half(ErrorCode::open_surface, "the model is open, and cannot be cut", open_places(given),
+              "close it first: read_cad{ ..., cap = true } closes flat openings");
   half.model = is_open || half.report.was_half ? given : without_other_half(given, plane, options, half.report, context);
   boxes = boxes_of(half.model, context);
   sides = sides_of(half.model, plane, context);
@@ -258,8 +254,8 @@ HalfModel half_model(const Model& given, const HalfModelOptions& options, const 
                                             : "the cut may be taken along another plane (axis, at), or the tolerance be larger");
   flatten_rim(half.model, plane, half.report);
   if (half.report.n_rim_edges == 0)
-    fail(ErrorCode::bad_argument, "the model does not reach the plane " + plane.name(), {},
-         "axis and at say which plane; a model without a plane of symmetry is meshed whole");
+    fail_half(ErrorCode::bad_argument, "the model does not reach the plane " + plane.name(), {},
+              "axis and at say which plane; a model without a plane of symmetry is meshed whole");
   return half;
 }
 

@@ -29,7 +29,7 @@ constexpr double k_same_parameter = 1e-7;
 /// Intervals of an edge at whose ends the distance to its faces is measured; OpenCASCADE's own check looks at 23 places.
 constexpr int k_tolerance_samples = 24;
 
-Point to_point(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
+Point model_point(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 
 [[noreturn]] void fail(const std::string& attempted, const std::string& problem, const TopoDS_Shape& at) {
   throw Error({.code = ErrorCode::geometry_failed, .attempted = attempted, .problem = problem, .places = {{place_of(at), problem}}});
@@ -203,7 +203,7 @@ class ModelBuilder {
     if (vertex.IsNull()) fail(attempted_, "edge " + std::to_string(edges_.Extent()) + " has no end", edge);
     if (const int index = corners_.FindIndex(vertex); index > 0) return CornerId(index - 1);
     corners_.Add(vertex);
-    return model_.corners.push_back({to_point(BRep_Tool::Pnt(vertex)), BRep_Tool::Tolerance(vertex)});
+    return model_.corners.push_back({model_point(BRep_Tool::Pnt(vertex)), BRep_Tool::Tolerance(vertex)});
   }
 
   const LabelledShape& labelled_;

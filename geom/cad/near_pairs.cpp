@@ -1,5 +1,5 @@
 // Every B-spline is refined by knots until it has k_pieces pieces along each direction; the poles that carry a piece contain it. Pairs whose pieces' boxes,
-// widened by the tolerances, are apart everywhere are dropped.
+// with_margin by the tolerances, are apart everywhere are dropped.
 #include "geom/cad/near_pairs.h"
 
 #include <BOPDS_DS.hxx>
@@ -41,7 +41,7 @@ Box box_of(const Bnd_Box& bounds) {
   return box;
 }
 
-Box widened(Box box, double margin) {
+Box with_margin(Box box, double margin) {
   const Vec3 by{margin, margin, margin};
   box.min -= by;
   box.max += by;
@@ -103,7 +103,7 @@ std::vector<Box> pieces_of(const TopoDS_Edge& edge, const Bnd_Box& whole, double
       const gp_Pnt p = spline->Pole(first + k);
       box.add(Vec3{p.X(), p.Y(), p.Z()});
     }
-    boxes.push_back(widened(box, margin));
+    boxes.push_back(with_margin(box, margin));
   }
   return boxes;
 }
@@ -130,7 +130,7 @@ std::vector<Box> pieces_of(const TopoDS_Face& face, const Bnd_Box& whole, double
           const gp_Pnt p = spline->Pole(u + i, v + j);
           box.add(Vec3{p.X(), p.Y(), p.Z()});
         }
-      boxes.push_back(widened(box, margin));
+      boxes.push_back(with_margin(box, margin));
     }
   return boxes;
 }

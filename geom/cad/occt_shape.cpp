@@ -34,7 +34,7 @@ const CadShape::Content& CadShape::content() const {
 namespace cad {
 namespace {
 
-Point to_point(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
+Point point_of_vertex(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 
 std::string status_text(BRepCheck_Status status) {
   switch (status) {
@@ -118,20 +118,20 @@ std::vector<ErrorPlace> collect_faults(const CadShape::Content& content) {
 
 Point place_of(const TopoDS_Shape& shape) {
   if (shape.IsNull()) return {};
-  if (shape.ShapeType() == TopAbs_VERTEX) return to_point(BRep_Tool::Pnt(TopoDS::Vertex(shape)));
+  if (shape.ShapeType() == TopAbs_VERTEX) return point_of_vertex(BRep_Tool::Pnt(TopoDS::Vertex(shape)));
   if (shape.ShapeType() == TopAbs_EDGE) {
     double from = 0.0, to = 0.0;
     const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(shape), from, to);
-    if (!curve.IsNull()) return to_point(curve->Value(0.5 * (from + to)));
+    if (!curve.IsNull()) return point_of_vertex(curve->Value(0.5 * (from + to)));
   }
   if (shape.ShapeType() == TopAbs_FACE) {
     const TopoDS_Face face = TopoDS::Face(shape);
     const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
     double u1 = 0.0, u2 = 0.0, v1 = 0.0, v2 = 0.0;
     BRepTools::UVBounds(face, u1, u2, v1, v2);
-    if (!surface.IsNull() && u1 <= u2 && v1 <= v2) return to_point(surface->Value(0.5 * (u1 + u2), 0.5 * (v1 + v2)));
+    if (!surface.IsNull() && u1 <= u2 && v1 <= v2) return point_of_vertex(surface->Value(0.5 * (u1 + u2), 0.5 * (v1 + v2)));
   }
-  for (TopExp_Explorer vertex(shape, TopAbs_VERTEX); vertex.More(); vertex.Next()) return to_point(BRep_Tool::Pnt(TopoDS::Vertex(vertex.Current())));
+  for (TopExp_Explorer vertex(shape, TopAbs_VERTEX); vertex.More(); vertex.Next()) return point_of_vertex(BRep_Tool::Pnt(TopoDS::Vertex(vertex.Current())));
   return {};
 }
 

@@ -20,10 +20,10 @@
 namespace sterna::cad {
 namespace {
 
-constexpr const char* k_attempted = "handing the model to OpenCASCADE";
+constexpr const char* k_shape_attempt = "handing the model to OpenCASCADE";
 
 [[noreturn]] void fail(const std::string& problem, const Point& at) {
-  throw Error({.code = ErrorCode::geometry_failed, .attempted = k_attempted, .problem = problem, .places = {{at, problem}}});
+  throw Error({.code = ErrorCode::geometry_failed, .attempted = k_shape_attempt, .problem = problem, .places = {{at, problem}}});
 }
 
 double tolerance_of(double tolerance) { return std::max(tolerance, Precision::Confusion()); }
@@ -165,7 +165,8 @@ std::shared_ptr<const CadShape> shape_of(const Model& model, const RunContext& c
     return model.shape;
   }
   std::shared_ptr<const CadShape> shape;
-  run_occt({.attempted = k_attempted}, context, [&](const Message_ProgressRange&) { shape = std::make_shared<const CadShape>(ShapeBuilder(model).build()); });
+  run_occt({.attempted = k_shape_attempt}, context,
+           [&](const Message_ProgressRange&) { shape = std::make_shared<const CadShape>(ShapeBuilder(model).build()); });
   return shape;
 }
 

@@ -13,6 +13,12 @@
 
 namespace sterna::cad {
 
+/// Volumes agree to this share of the sum: parts that only touch lose or gain by the tolerance of the fuse.
+inline constexpr double k_volume_share = 1e-4;
+/// Area of a part that a boolean may leave more or less than samples tell, of the part's area: twice what sampling errs on wings and bodies. A lost face of a
+/// wing or a nacelle is more.
+inline constexpr double k_area_share = 0.05;
+
 enum class BooleanOperation { fuse, cut, common };
 
 struct BooleanTask {

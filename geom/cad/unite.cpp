@@ -17,15 +17,7 @@
 namespace sterna::cad {
 namespace {
 
-constexpr const char* k_attempted = "uniting the parts";
-
-/// Volumes agree to this share of the sum: parts that only touch lose or gain by the tolerance of the fuse.
-constexpr double k_volume_share = 1e-4;
-/// Area of a part that the union may have more or less than samples tell, of the part's area: twice what sampling errs on wings and bodies. A lost
-/// face of a wing or a nacelle is more.
-constexpr double k_area_share = 0.05;
-/// Places that an error lists.
-constexpr std::size_t k_listed = 5;
+constexpr const char* k_unite_attempt = "uniting the parts";
 
 using Part = BooleanPart;
 
@@ -65,7 +57,7 @@ std::string objection(Try& result, const std::vector<Part>& parts, const RunCont
 
 std::optional<Try> climb(const std::vector<Part>& parts, const UniteOptions& options, double size, std::vector<UniteTry>& tries, const RunContext& context) {
   const BooleanTask task{
-      .operation = BooleanOperation::fuse, .attempted = k_attempted, .stage = "unite", .tolerance = options.tolerance, .time_limit = options.time_limit};
+      .operation = BooleanOperation::fuse, .attempted = k_unite_attempt, .stage = "unite", .tolerance = options.tolerance, .time_limit = options.time_limit};
   return climb(
       task, parts, size, [&](Try& result) { result.outcome.problem = objection(result, parts, context); }, tries, context);
 }
@@ -113,7 +105,7 @@ std::vector<Part> alone(const Part& a, const Part& b, const RunContext& context)
   info.problem += "; tried up to a tolerance of " + std::to_string(blamed->tolerance) + " m";
   info.places = blamed->places.empty() ? contacts : blamed->places;
   info.n_places = static_cast<std::int64_t>(info.places.size());
-  info.places.resize(std::min(k_listed, info.places.size()));
+  info.places.resize(std::min(k_max_places, info.places.size()));
   info.hint = "move or turn one of them a little, so that surfaces neither coincide nor touch tangentially";
   throw Error(std::move(info));
 }
@@ -135,8 +127,8 @@ void look_at_contacts(std::span<const Model> models, std::vector<Part>& parts, U
 
 UniteResult unite(std::span<const Model> models, const UniteOptions& options, const RunContext& context) {
   std::vector<Part> parts;
-  for (const Model& model : models) parts.push_back(boolean_part(model, k_attempted, context));
-  if (parts.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = k_attempted, .problem = "there are none"});
+  for (const Model& model : models) parts.push_back(boolean_part(model, k_unite_attempt, context));
+  if (parts.empty()) throw Error({.code = ErrorCode::bad_argument, .attempted = k_unite_attempt, .problem = "there are none"});
   UniteReport report;
   for (const Part& part : parts) {
     report.sum_of_volumes += part.volume;

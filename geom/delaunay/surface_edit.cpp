@@ -12,7 +12,7 @@ namespace {
 /// Sum of the cotangents of the angles opposite to an edge above which it stays: 0 would be exactly pi; rounding must not flip to and fro.
 constexpr double k_flip_margin = -1e-9;
 /// By this part of itself the worst cotangent must fall at least.
-constexpr double k_min_gain = 1e-9;
+constexpr double k_min_flip_gain = 1e-9;
 
 struct Quad {
   VertexId a, b;  ///< the edge
@@ -39,7 +39,7 @@ bool wants_flip(const SurfaceTriangulation& surface, const Quad& q) {
   if (dot(ca, cb) * area_d + dot(da, db) * area_c >= k_flip_margin * area_c * area_d) return false;
   const double before = std::max(worst_cotangent(a, b, c), worst_cotangent(b, a, d));
   const double after = std::max(worst_cotangent(a, d, c), worst_cotangent(d, b, c));
-  if (!(after < (1.0 - k_min_gain) * before)) return false;
+  if (!(after < (1.0 - k_min_flip_gain) * before)) return false;
   const double cosine_after = std::min(normal_cosine(surface, q.a, q.d, q.c), normal_cosine(surface, q.d, q.b, q.c));
   if (cosine_after >= k_min_normal_cosine) return true;
   return cosine_after > std::min(normal_cosine(surface, q.a, q.b, q.c), normal_cosine(surface, q.b, q.a, q.d));

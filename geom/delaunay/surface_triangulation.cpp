@@ -10,12 +10,12 @@
 namespace sterna::delaunay {
 namespace {
 
-constexpr const char* k_attempted = "triangulating the border of a face";
+constexpr const char* k_border_attempt = "triangulating the border of a face";
 
 /// The plane's error with its place carried to space along the segments it names.
 [[noreturn]] void throw_in_space(const Error& error, const SurfaceBorder& border, Vec2 scale) {
   ErrorInfo info = error.info();
-  info.attempted = k_attempted;
+  info.attempted = k_border_attempt;
   for (ErrorPlace& place : info.places) {
     const Vec2 at{place.position.x, place.position.y};
     std::size_t nearest = 0;
@@ -45,7 +45,7 @@ void check_segments(const Triangulation& mesh, const std::vector<Segment>& segme
         edges.push_back({std::min(mesh.origin(h), mesh.target(h)).value(), std::max(mesh.origin(h), mesh.target(h)).value()});
       }
   std::sort(edges.begin(), edges.end());
-  ErrorInfo info{.code = ErrorCode::self_intersection, .attempted = k_attempted, .problem = "the border touches itself along a line"};
+  ErrorInfo info{.code = ErrorCode::self_intersection, .attempted = k_border_attempt, .problem = "the border touches itself along a line"};
   for (const Segment& s : segments) {
     const std::uint32_t a = same_as[s.from].value(), b = same_as[s.to].value();
     if (a != b && std::binary_search(edges.begin(), edges.end(), std::array<std::uint32_t, 2>{std::min(a, b), std::max(a, b)})) continue;
@@ -83,7 +83,7 @@ SurfaceTriangulation triangulate_border(const SurfaceBorder& border, Vec2 scale,
     throw_in_space(error, border, scale);
   }
   if (surface.mesh.cells.empty()) {
-    ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = k_attempted, .problem = "nothing lies inside the border in (u, v)"};
+    ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = k_border_attempt, .problem = "nothing lies inside the border in (u, v)"};
     if (!border.samples.empty()) info.places.push_back({border.samples[0].point, "first point of the border"});
     throw Error(std::move(info));
   }

@@ -12,18 +12,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "geom/base/halfedge.h"
 #include "geom/base/ids.h"
 #include "geom/math/predicates.h"
 
 namespace sterna::delaunay {
 
 inline constexpr VertexId k_ghost{};
-
-constexpr TriangleId triangle_of(HalfedgeId h) { return TriangleId(h.value() / 3); }
-constexpr std::uint32_t corner_of(HalfedgeId h) { return h.value() % 3; }
-constexpr HalfedgeId halfedge(TriangleId t, std::uint32_t corner) { return HalfedgeId(3 * t.value() + corner); }
-constexpr HalfedgeId next(HalfedgeId h) { return HalfedgeId(corner_of(h) == 2 ? h.value() - 2 : h.value() + 1); }
-constexpr HalfedgeId previous(HalfedgeId h) { return HalfedgeId(corner_of(h) == 0 ? h.value() + 2 : h.value() - 1); }
 
 /// Kinds of an edge, combinable.
 using EdgeFlags = std::uint8_t;

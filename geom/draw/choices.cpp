@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/math/constants.h"
 
 namespace sterna::draw {
 namespace {
@@ -17,7 +18,6 @@ struct NamedView {
 };
 
 Vec3 toward_of(double azimuth, double elevation) {
-  constexpr double k_degree = std::numbers::pi / 180.0;
   return {std::cos(k_degree * elevation) * std::cos(k_degree * azimuth), std::cos(k_degree * elevation) * std::sin(k_degree * azimuth),
           std::sin(k_degree * elevation)};
 }

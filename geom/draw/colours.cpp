@@ -32,7 +32,8 @@ constexpr std::array<Rgb, 11> k_neutral = {{{68, 1, 84},
                                             {122, 209, 81},
                                             {189, 223, 38},
                                             {253, 231, 37}}};
-constexpr std::array<Rgb, 7> k_judged = {{{58, 104, 174}, {116, 164, 206}, {186, 212, 220}, {244, 236, 206}, {246, 178, 118}, {224, 96, 72}, {160, 18, 38}}};
+constexpr std::array<Rgb, 7> k_judged_colours = {
+    {{58, 104, 174}, {116, 164, 206}, {186, 212, 220}, {244, 236, 206}, {246, 178, 118}, {224, 96, 72}, {160, 18, 38}}};
 
 Rgb interpolate(std::span<const Rgb> table, double share) {
   const double at = std::clamp(share, 0.0, 1.0) * static_cast<double>(table.size() - 1);
@@ -62,6 +63,6 @@ Rgb kind_color(CellKind kind) {
 
 Rgb patch_kind_color(PatchKind kind) { return patch_color(static_cast<std::size_t>(kind)); }
 
-Rgb scale_color(Scale scale, double share) { return scale == Scale::neutral ? interpolate(k_neutral, share) : interpolate(k_judged, share); }
+Rgb scale_color(Scale scale, double share) { return scale == Scale::neutral ? interpolate(k_neutral, share) : interpolate(k_judged_colours, share); }
 
 }  // namespace sterna::draw

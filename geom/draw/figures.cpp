@@ -20,17 +20,17 @@ struct JudgedRange {
   std::string_view name;
   double low, high;
 };
-constexpr std::array<JudgedRange, 7> k_judged = {{{"quality", 0.0, 1.0},
-                                                  {"min_angle", 0.0, 60.0},
-                                                  {"coverage", 0.0, 1.0},
-                                                  {"growth", 1.0, 1.5},
-                                                  {"skew", 0.0, 60.0},
-                                                  {"stack_angle", 0.0, 40.0},
-                                                  {"scaled_jacobian", 0.0, 1.0}}};
+constexpr std::array<JudgedRange, 7> k_judged_ranges = {{{"quality", 0.0, 1.0},
+                                                         {"min_angle", 0.0, 60.0},
+                                                         {"coverage", 0.0, 1.0},
+                                                         {"growth", 1.0, 1.5},
+                                                         {"skew", 0.0, 60.0},
+                                                         {"stack_angle", 0.0, 40.0},
+                                                         {"scaled_jacobian", 0.0, 1.0}}};
 
 const JudgedRange* judged_range(std::string_view name) {
-  const auto found = std::find_if(k_judged.begin(), k_judged.end(), [&](const JudgedRange& range) { return range.name == name; });
-  return found == k_judged.end() ? nullptr : &*found;
+  const auto found = std::find_if(k_judged_ranges.begin(), k_judged_ranges.end(), [&](const JudgedRange& range) { return range.name == name; });
+  return found == k_judged_ranges.end() ? nullptr : &*found;
 }
 
 std::vector<std::string> names_of_fields(const std::vector<SurfaceField>& fields) {

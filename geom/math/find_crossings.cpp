@@ -25,7 +25,7 @@
 namespace sterna {
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
+using CornerIndices = std::array<std::uint32_t, 3>;
 
 /// Boxes of a packet, triangles in a leaf, children of a node: one vector register of floats.
 constexpr std::size_t k_width = 8;
@@ -34,7 +34,7 @@ constexpr std::size_t k_chunk = 128;
 /// Cells of Morton's curve along an axis: three times as many bits fit into a key.
 constexpr int k_curve_bits = 21;
 
-void check_input(std::span<const Vec3> points, std::span<const Corners> triangles) {
+void check_input(std::span<const Vec3> points, std::span<const CornerIndices> triangles) {
   const auto fail = [](const std::string& problem) {
     throw Error({.code = ErrorCode::bad_argument, .attempted = "looking for crossing triangles", .problem = problem});
   };
@@ -110,11 +110,11 @@ struct TriangleLeaves {
   std::size_t n_leaves() const { return levels.empty() ? 0 : levels[0].size(); }
 };
 
-TriangleLeaves make_leaves(std::span<const Vec3> points, std::span<const Corners> triangles, const RunContext& context) {
+TriangleLeaves make_leaves(std::span<const Vec3> points, std::span<const CornerIndices> triangles, const RunContext& context) {
   TriangleLeaves tree;
   if (triangles.empty()) return tree;
   Box all;
-  for (const Corners& t : triangles)
+  for (const CornerIndices& t : triangles)
     for (const std::uint32_t v : t) all.add(points[v]);
   const Vec3 middle = all.center();
   const double cells = (1u << k_curve_bits) - 1, side = all.longest_side();
@@ -125,7 +125,7 @@ TriangleLeaves make_leaves(std::span<const Vec3> points, std::span<const Corners
   };
   std::vector<Place> places(triangles.size());
   parallel_for(context, triangles.size(), [&](std::size_t i) {
-    const Corners& t = triangles[i];
+    const CornerIndices& t = triangles[i];
     const Vec3 centre = (points[t[0]] - all.min) / 3.0 + (points[t[1]] - all.min) / 3.0 + (points[t[2]] - all.min) / 3.0;
     std::uint64_t key = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) key |= spread(static_cast<std::uint64_t>(std::clamp(centre[axis] * scale, 0.0, cells))) << axis;
@@ -197,7 +197,7 @@ struct Pair {
   std::size_t n_shared = 0;
 };
 
-Pair gather(std::span<const Vec3> points, const Corners& a, const Corners& b) {
+Pair gather(std::span<const Vec3> points, const CornerIndices& a, const CornerIndices& b) {
   Pair pair;
   std::array<bool, 3> is_shared_a{}, is_shared_b{};
   for (std::size_t i = 0; i < 3; ++i)
@@ -233,7 +233,7 @@ bool edge_separates(const std::array<const Vec3*, 3>& a, const std::array<const 
 }
 
 /// True only when the triangles do not cross.
-bool are_apart(std::span<const Vec3> points, const Corners& a, const Corners& b) {
+bool are_apart(std::span<const Vec3> points, const CornerIndices& a, const CornerIndices& b) {
   const Pair pair = gather(points, a, b);
   if (pair.n_shared == 3) return false;
   const Vec3 normal = cross(*pair.a[1] - *pair.a[0], *pair.a[2] - *pair.a[0]);

@@ -22,7 +22,7 @@ using exact::Triple;
 /// Bisections of the cube before giving up; a cell that is still undecided then has a Jacobian within 1e-5 of its largest of zero.
 constexpr int k_max_bisections = 24;
 // Roundings of one of the up to eight summed determinants: orient3d's 8, seven additions, the division (a power of two) none.
-constexpr int k_roundings = 15;
+constexpr int k_hexahedron_roundings = 15;
 
 /// CGNS corner (0-7) at lattice position i, j, k in {0, 1}.
 constexpr std::size_t corner(std::size_t i, std::size_t j, std::size_t k) {
@@ -59,7 +59,7 @@ Coefficients jacobian_coefficients(const std::array<Vec3, 8>& p) {
         const double binomials = (pp == 1 ? 2.0 : 1.0) * (q == 1 ? 2.0 : 1.0) * (r == 1 ? 2.0 : 1.0);
         const Bounded& s = sum[slot(pp, q, r)];
         result.value[slot(pp, q, r)] = s.value / binomials;
-        result.error = std::max(result.error, (k_roundings + 1) * exact::k_unit * s.size / binomials);
+        result.error = std::max(result.error, (k_hexahedron_roundings + 1) * exact::k_unit * s.size / binomials);
       }
     }
   }

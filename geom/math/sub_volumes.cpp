@@ -17,7 +17,7 @@ using exact::Triple;
 
 /// Roundings carried by a term (rule at exact::Bounded): the three factors have one difference each and at most 0, 1 and 3 additions; two products, one
 /// subtraction, two additions of the dot product.
-constexpr int k_roundings = 3 + 4 + 5;
+constexpr int k_sub_volume_roundings = 3 + 4 + 5;
 
 template <class T>
 Triple<T> sum_of_differences(const Vec3& origin, std::span<const Vec3> points) {
@@ -61,7 +61,7 @@ bool is_positive(const Vec3& corner, const Vec3& next, std::initializer_list<Vec
 
 int sub_volume_sign(const Vec3& corner, const Vec3& next, std::span<const Vec3> others, std::span<const Vec3> rest) {
   constexpr int k_undecided = 2;
-  const int sign = determinant<Bounded>(corner, next, others, rest).sign(k_roundings);
+  const int sign = determinant<Bounded>(corner, next, others, rest).sign(k_sub_volume_roundings);
   return -(sign != k_undecided ? sign : determinant<LongExpansion>(corner, next, others, rest).sign());
 }
 

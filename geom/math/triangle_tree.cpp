@@ -17,7 +17,7 @@
 namespace sterna {
 namespace {
 
-using Corners = std::array<Point, 3>;
+using TreeCorners = std::array<Point, 3>;
 
 /// A node's far field is used beyond this many radii from its centre: the sum is then within 0.05 in the tests (on aircraft surfaces 0.013,
 /// without the second moments 0.12), where 1/2 would be undecided.
@@ -58,7 +58,7 @@ bool may_hit(const Point& p, const Vec3& d, const Box& box) {
 }
 
 /// t of the hit, by Cramer's rule (Moeller & Trumbore 1997); none for a miss beyond rounding.
-std::optional<double> hit_parameter(const Point& p, const Vec3& d, const Corners& c) {
+std::optional<double> hit_parameter(const Point& p, const Vec3& d, const TreeCorners& c) {
   const Vec3 u = c[1] - c[0], v = c[2] - c[0], w = p - c[0];
   const Vec3 h = cross(d, v);
   const Vec3 q = cross(w, u);
@@ -74,7 +74,7 @@ std::optional<double> hit_parameter(const Point& p, const Vec3& d, const Corners
 }
 
 /// Solid angle of the triangle seen from p, positive when the normal points away from p.
-double solid_angle(const Point& p, const Corners& t) {
+double solid_angle(const Point& p, const TreeCorners& t) {
   const Vec3 a = t[0] - p, b = t[1] - p, c = t[2] - p;
   const double la = norm(a), lb = norm(b), lc = norm(c);
   // a . (b x c) with the edges of the triangle: no cancellation when p is far away.
@@ -82,8 +82,8 @@ double solid_angle(const Point& p, const Corners& t) {
   return 2.0 * std::atan2(volume, la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
 }
 
-std::vector<Corners> corners_of(const TriMesh& mesh, const RunContext& context) {
-  std::vector<Corners> result(mesh.n_triangles());
+std::vector<TreeCorners> corners_of(const TriMesh& mesh, const RunContext& context) {
+  std::vector<TreeCorners> result(mesh.n_triangles());
   parallel_for(context, result.size(), [&](std::size_t t) {
     result[t] = corners(mesh, TriangleId(t));
     for (const Point& p : result[t]) {
@@ -96,7 +96,7 @@ std::vector<Corners> corners_of(const TriMesh& mesh, const RunContext& context) 
   return result;
 }
 
-std::vector<Box> boxes_of(const std::vector<Corners>& triangles, const RunContext& context) {
+std::vector<Box> boxes_of(const std::vector<TreeCorners>& triangles, const RunContext& context) {
   std::vector<Box> boxes(triangles.size());
   parallel_for(context, boxes.size(), [&](std::size_t t) {
     for (const Point& p : triangles[t]) boxes[t].add(p);

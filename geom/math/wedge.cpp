@@ -29,8 +29,8 @@ enum class Verdict { invalid, valid, undecided };
 
 // Roundings carried by a term of a coefficient (rule at exact::Bounded): two differences, product, subtraction, for 2 b1 one addition of the two
 // cross products; then difference, product, two additions.
-constexpr int k_roundings = 9;
-constexpr double k_bound = (k_roundings + 1) * exact::k_unit;
+constexpr int k_wedge_roundings = 9;
+constexpr double k_bound = (k_wedge_roundings + 1) * exact::k_unit;
 // Relative margin for comparing -2 b1 with 2 sqrt(b0) sqrt(b2): two roots, two products, and the bounds' own subtraction, 5 roundings; doubled.
 constexpr double k_root_margin = 10 * exact::k_unit;
 

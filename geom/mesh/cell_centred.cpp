@@ -10,7 +10,7 @@ constexpr double k_tiny = 1e-150;
 /// Share of the distance between centres (for a boundary face of the distance to its plane) that counts as the face's reach where the face itself is smaller.
 constexpr double k_inner_reach = 0.2, k_boundary_reach = 0.4;
 /// Columns per chunk; each holds some 30 cells.
-constexpr std::size_t k_column_chunk = 64;
+constexpr std::size_t k_cell_column_chunk = 64;
 constexpr std::uint8_t k_top = 7;
 
 struct Corners {
@@ -120,7 +120,7 @@ class Scanner {
           if (mesh_.layers.n_collapsed(c) == 3) return;
           for (int j = 0, n = mesh_.layers.layers_of_column(c); j < n; ++j) add(part, c * n_layers + static_cast<std::uint64_t>(j), mesh_.layers.cell(c, j));
         },
-        k_column_chunk);
+        k_cell_column_chunk);
     const std::uint64_t first = cells.first_prism(), last = cells.first_tetrahedron() + mesh_.tetrahedra.size();
     gather(scan, last - first, [&](std::size_t i, CellCentredScan& part) { add(part, first + i, cells.cell(first + i)); });
   }
@@ -146,7 +146,7 @@ class Scanner {
             }
           }
         },
-        k_column_chunk);
+        k_cell_column_chunk);
   }
 
   /// All others.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 
 namespace sterna {
@@ -66,8 +67,7 @@ double scaled_jacobian(CellKind kind, std::span<const Vec3> p) {
 }
 
 CellQuality cell_quality(CellKind kind, std::span<const Vec3> p) {
-  constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
-  CellQuality quality{scaled_jacobian(kind, p), 0.0, k_none, k_none};
+  CellQuality quality{scaled_jacobian(kind, p), 0.0, k_nan, k_nan};
   switch (kind) {
     case CellKind::tetrahedron: {
       quality.volume = tet_volume(p[0], p[1], p[2], p[3]);

@@ -9,7 +9,7 @@ namespace sterna::check_parts {
 namespace {
 
 /// Nodes per chunk of the matching loops; some 20 faces each.
-constexpr std::size_t k_node_chunk = 4096;
+constexpr std::size_t k_used_node_chunk = 4096;
 
 /// A face without its lowest node a. Triangle (a, b, c), b < c; quad (a, b, d, c) in cyclic order, b < c, d opposite to a.
 struct FaceKey {
@@ -140,7 +140,7 @@ FaceMatch match_faces(const FaceSlots& slots, std::size_t n_points, std::uint64_
           append(all, std::move(more));
           return all;
         },
-        k_node_chunk);
+        k_used_node_chunk);
     append(match, std::move(batch));
     begin_node = end_node;
   }

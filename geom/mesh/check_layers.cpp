@@ -13,7 +13,7 @@ namespace {
 constexpr double k_growth_slack = 0.01;
 /// Relative slack of n h0, the height below which a layer is compressed: rounding of the line's end.
 constexpr double k_height_slack = 1e-9;
-constexpr std::size_t k_line_chunk = 1024;
+constexpr std::size_t k_gate_line_chunk = 1024;
 constexpr const char* k_no_request = "the mesh does not say what was asked for";
 
 /// Unit normals of the symmetry patches at the feet of lines that stand on them: the body goes on behind with its mirror image, so normals there are means with
@@ -272,7 +272,7 @@ void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatc
         all.merge(more);
         return all;
       },
-      k_line_chunk);
+      k_gate_line_chunk);
   const auto line = [&](std::uint64_t id) {
     const auto k = static_cast<std::uint32_t>(id);
     const NodeId foot = lines.node(k, 0);

@@ -6,12 +6,13 @@
 
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
+#include "geom/base/print_text.h"
+#include "geom/math/constants.h"
 #include "geom/mesh/check_parts.h"
 
 namespace sterna {
 namespace {
 
-constexpr double k_degrees = 180.0 / std::numbers::pi;
 /// Of the verdict VALID.
 constexpr std::array<std::string_view, 6> k_valid_gates = {"G1", "G2", "G3", "G4", "G20", "tiling"};
 
@@ -27,13 +28,6 @@ std::int64_t count_of_gate(const CheckReport& report, std::string_view gate) {
   return n;
 }
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char buffer[256];
-  std::snprintf(buffer, sizeof buffer, pattern, values...);
-  return buffer;
-}
-
 std::string state_of_gate(const CheckReport& report, std::string_view gate) {
   if (!is_checked(report, gate)) return "not checked";
   const std::int64_t n = count_of_gate(report, gate);
@@ -41,14 +35,14 @@ std::string state_of_gate(const CheckReport& report, std::string_view gate) {
 }
 
 std::string gate_line(std::string_view gate, const std::string& state) {
-  return format("  %-6s %-26s ", std::string(gate).c_str(), std::string(title_of_gate(gate)).c_str()) + state + "\n";
+  return print_text("  %-6s %-26s ", std::string(gate).c_str(), std::string(title_of_gate(gate)).c_str()) + state + "\n";
 }
 
 using Json = nlohmann::ordered_json;
 
 Json to_array(const Point& p) { return {p.x, p.y, p.z}; }
 
-std::string shown_text(const MeasureInfo& info, double value) { return format("%.4g", in_report_unit(info, value)) + (info.is_angle ? " deg" : ""); }
+std::string shown_text(const MeasureInfo& info, double value) { return print_text("%.4g", in_report_unit(info, value)) + (info.is_angle ? " deg" : ""); }
 
 /// "hard 5 deg, target 20 deg, 35 deg on 99.9 %"
 std::string limits_text(const MeasureInfo& info, const GateLimits& limits) {
@@ -57,17 +51,17 @@ std::string limits_text(const MeasureInfo& info, const GateLimits& limits) {
   const auto limit = [&](double value) { return std::string(info.is_low_bad ? ">= " : "<= ") + shown_text(info, value); };
   if (!std::isnan(limits.hard)) add("hard " + limit(limits.hard));
   if (!std::isnan(limits.target)) add("target " + limit(limits.target));
-  if (!std::isnan(limits.usual)) add(limit(limits.usual) + format(" on %g %%", 100.0 * limits.usual_share));
+  if (!std::isnan(limits.usual)) add(limit(limits.usual) + print_text(" on %g %%", 100.0 * limits.usual_share));
   return text;
 }
 
 std::string gate_text(const GateResult& gate) {
   const MeasureInfo& info = info_of(gate.measure);
-  const std::string head = format("  %-4s %-32s ", std::string(info.gate).c_str(), std::string(info.title).c_str());
+  const std::string head = print_text("  %-4s %-32s ", std::string(info.gate).c_str(), std::string(info.title).c_str());
   if (gate.state == GateState::not_checked) return head + "not checked: " + gate.reason + "\n";
-  std::string text = head + format("%-5s worst ", std::string(to_string(gate.state)).c_str()) + shown_text(info, gate.worst);
+  std::string text = head + print_text("%-5s worst ", std::string(to_string(gate.state)).c_str()) + shown_text(info, gate.worst);
   if (!std::isnan(gate.limits.usual))
-    text += format("; %.4g %% of %s ", 100.0 * gate.share_within, std::string(info.counted).c_str()) + (info.is_low_bad ? ">= " : "<= ") +
+    text += print_text("; %.4g %% of %s ", 100.0 * gate.share_within, std::string(info.counted).c_str()) + (info.is_low_bad ? ">= " : "<= ") +
             shown_text(info, gate.limits.usual);
   if (const std::string limits = limits_text(info, gate.limits); !limits.empty()) text += " (" + limits + ")";
   text += "\n";
@@ -128,9 +122,9 @@ Json to_json(const PatchCoverage& patch) {
 
 std::string coverage_text(const PatchCoverage& patch) {
   std::string text = "         patch " + patch.patch +
-                     format(": %.2f %% full, %.2f %% reduced, %.2f %% compressed, %.2f %% collapsed", 100.0 * patch.full, 100.0 * patch.reduced,
-                            100.0 * patch.compressed, 100.0 * patch.collapsed);
-  for (const auto& [reason, share] : patch.lost) text += format("; %.2f %% ", 100.0 * share) + reason;
+                     print_text(": %.2f %% full, %.2f %% reduced, %.2f %% compressed, %.2f %% collapsed", 100.0 * patch.full, 100.0 * patch.reduced,
+                                100.0 * patch.compressed, 100.0 * patch.collapsed);
+  for (const auto& [reason, share] : patch.lost) text += print_text("; %.2f %% ", 100.0 * share) + reason;
   return text + "\n";
 }
 
@@ -217,19 +211,19 @@ std::string to_text(const CheckReport& report) {
   if (!report.is_complete) text += "  Indices or points are unusable, so nothing else could be checked.\n";
   for (const std::string_view gate : k_valid_gates) text += gate_line(gate, state_of_gate(report, gate));
   if (report.is_complete) {
-    text += format("  volume: layer %.9g m^3 (error %.1e), tetrahedra %.9g m^3 (error %.1e), total %.9g m^3\n", report.layer_volume, report.layer_volume_error,
-                   report.tet_volume, report.tet_volume_error, report.total_volume);
+    text += print_text("  volume: layer %.9g m^3 (error %.1e), tetrahedra %.9g m^3 (error %.1e), total %.9g m^3\n", report.layer_volume,
+                       report.layer_volume_error, report.tet_volume, report.tet_volume_error, report.total_volume);
   }
   for (const PeriodicMatchReport& sides : report.periodic)
     text += "  periodic: " + sides.first + " and " + sides.second + ", " + n(sides.n_nodes) + " nodes, " + n(sides.n_faces) + " faces, " +
             format_point(sides.translation) + " m apart, within " + number_text(sides.worst, 3) + " m\n";
   if (report.quality_measured) {
     const Quality& q = report.quality;
-    text += format("  prisms: worst scaled Jacobian %.3g at ", q.min_wedge_quality) + format_point(q.worst_prism) +
-            format("; skew below 6 deg %.1f %%, below 18 deg %.1f %%, above 60 deg %.2f %%\n", 100.0 * q.skew_below_6, 100.0 * q.skew_below_18,
-                   100.0 * q.skew_above_60);
-    text += format("  tetrahedra: dihedral angles %.2f deg at ", q.min_dihedral * k_degrees) + format_point(q.worst_tet) +
-            format(" to %.2f deg at ", q.max_dihedral * k_degrees) + format_point(q.most_obtuse_tet) + "\n";
+    text += print_text("  prisms: worst scaled Jacobian %.3g at ", q.min_wedge_quality) + format_point(q.worst_prism) +
+            print_text("; skew below 6 deg %.1f %%, below 18 deg %.1f %%, above 60 deg %.2f %%\n", 100.0 * q.skew_below_6, 100.0 * q.skew_below_18,
+                       100.0 * q.skew_above_60);
+    text += print_text("  tetrahedra: dihedral angles %.2f deg at ", q.min_dihedral * k_degrees) + format_point(q.worst_tet) +
+            print_text(" to %.2f deg at ", q.max_dihedral * k_degrees) + format_point(q.most_obtuse_tet) + "\n";
   }
   for (const GateResult& gate : report.gates) {
     text += gate_text(gate);

@@ -12,12 +12,12 @@ namespace {
 /// Largest relative difference of the two volumes, given by the project's requirement; rounding of a 30-layer mesh is about 1e-14.
 constexpr double k_volume_tolerance = 1e-11;
 
-struct Wide {
+struct WideVec {
   long double x, y, z;
 };
 
 /// Six times the flux of x/3 about the origin through a triangle, that is det(a, b, c).
-long double determinant(const Wide& a, const Wide& b, const Wide& c) {
+long double determinant(const WideVec& a, const WideVec& b, const WideVec& c) {
   return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
 }
 
@@ -27,7 +27,7 @@ class Flux {
 
   void add(std::uint32_t slot, bool is_reversed, CompensatedSum& sum) const {
     const Face face = slots_.face(slot);
-    std::array<Wide, 4> p{};
+    std::array<WideVec, 4> p{};
     for (std::size_t k = 0; k < face.size; ++k) {
       const Point& x = mesh_.points[face.nodes[k]];
       p[k] = {static_cast<long double>(x.x) - origin_.x, static_cast<long double>(x.y) - origin_.y, static_cast<long double>(x.z) - origin_.z};

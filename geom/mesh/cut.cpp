@@ -13,18 +13,18 @@
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/cell_quality.h"
 
 namespace sterna {
 namespace {
 
-constexpr double k_degree = std::numbers::pi / 180.0;
 /// Dihedral angle of a regular tetrahedron, acos(1/3), radians.
 constexpr double k_regular_dihedral = 1.2309594173407747;
 /// Cells per chunk: the sign test of one takes a few nanoseconds.
 constexpr std::size_t k_cell_chunk = 16384;
-constexpr std::size_t k_column_chunk = 1024;
+constexpr std::size_t k_cut_column_chunk = 1024;
 /// Edges of a cell are numbered lower local node * 8 + higher.
 constexpr std::size_t k_n_keys = 64;
 
@@ -239,7 +239,7 @@ MeshCut cut_columns(const HybridMesh& mesh, const Sides& sides, const std::optio
         }
         return cutter.take();
       },
-      join, k_column_chunk);
+      join, k_cut_column_chunk);
 }
 
 }  // namespace

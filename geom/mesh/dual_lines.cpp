@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geom/math/constants.h"
 #include "geom/mesh/dual_parts.h"
 
 namespace sterna::dual_parts {
@@ -37,7 +38,6 @@ LineDual::Slot& LineDual::slot_of(std::uint32_t line) {
 
 void LineDual::reset() {
   n_slots_ = 0;
-  constexpr double k_infinity = std::numeric_limits<double>::infinity();
   upward_.assign(n_padded_, 0.0);
   for (std::vector<double>* values : {&sum_above_, &sum_below_}) std::fill(values->begin(), values->end(), 0.0);
   for (std::vector<double>* values : {&least_above_, &least_below_}) std::fill(values->begin(), values->end(), k_infinity);
@@ -103,7 +103,6 @@ void LineDual::add_column(std::uint32_t column, const LineVectors& b, const Line
 
 // Edges along the layer, then the two upright ones, four layers at a time.
 void LineDual::finish(std::size_t n_layers) {
-  constexpr double k_infinity = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < n_layers; j += k_width) {
     Packed area_sum = all(0.0), weighted = all(0.0), largest = all(0.0), smallest = all(k_infinity), longest = all(0.0), shortest = all(k_infinity);
     Vec3x4 closure{};

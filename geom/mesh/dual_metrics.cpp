@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "geom/math/constants.h"
 #include "geom/mesh/dual_parts.h"
 
 namespace sterna {
@@ -228,7 +229,6 @@ DualScan scan_lines(const HybridMesh& mesh, const GateTable& limits, const RunCo
 }
 
 Column<NodeId, NodeMetrics> dual_metrics(const HybridMesh& mesh, const RunContext& context) {
-  constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
   Column<NodeId, NodeMetrics> result(mesh.points.size(), NodeMetrics{k_nan, k_nan, k_nan, k_nan, k_nan, k_nan, 0.0});
   struct Nothing {};
   const DualWalk walk(mesh, context);

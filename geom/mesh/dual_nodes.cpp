@@ -4,15 +4,13 @@
 #include <limits>
 #include <numbers>
 
+#include "geom/math/constants.h"
 #include "geom/math/sub_volumes.h"
 #include "geom/mesh/dual_parts.h"
 
 namespace sterna {
 namespace dual_parts {
 namespace {
-
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
-constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 
 double arc_sine(double x) { return std::asin(std::clamp(x, -1.0, 1.0)); }
 

@@ -2,6 +2,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "geom/base/print_text.h"
+
 #include "geom/mesh/family.h"
 
 namespace sterna {
@@ -9,34 +11,29 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char buffer[320];
-  std::snprintf(buffer, sizeof buffer, pattern, values...);
-  return buffer;
-}
-
-std::string number_or_dash(const std::optional<double>& value) { return value ? format("%.4g", *value) : "-"; }
+std::string number_or_dash(const std::optional<double>& value) { return value ? print_text("%.4g", *value) : "-"; }
 
 std::string members_text(const std::vector<FamilyMember>& members) {
-  std::string text = format("  %-28s %10s %9s %11s %7s %11s %7s %7s\n", "member", "nodes", "walls", "wall edge", "layers", "first", "growth", "tets");
+  std::string text = print_text("  %-28s %10s %9s %11s %7s %11s %7s %7s\n", "member", "nodes", "walls", "wall edge", "layers", "first", "growth", "tets");
   for (const FamilyMember& m : members)
-    text += format("  %-28s %10lld %9lld %11.5g %7s %11s %7s %7s\n", m.name.c_str(), static_cast<long long>(m.nodes), static_cast<long long>(m.wall_faces),
+    text +=
+        print_text("  %-28s %10lld %9lld %11.5g %7s %11s %7s %7s\n", m.name.c_str(), static_cast<long long>(m.nodes), static_cast<long long>(m.wall_faces),
                    m.wall_edge, m.layers ? std::to_string(*m.layers).c_str() : "-", number_or_dash(m.first_height ? m.first_height : m.measured_first).c_str(),
                    number_or_dash(m.growth ? m.growth : m.measured_growth).c_str(), number_or_dash(m.tet_growth).c_str());
   return text;
 }
 
 std::string rule_text(const FamilyRule& rule) {
-  const std::string head = format("    %-44s ", rule.title.c_str());
+  const std::string head = print_text("    %-44s ", rule.title.c_str());
   if (rule.state == GateState::not_checked) return head + "not checked: " + rule.reason + "\n";
-  std::string text = head + format("%-5s %.5g -> %.5g", std::string(to_string(rule.state)).c_str(), rule.coarse, rule.fine);
-  if (rule.tolerance > 0.0) text += format(": %.5g, expected %.5g, off by %.2g (tolerance %.2g)", rule.value, rule.expected, rule.deviation, rule.tolerance);
+  std::string text = head + print_text("%-5s %.5g -> %.5g", std::string(to_string(rule.state)).c_str(), rule.coarse, rule.fine);
+  if (rule.tolerance > 0.0)
+    text += print_text(": %.5g, expected %.5g, off by %.2g (tolerance %.2g)", rule.value, rule.expected, rule.deviation, rule.tolerance);
   if (!rule.reason.empty()) text += ": " + rule.reason;
   return text + "\n";
 }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 template <class T>
 Json optional_json(const std::optional<T>& value) {
@@ -68,9 +65,9 @@ Json rule_json(const FamilyRule& rule) {
   if (rule.state == GateState::not_checked) return json;
   json.update({{"coarse", rule.coarse},
                {"fine", rule.fine},
-               {"value", number(rule.value)},
-               {"expected", number(rule.expected)},
-               {"deviation", number(rule.deviation)},
+               {"value", json_number(rule.value)},
+               {"expected", json_number(rule.expected)},
+               {"deviation", json_number(rule.deviation)},
                {"tolerance", rule.tolerance}});
   return json;
 }
@@ -81,9 +78,9 @@ std::string to_text(const FamilyReport& report) {
   std::string text =
       "family of " + std::to_string(report.members.size()) + " meshes: " + std::string(to_string(report.state())) + "\n" + members_text(report.members);
   for (const FamilyStep& step : report.steps) {
-    text +=
-        "  " + step.coarse + " -> " + step.fine + format(": factor %.4g by ", step.factor) + step.factor_from + format("; by nodes %.4g", step.factor_by_nodes);
-    if (step.factor_by_edges > 0.0) text += format(", by mean wall edges %.4g", step.factor_by_edges);
+    text += "  " + step.coarse + " -> " + step.fine + print_text(": factor %.4g by ", step.factor) + step.factor_from +
+            print_text("; by nodes %.4g", step.factor_by_nodes);
+    if (step.factor_by_edges > 0.0) text += print_text(", by mean wall edges %.4g", step.factor_by_edges);
     text += "\n";
     for (const FamilyRule& rule : step.rules) text += rule_text(rule);
   }

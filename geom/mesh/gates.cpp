@@ -5,23 +5,22 @@
 #include <cmath>
 #include <numbers>
 
+#include "geom/math/constants.h"
+
 namespace sterna {
 namespace {
 
-constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
-constexpr double k_degree = std::numbers::pi / 180.0;
 constexpr double k_right = std::numbers::pi / 2.0;
-constexpr double k_infinity = std::numeric_limits<double>::infinity();
 
 using M = Measure;
 
 // Numbers: quality.md §6. Coverage asks 99 % of the whole; the wing's 99.5 % need a script that knows which patch is a wing.
 constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
-    {M::scaled_jacobian, "G3", "scaled_jacobian", "scaled Jacobian of prisms", "prisms", false, true, {k_none, 0.05, 0.2, 0.999}, {0, 1, 50}},
-    {M::dual_closure, "G4", "dual_closure", "closure of dual cells", "nodes", false, false, {1e-12, 1e-12, k_none, 1.0}, {0x1p-60, 0x1p-36, 48, 2}},
+    {M::scaled_jacobian, "G3", "scaled_jacobian", "scaled Jacobian of prisms", "prisms", false, true, {k_nan, 0.05, 0.2, 0.999}, {0, 1, 50}},
+    {M::dual_closure, "G4", "dual_closure", "closure of dual cells", "nodes", false, false, {1e-12, 1e-12, k_nan, 1.0}, {0x1p-60, 0x1p-36, 48, 2}},
     {M::orthogonality, "G5", "orthogonality", "SU2 orthogonality", "nodes", true, true, {5 * k_degree, 20 * k_degree, 35 * k_degree, 0.999}, {0, k_right, 45}},
     {M::sub_volume_ratio, "G6", "sub_volume_ratio", "SU2 CV sub-volume ratio", "nodes", false, false, {1e5, 1e3, 200, 0.999}, {1, 0x1p24, 48, 2}},
-    {M::face_area_ratio, "G7", "face_area_ratio", "SU2 CV face area aspect ratio", "nodes", false, false, {k_none, k_none, k_none, 1.0}, {1, 0x1p24, 48, 2}},
+    {M::face_area_ratio, "G7", "face_area_ratio", "SU2 CV face area aspect ratio", "nodes", false, false, {k_nan, k_nan, k_nan, 1.0}, {1, 0x1p24, 48, 2}},
     {M::relative_face_area_ratio,
      "G7",
      "relative_face_area_ratio",
@@ -29,17 +28,17 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      "nodes",
      false,
      false,
-     {k_none, 1.5, k_none, 1.0},
+     {k_nan, 1.5, k_nan, 1.0},
      {1, 0x1p12, 48, 4}},
-    {M::stack_growth, "G8", "stack_growth", "growth along a line", "area", false, false, {1.5, k_none, 1.2, 0.999}, {1, 2, 50}},
-    {M::interface_height, "G9", "interface_height", "last height / (0.816 edge)", "prisms", false, false, {8, k_none, 3, 0.99}, {1, 0x1p8, 48, 6}},
-    {M::interface_volume, "G9", "interface_volume", "3 tet / prism volume", "prisms", false, false, {8, k_none, 3, 0.99}, {1, 0x1p8, 48, 6}},
-    {M::stack_angle, "G10", "stack_angle", "stack angle beyond the best", "area", true, false, {k_none, k_none, 10 * k_degree, 0.995}, {0, k_right, 45}},
-    {M::first_height, "G11", "first_height", "first height against request", "lines", false, false, {0.2, k_none, 0.02, 0.99}, {0, 0.5, 50}},
-    {M::coverage, "G12", "coverage", "area at its full height", "area", false, true, {0.95, 0.99, k_none, 1.0}, {}},
-    {M::collapsed, "G12", "collapsed", "area without layers", "area", false, false, {k_none, 0.0, k_none, 1.0}, {}},
-    {M::layer_step, "G13", "layer_step", "layers lost over an edge", "edges", false, false, {1, 0, k_none, 1.0}, {}},
-    {M::min_dihedral, "G14", "min_dihedral", "smallest dihedral of a tet", "tets", true, true, {5 * k_degree, 12 * k_degree, k_none, 1.0}, {0, k_right, 45}},
+    {M::stack_growth, "G8", "stack_growth", "growth along a line", "area", false, false, {1.5, k_nan, 1.2, 0.999}, {1, 2, 50}},
+    {M::interface_height, "G9", "interface_height", "last height / (0.816 edge)", "prisms", false, false, {8, k_nan, 3, 0.99}, {1, 0x1p8, 48, 6}},
+    {M::interface_volume, "G9", "interface_volume", "3 tet / prism volume", "prisms", false, false, {8, k_nan, 3, 0.99}, {1, 0x1p8, 48, 6}},
+    {M::stack_angle, "G10", "stack_angle", "stack angle beyond the best", "area", true, false, {k_nan, k_nan, 10 * k_degree, 0.995}, {0, k_right, 45}},
+    {M::first_height, "G11", "first_height", "first height against request", "lines", false, false, {0.2, k_nan, 0.02, 0.99}, {0, 0.5, 50}},
+    {M::coverage, "G12", "coverage", "area at its full height", "area", false, true, {0.95, 0.99, k_nan, 1.0}, {}},
+    {M::collapsed, "G12", "collapsed", "area without layers", "area", false, false, {k_nan, 0.0, k_nan, 1.0}, {}},
+    {M::layer_step, "G13", "layer_step", "layers lost over an edge", "edges", false, false, {1, 0, k_nan, 1.0}, {}},
+    {M::min_dihedral, "G14", "min_dihedral", "smallest dihedral of a tet", "tets", true, true, {5 * k_degree, 12 * k_degree, k_nan, 1.0}, {0, k_right, 45}},
     {M::max_dihedral,
      "G14",
      "max_dihedral",
@@ -47,10 +46,10 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      "tets",
      true,
      false,
-     {170 * k_degree, 155 * k_degree, k_none, 1.0},
+     {170 * k_degree, 155 * k_degree, k_nan, 1.0},
      {60 * k_degree, 180 * k_degree, 60}},
-    {M::tet_growth, "G15", "tet_growth", "volume ratio of tets at a face", "faces", false, false, {20, k_none, 4, 0.999}, {1, 0x1p8, 48, 6}},
-    {M::edge_ratio, "G16", "edge_ratio", "edge ratio at a node", "nodes", false, false, {100, k_none, 10, 0.999}, {1, 0x1p10, 50, 5}},
+    {M::tet_growth, "G15", "tet_growth", "volume ratio of tets at a face", "faces", false, false, {20, k_nan, 4, 0.999}, {1, 0x1p8, 48, 6}},
+    {M::edge_ratio, "G16", "edge_ratio", "edge ratio at a node", "nodes", false, false, {100, k_nan, 10, 0.999}, {1, 0x1p10, 50, 5}},
     // quality.md §3; limits are those at which checkMesh and meshQualityDict object. Aspect ratios of y+ = 1 prisms are beyond any limit of theirs: shown only.
     {M::non_orthogonality,
      "OF",
@@ -61,14 +60,14 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      false,
      {90 * k_degree, 70 * k_degree, 65 * k_degree, 0.999},
      {0, k_right, 45}},
-    {M::skewness, "OF", "skewness", "OpenFOAM skewness", "faces", false, false, {20, 4, k_none, 1.0}, {0x1p-6, 0x1p4, 40, 4}},
-    {M::face_weight, "OF", "face_weight", "OpenFOAM face weight", "inner faces", false, true, {k_none, 0.05, k_none, 1.0}, {0, 0.5, 50}},
-    {M::volume_ratio, "OF", "volume_ratio", "OpenFOAM volume ratio", "inner faces", false, true, {k_none, 0.01, k_none, 1.0}, {0, 1, 50}},
-    {M::face_flatness, "OF", "face_flatness", "OpenFOAM flatness of quads", "quads", false, true, {k_none, 0.8, k_none, 1.0}, {0.5, 1, 50}},
-    {M::cell_aspect_ratio, "OF", "cell_aspect_ratio", "OpenFOAM aspect ratio", "cells", false, false, {k_none, k_none, k_none, 1.0}, {1, 0x1p16, 48, 3}},
-    {M::cell_openness, "OF", "cell_openness", "OpenFOAM openness", "cells", false, false, {1e-6, 1e-9, k_none, 1.0}, {0x1p-60, 0x1p-20, 40, 1}},
-    {M::cad_distance, "G17", "cad_distance", "wall nodes off the CAD, / length", "nodes", false, false, {1e-6, 1e-9, k_none, 1.0}, {0x1p-60, 0x1p-12, 48, 1}},
-    {M::cad_normal, "G18", "cad_normal", "wall facets against the CAD", "facets", true, false, {30 * k_degree, 10 * k_degree, k_none, 1.0}, {0, k_right, 45}},
+    {M::skewness, "OF", "skewness", "OpenFOAM skewness", "faces", false, false, {20, 4, k_nan, 1.0}, {0x1p-6, 0x1p4, 40, 4}},
+    {M::face_weight, "OF", "face_weight", "OpenFOAM face weight", "inner faces", false, true, {k_nan, 0.05, k_nan, 1.0}, {0, 0.5, 50}},
+    {M::volume_ratio, "OF", "volume_ratio", "OpenFOAM volume ratio", "inner faces", false, true, {k_nan, 0.01, k_nan, 1.0}, {0, 1, 50}},
+    {M::face_flatness, "OF", "face_flatness", "OpenFOAM flatness of quads", "quads", false, true, {k_nan, 0.8, k_nan, 1.0}, {0.5, 1, 50}},
+    {M::cell_aspect_ratio, "OF", "cell_aspect_ratio", "OpenFOAM aspect ratio", "cells", false, false, {k_nan, k_nan, k_nan, 1.0}, {1, 0x1p16, 48, 3}},
+    {M::cell_openness, "OF", "cell_openness", "OpenFOAM openness", "cells", false, false, {1e-6, 1e-9, k_nan, 1.0}, {0x1p-60, 0x1p-20, 40, 1}},
+    {M::cad_distance, "G17", "cad_distance", "wall nodes off the CAD, / length", "nodes", false, false, {1e-6, 1e-9, k_nan, 1.0}, {0x1p-60, 0x1p-12, 48, 1}},
+    {M::cad_normal, "G18", "cad_normal", "wall facets against the CAD", "facets", true, false, {30 * k_degree, 10 * k_degree, k_nan, 1.0}, {0, k_right, 45}},
 }};
 
 constexpr bool is_in_order() {

@@ -18,9 +18,8 @@ namespace {
 constexpr double k_tolerance_share = 1e-6;  ///< of the longest side: files keep 6 to 7 digits
 constexpr double k_max_turn_cosine = 0.94;  ///< 20 degrees: by more, a vertex that is moved into the plane would change the shape
 constexpr double k_min_kept_area = 0.2;     ///< of a triangle's area must be left when a vertex of it moves
-constexpr std::size_t k_max_places = 10;
 
-struct CutPlane {
+struct HalvingPlane {
   std::size_t axis = 1;
   double at = 0.0;
   double side = 1.0;  ///< +1: larger coordinates are kept
@@ -33,7 +32,7 @@ struct CutPlane {
   }
 };
 
-CutPlane plane_of(const TriMesh& surface, const HalfOptions& options) {
+HalvingPlane plane_of(const TriMesh& surface, const HalfOptions& options) {
   HalfOptions copy = options;
   for (const Option& option : options_of(copy)) set_option(option, option.get());  // refuses what is out of range
   const double length = bounding_box(surface).longest_side();
@@ -56,23 +55,18 @@ std::array<double, 3> distances(const Cutting& cutting, TriangleId t) {
 bool is_in_plane(const std::array<double, 3>& d) { return d[0] == 0.0 && d[1] == 0.0 && d[2] == 0.0; }
 bool is_kept_in_part(const std::array<double, 3>& d) { return d[0] > 0.0 || d[1] > 0.0 || d[2] > 0.0; }
 
-Point crossing(const Point& a, const Point& b, double of_a, double of_b, const CutPlane& plane) {
+Point crossing(const Point& a, const Point& b, double of_a, double of_b, const HalvingPlane& plane) {
   const double t = of_a / (of_a - of_b);
   Point p = a + t * (b - a);
   p[plane.axis] = plane.at;
   return p;
 }
 
-ErrorInfo error_at(const CutPlane& plane, ErrorCode code, std::string problem, std::string hint) {
+ErrorInfo error_at(const HalvingPlane& plane, ErrorCode code, std::string problem, std::string hint) {
   return {.code = code, .attempted = "half at " + plane.text(), .problem = std::move(problem), .hint = std::move(hint)};
 }
 
-void add_place(ErrorInfo& info, const Point& p, std::string what) {
-  if (info.places.size() < k_max_places) info.places.push_back({p, std::move(what)});
-  ++info.n_places;
-}
-
-Cutting place_vertices(const TriMesh& surface, const CutPlane& plane) {
+Cutting place_vertices(const TriMesh& surface, const HalvingPlane& plane) {
   Cutting cutting{surface, {}};
   cutting.distance.resize(surface.n_vertices());
   for (const VertexId v : surface.points.ids()) {
@@ -88,7 +82,7 @@ Cutting place_vertices(const TriMesh& surface, const CutPlane& plane) {
     if (is_in_plane(d) || !is_kept_in_part(d) || (d[0] != 0.0 && d[1] != 0.0 && d[2] != 0.0)) continue;
     const auto [a, b, c] = corners(surface, t);
     const auto [p, q, r] = corners(cutting.mesh, t);
-    if (dot(area_vector(a, b, c), area_vector(p, q, r)) <= 0.0 && norm(area_vector(a, b, c)) > 0.0) add_place(info, a, "triangle " + std::to_string(t.value()));
+    if (dot(area_vector(a, b, c), area_vector(p, q, r)) <= 0.0 && norm(area_vector(a, b, c)) > 0.0) info.add_place(a, "triangle " + std::to_string(t.value()));
   }
   if (info.n_places > 0) throw Error(std::move(info));
   return cutting;
@@ -112,7 +106,7 @@ struct Move {
 
 /// Where a vertex would go, if it has a crossed edge with the cut near enough; one of a rim, which may lie in another plane, only along that.
 /// \return share above `limit` when not
-Move propose(const Cutting& cutting, const Topology& topology, VertexId v, const CutPlane& plane, double limit) {
+Move propose(const Cutting& cutting, const Topology& topology, VertexId v, const HalvingPlane& plane, double limit) {
   Move best{.vertex = v, .to = {}, .share = 2.0 * limit, .fold = 2.0};
   const double d = cutting.distance[v];
   double shortest = 1e300;
@@ -151,7 +145,7 @@ struct SnapReport {
 };
 
 /// The nearest first, each by its edges as they are then.
-SnapReport snap_near_vertices(Cutting& cutting, const Topology& topology, const CutPlane& plane, double limit) {
+SnapReport snap_near_vertices(Cutting& cutting, const Topology& topology, const HalvingPlane& plane, double limit) {
   SnapReport report;
   std::vector<Move> moves;
   for (const VertexId v : cutting.mesh.points.ids()) {
@@ -188,7 +182,7 @@ EdgeList crossed_edges(const Cutting& cutting) {
 /// The part of each triangle that is kept: itself, a triangle, or two. Vertices beyond those of the mesh are crossed edges.
 class Cutter {
  public:
-  Cutter(const Cutting& cutting, const CutPlane& plane) : cutting_(cutting), edges_(crossed_edges(cutting)), points_(cutting.mesh.points) {
+  Cutter(const Cutting& cutting, const HalvingPlane& plane) : cutting_(cutting), edges_(crossed_edges(cutting)), points_(cutting.mesh.points) {
     for (const auto& [a, b] : edges_) points_.push_back(crossing(points_[a], points_[b], cutting.distance[a], cutting.distance[b], plane));
     for (const TriangleId t : cutting.mesh.triangles.ids()) cut(t);
   }
@@ -254,7 +248,7 @@ class Cutter {
   std::size_t n_cut_ = 0;
 };
 
-void require_reach(const TriMesh& surface, const TriMesh& half, const CutPlane& plane) {
+void require_reach(const TriMesh& surface, const TriMesh& half, const HalvingPlane& plane) {
   if (half.n_triangles() > 0) {
     for (const Point& p : half.points)
       if (p[plane.axis] == plane.at) return;
@@ -268,7 +262,7 @@ void require_reach(const TriMesh& surface, const TriMesh& half, const CutPlane& 
                                                     : "the surface does not reach the plane: its nearest vertex is " + std::to_string(from_plane(nearest)) +
                                                           " m away, the tolerance is " + std::to_string(plane.tolerance) + " m",
                             "give axis, at and keep of the plane that the model ends on");
-  add_place(info, surface.points[nearest], "nearest vertex");
+  info.add_place(surface.points[nearest], "nearest vertex");
   throw Error(std::move(info));
 }
 
@@ -280,7 +274,7 @@ bool is_in_some_plane(const TriMesh& half, const Box& box, const Topology& topol
   return false;
 }
 
-void require_rim(const TriMesh& half, const CutPlane& plane, const RunContext& context) {
+void require_rim(const TriMesh& half, const HalvingPlane& plane, const RunContext& context) {
   const Topology topology(half, context);
   const Box box = bounding_box(half);
   std::vector<std::uint8_t> n_rim_edges(half.n_vertices(), 0);
@@ -294,11 +288,11 @@ void require_rim(const TriMesh& half, const CutPlane& plane, const RunContext& c
     const VertexId from = topology.from(h), to = topology.to(h);
     const bool is_in_this = half.points[from][plane.axis] == plane.at && half.points[to][plane.axis] == plane.at;
     if (!is_in_this && !is_in_some_plane(half, box, topology, h))
-      add_place(open, 0.5 * (half.points[from] + half.points[to]),
-                "an edge with one triangle, " + std::to_string(std::abs(half.points[from][plane.axis] - plane.at)) + " m from the plane");
+      open.add_place(0.5 * (half.points[from] + half.points[to]),
+                     "an edge with one triangle, " + std::to_string(std::abs(half.points[from][plane.axis] - plane.at)) + " m from the plane");
     else if (++n_rim_edges[from.index()] == 2) {
       ++n_pinched;
-      add_place(touching, half.points[from], "the rim touches itself");
+      touching.add_place(half.points[from], "the rim touches itself");
     }
   }
   if (open.n_places > 0) {
@@ -308,7 +302,7 @@ void require_rim(const TriMesh& half, const CutPlane& plane, const RunContext& c
   }
   for (const VertexId v : half.points.ids())
     if (half.points[v][plane.axis] == plane.at && n_rim_edges[v.index()] == 0)
-      add_place(touching, half.points[v], "the surface touches the plane from its side");
+      touching.add_place(half.points[v], "the surface touches the plane from its side");
   if (touching.n_places == 0) return;
   touching.problem = std::to_string(n_pinched) + " vertices where the rim touches itself, " +
                      std::to_string(static_cast<std::size_t>(touching.n_places) - n_pinched) + " where the surface touches the plane beside it";
@@ -318,7 +312,7 @@ void require_rim(const TriMesh& half, const CutPlane& plane, const RunContext& c
 }  // namespace
 
 TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunContext& context) {
-  const CutPlane plane = plane_of(surface, options);
+  const HalvingPlane plane = plane_of(surface, options);
   if (surface.n_triangles() == 0) throw Error(error_at(plane, ErrorCode::empty_surface, "the surface has no triangles", ""));
   Cutting cutting = place_vertices(surface, plane);
   const SnapReport snapped = options.snap > 0.0 ? snap_near_vertices(cutting, Topology(surface, context), plane, options.snap) : SnapReport{};

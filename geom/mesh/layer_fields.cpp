@@ -5,20 +5,19 @@
 #include <numbers>
 #include <optional>
 
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/column_scan.h"
 
 namespace sterna::check_parts {
 namespace {
 
-constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
-constexpr double k_degrees = 180.0 / std::numbers::pi;
 /// Columns and lines per chunk; each holds some 30 cells.
 constexpr std::size_t k_chunk = 256;
 
 /// Of one line; NaN where it has no such figure.
 struct LineFigures {
-  double height = 0.0, first = k_none, coverage = k_none, growth = k_none, angle = k_none;
+  double height = 0.0, first = k_nan, coverage = k_nan, growth = k_nan, angle = k_nan;
 };
 
 std::vector<LineFigures> measure_lines(const HybridMesh& mesh, const LayerLines& lines, const RunContext& context) {
@@ -38,7 +37,7 @@ std::vector<LineFigures> measure_lines(const HybridMesh& mesh, const LayerLines&
       if (n > 0) {
         figures.height = distance(point(0), point(n));
         figures.first = heights.front();
-        figures.growth = n > 1 ? worst_growth(heights) : k_none;
+        figures.growth = n > 1 ? worst_growth(heights) : k_nan;
         normals.clear();
         for (const std::uint32_t t : fans.around(line)) {
           const auto& corner = lines.triangles()[t];
@@ -70,7 +69,7 @@ WedgePoints wedge_of(const HybridMesh& mesh, const LayerLines& lines, const Colu
 
 /// Skew and scaled Jacobian of the worst prism, and the jump to the tetrahedra.
 struct ColumnFigures {
-  double skew = k_none, jacobian = k_none, jump = k_none;
+  double skew = k_nan, jacobian = k_nan, jump = k_nan;
 };
 
 /// Boundary triangles by their nodes.
@@ -109,7 +108,7 @@ class ColumnMeasurer {
   /// \pre the three lines of the triangle have layers, and as many
   ColumnFigures measure(std::size_t triangle) {
     const Column column{lines_.triangles()[triangle], lines_.n_layers(lines_.triangles()[triangle][0])};
-    ColumnFigures figures{0.0, 1.0, k_none};
+    ColumnFigures figures{0.0, 1.0, k_nan};
     if (lines_.are_columns()) {
       for (const PrismMeasures& prism : scan_.measure(triangle)) lower(figures, prism.quality, prism.skew);
     } else {
@@ -148,18 +147,18 @@ double mean_of(const std::array<double, 3>& values) {
       sum += value;
       ++n;
     }
-  return n > 0 ? sum / n : k_none;
+  return n > 0 ? sum / n : k_nan;
 }
 
 double largest_of(const std::array<double, 3>& values) {
-  double largest = k_none;
+  double largest = k_nan;
   for (const double value : values)
     if (value == value && !(largest >= value)) largest = value;
   return largest;
 }
 
 std::vector<std::vector<double>> measure_columns(const HybridMesh& mesh, const LayerLines& lines, const RunContext& context) {
-  std::vector<std::vector<double>> fields(k_n_layer_fields, std::vector<double>(mesh.boundary_triangles.size(), k_none));
+  std::vector<std::vector<double>> fields(k_n_layer_fields, std::vector<double>(mesh.boundary_triangles.size(), k_nan));
   const std::vector<LineFigures> figures = measure_lines(mesh, lines, context);
   const TriangleIndex index(mesh, context);
   parallel_chunks(context, lines.triangles().size(), k_chunk, [&](std::size_t begin, std::size_t end) {
@@ -192,7 +191,7 @@ std::vector<std::vector<double>> measure_columns(const HybridMesh& mesh, const L
 }  // namespace
 
 std::vector<std::vector<double>> layer_fields(const HybridMesh& mesh, const CellNumbers& cells, const RunContext& context) {
-  if (mesh.layers.n_columns() == 0 && mesh.prisms.empty()) return std::vector(k_n_layer_fields, std::vector<double>(mesh.boundary_triangles.size(), k_none));
+  if (mesh.layers.n_columns() == 0 && mesh.prisms.empty()) return std::vector(k_n_layer_fields, std::vector<double>(mesh.boundary_triangles.size(), k_nan));
   const FaceSlots slots(mesh, cells, {});
   // Columns know their lines; stacks of explicit prisms are found by the faces that prisms share.
   const FaceMatch match = mesh.layers.n_columns() > 0 ? FaceMatch{}

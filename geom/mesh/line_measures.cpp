@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/math/spherical_cap.h"
 
@@ -11,8 +12,6 @@ namespace {
 
 /// Cells at the wall whose lean is measured (quality.md, G10).
 constexpr int k_wall_cells = 5;
-/// Height of a regular tet over its edge, sqrt(2/3) (quality.md, §5).
-constexpr double k_regular_height = 0.81649658092772603;
 
 }  // namespace
 

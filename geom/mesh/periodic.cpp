@@ -11,8 +11,6 @@
 namespace sterna {
 namespace {
 
-constexpr std::size_t k_max_places = 10;
-
 /// A face of one side, its nodes ascending; of a triangle the last is 0xffffffff.
 struct SideFace {
   std::array<std::uint32_t, 4> nodes;

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <numbers>
 
+#include "geom/math/constants.h"
+
 namespace sterna {
 namespace {
 
-constexpr double k_degree = std::numbers::pi / 180.0;
 /// Limits of the published skew statistics, radians (method.md, "Skew angle for reports").
 constexpr double k_skew_small = 6.0 * k_degree;
 constexpr double k_skew_medium = 18.0 * k_degree;

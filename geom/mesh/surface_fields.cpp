@@ -8,14 +8,14 @@
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/layer_fields.h"
 
 namespace sterna {
 namespace {
 
-constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
-constexpr GateLimits k_no_limits = {k_none, k_none, k_none, k_none};
+constexpr GateLimits k_no_limits = {k_nan, k_nan, k_nan, k_nan};
 
 enum : std::size_t { k_edge_length, k_min_angle, k_aspect, k_area_ratio, k_n_shape_fields };
 
@@ -32,7 +32,7 @@ const std::vector<SurfaceFieldInfo>& table() {
       {"area_ratio", "area ratio to neighbours", "", true, false, k_no_limits, false},
       {"layer_height", "height of the layer", "m", true, false, k_no_limits, true},
       {"first_height", "first height", "m", true, false, k_no_limits, true},
-      {"coverage", "height / target height", "", false, true, {k_none, k_none, check_parts::k_full_share, info_of(Measure::coverage).limits.target}, true},
+      {"coverage", "height / target height", "", false, true, {k_nan, k_nan, check_parts::k_full_share, info_of(Measure::coverage).limits.target}, true},
       {"layers", "number of layers", "", false, true, k_no_limits, true},
       {"growth", "growth along a line", "", false, false, limits_of(Measure::stack_growth), true},
       {"skew", "skew angle of the worst prism", "deg", false, false, k_no_limits, true},
@@ -93,7 +93,7 @@ std::vector<double> area_ratios(const Faces& faces, const std::vector<double>& a
       edges[first + k] = {std::min(nodes[k], nodes[(k + 1) % n]), std::max(nodes[k], nodes[(k + 1) % n]), static_cast<std::uint32_t>(f)};
   });
   parallel_sort(context, edges, std::less<>{});
-  std::vector<double> ratios(faces.size(), k_none);
+  std::vector<double> ratios(faces.size(), k_nan);
   for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
     for (end = i + 1; end < edges.size() && edges[end].lower == edges[i].lower && edges[end].upper == edges[i].upper;) ++end;
     for (std::size_t a = i; a < end; ++a)
@@ -109,7 +109,7 @@ std::vector<double> area_ratios(const Faces& faces, const std::vector<double>& a
 
 std::vector<SurfaceField> shape_fields(const Faces& faces, const RunContext& context) {
   std::vector<SurfaceField> fields;
-  for (std::size_t i = 0; i < k_n_shape_fields; ++i) fields.push_back({table()[i], std::vector<double>(faces.size(), k_none)});
+  for (std::size_t i = 0; i < k_n_shape_fields; ++i) fields.push_back({table()[i], std::vector<double>(faces.size(), k_nan)});
   std::vector<double> areas(faces.size());
   parallel_for(context, faces.size(), [&](std::size_t f) {
     const auto nodes = faces.nodes(f);
@@ -157,7 +157,7 @@ std::vector<SurfaceField> surface_fields(const HybridMesh& mesh, const RunContex
   std::vector<SurfaceField> fields = shape_fields(faces, context);
   std::vector<std::vector<double>> layers = layer_fields(mesh, cells, context);
   for (std::size_t i = 0; i < layers.size(); ++i) {
-    layers[i].resize(faces.size(), k_none);  // quads carry no layer
+    layers[i].resize(faces.size(), k_nan);  // quads carry no layer
     fields.push_back({table()[k_n_shape_fields + i], std::move(layers[i])});
   }
   return fields;

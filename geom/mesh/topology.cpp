@@ -10,8 +10,6 @@
 namespace sterna {
 namespace {
 
-/// Places named in the error; all are counted, and all that fit k_max_trouble_edges go to its geometry.
-constexpr std::size_t k_max_places = 10;
 constexpr std::size_t k_max_trouble_edges = 10000;
 
 /// A half-edge as seen from one of its vertices.

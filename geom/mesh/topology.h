@@ -4,16 +4,11 @@
 
 #include <span>
 
+#include "geom/base/halfedge.h"
 #include "geom/base/run_context.h"
 #include "geom/mesh/tri_mesh.h"
 
 namespace sterna {
-
-inline HalfedgeId halfedge(TriangleId t, int corner) { return HalfedgeId(std::uint64_t{3} * t.value() + static_cast<std::uint64_t>(corner)); }
-inline TriangleId triangle_of(HalfedgeId h) { return TriangleId(h.value() / 3); }
-inline int corner_of(HalfedgeId h) { return static_cast<int>(h.value() % 3); }
-inline HalfedgeId next(HalfedgeId h) { return HalfedgeId(h.value() % 3 == 2 ? h.value() - 2 : h.value() + 1); }
-inline HalfedgeId previous(HalfedgeId h) { return HalfedgeId(h.value() % 3 == 0 ? h.value() + 2 : h.value() - 1); }
 
 class Topology {
  public:

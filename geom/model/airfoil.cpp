@@ -19,10 +19,6 @@ constexpr int k_max_side = 2000;
 /// Samples of a curve for measures and errors.
 constexpr int k_samples = 800;
 
-[[noreturn]] void refuse(std::string attempted, std::string problem) {
-  throw Error({.code = ErrorCode::bad_argument, .attempted = std::move(attempted), .problem = std::move(problem)});
-}
-
 double span_of(Uv a, Uv b) { return std::hypot(b.u - a.u, b.v - a.v); }
 
 /// t of the least x: bisection of dx/dt in the pieces beside the point of least x.
@@ -64,8 +60,8 @@ double Airfoil::trailing_edge_thickness() const { return span_of(points.front(),
 
 AirfoilCurves airfoil_curves(const Airfoil& airfoil) {
   if (airfoil.points.size() < 5 || airfoil.leading_edge == 0 || airfoil.leading_edge + 1 >= airfoil.points.size())
-    refuse("making a spline of airfoil " + airfoil.name, std::to_string(airfoil.points.size()) + " points with the leading edge at number " +
-                                                             std::to_string(airfoil.leading_edge) + " do not go around a section");
+    throw_bad_argument("making a spline of airfoil " + airfoil.name, std::to_string(airfoil.points.size()) + " points with the leading edge at number " +
+                                                                         std::to_string(airfoil.leading_edge) + " do not go around a section");
   std::vector<Point> points;
   for (const Uv p : airfoil.points) points.push_back({p.u, 0.0, p.v});
   const std::vector<double> t = spline_parameters(points, SplineParameters::chord_length);
@@ -108,7 +104,8 @@ AirfoilMeasures measure(const Airfoil& airfoil) {
 Airfoil with_trailing_edge(const Airfoil& airfoil, double thickness) {
   constexpr double k_thickest = 0.2;
   if (!(thickness >= 0.0) || !(thickness < k_thickest))
-    refuse("changing the trailing edge of airfoil " + airfoil.name, "a thickness of " + number_text(thickness) + " chords, must be 0 or more and below 0.2");
+    throw_bad_argument("changing the trailing edge of airfoil " + airfoil.name,
+                       "a thickness of " + number_text(thickness) + " chords, must be 0 or more and below 0.2");
   const double old = airfoil.trailing_edge_thickness();
   Airfoil result = airfoil;
   const Uv first = airfoil.points.front(), last = airfoil.points.back(), nose = airfoil.points[airfoil.leading_edge];
@@ -152,7 +149,7 @@ Airfoil normalized(const Airfoil& airfoil) {
 
 Repaneled repaneled(const Airfoil& airfoil, int n_side) {
   if (n_side < 5 || n_side > k_max_side)
-    refuse("repaneling airfoil " + airfoil.name, std::to_string(n_side) + " points along a side, must be 5 .. " + std::to_string(k_max_side));
+    throw_bad_argument("repaneling airfoil " + airfoil.name, std::to_string(n_side) + " points along a side, must be 5 .. " + std::to_string(k_max_side));
   const AirfoilCurves curves = airfoil_curves(airfoil);
   std::vector<double> places = spaced(*curves.around, 0.0, curves.leading_edge, n_side);
   const std::vector<double> lower = spaced(*curves.around, curves.leading_edge, 1.0, n_side);
@@ -171,21 +168,21 @@ Repaneled repaneled(const Airfoil& airfoil, int n_side) {
 }
 
 Repaneled repaneled_within(const Airfoil& airfoil, double tolerance) {
-  if (!(tolerance > 0.0)) refuse("repaneling airfoil " + airfoil.name, "the tolerance is " + number_text(tolerance) + " chords, must be positive");
+  if (!(tolerance > 0.0)) throw_bad_argument("repaneling airfoil " + airfoil.name, "the tolerance is " + number_text(tolerance) + " chords, must be positive");
   constexpr int k_fewest = 8;
   for (int n = k_fewest; n <= k_max_side; n += std::max(1, n / 8)) {
     Repaneled result = repaneled(airfoil, n);
     if (result.error <= tolerance) return result;
   }
-  refuse("repaneling airfoil " + airfoil.name,
-         "an error of " + number_text(tolerance) + " chords is not reached with " + std::to_string(k_max_side) + " points along a side");
+  throw_bad_argument("repaneling airfoil " + airfoil.name,
+                     "an error of " + number_text(tolerance) + " chords is not reached with " + std::to_string(k_max_side) + " points along a side");
 }
 
 Airfoil rounded_plate(double thickness, int n_side) {
   if (!(thickness > 0.0) || !(thickness < 0.5))
-    refuse("making a rounded plate", "a thickness of " + number_text(thickness) + " chords, must be between 0 and 0.5");
+    throw_bad_argument("making a rounded plate", "a thickness of " + number_text(thickness) + " chords, must be between 0 and 0.5");
   if (n_side < 8 || n_side > k_max_side)
-    refuse("making a rounded plate", std::to_string(n_side) + " points along a side, must be 8 .. " + std::to_string(k_max_side));
+    throw_bad_argument("making a rounded plate", std::to_string(n_side) + " points along a side, must be 8 .. " + std::to_string(k_max_side));
   constexpr double k_nose = 1.5;  // length of the half ellipse, in thicknesses
   const double a = k_nose * thickness, b = 0.5 * thickness;
   const int n_nose = n_side / 2, n_flat = n_side - n_nose;

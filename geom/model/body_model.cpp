@@ -1,4 +1,4 @@
-// Bodies: rows of points through the frames -> one surface, periodic around -> halves with shared edges at bottom and top -> ends.
+// Bodies: rows of points through the frames -> one surface, periodic around_body -> halves with shared edges at bottom and top -> ends.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -126,7 +126,7 @@ Ring BodyBuilder::ring(const NurbsSurfaceForm& form, bool is_start, const std::a
   return ring;
 }
 
-SplineOptions around() {
+SplineOptions around_body() {
   SplineOptions u{.tangents = SplineTangents::periodic, .at = {}};
   for (std::size_t i = 0; i <= 2 * k_half_points; ++i) u.at.push_back(static_cast<double>(i) / static_cast<double>(2 * k_half_points));
   return u;
@@ -144,7 +144,7 @@ void BodyBuilder::skin() {
     for (std::size_t i = 0; i < grid.n_u; ++i)
       for (std::size_t j = from; j <= from + step; ++j) grid.points.push_back(rows_[j][i]);
     const SplineTangents along = step == 1 ? SplineTangents::linear : spline_tangents(body_.tangents);
-    const NurbsSurfaceForm form = spline_surface_form(grid, around(), {.tangents = along});
+    const NurbsSurfaceForm form = spline_surface_form(grid, around_body(), {.tangents = along});
     const auto corners_of = [&](std::size_t row) {
       const CornerId bottom = builder_.corner(rows_[row].front());
       return std::array<CornerId, 2>{bottom, is_point(rows_[row]) ? bottom : builder_.corner(rows_[row][k_half_points])};
@@ -178,8 +178,8 @@ void BodyBuilder::end(const Ring& ring, const EndCap& cap, FaceRole role, const 
 /// Half ellipses from the right to the left half, at every height of the ring, as rational quadratics: side, side + bulge, crest, side + bulge, side. The bulge
 /// is half the distance of both sides times the height, straight ahead; bottom and top are poles.
 void BodyBuilder::strip(const Ring& ring, double height, FaceRole role, const std::string& name) {
-  const NurbsCurveForm<Point> around = *builder_.model().edges[ring.halves[0]].curve->exact_nurbs();
-  const NurbsCurveForm<Point> right = restricted(around, {0.0, 0.5}), left = reversed(restricted(around, {0.5, 1.0}));
+  const NurbsCurveForm<Point> around_body = *builder_.model().edges[ring.halves[0]].curve->exact_nurbs();
+  const NurbsCurveForm<Point> right = restricted(around_body, {0.0, 0.5}), left = reversed(restricted(around_body, {0.5, 1.0}));
   Vec3 ahead = unit_normal(ring.poles), mean;
   for (const Vec3& v : ring.outwards) mean += v;
   if (dot(ahead, mean) < 0.0) ahead = -ahead;
@@ -233,7 +233,7 @@ void BodyBuilder::dome(const Ring& ring, double height, FaceRole role, const std
   halves(form, ring.halves, {builder_.pole(top), builder_.pole(top)}, ring.corners, {top, top}, role, name);
 }
 
-/// From the front frame around the lip and back to a flat fan face; it leaves the frame along the body's own slope, so the lip is round.
+/// From the front frame around_body the lip and back to a flat fan face; it leaves the frame along the body's own slope, so the lip is round.
 void BodyBuilder::lip(const Ring& ring) {
   const InletLip& lip = *body_.lip;
   const Point middle = middle_of(ring.poles);

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "geom/math/constants.h"
 #include "geom/model/aircraft.h"
 #include "geom/model/frame.h"
 #include "geom/model/xml_file.h"
@@ -49,7 +50,5 @@ void orient(std::vector<Uv>& points, double sign);
 
 /// Nacelle of an engine that stands at `placement`.
 CowlNacelle read_nacelle(Document& document, const pugi::xml_node& installed, const Transform& placement);
-
-inline constexpr double k_degree = 0.017453292519943295;
 
 }  // namespace sterna::cpacs

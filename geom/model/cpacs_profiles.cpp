@@ -14,12 +14,12 @@ namespace {
 using Node = pugi::xml_node;
 
 /// Points of a unit profile nearer than this are one point written twice: files carry 6 digits and more.
-constexpr double k_same_point = 1e-9;
+constexpr double k_same_profile_point = 1e-9;
 /// Points on each side of an airfoil given by a formula, and on each quarter of a fuselage profile: chord error below 1e-4 of the size.
-constexpr int k_side_points = 60;
+constexpr int k_profile_side_points = 60;
 constexpr int k_quarter_points = 16;
 
-bool is_same(Uv a, Uv b) { return std::hypot(a.u - b.u, a.v - b.v) <= k_same_point; }
+bool is_same(Uv a, Uv b) { return std::hypot(a.u - b.u, a.v - b.v) <= k_same_profile_point; }
 
 std::vector<Uv> point_list(const Document& document, const Node& list, const char* first, const char* second) {
   const XmlFile& file = document.file;
@@ -66,8 +66,8 @@ std::vector<Uv> cst_airfoil(const Document& document, const Node& node) {
     if (coefficients.empty()) file.fail(node, std::string("the list '") + b + "' is missing or empty");
     const double thickness = file.child_number(node, "trailingEdgeThickness", 0.0);
     std::vector<Uv> points;
-    for (int i = 0; i <= k_side_points; ++i) {
-      const double x = 0.5 * (1.0 + std::cos(std::numbers::pi * i / k_side_points));
+    for (int i = 0; i <= k_profile_side_points; ++i) {
+      const double x = 0.5 * (1.0 + std::cos(std::numbers::pi * i / k_profile_side_points));
       points.push_back({x, std::pow(x, first) * std::pow(1.0 - x, second) * bernstein_sum(coefficients, x) + sign * 0.5 * thickness * x});
     }
     return points;
@@ -146,10 +146,10 @@ std::vector<Uv> read_fuselage_profile(Document& document, const Node& from, cons
   if (!list && !standard) document.file.fail(node, "the profile has neither a pointList nor a standardProfile");
   std::vector<Uv> points = list ? point_list(document, list, "y", "z") : standard_profile(document, standard);
   const std::string symmetry = document.file.text(node, "symmetry");
-  const bool is_open =
-      points.size() > 2 && !is_same(points.front(), points.back()) && std::abs(points.front().u) <= k_same_point && std::abs(points.back().u) <= k_same_point;
-  const bool is_half = is_open && (std::all_of(points.begin(), points.end(), [](Uv p) { return p.u >= -k_same_point; }) ||
-                                   std::all_of(points.begin(), points.end(), [](Uv p) { return p.u <= k_same_point; }));
+  const bool is_open = points.size() > 2 && !is_same(points.front(), points.back()) && std::abs(points.front().u) <= k_same_profile_point &&
+                       std::abs(points.back().u) <= k_same_profile_point;
+  const bool is_half = is_open && (std::all_of(points.begin(), points.end(), [](Uv p) { return p.u >= -k_same_profile_point; }) ||
+                                   std::all_of(points.begin(), points.end(), [](Uv p) { return p.u <= k_same_profile_point; }));
   if (is_half && symmetry.empty()) document.file.tell(node, "the profile is one half and open; the other half was added");
   if (symmetry == "x-z-plane" || is_half) {  // one half is given: the other one follows
     std::vector<Uv> other = points;
@@ -162,8 +162,8 @@ std::vector<Uv> read_fuselage_profile(Document& document, const Node& from, cons
   while (points.size() > 1 && is_same(points.front(), points.back())) points.pop_back();
   if (points.size() < 4) document.file.fail(node, "a fuselage profile needs 4 points; it has " + std::to_string(points.size()));
   orient(points, 1.0);
-  const auto lowest =
-      std::min_element(points.begin(), points.end(), [](Uv a, Uv b) { return std::abs(a.v - b.v) > k_same_point ? a.v < b.v : std::abs(a.u) < std::abs(b.u); });
+  const auto lowest = std::min_element(points.begin(), points.end(),
+                                       [](Uv a, Uv b) { return std::abs(a.v - b.v) > k_same_profile_point ? a.v < b.v : std::abs(a.u) < std::abs(b.u); });
   std::rotate(points.begin(), lowest, points.end());
   return points;
 }

@@ -30,7 +30,7 @@ constexpr double k_knee = 1.0;
 using Row = std::vector<Point>;
 constexpr std::size_t k_nose = k_wing_side_points;
 
-[[noreturn]] void refuse(ErrorCode code, const Deflection& d, const std::string& problem, const std::string& hint = {}) {
+[[noreturn]] void refuse_deflection(ErrorCode code, const Deflection& d, const std::string& problem, const std::string& hint = {}) {
   throw Error({.code = code, .attempted = "deflecting '" + d.surface.name + "'", .problem = problem, .hint = hint});
 }
 
@@ -92,29 +92,31 @@ HingePlace hinge_place(const Row& row, double fraction) {
 
 void check(const Wing& wing, const std::vector<Deflection>& deflections) {
   for (const Deflection& d : deflections) {
-    if (d.surface.wing != wing.name) refuse(ErrorCode::bad_argument, d, "it belongs to wing '" + d.surface.wing + "', not to '" + wing.name + "'");
+    if (d.surface.wing != wing.name) refuse_deflection(ErrorCode::bad_argument, d, "it belongs to wing '" + d.surface.wing + "', not to '" + wing.name + "'");
     if (!(std::abs(d.angle) <= k_max_angle))
-      refuse(ErrorCode::bad_argument, d, "its angle is " + std::to_string(d.angle * 180.0 / std::numbers::pi) + " degrees; at most 60 are possible");
+      refuse_deflection(ErrorCode::bad_argument, d, "its angle is " + std::to_string(d.angle * 180.0 / std::numbers::pi) + " degrees; at most 60 are possible");
     if (d.surface.hinge.size() < 2)
-      refuse(ErrorCode::bad_argument, d, "it has " + std::to_string(d.surface.hinge.size()) + " hinge points; at least 2 are needed");
+      refuse_deflection(ErrorCode::bad_argument, d, "it has " + std::to_string(d.surface.hinge.size()) + " hinge points; at least 2 are needed");
     for (std::size_t i = 1; i < d.surface.hinge.size(); ++i)
-      if (!(d.surface.hinge[i].span > d.surface.hinge[i - 1].span)) refuse(ErrorCode::bad_argument, d, "its hinge points do not ascend along the span");
-    if (!(d.surface.hinge.front().span < 1.0 && d.surface.hinge.back().span > 0.0)) refuse(ErrorCode::bad_argument, d, "it lies beyond the tips");
+      if (!(d.surface.hinge[i].span > d.surface.hinge[i - 1].span))
+        refuse_deflection(ErrorCode::bad_argument, d, "its hinge points do not ascend along the span");
+    if (!(d.surface.hinge.front().span < 1.0 && d.surface.hinge.back().span > 0.0)) refuse_deflection(ErrorCode::bad_argument, d, "it lies beyond the tips");
     for (const HingePoint& h : d.surface.hinge)
       if (!(h.chord >= 0.0 && h.chord <= 1.0))
-        refuse(ErrorCode::bad_argument, d, "a hinge point lies at " + std::to_string(h.chord) + " of the chord; it must be within 0 and 1");
+        refuse_deflection(ErrorCode::bad_argument, d, "a hinge point lies at " + std::to_string(h.chord) + " of the chord; it must be within 0 and 1");
     if (d.fairing != Deflection::k_automatic_fairing && !(d.fairing > 0.0))
-      refuse(ErrorCode::bad_argument, d, "its fairing is " + std::to_string(d.fairing) + " m; it must be positive");
+      refuse_deflection(ErrorCode::bad_argument, d, "its fairing is " + std::to_string(d.fairing) + " m; it must be positive");
     if (!is_open(d)) continue;
     for (const auto& [value, what] : {std::pair{d.slot, "slot"}, std::pair{d.end_gap, "end gap"}})
       if (value != Deflection::k_automatic_slot && !(value > 0.0))
-        refuse(ErrorCode::bad_argument, d, std::string("its ") + what + " is " + std::to_string(value) + " m; it must be positive");
+        refuse_deflection(ErrorCode::bad_argument, d, std::string("its ") + what + " is " + std::to_string(value) + " m; it must be positive");
     if (d.surface.kind == ControlKind::all_moving) continue;
     if (!(d.surface.hinge.front().span > 0.0 && d.surface.hinge.back().span < 1.0))
-      refuse(ErrorCode::bad_argument, d, "with an open gap it must end before the tips, where the wing goes on beside it");
+      refuse_deflection(ErrorCode::bad_argument, d, "with an open gap it must end before the tips, where the wing goes on beside it");
     for (const HingePoint& h : d.surface.hinge)
       if (!(h.chord > k_min_open_chord && h.chord < 1.0 - k_min_open_chord))
-        refuse(ErrorCode::bad_argument, d, "with an open gap its hinge must lie within 0.03 and 0.97 of the chord, not at " + std::to_string(h.chord));
+        refuse_deflection(ErrorCode::bad_argument, d,
+                          "with an open gap its hinge must lie within 0.03 and 0.97 of the chord, not at " + std::to_string(h.chord));
   }
 }
 
@@ -128,10 +130,10 @@ void check_overlaps(const std::vector<Deflection>& deflections, const WingSpan& 
         if (is_open(*deflection)) *reach = {reach->from - reach->end_gap, reach->to + reach->end_gap, 0.0};     // something must be left between
         else if (deflection->angle == 0.0) *reach = {reach->from + k_same_span, reach->to - k_same_span, 0.0};  // patches may touch
       if (p.from - p.fade < q.to + q.fade && q.from - q.fade < p.to + p.fade)
-        refuse(ErrorCode::bad_argument, a,
-               "with its fairings or end gaps it overlaps '" + b.surface.name + "' along the span: " + std::to_string(p.from - p.fade) + " .. " +
-                   std::to_string(p.to + p.fade) + " and " + std::to_string(q.from - q.fade) + " .. " + std::to_string(q.to + q.fade) + " of it",
-               "give a smaller fairing or end gap");
+        refuse_deflection(ErrorCode::bad_argument, a,
+                          "with its fairings or end gaps it overlaps '" + b.surface.name + "' along the span: " + std::to_string(p.from - p.fade) + " .. " +
+                              std::to_string(p.to + p.fade) + " and " + std::to_string(q.from - q.fade) + " .. " + std::to_string(q.to + q.fade) + " of it",
+                          "give a smaller fairing or end gap");
     }
 }
 
@@ -174,7 +176,8 @@ RowCrossing lip_of(const Deflection& d, const Row& row, const RowCrossing& hinge
   const auto [upper, lower] = points_at(row, hinge);
   const std::optional<RowCrossing> lip =
       row_at_distance(row, hinge, 0.5 * (upper + lower), 0.5 * distance(upper, lower) + slot, d.surface.kind == ControlKind::trailing_edge);
-  if (!lip) refuse(ErrorCode::bad_argument, d, "its slot of " + std::to_string(slot) + " m is larger than what is left of the section beyond the hinge");
+  if (!lip)
+    refuse_deflection(ErrorCode::bad_argument, d, "its slot of " + std::to_string(slot) + " m is larger than what is left of the section beyond the hinge");
   return *lip;
 }
 

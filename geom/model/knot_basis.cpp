@@ -15,27 +15,24 @@ constexpr std::size_t k_max_buckets = 1 << 16;
 /// Part of a bucket: rounding may put a parameter into the bucket beside its own.
 constexpr double k_bucket_margin = 1e-6;
 
-void refuse(std::string_view attempted, std::string problem) {
-  throw Error({.code = ErrorCode::bad_argument, .attempted = std::string(attempted), .problem = std::move(problem)});
-}
-
 void check_knots(int degree, const std::vector<double>& knots, std::string_view attempted) {
-  if (degree < 1 || degree > k_max_degree) refuse(attempted, "degree is " + std::to_string(degree) + ", must be 1 .. " + std::to_string(k_max_degree));
+  if (degree < 1 || degree > k_max_degree)
+    throw_bad_argument(attempted, "degree is " + std::to_string(degree) + ", must be 1 .. " + std::to_string(k_max_degree));
   const auto order = static_cast<std::size_t>(degree) + 1;
-  if (knots.size() < 2 * order) refuse(attempted, std::to_string(knots.size()) + " knots are too few for degree " + std::to_string(degree));
+  if (knots.size() < 2 * order) throw_bad_argument(attempted, std::to_string(knots.size()) + " knots are too few for degree " + std::to_string(degree));
   for (std::size_t i = 0; i < knots.size(); ++i) {
-    if (!std::isfinite(knots[i])) refuse(attempted, "knot " + std::to_string(i) + " is not a finite number");
-    if (i > 0 && knots[i] < knots[i - 1]) refuse(attempted, "knots descend at knot " + std::to_string(i));
+    if (!std::isfinite(knots[i])) throw_bad_argument(attempted, "knot " + std::to_string(i) + " is not a finite number");
+    if (i > 0 && knots[i] < knots[i - 1]) throw_bad_argument(attempted, "knots descend at knot " + std::to_string(i));
   }
   if (knots[order - 1] != knots.front() || knots[knots.size() - order] != knots.back())
-    refuse(attempted, "the knots are not clamped: the first and the last must appear degree + 1 = " + std::to_string(order) + " times");
-  if (!(knots.front() < knots.back())) refuse(attempted, "the knots span an interval of no length");
+    throw_bad_argument(attempted, "the knots are not clamped: the first and the last must appear degree + 1 = " + std::to_string(order) + " times");
+  if (!(knots.front() < knots.back())) throw_bad_argument(attempted, "the knots span an interval of no length");
   std::size_t run = 1;
   for (std::size_t i = 1; i < knots.size(); ++i) {
     run = knots[i] == knots[i - 1] ? run + 1 : 1;
     const bool is_inner = knots[i] > knots.front() && knots[i] < knots.back();
     if (run > (is_inner ? order - 1 : order))
-      refuse(attempted, "knot " + std::to_string(knots[i]) + " appears more than " + std::to_string(is_inner ? order - 1 : order) + " times");
+      throw_bad_argument(attempted, "knot " + std::to_string(knots[i]) + " appears more than " + std::to_string(is_inner ? order - 1 : order) + " times");
   }
 }
 

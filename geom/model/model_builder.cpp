@@ -19,24 +19,24 @@ constexpr double k_off_surface = 1e-9;
 /// Part of its size by which a planar border may leave its plane: rounding of rotations.
 constexpr double k_off_plane = 1e-9;
 
-[[noreturn]] void refuse(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places = {}) {
+[[noreturn]] void refuse_model(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places = {}) {
   throw Error({.code = code, .attempted = "building a model", .problem = problem, .places = std::move(places)});
 }
 
 Point at_part(const ModelEdge& edge, double part) { return edge.curve->point(edge.range.from + part * edge.range.length()); }
 
 /// Poles of the curve that has one row's poles and weights, evaluated: one pole of the parameter line.
-struct Row {
+struct BuilderRow {
   std::vector<Point> poles;
   std::vector<double> weights;
 };
 
-CurvePtr curve_through_rows(const std::vector<Row>& rows, int row_degree, const std::vector<double>& row_knots, double at, int degree,
+CurvePtr curve_through_rows(const std::vector<BuilderRow>& rows, int row_degree, const std::vector<double>& row_knots, double at, int degree,
                             const std::vector<double>& knots) {
   NurbsCurveForm<Point> line;
   line.degree = degree;
   line.knots = knots;
-  for (const Row& row : rows) {
+  for (const BuilderRow& row : rows) {
     if (row.weights.empty()) {
       line.poles.push_back(NurbsCurve({row_degree, row_knots, row.poles, {}}).point(at));
       continue;
@@ -59,7 +59,7 @@ CurvePtr curve_through_rows(const std::vector<Row>& rows, int row_degree, const 
 CurvePtr line_of_constant_u(const NurbsSurfaceForm& form, double at) { return line_of_constant_v(exchanged(form), at); }
 
 CurvePtr line_of_constant_v(const NurbsSurfaceForm& form, double at) {
-  std::vector<Row> rows(form.n_u);
+  std::vector<BuilderRow> rows(form.n_u);
   for (std::size_t i = 0; i < form.n_u; ++i)
     for (std::size_t j = 0; j < form.n_v; ++j) {
       rows[i].poles.push_back(form.poles[i * form.n_v + j]);
@@ -110,8 +110,8 @@ EdgeUse ModelBuilder::use_along(const Surface& surface, EdgeId id, Uv from, Uv t
     }
   }
   if (off > k_off_surface * size)
-    refuse(ErrorCode::internal, what + ": an edge is " + std::to_string(off) + " m off the side that it borders",
-           {{worst, edge.name.empty() ? "edge" : edge.name}});
+    refuse_model(ErrorCode::internal, what + ": an edge is " + std::to_string(off) + " m off the side that it borders",
+                 {{worst, edge.name.empty() ? "edge" : edge.name}});
   edge.tolerance = std::max(edge.tolerance, off);
   for (const CornerId c : {edge.start, edge.end}) model_.corners[c].tolerance = std::max(model_.corners[c].tolerance, off);
   return {id, is_reversed, is_reversed ? parameter_segment(to, from, edge.range) : parameter_segment(from, to, edge.range)};
@@ -142,7 +142,7 @@ FaceId ModelBuilder::plane(const std::vector<EdgeId>& border, FaceRole role, con
     for (const EdgeId id : edges) {
       const ModelEdge& edge = model_.edges[id];
       if (edge.start != at && edge.end != at)
-        refuse(ErrorCode::internal, name + ": the edges of a planar face do not follow each other", {{model_.corners[at].point, "end of one"}});
+        refuse_model(ErrorCode::internal, name + ": the edges of a planar face do not follow each other", {{model_.corners[at].point, "end of one"}});
       is_reversed.push_back(edge.start != at);
       at = is_reversed.back() ? edge.start : edge.end;
       constexpr int k_samples = 64;
@@ -158,7 +158,7 @@ FaceId ModelBuilder::plane(const std::vector<EdgeId>& border, FaceRole role, con
     area += cross(samples[i] - samples[0], samples[(i + 1) % samples.size()] - samples[0]);
     middle += samples[i] / static_cast<double>(samples.size());
   }
-  if (!(norm(area) > 0.0)) refuse(ErrorCode::bad_argument, name + ": a planar face has no area", {{middle, "here"}});
+  if (!(norm(area) > 0.0)) refuse_model(ErrorCode::bad_argument, name + ": a planar face has no area", {{middle, "here"}});
   const std::vector<bool> inner = hole.empty() ? std::vector<bool>{} : chained(hole);
   const Frame frame = frame_along(middle, area);
   double size = 0.0;
@@ -170,8 +170,8 @@ FaceId ModelBuilder::plane(const std::vector<EdgeId>& border, FaceRole role, con
   }
   for (const Point& p : samples)
     if (std::abs(frame.local(p).z) > k_off_plane * std::max(size, norm(p)))
-      refuse(ErrorCode::bad_argument, name + ": the border of a flat end is not planar, " + std::to_string(frame.local(p).z) + " m off its plane",
-             {{p, "here"}});
+      refuse_model(ErrorCode::bad_argument, name + ": the border of a flat end is not planar, " + std::to_string(frame.local(p).z) + " m off its plane",
+                   {{p, "here"}});
   const double margin = 0.05 * size;  // edges reach the box of samples and a little more
   box = {{box.u.from - margin, box.u.to + margin}, {box.v.from - margin, box.v.to + margin}};
   const auto flat = [&](const std::vector<EdgeId>& edges, const std::vector<bool>& is_reversed) {
@@ -188,7 +188,7 @@ FaceId ModelBuilder::plane(const std::vector<EdgeId>& border, FaceRole role, con
         const auto uv = [&](const Vec3& d) { return Uv{dot(d, frame.x), dot(d, frame.y)}; };
         parameter = std::make_shared<ParameterArc>(uv(arc->centre() - frame.origin), uv(arc->x()), uv(arc->y()), edge.range);
       } else {
-        refuse(ErrorCode::internal, name + ": an edge of a planar face has no exact projection");
+        refuse_model(ErrorCode::internal, name + ": an edge of a planar face has no exact projection");
       }
       uses.push_back({edges[i], is_reversed[i], std::move(parameter)});
     }
@@ -216,10 +216,10 @@ void orient_outwards(Model& model, SolidId solid_id) {
     for (const Border& border : model.faces[f].borders)
       for (const EdgeUse& u : border)
         if (const ModelEdge& edge = model.edges[u.edge]; !edge.is_degenerate() && uses[u.edge].size() != 2)
-          refuse(ErrorCode::internal,
-                 "solid '" + solid.name + "' is not closed: an edge of face '" + model.faces[f].name + "' is used " + std::to_string(uses[u.edge].size()) +
-                     " times instead of twice",
-                 {{at_part(edge, 0.5), edge.name.empty() ? "middle of the edge" : edge.name}});
+          refuse_model(ErrorCode::internal,
+                       "solid '" + solid.name + "' is not closed: an edge of face '" + model.faces[f].name + "' is used " +
+                           std::to_string(uses[u.edge].size()) + " times instead of twice",
+                       {{at_part(edge, 0.5), edge.name.empty() ? "middle of the edge" : edge.name}});
   Column<FaceId, std::uint8_t> is_done(model.faces.size(), 0);
   std::deque<FaceId> queue{solid.faces.front()};
   is_done[queue.front()] = 1;
@@ -240,17 +240,18 @@ void orient_outwards(Model& model, SolidId solid_id) {
           is_done[other.face] = 1;
           queue.push_back(other.face);
         } else if (neighbour.is_reversed != wanted) {
-          refuse(ErrorCode::internal, "solid '" + solid.name + "': faces '" + model.faces[f].name + "' and '" + neighbour.name + "' cannot be oriented alike",
-                 {{at_part(model.edges[u.edge], 0.5), "their edge"}});
+          refuse_model(ErrorCode::internal,
+                       "solid '" + solid.name + "': faces '" + model.faces[f].name + "' and '" + neighbour.name + "' cannot be oriented alike",
+                       {{at_part(model.edges[u.edge], 0.5), "their edge"}});
         }
       }
   }
   double volume = 0.0;
   for (const FaceId f : solid.faces) {
-    if (!is_done[f]) refuse(ErrorCode::internal, "solid '" + solid.name + "' is not in one piece: face '" + model.faces[f].name + "' has no neighbour");
+    if (!is_done[f]) refuse_model(ErrorCode::internal, "solid '" + solid.name + "' is not in one piece: face '" + model.faces[f].name + "' has no neighbour");
     volume += face_measures(model, f).volume;
   }
-  if (volume == 0.0) refuse(ErrorCode::internal, "solid '" + solid.name + "' has no volume");
+  if (volume == 0.0) refuse_model(ErrorCode::internal, "solid '" + solid.name + "' has no volume");
   if (volume < 0.0)
     for (const FaceId f : solid.faces) model.faces[f].is_reversed = !model.faces[f].is_reversed;
 }

@@ -22,7 +22,7 @@ struct Profile {
   std::vector<double> x, y;
 };
 
-[[noreturn]] void refuse(std::string_view designation, std::string problem) {
+[[noreturn]] void refuse_designation(std::string_view designation, std::string problem) {
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = "making NACA airfoil \"" + std::string(designation) + "\"",
                .problem = std::move(problem),
@@ -102,7 +102,8 @@ double largest(const Profile& profile) {
 Profile six_series_thickness(std::string_view designation, const std::string& family, double t, int n) {
   const auto table =
       std::find_if(airfoil_parts::k_mapping_tables.begin(), airfoil_parts::k_mapping_tables.end(), [&](const auto& e) { return e.family == family; });
-  if (table == airfoil_parts::k_mapping_tables.end()) refuse(designation, "there is no family " + family + "; there are 63, 64, 65, 66, 67, 63A, 64A, 65A");
+  if (table == airfoil_parts::k_mapping_tables.end())
+    refuse_designation(designation, "there is no family " + family + "; there are 63, 64, 65, 66, 67, 63A, 64A, 65A");
   // Thickness grows with the scale: bisection.
   double low = 0.0, high = 4.0;
   for (int k = 0; k < 60; ++k) {
@@ -229,7 +230,7 @@ double percent(const std::string& text) { return std::stoi(text) / 100.0; }
 
 Airfoil naca_airfoil(std::string_view designation, int n_side) {
   constexpr int k_fewest = 10, k_most = 2000;
-  if (n_side < k_fewest || n_side > k_most) refuse(designation, std::to_string(n_side) + " points along a side, must be 10 .. 2000");
+  if (n_side < k_fewest || n_side > k_most) refuse_designation(designation, std::to_string(n_side) + " points along a side, must be 10 .. 2000");
   const Designation d = cleaned(designation);
   const std::string name = "NACA " + std::string(designation.substr(designation.rfind("NACA ", 0) == 0 ? 5 : 0));
   const std::string& s = d.digits;
@@ -237,7 +238,7 @@ Airfoil naca_airfoil(std::string_view designation, int n_side) {
   const auto is = [&](const char* pattern) { return std::regex_match(s, match, std::regex(pattern)); };
   const auto checked_thickness = [&](double t) {
     constexpr double k_thickest = 0.40;
-    if (!(t > 0.0) || t > k_thickest) refuse(designation, "a thickness of " + std::to_string(t) + " chords, must be above 0 and at most 0.40");
+    if (!(t > 0.0) || t > k_thickest) refuse_designation(designation, "a thickness of " + std::to_string(t) + " chords, must be above 0 and at most 0.40");
     return t;
   };
 
@@ -255,11 +256,11 @@ Airfoil naca_airfoil(std::string_view designation, int n_side) {
   }
   if (is("(\\d)(\\d)(\\d\\d)(-(\\d)(\\d))?")) {
     const double m = digit(match[1], 0) / 100.0, p = digit(match[2], 0) / 10.0, t = checked_thickness(percent(match[3]));
-    if (m > 0.0 && p == 0.0) refuse(designation, "its camber has no place: the second digit is 0");
+    if (m > 0.0 && p == 0.0) refuse_designation(designation, "its camber has no place: the second digit is 0");
     Profile profile;
     if (match[4].matched) {
       const int nose = digit(match[5], 0), at = digit(match[6], 0);
-      if (at < 2 || at > 6) refuse(designation, "the largest thickness at 0." + std::to_string(at) + " chords, must be at 0.2 .. 0.6");
+      if (at < 2 || at > 6) refuse_designation(designation, "the largest thickness at 0." + std::to_string(at) + " chords, must be at 0.2 .. 0.6");
       profile = modified_thickness(t, nose, at / 10.0, n_side);
     } else {
       profile = four_digit_thickness(t, n_side);
@@ -270,12 +271,12 @@ Airfoil naca_airfoil(std::string_view designation, int n_side) {
     const double lift = 0.15 * digit(match[1], 0);
     const bool is_reflexed = match[3] == "1";
     const std::size_t place = static_cast<std::size_t>(digit(match[2], 0)) - 1;
-    if (is_reflexed && place == 0) refuse(designation, "there is no reflexed mean line with the camber at 0.05 chords");
+    if (is_reflexed && place == 0) refuse_designation(designation, "there is no reflexed mean line with the camber at 0.05 chords");
     const FiveDigitLine& line = is_reflexed ? k_five_digit_reflexed[place] : k_five_digit[place];
     return combined(name, four_digit_thickness(checked_thickness(percent(match[4])), n_side),
                     [&](double x) { return five_digit_mean(line, is_reflexed, lift, x); });
   }
-  refuse(designation, "it is no designation of the 4-digit, modified, 5-digit, 16-, 6- or 6A-series");
+  refuse_designation(designation, "it is no designation of the 4-digit, modified, 5-digit, 16-, 6- or 6A-series");
 }
 
 }  // namespace sterna

@@ -1,5 +1,5 @@
-// Nacelles of cowls: profiles at angles about the axis -> rows of points around -> surfaces closed around the axis, in two halves, with edges along the
-// lips and the trailing edges.
+// Nacelles of cowls: profiles at angles about the axis -> rows of points around_cowl -> surfaces closed around_cowl the axis, in two halves, with edges along
+// the lips and the trailing edges.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -15,13 +15,13 @@
 namespace sterna {
 namespace {
 
-/// Points around the axis; even, so that halves end on points.
+/// Points around_cowl the axis; even, so that halves end on points.
 constexpr std::size_t k_cowl_angles = 32;
 constexpr std::size_t k_cowl_side_points = 32;
 /// Radii and thicknesses below this part of the profile's size are nothing: 6 digits of a file.
 constexpr double k_nothing = 1e-6;
 
-SplineOptions around() {
+SplineOptions around_cowl() {
   SplineOptions o{.tangents = SplineTangents::periodic, .at = {}};
   for (std::size_t i = 0; i <= k_cowl_angles; ++i) o.at.push_back(static_cast<double>(i) / k_cowl_angles);
   return o;
@@ -81,7 +81,7 @@ void CowlBuilder::halves(const NurbsSurfaceForm& form, const Hoop& from, const H
   builder_.patch(surface, {u, {0.5, 1.0}}, {bottom, to.halves[1], top, from.halves[1]}, role, name_);
 }
 
-/// The profile at any angle: sections splined around the circle, point by point in x and radius.
+/// The profile at any angle: sections splined around_cowl the circle, point by point in x and radius.
 std::vector<std::vector<Uv>> profiles_of(const Cowl& cowl) {
   std::vector<std::vector<Uv>> rows;
   for (const CowlSection& section : cowl.sections) {
@@ -139,7 +139,7 @@ Model CowlBuilder::ring(const Cowl& cowl) {
     }
   SplineOptions along{.tangents = SplineTangents::not_a_knot, .at = airfoil_stations(k_cowl_side_points)};
   for (std::size_t k = k_cowl_side_points; k-- > 0;) along.at.push_back(2.0 - along.at[k]);
-  const NurbsSurfaceForm form = spline_surface_form(closed, along, around());
+  const NurbsSurfaceForm form = spline_surface_form(closed, along, around_cowl());
   const NurbsSurfaceForm inner = restricted(form, {0.0, 1.0}, {0.0, 1.0}), outer = restricted(form, {1.0, 2.0}, {0.0, 1.0});
   const Hoop inner_end = hoop(inner, 0.0), lip = hoop(inner, 1.0), outer_end = is_blunt ? hoop(outer, 2.0) : inner_end;
   halves(inner, inner_end, lip, FaceRole::lower);
@@ -160,7 +160,7 @@ Model CowlBuilder::center_body(const std::vector<Uv>& given) {
   for (Uv* end : {&profile.front(), &profile.back()})
     if (end->v <= k_nothing * size) end->v = 0.0;
   const PointGrid grid = turned(std::vector<std::vector<Uv>>(k_cowl_angles, profile));
-  const NurbsSurfaceForm form = spline_surface_form(grid, {.tangents = SplineTangents::akima}, around());
+  const NurbsSurfaceForm form = spline_surface_form(grid, {.tangents = SplineTangents::akima}, around_cowl());
   const Hoop nose = hoop(form, form.knots_u.front()), tail = hoop(form, form.knots_u.back());
   halves(form, nose, tail, FaceRole::skin);
   for (const auto& [end, role] : {std::pair{nose, FaceRole::nose}, {tail, FaceRole::tail}})

@@ -9,7 +9,7 @@
 namespace sterna {
 namespace {
 
-constexpr std::string_view k_attempted = "making a NURBS curve";
+constexpr std::string_view k_nurbs_curve_attempt = "making a NURBS curve";
 
 NurbsCurveForm<Point> in_space(const NurbsCurveForm<Uv>& form) {
   NurbsCurveForm<Point> result{form.degree, form.knots, {}, form.weights};
@@ -21,8 +21,8 @@ NurbsCurveForm<Point> in_space(const NurbsCurveForm<Uv>& form) {
 
 NurbsCurve::NurbsCurve(NurbsCurveForm<Point> form, bool is_periodic)
     : form_(std::move(form)),
-      basis_(form_.degree, form_.knots, is_periodic, k_attempted),
-      poles_(weighted_poles(form_.poles, form_.weights, basis_.n_functions(), k_attempted)) {}
+      basis_(form_.degree, form_.knots, is_periodic, k_nurbs_curve_attempt),
+      poles_(weighted_poles(form_.poles, form_.weights, basis_.n_functions(), k_nurbs_curve_attempt)) {}
 
 Point NurbsCurve::point(double t) const {
   BasisValues basis;

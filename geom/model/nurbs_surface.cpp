@@ -10,7 +10,7 @@ namespace sterna {
 namespace {
 
 using Value = Lanes4::Value;
-constexpr std::string_view k_attempted = "making a NURBS surface";
+constexpr std::string_view k_nurbs_surface_attempt = "making a NURBS surface";
 
 Point position(const Value& v) { return {v[0], v[1], v[2]}; }
 
@@ -33,7 +33,7 @@ NurbsSurfaceForm checked(NurbsSurfaceForm form) {
   const auto count = [](int degree, const std::vector<double>& knots) { return static_cast<std::int64_t>(knots.size()) - degree - 1; };
   if (count(form.degree_u, form.knots_u) != static_cast<std::int64_t>(form.n_u) || count(form.degree_v, form.knots_v) != static_cast<std::int64_t>(form.n_v))
     throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = std::string(k_attempted),
+                 .attempted = std::string(k_nurbs_surface_attempt),
                  .problem = "the poles are said to be " + std::to_string(form.n_u) + " x " + std::to_string(form.n_v) + ", knots and degrees ask for " +
                             std::to_string(count(form.degree_u, form.knots_u)) + " x " + std::to_string(count(form.degree_v, form.knots_v))});
   return form;
@@ -43,9 +43,9 @@ NurbsSurfaceForm checked(NurbsSurfaceForm form) {
 
 NurbsSurface::NurbsSurface(NurbsSurfaceForm form, bool is_periodic_u, bool is_periodic_v, std::string kind)
     : form_(checked(std::move(form))),
-      basis_u_(form_.degree_u, form_.knots_u, is_periodic_u, k_attempted),
-      basis_v_(form_.degree_v, form_.knots_v, is_periodic_v, k_attempted),
-      poles_(weighted_poles(form_.poles, form_.weights, form_.n_u * form_.n_v, k_attempted)),
+      basis_u_(form_.degree_u, form_.knots_u, is_periodic_u, k_nurbs_surface_attempt),
+      basis_v_(form_.degree_v, form_.knots_v, is_periodic_v, k_nurbs_surface_attempt),
+      poles_(weighted_poles(form_.poles, form_.weights, form_.n_u * form_.n_v, k_nurbs_surface_attempt)),
       kind_(kind.empty() ? "NURBS " + std::to_string(form_.degree_u) + " x " + std::to_string(form_.degree_v) : std::move(kind)) {}
 
 template <int n_u, int n_v>

@@ -16,10 +16,6 @@ using Value = Lanes4::Value;
 /// Part of the domain: knots of two splines nearer than this differ by rounding.
 constexpr double k_same_knot = 1e-14;
 
-void refuse(std::string_view attempted, std::string problem) {
-  throw Error({.code = ErrorCode::bad_argument, .attempted = std::string(attempted), .problem = std::move(problem)});
-}
-
 /// Blossom of the piece on [knots[span], knots[span + 1]] at `degree` arguments; pole i is poles[i * stride].
 Value blossom(int degree, const std::vector<double>& knots, const Lanes4* poles, std::size_t stride, std::size_t span, std::span<const double> arguments) {
   const auto p = static_cast<std::size_t>(degree);
@@ -86,13 +82,13 @@ void split_weights(const std::vector<Lanes4>& poles, bool is_rational, std::vect
 }  // namespace
 
 std::vector<Lanes4> weighted_poles(const std::vector<Point>& poles, const std::vector<double>& weights, std::size_t n, std::string_view attempted) {
-  if (poles.size() != n) refuse(attempted, std::to_string(poles.size()) + " poles, but knots and degree ask for " + std::to_string(n));
-  if (!weights.empty() && weights.size() != n) refuse(attempted, std::to_string(weights.size()) + " weights for " + std::to_string(n) + " poles");
+  if (poles.size() != n) throw_bad_argument(attempted, std::to_string(poles.size()) + " poles, but knots and degree ask for " + std::to_string(n));
+  if (!weights.empty() && weights.size() != n) throw_bad_argument(attempted, std::to_string(weights.size()) + " weights for " + std::to_string(n) + " poles");
   std::vector<Lanes4> result(n);
   for (std::size_t i = 0; i < n; ++i) {
     const double w = weights.empty() ? 1.0 : weights[i];
-    if (!(w > 0.0) || !std::isfinite(w)) refuse(attempted, "weight " + std::to_string(i) + " is not positive");
-    if (!is_finite(poles[i])) refuse(attempted, "pole " + std::to_string(i) + " is not finite");
+    if (!(w > 0.0) || !std::isfinite(w)) throw_bad_argument(attempted, "weight " + std::to_string(i) + " is not positive");
+    if (!is_finite(poles[i])) throw_bad_argument(attempted, "pole " + std::to_string(i) + " is not finite");
     result[i].value = Value{w * poles[i].x, w * poles[i].y, w * poles[i].z, w};
   }
   return result;

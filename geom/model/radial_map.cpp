@@ -14,7 +14,7 @@
 namespace sterna {
 namespace {
 
-constexpr std::string_view k_attempted = "spreading displacements over space";
+constexpr std::string_view k_radial_map_attempt = "spreading displacements over space";
 /// The system is dense: 6000 points take 0.3 GB and about a minute.
 constexpr std::size_t k_max_points = 6000;
 /// Part of the points' extent: closer ones are one point.
@@ -26,9 +26,9 @@ constexpr double k_flat = 1e-6;
 /// Scaled distance below which the logarithm of the second derivative of a thin plate is cut off.
 constexpr double k_core = 1e-9;
 
-[[noreturn]] void refuse(std::string problem, std::vector<ErrorPlace> places = {}, std::string hint = {}) {
+[[noreturn]] void refuse_map(std::string problem, std::vector<ErrorPlace> places = {}, std::string hint = {}) {
   throw Error({.code = ErrorCode::bad_argument,
-               .attempted = std::string(k_attempted),
+               .attempted = std::string(k_radial_map_attempt),
                .problem = std::move(problem),
                .places = std::move(places),
                .hint = std::move(hint)});
@@ -61,9 +61,9 @@ ScatteredDisplacements merged(const ScatteredDisplacements& data, double toleran
       const std::size_t a = std::min(order[i], order[j]), b = std::max(order[i], order[j]);
       if (distance(data.at[a], data.at[b]) > tolerance) continue;
       if (distance(data.shift[a], data.shift[b]) > shift_tolerance)
-        refuse("points " + std::to_string(a + 1) + " and " + std::to_string(b + 1) + " lie at one place but move differently, by " +
-                   format_point(data.shift[a]) + " and " + format_point(data.shift[b]),
-               {{data.at[a], "both points"}});
+        refuse_map("points " + std::to_string(a + 1) + " and " + std::to_string(b + 1) + " lie at one place but move differently, by " +
+                       format_point(data.shift[a]) + " and " + format_point(data.shift[b]),
+                   {{data.at[a], "both points"}});
       is_repeated[b] = 1;
     }
   }
@@ -101,13 +101,13 @@ Eigen::MatrixXd spanned_directions(const std::vector<Vec3>& points) {
 
 RadialMap::RadialMap(const ScatteredDisplacements& data, const RadialMapOptions& options)
     : is_thin_plate_(options.kernel == "thin_plate"), radius_(options.radius), scale_(1.0) {
-  if (options.kernel != "thin_plate" && options.kernel != "wendland_c2") refuse("kernel is \"" + options.kernel + "\", must be thin_plate or wendland_c2");
-  if (data.at.empty()) refuse("there are no points");
-  if (data.at.size() != data.shift.size()) refuse(std::to_string(data.at.size()) + " points, but " + std::to_string(data.shift.size()) + " displacements");
+  if (options.kernel != "thin_plate" && options.kernel != "wendland_c2") refuse_map("kernel is \"" + options.kernel + "\", must be thin_plate or wendland_c2");
+  if (data.at.empty()) refuse_map("there are no points");
+  if (data.at.size() != data.shift.size()) refuse_map(std::to_string(data.at.size()) + " points, but " + std::to_string(data.shift.size()) + " displacements");
   Point low = data.at.front(), high = data.at.front();
   double largest = 0.0;
   for (std::size_t i = 0; i < data.at.size(); ++i) {
-    if (!is_finite(data.at[i]) || !is_finite(data.shift[i])) refuse("point " + std::to_string(i + 1) + " or its displacement is not finite");
+    if (!is_finite(data.at[i]) || !is_finite(data.shift[i])) refuse_map("point " + std::to_string(i + 1) + " or its displacement is not finite");
     for (std::size_t a = 0; a < 3; ++a) {
       low[a] = std::min(low[a], data.at[i][a]);
       high[a] = std::max(high[a], data.at[i][a]);
@@ -120,9 +120,9 @@ RadialMap::RadialMap(const ScatteredDisplacements& data, const RadialMapOptions&
   const ScatteredDisplacements unique = merged(data, k_same_place * scale_, k_same_shift * largest);
   const std::size_t n = unique.at.size();
   if (n > k_max_points)
-    refuse(std::to_string(n) + " points, at most " + std::to_string(k_max_points) + " can be solved", {},
-           "thin the table out: displacements are smooth, a few hundred points are plenty");
-  if (!is_thin_plate_ && !is_automatic(radius_) && !(radius_ > 0.0)) refuse("radius is " + number_text(radius_) + " m, must be positive");
+    refuse_map(std::to_string(n) + " points, at most " + std::to_string(k_max_points) + " can be solved", {},
+               "thin the table out: displacements are smooth, a few hundred points are plenty");
+  if (!is_thin_plate_ && !is_automatic(radius_) && !(radius_ > 0.0)) refuse_map("radius is " + number_text(radius_) + " m, must be positive");
   radius_ = (is_automatic(radius_) ? scale_ : radius_) / scale_;
   for (const Point& p : unique.at) centres_.push_back((p - origin_) / scale_);
 
@@ -157,8 +157,8 @@ RadialMap::RadialMap(const ScatteredDisplacements& data, const RadialMapOptions&
   for (std::size_t i = 0; i < n; ++i) {
     const double miss = distance(point(unique.at[i]), unique.at[i] + unique.shift[i]);
     if (!(miss <= k_same_shift * largest + 1e-14 * scale_))
-      refuse("the system cannot be solved: a point is missed by " + number_text(miss) + " m", {{unique.at[i], "this point"}},
-             "thin out points that nearly coincide, or take a smaller radius");
+      refuse_map("the system cannot be solved: a point is missed by " + number_text(miss) + " m", {{unique.at[i], "this point"}},
+                 "thin out points that nearly coincide, or take a smaller radius");
   }
 }
 

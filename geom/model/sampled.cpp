@@ -21,7 +21,7 @@ constexpr std::array<double, 2> k_between = {0.31, 0.5};
 /// Seams may be open by this part of the tolerance.
 constexpr double k_seam = 0.1;
 
-[[noreturn]] void refuse(std::string problem, std::vector<ErrorPlace> places = {}, std::string hint = {}) {
+[[noreturn]] void refuse_sampling(std::string problem, std::vector<ErrorPlace> places = {}, std::string hint = {}) {
   throw Error({.code = ErrorCode::bad_argument,
                .attempted = "sampling a function to a spline",
                .problem = std::move(problem),
@@ -39,10 +39,10 @@ struct Stations {
 
   Stations(Interval range, const std::vector<double>& kinks, bool periodic) : breaks(kinks), is_periodic(periodic) {
     if (!std::isfinite(range.from) || !std::isfinite(range.to) || !(range.from < range.to))
-      refuse("the parameters [" + number_text(range.from) + ", " + number_text(range.to) + "] have no length");
+      refuse_sampling("the parameters [" + number_text(range.from) + ", " + number_text(range.to) + "] have no length");
     std::vector<double> stops{range.from};
     for (const double b : breaks) {
-      if (!(b > stops.back()) || !(b < range.to)) refuse("break " + number_text(b) + " is not inside, or breaks do not ascend");
+      if (!(b > stops.back()) || !(b < range.to)) refuse_sampling("break " + number_text(b) + " is not inside, or breaks do not ascend");
       stops.push_back(b);
     }
     stops.push_back(range.to);
@@ -82,7 +82,7 @@ class Function {
     const auto [place, is_new] = values_.try_emplace(std::array{at.u, at.v});
     if (is_new) {
       place->second = f_(at);
-      if (!is_finite(place->second)) refuse("the function does not give finite numbers at " + text_of(at));
+      if (!is_finite(place->second)) refuse_sampling("the function does not give finite numbers at " + text_of(at));
     }
     return place->second;
   }
@@ -93,14 +93,14 @@ class Function {
 };
 
 void check_options(const SamplingOptions& o) {
-  if (!(o.tolerance > 0.0) || !std::isfinite(o.tolerance)) refuse("the tolerance is " + number_text(o.tolerance) + " m, must be positive");
-  if (o.max_intervals < k_first_intervals) refuse("max_intervals is " + std::to_string(o.max_intervals) + ", must be 4 or more");
+  if (!(o.tolerance > 0.0) || !std::isfinite(o.tolerance)) refuse_sampling("the tolerance is " + number_text(o.tolerance) + " m, must be positive");
+  if (o.max_intervals < k_first_intervals) refuse_sampling("max_intervals is " + std::to_string(o.max_intervals) + ", must be 4 or more");
 }
 
 [[noreturn]] void fail_to_reach(double error, double tolerance, int max_intervals, const Point& place, const std::string& where) {
-  refuse("the error is still " + number_text(error) + " m with " + std::to_string(max_intervals) + " intervals along a direction, the tolerance is " +
-             number_text(tolerance) + " m",
-         {{place, where}}, "a kink or a step there? Name it as a break; or allow a larger tolerance or more intervals");
+  refuse_sampling("the error is still " + number_text(error) + " m with " + std::to_string(max_intervals) + " intervals along a direction, the tolerance is " +
+                      number_text(tolerance) + " m",
+                  {{place, where}}, "a kink or a step there? Name it as a break; or allow a larger tolerance or more intervals");
 }
 
 struct Worst {
@@ -127,7 +127,8 @@ NurbsSurfaceForm spline_of(Function& f, const Stations& u, const Stations& v) {
 void check_seams(Function& f, const Stations& u, const Stations& v, double tolerance) {
   const auto check = [&](Uv a, Uv b) {
     if (const double gap = distance(f(a), f(b)); gap > k_seam * tolerance)
-      refuse("the function is said to be periodic, but its ends are " + number_text(gap) + " m apart at " + text_of(a), {{f(a), "start"}, {f(b), "end"}});
+      refuse_sampling("the function is said to be periodic, but its ends are " + number_text(gap) + " m apart at " + text_of(a),
+                      {{f(a), "start"}, {f(b), "end"}});
   };
   if (u.is_periodic)
     for (const double b : v.at) check({u.at.front(), b}, {u.at.back(), b});
@@ -194,8 +195,8 @@ SampledCurve sample_curve(const std::function<Point(double)>& function, Interval
   Function f(along);
   Stations t(range, options.breaks_u, options.is_periodic_u);
   if (const double gap = distance(f({range.from, 0.0}), f({range.to, 0.0})); t.is_periodic && gap > k_seam * options.tolerance)
-    refuse("the function is said to be periodic, but its ends are " + number_text(gap) + " m apart",
-           {{f({range.from, 0.0}), "start"}, {f({range.to, 0.0}), "end"}});
+    refuse_sampling("the function is said to be periodic, but its ends are " + number_text(gap) + " m apart",
+                    {{f({range.from, 0.0}), "start"}, {f({range.to, 0.0}), "end"}});
   while (true) {
     std::vector<Point> points;
     for (const double s : t.at) points.push_back(f({s, 0.0}));

@@ -18,7 +18,7 @@ constexpr std::size_t k_length_samples = 2000;
 /// A frame whose size is below this part of its distance from the origin, or of a metre, is a point.
 constexpr double k_point_size = 1e-9;
 
-[[noreturn]] void refuse(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places = {}) {
+[[noreturn]] void refuse_section(ErrorCode code, const std::string& problem, std::vector<ErrorPlace> places = {}) {
   throw Error({.code = code, .attempted = "making a cross section", .problem = problem, .places = std::move(places)});
 }
 
@@ -64,7 +64,7 @@ std::function<Uv(double)> shape_of(const BodyFrame& frame) {
       for (int i = 0; i <= 4000; ++i) widest = std::max(widest, raw(-1.0 + i / 2000.0));
       return [=](double a) { return Uv{raw(-std::cos(a)) / widest, -std::cos(a)}; };
     }
-    default: refuse(ErrorCode::unsupported_format, "frame '" + frame.name + "': Isikveren's sections have no documented formula and are not supported");
+    default: refuse_section(ErrorCode::unsupported_format, "frame '" + frame.name + "': Isikveren's sections have no documented formula and are not supported");
   }
 }
 
@@ -156,7 +156,7 @@ std::vector<Point> section_loop(const WingSection& section, const std::optional<
     std::vector<Uv> points = section.points;
     if (points.empty() && !section.naca.empty()) points = naca_airfoil(section.naca).points;
     if (points.size() < 5)
-      refuse(ErrorCode::bad_argument, "section '" + section.name + "' has " + std::to_string(points.size()) + " airfoil points; at least 5 are needed");
+      refuse_section(ErrorCode::bad_argument, "section '" + section.name + "' has " + std::to_string(points.size()) + " airfoil points; at least 5 are needed");
     const Transform place = transform_of({section.leading_edge, {section.dihedral, section.twist, section.yaw}});
     const double up = section.is_reversed ? -section.chord : section.chord;
     for (const Uv p : points) loop.push_back(place.point({section.chord * p.u, 0.0, up * p.v}));
@@ -195,7 +195,7 @@ AirfoilRow airfoil_row(const std::vector<Point>& loop, std::size_t n, const std:
   for (std::size_t i = 0; i < loop.size(); ++i)
     if (distance(loop[i], middle) > distance(loop[best], middle)) best = i;
   if (best == 0 || best + 1 == loop.size())
-    refuse(ErrorCode::bad_argument, "section '" + name + "' has no leading edge between its ends", {{loop[best], "farthest point"}});
+    refuse_section(ErrorCode::bad_argument, "section '" + name + "' has no leading edge between its ends", {{loop[best], "farthest point"}});
   double low = at[best - 1], high = at[best + 1];
   constexpr double k_golden = 0.6180339887498949;
   for (int i = 0; i < 80; ++i) {
@@ -310,12 +310,13 @@ std::vector<Point> frame_row(const BodyFrame& frame, std::size_t m) {
         top = i;
     }
     if (top == 0)
-      refuse(ErrorCode::bad_argument, "frame '" + frame.name + "' has its highest point where it begins, at the bottom", {{frame.loop.front(), "first point"}});
+      refuse_section(ErrorCode::bad_argument, "frame '" + frame.name + "' has its highest point where it begins, at the bottom",
+                     {{frame.loop.front(), "first point"}});
     return halves_of(frame.loop, top, m);
   }
   if (!(frame.width > 0.0 && frame.height > 0.0))
-    refuse(ErrorCode::bad_argument,
-           "frame '" + frame.name + "' is " + std::to_string(frame.width) + " m wide and " + std::to_string(frame.height) + " m high; both must be positive");
+    refuse_section(ErrorCode::bad_argument, "frame '" + frame.name + "' is " + std::to_string(frame.width) + " m wide and " + std::to_string(frame.height) +
+                                                " m high; both must be positive");
   const auto place = [&](Uv p) { return frame.center + Vec3{0.0, 0.5 * frame.width * p.u, 0.5 * frame.height * p.v}; };
   if (frame.shape == FrameShape::points) {
     std::vector<Point> loop;

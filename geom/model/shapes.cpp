@@ -16,10 +16,6 @@
 namespace sterna {
 namespace {
 
-[[noreturn]] void refuse(const std::string& attempted, const std::string& problem) {
-  throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = problem});
-}
-
 /// A duct of rectangular stations: walls between them by cubics (straight or with level ends), flat ends.
 struct DuctStation {
   double x, half_width, half_height;
@@ -93,7 +89,7 @@ std::vector<Uv> symmetric_section(double thickness) {
 Model make_box(const std::string& name, const Point& from, const Point& to) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (!(to[axis] > from[axis]))
-      refuse("making box '" + name + "'", "its corners " + format_point(from) + " and " + format_point(to) + " must ascend in x, y and z");
+      throw_bad_argument("making box '" + name + "'", "its corners " + format_point(from) + " and " + format_point(to) + " must ascend in x, y and z");
   ModelBuilder builder({name, ComponentKind::box});
   std::array<CornerId, 8> corners;
   for (std::size_t i = 0; i < 8; ++i) corners[i] = builder.corner({i & 1 ? to.x : from.x, i & 2 ? to.y : from.y, i & 4 ? to.z : from.z});
@@ -110,8 +106,8 @@ Model make_box(const std::string& name, const Point& from, const Point& to) {
 Model make_cylinder(const std::string& name, const Point& from, const Point& to, double radius) {
   const double length = distance(from, to);
   if (!(length > 0.0) || !(radius > 0.0))
-    refuse("making cylinder '" + name + "'",
-           "it is " + std::to_string(length) + " m long and has a radius of " + std::to_string(radius) + " m; both must be positive");
+    throw_bad_argument("making cylinder '" + name + "'",
+                       "it is " + std::to_string(length) + " m long and has a radius of " + std::to_string(radius) + " m; both must be positive");
   ModelBuilder builder({name, ComponentKind::body});
   const Frame frame = frame_along(from, to - from);
   const double pi = std::numbers::pi;
@@ -139,8 +135,9 @@ Model make_test_section(const TestSectionOptions& o) {
   const double start = is_automatic(o.upstream) ? -0.5 * o.length : -o.upstream;
   const bool has_contraction = o.contraction_length > 0.0 && o.contraction_ratio > 1.0;
   if (!is_automatic(o.diameter)) {
-    if (!is_automatic(o.width) || !is_automatic(o.height)) refuse(attempted, "it has a diameter, and width or height; a round one has its diameter alone");
-    if (has_contraction || o.diffuser_length > 0.0) refuse(attempted, "round sections have neither contraction nor diffuser");
+    if (!is_automatic(o.width) || !is_automatic(o.height))
+      throw_bad_argument(attempted, "it has a diameter, and width or height; a round one has its diameter alone");
+    if (has_contraction || o.diffuser_length > 0.0) throw_bad_argument(attempted, "round sections have neither contraction nor diffuser");
     Model model = make_cylinder(o.wall, {start, 0.0, 0.0}, {start + o.length, 0.0, 0.0}, 0.5 * o.diameter);
     model.components.raw().front().kind = ComponentKind::tunnel;
     for (ModelFace& face : model.faces) {
@@ -150,7 +147,7 @@ Model make_test_section(const TestSectionOptions& o) {
     turn_inside_out(model);  // the fluid is inside
     return model;
   }
-  if (is_automatic(o.width) || is_automatic(o.height)) refuse(attempted, "it needs width and height, or the diameter of a round one");
+  if (is_automatic(o.width) || is_automatic(o.height)) throw_bad_argument(attempted, "it needs width and height, or the diameter of a round one");
   std::vector<DuctStation> stations;
   if (has_contraction) {
     const double scale = std::sqrt(o.contraction_ratio);
@@ -171,8 +168,8 @@ Body nacelle_body(const std::string& name, const Point& position, const NacelleO
   NacelleOptions checked = o;
   require_options(options_of(checked), "making nacelle '" + name + "'");
   if (!(o.fan_ratio < o.highlight_ratio))
-    refuse("making nacelle '" + name + "'",
-           "fan_ratio is " + std::to_string(o.fan_ratio) + "; it must be below highlight_ratio (" + std::to_string(o.highlight_ratio) + ")");
+    throw_bad_argument("making nacelle '" + name + "'",
+                       "fan_ratio is " + std::to_string(o.fan_ratio) + "; it must be below highlight_ratio (" + std::to_string(o.highlight_ratio) + ")");
   Body body{.name = name, .placement = {position, {}}};
   const auto add = [&](double x, double ratio) {
     body.frames.push_back(
@@ -190,7 +187,7 @@ Body nacelle_body(const std::string& name, const Point& position, const NacelleO
 Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, const PylonOptions& o) {
   const std::string attempted = "making pylon '" + name + "'";
   if (!(o.nacelle_from < o.nacelle_to) || !(o.wing_from < o.wing_to))
-    refuse(attempted, "its leading edges must lie before its trailing edges (nacelle_from < nacelle_to, wing_from < wing_to)");
+    throw_bad_argument(attempted, "its leading edges must lie before its trailing edges (nacelle_from < nacelle_to, wing_from < wing_to)");
   const Transform nacelle_map = transform_of(nacelle.placement), wing_map = transform_of(wing.placement);
   const Point front = nacelle_map.point(nacelle.frames.front().center), back = nacelle_map.point(nacelle.frames.back().center);
   const double y = 0.5 * (front.y + back.y);
@@ -214,7 +211,8 @@ Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, 
     const double t = (side * y - a) / (b - a);
     local = Line{lines[i].leading + t * (lines[i + 1].leading - lines[i].leading), lines[i].trailing + t * (lines[i + 1].trailing - lines[i].trailing)};
   }
-  if (!local) refuse(attempted, "nacelle '" + nacelle.name + "' stands at y = " + std::to_string(y) + " m, where wing '" + wing.name + "' has no section");
+  if (!local)
+    throw_bad_argument(attempted, "nacelle '" + nacelle.name + "' stands at y = " + std::to_string(y) + " m, where wing '" + wing.name + "' has no section");
   const Vec3 chord = local->trailing - local->leading;
   const auto section = [&](const std::string& label, const Point& leading, const Point& trailing) {
     WingSection s{.name = label, .leading_edge = leading, .chord = distance(leading, trailing)};

@@ -7,6 +7,7 @@
 #include <pugixml.hpp>
 
 #include "geom/base/error.h"
+#include "geom/math/constants.h"
 #include "geom/model/airfoil.h"
 #include "geom/model/smx.h"
 #include "geom/model/xml_file.h"
@@ -14,13 +15,12 @@
 namespace sterna {
 namespace {
 
-constexpr double k_degree = std::numbers::pi / 180.0;
 /// A polyline that turns by more doubles back: sumo refuses it too.
 constexpr double k_max_turn = 175.0 * k_degree;
 /// Normalised frame points off by less are as good as files with 6 digits can say it; moving them would change shapes at every save.
 constexpr double k_normal_slack = 2e-6;
 /// Points closer than this, of a unit section, are the same point written twice.
-constexpr double k_same_point = 1e-12;
+constexpr double k_same_smx_point = 1e-12;
 /// Half width of a section's end that is meant to lie in the plane of symmetry.
 constexpr double k_on_plane = 1e-9;
 
@@ -60,7 +60,7 @@ double SmxReader::positive(const Node& node, const char* attribute) const {
 
 void SmxReader::drop_repeated(const Node& node, std::vector<Uv>& points) {
   const std::size_t n = points.size();
-  points.erase(std::unique(points.begin(), points.end(), [](Uv a, Uv b) { return std::hypot(a.u - b.u, a.v - b.v) <= k_same_point; }), points.end());
+  points.erase(std::unique(points.begin(), points.end(), [](Uv a, Uv b) { return std::hypot(a.u - b.u, a.v - b.v) <= k_same_smx_point; }), points.end());
   if (points.size() != n) file_.tell(node, std::to_string(n - points.size()) + " repeated points were dropped");
 }
 

@@ -7,6 +7,7 @@
 #include <pugixml.hpp>
 
 #include "geom/base/error.h"
+#include "geom/math/constants.h"
 #include "geom/model/smx.h"
 #include "geom/model/xml_file.h"
 
@@ -14,7 +15,6 @@ namespace sterna {
 namespace {
 
 using Node = pugi::xml_node;
-constexpr double k_degree = std::numbers::pi / 180.0;
 constexpr std::int64_t k_sumo_version = (2 << 16) | (7 << 8) | 10;  ///< the version whose schema is written
 
 void set(Node& node, const char* name, const std::string& value) { node.append_attribute(name) = value.c_str(); }
@@ -35,7 +35,7 @@ double degrees_of(double radians) {
   return near;
 }
 
-[[noreturn]] void refuse(const std::string& what, const std::string& hint) {
+[[noreturn]] void refuse_smx(const std::string& what, const std::string& hint) {
   throw Error({.code = ErrorCode::unsupported_format, .attempted = "writing a .smx file", .problem = what, .hint = hint});
 }
 
@@ -110,7 +110,7 @@ void add_shape(Node& node, const BodyFrame& frame) {
   switch (frame.shape) {
     case FrameShape::points: return add_pairs(node, frame.points);
     case FrameShape::loop:
-      refuse("frame '" + frame.name + "' is a free loop; .smx has only half sections in planes x = const", "write the model as STEP instead");
+      refuse_smx("frame '" + frame.name + "' is a free loop; .smx has only half sections in planes x = const", "write the model as STEP instead");
     case FrameShape::circle: return shape_with("CircularShapeConstraint", "radius", frame.width);
     case FrameShape::ellipse: return shape_with("EllipticShapeConstraint", "exponent", frame.exponent);
     case FrameShape::egg: return shape_with("HuegelschaefferConstraint", "distortion", frame.distortion);
@@ -127,11 +127,12 @@ void add_shape(Node& node, const BodyFrame& frame) {
 
 void add_body(Node& root, const Body& body) {
   if (body.tangents == BodyTangents::linear)
-    refuse("body '" + body.name + "' is straight between its frames; .smx has only smooth bodies", "write the model as STEP instead");
+    refuse_smx("body '" + body.name + "' is straight between its frames; .smx has only smooth bodies", "write the model as STEP instead");
   if (body.tangents == BodyTangents::monotone && body.frames.size() > 2)
-    refuse("body '" + body.name + "' never swells beyond its frames; the bodies of .smx do",
-           "make it with along = \"smooth\" or \"akima\", which .smx has, or write the model as STEP");
-  if (body.has_mirror_image) refuse("body '" + body.name + "' has a mirror image; .smx wants it as a body of its own", "add the image as a body of its own");
+    refuse_smx("body '" + body.name + "' never swells beyond its frames; the bodies of .smx do",
+               "make it with along = \"smooth\" or \"akima\", which .smx has, or write the model as STEP");
+  if (body.has_mirror_image)
+    refuse_smx("body '" + body.name + "' has a mirror image; .smx wants it as a body of its own", "add the image as a body of its own");
   Node node = root.append_child("BodySkeleton");
   set(node, "akimatg", body.tangents == BodyTangents::akima);
   set(node, "name", body.name);
@@ -164,11 +165,12 @@ void add_wing(Node& root, const Wing& wing) {
   for (const WingSection& s : wing.sections)
     if (!wing.trailing_edge && s.points.size() > 2 &&
         std::hypot(s.points.front().u - s.points.back().u, s.points.front().v - s.points.back().v) > k_closed_airfoil)
-      refuse("the airfoil of section '" + s.name + "' of wing '" + wing.name + "' is open at its trailing edge, .smx has only sharp ones",
-             "give the wing trailing_edge = 0, or write the model as STEP");
+      refuse_smx("the airfoil of section '" + s.name + "' of wing '" + wing.name + "' is open at its trailing edge, .smx has only sharp ones",
+                 "give the wing trailing_edge = 0, or write the model as STEP");
   if (wing.trailing_edge.value_or(0.0) != 0.0)
-    refuse("wing '" + wing.name + "' has a blunt trailing edge; .smx has only sharp ones", "write the model as STEP instead");
-  if (wing.has_mirror_image) refuse("wing '" + wing.name + "' has a mirror image; .smx wants it as a wing of its own", "add the image as a wing of its own");
+    refuse_smx("wing '" + wing.name + "' has a blunt trailing edge; .smx has only sharp ones", "write the model as STEP instead");
+  if (wing.has_mirror_image)
+    refuse_smx("wing '" + wing.name + "' has a mirror image; .smx wants it as a wing of its own", "add the image as a wing of its own");
   Node node = root.append_child("WingSkeleton");
   set(node, "flags", std::string(wing.is_symmetric ? "autosym," : "") + (wing.has_winglet ? "detectwinglet," : "") + (wing.is_cubic ? "cubic," : ""));
   set(node, "name", wing.name);
@@ -176,8 +178,8 @@ void add_wing(Node& root, const Wing& wing) {
   set(node, "rotation", wing.placement.rotation);
   for (const WingSection& s : wing.sections) {
     if (!s.loop.empty())
-      refuse("section '" + s.name + "' of wing '" + wing.name + "' is a free loop; .smx has only airfoils with chord and angles",
-             "write the model as STEP instead");
+      refuse_smx("section '" + s.name + "' of wing '" + wing.name + "' is a free loop; .smx has only airfoils with chord and angles",
+                 "write the model as STEP instead");
     Node child = node.append_child("WingSection");
     set(child, "airfoil", s.airfoil);
     set(child, "center", s.leading_edge);
@@ -263,11 +265,11 @@ void add_engine(Node& root, const JetEngine& engine) {
 
 void write_smx(const Aircraft& aircraft, const std::filesystem::path& path) {
   if (!aircraft.nacelles.empty())
-    refuse("nacelle '" + aircraft.nacelles.front().name + "' is made of cowls; .smx has only bodies with an inlet lip", "write the model as STEP instead");
+    refuse_smx("nacelle '" + aircraft.nacelles.front().name + "' is made of cowls; .smx has only bodies with an inlet lip", "write the model as STEP instead");
   for (const Deflection& deflection : aircraft.deflections)
     if (deflection.angle != 0.0 || deflection.gap != ControlGap::sealed)
-      refuse("control surface '" + deflection.surface.name + "' is deflected or has a gap; .smx has only clean wings",
-             "write the model as STEP instead, or give it no deflection");
+      refuse_smx("control surface '" + deflection.surface.name + "' is deflected or has a gap; .smx has only clean wings",
+                 "write the model as STEP instead, or give it no deflection");
   pugi::xml_document document;
   Node declaration = document.append_child(pugi::node_declaration);
   set(declaration, "version", std::string("1.0"));

@@ -23,10 +23,6 @@ constexpr double k_straight = 1e-10;
 /// A seam closes when its ends are apart by less than this part of the whole length.
 constexpr double k_closed = 1e-9;
 
-[[noreturn]] void refuse(std::string_view attempted, std::string problem, std::vector<ErrorPlace> places = {}) {
-  throw Error({.code = ErrorCode::bad_argument, .attempted = std::string(attempted), .problem = std::move(problem), .places = std::move(places)});
-}
-
 bool is_smooth(SplineTangents t) {
   return t == SplineTangents::natural || t == SplineTangents::clamped || t == SplineTangents::not_a_knot || t == SplineTangents::periodic;
 }
@@ -55,25 +51,27 @@ std::vector<double> scaled_sum(const std::vector<double>& steps) {
 }
 
 void check_options(const SplineOptions& o, std::size_t n, std::size_t n_rows, std::string_view attempted) {
-  if (n < 2) refuse(attempted, std::to_string(n) + " points in a direction, at least 2 are needed");
+  if (n < 2) throw_bad_argument(attempted, std::to_string(n) + " points in a direction, at least 2 are needed");
   if (!o.at.empty()) {
-    if (o.at.size() != n) refuse(attempted, std::to_string(o.at.size()) + " parameters for " + std::to_string(n) + " points");
+    if (o.at.size() != n) throw_bad_argument(attempted, std::to_string(o.at.size()) + " parameters for " + std::to_string(n) + " points");
     for (std::size_t i = 0; i < n; ++i)
-      if (!std::isfinite(o.at[i]) || (i > 0 && !(o.at[i] > o.at[i - 1]))) refuse(attempted, "the parameters do not ascend at point " + std::to_string(i));
+      if (!std::isfinite(o.at[i]) || (i > 0 && !(o.at[i] > o.at[i - 1])))
+        throw_bad_argument(attempted, "the parameters do not ascend at point " + std::to_string(i));
   }
   if (!o.start_tangents.empty() && o.start_tangents.size() != n_rows)
-    refuse(attempted, std::to_string(o.start_tangents.size()) + " start tangents for " + std::to_string(n_rows) + " rows");
+    throw_bad_argument(attempted, std::to_string(o.start_tangents.size()) + " start tangents for " + std::to_string(n_rows) + " rows");
   if (!o.end_tangents.empty() && o.end_tangents.size() != n_rows)
-    refuse(attempted, std::to_string(o.end_tangents.size()) + " end tangents for " + std::to_string(n_rows) + " rows");
+    throw_bad_argument(attempted, std::to_string(o.end_tangents.size()) + " end tangents for " + std::to_string(n_rows) + " rows");
   if (o.tangents != SplineTangents::clamped && !(o.start_tangents.empty() && o.end_tangents.empty()))
-    refuse(attempted, "end tangents are given, but the tangents are not `clamped`");
+    throw_bad_argument(attempted, "end tangents are given, but the tangents are not `clamped`");
   for (std::size_t k = 0; k < o.corners.size(); ++k) {
     const std::size_t c = o.corners[k];
     if (c == 0 || c + 1 >= n || (k > 0 && c <= o.corners[k - 1]))
-      refuse(attempted, "corner " + std::to_string(c) + " is not an inner point (1 .. " + std::to_string(n - 2) + ") or not in ascending order");
+      throw_bad_argument(attempted, "corner " + std::to_string(c) + " is not an inner point (1 .. " + std::to_string(n - 2) + ") or not in ascending order");
   }
-  if (is_closed(o) && !o.corners.empty()) refuse(attempted, "a closed smooth spline has corners; begin it at a corner and leave it open");
-  if (is_closed(o) && n < 4) refuse(attempted, "a closed spline of " + std::to_string(n) + " points, at least 4 are needed (the last repeats the first)");
+  if (is_closed(o) && !o.corners.empty()) throw_bad_argument(attempted, "a closed smooth spline has corners; begin it at a corner and leave it open");
+  if (is_closed(o) && n < 4)
+    throw_bad_argument(attempted, "a closed spline of " + std::to_string(n) + " points, at least 4 are needed (the last repeats the first)");
 }
 
 // ---------------------------------------------------------------- tangents of one piece
@@ -322,8 +320,8 @@ EndTangents ends_of(const SplineOptions& o, std::size_t row) {
 
 void check_seam(const Point& first, const Point& last, double length, std::string_view attempted) {
   if (distance(first, last) > k_closed * length)
-    refuse(attempted, "a closed spline whose last point does not repeat the first: they are " + number_text(distance(first, last)) + " m apart",
-           {{first, "first"}, {last, "last"}});
+    throw_bad_argument(attempted, "a closed spline whose last point does not repeat the first: they are " + number_text(distance(first, last)) + " m apart",
+                       {{first, "first"}, {last, "last"}});
 }
 
 // ---------------------------------------------------------------- rows of a grid
@@ -335,7 +333,7 @@ Numbers mean_parameters(std::size_t n, std::size_t n_rows, const Get& get, Splin
   for (std::size_t row = 0; row < n_rows; ++row)
     for (std::size_t i = 0; i + 1 < n; ++i) length[row] += distance(get(i, row), get(i + 1, row));
   const double longest = *std::max_element(length.begin(), length.end());
-  if (!(longest > 0.0)) refuse(k_surface, "all points of a direction coincide", {{get(0, 0), "here"}});
+  if (!(longest > 0.0)) throw_bad_argument(k_surface, "all points of a direction coincide", {{get(0, 0), "here"}});
   Numbers mean(n - 1, 0.0);
   for (std::size_t row = 0; row < n_rows; ++row) {
     if (length[row] <= k_coincident * longest) continue;
@@ -351,7 +349,8 @@ Numbers mean_parameters(std::size_t n, std::size_t n_rows, const Get& get, Splin
   for (const double step : mean) total += step;
   for (std::size_t i = 0; i + 1 < n; ++i)
     if (mean[i] <= k_coincident * total)
-      refuse(k_surface, "rows " + std::to_string(i) + " and " + std::to_string(i + 1) + " of points coincide", {{get(i, 0), "first point of the row"}});
+      throw_bad_argument(k_surface, "rows " + std::to_string(i) + " and " + std::to_string(i + 1) + " of points coincide",
+                         {{get(i, 0), "first point of the row"}});
   return scaled_sum(mean);
 }
 
@@ -366,7 +365,7 @@ std::vector<double> spline_parameters(std::span<const Point> points, SplineParam
   }
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (!(steps[i] > k_coincident * total) && kind != SplineParameters::uniform)
-      refuse(k_curve, "points " + std::to_string(i) + " and " + std::to_string(i + 1) + " coincide", {{points[i], "point " + std::to_string(i)}});
+      throw_bad_argument(k_curve, "points " + std::to_string(i) + " and " + std::to_string(i + 1) + " coincide", {{points[i], "point " + std::to_string(i)}});
     steps[i] = step_length(steps[i], kind);
   }
   return scaled_sum(steps);
@@ -375,7 +374,7 @@ std::vector<double> spline_parameters(std::span<const Point> points, SplineParam
 NurbsCurveForm<Point> spline_form(std::span<const Point> points, const SplineOptions& options) {
   check_options(options, points.size(), 1, k_curve);
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (!is_finite(points[i])) refuse(k_curve, "point " + std::to_string(i) + " is not finite");
+    if (!is_finite(points[i])) throw_bad_argument(k_curve, "point " + std::to_string(i) + " is not finite");
   Points p(points.begin(), points.end());
   const Numbers t = options.at.empty() ? spline_parameters(points, options.parameters) : options.at;
   if (is_closed(options)) {
@@ -393,11 +392,12 @@ CurvePtr spline_curve(std::span<const Point> points, const SplineOptions& option
 
 NurbsSurfaceForm spline_surface_form(const PointGrid& grid, const SplineOptions& u, const SplineOptions& v) {
   if (grid.points.size() != grid.n_u * grid.n_v)
-    refuse(k_surface, std::to_string(grid.points.size()) + " points for a grid of " + std::to_string(grid.n_u) + " x " + std::to_string(grid.n_v));
+    throw_bad_argument(k_surface, std::to_string(grid.points.size()) + " points for a grid of " + std::to_string(grid.n_u) + " x " + std::to_string(grid.n_v));
   check_options(u, grid.n_u, grid.n_v, k_surface);
   check_options(v, grid.n_v, grid.n_u, k_surface);
   for (std::size_t i = 0; i < grid.points.size(); ++i)
-    if (!is_finite(grid.points[i])) refuse(k_surface, "point (" + std::to_string(i / grid.n_v) + ", " + std::to_string(i % grid.n_v) + ") is not finite");
+    if (!is_finite(grid.points[i]))
+      throw_bad_argument(k_surface, "point (" + std::to_string(i / grid.n_v) + ", " + std::to_string(i % grid.n_v) + ") is not finite");
   const Numbers tu = !u.at.empty() ? u.at
                                    : mean_parameters(
                                          grid.n_u, grid.n_v, [&](std::size_t i, std::size_t row) { return grid(i, row); }, u.parameters);

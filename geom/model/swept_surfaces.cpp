@@ -12,17 +12,13 @@
 namespace sterna {
 namespace {
 
-constexpr double k_turn = 2.0 * std::numbers::pi;
+constexpr double k_sweep_turn = 2.0 * std::numbers::pi;
 /// Part of a period by which a whole one may be missed: rounding of the files that give angles.
 constexpr double k_whole_period = 1e-12;
 
-[[noreturn]] void refuse(const char* attempted, std::string problem) {
-  throw Error({.code = ErrorCode::bad_argument, .attempted = attempted, .problem = std::move(problem)});
-}
-
 void check_range(Interval range, const char* attempted) {
   if (!std::isfinite(range.from) || !std::isfinite(range.to) || !(range.from < range.to))
-    refuse(attempted, "its parameters [" + std::to_string(range.from) + ", " + std::to_string(range.to) + "] have no length");
+    throw_bad_argument(attempted, "its parameters [" + std::to_string(range.from) + ", " + std::to_string(range.to) + "] have no length");
 }
 
 /// Length within which a vector counts as one of length 1 and stays as it is: dividing it again would move its last digits.
@@ -53,12 +49,12 @@ NurbsSurfaceForm rows_of(const NurbsCurveForm<Point>& a, const NurbsCurveForm<Po
 RevolutionSurface::RevolutionSurface(CurvePtr profile, const Point& axis_point, const Vec3& axis, Interval angles)
     : profile_(std::move(profile)), axis_point_(axis_point), axis_(unit(axis)), angles_(angles) {
   check_range(angles, "making a surface of revolution");
-  if (!(norm(axis_) > 0.0)) refuse("making a surface of revolution", "its axis has no direction");
-  if (angles.length() > k_turn * (1.0 + k_whole_period))
-    refuse("making a surface of revolution", "it goes round by more than a turn: " + std::to_string(angles.length()) + " rad");
+  if (!(norm(axis_) > 0.0)) throw_bad_argument("making a surface of revolution", "its axis has no direction");
+  if (angles.length() > k_sweep_turn * (1.0 + k_whole_period))
+    throw_bad_argument("making a surface of revolution", "it goes round by more than a turn: " + std::to_string(angles.length()) + " rad");
 }
 
-bool RevolutionSurface::is_periodic_u() const { return std::abs(angles_.length() - k_turn) <= k_whole_period * k_turn; }
+bool RevolutionSurface::is_periodic_u() const { return std::abs(angles_.length() - k_sweep_turn) <= k_whole_period * k_sweep_turn; }
 
 Point RevolutionSurface::point(Uv at) const { return axis_point_ + turned(profile_->point(at.v) - axis_point_, std::cos(at.u), std::sin(at.u)); }
 
@@ -80,7 +76,7 @@ SurfaceDerivatives RevolutionSurface::derivatives(Uv at) const {
 
 ExtrusionSurface::ExtrusionSurface(CurvePtr curve, const Vec3& direction, Interval range) : curve_(std::move(curve)), direction_(direction), range_(range) {
   check_range(range, "making an extrusion");
-  if (!(norm(direction) > 0.0)) refuse("making an extrusion", "its direction has no length");
+  if (!(norm(direction) > 0.0)) throw_bad_argument("making an extrusion", "its direction has no length");
 }
 
 SurfaceDerivatives ExtrusionSurface::derivatives(Uv at) const {
@@ -136,14 +132,16 @@ namespace {
 
 constexpr const char* k_view = "taking a part of a surface";
 /// Part of a domain by which a view may reach beyond it: rounding of its own limits.
-constexpr double k_overreach = 1e-9;
+constexpr double k_swept_overreach = 1e-9;
 
 Interval image(const SurfaceView::Map& map, Interval range) {
   const double a = map(range.from), b = map(range.to);
   return {std::min(a, b), std::max(a, b)};
 }
 
-bool reaches_beyond(Interval part, Interval all) { return part.from < all.from - k_overreach * all.length() || part.to > all.to + k_overreach * all.length(); }
+bool reaches_beyond(Interval part, Interval all) {
+  return part.from < all.from - k_swept_overreach * all.length() || part.to > all.to + k_swept_overreach * all.length();
+}
 
 Interval within(Interval part, Interval all) { return {std::max(part.from, all.from), std::min(part.to, all.to)}; }
 
@@ -170,12 +168,12 @@ SurfaceView::SurfaceView(SurfacePtr base, const ParameterBox& domain, Map u, Map
     : base_(std::move(base)), domain_(domain), u_(u), v_(v), is_exchanged_(is_exchanged) {
   check_range(domain.u, k_view);
   check_range(domain.v, k_view);
-  if (!(std::abs(u.scale) > 0.0) || !(std::abs(v.scale) > 0.0)) refuse(k_view, "a parameter is scaled by 0");
+  if (!(std::abs(u.scale) > 0.0) || !(std::abs(v.scale) > 0.0)) throw_bad_argument(k_view, "a parameter is scaled by 0");
   const ParameterBox all = base_->domain();
   const Interval part_u = image(u, is_exchanged ? domain.v : domain.u), part_v = image(v, is_exchanged ? domain.u : domain.v);
   const auto complain = [](const char* name, Interval part, Interval whole) {
-    refuse(k_view, std::string(name) + " in [" + std::to_string(part.from) + ", " + std::to_string(part.to) + "] is not within its domain [" +
-                       std::to_string(whole.from) + ", " + std::to_string(whole.to) + "]");
+    throw_bad_argument(k_view, std::string(name) + " in [" + std::to_string(part.from) + ", " + std::to_string(part.to) + "] is not within its domain [" +
+                                   std::to_string(whole.from) + ", " + std::to_string(whole.to) + "]");
   };
   if (!base_->is_periodic_u() && reaches_beyond(part_u, all.u)) complain("u", part_u, all.u);
   if (!base_->is_periodic_v() && reaches_beyond(part_v, all.v)) complain("v", part_v, all.v);

@@ -11,6 +11,7 @@
 
 #include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/model/projection.h"
 #include "surfmesh/model/crossings.h"
@@ -20,9 +21,8 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_deg = std::numbers::pi / 180.0;
-constexpr double k_min_sine2 = 1e-16;  ///< below: du and dv are parallel as far as doubles tell, and the surface has no normal
-constexpr double k_least_angle = 20.0 * k_deg, k_largest_angle = 130.0 * k_deg;  ///< of FaceMeshReport::n_outside_20_130
+constexpr double k_carried_sine2 = 1e-16;  ///< below: du and dv are parallel as far as doubles tell, and the surface has no normal
+constexpr double k_least_angle = 20.0 * k_degree, k_largest_angle = 130.0 * k_degree;  ///< of FaceMeshReport::n_outside_20_130
 
 // ---- Where vertices are in a face ------------------------------------------------------------------------------------------------------------
 
@@ -115,7 +115,7 @@ Vec3 normal_at(const Surface& surface, Uv at) {
   const SurfaceDerivatives d = surface.derivatives(at);
   const Vec3 normal = cross(d.du, d.dv);
   const double length2 = norm2(normal);
-  return length2 > k_min_sine2 * norm2(d.du) * norm2(d.dv) ? normal / std::sqrt(length2) : Vec3{};
+  return length2 > k_carried_sine2 * norm2(d.du) * norm2(d.dv) ? normal / std::sqrt(length2) : Vec3{};
 }
 
 /// The face's own triangulation, as it was before faces were joined; its border's vertices in the order in which triangles name them.
@@ -251,13 +251,13 @@ std::string text_of(const Faults& faults, Point& place) {
   const auto number = [](double value) { return number_text(value, 3); };
   if (const Fault& f = faults.folded; f.n > 0) {
     place = f.place;
-    return counted(f.n, "triangle") + " would be off the surface's normals by up to " + number(f.value / k_deg) + " degrees, where " + number(f.limit / k_deg) +
-           " are allowed";
+    return counted(f.n, "triangle") + " would be off the surface's normals by up to " + number(f.value / k_degree) + " degrees, where " +
+           number(f.limit / k_degree) + " are allowed";
   }
   if (const Fault& f = faults.thin; f.n > 0) {
     place = f.place;
-    return counted(f.n, "triangle") + " would be too thin, the worst with an angle of " + number(f.value / k_deg) + " degrees, where " +
-           number(f.limit / k_deg) + " are needed";
+    return counted(f.n, "triangle") + " would be too thin, the worst with an angle of " + number(f.value / k_degree) + " degrees, where " +
+           number(f.limit / k_degree) + " are needed";
   }
   if (const Fault& f = faults.stretched; f.n > 0) {
     place = f.place;

@@ -13,7 +13,6 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr std::size_t k_shown_places = 10;
 /// Triangles that the picture of an error has at most.
 constexpr std::size_t k_drawn_triangles = 50'000;
 /// Of a triangle's longest edge: facets that span 12 to 30 degrees are a fiftieth to a fifteenth of it beside their surface.
@@ -88,12 +87,12 @@ bool is_shallow(const Triangle& a, const Triangle& b) {
 /// Place on a surface near `target`, from a guess: Newton's method in the tangent plane, untrimmed.
 Point nearest_on(const Surface& surface, const Point& target, Uv& at) {
   constexpr int k_steps = 6;
-  constexpr double k_min_sine2 = 1e-16;
+  constexpr double k_least_sine2 = 1e-16;
   SurfaceDerivatives d = surface.derivatives(at);
   for (int step = 0; step < k_steps; ++step) {
     const Vec3 off = target - d.point;
     const double e = norm2(d.du), f = dot(d.du, d.dv), g = norm2(d.dv), area2 = e * g - f * f;
-    if (!(area2 > k_min_sine2 * e * g)) break;
+    if (!(area2 > k_least_sine2 * e * g)) break;
     const double along_u = dot(d.du, off), along_v = dot(d.dv, off);
     const Uv moved = at + Uv{(g * along_u - f * along_v) / area2, (e * along_v - f * along_u) / area2};
     const SurfaceDerivatives there = surface.derivatives(moved);
@@ -247,7 +246,7 @@ ErrorInfo crossing_error(const Model& model, const SurfaceMesh& mesh, const Mesh
   info.problem = std::to_string(crossings.total) + " pairs of triangles cross or touch, on " + std::to_string(faces.size()) + " pairs of faces (" +
                  std::to_string(n_own) + " within one part, " + std::to_string(n_closed + n_open) + " between parts that stand in each other or touch)";
   info.n_places = static_cast<std::int64_t>(faces.size());
-  for (std::size_t i = 0; i < std::min(k_shown_places, faces.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(k_max_places, faces.size()); ++i) {
     const CrossingFaces& c = faces[i];
     const auto folds = [&](FaceId f) { return mesh.report.faces.empty() ? false : mesh.report.faces[f.index()].max_normal_angle > k_folded; };
     std::string what = c.first == c.second ? name_of(model, c.first) + " and itself" : name_of(model, c.first) + " and " + name_of(model, c.second);

@@ -21,9 +21,9 @@ namespace {
 /// a twentieth of an edge on either side.
 constexpr double k_reach = 0.1;
 /// Faces up to so many times as far as the nearest one count for the normal: a facet over a crease sags towards both.
-constexpr double k_near = 2.0;
+constexpr double k_near_edges = 2.0;
 /// Of the body length: so near, all faces count, however near the nearest is. Edges of models meet their faces within about that.
-constexpr double k_touching = 1e-9;
+constexpr double k_same_place = 1e-9;
 /// Of the body length: a node at the place of the wall's vertex is on the model, and no other place is looked for.
 constexpr double k_same = 1e-14;
 /// Queries per chunk: each takes 5 to 50 us.
@@ -84,7 +84,7 @@ class Probe {
 
   /// Nearest places of all faces around the point, each within its face's border.
   std::vector<ModelFoot> feet(const Point& p, const NearestHit& hit) const {
-    std::vector<NearFace> faces = faces_near(p, hit.distance + std::max(k_reach * longest_edge(hit.triangle), k_touching * length_));
+    std::vector<NearFace> faces = faces_near(p, hit.distance + std::max(k_reach * longest_edge(hit.triangle), k_same_place * length_));
     std::vector<ModelFoot> feet;
     for (const NearFace& near : faces) feet.push_back(foot_of(p, near));
     return feet;
@@ -97,7 +97,7 @@ class Probe {
   /// `normal` points out of the body.
   Turn turn_of(const Point& centroid, const Vec3& normal) const {
     const std::vector<ModelFoot> all = feet(centroid, tree_.nearest(centroid));
-    const double reach = std::max(k_near * least_distance(all), k_touching * length_);
+    const double reach = std::max(k_near_edges * least_distance(all), k_same_place * length_);
     Turn turn{.is_without = true};
     double best = std::numeric_limits<double>::infinity();
     for (const ModelFoot& foot : all) {

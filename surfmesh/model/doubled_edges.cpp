@@ -13,7 +13,7 @@ namespace {
 
 /// Rad: between a new triangle and the surface at the new vertex. At a pointed tip each covers a quarter of the turn, so 45 degrees and the tip's slope are the
 /// rule.
-constexpr double k_largest_turn = 75.0 * std::numbers::pi / 180.0;
+constexpr double k_largest_fold = 75.0 * std::numbers::pi / 180.0;
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 Edge edge_of(VertexId a, VertexId b) { return {std::min(a, b).value(), std::max(a, b).value()}; }
@@ -50,7 +50,7 @@ bool split(const Surface& surface, const InnerEdge& edge, FaceMesh& mesh) {
   for (const std::size_t t : edge.triangles)
     for (const VertexId old : {edge.a, edge.b}) {
       const Vec3 after = normal_of(mesh, with(mesh.triangles[t], old, middle));
-      if (norm2(after) > 0.0 && norm2(normal) > 0.0 && angle_between(normal, after) <= k_largest_turn) continue;
+      if (norm2(after) > 0.0 && norm2(normal) > 0.0 && angle_between(normal, after) <= k_largest_fold) continue;
       mesh.points.pop_back();
       mesh.uv.pop_back();
       mesh.normals.pop_back();

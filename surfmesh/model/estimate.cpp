@@ -9,7 +9,7 @@
 namespace sterna::surfmesh {
 namespace {
 
-constexpr const char* k_attempted = "meshing the model's surface";
+constexpr const char* k_estimate_attempt = "meshing the model's surface";
 constexpr std::size_t k_shown_faces = 5;
 /// Area of an equilateral triangle by the square of its edge, 3^(1/2) / 4.
 const double k_equilateral = std::sqrt(3.0) / 4.0;
@@ -59,7 +59,7 @@ void check_estimate(const Model& model, const ModelSizes& sizes, const Column<Ed
   }
   if (total <= k_surely * options.max_triangles) return;
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.n > b.n; });
-  ErrorInfo info{.code = ErrorCode::overflow, .attempted = k_attempted};
+  ErrorInfo info{.code = ErrorCode::overflow, .attempted = k_estimate_attempt};
   info.problem = "the wanted sizes ask for about " + rounded(total) + " triangles; max_triangles is " + std::to_string(options.max_triangles);
   info.n_places = static_cast<std::int64_t>(entries.size());
   for (std::size_t i = 0; i < std::min(k_shown_faces, entries.size()); ++i) {
@@ -83,7 +83,7 @@ void check_band_estimate(const Model& model, const WingBands& bands, const Colum
     std::snprintf(first, sizeof first, "%.3g", bands.edges[e]->first);
     const Point place = edges[e].samples[edges[e].samples.size() / 2].point;
     throw Error({.code = ErrorCode::overflow,
-                 .attempted = k_attempted,
+                 .attempted = k_estimate_attempt,
                  .problem = "a band with a first cell of " + std::string(first) + " m asks for more than " + rounded(n) + " triangles; max_triangles is " +
                             std::to_string(options.max_triangles),
                  .places = {{place, bands.edges[e]->kind == BandKind::leading ? "leading edge" : "trailing edge"}},
@@ -95,12 +95,12 @@ void check_count(const SurfaceMesh& mesh, const SurfaceMeshOptions& options) {
   const std::size_t n = mesh.mesh.n_triangles();
   if (n == 0)
     throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = k_attempted,
+                 .attempted = k_estimate_attempt,
                  .problem = "no triangle is left: edges and faces of the model are shorter than a twentieth of min_edge, and were absorbed",
                  .hint = "a smaller min_edge or max_edge; are the model's units right?"});
   if (n <= static_cast<std::size_t>(options.max_triangles)) return;
   throw Error({.code = ErrorCode::overflow,
-               .attempted = k_attempted,
+               .attempted = k_estimate_attempt,
                .problem = std::to_string(n) + " triangles are more than max_triangles, " + std::to_string(options.max_triangles),
                .hint = "a larger max_edge, min_edge or curvature_angle, or a larger max_triangles"});
 }

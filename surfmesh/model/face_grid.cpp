@@ -19,7 +19,7 @@ constexpr int k_least_levels = 3;
 constexpr std::size_t k_per_bin = 4, k_most_bins = 2048;
 
 /// Of the way to the box's middle: nodes on its border are asked so far inside.
-constexpr double k_inwards = 1e-6;
+constexpr double k_grid_inwards = 1e-6;
 
 struct Segment {
   Uv a, b;
@@ -96,7 +96,7 @@ class FaceGridBuilder {
   /// Nodes on the box's border lie inside of polygons that run along it.
   Uv inwards(Uv at) const {
     const ParameterBox& box = grid_.box_;
-    const auto moved = [](const Interval& range, double t) { return t + k_inwards * (0.5 * (range.from + range.to) - t); };
+    const auto moved = [](const Interval& range, double t) { return t + k_grid_inwards * (0.5 * (range.from + range.to) - t); };
     return {moved(box.u, at.u), moved(box.v, at.v)};
   }
 

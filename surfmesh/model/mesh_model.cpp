@@ -9,6 +9,7 @@
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "surfmesh/model/crossings.h"
 #include "surfmesh/model/doubled_edges.h"
@@ -25,7 +26,6 @@ constexpr const char* k_attempted = "meshing the model's surface";
 /// Rounds of meshing: each halves sizes at what is wrong, so a place is at 1/32 after the last.
 constexpr int k_max_rounds = 6;
 constexpr double k_repair_factor = 0.5;
-constexpr std::size_t k_shown_places = 10;
 /// Above it volume_mesh takes no feature angle from the mesh.
 constexpr double k_largest_smooth_turn = std::numbers::pi / 3.0;
 constexpr int k_digits = 4;  ///< of numbers in messages
@@ -85,7 +85,7 @@ void refine_at(Meshing& meshing, FaceId f, const Point& place, double size, doub
     if (!face.failure) continue;
     if (face.failure->code == ErrorCode::overflow || face.failure->code == ErrorCode::bad_argument) info.code = face.failure->code;
     ++info.n_places;
-    if (info.places.size() >= k_shown_places) continue;
+    if (info.places.size() >= k_max_places) continue;
     Point place;
     if (!face.failure->places.empty()) place = face.failure->places.front().position;
     else if (const EdgeSamples& samples = meshing.edges[meshing.model.faces[f].borders.front().front().edge]; !samples.samples.empty())
@@ -128,7 +128,7 @@ void refine_triangle(Meshing& meshing, const SurfaceMesh& mesh, TriangleId t, do
                  .attempted = k_attempted,
                  .problem = "triangles of faces do not join: edges have one or more than two triangles, or two that run the same way"};
   info.n_places = static_cast<std::int64_t>(faults.triangles.size());
-  for (std::size_t i = 0; i < std::min(k_shown_places, faults.triangles.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(k_max_places, faults.triangles.size()); ++i) {
     const auto p = corners(mesh.mesh, faults.triangles[i]);
     info.places.push_back({(p[0] + p[1] + p[2]) / 3.0, "face \"" + meshing.model.faces[mesh.triangle_face[faults.triangles[i]]].name + "\""});
   }
@@ -238,18 +238,17 @@ SurfaceMesh mesh_model(const Model& model, const SurfaceMeshOptions& options, st
 }
 
 std::string to_text(const SurfaceMeshReport& report) {
-  constexpr double k_deg = std::numbers::pi / 180.0;
   const auto number = [](double value) { return number_text(value, k_digits); };
   std::int64_t n = 0;
   for (const FaceMeshSummary& face : report.faces) n += face.n_triangles;
-  std::string text = std::to_string(n) + " triangles on " + std::to_string(report.faces.size()) + " faces; angles " + number(report.min_angle / k_deg) +
-                     " .. " + number(report.max_angle / k_deg) + " degrees, " + number(100.0 * report.share_20_130) +
+  std::string text = std::to_string(n) + " triangles on " + std::to_string(report.faces.size()) + " faces; angles " + number(report.min_angle / k_degree) +
+                     " .. " + number(report.max_angle / k_degree) + " degrees, " + number(100.0 * report.share_20_130) +
                      " % of the triangles within [20, 130]; mean radius ratio " + number(report.mean_radius_ratio) + "\n";
   text += "least angles";
   for (std::size_t i = 0; i < report.least_angles.size(); ++i)
     if (report.least_angles[i] > 0)
       text += " " + std::to_string(10 * i) + "-" + std::to_string(10 * (i + 1)) + ": " + std::to_string(report.least_angles[i]) + ",";
-  text += " 1 % below " + number(report.angle_quantile_1 / k_deg) + " degrees\n";
+  text += " 1 % below " + number(report.angle_quantile_1 / k_degree) + " degrees\n";
   if (report.worst_face.is_valid()) {
     const FaceMeshSummary& worst = report.faces[report.worst_face.index()];
     text += "worst angle on \"" + worst.name + "\" at " + format_point(worst.worst_place) + "\n";
@@ -257,7 +256,8 @@ std::string to_text(const SurfaceMeshReport& report) {
   if (report.worst_normal_face.is_valid()) {
     const FaceMeshSummary& worst = report.faces[report.worst_normal_face.index()];
     text += "normals within the curvature angle on " + number(100.0 * report.share_normals) + " % of the area; farthest off on \"" + worst.name + "\" at " +
-            format_point(worst.normal_place) + ", " + number(worst.max_normal_angle / k_deg) + " degrees for " + number(worst.curvature_angle / k_deg) + "\n";
+            format_point(worst.normal_place) + ", " + number(worst.max_normal_angle / k_degree) + " degrees for " + number(worst.curvature_angle / k_degree) +
+            "\n";
   }
   if (const BandSummary& bands = report.bands; bands.n_triangles > 0) {
     text += "bands: " + std::to_string(bands.n_triangles) + " triangles beside " + std::to_string(bands.n_edges) + " edges and on " +
@@ -274,7 +274,7 @@ std::string to_text(const SurfaceMeshReport& report) {
   }
   constexpr double k_flat = 1e-6;  // rad: as good as nothing
   if (report.max_smooth_angle > k_flat)
-    text += "; smooth places turn by up to " + number(report.max_smooth_angle / k_deg) + " degrees an edge, at " + format_point(report.smooth_angle_place);
+    text += "; smooth places turn by up to " + number(report.max_smooth_angle / k_degree) + " degrees an edge, at " + format_point(report.smooth_angle_place);
   if (!report.absorbed.empty())
     text += "; " + std::to_string(report.absorbed.size()) + " small parts absorbed, first: " + report.absorbed.front().what + " at " +
             format_point(report.absorbed.front().place);

@@ -16,22 +16,22 @@ constexpr double k_facing_cosine = 0.866;
 /// Of the length of a ray: hits nearer than that are the surface itself, bent.
 constexpr double k_start = 1e-6;
 
-struct Facet {
+struct NearFacet {
   std::array<Point, 3> p;
   Vec3 normal;  ///< outwards
   FaceId face;
 };
 
 /// Cells with their corners inside the border; of those cut by it the half that is.
-std::vector<Facet> facets_of(const Model& model, const SurfaceSizes& field) {
-  std::vector<Facet> facets;
+std::vector<NearFacet> facets_of(const Model& model, const SurfaceSizes& field) {
+  std::vector<NearFacet> facets;
   for (const FaceId f : model.faces.ids()) {
     const FaceGrid& grid = field.grid(f);
     if (grid.empty()) continue;
     for (const FaceGridCell& cell : grid.cells()) {
       if (!cell.is_used) continue;
       for (const std::array<std::size_t, 3>& k : {std::array<std::size_t, 3>{0, 1, 3}, std::array<std::size_t, 3>{0, 3, 2}}) {
-        Facet facet{{grid.nodes()[cell.nodes[k[0]]].point, grid.nodes()[cell.nodes[k[1]]].point, grid.nodes()[cell.nodes[k[2]]].point}, {}, f};
+        NearFacet facet{{grid.nodes()[cell.nodes[k[0]]].point, grid.nodes()[cell.nodes[k[1]]].point, grid.nodes()[cell.nodes[k[2]]].point}, {}, f};
         const Vec3 normal = cross(facet.p[1] - facet.p[0], facet.p[2] - facet.p[0]);
         if (!(norm2(normal) > 0.0)) continue;
         facet.normal = (model.faces[f].is_reversed ? -1.0 : 1.0) * normalized(normal);
@@ -43,7 +43,7 @@ std::vector<Facet> facets_of(const Model& model, const SurfaceSizes& field) {
 }
 
 /// Length along `way` (unit) from p to a facet, within `reach`.
-std::optional<double> hit(const Point& p, const Vec3& way, double reach, const Facet& facet) {
+std::optional<double> hit(const Point& p, const Vec3& way, double reach, const NearFacet& facet) {
   const double across = dot(way, facet.normal);
   if (across == 0.0) return std::nullopt;
   const double t = dot(facet.p[0] - p, facet.normal) / across;
@@ -60,7 +60,7 @@ std::optional<double> hit(const Point& p, const Vec3& way, double reach, const F
 }
 
 /// The same size all over a facet, as near as sizes are long.
-void add_over(const Facet& facet, const SizeSource& source, std::vector<SizeSource>& sources) {
+void add_over(const NearFacet& facet, const SizeSource& source, std::vector<SizeSource>& sources) {
   constexpr double k_most = 32.0;
   const double longest = std::max({distance(facet.p[0], facet.p[1]), distance(facet.p[1], facet.p[2]), distance(facet.p[2], facet.p[0])});
   const double n = std::clamp(std::ceil(longest / source.size), 1.0, k_most);
@@ -75,7 +75,7 @@ bool looks_for_gaps(const SurfaceMeshOptions& options) { return options.gap_cell
 
 void add_gap_sources(const Model& model, const SurfaceSizes& field, const SurfaceMeshOptions& options, ModelSizes& sizes, const RunContext& context) {
   if (!looks_for_gaps(options)) return;
-  const std::vector<Facet> facets = facets_of(model, field);
+  const std::vector<NearFacet> facets = facets_of(model, field);
   std::vector<Box> boxes(facets.size());
   for (std::size_t i = 0; i < facets.size(); ++i)
     for (const Point& p : facets[i].p) boxes[i].add(p);
@@ -91,7 +91,7 @@ void add_gap_sources(const Model& model, const SurfaceSizes& field, const Surfac
   parallel_for(
       context, facets.size(),
       [&](std::size_t i) {
-        const Facet& from = facets[i];
+        const NearFacet& from = facets[i];
         const Point middle = (from.p[0] + from.p[1] + from.p[2]) / 3.0;
         const FaceSizes& own = sizes.faces[from.face];
         for (const auto& [share, way] : {std::pair(share_of_gap, from.normal), std::pair(share_of_part, -1.0 * from.normal)}) {

@@ -15,7 +15,7 @@ namespace {
 
 /// Stations are at most this many times the lower bound apart.
 constexpr double k_station_sizes = 1.0;
-constexpr int k_max_halvings = 24;
+constexpr int k_max_size_halvings = 24;
 /// Places between two stations at which the cells that an edge runs through are looked up.
 constexpr int k_between = 4;
 
@@ -119,7 +119,7 @@ struct SurfaceSizes::Builder {
         const Piece piece = pieces.back();
         pieces.pop_back();
         const double length = distance(piece.a.point, piece.b.point), least = std::min(piece.a.spacing, piece.b.spacing);
-        if (length > least && piece.depth < k_max_halvings) {
+        if (length > least && piece.depth < k_max_size_halvings) {
           const double t = 0.5 * (piece.a.t + piece.b.t), share = (t - samples[i - 1].t) / (samples[i].t - samples[i - 1].t);
           const End middle = end_at(t, edge.curve->point(t), asked[i - 1] + share * (asked[i] - asked[i - 1]));
           pieces.push_back({middle, piece.b, piece.depth + 1});

@@ -12,19 +12,19 @@
 #include <numbers>
 
 #include "geom/delaunay/face_state.h"
+#include "geom/math/constants.h"
 
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_deg = std::numbers::pi / 180.0;
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
 /// Normals at so many places of an edge decide what it is; one may say something else (a nick at a junction).
 constexpr int k_looks = 9, k_agreeing = 8;
-constexpr double k_smooth_turn = 20.0 * k_deg;
+constexpr double k_smooth_turn = 20.0 * k_degree;
 /// "Sharp" as in method.md section 1.
-constexpr double k_sharp_turn = 120.0 * k_deg;
+constexpr double k_sharp_turn = 120.0 * k_degree;
 /// Between a base and the sides of the wing.
-constexpr double k_base_turn_from = 40.0 * k_deg, k_base_turn_to = 140.0 * k_deg;
+constexpr double k_base_turn_from = 40.0 * k_degree, k_base_turn_to = 140.0 * k_degree;
 /// Component along the flow (x) of where an edge looks: wings may be swept by 78 degrees.
 constexpr double k_looks_along = 0.2;
 /// A nose's radius is at most this part of the width of its faces: RAE 2822 has 0.008, a half cylinder 0.32.
@@ -70,15 +70,15 @@ Look look(const Model& model, const Side& side, double share) {
 }
 
 /// The same for the faces of a solid and those of the fluid around it, whose normals look the other way.
-struct Shape {
+struct BandShape {
   int n_smooth = 0, n_sharp = 0;
   int n_base = 0;          ///< convex ones less concave ones
   double looks = 0.0;      ///< mean x of where the edge looks
   double curvature = 0.0;  ///< mean across, the lesser side's
 };
 
-Shape shape_of(const Model& model, const Side& a, const Side& b) {
-  Shape shape;
+BandShape shape_of(const Model& model, const Side& a, const Side& b) {
+  BandShape shape;
   int n = 0;
   for (int k = 1; k <= k_looks; ++k) {
     const double share = static_cast<double>(k) / (k_looks + 1);
@@ -276,7 +276,7 @@ std::optional<BandKind> kind_of(const Finding& finding, EdgeId e) {
       if (const auto& strip = finding.bands.strips[side.place.face]; strip && (strip->long_edge[0] == e || strip->long_edge[1] == e)) return BandKind::trailing;
     return std::nullopt;
   }
-  const Shape shape = shape_of(model, sides[0], sides[1]);
+  const BandShape shape = shape_of(model, sides[0], sides[1]);
   if (shape.n_sharp >= k_agreeing && std::abs(shape.looks) > k_looks_along) return shape.looks > 0.0 ? BandKind::trailing : BandKind::leading;
   if (shape.n_smooth < k_agreeing || shape.looks > -k_looks_along) return std::nullopt;
   const FaceRole a = model.faces[sides[0].place.face].role, b = model.faces[sides[1].place.face].role;

@@ -13,9 +13,6 @@
 namespace sterna::surfmesh {
 namespace {
 
-/// Places with coordinates in the error; geometry of up to k_max_geometry places (a VTU of that size still opens at once).
-constexpr std::size_t k_max_places = 10;
-constexpr std::size_t k_max_geometry = 20000;
 /// Boundary edges among which partners are sought for the hint; the search is quadratic (0.1 s at this size).
 constexpr std::size_t k_max_matching = 5000;
 /// Boundary edges match when their ends are nearer than this part of the shortest boundary edge: then a tolerance that closes the gap collapses none of them.

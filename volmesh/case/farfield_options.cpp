@@ -12,11 +12,11 @@ namespace {
 
 constexpr std::array k_kinds = {PatchKind::wall,    PatchKind::slip,     PatchKind::symmetry, PatchKind::inflow,
                                 PatchKind::outflow, PatchKind::farfield, PatchKind::interface};
-constexpr const char* k_attempted = "farfield_sides";
+constexpr const char* k_sides_attempt = "farfield_sides";
 
 [[noreturn]] void refuse(const std::string& entry, const std::string& problem) {
   throw Error({.code = ErrorCode::bad_argument,
-               .attempted = k_attempted,
+               .attempted = k_sides_attempt,
                .problem = "\"" + entry + "\": " + problem,
                .hint = "such as \"x_min=inflow x_max=outflow,name:exit,edge:0.5\""});
 }
@@ -33,7 +33,7 @@ SideRule parse_side(const std::string& entry) {
       rule.edge = parse_number_with_unit(part.substr(5), Unit::metre);
       if (!(rule.edge > 0.0)) refuse(entry, "an edge length is above zero");
     } else {
-      rule.kind = patch_kind_of(part, std::string(k_attempted) + ": \"" + entry + "\"");
+      rule.kind = patch_kind_of(part, std::string(k_sides_attempt) + ": \"" + entry + "\"");
       rule.has_kind = true;
     }
   }

@@ -11,7 +11,6 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_listed = 10;  ///< wrong heights in a message
 constexpr int k_digits = 4;
 
 /// Barycentric coordinates of a point of the triangle's plane; of a triangle without area the first corner.
@@ -35,7 +34,7 @@ FirstHeights::FirstHeights(const TriMesh& surface, std::vector<double> heights, 
   for (const VertexId v : surface_.points.ids()) {
     const double height = heights_[v.index()];
     if (std::isfinite(height) && height >= k_least_first_height) continue;
-    if (wrong.size() < k_listed) wrong.push_back({surface_.points[v], "first height " + in_metres(height, k_digits)});
+    if (wrong.size() < k_max_places) wrong.push_back({surface_.points[v], "first height " + in_metres(height, k_digits)});
   }
   if (!wrong.empty())
     throw Error({.code = ErrorCode::bad_argument,

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "geom/base/error.h"
+#include "geom/base/print_text.h"
 #include "volmesh/case/farfield_options.h"
 #include "volmesh/case/growth_law.h"
-#include "volmesh/flow/print_text.h"
 
 namespace sterna::volmesh {
 namespace {

@@ -16,7 +16,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr const char* k_attempted = "completing the boundary";
+constexpr const char* k_completing_attempt = "completing the boundary";
 constexpr double k_shape_snap = 0.3;  ///< share of HalfOptions: the shape's own triangles matter less than good ones at its rim
 
 bool is_given(const FarfieldOptions& options) {
@@ -66,7 +66,7 @@ bool is_enclosing(const TriMesh& mesh, const Topology& topology, std::span<const
   const auto n_domains = std::count_if(outer.begin(), outer.end(), is_domain);
   if (n_domains == 0 || n_domains == static_cast<std::ptrdiff_t>(outer.size())) return n_domains > 0;
   ErrorInfo info{.code = ErrorCode::bad_argument,
-                 .attempted = k_attempted,
+                 .attempted = k_completing_attempt,
                  .problem = "of the " + std::to_string(outer.size()) + " outermost parts " + std::to_string(n_domains) +
                             " have their normals inwards, as the boundary of a domain, the others outwards, as bodies",
                  .hint = "turn the triangles of the parts that are wrong"};
@@ -84,7 +84,7 @@ void check_encloses(const TriMesh& surface, const Topology& topology, std::span<
   const TriangleTree tree(shape, context);
   std::vector<std::uint8_t> is_seen(components.count, 0);
   ErrorInfo info{.code = ErrorCode::bad_argument,
-                 .attempted = k_attempted,
+                 .attempted = k_completing_attempt,
                  .problem = "the farfield's surface does not enclose the bodies",
                  .hint = "it has to be around all of them; of half models, cut or uncut"};
   for (const TriangleId t : surface.triangles.ids()) {
@@ -106,7 +106,7 @@ TriMesh shape_of_user(const TriMesh& surface, const Topology& topology, const Ou
                       const RunContext& context) {
   if (!options.surface || options.surface->n_triangles() == 0)
     throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = k_attempted,
+                 .attempted = k_completing_attempt,
                  .problem = "the farfield's shape is \"surface\", but there is no surface",
                  .hint = "give farfield_surface, or farfield = a surface; .sterna files do not keep it"});
   TriMesh shape = *options.surface;
@@ -244,12 +244,12 @@ void snap_rims(const Constraints& rims, std::span<const EndPlane> ends, TriMesh&
 void require_fluid(const FarfieldOptions& farfield, bool is_enclosed) {
   if (is_enclosed && farfield.farfield_shape != "none" && is_given(farfield))
     throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = k_attempted,
+                 .attempted = k_completing_attempt,
                  .problem = "a farfield is given, but the surface encloses its fluid already: its outermost part has normals inwards",
                  .hint = "leave the farfield out, or turn the surface if it is a body"});
   if (!is_enclosed && farfield.farfield_shape == "none")
     throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = k_attempted,
+                 .attempted = k_completing_attempt,
                  .problem = "no farfield is wanted, but the surface encloses no fluid: its outermost parts have normals outwards, as bodies",
                  .hint = "give a farfield; of a surface around its fluid the normals have to point inwards"});
 }
@@ -257,7 +257,7 @@ void require_fluid(const FarfieldOptions& farfield, bool is_enclosed) {
 }  // namespace
 
 TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, const RunContext& context) {
-  if (surface.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = k_attempted, .problem = "the surface has no triangles"});
+  if (surface.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = k_completing_attempt, .problem = "the surface has no triangles"});
   const Topology topology(surface, context);
   const Constraints rims = constraints_of_rims(surface, topology);
   const std::vector<EndPlane> ends = end_planes_of(rims);

@@ -22,7 +22,6 @@ constexpr double k_on_plane = 1e-12;         ///< of the largest coordinate and 
 constexpr double k_least_turn_cosine = 0.8;  ///< between normals of a triangle before and after one of its vertices has moved
 constexpr double k_least_area_share = 0.2;   ///< of its area that a triangle keeps when a vertex moves
 const double k_feature_cosine = std::cos(30.0 * std::numbers::pi / 180.0);  ///< edges that turn by more keep their line
-constexpr std::size_t k_max_places = 10;
 
 class Cutter {
  public:

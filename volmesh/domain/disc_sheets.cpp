@@ -24,7 +24,6 @@ constexpr std::size_t k_most_rings = 2000;
 constexpr int k_least_on_ring = 6;
 constexpr int k_probes = 48;                       ///< places on a ring where walls are looked for
 const double k_row_height = 0.5 * std::sqrt(3.0);  ///< of regular triangles, over their edge
-constexpr std::size_t k_max_places = 10;
 
 ErrorInfo problem_with(const ActuatorDisc& disc, ErrorCode code, std::string problem, std::string hint = {}) {
   return {.code = code, .attempted = "making actuator disc \"" + disc.name + "\"", .problem = std::move(problem), .hint = std::move(hint)};

@@ -18,8 +18,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_max_places = 10;
-constexpr double k_parallel_sine = 1e-3;   ///< planes at a smaller angle have their line along their common edge
+constexpr double k_chain_sine = 1e-3;      ///< planes at a smaller angle have their line along their common edge
 constexpr double k_forward_cosine = 0.02;  ///< a line along which a layer grows leads away from the wall at least as steeply
 constexpr double k_open_cosine = 0.1;      ///< between a wall's normal and the way into the patch beyond: below, the fluid's angle there is above 174 degrees
 constexpr double k_near_edges = 8.0;       ///< mean edges at a vertex: a layer is not thicker by much, nor does it reach farther along the wall
@@ -337,7 +336,7 @@ class Splitter {
     const HalfedgeId h = fan.changes.front();
     Vec3 line = normalized(outer_.mesh.points[outer_.surface2part[topology_.to(h)]] - p);
     const Vec3 meet = cross(surface.normal(p), other.normal(p));
-    if (is_plane && dynamic_cast<const ConstraintPlane*>(&other) && norm(meet) > k_parallel_sine)
+    if (is_plane && dynamic_cast<const ConstraintPlane*>(&other) && norm(meet) > k_chain_sine)
       line = dot(meet, line) > 0.0 ? normalized(meet) : -normalized(meet);
     constraint.axis = line;
     if (dot(line, normalized(normal)) > k_forward_cosine) constraint.freedom = Freedom::line;

@@ -17,8 +17,7 @@ namespace {
 
 constexpr double k_line_growth = 1.3;  ///< of the edges on a line between two planes, from either rim
 constexpr std::size_t k_most_line_vertices = 100'000;
-constexpr std::size_t k_max_places = 10;
-constexpr const char* k_attempted = "filling the planes that the surface ends on";
+constexpr const char* k_planes_attempt = "filling the planes that the surface ends on";
 
 using Edge = std::array<VertexId, 2>;  ///< directed
 
@@ -33,7 +32,8 @@ std::string name_of(const EndPlane& end) {
 std::vector<std::vector<Edge>> rim_edges(const TriMesh& mesh, std::span<const EndPlane> ends, const RunContext& context) {
   const Topology topology(mesh, context);
   std::vector<std::vector<Edge>> rims(ends.size());
-  ErrorInfo info{.code = ErrorCode::open_surface, .attempted = k_attempted, .hint = "close the surface beside its planes; the outer shape has to reach them"};
+  ErrorInfo info{
+      .code = ErrorCode::open_surface, .attempted = k_planes_attempt, .hint = "close the surface beside its planes; the outer shape has to reach them"};
   for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
     const HalfedgeId h(i);
     if (!topology.is_boundary(h)) continue;
@@ -96,7 +96,7 @@ void join_on_line(TriMesh& mesh, std::span<const EndPlane> ends, std::size_t k, 
   on_line.erase(std::unique(on_line.begin(), on_line.end()), on_line.end());
   if (on_line.size() % 2 != 0) {
     ErrorInfo info{.code = ErrorCode::open_surface,
-                   .attempted = k_attempted,
+                   .attempted = k_planes_attempt,
                    .problem = "rims meet the line of the planes " + name_of(ends[k]) + " and " + name_of(ends[l]) + " in " + std::to_string(on_line.size()) +
                               " vertices; the fluid's part of it begins and ends at one each",
                    .hint = "rims may cross this line, not touch it, nor may a third plane cut it"};
@@ -141,7 +141,7 @@ void triangulate(TriMesh& mesh, const EndPlane& end, const std::vector<Edge>& ri
     triangles = triangulate_rims(places, segments, context);
   } catch (const Error& error) {
     ErrorInfo info = error.info();
-    info.attempted = k_attempted;
+    info.attempted = k_planes_attempt;
     info.problem = "the rims in the plane " + name_of(end) + " cross: " + info.problem;
     for (ErrorPlace& place : info.places) {
       Point p;
@@ -167,7 +167,7 @@ void require_closed(const TriMesh& mesh, const RunContext& context) {
   const Topology topology(mesh, context);
   if (topology.n_boundary_halfedges() == 0) return;
   ErrorInfo info{.code = ErrorCode::open_surface,
-                 .attempted = k_attempted,
+                 .attempted = k_planes_attempt,
                  .problem = "the planes do not close the surface: " + std::to_string(topology.n_boundary_halfedges()) + " edges have one triangle still",
                  .n_places = static_cast<std::int64_t>(topology.n_boundary_halfedges()),
                  .hint = "rims may not touch each other, and every rim has to be a border between fluid and body"};
@@ -202,7 +202,7 @@ std::vector<double> volumes_of(const TriMesh& mesh, const Components& components
     if (std::count_if(ends.begin(), ends.end(), [&](const EndPlane& end) { return end.axis == k; }) == 1) axis = k;
   if (axis == 3)
     throw Error({.code = ErrorCode::open_surface,
-                 .attempted = k_attempted,
+                 .attempted = k_planes_attempt,
                  .problem = "the surface ends on two planes across each of the three axes",
                  .hint = "give the surface with its sides"});
   for (const EndPlane& end : ends)

@@ -13,7 +13,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr const char* k_attempted = "making the farfield box";
+constexpr const char* k_box_attempt = "making the farfield box";
 
 /// Side 2 * axis + (upper ? 1 : 0).
 constexpr std::array<const char*, 6> k_names = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
@@ -38,7 +38,7 @@ BoxSize size_of_box(const TriMesh& wall, const FarfieldOptions& options, std::sp
     if (!is_automatic(to[k])) size.box.max[k] = to[k];
     if (!(size.box.max[k] > size.box.min[k]))
       throw Error({.code = ErrorCode::bad_argument,
-                   .attempted = k_attempted,
+                   .attempted = k_box_attempt,
                    .problem = std::string("it reaches from ") + "xyz"[k] + " = " + in_metres(size.box.min[k]) + " to " + in_metres(size.box.max[k]),
                    .hint = "give the lower corner first"});
   }
@@ -50,7 +50,7 @@ BoxSize size_of_box(const TriMesh& wall, const FarfieldOptions& options, std::sp
 
 void check_encloses(const TriMesh& wall, const Box& box, std::span<const EndPlane> ends) {
   const double margin = k_shape_margin * body_length(wall);
-  ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = k_attempted, .hint = "move farfield_from and farfield_to apart"};
+  ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = k_box_attempt, .hint = "move farfield_from and farfield_to apart"};
   for (std::size_t side = 0; side < 6; ++side) {
     const std::size_t k = side / 2;
     const bool is_upper = side % 2 == 1;
@@ -150,7 +150,7 @@ TriMesh farfield_box(const TriMesh& wall, const FarfieldOptions& options, std::s
     const std::size_t u = (side / 2 + 1) % 3, v = (side / 2 + 2) % 3;
     n += triangles_of((size.box.max[u] - size.box.min[u]) * (size.box.max[v] - size.box.min[v]), size.edge[side]);
   }
-  require_affordable(n, k_attempted);
+  require_affordable(n, k_box_attempt);
   return BoxMesh(size, context).take();
 }
 

@@ -15,7 +15,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr const char* k_attempted = "making the farfield cylinder";
+constexpr const char* k_cylinder_attempt = "making the farfield cylinder";
 constexpr double k_two_pi = 2.0 * std::numbers::pi;
 
 struct CylinderSize {
@@ -45,7 +45,7 @@ CylinderSize size_of_cylinder(const TriMesh& wall, const FarfieldOptions& option
   size.length = distance(size.from, to);
   if (!(size.length > 0.0))
     throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = k_attempted,
+                 .attempted = k_cylinder_attempt,
                  .problem = "both ends are at " + format_point(to),
                  .hint = "give farfield_from and farfield_to"});
   size.axis = (to - size.from) / size.length;
@@ -71,7 +71,8 @@ CylinderSize size_of_cylinder(const TriMesh& wall, const FarfieldOptions& option
 void check_encloses(const TriMesh& wall, const CylinderSize& size) {
   const double margin = k_shape_margin * body_length(wall);
   const double inner = size.radius * std::cos(std::numbers::pi / std::min(size.n_start, size.n_end));
-  ErrorInfo info{.code = ErrorCode::bad_argument, .attempted = k_attempted, .hint = "raise farfield_radius, or move farfield_from and farfield_to apart"};
+  ErrorInfo info{
+      .code = ErrorCode::bad_argument, .attempted = k_cylinder_attempt, .hint = "raise farfield_radius, or move farfield_from and farfield_to apart"};
   const auto require = [&](const std::string& what, const auto& needed, double given) {
     const Point farthest = *std::max_element(wall.points.begin(), wall.points.end(), [&](const Point& p, const Point& q) { return needed(p) < needed(q); });
     if (needed(farthest) + margin <= given) return;
@@ -168,7 +169,7 @@ TriMesh farfield_cylinder(const TriMesh& wall, const FarfieldOptions& options, s
   const CylinderSize size = size_of_cylinder(wall, options, ends);
   const double disc = std::numbers::pi * size.radius * size.radius;
   require_affordable(triangles_of(disc, size.start) + triangles_of(disc, size.end) + triangles_of(k_two_pi * size.radius * size.length, size.side),
-                     k_attempted);
+                     k_cylinder_attempt);
   check_encloses(wall, size);
   return CylinderMesh(size, context).take();
 }

@@ -16,7 +16,6 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_max_places = 10;
 constexpr double k_facing_cosine = -0.999;  ///< between the normals of sides that face each other: k_side_tolerance leaves less than that
 
 constexpr double k_slide = 0.35;      ///< of the shorter edge at a border vertex: how far it may go along the border, so that its triangles stay sound

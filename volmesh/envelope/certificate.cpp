@@ -11,8 +11,6 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_max_places = 10;
-
 Point centre(const std::array<Point, 3>& p) { return (p[0] + p[1] + p[2]) / 3.0; }
 
 /// Smallest Jacobian over the corners of a tet, scaled by the three edges there.

@@ -13,18 +13,17 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_max_places = 10;
 constexpr double k_parallel_sine = 1e-6;  ///< planes at a smaller angle have no line in common that could be computed
 constexpr std::string_view k_hint =
     "a wall may end only in planes, as a half model at its symmetry plane x, y or z = constant; close the other rims, or move their vertices into the plane";
 
-struct Edge {
+struct BorderEdge {
   HalfedgeId halfedge;
   VertexId from, to, opposite;
 };
 
-std::vector<Edge> boundary_edges(const TriMesh& wall, const Topology& topology) {
-  std::vector<Edge> edges;
+std::vector<BorderEdge> boundary_edges(const TriMesh& wall, const Topology& topology) {
+  std::vector<BorderEdge> edges;
   for (std::size_t i = 0; i < 3 * wall.n_triangles(); ++i) {
     const HalfedgeId h(i);
     if (topology.is_boundary(h)) edges.push_back({h, topology.from(h), topology.to(h), topology.from(previous(h))});
@@ -33,7 +32,7 @@ std::vector<Edge> boundary_edges(const TriMesh& wall, const Topology& topology) 
 }
 
 /// Closed polygons of the boundary; edges that share a vertex belong to the same one.
-std::size_t count_rims(const TriMesh& wall, const std::vector<Edge>& edges) {
+std::size_t count_rims(const TriMesh& wall, const std::vector<BorderEdge>& edges) {
   std::vector<std::uint32_t> parent(wall.n_vertices());
   for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
   const auto root = [&](VertexId v) {
@@ -43,7 +42,7 @@ std::size_t count_rims(const TriMesh& wall, const std::vector<Edge>& edges) {
   };
   std::size_t n = 0;
   std::vector<std::uint8_t> is_on_rim(wall.n_vertices(), 0);
-  for (const Edge& e : edges) {
+  for (const BorderEdge& e : edges) {
     for (const VertexId v : {e.from, e.to}) n += is_on_rim[v.index()]++ == 0 ? 1 : 0;
     const std::uint32_t a = root(e.from), b = root(e.to);
     if (a == b) continue;
@@ -53,7 +52,7 @@ std::size_t count_rims(const TriMesh& wall, const std::vector<Edge>& edges) {
   return n;
 }
 
-[[noreturn]] void reject(const TriMesh& wall, const std::vector<Edge>& edges, std::string problem, const std::vector<VertexId>& where,
+[[noreturn]] void reject(const TriMesh& wall, const std::vector<BorderEdge>& edges, std::string problem, const std::vector<VertexId>& where,
                          const std::string& what) {
   ErrorInfo info{.code = ErrorCode::open_surface,
                  .attempted = "constraining the rims of the wall",
@@ -62,7 +61,7 @@ std::size_t count_rims(const TriMesh& wall, const std::vector<Edge>& edges) {
                  .hint = std::string(k_hint)};
   for (std::size_t i = 0; i < std::min(where.size(), k_max_places); ++i)
     info.places.push_back({wall.points[where[i]], "vertex " + std::to_string(where[i].value()) + " " + what});
-  for (const Edge& e : edges) {
+  for (const BorderEdge& e : edges) {
     const std::uint32_t next = static_cast<std::uint32_t>(info.geometry.points.size());
     info.geometry.points.insert(info.geometry.points.end(), {wall.points[e.from], wall.points[e.to]});
     info.geometry.edges.push_back({next, next + 1});
@@ -77,11 +76,11 @@ struct AxisPlane {
 };
 
 /// Planes of constant coordinate that hold boundary edges whose triangle rises from them, with the length of these edges.
-std::vector<AxisPlane> candidates_of_edges(const TriMesh& wall, const std::vector<Edge>& edges, double tolerance) {
+std::vector<AxisPlane> candidates_of_edges(const TriMesh& wall, const std::vector<BorderEdge>& edges, double tolerance) {
   std::vector<AxisPlane> found;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::vector<AxisPlane> in_order;
-    for (const Edge& e : edges) {
+    for (const BorderEdge& e : edges) {
       const double a = wall.points[e.from][axis], b = wall.points[e.to][axis], c = wall.points[e.opposite][axis];
       if (std::abs(a - b) > tolerance || std::abs(a - c) <= tolerance) continue;
       in_order.push_back({axis, std::min(a, b), distance(wall.points[e.from], wall.points[e.to])});
@@ -96,11 +95,11 @@ std::vector<AxisPlane> candidates_of_edges(const TriMesh& wall, const std::vecto
   return found;
 }
 
-std::vector<ConstraintPlane> find_planes(const TriMesh& wall, const std::vector<Edge>& edges, double tolerance) {
+std::vector<ConstraintPlane> find_planes(const TriMesh& wall, const std::vector<BorderEdge>& edges, double tolerance) {
   const std::vector<AxisPlane> candidates = candidates_of_edges(wall, edges, tolerance);
   std::vector<std::uint8_t> is_chosen(candidates.size(), 0);
   std::vector<VertexId> lost;
-  for (const Edge& e : edges) {
+  for (const BorderEdge& e : edges) {
     std::size_t best = candidates.size();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       const auto is_in = [&](VertexId v) {
@@ -119,7 +118,7 @@ std::vector<ConstraintPlane> find_planes(const TriMesh& wall, const std::vector<
     if (!is_chosen[k]) continue;
     // The coordinate that most of the plane's vertices have: snapping then moves the fewest.
     std::vector<double> values;
-    for (const Edge& e : edges) {
+    for (const BorderEdge& e : edges) {
       const double x = wall.points[e.from][candidates[k].axis];
       if (x >= candidates[k].value && x <= candidates[k].value + 2.0 * tolerance) values.push_back(x);
     }
@@ -140,8 +139,8 @@ std::vector<ConstraintPlane> find_planes(const TriMesh& wall, const std::vector<
 }
 
 /// The planes with their normals to the side of the wall.
-std::vector<std::shared_ptr<const ConstraintSurface>> facing_wall(const TriMesh& wall, const std::vector<Edge>& edges, std::span<const ConstraintPlane> planes,
-                                                                  double tolerance) {
+std::vector<std::shared_ptr<const ConstraintSurface>> facing_wall(const TriMesh& wall, const std::vector<BorderEdge>& edges,
+                                                                  std::span<const ConstraintPlane> planes, double tolerance) {
   std::vector<std::shared_ptr<const ConstraintSurface>> surfaces;
   for (const ConstraintPlane& plane : planes) {
     std::vector<VertexId> above, below;
@@ -163,7 +162,7 @@ std::vector<std::shared_ptr<const ConstraintSurface>> facing_wall(const TriMesh&
 }  // namespace
 
 Constraints constraints_of_planes(const TriMesh& wall, const Topology& topology, std::span<const ConstraintPlane> planes) {
-  const std::vector<Edge> edges = boundary_edges(wall, topology);
+  const std::vector<BorderEdge> edges = boundary_edges(wall, topology);
   Constraints result;
   if (edges.empty()) return result;
   // Planes are found within k_rim_tolerance of their lowest vertex, and given ones may lie on either side of theirs.
@@ -171,7 +170,7 @@ Constraints constraints_of_planes(const TriMesh& wall, const Topology& topology,
   result.surfaces = facing_wall(wall, edges, planes, tolerance);
   result.vertex.resize(wall.n_vertices());
   std::vector<VertexId> lost, crowded;
-  for (const Edge& e : edges) {
+  for (const BorderEdge& e : edges) {
     const auto distance_of = [&](std::size_t k, VertexId v) { return std::abs(result.surfaces[k]->inside_distance(wall.points[v])); };
     bool has_plane = false;
     for (std::size_t k = 0; k < result.surfaces.size(); ++k) {
@@ -205,7 +204,7 @@ Constraints constraints_of_planes(const TriMesh& wall, const Topology& topology,
 }
 
 Constraints constraints_of_rims(const TriMesh& wall, const Topology& topology) {
-  const std::vector<Edge> edges = boundary_edges(wall, topology);
+  const std::vector<BorderEdge> edges = boundary_edges(wall, topology);
   if (edges.empty()) return {};
   const std::vector<ConstraintPlane> planes = find_planes(wall, edges, k_rim_tolerance * body_length(wall));
   return constraints_of_planes(wall, topology, planes);

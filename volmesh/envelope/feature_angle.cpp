@@ -9,14 +9,14 @@
 
 #include "geom/base/parallel.h"
 #include "geom/base/schema.h"
+#include "geom/math/constants.h"
 #include "volmesh/envelope/classify.h"
 
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_deg = std::numbers::pi / 180.0;
 /// Above the largest smooth turn: single precision and scripts that move the wall change angles a little.
-constexpr double k_above_smooth = 1.0 * k_deg;
+constexpr double k_above_smooth = 1.0 * k_degree;
 constexpr std::size_t k_lowest = 20, k_highest = 60;  ///< degrees: flatter edges occur on any coarse curved surface, sharper ones are features on all
 constexpr std::size_t k_window = 2;                   ///< bins to either side that are counted with a bin: single edges do not end a gap
 /// A window with at most this share of all edges is empty: some badly shaped triangles are found on every surface.
@@ -33,7 +33,7 @@ Histogram histogram_of(const LayerBase& base, const RunContext& context) {
           const HalfedgeId h(i);
           const HalfedgeId twin = base.topology.twin(h);
           if (twin.is_valid() && twin < h) continue;
-          ++counts[static_cast<std::size_t>(std::abs(dihedral_deviation(base, h)) / k_deg)];
+          ++counts[static_cast<std::size_t>(std::abs(dihedral_deviation(base, h)) / k_degree)];
         }
         return counts;
       },
@@ -45,7 +45,7 @@ Histogram histogram_of(const LayerBase& base, const RunContext& context) {
 
 std::string degrees_text(double angle) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.1f deg", angle / k_deg);
+  std::snprintf(text, sizeof text, "%.1f deg", angle / k_degree);
   return text;
 }
 
@@ -65,7 +65,7 @@ double middle_of_gap(const LayerBase& base, const RunContext& context) {
     if (end - begin > best_end - best_begin) best_begin = begin, best_end = end;
     begin = end;
   }
-  return 0.5 * static_cast<double>(best_begin + best_end) * k_deg;  // bin i is [i, i + 1) degrees
+  return 0.5 * static_cast<double>(best_begin + best_end) * k_degree;  // bin i is [i, i + 1) degrees
 }
 
 }  // namespace
@@ -80,8 +80,8 @@ double decide_feature_angle(const LayerBase& base, const EnvelopeOptions& option
     return options.feature_angle;
   }
   if (!is_automatic(smooth_angle)) {
-    const double angle = std::max(static_cast<double>(k_lowest) * k_deg, smooth_angle + k_above_smooth);
-    if (angle <= static_cast<double>(k_highest) * k_deg) {
+    const double angle = std::max(static_cast<double>(k_lowest) * k_degree, smooth_angle + k_above_smooth);
+    if (angle <= static_cast<double>(k_highest) * k_degree) {
       context.info("feature angle " + degrees_text(angle) + ": the surface mesh turns by up to " + degrees_text(smooth_angle) + " where the model is smooth");
       return angle;
     }

@@ -9,7 +9,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_max_halvings = 6;            ///< of a step that raises the objective, before the vertex waits for its neighbours
+constexpr int k_max_descent_halvings = 6;    ///< of a step that raises the objective, before the vertex waits for its neighbours
 constexpr std::size_t k_max_incident = 64;   ///< triangles at a vertex that moves; beyond it the vertex stays
 constexpr double k_max_step = 0.5;           ///< of h_u
 constexpr double k_sufficient = 1e-4;        ///< Armijo's share of the predicted decrease
@@ -129,7 +129,7 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
   const double predicted = dot(gradient, step);
   if (!(predicted < 0.0)) return 0.0;
   double share = 1.0;
-  for (int halving = 0; halving <= k_max_halvings; ++halving, share *= 0.5) {
+  for (int halving = 0; halving <= k_max_descent_halvings; ++halving, share *= 0.5) {
     Vec3 next = (start + share * step) / scale;
     clamp(i, next);  // the floor, and rounding
     if (!(local_objective(scale * next) <= before + k_sufficient * share * predicted)) continue;

@@ -20,9 +20,9 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_walk_end = 1e-6;  ///< sum of violated g, dimensionless, at which the walk to feasibility ends; g_1,min is 1e-2
-constexpr int k_max_halvings = 8;    ///< of a vertex's way from the start, before it goes back there
-constexpr double k_shrink = 0.9;     ///< of a growth edge, per step of the walk's second part
+constexpr double k_walk_end = 1e-6;       ///< sum of violated g, dimensionless, at which the walk to feasibility ends; g_1,min is 1e-2
+constexpr int k_max_return_halvings = 8;  ///< of a vertex's way from the start, before it goes back there
+constexpr double k_shrink = 0.9;          ///< of a growth edge, per step of the walk's second part
 
 /// What the C callbacks see. NLopt gets the sums of (8) and (9) times n_v rather than the means: its estimate of the curvature, rho, starts at 1 and never
 /// falls below 1e-5, while that of a mean over a million vertices is 1e-6, which would keep the steps far too short. The minimum is the same.
@@ -167,11 +167,11 @@ std::size_t go_back(const LayerBase& base, const PaperProblem& problem, const En
     for (const TriangleId t : bad) {
       for (const VertexId v : base.wall.triangles[t]) {
         const std::span<double> own = problem.unknowns_of(v, z);
-        if (dirty[v] || own.empty() || n_halvings[v] > k_max_halvings) continue;
+        if (dirty[v] || own.empty() || n_halvings[v] > k_max_return_halvings) continue;
         dirty[v] = 1;
         has_moved = true;
         n_back += n_halvings[v] == 0;
-        const double share = ++n_halvings[v] > k_max_halvings ? 0.0 : 0.5;
+        const double share = ++n_halvings[v] > k_max_return_halvings ? 0.0 : 0.5;
         const double* const origin = z_from.data() + (own.data() - z.data());
         for (std::size_t k = 0; k < own.size(); ++k) own[k] = origin[k] + share * (own[k] - origin[k]);
       }
@@ -180,7 +180,7 @@ std::size_t go_back(const LayerBase& base, const PaperProblem& problem, const En
     problem.store(z, optimised, context);
     parallel_for(context, n, [&](std::size_t i) {
       const VertexId v(i);
-      if (n_halvings[v] <= k_max_halvings) return;
+      if (n_halvings[v] <= k_max_return_halvings) return;
       optimised.height[v] = from.height[v];  // to the bit
       optimised.direction[v] = from.direction[v];
     });

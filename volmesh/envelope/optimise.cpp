@@ -10,11 +10,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_memory = 7;    ///< pairs of the L-BFGS approximation
-constexpr double k_keep = 0.2;         ///< of its slack that an element near the barrier keeps in one step of L-BFGS
-constexpr double k_max_step = 0.5;     ///< of h_u, of a vertex in one step of L-BFGS
-constexpr double k_first_step = 0.25;  ///< of the steepest descent step that would undo f_1 on a plane
-constexpr double k_sufficient = 1e-4;  ///< Armijo's share of the predicted decrease
+constexpr std::size_t k_memory = 7;          ///< pairs of the L-BFGS approximation
+constexpr double k_keep = 0.2;               ///< of its slack that an element near the barrier keeps in one step of L-BFGS
+constexpr double k_max_lbfgs_step = 0.5;     ///< of h_u, of a vertex in one step of L-BFGS
+constexpr double k_first_step_share = 0.25;  ///< of the steepest descent step that would undo f_1 on a plane
+constexpr double k_armijo_share = 1e-4;      ///< Armijo's share of the predicted decrease
 constexpr int k_max_backtracks = 8;
 constexpr int k_patience = 4;    ///< iterations of L-BFGS over which the gain must exceed the tolerance
 constexpr double k_rest = 2e-3;  ///< of h_u: a vertex that moves less rests until a neighbour moves more
@@ -68,7 +68,7 @@ void run_lbfgs(LayerObjective& objective, const OptimiseSettings& settings, Vec3
     context.progress(static_cast<double>(report.n_evaluations) / settings.max_evaluations);
     free_gradient = gradient;
     objective.free_part(y, free_gradient, context);
-    memory.descend(free_gradient, k_first_step * static_cast<double>(objective.n_moving()), direction, context);
+    memory.descend(free_gradient, k_first_step_share * static_cast<double>(objective.n_moving()), direction, context);
     objective.slacks(y, slack, context);
     double shrink = 1.0;
     bool is_accepted = false;
@@ -77,14 +77,14 @@ void run_lbfgs(LayerObjective& objective, const OptimiseSettings& settings, Vec3
         trial[i] = y[i];
         if (!objective.is_moving(i)) return;
         const double length = shrink * norm(direction[i]);
-        trial[i] += (length > k_max_step ? shrink * k_max_step / length : shrink) * direction[i];
+        trial[i] += (length > k_max_lbfgs_step ? shrink * k_max_lbfgs_step / length : shrink) * direction[i];
         objective.clamp(i, trial[i]);
       });
       objective.hold_back(y, slack, k_keep, trial, context);
       const ObjectiveValue next = objective.evaluate(trial, &trial_gradient, context);
       ++report.n_evaluations;
       const double predicted = field_dot(gradient, trial, context) - field_dot(gradient, y, context);
-      if (!(next.total < value.total + k_sufficient * std::min(predicted, 0.0))) continue;
+      if (!(next.total < value.total + k_armijo_share * std::min(predicted, 0.0))) continue;
       memory.push(y, trial, gradient, trial_gradient, context);
       accept(next);
       is_accepted = true;

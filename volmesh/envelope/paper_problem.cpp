@@ -12,7 +12,7 @@ namespace sterna::volmesh {
 namespace {
 
 /// Bounds that are closer than this ratio fix the vertex (method.md §6).
-constexpr double k_min_bound_ratio = 1.05;
+constexpr double k_paper_bound_ratio = 1.05;
 /// Tangential unknowns may reach this many h_u: 63 degrees from the normal at full height. A start further out has room for half as much again.
 constexpr double k_tangent_reach = 2.0;
 constexpr double k_tangent_reserve = 1.5;
@@ -50,7 +50,7 @@ void PaperProblem::add_place(VertexId v, double h_u, double h_l) {
   const Vec3 normal = constrained(constraint, base_.vertex_normal[v]);
   const double h = dot(growth_[v], normal);
   upper_[v] = std::max(h_u, h);
-  if (!(h > 0.0) || upper_[v] < k_min_bound_ratio * h_l) return;
+  if (!(h > 0.0) || upper_[v] < k_paper_bound_ratio * h_l) return;
   const TangentAxes tangent = tangent_axes(constraint, normal);
   Place place{.vertex = v, .first = static_cast<std::uint32_t>(n_unknowns_), .n_tangents = static_cast<std::uint8_t>(tangent.count), .h_u = upper_[v]};
   for (std::size_t k = 0; k < place.n_tangents; ++k) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geom/base/parallel.h"
+#include "geom/base/sort_unique.h"
 #include "volmesh/envelope/untangle.h"
 
 namespace sterna::volmesh {
@@ -10,14 +11,9 @@ namespace {
 
 constexpr double k_pair_reserve = 0.98;      ///< of the largest share at which a pair of triangles is clear
 constexpr double k_clearance_factor = 0.95;  ///< once nothing collides: leaves a gap for tets between retracted layers
-constexpr int k_regrow_rounds = 6;
+constexpr int k_clear_regrow_rounds = 6;
 constexpr std::uint8_t k_not_tried = 255;  ///< failures after which there are no more steps
 constexpr std::uint8_t k_first_step = 1;   ///< the largest step of regrowth rarely keeps the clearance
-
-void sort_unique(std::vector<VertexId>& vertices) {
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-}
 
 /// Heights for crossing pairs: lowered on both sides to the largest share at which the pair is clear, or collapsed. Returns the vertices of the pairs.
 std::vector<VertexId> lower_pairs(const Collider& collider, const std::vector<BoundaryCrossing>& pairs, bool must_collapse, const EnvelopeScale& scale,
@@ -101,7 +97,7 @@ void regrow_clear(const LayerBase& base, Collider& collider, Envelope& envelope,
   Column<VertexId, std::uint8_t> n_failures(envelope.height.size(), where ? k_not_tried : k_first_step);
   if (where)
     for (const VertexId v : *where) n_failures[v] = k_first_step;
-  for (int round = 0; round < k_regrow_rounds; ++round) {
+  for (int round = 0; round < k_clear_regrow_rounds; ++round) {
     ShapeChange change = raised(base, envelope, n_failures, context);
     if (change.vertices.empty()) return;
     const std::vector<VertexId> tried = change.vertices;

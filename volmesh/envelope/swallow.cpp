@@ -14,7 +14,7 @@ namespace {
 constexpr double k_inside = 0.5;
 /// A cell that holds a point alone, or at least shares it with the neighbour on whose side it lies.
 constexpr double k_holds = 0.1;
-constexpr int k_share_bisections = 10;  ///< halvings: 0.1 % of the height
+constexpr int k_swallow_bisections = 10;  ///< halvings: 0.1 % of the height
 
 /// Solid angle of a triangle seen from p over 4 pi, positive when its normal points away from p (Van Oosterom & Strackee 1983).
 double winding(const Point& p, const Point& p0, const Point& p1, const Point& p2) {
@@ -65,7 +65,7 @@ std::vector<Swallowing> Collider::swallowings(const EnvelopeShape& shape) const 
       for (const VertexId v : base_.wall.triangles[t]) found.vertices.push_back(v);
     if (mover.is_valid()) found.vertices.push_back(mover);
     double swallowed = 1.0;
-    for (int step = 0; step < k_share_bisections; ++step) {
+    for (int step = 0; step < k_swallow_bisections; ++step) {
       const double middle = 0.5 * (found.clear_share + swallowed);
       const Point q = mover.is_valid() ? base_.wall.points[mover] + (middle * shape.height[mover]) * shape.direction[mover] : p;
       const bool is_inside = std::any_of(holders.begin(), holders.end(), [&](TriangleId t) { return cell_winding(base_, shape, t, middle, q) > k_holds; });

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "geom/base/parallel.h"
+#include "geom/base/sort_unique.h"
 #include "volmesh/envelope/validity.h"
 
 namespace sterna::volmesh {
@@ -112,11 +113,6 @@ void untangle_edges(const LayerBase& base, const EnvelopeOptions& options, Envel
 namespace {
 
 /// What is lowered in one round, without repetition.
-void sort_unique(std::vector<VertexId>& vertices) {
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-}
-
 /// Lowers the corners of invalid elements, or collapses them; returns the lowered vertices.
 std::vector<VertexId> lower_elements(const LayerBase& base, const std::vector<TriangleId>& bad, bool must_collapse, const EnvelopeScale& scale,
                                      HeightLimit reason, Envelope& envelope, const RunContext& context) {

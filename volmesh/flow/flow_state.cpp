@@ -1,7 +1,7 @@
 #include "volmesh/flow/flow_state.h"
 
 #include "geom/base/error.h"
-#include "volmesh/flow/print_text.h"
+#include "geom/base/print_text.h"
 #include "volmesh/flow/standard_atmosphere.h"
 
 namespace sterna::volmesh {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "geom/base/error.h"
-#include "volmesh/flow/print_text.h"
+#include "geom/base/print_text.h"
 
 namespace sterna::volmesh {
 namespace {

@@ -13,7 +13,7 @@ namespace {
 /// Share of the smaller extent along an axis: a proof needs more than rounding and near-parallel edges can fake.
 constexpr double k_least_overlap = 1e-3;
 /// Sine below which two edges count as parallel; their common normals are then those of faces.
-constexpr double k_parallel = 1e-6;
+constexpr double k_forcing_parallel = 1e-6;
 
 using Core = std::array<Vec3, 4>;
 
@@ -57,7 +57,7 @@ bool do_overlap(const Core& a, const Core& b) {
   for (const auto& e : k_edges)
     for (const auto& f : k_edges) {
       const Vec3 u = a[e[1]] - a[e[0]], v = b[f[1]] - b[f[0]], axis = cross(u, v);
-      if (norm2(axis) <= k_parallel * k_parallel * norm2(u) * norm2(v)) continue;
+      if (norm2(axis) <= k_forcing_parallel * k_forcing_parallel * norm2(u) * norm2(v)) continue;
       if (is_separated_along(a, b, axis)) return false;
     }
   return true;

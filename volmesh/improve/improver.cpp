@@ -14,7 +14,7 @@ constexpr std::uint32_t k_ring_shift = 28;
 /// Rings of vertices around the bad ones that a group claims; every third pass another ring, for those that one did not help.
 constexpr std::uint32_t rings_of(int pass) { return pass % 3 == 2 ? 2 : 1; }
 constexpr std::size_t k_job_chunk = 1;
-constexpr std::uint32_t k_none = 0xffffffffu;
+constexpr std::uint32_t k_no_region = 0xffffffffu;
 /// Changes may make tetrahedra of this share of the target as long as the mesh has worse ones.
 constexpr double k_floor = 0.5;
 
@@ -47,7 +47,7 @@ Improver::Improver(const TetraBoundary& boundary, TetraResult& tets, const Quali
   limits_.floor = std::max(k_floor * limits_.target, worst);
 }
 
-bool Improver::is_alive(std::uint32_t tet) const { return tets_[tet][0] != k_none; }
+bool Improver::is_alive(std::uint32_t tet) const { return tets_[tet][0] != k_no_region; }
 
 void Improver::drop_good() {
   std::erase_if(bad_, [&](Bad& bad) {
@@ -88,7 +88,7 @@ int Improver::run(int max_passes) {
     context_.check_stop();
     std::vector<Job> jobs = choose_jobs(pass);
     if (jobs.empty()) break;
-    owner_.assign(points_.size(), k_none);
+    owner_.assign(points_.size(), k_no_region);
     local_.resize(points_.size());
     for (std::uint32_t ring = 0; ring <= rings_of(pass); ++ring)
       parallel_for(
@@ -226,7 +226,7 @@ void Improver::put_back(const Job& job) {
       n_failures_.push_back(0);
     }
     if (i >= job.added.size()) {
-      tets_[slot][0] = k_none;
+      tets_[slot][0] = k_no_region;
       continue;
     }
     for (std::size_t k = 0; k < 4; ++k) {
@@ -240,7 +240,7 @@ void Improver::put_back(const Job& job) {
 }
 
 void Improver::finish(TetraResult& result) {
-  std::erase_if(tets_, [](const Corners& c) { return c[0] == k_none; });
+  std::erase_if(tets_, [](const Corners& c) { return c[0] == k_no_region; });
   std::vector<std::uint32_t> number(points_.size(), 0);
   for (std::size_t v = 0; v < n_fixed_; ++v) number[v] = 1;
   for (const Corners& c : tets_)

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "volmesh/improve/forcing.h"
 #include "volmesh/improve/tet_quality.h"
@@ -14,7 +15,6 @@ namespace sterna::volmesh {
 namespace {
 
 using Corners = std::array<std::uint32_t, 4>;
-constexpr double k_degrees = 180.0 / std::numbers::pi;
 constexpr std::size_t k_max_listed = 10'000;
 
 struct Remaining {

@@ -3,6 +3,7 @@
 
 #include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
+#include "geom/math/constants.h"
 #include "volmesh/case/growth_law.h"
 #include "volmesh/flow/boundary_layer.h"
 #include "volmesh/inspect/survey.h"
@@ -10,12 +11,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_regular_height = 0.81649658092772603;  ///< of a regular tetrahedron over its edge
-constexpr double k_noticed_area = 0.01;                   ///< share of the area from which on a misfit of the last layer is told
-constexpr double k_growth_step = 0.005;                   ///< added to an advised growth, so that it is enough when rounded
-constexpr double k_steep_growth = 1.5;                    ///< beyond it no growth is advised: solvers lose the boundary layer's profile
-constexpr int k_most_layers = 1000;                       ///< that are advised; more are no option
-constexpr double k_y_plus_factor = 2.0;                   ///< off the wanted y+, that the estimate of a flat plate cannot tell better
+constexpr double k_noticed_area = 0.01;  ///< share of the area from which on a misfit of the last layer is told
+constexpr double k_growth_step = 0.005;  ///< added to an advised growth, so that it is enough when rounded
+constexpr double k_steep_growth = 1.5;   ///< beyond it no growth is advised: solvers lose the boundary layer's profile
+constexpr int k_most_layers = 1000;      ///< that are advised; more are no option
+constexpr double k_y_plus_factor = 2.0;  ///< off the wanted y+, that the estimate of a flat plate cannot tell better
 
 /// What the layer asks for at a vertex by eq. (1) and the caps, before anything lowers it.
 struct Cells {

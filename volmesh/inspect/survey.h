@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geom/base/parallel.h"
+#include "geom/math/constants.h"
 #include "geom/mesh/topology.h"
 #include "volmesh/inspect/inspect.h"
 #include "volmesh/site/site.h"
@@ -118,6 +119,5 @@ std::string percent(double share);
 inline constexpr int k_text_digits = 4;
 /// Digits of suggested values.
 inline constexpr int k_advice_digits = 2;
-inline constexpr double k_degree = std::numbers::pi / 180.0;
 
 }  // namespace sterna::volmesh

@@ -9,7 +9,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_column_chunk = 256;  ///< columns, some 10^4 cells
+constexpr std::size_t k_proof_chunk = 256;  ///< columns, some 10^4 cells
 
 WedgePoints wedge_of(const ColumnLines& lines, int layer) {
   const auto& [a, b, c] = lines.nodes;
@@ -108,7 +108,7 @@ LayerCertificate certify_layer(const LayerBlock& layers, std::span<const Point> 
         a.n_proved = n_proved;
         return a;
       },
-      k_column_chunk);
+      k_proof_chunk);
 }
 
 }  // namespace sterna::volmesh

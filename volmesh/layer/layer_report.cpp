@@ -6,6 +6,7 @@
 
 #include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "volmesh/layer/layer_line.h"
 
@@ -103,7 +104,6 @@ void warn(const Envelope& envelope, const Classifier& classifier, LayerReport& r
                             in_metres(report.body_length, k_digits) + "); are first_height and the surface in the same unit?");
 }
 
-constexpr double k_regular_height = 0.81649658092772603;  ///< of a regular tetrahedron over its edge
 constexpr double k_interface_ratio = 3.0;
 
 InterfaceReport report_interface(const LayerBase& base, const Classifier& classifier, const Extrusion& extrusion, const RunContext& context) {

@@ -4,13 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "geom/math/constants.h"
+
 namespace sterna::volmesh {
-namespace {
-
-constexpr std::size_t k_max_places = 10;
-constexpr double k_deg = std::numbers::pi / 180.0;
-
-}  // namespace
+namespace {}  // namespace
 
 VisibilityReport report_visibility(const LayerBase& base) {
   VisibilityReport report;
@@ -21,15 +18,15 @@ VisibilityReport report_visibility(const LayerBase& base) {
     report.angle[v] = angle;
     report.max_angle = std::max(report.max_angle, angle);
     for (std::size_t i = 0; i < k_visibility_limits_deg.size(); ++i)
-      if (angle > k_visibility_limits_deg[i] * k_deg) report.share_above[i] += 1.0;
-    if (angle > k_visibility_limits_deg[0] * k_deg) hard.push_back(v);
+      if (angle > k_visibility_limits_deg[i] * k_degree) report.share_above[i] += 1.0;
+    if (angle > k_visibility_limits_deg[0] * k_degree) hard.push_back(v);
   }
   for (double& share : report.share_above) share /= static_cast<double>(base.visibility.size());
   std::stable_sort(hard.begin(), hard.end(), [&](VertexId a, VertexId b) { return report.angle[a] > report.angle[b]; });
   hard.resize(std::min(hard.size(), k_max_places));
   for (const VertexId v : hard)
     report.hardest.push_back({base.wall.points[v], "vertex " + std::to_string(v.value()) + ": its faces are seen at " +
-                                                       std::to_string(std::lround(report.angle[v] / k_deg)) + " degrees at best"});
+                                                       std::to_string(std::lround(report.angle[v] / k_degree)) + " degrees at best"});
   return report;
 }
 

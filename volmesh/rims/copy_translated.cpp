@@ -13,7 +13,7 @@
 namespace sterna::volmesh {
 namespace {
 
-std::vector<std::uint32_t> loop_points(const EndRegion& region) {
+std::vector<std::uint32_t> loop_indices(const EndRegion& region) {
   std::vector<std::uint32_t> points;
   for (const EndEdge& edge : region.edges) points.insert(points.end(), edge.begin(), edge.end());
   std::sort(points.begin(), points.end());
@@ -24,7 +24,7 @@ std::vector<std::uint32_t> loop_points(const EndRegion& region) {
 /// Points of the partner by x, to be found within a tolerance.
 class Partners {
  public:
-  Partners(const EndRegion& to, double tolerance) : to_(to), tolerance_(tolerance), order_(loop_points(to)) {
+  Partners(const EndRegion& to, double tolerance) : to_(to), tolerance_(tolerance), order_(loop_indices(to)) {
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) { return key(i) != key(j) ? key(i) < key(j) : i < j; });
   }
   /// The nearest one; k_none when none is near enough.
@@ -70,7 +70,7 @@ int sense_of(const EndRegion& from, const EndRegion& to, const std::vector<std::
   const auto note = [&](const std::vector<EndEdge>& a, const std::vector<EndEdge>& b, const char* what) {
     std::vector<EndEdge> only;
     std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(only));
-    for (const EndEdge& edge : only) add_place(info, 0.5 * (to.points[edge[0]] + to.points[edge[1]]), what);
+    for (const EndEdge& edge : only) info.add_place(0.5 * (to.points[edge[0]] + to.points[edge[1]]), what);
   };
   std::vector<EndEdge> common;
   std::set_intersection(opposite.begin(), opposite.end(), edges.begin(), edges.end(), std::back_inserter(common));
@@ -89,13 +89,13 @@ EndTriangles copy_translated(const EndRegion& from, const EndTriangles& triangle
   std::vector<std::uint8_t> is_taken(to.points.size(), 0);
   ErrorInfo info =
       end_error(to, ErrorCode::bad_argument, "loops do not match the periodic partner \"" + from.name + "\" within " + in_metres(tolerance, k_end_digits));
-  for (const std::uint32_t i : loop_points(from)) {
+  for (const std::uint32_t i : loop_indices(from)) {
     partner[i] = partners.find(from.points[i] + translation);
-    if (partner[i] == Partners::k_none) add_place(info, from.points[i] + translation, "a point of the partner is here, none of this patch");
-    else if (is_taken[partner[i]]++ != 0) add_place(info, to.points[partner[i]], "two points of the partner for one of this patch");
+    if (partner[i] == Partners::k_none) info.add_place(from.points[i] + translation, "a point of the partner is here, none of this patch");
+    else if (is_taken[partner[i]]++ != 0) info.add_place(to.points[partner[i]], "two points of the partner for one of this patch");
   }
-  for (const std::uint32_t i : loop_points(to))
-    if (is_taken[i] == 0) add_place(info, to.points[i], "a point of this patch is here, none of the partner");
+  for (const std::uint32_t i : loop_indices(to))
+    if (is_taken[i] == 0) info.add_place(to.points[i], "a point of this patch is here, none of the partner");
   info.hint = "periodic sides need the same layers and the same points where other patches meet them";
   if (info.n_places > 0) throw Error(std::move(info));
   const int sense = sense_of(from, to, partner);

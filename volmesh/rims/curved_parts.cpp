@@ -33,11 +33,11 @@ constexpr std::array<Reach, 6> k_reaches = {{{3.0, 4}, {3.0, 2}, {1.5, 2}, {1.0,
 constexpr double k_curvature_angle = 12.0 * std::numbers::pi / 180.0;
 /// rad: an edge of the original that turns less is flat.
 constexpr double k_flat_angle = 1e-6;
-constexpr std::uint32_t k_none = ~0u;
+constexpr std::uint32_t k_no_part = ~0u;
 
-struct Half {
+struct PartHalf {
   std::uint32_t from, to, id;
-  friend bool operator<(const Half& a, const Half& b) { return a.from != b.from ? a.from < b.from : a.to != b.to ? a.to < b.to : a.id < b.id; }
+  friend bool operator<(const PartHalf& a, const PartHalf& b) { return a.from != b.from ? a.from < b.from : a.to != b.to ? a.to < b.to : a.id < b.id; }
 };
 
 class Splitter {
@@ -102,8 +102,9 @@ class Splitter {
   const RunContext& context_;
   TriangleTree tree_;
   std::size_t n_;
-  std::vector<std::uint32_t> twin_;   ///< of each half-edge 3 t + c
-  std::vector<std::uint32_t> point_;  ///< of each vertex: the point of the region at its place, later its number among the new points; k_none: not needed yet
+  std::vector<std::uint32_t> twin_;  ///< of each half-edge 3 t + c
+  std::vector<std::uint32_t>
+      point_;  ///< of each vertex: the point of the region at its place, later its number among the new points; k_no_part: not needed yet
   std::vector<std::uint8_t> is_replaced_;  ///< border half-edges of the original that are no edges of the region
   std::vector<EndEdge> footprints_;        ///< edges of the region that are not the original's
   std::vector<std::uint32_t> footprint_piece_;
@@ -123,25 +124,25 @@ void Splitter::match() {
     const Point &a = region_.points[i], &b = region_.points[j];
     return less(a, b) || (!less(b, a) && i < j);
   });
-  point_.assign(mesh_.n_vertices(), k_none);
+  point_.assign(mesh_.n_vertices(), k_no_part);
   for (const VertexId v : mesh_.points.ids()) {
     const auto at = std::lower_bound(order.begin(), order.end(), mesh_.points[v], [&](std::uint32_t i, const Point& p) { return less(region_.points[i], p); });
     if (at != order.end() && region_.points[*at] == mesh_.points[v]) point_[v.index()] = *at;
   }
-  std::vector<Half> halves;
+  std::vector<PartHalf> halves;
   halves.reserve(3 * n_);
   for (std::uint32_t h = 0; h < 3 * n_; ++h) halves.push_back({from(h), to(h), h});
   std::sort(halves.begin(), halves.end());
-  twin_.assign(3 * n_, k_none);
-  for (const Half& half : halves) {
-    const auto at = std::lower_bound(halves.begin(), halves.end(), Half{half.to, half.from, 0});
+  twin_.assign(3 * n_, k_no_part);
+  for (const PartHalf& half : halves) {
+    const auto at = std::lower_bound(halves.begin(), halves.end(), PartHalf{half.to, half.from, 0});
     if (at != halves.end() && at->from == half.to && at->to == half.from) twin_[half.id] = at->id;
   }
   std::vector<EndEdge> edges(region_.edges), border;
   std::sort(edges.begin(), edges.end());
   is_replaced_.assign(3 * n_, 0);
   for (std::uint32_t h = 0; h < 3 * n_; ++h) {
-    if (twin_[h] != k_none) continue;
+    if (twin_[h] != k_no_part) continue;
     const EndEdge edge{point_[from(h)], point_[to(h)]};
     if (std::binary_search(edges.begin(), edges.end(), edge)) border.push_back(edge);
     else is_replaced_[h] = 1;
@@ -151,17 +152,17 @@ void Splitter::match() {
 }
 
 void Splitter::find_pieces() {
-  piece_.assign(n_, k_none);
+  piece_.assign(n_, k_no_part);
   std::vector<std::uint32_t> stack;
   for (std::uint32_t seed = 0; seed < n_; ++seed) {
-    if (piece_[seed] != k_none) continue;
+    if (piece_[seed] != k_no_part) continue;
     piece_[seed] = n_pieces_;
     stack.push_back(seed);
     while (!stack.empty()) {
       const std::uint32_t t = stack.back();
       stack.pop_back();
       for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-        if (twin_[h] == k_none || piece_[twin_[h] / 3] != k_none) continue;
+        if (twin_[h] == k_no_part || piece_[twin_[h] / 3] != k_no_part) continue;
         if (dot(normal(t), normal(twin_[h] / 3)) < k_crease) continue;
         piece_[twin_[h] / 3] = n_pieces_;
         stack.push_back(twin_[h] / 3);
@@ -182,7 +183,7 @@ void Splitter::find_pieces() {
 void Splitter::check_normals() const {
   ErrorInfo info = end_error(region_, ErrorCode::bad_argument, "triangles of the patch look against the surface's normals");
   for (std::uint32_t t = 0; t < n_; ++t)
-    if (is_touched_[piece_[t]] != 0 && dot(normal(t), region_.surface->normal(centre(t))) < 0.0) add_place(info, centre(t), "centre of a triangle");
+    if (is_touched_[piece_[t]] != 0 && dot(normal(t), region_.surface->normal(centre(t))) < 0.0) info.add_place(centre(t), "centre of a triangle");
   if (info.n_places > 0) throw Error(std::move(info));
 }
 
@@ -214,7 +215,7 @@ std::vector<std::vector<TriangleId>> Splitter::connected(const std::vector<std::
       stack.pop_back();
       groups.back().push_back(TriangleId(t));
       for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h) {
-        if (twin_[h] == k_none) continue;
+        if (twin_[h] == k_no_part) continue;
         const std::uint32_t other = twin_[h] / 3;
         if (is_seen[other] != 0 || state_[other] != state || piece_[other] != piece_[seed]) continue;
         is_seen[other] = 1;
@@ -250,7 +251,7 @@ void Splitter::choose_cut(std::uint32_t piece) {
                 "the surface turns by more than 70 degrees from its mean around the footprint of the layers, which has no projection without folds");
   for (std::size_t e = 0; e < footprints_.size(); ++e)
     if (footprint_piece_[e] == piece) {
-      add_place(info, middle(footprints_[e]), "edge of the footprint");
+      info.add_place(middle(footprints_[e]), "edge of the footprint");
       break;
     }
   info.hint =
@@ -326,7 +327,7 @@ void Splitter::drop_covered(const std::vector<std::uint32_t>& triangles) {
     Side side;
     for (const TriangleId t : group) {
       bool is_beside = false;
-      for (std::uint32_t h = 3 * t.value(); h < 3 * t.value() + 3; ++h) is_beside = is_beside || (twin_[h] != k_none && state_[twin_[h] / 3] == State::cut);
+      for (std::uint32_t h = 3 * t.value(); h < 3 * t.value() + 3; ++h) is_beside = is_beside || (twin_[h] != k_no_part && state_[twin_[h] / 3] == State::cut);
       if (!is_beside) continue;
       if (const Side here = side_of(t.value()); here.distance2 < side.distance2) side = here;
     }
@@ -336,7 +337,7 @@ void Splitter::drop_covered(const std::vector<std::uint32_t>& triangles) {
 }
 
 std::uint32_t Splitter::number_of(std::uint32_t vertex) {
-  if (point_[vertex] == k_none) {
+  if (point_[vertex] == k_no_part) {
     point_[vertex] = static_cast<std::uint32_t>(region_.points.size() + result_.new_points.size());
     result_.new_points.push_back(mesh_.points[VertexId(vertex)]);
   }
@@ -360,13 +361,13 @@ EndPart Splitter::make_part(const std::vector<TriangleId>& cut) {
     for (const Point& p : corners(mesh_, t)) box.add(p);
     for (std::uint32_t h = 3 * t.value(); h < 3 * t.value() + 3; ++h) {
       if (is_replaced_[h] != 0) continue;
-      const bool is_inner = twin_[h] != k_none && state_[twin_[h] / 3] == State::cut && piece_[twin_[h] / 3] == piece_[t.index()];
-      const bool is_covered = twin_[h] != k_none && state_[twin_[h] / 3] == State::covered;
+      const bool is_inner = twin_[h] != k_no_part && state_[twin_[h] / 3] == State::cut && piece_[twin_[h] / 3] == piece_[t.index()];
+      const bool is_covered = twin_[h] != k_no_part && state_[twin_[h] / 3] == State::covered;
       if (!is_inner && !is_covered) part.edges.push_back({number_of(from(h)), number_of(to(h))});
     }
     add_curvature_sizes(t, part);
   }
-  part.frame = frame_along(mean_normal(cut), box.center());
+  part.frame = end_frame_along(mean_normal(cut), box.center());
   return part;
 }
 
@@ -374,7 +375,7 @@ EndPart Splitter::make_part(const std::vector<TriangleId>& cut) {
 void Splitter::add_curvature_sizes(TriangleId t, EndPart& part) const {
   double size = std::numeric_limits<double>::infinity();
   for (std::uint32_t h = 3 * t.value(); h < 3 * t.value() + 3; ++h) {
-    if (twin_[h] == k_none || piece_[twin_[h] / 3] != piece_[t.index()]) continue;
+    if (twin_[h] == k_no_part || piece_[twin_[h] / 3] != piece_[t.index()]) continue;
     const double angle = angle_between(normal(t.value()), normal(twin_[h] / 3));
     if (angle < k_flat_angle) continue;
     const Point &a = mesh_.points[VertexId(from(h))], &b = mesh_.points[VertexId(to(h))];
@@ -389,7 +390,7 @@ void Splitter::add_curvature_sizes(TriangleId t, EndPart& part) const {
 }
 
 void Splitter::assign_footprints(std::vector<EndPart>& parts) {
-  std::vector<std::uint32_t> part_of(n_, k_none);
+  std::vector<std::uint32_t> part_of(n_, k_no_part);
   for (std::uint32_t i = 0; i < parts.size(); ++i)
     for (const TriangleId t : parts[i].triangles) part_of[t.index()] = i;
   for (std::size_t e = 0; e < footprints_.size(); ++e) parts[part_of[footprint_triangle_[e]]].edges.push_back(footprints_[e]);

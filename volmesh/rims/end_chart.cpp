@@ -57,11 +57,11 @@ EndFrame frame_through(const Vec3& normal, const std::vector<Point>& points) {
     for (const Point& p : points) heights.push_back(p[*axis]);
     Point origin{};
     origin[*axis] = median(std::move(heights));
-    return frame_along(normal, origin);
+    return end_frame_along(normal, origin);
   }
   const Point centre = box.center();
   for (const Point& p : points) heights.push_back(dot(normal, p - centre));
-  return frame_along(normal, centre + median(std::move(heights)) * normal);
+  return end_frame_along(normal, centre + median(std::move(heights)) * normal);
 }
 
 /// Normal of an original that is flat to rounding, along its axis exactly when it is along one; nothing when it is not flat.
@@ -160,7 +160,7 @@ class ProjectedPiece final : public Surface {
 
 }  // namespace
 
-EndFrame frame_along(const Vec3& normal, const Point& origin) {
+EndFrame end_frame_along(const Vec3& normal, const Point& origin) {
   if (const auto axis = axis_of(normal)) {
     Vec3 x{}, y{};
     x[(*axis + 1) % 3] = 1.0;
@@ -193,8 +193,7 @@ std::optional<EndFrame> plane_of(const EndRegion& region) {
   ErrorInfo info = end_error(region, ErrorCode::bad_argument, "points of loops are off the plane");
   for (const Point& p : points)
     if (const double off = region.surface->inside_distance(p); std::abs(off) > k_on_plane * box.longest_side())
-      add_place(info, p,
-                in_metres(off, k_end_digits) + " from the plane; at most " + in_metres(k_on_plane * box.longest_side(), k_end_digits) + " are allowed");
+      info.add_place(p, in_metres(off, k_end_digits) + " from the plane; at most " + in_metres(k_on_plane * box.longest_side(), k_end_digits) + " are allowed");
   if (info.n_places > 0) throw Error(std::move(info));
   return frame;
 }

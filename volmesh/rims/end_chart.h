@@ -22,7 +22,7 @@ struct EndFrame {
 };
 
 /// \param normal unit; exactly along a coordinate axis or anyhow
-EndFrame frame_along(const Vec3& normal, const Point& origin);
+EndFrame end_frame_along(const Vec3& normal, const Point& origin);
 
 /// The region's plane when it is one: a ConstraintPlane, or an original that is flat to rounding.
 /// \throws Error(bad_argument) for points of loops off a ConstraintPlane

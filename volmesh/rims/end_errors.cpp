@@ -10,10 +10,4 @@ ErrorInfo end_error(const EndRegion& region, ErrorCode code, std::string problem
   return info;
 }
 
-void add_place(ErrorInfo& info, const Point& position, std::string what) {
-  constexpr std::size_t k_places = 10;
-  ++info.n_places;
-  if (info.places.size() < k_places) info.places.push_back({position, std::move(what)});
-}
-
 }  // namespace sterna::volmesh

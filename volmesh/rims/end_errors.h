@@ -8,11 +8,8 @@
 
 namespace sterna::volmesh {
 
-/// With the loops as geometry; places are added by add_place.
+/// With the loops as geometry; places are to be added.
 ErrorInfo end_error(const EndRegion& region, ErrorCode code, std::string problem);
-
-/// Counts all, keeps the first ten.
-void add_place(ErrorInfo& info, const Point& position, std::string what);
 
 inline constexpr int k_end_digits = 3;  ///< of lengths in these errors
 

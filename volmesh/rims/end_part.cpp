@@ -40,7 +40,7 @@ void check_places(const EndRegion& region, const EndTriangles& result, std::span
   });
   ErrorInfo info = end_error(region, ErrorCode::self_intersection, "loops touch in points that they do not share");
   for (std::size_t i = 1; i < used.size(); ++i)
-    if (at(used[i - 1]) == at(used[i])) add_place(info, at(used[i]), "points " + std::to_string(used[i - 1]) + " and " + std::to_string(used[i]));
+    if (at(used[i - 1]) == at(used[i])) info.add_place(at(used[i]), "points " + std::to_string(used[i - 1]) + " and " + std::to_string(used[i]));
   info.hint = k_crossing_hint;
   if (info.n_places > 0) throw Error(std::move(info));
 }
@@ -103,24 +103,24 @@ void prove(const EndRegion& region, const EndPart& part, const EndTriangles& res
   if (!check.reversed.empty() && check.reversed.size() == part.edges.size()) {
     ErrorInfo info = end_error(region, ErrorCode::bad_argument,
                                "all edges run the wrong way: the region has to be to their left, seen against the surface's normal into the domain");
-    add_place(info, place(check.reversed.front()), "for example this edge");
+    info.add_place(place(check.reversed.front()), "for example this edge");
     throw Error(std::move(info));
   }
   if (!check.missing.empty() || !check.open.empty()) {
     ErrorInfo info =
         end_error(region, ErrorCode::self_intersection, "loops lie on the wrong side of each other: a hole within a hole, or outside of the outer border");
-    for (const EndEdge& edge : check.missing) add_place(info, place(edge), "the region is not to the left of this edge");
-    for (const EndEdge& edge : check.open) add_place(info, place(edge), "the region would end here");
+    for (const EndEdge& edge : check.missing) info.add_place(place(edge), "the region is not to the left of this edge");
+    for (const EndEdge& edge : check.open) info.add_place(place(edge), "the region would end here");
     info.hint = k_crossing_hint;
     throw Error(std::move(info));
   }
   ErrorInfo info = end_error(region, ErrorCode::internal,
                              "the triangulation is not one: Euler number " + std::to_string(check.euler_number) + " of " + std::to_string(check.n_components) +
                                  " parts with " + std::to_string(check.n_loops) + " borders");
-  for (const EndEdge& edge : check.repeated) add_place(info, place(edge), "edge of more than two triangles");
+  for (const EndEdge& edge : check.repeated) info.add_place(place(edge), "edge of more than two triangles");
   for (const TriangleVertices& t : mesh.triangles) {
     const auto at = [&](VertexId v) { return Vec2{mesh.uv[v.index()].u, mesh.uv[v.index()].v}; };
-    if (orient2d(at(t[0]), at(t[1]), at(t[2])) <= 0) add_place(info, mesh.points[t[0].index()], "triangle without positive area");
+    if (orient2d(at(t[0]), at(t[1]), at(t[2])) <= 0) info.add_place(mesh.points[t[0].index()], "triangle without positive area");
   }
   if (info.n_places > 0 || !check.is_planar()) throw Error(std::move(info));
 }
@@ -143,8 +143,8 @@ void check_closed(const EndRegion& region, const EndTriangles& result, std::span
     const auto n_begin = std::upper_bound(begins.begin(), begins.end(), i) - std::lower_bound(begins.begin(), begins.end(), i);
     const auto n_end = std::upper_bound(ends.begin(), ends.end(), i) - std::lower_bound(ends.begin(), ends.end(), i);
     if (n_begin != n_end)
-      add_place(info, point_of(region, result, i),
-                "point " + std::to_string(i) + ": " + std::to_string(n_end) + " edges end and " + std::to_string(n_begin) + " begin here");
+      info.add_place(point_of(region, result, i),
+                     "point " + std::to_string(i) + ": " + std::to_string(n_end) + " edges end and " + std::to_string(n_begin) + " begin here");
   }
   if (info.n_places > 0) throw Error(std::move(info));
 }

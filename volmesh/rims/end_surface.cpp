@@ -14,14 +14,14 @@ void check_input(const EndRegion& region) {
   ErrorInfo info = end_error(region, ErrorCode::bad_argument, "edges of loops are not usable");
   for (const EndEdge& edge : region.edges) {
     if (edge[0] >= region.points.size() || edge[1] >= region.points.size()) {
-      add_place(info, Point{},
-                "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + ", of " + std::to_string(region.points.size()) + " points");
+      info.add_place(Point{}, "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + ", of " + std::to_string(region.points.size()) +
+                                  " points");
       continue;
     }
     const Point &a = region.points[edge[0]], &b = region.points[edge[1]];
     if (!is_finite(a) || !is_finite(b))
-      add_place(info, Point{}, "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + " has a coordinate that is not finite");
-    if (a == b) add_place(info, a, "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + " has no length");
+      info.add_place(Point{}, "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + " has a coordinate that is not finite");
+    if (a == b) info.add_place(a, "edge from point " + std::to_string(edge[0]) + " to " + std::to_string(edge[1]) + " has no length");
   }
   if (info.n_places > 0) throw Error(std::move(info));
 }
@@ -32,7 +32,7 @@ void prove_whole(const EndRegion& region, const EndTriangles& result) {
   if (check.missing.empty() && check.open.empty() && check.repeated.empty()) return;
   ErrorInfo info = end_error(region, ErrorCode::geometry_failed, "what stays of the patch and what is new around the layers do not fit together");
   const auto add = [&](const std::vector<EndEdge>& edges, const char* what) {
-    for (const EndEdge& edge : edges) add_place(info, 0.5 * (point_of(region, result, edge[0]) + point_of(region, result, edge[1])), what);
+    for (const EndEdge& edge : edges) info.add_place(0.5 * (point_of(region, result, edge[0]) + point_of(region, result, edge[1])), what);
   };
   add(check.missing, "edge of the loops without a triangle");
   add(check.open, "edge where triangles end");

@@ -15,7 +15,6 @@ namespace {
 
 constexpr double k_near_edges = 8.0;       ///< mean edges at a vertex: a layer does not reach farther along the wall (as on end patches, domain_parts.cpp)
 constexpr std::int32_t k_max_masked = 64;  ///< surfaces that a mask has bits for
-constexpr std::size_t k_max_places = 10;
 
 /// One side of a disc, upstream, between its outlines and free rims.
 struct Sheet {

@@ -10,7 +10,6 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_places_named = 10;  ///< places in an error's text; its geometry has up to k_triangles_drawn
 constexpr std::size_t k_triangles_drawn = 1000;
 /// TetGen counts with int and needs room for the points it adds.
 constexpr std::size_t k_count_limit = std::size_t{1} << 29;
@@ -40,14 +39,14 @@ ErrorInfo info(ErrorCode code, std::string problem, std::string hint = {}) {
 }
 
 [[noreturn]] void throw_for_triangles(ErrorInfo error, const TetraBoundary& boundary, const Offenders& triangles, const std::string& what) {
-  for (std::size_t i = 0; i < std::min(triangles.size(), k_places_named); ++i) error.places.push_back(place_of_triangle(boundary, triangles[i], what));
+  for (std::size_t i = 0; i < std::min(triangles.size(), k_max_places); ++i) error.places.push_back(place_of_triangle(boundary, triangles[i], what));
   for (std::size_t i = 0; i < std::min(triangles.size(), k_triangles_drawn); ++i) add_triangle(error.geometry, boundary, triangles[i]);
   error.n_places = static_cast<std::int64_t>(triangles.size());
   throw Error(std::move(error));
 }
 
 [[noreturn]] void throw_for_points(ErrorInfo error, const TetraBoundary& boundary, const Offenders& points, const std::string& what) {
-  for (std::size_t i = 0; i < std::min(points.size(), k_places_named); ++i) {
+  for (std::size_t i = 0; i < std::min(points.size(), k_max_places); ++i) {
     error.places.push_back({boundary.points[points[i]], "point " + std::to_string(points[i]) + " " + what});
   }
   error.n_places = static_cast<std::int64_t>(points.size());
@@ -66,7 +65,7 @@ void check_counts_and_indices(const TetraBoundary& boundary, const RunContext& c
   if (bad.empty()) return;
   ErrorInfo error =
       info(ErrorCode::bad_argument, std::to_string(bad.size()) + " triangles with a vertex index out of range, limit " + std::to_string(n_points));
-  for (std::size_t i = 0; i < std::min(bad.size(), k_places_named); ++i) {
+  for (std::size_t i = 0; i < std::min(bad.size(), k_max_places); ++i) {
     const auto& t = boundary.triangles[bad[i]];
     const auto known = std::ranges::find_if(t, [&](std::uint32_t v) { return v < n_points; });
     error.places.push_back({known == t.end() ? Vec3{} : boundary.points[*known], "triangle " + std::to_string(bad[i]) + " (" + std::to_string(t[0]) + ", " +

@@ -14,12 +14,11 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr std::size_t k_chunk = 512;            ///< triangles per task: about 2 ms
+constexpr std::size_t k_triangle_chunk = 512;   ///< triangles per task: about 2 ms
 constexpr std::int64_t k_findings_kept = 1000;  ///< of each kind
-constexpr std::size_t k_places_named = 10;
-constexpr int k_digits = 3;  ///< of numbers in messages
+constexpr int k_digits = 3;                     ///< of numbers in messages
 /// A triangle flatter than this (height over longest edge) has no normal that could separate it from others.
-constexpr double k_flat = 1e-6;
+constexpr double k_flat_sine = 1e-6;
 /// Rounding error of a distance to a plane over the largest coordinate, generously.
 constexpr double k_rounding = 1e-12;
 
@@ -37,7 +36,7 @@ Shape shape_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   Shape shape;
   shape.mean_edge = (edges[0] + edges[1] + edges[2]) / 3.0;
   shape.flatness = twice_area / longest / longest;
-  if (shape.flatness > k_flat) shape.normal = n / twice_area;
+  if (shape.flatness > k_flat_sine) shape.normal = n / twice_area;
   return shape;
 }
 
@@ -231,7 +230,7 @@ PreflightReport preflight(const TetraBoundary& boundary, const PreflightLimits& 
         }
         return findings.take();
       },
-      joined, k_chunk);
+      joined, k_triangle_chunk);
 }
 
 void add_suspects(const PreflightReport& report, const TetraBoundary& boundary, ErrorInfo& error) {
@@ -240,7 +239,7 @@ void add_suspects(const PreflightReport& report, const TetraBoundary& boundary, 
     error.n_places += report.count(trouble);
     for (const PreflightFinding& finding : report.findings) {
       if (finding.trouble != trouble) continue;
-      if (error.places.size() < k_places_named)
+      if (error.places.size() < k_max_places)
         error.places.push_back(place_of_triangle(boundary, finding.triangles[0], text_of(finding) + " (hard for engines)"));
       for (const std::uint32_t t : finding.triangles) add_triangle(error.geometry, boundary, t);
     }
@@ -265,7 +264,7 @@ void judge(const PreflightReport& report, const TetraBoundary& boundary, const R
   }
   for (const PreflightFinding& finding : report.findings) {
     if (finding.trouble != Trouble::crossing && finding.trouble != Trouble::duplicate) continue;
-    if (error.places.size() < k_places_named) error.places.push_back(place_of_triangle(boundary, finding.triangles[0], text_of(finding)));
+    if (error.places.size() < k_max_places) error.places.push_back(place_of_triangle(boundary, finding.triangles[0], text_of(finding)));
     for (const std::uint32_t t : finding.triangles) add_triangle(error.geometry, boundary, t);
   }
   throw Error(std::move(error));

@@ -14,8 +14,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr std::size_t k_places_named = 10;
-constexpr std::uint32_t k_none = 0xffffffffu;
+constexpr std::uint32_t k_no_node = 0xffffffffu;
 
 [[noreturn]] void throw_bad(std::string problem, std::vector<ErrorPlace> places, std::string hint = {}) {
   throw Error({.code = ErrorCode::bad_argument,
@@ -43,7 +42,7 @@ struct SortedFace {
 
 /// Number of the place of each point, in order of their first points.
 std::vector<std::uint32_t> number_places(const TetraBoundary& boundary, JoinedBoundary& joined) {
-  std::vector<std::uint32_t> order(boundary.points.size()), place(boundary.points.size(), k_none), first(boundary.points.size());
+  std::vector<std::uint32_t> order(boundary.points.size()), place(boundary.points.size(), k_no_node), first(boundary.points.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto key = [&](std::uint32_t v) {
     const Vec3& p = boundary.points[v];
@@ -165,7 +164,7 @@ class Sides {
 };
 
 /// SIDS faces of a tetrahedron, normals outwards.
-constexpr std::array<std::array<std::uint8_t, 3>, 4> k_tet_faces = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
+constexpr std::array<std::array<std::uint8_t, 3>, 4> k_sheet_tet_faces = {{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
 
 }  // namespace
 
@@ -178,16 +177,16 @@ void part_sheets(const TetraBoundary& boundary, const JoinedBoundary& joined, Te
 
   struct Entry {
     SortedFace face;
-    std::uint32_t tet;  ///< place in `tets`, or k_none: a triangle of a sheet
+    std::uint32_t tet;  ///< place in `tets`, or k_no_node: a triangle of a sheet
     bool operator<(const Entry& b) const { return face.corners != b.face.corners ? face.corners < b.face.corners : tet < b.tet; }
   };
   std::vector<Entry> entries;
   for (std::uint32_t i = 0; i < tets.size(); ++i) {
     const auto& v = result.tetrahedra[tets[i]];
-    for (const auto& f : k_tet_faces)
+    for (const auto& f : k_sheet_tet_faces)
       if (has_sides(v[f[0]]) || has_sides(v[f[1]]) || has_sides(v[f[2]])) entries.push_back({SortedFace({v[f[0]], v[f[1]], v[f[2]]}), i});
   }
-  for (const Triangle& t : joined.sheets()) entries.push_back({SortedFace(t), k_none});
+  for (const Triangle& t : joined.sheets()) entries.push_back({SortedFace(t), k_no_node});
   std::sort(entries.begin(), entries.end());
 
   Sides sides(tets.size());
@@ -202,12 +201,12 @@ void part_sheets(const TetraBoundary& boundary, const JoinedBoundary& joined, Te
     }
   };
   for_each_face([&](std::span<const Entry> same) {
-    if (same.size() != 2 || same[1].tet == k_none) return;
+    if (same.size() != 2 || same[1].tet == k_no_node) return;
     for (const std::uint32_t v : same[0].face.corners)
       if (has_sides(v)) sides.join(corner(same[0].tet, v), corner(same[1].tet, v));
   });
   for_each_face([&](std::span<const Entry> same) {
-    if (same.back().tet != k_none) return;
+    if (same.back().tet != k_no_node) return;
     for (const Entry& e : same.first(same.size() - 1)) {
       // Seen from the tetrahedron on the first side, the outward face is the sheet's triangle turned over.
       const std::uint8_t side = e.face.is_odd != same.back().face.is_odd ? 1 : 2;
@@ -231,7 +230,7 @@ void part_sheets(const TetraBoundary& boundary, const JoinedBoundary& joined, Te
       if (is_listed && has_sides(v)) {
         side = sides.side(4 * next + k);
         if (side != 1 && side != 2) {
-          if (error.places.size() < k_places_named) error.places.push_back({joined.points[v], "the sheet does not part the tetrahedra at this point"});
+          if (error.places.size() < k_max_places) error.places.push_back({joined.points[v], "the sheet does not part the tetrahedra at this point"});
           ++error.n_places;
           side = 1;
         }

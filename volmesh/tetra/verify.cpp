@@ -18,11 +18,10 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr std::size_t k_owner_limit = std::size_t{1} << 29;  ///< owner, face and sense of a face share 32 bits
-constexpr std::size_t k_chunk = 1 << 14;                     ///< owners per chunk
+constexpr std::size_t k_owner_chunk = 1 << 14;               ///< owners per chunk
 constexpr std::size_t k_bucket_owners = 1 << 12;             ///< mean owners per bucket: 16 k faces, 256 kB, stay in the second-level cache
 constexpr std::size_t k_most_buckets = 4096;
 constexpr std::size_t k_buckets_per_task = 4;
-constexpr std::size_t k_places_named = 10;
 constexpr std::size_t k_places_kept = 1000;
 
 enum class Fault : std::uint8_t { bad_index, not_positive, missing_boundary, free_face, crowded_face, same_sense };
@@ -30,24 +29,24 @@ constexpr std::array<const char*, 6> k_fault_text = {
     "tetrahedra with a node out of range or repeated", "tetrahedra without positive volume", "boundary triangles that are no face of a tetrahedron",
     "outer faces that are no boundary triangle",       "faces of more than two cells",       "faces that both cells see from the same side"};
 
-struct Finding {
+struct Defect {
   Fault fault;
   std::size_t owner;  ///< tetrahedron, or number of tetrahedra + boundary triangle
   int face = 0;
 };
 
-struct Findings {
+struct Defects {
   std::array<std::int64_t, k_fault_text.size()> counts{};
-  std::vector<Finding> kept;
+  std::vector<Defect> kept;
 
-  void add(const Finding& finding) {
+  void add(const Defect& finding) {
     ++counts[static_cast<std::size_t>(finding.fault)];
     if (kept.size() < k_places_kept) kept.push_back(finding);
   }
   bool empty() const { return kept.empty(); }
 };
 
-Findings joined(Findings a, const Findings& b) {
+Defects joined(Defects a, const Defects& b) {
   for (std::size_t i = 0; i < a.counts.size(); ++i) a.counts[i] += b.counts[i];
   const std::size_t room = std::min(b.kept.size(), k_places_kept - a.kept.size());
   a.kept.insert(a.kept.end(), b.kept.begin(), b.kept.begin() + static_cast<std::ptrdiff_t>(room));
@@ -118,7 +117,7 @@ struct FaceBuckets {
 FaceBuckets throw_into_buckets(const Owners& owners, std::size_t n_nodes, const RunContext& context) {
   const std::size_t n_buckets = std::clamp<std::size_t>(owners.size() / k_bucket_owners, 1, k_most_buckets);
   const std::size_t nodes_per_bucket = n_nodes / n_buckets + 1;
-  const std::size_t n_chunks = (owners.size() + k_chunk - 1) / k_chunk;
+  const std::size_t n_chunks = (owners.size() + k_owner_chunk - 1) / k_owner_chunk;
   const auto bucket_of = [&](const FaceEntry& e) { return (e.low_middle >> 32) / nodes_per_bucket; };
   const auto for_faces = [&](std::size_t begin, std::size_t end, const auto& f) {
     for (std::size_t owner = begin; owner < end; ++owner) {
@@ -127,8 +126,8 @@ FaceBuckets throw_into_buckets(const Owners& owners, std::size_t n_nodes, const 
   };
 
   std::vector<std::size_t> place(n_chunks * n_buckets, 0);  // first counts, then the next free place of a chunk in a bucket
-  parallel_chunks(context, owners.size(), k_chunk, [&](std::size_t begin, std::size_t end) {
-    std::size_t* count = place.data() + begin / k_chunk * n_buckets;
+  parallel_chunks(context, owners.size(), k_owner_chunk, [&](std::size_t begin, std::size_t end) {
+    std::size_t* count = place.data() + begin / k_owner_chunk * n_buckets;
     for_faces(begin, end, [&](const FaceEntry& e) { ++count[bucket_of(e)]; });
   });
   FaceBuckets buckets;
@@ -141,15 +140,15 @@ FaceBuckets throw_into_buckets(const Owners& owners, std::size_t n_nodes, const 
   }
   buckets.first[n_buckets] = total;
   buckets.entries.resize(total);
-  parallel_chunks(context, owners.size(), k_chunk, [&](std::size_t begin, std::size_t end) {
-    std::size_t* next = place.data() + begin / k_chunk * n_buckets;
+  parallel_chunks(context, owners.size(), k_owner_chunk, [&](std::size_t begin, std::size_t end) {
+    std::size_t* next = place.data() + begin / k_owner_chunk * n_buckets;
     for_faces(begin, end, [&](const FaceEntry& e) { buckets.entries[next[bucket_of(e)]++] = e; });
   });
   return buckets;
 }
 
 /// Judges the faces [begin, end) that have the same vertices.
-void judge_group(const Owners& owners, const FaceEntry* begin, const FaceEntry* end, Findings& findings) {
+void judge_group(const Owners& owners, const FaceEntry* begin, const FaceEntry* end, Defects& findings) {
   const auto find = [&](Fault fault, const FaceEntry& e) { findings.add({fault, e.owner(), e.face()}); };
   const bool first_is_boundary = owners.is_boundary(begin->owner());
   if (end - begin == 1) {
@@ -189,12 +188,12 @@ class BucketSorter {
   std::vector<FaceEntry> entries_;
 };
 
-Findings match_faces(const Owners& owners, std::size_t n_nodes, const RunContext& context) {
+Defects match_faces(const Owners& owners, std::size_t n_nodes, const RunContext& context) {
   const FaceBuckets buckets = throw_into_buckets(owners, n_nodes, context);
   return parallel_reduce(
-      context, buckets.first.size() - 1, Findings{},
+      context, buckets.first.size() - 1, Defects{},
       [&](std::size_t begin, std::size_t end) {
-        Findings findings;
+        Defects findings;
         BucketSorter sorter(buckets.nodes_per_bucket);
         for (std::size_t bucket = begin; bucket < end; ++bucket) {
           const std::span<const FaceEntry> faces = sorter.sorted(buckets.bucket(bucket), bucket * buckets.nodes_per_bucket);
@@ -210,11 +209,11 @@ Findings match_faces(const Owners& owners, std::size_t n_nodes, const RunContext
       joined, k_buckets_per_task);
 }
 
-Findings judge_tetrahedra(const Nodes& nodes, const TetraResult& result, const RunContext& context) {
+Defects judge_tetrahedra(const Nodes& nodes, const TetraResult& result, const RunContext& context) {
   return parallel_reduce(
-      context, result.tetrahedra.size(), Findings{},
+      context, result.tetrahedra.size(), Defects{},
       [&](std::size_t begin, std::size_t end) {
-        Findings findings;
+        Defects findings;
         for (std::size_t i = begin; i < end; ++i) {
           const auto& t = result.tetrahedra[i];
           const bool is_repeated = t[0] == t[1] || t[0] == t[2] || t[0] == t[3] || t[1] == t[2] || t[1] == t[3] || t[2] == t[3];
@@ -226,7 +225,7 @@ Findings judge_tetrahedra(const Nodes& nodes, const TetraResult& result, const R
         }
         return findings;
       },
-      joined, k_chunk);
+      joined, k_owner_chunk);
 }
 
 ErrorInfo invalid(std::string problem) {
@@ -250,7 +249,7 @@ void check_new_points(const TetraBoundary& boundary, const TetraResult& result) 
   }
 }
 
-ErrorPlace place_of(const Finding& finding, const Owners& owners, const Nodes& nodes) {
+ErrorPlace place_of(const Defect& finding, const Owners& owners, const Nodes& nodes) {
   if (owners.is_boundary(finding.owner)) return place_of_triangle(owners.boundary, finding.owner - owners.n_tetrahedra, "");
   Vec3 sum;
   int n = 0;
@@ -268,7 +267,7 @@ ErrorPlace place_of(const Finding& finding, const Owners& owners, const Nodes& n
   return {sum / n, "face " + std::to_string(finding.face) + " of " + name};
 }
 
-void throw_if_any(const Findings& findings, const Owners& owners, const Nodes& nodes) {
+void throw_if_any(const Defects& findings, const Owners& owners, const Nodes& nodes) {
   if (findings.empty()) return;
   ErrorInfo error = invalid("");
   for (std::size_t i = 0; i < findings.counts.size(); ++i) {
@@ -276,8 +275,8 @@ void throw_if_any(const Findings& findings, const Owners& owners, const Nodes& n
     error.problem += (error.problem.empty() ? "" : ", ") + std::to_string(findings.counts[i]) + " " + k_fault_text[i];
     error.n_places += findings.counts[i];
   }
-  for (const Finding& finding : findings.kept) {
-    if (error.places.size() < k_places_named) error.places.push_back(place_of(finding, owners, nodes));
+  for (const Defect& finding : findings.kept) {
+    if (error.places.size() < k_max_places) error.places.push_back(place_of(finding, owners, nodes));
     if (owners.is_boundary(finding.owner)) {
       add_triangle(error.geometry, owners.boundary, finding.owner - owners.n_tetrahedra);
     } else {

@@ -1,11 +1,11 @@
-// Private to volmesh: numbers in messages, as printf has them.
+// Numbers in messages, as printf has them.
 #pragma once
 
 #include <cstdarg>
 #include <cstdio>
 #include <string>
 
-namespace sterna::volmesh {
+namespace sterna {
 
 /// At most 500 characters.
 [[gnu::format(printf, 1, 2)]] inline std::string print_text(const char* format, ...) {
@@ -17,4 +17,4 @@ namespace sterna::volmesh {
   return text;
 }
 
-}  // namespace sterna::volmesh
+}  // namespace sterna
