@@ -37,6 +37,7 @@ struct StoredTetrahedra {
 /// Parts to write; those that are nullptr or empty are left out. The texts are JSON.
 struct SternaParts {
   const TriMesh* surface = nullptr;
+  const TriMesh* farfield = nullptr;         ///< the surface that the user gave to end the fluid
   const StoredEnvelope* envelope = nullptr;  ///< of `surface`
   const StoredTetrahedra* tetrahedra = nullptr;
   const HybridMesh* mesh = nullptr;  ///< its layers stay columns
@@ -47,6 +48,7 @@ struct SternaParts {
 
 struct SternaContent {
   std::optional<TriMesh> surface;
+  std::optional<TriMesh> farfield;
   std::optional<StoredEnvelope> envelope;
   std::optional<StoredTetrahedra> tetrahedra;
   std::optional<HybridMesh> mesh;

@@ -9,8 +9,12 @@
 
 namespace sterna::io::part {
 
-inline constexpr std::string_view k_surface_points = "surface/points", k_surface_triangles = "surface/triangles",
-                                  k_surface_triangle_patch = "surface/triangle_patch", k_surface_patches = "surface/patches";
+/// Names of the arrays of a triangulated surface.
+struct SurfaceNames {
+  std::string_view points, triangles, triangle_patch, patches;
+};
+inline constexpr SurfaceNames k_surface = {"surface/points", "surface/triangles", "surface/triangle_patch", "surface/patches"};
+inline constexpr SurfaceNames k_farfield = {"farfield/points", "farfield/triangles", "farfield/triangle_patch", "farfield/patches"};
 inline constexpr std::string_view k_direction = "envelope/direction", k_height = "envelope/height", k_target = "envelope/target", k_eq1 = "envelope/eq1",
                                   k_cap = "envelope/cap", k_limit = "envelope/limit", k_first_height = "envelope/first_height";
 inline constexpr std::string_view k_boundary_points = "tetrahedra/n_boundary_points", k_new_points = "tetrahedra/new_points",

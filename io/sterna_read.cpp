@@ -18,7 +18,8 @@ class PartReader {
 
   SternaContent read() {
     SternaContent content;
-    if (file_.has(part::k_surface_points)) content.surface = surface();
+    if (file_.has(part::k_surface.points)) content.surface = surface(part::k_surface);
+    if (file_.has(part::k_farfield.points)) content.farfield = surface(part::k_farfield);
     if (file_.has(part::k_direction)) {
       if (!content.surface) file_.fail(part::k_direction, "is there without a surface");
       content.envelope = envelope(content.surface->n_vertices());
@@ -124,15 +125,15 @@ class PartReader {
     return result;
   }
 
-  TriMesh surface() const {
+  TriMesh surface(const part::SurfaceNames& names) const {
     TriMesh mesh;
-    mesh.points.raw() = points(part::k_surface_points);
-    mesh.triangles.raw() = items<TriangleVertices>(part::k_surface_triangles, NumberType::u32, 3);
-    require_below(part::k_surface_triangles, mesh.triangles.raw(), mesh.points.size());
-    mesh.patches = patches(part::k_surface_patches);
-    mesh.triangle_patch.raw() = items<PatchId>(part::k_surface_triangle_patch, NumberType::u32, 1);
-    require_size(part::k_surface_triangle_patch, mesh.triangle_patch.size(), mesh.n_triangles());
-    require_below(part::k_surface_triangle_patch, mesh.triangle_patch.raw(), mesh.patches.size());
+    mesh.points.raw() = points(names.points);
+    mesh.triangles.raw() = items<TriangleVertices>(names.triangles, NumberType::u32, 3);
+    require_below(names.triangles, mesh.triangles.raw(), mesh.points.size());
+    mesh.patches = patches(names.patches);
+    mesh.triangle_patch.raw() = items<PatchId>(names.triangle_patch, NumberType::u32, 1);
+    require_size(names.triangle_patch, mesh.triangle_patch.size(), mesh.n_triangles());
+    require_below(names.triangle_patch, mesh.triangle_patch.raw(), mesh.patches.size());
     return mesh;
   }
 
@@ -264,6 +265,7 @@ std::string SternaContent::names() const {
     if (is_there) text += (text.empty() ? "" : ", ") + std::string(name);
   };
   add(surface.has_value(), "surface");
+  add(farfield.has_value(), "farfield");
   add(envelope.has_value(), "envelope");
   add(tetrahedra.has_value(), "tetrahedra");
   add(mesh.has_value(), "mesh");

@@ -38,13 +38,13 @@ class PartWriter {
  public:
   PartWriter(AtomicFile& file, const RunContext& context) : writer_(file), context_(context) {}
 
-  void add_surface(const TriMesh& surface) {
+  void add_surface(const TriMesh& surface, const part::SurfaceNames& names) {
     require_finite(surface.points.raw());
     require_size(surface.triangle_patch.size(), surface.n_triangles(), "patches of triangles");
-    reals(part::k_surface_points, 3, surface.points.raw());
-    ids(part::k_surface_triangles, 3, surface.triangles.raw());
-    ids(part::k_surface_triangle_patch, 1, surface.triangle_patch.raw());
-    text(part::k_surface_patches, joined(surface.patches));
+    reals(names.points, 3, surface.points.raw());
+    ids(names.triangles, 3, surface.triangles.raw());
+    ids(names.triangle_patch, 1, surface.triangle_patch.raw());
+    text(names.patches, joined(surface.patches));
   }
 
   void add_envelope(const StoredEnvelope& envelope, const TriMesh& surface) {
@@ -184,7 +184,8 @@ void write_sterna(const SternaParts& parts, const std::filesystem::path& path, c
     throw Error({.code = ErrorCode::bad_argument, .attempted = "writing " + path.string(), .problem = "an envelope without its surface"});
   AtomicFile file(path);
   PartWriter writer(file, context);
-  if (parts.surface) writer.add_surface(*parts.surface);
+  if (parts.surface) writer.add_surface(*parts.surface, part::k_surface);
+  if (parts.farfield) writer.add_surface(*parts.farfield, part::k_farfield);
   if (parts.envelope) writer.add_envelope(*parts.envelope, *parts.surface);
   if (parts.tetrahedra) writer.add_tetrahedra(*parts.tetrahedra);
   if (parts.mesh) writer.add_mesh(*parts.mesh);

@@ -167,7 +167,7 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
       "--half", mesh.is_half,
       "mesh the half of the surface beside a plane, by default y = 0 on the side of y > 0; others with --set half.axis=z --set half.at=0.5 --set half.keep=-");
   surfmesh::StitchOptions surface;
-  volmesh::VolumeMeshOptions volume;
+  volmesh::MeshCase volume;
   add_schema_options(*command, all_options(surface, volume), mesh.options);
   add_set_option(*command, set);
   add_cache_options(*command, mesh.cache);

@@ -141,40 +141,52 @@ StageContent steps_of(const MeshCommand& command, const CommandContext& context)
   return read_stages({command.inputs.front(), command.inputs.front()}, context.run.part("read", 0.0, k_read_end));
 }
 
+/// Whether the command line names the option, alone or with its stage.
+bool is_given(const MeshCommand& command, std::string_view stage, std::string_view name) {
+  return std::ranges::any_of(command.options, [&](const auto& option) {
+    return option.first == name ? stage != "surface_mesh" : option.first == std::string(stage) + "." + std::string(name);
+  });
+}
+
+/// Reads the file of the shape "surface", where one is named, and notes it with the wall's inputs.
+void read_farfield_of(volmesh::MeshCase& options, SurfaceValue& wall, const RunContext& context) {
+  const SurfaceHandle surface = read_farfield(
+      options.farfield,
+      [](const std::string& name) {
+        return InputPath{name, name};
+      },
+      context);
+  if (!surface) return;
+  options.farfield_surface = std::shared_ptr<const TriMesh>(surface, &surface->mesh);
+  wall.inputs.insert(wall.inputs.end(), surface->inputs.begin(), surface->inputs.end());
+}
+
 /// From the last step on. Options that are given win over those of the file.
 MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, const Reuse& reuse, const CommandContext& context) {
   if (!command.stages.empty())
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "mesh",
                  .problem = "--stages keeps the steps of a whole run; this one continues from " + command.inputs.front()});
-  if (!command.discs.empty())
-    throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "mesh",
-                 .problem = "--disc belongs to a step that is done already in " + command.inputs.front(),
-                 .hint = "mesh the surface anew"});
-  if (!command.periodic.empty())
-    throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "mesh",
-                 .problem = "--periodic belongs to a step that is done already in " + command.inputs.front(),
-                 .hint = "mesh the surface anew"});
-  if (!command.patches.empty())
-    throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "option --patch",
-                 .problem = "belongs to a step that is done already in " + command.inputs.front(),
-                 .hint = "mesh the surface anew"});
-  volmesh::VolumeMeshOptions options = steps.envelope->options, all;
-  OptionTable open = finish_options(options);
-  if (!steps.tetrahedra)
-    for (Option& option : tetrahedra_options(options)) open.push_back(std::move(option));
+  const std::string done = "belongs to a step that is done already in " + command.inputs.front();
+  const auto refuse_done = [&](std::string_view option) {
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + std::string(option), .problem = done, .hint = "mesh the surface anew"});
+  };
+  if (!command.discs.empty()) refuse_done("--disc");
+  if (!command.periodic.empty()) refuse_done("--periodic");
+  if (!command.patches.empty()) refuse_done("--patch");
+  volmesh::MeshCase options = steps.envelope->options, all;
+  const volmesh::MeshSteps to_come = volmesh::k_finish_step | (steps.tetrahedra ? volmesh::MeshSteps{0} : volmesh::k_tetrahedra_step);
+  const OptionTable open = volmesh::options_of(options, to_come);
   const OptionTable known = volmesh::options_of(all);
   for (const auto& [name, text] : command.options)
     if (const Option& option = find_option(known, name, "option " + name);
         std::none_of(open.begin(), open.end(), [&](const Option& o) { return o.name == option.name; }))
-      throw Error({.code = ErrorCode::bad_argument,
-                   .attempted = "option " + name,
-                   .problem = "belongs to a step that is done already in " + command.inputs.front(),
-                   .hint = "mesh the surface anew"});
+      refuse_done(name);
   set_options(open, command.options, context);
+  if (is_given(command, "farfield", "farfield_surface")) {  // else the file holds it
+    SurfaceValue inputs;
+    read_farfield_of(options, inputs, context.run);
+  }
   const RunContext part = context.run.part("volume_mesh", k_read_end, k_mesh_end);
   context.run.info("continuing behind the " + std::string(steps.tetrahedra ? "tetrahedra" : "envelope") + " of " + command.inputs.front());
   return steps.tetrahedra ? finish_mesh(*steps.tetrahedra, options, part, reuse)
@@ -193,19 +205,6 @@ std::vector<volmesh::PeriodicNames> periodic_of(const MeshCommand& command) {
   return pairs;
 }
 
-/// Reads the file of the shape "surface", where one is named, and notes it with the wall's inputs.
-void read_farfield_of(volmesh::VolumeMeshOptions& options, SurfaceValue& wall, const RunContext& context) {
-  const SurfaceHandle surface = read_farfield(
-      options.farfield,
-      [](const std::string& name) {
-        return InputPath{name, name};
-      },
-      context);
-  if (!surface) return;
-  options.farfield_surface = std::shared_ptr<const TriMesh>(surface, &surface->mesh);
-  wall.inputs.insert(wall.inputs.end(), surface->inputs.begin(), surface->inputs.end());
-}
-
 /// With --half: the half of what was read.
 void halve(const MeshCommand& command, SurfaceValue& wall, const CommandContext& context) {
   if (!command.is_half) {
@@ -218,15 +217,8 @@ void halve(const MeshCommand& command, SurfaceValue& wall, const CommandContext&
   wall = half_surface(wall, options, context.run);
 }
 
-/// Whether the command line names the option, alone or with its stage.
-bool is_given(const MeshCommand& command, std::string_view stage, std::string_view name) {
-  return std::ranges::any_of(command.options, [&](const auto& option) {
-    return option.first == name ? stage != "surface_mesh" : option.first == std::string(stage) + "." + std::string(name);
-  });
-}
-
 /// What follows from the options together, and what heights were found from flow conditions.
-void complete_options(volmesh::VolumeMeshOptions& options, const MeshCommand& command, const RunContext& context) {
+void complete_options(volmesh::MeshCase& options, const MeshCommand& command, const RunContext& context) {
   choose_solve_for(
       options, [&](std::string_view name) { return is_given(command, "envelope", name); }, "reading the options");
   for (const auto& [name, text] : command.options)
@@ -240,7 +232,7 @@ void complete_options(volmesh::VolumeMeshOptions& options, const MeshCommand& co
 MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<InputPath>& inputs, const Reuse& reuse, const CommandContext& context) {
   SurfaceRecipe recipe;
   ReadCadOptions reading;
-  volmesh::VolumeMeshOptions volume_options;
+  volmesh::MeshCase volume_options;
   volume_options.patches = layer_rules_of(command.patches, &recipe.patches);
   OptionTable table = volmesh::required_options_of(volume_options);
   for (Option& option : model_surface_options(recipe.options, reading)) table.push_back(std::move(option));
@@ -262,7 +254,7 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
   if (std::any_of(inputs.begin(), inputs.end(), [](const InputPath& input) { return is_model_file(input.path); }))
     return make_mesh_of_models(command, inputs, reuse, context);
   surfmesh::StitchOptions surface_options;
-  volmesh::VolumeMeshOptions volume_options;
+  volmesh::MeshCase volume_options;
   volume_options.patches = layer_rules_of(command.patches);
   surface_options.allow_open = command.is_half;
   OptionTable table = volmesh::required_options_of(volume_options);

@@ -20,11 +20,11 @@ namespace sterna::scripting {
 namespace {
 
 using volmesh::EnvelopeStep;
+using volmesh::MeshCase;
 using volmesh::MeshingSite;
-using volmesh::VolumeMeshOptions;
 
 /// The options of the envelope with these names, separated by blanks, and of the farfield where they end with it.
-OptionTable some_options(VolumeMeshOptions& options, std::string_view names) {
+OptionTable some_options(MeshCase& options, std::string_view names) {
   const std::string padded = " " + std::string(names) + " ";
   OptionTable table = envelope_options(options);
   std::erase_if(table, [&](const Option& option) {
@@ -35,7 +35,7 @@ OptionTable some_options(VolumeMeshOptions& options, std::string_view names) {
 
 /// The site of a value; the feature angle is the one that it was classified with.
 std::unique_ptr<MeshingSite> site_of(const EnvelopeValue& value, const RunContext& context) {
-  VolumeMeshOptions options = knowing(*value.wall, value.options);
+  MeshCase options = knowing(*value.wall, value.options);
   // Classes are of the wall alone, but a site wants to know of a layer: any will do.
   if (value.step == EnvelopeStep::classified && is_automatic(options.envelope.first_height)) options.envelope.first_height = 1.0;
   options.envelope.feature_angle = value.stage.feature_angle;
@@ -82,7 +82,7 @@ SurfaceHandle wall_of(TableReader& reader, std::string_view usage) {
 }
 
 ScriptValue classify(const ScriptCall& call) {
-  VolumeMeshOptions options;
+  MeshCase options;
   std::vector<InputFile> inputs;
   const ScriptTable table = with_farfield(call, table_argument(call, 0, k_classify_usage), options.farfield_surface, inputs);
   const OptionTable schema = some_options(options, k_classify_names);
@@ -108,7 +108,7 @@ ScriptValue make_initial(const ScriptCall& call) {
   const ScriptTable given = table_argument(call, 0, k_initial_usage);
   const auto* classes = given.items.size() < 2 ? nullptr : std::get_if<EnvelopeHandle>(&given.items[1]);
   const bool is_classified = classes && ((*classes)->step == EnvelopeStep::classified || call.session.check);
-  VolumeMeshOptions options = is_classified ? (*classes)->options : VolumeMeshOptions();
+  MeshCase options = is_classified ? (*classes)->options : MeshCase();
   std::vector<InputFile> inputs;
   const ScriptTable table = with_farfield(call, given, options.farfield_surface, inputs);
   const OptionTable schema = some_options(options, k_initial_names);
@@ -122,7 +122,7 @@ ScriptValue make_initial(const ScriptCall& call) {
   if (table.fields.contains("patches")) options.patches = read_layer_rules(reader);
   apply_overrides(call, schema);
   choose_solve_for(options, reader, call);
-  VolumeMeshOptions known = options;
+  MeshCase known = options;
   if (wall) known.patches.insert(known.patches.end(), wall->layers.begin(), wall->layers.end());  // the surface's own may give the first height
   reader.require(volmesh::required_options_of(known));
   reader.finish();
@@ -204,12 +204,12 @@ ScriptValue run_step(const ScriptCall& call) {
 
 template <const std::string_view& Names>
 std::string help_of_names() {
-  VolumeMeshOptions options;
+  MeshCase options;
   return options_help(some_options(options, Names)) + layer_rules_help();
 }
 template <std::size_t I>
 std::string help_of_step() {
-  VolumeMeshOptions options;
+  MeshCase options;
   return options_help(some_options(options, k_steps[I].options));
 }
 
@@ -233,7 +233,7 @@ constexpr std::array<ScriptVerb, 7> k_verbs = {{
 
 std::span<const ScriptVerb> envelope_step_verbs() { return k_verbs; }
 
-void require_ready(const EnvelopeValue& envelope, const VolumeMeshOptions& options, const RunContext& context) {
+void require_ready(const EnvelopeValue& envelope, const MeshCase& options, const RunContext& context) {
   if (envelope.step == EnvelopeStep::finished) return;
   const auto refuse = [&](std::string problem, std::vector<ErrorPlace> places) {
     throw Error({.code = ErrorCode::bad_argument,

@@ -109,7 +109,7 @@ Given read_given(const ScriptCall& call, TableReader& reader) {
 
 ScriptValue inspect(const ScriptCall& call) {
   volmesh::InspectRequest request;
-  volmesh::VolumeMeshOptions& options = request.volume;
+  volmesh::MeshCase& options = request.volume;
   std::vector<InputFile> farfield_inputs;
   const ScriptTable table = with_farfield(call, table_of(call), options.farfield_surface, farfield_inputs);
   TableReader reader(table, call.attempted());

@@ -80,12 +80,12 @@ constexpr std::array<ScriptVerb, 1> k_verbs = {{
 
 }  // namespace
 
-void choose_solve_for(volmesh::VolumeMeshOptions& options, const std::function<bool(std::string_view)>& is_given, std::string_view attempted) {
+void choose_solve_for(volmesh::MeshCase& options, const std::function<bool(std::string_view)>& is_given, std::string_view attempted) {
   if (is_automatic(options.envelope.total_height) || is_given("solve_for")) return;
   options.envelope.solve_for = volmesh::solved_for(is_given("layers"), is_given("max_growth"), true, attempted);
 }
 
-void choose_solve_for(volmesh::VolumeMeshOptions& options, TableReader& reader, const ScriptCall& call) {
+void choose_solve_for(volmesh::MeshCase& options, TableReader& reader, const ScriptCall& call) {
   const auto is_given = [&](std::string_view name) {
     return reader.is_given("envelope", name) || std::ranges::any_of(call.session.overrides, [&](const auto& entry) { return is_option(entry.first, name); });
   };
@@ -102,7 +102,7 @@ FunctionHandle read_first_heights(TableReader& reader, const ScriptCall& call) {
   return function && !is_overruled ? *function : nullptr;
 }
 
-void set_first_heights(const FunctionHandle& function, const SurfaceValue& wall, volmesh::VolumeMeshOptions& options, const RunContext& context) {
+void set_first_heights(const FunctionHandle& function, const SurfaceValue& wall, volmesh::MeshCase& options, const RunContext& context) {
   if (!function) return;
   std::vector<double> heights;
   heights.reserve(wall.mesh.n_vertices());
@@ -116,7 +116,7 @@ void set_first_heights(const FunctionHandle& function, const SurfaceValue& wall,
   context.info(fmt::format("first heights by a function: {:.4g} m to {:.4g} m", options.first_heights->least(), options.first_heights->greatest()));
 }
 
-void warn_of_other_member(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context) {
+void warn_of_other_member(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
   if (!wall.recipe || wall.recipe->options.refinement == options.family.refinement) return;
   context.warn(fmt::format("the surface was made with refinement {:.4g}, the volume with {:.4g}: for a mesh family give both the same",
                            wall.recipe->options.refinement, options.family.refinement));

@@ -95,7 +95,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
   for (const InputFile& input : mesh.inputs) json["inputs"].push_back({{"file", input.name}, {"xxh3_128", input.hash}});
   if (mesh.origin) {
     surfmesh::StitchOptions surface = mesh.origin->surface_options;
-    volmesh::VolumeMeshOptions volume = mesh.origin->options;
+    volmesh::MeshCase volume = mesh.origin->options;
     OptionTable options = all_options(surface, volume);
     UnionOptions unite = mesh.origin->union_options.value_or(UnionOptions{});
     if (mesh.origin->union_options)

@@ -214,7 +214,7 @@ void read_farfield(Entries& in, PentagrowCase& out) {
 }
 
 /// "-pq1.2a0.1VY": letters with numbers behind some.
-void read_tetgen_switches(Entries& in, const std::string& text, volmesh::VolumeMeshOptions& options) {
+void read_tetgen_switches(Entries& in, const std::string& text, volmesh::MeshCase& options) {
   for (std::size_t i = text.find_first_not_of("- ") == std::string::npos ? text.size() : 0; i < text.size();) {
     const char letter = text[i++];
     const std::size_t start = i;
@@ -232,7 +232,7 @@ void read_tetgen_switches(Entries& in, const std::string& text, volmesh::VolumeM
   }
 }
 
-void read_tetrahedra(Entries& in, volmesh::VolumeMeshOptions& options) {
+void read_tetrahedra(Entries& in, volmesh::MeshCase& options) {
   options.tetrahedra.radius_edge = 1.2;
   if (in.has("TetgenPath")) in.note("TetgenPath", "sterna-tet-tetgen beside this program is used; another folder: sterna mesh --helper-folder");
   if (in.has("TetgenOptions")) read_tetgen_switches(in, in.text("TetgenOptions", ""), options);

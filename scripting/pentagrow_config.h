@@ -11,7 +11,7 @@
 namespace sterna::scripting {
 
 struct PentagrowCase {
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   std::string input_extension;                           ///< that InputFormat asks for, ".stl"; empty: any
   std::vector<std::filesystem::path> outputs;            ///< hybrid.bmsh ...
   bool is_half = false;                                  ///< Symmetry

@@ -158,7 +158,7 @@ struct CloseState {
 
 void check_overrides(const OptionOverrides& overrides) {
   surfmesh::StitchOptions surface;
-  volmesh::VolumeMeshOptions volume;
+  volmesh::MeshCase volume;
   UnionOptions unite;
   surfmesh::SurfaceMeshOptions surface_mesh;
   OptionTable table = all_options(surface, volume);

@@ -121,7 +121,7 @@ constexpr std::string_view k_volume_mesh_usage =
     "\"case.sterna\" }";
 
 ScriptValue make_mesh(const ScriptCall& call) {
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   std::vector<InputFile> farfield_inputs;
   const ScriptTable table = with_farfield(call, table_argument(call, 0, k_volume_mesh_usage), options.farfield_surface, farfield_inputs);
   const OptionTable schema = volmesh::options_of(options);
@@ -146,7 +146,7 @@ ScriptValue make_mesh(const ScriptCall& call) {
   options.patches = read_layer_rules(reader);
   apply_overrides(call, schema);
   choose_solve_for(options, reader, call);
-  volmesh::VolumeMeshOptions known = options;
+  volmesh::MeshCase known = options;
   if (wall) known.patches.insert(known.patches.end(), (*wall)->layers.begin(), (*wall)->layers.end());  // the surface's own may give the first height
   reader.require(volmesh::required_options_of(known));
   reader.finish();
@@ -234,7 +234,8 @@ ScriptValue check_mesh(const ScriptCall& call) {
       info.places.push_back({gate.places.front().position, std::string(info_of(gate.measure).title) + ", " + gate.places.front().what});
   }
   for (const auto& [violation, count] : report.counts) info.n_places += count;
-  for (const CheckFinding& finding : report.findings) info.places.push_back({finding.position, std::string(to_string(finding.violation)) + ", " + finding.what});
+  for (const CheckFinding& finding : report.findings)
+    info.places.push_back({finding.position, std::string(to_string(finding.violation)) + ", " + finding.what});
   throw Error(std::move(info));
 }
 
@@ -324,7 +325,7 @@ std::string union_help() {
   return options_help(sterna::options_of(options)) + options_help(unit_option(reading)) + "of models:\n" + options_help(sterna::options_of(models));
 }
 std::string volume_help() {
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   return options_help(volmesh::options_of(options)) + layer_rules_help() +
          "periodic = { { \"left\", \"right\" }, ... }: flat sides that are each other's image, moved; the mesh matches there node by node and face by face\n";
 }

@@ -34,7 +34,7 @@ void require_entries(TableReader& reader, std::size_t n) {
 constexpr std::string_view k_envelope_usage = "make_envelope{ wall, layers = 35, first_height = 2e-6, max_growth = 1.35 }";
 
 ScriptValue make_envelope_verb(const ScriptCall& call) {
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   std::vector<InputFile> farfield_inputs;
   const ScriptTable table = with_farfield(call, table_argument(call, 0, k_envelope_usage), options.farfield_surface, farfield_inputs);
   const OptionTable schema = envelope_options(options);
@@ -48,7 +48,7 @@ ScriptValue make_envelope_verb(const ScriptCall& call) {
   options.patches = read_layer_rules(reader);
   apply_overrides(call, schema);
   choose_solve_for(options, reader, call);
-  volmesh::VolumeMeshOptions known = options;
+  volmesh::MeshCase known = options;
   if (wall) known.patches.insert(known.patches.end(), wall->layers.begin(), wall->layers.end());  // the surface's own may give the first height
   reader.require(volmesh::required_options_of(known));
   reader.finish();
@@ -68,7 +68,7 @@ ScriptValue make_tetrahedra_verb(const ScriptCall& call) {
   TableReader reader(table, call.attempted());
   const auto envelope = entry<EnvelopeHandle>(reader, 1, "an envelope (from make_envelope or read_stages)");
   require_entries(reader, 1);
-  volmesh::VolumeMeshOptions options = envelope ? envelope->options : volmesh::VolumeMeshOptions();
+  volmesh::MeshCase options = envelope ? envelope->options : volmesh::MeshCase();
   if (farfield_surface) options.farfield_surface = farfield_surface;
   const OptionTable schema = tetrahedra_options(options);
   reader.read_options(schema);
@@ -96,7 +96,7 @@ ScriptValue make_prisms_verb(const ScriptCall& call) {
   const auto tets = entry<TetrahedraHandle>(reader, 2, "tetrahedra (from tetrahedra{...} or read_stages)");
   require_entries(reader, 2);
   if (envelope && tets && envelope->wall != tets->wall) reader.add_problem("entry 2: these tetrahedra are around another envelope");
-  volmesh::VolumeMeshOptions options = tets ? tets->options : volmesh::VolumeMeshOptions();
+  volmesh::MeshCase options = tets ? tets->options : volmesh::MeshCase();
   const OptionTable schema = finish_options(options);
   reader.read_options(schema);
   refuse_layer_options(reader);
@@ -178,13 +178,13 @@ ScriptValue tetrahedra_field(const ScriptCall& call) {
 }
 
 std::string envelope_help() {
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   return options_help(envelope_options(options)) + layer_rules_help();
 }
 
-template <OptionTable (*Options)(volmesh::VolumeMeshOptions&)>
+template <OptionTable (*Options)(volmesh::MeshCase&)>
 std::string help_of() {
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   return options_help(Options(options));
 }
 

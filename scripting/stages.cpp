@@ -94,7 +94,7 @@ Json stage_json(const volmesh::FilledStage& filled, std::int64_t n_wall_triangle
 
 /// Of placed parts: the thickness that their layers have at most where nobody says so, by their own lengths, which do not change with their attitude or what is
 /// beside them.
-std::vector<volmesh::PatchRule> thickness_rules(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options) {
+std::vector<volmesh::PatchRule> thickness_rules(const SurfaceValue& wall, const volmesh::MeshCase& options) {
   std::vector<volmesh::PatchRule> rules;
   if (!is_automatic(options.envelope.max_thickness)) return rules;
   for (const volmesh::PlacedPart& part : wall.parts) {
@@ -109,7 +109,7 @@ std::vector<volmesh::PatchRule> thickness_rules(const SurfaceValue& wall, const 
 }
 
 /// What is asked of patches: by default of placed parts, by the makers of the wall, by the user; what comes later wins.
-std::vector<volmesh::PatchRule> rules_of(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options) {
+std::vector<volmesh::PatchRule> rules_of(const SurfaceValue& wall, const volmesh::MeshCase& options) {
   std::vector<volmesh::PatchRule> rules = thickness_rules(wall, options);
   rules.insert(rules.end(), wall.layers.begin(), wall.layers.end());
   rules.insert(rules.end(), options.patches.begin(), options.patches.end());
@@ -117,9 +117,9 @@ std::vector<volmesh::PatchRule> rules_of(const SurfaceValue& wall, const volmesh
 }
 
 /// What a run that is not ready knows of itself; a finished one has its manifest.
-std::string unfinished_json(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, Json stage) {
+std::string unfinished_json(const SurfaceValue& wall, const volmesh::MeshCase& options, Json stage) {
   surfmesh::StitchOptions surface_options = wall.options;
-  volmesh::VolumeMeshOptions volume_options = options;
+  volmesh::MeshCase volume_options = options;
   Json json = {{"schema", "sterna-stage-1"}, {"program", "sterna " STERNA_VERSION}, {"inputs", Json::array()}};
   for (const InputFile& input : wall.inputs) json["inputs"].push_back({{"file", input.name}, {"xxh3_128", input.hash}});
   OptionTable table = all_options(surface_options, volume_options);
@@ -240,7 +240,7 @@ SurfaceHandle surface_of(TriMesh mesh, std::vector<InputFile> inputs, const RunC
   return surface;
 }
 
-MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, const volmesh::VolumeMeshOptions& options, volmesh::VolumeMeshResult result) {
+MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, const volmesh::MeshCase& options, volmesh::VolumeMeshResult result) {
   MeshValue value;
   value.mesh = std::move(result.mesh);
   value.inputs = wall.inputs;
@@ -263,33 +263,29 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
   return value;
 }
 
-/// The options of some stages of a volume mesh.
-OptionTable options_of_stages(volmesh::VolumeMeshOptions& options, std::initializer_list<std::string_view> stages) {
-  OptionTable table = volmesh::options_of(options);
-  std::erase_if(table, [&](const Option& option) { return std::find(stages.begin(), stages.end(), option.stage) == stages.end(); });
-  return table;
-}
-
 std::int64_t n_triangles(const SurfaceValue& surface) { return static_cast<std::int64_t>(surface.mesh.n_triangles()); }
 
 // ---- Writing -------------------------------------------------------------------------------------------------------------------------------
 
-void write_envelope(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const volmesh::EnvelopeStage& stage, const std::filesystem::path& path,
+void write_envelope(const SurfaceValue& wall, const volmesh::MeshCase& options, const volmesh::EnvelopeStage& stage, const std::filesystem::path& path,
                     const RunContext& context, volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished) {
   const StageTimer timer(context, "write");
   const io::StoredEnvelope envelope = stored(stage.envelope, wall.mesh, options.first_heights.get());
   Json json = stage_json(stage, n_triangles(wall));
   if (step != volmesh::EnvelopeStep::finished) json["step"] = volmesh::to_string(step);
-  io::write_sterna({.surface = &wall.mesh, .envelope = &envelope, .manifest = unfinished_json(wall, options, std::move(json))}, path, context);
+  io::write_sterna(
+      {.surface = &wall.mesh, .farfield = options.farfield_surface.get(), .envelope = &envelope, .manifest = unfinished_json(wall, options, std::move(json))},
+      path, context);
 }
 
-void write_filled(const SurfaceValue& wall, std::int64_t n_wall_triangles, const volmesh::VolumeMeshOptions& options, const volmesh::FilledStage& stage,
+void write_filled(const SurfaceValue& wall, std::int64_t n_wall_triangles, const volmesh::MeshCase& options, const volmesh::FilledStage& stage,
                   const std::filesystem::path& path, const RunContext& context) {
   const StageTimer timer(context, "write");
   const TriMesh& surface = stage.split_wall ? *stage.split_wall : wall.mesh;
   const io::StoredEnvelope envelope = stored(stage.envelope.envelope, surface, options.first_heights.get());
   const io::StoredTetrahedra tetrahedra = stored(stage);
   io::write_sterna({.surface = &surface,
+                    .farfield = options.farfield_surface.get(),
                     .envelope = &envelope,
                     .tetrahedra = &tetrahedra,
                     .mesh = &stage.layers,
@@ -310,6 +306,7 @@ void write_finished(const SurfaceValue& wall, const FinishedParts& parts, const 
   Json manifest = Json::parse(manifest_json(mesh, path, context.seed()));
   manifest["stage"] = parts.json;
   io::write_sterna({.surface = parts.split_wall ? &*parts.split_wall : &wall.mesh,
+                    .farfield = mesh.origin->options.farfield_surface.get(),
                     .envelope = &parts.envelope,
                     .tetrahedra = &parts.tetrahedra,
                     .mesh = &mesh.mesh,
@@ -321,23 +318,23 @@ void write_finished(const SurfaceValue& wall, const FinishedParts& parts, const 
 
 }  // namespace
 
-OptionTable envelope_options(volmesh::VolumeMeshOptions& options) { return options_of_stages(options, {"family", "envelope", "farfield"}); }
-OptionTable tetrahedra_options(volmesh::VolumeMeshOptions& options) { return options_of_stages(options, {"prisms", "farfield", "size", "tetrahedra"}); }
-OptionTable finish_options(volmesh::VolumeMeshOptions& options) { return options_of_stages(options, {"improve"}); }
+OptionTable envelope_options(volmesh::MeshCase& options) { return volmesh::options_of(options, volmesh::k_envelope_step); }
+OptionTable tetrahedra_options(volmesh::MeshCase& options) { return volmesh::options_of(options, volmesh::k_tetrahedra_step); }
+OptionTable finish_options(volmesh::MeshCase& options) { return volmesh::options_of(options, volmesh::k_finish_step); }
 
-volmesh::VolumeMeshOptions knowing(const SurfaceValue& wall, volmesh::VolumeMeshOptions options) {
+volmesh::MeshCase knowing(const SurfaceValue& wall, volmesh::MeshCase options) {
   if (wall.smooth_angle) options.smooth_angle = *wall.smooth_angle;
   if (!options.first_heights) options.parts = wall.parts;  // else their layers depend on where they are
   options.patches = rules_of(wall, options);
   return options;
 }
 
-EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse) {
+EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse) {
   warn_of_other_member(*wall, options, context);
   return {.wall = wall, .options = options, .stage = cached_envelope(*wall, knowing(*wall, options), reuse, context)};
 }
 
-TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse) {
+TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse) {
   require_ready(envelope, options, context);
   if (envelope.n_sources_in_file > 0 && options.sources.empty())
     context.warn("the run that made this envelope had " + std::to_string(envelope.n_sources_in_file) +
@@ -349,12 +346,12 @@ TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::Vo
           .stage = cached_tetrahedra(wall, envelope.stage, knowing(wall, options), reuse, context)};
 }
 
-MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse) {
+MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse) {
   return mesh_value(*tetrahedra.wall, tetrahedra.n_wall_triangles, options,
                     cached_finish(*tetrahedra.wall, tetrahedra.stage, knowing(*tetrahedra.wall, options), reuse, context));
 }
 
-MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const std::filesystem::path& stages, const RunContext& context,
+MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& options, const std::filesystem::path& stages, const RunContext& context,
                            const Reuse& reuse) {
   warn_of_other_member(wall, options, context);
   if (stages.empty()) return mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall, knowing(wall, options), {}, reuse, context));
@@ -385,11 +382,12 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     if (content.manifest.empty()) refuse(file, "found an envelope, but not the options that made it");
     const StageJson json(content.manifest, file);
     auto wall = std::make_shared<SurfaceValue>(*surface_of(std::move(*content.surface), json.inputs(), context));
-    volmesh::VolumeMeshOptions options;
+    volmesh::MeshCase options;
     json.read_options(all_options(wall->options, options));
     options.discs = json.discs();
     options.periodic = json.periodic();
     options.patches = json.patch_rules();
+    if (content.farfield) options.farfield_surface = std::make_shared<const TriMesh>(std::move(*content.farfield));
     if (!content.envelope->first_height.empty())
       options.first_heights = std::make_shared<const volmesh::FirstHeights>(wall->mesh, std::move(content.envelope->first_height), context);
     wall->recipe = json.recipe();

@@ -15,7 +15,7 @@ namespace sterna::scripting {
 /// The envelope of a wall, with all that the rest of the run needs.
 struct EnvelopeValue {
   SurfaceHandle wall;
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   volmesh::EnvelopeStage stage;
   volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished;  ///< of make_envelope by hand (envelope_steps.h): what has been done to it
   std::shared_ptr<const volmesh::Classification> classes = {};   ///< of the step "classified", which has nothing else
@@ -26,7 +26,7 @@ struct EnvelopeValue {
 struct TetrahedraValue {
   SurfaceHandle wall;
   std::int64_t n_wall_triangles = 0;  ///< as they were given, before any were split
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   volmesh::FilledStage stage;
 };
 
@@ -34,21 +34,21 @@ using EnvelopeHandle = std::shared_ptr<const EnvelopeValue>;
 using TetrahedraHandle = std::shared_ptr<const TetrahedraValue>;
 
 /// What each of the three steps takes. The arguments must outlive the tables.
-OptionTable envelope_options(volmesh::VolumeMeshOptions& options);
-OptionTable tetrahedra_options(volmesh::VolumeMeshOptions& options);
-OptionTable finish_options(volmesh::VolumeMeshOptions& options);
+OptionTable envelope_options(volmesh::MeshCase& options);
+OptionTable tetrahedra_options(volmesh::MeshCase& options);
+OptionTable finish_options(volmesh::MeshCase& options);
 
 /// The options with what the wall itself knows: turns where it is smooth, rules for its patches, the model that it is of.
-volmesh::VolumeMeshOptions knowing(const SurfaceValue& wall, volmesh::VolumeMeshOptions options);
+volmesh::MeshCase knowing(const SurfaceValue& wall, volmesh::MeshCase options);
 
 /// \throws Error of volmesh::make_envelope, make_tetrahedra, finish_mesh.
-EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse = {});
-TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse = {});
-MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::VolumeMeshOptions& options, const RunContext& context, const Reuse& reuse = {});
+EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse = {});
+TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse = {});
+MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse = {});
 
 /// make_volume_mesh() that leaves surface, envelope, tetrahedra and at last the mesh, its manifest, certificate and quality in a .sterna file, which is
 /// replaced as each step ends; nothing is written without a name.
-MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const std::filesystem::path& stages, const RunContext& context,
+MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& options, const std::filesystem::path& stages, const RunContext& context,
                            const Reuse& reuse = {});
 
 /// What a .sterna file holds; null where it does not. An envelope in a file with tetrahedra is the one that their layer has, of its wall with splits.

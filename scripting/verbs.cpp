@@ -139,7 +139,7 @@ void write_surface(const SurfaceValue& surface, const std::filesystem::path& pat
   if (surface.mesh_report) write_surface_manifest(surface, path);
 }
 
-OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::VolumeMeshOptions& volume) {
+OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::MeshCase& volume) {
   OptionTable table = sterna::options_of(surface);
   for (Option& option : volmesh::options_of(volume)) table.push_back(std::move(option));
   return table;

@@ -59,7 +59,7 @@ struct MeshOrigin {
   std::optional<UnionOptions> union_options;
   std::optional<SurfaceRecipe> recipe;
   std::optional<double> smooth_angle;  ///< of the wall
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   volmesh::LayerReport layer;
   volmesh::EnvelopeCertificate certificate;
   std::int64_t n_wall_triangles = 0;
@@ -113,7 +113,7 @@ void require_surface_output(const std::filesystem::path& path);
 void write_surface(const SurfaceValue& surface, const std::filesystem::path& path, const RunContext& context);
 
 /// The options of reading a surface and of all stages of the volume mesh, for `--set stage.option=value`. The arguments must outlive the table.
-OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::VolumeMeshOptions& volume);
+OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::MeshCase& volume);
 
 /// set_option_from_text that also takes a bare unit for a length ("mm" is 1*mm) and says how angles are written.
 /// \throws Error(bad_argument)

@@ -45,7 +45,7 @@ void require_layers_on(const Domain& domain, const HybridMesh& layers) {
 }
 
 /// What make_tetrahedra() knew of the layer when it ended.
-LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& domain, FilledStage& filled, const VolumeMeshOptions& options,
+LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& domain, FilledStage& filled, const MeshCase& options,
                        const RunContext& context) {
   require_clear_input(collider, context);
   LayerKnowledge knowledge;
@@ -78,14 +78,14 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
 
 }  // namespace
 
-EnvelopeStage make_envelope(const TriMesh& wall, const VolumeMeshOptions& options, const Makers& makers, const RunContext& context) {
+EnvelopeStage make_envelope(const TriMesh& wall, const MeshCase& options, const Makers& makers, const RunContext& context) {
   MeshingSite site(wall, options, context);
   return make_envelope(site, makers, context);
 }
 
-FilledStage make_tetrahedra(const TriMesh& surface, const EnvelopeStage& envelope, const VolumeMeshOptions& user_options, const Makers& makers,
+FilledStage make_tetrahedra(const TriMesh& surface, const EnvelopeStage& envelope, const MeshCase& user_options, const Makers& makers,
                             const RunContext& context) {
-  VolumeMeshOptions options = user_options;
+  MeshCase options = user_options;
   options.envelope.feature_angle = envelope.feature_angle;
   MeshingSite site(surface, options, context);
   require_same(envelope.envelope.height.size(), site.base.wall.n_vertices(), "vertices of the envelope");
@@ -93,8 +93,8 @@ FilledStage make_tetrahedra(const TriMesh& surface, const EnvelopeStage& envelop
   return make_tetrahedra(site, envelope, makers, knowledge, context);
 }
 
-VolumeMeshResult finish_mesh(const TriMesh& surface, FilledStage filled, const VolumeMeshOptions& user_options, const RunContext& context) {
-  const VolumeMeshOptions options = validated(surface, user_options, context);
+VolumeMeshResult finish_mesh(const TriMesh& surface, FilledStage filled, const MeshCase& user_options, const RunContext& context) {
+  const MeshCase options = validated(surface, user_options, context);
   Domain domain;
   if (filled.split_wall) domain.wall = *filled.split_wall;
   else domain = domain_around(surface, options, context);

@@ -42,17 +42,16 @@ struct StageWatch {
 };
 
 /// volume_mesh() with someone who looks on.
-VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const Makers& makers, const StageWatch& watch, const RunContext& context);
+VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, const RunContext& context);
 
 /// The first step. \pre, \throws as volume_mesh()
-EnvelopeStage make_envelope(const TriMesh& wall, const VolumeMeshOptions& options, const Makers& makers, const RunContext& context);
+EnvelopeStage make_envelope(const TriMesh& wall, const MeshCase& options, const Makers& makers, const RunContext& context);
 /// The second. Everything that the envelope is made of is proved again. \pre `envelope` of make_envelope() on this wall
 /// \throws Error(bad_argument) for an envelope of another size, else of the stages
-FilledStage make_tetrahedra(const TriMesh& wall, const EnvelopeStage& envelope, const VolumeMeshOptions& options, const Makers& makers,
-                            const RunContext& context);
+FilledStage make_tetrahedra(const TriMesh& wall, const EnvelopeStage& envelope, const MeshCase& options, const Makers& makers, const RunContext& context);
 /// The last: improves, joins, checks. What the stage holds is proved again; options of earlier steps have no effect but in the report.
 /// \throws Error(bad_argument) for parts that do not belong together, else of the stages
-VolumeMeshResult finish_mesh(const TriMesh& wall, FilledStage filled, const VolumeMeshOptions& options, const RunContext& context);
+VolumeMeshResult finish_mesh(const TriMesh& wall, FilledStage filled, const MeshCase& options, const RunContext& context);
 
 // ---- The same for a driver that does not want to prove anything twice ---------------------------------------------------------------------
 

@@ -35,7 +35,7 @@ TetraBoundary boundary_for_engines(const FillBoundary& boundary, std::span<const
 
 /// Carries the splits of a result to the layer; where the layer must be lower with them, the volume inside the split boundary, kept now, is filled once more.
 SplitLayer take_splits(const MeshingSite& site, const Envelope& envelope, const Makers& makers, TetraResult& tets, const RunContext& context) {
-  const VolumeMeshOptions& options = site.options;
+  const MeshCase& options = site.options;
   SplitLayer layer = split_layer(site.base, envelope, site.domain.outer, options, true_surface_of(makers.true_surface, site.domain), tets, context);
   if (layer.is_filled) return layer;
   TetraOptions keeping = options.tetrahedra;
@@ -111,11 +111,9 @@ void require_valid(const CheckReport& report) {
 
 }  // namespace
 
-VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const RunContext& context) {
-  return volume_mesh(wall, options, {}, {}, context);
-}
+VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const RunContext& context) { return volume_mesh(wall, options, {}, {}, context); }
 
-VolumeMeshResult volume_mesh(const TriMesh& wall, const VolumeMeshOptions& options, const Makers& makers, const StageWatch& watch, const RunContext& context) {
+VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, const RunContext& context) {
   MeshingSite site(wall, options, context);
   const auto make = [&] { return make_envelope(site, makers, context); };
   EnvelopeStage envelope = watch.envelope ? watch.envelope(make) : make();

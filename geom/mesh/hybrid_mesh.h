@@ -8,6 +8,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "geom/base/ids.h"
@@ -78,8 +80,15 @@ struct LayerRequest {
   std::vector<std::string> reasons;       ///< for people
   bool is_known() const { return first_height > 0.0; }
   double first_height_of(std::size_t line) const { return line_first_height.empty() ? first_height : line_first_height[line]; }
-  double max_growth_of(std::size_t line) const { return line_max_growth.empty() ? max_growth : line_max_growth[line]; }
 };
+
+/// The columns by line (for_each_column); a new member does not compile until it is here.
+template <class Request>
+requires std::is_same_v<std::remove_const_t<Request>, LayerRequest>
+auto columns_of(Request& request) {
+  auto& [first_height, max_growth, line_first_height, line_max_growth, target_height, reason, reasons] = request;
+  return std::tie(line_first_height, line_max_growth, target_height, reason);
+}
 
 struct BoundaryTriangle {
   std::array<NodeId, 3> nodes;  ///< right-hand normal out of the fluid

@@ -28,7 +28,7 @@ void add_engines(KeyMaker& maker, const volmesh::TetraOptions& options) {
 bool is_same_everywhere(const volmesh::FilledStage& filled) { return filled.tets.is_reproducible; }
 bool is_same_mesh_everywhere(const volmesh::VolumeMeshResult& result) { return result.is_reproducible; }
 
-ContentKey envelope_key(const TriMesh& wall, const volmesh::VolumeMeshOptions& options, const RunContext& context) {
+ContentKey envelope_key(const TriMesh& wall, const volmesh::MeshCase& options, const RunContext& context) {
   return KeyMaker("make_envelope").add(key_of(wall)).add(envelope_options_key(options)).add(context.seed()).key();
 }
 
@@ -40,7 +40,7 @@ ContentKey part_envelope_key(const volmesh::PartEnvelopeTask& task, const RunCon
 }
 
 /// Where the wall really is, and makers of envelopes that take from the cache what it has, and start from a reference where there is one.
-volmesh::Makers makers_of(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const Reuse& reuse) {
+volmesh::Makers makers_of(const SurfaceValue& wall, const volmesh::MeshCase& options, const Reuse& reuse) {
   volmesh::Makers makers;
   if (wall.model_wall)
     makers.true_surface = [model_wall = wall.model_wall](const Point& p, TriangleId triangle, const std::array<double, 3>& weights) {
@@ -61,7 +61,7 @@ std::optional<ContentKey> true_surface_key(const SurfaceValue& wall) { return wa
 
 }  // namespace
 
-volmesh::EnvelopeStage cached_envelope(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const Reuse& reuse, const RunContext& context) {
+volmesh::EnvelopeStage cached_envelope(const SurfaceValue& wall, const volmesh::MeshCase& options, const Reuse& reuse, const RunContext& context) {
   const std::optional<ContentKey> key = reuse.cache ? std::optional(envelope_key(wall.mesh, options, context)) : std::nullopt;
   return cached_with_reference<volmesh::EnvelopeStage>(reuse, "envelope", triangles_text(wall.mesh), key, context, [&] {
     volmesh::EnvelopeStage stage = volmesh::make_envelope(wall.mesh, options, makers_of(wall, options, reuse), context);
@@ -70,12 +70,12 @@ volmesh::EnvelopeStage cached_envelope(const SurfaceValue& wall, const volmesh::
   });
 }
 
-volmesh::FilledStage cached_tetrahedra(const SurfaceValue& wall, const volmesh::EnvelopeStage& envelope, const volmesh::VolumeMeshOptions& options,
-                                       const Reuse& reuse, const RunContext& context) {
+volmesh::FilledStage cached_tetrahedra(const SurfaceValue& wall, const volmesh::EnvelopeStage& envelope, const volmesh::MeshCase& options, const Reuse& reuse,
+                                       const RunContext& context) {
   const std::optional<ContentKey> true_surface = true_surface_key(wall);
   std::optional<ContentKey> key;
   if (reuse.cache && true_surface) {
-    volmesh::VolumeMeshOptions of_this_step = options;
+    volmesh::MeshCase of_this_step = options;
     of_this_step.improve = {};
     KeyMaker maker("tetrahedra");
     maker.add(key_of(wall.mesh)).add(key_of(envelope)).add(volume_options_key(of_this_step)).add(*true_surface).add(context.seed());
@@ -94,8 +94,8 @@ volmesh::FilledStage cached_tetrahedra(const SurfaceValue& wall, const volmesh::
   return filled;
 }
 
-volmesh::VolumeMeshResult cached_finish(const SurfaceValue& wall, const volmesh::FilledStage& filled, const volmesh::VolumeMeshOptions& options,
-                                        const Reuse& reuse, const RunContext& context) {
+volmesh::VolumeMeshResult cached_finish(const SurfaceValue& wall, const volmesh::FilledStage& filled, const volmesh::MeshCase& options, const Reuse& reuse,
+                                        const RunContext& context) {
   std::optional<ContentKey> key;
   if (reuse.cache) key = KeyMaker("prisms").add(key_of(wall.mesh)).add(key_of(filled)).add(volume_options_key(options)).add(context.seed()).key();
   auto result = cached<volmesh::VolumeMeshResult>(
@@ -106,8 +106,8 @@ volmesh::VolumeMeshResult cached_finish(const SurfaceValue& wall, const volmesh:
   return result;
 }
 
-volmesh::VolumeMeshResult cached_volume_mesh(const SurfaceValue& wall, const volmesh::VolumeMeshOptions& options, const volmesh::StageWatch& watch,
-                                             const Reuse& reuse, const RunContext& context) {
+volmesh::VolumeMeshResult cached_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& options, const volmesh::StageWatch& watch, const Reuse& reuse,
+                                             const RunContext& context) {
   if (!reuse.cache && !reuse.reference) return volmesh::volume_mesh(wall.mesh, options, makers_of(wall, options, reuse), watch, context);
   volmesh::StageWatch with_envelope = watch;
   with_envelope.envelope = [&](const std::function<volmesh::EnvelopeStage()>& make) {

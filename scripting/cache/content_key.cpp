@@ -25,9 +25,8 @@ std::string value_text(const OptionValue& value) {
 
 /// All that is no option of a schema, but for sources, which come behind the envelope. The members are listed so that a new one does not compile until it is in
 /// a key.
-void add_rest(KeyMaker& maker, const volmesh::VolumeMeshOptions& options) {
-  const auto& [family, envelope, first_heights, patches, prisms, farfield, farfield_surface, ends, size, sources, discs, periodic, tetrahedra, improve,
-               smooth_angle, parts] = options;
+void add_rest(KeyMaker& maker, const volmesh::MeshCase& options) {
+  const auto& [first_heights, patches, farfield_surface, sources, discs, periodic, smooth_angle, parts] = static_cast<const volmesh::MeshFacts&>(options);
   maker.add(patches).add(farfield_surface).add(discs).add(periodic).add(smooth_angle).add(parts);
   maker.add(first_heights != nullptr);
   if (first_heights) maker.add(std::vector<double>(first_heights->values().begin(), first_heights->values().end()));
@@ -92,8 +91,8 @@ ContentKey key_of(const ComponentValue& component) {
   return KeyMaker("component").add(kind).add(shape).add(intake).add(exhaust).add(deflections).key();
 }
 
-ContentKey envelope_options_key(const volmesh::VolumeMeshOptions& options) {
-  volmesh::VolumeMeshOptions named = options;
+ContentKey envelope_options_key(const volmesh::MeshCase& options) {
+  volmesh::MeshCase named = options;
   KeyMaker maker("envelope options");
   maker.add(volmesh::options_of(named), {"family", "envelope", "farfield"});
   if (!options.discs.empty()) maker.add(options.size.size_growth);  // decides their triangles
@@ -101,8 +100,8 @@ ContentKey envelope_options_key(const volmesh::VolumeMeshOptions& options) {
   return maker.key();
 }
 
-ContentKey volume_options_key(const volmesh::VolumeMeshOptions& options) {
-  volmesh::VolumeMeshOptions named = options;
+ContentKey volume_options_key(const volmesh::MeshCase& options) {
+  volmesh::MeshCase named = options;
   KeyMaker maker("volume options");
   maker.add(volmesh::options_of(named)).add(options.sources);
   add_rest(maker, options);

@@ -71,9 +71,9 @@ std::optional<ContentKey> key_of(const SurfaceValue& surface);
 ContentKey key_of(const ComponentValue& component);
 
 /// What an envelope depends on beside its wall: options of envelope and farfield, rules of patches, discs, the farfield's surface, the smooth angle.
-ContentKey envelope_options_key(const volmesh::VolumeMeshOptions& options);
+ContentKey envelope_options_key(const volmesh::MeshCase& options);
 /// What a volume mesh depends on beside its wall: all of it, but for the true surface.
-ContentKey volume_options_key(const volmesh::VolumeMeshOptions& options);
+ContentKey volume_options_key(const volmesh::MeshCase& options);
 ContentKey key_of(const volmesh::EnvelopeStage& stage);
 ContentKey key_of(const volmesh::FilledStage& stage);
 std::optional<ContentKey> key_of(const EnvelopeValue& envelope);

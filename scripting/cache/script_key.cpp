@@ -70,7 +70,7 @@ bool add(const ScriptValue& value, const ScriptCall& call, KeyMaker& maker) {
 
 /// Options of meshing do not change models.
 bool is_of_models(const std::string& option) {
-  volmesh::VolumeMeshOptions volume;
+  volmesh::MeshCase volume;
   surfmesh::SurfaceMeshOptions surface;
   OptionTable later = volmesh::options_of(volume);
   for (Option& entry : sterna::options_of(surface)) later.push_back(std::move(entry));

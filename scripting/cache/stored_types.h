@@ -186,20 +186,10 @@ namespace detail {
 template <>
 struct Archive<volmesh::Envelope> {
   static void write(ByteSink& sink, const volmesh::Envelope& value) {
-    write_value(sink, value.direction);
-    write_value(sink, value.height);
-    write_value(sink, value.target);
-    write_value(sink, value.eq1);
-    write_value(sink, value.cap);
-    write_value(sink, value.limit);
+    for_each_column([&](const auto& column) { write_value(sink, column); }, value);
   }
   static void read(ByteSource& source, volmesh::Envelope& value) {
-    read_value(source, value.direction);
-    read_value(source, value.height);
-    read_value(source, value.target);
-    read_value(source, value.eq1);
-    read_value(source, value.cap);
-    read_value(source, value.limit);
+    for_each_column([&](auto& column) { read_value(source, column); }, value);
   }
 };
 

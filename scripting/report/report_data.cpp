@@ -248,7 +248,7 @@ Json inputs_json(const std::vector<InputFile>& inputs) {
 /// Names of options that differ from their defaults, by stage.
 Json options_set_json(const MeshOrigin& origin) {
   surfmesh::StitchOptions surface = origin.surface_options;
-  volmesh::VolumeMeshOptions volume = origin.options;
+  volmesh::MeshCase volume = origin.options;
   Json json = Json::object();
   for (const Option& option : all_options(surface, volume))
     if (!is_default(option)) json[std::string(option.stage)].push_back(option.name);

@@ -26,7 +26,7 @@ struct Row {
 };
 
 Row row(const std::string& name, const TriMesh& wall, double length, int n_layers, const std::string& file, const RunContext& context) {
-  VolumeMeshOptions options;
+  MeshCase options;
   options.envelope.layers = n_layers;
   options.envelope.first_height = 1e-6 * length;
   options.envelope.max_growth = 1.3;

@@ -33,7 +33,7 @@ Seconds timed(const std::function<void()>& f) {
 }
 
 /// Shares of the area of the finished envelope, as the report of a mesh counts them.
-void print_envelope(const TriMesh& wall, const VolumeMeshOptions& options, const InspectReport& report, const std::string& name, const RunContext& context) {
+void print_envelope(const TriMesh& wall, const MeshCase& options, const InspectReport& report, const std::string& name, const RunContext& context) {
   MeshingSite site(wall, options, context);
   EnvelopeStage stage;
   const Seconds seconds = timed([&] { stage = make_envelope(site, {}, context); });

@@ -89,7 +89,7 @@ void print_row(const std::string& name, const std::string& engine, const Setting
   try {
     const TriMesh wall = read(name, context);
     const double length = body_length(wall);
-    VolumeMeshOptions options;
+    MeshCase options;
     options.envelope.layers = settings.n_layers;
     options.envelope.first_height = 1e-6 * length;
     options.envelope.max_growth = 1.4;

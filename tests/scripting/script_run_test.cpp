@@ -177,7 +177,7 @@ TEST(ScriptRun, ScriptOfEveryOptionNamesEveryOption) {
   std::ifstream file(std::filesystem::path(STERNA_SOURCE_DIR) / "scripts" / "02_every_option.lua");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   surfmesh::StitchOptions surface;
-  volmesh::VolumeMeshOptions volume;
+  volmesh::MeshCase volume;
   UnionOptions unite;
   OptionTable table = all_options(surface, volume);
   for (Option& option : sterna::options_of(unite)) table.push_back(std::move(option));

@@ -12,7 +12,7 @@ ScriptValue table(std::map<std::string, ScriptValue> fields) {
 }
 
 TEST(TableReader, FlatAndNestedNamesReachTheirOption) {
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   ScriptTable input;
   input.fields = {{"layers", 12.0},
                   {"envelope", table({{"first_height", 1e-5}, {"max_thickness", std::string("automatic")}})},
@@ -30,7 +30,7 @@ TEST(TableReader, FlatAndNestedNamesReachTheirOption) {
 }
 
 TEST(TableReader, EveryOptionOfEveryStageCanBeGivenFlatAndNested) {
-  volmesh::VolumeMeshOptions options, defaults;
+  volmesh::MeshCase options, defaults;
   for (const Option& option : volmesh::options_of(defaults)) {
     const OptionValue value = option.default_value;
     const ScriptValue given =
@@ -48,7 +48,7 @@ TEST(TableReader, EveryOptionOfEveryStageCanBeGivenFlatAndNested) {
 }
 
 TEST(TableReader, ReportsAllProblemsOfATableTogether) {
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   ScriptTable input;
   input.fields = {{"layres", 3.0}, {"max_growth", 9.0}, {"layers", true}, {"feature_angle", table({})}};
   input.items = {std::string("stray")};
@@ -69,7 +69,7 @@ TEST(TableReader, ReportsAllProblemsOfATableTogether) {
 }
 
 TEST(TableReader, UnknownKeysAloneAreUnknownOptions) {
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   ScriptTable input;
   input.fields = {{"entirely_different", 3.0}};
   TableReader reader(input, "test");

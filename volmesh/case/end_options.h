@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "geom/base/schema.h"
+#include "volmesh/case/mesh_step.h"
 
 namespace sterna::volmesh {
 
@@ -21,6 +22,7 @@ template <>
 struct Schema<volmesh::EndOptions> {
   using O = volmesh::EndOptions;
   static constexpr std::string_view stage = "ends";
+  static constexpr volmesh::MeshSteps steps = volmesh::k_tetrahedra_step;
   static constexpr std::array fields = {
       Field<O>{.name = "ends_growth",
                .member = &O::size_growth,

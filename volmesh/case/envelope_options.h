@@ -4,6 +4,7 @@
 #include <string>
 
 #include "geom/base/schema.h"
+#include "volmesh/case/mesh_step.h"
 
 namespace sterna::volmesh {
 
@@ -38,6 +39,7 @@ template <>
 struct Schema<volmesh::EnvelopeOptions> {
   using O = volmesh::EnvelopeOptions;
   static constexpr std::string_view stage = "envelope";
+  static constexpr volmesh::MeshSteps steps = volmesh::k_envelope_step;
   static constexpr std::array fields = {
       Field<O>{.name = "layers", .member = &O::layers, .min = 1, .max = 1000, .help = "number of prism layers"},
       Field<O>{.name = "first_height",

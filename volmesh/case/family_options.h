@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geom/base/schema.h"
+#include "volmesh/case/mesh_step.h"
 
 namespace sterna::volmesh {
 
@@ -20,6 +21,7 @@ template <>
 struct Schema<volmesh::FamilyOptions> {
   using O = volmesh::FamilyOptions;
   static constexpr std::string_view stage = "family";
+  static constexpr volmesh::MeshSteps steps = volmesh::k_envelope_step;
   static constexpr std::array fields = {
       Field<O>{.name = "refinement",
                .member = &O::refinement,

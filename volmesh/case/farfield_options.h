@@ -6,6 +6,7 @@
 
 #include "geom/base/schema.h"
 #include "geom/mesh/tri_mesh.h"
+#include "volmesh/case/mesh_step.h"
 
 namespace sterna::volmesh {
 
@@ -53,6 +54,7 @@ template <>
 struct Schema<volmesh::FarfieldOptions> {
   using O = volmesh::FarfieldOptions;
   static constexpr std::string_view stage = "farfield";
+  static constexpr volmesh::MeshSteps steps = volmesh::k_envelope_step | volmesh::k_tetrahedra_step;
   static constexpr std::array fields = {
       Field<O>{.name = "farfield_shape",
                .member = &O::farfield_shape,

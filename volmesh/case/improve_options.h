@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "geom/base/schema.h"
+#include "volmesh/case/mesh_step.h"
 
 namespace sterna::volmesh {
 
@@ -21,6 +22,7 @@ template <>
 struct Schema<volmesh::ImproveOptions> {
   using O = volmesh::ImproveOptions;
   static constexpr std::string_view stage = "improve";
+  static constexpr volmesh::MeshSteps steps = volmesh::k_finish_step;
   static constexpr std::array fields = {
       Field<O>{.name = "improve_min_angle",
                .member = &O::improve_min_angle,

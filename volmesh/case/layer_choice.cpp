@@ -80,7 +80,7 @@ std::string solved_for(bool has_layers, bool has_growth, bool has_height, std::s
                .hint = has_layers ? "leave one of them out" : "total_height = 0.02, max_growth = 1.2"});
 }
 
-VolumeMeshOptions refined(VolumeMeshOptions options) {
+MeshCase refined(MeshCase options) {
   const double f = options.family.refinement;
   if (f == 1.0) return options;
   options.family.refinement = 1.0;
@@ -105,8 +105,8 @@ VolumeMeshOptions refined(VolumeMeshOptions options) {
   return options;
 }
 
-VolumeMeshOptions effective_options(const VolumeMeshOptions& user_options, const RunContext& context) {
-  VolumeMeshOptions options = refined(user_options);
+MeshCase effective_options(const MeshCase& user_options, const RunContext& context) {
+  MeshCase options = refined(user_options);
   if (options.first_heights && user_options.family.refinement != 1.0)
     options.first_heights = options.first_heights->refined(user_options.family.refinement, context);
   EnvelopeOptions& e = options.envelope;

@@ -30,10 +30,10 @@ std::string solved_for(bool has_layers, bool has_growth, bool has_height, std::s
 /// The member `options.family.refinement` of the family of which the options describe the medium one (quality.md section 1): first heights h0/f, growth
 /// r^(1/f), n f layers (rounded), sizes, edges of sources, discs and farfield divided by f, growth of tetrahedra 1 + (g - 1)/f. Total heights, angles and
 /// shapes stay. Its own refinement is 1.
-VolumeMeshOptions refined(VolumeMeshOptions options);
+MeshCase refined(MeshCase options);
 
 /// refined(), then the layers of all walls solved for; what was found goes to the log.
 /// \throws as solve_layers
-VolumeMeshOptions effective_options(const VolumeMeshOptions& options, const RunContext& context);
+MeshCase effective_options(const MeshCase& options, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -1,28 +1,32 @@
 #include "volmesh/case/mesh_case.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace sterna::volmesh {
+namespace {
 
-OptionTable options_of(VolumeMeshOptions& options) {
+template <class T>
+void append(OptionTable& table, T& options, MeshSteps steps) {
+  static_assert(Schema<T>::steps != 0, "each options struct of a volume mesh names the step where it may be given");
+  if ((Schema<T>::steps & steps) != 0) std::ranges::move(sterna::options_of(options), std::back_inserter(table));
+}
+
+}  // namespace
+
+OptionTable options_of(MeshOptions& options, MeshSteps steps) {
   OptionTable table;
-  const auto add = [&](OptionTable stage) {
-    for (Option& option : stage) table.push_back(std::move(option));
-  };
-  add(sterna::options_of(options.family));
-  add(sterna::options_of(options.envelope));
-  add(sterna::options_of(options.prisms));
-  add(sterna::options_of(options.farfield));
-  add(sterna::options_of(options.ends));
-  add(sterna::options_of(options.size));
-  add(sterna::options_of(options.tetrahedra));
-  add(sterna::options_of(options.improve));
+  auto& [family, envelope, prisms, farfield, ends, size, tetrahedra, improve] = options;  // the one list of them: a new one does not compile until it is here
+  const auto add = [&](auto&... of_stages) { (append(table, of_stages, steps), ...); };
+  add(family, envelope, prisms, farfield, ends, size, tetrahedra, improve);
   return table;
 }
 
-OptionTable required_options_of(VolumeMeshOptions& options) {
-  OptionTable table = options_of(options);
-  const bool has_own = std::any_of(options.patches.begin(), options.patches.end(), [](const PatchRule& rule) { return !is_automatic(rule.first_height); });
+OptionTable options_of(MeshOptions& options) { return options_of(options, k_envelope_step | k_tetrahedra_step | k_finish_step); }
+
+OptionTable required_options_of(MeshCase& mesh_case) {
+  OptionTable table = options_of(mesh_case);
+  const bool has_own = std::ranges::any_of(mesh_case.patches, [](const PatchRule& rule) { return !is_automatic(rule.first_height); });
   for (Option& option : table)
     if (option.name == "first_height" && has_own) option.required = false;
   return table;

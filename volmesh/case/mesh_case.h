@@ -23,30 +23,40 @@
 
 namespace sterna::volmesh {
 
-struct VolumeMeshOptions {
+/// Options of all stages, in stage order; each has a Schema.
+struct MeshOptions {
   FamilyOptions family;
   EnvelopeOptions envelope;
-  std::shared_ptr<const FirstHeights>
-      first_heights;               ///< by place, where rules of patches say nothing else; null: envelope.first_height. With them that is the least of them
-  std::vector<PatchRule> patches;  ///< what patches ask for instead; of several rules that match the last counts (sort_by_pattern)
   PrismOptions prisms;
   FarfieldOptions farfield;
-  std::shared_ptr<const TriMesh> farfield_surface;  ///< for its shape "surface"
   EndOptions ends;
   SizeFieldOptions size;
-  std::vector<SizeSource> sources;      ///< of the size field
-  std::vector<ActuatorDisc> discs;      ///< in the fluid
-  std::vector<PeriodicNames> periodic;  ///< pairs of patches, also of those that are added, that are to match node by node and face by face
   TetraOptions tetrahedra;
   ImproveOptions improve;
-  double smooth_angle =
-      k_automatic;                ///< rad: largest dihedral turn of the wall where it is smooth, where its maker knows it; decides the default feature angle
+};
+
+/// What is asked for and is no option, and what is known of the surface.
+struct MeshFacts {
+  /// By place, where rules of patches say nothing else; null: envelope.first_height. With them that is the least of them.
+  std::shared_ptr<const FirstHeights> first_heights;
+  std::vector<PatchRule> patches;                   ///< what patches ask for instead; of several rules that match the last counts (sort_by_pattern)
+  std::shared_ptr<const TriMesh> farfield_surface;  ///< for its shape "surface"
+  std::vector<SizeSource> sources;                  ///< of the size field
+  std::vector<ActuatorDisc> discs;                  ///< in the fluid
+  std::vector<PeriodicNames> periodic;              ///< pairs of patches, also of those that are added, that are to match node by node and face by face
+  /// rad: largest dihedral turn of the wall where it is smooth, where its maker knows it; decides the default feature angle.
+  double smooth_angle = k_automatic;
   std::vector<PlacedPart> parts;  ///< of the wall, that were meshed elsewhere and moved: their envelopes are made there, too, and moved (joint_envelope.h)
 };
 
-/// All options of all stages but the rules of patches, in stage order, for Lua, the command line, help and the manifest. `options` must outlive the table.
-OptionTable options_of(VolumeMeshOptions& options);
-/// The same; first_height is not required where rules of patches give it, as then each patch with layers is asked for its own (layers_of_patches).
-OptionTable required_options_of(VolumeMeshOptions& options);
+/// The whole request; members of its own would be in no list.
+struct MeshCase : MeshOptions, MeshFacts {};
+
+/// All options of all stages, for Lua, the command line, help and the manifest. `options` must outlive the table.
+OptionTable options_of(MeshOptions& options);
+/// Those that may be given at one of the steps.
+OptionTable options_of(MeshOptions& options, MeshSteps steps);
+/// All; first_height is not required where rules of patches give it, as then each patch with layers is asked for its own (layers_of_patches).
+OptionTable required_options_of(MeshCase& mesh_case);
 
 }  // namespace sterna::volmesh

@@ -15,7 +15,7 @@ struct PlacedPart {
   Transform placement;                 ///< rotation and shift; p -> placement.point(p), without any motion p itself
   std::uint32_t first_triangle = 0;    ///< of the surface
   std::uint32_t first_vertex = 0;
-  double smooth_angle = k_automatic;  ///< rad: VolumeMeshOptions::smooth_angle of the part alone
+  double smooth_angle = k_automatic;  ///< rad: MeshCase::smooth_angle of the part alone
 };
 
 }  // namespace sterna::volmesh

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geom/base/schema.h"
+#include "volmesh/case/mesh_step.h"
 
 namespace sterna::volmesh {
 
@@ -17,6 +18,7 @@ template <>
 struct Schema<volmesh::PrismOptions> {
   using O = volmesh::PrismOptions;
   static constexpr std::string_view stage = "prisms";
+  static constexpr volmesh::MeshSteps steps = volmesh::k_tetrahedra_step;
   static constexpr std::array fields = {
       Field<O>{.name = "wall_perpendicularity",
                .member = &O::wall_perpendicularity,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geom/base/schema.h"
+#include "volmesh/case/mesh_step.h"
 
 namespace sterna::volmesh {
 
@@ -18,6 +19,7 @@ template <>
 struct Schema<volmesh::SizeFieldOptions> {
   using O = volmesh::SizeFieldOptions;
   static constexpr std::string_view stage = "size";
+  static constexpr volmesh::MeshSteps steps = volmesh::k_tetrahedra_step;
   static constexpr std::array fields = {
       Field<O>{.name = "size_growth",
                .member = &O::size_growth,

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "geom/base/schema.h"
+#include "volmesh/case/mesh_step.h"
 
 namespace sterna::volmesh {
 
@@ -30,6 +31,7 @@ template <>
 struct Schema<volmesh::TetraOptions> {
   using O = volmesh::TetraOptions;
   static constexpr std::string_view stage = "tetrahedra";
+  static constexpr volmesh::MeshSteps steps = volmesh::k_tetrahedra_step;
   static constexpr std::array fields = {
       Field<O>{.name = "engine",
                .member = &O::engine,

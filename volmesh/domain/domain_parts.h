@@ -42,7 +42,7 @@ struct PeriodicEnds {
 
 /// An actuator disc that ends on walls with layers. The wall stays closed there; its columns are parted when the layer is known (discs/slits.h).
 struct DiscSlit {
-  std::size_t disc = 0;                            ///< index of VolumeMeshOptions::discs
+  std::size_t disc = 0;                            ///< index of MeshCase::discs
   PatchId patch, back;                             ///< of Domain::outer: the upstream and the downstream side
   std::vector<std::array<HalfedgeId, 2>> outline;  ///< edges of Domain::wall in the disc's plane: the half-edge upstream, and its twin downstream
   bool has_outer_rim = false;                      ///< rims of the disc that lie free in the fluid

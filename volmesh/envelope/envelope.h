@@ -3,8 +3,11 @@
 
 #include <cstdint>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
+#include "geom/base/columns.h"
 #include "geom/base/ids.h"
 #include "geom/base/vec3.h"
 #include "volmesh/case/envelope_options.h"
@@ -32,6 +35,15 @@ struct Envelope : EnvelopeShape {
   Column<VertexId, double> cap;     ///< m, largest height that the stages so far allow (starts as target)
   Column<VertexId, HeightLimit> limit;
 };
+
+/// The one list of an envelope's columns (for_each_column).
+template <class AnyEnvelope>
+requires std::is_same_v<std::remove_const_t<AnyEnvelope>, Envelope>
+auto columns_of(AnyEnvelope& envelope) {
+  const auto columns = std::tie(envelope.direction, envelope.height, envelope.target, envelope.eq1, envelope.cap, envelope.limit);
+  static_assert(sizeof(Envelope) == std::tuple_size_v<decltype(columns)> * sizeof(envelope.height), "every column of the envelope has its place in this list");
+  return columns;
+}
 
 /// Share of the body length, when max_thickness is automatic.
 inline constexpr double k_default_thickness_share = 0.1;

@@ -19,6 +19,10 @@ constexpr std::array<double, 4> k_shares = {1.0, 0.5, 0.25, 0.125};
 constexpr double k_full_height = 0.91;
 
 void log_result(const OptimiseReport& report, std::string_view optimiser, const RunContext& context) {
+  if (report.history.empty()) {  // no vertex may move, or none of the points tried was feasible
+    context.info("optimised (" + std::string(optimiser) + "): the envelope stays as it is, " + std::string(report.stopped));
+    return;
+  }
   const ObjectiveValue &a = report.history.front(), &b = report.history.back();
   char text[256];
   std::snprintf(text, sizeof text, "optimised (%.*s): orthogonality %.4g -> %.4g, height %.4g -> %.4g, top %.4g -> %.4g; %d evaluations, %.*s",

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
+#include <type_traits>
 
+#include "geom/base/columns.h"
 #include "geom/base/ids.h"
 
 namespace sterna::volmesh {
@@ -16,5 +19,13 @@ struct LayerDemand {
   Column<VertexId, std::uint16_t> layers;  ///< the same for all vertices of a triangle
   bool is_empty() const { return first_height.empty(); }
 };
+
+/// The one list of the columns (for_each_column): a new member does not compile until it is here.
+template <class Demand>
+requires std::is_same_v<std::remove_const_t<Demand>, LayerDemand>
+auto columns_of(Demand& demand) {
+  auto& [first_height, max_growth, max_thickness, total_height, layers] = demand;
+  return std::tie(first_height, max_growth, max_thickness, total_height, layers);
+}
 
 }  // namespace sterna::volmesh

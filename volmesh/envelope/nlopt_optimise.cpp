@@ -217,7 +217,12 @@ Envelope nlopt_optimise(const LayerBase& base, const Envelope& start, const Colu
   report.run.n_evaluations = run.n_evaluations;
   report.run.stopped = reason_of(result);
   report.is_time_limit = result == NLOPT_MAXTIME_REACHED;
-  report.best = report.run.history.back();  // the point that the run starts from at least
+  if (report.run.history.empty()) {  // not even the start is within the slack
+    report.is_feasible = false;
+    report.run.stopped = "no feasible point found";
+    return start;
+  }
+  report.best = report.run.history.back();
 
   Envelope optimised = from;
   problem.store(run.best, optimised, context);

@@ -330,6 +330,19 @@ Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& pat
   return result;
 }
 
+/// Vertices that must grow alike ask for the least that one of them asks for; what is automatic asks for nothing.
+template <class T>
+void take_least_of_groups(const std::vector<std::vector<VertexId>>& groups, Column<VertexId, T>& column) {
+  if (column.empty()) return;
+  const auto asks_less = [](T a, T b) { return a < b || (b != b && a == a); };  // a number before NaN, k_automatic
+  for (const std::vector<VertexId>& group : groups) {
+    T least = column[group.front()];
+    for (const VertexId v : group)
+      if (asks_less(column[v], least)) least = column[v];
+    for (const VertexId v : group) column[v] = least;
+  }
+}
+
 LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
                       const RunContext& context) {
   const Column<PatchId, PatchLayers> asked = layers_of_patches(base.wall.patches, options, rules);
@@ -344,12 +357,7 @@ LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std
   Blender blender(base, options, asked, by_place, demand, context);
   blender.blend();
   blender.log();
-  for (const std::vector<VertexId>& group : base.groups)
-    for (Column<VertexId, double>* column : {&demand.first_height, &demand.max_growth, &demand.max_thickness}) {
-      double least = (*column)[group.front()];
-      for (const VertexId v : group) least = std::min(least, (*column)[v]);
-      for (const VertexId v : group) (*column)[v] = least;
-    }
+  for_each_column([&](auto& column) { take_least_of_groups(base.groups, column); }, demand);
   return demand;
 }
 

@@ -31,7 +31,7 @@ void leave_out(const Survey& survey, const std::string& what, const std::string&
               {.kind = FindingKind::not_looked_at, .severity = Severity::note, .text = "not looked at: " + what + ", because " + why, .advice = advice}, {});
 }
 
-bool has_first_height(const VolumeMeshOptions& options) {
+bool has_first_height(const MeshCase& options) {
   return !is_automatic(options.envelope.first_height) || options.first_heights ||
          std::ranges::any_of(options.patches, [](const PatchRule& rule) { return !is_automatic(rule.first_height); });
 }
@@ -71,7 +71,7 @@ std::string first_height_advice(const Survey& survey) {
 }
 
 /// The walls with their outer boundary, as volume_mesh makes them; null where it refuses them, which is told.
-std::unique_ptr<MeshingSite> site_of(const Survey& survey, const VolumeMeshOptions& options) {
+std::unique_ptr<MeshingSite> site_of(const Survey& survey, const MeshCase& options) {
   try {
     return std::make_unique<MeshingSite>(survey.mesh, options, survey.context);
   } catch (const Error& error) {
@@ -117,7 +117,7 @@ InspectReport inspect_wall(const TriMesh& surface, const InspectRequest& request
   survey_needles(survey);
   context.progress(0.1);
   const bool is_known = has_first_height(request.volume);
-  VolumeMeshOptions options = request.volume;
+  MeshCase options = request.volume;
   if (!is_known) options.envelope.first_height = k_stand_in_height * report.length;
   const std::unique_ptr<MeshingSite> site = site_of(survey, options);
   context.progress(0.5);

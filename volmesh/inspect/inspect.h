@@ -12,7 +12,7 @@
 namespace sterna::volmesh {
 
 struct InspectRequest {
-  VolumeMeshOptions volume;  ///< as volume_mesh gets them; without a first height (of its own or of a rule) what needs one is left out, and the report says so
+  MeshCase volume;  ///< as volume_mesh gets them; without a first height (of its own or of a rule) what needs one is left out, and the report says so
   InspectOptions limits;
   std::optional<FlowState> flow;  ///< for y+
 };

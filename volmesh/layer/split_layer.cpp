@@ -1,6 +1,7 @@
 #include "volmesh/layer/split_layer.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
@@ -74,13 +75,15 @@ Envelope split_envelope(const Envelope& old, const Part& part, const BoundarySpl
     const double mean_height = mean(old.height);
     const Vec3 line = mean_height > 0.0 ? splits.points[part.points[i]] - new_wall.points[VertexId(part.mesh.n_vertices() + i)]
                                         : mixed(corners, origin, Vec3{}, [&](VertexId v) { return old.direction[v]; });
-    envelope.direction.push_back(normalized(line));
-    envelope.height.push_back(mean_height > 0.0 ? norm(line) : 0.0);
-    envelope.target.push_back(mean(old.target));
-    envelope.eq1.push_back(mean(old.eq1));
-    envelope.cap.push_back(mean(old.cap));
     const std::size_t nearest = static_cast<std::size_t>(std::ranges::max_element(origin.weights) - origin.weights.begin());
-    envelope.limit.push_back(old.limit[corners[nearest]]);
+    for_each_column(
+        [&](const auto& of_old, auto& column) {
+          if constexpr (std::is_same_v<decltype(column), Column<VertexId, double>&>) column.push_back(mean(of_old));
+          else column.push_back(of_old[corners[nearest]]);
+        },
+        old, envelope);
+    envelope.direction.raw().back() = normalized(line);
+    envelope.height.raw().back() = mean_height > 0.0 ? norm(line) : 0.0;
   }
   return envelope;
 }
@@ -112,7 +115,7 @@ bool is_proven(const FillBoundary& boundary, const TetraResult& tets, const RunC
 
 }  // namespace
 
-SplitLayer split_layer(const LayerBase& base, const Envelope& envelope, const TriMesh& outer, const VolumeMeshOptions& options, const TrueSurface& true_surface,
+SplitLayer split_layer(const LayerBase& base, const Envelope& envelope, const TriMesh& outer, const MeshCase& options, const TrueSurface& true_surface,
                        TetraResult& tets, const RunContext& context) {
   Part wall_part{base.wall, 0}, outer_part{outer, base.wall.n_triangles()};
   find_points(tets.splits, wall_part);

@@ -26,7 +26,7 @@ struct SplitLayer {
 /// line ends where the engine put the new point of the envelope. Extrudes again, proves again. \pre tets fill fill_boundary() of these; no vertex of the base
 /// has a constraint. \post tets are those of the new boundary, without splits; where not is_filled they have to be made anew. \throws Error of the stages where
 /// wall or layer would not be valid.
-SplitLayer split_layer(const LayerBase& base, const Envelope& envelope, const TriMesh& outer, const VolumeMeshOptions& options, const TrueSurface& true_surface,
+SplitLayer split_layer(const LayerBase& base, const Envelope& envelope, const TriMesh& outer, const MeshCase& options, const TrueSurface& true_surface,
                        TetraResult& tets, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -69,21 +69,12 @@ PartEnvelopeTask task_of(const MeshingSite& site, const WholePart& whole) {
 }
 
 void resize(Envelope& envelope, std::size_t n) {
-  envelope.direction.resize(n);
-  envelope.height.resize(n);
-  envelope.target.resize(n);
-  envelope.eq1.resize(n);
-  envelope.cap.resize(n);
-  envelope.limit.resize(n);
+  for_each_column([n](auto& column) { column.resize(n); }, envelope);
 }
 
 void take(const Envelope& from, VertexId v, const Transform& placement, Envelope& to, VertexId w) {
-  to.direction[w] = placement == Transform{} ? from.direction[v] : placement.vector(from.direction[v]);
-  to.height[w] = from.height[v];
-  to.target[w] = from.target[v];
-  to.eq1[w] = from.eq1[v];
-  to.cap[w] = from.cap[v];
-  to.limit[w] = from.limit[v];
+  for_each_column([&](const auto& one, auto& other) { other[w] = one[v]; }, from, to);
+  if (!(placement == Transform{})) to.direction[w] = placement.vector(from.direction[v]);
 }
 
 /// What is left of the wall without its whole parts, with all that its envelope depends on.
@@ -120,10 +111,7 @@ Rest rest_of(const MeshingSite& site, const Column<VertexId, std::uint32_t>& gro
   slice(site.base.constraint, rest.constraints.vertex);
   slice(site.base.near, rest.constraints.near);
   rest.constraints.surfaces = site.base.surfaces;
-  slice(site.base.demand.first_height, rest.demand.first_height);
-  slice(site.base.demand.max_growth, rest.demand.max_growth);
-  slice(site.base.demand.max_thickness, rest.demand.max_thickness);
-  slice(site.base.demand.layers, rest.demand.layers);
+  for_each_column(slice, site.base.demand, rest.demand);
   rest.links = site.domain.links;
   for (VertexId& v : rest.links.line)
     if (v.is_valid()) v = rest.wall2rest[v];

@@ -18,7 +18,7 @@ struct PartEnvelopeTask {
   TriMesh wall;  ///< in the part's own frame; patches with their kinds, all of them with layers
   EnvelopeOptions options;
   std::vector<PatchRule> rules;       ///< those that a patch of it is named like
-  double smooth_angle = k_automatic;  ///< rad: VolumeMeshOptions::smooth_angle of the part
+  double smooth_angle = k_automatic;  ///< rad: MeshCase::smooth_angle of the part
 };
 
 struct PartEnvelope {

@@ -5,6 +5,7 @@
 #include <queue>
 #include <utility>
 
+#include "geom/base/columns.h"
 #include "geom/base/error.h"
 #include "geom/math/intersect.h"
 #include "volmesh/domain/disc_plane.h"
@@ -342,10 +343,7 @@ void open_slits(const Domain& domain, LayerRequest& request) {
     if (of_lines.empty()) return;
     for (const VertexId v : domain.slit_vertices) of_lines.push_back(of_lines[v.index()]);
   };
-  open(request.line_first_height);
-  open(request.line_max_growth);
-  open(request.target_height);
-  open(request.reason);
+  for_each_column(open, request);
 }
 
 }  // namespace sterna::volmesh

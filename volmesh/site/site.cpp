@@ -21,13 +21,13 @@
 
 namespace sterna::volmesh {
 
-VolumeMeshOptions validated(const TriMesh& wall, VolumeMeshOptions options, const RunContext& context) {
+MeshCase validated(const TriMesh& wall, MeshCase options, const RunContext& context) {
   require_options(required_options_of(options), "volume_mesh");
   if (wall.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = "volume_mesh", .problem = "the wall has no triangles"});
   return effective_options(options, context);
 }
 
-std::function<double(const Point&)> end_sizes(const VolumeMeshOptions& options) {
+std::function<double(const Point&)> end_sizes(const MeshCase& options) {
   const bool has_max = !is_automatic(options.size.size_max);
   if (options.sources.empty() && !has_max) return {};
   return [&options, has_max](const Point& p) {
@@ -48,7 +48,7 @@ std::vector<ActuatorDisc> free_discs(const std::vector<ActuatorDisc>& discs, con
   return free;
 }
 
-Domain domain_around(const TriMesh& surface, const VolumeMeshOptions& options, const RunContext& context) {
+Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunContext& context) {
   const StageTimer timer(context, "domain");
   TriMesh given = surface;
   std::vector<PatchRule> of_given;  // the others are meant for what is added
@@ -83,14 +83,14 @@ Domain domain_around(const TriMesh& surface, const VolumeMeshOptions& options, c
   return domain;
 }
 
-LayerBase base_of(const Domain& domain, const VolumeMeshOptions& options, const RunContext& context) {
+LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContext& context) {
   LayerBase base(domain.wall, context, domain.constraints);
   base.let_grow_alike(domain.partners);
   base.demand = demand_of(base, options.envelope, options.patches, options.first_heights.get(), context);
   return base;
 }
 
-MeshingSite::MeshingSite(const TriMesh& surface, const VolumeMeshOptions& user_options, const RunContext& context)
+MeshingSite::MeshingSite(const TriMesh& surface, const MeshCase& user_options, const RunContext& context)
     : options(validated(surface, user_options, context)),
       given_envelope(options.envelope),
       domain(domain_around(surface, options, context)),

@@ -16,16 +16,16 @@ namespace sterna::volmesh {
 
 /// The options of the member of the family that is asked for, with the layers that are solved for.
 /// \throws Error(bad_argument) for options that are required or do not agree; Error(empty_surface)
-VolumeMeshOptions validated(const TriMesh& wall, VolumeMeshOptions options, const RunContext& context);
+MeshCase validated(const TriMesh& wall, MeshCase options, const RunContext& context);
 
 /// The fluid's boundary: completed, cut by discs, made periodic, taken apart. \pre options validated
-Domain domain_around(const TriMesh& surface, const VolumeMeshOptions& options, const RunContext& context);
+Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunContext& context);
 
 /// The walls with layers, and what is asked of the layer on them.
-LayerBase base_of(const Domain& domain, const VolumeMeshOptions& options, const RunContext& context);
+LayerBase base_of(const Domain& domain, const MeshCase& options, const RunContext& context);
 
 /// Edge lengths that the user's sources ask for on patches that are triangulated anew; empty where nothing does. `options` must outlive it.
-std::function<double(const Point&)> end_sizes(const VolumeMeshOptions& options);
+std::function<double(const Point&)> end_sizes(const MeshCase& options);
 
 /// The discs that end on no wall. \p on_walls: indices of the others
 std::vector<ActuatorDisc> free_discs(const std::vector<ActuatorDisc>& discs, const std::vector<std::size_t>& on_walls);
@@ -33,11 +33,11 @@ std::vector<ActuatorDisc> free_discs(const std::vector<ActuatorDisc>& discs, con
 /// Wall and outer boundary with what every step needs of them.
 struct MeshingSite {
   /// \throws as volume_mesh() for what no step can repair
-  MeshingSite(const TriMesh& surface, const VolumeMeshOptions& user_options, const RunContext& context);
+  MeshingSite(const TriMesh& surface, const MeshCase& user_options, const RunContext& context);
   MeshingSite(const MeshingSite&) = delete;
   MeshingSite& operator=(const MeshingSite&) = delete;
 
-  VolumeMeshOptions options;       ///< with the feature angle
+  MeshCase options;                ///< with the feature angle
   EnvelopeOptions given_envelope;  ///< without it, unless the user gave it
   Domain domain;
   LayerBase base;

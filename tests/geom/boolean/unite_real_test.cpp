@@ -28,7 +28,7 @@ ErrorInfo nasty_error(const std::string& file) {
 }
 
 void expect_valid_mesh(const TriMesh& wall, int layers, double first_height) {
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   options.envelope.layers = layers;
   options.envelope.first_height = first_height * body_length(wall);
   const volmesh::VolumeMeshResult mesh = volmesh::volume_mesh(wall, options, quiet());

@@ -207,7 +207,7 @@ TEST(DualMetrics, RealMesh) {
   STERNA_NEEDS_SHARED_DATA();
   const SurfaceSoup soup = io::read_surface_file(shared_data() / "surfaces/clean/pygeo_bwb.stl", RunContext({.threads = 2}));
   const TriMesh wall = surfmesh::stitch_surface({soup}, {}, RunContext({.threads = 2})).mesh;
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   options.envelope.layers = 6;
   options.envelope.first_height = 1e-4 * body_length(wall);
   options.farfield.farfield_radius = 20 * body_length(wall);

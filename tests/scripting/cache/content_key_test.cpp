@@ -24,13 +24,13 @@ void change(const Option& option) {
 }
 
 TEST(ContentKeys, EveryOptionOfAVolumeMeshIsInItsKeyAndInTheEnvelopesWhereItBelongsToIt) {
-  volmesh::VolumeMeshOptions defaults;
+  volmesh::MeshCase defaults;
   const ContentKey volume = volume_options_key(defaults), envelope = envelope_options_key(defaults);
   std::set<ContentKey> seen = {volume};
   const std::size_t n_options = volmesh::options_of(defaults).size();
   ASSERT_GT(n_options, 40u);
   for (std::size_t i = 0; i < n_options; ++i) {
-    volmesh::VolumeMeshOptions options;
+    volmesh::MeshCase options;
     const OptionTable table = volmesh::options_of(options);
     change(table[i]);
     EXPECT_TRUE(seen.insert(volume_options_key(options)).second) << table[i].stage << "." << table[i].name;
@@ -40,21 +40,21 @@ TEST(ContentKeys, EveryOptionOfAVolumeMeshIsInItsKeyAndInTheEnvelopesWhereItBelo
 }
 
 TEST(ContentKeys, WhatIsNoNumberOfAVolumeMeshCountsToo) {
-  const volmesh::VolumeMeshOptions defaults;
+  const volmesh::MeshCase defaults;
   std::set<ContentKey> volume = {volume_options_key(defaults)}, envelope = {envelope_options_key(defaults)};
-  const auto expect = [&](const volmesh::VolumeMeshOptions& options, bool is_of_envelope, const char* what) {
+  const auto expect = [&](const volmesh::MeshCase& options, bool is_of_envelope, const char* what) {
     EXPECT_TRUE(volume.insert(volume_options_key(options)).second) << what;
     EXPECT_EQ(envelope.insert(envelope_options_key(options)).second, is_of_envelope) << what;
   };
   volmesh::PatchRule rule_defaults;
   for (std::size_t i = 0; i < sterna::options_of(rule_defaults).size(); ++i) {
-    volmesh::VolumeMeshOptions options;
+    volmesh::MeshCase options;
     options.patches.resize(1);
     const Option option = sterna::options_of(options.patches.front())[i];
     change(option);
     expect(options, true, "rule of a patch");
   }
-  volmesh::VolumeMeshOptions options;
+  volmesh::MeshCase options;
   options.sources = {{.kind = volmesh::SourceKind::sphere, .radius = 1.0, .size = 0.1}};
   expect(options, false, "source");
   options.sources.front().size = 0.2;

@@ -217,7 +217,7 @@ TEST(EveryOptionOfCommands, IsSetAsAnOptionAndWithSet) {
   const std::filesystem::path folder = test::scratch();
   std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder / "box.stl");
   surfmesh::StitchOptions stitch;
-  volmesh::VolumeMeshOptions volume;
+  volmesh::MeshCase volume;
   surfmesh::SurfaceMeshOptions surface;
   ReadCadOptions reading;
   WriteCadOptions writing;

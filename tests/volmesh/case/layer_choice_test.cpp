@@ -54,7 +54,7 @@ TEST(SolveLayers, refuses_what_cannot_be) {
 }
 
 TEST(Refined, first_height_growth_and_layers_are_exact) {
-  VolumeMeshOptions medium;
+  MeshCase medium;
   medium.envelope.layers = 30;
   medium.envelope.first_height = 1e-4;
   medium.envelope.max_growth = 1.3;
@@ -64,7 +64,7 @@ TEST(Refined, first_height_growth_and_layers_are_exact) {
   medium.sources = {{.size = 0.1}};
   medium.discs = {{.radius = 1.2}};
   medium.family.refinement = 1.5;
-  const VolumeMeshOptions fine = refined(medium);
+  const MeshCase fine = refined(medium);
   EXPECT_EQ(fine.envelope.layers, 45);
   EXPECT_DOUBLE_EQ(fine.envelope.first_height, 1e-4 / 1.5);
   EXPECT_DOUBLE_EQ(std::pow(fine.envelope.max_growth, 1.5), 1.3);
@@ -82,14 +82,14 @@ TEST(Refined, first_height_growth_and_layers_are_exact) {
 }
 
 /// A member of a family, its wall with edges of about 1/frequency.
-VolumeMeshResult member(int frequency, double f, const VolumeMeshOptions& medium) {
-  VolumeMeshOptions options = medium;
+VolumeMeshResult member(int frequency, double f, const MeshCase& medium) {
+  MeshCase options = medium;
   options.family.refinement = f;
   return volume_mesh(test::sphere(frequency), options, RunContext({.threads = 2}));
 }
 
 TEST(Refined, nodes_grow_with_the_third_power) {
-  VolumeMeshOptions medium;
+  MeshCase medium;
   medium.envelope.layers = 8;
   medium.envelope.first_height = 0.01;
   medium.envelope.max_growth = 1.3;
@@ -103,7 +103,7 @@ TEST(Refined, nodes_grow_with_the_third_power) {
 
 TEST(TotalHeight, is_met_where_nothing_is_in_the_way) {
   const TriMesh wall = test::sphere(8);
-  VolumeMeshOptions options;
+  MeshCase options;
   options.envelope.layers = 12;
   options.envelope.first_height = 0.004;
   options.envelope.total_height = 0.12;
@@ -121,7 +121,7 @@ TEST(TotalHeight, of_a_patch_alone) {
   wall.patches.push_back({"north", PatchKind::wall});
   for (const TriangleId t : wall.triangles.ids())
     if (wall.points[wall.triangles[t][0]].z > 0.0) wall.triangle_patch[t] = PatchId(wall.patches.size() - 1);
-  VolumeMeshOptions options;
+  MeshCase options;
   options.envelope.layers = 10;
   options.envelope.first_height = 0.004;
   options.envelope.max_growth = 1.1;

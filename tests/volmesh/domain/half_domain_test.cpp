@@ -94,7 +94,7 @@ TEST(HalfDomain, LayersOfAHalfBallEndOnTheSymmetryPlane) {
   EXPECT_GT(area, 250.0);
 }
 
-VolumeMeshResult meshed(const TriMesh& surface, const VolumeMeshOptions& options) {
+VolumeMeshResult meshed(const TriMesh& surface, const MeshCase& options) {
   VolumeMeshResult result = volume_mesh(surface, options, RunContext({.threads = 2}));
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   EXPECT_EQ(result.layer.collapsed_area, 0.0);

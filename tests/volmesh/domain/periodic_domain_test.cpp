@@ -23,14 +23,14 @@ const RunContext k_context({.threads = 2});
 PatchKind all_slip(const std::string&) { return PatchKind::slip; }
 bool is_wing(int i, int, int k) { return i >= 8 && i < 14 && k >= 5 && k < 7; }
 
-VolumeMeshOptions periodic_layers(int n, double first_height, std::vector<PeriodicNames> pairs = {{"left", "right"}}) {
-  VolumeMeshOptions options = layers(n, first_height);
+MeshCase periodic_layers(int n, double first_height, std::vector<PeriodicNames> pairs = {{"left", "right"}}) {
+  MeshCase options = layers(n, first_height);
   options.periodic = std::move(pairs);
   return options;
 }
 
 /// Meshed, valid, and all pairs match: found by the check and once more here.
-VolumeMeshResult matched(const TriMesh& surface, const VolumeMeshOptions& options) {
+VolumeMeshResult matched(const TriMesh& surface, const MeshCase& options) {
   VolumeMeshResult result = volume_mesh(surface, options, k_context);
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   EXPECT_EQ(result.check.periodic.size(), options.periodic.size());
@@ -60,7 +60,7 @@ TEST(PeriodicDomain, AFloorWithLayersHasTheSameEdgesAndCornersOnBothSides) {
 
 TEST(PeriodicDomain, TwoDirectionsShareTheirEdges) {
   const TriMesh surface = room([](const std::string&) { return PatchKind::slip; });
-  VolumeMeshOptions options = periodic_layers(8, 1e-3, {{"left", "right"}, {"ceiling", "floor"}});
+  MeshCase options = periodic_layers(8, 1e-3, {{"left", "right"}, {"ceiling", "floor"}});
   options.patches = {{.names = "inlet", .kind = "wall"}};
   const VolumeMeshResult result = matched(surface, options);
   EXPECT_EQ(rim_edges(result), (Edges{{"ceiling", 12}, {"floor", 12}, {"left", 12}, {"right", 12}}));
@@ -85,7 +85,7 @@ TEST(PeriodicDomain, ABodyThatTouchesNeitherSide) {
   TriMesh surface = room(all_slip, body);
   const VolumeMeshResult result = matched(surface, periodic_layers(10, 1e-3));
   EXPECT_TRUE(result.mesh.boundary_quads.empty());
-  VolumeMeshOptions options = periodic_layers(10, 1e-3);
+  MeshCase options = periodic_layers(10, 1e-3);
   options.tetrahedra.boundary_splits = "always";
   EXPECT_THAT(test::error_of([&] { volume_mesh(surface, options, k_context); }).info().problem, HasSubstr("boundary_splits"));
 }
@@ -107,7 +107,7 @@ TEST(PeriodicDomain, SidesThatAreAddedInPlanes) {
       surface.triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
     }
   surface.triangle_patch.assign(surface.n_triangles(), PatchId(0));
-  VolumeMeshOptions options = periodic_layers(10, 1e-3, {{"symmetry_y_min", "symmetry_y_max"}});
+  MeshCase options = periodic_layers(10, 1e-3, {{"symmetry_y_min", "symmetry_y_max"}});
   options.farfield.farfield_shape = "box";
   const VolumeMeshResult result = matched(surface, options);
   EXPECT_EQ(rim_edges(result), (Edges{{"symmetry_y_min", 24}, {"symmetry_y_max", 24}}));
@@ -199,7 +199,7 @@ TEST(PeriodicDomain, WhatDoesNotMatchIsSaidWithPlacesAndDistances) {
 
 TEST(PeriodicDomain, StepsGiveTheSameMeshForAnyNumberOfThreads) {
   const TriMesh surface = room(all_slip, is_wing);
-  const VolumeMeshOptions options = periodic_layers(6, 1e-3);
+  const MeshCase options = periodic_layers(6, 1e-3);
   const VolumeMeshResult whole = volume_mesh(surface, options, k_context);
   for (const int threads : {1, 7}) {
     const RunContext context({.threads = threads});

@@ -11,8 +11,8 @@
 
 namespace sterna::volmesh {
 
-inline VolumeMeshOptions layers(int n, double first_height) {
-  VolumeMeshOptions options;
+inline MeshCase layers(int n, double first_height) {
+  MeshCase options;
   options.envelope.layers = n;
   options.envelope.first_height = first_height;
   return options;

@@ -40,7 +40,7 @@ TEST(DiscFiles, FanInADuctAndPropellerOnANose) {
                         Case{"flowpanel_cessna_cessna.msh", {.name = "prop", .center = {-1.0, 0.0, 0.0}, .radius = 3.0}, 1e-3, 28.0, 0.2}}) {
     SCOPED_TRACE(c.file);
     const TriMesh wall = surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces" / "clean" / c.file, context)}, {}, context).mesh;
-    VolumeMeshOptions options;
+    MeshCase options;
     options.envelope.layers = 15;
     options.envelope.first_height = c.first_height;
     options.discs = {c.disc};
@@ -55,7 +55,7 @@ TEST(DiscFiles, FanInADuctAndPropellerOnANose) {
 TEST(DiscFiles, OtherProgramsAcceptAFanBetweenHubAndDuct) {
   TriMesh wall = duct();
   append(wall, hub());
-  VolumeMeshOptions options;
+  MeshCase options;
   options.envelope.layers = 8;
   options.envelope.first_height = 2e-3;
   options.farfield.farfield_radius = 15.0;

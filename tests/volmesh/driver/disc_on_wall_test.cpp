@@ -23,8 +23,8 @@ using testing::HasSubstr;
 const RunContext k_context({.threads = 2});
 constexpr double k_pi = std::numbers::pi;
 
-VolumeMeshOptions options_with(std::vector<ActuatorDisc> discs) {
-  VolumeMeshOptions options;
+MeshCase options_with(std::vector<ActuatorDisc> discs) {
+  MeshCase options;
   options.envelope.layers = 8;
   options.envelope.first_height = 2e-3;
   options.farfield.farfield_radius = 15.0;
@@ -109,7 +109,7 @@ TEST(DiscOnWall, PropellerRoundASpinner) {
 
 TEST(DiscOnWall, TiltedPlaneAndTetgen) {
   const ActuatorDisc disc{.name = "prop", .center = {-0.7, 0.02, 0.01}, .axis = {1, 0.15, -0.1}, .radius = 1.5, .inner_radius = 0.1};
-  VolumeMeshOptions options = options_with({disc});
+  MeshCase options = options_with({disc});
   options.tetrahedra.engine = "tetgen";
   const VolumeMeshResult result = volume_mesh(hub(), options, k_context);
   EXPECT_EQ(result.tetra_engine, "tetgen");
@@ -156,7 +156,7 @@ TEST(DiscOnWall, FanThatPartsTheFluid) {
   const TriMesh wall = room([](const std::string&) { return PatchKind::wall; });
   for (const char* engine : {"hxt", "tetgen"}) {
     SCOPED_TRACE(engine);
-    VolumeMeshOptions options = layers(8, 1e-3);
+    MeshCase options = layers(8, 1e-3);
     options.discs = {{.name = "fan", .center = {1.93, 1, 1}, .radius = 1.6}};
     options.tetrahedra.engine = engine;
     const VolumeMeshResult result = volume_mesh(wall, options, k_context);
@@ -196,7 +196,7 @@ TEST(DiscOnWall, NacelleBesideAHalfBody) {
   nacelle.patches = Column<PatchId, Patch>{{"nacelle", PatchKind::wall}};
   append(wall, nacelle);
   const ActuatorDisc disc{.name = "prop", .center = {-0.7, 1.5, 0}, .radius = 0.9};
-  VolumeMeshOptions options = options_with({disc});
+  MeshCase options = options_with({disc});
   options.patches = {{.names = "nacelle", .layers = 12, .first_height = 5e-4}};
   const VolumeMeshResult result = volume_mesh(wall, options, k_context);
   expect_disc(result, disc, hub_radius(-0.7), 0.9);
@@ -208,7 +208,7 @@ TEST(DiscOnWall, NacelleBesideAHalfBody) {
 
 TEST(DiscOnWall, SameBytesWithOneThreadAndByStages) {
   const ActuatorDisc disc{.name = "prop", .center = {-1.23, 0, 0}, .radius = 1.5};
-  const VolumeMeshOptions options = options_with({disc});
+  const MeshCase options = options_with({disc});
   const TriMesh wall = hub(6);
   const VolumeMeshResult two = volume_mesh(wall, options, k_context), one = volume_mesh(wall, options, RunContext({.threads = 1}));
   EXPECT_EQ(two.mesh.points, one.mesh.points);

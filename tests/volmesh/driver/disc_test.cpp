@@ -11,8 +11,8 @@ namespace {
 
 const RunContext k_context({.threads = 2});
 
-VolumeMeshOptions options_with(std::vector<ActuatorDisc> discs) {
-  VolumeMeshOptions options;
+MeshCase options_with(std::vector<ActuatorDisc> discs) {
+  MeshCase options;
   options.envelope.layers = 10;
   options.envelope.first_height = 1e-3;
   options.farfield.farfield_radius = 20.0;
@@ -31,7 +31,7 @@ TEST(Discs, PropellerInFrontOfABodyAndRingAroundIt) {
                                            {.name = "fan", .center = {0.2, 0, 0}, .radius = 2.4, .inner_radius = 1.5}};
   for (const char* engine : {"hxt", "tetgen"}) {
     SCOPED_TRACE(engine);
-    VolumeMeshOptions options = options_with(discs);
+    MeshCase options = options_with(discs);
     options.tetrahedra.engine = engine;
     const VolumeMeshResult result = volume_mesh(wall, options, k_context);
     EXPECT_TRUE(result.check.is_valid());
@@ -46,7 +46,7 @@ TEST(Discs, PropellerInFrontOfABodyAndRingAroundIt) {
 }
 
 TEST(Discs, TheLayerKeepsClearOfADiscNearTheWall) {
-  VolumeMeshOptions options = options_with({{.name = "prop", .center = {-1.1, 0, 0}, .radius = 0.8}});
+  MeshCase options = options_with({{.name = "prop", .center = {-1.1, 0, 0}, .radius = 0.8}});
   options.envelope.first_height = 0.02;
   const VolumeMeshResult result = volume_mesh(test::sphere(8), options, k_context);
   EXPECT_TRUE(result.check.is_valid());
@@ -54,7 +54,7 @@ TEST(Discs, TheLayerKeepsClearOfADiscNearTheWall) {
 
 TEST(Discs, StagesByHandGiveTheSameMesh) {
   const TriMesh wall = test::sphere(6);
-  const VolumeMeshOptions options = options_with({{.name = "prop", .center = {-1.7, 0, 0}, .radius = 1.2}});
+  const MeshCase options = options_with({{.name = "prop", .center = {-1.7, 0, 0}, .radius = 1.2}});
   const VolumeMeshResult whole = volume_mesh(wall, options, k_context);
   FilledStage filled = make_tetrahedra(wall, make_envelope(wall, options, {}, k_context), options, {}, k_context);
   const VolumeMeshResult by_hand = finish_mesh(wall, std::move(filled), options, k_context);

@@ -29,7 +29,7 @@ TEST_P(TooThick, EndsInAValidMesh) {
   const SurfaceSoup soup = io::read_surface_file(test::shared_data() / "surfaces" / file, context);
   const TriMesh wall = surfmesh::stitch_surface({soup}, {}, context).mesh;
   const double length = body_length(wall);
-  VolumeMeshOptions options;
+  MeshCase options;
   options.envelope.layers = settings.layers;
   options.envelope.first_height = settings.first_height * length;
   options.envelope.max_growth = 1.6;
@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(Nasty, TooThick,
 
 TEST(WrongUnit, ALayerThinnerThanItsOwnCellsIsWarnedAbout) {
   const TriMesh wall = test::sphere(5, 1e-3);  // drawn in metres, meant in millimetres
-  VolumeMeshOptions options;
+  MeshCase options;
   options.envelope.layers = 10;
   options.envelope.first_height = 1e-3;
   options.envelope.max_thickness = 1e-3;
@@ -84,7 +84,7 @@ TEST(WrongUnit, ALayerThinnerThanItsOwnCellsIsWarnedAbout) {
 
 TEST(OuterBoundary, AWallThatDoesNotFitIsRefusedWithPlaces) {
   const TriMesh wall = test::cube(3);
-  VolumeMeshOptions options;
+  MeshCase options;
   options.envelope.first_height = 1e-4;
   options.farfield.farfield_radius = 0.8;  // the corners lie 0.87 from the centre
   try {

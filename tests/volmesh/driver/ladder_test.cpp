@@ -35,7 +35,7 @@ class DriverLadder : public testing::Test {
     return folder.string();
   }
   VolumeMeshResult mesh(const TriMesh& wall, TetraOptions tetrahedra) {
-    VolumeMeshOptions options;
+    MeshCase options;
     options.envelope.layers = 6;
     options.envelope.first_height = 1e-4;
     options.farfield.farfield_radius = 10.0;

@@ -23,7 +23,7 @@ TEST_P(RealSurface, GivesAValidMeshWithItsLayers) {
   const RunContext context({.threads = 2});
   const SurfaceSoup soup = io::read_surface_file(test::shared_data() / "surfaces" / GetParam().file, context);
   const TriMesh wall = surfmesh::stitch_surface({soup}, {}, context).mesh;
-  VolumeMeshOptions options;
+  MeshCase options;
   const double length = body_length(wall);
   options.envelope.layers = 35;
   options.envelope.feature_angle = 35.0 * std::numbers::pi / 180.0;

@@ -11,8 +11,8 @@ namespace {
 
 const RunContext k_context({.threads = 2});
 
-VolumeMeshOptions options_for(const TriMesh& wall) {
-  VolumeMeshOptions options;
+MeshCase options_for(const TriMesh& wall) {
+  MeshCase options;
   options.envelope.layers = 8;
   options.envelope.first_height = 1e-4 * body_length(wall);
   options.farfield.farfield_radius = 5.0 * body_length(wall);
@@ -36,7 +36,7 @@ void expect_same(const VolumeMeshResult& result, const VolumeMeshResult& whole) 
   EXPECT_EQ(result.n_split_triangles, whole.n_split_triangles);
 }
 
-void expect_continued(const TriMesh& wall, const VolumeMeshOptions& options) {
+void expect_continued(const TriMesh& wall, const MeshCase& options) {
   EnvelopeStage envelope;
   FilledStage filled;
   const VolumeMeshResult whole =
@@ -59,7 +59,7 @@ TEST(Stages, ContinuedMeshesAreTheSame) {
 
 TEST(Stages, ContinuedMeshesAreTheSameAfterSplits) {
   const TriMesh wall = test::cube(3);
-  VolumeMeshOptions options = options_for(wall);
+  MeshCase options = options_for(wall);
   options.tetrahedra.boundary_splits = "always";
   options.tetrahedra.radius_edge = 1.6;
   options.sources.push_back({.kind = SourceKind::point, .from = {1.3, 0.4, 0.6}, .size = 0.05});
@@ -68,7 +68,7 @@ TEST(Stages, ContinuedMeshesAreTheSameAfterSplits) {
 
 TEST(Stages, PartsOfDifferentRunsAreRefused) {
   const TriMesh wall = test::cube(3), other = test::cube(2);
-  const VolumeMeshOptions options = options_for(wall);
+  const MeshCase options = options_for(wall);
   const EnvelopeStage envelope = make_envelope(wall, options, {}, k_context);
   const auto expect_refused = [](const std::string& problem, const auto& call) {
     try {

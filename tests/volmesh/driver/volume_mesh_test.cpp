@@ -8,15 +8,15 @@
 namespace sterna::volmesh {
 namespace {
 
-VolumeMeshOptions thin_layers(const TriMesh& wall, int n = 12) {
-  VolumeMeshOptions options;
+MeshCase thin_layers(const TriMesh& wall, int n = 12) {
+  MeshCase options;
   options.envelope.layers = n;
   options.envelope.first_height = 1e-5 * body_length(wall);
   options.farfield.farfield_radius = 10.0 * body_length(wall);
   return options;
 }
 
-void expect_valid(const TriMesh& wall, const VolumeMeshOptions& options) {
+void expect_valid(const TriMesh& wall, const MeshCase& options) {
   const VolumeMeshResult result = volume_mesh(wall, options, RunContext({.threads = 2}));
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
   EXPECT_EQ(result.check.cells.prisms + result.check.cells.pyramids, static_cast<std::int64_t>(wall.n_triangles()) * options.envelope.layers);
@@ -58,7 +58,7 @@ TriMesh two_spheres() {
 
 TEST(VolumeMesh, BodiesApartHaveTheirOwnLayers) {
   const TriMesh wall = two_spheres();
-  VolumeMeshOptions options = thin_layers(wall, 12);
+  MeshCase options = thin_layers(wall, 12);
   options.patches = {{.names = "store", .layers = 5, .first_height = 1e-3}};
   const VolumeMeshResult result = volume_mesh(wall, options, RunContext({.threads = 2}));
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);

@@ -11,8 +11,8 @@
 namespace sterna::volmesh {
 namespace {
 
-VolumeMeshOptions with_splits(const TriMesh& wall) {
-  VolumeMeshOptions options;
+MeshCase with_splits(const TriMesh& wall) {
+  MeshCase options;
   options.envelope.layers = 8;
   options.envelope.first_height = 1e-4 * body_length(wall);
   options.farfield.farfield_radius = 5.0 * body_length(wall);
@@ -48,7 +48,7 @@ TriMesh cube_of_patches() {
 
 TEST(SplitLayer, NewVerticesOfASphereAreOnTheSphere) {
   const TriMesh wall = test::sphere(4);
-  VolumeMeshOptions options = with_splits(wall);
+  MeshCase options = with_splits(wall);
   options.sources.push_back({.kind = SourceKind::point, .from = {1.5, 0.1, 0.2}, .size = 0.1});  // the sphere's own triangles need no splits
   const Makers makers{
       .part_envelope = {}, .wall_envelope = {}, .true_surface = [](const Point& p, TriangleId, const std::array<double, 3>&) { return p / norm(p); }};

@@ -219,5 +219,26 @@ TEST_P(Nlopt, NothingMovesWhenAllIsCollapsed) {
 
 INSTANTIATE_TEST_SUITE_P(Solvers, Nlopt, testing::Values(NloptMethod::mma, NloptMethod::ccsaq));
 
+/// Heights that may not move: what the user allows is just what the first layers need.
+TEST(GlobalOptimisation, WithNothingToMoveTheEnvelopeStaysWithEachOptimiser) {
+  const TriMesh wall = test::cube(3);
+  for (const char* optimiser : {"mma", "ccsaq", "descent", "lbfgs"}) {
+    EnvelopeOptions options;
+    options.layers = 5;
+    options.first_height = 1e-2;
+    options.max_thickness = 1.02e-2;  // below 1.05 of max(h0, h_min)
+    options.optimiser = optimiser;
+    const LayerBase base(wall, k_context);
+    std::string log;
+    const RunContext telling({.threads = 2, .log = [&](LogLevel, std::string_view text) { log += std::string(text) + "\n"; }});
+    const Envelope envelope = build_envelope(base, options, telling);
+    for (const double h : envelope.height) {
+      EXPECT_GE(h, 0.0);
+      EXPECT_LE(h, 1.02e-2);
+    }
+    EXPECT_TRUE(invalid_macros(base, envelope, k_context).empty()) << optimiser;
+  }
+}
+
 }  // namespace
 }  // namespace sterna::volmesh

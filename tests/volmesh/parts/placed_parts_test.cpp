@@ -34,8 +34,8 @@ struct Scene {
     append(surface, moved);
     parts.push_back(std::move(part));
   }
-  VolumeMeshOptions options() const {
-    VolumeMeshOptions options;
+  MeshCase options() const {
+    MeshCase options;
     options.envelope.layers = 10;
     options.envelope.first_height = 1e-3;  // 0.07 m in all
     options.envelope.max_thickness = 0.1;
@@ -58,7 +58,7 @@ Scene body_at(const Transform& placement) {
 
 /// The envelope of the only part alone, as the driver asks for it.
 PartEnvelope alone(const Scene& scene, PartEnvelopeTask& task) {
-  const VolumeMeshOptions options = scene.options();
+  const MeshCase options = scene.options();
   PartEnvelope made;
   int n_calls = 0;
   Makers makers;
@@ -136,6 +136,43 @@ TEST(PlacedParts, WallsAroundThemHaveLayersToo) {
   EXPECT_GT(result.layer.coverage, 0.9);
 }
 
+/// A rule for the floor of the room that each column of what is asked shows in; one for each.
+PatchRule floor_rule(std::string_view column) {
+  PatchRule rule{.names = "z0"};
+  if (column == "layers") rule.layers = 7;
+  if (column == "first_height") rule.first_height = 2e-3;
+  if (column == "max_growth") rule.max_growth = 1.15;
+  if (column == "total_height") rule.total_height = 0.09;
+  if (column == "max_thickness") rule.max_thickness = 0.04;
+  return rule;
+}
+
+TEST(PlacedParts, WhatIsAskedOfWallsAroundThemIsAskedOfThemAsWithoutParts) {
+  for (const std::string_view column : {"layers", "first_height", "max_growth", "total_height", "max_thickness"}) {
+    Scene scene = body_at(k_pitch);
+    std::uint32_t n_floor = 0;
+    for (const PatchId p : scene.surface.patches.ids())
+      if (scene.surface.patches[p].name == "z0") scene.surface.patches[p].kind = PatchKind::wall;
+    MeshCase with_parts = scene.options(), without = with_parts;
+    with_parts.patches = without.patches = {floor_rule(column)};
+    without.parts.clear();
+    const RunContext context({.threads = 2});
+    const EnvelopeStage parts = make_envelope(scene.surface, with_parts, {}, context), whole = make_envelope(scene.surface, without, {}, context);
+    const EnvelopeStage plain = make_envelope(scene.surface, scene.options(), {}, context);
+    ASSERT_EQ(parts.envelope.target.size(), whole.envelope.target.size());
+    bool has_effect = column == "layers";  // which changes the body, too: all are asked for what their own patches say
+    for (const VertexId v : parts.envelope.target.ids()) {
+      if (v.index() >= parts.envelope.target.size() - scene.parts.front().own->n_vertices()) break;  // the body has its own frame
+      ++n_floor;
+      EXPECT_EQ(parts.envelope.target[v], whole.envelope.target[v]) << column << " at vertex " << v.value();
+      EXPECT_EQ(parts.envelope.eq1[v], whole.envelope.eq1[v]) << column << " at vertex " << v.value();
+      has_effect |= parts.envelope.target[v] != plain.envelope.target[v];
+    }
+    EXPECT_GT(n_floor, 0u);
+    EXPECT_TRUE(has_effect) << column;
+  }
+}
+
 TEST(PlacedParts, ThreadsDoNotMatter) {
   Scene scene = body_at(translation({0, 0, -2.0 + 0.5 + 0.06}) * rotation({}, {1, 0, 0}, 0.02));
   scene.add(test::sphere(6, 0.3), translation({0, 0, 0.5}) * k_pitch);
@@ -150,7 +187,7 @@ TEST(PlacedParts, ThreadsDoNotMatter) {
 TEST(PlacedParts, APartThatIsNotWhereItsPlacementSaysIsMeshedInPlace) {
   Scene scene = body_at(k_pitch);
   scene.surface.points[VertexId(scene.parts.front().first_vertex)].x += 1e-9;
-  const VolumeMeshOptions options = scene.options();
+  const MeshCase options = scene.options();
   bool is_called = false;
   Makers makers;
   makers.part_envelope = [&](const PartEnvelopeTask& asked, const RunContext& context) {

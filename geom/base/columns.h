@@ -1,0 +1,19 @@
+// Structs of columns visited by one list: `columns_of(s)` returns a tuple of references to all members, and everything that has to touch each of them goes through it.
+#pragma once
+
+#include <cstddef>
+#include <tuple>
+#include <utility>
+
+namespace sterna {
+
+/// Calls f(column of the first struct, that of the second, ...) for each column. `columns_of` is found beside the struct.
+template <class F, class... Structs>
+void for_each_column(const F& f, Structs&... structs) {
+  const auto lists = std::make_tuple(columns_of(structs)...);
+  constexpr std::size_t n = std::tuple_size_v<std::tuple_element_t<0, decltype(lists)>>;
+  const auto visit = [&]<std::size_t I>(std::integral_constant<std::size_t, I>) { std::apply([&](const auto&... list) { f(std::get<I>(list)...); }, lists); };
+  [&]<std::size_t... I>(std::index_sequence<I...>) { (visit(std::integral_constant<std::size_t, I>{}), ...); }(std::make_index_sequence<n>{});
+}
+
+}  // namespace sterna
