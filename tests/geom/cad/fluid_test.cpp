@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "cylinder.h"
+#include "face_names.h"
 #include "geom/model/components.h"
 #include "geom/model/deform.h"
 #include "geom/model/model_builder.h"
@@ -18,7 +19,8 @@
 namespace sterna {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
+using test::face_names;
 
 Model tunnel(double length = 4.0, double width = 2.0, double height = 2.0) { return make_test_section({.length = length, .width = width, .height = height}); }
 
@@ -26,12 +28,6 @@ double volume_of(const Model& model) {
   double volume = 0.0;
   for (const SolidId s : model.solids.ids()) volume += solid_measures(model, s).volume;
   return volume;
-}
-
-std::set<std::string> face_names(const Model& model) {
-  std::set<std::string> names;
-  for (const ModelFace& face : model.faces) names.insert(face.name);
-  return names;
 }
 
 /// Every edge is used twice, once in each direction: closed, and neighbours agree.

@@ -11,18 +11,12 @@
 #include "geom/base/error.h"
 #include "tests/geom/model/evaluator_checks.h"
 #include "tests/support/data.h"
+#include "tests/support/error_of.h"
 
 namespace sterna {
 namespace {
 
-std::string message_of(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
-}
+using test::message_of;
 
 /// Distances of the points of `a` from the polyline of `b`.
 std::vector<double> deviations(const Airfoil& a, const Airfoil& b) {

@@ -13,6 +13,7 @@
 #include "geom/model/model_measures.h"
 #include "geom/model/section_rows.h"
 #include "geom/model/smx.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 
 namespace sterna {
@@ -20,7 +21,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double k_degree = 0.017453292519943295;
+using test::k_degree;
 
 Wing straight_wing() {
   Wing wing{.name = "wing", .is_symmetric = true, .trailing_edge = 0.0};

@@ -16,12 +16,15 @@
 #include "geom/model/swept_surfaces.h"
 #include "geom/model/transformed.h"
 #include "tests/geom/model/evaluator_checks.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
+#include "tests/support/error_of.h"
 
 namespace sterna {
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
+using test::k_pi;
+using test::message_of;
 
 SurfacePtr bump() {
   PointGrid grid{7, 6, {}};
@@ -190,15 +193,6 @@ TEST(RadialMap, DerivativesAgainstDifferences) {
           2e-3);
     }
   }
-}
-
-std::string message_of(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
 }
 
 TEST(RadialMap, MistakesHaveTheirPlaceAndLine) {

@@ -11,11 +11,12 @@
 #include "geom/model/curves.h"
 #include "geom/model/spline.h"
 #include "geom/model/swept_surfaces.h"
+#include "tests/support/constants.h"
 
 namespace sterna {
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
+using test::k_pi;
 
 /// A tapered, twisted wing with a round leading edge and a sharp trailing edge, as sumo has it: u around the section, v along the span.
 SurfacePtr wing() {

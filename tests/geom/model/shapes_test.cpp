@@ -18,19 +18,19 @@ namespace {
 using std::numbers::pi;
 using testing::HasSubstr;
 
-void expect_closed(const Model& model) {
+void expect_no_opening(const Model& model) {
   EXPECT_TRUE(free_edges(model).empty());
   for (const SolidId s : model.solids.ids()) EXPECT_LT(solid_measures(model, s).open, 1e-9);
 }
 
 TEST(Shapes, box_and_cylinder_have_their_volumes) {
   const Model box = make_box("b", {-1.0, 2.0, 0.0}, {1.0, 5.0, 4.0});
-  expect_closed(box);
+  expect_no_opening(box);
   EXPECT_EQ(box.faces.size(), 6u);
   EXPECT_EQ(box.edges.size(), 12u);
   EXPECT_NEAR(solid_measures(box, SolidId(0)).volume, 24.0, 1e-12);
   const Model cylinder = make_cylinder("c", {1.0, 1.0, 1.0}, {3.0, 2.0, 3.0}, 0.5);
-  expect_closed(cylinder);
+  expect_no_opening(cylinder);
   EXPECT_NEAR(solid_measures(cylinder, SolidId(0)).volume, pi * 0.25 * 3.0, 1e-9);
   EXPECT_NEAR(solid_measures(cylinder, SolidId(0)).area, 2 * pi * 0.5 * 3.0 + 2 * pi * 0.25, 1e-9);
   EXPECT_THROW(make_box("flat", {0, 0, 0}, {1, 1, 0}), Error);
@@ -43,14 +43,14 @@ TEST(Shapes, a_test_section_holds_the_fluid_inside) {
   o.width = 2.1;
   o.height = 1.5;
   const Model plain = make_test_section(o);
-  expect_closed(plain);
+  expect_no_opening(plain);
   EXPECT_NEAR(solid_measures(plain, SolidId(0)).volume, -6.0 * 2.1 * 1.5, 1e-10);  // normals look inwards, into the fluid
   o.contraction_length = 2.0;
   o.contraction_ratio = 4.0;
   o.diffuser_length = 3.0;
   o.diffuser_angle = 0.05;
   const Model tunnel = make_test_section(o);
-  expect_closed(tunnel);
+  expect_no_opening(tunnel);
   double inflow = 0.0, outflow = 0.0;
   for (const FaceId f : tunnel.faces.ids()) {
     if (tunnel.faces[f].role == FaceRole::inflow) inflow += face_measures(tunnel, f).area;
@@ -81,7 +81,7 @@ TEST(Shapes, nacelle_and_pylon_join_a_wing) {
   n.diameter = 2.1;
   const Body nacelle = nacelle_body("engine", {3.0, 5.0, -2.0}, n);
   const Model model = make_body(nacelle, ComponentKind::nacelle);
-  expect_closed(model);
+  expect_no_opening(model);
   double fan = 0.0;
   for (const FaceId f : model.faces.ids())
     if (model.faces[f].role == FaceRole::fan_face) fan = face_measures(model, f).area;
@@ -97,7 +97,7 @@ TEST(Shapes, nacelle_and_pylon_join_a_wing) {
   EXPECT_NEAR(pylon.sections[1].leading_edge.x, 4.0 + 0.3 * 5.0 + 0.1 * 4.0, 1e-9);
   for (const WingSection& section : pylon.sections) EXPECT_NEAR(section.leading_edge.y, 5.0, 1e-12);
   const Model solid = make_wing(pylon);
-  expect_closed(solid);
+  expect_no_opening(solid);
   EXPECT_EQ(solid.components[ComponentId(0)].kind, ComponentKind::pylon);
   EXPECT_THROW(pylon_wing("pylon", wing, nacelle_body("far", {0.0, 50.0, 0.0}, n), {}), Error);
 }
@@ -106,7 +106,7 @@ double volume_of(const Model& model) { return solid_measures(model, SolidId(0)).
 
 Model valid(const Body& body) {
   const Model model = make_body(body, body.kind);
-  expect_closed(model);
+  expect_no_opening(model);
   for (const ErrorPlace& fault : cad::faults_of(*cad::shape_of(model, RunContext()))) ADD_FAILURE() << body.name << ": " << fault.what;
   return model;
 }

@@ -10,11 +10,12 @@
 #include "geom/model/spline.h"
 #include "geom/model/swept_surfaces.h"
 #include "tests/geom/model/evaluator_checks.h"
+#include "tests/support/constants.h"
 
 namespace sterna {
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
+using test::k_pi;
 const Frame k_frame = frame_along({0.3, -0.2, 1.0}, {1.0, 2.0, 0.5}, {0.0, 0.0, 1.0});
 
 std::vector<Point> wave(int n, double z) {

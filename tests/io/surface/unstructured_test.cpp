@@ -13,8 +13,6 @@ using Counts = std::map<std::string, int>;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 
-std::string small_text(const char* name) { return bytes_of(corpus() / "io" / name); }
-
 TEST(LegacyVtk, StripsPolygonsNamesAndAttributes) {
   const SurfaceSoup soup = read_surface(corpus() / "io" / "strips.vtk");
   // CELL_DATA counts lines, polygons, strips; marker 2 has a name, 3 has none.

@@ -4,12 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "geom/base/error.h"
+#include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 
 namespace sterna::volmesh {
 namespace {
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 VolumeMeshOptions options_for(const TriMesh& wall) {
   VolumeMeshOptions options;

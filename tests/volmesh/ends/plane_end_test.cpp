@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "geom/base/error.h"
+#include "tests/support/constants.h"
 #include "tests/volmesh/ends/end_cases.h"
 
 namespace sterna::volmesh {
@@ -9,7 +10,7 @@ namespace {
 
 using namespace test_ends;
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 const ConstraintPlane k_symmetry({0, 0, 0}, {0, 1, 0});
 
 /// Symmetrical aerofoil with a sharp trailing edge at (v = 1, u = 0), as a hole (clockwise in (u, v)), its leading edge finer; `n` points a side.

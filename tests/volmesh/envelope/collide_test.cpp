@@ -9,6 +9,7 @@
 
 #include "geom/base/error.h"
 #include "geom/math/intersect.h"
+#include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 #include "volmesh/envelope/certificate.h"
 #include "volmesh/envelope/initial.h"
@@ -18,7 +19,7 @@
 namespace sterna::volmesh {
 namespace {
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 /// Directions along the vertex normals, heights drawn from [0, tallest] with a few collapsed vertices: a tangle.
 EnvelopeShape tangle(const LayerBase& base, double tallest, unsigned seed) {
