@@ -12,6 +12,7 @@
 #include "geom/model/shapes.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "tests/support/constants.h"
+#include "tests/support/error_of.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -77,7 +78,7 @@ TEST(PlaceSizes, FunctionsMayJumpAndSamplesCount) {
   EXPECT_NEAR(mean_edge(mesh, [](const Point& p) { return p.z > 0.99 && distance(p, {5.0, 5.0, 1.0}) < 0.5; }), 0.5, 0.1);
   EXPECT_LT(mean_edge(mesh, [](const Point& p) { return distance(p, {9.0, 9.0, 1.0}) < 0.05; }), 0.035);
   asked.function = [](const Point&) { return -1.0; };
-  EXPECT_THROW(meshed(model, plain_edges(1.0), asked), Error);
+  test::expect_error(ErrorCode::bad_argument, "the function of sizes gives -1.000000 m", [&] { (void)meshed(model, plain_edges(1.0), asked); });
 }
 
 TEST(PlaceSizes, GapsHaveTheirCells) {
