@@ -64,11 +64,17 @@ TEST(FluidDomain, AStingThroughTheOutflowWallIsCutOffThere) {
     EXPECT_EQ(fluid.report.cut, std::vector<std::string>{"sting"});
     EXPECT_EQ(fluid.model.solids.size(), 1u);
     for (const ModelFace& face : fluid.model.faces) {
-      if (face.role == FaceRole::outflow) EXPECT_EQ(face.borders.size(), 2u);
-      if (face.role == FaceRole::inflow) EXPECT_EQ(face.borders.size(), 1u);
+      if (face.role == FaceRole::outflow) {
+        EXPECT_EQ(face.borders.size(), 2u);
+      }
+      if (face.role == FaceRole::inflow) {
+        EXPECT_EQ(face.borders.size(), 1u);
+      }
       const bool is_sting = fluid.model.components[face.component].name == "sting";
       EXPECT_EQ(patch_kind(face), face.role == FaceRole::inflow ? PatchKind::inflow : face.role == FaceRole::outflow ? PatchKind::outflow : PatchKind::wall);
-      if (is_sting) EXPECT_EQ(face.name, "sting");
+      if (is_sting) {
+        EXPECT_EQ(face.name, "sting");
+      }
     }
   }
 }

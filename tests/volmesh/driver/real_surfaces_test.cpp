@@ -105,7 +105,9 @@ TEST_P(RealSurface, GivesAValidMeshWithItsLayers) {
   EXPECT_NEAR(explained, 1.0, 1e-9);
   const OpenPlaces open = open_places_of(result.mesh);
   EXPECT_LE(open.low, k_low_without_hindrance);
-  if (GetParam().has_open_places) EXPECT_GE(open.share, k_enough_open);
+  if (GetParam().has_open_places) {
+    EXPECT_GE(open.share, k_enough_open);
+  }
   EXPECT_LE(result.layer.collapsed.size(), 3u);
 }
 

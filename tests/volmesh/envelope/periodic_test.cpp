@@ -82,7 +82,9 @@ TEST(Periodic, PartnersHaveTheNormalsAndEdgesOfAllTheirTriangles) {
     EXPECT_EQ(alike, (std::vector<VertexId>{a, b}));
   }
   for (const VertexId v : wall.points.ids()) {
-    if (base.group[v] == LayerBase::k_no_group) EXPECT_EQ(base.vertex_normal[v], alone.vertex_normal[v]);
+    if (base.group[v] == LayerBase::k_no_group) {
+      EXPECT_EQ(base.vertex_normal[v], alone.vertex_normal[v]);
+    }
   }
 }
 
