@@ -56,6 +56,14 @@ foreach(script ${scripts})
   set_tests_properties(script_${name} PROPERTIES TIMEOUT 300)
 endforeach()
 
+# The longest begin first (ctest -j2 would end with one of them alone): scripts whose meshes report_real_pages waits for, then executables that make whole meshes.
+foreach(name 01_first_mesh 07_aircraft_to_mesh 08_wind_tunnel 09_half_model)
+  set_tests_properties(script_${name} PROPERTIES COST 300)
+endforeach()
+set_tests_properties(report_page_browser PROPERTIES COST 250)
+set_tests_properties(report_real_pages PROPERTIES COST 200)
+set_tests_properties(test_volmesh_driver test_scripting_series test_scripting_gates test_scripting PROPERTIES COST 100)
+
 # Benchmarks: tests/bench/NAME_main.cpp -> NAME, built and run by hand.
 file(GLOB bench_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/bench/*_main.cpp)
 foreach(source ${bench_sources})

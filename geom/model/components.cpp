@@ -62,10 +62,17 @@ std::vector<Deflection> images_of(const std::vector<Deflection>& deflections, co
 }
 
 void check_wings(const Aircraft& aircraft) {
+  const auto names = [&] {
+    std::string text;
+    for (const Wing& wing : aircraft.wings) text += (text.empty() ? "one of '" : ", '") + wing.name + "'";
+    return text;
+  };
   for (const Deflection& d : aircraft.deflections)
     if (std::none_of(aircraft.wings.begin(), aircraft.wings.end(), [&](const Wing& wing) { return wing.name == d.surface.wing; }))
-      throw Error(
-          {.code = ErrorCode::bad_argument, .attempted = "deflecting '" + d.surface.name + "'", .problem = "there is no wing '" + d.surface.wing + "'"});
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "deflecting '" + d.surface.name + "'",
+                   .problem = "there is no wing '" + d.surface.wing + "'",
+                   .hint = names()});
 }
 
 }  // namespace

@@ -198,9 +198,10 @@ ScriptValue range_of(const ScriptValue& first, const ScriptValue& last, const Sc
   const auto number = [](const ScriptValue& value, const char* what) {
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
     if (const auto* real = std::get_if<double>(&value); real && std::isfinite(*real)) return *real;
+    const auto* infinite = std::get_if<double>(&value);
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "range",
-                 .problem = std::string(what) + ": expected a number, not " + std::string(type_text(value)),
+                 .problem = std::string(what) + ": expected a finite number, not " + (infinite ? number_text(*infinite) : std::string(type_text(value))),
                  .hint = "range(-4, 12, 2)"});
   };
   const bool has_step = !std::holds_alternative<std::monostate>(step);
@@ -209,7 +210,8 @@ ScriptValue range_of(const ScriptValue& first, const ScriptValue& last, const Sc
   if (n < 0.0)
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "range",
-                 .problem = "from " + number_text(from) + " to " + number_text(to) + " in steps of " + number_text(by) + " there is no value"});
+                 .problem = "from " + number_text(from) + " to " + number_text(to) + " in steps of " + number_text(by) + " there is no value",
+                 .hint = "a step towards the end: range(-4, 12, 2)"});
   if (n >= static_cast<double>(k_max_cases))
     throw Error({.code = ErrorCode::bad_argument, .attempted = "range", .problem = "more than " + std::to_string(k_max_cases) + " values"});
   const bool is_whole = std::holds_alternative<std::int64_t>(first) && (!has_step || std::holds_alternative<std::int64_t>(step));

@@ -11,6 +11,7 @@
 #include "scripting/pentagrow_config.h"
 #include "scripting/su2_config.h"
 #include "tests/scripting/script_fixture.h"
+#include "tests/support/error_of.h"
 #include "tests/support/process.h"
 #include "tests/support/shapes.h"
 #include "volmesh/volume_mesh.h"
@@ -273,7 +274,8 @@ TEST(Su2Config, half_models_count_half_the_area) {
   EXPECT_EQ(keys.at("MESH_FORMAT"), "CGNS");
   EXPECT_FALSE(keys.contains("MARKER_HEATFLUX"));
   EXPECT_THAT(log, HasSubstr("half of 30"));
-  EXPECT_THROW(su2_config(mesh, {.mesh = "a.su2", .beta = 0.1}, flow, {.area = 30.0}, {}, context), Error);
+  test::expect_error(ErrorCode::bad_argument, "a half model has no sideslip (beta)",
+                     [&] { (void)su2_config(mesh, {.mesh = "a.su2", .beta = 0.1}, flow, {.area = 30.0}, {}, context); });
 }
 
 TEST(Su2Config, tunnels_get_the_conditions_of_their_flow) {
@@ -285,14 +287,17 @@ TEST(Su2Config, tunnels_get_the_conditions_of_their_flow) {
   EXPECT_THAT(inlet, AllOf(HasSubstr("( inlet, 294.79"), HasSubstr(", 1, 0, 0 )")));  // into the box; T0 = T + V^2 / (2 cp)
   EXPECT_EQ(keys.at("INIT_OPTION"), "TD_CONDITIONS");
   EXPECT_EQ(keys.at("MARKER_HEATFLUX"), "( floor, 0.0 )");
-  EXPECT_THROW(su2_config(mesh, {.mesh = "a.su2", .solver = "RANS"}, flow, {.area = 1.0}, {}, RunContext()), Error);  // all walls are the tunnel's
+  test::expect_error(ErrorCode::bad_argument, "no wall is left whose forces count: name some with monitor", [&] {
+    (void)su2_config(mesh, {.mesh = "a.su2", .solver = "RANS"}, flow, {.area = 1.0}, {}, RunContext());
+  });  // all walls are the tunnel's
 }
 
 TEST(Su2Config, discs_need_what_they_do) {
   const HybridMesh mesh =
       box_mesh({{"prop", PatchKind::interface}, {"prop.back", PatchKind::interface}, {"body", PatchKind::wall}, {"far", PatchKind::farfield}});
   const volmesh::FlowState flow = volmesh::flow_state({.length = 1.0, .mach = 0.2, .altitude = 0.0});
-  EXPECT_THROW(su2_config(mesh, {.mesh = "a.su2"}, flow, {.area = 1.0}, {}, RunContext()), Error);
+  test::expect_error(ErrorCode::bad_argument, "what the actuator disc \"prop\" does cannot be known",
+                     [&] { (void)su2_config(mesh, {.mesh = "a.su2"}, flow, {.area = 1.0}, {}, RunContext()); });
   const auto keys = keys_of(su2_config(mesh, {.mesh = "a.su2"}, flow, {.area = 1.0}, {{"prop", {.thrust = 50.0}}}, RunContext()));
   EXPECT_EQ(keys.at("MARKER_ACTDISK"), "( prop, prop.back, 50, 0, 0, 50, 0, 0 )");
 }

@@ -7,6 +7,7 @@
 
 #include "geom/base/error.h"
 #include "tests/scripting/script_fixture.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 
 namespace sterna::scripting {
@@ -17,7 +18,7 @@ using testing::HasSubstr;
 
 class GeometryScripts : public ScriptFixture {};
 
-constexpr double k_pi = std::numbers::pi;
+using test::k_pi;
 /// Volumes and areas of exact shapes: what the quadrature promises, with room for rounding.
 constexpr double k_exact = 1e-8;
 

@@ -6,6 +6,7 @@
 #include "scripting/model_surface.h"
 #include "scripting/surface_motion.h"
 #include "tests/scripting/script_fixture.h"
+#include "tests/support/constants.h"
 
 namespace sterna::scripting {
 namespace {
@@ -15,7 +16,7 @@ using testing::Not;
 
 class PartScripts : public ScriptFixture {};
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 const Transform k_turn = rotation({0.3, 0, 0}, {0, 1, 0}, -0.07);
 
 ModelValue rod() {

@@ -7,6 +7,7 @@
 
 #include "geom/base/error.h"
 #include "tests/scripting/script_fixture.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 
 namespace sterna::scripting {
@@ -17,7 +18,7 @@ using testing::HasSubstr;
 
 class TunnelScripts : public ScriptFixture {};
 
-constexpr double k_pi = std::numbers::pi;
+using test::k_pi;
 
 /// A body on a sting that leaves a section of 4 x 2 x 2 m through its outflow plane.
 const std::string k_parts =

@@ -14,7 +14,7 @@ namespace {
 constexpr int k_wing_points = 20;  ///< along the chord, on each side
 constexpr int k_wing_sections = 6;
 
-void add_triangle(TriMesh& mesh, VertexId a, VertexId b, VertexId c) {
+void add_wall_triangle(TriMesh& mesh, VertexId a, VertexId b, VertexId c) {
   mesh.triangles.push_back({a, b, c});
   mesh.triangle_patch.push_back(PatchId(0));
 }
@@ -49,8 +49,8 @@ TriMesh boxes(const std::set<std::tuple<int, int, int>>& filled) {
           return at(p);
         };
         const VertexId a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
-        if (side == 1) add_triangle(mesh, a, b, c), add_triangle(mesh, a, c, d);
-        else add_triangle(mesh, a, c, b), add_triangle(mesh, a, d, c);
+        if (side == 1) add_wall_triangle(mesh, a, b, c), add_wall_triangle(mesh, a, c, d);
+        else add_wall_triangle(mesh, a, c, b), add_wall_triangle(mesh, a, d, c);
       }
     }
   }
@@ -82,15 +82,15 @@ TriMesh straight_wing(double thickness) {
   const auto at = [&](int s, int i) { return VertexId(s * m + i % m); };
   for (int s = 0; s < k_wing_sections; ++s)
     for (int i = 0; i < m; ++i) {
-      add_triangle(mesh, at(s, i), at(s + 1, i + 1), at(s, i + 1));
-      add_triangle(mesh, at(s, i), at(s + 1, i), at(s + 1, i + 1));
+      add_wall_triangle(mesh, at(s, i), at(s + 1, i + 1), at(s, i + 1));
+      add_wall_triangle(mesh, at(s, i), at(s + 1, i), at(s + 1, i + 1));
     }
   // Flat ends: strips between the upper side's point i and the lower side's.
   const auto below = [&](int i) { return 2 * k_wing_points - i; };
   for (const int s : {0, k_wing_sections}) {
     const auto cap = [&](int i, int j, int k) {
-      if (s == 0) add_triangle(mesh, at(s, i), at(s, j), at(s, k));
-      else add_triangle(mesh, at(s, i), at(s, k), at(s, j));
+      if (s == 0) add_wall_triangle(mesh, at(s, i), at(s, j), at(s, k));
+      else add_wall_triangle(mesh, at(s, i), at(s, k), at(s, j));
     };
     for (int i = 0; i < k_wing_points; ++i) {
       if (below(i + 1) != i + 1) cap(i, i + 1, below(i + 1));
@@ -126,12 +126,12 @@ TriMesh creased_disk() {
   const VertexId bottom = mesh.points.push_back({0, 0, -1});
   const auto at = [&](int ring, int i) { return VertexId(1 + ring * n + i % n); };
   for (int i = 0; i < n; ++i) {
-    add_triangle(mesh, centre, at(0, i), at(0, i + 1));
+    add_wall_triangle(mesh, centre, at(0, i), at(0, i + 1));
     for (int ring = 0; ring < 2; ++ring) {
-      add_triangle(mesh, at(ring, i), at(ring + 1, i), at(ring + 1, i + 1));
-      add_triangle(mesh, at(ring, i), at(ring + 1, i + 1), at(ring, i + 1));
+      add_wall_triangle(mesh, at(ring, i), at(ring + 1, i), at(ring + 1, i + 1));
+      add_wall_triangle(mesh, at(ring, i), at(ring + 1, i + 1), at(ring, i + 1));
     }
-    add_triangle(mesh, at(2, i), bottom, at(2, i + 1));
+    add_wall_triangle(mesh, at(2, i), bottom, at(2, i + 1));
   }
   return mesh;
 }
@@ -150,12 +150,12 @@ TriMesh cone(double half_angle, int n) {
   const VertexId base = mesh.points.push_back({0, 0, 0});
   const auto at = [&](int ring, int i) { return VertexId(1 + (ring - 1) * n + i % n); };
   for (int i = 0; i < n; ++i) {
-    add_triangle(mesh, tip, at(1, i), at(1, i + 1));
+    add_wall_triangle(mesh, tip, at(1, i), at(1, i + 1));
     for (int ring = 1; ring < k_rings; ++ring) {
-      add_triangle(mesh, at(ring, i), at(ring + 1, i), at(ring + 1, i + 1));
-      add_triangle(mesh, at(ring, i), at(ring + 1, i + 1), at(ring, i + 1));
+      add_wall_triangle(mesh, at(ring, i), at(ring + 1, i), at(ring + 1, i + 1));
+      add_wall_triangle(mesh, at(ring, i), at(ring + 1, i + 1), at(ring, i + 1));
     }
-    add_triangle(mesh, at(k_rings, i), base, at(k_rings, i + 1));
+    add_wall_triangle(mesh, at(k_rings, i), base, at(k_rings, i + 1));
   }
   return mesh;
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "geom/base/error.h"
 
 namespace sterna::test {
@@ -23,6 +25,29 @@ Error error_of(const Run& run) {
 template <class Run>
 ErrorInfo error_info_of(const Run& run) {
   return error_of(run).info();
+}
+
+/// What the error says; "" when nothing was thrown.
+template <class Run>
+std::string message_of(const Run& run) {
+  try {
+    run();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Runs f, which must throw an Error of that code whose text contains `text`.
+template <class F>
+void expect_error(ErrorCode code, const std::string& text, const F& f) {
+  try {
+    f();
+    ADD_FAILURE() << "no error, expected " << to_string(code) << ": " << text;
+  } catch (const Error& error) {
+    EXPECT_EQ(to_string(error.code()), to_string(code)) << error.what();
+    EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace sterna::test

@@ -7,11 +7,10 @@
 #include "geom/model/analytic_surfaces.h"
 #include "geom/model/spline.h"
 #include "surfmesh/face/face_sizes.h"
+#include "tests/support/constants.h"
 
 namespace sterna::test {
 namespace {
-
-constexpr double k_pi = std::numbers::pi;
 
 /// t in `to` = t.from + length * ((s + e)^power - e^power) / ((1 + e)^power - e^power), s in [0, 1] the share of the way in `from`; e keeps speeds finite for
 /// powers below one.

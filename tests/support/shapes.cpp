@@ -3,6 +3,8 @@
 #include <map>
 #include <tuple>
 
+#include "geom/math/measures.h"
+
 namespace sterna::test {
 namespace {
 
@@ -80,6 +82,12 @@ TriMesh sphere(int f, double radius) {
     }
   }
   return mesh;
+}
+
+double volume_of(const TriMesh& mesh) {
+  double sum = 0.0;
+  for (const TriangleVertices& v : mesh.triangles) sum += tet_volume(mesh.points[VertexId(0)], mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
+  return sum;
 }
 
 }  // namespace sterna::test

@@ -10,4 +10,7 @@ TriMesh cube(int n = 1);
 /// Icosahedral sphere, 20 f^2 triangles, radius about the origin, normals outward, one patch "sphere".
 TriMesh sphere(int f, double radius = 1.0);
 
+/// Enclosed volume, positive when the normals point outward, m^3.
+double volume_of(const TriMesh& mesh);
+
 }  // namespace sterna::test

@@ -9,15 +9,17 @@
 #include "geom/mesh/topology.h"
 #include "io/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 
 namespace sterna {
 namespace {
 
-const RunContext k_run{};
+using test::k_context;
 
 TriMesh read(const char* file) {
-  return surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces" / "clean" / file, k_run)}, {.check_intersections = false}, k_run)
+  return surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces" / "clean" / file, k_context)}, {.check_intersections = false},
+                                  k_context)
       .mesh;
 }
 
@@ -40,7 +42,7 @@ Sizes sizes_of(const TriMesh& mesh, double at) {
 }
 
 void expect_rim(const TriMesh& half, double at) {
-  const Topology topology(half, k_run);
+  const Topology topology(half, k_context);
   std::vector<int> n_from(half.n_vertices(), 0), n_to(half.n_vertices(), 0);
   std::size_t n_off = 0;
   for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
@@ -76,7 +78,7 @@ Missing cut_in_two(const TriMesh& full, const HalfOptions& options) {
   for (const char* keep : {"+", "-"}) {
     HalfOptions of_side = options;
     of_side.keep = keep;
-    const TriMesh half = half_of(full, of_side, k_run);
+    const TriMesh half = half_of(full, of_side, k_context);
     expect_rim(half, options.at);
     const Sizes sizes = sizes_of(half, options.at);
     missing.area += sizes.area / whole.area;
@@ -110,11 +112,11 @@ TEST(HalfOfRealSurfaces, OfSymmetricTriangulationsCutsNothing) {
   for (const char* file : {"dlr_f6_184k.stl", "derived_crm_wb_dpw_coarse_full.off", "flowpanel_cessna_cessna.msh", "meshpy_ka6d_ka-6d.ply"}) {
     SCOPED_TRACE(file);
     const TriMesh full = read(file);
-    const TriMesh half = half_of(full, {}, k_run);
+    const TriMesh half = half_of(full, {}, k_context);
     EXPECT_EQ(2 * half.n_triangles(), full.n_triangles());
     EXPECT_NEAR(sizes_of(half, 0.0).area / sizes_of(full, 0.0).area, 0.5, 1e-9);
     EXPECT_NEAR(sizes_of(half, 0.0).volume / sizes_of(full, 0.0).volume, 0.5, 1e-9);
-    const TriMesh again = half_of(half, {}, k_run);
+    const TriMesh again = half_of(half, {}, k_context);
     EXPECT_EQ(again.points.raw(), half.points.raw());
     EXPECT_EQ(again.triangles.raw(), half.triangles.raw());
   }

@@ -27,7 +27,9 @@ constexpr std::array<FrictionLaw, 6> k_laws = {{
 const FrictionLaw& law_of(const std::string& name) {
   for (const FrictionLaw& law : k_laws)
     if (law.name == name) return law;
-  throw Error({.code = ErrorCode::bad_argument, .attempted = "finding the skin friction", .problem = "there is no law \"" + name + "\""});
+  std::string names;
+  for (const FrictionLaw& law : k_laws) names += (names.empty() ? "one of " : ", ") + std::string(law.name);
+  throw Error({.code = ErrorCode::bad_argument, .attempted = "finding the skin friction", .problem = "there is no law \"" + name + "\"", .hint = names});
 }
 
 void require_turbulent(double reynolds) {

@@ -9,6 +9,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
+#include "tests/support/error_of.h"
 
 namespace sterna {
 namespace {
@@ -41,7 +42,7 @@ TEST(Alongside, LeavesOneThreadToTheCaller) {
 
 TEST(Alongside, ThrowsWhatTheWorkHasThrown) {
   Alongside<int> work(RunContext({.threads = 2}), [](const RunContext&) -> int { throw Error({.code = ErrorCode::bad_argument, .problem = "as wanted"}); });
-  EXPECT_THROW(work.take(), Error);
+  test::expect_error(ErrorCode::bad_argument, "as wanted", [&] { (void)work.take(); });
 }
 
 TEST(Alongside, IsStoppedWhenItIsNotWanted) {

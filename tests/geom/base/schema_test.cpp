@@ -2,6 +2,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/schema.h"
+#include "tests/support/error_of.h"
 #include "volmesh/case/envelope_options.h"
 #include "volmesh/volume_mesh.h"
 
@@ -73,7 +74,7 @@ TEST(Schema, AUnitOfAnotherDimensionIsAnError) {
 
 TEST(Schema, RequiredOptionsAreNamedWhenMissing) {
   EnvelopeOptions options;
-  EXPECT_THROW(require_options(options_of(options), "volume_mesh"), Error);
+  test::expect_error(ErrorCode::bad_argument, "volume_mesh: needs first_height", [&] { (void)require_options(options_of(options), "volume_mesh"); });
   options.first_height = 1e-6;
   EXPECT_NO_THROW(require_options(options_of(options), "volume_mesh"));
 }

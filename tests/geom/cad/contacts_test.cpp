@@ -14,7 +14,7 @@
 namespace sterna {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A round body along x with a blunt front and a domed end.
 Model tube(const std::string& name, double radius, const Placement& placement = {}) {

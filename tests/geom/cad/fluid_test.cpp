@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "cylinder.h"
+#include "face_names.h"
 #include "geom/model/components.h"
 #include "geom/model/deform.h"
 #include "geom/model/model_builder.h"
@@ -18,7 +19,8 @@
 namespace sterna {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
+using test::face_names;
 
 Model tunnel(double length = 4.0, double width = 2.0, double height = 2.0) { return make_test_section({.length = length, .width = width, .height = height}); }
 
@@ -26,12 +28,6 @@ double volume_of(const Model& model) {
   double volume = 0.0;
   for (const SolidId s : model.solids.ids()) volume += solid_measures(model, s).volume;
   return volume;
-}
-
-std::set<std::string> face_names(const Model& model) {
-  std::set<std::string> names;
-  for (const ModelFace& face : model.faces) names.insert(face.name);
-  return names;
 }
 
 /// Every edge is used twice, once in each direction: closed, and neighbours agree.
@@ -68,11 +64,17 @@ TEST(FluidDomain, AStingThroughTheOutflowWallIsCutOffThere) {
     EXPECT_EQ(fluid.report.cut, std::vector<std::string>{"sting"});
     EXPECT_EQ(fluid.model.solids.size(), 1u);
     for (const ModelFace& face : fluid.model.faces) {
-      if (face.role == FaceRole::outflow) EXPECT_EQ(face.borders.size(), 2u);
-      if (face.role == FaceRole::inflow) EXPECT_EQ(face.borders.size(), 1u);
+      if (face.role == FaceRole::outflow) {
+        EXPECT_EQ(face.borders.size(), 2u);
+      }
+      if (face.role == FaceRole::inflow) {
+        EXPECT_EQ(face.borders.size(), 1u);
+      }
       const bool is_sting = fluid.model.components[face.component].name == "sting";
       EXPECT_EQ(patch_kind(face), face.role == FaceRole::inflow ? PatchKind::inflow : face.role == FaceRole::outflow ? PatchKind::outflow : PatchKind::wall);
-      if (is_sting) EXPECT_EQ(face.name, "sting");
+      if (is_sting) {
+        EXPECT_EQ(face.name, "sting");
+      }
     }
   }
 }

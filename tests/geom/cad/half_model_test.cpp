@@ -18,7 +18,7 @@
 namespace sterna {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double area_of(const Model& model) {
   double area = 0.0;

@@ -43,7 +43,7 @@ TEST(OtherReader, GmshReadsTheSolidWithItsMeasuresAndNames) {
     const auto path = test::scratch() / (std::string("can.") + extension);
     io::write_cad(test::cylinder(r, h), path, {}, RunContext());
     const std::optional<std::string> output = read_with_gmsh(path);
-    if (!output) GTEST_SKIP() << "python3-gmsh is not installed (tools/packages-test.txt)";
+    STERNA_NEEDS(output, "python3-gmsh (tools/packages-test.txt)");
     const std::size_t at = output->find("result ");
     ASSERT_NE(at, std::string::npos) << *output;
     std::istringstream line(output->substr(at + std::string("result ").size()));

@@ -14,7 +14,7 @@
 namespace sterna {
 namespace {
 
-CadFile read(const std::string& name, const ReadCadOptions& options = {}) { return io::read_cad(test::corpus() / "cad" / name, options, RunContext()); }
+CadFile read_small(const std::string& name, const ReadCadOptions& options = {}) { return io::read_cad(test::corpus() / "cad" / name, options, RunContext()); }
 
 std::size_t count(const CadReport& report, const std::string& what) {
   return static_cast<std::size_t>(std::count_if(report.mended.begin(), report.mended.end(), [&](const CadMend& mend) { return mend.what == what; }));
@@ -23,7 +23,7 @@ std::size_t count(const CadReport& report, const std::string& what) {
 double volume(const CadFile& file) { return model_measures(file.model, RunContext()).total.volume; }
 
 TEST(SmallCadCases, AGapIsSewn) {
-  const CadFile file = read("box_gap.brep");
+  const CadFile file = read_small("box_gap.brep");
   EXPECT_TRUE(file.report.is_closed()) << to_text(file.report);
   EXPECT_TRUE(file.report.faults.empty());
   EXPECT_EQ(count(file.report, "edges of two faces joined"), 12u);
@@ -31,14 +31,14 @@ TEST(SmallCadCases, AGapIsSewn) {
   // A tolerance below the gap leaves it, in the open and with its place.
   ReadCadOptions options;
   options.sew_tolerance = 1e-6;
-  const CadFile open = read("box_gap.brep", options);
+  const CadFile open = read_small("box_gap.brep", options);
   EXPECT_FALSE(open.report.is_closed());
   ASSERT_EQ(open.report.free_edges.size(), 8u);
   for (const CadFreeEdge& edge : open.report.free_edges) EXPECT_NEAR(edge.place.x, 0.0, 5e-6);
 }
 
 TEST(SmallCadCases, ADoubledFaceGoes) {
-  const CadFile file = read("box_doubled_face.brep");
+  const CadFile file = read_small("box_doubled_face.brep");
   EXPECT_TRUE(file.report.is_closed());
   EXPECT_EQ(file.report.n_faces, 6u);
   EXPECT_EQ(count(file.report, "doubled face removed"), 1u);
@@ -46,13 +46,13 @@ TEST(SmallCadCases, ADoubledFaceGoes) {
 }
 
 TEST(SmallCadCases, InsideOutIsTurned) {
-  const CadFile file = read("box_inside_out.brep");
+  const CadFile file = read_small("box_inside_out.brep");
   EXPECT_EQ(count(file.report, "solid turned right side out"), 1u);
   EXPECT_NEAR(volume(file), 1.0, 1e-12);
 }
 
 TEST(SmallCadCases, AnOpeningIsToldAndCapped) {
-  const CadFile open = read("box_open.iges");
+  const CadFile open = read_small("box_open.iges");
   EXPECT_NEAR(open.report.unit, 0.0254, 1e-12);
   EXPECT_FALSE(open.report.is_closed());
   ASSERT_EQ(open.report.openings.size(), 1u);
@@ -66,7 +66,7 @@ TEST(SmallCadCases, AnOpeningIsToldAndCapped) {
 
   ReadCadOptions options;
   options.cap = true;
-  const CadFile capped = read("box_open.iges", options);
+  const CadFile capped = read_small("box_open.iges", options);
   EXPECT_TRUE(capped.report.is_closed()) << to_text(capped.report);
   EXPECT_TRUE(capped.report.faults.empty());
   EXPECT_EQ(capped.report.n_faces, 6u);
@@ -75,7 +75,7 @@ TEST(SmallCadCases, AnOpeningIsToldAndCapped) {
 }
 
 TEST(SmallCadCases, EdgesThatShareTheirEndsAreOne) {
-  const CadFile file = read("edges_apart.brep");
+  const CadFile file = read_small("edges_apart.brep");
   EXPECT_EQ(count(file.report, "edges of two faces joined"), 1u);
   EXPECT_EQ(file.report.free_edges.size(), 6u);
   ASSERT_EQ(file.report.openings.size(), 1u);
@@ -85,7 +85,7 @@ TEST(SmallCadCases, EdgesThatShareTheirEndsAreOne) {
 }
 
 TEST(SmallCadCases, MillimetresBecomeMetres) {
-  const CadFile file = read("box_mm.step");
+  const CadFile file = read_small("box_mm.step");
   EXPECT_EQ(file.report.file_unit, "millimetre");
   EXPECT_NEAR(volume(file), 0.4 * 0.2 * 0.1, 1e-12);
   EXPECT_EQ(file.model.components[ComponentId(0)].name, "block 1");  // OpenCASCADE numbers the products that it writes
@@ -128,7 +128,7 @@ TEST(SmallCadCases, MendingKeepsTheVolumeOfAThinWing) {
 }
 
 TEST(SmallCadCases, AnAssemblyKeepsInstancesNamesAndColours) {
-  const CadFile file = read("tail_assembly.step");
+  const CadFile file = read_small("tail_assembly.step");
   EXPECT_TRUE(file.report.is_closed());
   std::vector<std::string> components;
   for (const Component& component : file.model.components) components.push_back(component.name);
@@ -147,7 +147,7 @@ TEST(SmallCadCases, TheTimeLimitIsHonoured) {
   ReadCadOptions options;
   options.time_limit = 1e-9;
   try {
-    read("tail_assembly.step", options);
+    read_small("tail_assembly.step", options);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::geometry_failed);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cylinder.h"
+#include "face_names.h"
 #include "geom/cad/read_cad.h"
 #include "geom/cad/write_cad.h"
 #include "geom/model/components.h"
@@ -18,11 +19,7 @@
 namespace sterna {
 namespace {
 
-std::set<std::string> face_names(const Model& model) {
-  std::set<std::string> names;
-  for (const ModelFace& face : model.faces) names.insert(face.name);
-  return names;
-}
+using test::face_names;
 
 TEST(SplitSolids, EachPartHasItsOwnFacesAndComponentsAlone) {
   Model both = test::cylinder(1.0, 2.0, {}, "low");

@@ -8,7 +8,7 @@
 namespace sterna {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 TEST(Unite, CylindersThatOverlapAreOneBodyOfKnownVolume) {
   std::vector<Model> parts = {test::cylinder(1.0, 2.0, {}, "thick"), test::cylinder(0.5, 2.0, {0, 0, 1}, "thin")};

@@ -11,11 +11,12 @@
 #include "geom/base/error.h"
 #include "geom/delaunay/check_triangulation.h"
 #include "geom/delaunay/insertion_order.h"
+#include "tests/support/constants.h"
 
 namespace sterna::delaunay {
 namespace {
 
-const RunContext k_context{};
+using test::k_context;
 
 std::vector<Vec2> random_points(std::size_t n, std::uint64_t seed) {
   std::mt19937_64 random(seed);

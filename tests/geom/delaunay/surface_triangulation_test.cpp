@@ -12,12 +12,13 @@
 #include "geom/delaunay/refine.h"
 #include "geom/delaunay/renumber.h"
 #include "geom/math/measures.h"
+#include "tests/support/constants.h"
 
 namespace sterna::delaunay {
 namespace {
 
-const RunContext k_context{};
-constexpr double k_pi = std::numbers::pi;
+using test::k_context;
+using test::k_pi;
 
 /// A wave z = 0.2 sin(3 u) sin(3 v) over the plane, u and v scaled badly: x = u / 1000, y = 1000 v.
 SurfaceSample wave(Uv at) {

@@ -13,6 +13,7 @@
 #include "geom/draw/colours.h"
 #include "geom/draw/legend.h"
 #include "geom/mesh/surface_fields.h"
+#include "tests/support/constants.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/shapes.h"
 
@@ -24,7 +25,7 @@ using draw::Image;
 using draw::Rgb;
 using testing::HasSubstr;
 
-const RunContext k_run{};
+using test::k_context;
 
 Image decoded(const std::string& png) {
   struct Reader {
@@ -101,7 +102,7 @@ TEST(Draw, ACubeFromEachSideShowsThatSide) {
   const std::map<std::string, std::size_t> seen = {{"front", 0}, {"back", 1}, {"left", 2}, {"right", 3}, {"bottom", 4}, {"top", 5}};
   for (const auto& [view, patch] : seen) {
     options.view = view;
-    const Image image = decoded(draw_png(mesh, options, "", {}, k_run));
+    const Image image = decoded(draw_png(mesh, options, "", {}, k_context));
     const Rgb base = draw::patch_color(patch), middle = image.at(100, 100);
     // Lit by the same light from every side: the patch's colour, brighter or darker by one factor.
     EXPECT_NEAR(static_cast<double>(middle.r) / base.r, static_cast<double>(middle.g) / base.g, 0.02) << view;
@@ -114,7 +115,7 @@ TEST(Draw, ACubeFromEachSideShowsThatSide) {
 TEST(Draw, IsoShowsThreeSidesOfACube) {
   DrawOptions options = bare();
   options.patches = "*";
-  const Image image = decoded(draw_png(cube_of_patches(), options, "", {}, k_run));
+  const Image image = decoded(draw_png(cube_of_patches(), options, "", {}, k_context));
   // From ahead, left and above: x_min at the left, y_min at the right, z_max at the top.
   const auto is_shade_of = [](Rgb pixel, std::size_t patch) {
     const Rgb base = draw::patch_color(patch);
@@ -131,21 +132,21 @@ TEST(Draw, PatchesThatAreNotNamedAreNotShown) {
   DrawOptions options = bare();
   options.view = "bottom";
   options.patches = "x_* y_*";
-  EXPECT_EQ(decoded(draw_png(mesh, options, "", {}, k_run)).at(60, 60), decoded(draw_png(mesh, options, "", {}, k_run)).at(60, 60));
+  EXPECT_EQ(decoded(draw_png(mesh, options, "", {}, k_context)).at(60, 60), decoded(draw_png(mesh, options, "", {}, k_context)).at(60, 60));
   options.view = "top";
   options.patches = "z_min";
-  const Image bottom = decoded(draw_png(mesh, options, "", {}, k_run));
+  const Image bottom = decoded(draw_png(mesh, options, "", {}, k_context));
   EXPECT_EQ(colors_of(bottom).size(), 2u);  // one patch, lit one way, and the paper
   options.patches = "automatic";            // walls: z_max is one, z_min is not
   options.view = "bottom";
-  const Image walls = decoded(draw_png(mesh, options, "", {}, k_run));
+  const Image walls = decoded(draw_png(mesh, options, "", {}, k_context));
   EXPECT_NE(walls.at(100, 100), decoded(draw_png(
                                             mesh,
                                             [&] {
                                               options.patches = "*";
                                               return options;
                                             }(),
-                                            "", {}, k_run))
+                                            "", {}, k_context))
                                     .at(100, 100));
 }
 
@@ -155,7 +156,7 @@ TEST(Draw, ACutOfAPlateShowsPrismsBelowTetrahedra) {
   options.cut = "y=0.55";
   options.focus = "0.5,0.55,0.5 radius=0.5";
   options.patches = "none";
-  const Image image = decoded(draw_png(mesh, options, "", {}, k_run));
+  const Image image = decoded(draw_png(mesh, options, "", {}, k_context));
   const Rgb prism = draw::kind_color(CellKind::prism), tet = draw::kind_color(CellKind::tetrahedron);
   EXPECT_EQ(image.at(100, 150), prism);
   EXPECT_EQ(image.at(30, 180), prism);
@@ -167,7 +168,7 @@ TEST(Draw, WallsInFrontOfACutAreCutOff) {
   const HybridMesh mesh = cube_shell(4, {.layer_height = 0.1, .outer_height = 0.5});
   DrawOptions options = bare();
   options.cut = "point=0.5,0.5,0.5 normal=0,1,0";
-  const Image image = decoded(draw_png(mesh, options, "", {}, k_run));
+  const Image image = decoded(draw_png(mesh, options, "", {}, k_context));
   EXPECT_EQ(colors_of(image).count({draw::kind_color(CellKind::prism).r, draw::kind_color(CellKind::prism).g, draw::kind_color(CellKind::prism).b}), 1u);
   // In the middle is the body: the inside of its far wall, lit from the front.
   const Rgb middle = image.at(100, 100);
@@ -185,7 +186,7 @@ TEST(Draw, EveryViewColourAndPlaceOfASmallMesh) {
     for (const char* view : {"automatic", "iso", "front", "back", "left", "right", "top", "bottom", "225 30", "-1,-1,0.5"}) {
       options.projection = projection;
       options.view = view;
-      const Image image = decoded(draw_png(mesh, options, "sphere", {}, k_run));
+      const Image image = decoded(draw_png(mesh, options, "sphere", {}, k_context));
       EXPECT_EQ(image.width, 320);
       EXPECT_EQ(image.height, 200);
       EXPECT_GT(colors_of(image).size(), 50u) << view;
@@ -198,11 +199,11 @@ TEST(Draw, EveryViewColourAndPlaceOfASmallMesh) {
     for (const std::string& color : colors) {
       options.cut = cut;
       options.color = color;
-      EXPECT_GT(colors_of(decoded(draw_png(mesh, options, "", {}, k_run))).size(), 20u) << cut << " " << color;
+      EXPECT_GT(colors_of(decoded(draw_png(mesh, options, "", {}, k_context))).size(), 20u) << cut << " " << color;
     }
   for (const char* color : {"volume", "layer"}) {
     options.color = color;
-    EXPECT_GT(colors_of(decoded(draw_png(mesh, options, "", {}, k_run))).size(), 20u) << color;
+    EXPECT_GT(colors_of(decoded(draw_png(mesh, options, "", {}, k_context))).size(), 20u) << color;
   }
 }
 
@@ -223,9 +224,9 @@ TEST(Draw, BytesAreTheSameForAnyNumberOfThreads) {
 TEST(Draw, LegendTitleAndMarks) {
   const HybridMesh mesh = sphere_shell(3);
   DrawOptions options = bare();
-  const Image without = decoded(draw_png(mesh, options, "", {}, k_run));
+  const Image without = decoded(draw_png(mesh, options, "", {}, k_context));
   options.legend = true;
-  const Image with = decoded(draw_png(mesh, options, "", {}, k_run));
+  const Image with = decoded(draw_png(mesh, options, "", {}, k_context));
   const auto in_panel = [](const Image& image) {
     std::size_t n = 0;
     for (int y = 0; y < 18; ++y)
@@ -234,7 +235,7 @@ TEST(Draw, LegendTitleAndMarks) {
   };
   EXPECT_GT(in_panel(with), in_panel(without) + 20);
   options.color = "edge_length";
-  const Image bar = decoded(draw_png(mesh, options, "", {}, k_run));
+  const Image bar = decoded(draw_png(mesh, options, "", {}, k_context));
   const auto most_colors_in_a_column = [](const Image& image) {  // of those at the right
     std::size_t most = 0;
     for (int x = image.width / 2; x < image.width; ++x) {
@@ -246,20 +247,20 @@ TEST(Draw, LegendTitleAndMarks) {
   };
   EXPECT_GT(most_colors_in_a_column(bar), most_colors_in_a_column(with) + 20);  // the bar: a colour for each of its rows
   options.title = "a title";
-  EXPECT_NE(decoded(draw_png(mesh, options, "", {}, k_run)).pixels, bar.pixels);
+  EXPECT_NE(decoded(draw_png(mesh, options, "", {}, k_context)).pixels, bar.pixels);
   options.places = true;
   const std::vector<DrawMark> marks = {{{0, -1, 0}, "here"}};
   options.view = "left";
-  EXPECT_GT(count(decoded(draw_png(mesh, options, "", marks, k_run)), draw::k_mark_color), 3u);
+  EXPECT_GT(count(decoded(draw_png(mesh, options, "", marks, k_context)), draw::k_mark_color), 3u);
   options.places = false;
-  EXPECT_EQ(count(decoded(draw_png(mesh, options, "", marks, k_run)), draw::k_mark_color), 0u);
+  EXPECT_EQ(count(decoded(draw_png(mesh, options, "", marks, k_context)), draw::k_mark_color), 0u);
 }
 
 TEST(Draw, MarksAreWhatTheCheckFound) {
   HybridMesh mesh = plate_block(3);
-  const std::vector<DrawMark> good = marks_of(check(mesh, {}, k_run));
+  const std::vector<DrawMark> good = marks_of(check(mesh, {}, k_context));
   mesh.points[mesh.layers.top(5)].z = -0.2;  // folded
-  const CheckReport report = check(mesh, {}, k_run);
+  const CheckReport report = check(mesh, {}, k_context);
   const std::vector<DrawMark> bad = marks_of(report);
   ASSERT_GT(bad.size(), good.size());
   EXPECT_THAT(bad.front().text, HasSubstr("G"));
@@ -273,7 +274,7 @@ TEST(Draw, WhatIsNotThereIsRefusedWithWhatIs) {
   const auto refused = [&](const std::function<void(DrawOptions&)>& change, ErrorCode code) {
     DrawOptions options = bare();
     change(options);
-    return text_of([&] { draw_png(mesh, options, "", {}, k_run); }, code);
+    return text_of([&] { draw_png(mesh, options, "", {}, k_context); }, code);
   };
   EXPECT_THAT(refused([](DrawOptions& o) { o.color = "qualty"; }, ErrorCode::unknown_option),
               testing::AllOf(HasSubstr("did you mean \"quality\""), HasSubstr("edge_length"), HasSubstr("volume")));
@@ -300,7 +301,7 @@ TEST(Draw, WhatIsNotThereIsRefusedWithWhatIs) {
               HasSubstr("range_min"));
   DrawOptions options = bare();
   options.cut = "x=0";
-  EXPECT_THAT(text_of([&] { draw_png(cube(1), options, "", {}, k_run); }, ErrorCode::bad_argument), HasSubstr("surface has no cells"));
+  EXPECT_THAT(text_of([&] { draw_png(cube(1), options, "", {}, k_context); }, ErrorCode::bad_argument), HasSubstr("surface has no cells"));
 }
 
 TEST(Draw, TextsOfViewsPlanesAndSpheres) {

@@ -1,5 +1,6 @@
 // The z-buffer: what is covered, what is hidden, where lines are.
 #include "geom/draw/raster.h"
+#include "tests/support/constants.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +10,7 @@
 namespace sterna::draw {
 namespace {
 
-const RunContext k_run{};
+using test::k_context;
 constexpr Rgb k_red{200, 0, 0}, k_blue{0, 0, 200}, k_white{255, 255, 255};
 
 /// Looks from above; (0, 0) is the upper left corner of the picture, a metre is a pixel, y of the picture is -y.
@@ -34,7 +35,7 @@ TEST(Raster, TrianglesThatShareEdgesCoverEveryPixelOnce) {
     Polygons polygons;
     const std::vector<Point> rim = {{0, 0, 0}, {16.5, 0, 0}, {32, 0, 0}, {32, -16.5, 0}, {32, -32, 0}, {10.0 / 3.0, -32, 0}, {0, -32, 0}, {0, -10.0 / 3.0, 0}};
     for (std::size_t k = 0; k < rim.size(); ++k) add(polygons, {{x, y, 0}, rim[k], rim[(k + 1) % rim.size()]}, k_red);
-    const Image image = rasterise(polygons, from_above(), {32, 32, false}, k_run);
+    const Image image = rasterise(polygons, from_above(), {32, 32, false}, k_context);
     for (const Rgb& pixel : image.pixels) ASSERT_EQ(pixel, k_red) << round;
   }
 }
@@ -42,7 +43,7 @@ TEST(Raster, TrianglesThatShareEdgesCoverEveryPixelOnce) {
 TEST(Raster, HalfAPixelIsHalfCovered) {
   Polygons polygons;
   add(polygons, {{0, 0, 0}, {2.0 + 1.0 / 3.0, 0, 0}, {2.0 + 1.0 / 3.0, -4, 0}, {0, -4, 0}}, {0, 0, 0});
-  const Image image = rasterise(polygons, from_above(), {4, 4, false}, k_run);
+  const Image image = rasterise(polygons, from_above(), {4, 4, false}, k_context);
   EXPECT_EQ(image.at(1, 1), (Rgb{0, 0, 0}));
   EXPECT_EQ(image.at(2, 1), (Rgb{170, 170, 170}));  // one sample of three in a row
   EXPECT_EQ(image.at(3, 1), k_white);
@@ -55,7 +56,7 @@ TEST(Raster, TheNearerHidesTheFurtherWhateverTheirOrder) {
     if (is_first) near();
     add(polygons, {{0, 0, 0}, {16, 0, 0}, {16, -16, 0}, {0, -16, 0}}, k_blue);
     if (!is_first) near();
-    const Image image = rasterise(polygons, from_above(), {16, 16, false}, k_run);
+    const Image image = rasterise(polygons, from_above(), {16, 16, false}, k_context);
     EXPECT_EQ(image.at(4, 4), k_red);
     EXPECT_EQ(image.at(12, 12), k_blue);
   }
@@ -65,7 +66,7 @@ TEST(Raster, PolygonsCrossWhereTheyAreEquallyFar) {
   Polygons polygons;  // one rises to the right, the other is level: the middle decides
   add(polygons, {{0, 0, -10}, {20, 0, 10}, {20, -20, 10}, {0, -20, -10}}, k_red);
   add(polygons, {{0, 0, 0}, {20, 0, 0}, {20, -20, 0}, {0, -20, 0}}, k_blue);
-  const Image image = rasterise(polygons, from_above(), {20, 20, false}, k_run);
+  const Image image = rasterise(polygons, from_above(), {20, 20, false}, k_context);
   EXPECT_EQ(image.at(8, 10), k_blue);
   EXPECT_EQ(image.at(11, 10), k_red);
 }
@@ -73,19 +74,19 @@ TEST(Raster, PolygonsCrossWhereTheyAreEquallyFar) {
 TEST(Raster, LinesAreOnEdgesOfPolygonsAndNotOnTheirDiagonals) {
   Polygons polygons;
   add(polygons, {{8, -8, 0}, {56, -8, 0}, {56, -56, 0}, {8, -56, 0}}, k_red, true);
-  const Image image = rasterise(polygons, from_above(), {64, 64, true, 2.0}, k_run);
+  const Image image = rasterise(polygons, from_above(), {64, 64, true, 2.0}, k_context);
   EXPECT_LT(image.at(8, 30).r, 130);   // the edge
   EXPECT_EQ(image.at(32, 32), k_red);  // the diagonals
   EXPECT_EQ(image.at(20, 20), k_red);
   EXPECT_EQ(image.at(4, 30), k_white);
-  const Image without = rasterise(polygons, from_above(), {64, 64, false, 2.0}, k_run);
+  const Image without = rasterise(polygons, from_above(), {64, 64, false, 2.0}, k_context);
   EXPECT_EQ(without.at(8, 30), k_red);
 }
 
 TEST(Raster, LinesFadeWherePolygonsAreTooSmallToTell) {
   Polygons polygons;
   for (int i = 0; i < 64; ++i) add(polygons, {{1.0 * i, 0, 0}, {i + 1.0, 0, 0}, {i + 1.0, -64, 0}, {1.0 * i, -64, 0}}, k_red, true);
-  const Image image = rasterise(polygons, from_above(), {64, 64, true}, k_run);
+  const Image image = rasterise(polygons, from_above(), {64, 64, true}, k_context);
   EXPECT_EQ(image.at(32, 32), k_red);
 }
 
@@ -98,7 +99,7 @@ TEST(Raster, PerspectiveIsSmallerFarAwayAndCutsWhatIsBehindTheEye) {
   EXPECT_GT(camera.project({0, 0, 1}).depth, camera.project({0, 0, 0}).depth);
   Polygons polygons;  // from far below to behind the eye
   add(polygons, {{-1, 1, -30}, {1, 1, -30}, {1, 1, 30}, {-1, 1, 30}}, k_red);
-  const Image image = rasterise(polygons, camera, {64, 64, false}, k_run);
+  const Image image = rasterise(polygons, camera, {64, 64, false}, k_context);
   EXPECT_EQ(image.at(32, 5), k_red);
   EXPECT_EQ(image.at(32, 60), k_white);
 }
@@ -108,7 +109,7 @@ TEST(Raster, FacesTowardsTheLightAreBrighter) {
   polygons.corners = {{0, 0, 0}, {8, 0, 0}, {8, -8, 0}, {0, -8, 0}, {8, 0, 0}, {16, 0, -30}, {16, -8, -30}, {8, -8, 0}};
   polygons.first = {0, 4, 8};
   polygons.styles.assign(2, {{160, 160, 160}, {160, 160, 160}, true, false});
-  const Image image = rasterise(polygons, from_above(), {16, 8, false}, k_run);
+  const Image image = rasterise(polygons, from_above(), {16, 8, false}, k_context);
   EXPECT_GT(image.at(4, 4).r, image.at(12, 4).r + 20);
 }
 
@@ -117,9 +118,9 @@ TEST(Raster, BackAndFrontHaveTheirColours) {
   polygons.corners = {{0, 0, 0}, {0, -8, 0}, {8, -8, 0}, {8, 0, 0}};
   polygons.first = {0, 4};
   polygons.styles = {{k_red, k_blue, false, false}};
-  EXPECT_EQ(rasterise(polygons, from_above(), {8, 8, false}, k_run).at(4, 4), k_red);  // counter-clockwise from above
+  EXPECT_EQ(rasterise(polygons, from_above(), {8, 8, false}, k_context).at(4, 4), k_red);  // counter-clockwise from above
   std::reverse(polygons.corners.begin(), polygons.corners.end());
-  EXPECT_EQ(rasterise(polygons, from_above(), {8, 8, false}, k_run).at(4, 4), k_blue);
+  EXPECT_EQ(rasterise(polygons, from_above(), {8, 8, false}, k_context).at(4, 4), k_blue);
 }
 
 TEST(Raster, IsTheSameForAnyNumberOfThreads) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "geom/mesh/check.h"
+#include "tests/support/constants.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/shapes.h"
 
@@ -12,7 +13,7 @@ namespace sterna {
 namespace {
 
 constexpr double k_exact = 1e-14;  // rounding of a few operations on numbers of size 1
-constexpr double k_degree = std::numbers::pi / 180.0;
+using test::k_degree;
 const std::array<Measure, 7> k_measured = {Measure::non_orthogonality, Measure::skewness,          Measure::face_weight,  Measure::volume_ratio,
                                            Measure::face_flatness,     Measure::cell_aspect_ratio, Measure::cell_openness};
 

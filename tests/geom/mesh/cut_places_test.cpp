@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "tests/support/constants.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/shapes.h"
 
@@ -15,7 +16,7 @@ using namespace test;
 using testing::Contains;
 using testing::Not;
 
-const RunContext k_run{};
+using test::k_context;
 
 std::vector<std::string> names_of(const std::vector<CutPlace>& places) {
   std::vector<std::string> names;
@@ -38,7 +39,7 @@ void expect_cells_in_sight(const HybridMesh& mesh, const std::vector<CutPlace>& 
     EXPECT_NEAR(dot(place.focus - place.plane.origin, place.plane.normal), 0.0, 1e-12);
     CutPlane plane = place.plane;
     plane.limits = CutLimits{place.focus, place.radius};
-    const MeshCut cut = cut_mesh(mesh, plane, k_run);
+    const MeshCut cut = cut_mesh(mesh, plane, k_context);
     const auto is_layer = [](const CutPolygon& polygon) { return polygon.is_in_layer; };
     EXPECT_GT(std::count_if(cut.polygons.begin(), cut.polygons.end(), is_layer), 0);
   }
@@ -52,7 +53,7 @@ HybridMesh wing() {
 
 TEST(CutPlaces, OfAWing) {
   const HybridMesh mesh = wing();
-  const std::vector<CutPlace> places = automatic_cuts(mesh, k_run);
+  const std::vector<CutPlace> places = automatic_cuts(mesh, k_context);
   expect_cells_in_sight(mesh, places);
   const double chord = std::sqrt(1.0 - 0.55 * 0.55);
   const CutPlace &leading = place_of(places, "leading edge"), &trailing = place_of(places, "trailing edge"), &tip = place_of(places, "tip");
@@ -67,16 +68,16 @@ TEST(CutPlaces, OfAWing) {
 
 TEST(CutPlaces, OfAnyBody) {
   for (const HybridMesh& mesh : {sphere_shell(1), sphere_shell(4), cube_shell(2), plate_block(3), two_shells(2, 2, 3), hexahedra_block(2)}) {
-    const std::vector<CutPlace> places = automatic_cuts(mesh, k_run);
+    const std::vector<CutPlace> places = automatic_cuts(mesh, k_context);
     expect_cells_in_sight(mesh, places);
     EXPECT_THAT(names_of(places), Not(Contains("tip")));
   }
-  EXPECT_THAT(names_of(automatic_cuts(cube_shell(2), k_run)), Contains("sharp edge"));
+  EXPECT_THAT(names_of(automatic_cuts(cube_shell(2), k_context)), Contains("sharp edge"));
 }
 
 TEST(CutPlaces, OfExplicitCellsAreTheSame) {
   const HybridMesh mesh = wing();
-  const auto columns = automatic_cuts(mesh, k_run), cells = automatic_cuts(explicit_cells(mesh), k_run);
+  const auto columns = automatic_cuts(mesh, k_context), cells = automatic_cuts(explicit_cells(mesh), k_context);
   EXPECT_EQ(names_of(columns), names_of(cells));
   for (std::size_t i = 0; i < columns.size(); ++i) EXPECT_EQ(columns[i].plane.origin, cells[i].plane.origin);
 }
@@ -84,7 +85,7 @@ TEST(CutPlaces, OfExplicitCellsAreTheSame) {
 TEST(CutPlaces, SymmetryPlaneIsAHairInside) {
   HybridMesh mesh = plate_block(4);
   mesh.patches[PatchId(2)] = {"side", PatchKind::symmetry};  // all four sides; the first one met decides
-  const CutPlace place = place_of(automatic_cuts(mesh, k_run), "symmetry plane");
+  const CutPlace place = place_of(automatic_cuts(mesh, k_context), "symmetry plane");
   const Point middle{0.5, 0.5, 0.5};
   EXPECT_LT(dot(middle - place.plane.origin, place.plane.normal), 0.0);
   EXPECT_NEAR(std::abs(dot(middle - place.plane.origin, place.plane.normal)), 0.5, 1e-6);
@@ -102,13 +103,13 @@ TEST(CutPlaces, JunctionIsWhereTwoPatchesMeetInAConcaveEdge) {
       const NodeId a(5 * i + j), b(5 * i + j + 1), c(5 * i + 5 + j + 1), d(5 * i + 5 + j);
       mesh.boundary_quads.push_back({{a, b, c, d}, PatchId(i == 0 ? 0 : 1)});  // out of the fluid, which is above
     }
-  const CutPlace place = place_of(automatic_cuts(mesh, k_run), "junction");
+  const CutPlace place = place_of(automatic_cuts(mesh, k_context), "junction");
   EXPECT_EQ(place.focus.x, 0.0);
   EXPECT_EQ(place.focus.z, 0.0);
   EXPECT_NEAR(std::abs(place.plane.normal.y), 1.0, 1e-15);
 }
 
-TEST(CutPlaces, OfNothing) { EXPECT_TRUE(automatic_cuts(HybridMesh{}, k_run).empty()); }
+TEST(CutPlaces, OfNothing) { EXPECT_TRUE(automatic_cuts(HybridMesh{}, k_context).empty()); }
 
 }  // namespace
 }  // namespace sterna

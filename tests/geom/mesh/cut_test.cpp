@@ -10,6 +10,7 @@
 
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
+#include "tests/support/constants.h"
 #include "tests/support/hybrid_shapes.h"
 
 namespace sterna {
@@ -17,7 +18,7 @@ namespace {
 
 using namespace test;
 
-const RunContext k_run{};
+using test::k_context;
 
 Vec3 area_of(std::span<const Point> corners) {
   Vec3 sum;
@@ -82,9 +83,9 @@ std::vector<Case> cases() {
 TEST(Cut, TilesTheSectionOfTheDomain) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
-    const MeshCut cut = cut_mesh(c.mesh, c.plane, k_run);
+    const MeshCut cut = cut_mesh(c.mesh, c.plane, k_context);
     ASSERT_EQ(cut.first.size(), cut.size() + 1);
-    const double expected = std::isnan(c.area) ? total_area(cut_mesh(plate_block(4), c.plane, k_run), c.plane) : c.area;
+    const double expected = std::isnan(c.area) ? total_area(cut_mesh(plate_block(4), c.plane, k_context), c.plane) : c.area;
     EXPECT_NEAR(total_area(cut, c.plane), expected, 1e-12);
   }
 }
@@ -94,7 +95,7 @@ TEST(Cut, NoTwoPolygonsOverlap) {
   std::uniform_real_distribution<double> number(-2.0, 2.0);
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
-    const MeshCut cut = cut_mesh(c.mesh, c.plane, k_run);
+    const MeshCut cut = cut_mesh(c.mesh, c.plane, k_context);
     const Vec3 normal = normalized(c.plane.normal);
     for (int i = 0; i < 200; ++i) {
       Point p{number(random), number(random), number(random)};
@@ -109,14 +110,14 @@ TEST(Cut, NoTwoPolygonsOverlap) {
 TEST(Cut, OfASphericalShell) {
   const HybridMesh mesh = sphere_shell(6);  // from radius 1 to 3
   const CutPlane plane{{0, 0, 0}, {0.3, 0.2, 1.0}, std::nullopt};
-  EXPECT_NEAR(total_area(cut_mesh(mesh, plane, k_run), plane), 8.0 * std::numbers::pi, 0.02 * 8.0 * std::numbers::pi);  // of an inscribed polyhedron
+  EXPECT_NEAR(total_area(cut_mesh(mesh, plane, k_context), plane), 8.0 * std::numbers::pi, 0.02 * 8.0 * std::numbers::pi);  // of an inscribed polyhedron
 }
 
 TEST(Cut, OfColumnsIsThatOfExplicitCells) {
   for (const HybridMesh& mesh : {sphere_shell(3), plate_block(5, {.collapsed = {8, 9, 14, 20}}), two_shells(2, 2, 4)}) {
     for (const Vec3& normal : {Vec3{0.3, 0.2, 1.0}, Vec3{1, 0, 0}, Vec3{1, 1, 1}}) {
       const CutPlane plane{mesh.points.raw()[mesh.layers.first_node[mesh.layers.n_lines() / 2 + 1]], normal, std::nullopt};
-      const MeshCut columns = cut_mesh(mesh, plane, k_run), cells = cut_mesh(explicit_cells(mesh), plane, k_run);
+      const MeshCut columns = cut_mesh(mesh, plane, k_context), cells = cut_mesh(explicit_cells(mesh), plane, k_context);
       ASSERT_GT(columns.size(), 0u);
       const auto by_cell = [](const MeshCut& cut) {
         std::map<std::pair<CellKind, std::uint64_t>, std::pair<std::vector<Point>, double>> all;
@@ -146,7 +147,7 @@ TEST(Cut, IsTheSameForAnyNumberOfThreads) {
 TEST(Cut, TellsKindLayerQualityAndVolume) {
   const HybridMesh mesh = plate_block(2, {.n_layers = 3, .layer_height = 0.3, .ratio = 1.0});
   const CutPlane plane{{0.3, 0, 0}, {1, 0, 0}, std::nullopt};
-  const MeshCut cut = cut_mesh(mesh, plane, k_run);
+  const MeshCut cut = cut_mesh(mesh, plane, k_context);
   for (std::size_t i = 0; i < cut.size(); ++i) {
     const CutPolygon& polygon = cut.polygons[i];
     double middle = 0.0;
@@ -159,7 +160,7 @@ TEST(Cut, TellsKindLayerQualityAndVolume) {
     EXPECT_EQ(polygon.shape, polygon.quality);
     EXPECT_NEAR(polygon.volume, 0.125 * 0.1, 1e-15);
   }
-  const MeshCut block = cut_mesh(hexahedron_with_roof(), {{0.5, 0.5, 0.5}, {0, 1, 0}, std::nullopt}, k_run);
+  const MeshCut block = cut_mesh(hexahedron_with_roof(), {{0.5, 0.5, 0.5}, {0, 1, 0}, std::nullopt}, k_context);
   ASSERT_EQ(block.size(), 2u);
   EXPECT_EQ(block.polygons[0].kind, CellKind::pyramid);
   EXPECT_NEAR(block.polygons[0].volume, 1.0 / 6.0, 1e-15);
@@ -173,7 +174,7 @@ TEST(Cut, OfARegularTetrahedronHasShapeOne) {
   for (const Point& p : {Point{1, 1, 1}, Point{1, -1, -1}, Point{-1, 1, -1}, Point{-1, -1, 1}}) mesh.points.push_back(p);
   mesh.tetrahedra.push_back({NodeId(0), NodeId(2), NodeId(1), NodeId(3)});
   const CutPlane plane{{0, 0, 0}, {0, 0, 1}, std::nullopt};
-  const MeshCut cut = cut_mesh(mesh, plane, k_run);
+  const MeshCut cut = cut_mesh(mesh, plane, k_context);
   ASSERT_EQ(cut.size(), 1u);
   EXPECT_NEAR(std::abs(cut.polygons[0].shape), 1.0, 1e-12);
   EXPECT_NEAR(cut.polygons[0].quality, 70.528779, 1e-6);
@@ -194,16 +195,16 @@ TEST(Cut, BothCellsOfAWarpedFaceAgreeWhereThePlaneCrossesItsFourEdges) {
         mesh.hexahedra.push_back(
             {node(i, 0, 0), node(i + 1, 0, 0), node(i + 1, 1, 0), node(i, 1, 0), node(i, 0, 1), node(i + 1, 0, 1), node(i + 1, 1, 1), node(i, 1, 1)});
       const CutPlane plane{{at, 0, 0}, {1, 0, 0}, std::nullopt};
-      EXPECT_NEAR(total_area(cut_mesh(mesh, plane, k_run), plane), 1.0, 1e-14);
+      EXPECT_NEAR(total_area(cut_mesh(mesh, plane, k_context), plane), 1.0, 1e-14);
     }
 }
 
 TEST(Cut, WithinASphereHasAllThatReachesIntoIt) {
   const HybridMesh mesh = sphere_shell(5);
   CutPlane plane{{0, 0, 0}, {0.3, 0.2, 1.0}, std::nullopt};
-  const MeshCut whole = cut_mesh(mesh, plane, k_run);
+  const MeshCut whole = cut_mesh(mesh, plane, k_context);
   plane.limits = CutLimits{whole.corners.front(), 0.3};
-  const MeshCut part = cut_mesh(mesh, plane, k_run);
+  const MeshCut part = cut_mesh(mesh, plane, k_context);
   EXPECT_LT(part.size(), whole.size() / 2);
   std::size_t n_near = 0, n_near_in_part = 0;
   const auto count = [&](const MeshCut& cut) {
@@ -219,7 +220,7 @@ TEST(Cut, WithinASphereHasAllThatReachesIntoIt) {
 
 TEST(Cut, NeedsANormal) {
   try {
-    cut_mesh(hexahedra_block(1), {{0, 0, 0}, {0, 0, 0}, std::nullopt}, k_run);
+    cut_mesh(hexahedra_block(1), {{0, 0, 0}, {0, 0, 0}, std::nullopt}, k_context);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::bad_argument);

@@ -12,6 +12,7 @@
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/geom/mesh/check_support.h"
 #include "tests/geom/mesh/naive_dual.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "volmesh/volume_mesh.h"
 
@@ -20,7 +21,7 @@ namespace {
 
 using namespace test;
 
-constexpr double k_degree = std::numbers::pi / 180.0;
+using test::k_degree;
 /// Angles inside columns come from a polynomial good to 2e-8; elsewhere from acos, which near 0 and 180 degrees turns rounding into as much.
 constexpr double k_angle_error = 5e-8;
 

@@ -7,13 +7,14 @@
 
 #include "geom/math/spherical_cap.h"
 #include "tests/geom/mesh/check_support.h"
+#include "tests/support/constants.h"
 
 namespace sterna {
 namespace {
 
 using namespace test;
 
-constexpr double k_degree = std::numbers::pi / 180.0;
+using test::k_degree;
 
 GateResult judged(GateScan scan) {
   return scan.result([](std::uint64_t id) { return std::pair(Point{static_cast<double>(id), 0, 0}, "item " + std::to_string(id)); });

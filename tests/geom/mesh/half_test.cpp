@@ -8,6 +8,7 @@
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
+#include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 
 namespace sterna {
@@ -15,7 +16,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const RunContext k_run{};
+using test::k_context;
 
 TriMesh moved(TriMesh mesh, const Vec3& by) {
   for (Point& p : mesh.points) p += by;
@@ -40,7 +41,7 @@ double volume(const TriMesh& mesh, std::size_t axis) {
 
 /// What the header says of every half.
 void expect_rim(const TriMesh& half, std::size_t axis, double at) {
-  const Topology topology(half, k_run);
+  const Topology topology(half, k_context);
   std::vector<int> balance(half.n_vertices(), 0), n_edges(half.n_vertices(), 0);
   EXPECT_GT(topology.n_boundary_halfedges(), 0u);
   for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
@@ -62,7 +63,7 @@ void expect_rim(const TriMesh& half, std::size_t axis, double at) {
 
 ErrorInfo error_of(const TriMesh& surface, const HalfOptions& options) {
   try {
-    half_of(surface, options, k_run);
+    half_of(surface, options, k_context);
   } catch (const Error& error) {
     return error.info();
   }
@@ -74,7 +75,7 @@ TEST(Half, OfACubeIsExact) {
     for (const char axis : {'x', 'y', 'z'})
       for (const char keep : {'+', '-'}) {
         const HalfOptions options{.axis = std::string(1, axis), .at = 0.5, .keep = std::string(1, keep), .snap = 0.0};
-        const TriMesh half = half_of(test::cube(n), options, k_run);
+        const TriMesh half = half_of(test::cube(n), options, k_context);
         expect_rim(half, static_cast<std::size_t>(axis - 'x'), 0.5);
         EXPECT_NEAR(area(half), 3.0, 1e-14);
       }
@@ -88,7 +89,7 @@ TEST(Half, ExactCutsHaveHalfTheAreaAndVolume) {
       double areas = 0.0, volumes = 0.0;
       for (const char keep : {'+', '-'}) {
         const TriMesh half = half_of(moved(sphere, at == 0.0 ? Vec3{} : Vec3{0.01, 0.02, 0.03}),
-                                     {.axis = std::string(1, axis), .at = at, .keep = std::string(1, keep), .tolerance = 1e-15, .snap = 0.0}, k_run);
+                                     {.axis = std::string(1, axis), .at = at, .keep = std::string(1, keep), .tolerance = 1e-15, .snap = 0.0}, k_context);
         expect_rim(half, k, at);
         areas += area(half);
         Vec3 to_plane;
@@ -104,7 +105,7 @@ TEST(Half, ExactCutsHaveHalfTheAreaAndVolume) {
 TEST(Half, HasNoSliversBesideTheRim) {
   for (int i = 0; i < 40; ++i) {
     const double at = -0.5 + 0.025 * i + 1e-4 * i * i;
-    const TriMesh half = half_of(test::sphere(10), {.at = at}, k_run);
+    const TriMesh half = half_of(test::sphere(10), {.at = at}, k_context);
     expect_rim(half, 1, at);
     double flattest = 1e300;  // height over longest edge
     for (const TriangleId t : half.triangles.ids()) {
@@ -117,26 +118,26 @@ TEST(Half, HasNoSliversBesideTheRim) {
 }
 
 TEST(Half, OfAHalfIsTheSame) {
-  const TriMesh half = half_of(moved(test::sphere(9), {0.0, 0.03, 0.0}), {}, k_run);
+  const TriMesh half = half_of(moved(test::sphere(9), {0.0, 0.03, 0.0}), {}, k_context);
   TriMesh rough = half;
   for (std::size_t i = 0; i < rough.points.size(); ++i)
     if (Point& p = rough.points[VertexId(i)]; p.y == 0.0) p.y += 1e-7 * std::sin(static_cast<double>(i));
   for (const TriMesh& given : {half, rough}) {
-    const TriMesh again = half_of(given, {}, k_run);
+    const TriMesh again = half_of(given, {}, k_context);
     EXPECT_EQ(again.points.raw(), half.points.raw());
     EXPECT_EQ(again.triangles.raw(), half.triangles.raw());
   }
   // A flat side that closes it is left out.
-  TriMesh box = half_of(test::cube(2), {}, k_run);
+  TriMesh box = half_of(test::cube(2), {}, k_context);
   expect_rim(box, 1, 0.0);
   EXPECT_NEAR(area(box), 5.0, 1e-15);
 }
 
 TEST(Half, TwiceIsAQuarter) {
   for (const double shift : {0.0, 0.013, 0.21}) {
-    const TriMesh half = half_of(moved(test::sphere(8), {0.0, shift, 0.7 * shift}), {}, k_run);
-    const TriMesh quarter = half_of(half, {.axis = "z"}, k_run);
-    const Topology topology(quarter, k_run);
+    const TriMesh half = half_of(moved(test::sphere(8), {0.0, shift, 0.7 * shift}), {}, k_context);
+    const TriMesh quarter = half_of(half, {.axis = "z"}, k_context);
+    const Topology topology(quarter, k_context);
     std::size_t n_corners = 0;
     for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
       if (!topology.is_boundary(HalfedgeId(i))) continue;
@@ -154,7 +155,7 @@ TEST(Half, KeepsTheOrderAndThePatches) {
   append(two, moved(test::sphere(2), {0.0, -2.0, 0.0}));
   two.patches[PatchId(0)].name = "upper";
   two.patches.push_back({"nothing", PatchKind::slip});
-  const TriMesh half = half_of(two, {.at = 0.5}, k_run);
+  const TriMesh half = half_of(two, {.at = 0.5}, k_context);
   ASSERT_EQ(half.patches.size(), 2u);
   EXPECT_EQ(half.patches[PatchId(0)].name, "upper");
   EXPECT_EQ(half.patches[PatchId(1)].name, "cube");

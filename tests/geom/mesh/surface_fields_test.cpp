@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geom/base/error.h"
+#include "tests/support/constants.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/shapes.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 using namespace test;
 
-const RunContext k_run{};
+using test::k_context;
 
 const std::vector<double>& values_of(const std::vector<SurfaceField>& fields, const char* name) {
   const SurfaceField* const field = find_field(fields, name);
@@ -37,7 +38,7 @@ TEST(SurfaceFields, OfAPlate) {
   const double first = 0.4 / 4.75, last = 2.25 * first, edge = (1.0 + std::sqrt(0.5)) / 3.0;
   mesh.request = {
       .first_height = first, .max_growth = 1.5, .target_height = std::vector<double>(9, 0.8), .reason = std::vector<std::uint8_t>(9, 0), .reasons = {"none"}};
-  const std::vector<SurfaceField> fields = surface_fields(mesh, k_run);
+  const std::vector<SurfaceField> fields = surface_fields(mesh, k_context);
   ASSERT_EQ(fields.size(), surface_field_table().size());
   const std::size_t n_triangles = mesh.boundary_triangles.size(), n = n_triangles + mesh.boundary_quads.size();
   std::size_t n_walls = 0;
@@ -77,7 +78,7 @@ TEST(SurfaceFields, OfAPlate) {
 
 TEST(SurfaceFields, OfExplicitCellsAreThoseOfColumnsButForTheRequest) {
   for (const HybridMesh& mesh : {sphere_shell(3), plate_block(3), two_shells(2, 2, 4)}) {
-    const auto columns = surface_fields(mesh, k_run), cells = surface_fields(explicit_cells(mesh), k_run);
+    const auto columns = surface_fields(mesh, k_context), cells = surface_fields(explicit_cells(mesh), k_context);
     for (const char* name : k_all)
       for (std::size_t f = 0; f < mesh.boundary_triangles.size(); ++f) {
         SCOPED_TRACE(name);
@@ -88,7 +89,7 @@ TEST(SurfaceFields, OfExplicitCellsAreThoseOfColumnsButForTheRequest) {
 
 TEST(SurfaceFields, OfCollapsedLines) {
   const HybridMesh mesh = plate_block(2, {.collapsed = {0, 1, 4}});  // the triangle (0, 1, 4) has no cells
-  const auto fields = surface_fields(mesh, k_run);
+  const auto fields = surface_fields(mesh, k_context);
   for (std::size_t f = 0; f < mesh.boundary_triangles.size(); ++f) {
     if (mesh.boundary_triangles[f].patch != PatchId(0)) continue;
     int n_collapsed = 0;
@@ -103,7 +104,7 @@ TEST(SurfaceFields, OfCollapsedLines) {
 
 TEST(SurfaceFields, OfASurface) {
   const TriMesh mesh = cube(2);
-  const auto fields = surface_fields(mesh, k_run);
+  const auto fields = surface_fields(mesh, k_context);
   ASSERT_EQ(fields.size(), 4u);
   for (const double angle : values_of(fields, "min_angle")) EXPECT_NEAR(angle, 45.0, 1e-12);
   for (const double ratio : values_of(fields, "area_ratio")) EXPECT_NEAR(ratio, 1.0, 1e-12);
@@ -135,7 +136,7 @@ TEST(SurfaceFields, OfAMeshThatCannotBeRead) {
   HybridMesh mesh = plate_block(2);
   mesh.boundary_triangles[0].nodes[0] = NodeId(100000);
   try {
-    surface_fields(mesh, k_run);
+    surface_fields(mesh, k_context);
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::mesh_invalid);

@@ -11,18 +11,12 @@
 #include "geom/base/error.h"
 #include "tests/geom/model/evaluator_checks.h"
 #include "tests/support/data.h"
+#include "tests/support/error_of.h"
 
 namespace sterna {
 namespace {
 
-std::string message_of(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
-}
+using test::message_of;
 
 /// Distances of the points of `a` from the polyline of `b`.
 std::vector<double> deviations(const Airfoil& a, const Airfoil& b) {
@@ -211,8 +205,8 @@ TEST(Airfoil, TrailingEdgesOpenAndClose) {
     EXPECT_NEAR(0.5 * (other.points.front().v + other.points.back().v), 0.5 * (airfoil.points.front().v + airfoil.points.back().v), 1e-6);
   }
   EXPECT_EQ(with_trailing_edge(airfoil, 0.0).trailing_edge_thickness(), 0.0);
-  EXPECT_THROW(with_trailing_edge(airfoil, -0.1), Error);
-  EXPECT_THROW(with_trailing_edge(airfoil, 0.3), Error);
+  test::expect_error(ErrorCode::bad_argument, "a thickness of -0.1 chords, must be 0 or more and below 0.2", [&] { (void)with_trailing_edge(airfoil, -0.1); });
+  test::expect_error(ErrorCode::bad_argument, "a thickness of 0.3 chords, must be 0 or more and below 0.2", [&] { (void)with_trailing_edge(airfoil, 0.3); });
 }
 
 TEST(Airfoil, RepanelingKeepsItsBound) {
@@ -225,8 +219,8 @@ TEST(Airfoil, RepanelingKeepsItsBound) {
     before = r.error;
   }
   for (const double tolerance : {1e-3, 1e-5, 1e-6}) EXPECT_LE(repaneled_within(airfoil, tolerance).error, tolerance);
-  EXPECT_THROW(repaneled(airfoil, 3), Error);
-  EXPECT_THROW(repaneled_within(airfoil, 0.0), Error);
+  test::expect_error(ErrorCode::bad_argument, "3 points along a side, must be 5 .. 2000", [&] { (void)repaneled(airfoil, 3); });
+  test::expect_error(ErrorCode::bad_argument, "the tolerance is 0 chords, must be positive", [&] { (void)repaneled_within(airfoil, 0.0); });
 }
 
 TEST(Airfoil, RoundedPlate) {
@@ -234,7 +228,7 @@ TEST(Airfoil, RoundedPlate) {
   EXPECT_NEAR(measure(plate).thickness, 0.04, 1e-4);
   EXPECT_NEAR(plate.trailing_edge_thickness(), 0.04, 1e-15);
   EXPECT_EQ(plate.points[plate.leading_edge], (Uv{0.0, 0.0}));
-  EXPECT_THROW(rounded_plate(0.0), Error);
+  test::expect_error(ErrorCode::bad_argument, "a thickness of 0 chords, must be between 0 and 0.5", [&] { (void)rounded_plate(0.0); });
 }
 
 }  // namespace

@@ -56,11 +56,11 @@ void expect_closed(const Model& model, double relative_tolerance = 1e-8) {
   }
 }
 
-BodyFrame circle(double x, double radius) { return {.name = "x" + std::to_string(x), .center = {x, 0.0, 0.0}, .height = 2 * radius, .width = 2 * radius}; }
+BodyFrame round_frame(double x, double radius) { return {.name = "x" + std::to_string(x), .center = {x, 0.0, 0.0}, .height = 2 * radius, .width = 2 * radius}; }
 
 Body cylinder_body(double radius, double length) {
   Body body{.name = "Tube"};
-  for (const double x : {0.0, 0.3, 0.7, 1.0}) body.frames.push_back(circle(x * length, radius));
+  for (const double x : {0.0, 0.3, 0.7, 1.0}) body.frames.push_back(round_frame(x * length, radius));
   return body;
 }
 

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 AircraftReading read_real(const std::string& name) { return read_cpacs(test::shared_data() / "cpacs" / name, RunContext()); }
 
-AircraftReading read_text(const std::string& text) {
+AircraftReading read_cpacs_text(const std::string& text) {
   const auto path = test::scratch() / "case.xml";
   std::ofstream(path) << text;
   return read_cpacs(path, RunContext());
@@ -29,11 +29,11 @@ AircraftReading read_text(const std::string& text) {
 const WingSection& tip_of(const Wing& wing) { return wing.sections.front(); }
 const WingSection& root_of(const Wing& wing) { return wing.sections.back(); }
 
-struct RealFile {
+struct CpacsCounts {
   const char* name;
   std::size_t fuselages, wings, nacelles, controls;
 };
-class CpacsFiles : public testing::TestWithParam<RealFile> {};
+class CpacsFiles : public testing::TestWithParam<CpacsCounts> {};
 
 TEST_P(CpacsFiles, are_read_with_every_component) {
   STERNA_NEEDS_SHARED_DATA();
@@ -53,11 +53,12 @@ TEST_P(CpacsFiles, are_read_with_every_component) {
 
 // Components by counting in the files; pylons count as wings.
 INSTANTIATE_TEST_SUITE_P(all_twelve, CpacsFiles,
-                         testing::Values(RealFile{"CPACS_30_D150.xml", 1, 3, 0, 5}, RealFile{"boxWing.xml", 1, 2, 0, 1}, RealFile{"canards.xml", 1, 1, 0, 1},
-                                         RealFile{"d150.xml", 1, 3, 0, 5}, RealFile{"landingGears.xml", 1, 1, 0, 0}, RealFile{"nacelles.xml", 0, 1, 4, 0},
-                                         RealFile{"onera_m6.xml", 1, 1, 0, 0}, RealFile{"simpletest-flaps.cpacs.xml", 1, 1, 0, 3},
-                                         RealFile{"simpletest-halfmodel.cpacs.xml", 1, 1, 0, 0}, RealFile{"simpletest-nacelle.xml", 1, 1, 0, 0},
-                                         RealFile{"simpletest-pylon-nacelle.cpacs.xml", 1, 2, 1, 0}, RealFile{"simpletest.cpacs.xml", 1, 1, 0, 0}),
+                         testing::Values(CpacsCounts{"CPACS_30_D150.xml", 1, 3, 0, 5}, CpacsCounts{"boxWing.xml", 1, 2, 0, 1},
+                                         CpacsCounts{"canards.xml", 1, 1, 0, 1}, CpacsCounts{"d150.xml", 1, 3, 0, 5},
+                                         CpacsCounts{"landingGears.xml", 1, 1, 0, 0}, CpacsCounts{"nacelles.xml", 0, 1, 4, 0},
+                                         CpacsCounts{"onera_m6.xml", 1, 1, 0, 0}, CpacsCounts{"simpletest-flaps.cpacs.xml", 1, 1, 0, 3},
+                                         CpacsCounts{"simpletest-halfmodel.cpacs.xml", 1, 1, 0, 0}, CpacsCounts{"simpletest-nacelle.xml", 1, 1, 0, 0},
+                                         CpacsCounts{"simpletest-pylon-nacelle.cpacs.xml", 1, 2, 1, 0}, CpacsCounts{"simpletest.cpacs.xml", 1, 1, 0, 0}),
                          [](const auto& info) {
                            std::string name = info.param.name;
                            std::replace_if(
@@ -148,7 +149,7 @@ const char* const k_diamond = "<pointList><x>1;0.5;0;0.5;1</x><y>0;0;0;0;0</y><z
 
 TEST(Cpacs, an_element_is_scaled_then_turned_about_its_own_axes_then_moved) {
   const Wing wing =
-      read_text(
+      read_cpacs_text(
           wing_file(
               "<transformation><scaling><x>2</x><z>3</z></scaling><rotation><x>90</x><z>90</z></rotation><translation><y>5</y></translation></transformation>",
               k_diamond))
@@ -162,11 +163,11 @@ TEST(Cpacs, an_element_is_scaled_then_turned_about_its_own_axes_then_moved) {
 }
 
 TEST(Cpacs, wings_that_reach_the_plane_of_symmetry_are_one_and_others_have_an_image) {
-  const Wing whole = read_text(wing_file("", k_diamond, "", "uID='W' symmetry='x-z-plane'")).aircraft.wings[0];
+  const Wing whole = read_cpacs_text(wing_file("", k_diamond, "", "uID='W' symmetry='x-z-plane'")).aircraft.wings[0];
   EXPECT_TRUE(whole.is_symmetric);
   EXPECT_NEAR(whole.sections[0].leading_edge.y, 2.0, 1e-12);  // the tip comes first
   const Wing apart =
-      read_text(wing_file("<transformation><translation><y>0.5</y></translation></transformation>", k_diamond, "", "uID='W' symmetry='x-z-plane'"))
+      read_cpacs_text(wing_file("<transformation><translation><y>0.5</y></translation></transformation>", k_diamond, "", "uID='W' symmetry='x-z-plane'"))
           .aircraft.wings[0];
   EXPECT_TRUE(apart.has_mirror_image);
   EXPECT_FALSE(apart.is_symmetric);
@@ -175,7 +176,7 @@ TEST(Cpacs, wings_that_reach_the_plane_of_symmetry_are_one_and_others_have_an_im
 TEST(Cpacs, class_shape_airfoils_have_their_thickness) {
   // N1 = 0.5, N2 = 1, B = {a, a}: z = a sqrt(x) (1 - x), largest at x = 1/3.
   const Wing wing =
-      read_text(
+      read_cpacs_text(
           wing_file(
               "",
               "<cst2D><upperN1>0.5</upperN1><upperN2>1</upperN2><upperB>0.2;0.2</upperB><lowerN1>0.5</lowerN1><lowerN2>1</lowerN2><lowerB>-0.1;-0.1</lowerB>"
@@ -193,7 +194,7 @@ TEST(Cpacs, class_shape_airfoils_have_their_thickness) {
 TEST(Cpacs, errors_name_line_and_path) {
   const auto error_of = [](const std::string& text) -> std::string {
     try {
-      read_text(text);
+      read_cpacs_text(text);
     } catch (const Error& e) {
       EXPECT_EQ(e.code(), ErrorCode::file_malformed);
       return e.what();

@@ -13,14 +13,16 @@
 #include "geom/model/model_measures.h"
 #include "geom/model/section_rows.h"
 #include "geom/model/smx.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
+#include "tests/support/error_of.h"
 
 namespace sterna {
 namespace {
 
 using testing::HasSubstr;
 
-constexpr double k_degree = 0.017453292519943295;
+using test::k_degree;
 
 Wing straight_wing() {
   Wing wing{.name = "wing", .is_symmetric = true, .trailing_edge = 0.0};
@@ -166,7 +168,7 @@ TEST(Deflection, the_aircraft_is_made_with_them) {
   EXPECT_TRUE(free_edges(model).empty());
   for (const char* name : {"Flap", "Tab", "RightRudder", "LeftRudder"}) EXPECT_GT(area_of(model, name, FaceRole::control), 0.5) << name;
   aircraft.deflections[0].surface.wing = "none";
-  EXPECT_THROW(make_components(aircraft, RunContext()), Error);
+  test::expect_error(ErrorCode::bad_argument, "there is no wing 'none'\n  try: one of '", [&] { (void)make_components(aircraft, RunContext()); });
 }
 
 TEST(Deflection, a_flap_turns_its_trailing_edge_and_nothing_before_the_knee_or_beside_the_fairing) {
@@ -358,7 +360,8 @@ TEST(Deflection, ailerons_of_the_widebody_move_apart) {
   EXPECT_LT(solid_measures(model, SolidId(0)).open, 1e-6);
   expect_valid(model);
   deflections[0].gap = ControlGap::open;
-  EXPECT_THROW(deflected(wing, deflections), Error);  // it reaches over a kink of the wing
+  test::expect_error(ErrorCode::bad_argument, "leaves the middle of the wing's section by",
+                     [&] { (void)deflected(wing, deflections); });  // it reaches over a kink of the wing
 }
 
 TEST(Deflection, a_fairing_that_reaches_a_flat_tip_bends_it) {

@@ -11,11 +11,12 @@
 #include "geom/model/deform.h"
 #include "geom/model/space_map.h"
 #include "tests/geom/cad/cylinder.h"
+#include "tests/support/constants.h"
 
 namespace sterna {
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
+using test::k_pi;
 
 /// One face over a polygon of parameters; the curves of its edges go on by `beyond` at both ends.
 Model patch(SurfacePtr surface, const std::vector<Uv>& outline, double beyond = 0.0) {

@@ -13,21 +13,15 @@
 #include "geom/model/curves.h"
 #include "geom/model/space_map.h"
 #include "geom/model/spline.h"
+#include "tests/support/error_of.h"
 
 namespace sterna {
 namespace {
 
-std::string message_of(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
-}
+using test::message_of;
 
 /// Largest distance at random places: none of those that the sampling looked at.
-double error_of(const Surface& a, const std::function<Point(Uv)>& f) {
+double largest_error(const Surface& a, const std::function<Point(Uv)>& f) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const ParameterBox box = a.domain();
@@ -45,7 +39,7 @@ TEST(SampledSurface, ToleranceHoldsBetweenTheSamples) {
   for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
     const SampledSurface s = sample_surface(wavy, {{0, 3}, {-1, 2}}, {.tolerance = tolerance});
     EXPECT_LE(s.error, tolerance);
-    EXPECT_LE(error_of(*s.surface, wavy), 1.3 * tolerance);  // between 8 places in every cell
+    EXPECT_LE(largest_error(*s.surface, wavy), 1.3 * tolerance);  // between 8 places in every cell
     EXPECT_NEAR(distance(s.surface->point(s.worst), wavy(s.worst)), s.error, 1e-15);
     EXPECT_GT(s.n_u * s.n_v, before);
     before = s.n_u * s.n_v;
@@ -55,14 +49,14 @@ TEST(SampledSurface, ToleranceHoldsBetweenTheSamples) {
   const auto cubic = [](Uv p) { return Point{p.u * p.u * p.u, p.v, p.u * p.v * p.v}; };
   const SampledSurface s = sample_surface(cubic, {{0, 1}, {0, 1}}, {.tolerance = 1e-12});
   EXPECT_EQ(s.n_u, 5u);
-  EXPECT_LE(error_of(*s.surface, cubic), 1e-14);
+  EXPECT_LE(largest_error(*s.surface, cubic), 1e-14);
 }
 
 TEST(SampledSurface, BreaksAndPeriodsAreKept) {
   const auto kinked = [](Uv p) { return Point{p.u, p.v, std::abs(p.u - 0.37)}; };
   const SampledSurface s = sample_surface(kinked, {{0, 1}, {0, 1}}, {.tolerance = 1e-9, .breaks_u = {0.37}});
   EXPECT_EQ(s.surface->breaks_u(), std::vector<double>{0.37});
-  EXPECT_LE(error_of(*s.surface, kinked), 1e-9);
+  EXPECT_LE(largest_error(*s.surface, kinked), 1e-9);
   EXPECT_THAT(message_of([&] {
                 (void)sample_surface(kinked, {{0, 1}, {0, 1}}, {.tolerance = 1e-9, .max_intervals = 60});
               }),
@@ -73,7 +67,7 @@ TEST(SampledSurface, BreaksAndPeriodsAreKept) {
     const SampledSurface fit = sample_surface(*surface, 1e-5);
     EXPECT_EQ(fit.surface->is_periodic_u(), surface->is_periodic_u());
     EXPECT_EQ(fit.surface->is_periodic_v(), surface->is_periodic_v());
-    EXPECT_LE(error_of(*fit.surface, [&](Uv p) { return surface->point(p); }), 1.3e-5);
+    EXPECT_LE(largest_error(*fit.surface, [&](Uv p) { return surface->point(p); }), 1.3e-5);
   }
   PointGrid grid{6, 5, {}};
   for (int i = 0; i < 6; ++i)
@@ -82,7 +76,7 @@ TEST(SampledSurface, BreaksAndPeriodsAreKept) {
   const DeformedSurface bent(base, std::make_shared<FunctionMap>([](const Point& p) { return Point{p.x, p.y, p.z + 0.1 * p.x * p.x}; }, 1e-3));
   const SampledSurface fit = sample_surface(bent, 1e-6);
   EXPECT_EQ(fit.surface->breaks_u(), bent.breaks_u());
-  EXPECT_LE(error_of(*fit.surface, [&](Uv p) { return bent.point(p); }), 1.3e-6);
+  EXPECT_LE(largest_error(*fit.surface, [&](Uv p) { return bent.point(p); }), 1.3e-6);
 }
 
 TEST(SampledSurface, MistakesAreNamed) {

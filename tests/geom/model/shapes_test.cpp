@@ -11,6 +11,7 @@
 #include "geom/cad/shape.h"
 #include "geom/model/components.h"
 #include "geom/model/model_measures.h"
+#include "tests/support/error_of.h"
 
 namespace sterna {
 namespace {
@@ -18,23 +19,25 @@ namespace {
 using std::numbers::pi;
 using testing::HasSubstr;
 
-void expect_closed(const Model& model) {
+void expect_no_opening(const Model& model) {
   EXPECT_TRUE(free_edges(model).empty());
   for (const SolidId s : model.solids.ids()) EXPECT_LT(solid_measures(model, s).open, 1e-9);
 }
 
 TEST(Shapes, box_and_cylinder_have_their_volumes) {
   const Model box = make_box("b", {-1.0, 2.0, 0.0}, {1.0, 5.0, 4.0});
-  expect_closed(box);
+  expect_no_opening(box);
   EXPECT_EQ(box.faces.size(), 6u);
   EXPECT_EQ(box.edges.size(), 12u);
   EXPECT_NEAR(solid_measures(box, SolidId(0)).volume, 24.0, 1e-12);
   const Model cylinder = make_cylinder("c", {1.0, 1.0, 1.0}, {3.0, 2.0, 3.0}, 0.5);
-  expect_closed(cylinder);
+  expect_no_opening(cylinder);
   EXPECT_NEAR(solid_measures(cylinder, SolidId(0)).volume, pi * 0.25 * 3.0, 1e-9);
   EXPECT_NEAR(solid_measures(cylinder, SolidId(0)).area, 2 * pi * 0.5 * 3.0 + 2 * pi * 0.25, 1e-9);
-  EXPECT_THROW(make_box("flat", {0, 0, 0}, {1, 1, 0}), Error);
-  EXPECT_THROW(make_cylinder("flat", {0, 0, 0}, {0, 0, 0}, 1.0), Error);
+  test::expect_error(ErrorCode::bad_argument, "box 'flat': its corners (0, 0, 0) and (1, 1, 0) must ascend", [&] {
+    (void)make_box("flat", {0, 0, 0}, {1, 1, 0});
+  });
+  test::expect_error(ErrorCode::bad_argument, "cylinder 'flat': it is 0.000000 m long", [&] { (void)make_cylinder("flat", {0, 0, 0}, {0, 0, 0}, 1.0); });
 }
 
 TEST(Shapes, a_test_section_holds_the_fluid_inside) {
@@ -43,14 +46,14 @@ TEST(Shapes, a_test_section_holds_the_fluid_inside) {
   o.width = 2.1;
   o.height = 1.5;
   const Model plain = make_test_section(o);
-  expect_closed(plain);
+  expect_no_opening(plain);
   EXPECT_NEAR(solid_measures(plain, SolidId(0)).volume, -6.0 * 2.1 * 1.5, 1e-10);  // normals look inwards, into the fluid
   o.contraction_length = 2.0;
   o.contraction_ratio = 4.0;
   o.diffuser_length = 3.0;
   o.diffuser_angle = 0.05;
   const Model tunnel = make_test_section(o);
-  expect_closed(tunnel);
+  expect_no_opening(tunnel);
   double inflow = 0.0, outflow = 0.0;
   for (const FaceId f : tunnel.faces.ids()) {
     if (tunnel.faces[f].role == FaceRole::inflow) inflow += face_measures(tunnel, f).area;
@@ -81,7 +84,7 @@ TEST(Shapes, nacelle_and_pylon_join_a_wing) {
   n.diameter = 2.1;
   const Body nacelle = nacelle_body("engine", {3.0, 5.0, -2.0}, n);
   const Model model = make_body(nacelle, ComponentKind::nacelle);
-  expect_closed(model);
+  expect_no_opening(model);
   double fan = 0.0;
   for (const FaceId f : model.faces.ids())
     if (model.faces[f].role == FaceRole::fan_face) fan = face_measures(model, f).area;
@@ -97,16 +100,18 @@ TEST(Shapes, nacelle_and_pylon_join_a_wing) {
   EXPECT_NEAR(pylon.sections[1].leading_edge.x, 4.0 + 0.3 * 5.0 + 0.1 * 4.0, 1e-9);
   for (const WingSection& section : pylon.sections) EXPECT_NEAR(section.leading_edge.y, 5.0, 1e-12);
   const Model solid = make_wing(pylon);
-  expect_closed(solid);
+  expect_no_opening(solid);
   EXPECT_EQ(solid.components[ComponentId(0)].kind, ComponentKind::pylon);
-  EXPECT_THROW(pylon_wing("pylon", wing, nacelle_body("far", {0.0, 50.0, 0.0}, n), {}), Error);
+  test::expect_error(ErrorCode::bad_argument, "nacelle 'far' stands at y = 50.000000 m, where wing 'wing' has no section", [&] {
+    (void)pylon_wing("pylon", wing, nacelle_body("far", {0.0, 50.0, 0.0}, n), {});
+  });
 }
 
 double volume_of(const Model& model) { return solid_measures(model, SolidId(0)).volume; }
 
 Model valid(const Body& body) {
   const Model model = make_body(body, body.kind);
-  expect_closed(model);
+  expect_no_opening(model);
   for (const ErrorPlace& fault : cad::faults_of(*cad::shape_of(model, RunContext()))) ADD_FAILURE() << body.name << ": " << fault.what;
   return model;
 }
@@ -122,8 +127,8 @@ TEST(Shapes, a_boom_is_a_tube_with_half_ellipsoids) {
     for (const ModelCorner& corner : boom.corners) farthest = std::max(farthest, dot(corner.point, to) / 5.0);
     EXPECT_NEAR(farthest, 5.0, 1e-5);  // it ends where it was told to, as well as a spline is round
   }
-  EXPECT_THROW(boom_body("short", {0, 0, 0}, {1, 0, 0}, o), Error);
-  EXPECT_THROW(boom_body("none", {0, 0, 0}, {0, 0, 0}, o), Error);
+  test::expect_error(ErrorCode::bad_argument, "shorter than the boom, 1.000000 m", [&] { (void)boom_body("short", {0, 0, 0}, {1, 0, 0}, o); });
+  test::expect_error(ErrorCode::bad_argument, "shorter than the boom, 0.000000 m", [&] { (void)boom_body("none", {0, 0, 0}, {0, 0, 0}, o); });
 }
 
 TEST(Shapes, a_body_of_revolution_has_the_volume_of_its_profile) {
@@ -132,8 +137,13 @@ TEST(Shapes, a_body_of_revolution_has_the_volume_of_its_profile) {
   std::vector<Uv> profile;
   for (int i = 0; i <= 24; ++i) profile.push_back({i / 6.0, i == 0 || i == 24 ? 0.0 : 0.3 * std::sin(pi * i / 24.0)});
   EXPECT_NEAR(volume_of(valid(body_of_revolution("s", {}, profile))), pi * 0.09 * 2.0, 2e-3 * pi * 0.09 * 2.0);
-  for (const std::vector<Uv>& bad : {std::vector<Uv>{{0.0, 1.0}}, {{0.0, 1.0}, {1.0, 0.0}, {2.0, 1.0}}, {{0.0, 1.0}, {0.0, 2.0}}, {{0.0, -1.0}, {1.0, 1.0}}})
-    EXPECT_THROW(body_of_revolution("bad", {}, bad), Error);
+  const auto expect_refused = [](const std::string& problem, const std::vector<Uv>& profile_of_it) {
+    test::expect_error(ErrorCode::bad_argument, problem, [&] { (void)body_of_revolution("bad", {}, profile_of_it); });
+  };
+  expect_refused("its profile has 1 points; at least 2 are needed", {{0.0, 1.0}});
+  expect_refused("point 2 of its profile (x = 1, radius 0) needs a positive radius", {{0.0, 1.0}, {1.0, 0.0}, {2.0, 1.0}});
+  expect_refused("point 2 of its profile (x = 0, radius 2) does not lie behind the one before it", {{0.0, 1.0}, {0.0, 2.0}});
+  expect_refused("point 1 of its profile (x = 0, radius -1) needs a positive radius", {{0.0, -1.0}, {1.0, 1.0}});
 }
 
 TEST(Shapes, a_fairing_fills_its_box) {
@@ -162,7 +172,9 @@ TEST(Shapes, a_sting_is_cylinder_and_cone_with_flat_ends) {
   for (const ModelFace& face : model.faces) n_tails += face.role == FaceRole::tail;
   EXPECT_EQ(n_tails, 1);
   o.cone_start = 5.0;
-  EXPECT_THROW(sting_body("sting", {1.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, o), Error);
+  test::expect_error(ErrorCode::bad_argument, "its cone starts at 5.000000 m, but it is only 3.000000 m long", [&] {
+    (void)sting_body("sting", {1.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, o);
+  });
 }
 
 }  // namespace

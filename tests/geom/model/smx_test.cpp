@@ -17,15 +17,15 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-AircraftReading read_text(const std::string& text) {
+AircraftReading read_smx_text(const std::string& text) {
   const auto path = test::scratch() / "case.smx";
   std::ofstream(path) << text;
   return read_smx(path, RunContext());
 }
 
-std::string error_of(const std::string& text) {
+std::string malformed(const std::string& text) {
   try {
-    read_text(text);
+    read_smx_text(text);
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ErrorCode::file_malformed) << e.what();
     return e.what();
@@ -42,16 +42,16 @@ std::string circle_at(double x) {
          " 0 0' height='1' width='1'><CircularShapeConstraint npoints='7' radius='2'/></BodyFrame>\n";
 }
 
-struct RealFile {
+struct SmxCounts {
   const char* name;
   std::size_t bodies, wings, surfaces, controls, engines;
 };
 
-class SmxFiles : public testing::TestWithParam<RealFile> {};
+class SmxFiles : public testing::TestWithParam<SmxCounts> {};
 
 TEST_P(SmxFiles, are_read_completely_and_written_so_that_they_read_back_equal) {
   STERNA_NEEDS_SHARED_DATA();
-  const RealFile& expected = GetParam();
+  const SmxCounts& expected = GetParam();
   const AircraftReading first = read_smx(test::shared_data() / "smx" / expected.name, RunContext());
   EXPECT_EQ(first.aircraft.bodies.size(), expected.bodies);
   EXPECT_EQ(first.aircraft.wings.size(), expected.wings);
@@ -67,9 +67,10 @@ TEST_P(SmxFiles, are_read_completely_and_written_so_that_they_read_back_equal) {
 
 // Counts by grep of the elements in each file.
 INSTANTIATE_TEST_SUITE_P(all_seven, SmxFiles,
-                         testing::Values(RealFile{"bjet.smx", 4, 4, 5, 4, 2}, RealFile{"delta.smx", 3, 2, 3, 3, 1}, RealFile{"sumo_empty.smx", 1, 0, 0, 0, 0},
-                                         RealFile{"torture.smx", 0, 1, 0, 0, 0}, RealFile{"underwingnacelle.smx", 1, 0, 0, 0, 0},
-                                         RealFile{"utility.smx", 4, 3, 5, 4, 0}, RealFile{"widebody.smx", 10, 3, 5, 5, 4}),
+                         testing::Values(SmxCounts{"bjet.smx", 4, 4, 5, 4, 2}, SmxCounts{"delta.smx", 3, 2, 3, 3, 1},
+                                         SmxCounts{"sumo_empty.smx", 1, 0, 0, 0, 0}, SmxCounts{"torture.smx", 0, 1, 0, 0, 0},
+                                         SmxCounts{"underwingnacelle.smx", 1, 0, 0, 0, 0}, SmxCounts{"utility.smx", 4, 3, 5, 4, 0},
+                                         SmxCounts{"widebody.smx", 10, 3, 5, 5, 4}),
                          [](const auto& info) { return std::string(info.param.name).substr(0, std::string(info.param.name).find('.')); });
 
 TEST(Smx, a_clean_file_has_no_messages_and_odd_ones_are_told_with_line_and_path) {
@@ -93,7 +94,7 @@ TEST(Smx, frame_points_are_normalised_and_the_shape_stays) {
 }
 
 TEST(Smx, a_shape_replaces_points_and_a_circle_its_size) {
-  const BodyFrame frame = read_text(body_with(circle_at(0) + circle_at(1))).aircraft.bodies[0].frames[0];
+  const BodyFrame frame = read_smx_text(body_with(circle_at(0) + circle_at(1))).aircraft.bodies[0].frames[0];
   EXPECT_EQ(frame.shape, FrameShape::circle);
   EXPECT_EQ(frame.width, 2.0);  // "radius" is the diameter
   EXPECT_EQ(frame.height, 2.0);
@@ -102,7 +103,7 @@ TEST(Smx, a_shape_replaces_points_and_a_circle_its_size) {
 
 TEST(Smx, frames_are_sorted_and_a_lip_makes_the_nose_flat) {
   const AircraftReading reading =
-      read_text(body_with("<NacelleInletLip axialOffset='0.3'/>" + circle_at(3) + circle_at(1) + "<Cap shape='RingCap' height='1' side='south'/>"));
+      read_smx_text(body_with("<NacelleInletLip axialOffset='0.3'/>" + circle_at(3) + circle_at(1) + "<Cap shape='RingCap' height='1' side='south'/>"));
   const Body& body = reading.aircraft.bodies[0];
   EXPECT_LT(body.frames[0].center.x, body.frames[1].center.x);
   EXPECT_THAT(reading.messages, Contains(HasSubstr("sorted by x")));
@@ -114,13 +115,13 @@ TEST(Smx, frames_are_sorted_and_a_lip_makes_the_nose_flat) {
 }
 
 TEST(Smx, caps_that_are_missing_are_flat_domes_of_bodies_and_round_strips_of_wings) {
-  const Body body = read_text(body_with(circle_at(0) + circle_at(1))).aircraft.bodies[0];
+  const Body body = read_smx_text(body_with(circle_at(0) + circle_at(1))).aircraft.bodies[0];
   EXPECT_EQ(body.nose, (EndCap{CapShape::dome, 0.0}));
-  EXPECT_EQ(read_text(body_with(circle_at(0) + circle_at(1) + "<Caps height_north='0.5' height_south='2'/>")).aircraft.bodies[0].nose,
+  EXPECT_EQ(read_smx_text(body_with(circle_at(0) + circle_at(1) + "<Caps height_north='0.5' height_south='2'/>")).aircraft.bodies[0].nose,
             (EndCap{CapShape::strip, 2.0}));
   const std::string section = "<WingSection name='S' center='0 1 0.5' chord='1' dihedral='0.1'>1 0  0.5 0.06  0 0  0.5 -0.06  1 0</WingSection>\n";
   const auto wing = [&](const std::string& flags) {
-    return read_text("<Assembly><WingSkeleton name='W' " + flags + ">" + section + section + "</WingSkeleton></Assembly>").aircraft.wings[0];
+    return read_smx_text("<Assembly><WingSkeleton name='W' " + flags + ">" + section + section + "</WingSkeleton></Assembly>").aircraft.wings[0];
   };
   EXPECT_EQ(wing("").left_tip, (EndCap{CapShape::strip, 0.0}));
   EXPECT_EQ(wing("").right_tip, (EndCap{CapShape::strip, 1.0}));
@@ -133,35 +134,35 @@ TEST(Smx, caps_that_are_missing_are_flat_domes_of_bodies_and_round_strips_of_win
 }
 
 TEST(Smx, unknown_things_are_told_and_left_out) {
-  const AircraftReading reading = read_text(body_with(circle_at(0) + circle_at(1) + "<Propeller blades='3'/>", "colour='red'"));
+  const AircraftReading reading = read_smx_text(body_with(circle_at(0) + circle_at(1) + "<Propeller blades='3'/>", "colour='red'"));
   EXPECT_THAT(reading.messages, Contains(HasSubstr("/Assembly/BodySkeleton[B]/Propeller: this element is not known")));
   EXPECT_THAT(reading.messages, Contains(HasSubstr("attribute 'colour' is not known")));
 }
 
 TEST(Smx, references_to_nothing_are_told) {
   const AircraftReading reading =
-      read_text("<Assembly><BodySkeleton name='B'>" + circle_at(0) + circle_at(1) +
-                "</BodySkeleton><ControlSystem><ControlSrf name='Flap' wing='Nowhere' type='TEF'><Hingepoint spanpos='0.1' chordpos='0.7'/><Hingepoint "
-                "spanpos='0.2' chordpos='0.7'/>"
-                "</ControlSrf><Control name='C'><Participation id='FlapSegment7' factor='1'/></Control></ControlSystem></Assembly>");
+      read_smx_text("<Assembly><BodySkeleton name='B'>" + circle_at(0) + circle_at(1) +
+                    "</BodySkeleton><ControlSystem><ControlSrf name='Flap' wing='Nowhere' type='TEF'><Hingepoint spanpos='0.1' chordpos='0.7'/><Hingepoint "
+                    "spanpos='0.2' chordpos='0.7'/>"
+                    "</ControlSrf><Control name='C'><Participation id='FlapSegment7' factor='1'/></Control></ControlSystem></Assembly>");
   EXPECT_THAT(reading.messages, Contains(HasSubstr("there is no wing 'Nowhere'")));
   EXPECT_THAT(reading.messages, Contains(HasSubstr("'FlapSegment7'")));
 }
 
 TEST(Smx, errors_name_line_and_path) {
-  EXPECT_THAT(error_of("<Assembly>\n<BodySkeleton name='B'>\n</Assembly>"), HasSubstr("line 3, column"));
-  EXPECT_THAT(error_of(body_with("<BodyFrame name='F' center='0 0 0' height='-1' width='1'/>")),
+  EXPECT_THAT(malformed("<Assembly>\n<BodySkeleton name='B'>\n</Assembly>"), HasSubstr("line 3, column"));
+  EXPECT_THAT(malformed(body_with("<BodyFrame name='F' center='0 0 0' height='-1' width='1'/>")),
               HasSubstr("line 3, /Assembly/BodySkeleton[B]/BodyFrame[F]: attribute 'height' is -1; it must be positive"));
-  EXPECT_THAT(error_of(body_with("<BodyFrame name='F' center='0 zero 0' height='1' width='1'/>")), HasSubstr("'zero' is not a finite number"));
-  EXPECT_THAT(error_of(body_with("<BodyFrame name='F' center='0 0' height='1' width='1'/>")), HasSubstr("has 2 numbers instead of 3"));
-  EXPECT_THAT(error_of(body_with("<BodyFrame name='F' center='0 0 0' height='1' width='1'> 0 -1 1 0 0.5 </BodyFrame>")),
+  EXPECT_THAT(malformed(body_with("<BodyFrame name='F' center='0 zero 0' height='1' width='1'/>")), HasSubstr("'zero' is not a finite number"));
+  EXPECT_THAT(malformed(body_with("<BodyFrame name='F' center='0 0' height='1' width='1'/>")), HasSubstr("has 2 numbers instead of 3"));
+  EXPECT_THAT(malformed(body_with("<BodyFrame name='F' center='0 0 0' height='1' width='1'> 0 -1 1 0 0.5 </BodyFrame>")),
               HasSubstr("5 numbers cannot be pairs"));
-  EXPECT_THAT(error_of(body_with("<BodyFrame name='F' center='0 0 0' height='1' width='1'> 0 -1 1 0 1 0 0 1 </BodyFrame>")), HasSubstr("4 points; it has 3"));
-  EXPECT_THAT(error_of(body_with("<BodyFrame name='F' center='0 0 0' height='1' width='1'> 0 -1  1 0  0 1  0.5 0.5  0.1 0.9</BodyFrame>")),
+  EXPECT_THAT(malformed(body_with("<BodyFrame name='F' center='0 0 0' height='1' width='1'> 0 -1 1 0 1 0 0 1 </BodyFrame>")), HasSubstr("4 points; it has 3"));
+  EXPECT_THAT(malformed(body_with("<BodyFrame name='F' center='0 0 0' height='1' width='1'> 0 -1  1 0  0 1  0.5 0.5  0.1 0.9</BodyFrame>")),
               HasSubstr("turns back by 180 degrees"));
-  EXPECT_THAT(error_of(body_with(circle_at(0))), HasSubstr("a body needs 2 frames"));
-  EXPECT_THAT(error_of("<Mesh/>"), HasSubstr("the root of a .smx file"));
-  EXPECT_THAT(error_of("<Assembly/>"), HasSubstr("there is no body and no wing"));
+  EXPECT_THAT(malformed(body_with(circle_at(0))), HasSubstr("a body needs 2 frames"));
+  EXPECT_THAT(malformed("<Mesh/>"), HasSubstr("the root of a .smx file"));
+  EXPECT_THAT(malformed("<Assembly/>"), HasSubstr("there is no body and no wing"));
 }
 
 TEST(Smx, what_smx_cannot_hold_is_refused_by_name) {
@@ -185,11 +186,11 @@ TEST(Smx, a_section_may_have_only_a_naca_designation) {
     return "<Assembly><WingSkeleton name='W'><WingSection name='a' center='0 1 0'" + section + "<WingSection name='b' center='0 0 0'" + section +
            "</WingSkeleton></Assembly>";
   };
-  const AircraftReading reading = read_text(wing("23012"));
+  const AircraftReading reading = read_smx_text(wing("23012"));
   EXPECT_TRUE(reading.messages.empty());
   EXPECT_EQ(make_components(reading.aircraft, RunContext()).solids.size(), 1u);
   try {
-    read_text(wing("9x"));
+    read_smx_text(wing("9x"));
     FAIL() << "no error";
   } catch (const Error& e) {
     EXPECT_THAT(e.what(), HasSubstr("attribute 'naca'"));

@@ -12,8 +12,6 @@ using Counts = std::map<std::string, int>;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string small_text(const char* name) { return bytes_of(corpus() / "io" / name); }
-
 TEST(Wgs, NetworksArePlacedAndMirrorsTold) {
   std::vector<std::string> warnings;
   const SurfaceSoup soup = read_surface(corpus() / "io" / "two_panels.wgs", &warnings);

@@ -24,7 +24,7 @@ std::string binary(std::uint32_t n_announced, std::size_t n_facets, float z = 1.
   return bytes;
 }
 
-void refused(const std::string& content, const std::vector<std::string>& texts) { expect_refused("a.stl", content, ErrorCode::file_malformed, texts); }
+void refused_stl(const std::string& content, const std::vector<std::string>& texts) { expect_refused("a.stl", content, ErrorCode::file_malformed, texts); }
 
 TEST(SurfaceStl, SolidsArePatches) {
   const SurfaceSoup soup = read_surface_text("a.stl", "solid left wing\n" + facet("0") + "endsolid left wing\nsolid\n" + facet("1") + facet("2") +
@@ -74,15 +74,15 @@ TEST(SurfaceStl, BytesAfterTheLastFacetAreIgnoredWithAWarning) {
 }
 
 TEST(SurfaceStl, MistakesAreTold) {
-  refused("solid x\n" + replaced(facet("0"), "vertex 1 0 0", "vertex 1 0,5 0"), {"line 5", "0,5", "decimal point"});
-  refused("solid x\n" + replaced(facet("0"), "vertex 1 0 0\n", ""), {"line 6", "\"endloop\"", "\"vertex\""});
-  refused("solid x\n" + replaced(facet("0"), "vertex 1 0 0", "vertex 1 inf 0"), {"line 5", "\"inf\""});
-  refused("solid x\n" + facet("0").substr(0, facet("0").find("endloop")), {"end of the file", "\"endloop\""});
-  refused(binary(5, 3), {"byte 84", "5 times 50 bytes", "cut short"});
-  refused(binary(4294967295u, 3), {"byte 84", "4294967295"});
-  refused(binary(3, 3, std::numeric_limits<float>::infinity()), {"byte 108", "facet 1 of 3", "not finite"});
-  refused(binary(0, 2), {"byte 80", "found 0"});
-  refused("<html>no such page</html>", {"byte 0", "<html>", "\"solid\""});
+  refused_stl("solid x\n" + replaced(facet("0"), "vertex 1 0 0", "vertex 1 0,5 0"), {"line 5", "0,5", "decimal point"});
+  refused_stl("solid x\n" + replaced(facet("0"), "vertex 1 0 0\n", ""), {"line 6", "\"endloop\"", "\"vertex\""});
+  refused_stl("solid x\n" + replaced(facet("0"), "vertex 1 0 0", "vertex 1 inf 0"), {"line 5", "\"inf\""});
+  refused_stl("solid x\n" + facet("0").substr(0, facet("0").find("endloop")), {"end of the file", "\"endloop\""});
+  refused_stl(binary(5, 3), {"byte 84", "5 times 50 bytes", "cut short"});
+  refused_stl(binary(4294967295u, 3), {"byte 84", "4294967295"});
+  refused_stl(binary(3, 3, std::numeric_limits<float>::infinity()), {"byte 108", "facet 1 of 3", "not finite"});
+  refused_stl(binary(0, 2), {"byte 80", "found 0"});
+  refused_stl("<html>no such page</html>", {"byte 0", "<html>", "\"solid\""});
 }
 
 }  // namespace

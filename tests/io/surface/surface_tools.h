@@ -16,6 +16,8 @@
 namespace sterna::test {
 
 std::string bytes_of(const std::filesystem::path& path);
+/// A small file of tests/data/io.
+std::string small_text(const char* name);
 void write_bytes(const std::filesystem::path& path, std::string_view bytes);
 
 /// The soup in a file, checked for what holds for every soup; warnings go to `warnings` when it is given.

@@ -31,14 +31,7 @@ std::vector<std::vector<double>> rows_of(const std::filesystem::path& path) {
   return rows;
 }
 
-double volume_of(const TriMesh& mesh) {
-  double volume = 0.0;
-  for (const TriangleId t : mesh.triangles.ids()) {
-    const auto p = corners(mesh, t);
-    volume += dot(p[0], cross(p[1], p[2])) / 6.0;
-  }
-  return volume;
-}
+using test::volume_of;
 
 /// TetGen fills the surface without touching it (-Y): its tetrahedra have the volume inside, its faces the patches.
 void expect_filled(const TriMesh& mesh, const std::string& extension) {

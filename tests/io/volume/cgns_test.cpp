@@ -12,8 +12,8 @@
 namespace sterna::io {
 namespace {
 
-HybridMesh read(const std::filesystem::path& path) { return read_volume_file(path, RunContext({.threads = 2})); }
-void write(const HybridMesh& mesh, const std::filesystem::path& path, int threads = 2) { write_volume_file(mesh, path, RunContext({.threads = threads})); }
+using test::read;
+using test::write;
 
 TEST(CgnsRead, SamplesOfEveryVersionAndContainer) {
   STERNA_NEEDS_SHARED_DATA();

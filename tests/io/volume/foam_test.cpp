@@ -14,8 +14,8 @@ namespace {
 
 using test::CellOrder;
 
-HybridMesh read(const std::filesystem::path& path) { return read_volume_file(path, RunContext({.threads = 2})); }
-void write(const HybridMesh& mesh, const std::filesystem::path& path) { write_volume_file(mesh, path, RunContext({.threads = 2})); }
+using test::read;
+using test::write;
 
 TEST(Foam, RoundTripOfMixedMeshes) {
   const auto folder = test::scratch();

@@ -18,7 +18,7 @@ using testing::Not;
 /// Seven patches of seven kinds; five of them in the plane, each with quads, and with triangles beside collapsed lines or of tetrahedra.
 HybridMesh half_mesh() { return test::half_shell_of_all_kinds(6, {.shell = {.n_layers = 4}, .has_collapsed_rim = true}); }
 
-void write(const HybridMesh& mesh, const std::filesystem::path& path) { write_volume_file(mesh, path, RunContext({.threads = 2})); }
+using test::write;
 
 TEST(HalfMesh, HasQuadsAndTrianglesOfEveryKindInItsPlane) {
   const HybridMesh mesh = half_mesh();

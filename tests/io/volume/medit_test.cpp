@@ -17,8 +17,8 @@ namespace {
 
 using test::CellOrder;
 
-HybridMesh read(const std::filesystem::path& path) { return read_volume_file(path, RunContext({.threads = 2})); }
-void write(const HybridMesh& mesh, const std::filesystem::path& path) { write_volume_file(mesh, path, RunContext({.threads = 2})); }
+using test::read;
+using test::write;
 
 const std::vector<std::string> k_files = {"mesh.mesh", "mesh.meshb", "mesh.v2.meshb", "mesh.v3.meshb", "mesh.v4.meshb"};
 

@@ -7,6 +7,7 @@
 #include "io/volume_file.h"
 #include "tests/io/volume/openfoam_tools.h"
 #include "tests/io/volume/volume_tools.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/error_of.h"
 #include "tests/support/hybrid_shapes.h"
@@ -18,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 /// A plate with layers and tetrahedra above it, whose sides x = 0 and x = 1 are periodic; each has triangles and quads.
 HybridMesh periodic_plate() {
@@ -39,7 +40,7 @@ HybridMesh periodic_plate() {
   return mesh;
 }
 
-void write(const HybridMesh& mesh, const std::filesystem::path& path) { write_volume_file(mesh, path, k_context); }
+using test::write;
 
 TEST(PeriodicMesh, IsValidAndSaysSo) {
   const CheckReport report = check(periodic_plate(), {}, k_context);

@@ -11,6 +11,7 @@
 #include "io/volume_file.h"
 #include "tests/io/volume/round_trip.h"
 #include "tests/io/volume/volume_tools.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/shapes.h"
@@ -18,7 +19,7 @@
 namespace sterna::io {
 namespace {
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 /// Parts with content in every array.
 struct Everything {

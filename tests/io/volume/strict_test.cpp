@@ -12,6 +12,7 @@
 
 #include "io/format_table.h"
 #include "tests/io/volume/volume_tools.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/reader_checks.h"
@@ -21,7 +22,7 @@ namespace sterna::io {
 namespace {
 
 constexpr double k_mark = 0.785398163397448279;  // a coordinate that is found again in the bytes of a file
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 /// Formats and extensions, for messages.
 struct Case {
@@ -48,7 +49,7 @@ std::vector<Case> cases() {
   return result;
 }
 
-std::filesystem::path write(const Case& c) {
+std::filesystem::path write_case(const Case& c) {
   const auto path = test::scratch() / ("victim" + c.extension);
   if (c.is_volume) {
     HybridMesh mesh = test::hexahedron_with_roof();
@@ -64,7 +65,7 @@ std::filesystem::path write(const Case& c) {
   return path;
 }
 
-void read(const Case& c, const std::filesystem::path& path) {
+void read_case(const Case& c, const std::filesystem::path& path) {
   if (c.is_volume) EXPECT_EQ(test::flaw_of(c.format->read_volume(path, k_context)), "");
   else EXPECT_EQ(test::flaw_of(c.format->read_surface(path, k_context)), "");
 }
@@ -72,7 +73,7 @@ void read(const Case& c, const std::filesystem::path& path) {
 void expect_refused(const Case& c, const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
   try {
-    read(c, path);
+    read_case(c, path);
     ADD_FAILURE() << "it was read";
   } catch (const Error& error) {
     const std::string text = error.what();
@@ -118,9 +119,9 @@ TEST(Strict, CoordinatesThatAreNoNumbers) {
   std::set<std::string> packed;
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name());
-    const auto path = write(c);
+    const auto path = write_case(c);
     const std::string good = test::bytes_of(path);
-    read(c, path);
+    read_case(c, path);
     for (const double value : {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
       std::string bytes = good;
       if (replace_mark(bytes, value)) expect_refused(c, path, bytes);
@@ -135,7 +136,7 @@ TEST(Strict, HalfAFile) {
     if (c.format->name == "OBJ") continue;     // has neither counts nor an end: half of it is a smaller one
     if (c.extension == ".adf.cgns") continue;  // ends in free space, which may be cut off
     SCOPED_TRACE(c.name());
-    const auto path = write(c);
+    const auto path = write_case(c);
     const std::string good = test::bytes_of(path);
     for (const double share : {0.25, 0.5, 0.75, 0.9}) {
       SCOPED_TRACE(share);

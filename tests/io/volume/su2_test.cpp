@@ -36,9 +36,9 @@ constexpr const char* k_prism_and_tet =
     "MARKER_TAG= side\nMARKER_ELEMS= 3\n9 0 1 4 3\n9 1 2 5 4\n9 2 0 3 5\n"
     "MARKER_TAG= farfield\nMARKER_ELEMS= 3\n5 3 4 6\n5 4 5 6\n5 5 3 6\n";
 
-HybridMesh read(const std::filesystem::path& path) { return read_volume_file(path, RunContext({.threads = 2})); }
+using test::read;
 HybridMesh read_text(const std::string& text) { return read(write_text("mesh.su2", text)); }
-void write(const HybridMesh& mesh, const std::filesystem::path& path) { write_volume_file(mesh, path, RunContext({.threads = 2})); }
+using test::write;
 
 void expect_equal(const HybridMesh& a, const HybridMesh& b) {
   EXPECT_EQ(a.points, b.points);  // to the bit
@@ -49,11 +49,7 @@ void expect_equal(const HybridMesh& a, const HybridMesh& b) {
   EXPECT_EQ(a.patches, b.patches);
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
+using test::replaced;
 
 TEST(Su2Write, WorkedExampleByteForByte) {
   const auto path = test::scratch() / "pt.su2";

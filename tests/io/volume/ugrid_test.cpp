@@ -9,7 +9,7 @@
 namespace sterna::io {
 namespace {
 
-HybridMesh read(const std::filesystem::path& path) { return read_volume_file(path, RunContext({.threads = 2})); }
+using test::read;
 
 TEST(UgridRead, Samples) {
   STERNA_NEEDS_SHARED_DATA();
@@ -38,7 +38,7 @@ TEST(UgridRead, NeverCrashesOnCutFiles) {
     test::expect_error(ErrorCode::file_malformed, "byte", [&] { read(test::write_text("mesh.lb8.ugrid", bytes.substr(0, n))); });
 }
 
-void write(const HybridMesh& mesh, const std::filesystem::path& path, int threads = 2) { write_volume_file(mesh, path, RunContext({.threads = threads})); }
+using test::write;
 
 /// The sample's patches in the order of its numbers, which reading (order of appearance) does not keep.
 HybridMesh with_patches_of_mapbc(HybridMesh mesh, const std::vector<std::string>& names) {

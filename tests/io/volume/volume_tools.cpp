@@ -46,6 +46,15 @@ constexpr double k_volume_tolerance = 1e-12;
 
 }  // namespace
 
+HybridMesh read(const std::filesystem::path& path) { return io::read_volume_file(path, RunContext({.threads = 2})); }
+void write(const HybridMesh& mesh, const std::filesystem::path& path, int threads) { io::write_volume_file(mesh, path, RunContext({.threads = threads})); }
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
 double IndependentReport::number(const std::string& key) const {
   const auto found = values.find(key);
   return found == values.end() ? 0.0 : std::stod(found->second);

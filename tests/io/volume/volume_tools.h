@@ -11,6 +11,7 @@
 
 #include "geom/base/error.h"
 #include "geom/mesh/hybrid_mesh.h"
+#include "tests/support/error_of.h"
 #include "tests/support/hybrid_shapes.h"
 
 namespace sterna::test {
@@ -31,6 +32,13 @@ void expect_same_mesh(const IndependentReport& report, const HybridMesh& mesh);
 
 /// Writes the mesh and returns the warnings.
 std::vector<std::string> warnings_of_writing(const HybridMesh& mesh, const std::filesystem::path& path);
+
+/// Through the table of formats.
+HybridMesh read(const std::filesystem::path& path);
+void write(const HybridMesh& mesh, const std::filesystem::path& path, int threads = 2);
+
+/// `text` with the first `from`, which it must have, replaced.
+std::string replaced(std::string text, const std::string& from, const std::string& to);
 
 std::string bytes_of(const std::filesystem::path& path);
 std::filesystem::path write_text(const std::string& name, const std::string& text);
@@ -59,18 +67,6 @@ std::optional<std::string> output_of_tool(const std::string& program, const std:
 void expect_survives_damage(const std::filesystem::path& victim, const std::string& name, std::size_t n_attempts = 400);
 /// For files that a helper process reads, some 20 ms each.
 inline constexpr std::size_t k_few_attempts = 10;
-
-/// Runs f, which must throw an Error of that code whose text contains `text`.
-template <class F>
-void expect_error(ErrorCode code, const std::string& text, const F& f) {
-  try {
-    f();
-    ADD_FAILURE() << "no error, expected " << to_string(code) << ": " << text;
-  } catch (const Error& error) {
-    EXPECT_EQ(to_string(error.code()), to_string(code)) << error.what();
-    EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
-  }
-}
 
 /// Meshes of all kinds of cells come back as they were, and are the same bytes for 1, 2 and 7 threads. `read(path) -> HybridMesh`, `write(mesh, path,
 /// threads)`.

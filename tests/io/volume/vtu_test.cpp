@@ -12,7 +12,7 @@
 namespace sterna::io {
 namespace {
 
-void write(const HybridMesh& mesh, const std::filesystem::path& path) { write_volume_file(mesh, path, RunContext({.threads = 2})); }
+using test::write;
 
 class VtuReaders : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Independent, VtuReaders, testing::Values("vtk", "meshio"), [](const auto& info) { return std::string(info.param); });
@@ -77,7 +77,7 @@ TEST(Vtu, TroubleWithoutAnythingIsStillAFile) {
   EXPECT_THAT(test::bytes_of(path), testing::HasSubstr("NumberOfPoints=\"0\" NumberOfCells=\"0\""));
 }
 
-HybridMesh read(const std::filesystem::path& path) { return read_volume_file(path, RunContext({.threads = 2})); }
+using test::read;
 
 TEST(VtuRead, RoundTripToTheBit) {
   const auto folder = test::scratch();
@@ -103,11 +103,7 @@ TEST(VtuRead, RoundTripToTheBit) {
   }
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
+using test::replaced;
 
 TEST(Vtu, EveryPackingHasTheSameContent) {
   const auto folder = test::scratch();

@@ -56,7 +56,9 @@ TEST(Manual, EveryExampleRuns) {
       ++n_examples;
       SCOPED_TRACE(std::string(verb->name) + ": " + example);
       // Anew for each, because components change in place and files are replaced.
-      if (n_examples == 1 || verb->name.find(':') != std::string_view::npos) ASSERT_NO_THROW(state.run(std::string(manual_setup()), "=setup"));
+      if (n_examples == 1 || verb->name.find(':') != std::string_view::npos) {
+        ASSERT_NO_THROW(state.run(std::string(manual_setup()), "=setup"));
+      }
       const std::string expression = "return " + example;
       EXPECT_NO_THROW(state.run(state.is_correct(expression) ? expression : example, "=example"));
     }

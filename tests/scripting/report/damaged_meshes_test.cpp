@@ -48,10 +48,7 @@ double reach_of(const HybridMesh& mesh, const Nodes& nodes) {
 class DamagedMeshes : public testing::Test {
  protected:
   void SetUp() override {
-    if (!test::has_shared_data()) {
-      if (test::is_all_required()) FAIL() << "STERNA_REQUIRE_DATA=1, but ../shared/data is absent";
-      GTEST_SKIP() << "needs ../shared/data";
-    }
+    STERNA_NEEDS_SHARED_DATA();
     if (base()) {
       mesh_ = *base();
       return;

@@ -18,11 +18,7 @@ using testing::HasSubstr;
 
 class Report : public ScriptFixture {
  protected:
-  void SetUp() override {
-    if (!report_page().empty()) return;
-    if (test::is_all_required()) FAIL() << "STERNA_REQUIRE_DATA=1, but this build has no report page";
-    GTEST_SKIP() << "this build has no report page: npm or its registry was missing";
-  }
+  void SetUp() override { STERNA_NEEDS(!report_page().empty(), "the report page (npm or its registry, when this was built)"); }
   static std::string mesh_script() {
     return std::string("local wall = read_surface{ '") + STERNA_SOURCE_DIR + "/tests/data/scripts/box.stl' }\n" +
            "local mesh = volume_mesh{ wall, layers = 5, first_height = 1e-3 * wall.length, farfield = sphere{ radius = 10 * wall.length } }\n";

@@ -47,15 +47,6 @@ std::string triangles_of(const std::string& off) {
   return triangles;
 }
 
-/// Without what holds the script, its key, or the number of a case.
-std::map<std::string, std::string> results_only(std::map<std::string, std::string> files) {
-  std::erase_if(files, [](const auto& file) {
-    return file.first.find("/script/") != std::string::npos || file.first.ends_with("case.json") || file.first.ends_with("status.json") ||
-           file.first == "series.json";
-  });
-  return files;
-}
-
 class ReferenceSeries : public SeriesFixture {
  protected:
   std::string reused(const std::string& name) const { return text_of("bend/" + name + "/measure.json"); }

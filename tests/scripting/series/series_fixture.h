@@ -35,6 +35,15 @@ inline std::map<std::string, std::string> snapshot(const std::filesystem::path& 
   return files;
 }
 
+/// Without what holds the script, its key, or the number of a case: meshes, manifests, quality.
+inline std::map<std::string, std::string> results_only(std::map<std::string, std::string> files) {
+  std::erase_if(files, [](const auto& file) {
+    return file.first.find("/script/") != std::string::npos || file.first.ends_with("case.json") || file.first.ends_with("status.json") ||
+           file.first == "series.json";
+  });
+  return files;
+}
+
 /// Names of the files that differ or are in one of them only; empty when they are the same.
 inline std::string difference(const std::map<std::string, std::string>& a, const std::map<std::string, std::string>& b) {
   std::string text;

@@ -73,10 +73,7 @@ TEST_F(Series, EveryCaseHasAFolderWithAllThatBelongsToIt) {
 
 /// A table of all cases, also of those that failed, with what each wrote: pictures in it, pages linked.
 TEST_F(Series, EndsWithAPageThatComparesItsCases) {
-  if (report_page().empty()) {
-    if (test::is_all_required()) FAIL() << "STERNA_REQUIRE_DATA=1, but this build has no report page";
-    GTEST_SKIP() << "this build has no report page: npm or its registry was missing";
-  }
+  STERNA_NEEDS(!report_page().empty(), "the report page (npm or its registry, when this was built)");
   run(k_small);
   const nlohmann::json page = test::page_json(folder_ / "small/series.html");
   EXPECT_EQ(page["schema"], "sterna-series-1");

@@ -15,15 +15,6 @@ namespace {
 using testing::HasSubstr;
 using Snapshot = std::map<std::string, std::string>;
 
-/// Without what holds the script, its key, or the number of a case: meshes, manifests, quality.
-Snapshot results_only(Snapshot files) {
-  std::erase_if(files, [](const auto& file) {
-    return file.first.find("/script/") != std::string::npos || file.first.ends_with("case.json") || file.first.ends_with("status.json") ||
-           file.first == "series.json";
-  });
-  return files;
-}
-
 class TunnelSeries : public SeriesFixture {
  protected:
   std::filesystem::path polar() const { return folder_ / "polar"; }

@@ -15,14 +15,15 @@
 #include "geom/math/predicates.h"
 #include "geom/model/analytic_surfaces.h"
 #include "surfmesh/face/face_sizes.h"
+#include "tests/support/constants.h"
 #include "tests/support/face_shapes.h"
 #include "tests/support/triangle_quality.h"
 
 namespace sterna::surfmesh {
 namespace {
 
-const RunContext k_context{};
-constexpr double k_deg = std::numbers::pi / 180.0;
+using test::k_context;
+using test::k_degree;
 
 FaceMeshOptions coarse_curvature() {
   FaceMeshOptions options;
@@ -91,7 +92,7 @@ TEST_P(Shapes, AreSoundAndWellShaped) {
     const FaceMesh mesh = mesh_shape(shape, shape.size / factor);
     expect_sound(mesh, *shape.surface, border);
     EXPECT_LE(mesh.report.n_outside_20_130, shape.n_narrow)
-        << "angles " << mesh.report.min_angle / k_deg << " .. " << mesh.report.max_angle / k_deg << " at " << format_point(mesh.report.worst_place);
+        << "angles " << mesh.report.min_angle / k_degree << " .. " << mesh.report.max_angle / k_degree << " at " << format_point(mesh.report.worst_place);
     // Equilateral triangles of the wanted edge cover the face: fewer than a third off would need edges 15 % longer.
     const double ideal = area_of(mesh) / (0.25 * std::numbers::sqrt3 * shape.size * shape.size / (factor * factor));
     EXPECT_GT(static_cast<double>(mesh.triangles.size()), 0.75 * ideal);
@@ -167,7 +168,7 @@ TEST(FaceMesh, SizesGrowFromAFinePlace) {
   const FaceMesh mesh = mesh_face(
       k_plane, border, [](Uv, const Point& p) { return 0.005 + 0.2 * std::abs(norm(p) - 0.05); }, {}, k_context);
   expect_sound(mesh, k_plane, border);
-  EXPECT_EQ(mesh.report.n_outside_20_130, 0) << mesh.report.min_angle / k_deg << " .. " << mesh.report.max_angle / k_deg
+  EXPECT_EQ(mesh.report.n_outside_20_130, 0) << mesh.report.min_angle / k_degree << " .. " << mesh.report.max_angle / k_degree
                                              << format_point(mesh.report.worst_place);
   EXPECT_LT(mesh.triangles.size(), 6000u);
 }
@@ -283,8 +284,8 @@ TEST(CurvatureSizes, OfRoundSurfaces) {
   EXPECT_NEAR(largest_curvature(torus.derivatives({1.0, 0.0})), 5.0, 1e-12);
   // The chord of the angle: 30 degrees of radius 2.
   CurvatureSizes sizes(sphere, sphere.domain());
-  sizes.limit({.angle = 30.0 * k_deg});
-  EXPECT_NEAR(sizes({1.0, 0.3}), 4.0 * std::sin(15.0 * k_deg), 1e-7);
+  sizes.limit({.angle = 30.0 * k_degree});
+  EXPECT_NEAR(sizes({1.0, 0.3}), 4.0 * std::sin(15.0 * k_degree), 1e-7);
 }
 
 }  // namespace

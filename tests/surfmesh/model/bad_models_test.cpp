@@ -17,6 +17,7 @@
 #include "geom/model/shapes.h"
 #include "io/cad_file.h"
 #include "surfmesh/model/surface_mesh.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/model_meshes.h"
 
@@ -29,9 +30,9 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-const RunContext k_context{};
+using test::k_context;
 
-SurfaceMeshOptions edges_of(double size, const std::string& crossings = "error") {
+SurfaceMeshOptions edges_and_crossings(double size, const std::string& crossings = "error") {
   SurfaceMeshOptions options;
   options.max_edge = size;
   options.crossings = crossings;
@@ -56,7 +57,7 @@ ErrorInfo failure_of(const Model& model, const SurfaceMeshOptions& options) {
 TEST(BadModels, SolidsThatStandInEachOtherAreToBeUnited) {
   const Model a = make_box("left", {0, 0, 0}, {1, 1, 1}), b = make_box("right", {0.5, 0.3, 0.3}, {2, 0.7, 0.7});
   const Model model = both(a, b);
-  const ErrorInfo info = failure_of(model, edges_of(0.2));
+  const ErrorInfo info = failure_of(model, edges_and_crossings(0.2));
   EXPECT_EQ(info.code, ErrorCode::self_intersection);
   ASSERT_EQ(info.places.size(), 4u);  // the four long sides of the bar through the side x = 1
   for (const ErrorPlace& place : info.places) {
@@ -66,11 +67,11 @@ TEST(BadModels, SolidsThatStandInEachOtherAreToBeUnited) {
   EXPECT_THAT(info.hint, AllOf(HasSubstr("union{"), HasSubstr("crossings = \"warn\""), Not(HasSubstr("mend"))));
   EXPECT_FALSE(info.geometry.triangles.empty());
   // The same with a warning; and as advised.
-  const SurfaceMesh kept = mesh_model(model, edges_of(0.2, "warn"), {}, k_context);
+  const SurfaceMesh kept = mesh_model(model, edges_and_crossings(0.2, "warn"), {}, k_context);
   EXPECT_GT(kept.report.n_crossings, 0);
   EXPECT_EQ(kept.report.crossings.size(), 4u);
   const std::vector<Model> parts{a, b};
-  const SurfaceMesh united = mesh_model(cad::unite(parts, {}, k_context).model, edges_of(0.2), {}, k_context);
+  const SurfaceMesh united = mesh_model(cad::unite(parts, {}, k_context).model, edges_and_crossings(0.2), {}, k_context);
   EXPECT_EQ(united.report.n_crossings, 0);
   EXPECT_EQ(united.report.n_free_edges, 0);
 }
@@ -80,14 +81,14 @@ TEST(BadModels, SolidsThatTouchAreToBeUnitedAtOnce) {
   const Model boxes = both(make_box("left", {0, 0, 0}, {1, 1, 1}), make_box("right", {1, 0.1, 0.2}, {2, 0.9, 0.7}));
   const Model tubes = both(make_cylinder("outer", {0, 0, 0}, {3, 0, 0}, 0.5), make_cylinder("inner", {1, 0, 0}, {2, 0, 0}, 0.5));
   for (const Model* model : {&boxes, &tubes}) {
-    EXPECT_EQ(failure_of(*model, edges_of(0.2)).code, ErrorCode::self_intersection);
-    EXPECT_EQ(mesh_model(*model, edges_of(0.2, "warn"), {}, k_context).report.n_rounds, 1);
+    EXPECT_EQ(failure_of(*model, edges_and_crossings(0.2)).code, ErrorCode::self_intersection);
+    EXPECT_EQ(mesh_model(*model, edges_and_crossings(0.2, "warn"), {}, k_context).report.n_rounds, 1);
   }
 }
 
 TEST(BadModels, SolidsThatOnlyRunNearToEachOtherArePartedByFinerTriangles) {
   // A rod in a hole 4 mm wider: facets of 0.35 m would cross.
-  SurfaceMeshOptions options = edges_of(0.35);
+  SurfaceMeshOptions options = edges_and_crossings(0.35);
   options.curvature_angle = 0.7;
   const Model rod = make_cylinder("rod", {-1, 0, 0}, {1, 0, 0}, 0.5), ring = make_cylinder("pipe", {-0.9, 0, 0}, {0.9, 0, 0}, 0.504);
   // Only the skins of both: the pipe's ends would be crossed by the rod.
@@ -109,13 +110,13 @@ TEST(BadModels, AnOpenPartInAnotherOneCannotBeUnited) {
   faces.push_back(sheet.faces[FaceId(std::uint64_t{0})]);
   sheet.faces = faces;
   sheet.solids.clear();
-  const ErrorInfo info = failure_of(both(make_box("box", {0, 0, 0}, {1, 1, 1}), sheet), edges_of(0.2));
+  const ErrorInfo info = failure_of(both(make_box("box", {0, 0, 0}, {1, 1, 1}), sheet), edges_and_crossings(0.2));
   EXPECT_EQ(info.code, ErrorCode::self_intersection);
   EXPECT_THAT(info.hint, AllOf(HasSubstr("open"), Not(HasSubstr("union{"))));
 }
 
 TEST(BadModels, AbsurdSizesEndAtOnceWithTheirCount) {
-  const ErrorInfo info = failure_of(make_box("crate", {0, 0, 0}, {1, 1, 1}), edges_of(1e-5));
+  const ErrorInfo info = failure_of(make_box("crate", {0, 0, 0}, {1, 1, 1}), edges_and_crossings(1e-5));
   EXPECT_EQ(info.code, ErrorCode::overflow);
   // 6 m^2 of triangles of 0.433e-10 m^2.
   EXPECT_THAT(info.problem, AllOf(HasSubstr("1.4e+11"), HasSubstr("max_triangles")));
@@ -137,7 +138,7 @@ TEST(BadModels, FacesThatAreALineAreAbsorbed) {
   face.borders.push_back({{edge, false, line(0.0)}, {edge, true, line(std::numbers::pi)}});
   thread.faces.push_back(face);
   append(model, thread);
-  const SurfaceMesh mesh = mesh_model(model, edges_of(0.2), {}, k_context);
+  const SurfaceMesh mesh = mesh_model(model, edges_and_crossings(0.2), {}, k_context);
   expect_joined(model, mesh);
   ASSERT_EQ(mesh.report.absorbed.size(), 1u);
   EXPECT_THAT(mesh.report.absorbed.front().what, AllOf(HasSubstr("thread"), HasSubstr("line")));
@@ -183,7 +184,7 @@ TEST(BadModels, FacesAroundAPeriodNeedNoSeam) {
   for (const int n : {1, 3}) {
     SCOPED_TRACE(n);
     const Model model = tube_without_seam(n);
-    SurfaceMeshOptions options = edges_of(0.2);
+    SurfaceMeshOptions options = edges_and_crossings(0.2);
     options.curvature_angle = 0.3;
     const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
     expect_joined(model, mesh);
@@ -220,7 +221,7 @@ TEST(BadModels, ACapOfASphereNeedsNeitherSeamNorPole) {
                            .component = ComponentId(std::uint64_t{0}),
                            .name = v > 0.0 ? "north" : "south"});
   }
-  SurfaceMeshOptions options = edges_of(0.15);
+  SurfaceMeshOptions options = edges_and_crossings(0.15);
   options.curvature_angle = 0.3;
   const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
   expect_joined(model, mesh);
@@ -246,7 +247,7 @@ TEST(BadModels, TipsOfTwoHalvesAreNotClosedByOneAndTheSameEdge) {
   builder.patch(surface, {{pi, 2 * pi}, v}, {builder.pole(tip), to_right, back, to_left}, FaceRole::skin, "back");
   builder.plane({front, back}, FaceRole::skin, "base");
   const Model model = builder.closed_solid("cone");
-  const SurfaceMesh mesh = mesh_model(model, edges_of(0.1), {}, k_context);
+  const SurfaceMesh mesh = mesh_model(model, edges_and_crossings(0.1), {}, k_context);
   expect_joined(model, mesh);
   EXPECT_EQ(mesh.report.n_free_edges, 0);
   EXPECT_EQ(mesh.report.n_rounds, 1);
@@ -255,12 +256,12 @@ TEST(BadModels, TipsOfTwoHalvesAreNotClosedByOneAndTheSameEdge) {
 TEST(BadModels, EdgesOffTheirFacesAreNamed) {
   // A side of the box is moved away from its edges by more than any tolerance.
   Model model = make_box("box", {0, 0, 0}, {1, 1, 1});
-  EXPECT_TRUE(mesh_model(model, edges_of(0.25), {}, k_context).report.loose_edges.empty());
+  EXPECT_TRUE(mesh_model(model, edges_and_crossings(0.25), {}, k_context).report.loose_edges.empty());
   const Model moved = make_box("box", {-1e-4, 0, 0}, {1.0001, 1, 1});
   for (const FaceId f : model.faces.ids())
     if (std::abs(model.faces[f].surface->derivatives({}).du.x) + std::abs(model.faces[f].surface->derivatives({}).dv.x) < 1e-12)
       model.faces[f].surface = moved.faces[f].surface;
-  const SurfaceMesh mesh = mesh_model(model, edges_of(0.25), {}, k_context);
+  const SurfaceMesh mesh = mesh_model(model, edges_and_crossings(0.25), {}, k_context);
   ASSERT_EQ(mesh.report.loose_edges.size(), 8u);
   for (const LooseEdge& loose : mesh.report.loose_edges) {
     EXPECT_NEAR(loose.distance, 1e-4, 1e-6);
@@ -271,7 +272,7 @@ TEST(BadModels, EdgesOffTheirFacesAreNamed) {
 
 TEST(BadModels, NormalsAreMeasuredAgainstTheCurvatureAngle) {
   const Model model = make_cylinder("c", {0, 0, 0}, {3, 0, 0}, 1.0);
-  SurfaceMeshOptions options = edges_of(0.5);
+  SurfaceMeshOptions options = edges_and_crossings(0.5);
   options.curvature_angle = 0.3;
   const SurfaceMesh fine = mesh_model(model, options, {}, k_context);
   EXPECT_EQ(fine.report.share_normals, 1.0);
@@ -291,7 +292,7 @@ TEST(BadModels, HolesThatTouchTheBorderAndLinesForFacesInFiles) {
   for (const auto& [file, n_absorbed] : {std::pair{"gmsh_parts_PeriodicFaceWithLargeTolerance.brep", 0u}, std::pair{"afem_f16_F-16.stp", 16u}}) {
     SCOPED_TRACE(file);
     const Model model = io::read_cad(test::shared_data() / "cad" / file, {}, k_context).model;
-    SurfaceMeshOptions options = edges_of(n_absorbed > 0 ? 0.3 : 1.0, "ignore");
+    SurfaceMeshOptions options = edges_and_crossings(n_absorbed > 0 ? 0.3 : 1.0, "ignore");
     options.curvature_angle = 0.4;
     const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
     expect_joined(model, mesh);
@@ -345,7 +346,7 @@ TEST(BadModels, LoopsOfOpenModelsAreTheFreeEdges) {
                         Case{"tigl_nacelle_nacelle.stp", 0.2}, Case{"gmsh_parts_PeriodicFaceWithLargeTolerance.brep", 1.0}}) {
     SCOPED_TRACE(c.file);
     const Model model = io::read_cad(test::shared_data() / "cad" / c.file, {}, k_context).model;
-    SurfaceMeshOptions options = edges_of(c.max_edge, "ignore");
+    SurfaceMeshOptions options = edges_and_crossings(c.max_edge, "ignore");
     options.curvature_angle = 0.5;
     const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
     ASSERT_TRUE(mesh.report.absorbed.empty());
@@ -357,7 +358,7 @@ TEST(BadModels, LoopsOfOpenModelsAreTheFreeEdges) {
 TEST(BadModels, ASurfaceThatFoldsIsNamedWithItsPlace) {
   STERNA_NEEDS_SHARED_DATA();
   // The lip of the nacelle: du and dv are parallel at y = -0.511 and the normal turns over.
-  SurfaceMeshOptions options = edges_of(0.1);
+  SurfaceMeshOptions options = edges_and_crossings(0.1);
   options.curvature_angle = 0.4;
   const ErrorInfo info = failure_of(io::read_cad(test::shared_data() / "cad" / "tigl_nacelle_nacelle.stp", {}, k_context).model, options);
   EXPECT_EQ(info.code, ErrorCode::self_intersection);

@@ -13,16 +13,17 @@
 #include "geom/model/components.h"
 #include "geom/model/deform.h"
 #include "geom/model/shapes.h"
+#include "tests/support/constants.h"
 
 namespace sterna::surfmesh {
 namespace {
 
 using testing::HasSubstr;
 
-const RunContext k_context{};
+using test::k_context;
 
 /// Swept and tapered, with round tips and a blunt trailing edge; its outer section turned nose-up.
-Model wing(double twist) {
+Model twisted_wing(double twist) {
   Wing wing{.name = "W", .is_symmetric = true, .trailing_edge = 0.01};
   for (const double y : {4.0, 1.5, 0.0}) {
     WingSection s{.name = "y", .leading_edge = {0.5 * y, y, 0.0}, .chord = 2.0 - 0.3 * y, .twist = twist * y / 4.0};
@@ -60,7 +61,7 @@ CarriedMesh carried(const StructuredMesh& from, const Model& to) {
 }
 
 TEST(CarryMesh, OnItsOwnModelItIsTheMesh) {
-  for (const Model& model : {wing(0.0), body(), make_cylinder("can", {0, 0, 0}, {2, 0, 0}, 1.0), make_box("box", {0, 0, 0}, {1, 1, 1})}) {
+  for (const Model& model : {twisted_wing(0.0), body(), make_cylinder("can", {0, 0, 0}, {2, 0, 0}, 1.0), make_box("box", {0, 0, 0}, {1, 1, 1})}) {
     const StructuredMesh from = mesh_of(model);
     const CarriedMesh again = carried(from, model);
     ASSERT_TRUE(again.mesh) << again.objection;
@@ -77,7 +78,7 @@ TEST(CarryMesh, OnItsOwnModelItIsTheMesh) {
 }
 
 TEST(CarryMesh, FollowsABendWithTheSameTrianglesOnTheNewSurface) {
-  for (const Model& model : {wing(0.0), body()}) {
+  for (const Model& model : {twisted_wing(0.0), body()}) {
     const StructuredMesh from = mesh_of(model);
     const Model to = bent(model, 0.03);
     const CarriedMesh result = carried(from, to);
@@ -93,8 +94,8 @@ TEST(CarryMesh, FollowsABendWithTheSameTrianglesOnTheNewSurface) {
 }
 
 TEST(CarryMesh, FollowsATwistedWing) {
-  const StructuredMesh from = mesh_of(wing(0.0));
-  const CarriedMesh result = carried(from, wing(0.07));
+  const StructuredMesh from = mesh_of(twisted_wing(0.0));
+  const CarriedMesh result = carried(from, twisted_wing(0.07));
   ASSERT_TRUE(result.mesh) << result.objection << format_point(result.place);
   EXPECT_EQ(result.mesh->mesh.triangles.raw(), from.mesh.mesh.triangles.raw());
   double most = 0.0;
@@ -103,12 +104,12 @@ TEST(CarryMesh, FollowsATwistedWing) {
 }
 
 TEST(CarryMesh, IsRefusedWithAPlaceWhereItWouldNotBeGood) {
-  const StructuredMesh from = mesh_of(wing(0.0));
-  const CarriedMesh result = carried(from, bent(wing(0.0), 1.0));
+  const StructuredMesh from = mesh_of(twisted_wing(0.0));
+  const CarriedMesh result = carried(from, bent(twisted_wing(0.0), 1.0));
   EXPECT_FALSE(result.mesh);
   EXPECT_THAT(result.objection, HasSubstr("would be"));
   EXPECT_GT(std::abs(result.place.y), 1.0);  // at the tips, where it bends most
-  const CarriedMesh long_wing = carried(from, deformed(wing(0.0),
+  const CarriedMesh long_wing = carried(from, deformed(twisted_wing(0.0),
                                                        std::make_shared<FunctionMap>(
                                                            [](const Point& p) {
                                                              return Point{1.6 * p.x, 1.6 * p.y, 1.6 * p.z};
@@ -119,10 +120,10 @@ TEST(CarryMesh, IsRefusedWithAPlaceWhereItWouldNotBeGood) {
 }
 
 TEST(ModelStructure, TellsWhatDiffers) {
-  const ModelStructure one = structure_of(wing(0.0));
-  EXPECT_EQ(difference_of(one, structure_of(bent(wing(0.0), 0.1))), "");
+  const ModelStructure one = structure_of(twisted_wing(0.0));
+  EXPECT_EQ(difference_of(one, structure_of(bent(twisted_wing(0.0), 0.1))), "");
   EXPECT_THAT(difference_of(one, structure_of(body())), HasSubstr("the reference"));
-  Model renamed = wing(0.0);
+  Model renamed = twisted_wing(0.0);
   renamed.faces.raw().front().name = "other";
   EXPECT_THAT(difference_of(one, structure_of(renamed)), HasSubstr("is called \"W\" in the reference"));
 }

@@ -12,6 +12,7 @@
 #include "io/cad_file.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "tests/support/data.h"
+#include "tests/support/shapes.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -29,11 +30,7 @@ std::filesystem::path displacements(double tip) {
   return path;
 }
 
-double volume_of(const TriMesh& mesh) {
-  double volume = 0.0;
-  for (const TriangleVertices& v : mesh.triangles) volume += dot(mesh.points[v[0]], cross(mesh.points[v[1]], mesh.points[v[2]])) / 6.0;
-  return volume;
-}
+using test::volume_of;
 
 Vec3 normal_of(const TriMesh& mesh, TriangleId t) {
   const TriangleVertices& v = mesh.triangles[t];

@@ -10,8 +10,10 @@
 #include "geom/model/components.h"
 #include "geom/model/shapes.h"
 #include "io/cad_file.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/model_meshes.h"
+#include "tests/surfmesh/model/edges_of.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -19,8 +21,9 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr double k_deg = std::numbers::pi / 180.0;
-const RunContext k_context{};
+using test::edges_of;
+using test::k_context;
+using test::k_degree;
 
 struct Made {
   Model model;
@@ -29,13 +32,6 @@ struct Made {
   Made(Model of, const SurfaceMeshOptions& options) : model(std::move(of)), surface(mesh_model(model, options, {}, k_context)), wall(model, surface) {}
   Deviation measure(const TriMesh& mesh, const RunContext& context = k_context) const { return measure_deviation(mesh, surface.mesh, wall, {}, context); }
 };
-
-SurfaceMeshOptions options_with(double max_edge, double curvature_angle) {
-  SurfaceMeshOptions options;
-  options.max_edge = max_edge;
-  options.curvature_angle = curvature_angle;
-  return options;
-}
 
 /// One triangle about a point, on the first patch of the mesh.
 TriMesh triangle(const TriMesh& like, const std::array<Point, 3>& points) {
@@ -48,7 +44,7 @@ TriMesh triangle(const TriMesh& like, const std::array<Point, 3>& points) {
 }
 
 TEST(Deviation, OfABallIsZeroAndItsFacetsTurnByHalfTheCurvatureAngle) {
-  const Made ball(test::make_ball(2.0), options_with(1.0, 12.0 * k_deg));
+  const Made ball(test::make_ball(2.0), edges_of(1.0, 12.0 * k_degree));
   const Deviation d = ball.measure(ball.surface.mesh);
   EXPECT_EQ(d.n_nodes, static_cast<std::int64_t>(ball.surface.mesh.n_vertices()));
   EXPECT_EQ(d.n_facets, static_cast<std::int64_t>(ball.surface.mesh.n_triangles()));
@@ -66,7 +62,7 @@ TEST(Deviation, OfABallIsZeroAndItsFacetsTurnByHalfTheCurvatureAngle) {
 }
 
 TEST(Deviation, AMovedNodeAndATurnedFacetAreFoundWithTheirValues) {
-  const Made ball(test::make_ball(2.0), options_with(1.0, 12.0 * k_deg));
+  const Made ball(test::make_ball(2.0), edges_of(1.0, 12.0 * k_degree));
   for (const double off : {1e-5, 1e-3, -0.05}) {
     SCOPED_TRACE(off);
     TriMesh moved = ball.surface.mesh;
@@ -87,13 +83,13 @@ TEST(Deviation, AMovedNodeAndATurnedFacetAreFoundWithTheirValues) {
   const Deviation d = ball.measure(turned);
   EXPECT_EQ(d.distance.state, GateState::pass);
   EXPECT_EQ(d.normal.n_beyond_hard, 1);
-  EXPECT_GT(d.normal.worst, 170 * k_deg);
+  EXPECT_GT(d.normal.worst, 170 * k_degree);
   EXPECT_THAT(d.normal.places[0].what, HasSubstr("triangle " + std::to_string(t.value()) + ", patch ball"));
 }
 
 TEST(Deviation, FacesEndAtTheirBorders) {
   // Beyond an edge of the box the planes go on, the faces do not.
-  const Made box(make_box("box", {0, 0, 0}, {1, 1, 1}), options_with(0.3, 0.2));
+  const Made box(make_box("box", {0, 0, 0}, {1, 1, 1}), edges_of(0.3, 0.2));
   const double e = 1e-4;
   const auto off = [&](const Point& p) { return box.measure(triangle(box.surface.mesh, {p, p, p})).distance.worst; };
   EXPECT_NEAR(off({1 + e, 0.37, 1 + e}), std::sqrt(2.0) * e, 1e-14);
@@ -103,7 +99,7 @@ TEST(Deviation, FacesEndAtTheirBorders) {
 }
 
 TEST(Deviation, OfPointsAboutACylinderAsTheFormulaSays) {
-  const Made can(make_cylinder("can", {0, 0, 0}, {2, 0, 0}, 1.0), options_with(0.5, 0.5));
+  const Made can(make_cylinder("can", {0, 0, 0}, {2, 0, 0}, 1.0), edges_of(0.5, 0.5));
   const auto exact = [](const Point& p) {
     const double r = std::hypot(p.y, p.z), outside = std::hypot(std::max(r - 1.0, 0.0), std::max({-p.x, p.x - 2.0, 0.0}));
     return outside > 0.0 ? outside : std::min({1.0 - r, p.x, 2.0 - p.x});
@@ -138,7 +134,7 @@ TEST(Deviation, WingsWithSharpTrailingEdgesCompareEachSideWithItsOwn) {
   EXPECT_LE(d.distance.worst, 1e-14);
   // The other side would be 170 degrees off. What is off are the strips that close the tips: at their sharp ends the model turns within less than the shortest
   // edge.
-  EXPECT_LT(d.normal.worst, 45 * k_deg);
+  EXPECT_LT(d.normal.worst, 45 * k_degree);
   EXPECT_GT(d.normal.share_within, 0.998);  // 0.9988 here: the strips
   for (const GatePlace& place : d.normal.places) EXPECT_GT(std::abs(place.position.y), 3.0) << place.what;
   // The same for any number of threads.
@@ -153,7 +149,7 @@ TEST(Deviation, WingsWithSharpTrailingEdgesCompareEachSideWithItsOwn) {
 }
 
 TEST(Deviation, PatchesWithOtherNamesAreTold) {
-  const Made ball(test::make_ball(1.0), options_with(1.0, 0.5));
+  const Made ball(test::make_ball(1.0), edges_of(1.0, 0.5));
   TriMesh other = ball.surface.mesh;
   other.patches[PatchId(0u)].name = "balloon";
   const Deviation d = ball.measure(other);
@@ -171,7 +167,7 @@ TEST(Deviation, OfRealCad) {
     EXPECT_EQ(d.distance.state, GateState::pass);
     EXPECT_GT(d.normal.share_within, 0.95);
     std::printf("%s: %lld nodes, off %.2g L; normals worst %.1f deg, %.2f %% within 10 deg, %lld beyond 30 deg\n", file, static_cast<long long>(d.n_nodes),
-                d.distance.worst, d.normal.worst / k_deg, 100.0 * d.normal.share_within, static_cast<long long>(d.normal.n_beyond_hard));
+                d.distance.worst, d.normal.worst / k_degree, 100.0 * d.normal.share_within, static_cast<long long>(d.normal.n_beyond_hard));
     // A node inside a face moved along the facets' normal by a known distance.
     TriMesh moved = made.surface.mesh;
     const double off = 1e-4 * d.length;

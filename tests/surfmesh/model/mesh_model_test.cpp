@@ -14,8 +14,11 @@
 #include "io/cad_file.h"
 #include "surfmesh/model/model_sizes.h"
 #include "surfmesh/model/surface_mesh.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/model_meshes.h"
+#include "tests/support/shapes.h"
+#include "tests/surfmesh/model/edges_of.h"
 
 namespace sterna::surfmesh {
 namespace {
@@ -23,27 +26,17 @@ namespace {
 using test::expect_sound;
 using test::make_ball;
 
-constexpr double pi = std::numbers::pi;
-constexpr double k_deg = pi / 180.0;
-const RunContext k_context{};
-
-SurfaceMeshOptions edges_of(double size, double angle = 0.5) {
-  SurfaceMeshOptions options;
-  options.max_edge = size;
-  options.curvature_angle = angle;
-  return options;
-}
+using std::numbers::pi;
+using test::edges_of;
+using test::k_context;
+using test::k_degree;
 
 double area_of(const TriMesh& mesh) {
   double area = 0.0;
   for (const TriangleVertices& v : mesh.triangles) area += triangle_area(mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]);
   return area;
 }
-double volume_of(const TriMesh& mesh) {
-  double volume = 0.0;
-  for (const TriangleVertices& v : mesh.triangles) volume += dot(mesh.points[v[0]], cross(mesh.points[v[1]], mesh.points[v[2]])) / 6.0;
-  return volume;
-}
+using test::volume_of;
 
 Model tube(double radius, double length, const EndCap& cap) {
   Body body{.name = "Tube"};
@@ -193,7 +186,7 @@ TEST(MeshModel, CadFilesCloseAndKeepTheirVolume) {
   for (const Case& c : {Case{"gmsh_parts_mambo_s34.step", 0.004}, Case{"netgen_parts_screw.step", 0.002}, Case{"tigl_simplewing_simplewing.brep", 0.1}}) {
     SCOPED_TRACE(c.file);
     const Model model = io::read_cad(test::shared_data() / "cad" / c.file, {}, k_context).model;
-    const SurfaceMesh mesh = mesh_model(model, edges_of(c.max_edge, 12 * k_deg), {}, k_context);
+    const SurfaceMesh mesh = mesh_model(model, edges_of(c.max_edge, 12 * k_degree), {}, k_context);
     expect_sound(model, mesh);
     EXPECT_GT(volume_of(mesh.mesh), 0.0);
     EXPECT_GT(mesh.report.share_20_130, 0.98) << to_text(mesh.report);

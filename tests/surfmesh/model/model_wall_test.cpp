@@ -10,23 +10,19 @@
 #include "geom/model/components.h"
 #include "geom/model/shapes.h"
 #include "surfmesh/model/model_wall.h"
+#include "tests/support/constants.h"
+#include "tests/surfmesh/model/edges_of.h"
 
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double k_deg = std::numbers::pi / 180.0;
-const RunContext k_context{};
-
-SurfaceMeshOptions options_with(double max_edge, double curvature_angle) {
-  SurfaceMeshOptions options;
-  options.max_edge = max_edge;
-  options.curvature_angle = curvature_angle;
-  return options;
-}
+using test::edges_of;
+using test::k_context;
+using test::k_degree;
 
 TEST(ModelWall, PointsOnTrianglesGoToTheSurfaceAndThoseOnRimsToTheRim) {
   const Model model = make_cylinder("can", {0, 0, 0}, {2, 0, 0}, 1.0);
-  const SurfaceMesh surface = mesh_model(model, options_with(0.5, 0.5), {}, k_context);
+  const SurfaceMesh surface = mesh_model(model, edges_of(0.5, 0.5), {}, k_context);
   const ModelWall wall(model, surface);
   const auto distance_to_can = [](const Point& p) {
     const double radial = std::hypot(p.y, p.z) - 1.0, axial = std::min(std::abs(p.x), std::abs(p.x - 2.0));
@@ -60,13 +56,13 @@ TEST(ModelWall, PointsOnTrianglesGoToTheSurfaceAndThoseOnRimsToTheRim) {
 TEST(SmoothAngle, IsThatOfTheSkinAndNotOfTheRim) {
   const Model can = make_cylinder("can", {0, 0, 0}, {2, 0, 0}, 1.0);
   // Edges of a regular polygon turn by its angle; the curvature angle bounds it. The rims turn by 90 degrees.
-  for (const double angle : {10.0 * k_deg, 20.0 * k_deg}) {
-    const SurfaceMeshReport report = mesh_model(can, options_with(1.0, angle), {}, k_context).report;
+  for (const double angle : {10.0 * k_degree, 20.0 * k_degree}) {
+    const SurfaceMeshReport report = mesh_model(can, edges_of(1.0, angle), {}, k_context).report;
     EXPECT_GT(report.max_smooth_angle, 0.5 * angle);
     EXPECT_LT(report.max_smooth_angle, 1.5 * angle);
     EXPECT_NEAR(std::hypot(report.smooth_angle_place.y, report.smooth_angle_place.z), 1.0, 0.05);
   }
-  const SurfaceMeshReport box = mesh_model(make_box("box", {0, 0, 0}, {1, 1, 1}), options_with(0.3, 0.2), {}, k_context).report;
+  const SurfaceMeshReport box = mesh_model(make_box("box", {0, 0, 0}, {1, 1, 1}), edges_of(0.3, 0.2), {}, k_context).report;
   EXPECT_LT(box.max_smooth_angle, 1e-7);  // acos of rounded values
 }
 
@@ -76,7 +72,7 @@ TEST(SmoothAngle, CountsAcrossEdgesWhereFacesJoinSmoothly) {
   body.nose = body.tail = {CapShape::dome, 1.0};
   const Model pod = make_body(body, ComponentKind::body);
   ASSERT_GT(pod.faces.size(), 2u);
-  const SurfaceMesh surface = mesh_model(pod, options_with(0.2, 15.0 * k_deg), {}, k_context);
+  const SurfaceMesh surface = mesh_model(pod, edges_of(0.2, 15.0 * k_degree), {}, k_context);
   // Nothing on it is a crease, so the largest turn of all edges is the smooth one.
   const Topology topology(surface.mesh, k_context);
   const auto normal = [&](HalfedgeId h) {
@@ -87,7 +83,7 @@ TEST(SmoothAngle, CountsAcrossEdgesWhereFacesJoinSmoothly) {
   for (std::size_t i = 0; i < topology.n_halfedges(); ++i)
     largest = std::max(largest, angle_between(normal(HalfedgeId(i)), normal(topology.twin(HalfedgeId(i)))));
   EXPECT_NEAR(surface.report.max_smooth_angle, largest, 1e-9);
-  EXPECT_LT(largest, 40.0 * k_deg);
+  EXPECT_LT(largest, 40.0 * k_degree);
 }
 
 }  // namespace

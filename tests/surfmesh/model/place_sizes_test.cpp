@@ -11,14 +11,16 @@
 #include "geom/model/model_builder.h"
 #include "geom/model/shapes.h"
 #include "surfmesh/model/surface_mesh.h"
+#include "tests/support/constants.h"
+#include "tests/support/error_of.h"
 
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-const RunContext k_context{};
+using std::numbers::pi;
+using test::k_context;
 
-SurfaceMeshOptions edges_of(double size) {
+SurfaceMeshOptions plain_edges(double size) {
   SurfaceMeshOptions options;
   options.max_edge = size;
   options.min_edge = 1e-3 * size;
@@ -52,7 +54,7 @@ Model slab(double low, double high) { return make_box("slab", {0, 0, low}, {10, 
 TEST(PlaceSizes, SourcesOfTheUserAreMetAndGrow) {
   SpaceSizes asked;
   asked.regions = [](const Point& p, double slope) { return 0.05 + slope * std::max(0.0, distance(p, {5, 5, 1}) - 0.5); };
-  SurfaceMeshOptions options = edges_of(1.0);
+  SurfaceMeshOptions options = plain_edges(1.0);
   const Model model = slab(0, 1);
   const SurfaceMesh mesh = meshed(model, options, asked);
   const auto at = [](double from, double to) {
@@ -71,18 +73,18 @@ TEST(PlaceSizes, FunctionsMayJumpAndSamplesCount) {
   asked.function = [](const Point& p) { return p.x < 3.0 ? 0.1 : 5.0; };
   asked.samples = {{{9.0, 9.0, 1.0}, 0.02}};
   const Model model = slab(0, 1);
-  const SurfaceMesh mesh = meshed(model, edges_of(1.0), asked);
+  const SurfaceMesh mesh = meshed(model, plain_edges(1.0), asked);
   EXPECT_NEAR(mean_edge(mesh, [](const Point& p) { return p.z > 0.99 && p.x < 2.5; }), 0.1, 0.02);
   EXPECT_NEAR(mean_edge(mesh, [](const Point& p) { return p.z > 0.99 && distance(p, {5.0, 5.0, 1.0}) < 0.5; }), 0.5, 0.1);
   EXPECT_LT(mean_edge(mesh, [](const Point& p) { return distance(p, {9.0, 9.0, 1.0}) < 0.05; }), 0.035);
   asked.function = [](const Point&) { return -1.0; };
-  EXPECT_THROW(meshed(model, edges_of(1.0), asked), Error);
+  test::expect_error(ErrorCode::bad_argument, "the function of sizes gives -1.000000 m", [&] { (void)meshed(model, plain_edges(1.0), asked); });
 }
 
 TEST(PlaceSizes, GapsHaveTheirCells) {
   Model model = slab(0, 1);
   append(model, slab(1.3, 2.3));
-  SurfaceMeshOptions options = edges_of(1.0);
+  SurfaceMeshOptions options = plain_edges(1.0);
   const auto in_gap = [](const Point& p) { return p.z > 0.99 && p.z < 1.31 && p.x > 1 && p.x < 9 && p.y > 1 && p.y < 9; };
   EXPECT_GT(mean_edge(meshed(model, options), in_gap), 0.7);
   options.gap_cells = 2.0;
@@ -94,7 +96,7 @@ TEST(PlaceSizes, GapsHaveTheirCells) {
 
 TEST(PlaceSizes, ThinPartsHaveShortEdges) {
   const Model model = slab(0, 0.2);
-  SurfaceMeshOptions options = edges_of(1.0);
+  SurfaceMeshOptions options = plain_edges(1.0);
   const auto inner = [](const Point& p) { return p.x > 1 && p.x < 9 && p.y > 1 && p.y < 9; };
   EXPECT_GT(mean_edge(meshed(model, options), inner), 0.6);
   options.thickness_factor = 1.5;
@@ -103,7 +105,7 @@ TEST(PlaceSizes, ThinPartsHaveShortEdges) {
   EXPECT_GT(mean_edge(meshed(model, options), inner), 0.4);
 }
 
-Model wing(bool is_blunt) {
+Model lens_section_wing(bool is_blunt) {
   Wing wing{.name = "W", .is_symmetric = false, .is_cubic = false, .trailing_edge = is_blunt ? std::optional(0.02) : std::nullopt};
   for (const double y : {10.0, 0.0}) {
     WingSection s{.name = "y", .leading_edge = {0.0, y, 0.0}, .chord = 2.0};
@@ -120,8 +122,8 @@ Model wing(bool is_blunt) {
 TEST(PlaceSizes, WingsAreFinerAtTheirEdgesAndTips) {
   for (const bool is_blunt : {true, false}) {
     SCOPED_TRACE(is_blunt);
-    const Model model = wing(is_blunt);
-    SurfaceMeshOptions options = edges_of(0.2);
+    const Model model = lens_section_wing(is_blunt);
+    SurfaceMeshOptions options = plain_edges(0.2);
     options.min_edge = 0.15;
     const auto strip = [](double from, double to) {
       return [=](const Point& p) { return p.x > from && p.x < to && p.y > 3 && p.y < 7 && std::abs(p.z) > 0.02; };
@@ -160,7 +162,7 @@ TEST(PlaceSizes, ComponentsMeetInShorterEdges) {
         distance(model.faces[f].surface->point({0.1, 0.1}), model.faces[f].surface->point({0.0, 0.0})) > 0.0 &&
         std::abs(model.faces[f].surface->point({0.1, 0.1}).x) < 1e-9)
       model.faces[f].component = other;
-  SurfaceMeshOptions options = edges_of(0.5);
+  SurfaceMeshOptions options = plain_edges(0.5);
   const auto rim = [](const Point& p) { return p.x > 0.0 && p.x < 0.3 && p.y > 1.0 && p.y < 3.0; };
   const double plain = mean_edge(meshed(model, options), rim);
   options.intersection_factor = 0.4;
@@ -168,7 +170,7 @@ TEST(PlaceSizes, ComponentsMeetInShorterEdges) {
 }
 
 TEST(PlaceSizes, SameForAnyThreads) {
-  Model model = wing(true);
+  Model model = lens_section_wing(true);
   append(model, make_box("slab", {0, 3, 0.3}, {2, 7, 0.5}));
   SurfaceMeshOptions options;
   options.max_edge = 0.2;

@@ -12,13 +12,14 @@
 #include "geom/model/model_builder.h"
 #include "geom/model/shapes.h"
 #include "surfmesh/model/surface_mesh.h"
+#include "tests/support/constants.h"
 #include "tests/support/model_meshes.h"
 
 namespace sterna::surfmesh {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-const RunContext k_context{};
+using std::numbers::pi;
+using test::k_context;
 constexpr double k_growth = 0.2;
 
 /// A repeatable number in [0, 1).
@@ -93,7 +94,7 @@ Model plate(const std::string& name, double z) {
 }
 
 /// The outside of a tube along z: edges are the lower circle, the seam, the upper circle.
-Model tube(double radius, double length) {
+Model open_tube(double radius, double length) {
   ModelBuilder builder({.name = "tube", .kind = ComponentKind::unknown});
   const ParameterBox box{k_full_turn, {0.0, length}};
   const auto surface = std::make_shared<CylinderSurface>(Frame{}, radius, box);
@@ -150,7 +151,7 @@ TEST(SurfaceSizes, SourcesInSpaceAreMetOnTheFace) {
 
 TEST(SurfaceSizes, DistancesOnACylinderRunAroundIt) {
   constexpr double radius = 0.5, length = 3.0;
-  const Model model = tube(radius, length);
+  const Model model = open_tube(radius, length);
   Field field(model, 2.0, 1.5);
   const EdgeId lower = model.faces[k_first_face].borders[0][0].edge;
   const std::size_t at = field.edges[lower].samples.size() / 2;

@@ -17,6 +17,7 @@
 #include "geom/model/cpacs.h"
 #include "geom/model/shapes.h"
 #include "surfmesh/model/surface_mesh.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 
 namespace sterna::surfmesh {
@@ -24,7 +25,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const RunContext k_context{};
+using test::k_context;
 
 /// Swept and tapered, kinked at 0 and 1.5 m; round tips.
 Model swept_wing(double trailing_edge) {

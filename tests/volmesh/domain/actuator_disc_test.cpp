@@ -12,6 +12,7 @@
 #include "geom/mesh/check.h"
 #include "geom/mesh/sheets.h"
 #include "geom/mesh/topology.h"
+#include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 #include "volmesh/domain/farfield.h"
 #include "volmesh/improve/improve.h"
@@ -23,7 +24,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 constexpr double k_growth = 1.3;
 
 double area_of(const TriMesh& mesh) {

@@ -13,6 +13,7 @@
 #include "geom/mesh/topology.h"
 #include "io/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/shapes.h"
 #include "volmesh/domain/farfield.h"
@@ -24,7 +25,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
-const RunContext k_run{};
+using test::k_context;
 
 TriMesh moved(TriMesh mesh, const Vec3& by) {
   for (Point& p : mesh.points) p += by;
@@ -43,18 +44,11 @@ TriMesh both(TriMesh mesh, const TriMesh& other) {
   return mesh;
 }
 
-double volume(const TriMesh& mesh) {
-  double sum = 0.0;
-  for (const TriangleId t : mesh.triangles.ids()) {
-    const auto [a, b, c] = corners(mesh, t);
-    sum += tet_volume({}, a, b, c);
-  }
-  return sum;
-}
+using test::volume_of;
 
-ErrorInfo error_of(const TriMesh& surface, const OuterOptions& options) {
+ErrorInfo completion_error(const TriMesh& surface, const OuterOptions& options) {
   try {
-    complete_boundary(surface, options, k_run);
+    complete_boundary(surface, options, k_context);
   } catch (const Error& error) {
     return error.info();
   }
@@ -69,7 +63,7 @@ std::vector<std::string> names_of(const TriMesh& mesh) {
 
 /// What the header promises of every result. Volumes: of the fluid, with its sign turned.
 void expect_complete(const TriMesh& surface, const TriMesh& whole, double fluid, double tolerance) {
-  const Topology topology(whole, k_run);
+  const Topology topology(whole, k_context);
   EXPECT_EQ(topology.n_boundary_halfedges(), 0u);
   ASSERT_GE(whole.n_vertices(), surface.n_vertices());
   for (const TriangleId t : surface.triangles.ids()) {
@@ -80,7 +74,7 @@ void expect_complete(const TriMesh& surface, const TriMesh& whole, double fluid,
   for (const VertexId v : surface.points.ids()) EXPECT_LE(distance(whole.points[v], surface.points[v]), 3e-6 * length);
   for (const TriangleId t : whole.triangles.ids()) EXPECT_GT(std::apply(triangle_area, corners(whole, t)), 0.0);
   for (const VertexId v : whole.points.ids()) EXPECT_FALSE(topology.outgoing(v).empty()) << v.value();
-  EXPECT_NEAR(-volume(whole), fluid, tolerance * fluid);
+  EXPECT_NEAR(-volume_of(whole), fluid, tolerance * fluid);
 }
 
 /// Every triangle of the patches of these names lies in the plane, and its normal points to the side `inward`.
@@ -96,24 +90,24 @@ void expect_plane(const TriMesh& whole, const std::string& name, std::size_t axi
   EXPECT_GT(n, 2u);
 }
 
-constexpr double k_pi = std::numbers::pi;
+using test::k_pi;
 
 TEST(CompleteBoundary, OfBodiesIsTheSphereAsItWas) {
   const TriMesh bodies = both(test::cube(2), moved(test::sphere(2, 0.3), {3, 0, 0}));
   const FarfieldOptions options{.farfield_radius = 20.0, .farfield_edge = 4.0};
-  const TriMesh whole = complete_boundary(bodies, {options, {}}, k_run);
-  const TriMesh sphere = farfield_sphere(bodies, options, k_run);
+  const TriMesh whole = complete_boundary(bodies, {options, {}}, k_context);
+  const TriMesh sphere = farfield_sphere(bodies, options, k_context);
   const TriMesh around = both(bodies, sphere);
   EXPECT_EQ(whole.points.raw(), around.points.raw());
   EXPECT_EQ(whole.triangles.raw(), around.triangles.raw());
   EXPECT_EQ(whole.patches.raw(), around.patches.raw());
-  expect_complete(bodies, whole, -volume(sphere) - volume(bodies), 1e-12);
+  expect_complete(bodies, whole, -volume_of(sphere) - volume_of(bodies), 1e-12);
 }
 
 TEST(CompleteBoundary, KeepsCavitiesAndSeveralBodies) {
   TriMesh bodies = both(test::cube(3), moved(turned(test::sphere(1, 0.2)), {0.5, 0.5, 0.5}));
   bodies = both(bodies, moved(test::cube(1), {2, 2, 2}));
-  expect_complete(bodies, complete_boundary(bodies, {}, k_run), -volume(farfield_sphere(bodies, {}, k_run)) - volume(bodies), 1e-12);
+  expect_complete(bodies, complete_boundary(bodies, {}, k_context), -volume_of(farfield_sphere(bodies, {}, k_context)) - volume_of(bodies), 1e-12);
 }
 
 TEST(CompleteBoundary, MakesBoxesOfAnyEdgeLengths) {
@@ -128,7 +122,7 @@ TEST(CompleteBoundary, MakesBoxesOfAnyEdgeLengths) {
                           .farfield_to_z = 6};
   for (const char* sides : {"", "x_min=inflow x_max=outflow,edge:0.5", "y_min=slip,name:floor,edge:0.3 y_max=slip,edge:7"}) {
     options.farfield_sides = sides;
-    const TriMesh whole = complete_boundary(cube, {options, {}}, k_run);
+    const TriMesh whole = complete_boundary(cube, {options, {}}, k_context);
     expect_complete(cube, whole, 3000.0 - 1.0, 1e-12);
     // Angles of what was added.
     double least = 4.0;
@@ -139,7 +133,7 @@ TEST(CompleteBoundary, MakesBoxesOfAnyEdgeLengths) {
     EXPECT_GT(least, 15.0 * k_pi / 180.0) << sides;
   }
   options.farfield_sides = "x_min=inflow x_max=outflow,name:exit z_min=slip z_max=slip";
-  EXPECT_THAT(names_of(complete_boundary(cube, {options, {}}, k_run)),
+  EXPECT_THAT(names_of(complete_boundary(cube, {options, {}}, k_context)),
               UnorderedElementsAre("cube:wall", "inflow:inflow", "exit:outflow", "farfield:farfield", "slip:slip"));
 }
 
@@ -157,7 +151,7 @@ TEST(CompleteBoundary, MakesCylindersAlongAnyAxis) {
                                   .farfield_to_y = to.y,
                                   .farfield_to_z = to.z,
                                   .farfield_sides = "start=inflow end=outflow,edge:0.4"};
-    const TriMesh whole = complete_boundary(cube, {options, {}}, k_run);
+    const TriMesh whole = complete_boundary(cube, {options, {}}, k_context);
     expect_complete(cube, whole, 36.0 * k_pi * 20.0 - 1.0, 0.02);
     EXPECT_THAT(names_of(whole), UnorderedElementsAre("cube:wall", "inflow:inflow", "outflow:outflow", "farfield:farfield"));
   }
@@ -168,14 +162,14 @@ TEST(CompleteBoundary, HalvesEveryShape) {
   for (const char* axis : {"x", "y", "z"})
     for (const char* keep : {"+", "-"}) {
       const auto k = static_cast<std::size_t>(*axis - 'x');
-      const TriMesh half = moved(half_of(full, {.axis = axis, .keep = keep}, k_run), {0, 0, 0});
+      const TriMesh half = moved(half_of(full, {.axis = axis, .keep = keep}, k_context), {0, 0, 0});
       for (const char* shape : {"automatic", "box", "cylinder"}) {
         SCOPED_TRACE(std::string(axis) + keep + shape);
         const TriMesh whole =
-            complete_boundary(half, {{.farfield_shape = shape, .farfield_radius = std::string(shape) == "box" ? k_automatic : 30.0}, {}}, k_run);
+            complete_boundary(half, {{.farfield_shape = shape, .farfield_radius = std::string(shape) == "box" ? k_automatic : 30.0}, {}}, k_context);
         const TriMesh around_full =
-            complete_boundary(full, {{.farfield_shape = shape, .farfield_radius = std::string(shape) == "box" ? k_automatic : 30.0}, {}}, k_run);
-        expect_complete(half, whole, -0.5 * volume(around_full), 0.01);
+            complete_boundary(full, {{.farfield_shape = shape, .farfield_radius = std::string(shape) == "box" ? k_automatic : 30.0}, {}}, k_context);
+        expect_complete(half, whole, -0.5 * volume_of(around_full), 0.01);
         expect_plane(whole, "symmetry", k, 0.0, *keep == '+' ? 1.0 : -1.0);
         EXPECT_THAT(names_of(whole), ElementsAre("sphere:wall", "farfield:farfield", "symmetry:symmetry"));
       }
@@ -183,32 +177,32 @@ TEST(CompleteBoundary, HalvesEveryShape) {
 }
 
 TEST(CompleteBoundary, MovesRimsIntoTheirPlane) {
-  TriMesh half = half_of(test::sphere(8), {}, k_run);
+  TriMesh half = half_of(test::sphere(8), {}, k_context);
   for (Point& p : half.points)
     if (p.y == 0.0 && p.x > 0.2) p.y = 1.5e-6 * p.x;
-  const TriMesh whole = complete_boundary(half, {}, k_run);
-  expect_complete(half, whole, -0.5 * volume(farfield_sphere(test::sphere(8), {}, k_run)), 0.02);
+  const TriMesh whole = complete_boundary(half, {}, k_context);
+  expect_complete(half, whole, -0.5 * volume_of(farfield_sphere(test::sphere(8), {}, k_context)), 0.02);
   expect_plane(whole, "symmetry", 1, 0.0, 1.0);
 }
 
 TEST(CompleteBoundary, TakesTwoPlanes) {
   // A quarter: the planes meet.
-  const TriMesh quarter = half_of(half_of(test::sphere(8), {}, k_run), {.axis = "z", .keep = "-"}, k_run);
+  const TriMesh quarter = half_of(half_of(test::sphere(8), {}, k_context), {.axis = "z", .keep = "-"}, k_context);
   for (const char* shape : {"sphere", "box", "cylinder"}) {
     SCOPED_TRACE(shape);
-    const TriMesh whole = complete_boundary(quarter, {{.farfield_shape = shape}, {}}, k_run);
-    EXPECT_EQ(Topology(whole, k_run).n_boundary_halfedges(), 0u);
+    const TriMesh whole = complete_boundary(quarter, {{.farfield_shape = shape}, {}}, k_context);
+    EXPECT_EQ(Topology(whole, k_context).n_boundary_halfedges(), 0u);
     expect_plane(whole, "symmetry_y", 1, 0.0, 1.0);
     expect_plane(whole, "symmetry_z", 2, 0.0, -1.0);
     EXPECT_THAT(names_of(whole), ElementsAre("sphere:wall", "farfield:farfield", "symmetry_y:symmetry", "symmetry_z:symmetry"));
-    EXPECT_LT(volume(whole), 0.0);
+    EXPECT_LT(volume_of(whole), 0.0);
   }
   // A wing between two walls.
-  TriMesh strut = half_of(half_of(moved(test::sphere(8), {0, 0.5, 0}), {.at = 0.1}, k_run), {.at = 1.1, .keep = "-"}, k_run);
+  TriMesh strut = half_of(half_of(moved(test::sphere(8), {0, 0.5, 0}), {.at = 0.1}, k_context), {.at = 1.1, .keep = "-"}, k_context);
   for (const char* shape : {"box", "cylinder"}) {
     const TriMesh whole =
-        complete_boundary(strut, {{.farfield_shape = shape, .farfield_sides = "symmetry_y_min=slip symmetry_y_max=wall,name:floor"}, {}}, k_run);
-    EXPECT_EQ(Topology(whole, k_run).n_boundary_halfedges(), 0u);
+        complete_boundary(strut, {{.farfield_shape = shape, .farfield_sides = "symmetry_y_min=slip symmetry_y_max=wall,name:floor"}, {}}, k_context);
+    EXPECT_EQ(Topology(whole, k_context).n_boundary_halfedges(), 0u);
     EXPECT_THAT(names_of(whole), ElementsAre("sphere:wall", "farfield:farfield", "slip:slip", "floor:wall"));
     expect_plane(whole, "slip", 1, 0.1, 1.0);
     expect_plane(whole, "floor", 1, 1.1, -1.0);
@@ -219,28 +213,28 @@ TEST(CompleteBoundary, TakesTheUsersSurface) {
   const TriMesh body = test::sphere(4);
   auto tunnel = std::make_shared<TriMesh>(moved(scaled(test::cube(4), 10.0), {-5, -5, -5}));
   const OuterOptions options{{.farfield_shape = "surface"}, tunnel};
-  const TriMesh whole = complete_boundary(body, options, k_run);
-  expect_complete(body, whole, 1000.0 - volume(body), 1e-12);
+  const TriMesh whole = complete_boundary(body, options, k_context);
+  expect_complete(body, whole, 1000.0 - volume_of(body), 1e-12);
   EXPECT_THAT(names_of(whole), ElementsAre("sphere:wall", "cube:farfield"));
-  EXPECT_EQ(complete_boundary(body, {{.farfield_shape = "surface"}, std::make_shared<TriMesh>(turned(*tunnel))}, k_run).points.raw(), whole.points.raw());
+  EXPECT_EQ(complete_boundary(body, {{.farfield_shape = "surface"}, std::make_shared<TriMesh>(turned(*tunnel))}, k_context).points.raw(), whole.points.raw());
   // Cut where a half model ends; there a patch of the tunnel is the plane's.
-  const TriMesh half = half_of(body, {}, k_run);
-  const TriMesh in_tunnel = complete_boundary(half, options, k_run);
-  expect_complete(half, in_tunnel, 500.0 - 0.5 * volume(body), 1e-3);
+  const TriMesh half = half_of(body, {}, k_context);
+  const TriMesh in_tunnel = complete_boundary(half, options, k_context);
+  expect_complete(half, in_tunnel, 500.0 - 0.5 * volume_of(body), 1e-3);
   auto room = std::make_shared<TriMesh>(moved(*tunnel, {0, 5, 0}));
   room->patches.push_back({"side", PatchKind::slip});
   for (const TriangleId t : room->triangles.ids())
     if (const auto p = corners(*room, t); p[0].y == 0.0 && p[1].y == 0.0 && p[2].y == 0.0) room->triangle_patch[t] = PatchId(1);
-  const TriMesh on_side = complete_boundary(half, {{.farfield_shape = "surface"}, room}, k_run);
-  expect_complete(half, on_side, 1000.0 - 0.5 * volume(body), 1e-3);
+  const TriMesh on_side = complete_boundary(half, {{.farfield_shape = "surface"}, room}, k_context);
+  expect_complete(half, on_side, 1000.0 - 0.5 * volume_of(body), 1e-3);
   expect_plane(on_side, "side", 1, 0.0, 1.0);
   // Of another program: two of its kinds by name.
-  const TriMesh named = complete_boundary(body, {{.farfield_shape = "surface", .farfield_sides = "cube=slip,name:tunnel"}, tunnel}, k_run);
+  const TriMesh named = complete_boundary(body, {{.farfield_shape = "surface", .farfield_sides = "cube=slip,name:tunnel"}, tunnel}, k_context);
   EXPECT_THAT(names_of(named), ElementsAre("sphere:wall", "tunnel:slip"));
-  const ErrorInfo beside = error_of(moved(body, {20, 0, 0}), options);
+  const ErrorInfo beside = completion_error(moved(body, {20, 0, 0}), options);
   EXPECT_THAT(beside.problem, HasSubstr("does not enclose"));
   EXPECT_EQ(beside.places.size(), 1u);
-  EXPECT_THAT(error_of(body, {{.farfield_shape = "surface"}, {}}).problem, HasSubstr("there is no surface"));
+  EXPECT_THAT(completion_error(body, {{.farfield_shape = "surface"}, {}}).problem, HasSubstr("there is no surface"));
 }
 
 TEST(CompleteBoundary, LeavesCompleteDomainsAlone) {
@@ -249,31 +243,31 @@ TEST(CompleteBoundary, LeavesCompleteDomainsAlone) {
   append(domain, test::sphere(3));
   append(domain, moved(test::cube(1), {2, 2, 2}));
   for (const char* shape : {"automatic", "none"}) {
-    const TriMesh whole = complete_boundary(domain, {{.farfield_shape = shape}, {}}, k_run);
+    const TriMesh whole = complete_boundary(domain, {{.farfield_shape = shape}, {}}, k_context);
     EXPECT_EQ(whole.points.raw(), domain.points.raw());
     EXPECT_EQ(whole.triangles.raw(), domain.triangles.raw());
     EXPECT_EQ(whole.patches.raw(), domain.patches.raw());
   }
-  EXPECT_THAT(error_of(domain, {{.farfield_radius = 100.0}, {}}).problem, HasSubstr("encloses its fluid already"));
-  EXPECT_THAT(error_of(domain, {{.farfield_shape = "box"}, {}}).problem, HasSubstr("encloses its fluid already"));
-  EXPECT_THAT(error_of(test::cube(1), {{.farfield_shape = "none"}, {}}).problem, HasSubstr("encloses no fluid"));
+  EXPECT_THAT(completion_error(domain, {{.farfield_radius = 100.0}, {}}).problem, HasSubstr("encloses its fluid already"));
+  EXPECT_THAT(completion_error(domain, {{.farfield_shape = "box"}, {}}).problem, HasSubstr("encloses its fluid already"));
+  EXPECT_THAT(completion_error(test::cube(1), {{.farfield_shape = "none"}, {}}).problem, HasSubstr("encloses no fluid"));
   // Half a domain: only its plane is added.
-  const TriMesh half = half_of(domain, {.axis = "z", .at = 0.3}, k_run);
-  const TriMesh whole = complete_boundary(half, {}, k_run);
+  const TriMesh half = half_of(domain, {.axis = "z", .at = 0.3}, k_context);
+  const TriMesh whole = complete_boundary(half, {}, k_context);
   EXPECT_EQ(whole.n_vertices(), half.n_vertices());
   expect_plane(whole, "symmetry", 2, 0.3, 1.0);
-  EXPECT_EQ(Topology(whole, k_run).n_boundary_halfedges(), 0u);
+  EXPECT_EQ(Topology(whole, k_context).n_boundary_halfedges(), 0u);
   // A body beside a domain.
-  EXPECT_THAT(error_of(both(domain, moved(test::cube(1), {20, 0, 0})), {}).problem, HasSubstr("outermost parts"));
+  EXPECT_THAT(completion_error(both(domain, moved(test::cube(1), {20, 0, 0})), {}).problem, HasSubstr("outermost parts"));
 }
 
 TEST(CompleteBoundary, SaysWhatIsWrong) {
   const TriMesh cube = test::cube(2);
-  EXPECT_EQ(error_of({}, {}).code, ErrorCode::empty_surface);
+  EXPECT_EQ(completion_error({}, {}).code, ErrorCode::empty_surface);
   TriMesh holed = test::sphere(4);
   holed.triangles.raw().pop_back();
   holed.triangle_patch.raw().pop_back();
-  const ErrorInfo open = error_of(holed, {});
+  const ErrorInfo open = completion_error(holed, {});
   EXPECT_EQ(open.code, ErrorCode::open_surface);
   EXPECT_THAT(open.problem, HasSubstr("1 rims with 3 edges"));
   EXPECT_FALSE(open.places.empty());
@@ -284,14 +278,14 @@ TEST(CompleteBoundary, SaysWhatIsWrong) {
                             .farfield_to_x = 20,
                             .farfield_to_y = 1.001,
                             .farfield_to_z = 6};
-  const ErrorInfo narrow = error_of(cube, {box, {}});
+  const ErrorInfo narrow = completion_error(cube, {box, {}});
   EXPECT_THAT(narrow.problem, HasSubstr("y_max at 1.001 m has the wall inside by 0.001 m only, needed are 0.02 m"));
   ASSERT_EQ(narrow.places.size(), 1u);
   EXPECT_EQ(narrow.places[0].position.y, 1.0);
-  EXPECT_THAT(error_of(cube, {{.farfield_shape = "cylinder", .farfield_radius = 0.5}, {}}).problem, HasSubstr("inside the flat triangles"));
-  EXPECT_THAT(error_of(cube, {{.farfield_shape = "box", .farfield_edge = 1e-4}, {}}).problem, HasSubstr("million triangles"));
-  EXPECT_THAT(error_of(cube, {{.farfield_shape = "box", .farfield_sides = "x_mim=inflow"}, {}}).problem, HasSubstr("did you mean \"x_min\""));
-  EXPECT_THAT(error_of(cube, {{.farfield_shape = "box", .farfield_sides = "x_min=inlet"}, {}}).problem, HasSubstr("\"inlet\" is no kind"));
+  EXPECT_THAT(completion_error(cube, {{.farfield_shape = "cylinder", .farfield_radius = 0.5}, {}}).problem, HasSubstr("inside the flat triangles"));
+  EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_edge = 1e-4}, {}}).problem, HasSubstr("million triangles"));
+  EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_sides = "x_mim=inflow"}, {}}).problem, HasSubstr("did you mean \"x_min\""));
+  EXPECT_THAT(completion_error(cube, {{.farfield_shape = "box", .farfield_sides = "x_min=inlet"}, {}}).problem, HasSubstr("\"inlet\" is no kind"));
 }
 
 TEST(CompleteBoundary, OfHalvesOfRealAircraft) {
@@ -299,19 +293,20 @@ TEST(CompleteBoundary, OfHalvesOfRealAircraft) {
   for (const char* file :
        {"dlr_f6_184k.stl", "derived_crm_wb_dpw_coarse_full.off", "wing_body_79k.stl", "flow360_airplane_airplaneGeometry.stl", "vspgeom_geom2_geom2.stl"}) {
     SCOPED_TRACE(file);
-    const TriMesh full =
-        surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces" / "clean" / file, k_run)}, {.check_intersections = false}, k_run).mesh;
-    const TriMesh half = half_of(full, {}, k_run);
-    const TriMesh whole = complete_boundary(half, {}, k_run);
-    EXPECT_EQ(Topology(whole, k_run).n_boundary_halfedges(), 0u);
+    const TriMesh full = surfmesh::stitch_surface({io::read_surface_file(test::shared_data() / "surfaces" / "clean" / file, k_context)},
+                                                  {.check_intersections = false}, k_context)
+                             .mesh;
+    const TriMesh half = half_of(full, {}, k_context);
+    const TriMesh whole = complete_boundary(half, {}, k_context);
+    EXPECT_EQ(Topology(whole, k_context).n_boundary_halfedges(), 0u);
     expect_plane(whole, "symmetry", 1, 0.0, 1.0);
-    const TriMesh in_box = complete_boundary(half, {{.farfield_shape = "box"}, {}}, k_run);
-    EXPECT_EQ(Topology(in_box, k_run).n_boundary_halfedges(), 0u);
+    const TriMesh in_box = complete_boundary(half, {{.farfield_shape = "box"}, {}}, k_context);
+    EXPECT_EQ(Topology(in_box, k_context).n_boundary_halfedges(), 0u);
   }
 }
 
 TEST(CompleteBoundary, IsTheSameForAnyNumberOfThreads) {
-  const TriMesh half = half_of(test::sphere(9), {}, k_run);
+  const TriMesh half = half_of(test::sphere(9), {}, k_context);
   for (const char* shape : {"sphere", "box", "cylinder"}) {
     const OuterOptions options{{.farfield_shape = shape}, {}};
     const TriMesh one = complete_boundary(half, options, RunContext({.threads = 1}));

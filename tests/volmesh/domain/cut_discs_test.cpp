@@ -11,6 +11,7 @@
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
+#include "tests/support/constants.h"
 #include "tests/volmesh/driver/revolved_bodies.h"
 #include "volmesh/domain/farfield.h"
 
@@ -19,7 +20,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 /// Walls and the farfield around them, which has no layers.
 struct Cut {

@@ -12,7 +12,7 @@ namespace {
 
 using testing::HasSubstr;
 
-ErrorInfo error_of(const TriMesh& wall, const FarfieldOptions& options) {
+ErrorInfo sphere_error(const TriMesh& wall, const FarfieldOptions& options) {
   try {
     farfield_sphere(wall, options, RunContext{});
   } catch (const Error& error) {
@@ -21,14 +21,7 @@ ErrorInfo error_of(const TriMesh& wall, const FarfieldOptions& options) {
   return {};
 }
 
-double volume(const TriMesh& mesh) {
-  double sum = 0.0;
-  for (const TriangleId t : mesh.triangles.ids()) {
-    const auto [a, b, c] = corners(mesh, t);
-    sum += tet_volume(mesh.points[VertexId(0)], a, b, c);
-  }
-  return sum;
-}
+using test::volume_of;
 
 TEST(FarfieldSphere, IsClosedInwardAndRound) {
   const TriMesh wall = test::cube(2);
@@ -38,7 +31,7 @@ TEST(FarfieldSphere, IsClosedInwardAndRound) {
     EXPECT_EQ(topology.n_boundary_halfedges(), 0u);
     EXPECT_EQ(sphere.n_vertices(), sphere.n_triangles() / 2 + 2);  // Euler
     EXPECT_EQ(connected_components(sphere, topology).count, 1u);
-    EXPECT_LT(volume(sphere), 0.0);
+    EXPECT_LT(volume_of(sphere), 0.0);
     for (const Point& p : sphere.points) EXPECT_NEAR(distance(p, {0.5, 0.5, 0.5}), 50.0, 1e-12 * 50.0);
     ASSERT_EQ(sphere.patches.size(), 1u);
     EXPECT_EQ(sphere.patches[PatchId(0)], (Patch{"farfield", PatchKind::farfield}));
@@ -77,19 +70,19 @@ TEST(FarfieldSphere, DefaultsToFiftyBodyLengthsAnd500Triangles) {
 TEST(FarfieldSphere, MustEncloseTheWall) {
   const TriMesh wall = test::cube(1);
   for (const double radius : {0.1, 0.86, 1.1}) {
-    const ErrorInfo error = error_of(wall, {.farfield_radius = radius});
+    const ErrorInfo error = sphere_error(wall, {.farfield_radius = radius});
     EXPECT_EQ(error.code, ErrorCode::bad_argument);
     EXPECT_THAT(error.problem, HasSubstr("reach out to"));
     EXPECT_EQ(error.places.size(), 1u);
   }
   EXPECT_NO_THROW(farfield_sphere(wall, {.farfield_radius = 1.2}, RunContext{}));
   // A coarse sphere is flat: its triangles come much nearer than its radius.
-  EXPECT_EQ(error_of(wall, {.farfield_radius = 1.2, .farfield_edge = 10.0}).code, ErrorCode::bad_argument);
+  EXPECT_EQ(sphere_error(wall, {.farfield_radius = 1.2, .farfield_edge = 10.0}).code, ErrorCode::bad_argument);
 }
 
 TEST(FarfieldSphere, RejectsSillyInput) {
-  EXPECT_EQ(error_of(TriMesh{}, {}).code, ErrorCode::empty_surface);
-  EXPECT_THAT(error_of(test::cube(1), {.farfield_edge = 1e-6}).problem, HasSubstr("triangles"));
+  EXPECT_EQ(sphere_error(TriMesh{}, {}).code, ErrorCode::empty_surface);
+  EXPECT_THAT(sphere_error(test::cube(1), {.farfield_edge = 1e-6}).problem, HasSubstr("triangles"));
 }
 
 }  // namespace

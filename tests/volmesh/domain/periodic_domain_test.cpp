@@ -6,6 +6,7 @@
 
 #include "geom/mesh/periodic.h"
 #include "geom/mesh/topology.h"
+#include "tests/support/constants.h"
 #include "tests/support/error_of.h"
 #include "tests/support/shapes.h"
 #include "tests/volmesh/domain/room.h"
@@ -18,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 PatchKind all_slip(const std::string&) { return PatchKind::slip; }
 bool is_wing(int i, int, int k) { return i >= 8 && i < 14 && k >= 5 && k < 7; }

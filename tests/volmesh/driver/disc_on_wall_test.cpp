@@ -9,6 +9,7 @@
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/sheets.h"
+#include "tests/support/constants.h"
 #include "tests/support/error_of.h"
 #include "tests/support/halves.h"
 #include "tests/volmesh/domain/room.h"
@@ -20,10 +21,10 @@ namespace {
 
 using testing::HasSubstr;
 
-const RunContext k_context({.threads = 2});
-constexpr double k_pi = std::numbers::pi;
+using test::k_context;
+using test::k_pi;
 
-MeshCase options_with(std::vector<ActuatorDisc> discs) {
+MeshCase eight_layers_with(std::vector<ActuatorDisc> discs) {
   MeshCase options;
   options.envelope.layers = 8;
   options.envelope.first_height = 2e-3;
@@ -101,7 +102,7 @@ TEST(DiscOnWall, PropellerRoundASpinner) {
   for (const double x : {0.0, -1.23}) {
     SCOPED_TRACE(x);
     const ActuatorDisc disc{.name = "prop", .center = {x, 0, 0}, .radius = 1.5};
-    const VolumeMeshResult result = volume_mesh(hub(), options_with({disc}), k_context);
+    const VolumeMeshResult result = volume_mesh(hub(), eight_layers_with({disc}), k_context);
     expect_disc(result, disc, hub_radius(x), 1.5);
     EXPECT_GT(result.layer.coverage, 0.95);
   }
@@ -109,7 +110,7 @@ TEST(DiscOnWall, PropellerRoundASpinner) {
 
 TEST(DiscOnWall, TiltedPlaneAndTetgen) {
   const ActuatorDisc disc{.name = "prop", .center = {-0.7, 0.02, 0.01}, .axis = {1, 0.15, -0.1}, .radius = 1.5, .inner_radius = 0.1};
-  MeshCase options = options_with({disc});
+  MeshCase options = eight_layers_with({disc});
   options.tetrahedra.engine = "tetgen";
   const VolumeMeshResult result = volume_mesh(hub(), options, k_context);
   EXPECT_EQ(result.tetra_engine, "tetgen");
@@ -118,26 +119,26 @@ TEST(DiscOnWall, TiltedPlaneAndTetgen) {
 
 TEST(DiscOnWall, FanThatFillsADuct) {
   const ActuatorDisc disc{.name = "fan", .center = {0.1, 0, 0}, .radius = 1.5};
-  expect_disc(volume_mesh(duct(), options_with({disc}), k_context), disc, 0.0, duct_radius(0.1));
+  expect_disc(volume_mesh(duct(), eight_layers_with({disc}), k_context), disc, 0.0, duct_radius(0.1));
 }
 
 TEST(DiscOnWall, RingInADuctWithAFreeRim) {
   const ActuatorDisc disc{.name = "fan", .center = {0.1, 0, 0}, .radius = 1.5, .inner_radius = 0.4};
-  expect_disc(volume_mesh(duct(), options_with({disc}), k_context), disc, 0.4, duct_radius(0.1));
+  expect_disc(volume_mesh(duct(), eight_layers_with({disc}), k_context), disc, 0.4, duct_radius(0.1));
 }
 
 TEST(DiscOnWall, FanBetweenHubAndDuct) {
   TriMesh wall = duct();
   append(wall, hub());
   const ActuatorDisc disc{.name = "fan", .center = {-0.3, 0, 0}, .radius = 1.5};
-  expect_disc(volume_mesh(wall, options_with({disc}), k_context), disc, hub_radius(-0.3), duct_radius(-0.3));
+  expect_disc(volume_mesh(wall, eight_layers_with({disc}), k_context), disc, hub_radius(-0.3), duct_radius(-0.3));
 }
 
 TEST(DiscOnWall, TwoDiscsOnOneHubAndOneFree) {
   const std::vector<ActuatorDisc> discs = {{.name = "front", .center = {-0.8, 0, 0}, .radius = 1.2},
                                            {.name = "free", .center = {-3.0, 0, 0}, .radius = 1.0},
                                            {.name = "rear", .center = {0.33, 0, 0}, .axis = {-1, 0, 0}, .radius = 1.4}};
-  const VolumeMeshResult result = volume_mesh(hub(), options_with(discs), k_context);
+  const VolumeMeshResult result = volume_mesh(hub(), eight_layers_with(discs), k_context);
   expect_disc(result, discs[0], hub_radius(-0.8), 1.2);
   expect_disc(result, discs[2], hub_radius(0.33), 1.4);
   EXPECT_EQ(side_of(result.mesh, "free", discs[1]).n_triangles, side_of(result.mesh, "free.back", discs[1]).n_triangles);
@@ -146,7 +147,7 @@ TEST(DiscOnWall, TwoDiscsOnOneHubAndOneFree) {
 /// Triangles between them have corners on both outlines.
 TEST(DiscOnWall, TwoDiscsLessThanAnEdgeApart) {
   const std::vector<ActuatorDisc> discs = {{.name = "front", .center = {-0.1, 0, 0}, .radius = 1.2}, {.name = "rear", .center = {0.15, 0, 0}, .radius = 1.2}};
-  const VolumeMeshResult result = volume_mesh(hub(6), options_with(discs), k_context);
+  const VolumeMeshResult result = volume_mesh(hub(6), eight_layers_with(discs), k_context);
   expect_disc(result, discs[0], hub_radius(-0.1), 1.2);
   expect_disc(result, discs[1], hub_radius(0.15), 1.2);
 }
@@ -178,7 +179,7 @@ TEST(DiscOnWall, CollapsedLinesAtTheOutline) {
   other.patches = Column<PatchId, Patch>{{"other", PatchKind::wall}};
   append(wall, other);
   const ActuatorDisc disc{.name = "prop", .center = {-0.03, 0.5, 0}, .radius = 1.7};
-  const VolumeMeshResult result = volume_mesh(wall, options_with({disc}), k_context);
+  const VolumeMeshResult result = volume_mesh(wall, eight_layers_with({disc}), k_context);
   EXPECT_TRUE(result.check.is_valid());
   EXPECT_GT(result.layer.collapsed_area, 0.0);
   const Side front = side_of(result.mesh, "prop", disc), back = side_of(result.mesh, "prop.back", disc);
@@ -196,7 +197,7 @@ TEST(DiscOnWall, NacelleBesideAHalfBody) {
   nacelle.patches = Column<PatchId, Patch>{{"nacelle", PatchKind::wall}};
   append(wall, nacelle);
   const ActuatorDisc disc{.name = "prop", .center = {-0.7, 1.5, 0}, .radius = 0.9};
-  MeshCase options = options_with({disc});
+  MeshCase options = eight_layers_with({disc});
   options.patches = {{.names = "nacelle", .layers = 12, .first_height = 5e-4}};
   const VolumeMeshResult result = volume_mesh(wall, options, k_context);
   expect_disc(result, disc, hub_radius(-0.7), 0.9);
@@ -208,7 +209,7 @@ TEST(DiscOnWall, NacelleBesideAHalfBody) {
 
 TEST(DiscOnWall, SameBytesWithOneThreadAndByStages) {
   const ActuatorDisc disc{.name = "prop", .center = {-1.23, 0, 0}, .radius = 1.5};
-  const MeshCase options = options_with({disc});
+  const MeshCase options = eight_layers_with({disc});
   const TriMesh wall = hub(6);
   const VolumeMeshResult two = volume_mesh(wall, options, k_context), one = volume_mesh(wall, options, RunContext({.threads = 1}));
   EXPECT_EQ(two.mesh.points, one.mesh.points);
@@ -222,7 +223,7 @@ TEST(DiscOnWall, SameBytesWithOneThreadAndByStages) {
 
 TEST(DiscOnWall, SaysWhereItCannotBe) {
   const auto mesh = [&](std::vector<ActuatorDisc> discs) {
-    return test::error_info_of([&] { volume_mesh(hub(6), options_with(std::move(discs)), k_context); });
+    return test::error_info_of([&] { volume_mesh(hub(6), eight_layers_with(std::move(discs)), k_context); });
   };
   // The rim goes through the wall.
   const ErrorInfo rim = mesh({{.name = "prop", .center = {0, 0.4, 0}, .radius = 0.3}});

@@ -3,15 +3,16 @@
 
 #include "geom/base/error.h"
 #include "geom/mesh/sheets.h"
+#include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 #include "volmesh/stages.h"
 
 namespace sterna::volmesh {
 namespace {
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
-MeshCase options_with(std::vector<ActuatorDisc> discs) {
+MeshCase ten_layers_with(std::vector<ActuatorDisc> discs) {
   MeshCase options;
   options.envelope.layers = 10;
   options.envelope.first_height = 1e-3;
@@ -31,7 +32,7 @@ TEST(Discs, PropellerInFrontOfABodyAndRingAroundIt) {
                                            {.name = "fan", .center = {0.2, 0, 0}, .radius = 2.4, .inner_radius = 1.5}};
   for (const char* engine : {"hxt", "tetgen"}) {
     SCOPED_TRACE(engine);
-    MeshCase options = options_with(discs);
+    MeshCase options = ten_layers_with(discs);
     options.tetrahedra.engine = engine;
     const VolumeMeshResult result = volume_mesh(wall, options, k_context);
     EXPECT_TRUE(result.check.is_valid());
@@ -46,7 +47,7 @@ TEST(Discs, PropellerInFrontOfABodyAndRingAroundIt) {
 }
 
 TEST(Discs, TheLayerKeepsClearOfADiscNearTheWall) {
-  MeshCase options = options_with({{.name = "prop", .center = {-1.1, 0, 0}, .radius = 0.8}});
+  MeshCase options = ten_layers_with({{.name = "prop", .center = {-1.1, 0, 0}, .radius = 0.8}});
   options.envelope.first_height = 0.02;
   const VolumeMeshResult result = volume_mesh(test::sphere(8), options, k_context);
   EXPECT_TRUE(result.check.is_valid());
@@ -54,7 +55,7 @@ TEST(Discs, TheLayerKeepsClearOfADiscNearTheWall) {
 
 TEST(Discs, StagesByHandGiveTheSameMesh) {
   const TriMesh wall = test::sphere(6);
-  const MeshCase options = options_with({{.name = "prop", .center = {-1.7, 0, 0}, .radius = 1.2}});
+  const MeshCase options = ten_layers_with({{.name = "prop", .center = {-1.7, 0, 0}, .radius = 1.2}});
   const VolumeMeshResult whole = volume_mesh(wall, options, k_context);
   FilledStage filled = make_tetrahedra(wall, make_envelope(wall, options, {}, k_context), options, {}, k_context);
   const VolumeMeshResult by_hand = finish_mesh(wall, std::move(filled), options, k_context);
@@ -64,7 +65,7 @@ TEST(Discs, StagesByHandGiveTheSameMesh) {
 
 TEST(Discs, ADiscWhoseRimGoesThroughTheBodyIsAnErrorWithPlaces) {
   try {
-    volume_mesh(test::sphere(6), options_with({{.name = "prop", .center = {1, 0, 0}, .axis = {0, 1, 0}, .radius = 0.5}}), k_context);
+    volume_mesh(test::sphere(6), ten_layers_with({{.name = "prop", .center = {1, 0, 0}, .axis = {0, 1, 0}, .radius = 0.5}}), k_context);
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ErrorCode::self_intersection);

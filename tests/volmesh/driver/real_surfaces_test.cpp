@@ -1,10 +1,14 @@
 // Real surfaces with the settings of baselines.md (without the optimiser). The large ones are measured by tools/measure_surfaces.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <numbers>
 
+#include "geom/math/bvh.h"
 #include "io/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "volmesh/volume_mesh.h"
 
@@ -12,9 +16,68 @@ namespace sterna::volmesh {
 namespace {
 
 struct Case {
-  const char* file;       ///< below shared/data/surfaces
-  double least_coverage;  ///< share of the area with h >= 0.9 h_target: what issue 2 asks, or what was measured less 0.02 where that is not reached
+  const char* file;             ///< below shared/data/surfaces
+  double asked_coverage;        ///< share of the area with h >= 0.9 h_target that issue 2 asks for; 0: the surface has not room for it
+  bool has_open_places = true;  ///< false: every triangle of it has a vertex where the wall itself is in the way
 };
+
+/// Where nothing is in the layer's way, judged by the wall alone: the ball of two target heights' radius that touches the wall from the fluid's side holds
+/// nothing else of it, at a vertex and at all those beside it (a triangle hinders the lines on its other corners, too).
+struct OpenPlaces {
+  double share = 0.0;  ///< of the wall's area; each vertex stands for a third of its triangles
+  double low = 0.0;    ///< of the wall's area: open, and the layer is lower than 0.9 of its target all the same
+};
+
+constexpr double k_reach = 2.0;        ///< radius of the ball over the target height: the layer ends half-way to its centre
+constexpr double k_ball_slack = 0.02;  ///< of the radius: on a curved wall of flat triangles the ball cuts the facets beside the vertex a little
+constexpr double k_full_height = 0.9;  ///< of the target height, as in the definition of coverage
+
+OpenPlaces open_places_of(const HybridMesh& mesh) {
+  const LayerBlock& layers = mesh.layers;
+  TriMesh wall;
+  wall.patches.push_back({"wall", PatchKind::wall});
+  for (std::uint32_t i = 0; i < layers.n_lines(); ++i) wall.points.push_back(mesh.points[layers.node(i, 0)]);
+  std::vector<Vec3> normal(layers.n_lines());
+  std::vector<double> area(layers.n_lines(), 0.0);
+  for (const auto& [a, b, c] : layers.base) {
+    const VertexId u(a), v(b), w(c);
+    wall.triangles.push_back({u, v, w});
+    wall.triangle_patch.push_back(PatchId(0));
+    const Vec3 twice = cross(wall.points[v] - wall.points[u], wall.points[w] - wall.points[u]);
+    for (const std::uint32_t i : {a, b, c}) {
+      normal[i] += twice;
+      area[i] += norm(twice) / 6.0;
+    }
+  }
+  const TriangleTree tree(wall, test::k_context);
+  std::vector<char> has_room(layers.n_lines(), 0);
+  for (std::uint32_t i = 0; i < layers.n_lines(); ++i) {
+    if (norm(normal[i]) == 0.0) continue;
+    const double radius = k_reach * mesh.request.target_height[i];
+    has_room[i] = tree.nearest(wall.points[VertexId(i)] + radius * normalized(normal[i])).distance >= (1.0 - k_ball_slack) * radius;
+  }
+  std::vector<char> is_open = has_room;
+  for (const auto& base : layers.base)
+    if (!std::ranges::all_of(base, [&](std::uint32_t i) { return has_room[i]; }))
+      for (const std::uint32_t i : base) is_open[i] = 0;
+  OpenPlaces open;
+  double all = 0.0;
+  for (std::uint32_t i = 0; i < layers.n_lines(); ++i) {
+    all += area[i];
+    if (!is_open[i]) continue;
+    open.share += area[i];
+    if (distance(mesh.points[layers.top(i)], wall.points[VertexId(i)]) < k_full_height * mesh.request.target_height[i]) open.low += area[i];
+  }
+  open.share /= all;
+  open.low /= all;
+  return open;
+}
+
+/// Measured: 0.022 (netgen_plane), 0.021 (ka-6d), 0.015 (bwb), 0.0012 or less elsewhere; lines that converge at edges of a coarse wall lower what is beside
+/// them.
+constexpr double k_low_without_hindrance = 0.03;
+/// Measured: 0.073 (ka-6d), 0.33 (part1) and more.
+constexpr double k_enough_open = 0.05;
 
 class RealSurface : public testing::TestWithParam<Case> {};
 
@@ -32,22 +95,33 @@ TEST_P(RealSurface, GivesAValidMeshWithItsLayers) {
   options.farfield.farfield_radius = 20 * length;
   const VolumeMeshResult result = volume_mesh(wall, options, context);
   EXPECT_TRUE(result.check.is_valid()) << to_text(result.check);
-  EXPECT_GE(result.layer.coverage, GetParam().least_coverage);
+  EXPECT_GE(result.layer.coverage, GetParam().asked_coverage);
+  // Where the layer is low there is a reason, and the wall shows it.
+  double explained = result.layer.coverage;
+  for (const auto& [reason, share] : result.layer.lost_area) {
+    EXPECT_NE(reason, to_string(HeightLimit::none));
+    explained += share;
+  }
+  EXPECT_NEAR(explained, 1.0, 1e-9);
+  const OpenPlaces open = open_places_of(result.mesh);
+  EXPECT_LE(open.low, k_low_without_hindrance);
+  if (GetParam().has_open_places) {
+    EXPECT_GE(open.share, k_enough_open);
+  }
   EXPECT_LE(result.layer.collapsed.size(), 3u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Clean, RealSurface,
-                         testing::Values(Case{"clean/caturbs_wing_wing.stl", 0.9}, Case{"clean/cgal_data_anchor_dense.off", 0.84},
+                         testing::Values(Case{"clean/caturbs_wing_wing.stl", 0.9}, Case{"clean/cgal_data_anchor_dense.off", 0.0},
                                          Case{"clean/cgal_data_couplingdown.off", 0.9}, Case{"clean/flowpanel_duct_duct_remeshed_refined.msh", 0.9},
-                                         Case{"clean/gmsh_stl_TwoObjects.stl.gz", 0.9}, Case{"clean/meshpy_ka6d_ka-6d.ply", 0.2},
+                                         Case{"clean/gmsh_stl_TwoObjects.stl.gz", 0.9}, Case{"clean/meshpy_ka6d_ka-6d.ply", 0.0},
                                          Case{"clean/pmp_fandisk.off", 0.9}, Case{"clean/pygeo_bwb.stl", 0.9},
                                          Case{"clean/pymeshlab_airplane_airplane.obj", 0.9}, Case{"clean/vspgeom_geom2_geom2.stl", 0.98}));
 
-// hinge and part1 had 0.70 and 0.91 before the extrusion lowered prisms with a dual sub-volume that is not positive (G4): 0.57 and 0.86.
 INSTANTIATE_TEST_SUITE_P(NastyButClean, RealSurface,
                          testing::Values(Case{"nasty/axom_surf_cap.stl", 0.9}, Case{"nasty/nasty_admesh_normal-directions-bad.stl", 0.9},
-                                         Case{"nasty/nasty_trimesh_busted.STL", 0.9}, Case{"nasty/netgen_parts_hinge.stl", 0.55},
-                                         Case{"nasty/netgen_parts_part1.stl", 0.7}, Case{"nasty/netgen_plane_plane.stl", 0.86}));
+                                         Case{"nasty/nasty_trimesh_busted.STL", 0.9}, Case{"nasty/netgen_parts_hinge.stl", 0.0, false},
+                                         Case{"nasty/netgen_parts_part1.stl", 0.0}, Case{"nasty/netgen_plane_plane.stl", 0.0}));
 
 }  // namespace
 }  // namespace sterna::volmesh

@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include "geom/base/error.h"
+#include "tests/support/constants.h"
+#include "tests/support/error_of.h"
 #include "tests/support/shapes.h"
 
 namespace sterna::volmesh {
 namespace {
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 MeshCase options_for(const TriMesh& wall) {
   MeshCase options;
@@ -90,7 +92,7 @@ TEST(Stages, PartsOfDifferentRunsAreRefused) {
   expect_refused("outer triangles of the layer that are not where", [&] { finish_mesh(wall, wrong, options, k_context); });
   wrong = filled;
   wrong.tets.tetrahedra.pop_back();
-  EXPECT_THROW(finish_mesh(wall, wrong, options, k_context), Error);
+  test::expect_error(ErrorCode::tetra_result_invalid, "outer faces that are no boundary triangle", [&] { (void)finish_mesh(wall, wrong, options, k_context); });
 }
 
 }  // namespace

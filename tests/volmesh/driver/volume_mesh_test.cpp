@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "geom/base/error.h"
+#include "tests/support/error_of.h"
 #include "tests/support/shapes.h"
 #include "volmesh/volume_mesh.h"
 
@@ -72,7 +73,7 @@ TEST(VolumeMesh, BodiesApartHaveTheirOwnLayers) {
   EXPECT_EQ(result.layer.first_node.vertex_share, 1.0);
   // Without a first height for all walls each patch needs its own.
   options.envelope.first_height = k_automatic;
-  EXPECT_THROW(volume_mesh(wall, options, RunContext({.threads = 2})), Error);
+  test::expect_error(ErrorCode::bad_argument, "first_height is not given for sphere", [&] { (void)volume_mesh(wall, options, RunContext({.threads = 2})); });
   // Other threads, the same nodes.
   options = thin_layers(wall, 12);
   options.patches = {{.names = "store", .layers = 5, .first_height = 1e-3}};

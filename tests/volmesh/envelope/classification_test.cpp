@@ -14,6 +14,7 @@
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/class_bodies.h"
 #include "tests/support/class_drawing.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/shapes.h"
 #include "volmesh/envelope/classify.h"
@@ -24,14 +25,14 @@
 namespace sterna::volmesh {
 namespace {
 
-const RunContext k_context({.threads = 2});
-constexpr double k_deg = std::numbers::pi / 180.0;
+using test::k_context;
+using test::k_degree;
 
 EnvelopeOptions with_angle(double degrees) {
   EnvelopeOptions options;
   options.first_height = 1e-5;
   options.layers = 15;
-  options.feature_angle = degrees * k_deg;
+  options.feature_angle = degrees * k_degree;
   return options;
 }
 
@@ -135,18 +136,18 @@ TEST(Classes, SaddleBetweenConvexAndConcaveCrease) {
 }
 
 TEST(Classes, ConeTipIsACornerWhereItsFacesAreFewAndSeenFromItsAxisInAnyCase) {
-  const double half = 15.0 * k_deg;
+  const double half = 15.0 * k_degree;
   const TriMesh coarse_mesh = test::cone(half, 7), fine_mesh = test::cone(half, 40);
   const Classified coarse(coarse_mesh), fine(fine_mesh);
   EXPECT_TRUE(coarse.at({0, 0, 1}).is_corner && coarse.at({0, 0, 1}).is_convex);
   EXPECT_TRUE(fine.at({0, 0, 1}).is_smooth());  // no edge bends; what shows the tip is its visibility angle
   const VertexId tip(0);
   EXPECT_LT(angle_between(fine.base.visible_direction[tip], {0, 0, 1}), 1e-6);
-  EXPECT_NEAR(std::acos(fine.base.visibility[tip]), 90.0 * k_deg - half, 0.5 * k_deg);
+  EXPECT_NEAR(std::acos(fine.base.visibility[tip]), 90.0 * k_degree - half, 0.5 * k_degree);
   coarse.expect_drawn("cone_tip", {1, -2.5, 0.8});
 }
 
-double found_angle_deg(const TriMesh& mesh) { return feature_angle_of(LayerBase(mesh, k_context), {}, k_context) / k_deg; }
+double found_angle_deg(const TriMesh& mesh) { return feature_angle_of(LayerBase(mesh, k_context), {}, k_context) / k_degree; }
 
 TEST(FeatureAngle, GapOfTheHistogram) {
   EXPECT_NEAR(found_angle_deg(test::cube(4)), 40.5, 1.0);    // nothing between 0 and 90
@@ -159,7 +160,7 @@ TEST(FeatureAngle, GapOfTheHistogram) {
   options.first_height = 1e-5;
   const LayerBase base(blunt, k_context);
   const Classification classes = classify_vertices(base, options, k_context);
-  EXPECT_DOUBLE_EQ(classes.feature_angle, angle * k_deg);
+  EXPECT_DOUBLE_EQ(classes.feature_angle, angle * k_degree);
   for (const VertexId v : blunt.points.ids()) {
     if (blunt.points[v].x == 1.0) {
       EXPECT_FALSE(classes.vertex[v].is_smooth());
@@ -177,15 +178,15 @@ TEST(FeatureAngle, FollowsTheLargestSmoothTurnWhereItIsKnown) {
   const LayerBase base(mesh, k_context);
   std::string log;
   const RunContext context({.log = [&](LogLevel, std::string_view line) { log += std::string(line) + "\n"; }});
-  const auto decided = [&](double smooth, EnvelopeOptions options = {}) { return decide_feature_angle(base, options, smooth, context) / k_deg; };
-  EXPECT_NEAR(decided(5.0 * k_deg), 20.0, 1e-9);   // flatter edges are no features on any coarse surface
-  EXPECT_NEAR(decided(33.0 * k_deg), 34.0, 1e-9);  // a degree above
+  const auto decided = [&](double smooth, EnvelopeOptions options = {}) { return decide_feature_angle(base, options, smooth, context) / k_degree; };
+  EXPECT_NEAR(decided(5.0 * k_degree), 20.0, 1e-9);   // flatter edges are no features on any coarse surface
+  EXPECT_NEAR(decided(33.0 * k_degree), 34.0, 1e-9);  // a degree above
   EXPECT_NE(log.find("turns by up to 33.0 deg where the model is smooth"), std::string::npos) << log;
-  EXPECT_NEAR(decided(75.0 * k_deg), 40.5, 1.0);  // no angle up to 60 is above it: the gap counts
+  EXPECT_NEAR(decided(75.0 * k_degree), 40.5, 1.0);  // no angle up to 60 is above it: the gap counts
   EXPECT_NEAR(decided(k_automatic), 40.5, 1.0);
   EnvelopeOptions options;
   options.feature_angle = 0.5;
-  EXPECT_EQ(decided(33.0 * k_deg, options) * k_deg, 0.5);
+  EXPECT_EQ(decided(33.0 * k_degree, options) * k_degree, 0.5);
 }
 
 TEST(FeatureAngle, RealSurfacesGiveSensibleAngles) {

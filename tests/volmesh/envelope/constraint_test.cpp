@@ -6,12 +6,13 @@
 #include <array>
 #include <cmath>
 
+#include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 
 namespace sterna::volmesh {
 namespace {
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 const std::array<Vec3, 5> k_directions = {{{1, 2, 3}, {-0.3, 0.7, 0.1}, {0, 1, 1e-9}, {1e-3, -5, 2}, {-1, 0, 0}}};
 const std::array<Vec3, 4> k_axes = {{{0, 1, 0}, {0, 0, -1}, normalized(Vec3{1, 2, 3}), normalized(Vec3{-1, 1e-3, 0})}};

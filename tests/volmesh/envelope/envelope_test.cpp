@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "geom/math/intersect.h"
+#include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/initial.h"
@@ -16,7 +17,7 @@
 namespace sterna::volmesh {
 namespace {
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 EnvelopeOptions layers_of(double h0, int n) {
   EnvelopeOptions options;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geom/math/bvh.h"
+#include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/certificate.h"
@@ -13,9 +14,9 @@
 namespace sterna::volmesh {
 namespace {
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
-EnvelopeOptions layers_of(double h0, int n, double thickness) {
+EnvelopeOptions bounded_layers_of(double h0, int n, double thickness) {
   EnvelopeOptions options;
   options.first_height = h0;
   options.layers = n;
@@ -111,7 +112,7 @@ TEST(ShareGaps, TwoPlatesShareInProportionToWhatTheyAskFor) {
   append(wall, block(4, {0, 0, gap}, {1, 1, 0.2}));
   const LayerBase base(wall, k_context);
   Collider collider(base, nullptr, k_context);
-  const EnvelopeOptions options = layers_of(1e-3, 15, 1.0);
+  const EnvelopeOptions options = bounded_layers_of(1e-3, 15, 1.0);
   Envelope envelope = initial_envelope(base, options, k_context);
   // What each asks for, the same all over each plate.
   const double low = 0.21, high = 0.42;
@@ -141,7 +142,7 @@ TEST(ShareGaps, ANarrowGapIsHalfLeftFree) {
   append(wall, block(4, {0, 0, 0.02}, {1, 1, 0.2}));  // 0.08 edges
   const LayerBase base(wall, k_context);
   Collider collider(base, nullptr, k_context);
-  const EnvelopeOptions options = layers_of(1e-5, 15, 0.3);
+  const EnvelopeOptions options = bounded_layers_of(1e-5, 15, 0.3);
   const Envelope envelope = build_envelope(base, options, collider, k_context);
   expect_proved(base, collider, envelope);
   for (const VertexId v : wall.points.ids()) {
@@ -158,7 +159,7 @@ TEST(ShareGaps, WingAboveAPlateKeepsTheirDistance) {
   append(wall, block(10, {-0.5, -0.5, -0.24}, {2, 1.6, 0.06}));  // its top lies 0.12 below the lower side
   const LayerBase base(wall, k_context);
   Collider collider(base, nullptr, k_context);
-  const Envelope envelope = build_envelope(base, layers_of(1e-5, 25, 0.3), collider, k_context);
+  const Envelope envelope = build_envelope(base, bounded_layers_of(1e-5, 25, 0.3), collider, k_context);
   expect_proved(base, collider, envelope);
   int n_cut = 0;
   EXPECT_GE(smallest_remaining(base, envelope, n_first, n_cut), 0.2);
@@ -173,7 +174,7 @@ TEST(ShareGaps, TwoSpheresKeepTheirDistance) {
   append(wall, other);
   const LayerBase base(wall, k_context);
   Collider collider(base, nullptr, k_context);
-  const Envelope envelope = build_envelope(base, layers_of(1e-5, 25, 0.4), collider, k_context);
+  const Envelope envelope = build_envelope(base, bounded_layers_of(1e-5, 25, 0.4), collider, k_context);
   expect_proved(base, collider, envelope);
   int n_cut = 0;
   EXPECT_GE(smallest_remaining(base, envelope, n_first, n_cut), 0.2);
@@ -187,7 +188,7 @@ TEST(ShareGaps, AnAnnulusWhoseLayersWouldPassThroughEachOther) {
   append(wall, shell);
   const LayerBase base(wall, k_context);
   Collider collider(base, nullptr, k_context);
-  EnvelopeOptions options = layers_of(0.02, 25, 0.45);
+  EnvelopeOptions options = bounded_layers_of(0.02, 25, 0.45);
   const Envelope envelope = build_envelope(base, options, collider, k_context);
   expect_proved(base, collider, envelope);
   const std::size_t n = wall.n_vertices() / 2;  // vertex i of the sphere faces vertex n + i of the shell

@@ -9,6 +9,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
+#include "tests/support/constants.h"
 #include "tests/support/rooms.h"
 #include "tests/support/shapes.h"
 #include "tests/support/voxels.h"
@@ -21,10 +22,10 @@
 namespace sterna::volmesh {
 namespace {
 
-const RunContext k_context({.threads = 2});
-constexpr double k_degree = std::numbers::pi / 180.0;
+using test::k_context;
+using test::k_degree;
 
-EnvelopeOptions layers_of(double h0, int n, double growth = 1.4) {
+EnvelopeOptions growing_layers_of(double h0, int n, double growth = 1.4) {
   EnvelopeOptions options;
   options.first_height = h0;
   options.layers = n;
@@ -64,7 +65,7 @@ TEST(PatchRules, SetKindsAndTheOneThatSpellsOutMoreWins) {
   EXPECT_EQ(rules.back().names, "z0");
   rules.back().kind = "wall";
   apply_patch_kinds(room, rules);
-  const auto layers = layers_of_patches(room.patches, layers_of(1e-3, 9), rules);
+  const auto layers = layers_of_patches(room.patches, growing_layers_of(1e-3, 9), rules);
   for (const PatchId patch : room.patches.ids()) {
     const std::string& name = room.patches[patch].name;
     EXPECT_EQ(room.patches[patch].kind, name == "z1" ? PatchKind::slip : PatchKind::wall);
@@ -101,7 +102,7 @@ TEST(PatchRules, FirstHeightIsNeededWhereThereAreLayers) {
 TEST(DemandOf, IsEmptyWhereNothingDiffers) {
   const TriMesh room = test::cube_room(2);
   const LayerBase base(room, k_context);
-  const EnvelopeOptions options = layers_of(1e-3, 9);
+  const EnvelopeOptions options = growing_layers_of(1e-3, 9);
   EXPECT_TRUE(demand_of(base, options, {}, nullptr, k_context).is_empty());
   EXPECT_TRUE(
       demand_of(base, options, std::vector<PatchRule>{{.names = "z*", .layers = 9, .first_height = 1e-3, .blend = 0.3}}, nullptr, k_context).is_empty());
@@ -114,7 +115,7 @@ TEST(DemandOf, BlendsLogarithmsOverTheStatedDistance) {
   const TriMesh room = test::cube_room(k_n);
   const LayerBase base(room, k_context);
   const LayerDemand demand =
-      demand_of(base, layers_of(k_other, 9),
+      demand_of(base, growing_layers_of(k_other, 9),
                 std::vector<PatchRule>{{.names = "*", .blend = k_blend}, {.names = "z0", .first_height = k_floor, .max_growth = 1.2}}, nullptr, k_context);
   ASSERT_FALSE(demand.is_empty());
   // The share of the other group at x of the blend is k/(1 + k), k = (1 - x)^2 (1 + 2x); its slope is at most 0.86.
@@ -152,8 +153,8 @@ TEST(DemandOf, OneNumberOfLayersForWhatIsConnectedAndAnotherForWhatIsNot) {
   std::vector<std::string> log;
   const RunContext context({.threads = 2, .log = [&](LogLevel, std::string_view text) { log.emplace_back(text); }});
   const LayerDemand demand =
-      demand_of(base, layers_of(1e-3, 9), std::vector<PatchRule>{{.names = "x1", .layers = 12}, {.names = "z*", .layers = 4}, {.names = "body", .layers = 30}},
-                nullptr, context);
+      demand_of(base, growing_layers_of(1e-3, 9),
+                std::vector<PatchRule>{{.names = "x1", .layers = 12}, {.names = "z*", .layers = 4}, {.names = "body", .layers = 30}}, nullptr, context);
   for (const VertexId v : walls.points.ids()) EXPECT_EQ(demand.layers[v], v.index() < n_room ? 12 : 30);
   EXPECT_TRUE(std::any_of(log.begin(), log.end(), [](const std::string& line) {
     return line.find("12, the largest asked for (4 by z0, z1; 9 by") != std::string::npos;
@@ -170,7 +171,7 @@ TEST(PatchLayers, WallsThatMeetHaveTheirOwnFirstHeights) {
   const TriMesh wall = test::voxel_boundary(
       {k_n, k_n, k_n}, 1.0 / k_n, [](int i, int j, int) { return i < 5 || i > 6 || j < 5 || j > 6; }, patch);
   constexpr double k_strut = 1e-4, k_others = 4e-4, k_blend = 0.3;
-  const EnvelopeOptions options = layers_of(k_others, 8);
+  const EnvelopeOptions options = growing_layers_of(k_others, 8);
   Layer layer(wall, options,
               {{.names = "*", .blend = k_blend}, {.names = "strut", .layers = 12, .first_height = k_strut}, {.names = "floor", .max_growth = 1.3}});
   layer.expect_sound();
@@ -205,12 +206,12 @@ TEST(ConcaveCorners, KeepTheirFullNumberOfLayersDownTo45Degrees) {
   constexpr int k_n = 16;
   for (const double degrees : {90.0, 60.0, 45.0}) {
     SCOPED_TRACE(degrees);
-    Layer layer(test::wedge_room(degrees * k_degree, k_n), layers_of(1e-4, 20, 1.25));
+    Layer layer(test::wedge_room(degrees * k_degree, k_n), growing_layers_of(1e-4, 20, 1.25));
     layer.expect_sound();
     EXPECT_EQ(layer.n_collapsed(), 0);
     CornerHeights corner;
     double n = 0.0, n_compressed = 0.0;
-    const EnvelopeScale scale = scale_of(layer.base, layers_of(1e-4, 20, 1.25));
+    const EnvelopeScale scale = scale_of(layer.base, growing_layers_of(1e-4, 20, 1.25));
     for (const VertexId v : layer.wall.points.ids()) {
       const Point& p = layer.wall.points[v];
       const double share = normal_height(layer.base, layer.envelope, v) / layer.envelope.target[v];

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/constrain_rims.h"
@@ -12,7 +13,7 @@
 namespace sterna::volmesh {
 namespace {
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 /// A square bar of side 1 along y from 0 to `length`, open at its ends, n edges per side and `m` along it; normals outwards.
 TriMesh bar(std::uint32_t n, std::uint32_t m, double length) {
@@ -51,7 +52,7 @@ LayerBase base_between_planes(const TriMesh& wall, double length, const Partners
   return base;
 }
 
-EnvelopeOptions layers() {
+EnvelopeOptions fifteen_layers() {
   EnvelopeOptions options;
   options.first_height = 1e-4;
   options.layers = 15;
@@ -81,7 +82,9 @@ TEST(Periodic, PartnersHaveTheNormalsAndEdgesOfAllTheirTriangles) {
     EXPECT_EQ(alike, (std::vector<VertexId>{a, b}));
   }
   for (const VertexId v : wall.points.ids()) {
-    if (base.group[v] == LayerBase::k_no_group) EXPECT_EQ(base.vertex_normal[v], alone.vertex_normal[v]);
+    if (base.group[v] == LayerBase::k_no_group) {
+      EXPECT_EQ(base.vertex_normal[v], alone.vertex_normal[v]);
+    }
   }
 }
 
@@ -104,7 +107,7 @@ TEST(Periodic, HeightsAndDirectionsAreEqualAtPartnersAndTheLayerStaysSound) {
   append(wall, pod);
   const Partners partners = ends_of_bar(6, 10);
   const LayerBase base = base_between_planes(wall, 2.0, partners);
-  const EnvelopeOptions options = layers();
+  const EnvelopeOptions options = fifteen_layers();
   Collider collider(base, nullptr, k_context);
   Envelope envelope = build_envelope(base, options, k_context);
   ASSERT_TRUE(invalid_macros(base, envelope, k_context).empty());
@@ -134,7 +137,7 @@ TEST(Periodic, OneCollapsedPartnerCollapsesTheOther) {
   const TriMesh wall = bar(6, 10, 2.0);
   const Partners partners = ends_of_bar(6, 10);
   const LayerBase base = base_between_planes(wall, 2.0, partners);
-  const EnvelopeOptions options = layers();
+  const EnvelopeOptions options = fifteen_layers();
   Envelope envelope = build_envelope(base, options, k_context);
   lower(envelope, partners[4][1], 0.0, HeightLimit::gap, scale_of(base, options));
   unwarp(base, options, HeightLimit::warp, envelope, k_context);
@@ -148,13 +151,13 @@ TEST(Periodic, SameBytesForAnyNumberOfThreads) {
   const TriMesh wall = bar(6, 10, 2.0);
   const Partners partners = ends_of_bar(6, 10);
   const LayerBase base = base_between_planes(wall, 2.0, partners);
-  const Envelope start = build_envelope(base, layers(), k_context);
+  const Envelope start = build_envelope(base, fifteen_layers(), k_context);
   std::vector<Envelope> results;
   for (const int threads : {1, 2, 7}) {
     results.push_back(start);
     Envelope& envelope = results.back();
-    lower(envelope, partners[7][0], 0.5 * envelope.height[partners[7][0]], HeightLimit::gap, scale_of(base, layers()));
-    equalise_partners(base, layers(), nullptr, envelope, RunContext({.threads = threads}));
+    lower(envelope, partners[7][0], 0.5 * envelope.height[partners[7][0]], HeightLimit::gap, scale_of(base, fifteen_layers()));
+    equalise_partners(base, fifteen_layers(), nullptr, envelope, RunContext({.threads = threads}));
   }
   for (const Envelope& envelope : results) {
     EXPECT_EQ(envelope.height, results[0].height);

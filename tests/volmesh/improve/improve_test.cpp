@@ -11,6 +11,7 @@
 
 #include "geom/math/measures.h"
 #include "geom/math/predicates.h"
+#include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 #include "volmesh/improve/forcing.h"
 #include "volmesh/improve/region.h"
@@ -20,7 +21,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_degree = std::numbers::pi / 180.0;
+using test::k_degree;
 
 /// A domain that owns its points, with tetrahedra in it.
 struct Filled {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 #include "tests/support/voxels.h"
 #include "volmesh/flow/boundary_layer.h"
@@ -18,7 +19,7 @@ namespace {
 using testing::UnorderedElementsAre;
 using Kind = FindingKind;
 
-constexpr double k_deg = std::numbers::pi / 180.0;
+using test::k_degree;
 
 InspectRequest request_of(int layers, double first_height) {
   InspectRequest request;
@@ -122,7 +123,7 @@ TEST(Inspect, FieldsFitTheSurface) {
   // At the cube's corners the best direction sees the three faces at acos(1/sqrt 3), at its edges at 45 degrees.
   const VertexId corner = nearest_vertex(report.mesh, {1, 1, 1}), edge = nearest_vertex(report.mesh, {1, 1, 0.5}),
                  face = nearest_vertex(report.mesh, {0.5, 0.5, 1});
-  EXPECT_NEAR(field(report, "visibility_angle").values[corner.index()], std::acos(1.0 / std::sqrt(3.0)) / k_deg, 1e-3);
+  EXPECT_NEAR(field(report, "visibility_angle").values[corner.index()], std::acos(1.0 / std::sqrt(3.0)) / k_degree, 1e-3);
   EXPECT_NEAR(field(report, "visibility_angle").values[edge.index()], 45.0, 1e-3);
   EXPECT_NEAR(field(report, "visibility_angle").values[face.index()], 0.0, 1e-3);
 }
@@ -219,8 +220,8 @@ TriMesh wedge(double angle, int n) {
 
 TEST(Inspect, FindsAFoldAndHowBadlyItsEdgeIsSeen) {
   InspectRequest request;
-  request.limits.fold_angle = 10.0 * k_deg;
-  const InspectReport report = inspect(wedge(8.0 * k_deg, 7), request);
+  request.limits.fold_angle = 10.0 * k_degree;
+  const InspectReport report = inspect(wedge(8.0 * k_degree, 7), request);
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::fold, Kind::visibility, Kind::not_looked_at));
   const Finding& fold = the(report, Kind::fold);
   EXPECT_EQ(fold.count, 7);
@@ -232,7 +233,7 @@ TEST(Inspect, FindsAFoldAndHowBadlyItsEdgeIsSeen) {
   const Finding& edge = the(report, Kind::visibility);
   EXPECT_NEAR(edge.value, 86.0, 0.5);  // a little more at the ends
   EXPECT_EQ(edge.places.at(0).position.x, 0.0);
-  EXPECT_THAT(kinds(inspect(wedge(8.0 * k_deg, 7))), UnorderedElementsAre(Kind::visibility, Kind::not_looked_at)) << "8 degrees are no fold by default";
+  EXPECT_THAT(kinds(inspect(wedge(8.0 * k_degree, 7))), UnorderedElementsAre(Kind::visibility, Kind::not_looked_at)) << "8 degrees are no fold by default";
 }
 
 TEST(Inspect, FindsAVertexThatNoDirectionServes) {
@@ -334,12 +335,12 @@ TEST(Inspect, FindsBodiesThatNearlyTouch) {
 TEST(Inspect, FindsACoarseCurve) {
   const TriMesh icosahedron = test::sphere(1);
   InspectRequest request;
-  request.volume.envelope.feature_angle = 60.0 * k_deg;
+  request.volume.envelope.feature_angle = 60.0 * k_degree;
   const InspectReport report = inspect(icosahedron, request);
   EXPECT_THAT(kinds(report), UnorderedElementsAre(Kind::coarse, Kind::not_looked_at));
   EXPECT_EQ(the(report, Kind::coarse).count, 30);
   EXPECT_NEAR(the(report, Kind::coarse).value, 180.0 - 138.1897, 1e-3);  // its dihedral angle
-  request.volume.envelope.feature_angle = 25.0 * k_deg;
+  request.volume.envelope.feature_angle = 25.0 * k_degree;
   EXPECT_THAT(kinds(inspect(icosahedron, request)), UnorderedElementsAre(Kind::not_looked_at)) << "edges that are meant";
 }
 

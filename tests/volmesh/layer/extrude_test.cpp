@@ -6,6 +6,7 @@
 
 #include "io/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/shapes.h"
 #include "volmesh/case/growth_law.h"
@@ -18,7 +19,7 @@
 namespace sterna::volmesh {
 namespace {
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 EnvelopeOptions layers_of(double h0, int n) {
   EnvelopeOptions options;

@@ -10,6 +10,7 @@
 #include "geom/base/error.h"
 #include "io/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/volmesh/optimise/rough_envelope.h"
 #include "volmesh/envelope/build_envelope.h"
@@ -18,7 +19,7 @@
 namespace sterna::volmesh {
 namespace {
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 /// A wall with a valid envelope, and what every run on it gets.
 struct Case {

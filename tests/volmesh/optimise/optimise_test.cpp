@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "geom/math/measures.h"
+#include "tests/support/constants.h"
 #include "tests/volmesh/optimise/rough_envelope.h"
 #include "volmesh/envelope/optimise.h"
 #include "volmesh/envelope/validity.h"
@@ -12,7 +13,7 @@
 namespace sterna::volmesh {
 namespace {
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 double smallest_quality(const LayerBase& base, const Envelope& envelope) {
   double least = 1.0;

@@ -9,6 +9,7 @@
 #include "geom/math/measures.h"
 #include "io/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
+#include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/shapes.h"
 #include "volmesh/envelope/build_envelope.h"
@@ -17,7 +18,7 @@
 namespace sterna::volmesh {
 namespace {
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 using Part = PaperProblem::Part;
 
 /// Deterministic numbers in [-0.5, 0.5).

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "geom/model/frame.h"
+#include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/certificate.h"
@@ -17,9 +18,9 @@ namespace {
 
 using testing::HasSubstr;
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
-EnvelopeOptions layers() {
+EnvelopeOptions eight_layers() {
   EnvelopeOptions options;
   options.first_height = 5e-3;
   options.layers = 8;
@@ -29,7 +30,7 @@ EnvelopeOptions layers() {
 
 StartingEnvelope start_of(const TriMesh& wall) {
   const LayerBase base(wall, k_context);
-  return {wall.points, build_envelope(base, layers(), k_context)};
+  return {wall.points, build_envelope(base, eight_layers(), k_context)};
 }
 
 TriMesh mapped(TriMesh wall, const std::function<Point(const Point&)>& map) {
@@ -42,7 +43,7 @@ struct Started {
   bool is_proved = false;
   Envelope from_scratch;
 };
-Started started(const TriMesh& wall, const StartingEnvelope& from, const EnvelopeOptions& options = layers(), const RunContext& context = k_context) {
+Started started(const TriMesh& wall, const StartingEnvelope& from, const EnvelopeOptions& options = eight_layers(), const RunContext& context = k_context) {
   const LayerBase base(wall, context);
   Collider collider(base, nullptr, context);
   Started result{warm_start(base, options, from, collider, context)};
@@ -85,7 +86,7 @@ TEST(WarmStart, DirectionsTurnWithTheWall) {
 TEST(WarmStart, HeightsFollowWhatIsAskedForHere) {
   const TriMesh wall = test::sphere(6);
   const StartingEnvelope from = start_of(wall);
-  EnvelopeOptions thinner = layers();
+  EnvelopeOptions thinner = eight_layers();
   thinner.first_height = 1e-3;
   thinner.layers = 5;
   const Started result = started(wall, from, thinner);
@@ -116,7 +117,7 @@ TEST(WarmStart, IsTheSameForAnyNumberOfThreads) {
   const TriMesh wall = test::sphere(8);
   const StartingEnvelope from = start_of(wall);
   const TriMesh bent = mapped(wall, bend);
-  const Started one = started(bent, from, layers(), RunContext({.threads = 1})), seven = started(bent, from, layers(), RunContext({.threads = 7}));
+  const Started one = started(bent, from, eight_layers(), RunContext({.threads = 1})), seven = started(bent, from, eight_layers(), RunContext({.threads = 7}));
   ASSERT_TRUE(one.start.envelope && seven.start.envelope);
   EXPECT_EQ(one.start.envelope->height.raw(), seven.start.envelope->height.raw());
   for (const VertexId v : wall.points.ids()) EXPECT_EQ(one.start.envelope->direction[v], seven.start.envelope->direction[v]);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "geom/base/error.h"
+#include "tests/support/constants.h"
 #include "tests/volmesh/rims/end_cases.h"
 
 namespace sterna::volmesh {
@@ -11,7 +12,7 @@ namespace {
 
 using namespace test_ends;
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 const ConstraintPlane k_left({0, 0, 0}, {0, 1, 0}), k_right({0, 0.3, 0}, {0, -1, 0});
 
 EndRegion left() {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "geom/base/error.h"
+#include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 #include "tests/volmesh/rims/end_cases.h"
 
@@ -10,7 +11,7 @@ namespace {
 
 using namespace test_ends;
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 
 /// Cylinder about x, radius 2, from x = 0 to 6: (u, v) = arc length about the axis, x. Normals look inwards.
 Point on_tunnel(double u, double v) { return {v, -2.0 * std::sin(u / 2.0), -2.0 * std::cos(u / 2.0)}; }

@@ -9,12 +9,13 @@
 #include <numbers>
 
 #include "geom/math/measures.h"
+#include "tests/support/constants.h"
 #include "tests/support/error_of.h"
 #include "volmesh/rims/end_surface.h"
 
 namespace sterna::volmesh::test_ends {
 
-inline constexpr double k_pi = std::numbers::pi;
+using test::k_pi;
 
 /// (u, v) -> point of the surface.
 using Map = std::function<Point(double, double)>;

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "geom/base/error.h"
+#include "tests/support/constants.h"
+#include "tests/support/error_of.h"
 #include "tests/volmesh/rims/end_cases.h"
 
 namespace sterna::volmesh {
@@ -9,7 +11,7 @@ namespace {
 
 using namespace test_ends;
 
-const RunContext k_context({.threads = 2});
+using test::k_context;
 const ConstraintPlane k_symmetry({0, 0, 0}, {0, 1, 0});
 
 /// Symmetrical aerofoil with a sharp trailing edge at (v = 1, u = 0), as a hole (clockwise in (u, v)), its leading edge finer; `n` points a side.
@@ -127,7 +129,8 @@ TEST(PlaneEnd, SizesOfTheCallerHold) {
   // 1.4 m^2 of triangles with sides of 0.05: a point for each 0.00217 m^2; near the coarse border fewer.
   EXPECT_GT(n_in, 350u);
   region.size = [](const Point&) { return -1.0; };
-  EXPECT_THROW(triangulate_end(region, {}, k_context), Error);
+  test::expect_error(ErrorCode::bad_argument, "the wanted edge length is -1.000000 m; it has to be positive",
+                     [&] { (void)triangulate_end(region, {}, k_context); });
 }
 
 TEST(PlaneEnd, ObliquePlaneFarFromTheOrigin) {
@@ -159,7 +162,8 @@ TEST(PlaneEnd, AFlatOriginalIsAPlane) {
   EXPECT_GT(facts.least_angle, 20.0);
   EXPECT_EQ(result.n_kept, 0);
   region.original = nullptr;
-  EXPECT_THROW(triangulate_end(region, {}, k_context), Error) << "without the original it may be curved";
+  test::expect_error(ErrorCode::bad_argument, "the surface is curved, but the patch as it was given (original) is missing",
+                     [&] { (void)triangulate_end(region, {}, k_context); });
 }
 
 TEST(PlaneEnd, SameBytesForAnyNumberOfThreads) {

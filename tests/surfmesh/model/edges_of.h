@@ -1,0 +1,16 @@
+// Options of surface meshes for tests.
+#pragma once
+
+#include "surfmesh/model/surface_mesh.h"
+
+namespace sterna::test {
+
+/// Edges of at most `size` that turn by at most `angle`, radians.
+inline surfmesh::SurfaceMeshOptions edges_of(double size, double angle = 0.5) {
+  surfmesh::SurfaceMeshOptions options;
+  options.max_edge = size;
+  options.curvature_angle = angle;
+  return options;
+}
+
+}  // namespace sterna::test
