@@ -15,7 +15,7 @@
 namespace sterna::io {
 namespace {
 
-constexpr int k_max_names = 1000;           // as AtomicFile: leftovers of killed runs
+constexpr int k_max_folder_names = 1000;    // as AtomicFile: leftovers of killed runs
 constexpr mode_t k_new_folder_mode = 0777;  // the umask takes its part
 
 void sync_folder(const std::filesystem::path& folder) {
@@ -55,7 +55,7 @@ AtomicFolder::AtomicFolder(const std::filesystem::path& path, std::string_view p
     temporary_ = target_.parent_path() / (".sterna-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".part");
     if (::mkdir(temporary_.c_str(), k_new_folder_mode) == 0) break;
     const int error_number = errno;
-    if (error_number == EEXIST && i < k_max_names) continue;
+    if (error_number == EEXIST && i < k_max_folder_names) continue;
     temporary_.clear();  // not ours
     fail(error_number, "creating a folder");
   }

@@ -8,7 +8,7 @@
 namespace sterna::io {
 namespace {
 
-constexpr std::string_view k_data = " data";
+constexpr std::string_view k_data_node = " data";
 
 Hdf5OutputNode hdf5_node(const CgnsOutputNode& node) {
   Hdf5OutputNode group{.name = node.name};
@@ -17,7 +17,7 @@ Hdf5OutputNode hdf5_node(const CgnsOutputNode& node) {
   group.attributes.push_back(text_attribute("type", node.has_data ? cgns_type_of(node.array.kind) : "MT", 3));
   group.attributes.push_back({.name = "flags", .kind = NumberKind::i4, .extents = {1}, .bytes = std::string("\1\0\0\0", 4)});  // 1: extents are reversed
   if (node.has_data) {
-    Hdf5OutputNode data{.name = std::string(k_data), .is_dataset = true, .array = node.array};
+    Hdf5OutputNode data{.name = std::string(k_data_node), .is_dataset = true, .array = node.array};
     std::reverse(data.array.extents.begin(), data.array.extents.end());
     group.children.push_back(std::move(data));
   }

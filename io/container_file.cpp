@@ -17,7 +17,7 @@ namespace {
 
 static_assert(wire::k_file_fd == k_helper_request_fd && wire::k_image_fd == k_helper_reply_fd);
 
-constexpr std::size_t k_head_bytes = 512;
+constexpr std::size_t k_probed_head_bytes = 512;
 
 HelperTask task_of(const std::string& source) {
   return {.helper = "the reader of container files",
@@ -41,7 +41,7 @@ class SourceFile {
       }
     }
     const FileBuffer buffer = load_file(path, context);  // unpacks, or says what is wrong with the path
-    head_ = buffer.text().substr(0, k_head_bytes);
+    head_ = buffer.text().substr(0, k_probed_head_bytes);
     block_ = std::make_unique<SharedBlock>("sterna unpacked file", 0, task);
     block_->append(std::as_bytes(std::span(buffer.bytes)));
   }
@@ -63,7 +63,7 @@ class SourceFile {
     if (!std::filesystem::is_regular_file(path, status)) return {};
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) return {};
-    std::string bytes(k_head_bytes, '\0');
+    std::string bytes(k_probed_head_bytes, '\0');
     const ssize_t n = ::read(descriptor, bytes.data(), bytes.size());
     ::close(descriptor);
     bytes.resize(n > 0 ? static_cast<std::size_t>(n) : 0);

@@ -12,7 +12,7 @@ namespace sterna::io {
 namespace {
 
 constexpr int k_deepest = 32;  // levels; a mesh has 5
-constexpr std::int32_t k_header_bytes = 32;
+constexpr std::int32_t k_ffa_header_bytes = 32;
 constexpr std::string_view k_version_2 = "FFA-format-v2";
 constexpr std::size_t k_version_2_bytes = 32;
 
@@ -93,9 +93,9 @@ class FfaParser {
       version_ = 2;
       bytes_.require(k_version_2_bytes, 1, "the header of version 2");
       bytes_.skip(k_version_2_bytes);
-    } else if (text.size() >= 4 && number_at<std::int32_t>(text, 0, std::endian::big) == k_header_bytes) {
+    } else if (text.size() >= 4 && number_at<std::int32_t>(text, 0, std::endian::big) == k_ffa_header_bytes) {
       version_ = 1;
-    } else if (text.size() >= 4 && number_at<std::int32_t>(text, 0, std::endian::little) == k_header_bytes) {
+    } else if (text.size() >= 4 && number_at<std::int32_t>(text, 0, std::endian::little) == k_ffa_header_bytes) {
       version_ = 1;
       bytes_ = ByteReader(buffer_, std::endian::little);
     } else {
@@ -151,13 +151,13 @@ class FfaParser {
   }
 
   std::uint64_t header_1(FfaNode& node) {
-    marker(k_header_bytes, "the header of a node");
+    marker(k_ffa_header_bytes, "the header of a node");
     node.name = chars(16, "the name of a node");
     const std::string type = chars(4, "the type of a node");
     const auto columns = bytes_.read<std::int32_t>("the number of columns"), rows = bytes_.read<std::int32_t>("the number of rows");
     const auto children = bytes_.read<std::int32_t>("the number of children");
     take_shape(node, type, columns, rows, children);
-    marker(k_header_bytes, "the end of a node's header");
+    marker(k_ffa_header_bytes, "the end of a node's header");
     return static_cast<std::uint64_t>(children);
   }
 

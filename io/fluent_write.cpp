@@ -8,11 +8,11 @@
 #include "io/mesh_faces.h"
 #include "io/name_rules.h"
 #include "io/section_output.h"
+#include "io/text_limits.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::uint64_t k_max_count = std::numeric_limits<std::int32_t>::max();
 constexpr std::size_t k_most_faces_of_cell = 6;
 constexpr std::size_t k_max_hex = 9;                        // digits of 32 bits and a blank
 constexpr std::size_t k_max_face_line = 2 + 6 * k_max_hex;  // "4 n n n n c c\n"
@@ -74,8 +74,8 @@ class FluentWriter {
   FluentWriter(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context)
       : mesh_(mesh), faces_(mesh, context.part("faces", 0.0, 0.3)), by_patch_(mesh) {
     n_faces_ = faces_.n_internal() + mesh.boundary_triangles.size() + mesh.boundary_quads.size();
-    require_count(mesh.points.size(), k_max_count, "nodes", "Fluent", path.string());
-    require_count(n_faces_, k_max_count, "faces", "Fluent", path.string());
+    require_count(mesh.points.size(), k_max_int32, "nodes", "Fluent", path.string());
+    require_count(n_faces_, k_max_int32, "faces", "Fluent", path.string());
   }
 
   std::vector<OutputSection> sections(const std::vector<std::string>& names) {

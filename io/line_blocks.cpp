@@ -6,13 +6,13 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "io/text_limits.h"
+
 namespace sterna::io {
 namespace {
 
 /// Lines per chunk: some 300 kB of text, so that a task is long against its cost and short against the file.
 constexpr std::uint64_t k_lines_per_chunk = 8192;
-/// Longest spelling of a number that is looked at again when from_chars did not take it.
-constexpr std::size_t k_longest_number = 1000;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }

@@ -8,11 +8,11 @@
 #include "io/names_file.h"
 #include "io/section_output.h"
 #include "io/surface_boundary.h"
+#include "io/text_limits.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::uint64_t k_max_int32 = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t k_fluid = 1;  // reference of all cells
 constexpr std::size_t k_max_row = 9 * (k_max_integer_text + 1);
 constexpr std::array<std::pair<MeditSection, CellKind>, 4> k_cell_sections = {{{k_medit_tetrahedra, CellKind::tetrahedron},

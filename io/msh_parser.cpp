@@ -14,12 +14,12 @@
 #include "geom/base/error.h"
 #include "io/byte_reader.h"
 #include "io/surface_builder.h"
+#include "io/text_limits.h"
 #include "io/text_scanner.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::size_t k_stop_interval = 1 << 16;
 constexpr std::int64_t k_surface_dimension = 2;
 constexpr std::int64_t k_max_physical_tag = 2147483647;
 /// Shortest line of a node block (tag and newline) and of an element; bounds for the memory that a count may ask for.

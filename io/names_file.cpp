@@ -11,8 +11,8 @@
 namespace sterna::io {
 namespace {
 
-constexpr std::array k_kinds = {PatchKind::wall,    PatchKind::slip,     PatchKind::symmetry, PatchKind::inflow,
-                                PatchKind::outflow, PatchKind::farfield, PatchKind::interface};
+constexpr std::array k_named_kinds = {PatchKind::wall,    PatchKind::slip,     PatchKind::symmetry, PatchKind::inflow,
+                                      PatchKind::outflow, PatchKind::farfield, PatchKind::interface};
 
 bool is_version(const std::string& extension) {
   return extension.size() == 3 && extension[1] == 'v' && std::isdigit(static_cast<unsigned char>(extension[2])) != 0;
@@ -41,8 +41,9 @@ std::map<std::int64_t, Patch> read_names(const std::filesystem::path& mesh_path,
     scanner.set_line_bound(true);
     const std::int64_t number = scanner.integer("the number of a patch");
     const std::string kind_name(scanner.token("the kind of a patch"));
-    const auto kind = std::find_if(k_kinds.begin(), k_kinds.end(), [&](PatchKind k) { return to_string(k) == kind_name; });
-    if (kind == k_kinds.end()) scanner.fail("found " + quoted_excerpt(kind_name) + ", expected wall, slip, symmetry, inflow, outflow, farfield or interface");
+    const auto kind = std::find_if(k_named_kinds.begin(), k_named_kinds.end(), [&](PatchKind k) { return to_string(k) == kind_name; });
+    if (kind == k_named_kinds.end())
+      scanner.fail("found " + quoted_excerpt(kind_name) + ", expected wall, slip, symmetry, inflow, outflow, farfield or interface");
     const std::string name(scanner.rest_of_line());
     if (name.empty()) scanner.fail("found no name of patch " + std::to_string(number));
     patches[number] = {name, *kind};

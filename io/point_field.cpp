@@ -13,13 +13,13 @@ struct Piece {
   const XmlTag* values = nullptr;
 };
 
-struct Outline {
+struct FieldOutline {
   std::vector<Piece> pieces;
   std::string names;  ///< of all point data, for the message
 };
 
-Outline outline_of(const std::vector<XmlTag>& tags, const std::string& name) {
-  Outline outline;
+FieldOutline outline_of(const std::vector<XmlTag>& tags, const std::string& name) {
+  FieldOutline outline;
   std::string section;
   for (const XmlTag& tag : tags) {
     if (tag.name == "Piece") outline.pieces.emplace_back();
@@ -38,7 +38,7 @@ Outline outline_of(const std::vector<XmlTag>& tags, const std::string& name) {
 PointField read_point_field(const std::filesystem::path& path, const std::string& name, const RunContext& context) {
   const FileBuffer buffer = load_file(path, context);
   const std::vector<XmlTag> tags = scan_xml_tags(buffer.text(), "AppendedData", buffer.source);
-  const Outline outline = outline_of(tags, name);
+  const FieldOutline outline = outline_of(tags, name);
   const VtuDecoder decoder(buffer, tags, context);
   PointField field;
   for (const Piece& piece : outline.pieces) {

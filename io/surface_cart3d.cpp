@@ -12,12 +12,12 @@
 #include "io/file_buffer.h"
 #include "io/surface_builder.h"
 #include "io/surface_output.h"
+#include "io/text_limits.h"
 #include "io/text_scanner.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::size_t k_stop_interval = 1 << 16;
 constexpr std::uint32_t k_first_record_bytes = 8;  // two counts
 constexpr std::size_t k_min_vertex_bytes = 6;      // "0 0 0" and a line end
 constexpr std::size_t k_min_triangle_bytes = 6;

@@ -16,23 +16,23 @@
 #include "io/name_rules.h"
 #include "io/surface_builder.h"
 #include "io/surface_output.h"
+#include "io/text_limits.h"
 #include "io/text_scanner.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::size_t k_stop_interval = 1 << 16;
 constexpr std::size_t k_field = 8;
 constexpr std::size_t k_large_field = 16;
 constexpr std::size_t k_line = 80;
-constexpr std::int64_t k_max_id = 99999999;  // eight characters
+constexpr std::int64_t k_max_nastran_id = 99999999;  // eight characters
 
-std::string_view trimmed(std::string_view text) {
+std::string_view without_blanks(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t");
   return begin == std::string_view::npos ? std::string_view() : text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
 }
 
-bool begins_with_word(std::string_view line, std::string_view word) { return equal_ignoring_case(trimmed(line).substr(0, word.size()), word); }
+bool begins_with_word(std::string_view line, std::string_view word) { return equal_ignoring_case(without_blanks(line).substr(0, word.size()), word); }
 
 /// "1.5-3" is 1.5e-3, "1.D3" is 1e3.
 bool parse_real(std::string_view field, double& value) {
@@ -70,7 +70,7 @@ constexpr std::array<ElementCard, 12> k_elements = {{{"CTRIA3", 3},
                                                      {"CPYRA", 0},
                                                      {"CHEXA", 0}}};
 
-struct Face {
+struct NastranFace {
   std::array<std::int64_t, 4> nodes{};
   std::size_t n_corners = 3;
   std::int64_t pid = 0;
@@ -90,7 +90,7 @@ class BulkParser {
         take_comment();
       } else if (begins_with_word(line_, "ENDDATA")) {
         has_end = true;
-      } else if (!trimmed(line_).empty()) {
+      } else if (!without_blanks(line_).empty()) {
         take_line();
       }
     }
@@ -123,15 +123,15 @@ class BulkParser {
   /// Executive and case control come before "BEGIN BULK" where there is one.
   bool find_bulk() {
     while (next_line())
-      if (begins_with_word(line_, "BEGIN") && trimmed(trimmed(line_).substr(5)).size() >= 4 &&
-          equal_ignoring_case(trimmed(trimmed(line_).substr(5)).substr(0, 4), "BULK"))
+      if (begins_with_word(line_, "BEGIN") && without_blanks(without_blanks(line_).substr(5)).size() >= 4 &&
+          equal_ignoring_case(without_blanks(without_blanks(line_).substr(5)).substr(0, 4), "BULK"))
         return true;
     position_ = line_number_ = 0;
     return false;
   }
 
   void take_line() {
-    const bool is_continuation = line_[0] == '+' || line_[0] == '*' || line_[0] == ',' || trimmed(line_.substr(0, k_field)).empty();
+    const bool is_continuation = line_[0] == '+' || line_[0] == '*' || line_[0] == ',' || without_blanks(line_.substr(0, k_field)).empty();
     if (!is_continuation) {
       take_card();
       card_line_ = line_number_;
@@ -145,7 +145,7 @@ class BulkParser {
     std::string_view rest = line_;
     const auto next = [&rest] {
       const std::size_t end = std::min(rest.find(','), rest.size());
-      const std::string_view field = trimmed(rest.substr(0, end));
+      const std::string_view field = without_blanks(rest.substr(0, end));
       rest.remove_prefix(std::min(end + 1, rest.size()));
       return field;
     };
@@ -165,12 +165,12 @@ class BulkParser {
       }
       line_ = expanded;
     }
-    const std::string_view name = trimmed(line_.substr(0, k_field));
+    const std::string_view name = without_blanks(line_.substr(0, k_field));
     const bool is_large = name.ends_with('*') || name.starts_with('*');
     if (!is_continuation) fields_.emplace_back(name);
     const std::size_t width = is_large ? k_large_field : k_field;
     for (std::size_t at = k_field; at < k_line - k_field; at += width)
-      fields_.emplace_back(at < line_.size() ? trimmed(line_.substr(at, std::min(width, k_line - k_field - at))) : std::string_view());
+      fields_.emplace_back(at < line_.size() ? without_blanks(line_.substr(at, std::min(width, k_line - k_field - at))) : std::string_view());
   }
 
   /// "$ANSA_NAME_COMMENT;7;PSHELL;left wing;..." and "$HMNAME COMP  7"left wing"" name the PID 7.
@@ -190,7 +190,7 @@ class BulkParser {
 
   void add_name(std::string_view number, std::string_view name) {
     std::int64_t pid = 0;
-    number = trimmed(number);
+    number = without_blanks(number);
     const auto [end, failure] = std::from_chars(number.data(), number.data() + number.size(), pid);
     if (failure == std::errc{} && end == number.data() + number.size() && !name.empty()) names_.try_emplace(pid, name);
   }
@@ -201,7 +201,7 @@ class BulkParser {
     if (fields_.empty()) return;
     std::string_view name = fields_[0];
     if (name.ends_with('*')) name.remove_suffix(1);
-    name = trimmed(name);
+    name = without_blanks(name);
     if (equal_ignoring_case(name, "GRID")) {
       take_grid();
     } else if (equal_ignoring_case(name, "GRDSET")) {
@@ -251,7 +251,7 @@ class BulkParser {
       ++n_volumes_;
       return;
     }
-    Face face{.n_corners = n_corners, .line = card_line_};
+    NastranFace face{.n_corners = n_corners, .line = card_line_};
     const std::int64_t eid = integer(1, "the number of an element");
     face.pid = field(2).empty() ? eid : integer(2, "the number of a property");
     for (std::size_t k = 0; k < n_corners; ++k) face.nodes[k] = integer(3 + k, "the number of a point");
@@ -262,7 +262,7 @@ class BulkParser {
     std::int64_t pid = 0;
     std::array<std::uint32_t, 4> corners{};
     for (std::size_t i = 0; i < faces_.size(); ++i) {
-      const Face& face = faces_[i];
+      const NastranFace& face = faces_[i];
       if (i == 0 || face.pid != pid) {
         const auto name = names_.find(face.pid);
         builder_.set_patch(name == names_.end() ? numbered_patch(face.pid) : name->second);
@@ -288,7 +288,7 @@ class BulkParser {
   std::vector<std::string> fields_;  ///< of the card that is being read; the first is its name
   std::size_t card_line_ = 0;
   std::unordered_map<std::int64_t, std::uint32_t> point_of_id_;
-  std::vector<Face> faces_;
+  std::vector<NastranFace> faces_;
   std::map<std::int64_t, std::string> names_;  ///< by PID
   std::size_t n_volumes_ = 0;
 };
@@ -379,7 +379,8 @@ SurfaceSoup read_nastran(const std::filesystem::path& path, const RunContext& co
 }
 
 void write_nastran(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
-  for (const std::size_t n : {mesh.n_vertices(), mesh.n_triangles(), mesh.patches.size()}) require_count(n, k_max_id, "items", "Nastran", path.string());
+  for (const std::size_t n : {mesh.n_vertices(), mesh.n_triangles(), mesh.patches.size()})
+    require_count(n, k_max_nastran_id, "items", "Nastran", path.string());
   context.info(path.string() + ": Nastran keeps 10 to 15 digits of a coordinate");
   write_file(path,
              {fixed_section("BEGIN BULK\n"), fixed_section(property_cards(mesh, context)), grid_cards(mesh), triangle_cards(mesh), fixed_section("ENDDATA\n")},

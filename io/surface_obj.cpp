@@ -12,12 +12,11 @@
 #include "io/surface_builder.h"
 #include "io/surface_output.h"
 #include "io/surface_polygon.h"
+#include "io/text_limits.h"
 #include "io/text_scanner.h"
 
 namespace sterna::io {
 namespace {
-
-constexpr std::size_t k_stop_interval = 1 << 16;
 
 /// Lines that say nothing about the surface's triangles.
 constexpr std::array<std::string_view, 41> k_ignored = {

@@ -11,25 +11,25 @@
 #include "io/surface_builder.h"
 #include "io/surface_output.h"
 #include "io/surface_polygon.h"
+#include "io/text_limits.h"
 #include "io/text_scanner.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::size_t k_stop_interval = 1 << 16;
 /// "0 0 0" and a line end; "0" and a line end.
-constexpr std::size_t k_min_vertex_bytes = 6;
+constexpr std::size_t k_min_off_vertex_bytes = 6;
 constexpr std::size_t k_min_face_bytes = 2;
 
-struct Header {
+struct OffHeader {
   bool has_weight = false;  ///< 4OFF: a fourth coordinate divides the other three
   bool has_extras = false;  ///< NOFF, COFF, STOFF: normals, colours, texture coordinates follow the position
   bool is_binary = false;
 };
 
 /// Letters before "OFF" in their order: ST, C, N, 4, n.
-Header parse_header(TextScanner& scanner) {
-  Header header;
+OffHeader parse_header(TextScanner& scanner) {
+  OffHeader header;
   const std::string_view first = scanner.peek();
   if (!first.empty() && (first.front() == '+' || (first.front() >= '0' && first.front() <= '9')) && first.find("OFF") == std::string_view::npos)
     return header;  // the keyword may be left out
@@ -55,7 +55,7 @@ Header parse_header(TextScanner& scanner) {
 /// Numbers after a vertex that colours and normals explain; anything else is a file whose lines are not one vertex each.
 bool is_count_of_extras(std::size_t n) { return n == 0 || n == 3 || n == 4 || n == 6 || n == 7; }
 
-Vec3 parse_vertex(TextScanner& scanner, const Header& header) {
+Vec3 parse_vertex(TextScanner& scanner, const OffHeader& header) {
   Vec3 p;
   for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = scanner.real("a coordinate of a vertex");
   if (header.has_weight) {
@@ -69,8 +69,8 @@ Vec3 parse_vertex(TextScanner& scanner, const Header& header) {
   return p;
 }
 
-SurfaceSoup read_text(const FileBuffer& buffer, TextScanner& scanner, const Header& header, const RunContext& context) {
-  const std::size_t n_points = scanner.count("the number of vertices", k_min_vertex_bytes);
+SurfaceSoup read_text(const FileBuffer& buffer, TextScanner& scanner, const OffHeader& header, const RunContext& context) {
+  const std::size_t n_points = scanner.count("the number of vertices", k_min_off_vertex_bytes);
   const std::size_t n_faces = scanner.count("the number of faces", k_min_face_bytes);
   scanner.rest_of_line();  // the number of edges: often wrong, sometimes missing, never needed
   SurfaceBuilder builder(buffer.source);
@@ -103,7 +103,7 @@ struct BinaryVariant {
   std::endian order;
   bool has_colours;
 };
-constexpr BinaryVariant k_binary_variants[] = {{std::endian::little, false}, {std::endian::big, true}, {std::endian::little, true}, {std::endian::big, false}};
+constexpr BinaryVariant k_off_variants[] = {{std::endian::little, false}, {std::endian::big, true}, {std::endian::little, true}, {std::endian::big, false}};
 
 /// The whole file in one of the variants. \throws Error when it is not that variant, or damaged.
 SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t offset, const BinaryVariant& variant, const RunContext& context) {
@@ -157,7 +157,7 @@ SurfaceSoup read_binary(const FileBuffer& buffer, std::size_t offset, const Bina
 
 SurfaceSoup read_any_binary(const FileBuffer& buffer, std::size_t offset, const RunContext& context) {
   std::optional<Error> error;  // of the variant that real files have most
-  for (const BinaryVariant& variant : k_binary_variants) {
+  for (const BinaryVariant& variant : k_off_variants) {
     try {
       return read_binary(buffer, offset, variant, context);
     } catch (const Error& variant_error) {
@@ -173,7 +173,7 @@ SurfaceSoup read_any_binary(const FileBuffer& buffer, std::size_t offset, const 
 SurfaceSoup read_off(const std::filesystem::path& path, const RunContext& context) {
   const FileBuffer buffer = load_file(path, context);
   TextScanner scanner(buffer, {.comment = '#'});
-  const Header header = parse_header(scanner);
+  const OffHeader header = parse_header(scanner);
   if (!header.is_binary) return read_text(buffer, scanner, header, context);
   if (header.has_weight || header.has_extras)
     throw_unsupported(buffer.source, "OFF BINARY with normals, colours or weights of vertices is not read", "write it as text");

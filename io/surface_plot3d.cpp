@@ -14,27 +14,27 @@
 #include "io/file_buffer.h"
 #include "io/surface_builder.h"
 #include "io/surface_grid.h"
+#include "io/text_limits.h"
 #include "io/text_scanner.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::size_t k_stop_interval = 1 << 16;
-constexpr std::size_t k_probed_bytes = 256;
+constexpr std::size_t k_probed_plot3d_bytes = 256;
 constexpr std::uint32_t k_count_record = 4;  // bytes: one integer
 constexpr std::string_view k_cut_hint = "the file may have been cut short: copy or write it again";
 
 /// A block as a network of points, the constant index left out.
-struct Block {
+struct GridBlock {
   std::uint64_t n_points = 0, n_lines = 0;
   std::uint64_t size() const { return n_points * n_lines; }
 };
 
 /// \returns nullopt for a block that is no surface. Dimensions are positive.
-std::optional<Block> block_of(const std::array<std::uint64_t, 3>& n) {
-  if (n[2] == 1) return Block{n[0], n[1]};
-  if (n[1] == 1) return Block{n[0], n[2]};
-  if (n[0] == 1) return Block{n[1], n[2]};
+std::optional<GridBlock> block_of(const std::array<std::uint64_t, 3>& n) {
+  if (n[2] == 1) return GridBlock{n[0], n[1]};
+  if (n[1] == 1) return GridBlock{n[0], n[2]};
+  if (n[0] == 1) return GridBlock{n[1], n[2]};
   return std::nullopt;
 }
 
@@ -47,7 +47,7 @@ std::optional<Block> block_of(const std::array<std::uint64_t, 3>& n) {
 
 /// Adds a block, of which axis(a) gives coordinate a of the next point in turn.
 template <class Next>
-void add_block(SurfaceBuilder& builder, std::size_t number, const Block& block, const RunContext& context, const Next& next) {
+void add_block(SurfaceBuilder& builder, std::size_t number, const GridBlock& block, const RunContext& context, const Next& next) {
   std::vector<Vec3> points(block.size());
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -69,19 +69,19 @@ SurfaceSoup finished(SurfaceBuilder& builder, std::size_t n_blocks) {
 
 // ---- text
 
-SurfaceSoup read_text(const FileBuffer& buffer, const RunContext& context) {
+SurfaceSoup read_text_blocks(const FileBuffer& buffer, const RunContext& context) {
   constexpr std::size_t k_min_block_bytes = 6;  // three dimensions
   TextScanner scanner(buffer);
   const std::size_t n_blocks = scanner.count("the number of blocks", k_min_block_bytes);
   if (n_blocks == 0) scanner.fail_expected("1 or more blocks");
-  std::vector<Block> blocks;
+  std::vector<GridBlock> blocks;
   for (std::size_t i = 0; i < n_blocks; ++i) {
     std::array<std::uint64_t, 3> n;
     for (std::uint64_t& dimension : n) {
       dimension = scanner.count("a dimension of a block", 1);
       if (dimension == 0) scanner.fail_expected("a dimension of 1 or more");
     }
-    const std::optional<Block> block = block_of(n);
+    const std::optional<GridBlock> block = block_of(n);
     if (!block) throw_volume(buffer.source, i, n);
     blocks.push_back(*block);
   }
@@ -144,7 +144,7 @@ class BinaryReader {
           reader_.fail("found the dimension " + std::to_string(value) + " of block " + std::to_string(i + 1) + " before this place, expected 1 or more");
         dimension = static_cast<std::uint64_t>(value);
       }
-      const std::optional<Block> block = block_of(n);
+      const std::optional<GridBlock> block = block_of(n);
       if (!block) throw_volume(buffer_.source, static_cast<std::size_t>(i), n);
       if (block->size() > buffer_.bytes.size() / (3 * sizeof(float)))
         reader_.fail("block " + std::to_string(i + 1) + " has " + std::to_string(block->size()) + " points, more than the file can hold", k_cut_hint);
@@ -184,7 +184,7 @@ class BinaryReader {
   ByteReader reader_;
   bool has_records_;
   const RunContext& context_;
-  std::vector<Block> blocks_;
+  std::vector<GridBlock> blocks_;
   std::uint64_t total_points_ = 0;
   Precision precision_;
   std::uint32_t record_bytes_ = 0;
@@ -206,7 +206,7 @@ SurfaceSoup read_bytes(const FileBuffer& buffer, const RunContext& context) {
 }
 
 bool is_text(std::string_view text) {
-  return std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(text.size(), k_probed_bytes)),
+  return std::all_of(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(std::min(text.size(), k_probed_plot3d_bytes)),
                      [](char c) { return (c >= ' ' && c <= '~') || c == '\n' || c == '\r' || c == '\t'; });
 }
 
@@ -214,7 +214,7 @@ bool is_text(std::string_view text) {
 
 SurfaceSoup read_plot3d(const std::filesystem::path& path, const RunContext& context) {
   const FileBuffer buffer = load_file(path, context);
-  return is_text(buffer.text()) ? read_text(buffer, context) : read_bytes(buffer, context);
+  return is_text(buffer.text()) ? read_text_blocks(buffer, context) : read_bytes(buffer, context);
 }
 
 }  // namespace sterna::io

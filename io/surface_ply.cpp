@@ -15,51 +15,50 @@
 #include "io/surface_builder.h"
 #include "io/surface_output.h"
 #include "io/surface_polygon.h"
+#include "io/text_limits.h"
 #include "io/text_scanner.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::size_t k_stop_interval = 1 << 16;
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+enum class PlyEncoding { text, little_endian, big_endian };
 
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-enum class Encoding { text, little_endian, big_endian };
-
-std::size_t size_of(Type type) {
+std::size_t size_of(PlyType type) {
   switch (type) {
-    case Type::int8:
-    case Type::uint8: return 1;
-    case Type::int16:
-    case Type::uint16: return 2;
-    case Type::int32:
-    case Type::uint32:
-    case Type::float32: return 4;
-    case Type::float64: return 8;
+    case PlyType::int8:
+    case PlyType::uint8: return 1;
+    case PlyType::int16:
+    case PlyType::uint16: return 2;
+    case PlyType::int32:
+    case PlyType::uint32:
+    case PlyType::float32: return 4;
+    case PlyType::float64: return 8;
   }
   return 8;
 }
-bool is_integer(Type type) { return type != Type::float32 && type != Type::float64; }
+bool is_integer(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
 
-struct TypeName {
+struct PlyTypeName {
   std::string_view name;
-  Type type;
+  PlyType type;
 };
-constexpr std::array<TypeName, 16> k_type_names = {{{"char", Type::int8},
-                                                    {"int8", Type::int8},
-                                                    {"uchar", Type::uint8},
-                                                    {"uint8", Type::uint8},
-                                                    {"short", Type::int16},
-                                                    {"int16", Type::int16},
-                                                    {"ushort", Type::uint16},
-                                                    {"uint16", Type::uint16},
-                                                    {"int", Type::int32},
-                                                    {"int32", Type::int32},
-                                                    {"uint", Type::uint32},
-                                                    {"uint32", Type::uint32},
-                                                    {"float", Type::float32},
-                                                    {"float32", Type::float32},
-                                                    {"double", Type::float64},
-                                                    {"float64", Type::float64}}};
+constexpr std::array<PlyTypeName, 16> k_type_names = {{{"char", PlyType::int8},
+                                                       {"int8", PlyType::int8},
+                                                       {"uchar", PlyType::uint8},
+                                                       {"uint8", PlyType::uint8},
+                                                       {"short", PlyType::int16},
+                                                       {"int16", PlyType::int16},
+                                                       {"ushort", PlyType::uint16},
+                                                       {"uint16", PlyType::uint16},
+                                                       {"int", PlyType::int32},
+                                                       {"int32", PlyType::int32},
+                                                       {"uint", PlyType::uint32},
+                                                       {"uint32", PlyType::uint32},
+                                                       {"float", PlyType::float32},
+                                                       {"float32", PlyType::float32},
+                                                       {"double", PlyType::float64},
+                                                       {"float64", PlyType::float64}}};
 
 /// Face properties that number patches, in order of preference.
 constexpr std::array<std::string_view, 7> k_patch_properties = {"patch", "patch_id", "marker", "boundary", "region", "label", "group"};
@@ -69,9 +68,9 @@ enum class Role { skipped, x, y, z, corners, patch };
 
 struct Property {
   std::string name;
-  Type type = Type::float32;
+  PlyType type = PlyType::float32;
   bool is_list = false;
-  Type count_type = Type::uint8;
+  PlyType count_type = PlyType::uint8;
   Role role = Role::skipped;
 };
 
@@ -83,17 +82,17 @@ struct Element {
   bool is_face() const { return name == "face"; }
 };
 
-struct Header {
-  Encoding encoding = Encoding::text;
+struct PlyHeader {
+  PlyEncoding encoding = PlyEncoding::text;
   std::vector<Element> elements;
   std::map<std::int64_t, std::string> patch_names;  ///< from comments "patch <number> <name>"
 };
 
 // ---- header
 
-Type parse_type(TextScanner& scanner) {
+PlyType parse_type(TextScanner& scanner) {
   const std::string_view word = scanner.token("the type of a property");
-  for (const TypeName& candidate : k_type_names)
+  for (const PlyTypeName& candidate : k_type_names)
     if (candidate.name == word) return candidate.type;
   scanner.fail_expected("a type of PLY such as float, double, uchar or int");
 }
@@ -111,11 +110,11 @@ Property parse_property(TextScanner& scanner) {
   return property;
 }
 
-Encoding parse_format(TextScanner& scanner) {
+PlyEncoding parse_format(TextScanner& scanner) {
   const std::string_view word = scanner.token("the kind of PLY");
-  Encoding encoding = Encoding::text;
-  if (word == "binary_little_endian") encoding = Encoding::little_endian;
-  else if (word == "binary_big_endian") encoding = Encoding::big_endian;
+  PlyEncoding encoding = PlyEncoding::text;
+  if (word == "binary_little_endian") encoding = PlyEncoding::little_endian;
+  else if (word == "binary_big_endian") encoding = PlyEncoding::big_endian;
   else if (word != "ascii") scanner.fail_expected("ascii, binary_little_endian or binary_big_endian");
   if (scanner.token("the version of PLY") != "1.0") scanner.fail_expected("version 1.0");
   return encoding;
@@ -150,15 +149,15 @@ void assign_roles(TextScanner& scanner, Element& element) {
 }
 
 /// Bytes that one element takes at least.
-std::size_t min_bytes(const Element& element, Encoding encoding) {
+std::size_t min_bytes(const Element& element, PlyEncoding encoding) {
   std::size_t n = 0;
   for (const Property& property : element.properties)
-    n += encoding == Encoding::text ? 2 : property.is_list ? size_of(property.count_type) : size_of(property.type);
+    n += encoding == PlyEncoding::text ? 2 : property.is_list ? size_of(property.count_type) : size_of(property.type);
   return n;
 }
 
 /// Ours may name patches: "patch 2 left wing".
-void parse_comment(TextScanner& scanner, Header& header) {
+void parse_comment(TextScanner& scanner, PlyHeader& header) {
   if (scanner.peek() != "patch") return;
   scanner.skip_token("patch");
   const std::string_view number = scanner.peek();
@@ -171,8 +170,8 @@ void parse_comment(TextScanner& scanner, Header& header) {
   scanner.seek(begin);
 }
 
-Header parse_header(TextScanner& scanner) {
-  Header header;
+PlyHeader parse_ply_header(TextScanner& scanner) {
+  PlyHeader header;
   bool has_format = false;
   if (scanner.token("\"ply\"") != "ply") scanner.fail_expected("\"ply\"");
   for (;;) {
@@ -220,9 +219,9 @@ Header parse_header(TextScanner& scanner) {
 class TextValues {
  public:
   explicit TextValues(TextScanner& scanner) : scanner_(scanner) { scanner_.set_line_bound(false); }
-  double real(Type, std::string_view expected) { return scanner_.real(expected); }
-  std::int64_t integer(Type, std::string_view expected) { return scanner_.integer(expected); }
-  void skip(Type, std::size_t n) {
+  double real(PlyType, std::string_view expected) { return scanner_.real(expected); }
+  std::int64_t integer(PlyType, std::string_view expected) { return scanner_.integer(expected); }
+  void skip(PlyType, std::size_t n) {
     for (std::size_t i = 0; i < n; ++i) scanner_.skip_token("the value of a property");
   }
   [[noreturn]] void fail(std::string_view problem) { scanner_.fail(problem); }
@@ -237,27 +236,27 @@ class TextValues {
 class ByteValues {
  public:
   explicit ByteValues(ByteReader reader) : reader_(std::move(reader)) {}
-  double real(Type type, std::string_view expected) {
-    const double value = type == Type::float32   ? static_cast<double>(reader_.read<float>(expected))
-                         : type == Type::float64 ? reader_.read<double>(expected)
-                                                 : static_cast<double>(integer(type, expected));
+  double real(PlyType type, std::string_view expected) {
+    const double value = type == PlyType::float32   ? static_cast<double>(reader_.read<float>(expected))
+                         : type == PlyType::float64 ? reader_.read<double>(expected)
+                                                    : static_cast<double>(integer(type, expected));
     if (!std::isfinite(value)) reader_.fail("a value that ends here is not finite, expected " + std::string(expected));
     return value;
   }
-  std::int64_t integer(Type type, std::string_view expected) {
+  std::int64_t integer(PlyType type, std::string_view expected) {
     switch (type) {
-      case Type::int8: return reader_.read<std::int8_t>(expected);
-      case Type::uint8: return reader_.read<std::uint8_t>(expected);
-      case Type::int16: return reader_.read<std::int16_t>(expected);
-      case Type::uint16: return reader_.read<std::uint16_t>(expected);
-      case Type::int32: return reader_.read<std::int32_t>(expected);
-      case Type::uint32: return reader_.read<std::uint32_t>(expected);
-      case Type::float32:
-      case Type::float64: break;
+      case PlyType::int8: return reader_.read<std::int8_t>(expected);
+      case PlyType::uint8: return reader_.read<std::uint8_t>(expected);
+      case PlyType::int16: return reader_.read<std::int16_t>(expected);
+      case PlyType::uint16: return reader_.read<std::uint16_t>(expected);
+      case PlyType::int32: return reader_.read<std::int32_t>(expected);
+      case PlyType::uint32: return reader_.read<std::uint32_t>(expected);
+      case PlyType::float32:
+      case PlyType::float64: break;
     }
     reader_.fail("found a floating-point type, expected " + std::string(expected));
   }
-  void skip(Type type, std::size_t n) {
+  void skip(PlyType type, std::size_t n) {
     reader_.require(n, size_of(type), "values of a property");
     reader_.skip(n * size_of(type));
   }
@@ -298,7 +297,7 @@ void read_corners(Values& values, const Property& property, std::size_t n_points
 }
 
 template <class Values>
-void read_elements(const Header& header, Values values, SurfaceBuilder& builder, const RunContext& context) {
+void read_elements(const PlyHeader& header, Values values, SurfaceBuilder& builder, const RunContext& context) {
   std::size_t n_points = 0;
   for (const Element& element : header.elements)
     if (element.is_vertex()) n_points = element.count;
@@ -341,12 +340,12 @@ void read_elements(const Header& header, Values values, SurfaceBuilder& builder,
 SurfaceSoup read_ply(const std::filesystem::path& path, const RunContext& context) {
   const FileBuffer buffer = load_file(path, context);
   TextScanner scanner(buffer, {.line_bound = true});
-  const Header header = parse_header(scanner);
+  const PlyHeader header = parse_ply_header(scanner);
   SurfaceBuilder builder(buffer.source);
-  if (header.encoding == Encoding::text) {
+  if (header.encoding == PlyEncoding::text) {
     read_elements(header, TextValues(scanner), builder, context);
   } else {
-    const std::endian order = header.encoding == Encoding::little_endian ? std::endian::little : std::endian::big;
+    const std::endian order = header.encoding == PlyEncoding::little_endian ? std::endian::little : std::endian::big;
     read_elements(header, ByteValues(ByteReader(buffer, order, scanner.offset())), builder, context);
   }
 
@@ -356,7 +355,7 @@ SurfaceSoup read_ply(const std::filesystem::path& path, const RunContext& contex
     has_strips |= element.name == "tristrips";
     for (const Property& property : element.properties) {
       has_patches |= property.role == Role::patch;
-      is_single |= property.role == Role::x && property.type == Type::float32;
+      is_single |= property.role == Role::x && property.type == PlyType::float32;
     }
   }
   if (has_strips && !has_faces) throw_unsupported(buffer.source, "triangle strips are not read", "write the PLY file with plain faces");

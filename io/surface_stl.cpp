@@ -11,6 +11,7 @@
 #include "io/name_rules.h"
 #include "io/surface_builder.h"
 #include "io/surface_output.h"
+#include "io/text_limits.h"
 #include "io/text_scanner.h"
 
 namespace sterna::io {
@@ -23,7 +24,6 @@ constexpr std::size_t k_facet_bytes = 50;
 constexpr std::size_t k_text_facet_bytes = 150;
 /// Text has no NUL byte; a binary file has one in its header or in the first few facets.
 constexpr std::size_t k_probed_bytes = 1024;
-constexpr std::size_t k_stop_interval = 1 << 16;
 
 bool looks_like_text(const FileBuffer& buffer) {
   TextScanner scanner(buffer);
@@ -76,7 +76,7 @@ void read_facet(TextScanner& scanner, SurfaceBuilder& builder) {
   builder.add_triangle(corners[0], corners[1], corners[2]);
 }
 
-SurfaceSoup read_text(const FileBuffer& buffer, const RunContext& context) {
+SurfaceSoup read_text_solids(const FileBuffer& buffer, const RunContext& context) {
   TextScanner scanner(buffer);
   SurfaceBuilder builder(buffer.source);
   builder.reserve_points(3 * (buffer.bytes.size() / k_text_facet_bytes));
@@ -154,14 +154,14 @@ SurfaceSoup read_stl(const std::filesystem::path& path, const RunContext& contex
   const FileBuffer buffer = load_file(path, context);
   const bool is_text = looks_like_text(buffer);
   if (buffer.bytes.size() < k_first_facet) {
-    if (is_text) return read_text(buffer, context);
+    if (is_text) return read_text_solids(buffer, context);
     throw_malformed(buffer.source, "byte 0",
                     "found " + quoted_excerpt(buffer.text()) + " (" + std::to_string(buffer.bytes.size()) +
                         " bytes), expected \"solid\" or the 84 bytes before the facets of a binary STL");
   }
   const std::size_t n_facets = ByteReader(buffer, std::endian::little, k_header_bytes).take<std::uint32_t>();
   const std::size_t binary_bytes = k_first_facet + k_facet_bytes * n_facets;
-  if (binary_bytes != buffer.bytes.size() && is_text) return read_text(buffer, context);
+  if (binary_bytes != buffer.bytes.size() && is_text) return read_text_solids(buffer, context);
   if (binary_bytes < buffer.bytes.size()) {
     if (n_facets == 0)
       throw_malformed(buffer.source, "byte 80",

@@ -19,7 +19,7 @@
 namespace sterna::io {
 namespace {
 
-struct Zone : Su2Zone {
+struct SurfaceZone : Su2Zone {
   bool is_empty() const { return !points && !elements && markers.empty() && !n_markers && n_partition_markers == 0; }
 };
 
@@ -33,7 +33,7 @@ class Su2SurfaceReader {
     finish_zone();
     check_zone_count();
     bool has_names = false;
-    for (const Zone& zone : zones_) {
+    for (const SurfaceZone& zone : zones_) {
       read_points(zone);
       for (const Su2Marker& marker : zone.markers) read_marker(marker);
       read_elements(zone);
@@ -156,7 +156,7 @@ class Su2SurfaceReader {
     }
   }
 
-  void read_points(const Zone& zone) {
+  void read_points(const SurfaceZone& zone) {
     first_point_ = builder_.n_points();
     n_points_ = zone.points->n_items;
     builder_.reserve_points(first_point_ + n_points_);
@@ -190,7 +190,7 @@ class Su2SurfaceReader {
   }
 
   /// Where markers have no faces, the faces among the elements are the surface; else those are left out.
-  void read_elements(const Zone& zone) {
+  void read_elements(const SurfaceZone& zone) {
     const bool are_elements_the_surface = !std::exchange(has_marked_faces_, false);
     if (!zone.elements) return;
     std::uint64_t n_faces = 0, n_cells = 0;
@@ -216,8 +216,8 @@ class Su2SurfaceReader {
   SurfaceBuilder builder_;
   const RunContext& context_;
   std::optional<std::uint64_t> n_zones_;  ///< announced
-  std::vector<Zone> zones_;
-  Zone zone_;                    ///< being indexed
+  std::vector<SurfaceZone> zones_;
+  SurfaceZone zone_;             ///< being indexed
   std::size_t first_point_ = 0;  ///< of the zone that is read
   std::uint64_t n_points_ = 0;
   bool has_marked_faces_ = false;  ///< in the zone that is read

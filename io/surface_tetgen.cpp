@@ -11,13 +11,13 @@
 #include "io/surface_builder.h"
 #include "io/surface_output.h"
 #include "io/surface_polygon.h"
+#include "io/text_limits.h"
 #include "io/text_scanner.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::size_t k_stop_interval = 1 << 16;
-constexpr std::size_t k_min_node_bytes = 8;  // "1 0 0 0" and a line end
+constexpr std::size_t k_min_tetgen_node_bytes = 8;  // "1 0 0 0" and a line end
 constexpr std::size_t k_min_facet_bytes = 2;
 constexpr TextScanner::Rules k_rules{.comment = '#', .line_bound = true};
 
@@ -52,7 +52,7 @@ class PlcParser {
   /// \returns false where the count is 0
   bool take_nodes(TextScanner& scanner) {
     find_record(scanner, "the number of nodes");
-    const std::size_t n = scanner.count("the number of nodes", k_min_node_bytes);
+    const std::size_t n = scanner.count("the number of nodes", k_min_tetgen_node_bytes);
     if (!scanner.at_line_end()) {
       const std::int64_t dimension = scanner.integer("the dimension");
       if (dimension == 2) throw_unsupported(scanner.source(), "a plane file (dimension 2), as Triangle writes it");
@@ -120,7 +120,7 @@ class PlcParser {
 
   void take_poly_facet() {
     const std::size_t n_polygons = scanner_.count("the number of polygons of a facet", k_min_facet_bytes);
-    const std::size_t n_holes = scanner_.at_line_end() ? 0 : scanner_.count("the number of holes of a facet", k_min_node_bytes);
+    const std::size_t n_holes = scanner_.at_line_end() ? 0 : scanner_.count("the number of holes of a facet", k_min_tetgen_node_bytes);
     if (n_holes > 0)
       throw_unsupported(buffer_.source, "line " + std::to_string(scanner_.line()) + ": a facet with holes", "split the facet, or write triangles");
     take_marker();

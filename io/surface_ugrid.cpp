@@ -9,13 +9,12 @@
 #include "io/file_buffer.h"
 #include "io/surface_boundary.h"
 #include "io/surface_builder.h"
+#include "io/text_limits.h"
 #include "io/ugrid_source.h"
 #include "io/volume_ugrid.h"
 
 namespace sterna::io {
 namespace {
-
-constexpr std::size_t k_stop_interval = 1 << 16;
 
 std::vector<std::uint32_t> read_corners(UgridSource& source, std::uint64_t n, std::size_t size, std::uint64_t n_points, const RunContext& context) {
   source.require_integers(n, size, "corners of the faces");

@@ -10,12 +10,12 @@
 #include "io/file_buffer.h"
 #include "io/surface_builder.h"
 #include "io/surface_grid.h"
+#include "io/text_limits.h"
 #include "io/text_scanner.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::size_t k_stop_interval = 1 << 16;
 constexpr std::size_t k_min_point_bytes = 6;  // "0 0 0" and a separator
 
 /// How an object is moved into the common system, in this order: rotation about x, y, z (degrees), translation, scale.

@@ -16,6 +16,7 @@
 #include "io/byte_reader.h"
 #include "io/file_buffer.h"
 #include "io/surface_builder.h"
+#include "io/text_limits.h"
 
 namespace sterna::io {
 namespace {
@@ -23,12 +24,11 @@ namespace {
 constexpr std::uint32_t k_frame_magic = 0x184D2204;
 constexpr std::uint32_t k_node_magic = 0xBFCF4F8B;
 constexpr std::uint32_t k_open_list = 0xFFFFFFFF;
-constexpr std::size_t k_header_bytes = 32;
+constexpr std::size_t k_zml_header_bytes = 32;
 constexpr int k_max_depth = 64;  // of real files: 4
 /// LZ4 makes at most 255 bytes of one.
-constexpr std::size_t k_max_expansion = 256;
+constexpr std::size_t k_max_zml_expansion = 256;
 constexpr std::size_t k_piece = std::size_t{1} << 20;
-constexpr std::size_t k_stop_interval = 1 << 16;
 
 /// Unpacked bytes; memory grows with what is really unpacked, not with what the header says.
 FileBuffer unpack(const FileBuffer& packed, const RunContext& context) {
@@ -41,7 +41,7 @@ FileBuffer unpack(const FileBuffer& packed, const RunContext& context) {
   for (std::size_t hint = 1; hint != 0;) {
     context.check_stop();
     const std::size_t n_before = result.bytes.size();
-    std::size_t n_out = std::min(k_piece, k_max_expansion * packed.bytes.size());
+    std::size_t n_out = std::min(k_piece, k_max_zml_expansion * packed.bytes.size());
     std::size_t n_in = packed.bytes.size() - at;
     result.bytes.resize(n_before + n_out);
     hint = LZ4F_decompress(state.get(), result.bytes.data() + n_before, &n_out, packed.bytes.data() + at, &n_in, nullptr);
@@ -78,7 +78,7 @@ class TreeReader {
 
   Node read(int depth = 0) {
     if (depth > k_max_depth) reader_.fail("found more than " + std::to_string(k_max_depth) + " levels of nodes");
-    reader_.require(1, k_header_bytes, "the header of a node");
+    reader_.require(1, k_zml_header_bytes, "the header of a node");
     if (const auto magic = reader_.take<std::uint32_t>(); magic != k_node_magic)
       reader_.fail("found no node before this place, expected one that begins with 8b 4f cf bf");
     const std::uint32_t n_children = reader_.take<std::uint32_t>();

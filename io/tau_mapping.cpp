@@ -11,7 +11,7 @@
 namespace sterna::io {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
+std::string_view trimmed_word(std::string_view text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front()))) text.remove_prefix(1);
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
   return text;
@@ -22,7 +22,7 @@ std::vector<std::int64_t> numbers_of(std::string_view list, const FileBuffer& bu
   std::vector<std::int64_t> numbers;
   while (!list.empty()) {
     const std::size_t end = std::min(list.find(','), list.size());
-    const std::string_view word = trimmed(list.substr(0, end));
+    const std::string_view word = trimmed_word(list.substr(0, end));
     std::int64_t number = 0;
     const auto result = std::from_chars(word.data(), word.data() + word.size(), number);
     if (result.ec != std::errc() || result.ptr != word.data() + word.size())
@@ -59,10 +59,10 @@ std::map<std::int64_t, TauMarker> read_bmap(const std::filesystem::path& mesh_pa
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const std::string_view line = rest.substr(0, std::min(end, rest.find('#')));
     rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (trimmed(line) == "block end") end_block();
+    if (trimmed_word(line) == "block end") end_block();
     const std::size_t colon = line.find(':');
     if (colon == std::string_view::npos) continue;
-    const std::string_view key = trimmed(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
+    const std::string_view key = trimmed_word(line.substr(0, colon)), value = trimmed_word(line.substr(colon + 1));
     if (key == "Markers") {
       if (!numbers.empty()) end_block();
       numbers = numbers_of(value, buffer, "line " + std::to_string(line_number));

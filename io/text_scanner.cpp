@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "io/text_limits.h"
+
 namespace sterna::io {
 namespace {
 
@@ -22,9 +24,6 @@ constexpr std::array<unsigned char, 256> k_classes = make_classes();
 
 unsigned char class_of(char c) { return k_classes[static_cast<unsigned char>(c)]; }
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-/// Longest spelling of a number that is looked at again after from_chars gave up on its range.
-constexpr std::size_t k_longest_number = 1000;
 
 }  // namespace
 

@@ -9,16 +9,16 @@
 #include "io/edge_conditions.h"
 #include "io/name_rules.h"
 #include "io/section_output.h"
+#include "io/text_limits.h"
 #include "io/volume_edge.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::uint64_t k_max_int32 = std::numeric_limits<std::int32_t>::max();
 /// Fortran's record markers are signed: longer records would be cut into parts, which most readers do not know.
 constexpr std::uint64_t k_max_record = k_max_int32 - 8;
 constexpr std::size_t k_name_bytes = 16, k_type_bytes = 4, k_text_bytes = 72;
-constexpr std::array<CellKind, 4> k_kinds = {CellKind::hexahedron, CellKind::prism, CellKind::pyramid, CellKind::tetrahedron};
+constexpr std::array<CellKind, 4> k_edge_kinds = {CellKind::hexahedron, CellKind::prism, CellKind::pyramid, CellKind::tetrahedron};
 
 std::string_view edge_type(CellKind kind) {
   switch (kind) {
@@ -50,12 +50,12 @@ class EdgeWriter {
     node("unstr_grid_data", 'N', 0, 0, 2);
     text("title", "sterna");
     std::uint64_t n_children = 2;  // name, coordinates
-    for (const CellKind kind : k_kinds) n_children += groups(cells_.count(kind), static_cast<std::uint64_t>(n_nodes(kind))).size();
+    for (const CellKind kind : k_edge_kinds) n_children += groups(cells_.count(kind), static_cast<std::uint64_t>(n_nodes(kind))).size();
     for (const PatchId patch : mesh_.patches.ids()) n_children += faces_.count(patch) > 0 ? 1 : 0;
     node("region", 'N', 0, 0, n_children);
     text("region_name", "fluid domain");
     coordinates();
-    for (const CellKind kind : k_kinds) cell_groups(kind);
+    for (const CellKind kind : k_edge_kinds) cell_groups(kind);
     for (const PatchId patch : mesh_.patches.ids())
       if (faces_.count(patch) > 0) boundary(patch);
     flush();

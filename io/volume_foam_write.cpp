@@ -18,7 +18,7 @@ namespace sterna::io {
 namespace {
 
 constexpr std::uint64_t k_max_label = std::numeric_limits<std::int32_t>::max();
-constexpr std::size_t k_most_faces_of_cell = 6;
+constexpr std::size_t k_most_foam_faces = 6;
 constexpr std::size_t k_max_label_text = 11;                             // with a blank or a line end
 constexpr std::size_t k_max_face_text = 2 + 4 * k_max_label_text + 2;    // "4(1 2 3 4)\n"
 constexpr std::size_t k_max_point_text = 3 * (k_max_real_text + 1) + 3;  // "(1 2 3)\n"
@@ -151,7 +151,7 @@ class FoamWriter {
   template <class Put>
   OutputSection internal(std::size_t max_bytes, const Put& put) const {
     return {.n_items = faces_.n_cells(), .format = [this, max_bytes, put](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
-              char* at = out.reserve((end - begin) * k_most_faces_of_cell * max_bytes);
+              char* at = out.reserve((end - begin) * k_most_foam_faces * max_bytes);
               faces_.for_each_internal(begin, end, [&](std::uint64_t cell, const CellFace& face) { at = put(at, cell, face); });
               out.end_at(at);
             }};
@@ -222,7 +222,7 @@ class FoamWriter {
   /// Where each face's nodes begin, and the end of the last.
   std::vector<OutputSection> face_places() const {
     std::vector<OutputSection> sections{{.n_items = faces_.n_cells(), .format = [this](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
-                                           char* at = out.reserve((end - begin) * k_most_faces_of_cell * sizeof(std::int32_t));
+                                           char* at = out.reserve((end - begin) * k_most_foam_faces * sizeof(std::int32_t));
                                            std::uint64_t place = faces_.internal_before(begin).nodes;
                                            faces_.for_each_internal(begin, end, [&](std::uint64_t, const CellFace& face) {
                                              at = put_label(at, place);

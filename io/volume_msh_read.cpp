@@ -10,7 +10,7 @@ namespace sterna::io {
 namespace {
 
 template <std::size_t N>
-std::array<NodeId, N> ids(std::span<const std::uint32_t> nodes) {
+std::array<NodeId, N> node_ids(std::span<const std::uint32_t> nodes) {
   std::array<NodeId, N> result;
   for (std::size_t k = 0; k < N; ++k) result[k] = NodeId(nodes[k]);
   return result;
@@ -26,14 +26,14 @@ class MeshSink final : public MshSink {
     patch_ = find_or_add_patch(mesh_.patches, name);
   }
   void add_face(std::span<const std::uint32_t> corners) override {
-    if (corners.size() == 3) mesh_.boundary_triangles.push_back({ids<3>(corners), patch_});
-    else mesh_.boundary_quads.push_back({ids<4>(corners), patch_});
+    if (corners.size() == 3) mesh_.boundary_triangles.push_back({node_ids<3>(corners), patch_});
+    else mesh_.boundary_quads.push_back({node_ids<4>(corners), patch_});
   }
   void add_cell(std::int64_t type, std::span<const std::uint32_t> nodes) override {
-    if (type == k_msh_tetrahedron) mesh_.tetrahedra.push_back(ids<4>(nodes));
-    else if (type == k_msh_hexahedron) mesh_.hexahedra.push_back(ids<8>(nodes));
-    else if (type == k_msh_prism) mesh_.prisms.push_back(ids<6>(nodes));
-    else mesh_.pyramids.push_back(ids<5>(nodes));
+    if (type == k_msh_tetrahedron) mesh_.tetrahedra.push_back(node_ids<4>(nodes));
+    else if (type == k_msh_hexahedron) mesh_.hexahedra.push_back(node_ids<8>(nodes));
+    else if (type == k_msh_prism) mesh_.prisms.push_back(node_ids<6>(nodes));
+    else mesh_.pyramids.push_back(node_ids<5>(nodes));
   }
   void add_curved_cell() override { throw_unsupported(source_, "volume elements of second order", "save linear elements"); }
   HybridMesh take() { return std::move(mesh_); }

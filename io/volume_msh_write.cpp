@@ -12,9 +12,9 @@
 namespace sterna::io {
 namespace {
 
-constexpr std::size_t k_longest_name = 127;  // Gmsh reads no more
-constexpr std::int32_t k_fluid_group = 10;   // apart from the patches' numbers, which some converters do not tell from it
-constexpr std::size_t k_max_row = 9 * (k_max_integer_text + 1);
+constexpr std::size_t k_longest_msh_name = 127;  // Gmsh reads no more
+constexpr std::int32_t k_fluid_group = 10;       // apart from the patches' numbers, which some converters do not tell from it
+constexpr std::size_t k_max_msh_row = 9 * (k_max_integer_text + 1);
 
 std::int64_t msh_type(CellKind kind) {
   switch (kind) {
@@ -147,7 +147,7 @@ class MshWriter {
     end_row();
     flush();
     sections_.push_back({.n_items = n, .format = [this](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
-                           char* at = out.reserve((end - begin) * k_max_row);
+                           char* at = out.reserve((end - begin) * k_max_msh_row);
                            for (std::uint64_t i = begin; i < end; ++i) {
                              at = put_large(at, i + 1);
                              if (is_text_) at[-1] = '\n';
@@ -155,7 +155,7 @@ class MshWriter {
                            out.end_at(at);
                          }});
     sections_.push_back({.n_items = n, .format = [this](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
-                           char* at = out.reserve((end - begin) * k_max_row);
+                           char* at = out.reserve((end - begin) * k_max_msh_row);
                            for (std::uint64_t i = begin; i < end; ++i) {
                              const Point& p = mesh_.points.raw()[i];
                              if (!is_finite(p)) throw_node_not_finite(i);
@@ -188,7 +188,7 @@ class MshWriter {
     if (which.empty()) return;
     begin_block(2, patch.value() + 1, type, which.size());
     sections_.push_back({.n_items = which.size(), .format = [this, &faces, which, first = next](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
-                           char* at = out.reserve((end - begin) * k_max_row);
+                           char* at = out.reserve((end - begin) * k_max_msh_row);
                            for (std::uint64_t i = begin; i < end; ++i) at = put_element(at, first + i, faces[which[i]].nodes);
                            out.end_at(at);
                          }});
@@ -213,7 +213,7 @@ class MshWriter {
       if (n_cells == 0) continue;
       begin_block(3, 1, msh_type(kind), n_cells);
       sections_.push_back({.n_items = n_cells, .format = [this, kind, first = next](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
-                             char* at = out.reserve((end - begin) * k_max_row);
+                             char* at = out.reserve((end - begin) * k_max_msh_row);
                              std::uint64_t tag = first + begin;
                              cells_.for_each(kind, begin, end, [&](std::span<const NodeId> nodes, int) { at = put_element(at, tag++, nodes); });
                              out.end_at(at);
@@ -238,7 +238,7 @@ class MshWriter {
 }  // namespace
 
 void write_volume_msh(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
-  MshWriter writer(mesh, path, names_by_rules(mesh.patches, {.format = "Gmsh", .forbidden = "\"", .max_bytes = k_longest_name}, context));
+  MshWriter writer(mesh, path, names_by_rules(mesh.patches, {.format = "Gmsh", .forbidden = "\"", .max_bytes = k_longest_msh_name}, context));
   const std::vector<OutputSection> sections = writer.sections();
   AtomicFile file(path);
   write_sections(file, sections, context);

@@ -5,19 +5,19 @@
 #include "io/cell_sections.h"
 #include "io/patch_names.h"
 #include "io/section_output.h"
+#include "io/text_limits.h"
 #include "io/volume_su2.h"
 #include "io/vtk_cells.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::uint64_t k_max_count = std::numeric_limits<std::int32_t>::max();  // SU2 reads counts with atoi
 constexpr std::size_t k_max_id = 10;
-constexpr std::size_t k_max_point_line = 3 * (k_max_real_text + 1);
+constexpr std::size_t k_max_su2_point_line = 3 * (k_max_real_text + 1);
 constexpr std::size_t k_max_cell_line = 2 + 8 * (k_max_id + 1) + 1;
-constexpr std::size_t k_max_face_line = 1 + 4 * (k_max_id + 1) + 1;
+constexpr std::size_t k_max_su2_face_line = 1 + 4 * (k_max_id + 1) + 1;
 
-void check_count(std::uint64_t n, const std::string& what, const std::filesystem::path& path) { require_count(n, k_max_count, what, "SU2", path.string()); }
+void check_count(std::uint64_t n, const std::string& what, const std::filesystem::path& path) { require_count(n, k_max_int32, what, "SU2", path.string()); }
 
 char* put_id(char* at, NodeId node) {
   *at++ = ' ';
@@ -26,7 +26,7 @@ char* put_id(char* at, NodeId node) {
 
 OutputSection point_section(const HybridMesh& mesh) {
   return {.n_items = mesh.points.size(), .format = [&mesh](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
-            char* at = out.reserve((end - begin) * k_max_point_line);
+            char* at = out.reserve((end - begin) * k_max_su2_point_line);
             for (std::uint64_t i = begin; i < end; ++i) {
               const Point& p = mesh.points.raw()[i];
               if (!is_finite(p)) throw_node_not_finite(i);
@@ -60,7 +60,7 @@ OutputSection cell_section(const CellSections& cells, CellKind kind) {
 template <class Face>
 OutputSection face_section(const std::vector<Face>& faces, std::span<const std::uint32_t> which, int type) {
   return {.n_items = which.size(), .format = [&faces, which, type](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
-            char* at = out.reserve((end - begin) * k_max_face_line);
+            char* at = out.reserve((end - begin) * k_max_su2_face_line);
             for (std::uint64_t i = begin; i < end; ++i) {
               *at++ = static_cast<char>('0' + type);
               for (const NodeId node : faces[which[i]].nodes) at = put_id(at, node);

@@ -14,20 +14,20 @@
 namespace sterna::io {
 namespace {
 
-enum class Contents { volume, boundary };
+enum class TauContents { volume, boundary };
 
 class TauReader {
  public:
-  TauReader(const ContainerImage& image, Contents contents, std::map<std::int64_t, TauMarker> mapping, const RunContext& context)
+  TauReader(const ContainerImage& image, TauContents contents, std::map<std::int64_t, TauMarker> mapping, const RunContext& context)
       : image_(image), contents_(contents), mapping_(std::move(mapping)), context_(context) {}
 
-  HybridMesh read() {
+  HybridMesh read_grid() {
     read_points();
     read_cells(CellKind::tetrahedron, mesh_.tetrahedra);
     read_cells(CellKind::prism, mesh_.prisms);
     read_cells(CellKind::pyramid, mesh_.pyramids);
     read_cells(CellKind::hexahedron, mesh_.hexahedra);
-    if (contents_ == Contents::boundary) mesh_.tetrahedra = {}, mesh_.prisms = {}, mesh_.pyramids = {}, mesh_.hexahedra = {};
+    if (contents_ == TauContents::boundary) mesh_.tetrahedra = {}, mesh_.prisms = {}, mesh_.pyramids = {}, mesh_.hexahedra = {};
     read_faces();
     return std::move(mesh_);
   }
@@ -138,27 +138,27 @@ class TauReader {
   }
 
   const ContainerImage& image_;
-  Contents contents_;
+  TauContents contents_;
   std::map<std::int64_t, TauMarker> mapping_;
   const RunContext& context_;
   std::map<std::int64_t, PatchId> patches_;
   HybridMesh mesh_;
 };
 
-HybridMesh read(const std::filesystem::path& path, Contents contents, const RunContext& context) {
+HybridMesh read_grid(const std::filesystem::path& path, TauContents contents, const RunContext& context) {
   const ContainerImage image = read_container(path, ContainerFormat::netcdf, {}, context);
-  return TauReader(image, contents, read_bmap(path, context), context).read();
+  return TauReader(image, contents, read_bmap(path, context), context).read_grid();
 }
 
 }  // namespace
 
 HybridMesh read_volume_tau(const std::filesystem::path& path, const RunContext& context) {
-  HybridMesh mesh = read(path, Contents::volume, context);
+  HybridMesh mesh = read_grid(path, TauContents::volume, context);
   context.progress(0.7);
   orient_mesh(mesh, context);
   return mesh;
 }
 
-HybridMesh read_boundary_tau(const std::filesystem::path& path, const RunContext& context) { return read(path, Contents::boundary, context); }
+HybridMesh read_boundary_tau(const std::filesystem::path& path, const RunContext& context) { return read_grid(path, TauContents::boundary, context); }
 
 }  // namespace sterna::io

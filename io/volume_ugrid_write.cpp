@@ -11,7 +11,7 @@
 namespace sterna::io {
 namespace {
 
-constexpr std::array<CellKind, 4> k_kinds = {CellKind::tetrahedron, CellKind::pyramid, CellKind::prism, CellKind::hexahedron};
+constexpr std::array<CellKind, 4> k_ugrid_kinds = {CellKind::tetrahedron, CellKind::pyramid, CellKind::prism, CellKind::hexahedron};
 constexpr std::size_t k_max_line = 8 * (k_max_integer_text + 1);  // of a hexahedron; a node's three coordinates and a binary item take less
 
 /// Puts the numbers of one item, as text (a line each) or as bytes.
@@ -76,7 +76,7 @@ OutputSection cell_section(const UgridVariant& variant, const CellSections& cell
 std::vector<OutputSection> sections_of(const HybridMesh& mesh, const CellSections& cells, const UgridVariant& variant) {
   std::vector<OutputSection> sections;
   std::array<std::uint64_t, 7> counts = {mesh.points.size(), mesh.boundary_triangles.size(), mesh.boundary_quads.size()};
-  for (std::size_t k = 0; k < k_kinds.size(); ++k) counts[3 + k] = cells.count(k_kinds[k]);
+  for (std::size_t k = 0; k < k_ugrid_kinds.size(); ++k) counts[3 + k] = cells.count(k_ugrid_kinds[k]);
   sections.push_back(items(variant, 1, [counts](std::uint64_t, ItemWriter& out) {
     for (const std::uint64_t n : counts) out.integer(static_cast<std::int64_t>(n));
   }));
@@ -95,7 +95,7 @@ std::vector<OutputSection> sections_of(const HybridMesh& mesh, const CellSection
       items(variant, mesh.boundary_triangles.size(), [&mesh](std::uint64_t i, ItemWriter& out) { out.integer(mesh.boundary_triangles[i].patch.value() + 1); }));
   sections.push_back(
       items(variant, mesh.boundary_quads.size(), [&mesh](std::uint64_t i, ItemWriter& out) { out.integer(mesh.boundary_quads[i].patch.value() + 1); }));
-  for (const CellKind kind : k_kinds) sections.push_back(cell_section(variant, cells, kind));
+  for (const CellKind kind : k_ugrid_kinds) sections.push_back(cell_section(variant, cells, kind));
   return sections;
 }
 
@@ -158,7 +158,7 @@ void write_volume_ugrid(const HybridMesh& mesh, const std::filesystem::path& pat
     const std::string format = "UGRID with 32-bit integers (64-bit: .lb8l.ugrid, .b8l.ugrid)";
     require_count(mesh.points.size(), k_limit, "nodes", format, path.string());
     require_count(std::max(mesh.boundary_triangles.size(), mesh.boundary_quads.size()), k_limit, "boundary faces", format, path.string());
-    for (const CellKind kind : k_kinds) require_count(cells.count(kind), k_limit, "cells of kind " + std::string(to_string(kind)), format, path.string());
+    for (const CellKind kind : k_ugrid_kinds) require_count(cells.count(kind), k_limit, "cells of kind " + std::string(to_string(kind)), format, path.string());
   }
   AtomicFile conditions(mapbc_path(path));
   conditions.append(mapbc_text(mesh, faces, context));

@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<std::string_view, 5> k_marker_names = {"marker", "boundary", "CellEntityIds", "gmsh:physical", "ids"};
 constexpr std::string_view k_patch_prefix = "patch:";
 
-std::optional<PatchKind> kind_named(std::string_view name) {
+std::optional<PatchKind> boundary_kind_named(std::string_view name) {
   for (const PatchKind kind :
        {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface})
     if (to_string(kind) == name) return kind;
@@ -95,7 +95,7 @@ class VtkHdfReader {
       if (!field.name.starts_with(k_patch_prefix)) continue;
       const std::string_view rest = std::string_view(field.name).substr(k_patch_prefix.size());
       const std::size_t colon = rest.find(':');
-      const auto kind = kind_named(rest.substr(0, colon));
+      const auto kind = boundary_kind_named(rest.substr(0, colon));
       if (colon == std::string_view::npos || !kind) continue;
       const NumberArray number = file_.data(field);
       number.require_integers(1, "the marker of a patch");

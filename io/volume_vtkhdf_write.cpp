@@ -11,7 +11,7 @@ namespace sterna::io {
 namespace {
 
 /// Cells of one kind, or the boundary faces of one size, as they follow each other in the file.
-struct Run {
+struct HdfRun {
   int type = 0;
   std::uint64_t n_nodes = 0;  ///< of a cell
   std::uint64_t n_cells = 0;
@@ -19,8 +19,8 @@ struct Run {
   std::function<void(std::uint64_t begin, std::uint64_t end, const std::function<void(std::span<const NodeId>, int, std::int32_t)>& f)> for_each;
 };
 
-std::vector<Run> runs_of(const HybridMesh& mesh, const CellSections& cells) {
-  std::vector<Run> runs;
+std::vector<HdfRun> runs_of(const HybridMesh& mesh, const CellSections& cells) {
+  std::vector<HdfRun> runs;
   for (const CellKind kind : k_kinds_in_file)
     runs.push_back({.type = vtk_type(kind),
                     .n_nodes = static_cast<std::uint64_t>(n_nodes(kind)),
@@ -41,7 +41,7 @@ std::vector<Run> runs_of(const HybridMesh& mesh, const CellSections& cells) {
   };
   add_faces(k_vtk_triangle, mesh.boundary_triangles, 3);
   add_faces(k_vtk_quad, mesh.boundary_quads, 4);
-  std::erase_if(runs, [](const Run& run) { return run.n_cells == 0; });
+  std::erase_if(runs, [](const HdfRun& run) { return run.n_cells == 0; });
   return runs;
 }
 
@@ -50,7 +50,7 @@ Hdf5OutputNode number(std::string name, std::uint64_t value) {
   return dataset(std::move(name), output_numbers<std::int64_t>(NumberKind::i8, {1}, {static_cast<std::int64_t>(value)}));
 }
 
-OutputArray points_array(const HybridMesh& mesh) {
+OutputArray hdf_points_array(const HybridMesh& mesh) {
   const std::uint64_t n = mesh.points.size();
   return {.kind = NumberKind::f8, .extents = {n, 3}, .content = {{.n_items = n, .format = [&mesh](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
                                                                     char* at = out.reserve((end - begin) * 24);
@@ -66,9 +66,9 @@ OutputArray points_array(const HybridMesh& mesh) {
 
 /// One value of type T for each cell, value(nodes, layer, marker); or all nodes where `has_nodes`.
 template <class T, class Put>
-OutputArray per_cell(NumberKind kind, std::uint64_t n_values, const std::vector<Run>& runs, bool has_nodes, const Put& put) {
+OutputArray per_cell(NumberKind kind, std::uint64_t n_values, const std::vector<HdfRun>& runs, bool has_nodes, const Put& put) {
   OutputArray array{.kind = kind, .extents = {n_values}, .content = {}};
-  for (const Run& run : runs)
+  for (const HdfRun& run : runs)
     array.content.push_back({.n_items = run.n_cells, .format = [&run, has_nodes, put](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
                                char* at = out.reserve((end - begin) * sizeof(T) * (has_nodes ? run.n_nodes : 1));
                                run.for_each(begin, end,
@@ -78,19 +78,19 @@ OutputArray per_cell(NumberKind kind, std::uint64_t n_values, const std::vector<
   return array;
 }
 
-OutputArray types_array(std::uint64_t n_cells, const std::vector<Run>& runs) {
+OutputArray types_array(std::uint64_t n_cells, const std::vector<HdfRun>& runs) {
   OutputArray array{.kind = NumberKind::u1, .extents = {n_cells}, .content = {}};
-  for (const Run& run : runs)
+  for (const HdfRun& run : runs)
     array.content.push_back({.n_items = run.n_cells, .format = [type = run.type](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
                                out.end_at(std::fill_n(out.reserve(end - begin), end - begin, static_cast<char>(type)));
                              }});
   return array;
 }
 
-OutputArray offsets_array(std::uint64_t n_cells, const std::vector<Run>& runs) {
+OutputArray offsets_array(std::uint64_t n_cells, const std::vector<HdfRun>& runs) {
   OutputArray array = output_numbers<std::int64_t>(NumberKind::i8, {n_cells + 1}, {0});
   std::uint64_t before = 0;
-  for (const Run& run : runs) {
+  for (const HdfRun& run : runs) {
     array.content.push_back({.n_items = run.n_cells, .format = [before, n = run.n_nodes](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
                                char* at = out.reserve((end - begin) * 8);
                                for (std::uint64_t i = begin; i < end; ++i)
@@ -129,9 +129,9 @@ Hdf5OutputNode patch_numbers(const HybridMesh& mesh, const RunContext& context) 
 void write_volume_vtkhdf(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
   const FacesByPatch checked(mesh);  // refuses faces without patch
   const CellSections cells(mesh);
-  const std::vector<Run> runs = runs_of(mesh, cells);
+  const std::vector<HdfRun> runs = runs_of(mesh, cells);
   std::uint64_t n_cells = 0, n_values = 0;
-  for (const Run& run : runs) {
+  for (const HdfRun& run : runs) {
     n_cells += run.n_cells;
     n_values += run.n_cells * run.n_nodes;
   }
@@ -141,7 +141,7 @@ void write_volume_vtkhdf(const HybridMesh& mesh, const std::filesystem::path& pa
   grid.children.push_back(number("NumberOfPoints", mesh.points.size()));
   grid.children.push_back(number("NumberOfCells", n_cells));
   grid.children.push_back(number("NumberOfConnectivityIds", n_values));
-  grid.children.push_back(dataset("Points", points_array(mesh)));
+  grid.children.push_back(dataset("Points", hdf_points_array(mesh)));
   grid.children.push_back(
       dataset("Connectivity", per_cell<std::int64_t>(NumberKind::i8, n_values, runs, true, [](char* at, std::span<const NodeId> nodes, int, std::int32_t) {
                 for (const NodeId node : nodes) at = put_bytes(at, static_cast<std::int64_t>(node.value()), std::endian::little);

@@ -9,12 +9,12 @@
 #include "io/patch_names.h"
 #include "io/surface_builder.h"
 #include "io/surface_polygon.h"
+#include "io/text_limits.h"
 #include "io/vtk_cells.h"
 
 namespace sterna::io {
 namespace {
 
-constexpr std::size_t k_stop_interval = 1 << 16;
 // Further cell types of VTK.
 constexpr std::int64_t k_vtk_empty = 0, k_vtk_strip = 6, k_vtk_polygon = 7, k_vtk_pixel = 8, k_vtk_voxel = 11, k_vtk_curved_edge = 21;
 

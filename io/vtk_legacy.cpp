@@ -11,6 +11,7 @@
 
 #include "io/byte_reader.h"
 #include "io/file_buffer.h"
+#include "io/text_limits.h"
 #include "io/text_scanner.h"
 
 namespace sterna::io {
@@ -23,29 +24,28 @@ struct TypeName {
   Type type;
 };
 /// vtkIdType is written as int; long is that of 64-bit systems.
-constexpr std::array<TypeName, 19> k_types = {{{"char", Type::int8},
-                                               {"signed_char", Type::int8},
-                                               {"unsigned_char", Type::uint8},
-                                               {"short", Type::int16},
-                                               {"unsigned_short", Type::uint16},
-                                               {"int", Type::int32},
-                                               {"unsigned_int", Type::uint32},
-                                               {"long", Type::int64},
-                                               {"unsigned_long", Type::uint64},
-                                               {"vtkidtype", Type::int32},
-                                               {"vtktypeint8", Type::int8},
-                                               {"vtktypeuint8", Type::uint8},
-                                               {"vtktypeint16", Type::int16},
-                                               {"vtktypeint32", Type::int32},
-                                               {"vtktypeuint32", Type::uint32},
-                                               {"vtktypeint64", Type::int64},
-                                               {"vtktypeuint64", Type::uint64},
-                                               {"float", Type::float32},
-                                               {"double", Type::float64}}};
+constexpr std::array<TypeName, 19> k_legacy_types = {{{"char", Type::int8},
+                                                      {"signed_char", Type::int8},
+                                                      {"unsigned_char", Type::uint8},
+                                                      {"short", Type::int16},
+                                                      {"unsigned_short", Type::uint16},
+                                                      {"int", Type::int32},
+                                                      {"unsigned_int", Type::uint32},
+                                                      {"long", Type::int64},
+                                                      {"unsigned_long", Type::uint64},
+                                                      {"vtkidtype", Type::int32},
+                                                      {"vtktypeint8", Type::int8},
+                                                      {"vtktypeuint8", Type::uint8},
+                                                      {"vtktypeint16", Type::int16},
+                                                      {"vtktypeint32", Type::int32},
+                                                      {"vtktypeuint32", Type::uint32},
+                                                      {"vtktypeint64", Type::int64},
+                                                      {"vtktypeuint64", Type::uint64},
+                                                      {"float", Type::float32},
+                                                      {"double", Type::float64}}};
 
-constexpr std::string_view k_magic = "# vtk DataFile Version";
+constexpr std::string_view k_legacy_magic = "# vtk DataFile Version";
 constexpr std::size_t k_min_text_bytes = 2;  // a digit and a blank
-constexpr std::size_t k_stop_interval = 1 << 16;
 
 std::string lower_case(std::string_view text) {
   std::string lower(text);
@@ -115,9 +115,9 @@ class LegacyParser {
 
   void parse_head() {
     const std::string_view first = scanner_.rest_of_line();
-    if (!equal_ignoring_case(first.substr(0, k_magic.size()), k_magic))
+    if (!equal_ignoring_case(first.substr(0, k_legacy_magic.size()), k_legacy_magic))
       throw_malformed(buffer_.source, "line 1",
-                      "found " + quoted_excerpt(first) + ", expected \"" + std::string(k_magic) + " 3.0\" or another version up to 5.1");
+                      "found " + quoted_excerpt(first) + ", expected \"" + std::string(k_legacy_magic) + " 3.0\" or another version up to 5.1");
     scanner_.rest_of_line();  // title
     const std::string encoding = lower_case(scanner_.token("ASCII or BINARY"));
     if (encoding != "ascii" && encoding != "binary") scanner_.fail_expected("ASCII or BINARY");
@@ -301,7 +301,7 @@ class LegacyParser {
       if (word == "bit" || word == "variant") throw_unsupported(buffer_.source, "an array of type " + word, "write the file without it");
       return std::nullopt;
     }
-    for (const TypeName& known : k_types)
+    for (const TypeName& known : k_legacy_types)
       if (known.name == word) return known.type;
     scanner_.fail_expected("a type such as float, double, int or vtktypeint64");
   }

@@ -354,7 +354,7 @@ constexpr const char* k_ends_help = "  from = {x, y, z}, to = {x, y, z}\n      r
 constexpr const char* k_position_help = "  position = {x, y, z}\n      of the whole; {0, 0, 0}\n";
 
 template <class... Options>
-std::string help_of() {
+std::string body_help_of() {
   std::string text;
   const auto add = [&]<class O>(O options) { text += options_help(sterna::options_of(options)); };
   (add(Options{}), ...);
@@ -364,18 +364,18 @@ std::string help_of() {
 }  // namespace
 
 std::string fuselage_help() {
-  return help_of<BodyOptions, FuselageOptions>() + k_position_help +
-         "  frames = { {...}, {...} }\n      required: two at least, from the nose to the tail\neach frame:\n" + help_of<FrameOptions>() +
+  return body_help_of<BodyOptions, FuselageOptions>() + k_position_help +
+         "  frames = { {...}, {...} }\n      required: two at least, from the nose to the tail\neach frame:\n" + body_help_of<FrameOptions>() +
          "  points = {{y, z}, ...}\n      of the shape \"points\": the right half from the bottom to the top\n  zp, a0, a1, b1\n      of the shape "
          "\"isikveren\", numbers\n";
 }
-std::string nacelle_help() { return help_of<BodyOptions, NacelleOptions, NacellePatches>() + k_position_help; }
-std::string pylon_help() { return help_of<PylonOptions>(); }
-std::string boom_help() { return help_of<BodyOptions, BoomOptions>() + k_ends_help; }
-std::string sting_help() { return help_of<BodyOptions, StingOptions>() + k_ends_help; }
-std::string fairing_help() { return help_of<BodyOptions, FairingOptions>() + k_position_help; }
+std::string nacelle_help() { return body_help_of<BodyOptions, NacelleOptions, NacellePatches>() + k_position_help; }
+std::string pylon_help() { return body_help_of<PylonOptions>(); }
+std::string boom_help() { return body_help_of<BodyOptions, BoomOptions>() + k_ends_help; }
+std::string sting_help() { return body_help_of<BodyOptions, StingOptions>() + k_ends_help; }
+std::string fairing_help() { return body_help_of<BodyOptions, FairingOptions>() + k_position_help; }
 std::string revolution_help() {
-  return help_of<BodyOptions, RevolutionOptions>() + k_position_help + "  profile = {{x, radius}, ...}\n      required: from the nose on\n";
+  return body_help_of<BodyOptions, RevolutionOptions>() + k_position_help + "  profile = {{x, radius}, ...}\n      required: from the nose on\n";
 }
 
 }  // namespace sterna::scripting

@@ -9,7 +9,7 @@ namespace sterna::scripting {
 namespace {
 
 /// As of --threads of all commands.
-constexpr int k_max_threads = 1024;
+constexpr int k_max_gate_threads = 1024;
 
 using Choose = std::function<void(std::function<int(const CommandContext&)>)>;
 
@@ -31,7 +31,7 @@ void add_determinism_command(CLI::App& app, DeterminismCommand& determinism, con
   command->add_option("--threads", determinism.threads, "numbers of threads, one run each; a number given twice compares two equal runs; 1,2,7 unless given")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::Range(1, k_max_threads))
+      ->check(CLI::Range(1, k_max_gate_threads))
       ->type_name("N,N,...");
   command
       ->add_option_function<std::vector<std::string>>(

@@ -11,7 +11,7 @@
 namespace sterna::scripting {
 namespace {
 
-std::string cell(std::string text) {
+std::string markdown_cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
   return text;
 }
@@ -21,8 +21,8 @@ std::string options_markdown(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_group().empty()) continue;  // hidden
     const std::string type = option->get_type_name();
-    text += "| `" + option->get_name(option->get_positional(), true) + "`" + (type.empty() ? "" : " " + cell(type)) + " | " + cell(option->get_description()) +
-            " |\n";
+    text += "| `" + option->get_name(option->get_positional(), true) + "`" + (type.empty() ? "" : " " + markdown_cell(type)) + " | " +
+            markdown_cell(option->get_description()) + " |\n";
   }
   return text.empty() ? text : "\n| option | |\n|---|---|\n" + text;
 }

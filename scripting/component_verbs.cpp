@@ -162,7 +162,7 @@ ScriptValue component_field(const ScriptCall& call) {
   return select_field(call, std::move(fields), component_methods());
 }
 
-constexpr std::array<ScriptVerb, 9> k_verbs = {{
+constexpr std::array<ScriptVerb, 9> k_component_verbs = {{
     {"fuselage", k_fuselage_usage, "A body through frames: circles, superellipses, double ellipses, eggs, points.", make_fuselage_verb, fuselage_help, false,
      "component"},
     {"wing", k_wing_usage, "A wing, tail or fin through sections from the root to the tip.", make_wing_verb, wing_help, false, "component"},
@@ -179,7 +179,7 @@ constexpr std::array<ScriptVerb, 9> k_verbs = {{
     {"aircraft", k_aircraft_usage, "Components and models together, mirror images included, united to one closed surface.", make_aircraft_verb, aircraft_help,
      true, "model", true},
 }};
-constexpr std::array<ScriptVerb, 5> k_methods = {{
+constexpr std::array<ScriptVerb, 5> k_component_methods = {{
     {"wing:deflect", k_deflect_usage,
      "Deflects a control surface, as geometry: its hinge by parts of the span from the root and of the chord from the leading edge.", deflect_wing,
      deflect_help, false, "self"},
@@ -195,8 +195,8 @@ constexpr std::array<ScriptVerb, 5> k_methods = {{
 
 const ScriptVerb k_component_field = {"component", "", "", component_field};
 
-std::span<const ScriptVerb> component_verbs() { return k_verbs; }
-std::span<const ScriptVerb> component_methods() { return k_methods; }
+std::span<const ScriptVerb> component_verbs() { return k_component_verbs; }
+std::span<const ScriptVerb> component_methods() { return k_component_methods; }
 
 std::string describe(const ComponentValue& component) {
   std::string kind(to_string(component.kind));

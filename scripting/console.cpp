@@ -11,14 +11,12 @@
 #include <mutex>
 
 #include "geom/base/error.h"
+#include "scripting/time_left.h"
 
 namespace sterna::scripting {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// An estimate of the time left from less than this share of the work says nothing.
-constexpr double k_min_share_for_estimate = 0.02;
 
 spdlog::level::level_enum level_of(LogLevel level) {
   switch (level) {
@@ -41,11 +39,9 @@ class ProgressLine {
  public:
   void show(const ProgressState& state) {
     if (!is_terminal_) return;
-    if (state.share < share_ || !is_shown_) start_ = Clock::now();  // a new run of stages
-    share_ = state.share;
-    const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-    std::string text = fmt::format("[{:3.0f} %] {}", 100.0 * state.share, state.stage);
-    if (state.share >= k_min_share_for_estimate) text += ", about " + duration_text(elapsed * (1.0 - state.share) / state.share) + " left";
+    time_left_.note(state, std::chrono::duration<double>(Clock::now() - begin_).count());
+    std::string text = fmt::format("[{:3.0f} %] {}", 100.0 * time_left_.share(), state.stage);
+    if (const std::optional<double> left = time_left_.estimate()) text += ", about " + duration_text(*left) + " left";
     std::fprintf(stderr, "\r%s\033[K", text.c_str());
     std::fflush(stderr);
     is_shown_ = true;
@@ -60,8 +56,8 @@ class ProgressLine {
  private:
   bool is_terminal_ = isatty(STDERR_FILENO) != 0;
   bool is_shown_ = false;
-  double share_ = 0.0;
-  Clock::time_point start_;
+  TimeLeft time_left_;
+  Clock::time_point begin_ = Clock::now();
 };
 
 class StderrSink : public spdlog::sinks::base_sink<spdlog::details::null_mutex> {

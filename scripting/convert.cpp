@@ -11,7 +11,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr double k_read_end = 0.5;  // reading and writing take about the same time
+constexpr double k_convert_read_end = 0.5;  // reading and writing take about the same time
 
 std::string convert_volume(const HybridMesh& mesh, const std::filesystem::path& output, const std::string& format, const RunContext& context) {
   io::write_volume_file(mesh, output, context, format);
@@ -20,8 +20,8 @@ std::string convert_volume(const HybridMesh& mesh, const std::filesystem::path& 
 }
 
 std::string convert_surface(const InputPath& input, const std::filesystem::path& output, const std::string& format, const RunContext& context) {
-  const TriMesh mesh = io::to_tri_mesh(io::read_surface_file(input.path, context.part("read", 0.0, k_read_end)));
-  io::write_surface_file(mesh, output, context.part("write", k_read_end, 1.0), format);
+  const TriMesh mesh = io::to_tri_mesh(io::read_surface_file(input.path, context.part("read", 0.0, k_convert_read_end)));
+  io::write_surface_file(mesh, output, context.part("write", k_convert_read_end, 1.0), format);
   return fmt::format("surface, {} triangles, {} patches", count_text(static_cast<std::int64_t>(mesh.n_triangles())), mesh.patches.size());
 }
 
@@ -46,7 +46,7 @@ std::string convert(const InputPath& input, const std::filesystem::path& output,
     io::format_to_write(output, io::FormatUse::write_surface, settings.format);
     return convert_surface(input, output, settings.format, context);
   }
-  const HybridMesh mesh = io::read_volume_file(input.path, context.part("read", 0.0, k_read_end));
+  const HybridMesh mesh = io::read_volume_file(input.path, context.part("read", 0.0, k_convert_read_end));
   if (count_cells(mesh).total() == 0) {
     io::format_to_write(output, io::FormatUse::write_surface, settings.format);
     return convert_surface(input, output, settings.format, context);
@@ -56,7 +56,7 @@ std::string convert(const InputPath& input, const std::filesystem::path& output,
                  .attempted = "converting " + input.name + " into " + output.string(),
                  .problem = "the input is a volume mesh of " + count_text(count_cells(mesh).total()) + " cells, the output's format holds surfaces only",
                  .hint = "--surface writes the boundary; volume meshes are written as " + io::list_formats_with(io::FormatUse::write_volume)});
-  return convert_volume(mesh, output, settings.format, context.part("write", k_read_end, 1.0));
+  return convert_volume(mesh, output, settings.format, context.part("write", k_convert_read_end, 1.0));
 }
 
 }  // namespace sterna::scripting

@@ -57,7 +57,7 @@ namespace {
 using volmesh::ActuatorDisc;
 using Json = nlohmann::json;
 
-constexpr std::string_view k_usage =
+constexpr std::string_view k_disc_usage =
     "actuator_disc{ name = \"prop\", center = {-0.4, 0, 0}, axis = {1, 0, 0}, radius = 1.2, inner_radius = 0.25, edge = 0.05 }";
 
 ActuatorDisc disc_of(const ScriptTable& table, const std::string& attempted) {
@@ -83,7 +83,7 @@ ActuatorDisc disc_of(const ScriptTable& table, const std::string& attempted) {
 
 ScriptValue make_disc(const ScriptCall& call) {
   if (call.arguments.size() != 1 || !std::holds_alternative<TableHandle>(call.arguments.front()))
-    throw Error({.code = ErrorCode::bad_argument, .attempted = call.attempted(), .problem = "takes one table", .hint = std::string(k_usage)});
+    throw Error({.code = ErrorCode::bad_argument, .attempted = call.attempted(), .problem = "takes one table", .hint = std::string(k_disc_usage)});
   ScriptTable table = *std::get<TableHandle>(call.arguments.front());
   disc_of(table, call.attempted());
   table.fields["shape"] = std::string("actuator_disc");
@@ -95,20 +95,20 @@ std::string disc_help() {
   return options_help(sterna::options_of(numbers)) + "center = {x, y, z} in metres; axis = {x, y, z}: the way the flow goes through, {1, 0, 0} unless given\n";
 }
 
-constexpr std::array<ScriptVerb, 1> k_verbs = {{
-    {"actuator_disc", k_usage, "A disc or ring without thickness in the fluid, two patches back to back, for the interfaces of volume_mesh.", make_disc,
+constexpr std::array<ScriptVerb, 1> k_disc_verbs = {{
+    {"actuator_disc", k_disc_usage, "A disc or ring without thickness in the fluid, two patches back to back, for the interfaces of volume_mesh.", make_disc,
      disc_help, false, "disc"},
 }};
 
 }  // namespace
 
-std::span<const ScriptVerb> disc_verbs() { return k_verbs; }
+std::span<const ScriptVerb> disc_verbs() { return k_disc_verbs; }
 
 std::vector<ActuatorDisc> read_interfaces(TableReader& reader, const ScriptCall& call) {
   std::vector<ActuatorDisc> discs;
-  for (const ShapeEntry& entry : read_shapes(reader, "interfaces", k_usage)) {
+  for (const ShapeEntry& entry : read_shapes(reader, "interfaces", k_disc_usage)) {
     if (entry.shape == "actuator_disc") discs.push_back(disc_of(*entry.table, call.attempted() + ", " + entry.where));
-    else reader.add_problem(entry.where + ": expected " + std::string(k_usage) + ", not " + std::string(type_text(entry.value)));
+    else reader.add_problem(entry.where + ": expected " + std::string(k_disc_usage) + ", not " + std::string(type_text(entry.value)));
   }
   return discs;
 }

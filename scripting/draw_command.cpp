@@ -15,7 +15,7 @@ namespace sterna::scripting {
 namespace {
 
 // Shares of the progress of `sterna draw`.
-constexpr double k_read_end = 0.4, k_check_end = 0.6;
+constexpr double k_draw_read_end = 0.4, k_check_end = 0.6;
 
 /// "1600x1000" as two options.
 void add_size(OptionOverrides& options, const std::string& text) {
@@ -92,9 +92,9 @@ int execute(const DrawCommand& command, const CommandContext& context) {
   DrawOptions options;
   set_options(sterna::options_of(options), command.options, context);
   require_draw_options(options);
-  const auto drawable = read_drawable({command.input, command.input}, options.unit, context.run.part("read", 0.0, k_read_end));
+  const auto drawable = read_drawable({command.input, command.input}, options.unit, context.run.part("read", 0.0, k_draw_read_end));
   const std::string name = std::filesystem::path(command.input).filename().string();
-  const RunContext run = context.run.part("draw", k_read_end, 1.0);
+  const RunContext run = context.run.part("draw", k_draw_read_end, 1.0);
   if (const auto* mesh = std::get_if<HybridMesh>(&drawable)) write_picture(*mesh, nullptr, options, name, command.output, run);
   else write_picture(std::get<TriMesh>(drawable), options, name, command.output, run);
   context.console.end_progress();

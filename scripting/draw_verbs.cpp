@@ -11,7 +11,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::string_view k_usage =
+constexpr std::string_view k_draw_usage =
     "draw{ mesh, \"mesh.png\", view = \"iso\", color = \"quality\" }  or  draw{ mesh, \"edge.png\", cut = \"section 50%\" }  or  draw{ wall, \"wall.png\", "
     "color = \"edge_length\" }";
 
@@ -71,7 +71,7 @@ std::string name_of(const std::vector<InputFile>& inputs) {
 }
 
 ScriptValue draw_object(const ScriptCall& call) {
-  const ScriptTable table = with_texts(call, table_argument(call, 0, k_usage));
+  const ScriptTable table = with_texts(call, table_argument(call, 0, k_draw_usage));
   DrawOptions options;
   const OptionTable schema = sterna::options_of(options);
   TableReader reader(table, call.attempted());
@@ -118,8 +118,8 @@ std::string draw_help() {
   return options_help(sterna::options_of(options));
 }
 
-constexpr std::array<ScriptVerb, 1> k_verbs = {
-    {{"draw", k_usage,
+constexpr std::array<ScriptVerb, 1> k_draw_verbs = {
+    {{"draw", k_draw_usage,
       "Draws a mesh, a surface or the file of one as PNG: walls by patch or figure, cells along a plane, the worst places. Needs no display (docs/draw.md).",
       draw_object, draw_help, true, "nothing"}}};
 
@@ -138,6 +138,6 @@ std::optional<std::string> cut_text(const ScriptTable& table) {
   return "point=" + point_text(*point) + " normal=" + point_text(*normal);
 }
 
-std::span<const ScriptVerb> draw_verbs() { return k_verbs; }
+std::span<const ScriptVerb> draw_verbs() { return k_draw_verbs; }
 
 }  // namespace sterna::scripting

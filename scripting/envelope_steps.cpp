@@ -213,7 +213,7 @@ std::string help_of_step() {
   return options_help(some_options(options, k_steps[I].options));
 }
 
-constexpr std::array<ScriptVerb, 7> k_verbs = {{
+constexpr std::array<ScriptVerb, 7> k_envelope_steps_verbs = {{
     {"envelope.classify", k_classify_usage, "Ridges, corners, convex and concave places of a wall: the first step of make_envelope by hand.", classify,
      help_of_names<k_classify_names>, true, "envelope"},
     {"envelope.initial", k_initial_usage, "Directions and target heights: the second step.", make_initial, help_of_names<k_initial_names>, true, "envelope"},
@@ -231,7 +231,7 @@ constexpr std::array<ScriptVerb, 7> k_verbs = {{
 
 }  // namespace
 
-std::span<const ScriptVerb> envelope_step_verbs() { return k_verbs; }
+std::span<const ScriptVerb> envelope_step_verbs() { return k_envelope_steps_verbs; }
 
 void require_ready(const EnvelopeValue& envelope, const MeshCase& options, const RunContext& context) {
   if (envelope.step == EnvelopeStep::finished) return;

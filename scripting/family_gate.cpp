@@ -14,7 +14,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::string_view k_usage = "check_family{ mesh, finer }";
+constexpr std::string_view k_family_gate_usage = "check_family{ mesh, finer }";
 
 struct CheckFamilyOptions {
   bool strict = false;
@@ -58,7 +58,7 @@ struct Schema<scripting::CheckFamilyOptions> {
 namespace sterna::scripting {
 namespace {
 
-std::string family_help() {
+std::string check_family_help() {
   FamilyTolerances tolerances;
   CheckFamilyOptions options;
   return options_help(sterna::options_of(tolerances)) + options_help(sterna::options_of(options));
@@ -81,7 +81,7 @@ ScriptValue table_of(const FamilyReport& report) {
 ScriptValue check_family_verb(const ScriptCall& call) {
   FamilyTolerances tolerances;
   CheckFamilyOptions options;
-  const ScriptTable table = table_argument(call, 0, k_usage);
+  const ScriptTable table = table_argument(call, 0, k_family_gate_usage);
   TableReader reader(table, call.attempted());
   const OptionTable schema = sterna::options_of(tolerances);
   std::vector<std::pair<MeshHandle, InputPath>> meshes;
@@ -90,7 +90,7 @@ ScriptValue check_family_verb(const ScriptCall& call) {
     else if (const auto* name = std::get_if<std::string>(&item)) meshes.push_back({nullptr, find_input(call, *name)});
     else reader.add_problem("entry " + std::to_string(meshes.size() + 1) + ": expected a mesh or the name of its file, not " + std::string(type_text(item)));
   }
-  if (meshes.size() < 2) reader.add_problem("needs at least two meshes, from coarse to fine: " + std::string(k_usage));
+  if (meshes.size() < 2) reader.add_problem("needs at least two meshes, from coarse to fine: " + std::string(k_family_gate_usage));
   reader.read_options(schema);
   reader.read_options(sterna::options_of(options));
   apply_overrides(call, schema);
@@ -113,11 +113,11 @@ ScriptValue check_family_verb(const ScriptCall& call) {
   return table_of(report);
 }
 
-constexpr std::array<ScriptVerb, 1> k_verbs = {{
-    {"check_family", k_usage,
+constexpr std::array<ScriptVerb, 1> k_family_gate_verbs = {{
+    {"check_family", k_family_gate_usage,
      "Checks that meshes are members of one family, each finer than the one before by one factor in all directions, and prints what was measured against what "
      "the rule expects.",
-     check_family_verb, family_help, true, "table"},
+     check_family_verb, check_family_help, true, "table"},
 }};
 
 }  // namespace
@@ -149,6 +149,6 @@ int execute(const CheckFamilyCommand& command, const CommandContext& context) {
   return report.state() == GateState::fail ? k_exit_invalid : k_exit_success;
 }
 
-std::span<const ScriptVerb> family_gate_verbs() { return k_verbs; }
+std::span<const ScriptVerb> family_gate_verbs() { return k_family_gate_verbs; }
 
 }  // namespace sterna::scripting

@@ -14,7 +14,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::string_view k_sphere_usage =
+constexpr std::string_view k_farfield_sphere_usage =
     "sphere{ radius = 100, edge = 20, center = {0, 0, 0} }  or, as a source,  sphere{ {0, 0, 0}, radius = 1, size = 0.1 }";
 constexpr std::string_view k_box_usage =
     "box{ {-10, -5, -5}, {20, 5, 5}, edge = 2, sides = { x_min = \"inflow\", x_max = { kind = \"outflow\", edge = 0.5 } } }";
@@ -114,9 +114,9 @@ ScriptValue make_shape(const ScriptCall& call, std::string_view shape_name, std:
 }  // namespace
 
 ScriptValue make_sphere(const ScriptCall& call) {
-  const ScriptTable table = table_argument(call, 0, k_sphere_usage);
+  const ScriptTable table = table_argument(call, 0, k_farfield_sphere_usage);
   if (!table.items.empty() || table.fields.contains("size")) return make_sphere_source(call);
-  return make_shape(call, "sphere", k_sphere_usage, {"radius", "edge"});
+  return make_shape(call, "sphere", k_farfield_sphere_usage, {"radius", "edge"});
 }
 ScriptValue make_farfield_box(const ScriptCall& call) { return make_shape(call, "box", k_box_usage, {"edge"}); }
 ScriptValue make_farfield_cylinder(const ScriptCall& call) { return make_shape(call, "cylinder", k_cylinder_usage, {"radius", "edge"}); }

@@ -145,7 +145,7 @@ std::string boundary_layer_help() {
   return options_help(sterna::options_of(options)) + flow_help();
 }
 
-constexpr std::array<ScriptVerb, 3> k_verbs = {{
+constexpr std::array<ScriptVerb, 3> k_flow_verbs = {{
     {"flow", k_flow_usage, "Flow conditions: Reynolds number, speed and state of the gas, for y_plus, boundary_layer and mesh:su2_config.", make_flow,
      flow_help, false, "quantity"},
     {"y_plus", k_y_plus_usage,
@@ -162,7 +162,7 @@ constexpr std::array<ScriptVerb, 3> k_verbs = {{
 
 const ScriptVerb k_quantity_field = {"quantity", "", "", quantity_field};
 
-std::span<const ScriptVerb> flow_verbs() { return k_verbs; }
+std::span<const ScriptVerb> flow_verbs() { return k_flow_verbs; }
 
 OptionTable flow_options(volmesh::FlowConditions& conditions) { return sterna::options_of(conditions); }
 

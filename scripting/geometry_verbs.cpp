@@ -268,8 +268,9 @@ ScriptValue make_surface(const ScriptCall& call) {
 
 // ---- Solids --------------------------------------------------------------------------------------------------------------------------------
 
-constexpr std::string_view k_box_usage = "box{ {-1, -2, -1}, {9, 2, 3}, name = \"block\" }  or, as a source,  box{ {-1, -2, -1}, {9, 2, 3}, size = 0.05 }";
-constexpr std::string_view k_cylinder_usage =
+constexpr std::string_view k_solid_box_usage =
+    "box{ {-1, -2, -1}, {9, 2, 3}, name = \"block\" }  or, as a source,  box{ {-1, -2, -1}, {9, 2, 3}, size = 0.05 }";
+constexpr std::string_view k_solid_cylinder_usage =
     "cylinder{ {0, 0, 0}, {8, 0, 0}, radius = 1, name = \"tank\" }  or, as a source,  cylinder{ {0, 0, 0}, {8, 0, 0}, radius = 1, size = 0.05 }";
 
 /// Two points {x, y, z} as entries 1 and 2.
@@ -289,7 +290,7 @@ std::array<Point, 2> two_points(TableReader& reader, std::string_view usage) {
 }
 
 ScriptValue make_solid(const ScriptCall& call, bool is_round) {
-  const std::string_view usage = is_round ? k_cylinder_usage : k_box_usage;
+  const std::string_view usage = is_round ? k_solid_cylinder_usage : k_solid_box_usage;
   const ScriptTable table = table_argument(call, 0, usage);
   SolidOptions options{.name = std::string(call.verb)};
   OptionTable schema = sterna::options_of(options);
@@ -305,28 +306,28 @@ ScriptValue make_solid(const ScriptCall& call, bool is_round) {
 }
 
 template <class Options>
-std::string help_of() {
+std::string geometry_help_of() {
   Options options;
   return options_help(sterna::options_of(options));
 }
 
-constexpr std::array<ScriptVerb, 5> k_verbs = {{
-    {"read_cad", k_read_cad_usage, "Reads a STEP, IGES or BREP file, mends it and says what it found.", read_cad_verb, help_of<ReadCadOptions>, true, "model",
-     true},
+constexpr std::array<ScriptVerb, 5> k_geometry_verbs = {{
+    {"read_cad", k_read_cad_usage, "Reads a STEP, IGES or BREP file, mends it and says what it found.", read_cad_verb, geometry_help_of<ReadCadOptions>, true,
+     "model", true},
     {"read_smx", k_read_smx_usage, "Reads a geometry file of sumo: its components side by side.", read_description<read_smx_model>, nullptr, true, "model",
      true},
     {"read_cpacs", k_read_cpacs_usage, "Reads a CPACS file: its components side by side.", read_description<read_cpacs_model>, nullptr, true, "model", true},
-    {"airfoil", k_airfoil_usage, "A wing section: by NACA designation, from a file (Selig or Lednicer), or from points.", make_airfoil, help_of<AirfoilOptions>,
-     false, "airfoil"},
+    {"airfoil", k_airfoil_usage, "A wing section: by NACA designation, from a file (Selig or Lednicer), or from points.", make_airfoil,
+     geometry_help_of<AirfoilOptions>, false, "airfoil"},
     {"surface", k_surface_usage, "A surface given by a function; a spline that is checked between its samples stands for it.", make_surface,
-     help_of<SurfaceOptions>, false, "model"},
+     geometry_help_of<SurfaceOptions>, false, "model"},
 }};
 
 }  // namespace
 
 const ScriptVerb k_airfoil_field = {"airfoil", "", "", airfoil_field};
 
-std::span<const ScriptVerb> geometry_verbs() { return k_verbs; }
+std::span<const ScriptVerb> geometry_verbs() { return k_geometry_verbs; }
 
 std::string describe(const Airfoil& airfoil) {
   const AirfoilMeasures m = measure(airfoil);

@@ -15,7 +15,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::string_view k_usage = "half{ model, at = 0.4 }  or  half{ wall, axis = \"y\", at = 0.4, keep = \"+\" }";
+constexpr std::string_view k_half_usage = "half{ model, at = 0.4 }  or  half{ wall, axis = \"y\", at = 0.4, keep = \"+\" }";
 
 std::string half_help() {
   HalfOptions of_surface;
@@ -28,7 +28,7 @@ std::string half_help() {
 ScriptTable half_argument(const ScriptCall& call) {
   if (!call.arguments.empty() && std::holds_alternative<SurfaceHandle>(call.arguments.front()))
     return {.items = {call.arguments.front()}, .fields = {}, .other_keys = {}};
-  return table_argument(call, 0, k_usage);
+  return table_argument(call, 0, k_half_usage);
 }
 
 bool is_surface(const ScriptValue& item) {
@@ -41,7 +41,7 @@ ScriptValue half_of_a_surface(const ScriptCall& call, const ScriptTable& table) 
   const OptionTable schema = sterna::options_of(options);
   TableReader reader(table, call.attempted());
   const std::vector<ScriptValue>& items = reader.items();
-  if (items.size() != 1) reader.add_problem("takes one surface, not " + std::to_string(items.size()) + ": " + std::string(k_usage));
+  if (items.size() != 1) reader.add_problem("takes one surface, not " + std::to_string(items.size()) + ": " + std::string(k_half_usage));
   reader.read_options(schema);
   apply_overrides(call, schema);
   reader.finish();
@@ -64,14 +64,14 @@ ScriptValue make_half(const ScriptCall& call) {
     if (ModelHandle model = model_of(items[i], call)) models.push_back(std::move(model));
     else reader.add_problem("entry " + std::to_string(i + 1) + ": expected a model, a component or a surface, not " + std::string(type_text(items[i])));
   }
-  if (items.empty()) reader.add_problem("needs a model or a surface: " + std::string(k_usage));
+  if (items.empty()) reader.add_problem("needs a model or a surface: " + std::string(k_half_usage));
   reader.read_options(sterna::options_of(options));
   reader.finish();
   return std::make_shared<const ModelValue>(half_of_model(assemble(models, call.session.context), options, call.session.context.part("half", 0.0, 1.0)));
 }
 
-constexpr std::array<ScriptVerb, 1> k_verbs = {{
-    {"half", k_usage,
+constexpr std::array<ScriptVerb, 1> k_half_verbs = {{
+    {"half", k_half_usage,
      "The half of a model or a surface on one side of its plane of symmetry: open there, the rim in the plane to the last bit. Half models are taken as they "
      "are.",
      make_half, half_help, true, "model or surface", true},
@@ -79,7 +79,7 @@ constexpr std::array<ScriptVerb, 1> k_verbs = {{
 
 }  // namespace
 
-std::span<const ScriptVerb> half_verbs() { return k_verbs; }
+std::span<const ScriptVerb> half_verbs() { return k_half_verbs; }
 
 SurfaceValue half_surface(const SurfaceValue& surface, const HalfOptions& options, const RunContext& context) {
   SurfaceValue half = surface;

@@ -17,13 +17,13 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::string_view k_usage =
+constexpr std::string_view k_inspect_usage =
     "inspect(wall)  or  inspect{ wall, layers = 32, first_height = 2e-6, flow = flow{ mach = 0.78, altitude = 11000, length = 4.2 }, output = \"trouble.vtu\" "
     "}  or  inspect{ \"wall.stl\", unit = mm }";
 
 /// inspect(wall) is inspect{ wall }.
-ScriptTable table_of(const ScriptCall& call) {
-  if (call.arguments.size() != 1 || !std::holds_alternative<SurfaceHandle>(call.arguments.front())) return table_argument(call, 0, k_usage);
+ScriptTable inspection_table(const ScriptCall& call) {
+  if (call.arguments.size() != 1 || !std::holds_alternative<SurfaceHandle>(call.arguments.front())) return table_argument(call, 0, k_inspect_usage);
   ScriptTable table;
   table.items.push_back(call.arguments.front());
   return table;
@@ -103,7 +103,7 @@ Given read_given(const ScriptCall& call, TableReader& reader) {
     if (const auto* name = std::get_if<std::string>(&items[i])) given.files.push_back(find_input(call, *name));
     else reader.add_problem("entry " + std::to_string(i + 1) + ": expected one surface, or names of files, not " + std::string(type_text(items[i])));
   }
-  if (items.empty()) reader.add_problem("needs a surface or the name of a file: " + std::string(k_usage));
+  if (items.empty()) reader.add_problem("needs a surface or the name of a file: " + std::string(k_inspect_usage));
   return given;
 }
 
@@ -111,7 +111,7 @@ ScriptValue inspect(const ScriptCall& call) {
   volmesh::InspectRequest request;
   volmesh::MeshCase& options = request.volume;
   std::vector<InputFile> farfield_inputs;
-  const ScriptTable table = with_farfield(call, table_of(call), options.farfield_surface, farfield_inputs);
+  const ScriptTable table = with_farfield(call, inspection_table(call), options.farfield_surface, farfield_inputs);
   TableReader reader(table, call.attempted());
   const Given given = read_given(call, reader);
   surfmesh::StitchOptions reading;
@@ -162,15 +162,15 @@ std::string inspect_help() {
          "text, advice, places = { { at, patch, value, what } } } }\n";
 }
 
-constexpr std::array<ScriptVerb, 1> k_verbs = {{
-    {"inspect", k_usage,
+constexpr std::array<ScriptVerb, 1> k_inspect_verbs = {{
+    {"inspect", k_inspect_usage,
      "Predicts in seconds what volume_mesh will make of a surface: what it refuses, where layers get low, where cells get bad, with a line of advice each.",
      inspect, inspect_help, true, "inspection"},
 }};
 
 }  // namespace
 
-std::span<const ScriptVerb> inspect_verbs() { return k_verbs; }
+std::span<const ScriptVerb> inspect_verbs() { return k_inspect_verbs; }
 
 ScriptValue inspection_stand_in() { return report_table({}); }
 

@@ -73,7 +73,7 @@ std::string family_help() {
   return options_help(sterna::options_of(options));
 }
 
-constexpr std::array<ScriptVerb, 1> k_verbs = {{
+constexpr std::array<ScriptVerb, 1> k_layer_options_verbs = {{
     {"family", k_family_usage, "The members of a mesh family, each with a name and the refinement that surface_mesh and volume_mesh both take.", make_family,
      family_help, false, "table"},
 }};
@@ -122,6 +122,6 @@ void warn_of_other_member(const SurfaceValue& wall, const volmesh::MeshCase& opt
                            wall.recipe->options.refinement, options.family.refinement));
 }
 
-std::span<const ScriptVerb> family_verbs() { return k_verbs; }
+std::span<const ScriptVerb> family_verbs() { return k_layer_options_verbs; }
 
 }  // namespace sterna::scripting

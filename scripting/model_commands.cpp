@@ -15,7 +15,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr double k_read_end = 0.4;
+constexpr double k_model_read_end = 0.4;
 /// Open edges that `sterna info` lists; `sterna check` lists all.
 constexpr std::size_t k_listed_edges = 10;
 
@@ -26,8 +26,8 @@ InputPath input_of(const std::string& name) { return {name, name}; }
 int print_model_info(const InfoCommand& command, const CommandContext& context) {
   ReadCadOptions options;
   if (command.unit != InfoCommand{}.unit) set_options(sterna::options_of(options), {{"unit", command.unit}}, context);
-  const ModelValue value = read_model(input_of(command.input), options, context.run.part("read", 0.0, k_read_end));
-  const ModelReport measures = measure_model(value, context.run.part("measure", k_read_end, 1.0));
+  const ModelValue value = read_model(input_of(command.input), options, context.run.part("read", 0.0, k_model_read_end));
+  const ModelReport measures = measure_model(value, context.run.part("measure", k_model_read_end, 1.0));
   context.console.end_progress();
   if (!value.report.empty()) context.console.print(command.input + ": " + value.report);
   context.console.print(describe(value));
@@ -94,10 +94,10 @@ int unite_models(const UnionCommand& command, const CommandContext& context) {
   const double n = static_cast<double>(command.inputs.size());
   for (const std::string& name : command.inputs) {
     const double i = static_cast<double>(models.size());
-    models.push_back(
-        std::make_shared<const ModelValue>(read_model(input_of(name), reading, context.run.part("read", k_read_end * i / n, k_read_end * (i + 1) / n))));
+    models.push_back(std::make_shared<const ModelValue>(
+        read_model(input_of(name), reading, context.run.part("read", k_model_read_end * i / n, k_model_read_end * (i + 1) / n))));
   }
-  ModelValue united = unite_solids(models, options, context.run.part("union", k_read_end, 0.95));
+  ModelValue united = unite_solids(models, options, context.run.part("union", k_model_read_end, 0.95));
   united.description.reset();  // the file has the union, not what went into it
   write_model(united, command.output, {}, context.run.part("write", 0.95, 1.0));
   context.console.end_progress();
@@ -117,8 +117,8 @@ int convert_model(const ConvertCommand& command, const CommandContext& context) 
   for (Option& option : sterna::options_of(writing)) table.push_back(std::move(option));
   set_options(table, command.options, context);
   if (!is_model_output(command.output)) require_model_output({}, command.output);  // before the input is read
-  const ModelValue value = read_model(input_of(command.input), reading, context.run.part("read", 0.0, k_read_end));
-  write_model(value, command.output, writing, context.run.part("write", k_read_end, 1.0));
+  const ModelValue value = read_model(input_of(command.input), reading, context.run.part("read", 0.0, k_model_read_end));
+  write_model(value, command.output, writing, context.run.part("write", k_model_read_end, 1.0));
   context.console.end_progress();
   context.run.info("wrote " + command.output.string() + ": " + describe(value));
   return k_exit_success;

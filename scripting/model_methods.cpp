@@ -350,7 +350,7 @@ std::string deform_help() {
   return "of a function:\n" + options_help(sterna::options_of(function)) + "of displacements at points:\n" + options_help(sterna::options_of(radial));
 }
 template <class Options>
-std::string help_of() {
+std::string model_help_of() {
   Options options;
   return options_help(sterna::options_of(options));
 }
@@ -395,7 +395,7 @@ constexpr std::array<ScriptVerb, 11> k_methods = {{
      "self"},
     {"model:move", k_move_usage, "The model moved, metres.", move_model, nullptr, true, "model"},
     {"model:rotate", k_rotate_usage, "The model turned: x points aft, y to starboard, z up.", rotate_model, rotate_help, true, "model"},
-    {"model:scale", k_scale_usage, "The model larger or smaller.", scale_model, help_of<ScaleOptions>, true, "model"},
+    {"model:scale", k_scale_usage, "The model larger or smaller.", scale_model, model_help_of<ScaleOptions>, true, "model"},
     {"model:mirror", k_mirror_usage, "The mirror image, in the plane y = 0 unless said otherwise; left and right change in names.", mirror_model, nullptr, true,
      "model"},
     {"model:deform", k_deform_usage, "The model deformed, without refit: by a function that gives displacements, or by displacements at points.", deform_model,
@@ -439,7 +439,7 @@ Transform read_turn(const ScriptCall& call, std::string_view usage) {
   return axis ? rotation(about, *axis, options.angle) : attitude(about, options.roll, options.pitch, options.yaw);
 }
 
-std::string rotate_help() { return help_of<RotateOptions>(); }
+std::string rotate_help() { return model_help_of<RotateOptions>(); }
 
 const ScriptVerb k_model_field = {"model", "", "", model_field};
 

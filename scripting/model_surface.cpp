@@ -115,7 +115,7 @@ namespace {
 /// Open edges and absorbed parts in the log; the report has all.
 constexpr std::size_t k_listed = 10;
 // Shares of mesh_model_files's progress.
-constexpr double k_read_end = 0.3;
+constexpr double k_model_file_end = 0.3;
 constexpr double k_unite_end = 0.5;
 
 bool is_description(const std::filesystem::path& path) { return path.extension() == ".smx" || path.extension() == ".xml"; }
@@ -305,11 +305,11 @@ SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOpt
   const double n = static_cast<double>(files.size());
   for (const InputPath& file : files) {
     const double i = static_cast<double>(models.size());
-    auto model = std::make_shared<ModelValue>(read_model(file, reading, context.part("read", k_read_end * i / n, k_read_end * (i + 1) / n)));
+    auto model = std::make_shared<ModelValue>(read_model(file, reading, context.part("read", k_model_file_end * i / n, k_model_file_end * (i + 1) / n)));
     if (is_description(file.path) && model->model.solids.size() > 1) {
       const std::optional<Aircraft> description = model->description;  // a union has none
       const std::optional<ContentKey> of_file = model->provenance.key();
-      *model = unite_solids({std::make_shared<const ModelValue>(std::move(*model))}, {}, context.part("union", k_read_end, k_unite_end));
+      *model = unite_solids({std::make_shared<const ModelValue>(std::move(*model))}, {}, context.part("union", k_model_file_end, k_unite_end));
       model->provenance = KeyMaker("united").add(*of_file).key();
       if (description) put_first(rules_of(*description, model->model), with_files);
     }

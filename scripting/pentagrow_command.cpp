@@ -24,7 +24,7 @@ namespace sterna::scripting {
 namespace {
 
 // Shares of progress, as of `sterna mesh`.
-constexpr double k_read_end = 0.05, k_mesh_end = 0.9;
+constexpr double k_pentagrow_read_end = 0.05, k_pentagrow_mesh_end = 0.9;
 constexpr std::size_t k_skew_classes = 15;
 constexpr double k_class_degrees = 90.0 / k_skew_classes;
 
@@ -113,11 +113,11 @@ int execute(const PentagrowCommand& command, const CommandContext& context) {
   PentagrowCase given = read_pentagrow_config(command.config.empty() ? std::string() : contents_of(command.config), command.config);
   for (const std::string& note : given.notes) context.run.warn(note);
   for (const auto& output : given.outputs) require_mesh_output(output);
-  const SurfaceValue wall = read_surface(command, given, context.run.part("surface", 0.0, k_read_end));
+  const SurfaceValue wall = read_surface(command, given, context.run.part("surface", 0.0, k_pentagrow_read_end));
   for (const volmesh::SizeSource& source : nearfield_sources(given, wall.mesh)) given.options.sources.push_back(source);
 
-  const MeshValue mesh = make_volume_mesh(wall, given.options, {}, context.run.part("volume_mesh", k_read_end, k_mesh_end));
-  const RunContext write_part = context.run.part("write", k_mesh_end, 1.0);
+  const MeshValue mesh = make_volume_mesh(wall, given.options, {}, context.run.part("volume_mesh", k_pentagrow_read_end, k_pentagrow_mesh_end));
+  const RunContext write_part = context.run.part("write", k_pentagrow_mesh_end, 1.0);
   for (const auto& output : given.outputs) write_mesh(mesh, output, write_part);
   io::write_surface_file(envelope_of(mesh.mesh), "outermost.vtu", write_part);
   io::write_surface_file(tetrahedra_boundary(mesh.mesh), "boundaries.smesh", write_part);

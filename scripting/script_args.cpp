@@ -13,7 +13,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::string_view k_usage = "local p = args{ alpha = 0, half = false, name = \"polar\" }";
+constexpr std::string_view k_script_args_usage = "local p = args{ alpha = 0, half = false, name = \"polar\" }";
 
 bool is_name(std::string_view text) {
   return !text.empty() && !std::isdigit(static_cast<unsigned char>(text.front())) &&
@@ -66,7 +66,7 @@ const std::string* given(const ScriptCall& call, std::string_view name) {
 ScriptValue declare(const ScriptCall& of_table) {
   ScriptCall call = of_table;
   call.arguments.erase(call.arguments.begin());  // the table that was called
-  const ScriptTable table = table_argument(call, 0, k_usage);
+  const ScriptTable table = table_argument(call, 0, k_script_args_usage);
   TableReader reader(table, call.attempted());
   ScriptTable result;
   std::vector<std::string> known;
@@ -101,7 +101,7 @@ ScriptValue declare(const ScriptCall& of_table) {
 /// args.alpha
 ScriptValue read_argument(const ScriptCall& call) {
   const auto* name = call.arguments.size() < 2 ? nullptr : std::get_if<std::string>(&call.arguments[1]);
-  if (!name) reject(call, "arguments are named", std::string(k_usage));
+  if (!name) reject(call, "arguments are named", std::string(k_script_args_usage));
   if (const std::string* text = given(call, *name)) return value_of(*text);
   if (call.session.check) return std::int64_t{1};
   std::vector<std::string> known;
@@ -111,8 +111,8 @@ ScriptValue read_argument(const ScriptCall& call) {
          "sterna run " + call.session.script.filename().string() + " " + *name + "=VALUE, or a default in the script: args{ " + *name + " = 0 }." + *name);
 }
 
-constexpr std::array<ScriptVerb, 1> k_verbs = {{
-    {"args", k_usage,
+constexpr std::array<ScriptVerb, 1> k_script_args_verbs = {{
+    {"args", k_script_args_usage,
      "What the command line says, `sterna run case.lua alpha=4 height=2mm half=true`: names with their defaults, or as texts where they must be given; "
      "args.alpha reads one alone.",
      declare},
@@ -122,12 +122,12 @@ constexpr std::array<ScriptVerb, 1> k_verbs = {{
 
 const ScriptVerb k_argument_field = {"args", "", "", read_argument};
 
-std::span<const ScriptVerb> argument_verbs() { return k_verbs; }
+std::span<const ScriptVerb> argument_verbs() { return k_script_args_verbs; }
 
 const ScriptVerb& arguments_verb() {
   for (const ScriptVerb& verb : script_verbs())
-    if (verb.name == k_verbs.front().name) return verb;
-  return k_verbs.front();
+    if (verb.name == k_script_args_verbs.front().name) return verb;
+  return k_script_args_verbs.front();
 }
 
 std::pair<std::string, std::string> split_argument(const std::string& text) {

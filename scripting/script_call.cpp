@@ -12,6 +12,7 @@
 #include "scripting/script_function.h"
 #include "scripting/script_objects.h"
 #include "scripting/script_sandbox.h"
+#include "scripting/script_unknowns.h"
 #include "scripting/script_verbs.h"
 
 namespace sterna::scripting {
@@ -45,6 +46,15 @@ int call_verb(lua_State* state);
 
 ScriptValue read_value(lua_State* state, int index, int depth);
 
+/// Whether a table stands for what a script that is only checked does not know (script_unknowns.h).
+bool is_unknown_table(lua_State* state, int index) {
+  if (!lua_getmetatable(state, index)) return false;
+  luaL_getmetatable(state, k_unknown_type);
+  const bool is_same = lua_rawequal(state, -1, -2) != 0;
+  lua_pop(state, 2);
+  return is_same;
+}
+
 const ScriptVerb* verb_of_table(lua_State* state, int index) {
   if (!lua_getmetatable(state, index)) return nullptr;
   lua_rawgetp(state, -1, &k_verb_tag);
@@ -67,7 +77,9 @@ std::shared_ptr<const ScriptTable> read_table(lua_State* state, int index, int d
   while (lua_next(state, index) != 0) {
     const int key = lua_gettop(state) - 1;
     if (lua_type(state, key) == LUA_TSTRING) {
-      table->fields.emplace(lua_tostring(state, key), read_value(state, key + 1, depth + 1));
+      ScriptValue value = read_value(state, key + 1, depth + 1);
+      if (is_unknown(value)) table->unknown_fields.emplace_back(lua_tostring(state, key));
+      else table->fields.emplace(lua_tostring(state, key), std::move(value));
     } else if (!lua_isinteger(state, key) || lua_tointeger(state, key) < 1 || static_cast<lua_Unsigned>(lua_tointeger(state, key)) > n) {
       table->other_keys.push_back(lua_isinteger(state, key) ? "[" + std::to_string(lua_tointeger(state, key)) + "]"
                                                             : "[" + std::string(lua_typename(state, lua_type(state, key))) + "]");
@@ -91,6 +103,7 @@ ScriptValue read_value(lua_State* state, int index, int depth) {
       return std::string(text, size);
     }
     case LUA_TTABLE:
+      if (is_unknown_table(state, index)) return OpaqueValue{k_unknown_value};
       if (const ScriptVerb* verb = verb_of_table(state, index)) return verb;
       return read_table(state, index, depth);
     case LUA_TUSERDATA:
@@ -143,17 +156,28 @@ bool is_protected(lua_State* state) {
 
 /// Of a script that is only checked: notes what is wrong and goes on with something that stands for the result, unless the script wants to know.
 bool goes_on(lua_State* state, const ScriptVerb& verb, const ScriptCall& call, ErrorHandle error) {
-  if (!call.session.check || verb.gives.empty() || error->code() == ErrorCode::cancelled || is_protected(state)) return false;
+  if (!call.session.check || error->code() == ErrorCode::cancelled || is_protected(state)) return false;
   call.session.check->problems.push_back(std::move(error));
-  call.session.value = stand_in(call, verb.gives);
+  call.session.value = verb.gives.empty() ? ScriptValue(OpaqueValue{k_unknown_value}) : stand_in(call, verb.gives);
   return true;
+}
+
+/// Whether the verb is asked about something that a script that is only checked does not know: then there is nothing to check.
+bool is_about_unknown(const ScriptCall& call) {
+  const auto has_unknown = [](const std::vector<ScriptValue>& values) { return std::ranges::any_of(values, is_unknown); };
+  if (has_unknown(call.arguments)) return true;
+  return std::ranges::any_of(call.arguments, [&](const ScriptValue& argument) {
+    const auto* table = std::get_if<TableHandle>(&argument);
+    return table && *table && has_unknown((*table)->items);
+  });
 }
 
 bool run_verb(lua_State* state, ScriptSession& session, const ScriptVerb& verb) noexcept {
   ScriptCall call{.session = session, .where = where_of(state), .verb = verb.name, .arguments = {}, .is_heavy = verb.is_heavy};
   try {
     for (int i = 1; i <= lua_gettop(state); ++i) call.arguments.push_back(read_value(state, i, 0));
-    session.value = with_provenance(cached_model(verb, call), call);
+    if (session.check && is_about_unknown(call)) session.value = verb.gives.empty() ? ScriptValue(OpaqueValue{k_unknown_value}) : stand_in(call, verb.gives);
+    else session.value = with_provenance(cached_model(verb, call), call);
     return true;
   } catch (const ChecksDone&) {
     session.value = stand_in(call, verb.gives);
@@ -201,6 +225,7 @@ void push_value(lua_State* state, const ScriptValue& value) {
   else if (const auto* text = std::get_if<std::string>(&value)) lua_pushlstring(state, text->data(), text->size());
   else if (const auto* table = std::get_if<std::shared_ptr<const ScriptTable>>(&value)) push_table(state, **table);
   else if (const ObjectKind* kind = kind_of(value)) push_object(state, value, kind->type);
+  else if (is_unknown(value)) push_unknown(state);
   else lua_pushnil(state);
 }
 

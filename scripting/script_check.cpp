@@ -112,9 +112,9 @@ ScriptValue stand_in(const ScriptCall& call, std::string_view gives) {
   if (object_kind(gives)) return kept(check, gives);
   if (gives == "inspection") return inspection_stand_in();
   if (gives != "stages" && gives != "table") return std::monostate{};
+  if (gives == "table") return OpaqueValue{k_unknown_value};  // its names follow from what was not made
   auto table = std::make_shared<ScriptTable>();
-  if (gives == "stages")
-    for (const char* kind : {"surface", "envelope", "tetrahedra", "mesh"}) table->fields[kind] = kept(check, kind);
+  for (const char* kind : {"surface", "envelope", "tetrahedra", "mesh"}) table->fields[kind] = kept(check, kind);
   return table;
 }
 

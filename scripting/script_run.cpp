@@ -36,7 +36,10 @@ void check_script(const ScriptSettings& settings, ScriptCheck& check, const RunC
     run_script(checking, context);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
-    check.problems.push_back(std::make_shared<const Error>(error));
+    ErrorInfo info = error.info();
+    if (error.code() == ErrorCode::script_failed)
+      info.hint += (info.hint.empty() ? "" : "; ") + std::string("what the script does after this line was not looked at");
+    check.problems.push_back(std::make_shared<const Error>(std::move(info)));
   }
 }
 

@@ -10,6 +10,7 @@
 #include "geom/base/error.h"
 #include "scripting/script_args.h"
 #include "scripting/script_sandbox.h"
+#include "scripting/script_unknowns.h"
 #include "scripting/script_verbs.h"
 
 namespace sterna::scripting {
@@ -91,6 +92,7 @@ void register_verbs(lua_State* state) {
 
 int open_state(lua_State* state) {
   open_sandbox(state);
+  if (session_of(state).check) open_unknowns(state);
   register_verbs(state);
   refuse_unknown_globals(state);
   watch_for_stop(state);

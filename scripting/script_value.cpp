@@ -29,4 +29,9 @@ std::string_view type_text(const ScriptValue& value) {
   return std::visit(Name{}, value);
 }
 
+bool is_unknown(const ScriptValue& value) {
+  const auto* opaque = std::get_if<OpaqueValue>(&value);
+  return opaque && opaque->type_name == k_unknown_value;
+}
+
 }  // namespace sterna::scripting

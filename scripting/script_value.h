@@ -35,6 +35,9 @@ struct ScriptVerb;  // script_call.h
 struct OpaqueValue {
   std::string_view type_name;
 };
+/// Of what a script that is only checked does not know: its type's name.
+inline constexpr std::string_view k_unknown_value = "something that is not made when a script is only checked";
+
 using ErrorHandle = std::shared_ptr<const Error>;
 using ScriptValue =
     std::variant<std::monostate, bool, std::int64_t, double, std::string, std::shared_ptr<const ScriptTable>, SurfaceHandle, EnvelopeHandle, TetrahedraHandle,
@@ -43,8 +46,12 @@ using ScriptValue =
 struct ScriptTable {
   std::vector<ScriptValue> items;             ///< entries 1, 2, ... n
   std::map<std::string, ScriptValue> fields;  ///< named entries, by name: Lua's own order differs between runs
+  std::vector<std::string> unknown_fields;    ///< names of entries whose values are not known (is_unknown); they are not among `fields`
   std::vector<std::string> other_keys;        ///< keys that are neither, e.g. "[true]"
 };
+
+/// Whether it is k_unknown_value.
+bool is_unknown(const ScriptValue& value);
 
 /// "a number", "a surface", "a table": the type for messages.
 std::string_view type_text(const ScriptValue& value);

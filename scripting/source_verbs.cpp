@@ -63,7 +63,7 @@ struct KindOfSource {
   std::string_view numbers;  ///< that the verb takes, separated by blanks
   std::string_view usage;
 };
-constexpr std::array<KindOfSource, 6> k_kinds = {{
+constexpr std::array<KindOfSource, 6> k_source_kinds = {{
     {SourceKind::point, "point", 1, " size ", "point{ {0, 0, 0}, size = 0.01 }"},
     {SourceKind::line, "line", 2, " size radius ", "line{ {0, 0, 0}, {8, 0, 0}, size = 0.02, radius = 0.5 }"},
     {SourceKind::box, "box", 2, " size ", "box{ {-1, -2, -1}, {9, 2, 3}, size = 0.05 }"},
@@ -135,14 +135,14 @@ SizeSource source_of(ScriptTable table, const KindOfSource& kind, const std::str
   return source;
 }
 
-ScriptTable table_of(const ScriptCall& call) {
+ScriptTable source_table(const ScriptCall& call) {
   if (call.arguments.size() == 1)
     if (const auto* table = std::get_if<TableHandle>(&call.arguments.front())) return **table;
   throw Error({.code = ErrorCode::bad_argument, .attempted = call.attempted(), .problem = "takes one table"});
 }
 
 ScriptValue make_source(const ScriptCall& call, const KindOfSource& kind) {
-  ScriptTable table = table_of(call);
+  ScriptTable table = source_table(call);
   const SizeSource source = source_of(table, kind, call.attempted());
   // Growth is known by volume_mesh only; all the rest can be told at this line.
   if (const std::string problem = problem_of(source, k_unbounded); !problem.empty())
@@ -152,8 +152,8 @@ ScriptValue make_source(const ScriptCall& call, const KindOfSource& kind) {
 }
 
 const KindOfSource* kind_named(std::string_view verb) {
-  const auto it = std::ranges::find(k_kinds, verb, &KindOfSource::verb);
-  return it == k_kinds.end() ? nullptr : &*it;
+  const auto it = std::ranges::find(k_source_kinds, verb, &KindOfSource::verb);
+  return it == k_source_kinds.end() ? nullptr : &*it;
 }
 
 ScriptValue make_source_of_verb(const ScriptCall& call) { return make_source(call, *kind_named(call.verb)); }
@@ -174,7 +174,7 @@ ScriptValue make_cylinder_or_source(const ScriptCall& call) {
 ScriptValue make_samples(const ScriptCall& call) {
   ScriptTable table;
   if (call.arguments.size() == 1 && std::holds_alternative<std::string>(call.arguments.front())) table.items.push_back(call.arguments.front());
-  else table = table_of(call);
+  else table = source_table(call);
   TableReader reader(table, call.attempted());
   const std::vector<ScriptValue>& items = reader.items();
   if (items.size() != 1 || !std::holds_alternative<std::string>(items.front())) reader.add_problem("expected one file name: " + std::string(k_samples_usage));
@@ -199,29 +199,29 @@ SizeSource read_samples(const ScriptTable& table, const ScriptCall& call) {
 template <std::size_t I>
 std::string numbers_help() {
   SourceNumbers numbers;
-  return options_help(options_of(numbers, k_kinds[I]));
+  return options_help(options_of(numbers, k_source_kinds[I]));
 }
 
-constexpr std::array<ScriptVerb, 6> k_verbs = {{
-    {"point", k_kinds[0].usage, "Short edges at a point, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<0>, false,
+constexpr std::array<ScriptVerb, 6> k_source_verbs = {{
+    {"point", k_source_kinds[0].usage, "Short edges at a point, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<0>, false,
      "source"},
-    {"line", k_kinds[1].usage, "Short edges within a distance of a line, for the sources of volume_mesh and surface_mesh.", make_source_of_verb,
+    {"line", k_source_kinds[1].usage, "Short edges within a distance of a line, for the sources of volume_mesh and surface_mesh.", make_source_of_verb,
      numbers_help<1>, false, "source"},
-    {"box", k_kinds[2].usage,
+    {"box", k_source_kinds[2].usage,
      "Short edges in an axis-parallel box, for the sources of volume_mesh and surface_mesh; with edge or sides a farfield; else a solid box.",
      make_box_or_source, numbers_help<2>, false, "model"},
-    {"cylinder", k_kinds[4].usage,
+    {"cylinder", k_source_kinds[4].usage,
      "Short edges in a cylinder, for the sources of volume_mesh and surface_mesh; with edge or sides a farfield; else a solid cylinder.",
      make_cylinder_or_source, numbers_help<4>, false, "model"},
-    {"wake", k_kinds[5].usage, "Short edges behind a trailing edge, for the sources of volume_mesh and surface_mesh.", make_source_of_verb, numbers_help<5>,
-     false, "source"},
+    {"wake", k_source_kinds[5].usage, "Short edges behind a trailing edge, for the sources of volume_mesh and surface_mesh.", make_source_of_verb,
+     numbers_help<5>, false, "source"},
     {"size_samples", k_samples_usage, "Wanted edge lengths at the points of a VTU file, for the sources of volume_mesh and surface_mesh.", make_samples,
      nullptr, false, "source"},
 }};
 
 }  // namespace
 
-std::span<const ScriptVerb> source_verbs() { return k_verbs; }
+std::span<const ScriptVerb> source_verbs() { return k_source_verbs; }
 
 SizeSource source_of_text(const std::string& text) {
   const std::string attempted = "source \"" + text + "\"";
@@ -231,7 +231,7 @@ SizeSource source_of_text(const std::string& text) {
   const KindOfSource* kind = kind_named(verb);
   if (kind == nullptr) {
     std::string names;
-    for (const KindOfSource& known : k_kinds) names += (names.empty() ? "" : ", ") + std::string(known.verb);
+    for (const KindOfSource& known : k_source_kinds) names += (names.empty() ? "" : ", ") + std::string(known.verb);
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = attempted,
                  .problem = "\"" + verb + "\" is no source",
@@ -267,11 +267,12 @@ ScriptValue make_sphere_source(const ScriptCall& call) { return make_source(call
 
 std::vector<SizeSource> read_sources(TableReader& reader, const ScriptCall& call) {
   std::vector<SizeSource> sources;
-  for (const ShapeEntry& entry : read_shapes(reader, "sources", k_kinds[2].usage)) {
+  for (const ShapeEntry& entry : read_shapes(reader, "sources", k_source_kinds[2].usage)) {
     const KindOfSource* kind = entry.shape.empty() ? nullptr : kind_named(entry.shape);
     if (entry.shape == "size_samples") sources.push_back(read_samples(*entry.table, call));
     else if (kind && entry.table->fields.contains("size")) sources.push_back(source_of(*entry.table, *kind, call.attempted() + ", " + entry.where));
-    else reader.add_problem(entry.where + ": expected a source such as " + std::string(k_kinds[2].usage) + ", not " + std::string(type_text(entry.value)));
+    else
+      reader.add_problem(entry.where + ": expected a source such as " + std::string(k_source_kinds[2].usage) + ", not " + std::string(type_text(entry.value)));
   }
   return sources;
 }

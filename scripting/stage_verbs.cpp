@@ -188,7 +188,7 @@ std::string help_of() {
   return options_help(Options(options));
 }
 
-constexpr std::array<ScriptVerb, 4> k_verbs = {{
+constexpr std::array<ScriptVerb, 4> k_stage_verbs = {{
     {"make_envelope", k_envelope_usage, "The first step of volume_mesh by hand: the envelope of the layer.", make_envelope_verb, envelope_help, true,
      "envelope"},
     {"tetrahedra", k_tetrahedra_usage, "The second: the layer under an envelope, and tetrahedra around it to the farfield.", make_tetrahedra_verb,
@@ -211,7 +211,7 @@ constexpr std::array<ScriptVerb, 1> k_tetrahedra_methods = {{
 const ScriptVerb k_envelope_field = {"envelope", "", "", envelope_field};
 const ScriptVerb k_tetrahedra_field = {"tetrahedra", "", "", tetrahedra_field};
 
-std::span<const ScriptVerb> stage_verbs() { return k_verbs; }
+std::span<const ScriptVerb> stage_verbs() { return k_stage_verbs; }
 std::span<const ScriptVerb> envelope_methods() { return k_envelope_methods; }
 std::span<const ScriptVerb> tetrahedra_methods() { return k_tetrahedra_methods; }
 

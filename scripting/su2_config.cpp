@@ -12,6 +12,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
+#include "geom/math/constants.h"
 #include "io/patch_names.h"
 #include "volmesh/flow/standard_atmosphere.h"
 
@@ -20,7 +21,6 @@ namespace {
 
 using volmesh::FlowState;
 
-constexpr double k_degrees = 180.0 / std::numbers::pi;
 constexpr double k_flat = 1e-9;  ///< rad: smaller angles are zero
 
 struct PatchFacts {

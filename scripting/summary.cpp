@@ -8,12 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "geom/math/constants.h"
 #include "scripting/layer_json.h"
 
 namespace sterna::scripting {
 namespace {
 
-constexpr double k_degrees = 180.0 / std::numbers::pi;
 constexpr double k_bytes_per_mb = 1e6;
 constexpr std::size_t k_listed_places = 10;   ///< collapsed vertices in the summary; the manifest has all
 constexpr std::size_t k_listed_patches = 10;  ///< patches in the summary, worst covered first

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "geom/base/error.h"
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "io/atomic_file.h"
 #include "io/input_hash.h"
@@ -19,7 +20,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* k_schema = "sterna-surface-1";
-constexpr double k_degrees = 180.0 / std::numbers::pi;
 
 std::filesystem::path manifest_of(const std::filesystem::path& file) { return file.string() + ".json"; }
 

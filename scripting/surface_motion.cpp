@@ -14,10 +14,10 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::string_view k_move_usage = "wall:move{ 0, 0, 1.5 }";
-constexpr std::string_view k_rotate_usage =
+constexpr std::string_view k_surface_move_usage = "wall:move{ 0, 0, 1.5 }";
+constexpr std::string_view k_surface_rotate_usage =
     "wall:rotate{ about = {1.2, 0, 0}, pitch = 4*deg, yaw = 2*deg }  or  wall:rotate{ axis = {0, 0, 1}, angle = 30*deg }";
-constexpr std::size_t k_listed = 5;         ///< places that an error names
+constexpr std::size_t k_listed_places = 5;  ///< places that an error names
 constexpr std::size_t k_most_pairs = 1000;  ///< crossings looked at
 
 /// The surface as placed parts: itself where it has none.
@@ -36,7 +36,7 @@ void require_apart(const TriMesh& mesh, const RunContext& context) {
                  .problem = std::to_string(found.total) + " pairs of their triangles cross",
                  .hint = "union{ ... } unites surfaces that stick in each other"};
   info.n_places = found.total;
-  for (std::size_t i = 0; i < std::min(k_listed, found.pairs.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(k_listed_places, found.pairs.size()); ++i) {
     const TriangleId a(found.pairs[i][0]), b(found.pairs[i][1]);
     const auto p = corners(mesh, a);
     info.places.push_back(
@@ -46,15 +46,15 @@ void require_apart(const TriMesh& mesh, const RunContext& context) {
 }
 
 ScriptValue move_surface(const ScriptCall& call) {
-  return std::make_shared<const SurfaceValue>(moved_surface(*self<SurfaceHandle>(call), read_shift(call, k_move_usage)));
+  return std::make_shared<const SurfaceValue>(moved_surface(*self<SurfaceHandle>(call), read_shift(call, k_surface_move_usage)));
 }
 ScriptValue rotate_surface(const ScriptCall& call) {
-  return std::make_shared<const SurfaceValue>(moved_surface(*self<SurfaceHandle>(call), read_turn(call, k_rotate_usage)));
+  return std::make_shared<const SurfaceValue>(moved_surface(*self<SurfaceHandle>(call), read_turn(call, k_surface_rotate_usage)));
 }
 
 constexpr std::array<ScriptVerb, 2> k_motions = {{
-    {"surface:move", k_move_usage, "The surface moved, metres.", move_surface, nullptr, true, "surface"},
-    {"surface:rotate", k_rotate_usage, "The surface turned: x points aft, y to starboard, z up.", rotate_surface, rotate_help, true, "surface"},
+    {"surface:move", k_surface_move_usage, "The surface moved, metres.", move_surface, nullptr, true, "surface"},
+    {"surface:rotate", k_surface_rotate_usage, "The surface turned: x points aft, y to starboard, z up.", rotate_surface, rotate_help, true, "surface"},
 }};
 
 }  // namespace

@@ -90,13 +90,13 @@ std::string surface_mesh_help() {
          "sources = { line{ {0,0,0}, {8,0,0}, size = 0.02 }, ... }: shorter edges there. size = function(x, y, z) return 0.1 end: edges at most that long\n";
 }
 
-constexpr std::array<ScriptVerb, 1> k_verbs = {{
+constexpr std::array<ScriptVerb, 1> k_surface_verbs = {{
     {"surface_mesh", k_surface_mesh_usage, "Triangles on the faces of models, closed where the models are: the wall that volume_mesh takes.", make_surface_mesh,
      surface_mesh_help, true, "surface"},
 }};
 
 }  // namespace
 
-std::span<const ScriptVerb> surface_verbs() { return k_verbs; }
+std::span<const ScriptVerb> surface_verbs() { return k_surface_verbs; }
 
 }  // namespace sterna::scripting

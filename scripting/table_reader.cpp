@@ -27,6 +27,8 @@ std::string short_name(const Option& option) {
   return name.starts_with(prefix) ? name.substr(prefix.size()) : name;
 }
 
+bool contains(const std::vector<std::string>& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
+
 }  // namespace
 
 TableReader::TableReader(const ScriptTable& table, std::string attempted) : table_(table), attempted_(std::move(attempted)) {}
@@ -121,7 +123,8 @@ const ScriptValue* TableReader::field(const std::string& name) {
 void TableReader::require(const OptionTable& options) {
   OptionTable not_given;
   for (const Option& option : options)
-    if (!given_.contains(std::string(option.stage) + "." + std::string(option.name))) not_given.push_back(option);
+    if (!given_.contains(std::string(option.stage) + "." + std::string(option.name)) && !contains(table_.unknown_fields, option.name))
+      not_given.push_back(option);
   try {
     require_options(not_given, attempted_);
   } catch (const Error& error) {
@@ -140,6 +143,8 @@ void TableReader::add_unknown(const std::string& key, const std::vector<std::str
 void TableReader::finish() {
   for (const auto& [key, value] : table_.fields)
     if (!asked_.contains(key)) add_unknown(key, known_);
+  for (const std::string& key : table_.unknown_fields)
+    if (!contains(known_, key)) add_unknown(key, known_);
   if (!are_items_asked_ && !table_.items.empty()) add_problem("entry 1: every entry of this table needs a name");
   for (const std::string& key : table_.other_keys) add_problem("key " + key + ": keys are names");
   if (problems_.empty() && ends_with_checks_) throw ChecksDone{};

@@ -273,7 +273,7 @@ std::string assembly_help() {
   return options_help(sterna::options_of(options));
 }
 
-constexpr std::array<ScriptVerb, 2> k_verbs = {{
+constexpr std::array<ScriptVerb, 2> k_tunnel_verbs = {{
     {"test_section", k_test_section_usage,
      "Wind tunnel around the x axis, rectangular or round, or a solid of yours: surface_mesh{ model, tunnel } makes the fluid between the two.",
      make_test_section_verb, test_section_help, true, "model"},
@@ -283,6 +283,6 @@ constexpr std::array<ScriptVerb, 2> k_verbs = {{
 
 }  // namespace
 
-std::span<const ScriptVerb> tunnel_verbs() { return k_verbs; }
+std::span<const ScriptVerb> tunnel_verbs() { return k_tunnel_verbs; }
 
 }  // namespace sterna::scripting

@@ -25,7 +25,7 @@ namespace sterna::scripting {
 namespace {
 
 // Shares of read_wall's progress; reading is bound by the disk, stitching by the intersection test.
-constexpr double k_read_end = 0.3;
+constexpr double k_wall_read_end = 0.3;
 /// Of unite_surfaces; cutting and remeshing take most of its time.
 constexpr double k_union_read_end = 0.2;
 
@@ -73,8 +73,8 @@ SurfaceValue join_wall(const WallFiles& files, const RunContext& context) {
 }
 
 SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context) {
-  const WallFiles read = read_wall_files(files, options, context.part("read", 0.0, k_read_end));
-  SurfaceValue wall = join_wall(read, context.part("stitch", k_read_end, 1.0));
+  const WallFiles read = read_wall_files(files, options, context.part("read", 0.0, k_wall_read_end));
+  SurfaceValue wall = join_wall(read, context.part("stitch", k_wall_read_end, 1.0));
   // The unit is never silent: a factor of 1000 looks fine until the solver runs.
   context.info(describe(wall) + fmt::format(" (1 unit of the file = {:g} m)", options.unit));
   return wall;

@@ -113,7 +113,7 @@ class SceneBuilder {
     const std::optional<Vec3> given = view_of(options_.view);
     const Vec3 iso = *view_of("iso");
     scene_.toward = given.value_or(iso);
-    if (!given && !plane_) look_from_inside();
+    if (scene_.toward == iso && !plane_) look_from_inside();  // who names a side or a direction has said from where
     if (given || !plane_) return;
     const double side = camera_towards(plane_->normal).right.x;
     const bool is_turned = std::abs(side) > 1e-6 ? side < 0.0 : plane_->normal.x > 0.0 || plane_->normal.z < 0.0;

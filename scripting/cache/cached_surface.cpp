@@ -14,7 +14,7 @@ namespace sterna::scripting {
 namespace {
 
 constexpr const char* k_stage = "surface_mesh";
-constexpr std::size_t k_listed_names = 4;
+constexpr std::size_t k_listed_parts = 4;
 
 /// Of all that the surface is made from; nothing where a model does not say what it was made of.
 std::optional<ContentKey> key_of(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, bool has_function, const RunContext& context) {
@@ -78,8 +78,8 @@ std::string names_of(const std::vector<ModelHandle>& models) {
   std::size_t n = 0;
   for (const ModelHandle& model : models)
     for (const Component& component : model->model.components)
-      if (++n <= k_listed_names) text += (text.empty() ? "of " : ", ") + component.name;
-  return n <= k_listed_names ? text : text + " and " + std::to_string(n - k_listed_names) + " more";
+      if (++n <= k_listed_parts) text += (text.empty() ? "of " : ", ") + component.name;
+  return n <= k_listed_parts ? text : text + " and " + std::to_string(n - k_listed_parts) + " more";
 }
 
 PartMesher cached_part_mesher(const Reuse& reuse) {

@@ -18,12 +18,12 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr mode_t k_new_file_mode = 0666;  ///< the umask takes its part
+constexpr mode_t k_lock_file_mode = 0666;  ///< the umask takes its part
 /// Workers end within a second of their parent's death.
-constexpr std::chrono::milliseconds k_patience{5000}, k_pause{20};
+constexpr std::chrono::milliseconds k_patience{5000}, k_lock_pause{20};
 constexpr int k_least_descriptor = 10;  ///< above those that a worker is given
 
-std::string host_name() {
+std::string locking_host() {
   std::array<char, 256> name{};
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
@@ -32,7 +32,7 @@ std::string host_name() {
 struct Holder {
   long pid = 0;
   std::string host;
-  bool is_dead() const { return host == host_name() && pid > 0 && kill(static_cast<pid_t>(pid), 0) != 0 && errno == ESRCH; }
+  bool is_dead() const { return host == locking_host() && pid > 0 && kill(static_cast<pid_t>(pid), 0) != 0 && errno == ESRCH; }
 };
 
 Holder holder_of(const std::filesystem::path& file) {
@@ -53,7 +53,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const RunContext& co
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure) fail(failure.message());
-  const int opened = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, k_new_file_mode);
+  const int opened = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, k_lock_file_mode);
   if (opened < 0) fail(std::strerror(errno));
   descriptor_ = fcntl(opened, F_DUPFD_CLOEXEC, k_least_descriptor);
   close(opened);
@@ -64,10 +64,10 @@ FolderLock::FolderLock(const std::filesystem::path& folder, const RunContext& co
     const Holder holder = holder_of(file);
     if (!holder.is_dead() || std::chrono::steady_clock::now() - begin > k_patience)
       fail("another run is at work in it: process " + std::to_string(holder.pid) + " on " + holder.host, "wait for its end, or give this series another name");
-    std::this_thread::sleep_for(k_pause);
+    std::this_thread::sleep_for(k_lock_pause);
     context.check_stop();
   }
-  const std::string text = std::to_string(getpid()) + " " + host_name() + "\n";
+  const std::string text = std::to_string(getpid()) + " " + locking_host() + "\n";
   if (ftruncate(descriptor_, 0) != 0 || pwrite(descriptor_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) fail(std::strerror(errno));
 }
 

@@ -41,19 +41,14 @@ std::vector<std::string> parameter_names(const SeriesPlan& plan) {
   return {names.begin(), names.end()};
 }
 
-/// Worst values and shares that a case's quality.json has, and the state of its gates: the worst of those of one gate.
+/// Worst values and shares that a case's quality.json has, and the state of its gates.
 void add_quality(const fs::path& folder, Json& entry) {
   const Json check = Json::parse(bytes_of(folder / "quality.json"), nullptr, false);
   if (!check.is_object() || !check.contains("measures")) return;
-  const std::map<std::string, int> ranks = {{"pass", 0}, {"warn", 1}, {"fail", 2}};
-  for (const Json& measure : check["measures"]) {
-    const std::string state = measure.value("state", "");
-    if (!ranks.contains(state)) continue;
-    const std::string gate = measure.value("gate", "");
-    Json& known = entry["gates"][gate];
-    if (known.is_null() || ranks.at(known.get<std::string>()) < ranks.at(state)) known = state;
-    entry["figures"][measure.value("measure", "")] = measure["worst"];
-  }
+  for (const auto& [gate, state] : gate_states(folder)) entry["gates"][gate] = state;
+  for (const Json& measure : check["measures"])
+    if (entry["gates"].contains(measure.value("gate", "")) && measure.value("state", "") != "not checked" && measure.value("state", "") != "report")
+      entry["figures"][measure.value("measure", "")] = measure["worst"];
   for (const char* part : {"prisms", "tetrahedra"})
     if (check.contains("cells")) entry["figures"][part] = check["cells"].value(part, Json(nullptr));
   if (check.contains("nodes")) entry["figures"]["nodes"] = check["nodes"];
@@ -88,7 +83,9 @@ Json case_json(const SeriesPlan& plan, const CaseResult& result, const std::vect
   entry["parameters"] = Json::object();
   const Json given = Json::parse(to_json(std::make_shared<const ScriptTable>(result.of->parameters)));
   for (const std::string& name : parameters) entry["parameters"][name] = given.contains(name) ? given[name] : Json(nullptr);
-  entry["figures"] = {{"cells", status.mesh.cells}, {"seconds", result.seconds}};
+  // What a case without a mesh does not have is a gap, not a nought.
+  entry["figures"] = {{"cells", status.mesh.verdict.empty() ? Json(nullptr) : Json(status.mesh.cells)},
+                      {"seconds", result.seconds > 0.0 ? Json(result.seconds) : Json(nullptr)}};
   entry["gates"] = Json::object();
   if (status.state == CaseState::done) add_quality(folder, entry);
   entry["reused"] = result.reused;

@@ -88,6 +88,17 @@ std::string csv_text(const std::string& text) {
   return quoted + "\"";
 }
 
+/// The whole text in one line, without what every error of the series begins with.
+std::string error_text(const CaseStatus& status) {
+  if (status.state == CaseState::done) return {};
+  std::string text = status.message;
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos;) {
+    const std::size_t end = text.find_first_not_of(" \n\t", at);
+    text.replace(at, (end == std::string::npos ? text.size() : end) - at, end == std::string::npos ? "" : "; ");
+  }
+  return text;
+}
+
 std::string plain_text(const ScriptTable& parameters, const std::string& name) {
   const auto it = parameters.fields.find(name);
   if (it == parameters.fields.end()) return {};
@@ -103,6 +114,21 @@ void read_measure(const std::filesystem::path& folder, CaseResult& result) {
   if (!json.is_object()) return;  // killed before it was measured
   result.seconds = json.value("seconds", 0.0);
   result.reused = json.value("reused", std::vector<std::string>{});
+}
+
+std::map<std::string, std::string> gate_states(const std::filesystem::path& folder) {
+  std::ifstream file(folder / "quality.json", std::ios::binary);
+  const Json check = Json::parse(file, nullptr, false);
+  std::map<std::string, std::string> gates;
+  if (!check.is_object() || !check.contains("measures")) return gates;
+  const std::map<std::string, int> ranks = {{"pass", 0}, {"warn", 1}, {"fail", 2}};
+  for (const Json& measure : check["measures"]) {
+    const std::string state = measure.value("state", "");
+    if (!ranks.contains(state)) continue;
+    std::string& known = gates[measure.value("gate", "")];
+    if (known.empty() || ranks.at(known) < ranks.at(state)) known = state;
+  }
+  return gates;
 }
 
 std::string outcome_text(const CaseStatus& status) {
@@ -142,14 +168,28 @@ std::string table_csv(const SeriesPlan& plan, std::span<const CaseResult> result
       if (name != "name") parameters.insert(name);
   std::string text = "case";
   for (const std::string& name : parameters) text += "," + csv_text(name);
-  text += ",status,verdict,cells,quality,worst,seconds,reused,error\n";
+  std::map<std::string, std::map<std::string, std::string>> gates;  // by case, then by gate
+  std::set<std::string> gate_names;
+  for (const CaseResult& result : results) {
+    if (result.status.state != CaseState::done) continue;
+    gates[result.of->name] = gate_states(plan.folder_of(*result.of));
+    for (const auto& [gate, state] : gates[result.of->name]) gate_names.insert(gate);
+  }
+  text += ",status,verdict,cells,quality,worst";
+  for (const std::string& gate : gate_names) text += "," + csv_text(gate);
+  text += ",seconds,reused,error\n";
   for (const CaseResult& result : results) {
     const CaseStatus& status = result.status;
     text += csv_text(result.of->name);
     for (const std::string& name : parameters) text += "," + csv_text(plain_text(result.of->parameters, name));
     text += "," + std::string(to_string(status.state)) + "," + status.mesh.verdict + "," +
-            (status.mesh.verdict.empty() ? "" : std::to_string(status.mesh.cells)) + "," + csv_text(status.mesh.quality) + "," + csv_text(status.mesh.worst) +
-            "," + fmt::format("{:.3f}", result.seconds) + "," + csv_text(reused_of(result)) + "," + csv_text(first_line(status.message)) + "\n";
+            (status.mesh.verdict.empty() ? "" : std::to_string(status.mesh.cells)) + "," + csv_text(status.mesh.quality) + "," + csv_text(status.mesh.worst);
+    for (const std::string& gate : gate_names) {
+      const auto& of_case = gates[result.of->name];
+      const auto state = of_case.find(gate);
+      text += "," + (state == of_case.end() ? std::string() : csv_text(state->second));
+    }
+    text += "," + fmt::format("{:.3f}", result.seconds) + "," + csv_text(reused_of(result)) + "," + csv_text(error_text(status)) + "\n";
   }
   return text;
 }

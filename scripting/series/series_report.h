@@ -1,6 +1,7 @@
 // The end of a series: one table for people, spreadsheets and programs.
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,9 @@ struct CaseResult {
 
 /// What measure.json in its folder says; nothing where there is none.
 void read_measure(const std::filesystem::path& folder, CaseResult& result);
+
+/// The state of each gate that the case's quality.json has: "pass", "warn", "fail", the worst of its measures; nothing where there is no such file.
+std::map<std::string, std::string> gate_states(const std::filesystem::path& folder);
 
 /// "VALID, 383 760 cells, quality pass" or why there is none.
 std::string outcome_text(const CaseStatus& status);

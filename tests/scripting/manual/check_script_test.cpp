@@ -75,6 +75,45 @@ TEST_F(CheckScript, ACorrectScriptIsCorrectAndWritesNothing) {
   EXPECT_EQ(files, std::vector<std::string>{"case.lua"});
 }
 
+TEST_F(CheckScript, ShippedScriptsAreCorrect) {
+  std::size_t n_scripts = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() / "scripts")) {
+    if (entry.path().extension() != ".lua") continue;
+    ++n_scripts;
+    ScriptCheck check;
+    check_script({.script = entry.path(), .print = {}, .on_mesh = {}}, check, RunContext({.threads = 1}));
+    for (const ErrorHandle& problem : check.problems) ADD_FAILURE() << entry.path().filename() << ": " << problem->what();
+  }
+  EXPECT_GE(n_scripts, 10u);
+}
+
+TEST_F(CheckScript, WhatIsNotMadeTakesPartInEverythingAndDecidesNothing) {
+  EXPECT_THAT(
+      problems("local m = aircraft{ fuselage{ name = 'body', frames = { { x = 0, diameter = 0.4 }, { x = 4, diameter = 1.2 } } } }:measures()\n"
+               "assert(m.wings.wing.span > 3 and m.volume == 7)\n"
+               "print(string.format('%.2f m, %d', -m.wings.wing.span / 2 + 1, m.components.body.box[2][3]), 'area ' .. m.area, math.sqrt(m.area), #m.wings)\n"
+               "for name, part in pairs(m.components) do print(('%s %g'):format(name, part.area)) end\n"
+               "for i, corner in ipairs(m.components.body.box) do assert(corner[1] < i) end\n"
+               "local list = {} for _, p in pairs(m.wings) do table.insert(list, p.name) end print(table.concat(list, ', '))\n"
+               "local s = sphere{ radius = m.volume ^ (1/3) }\n"
+               "volume_mesh{ surface_mesh{ box{ {0,0,0}, {1,1,1} } }, first_height = m.volume * 1e-6, farfield = s }"),
+      testing::IsEmpty());
+}
+
+TEST_F(CheckScript, AMistakeInsideATableHidesNoneOutside) {
+  const auto found = problems("local w = surface_mesh{ box{ {0,0,0}, {1,1,1} } }\nvolume_mesh{ w, first_height = 1e-3, farfeild = sphere{ radus = 100 } }\n");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_THAT(found[0], testing::AllOf(HasSubstr("case.lua:2: sphere"), HasSubstr("\"radus\", did you mean \"radius\"?")));
+  EXPECT_THAT(found[1], testing::AllOf(HasSubstr("case.lua:2: volume_mesh"), HasSubstr("\"farfeild\", did you mean \"farfield\"?")));
+}
+
+TEST_F(CheckScript, AfterAnErrorOfLuaItSaysWhatWasNotLookedAt) {
+  const auto found = problems("local settings = {}\nprint(settings.wing.span)\nvolume_mesh{}\n");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0], testing::AllOf(HasSubstr("case.lua:2:"), HasSubstr("what the script does after this line was not looked at")));
+  EXPECT_THAT(problems("assert(1 == 2, 'as the user says')\n"), testing::ElementsAre(HasSubstr("as the user says")));  // nothing stands for anything here
+}
+
 TEST_F(CheckScript, AllMistakesOfAScriptAreFoundAtOnce) {
   const auto found = problems(
       "local wall = read_surface{ 'absent.stl' }\n"
