@@ -27,10 +27,13 @@ class TauReader {
     read_cells(CellKind::prism, mesh_.prisms);
     read_cells(CellKind::pyramid, mesh_.pyramids);
     read_cells(CellKind::hexahedron, mesh_.hexahedra);
+    n_cells_ = static_cast<std::uint64_t>(count_cells(mesh_).total());
     if (contents_ == Contents::boundary) mesh_.tetrahedra = {}, mesh_.prisms = {}, mesh_.pyramids = {}, mesh_.hexahedra = {};
     read_faces();
     return std::move(mesh_);
   }
+
+  std::uint64_t n_cells() const { return n_cells_; }  ///< in the file; \pre read()
 
  private:
   bool has(const std::string& variable) const { return image_.root().find(variable) != nullptr; }
@@ -139,26 +142,31 @@ class TauReader {
 
   const ContainerImage& image_;
   Contents contents_;
+  std::uint64_t n_cells_ = 0;
   std::map<std::int64_t, TauMarker> mapping_;
   const RunContext& context_;
   std::map<std::int64_t, PatchId> patches_;
   HybridMesh mesh_;
 };
 
-HybridMesh read(const std::filesystem::path& path, Contents contents, const RunContext& context) {
+FileBoundary read(const std::filesystem::path& path, Contents contents, const RunContext& context) {
   const ContainerImage image = read_container(path, ContainerFormat::netcdf, {}, context);
-  return TauReader(image, contents, read_bmap(path, context), context).read();
+  TauReader reader(image, contents, read_bmap(path, context), context);
+  FileBoundary result;
+  result.mesh = reader.read();
+  result.n_cells = reader.n_cells();
+  return result;
 }
 
 }  // namespace
 
 HybridMesh read_volume_tau(const std::filesystem::path& path, const RunContext& context) {
-  HybridMesh mesh = read(path, Contents::volume, context);
+  HybridMesh mesh = read(path, Contents::volume, context).mesh;
   context.progress(0.7);
   orient_mesh(mesh, context);
   return mesh;
 }
 
-HybridMesh read_boundary_tau(const std::filesystem::path& path, const RunContext& context) { return read(path, Contents::boundary, context); }
+FileBoundary read_boundary_tau(const std::filesystem::path& path, const RunContext& context) { return read(path, Contents::boundary, context); }
 
 }  // namespace sterna::io
