@@ -259,16 +259,14 @@ struct WayOut {
 std::optional<WayOut> way_out(const Skin& container, const Point& p) {
   if (is_inside(container, p)) return std::nullopt;
   const NearestHit hit = container.tree->nearest(p);
-  const double distance = norm(p - hit.point);
   const std::uint32_t t = hit.triangle.value();
-  const WayOut out{container.face_of[t], distance};
-  if (distance > container.deflection) return out;
-  const ModelFace& face = container.model->faces[out.face];
-  const std::optional<Vec3> normal = normal_at(container, t, hit.point);
-  if (!normal) return out;
-  const double above = dot(p - face.surface->derivatives(parameters(container, t, hit.point)).point, *normal);
-  if (above <= 0.0) return std::nullopt;
-  return WayOut{out.face, std::min(distance, above)};
+  const FaceId id = container.face_of[t];
+  const Vec3 out = p - container.model->faces[id].surface->derivatives(parameters(container, t, hit.point)).point;
+  if (norm(p - hit.point) <= container.deflection) {
+    const std::optional<Vec3> normal = normal_at(container, t, hit.point);
+    if (normal && dot(out, *normal) <= 0.0) return std::nullopt;
+  }
+  return WayOut{id, norm(out)};
 }
 
 /// Areas of a part by where they are.
