@@ -40,6 +40,7 @@ SurfaceSoup read_surface_fluent(const std::filesystem::path& path, const RunCont
   }
   SurfaceSoup soup = builder.finish(true);
   soup.has_names = true;
+  soup.n_cells = content.faces.n_cells;
   return soup;
 }
 

@@ -59,6 +59,8 @@ class MeditReader {
     check_nodes(hexahedra_, "hexahedron");
   }
 
+  std::uint64_t n_cells() const { return n_cells_; }  ///< in the file; \pre read()
+
   HybridMesh mesh(const std::map<std::int64_t, Patch>& names) {
     HybridMesh mesh;
     mesh.points.raw() = std::move(points_);
@@ -143,10 +145,10 @@ class MeditReader {
     if (is(k_medit_vertices)) read_vertices();
     else if (is(k_medit_triangles)) read_rows(triangles_, true);
     else if (is(k_medit_quads)) read_rows(quads_, true);
-    else if (is(k_medit_tetrahedra)) read_rows(tetrahedra_, with_cells_);
-    else if (is(k_medit_prisms)) read_rows(prisms_, with_cells_);
-    else if (is(k_medit_pyramids)) read_rows(pyramids_, with_cells_);
-    else if (is(k_medit_hexahedra)) read_rows(hexahedra_, with_cells_);
+    else if (is(k_medit_tetrahedra)) n_cells_ += read_rows(tetrahedra_, with_cells_);
+    else if (is(k_medit_prisms)) n_cells_ += read_rows(prisms_, with_cells_);
+    else if (is(k_medit_pyramids)) n_cells_ += read_rows(pyramids_, with_cells_);
+    else if (is(k_medit_hexahedra)) n_cells_ += read_rows(hexahedra_, with_cells_);
     else return false;
     return true;
   }
@@ -197,8 +199,9 @@ class MeditReader {
     has_vertices_ = true;
   }
 
+  /// \returns their number
   template <std::size_t N>
-  void read_rows(Table<N>& table, bool is_wanted) {
+  std::size_t read_rows(Table<N>& table, bool is_wanted) {
     const std::size_t n = count(0, N + 1);
     if (is_wanted) {
       table.rows.reserve(table.rows.size() + n);
@@ -215,6 +218,7 @@ class MeditReader {
       row.reference = integer("the reference of an element");
       if (is_wanted) table.rows.push_back(row);
     }
+    return n;
   }
 
   template <std::size_t N>
@@ -246,6 +250,7 @@ class MeditReader {
   std::optional<ByteReader> bytes_;  ///< of binary files
   std::int32_t version_ = 2;
   bool with_cells_;
+  std::uint64_t n_cells_ = 0;  ///< in the file
   const RunContext& context_;
   bool has_vertices_ = false;
   std::vector<Point> points_;
@@ -273,7 +278,7 @@ SurfaceSoup read_surface_medit(const std::filesystem::path& path, const RunConte
   MeditReader reader(buffer, false, context);
   reader.read();
   const std::map<std::int64_t, Patch> names = read_names(path, context);
-  SurfaceSoup soup = boundary_soup(reader.mesh(names), buffer.source);
+  SurfaceSoup soup = boundary_soup(FileBoundary{reader.mesh(names), reader.n_cells()}, buffer.source);
   soup.has_names = !names.empty() || soup.patch_names.size() > 1;
   return soup;
 }

@@ -36,6 +36,13 @@ SurfaceSoup boundary_soup(const HybridMesh& mesh, const std::string& source) {
   add(mesh.boundary_quads);
   SurfaceSoup soup = builder.finish(true);
   soup.has_names = !mesh.patches.empty();
+  soup.n_cells = static_cast<std::uint64_t>(count_cells(mesh).total());
+  return soup;
+}
+
+SurfaceSoup boundary_soup(const FileBoundary& boundary, const std::string& source) {
+  SurfaceSoup soup = boundary_soup(boundary.mesh, source);
+  soup.n_cells = boundary.n_cells;
   return soup;
 }
 

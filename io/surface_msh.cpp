@@ -23,12 +23,17 @@ class FaceSink final : public MshSink {
   void add_point(const Vec3& p) override { builder_.add_point(p); }
   void set_patch(std::string_view name) override { builder_.set_patch(name); }
   void add_face(std::span<const std::uint32_t> corners) override { builder_.add_polygon(corners); }
-  void add_cell(std::int64_t, std::span<const std::uint32_t>) override {}
-  void add_curved_cell() override {}
-  SurfaceSoup finish() { return builder_.finish(true); }
+  void add_cell(std::int64_t, std::span<const std::uint32_t>) override { ++n_cells_; }
+  void add_curved_cell() override { ++n_cells_; }
+  SurfaceSoup finish() {
+    SurfaceSoup soup = builder_.finish(true);
+    soup.n_cells = n_cells_;
+    return soup;
+  }
 
  private:
   SurfaceBuilder builder_;
+  std::uint64_t n_cells_ = 0;
 };
 
 // ---- writing

@@ -104,6 +104,7 @@ class BulkParser {
     if (n_volumes_ > 0 && faces_.empty())
       throw_malformed(buffer_.source, "line 1", "found a volume mesh without faces, expected CTRIA3 or CQUAD4 for its boundary");
     SurfaceSoup soup = builder_.finish(n_volumes_ > 0);
+    soup.n_cells = n_volumes_;
     soup.has_names = soup.patch_names.size() > 1 || !names_.empty();
     return soup;
   }

@@ -42,6 +42,7 @@ class Su2SurfaceReader {
     tell_what_was_left_out();
     SurfaceSoup soup = builder_.finish(true);
     soup.has_names = has_names;
+    soup.n_cells = n_cells_;
     return soup;
   }
 
@@ -207,6 +208,7 @@ class Su2SurfaceReader {
     if (are_elements_the_surface && n_cells > 0)
       throw_malformed(source_, "line " + std::to_string(zone.elements->line),
                       "found a volume mesh without faces in markers, expected its boundary faces behind NMARK=");
+    n_cells_ += n_cells;
     if (!are_elements_the_surface && n_faces > 0)
       context_.warn(source_ + ": " + std::to_string(n_faces) + " faces among the elements belong to no marker and are left out");
   }
@@ -221,7 +223,7 @@ class Su2SurfaceReader {
   std::size_t first_point_ = 0;  ///< of the zone that is read
   std::uint64_t n_points_ = 0;
   bool has_marked_faces_ = false;  ///< in the zone that is read
-  std::uint64_t n_lines_ = 0, n_partition_markers_ = 0;
+  std::uint64_t n_lines_ = 0, n_partition_markers_ = 0, n_cells_ = 0;
   std::string last_block_;
   bool is_in_unknown_section_ = false;
 };

@@ -69,6 +69,7 @@ SurfaceSoup read_ugrid(const std::filesystem::path& path, const RunContext& cont
   }
   SurfaceSoup soup = builder.finish(true);
   soup.has_names = true;
+  soup.n_cells = counts[3] + counts[4] + counts[5] + counts[6];
   return soup;
 }
 

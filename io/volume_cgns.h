@@ -5,6 +5,7 @@
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/hybrid_mesh.h"
+#include "io/surface_boundary.h"
 
 namespace sterna::io {
 
@@ -28,6 +29,6 @@ HybridMesh read_volume_cgns(const std::filesystem::path& path, const RunContext&
 
 /// The same for surfaces: as they are in the file, nothing turned; zones of a base of two dimensions too, structured ones as quads. Of structured volume zones
 /// the faces of the wall conditions.
-HybridMesh read_boundary_cgns(const std::filesystem::path& path, const RunContext& context);
+FileBoundary read_boundary_cgns(const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

@@ -66,6 +66,8 @@ class CgnsReader {
     return std::move(mesh_);
   }
 
+  std::uint64_t n_cells() const { return n_cells_; }  ///< in the file; \pre read()
+
  private:
   /// A surface is looked for in a base of two dimensions first, a volume in one of three; a file without such a base holds a surface alone, which is read as
   /// one.
@@ -123,7 +125,12 @@ class CgnsReader {
         sizes.fail("found a zone of " + std::to_string(shape_[k]) + " nodes along an index");
     }
     read_points(zone);
-    if (is_structured) return read_structured(zone, rank);
+    if (is_structured) {
+      if (rank == 3)
+        n_cells_ += static_cast<std::uint64_t>(std::max<std::int64_t>(shape_[0] - 1, 0) * std::max<std::int64_t>(shape_[1] - 1, 0) *
+                                               std::max<std::int64_t>(shape_[2] - 1, 0));
+      return read_structured(zone, rank);
+    }
     for (const CgnsNode& node : zone.children)
       if (node.label == "Elements_t") read_section(node);
     std::sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) { return std::pair(a.element, a.index) < std::pair(b.element, b.index); });
@@ -208,6 +215,7 @@ class CgnsReader {
   void add_cells(std::vector<std::array<NodeId, N>>& cells, const NumberArray& corners, std::int64_t start, std::int64_t n) {
     if (n == 0) return;
     last_cell_ = std::max(last_cell_, start + n - 1);
+    n_cells_ += static_cast<std::uint64_t>(n);
     std::vector<std::array<NodeId, N>> ignored;  // a surface needs to know that the nodes are sound, not the cells
     std::vector<std::array<NodeId, N>>& found = contents_ == Contents::volume ? cells : ignored;
     const std::size_t first = found.size();
@@ -282,6 +290,7 @@ class CgnsReader {
   template <std::size_t N>
   void add_cell(std::vector<std::array<NodeId, N>>& cells, const std::array<NodeId, N>& nodes, std::int64_t element) {
     last_cell_ = std::max(last_cell_, element);
+    ++n_cells_;
     if (contents_ == Contents::volume) cells.push_back(nodes);
   }
 
@@ -488,23 +497,28 @@ class CgnsReader {
   std::optional<PatchId> section_patch_;
 
   std::uint64_t n_left_out_ = 0, n_conditions_left_out_ = 0;
+  std::uint64_t n_cells_ = 0;  ///< in the file
 };
 
-HybridMesh read(const std::filesystem::path& path, Contents contents, const RunContext& context) {
+FileBoundary read(const std::filesystem::path& path, Contents contents, const RunContext& context) {
   const ContainerImage image = read_container(path, ContainerFormat::cgns, cgns_labels_beside_the_mesh(), context);
   const CgnsTree tree(image);
-  return CgnsReader(tree, contents, context).read();
+  CgnsReader reader(tree, contents, context);
+  FileBoundary result;
+  result.mesh = reader.read();
+  result.n_cells = reader.n_cells();
+  return result;
 }
 
 }  // namespace
 
 HybridMesh read_volume_cgns(const std::filesystem::path& path, const RunContext& context) {
-  HybridMesh mesh = read(path, Contents::volume, context);
+  HybridMesh mesh = read(path, Contents::volume, context).mesh;
   context.progress(0.7);
   orient_mesh(mesh, context);
   return mesh;
 }
 
-HybridMesh read_boundary_cgns(const std::filesystem::path& path, const RunContext& context) { return read(path, Contents::boundary, context); }
+FileBoundary read_boundary_cgns(const std::filesystem::path& path, const RunContext& context) { return read(path, Contents::boundary, context); }
 
 }  // namespace sterna::io

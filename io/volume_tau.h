@@ -5,6 +5,7 @@
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/hybrid_mesh.h"
+#include "io/surface_boundary.h"
 
 namespace sterna::io {
 
@@ -22,7 +23,7 @@ void write_volume_tau(const HybridMesh& mesh, const std::filesystem::path& path,
 /// log. \throws Error file_malformed (byte, variable or line), unsupported_format, file_not_found.
 HybridMesh read_volume_tau(const std::filesystem::path& path, const RunContext& context);
 
-/// The same without cells and with nothing turned.
-HybridMesh read_boundary_tau(const std::filesystem::path& path, const RunContext& context);
+/// The same without cells, which are counted, and with nothing turned.
+FileBoundary read_boundary_tau(const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

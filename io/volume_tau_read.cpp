@@ -21,16 +21,19 @@ class TauReader {
   TauReader(const ContainerImage& image, TauContents contents, std::map<std::int64_t, TauMarker> mapping, const RunContext& context)
       : image_(image), contents_(contents), mapping_(std::move(mapping)), context_(context) {}
 
-  HybridMesh read_grid() {
+  HybridMesh read() {
     read_points();
     read_cells(CellKind::tetrahedron, mesh_.tetrahedra);
     read_cells(CellKind::prism, mesh_.prisms);
     read_cells(CellKind::pyramid, mesh_.pyramids);
     read_cells(CellKind::hexahedron, mesh_.hexahedra);
+    n_cells_ = static_cast<std::uint64_t>(count_cells(mesh_).total());
     if (contents_ == TauContents::boundary) mesh_.tetrahedra = {}, mesh_.prisms = {}, mesh_.pyramids = {}, mesh_.hexahedra = {};
     read_faces();
     return std::move(mesh_);
   }
+
+  std::uint64_t n_cells() const { return n_cells_; }  ///< in the file; \pre read()
 
  private:
   bool has(const std::string& variable) const { return image_.root().find(variable) != nullptr; }
@@ -139,26 +142,31 @@ class TauReader {
 
   const ContainerImage& image_;
   TauContents contents_;
+  std::uint64_t n_cells_ = 0;
   std::map<std::int64_t, TauMarker> mapping_;
   const RunContext& context_;
   std::map<std::int64_t, PatchId> patches_;
   HybridMesh mesh_;
 };
 
-HybridMesh read_grid(const std::filesystem::path& path, TauContents contents, const RunContext& context) {
+FileBoundary read_grid(const std::filesystem::path& path, TauContents contents, const RunContext& context) {
   const ContainerImage image = read_container(path, ContainerFormat::netcdf, {}, context);
-  return TauReader(image, contents, read_bmap(path, context), context).read_grid();
+  TauReader reader(image, contents, read_bmap(path, context), context);
+  FileBoundary result;
+  result.mesh = reader.read();
+  result.n_cells = reader.n_cells();
+  return result;
 }
 
 }  // namespace
 
 HybridMesh read_volume_tau(const std::filesystem::path& path, const RunContext& context) {
-  HybridMesh mesh = read_grid(path, TauContents::volume, context);
+  HybridMesh mesh = read_grid(path, TauContents::volume, context).mesh;
   context.progress(0.7);
   orient_mesh(mesh, context);
   return mesh;
 }
 
-HybridMesh read_boundary_tau(const std::filesystem::path& path, const RunContext& context) { return read_grid(path, TauContents::boundary, context); }
+FileBoundary read_boundary_tau(const std::filesystem::path& path, const RunContext& context) { return read_grid(path, TauContents::boundary, context); }
 
 }  // namespace sterna::io

@@ -115,6 +115,7 @@ class FaceCollector {
     SurfaceSoup soup = builder_.finish(n_volumes_ > 0);
     soup.has_names = has_markers;
     soup.single_precision = grid_.single_precision;
+    soup.n_cells = n_volumes_;
     return soup;
   }
 

@@ -126,6 +126,7 @@ ModelValue assemble(const std::vector<ModelHandle>& models, const RunContext& co
     for (ModelPart& part : parts_of(*handle)) value.parts.push_back(std::move(part));
     value.sizes.insert(value.sizes.end(), handle->sizes.begin(), handle->sizes.end());
     value.layers.insert(value.layers.end(), handle->layers.begin(), handle->layers.end());
+    value.through.insert(value.through.end(), handle->through.begin(), handle->through.end());
     value.inputs.insert(value.inputs.end(), handle->inputs.begin(), handle->inputs.end());
   }
   return value;

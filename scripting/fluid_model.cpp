@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "geom/base/error.h"
+#include "geom/base/glob.h"
 #include "geom/cad/aircraft_union.h"
 #include "geom/cad/fluid.h"
 #include "geom/cad/refit.h"
@@ -215,7 +216,12 @@ ModelValue fluid_of(ModelValue all, const RunContext& context) {
                  .problem = fmt::format("there are {} tunnels", solids.containers.size()),
                  .hint = "one closed container holds the fluid"});
   if (solids.bodies.empty()) return all;
-  FluidDomain fluid = cad::fluid_domain(solids.containers.front(), solids.bodies, {}, context);
+  const auto may_pass = [&](const cad::Overhang& overhang) {
+    return overhang.kind == ComponentKind::sting || std::ranges::any_of(all.through, [&](const std::string& pattern) {
+             return matches_glob(overhang.component, pattern) || matches_glob(overhang.face, pattern);
+           });
+  };
+  FluidDomain fluid = cad::fluid_domain(solids.containers.front(), solids.bodies, {}, context, may_pass);
   std::string text = fmt::format("fluid: {:.6g} m^3 of {:.6g} m^3", fluid.report.volume, fluid.report.container_volume);
   if (!fluid.report.cut.empty())
     text += "; " + names_text(fluid.report.cut) + (fluid.report.cut.size() == 1 ? " passes" : " pass") + " through the tunnel's faces";

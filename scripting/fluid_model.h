@@ -17,6 +17,7 @@ bool has_container(const Model& model);
 ModelValue assemble_united(const std::vector<ModelHandle>& models, const RunContext& context);
 
 /// The fluid of a model with a tunnel: the tunnel less all other solids. Models without a tunnel, and tunnels alone, are returned as they are.
+/// Stings and what the tunnel lets through may reach out of it.
 /// \throws Error(bad_argument) for two tunnels; of cad::fluid_domain
 ModelValue fluid_of(ModelValue all, const RunContext& context);
 

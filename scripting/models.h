@@ -32,6 +32,7 @@ struct ModelValue {
       {};  ///< of its faces by name, as the verb that made it was told; count before the user's rules where a face has the name
   std::vector<volmesh::PatchRule> layers = {};  ///< of its patches, the same; volume_mesh takes them over
   std::vector<ModelPart> parts = {};            ///< of the model, in its order; empty: one part, in its place. Whoever gives the model other faces clears them
+  std::vector<std::string> through = {};        ///< of a tunnel: patterns of the names of components or faces that may pass through its walls
   Provenance provenance = {};                   ///< what it was made of, for caches
 };
 

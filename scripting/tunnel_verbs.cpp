@@ -173,6 +173,20 @@ void take_solid(const ModelHandle& solid, TableReader& reader, ModelValue& tunne
   }
 }
 
+/// through = "sting*" or { "sting*", "strut" }
+void read_through(TableReader& reader, ModelValue& tunnel) {
+  const ScriptValue* value = reader.field("through");
+  if (!value) return;
+  const auto* table = std::get_if<TableHandle>(value);
+  const std::vector<ScriptValue> names = table ? (*table)->items : std::vector<ScriptValue>{*value};
+  const bool are_texts = std::ranges::all_of(names, [](const ScriptValue& name) { return std::holds_alternative<std::string>(name); });
+  if (!are_texts || (table && !(*table)->fields.empty())) {
+    reader.add_problem("through: expected names of components or faces that pass through walls, or patterns of them: through = { \"sting*\", \"strut\" }");
+    return;
+  }
+  for (const ScriptValue& name : names) tunnel.through.push_back(std::get<std::string>(name));
+}
+
 ScriptValue make_test_section_verb(const ScriptCall& call) {
   const ScriptTable table = table_argument(call, 0, k_test_section_usage);
   TestSectionOptions options;
@@ -213,6 +227,7 @@ ScriptValue make_test_section_verb(const ScriptCall& call) {
         else read_patch(*value, side, {options.wall + "_" + side}, tunnel, reader);
       }
   read_patches(reader, tunnel);
+  read_through(reader, tunnel);
   reader.finish();
   return std::make_shared<const ModelValue>(std::move(tunnel));
 }
@@ -229,6 +244,9 @@ std::string test_section_help() {
          "or a table; patches = { [\"outlet*\"] = { ... } } of any patch:\n"
          "  kind: wall, slip, symmetry, inflow, outflow, farfield, interface\n" +
          options_help(patch_rule_options(sizes)) + options_help(layer_options) +
+         "through = \"strut*\" or { \"strut*\", \"wing\" }: components or faces, by name, that pass through the walls and are cut off there, as stings made "
+         "by\n"
+         "sting{} may; whatever else reaches out of the tunnel is an error\n"
          "test_section{ model, inflow = \"in*\", outflow = \"out*\", walls = ... }: a closed solid is the tunnel\n";
 }
 

@@ -38,6 +38,21 @@ void require_output(const std::filesystem::path& path, io::FormatUse use) {
   if (!format.require_output) io::AtomicFile probe(path);  // says why nothing can be written there; gone at once
 }
 
+/// A volume mesh that is taken for a wall is one of wall, planes and farfield: the aircraft becomes a cavity of a body as large as the domain.
+void require_surface(const SurfaceSoup& soup, const InputPath& file, const surfmesh::StitchOptions& options) {
+  if (soup.n_cells == 0 || options.take_boundary) return;
+  std::string names;
+  constexpr std::size_t k_named = 8;
+  for (std::size_t i = 0; i < soup.patch_names.size() && i < k_named; ++i) names += (i > 0 ? ", " : "") + soup.patch_names[i];
+  if (soup.patch_names.size() > k_named) names += ", ...";
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = "reading " + file.name + " as a surface",
+               .problem = fmt::format("it is a volume mesh of {} cells; its boundary ({}) is more than a wall",
+                                      count_text(static_cast<std::int64_t>(soup.n_cells)), names),
+               .hint = "the surface that it was made of is to be meshed. `sterna convert " + file.name +
+                       " boundary.stl --surface` writes its boundary; read_surface{ ..., take_boundary = true } or --take-boundary takes all of it"});
+}
+
 }  // namespace
 
 WallFiles read_wall_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context) {
@@ -47,6 +62,7 @@ WallFiles read_wall_files(std::span<const InputPath> files, const surfmesh::Stit
   const StageTimer timer(context, "read");
   for (const InputPath& file : files) {
     result.soups.push_back(io::read_surface_file(file.path, context));
+    require_surface(result.soups.back(), file, options);
     wall.inputs.push_back({file.name, io::hash_input(file.path)});
     const auto known = read_surface_manifest(file, wall.inputs.back().hash, context);
     if (!known || wall.inputs.size() == 1) wall.smooth_angle = known ? std::optional(known->smooth_angle) : std::nullopt;

@@ -8,6 +8,7 @@ local wall = read_surface{ "data/cessna.msh.gz",
   fluid = "automatic",               -- or outside, inside: of the outermost surface (a tunnel, a complete domain)
   allow_open = false,
   check_intersections = true,
+  take_boundary = false,            -- true: a volume mesh gives all of its boundary; else it is refused
 }
 
 -- Of one surface alone union only proves that it is a solid; here stand the parts that stick in each other: union{ wall, "sting.stl", unit = mm }.
@@ -115,7 +116,7 @@ local mesh = volume_mesh{ wall,
     repair_boundary = true,         -- when nothing of that helps: a lower, smoother layer around slivers, folds and gaps of its top, and all again
     fall_back_on_limits = false,    -- also after a time or memory limit; the manifest then says "not reproducible"
     memory_limit = 20e9,            -- bytes, of the helper process
-    time_limit = "automatic",       -- seconds; automatic: none
+    time_limit = "automatic",       -- seconds; automatic: in proportion to boundary and sizes
     helper_folder = "",             -- where sterna-tet-tetgen and sterna-tet-hxt are; empty: beside sterna
   },
   improve = {                         -- of tetrahedra with dihedral angles beyond these
@@ -284,6 +285,7 @@ local tunnel = test_section{ length = 60, width = 20, height = 15,
   upstream = "automatic",             -- automatic: half its length before x = 0
   contraction_length = 0, contraction_ratio = 1, diffuser_length = 0, diffuser_angle = 0,
   inflow = "inflow", outflow = "outflow", wall = "tunnel",
+  through = {},                       -- names of components or faces that may pass through its walls, as stings may: { "strut*" }
   position = { 0, 0, 0 },             -- where the model stands; a round section has a diameter in place of width and height
   max_edge = 2,                       -- of all patches; automatic: a twelfth of the shortest side
   walls = { kind = "wall", max_edge = 3, -- all walls: kind, sizes, and their own layer, which volume_mesh takes over

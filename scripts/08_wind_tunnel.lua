@@ -16,6 +16,7 @@ local model = read_cad "tunnel_model.step"
 local support = read_cad "tunnel_sting.step"
 local tunnel = test_section{ length = 5, width = 2.4, height = 1.8, upstream = 2, inflow = "inlet", outflow = "outlet",
   max_edge = 0.25,                                                  -- of all its patches
+  through = "sting",                                                -- may pass through walls; whatever else reaches out of the tunnel is an error
   walls = { layers = 20, first_height = 20e-6 } }                   -- or walls = "slip"; floor, ceiling, left, right = ... for single ones
 
 local mounted = assembly{ model, support }                          -- one closed surface, since they touch

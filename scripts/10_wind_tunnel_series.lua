@@ -14,7 +14,7 @@ local main_wing = wing{ name = "wing", symmetric = true, position = { 0.62, 0, -
 aircraft{ body, main_wing }:write("series_model.step")
 sting{ name = "sting", from = { 1.45, 0, 0 }, to = { 2.6, 0, 0 }, diameter = 0.07, cone_start = 0.5, end_diameter = 0.13 }:model():write("series_sting.step")
 
-local tunnel = test_section{ length = 6, width = 2.4, height = 1.8, upstream = 2, inflow = "inlet", outflow = "outlet",
+local tunnel = test_section{ length = 6, width = 2.4, height = 1.8, upstream = 2, through = "sting", inflow = "inlet", outflow = "outlet",
                              max_edge = 0.6, walls = { layers = 5, first_height = 100e-6 } }             -- or slip walls
 local model  = read_cad "series_model.step"
 local sting  = read_cad "series_sting.step"

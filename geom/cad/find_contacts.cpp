@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <numeric>
@@ -36,6 +37,8 @@ constexpr double k_turn = 0.5;
 constexpr double k_touch = 1e-6;
 /// Rounds of projecting to and fro that a distance is improved by; each halves the error at worst on surfaces that are not parallel.
 constexpr int k_rounds = 30;
+/// What reaches no farther out of a container, of the body's longest side, stands on its wall.
+constexpr double k_standing = 1e-4;
 /// Longest side of the pieces that are sampled, of the part's longest side.
 constexpr double k_sample = 1.0 / 48.0;
 /// Direction of the rays that tell inside from outside: along no axis or plane that aircraft are built with.
@@ -246,6 +249,26 @@ bool is_inside(const Skin& skin, const Point& p) {
   return depth > 0;
 }
 
+/// The nearest face of a container from outside.
+struct WayOut {
+  FaceId face;
+  double distance = 0.0;
+};
+
+/// Nothing where the point is inside of the container, or within its triangles' distance from the surface and inside of that.
+std::optional<WayOut> way_out(const Skin& container, const Point& p) {
+  if (is_inside(container, p)) return std::nullopt;
+  const NearestHit hit = container.tree->nearest(p);
+  const std::uint32_t t = hit.triangle.value();
+  const FaceId id = container.face_of[t];
+  const Vec3 out = p - container.model->faces[id].surface->derivatives(parameters(container, t, hit.point)).point;
+  if (norm(p - hit.point) <= container.deflection) {
+    const std::optional<Vec3> normal = normal_at(container, t, hit.point);
+    if (normal && dot(out, *normal) <= 0.0) return std::nullopt;
+  }
+  return WayOut{id, norm(out)};
+}
+
 /// Areas of a part by where they are.
 struct Shares {
   double outside = 0.0, unsure = 0.0;
@@ -448,6 +471,33 @@ ContactReport find_contacts(std::span<const Model> parts, const RunContext& cont
   add_exposures(skins, report, context);
   add_gaps(skins, report.contacts, context);
   return report;
+}
+
+std::vector<Overhang> find_overhangs(const Model& container, std::span<const Model> bodies, const RunContext& context) {
+  const Skin around = skin_of(container, context);
+  std::vector<Overhang> found;
+  for (const Model& body : bodies) {
+    const Skin skin = skin_of(body, context);
+    const double tolerance = k_standing * skin.deflection / k_deflection, size = k_sample * skin.deflection / k_deflection;
+    std::map<std::pair<ComponentId, std::string>, Overhang> of_body;
+    for (std::uint32_t t = 0; t < skin.mesh.n_triangles(); ++t) {
+      context.check_stop();
+      const ModelFace& face = body.faces[skin.face_of[t]];
+      const auto look = [&](const Point& p) {
+        const std::optional<WayOut> out = way_out(around, p);
+        if (!out || out->distance <= tolerance) return;
+        Overhang& most = of_body[{face.component, face.name}];
+        if (out->distance <= most.distance) return;
+        const Component& component = body.components[face.component];
+        most = {component.name, component.kind, face.name, container.faces[out->face].name, p, out->distance};
+      };
+      const Facet facet = skin.facet(t);
+      for (const Point& p : facet) look(p);
+      visit_pieces(facet, size, [&](const Point& middle, double) { look(middle); });
+    }
+    for (auto& [where, overhang] : of_body) found.push_back(std::move(overhang));
+  }
+  return found;
 }
 
 std::string doubt_of(const PartContact& contact, std::span<const Model> parts) {

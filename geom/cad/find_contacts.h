@@ -53,6 +53,21 @@ inline constexpr double k_mostly_inside = 0.9;
 /// naming the part that cannot be triangulated, Error(cancelled)
 ContactReport find_contacts(std::span<const Model> parts, const RunContext& context);
 
+/// Patches of a body that reach out of a container.
+struct Overhang {
+  std::string component;
+  ComponentKind kind = ComponentKind::unknown;
+  std::string face;       ///< name of the body's faces
+  std::string wall;       ///< name of the container's face beyond which `place` lies
+  Point place;            ///< that is farthest out
+  double distance = 0.0;  ///< of it from the container, metres
+};
+
+/// Those of all bodies that reach out of the container by more than 1e-4 of the body's longest side (what stands on a wall does not), by samples as
+/// find_contacts takes them; in the order of the bodies and their faces, one for each name of faces in a component. \pre normals of both point out of them
+/// \throws as find_contacts
+std::vector<Overhang> find_overhangs(const Model& container, std::span<const Model> bodies, const RunContext& context);
+
 /// What a contact has that makes uniting or meshing hard, in words with names and numbers; empty: nothing.
 std::string doubt_of(const PartContact& contact, std::span<const Model> parts);
 

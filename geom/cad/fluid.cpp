@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <optional>
 
 #include "geom/base/number_text.h"
@@ -71,6 +72,34 @@ Meeting look_at(const std::vector<Model>& parts, FluidReport& report, const RunC
         std::to_string(outside.size()) + (outside.size() == 1 ? " body lies" : " bodies lie") + " outside of the container \"" + part_name(parts[0]) + "\"",
         std::move(outside), "move the body into it, or the container around it");
   return meeting;
+}
+
+/// \throws Error where bodies reach out of the container that may not
+void require_leave(const std::vector<Model>& parts, const Meeting& meeting, const MayPass& may_pass, const RunContext& context) {
+  if (!may_pass || meeting.cut.empty()) return;
+  const StageTimer timer(context, "fluid/contacts");
+  std::vector<Model> bodies;
+  for (const std::size_t i : meeting.cut) bodies.push_back(parts[i]);
+  // Of each component what is farthest out.
+  std::vector<Overhang> worst;
+  for (Overhang& overhang : find_overhangs(parts.front(), bodies, context)) {
+    if (may_pass(overhang)) continue;
+    const auto same = std::ranges::find(worst, overhang.component, &Overhang::component);
+    if (same == worst.end()) worst.push_back(std::move(overhang));
+    else if (same->distance < overhang.distance) *same = std::move(overhang);
+  }
+  if (worst.empty()) return;
+  std::ranges::stable_sort(worst, std::greater(), &Overhang::distance);
+  std::vector<ErrorPlace> places;
+  for (const Overhang& o : worst)
+    places.push_back({o.place, "\"" + o.component + "\"" + (o.face == o.component ? "" : " (face \"" + o.face + "\")") + " reaches " + number_text(o.distance) +
+                                   " m out of the wall \"" + o.wall + "\""});
+  const std::string problem =
+      places.front().what + " and would be cut off there" + (worst.size() > 1 ? "; so would " + std::to_string(worst.size() - 1) + " more of its parts" : "");
+  fail_fluid(ErrorCode::bad_argument, problem, std::move(places),
+       "move the model, or make the tunnel larger. What is to pass through a wall (a sting, a strut, a wing on a side wall) is declared: test_section{ ..., "
+       "through = { \"" +
+           worst.front().component + "\" } }; stings made by sting{} need not be");
 }
 
 /// Sets what is wrong with a cut, and its volume.
@@ -151,7 +180,8 @@ Model cut_off(const std::vector<Model>& models, const Meeting& meeting, const Fl
 
 }  // namespace
 
-FluidDomain fluid_domain(const Model& container, std::span<const Model> bodies, const FluidOptions& options, const RunContext& context) {
+FluidDomain fluid_domain(const Model& container, std::span<const Model> bodies, const FluidOptions& options, const RunContext& context,
+                         const MayPass& may_pass) {
   std::vector<Model> parts = {solid_container(container, context)};
   std::vector<Model> solids;
   for (const Model& body : bodies)
@@ -160,6 +190,7 @@ FluidDomain fluid_domain(const Model& container, std::span<const Model> bodies, 
   if (parts.size() == 1) fail_fluid(ErrorCode::bad_argument, "there are no bodies", {}, "a container alone is meshed as it is");
   FluidDomain fluid;
   const Meeting meeting = look_at(parts, fluid.report, context);
+  require_leave(parts, meeting, may_pass, context);
   fluid.report.container_volume = boolean_part(parts.front(), k_fluid_attempt, context).volume;
   for (const std::size_t i : meeting.cut) fluid.report.cut.push_back(part_name(parts[i]));
   fluid.model = meeting.cut.empty() ? parts.front() : cut_off(parts, meeting, options, fluid.report, context);

@@ -17,6 +17,7 @@ struct SurfaceSoup {
   std::vector<std::string> patch_names;                 ///< never empty when there are triangles; names may be empty strings
   bool single_precision = false;                        ///< the coordinates were stored as 32-bit floats (binary STL, float PLY, ...)
   bool has_names = false;                               ///< the file itself named (or numbered) its patches
+  std::uint64_t n_cells = 0;                            ///< of the volume mesh that the file holds, whose boundary this is; 0: the file holds a surface
   std::string source;                                   ///< file name for messages
 };
 

@@ -53,7 +53,8 @@ using ShapeOf = std::function<std::shared_ptr<const CadShape>(std::size_t)>;
 
 /// \throws NotKept
 void write_model_value(ByteSink& sink, const ModelValue& value) {
-  const auto& [model, description, without_description, inputs, report, sizes, layers, parts, provenance] = value;  // all of them: a new one does not compile
+  const auto& [model, description, without_description, inputs, report, sizes, layers, parts, through, provenance] =
+      value;  // all of them: a new one does not compile
   ModelWriter writer(sink);
   writer.model(model);
   write_value(sink, description);
@@ -62,6 +63,7 @@ void write_model_value(ByteSink& sink, const ModelValue& value) {
   write_value(sink, report);
   write_value(sink, sizes);
   write_value(sink, layers);
+  write_value(sink, through);
   write_value(sink, static_cast<std::uint64_t>(parts.size()));
   for (const ModelPart& part : parts) {
     const auto& [own, placement, key] = part;
@@ -83,6 +85,7 @@ ModelValue read_model_value(ByteSource& source, const ShapeOf& shape_of) {
   read_value(source, value.report);
   read_value(source, value.sizes);
   read_value(source, value.layers);
+  read_value(source, value.through);
   for (std::size_t n = detail::read_count(source, 1); n > 0; --n) {
     ModelPart part;
     part.own = reader.shared();

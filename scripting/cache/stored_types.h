@@ -26,7 +26,7 @@ inline constexpr std::size_t k_members<surfmesh::EdgePlace> = 2;
 template <>
 inline constexpr std::size_t k_members<surfmesh::WallPlaces> = 4;
 template <>
-inline constexpr std::size_t k_members<surfmesh::StitchOptions> = 6;
+inline constexpr std::size_t k_members<surfmesh::StitchOptions> = 7;
 template <>
 inline constexpr std::size_t k_members<surfmesh::StitchReport> = 11;
 template <>

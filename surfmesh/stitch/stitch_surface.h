@@ -19,6 +19,7 @@ struct StitchOptions {
       "automatic";  ///< side of the outermost surface on which the fluid is; automatic: outside, unless the file is ours and says otherwise (its reader knows)
   bool allow_open = false;
   bool check_intersections = true;
+  bool take_boundary = false;  ///< of a file with a volume mesh (its reader looks at this); else that is refused
 };
 
 struct StitchReport {
@@ -88,6 +89,9 @@ struct Schema<surfmesh::StitchOptions> {
                .choices = "automatic outside inside"},
       Field<O>{.name = "allow_open", .member = &O::allow_open, .help = "accept a surface with a boundary"},
       Field<O>{.name = "check_intersections", .member = &O::check_intersections, .help = "test every pair of triangles exactly for intersection"},
+      Field<O>{.name = "take_boundary",
+               .member = &O::take_boundary,
+               .help = "of a file that holds a volume mesh, all of its boundary (farfield and planes, too) is the surface; else such a file is refused"},
   };
 };
 

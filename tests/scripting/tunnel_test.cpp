@@ -23,7 +23,8 @@ using test::k_pi;
 /// A body on a sting that leaves a section of 4 x 2 x 2 m through its outflow plane.
 const std::string k_parts =
     "local body, rod = cylinder{ {-1, 0, 0}, {0.3, 0, 0}, radius = 0.2, name = 'body' }, cylinder{ {0.2, 0, 0}, {4, 0, 0}, radius = 0.1, name = 'sting' } "
-    "local tunnel = test_section{ length = 4, width = 2, height = 2, inflow = 'inlet', outflow = 'outlet', max_edge = 0.5, walls = { layers = 8, first_height "
+    "local tunnel = test_section{ length = 4, width = 2, height = 2, inflow = 'inlet', outflow = 'outlet', max_edge = 0.5, through = { 'sting', 'slab' }, "
+    "walls = { layers = 8, first_height "
     "= 1e-4 }, ceiling = 'slip' } ";
 
 TEST_F(TunnelScripts, SectionsAreRectangularRoundOrTheUsers) {
@@ -113,6 +114,33 @@ TEST_F(TunnelScripts, BodiesThatDoNotBelongThereAreErrors) {
   EXPECT_THAT(error(k_parts + "surface_mesh{ body:move{ 0, 5, 0 }, tunnel }"), HasSubstr("\"body\" lies outside"));
   EXPECT_THAT(error(k_parts + "surface_mesh{ body, tunnel, test_section{ length = 1, width = 1, height = 1 } }"), HasSubstr("there are 2 tunnels"));
   EXPECT_THAT(error(k_parts + "surface_mesh{ box{ {-0.1,-3,-3}, {0.1,3,3}, name = 'slab' }, tunnel }"), HasSubstr("\"slab\" cuts the fluid"));
+}
+
+TEST_F(TunnelScripts, WhatReachesOutOfTheTunnelIsDeclared) {
+  // A body with a fin that is higher than the ceiling at z = 1, on a sting: the fin is no sting.
+  const std::string parts =
+      "local body = cylinder{ {-1, 0, 0}, {0.3, 0, 0}, radius = 0.2, name = 'body' } local fin = box{ {-0.8, -0.05, 0}, {-0.4, 0.05, 0.9}, name = 'fin' } "
+      "local rod = sting{ name = 'rod', from = { 0.2, 0, 0 }, to = { 4, 0, 0 }, diameter = 0.1, cone_start = 0.5, end_diameter = 0.15 }:model() "
+      "local m = assembly{ body, fin, rod } local function wall(dz, o) o = o or {} o.length, o.width, o.height, o.max_edge = 4, 2, 2, 0.5 "
+      "return surface_mesh{ m:move{ 0, 0, dz }, test_section(o), max_edge = 0.2, growth = 1.4 } end ";
+  EXPECT_EQ(run(parts + "print(wall(0).is_closed)"), "true\n");  // stings pass without a word
+  const std::string problem = error(parts + "wall(0.5)");
+  EXPECT_THAT(problem, AllOf(HasSubstr("\"fin\" reaches 0.4 m out of the wall \"tunnel_ceiling\""), HasSubstr("would be cut off"), HasSubstr("1.4)"),
+                             HasSubstr("through = { \"fin\" }")));
+  EXPECT_THAT(problem, testing::Not(HasSubstr("rod")));
+  EXPECT_EQ(run(parts + "print(wall(0.5, { through = 'f?n' }).is_closed, wall(0.5, { through = { 'fin', 'strut' } }).is_closed)"), "true\ttrue\n");
+  // A body that stands on a wall is not cut off; rounding does not matter.
+  EXPECT_EQ(
+      run("local b = box{ {-0.3, -0.3, -1 - 1e-6}, {0.3, 0.3, 0}, name = 'house' } local t = test_section{ length = 4, width = 2, height = 2, max_edge = 0.5 } "
+          "print(surface_mesh{ b, t, max_edge = 0.2 }.is_closed)"),
+      "true\n");
+  // Beyond a curved wall it is the surface that counts, not its triangles.
+  const std::string round =
+      "local t = test_section{ length = 4, diameter = 2 } local function pin(top) return surface_mesh{ cylinder{ {0, 0, -0.2}, {0, 0, top}, radius = 0.02, "
+      "name "
+      "= 'pin' }, t, max_edge = 0.3, min_edge = 0.02 } end ";
+  EXPECT_THAT(error(round + "pin(1.01)"), HasSubstr("\"pin\" reaches 0.010"));
+  EXPECT_THAT(error("test_section{ length = 4, width = 2, height = 2, through = 3 }"), HasSubstr("through: expected names of components or faces"));
 }
 
 TEST_F(TunnelScripts, AssembliesAreUnitedWhereTheyTouch) {

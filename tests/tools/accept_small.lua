@@ -13,9 +13,9 @@ local tunnel = test_section{ length = 4, width = 2, height = 2, walls = { layers
 mesh_of(surface_mesh{ rod, tunnel, max_edge = 0.15, growth = 1.3 }, "tunnel.sterna")
 
 local half_span = wing{ name = "wing", trailing_edge = 0.02, sections = { { y = -0.3, chord = 0.8, airfoil = "naca2412" }, { y = 1.0, chord = 0.5 } } }
-local side = test_section{ length = 5, width = 3, height = 2, position = { 2, 1.5, 0 }, walls = "slip", max_edge = 0.4, left = { kind = "wall", first_height = 2e-3 } }
+local side = test_section{ length = 5, width = 3, height = 2, position = { 2, 1.5, 0 }, through = "wing", walls = "slip", max_edge = 0.4, left = { kind = "wall", first_height = 2e-3 } }
 mesh_of(surface_mesh{ half_span, side, curvature_angle = 25*deg, growth = 1.3, max_edge = 0.12, min_edge = 0.015 }, "half_span.sterna")
 
 local blade = wing{ name = "blade", trailing_edge = 0.02, sections = { { y = -0.3, chord = 0.8, airfoil = "naca2412" }, { y = 1.3, chord = 0.8 } } }
-local row = test_section{ length = 5, width = 1, height = 2, position = { 2, 0.5, 0 }, walls = "slip", max_edge = 0.4 }
+local row = test_section{ length = 5, width = 1, height = 2, position = { 2, 0.5, 0 }, through = "blade", walls = "slip", max_edge = 0.4 }
 mesh_of(surface_mesh{ blade, row, curvature_angle = 25*deg, growth = 1.3, max_edge = 0.12, min_edge = 0.015 }, "blade.sterna", { "tunnel_left", "tunnel_right" })

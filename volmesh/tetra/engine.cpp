@@ -27,6 +27,17 @@ double unit_scale(std::span<const Vec3> points) {
   return std::ldexp(1.0, -std::ilogb(largest));
 }
 
+// How long an engine may compute where the user sets no limit. The slowest runs that came to an end on 195 surfaces made 67 000 tetrahedra in a second
+// (docs/tetrahedra.md); long, thin triangles cost 25 s more, whatever their number. What takes seven times that does not end.
+constexpr double k_least_seconds = 60.0;
+constexpr double k_seconds_per_tetrahedron = 1e-4;
+/// As many as there are on clean surfaces; those that sources ask for come with the size field.
+constexpr double k_tetrahedra_per_triangle = 10.0;
+/// Of the size field (docs/tetrahedra.md).
+constexpr double k_tetrahedra_per_leaf = 30.0;
+/// With splits for quality triangles become many.
+constexpr double k_splits_factor = 10.0;
+
 /// Points and facets as they are sent.
 struct Sent {
   explicit Sent(const EngineInput& input)
@@ -56,6 +67,11 @@ class Request {
     header.scale = scale_;
     header.radius_edge = options.radius_edge;
     header.improve_below = options.hxt_improve_below;
+    if (is_automatic(options.time_limit)) {
+      const double factor = splits == SplitMode::quality ? k_splits_factor : 1.0;
+      header.processor_seconds = factor * (k_least_seconds + k_seconds_per_tetrahedron * k_tetrahedra_per_triangle * static_cast<double>(header.n_triangles));
+      header.seconds_per_leaf = factor * k_seconds_per_tetrahedron * k_tetrahedra_per_leaf;
+    }
     header.splits = splits == SplitMode::none ? wire::Splits::none : splits == SplitMode::recovery ? wire::Splits::recovery : wire::Splits::quality;
     std::byte* at = block_.map();
     const auto put = [&](const void* data, std::size_t size) {
@@ -125,6 +141,14 @@ std::optional<EngineFailure> judge_exit(EngineKind kind, const HelperExit& exit,
   if (exit.is_time_over) {
     return failure(FailureKind::limit, kind, "stopped after the time limit of " + with_unit(options.time_limit, "s"),
                    "raise tetrahedra.time_limit, or coarsen the surface");
+  }
+  if (is_reply && header.outcome == wire::Outcome::out_of_time) {
+    EngineFailure over = failure(FailureKind::limit, kind,
+                                 "stopped after " + with_unit(header.engine_seconds, "s") +
+                                     " of processor time, in which it would have filled a sound boundary of this size many times over",
+                                 "mesh the surface anew where its triangles are needles or folded; or set tetrahedra.time_limit (seconds) to let it go on");
+    over.is_own_limit = true;
+    return over;
   }
   if (is_reply && header.outcome == wire::Outcome::out_of_memory) {
     return failure(FailureKind::limit, kind,

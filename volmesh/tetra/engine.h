@@ -27,6 +27,7 @@ enum class FailureKind {
 struct EngineFailure {
   FailureKind kind = FailureKind::deterministic;
   ErrorInfo error;
+  bool is_own_limit = false;  ///< the limit of time was ours, in proportion to the boundary and the size field, not the user's
 };
 
 /// Whether an engine may split triangles of the boundary.

@@ -57,12 +57,15 @@ std::vector<Rung> rungs_of(const TetraBoundary& boundary, const TetraOptions& op
   return rungs;
 }
 
-/// Whether this attempt may follow after these failures: the last one of an engine that is there decides.
+/// Whether this attempt may follow after these failures: the last one of an engine that is there decides. An engine that did not end has used up the time for
+/// splits, too: after it only the other one is tried.
 bool may_follow(const Rung& rung, const std::vector<EngineFailure>& failures, const TetraOptions& options) {
   const auto last = std::find_if(failures.rbegin(), failures.rend(), [](const EngineFailure& f) { return f.kind != FailureKind::missing; });
   const bool has_splits = rung.splits != SplitMode::none;
   if (last == failures.rend()) return !has_splits && options.engine == "automatic";
-  return (has_splits || options.try_other_engine) && (last->kind == FailureKind::deterministic || options.fall_back_on_limits);
+  const bool is_over = last->kind == FailureKind::limit && !options.fall_back_on_limits;
+  if (has_splits) return !is_over;
+  return options.try_other_engine && (!is_over || last->is_own_limit);
 }
 
 /// A result with splits is one only when its boundary's owner can follow.
@@ -97,6 +100,16 @@ EngineOutcome run(const Rung& rung, const TetraBoundary& boundary, const JoinedB
   second.result->engine_seconds += first.result->engine_seconds;
   second.result->engine_peak_bytes = std::max(second.result->engine_peak_bytes, first.result->engine_peak_bytes);
   return second;
+}
+
+/// What became of each attempt, for the user who has waited for all of them, and the remedy.
+void tell_all(const std::vector<EngineFailure>& failures, ErrorInfo& error) {
+  error.attempted = "filling the volume with tetrahedra";
+  error.problem = "no engine has an answer";
+  for (const EngineFailure& failure : failures) error.problem += "; " + failure.error.attempted + ": " + failure.error.problem;
+  error.hint =
+      "mesh the surface anew where its triangles are needles, folded or close to others (`sterna inspect` lists them), or use fewer and lower layers; "
+      "tetrahedra.time_limit (seconds) lets engines go on";
 }
 
 TetraResult fill_with(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, const RunContext& context) {
@@ -151,7 +164,9 @@ TetraResult fill_with(const TetraBoundary& boundary, SizeSupply* sizes, const Te
   for (const EngineFailure& failure : failures) problems.push_back(failure.error.problem);
   const bool is_repeatable = telling != failures.end() && std::ranges::none_of(failures, [](const EngineFailure& f) { return f.kind == FailureKind::limit; });
   ErrorInfo error = telling == failures.end() ? failures.front().error : telling->error;
-  if (is_repeatable) add_suspects(seen, boundary, error);
+  const bool has_no_end = std::ranges::any_of(failures, &EngineFailure::is_own_limit);
+  if (is_repeatable || has_no_end) add_suspects(seen, boundary, error);
+  if (has_no_end) tell_all(failures, error);
   throw FillError(std::move(error), is_repeatable, std::move(problems));
 }
 

@@ -8,7 +8,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -129,11 +131,39 @@ inline Request map_request() {
   return request;
 }
 
+/// The limit of the process, in seconds of the processor; a static for its signal handler.
+inline double& processor_limit() {
+  static double seconds = 0.0;
+  return seconds;
+}
+
+inline void on_out_of_time(int) {
+  wire::ReplyHeader reply;
+  reply.outcome = wire::Outcome::out_of_time;
+  reply.engine_seconds = processor_limit();
+  write_all(&reply, sizeof reply);
+  std::_Exit(1);
+}
+
+/// So much time from the start of the process: the same work has the same limit on a machine that is busy. The kernel counts whole seconds.
+/// A lower limit that the process was started with stays.
+inline void limit_processor(double seconds) {
+  static const rlimit before = [] {
+    rlimit limit{RLIM_INFINITY, RLIM_INFINITY};
+    getrlimit(RLIMIT_CPU, &limit);
+    return limit;
+  }();
+  const rlimit limit{std::min(static_cast<rlim_t>(std::ceil(seconds)), before.rlim_cur), before.rlim_max};
+  processor_limit() = static_cast<double>(limit.rlim_cur);
+  std::signal(SIGXCPU, on_out_of_time);
+  setrlimit(RLIMIT_CPU, &limit);
+}
+
 /// The size field, which the parent may still be making: it is waited for at the first question.
 class LateSizes {
  public:
   /// Sizes in the request's units.
-  explicit LateSizes(double scale) : scale_(scale) {}
+  explicit LateSizes(const wire::RequestHeader& header) : header_(header), scale_(header.scale) {}
   double operator()(double x, double y, double z) {
     if (!view_.is_valid()) wait();
     return scale_ * view_(x / scale_, y / scale_, z / scale_);
@@ -148,23 +178,28 @@ class LateSizes {
     if (read(wire::k_size_ready_fd, &size, sizeof size) == sizeof size) block = mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, wire::k_size_fd, 0);
     if (block != MAP_FAILED) view_ = SizeFieldView(static_cast<const std::byte*>(block), size);
     waited_ = watch.seconds();
-    if (view_.is_valid()) return;
+    if (view_.is_valid()) {
+      if (header_.processor_seconds > 0.0) limit_processor(header_.processor_seconds + header_.seconds_per_leaf * static_cast<double>(view_.header().n_leaves));
+      return;
+    }
     say("the size field cannot be read\n");
     std::_Exit(3);
   }
 
+  const wire::RequestHeader& header_;
   double scale_;
   SizeFieldView view_;
   double waited_ = 0.0;
 };
 
-/// The helper never outlives its parent, leaves no core, and may not take more than its memory.
-inline void limit_resources(std::uint64_t memory_limit) {
+/// The helper never outlives its parent, leaves no core, and may not take more than its memory and its time.
+inline void limit_resources(const wire::RequestHeader& header) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
-  const rlimit memory{memory_limit, memory_limit};
+  const rlimit memory{header.memory_limit, header.memory_limit};
   setrlimit(RLIMIT_AS, &memory);
+  if (header.processor_seconds > 0.0) limit_processor(header.processor_seconds);
 }
 
 }  // namespace sterna::volmesh::helper

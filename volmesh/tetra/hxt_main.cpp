@@ -152,7 +152,7 @@ void on_crash(int signal) {
 
 int run(const helper::Request& request) {
   const helper::Stopwatch watch;
-  helper::LateSizes sizes(request.header->scale);
+  helper::LateSizes sizes(*request.header);
   try {
     gmsh::initialize(0, nullptr, false);
     set_options(*request.header);
@@ -190,6 +190,6 @@ int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
 int main() {
   const helper::Request request = helper::map_request();
   if (!request.header) return helper::reply_failure(wire::Outcome::bad_request, 0, 0.0);
-  helper::limit_resources(request.header->memory_limit);
+  helper::limit_resources(*request.header);
   return run(request);
 }

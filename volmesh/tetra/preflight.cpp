@@ -237,8 +237,10 @@ void add_suspects(const PreflightReport& report, const TetraBoundary& boundary, 
   if (!error.places.empty()) return;
   for (const Trouble trouble : {Trouble::folded, Trouble::gap, Trouble::sliver}) {
     error.n_places += report.count(trouble);
-    for (const PreflightFinding& finding : report.findings) {
-      if (finding.trouble != trouble) continue;
+    std::vector<PreflightFinding> worst;
+    std::ranges::copy_if(report.findings, std::back_inserter(worst), [&](const PreflightFinding& f) { return f.trouble == trouble; });
+    std::ranges::stable_sort(worst, std::less(), &PreflightFinding::value);
+    for (const PreflightFinding& finding : worst) {
       if (error.places.size() < k_max_places)
         error.places.push_back(place_of_triangle(boundary, finding.triangles[0], text_of(finding) + " (hard for engines)"));
       for (const std::uint32_t t : finding.triangles) add_triangle(error.geometry, boundary, t);

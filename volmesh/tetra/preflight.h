@@ -45,7 +45,8 @@ struct PreflightReport {
 /// Parallel over a BoxTree; the same report for any number of threads. The two sides of a sheet count once. \pre check_boundary() passed.
 PreflightReport preflight(const TetraBoundary& boundary, const PreflightLimits& limits, const RunContext& context);
 
-/// Where an engine that says no place may have met its trouble: adds the triangles found (folded ones and gaps first) to an error without places.
+/// Where an engine that says no place may have met its trouble: adds the triangles found (folded ones, then gaps, then slivers; the
+/// worst of each first) to an error without places.
 void add_suspects(const PreflightReport& report, const TetraBoundary& boundary, ErrorInfo& error);
 
 /// Logs a warning for each kind of trouble that an engine may survive, with the number and the first place.

@@ -176,7 +176,7 @@ void tetrahedralize_surface(const Request& request, const Surface& surface, std:
 }
 
 int run(const Request& request) {
-  helper::LateSizes sizes(request.header->scale);
+  helper::LateSizes sizes(*request.header);
   sizes_of_callback() = &sizes;
   const helper::Stopwatch watch;
   try {
@@ -196,7 +196,7 @@ int run(const Request& request) {
 int main() {
   const Request request = helper::map_request();
   if (!request.header) return helper::reply_failure(wire::Outcome::bad_request, 0, 0.0);
-  helper::limit_resources(request.header->memory_limit);
+  helper::limit_resources(*request.header);
   try {
     return run(request);
   } catch (const std::bad_alloc&) {

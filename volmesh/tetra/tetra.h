@@ -76,7 +76,8 @@ class FillError : public Error {
 /// clear boundary that is looked for while the first engine runs. Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof,
 /// too many new points), the other engine is tried, then TetGen with leave to split triangles of the boundary where it cannot keep them (`boundary_splits`
 /// "ladder", and a boundary with take_splits). With "always" TetGen comes first and splits them where tetrahedra become better by it, too. A time or memory
-/// limit ends the call unless `fall_back_on_limits`. Every step is logged as a warning and kept in the result. Sheets are one layer of facets for the engines
+/// limit of the user ends the call unless `fall_back_on_limits`; after the engine's own limit of processor time, which is in proportion to boundary and sizes,
+/// the other engine is tried, but no splits. Every step is logged as a warning and kept in the result. Sheets are one layer of facets for the engines
 /// (sheets.h); what comes back is parted. No engine may split triangles then. With `two_pass` TetGen comes first and runs twice: a coarse mesh without sizes,
 /// then the mesh with the smoothed sizes at its nodes and the size field, the smaller ones. A stop of the context or the time limit kills the helper at once;
 /// it never outlives the call. \throws FillError when the engines have failed; Error bad_argument (index, coordinate, unused point, repeated or collinear

@@ -17,7 +17,7 @@ inline constexpr int k_request_fd = 3;
 inline constexpr int k_reply_fd = 4;
 inline constexpr int k_size_fd = 5;                                   ///< the size field, once it is there
 inline constexpr int k_size_ready_fd = 6;                             ///< pipe: then its length in bytes comes here, a uint64
-inline constexpr std::uint64_t k_request_magic = 0x3651455254455453;  ///< "STETREQ6" in memory; the last digit is the version
+inline constexpr std::uint64_t k_request_magic = 0x3751455254455453;  ///< "STETREQ7" in memory; the last digit is the version
 inline constexpr std::uint64_t k_reply_magic = 0x3350455254455453;    ///< "STETREP3"
 
 /// What may become of the boundary's triangles; TetGen only.
@@ -40,6 +40,8 @@ struct RequestHeader {
   double improve_below = 0.0;        ///< the engine improves tetrahedra of a lower quality (1 = regular); 0: none; HXT only
   Splits splits = Splits::none;
   std::uint64_t n_sheet_surfaces = 0;  ///< of the surfaces, the last
+  double processor_seconds = 0.0;      ///< the engine ends with Outcome::out_of_time after so much time of the processor; 0: never
+  double seconds_per_leaf = 0.0;       ///< and more by this for each leaf of the size field, once that is there
 };
 
 enum class Outcome : std::int32_t {
@@ -48,6 +50,7 @@ enum class Outcome : std::int32_t {
   out_of_memory = 2,  ///< an allocation failed within the memory limit
   bad_request = 3,    ///< the request is not one of this protocol's version
   exception = 4,      ///< something else was thrown
+  out_of_time = 5,    ///< the time of the processor was over; ReplyHeader::engine_seconds is how much it had
 };
 
 struct ReplyHeader {
@@ -61,6 +64,6 @@ struct ReplyHeader {
   double peak_bytes = 0.0;        ///< largest resident size of the helper so far
 };
 
-static_assert(sizeof(RequestHeader) == 96 && sizeof(ReplyHeader) == 56);
+static_assert(sizeof(RequestHeader) == 112 && sizeof(ReplyHeader) == 56);
 
 }  // namespace sterna::volmesh::wire

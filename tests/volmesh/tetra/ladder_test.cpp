@@ -128,6 +128,40 @@ TEST_F(Ladder, NoEngineWhenTheBoundaryCrossesItself) {
   EXPECT_THAT(log_, testing::Not(Contains(HasSubstr("trying"))));
 }
 
+/// A helper's answer that its processor time was over.
+constexpr const char* k_out_of_time = "printf 'STETREP3\\005\\0\\0\\0' >&4; head -c 44 /dev/zero >&4; exit 1";
+
+TEST_F(Ladder, AnEngineWithoutEndIsStoppedAndTheLadderEnds) {
+  // The other engine may still know the answer; which one gave it was decided by a clock.
+  const TetraResult result = fill(domain_, {.engine = "tetgen", .helper_folder = folder("no_end", k_out_of_time)});
+  expect_tiling(domain_, result);
+  EXPECT_EQ(result.engine, "hxt");
+  EXPECT_FALSE(result.is_reproducible);
+  EXPECT_THAT(result.failures, ElementsAre(HasSubstr("processor time")));
+  // None does: no splits are tried, the error says what became of each, where it is hard, and what to do.
+  TriMesh plate = test::cube(1);
+  for (Point& p : plate.points) p.z *= 1e-4;
+  const Domain domain = domain_around(plate, 10.0);
+  const ErrorInfo error = error_info_of([&] { fill(domain, {.helper_folder = folder("no_end_at_all", k_out_of_time, k_crash)}); });
+  EXPECT_EQ(error.code, ErrorCode::tetra_engine_failed);
+  EXPECT_THAT(error.problem,
+              testing::AllOf(HasSubstr("(HXT): the helper died of signal 11"), HasSubstr("(TetGen): stopped after"), HasSubstr("processor time")));
+  EXPECT_THAT(error.hint, testing::AllOf(HasSubstr("mesh the surface anew"), HasSubstr("tetrahedra.time_limit")));
+  ASSERT_FALSE(error.places.empty());
+  EXPECT_THAT(error.places.front().what, HasSubstr("hard for engines"));
+  EXPECT_THAT(log_, testing::Not(Contains(HasSubstr("splits"))));
+}
+
+TEST_F(Ladder, EngineHelpersCountProcessorTime) {
+  // The real engines under a limit of a second, which they take over from whoever starts them, with work for several.
+  const std::string limited = "ulimit -S -t 1; exec ";
+  const Domain domain = domain_around(test::sphere(70));
+  const std::string helpers = folder("limited", limited + find_helper("sterna-tet-tetgen", {}), limited + find_helper("sterna-tet-hxt", {}));
+  const ErrorInfo error = error_info_of([&] { fill(domain, {.helper_folder = helpers}); });
+  EXPECT_THAT(error.problem,
+              testing::AllOf(HasSubstr("(HXT): stopped after 1 s of processor time"), HasSubstr("(TetGen): stopped after 1 s of processor time")));
+}
+
 TEST_F(Ladder, EndsAtALimitUnlessToldOtherwise) {
   EXPECT_THAT(error_info_of([&] { fill(domain_, {.engine = "tetgen", .time_limit = 0.2, .helper_folder = folder("endless", "sleep 100")}); }).problem,
               HasSubstr("time limit"));
