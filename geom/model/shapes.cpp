@@ -170,8 +170,8 @@ Model make_test_section(const TestSectionOptions& o) {
 }
 
 /// Fullness of a nacelle's lip: intakes are much deeper than their lip is thick, and a quarter ellipse down to the fan would begin like a knife (2 mm of
-/// radius on an engine of 4 m); this one has about a fifth of the lip's thickness, and is almost straight behind.
-constexpr double k_full_lip = 1.5;
+/// radius on an engine of 4 m); this one has about a quarter of the lip's thickness, and is almost straight behind.
+constexpr double k_full_lip = 1.6;
 
 Body nacelle_body(const std::string& name, const Point& position, const NacelleOptions& o) {
   NacelleOptions checked = o;
@@ -184,8 +184,9 @@ Body nacelle_body(const std::string& name, const Point& position, const NacelleO
     body.frames.push_back(
         {.name = "x" + std::to_string(x), .center = {x * o.length, 0.0, 0.0}, .height = ratio * o.diameter, .width = ratio * o.diameter, .n_points = 11});
   };
-  // In front a quarter ellipse from the highlight to the largest diameter, behind a parabola to the exit.
-  for (const double t : {0.0, 0.04, 0.15, 0.35, 0.65})
+  // In front a quarter ellipse from the highlight to the largest diameter, behind a parabola to the exit. The frames are dense where the ellipse begins, so
+  // that it begins across the axis: what the cowl does not turn there the lip would have to.
+  for (const double t : {0.0, 0.005, 0.02, 0.07, 0.18, 0.38, 0.65})
     add(t * o.thickest, o.highlight_ratio + (1.0 - o.highlight_ratio) * std::sqrt(1.0 - (1.0 - t) * (1.0 - t)));
   for (const double t : {0.0, 0.35, 0.7, 1.0}) add(o.thickest + t * (1.0 - o.thickest), 1.0 - (1.0 - o.exit_ratio) * t * t);
   const double radius = 0.5 * o.highlight_ratio * o.diameter;
@@ -242,8 +243,7 @@ std::array<Uv, 2> ends_at_surface(const BodyOutline& outline, const PylonOptions
   leading.v = *outline.height(leading.u) - k_pylon_sink * outline.half_height(leading.u);
   const bool is_behind = o.nacelle_to > k_last_trailing;
   if (is_behind) {
-    const double beyond = *outline.height(end) + k_pylon_rise * outline.half_height(end);
-    trailing.v = leading.v + (beyond - leading.v) * (trailing.u - leading.u) / (end - leading.u);
+    trailing.v = *outline.height(end) + k_pylon_rise * outline.half_height(end);
   } else {
     double sink = k_pylon_sink * outline.half_height(trailing.u);
     // On its way to the wing it gains height over the surface; half of the room to the end is enough for it.
