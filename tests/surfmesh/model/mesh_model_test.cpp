@@ -11,6 +11,7 @@
 #include "geom/math/measures.h"
 #include "geom/model/components.h"
 #include "geom/model/shapes.h"
+#include "geom/model/smx.h"
 #include "io/cad_file.h"
 #include "surfmesh/model/model_sizes.h"
 #include "surfmesh/model/model_wall.h"
@@ -234,6 +235,24 @@ TEST(MeshModel, AChordErrorIsMetAlsoOnPolesAndSharpEnds) {
       EXPECT_LE(chord_error_of(model, mesh), error) << name << ", " << mesh.mesh.n_triangles() << " triangles";
       EXPECT_LT(mesh.mesh.n_triangles(), 400'000u) << name;  // it was told to be 1e20
     }
+}
+
+TEST(MeshModel, AChordErrorIsMetOnRealModels) {
+  STERNA_NEEDS_SHARED_DATA();
+  struct Case {
+    std::string file;
+    double error;  ///< m
+  };
+  for (const Case& c : {Case{"smx/delta.smx", 0.005}, Case{"cad/dealii_cad_wing.iges", 0.002}, Case{"cad/tigl_simplewing_simplewing.brep", 0.001}}) {
+    const std::filesystem::path path = test::shared_data() / c.file;
+    const Model model = path.extension() == ".smx" ? make_components(read_smx(path, k_context).aircraft, k_context) : io::read_cad(path, {}, k_context).model;
+    SurfaceMeshOptions options;
+    options.chord_error = c.error;
+    options.crossings = "warn";  // parts as they are: only distances count
+    const SurfaceMesh mesh = mesh_model(model, options, {}, k_context);
+    const double most = chord_error_of(model, mesh);
+    EXPECT_LE(most, c.error) << c.file << ", " << mesh.mesh.n_triangles() << " triangles";
+  }
 }
 
 TEST(MeshModel, TheDefaultNacellesLipIsResolved) {
