@@ -387,6 +387,12 @@ ScriptValue model_field(const ScriptCall& call) {
     fields.emplace_back("min", list_of(box.min));
     fields.emplace_back("max", list_of(box.max));
   }
+  // What m.components lists can be asked for as it is listed; members and methods keep their names.
+  const bool is_member = name && (std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field.first == *name; }) ||
+                                  std::any_of(model_methods().begin(), model_methods().end(),
+                                              [&](const ScriptVerb& verb) { return verb.name.substr(verb.name.find(':') + 1) == *name; }));
+  if (name && !is_member && std::any_of(model.components.begin(), model.components.end(), [&](const Component& c) { return c.name == *name; }))
+    return changed(handle, select_components(model, *name, call.attempted()), "select");
   return select_field(call, std::move(fields), model_methods());
 }
 

@@ -48,7 +48,7 @@ struct Schema<surfmesh::PatchSurfaceOptions> {
                .member = &O::chord_error,
                .unit = Unit::metre,
                .min = 1e-9,
-               .help = "an edge's middle is at most this far from the surface",
+               .help = "triangles' middles are at most this far from the surface; what is smaller than this need not be resolved",
                .automatic = as_all},
       Field<O>{.name = "leading_edge_factor",
                .member = &O::leading_edge_factor,

@@ -51,7 +51,7 @@ constexpr std::array k_mesh_fields = {
     FieldDoc{"collapsed", "vertices without a layer; if it was made in this run"},
 };
 constexpr std::array k_model_fields = {
-    FieldDoc{"components", "their names, a list; model[\"wing*\"] is a model of those with such names"},
+    FieldDoc{"components", "their names, a list; model[\"wing*\"], or model[\"wing\"] where it is no member, is a model of those with such names"},
     FieldDoc{"patches", "names of the faces, a list"},
     FieldDoc{"solids", "their names, a list"},
     FieldDoc{"faces", "their number"},

@@ -71,6 +71,12 @@ namespace {
 /// Farther than this from y = 0, of its own size, a wing's root does not stand in the plane of symmetry.
 constexpr double k_in_plane = 1e-6;
 
+/// Elements that are not read and that say nothing of the outer shape: no word of them.
+constexpr std::string_view k_no_shape =
+    "structure structuralElements materials fuels systems system global analyses dynamicAircraftModel dynamicAircraftModels wingFuselageAttachments "
+    "wingWingAttachments wingFuelTanks compartments decks cargoCrossBeams longFloorBeams performanceCases performanceRequirements missionDefinitions "
+    "configurationDefinitions engineMassBreakdown";
+
 const char* const k_component_tags[] = {"wing", "fuselage", "enginePylon", "engine", "landingGear", "rotor", "genericGeometryComponent"};
 
 class Reader {
@@ -92,12 +98,25 @@ class Reader {
   bool is_mirrored(const Node& component);
   void wing(const Node& node, bool is_pylon);
   void fuselage(const Node& node);
+  template <class Read>
+  void or_leave_out(const char* what, const Read& read);
   void devices(const Node& node, const Wing& wing, const std::vector<Element>& elements, bool is_turned);
 
   Document document_;
   XmlFile& file_;
   AircraftReading reading_;
 };
+
+/// What an aircraft has a shape without: what cannot be read of it is told and left out, the rest is read.
+template <class Read>
+void Reader::or_leave_out(const char* what, const Read& read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::file_malformed) throw;
+    file_.messages().push_back(error.info().problem + "; the " + what + " is left out");
+  }
+}
 
 void Reader::header() {
   const Node root = file_.root();
@@ -108,7 +127,7 @@ void Reader::header() {
     if (const std::string v = XmlFile::child_text(info, "cpacsVersion"); !v.empty()) version = v;
   if (!version.empty() && version.front() != '2' && version.front() != '3')
     file_.fail(header, "CPACS version " + version + " is not supported; versions 2 and 3 are");
-  file_.tell_unknown(root.child("vehicles"), "xsi:type uID", "aircraft engines profiles");
+  file_.tell_unknown(root.child("vehicles"), "xsi:type uID", {"aircraft engines profiles", k_no_shape});
 }
 
 bool Reader::is_mirrored(const Node& component) {
@@ -181,7 +200,7 @@ std::vector<Reader::Element> Reader::chain(const Node& component) {
   std::set<std::string> targets;
   std::vector<std::string> order;
   for (const Node node : component.child("segments").children("segment")) {
-    file_.tell_unknown(node, "uID xsi:type", "name description fromElementUID toElementUID guideCurves");
+    file_.tell_unknown(node, "uID xsi:type", {"name description fromElementUID toElementUID guideCurves", k_no_shape});
     if (node.child("guideCurves")) file_.tell(node.child("guideCurves"), "guide curves are not supported; the segment is made from its sections alone");
     const std::string from = XmlFile::child_text(node, "fromElementUID"), to = XmlFile::child_text(node, "toElementUID");
     if (!next.emplace(from, Link{node, to}).second) file_.fail(node, "two segments begin at element '" + from + "'; branched components are not supported");
@@ -210,7 +229,7 @@ std::vector<Reader::Element> Reader::chain(const Node& component) {
 }
 
 void Reader::wing(const Node& node, bool is_pylon) {
-  file_.tell_unknown(node, "uID symmetry xsi:type", "name description parentUID transformation sections positionings segments componentSegments");
+  file_.tell_unknown(node, "uID symmetry xsi:type", {"name description parentUID transformation sections positionings segments componentSegments", k_no_shape});
   Wing wing;
   wing.name = file_.required_text(node, "uID");
   wing.is_pylon = is_pylon;
@@ -279,49 +298,54 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
     file_.fail(from, "element '" + uid + "' is not in the wing");
   };
   for (const Node segment : node.child("componentSegments").children("componentSegment")) {
-    file_.tell_unknown(segment, "uID xsi:type", "name description fromElementUID toElementUID controlSurfaces");
+    file_.tell_unknown(segment, "uID xsi:type", {"name description fromElementUID toElementUID controlSurfaces", k_no_shape});
     const Node surfaces = segment.child("controlSurfaces");
     file_.tell_unknown(surfaces, "xsi:type", "trailingEdgeDevices leadingEdgeDevices");
     for (const char* list : {"trailingEdgeDevices", "leadingEdgeDevices"}) {
       const bool is_trailing = list[0] == 't';
       for (const Node device : surfaces.child(list).children(is_trailing ? "trailingEdgeDevice" : "leadingEdgeDevice")) {
-        ControlSurface surface;
-        surface.name = file_.required_text(device, "uID");
-        surface.wing = wing.name;
-        surface.kind = is_trailing ? ControlKind::trailing_edge : ControlKind::leading_edge;
-        const Node shape = device.child("outerShape");
-        for (const char* side : {"innerBorder", "outerBorder"}) {
-          const Node border = shape.child(side);
-          if (!border) file_.fail(device, std::string("the outer shape has no ") + side);
-          const auto value = [&](const char* tag, const char* inner) {
-            const Node at = border.child(tag);
-            if (!at) file_.fail(border, std::string("the element '") + tag + "' is missing");
-            return at.child(inner) ? file_.child_number(at, inner, 0.0) : file_.child_number(border, tag, 0.0);
-          };
-          const char* const hinge_eta = is_trailing ? "etaLE" : "etaTE";
-          const double eta = value(hinge_eta, "eta"), xsi = value(is_trailing ? "xsiLE" : "xsiTE", "xsi");
-          const double other_eta = value(is_trailing ? "etaTE" : "etaLE", "eta");
-          if (other_eta != eta)
-            file_.tell(border, "the border is taken along the flow at " + std::string(hinge_eta) + "; its other end is at " + exact_text(other_eta));
-          Node reference = document_.find(XmlFile::child_text(border.child(hinge_eta), "referenceUID"));
-          if (!reference || !reference.child("fromElementUID")) reference = segment;
-          const std::size_t from = index_of(reference, XmlFile::child_text(reference, "fromElementUID")),
-                            to = index_of(reference, XmlFile::child_text(reference, "toElementUID"));
-          const double at = span_at(from, to, eta);
-          const double along = is_turned ? 1.0 - at : at;
-          surface.hinge.push_back({wing.is_symmetric ? 0.5 * along : along, xsi});
-        }
-        if (is_trailing && surface.hinge[0].chord == 0.0 && surface.hinge[1].chord == 0.0) surface.kind = ControlKind::all_moving;
-        surface.has_image = wing.is_symmetric || wing.has_mirror_image;
-        std::sort(surface.hinge.begin(), surface.hinge.end(), [](const HingePoint& a, const HingePoint& b) { return a.span < b.span; });
-        reading_.aircraft.control_surfaces.push_back(std::move(surface));
+        or_leave_out("control surface", [&] {
+          ControlSurface surface;
+          surface.name = file_.required_text(device, "uID");
+          surface.wing = wing.name;
+          surface.kind = is_trailing ? ControlKind::trailing_edge : ControlKind::leading_edge;
+          const Node shape = device.child("outerShape");
+          for (const char* side : {"innerBorder", "outerBorder"}) {
+            const Node border = shape.child(side);
+            if (!border) file_.fail(device, std::string("the outer shape has no ") + side);
+            const auto value = [&](const char* tag, const char* inner) {
+              const Node at = border.child(tag);
+              if (!at) file_.fail(border, std::string("the element '") + tag + "' is missing");
+              return at.child(inner) ? file_.child_number(at, inner, 0.0) : file_.child_number(border, tag, 0.0);
+            };
+            // One of both ends may be left out: the border then runs along the flow.
+            const char* const other = is_trailing ? "etaTE" : "etaLE";
+            const char* hinge_eta = is_trailing ? "etaLE" : "etaTE";
+            if (!border.child(hinge_eta) && border.child(other)) hinge_eta = other;
+            const double eta = value(hinge_eta, "eta"), xsi = value(is_trailing ? "xsiLE" : "xsiTE", "xsi");
+            const double other_eta = border.child(other) ? value(other, "eta") : eta;
+            if (other_eta != eta)
+              file_.tell(border, "the border is taken along the flow at " + std::string(hinge_eta) + "; its other end is at " + exact_text(other_eta));
+            Node reference = document_.find(XmlFile::child_text(border.child(hinge_eta), "referenceUID"));
+            if (!reference || !reference.child("fromElementUID")) reference = segment;
+            const std::size_t from = index_of(reference, XmlFile::child_text(reference, "fromElementUID")),
+                              to = index_of(reference, XmlFile::child_text(reference, "toElementUID"));
+            const double at = span_at(from, to, eta);
+            const double along = is_turned ? 1.0 - at : at;
+            surface.hinge.push_back({wing.is_symmetric ? 0.5 * along : along, xsi});
+          }
+          if (is_trailing && surface.hinge[0].chord == 0.0 && surface.hinge[1].chord == 0.0) surface.kind = ControlKind::all_moving;
+          surface.has_image = wing.is_symmetric || wing.has_mirror_image;
+          std::sort(surface.hinge.begin(), surface.hinge.end(), [](const HingePoint& a, const HingePoint& b) { return a.span < b.span; });
+          reading_.aircraft.control_surfaces.push_back(std::move(surface));
+        });
       }
     }
   }
 }
 
 void Reader::fuselage(const Node& node) {
-  file_.tell_unknown(node, "uID symmetry xsi:type", "name description parentUID transformation sections positionings segments");
+  file_.tell_unknown(node, "uID symmetry xsi:type", {"name description parentUID transformation sections positionings segments", k_no_shape});
   Body body;
   body.name = file_.required_text(node, "uID");
   body.has_mirror_image = is_mirrored(node);
@@ -349,7 +373,7 @@ void Reader::fuselage(const Node& node) {
 
 void Reader::read_model(const Node& model) {
   Aircraft& aircraft = reading_.aircraft;
-  file_.tell_unknown(model, "uID xsi:type", "name description reference wings fuselages enginePylons engines");
+  file_.tell_unknown(model, "uID xsi:type", {"name description reference wings fuselages enginePylons engines", k_no_shape});
   aircraft.name = file_.text(model, "uID");
   if (const Node reference = model.child("reference")) {
     if (reference.child("area")) aircraft.reference_area = file_.child_number(reference, "area", 0.0);
@@ -358,9 +382,9 @@ void Reader::read_model(const Node& model) {
   }
   for (const Node node : model.child("fuselages").children("fuselage")) fuselage(node);
   for (const Node node : model.child("wings").children("wing")) wing(node, false);
-  for (const Node node : model.child("enginePylons").children("enginePylon")) wing(node, true);
+  for (const Node node : model.child("enginePylons").children("enginePylon")) or_leave_out("pylon", [&] { wing(node, true); });
   for (const Node node : model.child("engines").children("engine")) {
-    file_.tell_unknown(node, "uID symmetry xsi:type", "name description engineUID parentUID transformation");
+    file_.tell_unknown(node, "uID symmetry xsi:type", {"name description engineUID parentUID transformation", k_no_shape});
     const Node engine = document_.resolve(node, XmlFile::child_text(node, "engineUID"));
     const bool has_cowls = engine.child("nacelle").child("fanCowl") || engine.child("nacelle").child("coreCowl") || engine.child("nacelle").child("centerCowl");
     if (!has_cowls) {

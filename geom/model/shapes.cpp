@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 
 #include "geom/base/error.h"
 #include "geom/model/airfoil.h"
@@ -164,6 +166,10 @@ Model make_test_section(const TestSectionOptions& o) {
   return model;
 }
 
+/// Fullness of a nacelle's lip: intakes are much deeper than their lip is thick, and a quarter ellipse down to the fan would begin like a knife (2 mm of
+/// radius on an engine of 4 m); this one has about a quarter of the lip's thickness, and is almost straight behind.
+constexpr double k_full_lip = 1.6;
+
 Body nacelle_body(const std::string& name, const Point& position, const NacelleOptions& o) {
   NacelleOptions checked = o;
   require_options(options_of(checked), "making nacelle '" + name + "'");
@@ -175,14 +181,92 @@ Body nacelle_body(const std::string& name, const Point& position, const NacelleO
     body.frames.push_back(
         {.name = "x" + std::to_string(x), .center = {x * o.length, 0.0, 0.0}, .height = ratio * o.diameter, .width = ratio * o.diameter, .n_points = 11});
   };
-  // In front a quarter ellipse from the highlight to the largest diameter, behind a parabola to the exit.
-  for (const double t : {0.0, 0.04, 0.15, 0.35, 0.65})
+  // In front a quarter ellipse from the highlight to the largest diameter, behind a parabola to the exit. The frames are dense where the ellipse begins, so
+  // that it begins across the axis: what the cowl does not turn there the lip would have to.
+  for (const double t : {0.0, 0.005, 0.02, 0.07, 0.18, 0.38, 0.65})
     add(t * o.thickest, o.highlight_ratio + (1.0 - o.highlight_ratio) * std::sqrt(1.0 - (1.0 - t) * (1.0 - t)));
   for (const double t : {0.0, 0.35, 0.7, 1.0}) add(o.thickest + t * (1.0 - o.thickest), 1.0 - (1.0 - o.exit_ratio) * t * t);
   const double radius = 0.5 * o.highlight_ratio * o.diameter;
-  body.lip = InletLip{o.fan_depth * o.length / radius, 1.0 - o.fan_ratio / o.highlight_ratio, 1.0};
+  body.lip = InletLip{o.fan_depth * o.length / radius, 1.0 - o.fan_ratio / o.highlight_ratio, k_full_lip};
   return body;
 }
+
+namespace {
+
+/// Where a pylon's lower end runs in the body: so much of the half height stays between it and the surface.
+constexpr double k_pylon_sink = 0.02;
+/// Samples of the section at that end.
+constexpr int k_pylon_stations = 40;
+/// A trailing edge farther back than this, of the body's length, has no room to leave through the surface before the end plane: it stands behind the body then.
+constexpr double k_last_trailing = 0.98;
+/// A section behind the body runs out of the surface before the end plane: there it is so much of the half height beyond it.
+constexpr double k_pylon_rise = 0.05;
+
+/// Upper (side 1) or lower outline of a body over x in its own axes, straight between frames: inside of convex bodies.
+class BodyOutline {
+ public:
+  BodyOutline(const Body& body, double side) : body_(body), side_(side) {}
+  double front() const { return body_.frames.front().center.x; }
+  double length() const { return body_.frames.back().center.x - front(); }
+  /// Distance of the surface from z = 0 towards the side, at a distance across from the frames' middle; none where the body is narrower.
+  std::optional<double> height(double x, double across = 0.0) const {
+    const auto [i, t] = place(x);
+    const BodyFrame &a = body_.frames[i], &b = body_.frames[i + 1];
+    const double half_height = 0.5 * ((1.0 - t) * a.height + t * b.height), half_width = 0.5 * ((1.0 - t) * a.width + t * b.width);
+    if (!(std::abs(across) < half_width)) return std::nullopt;
+    return side_ * ((1.0 - t) * a.center.z + t * b.center.z) + half_height * std::sqrt(1.0 - (across / half_width) * (across / half_width));
+  }
+  double half_height(double x) const {
+    const auto [i, t] = place(x);
+    return 0.5 * ((1.0 - t) * body_.frames[i].height + t * body_.frames[i + 1].height);
+  }
+
+ private:
+  std::pair<std::size_t, double> place(double x) const {
+    std::size_t i = 0;
+    while (i + 2 < body_.frames.size() && x > body_.frames[i + 1].center.x) ++i;
+    const double from = body_.frames[i].center.x, to = body_.frames[i + 1].center.x;
+    return {i, std::clamp((x - from) / (to - from), 0.0, 1.0)};
+  }
+  const Body& body_;
+  double side_;
+};
+
+/// Ends of the pylon's lower section in the body's axes, as (x, distance from z = 0 towards the wing): just below the surface, all of the section inside, and
+/// its trailing edge so near to the surface that it leaves through that and not through the plane where the body ends.
+std::array<Uv, 2> ends_at_surface(const BodyOutline& outline, const PylonOptions& o, Uv wing_trailing, const std::string& attempted) {
+  const double end = outline.front() + outline.length();
+  Uv leading{outline.front() + o.nacelle_from * outline.length(), 0.0}, trailing{outline.front() + o.nacelle_to * outline.length(), 0.0};
+  leading.v = *outline.height(leading.u) - k_pylon_sink * outline.half_height(leading.u);
+  const bool is_behind = o.nacelle_to > k_last_trailing;
+  if (is_behind) {
+    trailing.v = *outline.height(end) + k_pylon_rise * outline.half_height(end);
+  } else {
+    double sink = k_pylon_sink * outline.half_height(trailing.u);
+    // On its way to the wing it gains height over the surface; half of the room to the end is enough for it.
+    const double room = 0.5 * (end - trailing.u), top = *outline.height(trailing.u);
+    const double climb = wing_trailing.u > trailing.u ? (wing_trailing.v - top) / (wing_trailing.u - trailing.u) : std::numeric_limits<double>::infinity();
+    const double fall = (top - *outline.height(trailing.u + room)) / room;
+    if (std::isfinite(climb)) sink = std::min(sink, room * (climb + fall));
+    if (!(sink > 0.0))
+      refuse(attempted,
+             "its trailing edge runs back to the wing below the nacelle's surface and leaves through the plane where that ends; nacelle_to or wing_to has to "
+             "be less");
+    trailing.v = top - sink;
+  }
+  // The section is thick and the surface round: where it would stand out beside its middle, the leading end goes deeper.
+  for (int i = 0; i < k_pylon_stations; ++i) {
+    const double t = static_cast<double>(i) / k_pylon_stations, x = leading.u + t * (trailing.u - leading.u);
+    if (is_behind && leading.v + t * (trailing.v - leading.v) > *outline.height(x)) break;  // from here on it stands on the air behind
+    const auto top = outline.height(x, 0.5 * o.thickness * (trailing.u - leading.u));
+    if (!top) refuse(attempted, "it is thicker than the nacelle is wide: thickness has to be less");
+    // Near the trailing edge the section is thin again.
+    if (t < 0.7) leading.v = std::min(leading.v, (*top - t * trailing.v) / (1.0 - t) - 0.1 * k_pylon_sink * outline.half_height(x));
+  }
+  return {leading, trailing};
+}
+
+}  // namespace
 
 Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, const PylonOptions& o) {
   const std::string attempted = "making pylon '" + name + "'";
@@ -221,8 +305,14 @@ Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, 
     s.leading_edge.y = y;
     return s;
   };
+  // From the surface that faces the wing, in the nacelle's axes.
+  const Transform into_nacelle = nacelle_map.inverse();
+  const Point wing_trailing = into_nacelle.point(local->leading + o.wing_to * chord), wing_leading = into_nacelle.point(local->leading + o.wing_from * chord);
+  const double up = 0.5 * (wing_leading.z + wing_trailing.z) < 0.5 * (nacelle.frames.front().center.z + nacelle.frames.back().center.z) ? -1.0 : 1.0;
+  const auto ends = ends_at_surface(BodyOutline(nacelle, up), o, {wing_trailing.x, up * wing_trailing.z}, attempted);
+  const auto on_nacelle = [&](Uv at) { return nacelle_map.point({at.u, 0.0, up * at.v}); };
   Wing pylon{.name = name, .is_pylon = true};
-  pylon.sections = {section("nacelle", front + o.nacelle_from * (back - front), front + o.nacelle_to * (back - front)),
+  pylon.sections = {section("nacelle", on_nacelle(ends[0]), on_nacelle(ends[1])),
                     section("wing", local->leading + o.wing_from * chord, local->leading + o.wing_to * chord)};
   pylon.trailing_edge = 0.0;
   pylon.right_tip = pylon.left_tip = {CapShape::strip, 0.0};

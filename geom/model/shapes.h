@@ -98,7 +98,7 @@ struct Schema<NacelleOptions> {
 /// \throws Error(bad_argument)
 Body nacelle_body(const std::string& name, const Point& position, const NacelleOptions& options);
 
-/// Pylon between a wing and a nacelle that hangs below or stands above it: from within the nacelle to within the wing.
+/// Pylon between a wing and a nacelle that hangs below or stands above it: from just below the cowl's surface to within the wing.
 struct PylonOptions {
   double thickness = 0.1;
   double nacelle_from = 0.2;
@@ -112,13 +112,19 @@ struct Schema<PylonOptions> {
   static constexpr std::string_view stage = "pylon";
   static constexpr std::array fields = {
       Field<O>{.name = "thickness", .member = &O::thickness, .min = 0.005, .max = 0.5, .help = "of its sections, of their chord"},
-      Field<O>{.name = "nacelle_from", .member = &O::nacelle_from, .min = 0.0, .max = 1.0, .help = "leading edge in the nacelle, of its length"},
-      Field<O>{.name = "nacelle_to", .member = &O::nacelle_to, .min = 0.0, .max = 1.5, .help = "trailing edge in the nacelle, of its length"},
+      Field<O>{.name = "nacelle_from", .member = &O::nacelle_from, .min = 0.0, .max = 1.0, .help = "leading edge at the cowl, of the nacelle's length"},
+      Field<O>{.name = "nacelle_to",
+               .member = &O::nacelle_to,
+               .min = 0.0,
+               .max = 1.5,
+               .help = "trailing edge at the cowl, of the nacelle's length; above 0.98 it stands behind the nozzle, over the jet"},
       Field<O>{.name = "wing_from", .member = &O::wing_from, .min = -0.5, .max = 0.9, .help = "leading edge in the wing, of the local chord"},
       Field<O>{.name = "wing_to", .member = &O::wing_to, .min = 0.0, .max = 1.0, .help = "trailing edge in the wing, of the local chord"},
   };
 };
-/// \throws Error(bad_argument) when the nacelle does not stand within the wing's span
+/// Its lower end follows the outer surface that faces the wing, and all of it leaves the nacelle through that surface, not through the nozzle plane.
+/// \throws Error(bad_argument) when the nacelle does not stand within the wing's span, is narrower than the pylon is thick, or the trailing edge leads through
+/// the nozzle plane all the same
 Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, const PylonOptions& options);
 
 /// Where a body stands whose axis leads from a point towards another; no roll. \throws Error(bad_argument) when they coincide

@@ -88,7 +88,10 @@ void XmlFile::fail(const pugi::xml_node& node, const std::string& problem, const
   throw Error({.code = ErrorCode::file_malformed, .attempted = "reading " + path_.string(), .problem = place(node) + ": " + problem, .hint = hint});
 }
 
-void XmlFile::tell(const pugi::xml_node& node, const std::string& text) { messages_.push_back(place(node) + ": " + text); }
+void XmlFile::tell(const pugi::xml_node& node, const std::string& text) {
+  std::string message = place(node) + ": " + text;
+  if (std::find(messages_.begin(), messages_.end(), message) == messages_.end()) messages_.push_back(std::move(message));
+}
 
 std::string XmlFile::text(const pugi::xml_node& node, const char* attribute, std::string_view fallback) const {
   const pugi::xml_attribute a = node.attribute(attribute);
@@ -202,11 +205,13 @@ std::vector<Uv> XmlFile::pairs(const pugi::xml_node& node) const {
   return pairs;
 }
 
-void XmlFile::tell_unknown(const pugi::xml_node& node, std::string_view attributes, std::string_view children) {
+void XmlFile::tell_unknown(const pugi::xml_node& node, std::string_view attributes, std::initializer_list<std::string_view> children) {
   for (const pugi::xml_attribute a : node.attributes())
     if (!is_listed(attributes, a.name())) tell(node, std::string("attribute '") + a.name() + "' is not known and was left out");
   for (const pugi::xml_node child : node.children())
-    if (child.type() == pugi::node_element && !is_listed(children, child.name())) tell(child, "this element is not known and was left out");
+    if (child.type() == pugi::node_element &&
+        std::none_of(children.begin(), children.end(), [&](std::string_view list) { return is_listed(list, child.name()); }))
+      tell(child, "this element is not known and was left out");
 }
 
 }  // namespace sterna

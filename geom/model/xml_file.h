@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,7 +32,7 @@ class XmlFile {
   std::string place(const pugi::xml_node& node) const;
   /// \throws Error(file_malformed)
   [[noreturn]] void fail(const pugi::xml_node& node, const std::string& problem, const std::string& hint = {}) const;
-  /// Adds "line 12, /path: text" to the messages.
+  /// Adds "line 12, /path: text" to the messages, once.
   void tell(const pugi::xml_node& node, const std::string& text);
   std::vector<std::string>& messages() { return messages_; }
 
@@ -60,8 +61,9 @@ class XmlFile {
   /// Text of a child without blanks around it; empty where there is none.
   static std::string child_text(const pugi::xml_node& node, const char* child);
 
-  /// Tells every attribute and child element that is in neither list (names separated by blanks).
-  void tell_unknown(const pugi::xml_node& node, std::string_view attributes, std::string_view children);
+  /// Tells every attribute and child element that is in none of the lists (names separated by blanks).
+  void tell_unknown(const pugi::xml_node& node, std::string_view attributes, std::initializer_list<std::string_view> children);
+  void tell_unknown(const pugi::xml_node& node, std::string_view attributes, std::string_view children) { tell_unknown(node, attributes, {children}); }
 
  private:
   std::filesystem::path path_;

@@ -67,6 +67,9 @@ void find_crossings_of_row(std::span<const std::vector<Uv>> loops, double u, std
   std::sort(crossings.begin(), crossings.end());
 }
 
+/// Sizes are met on the average: edges are up to about 1.3 times as long, and the error grows with the square of their length.
+constexpr double k_error_share = 0.6;
+
 }  // namespace
 
 double largest_curvature(const SurfaceDerivatives& d) {
@@ -80,12 +83,22 @@ double largest_curvature(const SurfaceDerivatives& d) {
   return std::abs(mean) + std::sqrt(std::max(0.0, mean * mean - gauss));
 }
 
+void CurvatureLimits::take_less(const CurvatureLimits& other) {
+  for (double CurvatureLimits::*member : {&CurvatureLimits::angle, &CurvatureLimits::chord_error, &CurvatureLimits::min_edge, &CurvatureLimits::most_turn,
+                                          &CurvatureLimits::least_edge, &CurvatureLimits::error_edge})
+    this->*member = std::min(this->*member, other.*member);
+}
+
 double CurvatureLimits::size_of(double curvature) const {
   if (!(curvature > 0.0)) return k_no_limit;
   const double radius = 1.0 / curvature;
-  // The chord of an arc, and the one whose arc rises by the error: l^2 = 8 R e - 4 e^2.
-  const double by_error = chord_error < radius ? std::sqrt(8.0 * radius * chord_error - 4.0 * chord_error * chord_error) : k_no_limit;
-  return std::max(min_edge, std::min(2.0 * std::sin(0.5 * angle) * radius, by_error));
+  const auto chord = [&](double by) { return std::isfinite(by) ? 2.0 * std::sin(0.5 * by) * radius : k_no_limit; };
+  const double size = std::max({chord(angle), std::min(min_edge, chord(most_turn)), least_edge});
+  if (!std::isfinite(chord_error)) return size;
+  // The arc over an equilateral triangle's middle rises by e where its edges are l: l^2 = 3 (2 R e - e^2). Curvatures above 1/e ask for what spans
+  // a feature that is as high as the error, and never for less: no finer edge brings the surface nearer than that.
+  const double e = k_error_share * chord_error, r = std::max(radius, e);
+  return std::min(size, std::max(error_edge, std::sqrt(3.0 * (2.0 * r * e - e * e))));
 }
 
 CurvatureSizes::CurvatureSizes(const Surface& surface, const ParameterBox& box, std::span<const std::vector<Uv>> loops) {

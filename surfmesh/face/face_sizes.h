@@ -17,9 +17,14 @@ double largest_curvature(const SurfaceDerivatives& d);
 /// What curvature may ask for.
 struct CurvatureLimits {
   double angle = 0.2;                                            ///< rad: an edge spans at most this angle
-  double chord_error = std::numeric_limits<double>::infinity();  ///< m: the middle of an edge is no farther from its arc
-  double min_edge = 0.0;                                         ///< m: never less
+  double chord_error = std::numeric_limits<double>::infinity();  ///< m: triangles are no farther from the surface
+  double min_edge = 0.0;                                         ///< m: the angle asks for no less,
+  double most_turn = std::numeric_limits<double>::infinity();    ///< rad: unless such an edge would span more than this,
+  double least_edge = 0.0;                                       ///< m: and then for no less than this
+  double error_edge = 0.0;                                       ///< m: the chord error asks for no less
   double growth = 0.3;                                           ///< change of the length by distance; infinite: each sample asks for itself
+  /// Of two faces beside an edge: the lesser of each but the growth.
+  void take_less(const CurvatureLimits& other);
   /// Metres, for a radius of curvature; infinite for none.
   double size_of(double curvature) const;
 };

@@ -22,6 +22,10 @@ constexpr double k_of_longest_side = 0.02;
 /// Of the root of a face's area.
 constexpr double k_of_face = 0.25;
 constexpr double k_min_of_max = 0.02;
+/// Rad: beyond about 45 degrees between triangles layers take a smooth place for an edge; edges miss their size by a third.
+constexpr double k_most_turn = 30.0 * std::numbers::pi / 180.0;
+/// Of the automatic min_edge: it gives way so far and no farther, since pointed tips and thin round trailing edges would ask for most of all triangles.
+constexpr double k_least_of_min = 0.5;
 
 double longest_side(const Box& box) { return box.empty() ? 0.0 : box.longest_side(); }
 
@@ -119,7 +123,7 @@ void require_chord_error_in_reach(const Model& model, const SurfaceMeshOptions& 
   for (const FaceId f : model.faces.ids()) {
     const CurvatureLimits& limits = sizes.faces[f].limits;
     if (!std::isfinite(limits.chord_error) || is_min_edge_given(model.faces[f].name, options, patches)) continue;
-    sizes.faces[f].curvature->limit({.angle = std::numbers::pi, .chord_error = limits.chord_error, .min_edge = 0.0, .growth = limits.growth});
+    sizes.faces[f].curvature->limit({.angle = std::numeric_limits<double>::infinity(), .chord_error = limits.chord_error, .growth = limits.growth});
     n += estimated_triangles(sizes, f);
     least = std::min(least, limits.chord_error);
   }
@@ -150,10 +154,17 @@ FaceSizes resolve(const std::string& name, double automatic_max, const SurfaceMe
   sizes.has_tip_strips = options.tip_strips;
   sizes.max_edge = is_automatic(max_edge) ? automatic_max : max_edge;
   sizes.limits.min_edge = std::min(sizes.max_edge, is_automatic(min_edge) ? k_min_of_max * sizes.max_edge : min_edge);
+  // A min_edge that nobody gave ends neither a chord error, nor may the mesh turn sharply for it where the model is smooth.
+  if (is_automatic(min_edge)) {
+    sizes.limits.most_turn = std::max(angle, k_most_turn);
+    sizes.limits.least_edge = k_least_of_min * sizes.limits.min_edge;
+  } else {
+    sizes.limits.least_edge = sizes.limits.error_edge = sizes.limits.min_edge;
+  }
   sizes.limits.angle = angle;
   if (!is_automatic(error)) sizes.limits.chord_error = error;
   sizes.max_edge /= options.refinement;
-  sizes.limits.min_edge /= options.refinement;
+  for (double* edge : {&sizes.limits.min_edge, &sizes.limits.least_edge, &sizes.limits.error_edge}) *edge /= options.refinement;
   sizes.limits.angle /= options.refinement;
   // The error of a chord falls with the square of its length.
   sizes.limits.chord_error /= options.refinement * options.refinement;
@@ -245,9 +256,7 @@ std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePla
   CurvatureLimits limits = sizes.faces[uses.front().face].limits;
   for (const EdgeUsePlace& place : uses) {
     least = std::min(least, sizes.faces[place.face].max_edge);
-    limits.angle = std::min(limits.angle, sizes.faces[place.face].limits.angle);
-    limits.min_edge = std::min(limits.min_edge, sizes.faces[place.face].limits.min_edge);
-    limits.chord_error = std::min(limits.chord_error, sizes.faces[place.face].limits.chord_error);
+    limits.take_less(sizes.faces[place.face].limits);
   }
   const auto component_of = [&](const EdgeUsePlace& place) { return model.faces[place.face].component; };
   if (std::any_of(uses.begin(), uses.end(), [&](const EdgeUsePlace& place) { return component_of(place) != component_of(uses.front()); }))

@@ -344,10 +344,7 @@ bool goes_on(Finding& finding, End a, End b, const std::vector<End>& at_corner) 
   }
   for (const End& end : crossings) {
     RowLaw law{std::min(p.first, q.first), std::min(p.growth, q.growth), finding.of(finding.sides[end.edge][0]).limits};
-    const CurvatureLimits& other = finding.of(finding.sides[end.edge][1]).limits;
-    law.limits.angle = std::min(law.limits.angle, other.angle);
-    law.limits.chord_error = std::min(law.limits.chord_error, other.chord_error);
-    law.limits.min_edge = std::min(law.limits.min_edge, other.min_edge);
+    law.limits.take_less(finding.of(finding.sides[end.edge][1]).limits);
     finding.bands.crossings[end.edge][static_cast<std::size_t>(end.end)] = {law, std::min(p.longest, q.longest), {along, back}, true};
   }
   return true;

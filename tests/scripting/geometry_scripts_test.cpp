@@ -200,6 +200,17 @@ TEST_F(GeometryScripts, ControlSurfacesAreDeflectedOrNamed) {
               HasSubstr("is for wings, not for a boom"));
 }
 
+TEST_F(GeometryScripts, ComponentsAreFoundByTheNamesThatAreListed) {
+  EXPECT_EQ(run("local m = aircraft{ wing{ name='Wing', sections={ {chord=1, airfoil='naca2412'}, {y=4, chord=0.8} } }, body_of_revolution{ name='report', "
+                "profile = { {0, 0}, {1, 0.3}, "
+                "{2, 0} } }, unite=false } local same = true for _, name in ipairs(m.components) do if name ~= 'report' then same = same and "
+                "m[name].components[1] == name "
+                "and #m[name].components == 1 end end print(same, tostring(m['Wing']) == tostring(m['Win*']), m['report'] == m.report)"),
+            "true\ttrue\ttrue\n");
+  EXPECT_THAT(error("local m = aircraft{ wing{ name='Wing', sections={ {chord=1, airfoil='naca2412'}, {y=4, chord=0.8} } } } print(m['Wong'])"),
+              HasSubstr("Wong"));
+}
+
 TEST_F(GeometryScripts, AnAircraftIsUnitedAndWritten) {
   const std::string parts =
       "local b = fuselage{ name='body', along='smooth', frames={ {x=0, diameter=0.6}, {x=2, diameter=1.2}, {x=6, diameter=1} } } "

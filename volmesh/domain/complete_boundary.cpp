@@ -11,6 +11,7 @@
 #include "geom/mesh/topology.h"
 #include "volmesh/domain/end_planes.h"
 #include "volmesh/domain/farfield.h"
+#include "volmesh/domain/flatten_rims.h"
 #include "volmesh/domain/shape_sizes.h"
 
 namespace sterna::volmesh {
@@ -259,9 +260,10 @@ void require_fluid(const FarfieldOptions& farfield, bool is_enclosed) {
 TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, const RunContext& context) {
   if (surface.n_triangles() == 0) throw Error({.code = ErrorCode::empty_surface, .attempted = k_completing_attempt, .problem = "the surface has no triangles"});
   const Topology topology(surface, context);
-  const Constraints rims = constraints_of_rims(surface, topology);
-  const std::vector<EndPlane> ends = end_planes_of(rims);
   TriMesh mesh = surface;
+  flatten_rims(topology, mesh, context);
+  const Constraints rims = constraints_of_rims(mesh, topology);
+  const std::vector<EndPlane> ends = end_planes_of(rims);
   snap_rims(rims, ends, mesh);
   const bool is_enclosed = is_enclosing(mesh, topology, ends);
   require_fluid(options.farfield, is_enclosed);

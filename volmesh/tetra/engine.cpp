@@ -27,8 +27,8 @@ double unit_scale(std::span<const Vec3> points) {
   return std::ldexp(1.0, -std::ilogb(largest));
 }
 
-// How long an engine may compute where the user sets no limit. The slowest runs that came to an end on 195 surfaces made 67 000 tetrahedra in a second
-// (docs/tetrahedra.md); long, thin triangles cost 25 s more, whatever their number. What takes seven times that does not end.
+// How long an engine may compute where the user sets no limit. The slowest runs of docs/tetrahedra.md made 67 000 tetrahedra in a
+// second; long, thin triangles cost 25 s more, whatever their number. Seven times that is taken for a run without end.
 constexpr double k_least_seconds = 60.0;
 constexpr double k_seconds_per_tetrahedron = 1e-4;
 /// As many as there are on clean surfaces; those that sources ask for come with the size field.

@@ -107,6 +107,50 @@ TEST(Shapes, nacelle_and_pylon_join_a_wing) {
   });
 }
 
+/// Half the height of a nacelle's cowl, straight between its frames.
+double cowl_radius(const Body& nacelle, double x) {
+  std::size_t i = 0;
+  while (i + 2 < nacelle.frames.size() && x > nacelle.frames[i + 1].center.x) ++i;
+  const BodyFrame &a = nacelle.frames[i], &b = nacelle.frames[i + 1];
+  return 0.5 * (a.height + (x - a.center.x) / (b.center.x - a.center.x) * (b.height - a.height));
+}
+
+TEST(Shapes, pylons_start_at_the_cowl_and_stay_out_of_the_jet) {
+  for (const double side : {1.0, -1.0})           // hanging below, standing above
+    for (const double behind : {-1.5, 0.0, 2.5})  // where the wing is
+      for (const double to : {0.6, 0.95, 1.0, 1.3})
+        for (const double exit : {0.4, 0.6, 0.8}) {
+          NacelleOptions n;
+          n.length = 4.0;
+          n.diameter = 2.1;
+          n.exit_ratio = exit;
+          const Body nacelle = nacelle_body("engine", {}, n);
+          Wing wing{.name = "wing"};
+          for (const double y : {5.0, -5.0}) {
+            WingSection s{.name = "s", .leading_edge = {behind, y, 1.6 * side}, .chord = 5.0};
+            s.points = {{1.0, 0.0}, {0.7, 0.05}, {0.3, 0.06}, {0.0, 0.0}, {0.3, -0.06}, {0.7, -0.05}, {1.0, 0.0}};
+            wing.sections.push_back(s);
+          }
+          PylonOptions o;
+          o.nacelle_to = to;
+          const Wing pylon = pylon_wing("pylon", wing, nacelle, o);
+          const std::string label =
+              "side " + std::to_string(side) + " behind " + std::to_string(behind) + " to " + std::to_string(to) + " exit " + std::to_string(exit);
+          const std::vector<Point>&lower = pylon.sections[0].loop, &upper = pylon.sections[1].loop;
+          double least = 1.0;
+          for (std::size_t i = 0; i < lower.size(); ++i) {
+            // The lower end is in the cowl; what is behind the nozzle, and the ways from it to the wing, above the jet.
+            const double x = lower[i].x;
+            if (x <= n.length && to <= 0.95) EXPECT_LT(std::hypot(lower[i].y, lower[i].z), cowl_radius(nacelle, x)) << label << " at x = " << x;
+            for (int k = 0; k <= 50; ++k) {
+              const Point p = lower[i] + (k / 50.0) * (upper[i] - lower[i]);
+              if (p.x >= n.length) least = std::min(least, std::hypot(p.y, p.z) - cowl_radius(nacelle, n.length));
+            }
+          }
+          EXPECT_GT(least, 0.0) << label;
+        }
+}
+
 double volume_of(const Model& model) { return solid_measures(model, SolidId(0)).volume; }
 
 Model valid(const Body& body) {

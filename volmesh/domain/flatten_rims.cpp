@@ -1,0 +1,136 @@
+#include "volmesh/domain/flatten_rims.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "geom/base/number_text.h"
+#include "geom/math/measures.h"
+#include "volmesh/envelope/constrain_rims.h"
+
+namespace sterna::volmesh {
+namespace {
+
+using Rim = std::vector<VertexId>;
+
+/// Vertices of the boundary's connected parts, ascending.
+std::vector<Rim> rims_of(const Topology& topology, const TriMesh& mesh) {
+  std::vector<std::uint32_t> parent(mesh.n_vertices());
+  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
+  const auto root = [&](VertexId v) {
+    std::uint32_t r = v.value();
+    while (parent[r] != r) r = parent[r] = parent[parent[r]];
+    return r;
+  };
+  std::vector<VertexId> on_rims;
+  for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
+    const HalfedgeId h(i);
+    if (!topology.is_boundary(h)) continue;
+    const std::uint32_t a = root(topology.from(h)), b = root(topology.to(h));
+    parent[std::max(a, b)] = std::min(a, b);
+    on_rims.push_back(topology.from(h));
+  }
+  std::sort(on_rims.begin(), on_rims.end(), [&](VertexId a, VertexId b) { return std::pair(root(a), a) < std::pair(root(b), b); });
+  on_rims.erase(std::unique(on_rims.begin(), on_rims.end()), on_rims.end());
+  std::vector<Rim> rims;
+  for (const VertexId v : on_rims) {
+    if (rims.empty() || root(rims.back().front()) != root(v)) rims.emplace_back();
+    rims.back().push_back(v);
+  }
+  return rims;
+}
+
+/// Ascending coordinates of a rim.
+std::vector<double> coordinates(const Rim& rim, const TriMesh& mesh, std::size_t axis) {
+  std::vector<double> values;
+  for (const VertexId v : rim) values.push_back(mesh.points[v][axis]);
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+double plane_through(const std::vector<double>& values) {
+  if (values.front() <= 0.0 && values.back() >= 0.0) return 0.0;
+  double best = values[values.size() / 2];
+  std::size_t most = 1;
+  for (std::size_t begin = 0, end = 0; begin < values.size(); begin = end) {
+    while (end < values.size() && values[end] == values[begin]) ++end;
+    if (end - begin <= most) continue;
+    most = end - begin;
+    best = values[begin];
+  }
+  return best;
+}
+
+/// The axis across which the rim is narrowest, where it is nearly but not quite flat.
+std::optional<std::size_t> nearly_flat_axis(const Rim& rim, const TriMesh& mesh, double length) {
+  std::size_t axis = 0;
+  double least = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::vector<double> values = coordinates(rim, mesh, k);
+    const double width = values.back() - values.front();
+    if (k == 0 || width < least) {
+      least = width;
+      axis = k;
+    }
+  }
+  if (least <= k_rim_tolerance * length || least > k_flat_rim * length) return std::nullopt;
+  return axis;
+}
+
+bool turns_over(const std::vector<TriangleId>& triangles, const std::vector<Point>& moved, const Rim& rim, const TriMesh& mesh) {
+  const auto place = [&](VertexId v) {
+    const auto at = std::lower_bound(rim.begin(), rim.end(), v);
+    return at != rim.end() && *at == v ? moved[static_cast<std::size_t>(at - rim.begin())] : mesh.points[v];
+  };
+  for (const TriangleId t : triangles) {
+    const TriangleVertices& v = mesh.triangles[t];
+    const auto [a, b, c] = corners(mesh, t);
+    if (dot(area_vector(a, b, c), area_vector(place(v[0]), place(v[1]), place(v[2]))) <= 0.0) return true;
+  }
+  return false;
+}
+
+/// Triangles with a corner on each rim.
+std::vector<std::vector<TriangleId>> triangles_beside(const std::vector<Rim>& rims, const TriMesh& mesh) {
+  Column<VertexId, std::uint32_t> rim_of(mesh.n_vertices(), 0);
+  std::vector<std::vector<TriangleId>> result(rims.size());
+  for (std::size_t r = 0; r < rims.size(); ++r)
+    for (const VertexId v : rims[r]) rim_of[v] = static_cast<std::uint32_t>(r + 1);
+  for (const TriangleId t : mesh.triangles.ids())
+    for (const VertexId v : mesh.triangles[t])
+      if (rim_of[v] != 0) result[rim_of[v] - 1].push_back(t);
+  return result;
+}
+
+}  // namespace
+
+void flatten_rims(const Topology& topology, TriMesh& mesh, const RunContext& context) {
+  if (topology.n_boundary_halfedges() == 0) return;
+  const double length = body_length(mesh);
+  const std::vector<Rim> rims = rims_of(topology, mesh);
+  const auto beside = triangles_beside(rims, mesh);
+  for (std::size_t r = 0; r < rims.size(); ++r) {
+    const Rim& rim = rims[r];
+    const std::optional<std::size_t> axis = nearly_flat_axis(rim, mesh, length);
+    if (!axis) continue;
+    const double at = plane_through(coordinates(rim, mesh, *axis));
+    std::vector<Point> moved;
+    double farthest = 0.0;
+    std::size_t n_off = 0;
+    for (const VertexId v : rim) {
+      moved.push_back(mesh.points[v]);
+      const double off = std::abs(moved.back()[*axis] - at);
+      farthest = std::max(farthest, off);
+      n_off += off > k_rim_tolerance * length ? 1 : 0;
+      moved.back()[*axis] = at;
+    }
+    if (turns_over(beside[r], moved, rim, mesh)) continue;
+    for (std::size_t i = 0; i < rim.size(); ++i) mesh.points[rim[i]] = moved[i];
+    context.warn("a rim of " + std::to_string(rim.size()) + " vertices lies in no plane, but near to " + "xyz"[*axis] + " = " + number_text(at) + ": " +
+                 std::to_string(n_off) + " of them were moved into it, by up to " + number_text(farthest, 3) + " m (" + number_text(farthest / length, 2) +
+                 " of the length)");
+  }
+}
+
+}  // namespace sterna::volmesh
