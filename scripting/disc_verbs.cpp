@@ -55,7 +55,7 @@ namespace sterna::scripting {
 namespace {
 
 using volmesh::ActuatorDisc;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 constexpr std::string_view k_disc_usage =
     "actuator_disc{ name = \"prop\", center = {-0.4, 0, 0}, axis = {1, 0, 0}, radius = 1.2, inner_radius = 0.25, edge = 0.05 }";
@@ -139,9 +139,9 @@ ActuatorDisc disc_of_text(const std::string& text) {
 }
 
 std::string discs_json(const std::vector<ActuatorDisc>& discs) {
-  Json list = Json::array();
+  PlainJson list = PlainJson::array();
   for (const ActuatorDisc& disc : discs) {
-    Json entry = {{"name", disc.name},
+    PlainJson entry = {{"name", disc.name},
                   {"center", {disc.center.x, disc.center.y, disc.center.z}},
                   {"axis", {disc.axis.x, disc.axis.y, disc.axis.z}},
                   {"radius", disc.radius},
@@ -155,15 +155,15 @@ std::string discs_json(const std::vector<ActuatorDisc>& discs) {
 std::vector<ActuatorDisc> discs_of_json(const std::string& text) {
   std::vector<ActuatorDisc> discs;
   try {
-    const auto vector_of = [](const Json& list) { return Vec3{list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()}; };
-    for (const Json& entry : Json::parse(text))
+    const auto vector_of = [](const PlainJson& list) { return Vec3{list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()}; };
+    for (const PlainJson& entry : PlainJson::parse(text))
       discs.push_back({.name = entry.at("name").get<std::string>(),
                        .center = vector_of(entry.at("center")),
                        .axis = vector_of(entry.at("axis")),
                        .radius = entry.at("radius").get<double>(),
                        .inner_radius = entry.at("inner_radius").get<double>(),
                        .edge = entry.contains("edge") ? entry.at("edge").get<double>() : k_automatic});
-  } catch (const Json::exception& error) {
+  } catch (const PlainJson::exception& error) {
     throw Error({.code = ErrorCode::bad_argument, .attempted = "reading actuator discs from JSON", .problem = error.what()});
   }
   return discs;

@@ -28,7 +28,7 @@ using volmesh::FindingKind;
 using volmesh::InspectReport;
 using volmesh::InspectRequest;
 using volmesh::Severity;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 constexpr double k_joined = 0.3;  ///< of the progress: files read and joined
 constexpr double k_percent = 100.0;
@@ -213,9 +213,9 @@ std::string text_of(const InspectReport& report, const std::string& name) {
 }
 
 std::string json_of(const InspectReport& report, const std::string& name) {
-  const auto number = [](double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); };
-  const auto point = [](const Point& p) { return Json{p.x, p.y, p.z}; };
-  Json json = {{"schema", "sterna-inspect-1"},
+  const auto number = [](double value) { return std::isfinite(value) ? PlainJson(value) : PlainJson(nullptr); };
+  const auto point = [](const Point& p) { return PlainJson{p.x, p.y, p.z}; };
+  PlainJson json = {{"schema", "sterna-inspect-1"},
                {"input", name},
                {"ok", report.is_ok()},
                {"triangles", report.mesh.n_triangles()},
@@ -225,9 +225,9 @@ std::string json_of(const InspectReport& report, const std::string& name) {
                {"errors", report.count(Severity::error)},
                {"warnings", report.count(Severity::warn)},
                {"notes", report.count(Severity::note)}};
-  json["findings"] = Json::array();
+  json["findings"] = PlainJson::array();
   for (const Finding& finding : report.findings) {
-    Json places = Json::array();
+    PlainJson places = PlainJson::array();
     for (const volmesh::FindingPlace& place : finding.places)
       places.push_back({{"at", point(place.position)}, {"patch", place.patch}, {"value", number(place.value)}, {"what", place.what}});
     json["findings"].push_back({{"kind", to_string(finding.kind)},
@@ -243,7 +243,7 @@ std::string json_of(const InspectReport& report, const std::string& name) {
   }
   if (report.layer.is_known) {
     const volmesh::LayerPrediction& layer = report.layer;
-    Json lost = Json::object(), patches = Json::array();
+    PlainJson lost = PlainJson::object(), patches = PlainJson::array();
     for (const auto& [reason, share] : layer.lost_area) lost[reason] = share;
     for (const auto& patch : layer.patches)
       patches.push_back(

@@ -10,7 +10,7 @@ namespace sterna::scripting {
 namespace {
 
 using volmesh::PeriodicNames;
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
 constexpr std::string_view k_expected = "expected the names of two patches, such as { \"left\", \"right\" }";
 
@@ -53,17 +53,17 @@ PeriodicNames periodic_of_text(const std::string& text) {
 }
 
 std::string periodic_json(const std::vector<PeriodicNames>& pairs) {
-  Json list = Json::array();
+  PlainJson list = PlainJson::array();
   for (const PeriodicNames& pair : pairs) list.push_back({pair.first, pair.second});
-  return list.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return list.dump(-1, ' ', false, PlainJson::error_handler_t::replace);
 }
 
 std::vector<PeriodicNames> periodic_of_json(const std::string& text) {
   const auto fail = [] { throw Error({.code = ErrorCode::bad_argument, .attempted = "reading periodic sides", .problem = "found no list of pairs of names"}); };
-  const Json list = Json::parse(text, nullptr, false);
+  const PlainJson list = PlainJson::parse(text, nullptr, false);
   if (!list.is_array()) fail();
   std::vector<PeriodicNames> pairs;
-  for (const Json& pair : list) {
+  for (const PlainJson& pair : list) {
     if (!pair.is_array() || pair.size() != 2 || !pair[0].is_string() || !pair[1].is_string()) fail();
     pairs.push_back({pair[0].get<std::string>(), pair[1].get<std::string>()});
   }

@@ -96,10 +96,11 @@ void require_leave(const std::vector<Model>& parts, const Meeting& meeting, cons
                                    " m out of the wall \"" + o.wall + "\""});
   const std::string problem =
       places.front().what + " and would be cut off there" + (worst.size() > 1 ? "; so would " + std::to_string(worst.size() - 1) + " more of its parts" : "");
-  fail_fluid(ErrorCode::bad_argument, problem, std::move(places),
-       "move the model, or make the tunnel larger. What is to pass through a wall (a sting, a strut, a wing on a side wall) is declared: test_section{ ..., "
-       "through = { \"" +
-           worst.front().component + "\" } }; stings made by sting{} need not be");
+  fail_fluid(
+      ErrorCode::bad_argument, problem, std::move(places),
+      "move the model, or make the tunnel larger. What is to pass through a wall (a sting, a strut, a wing on a side wall) is declared: test_section{ ..., "
+      "through = { \"" +
+          worst.front().component + "\" } }; stings made by sting{} need not be");
 }
 
 /// Sets what is wrong with a cut, and its volume.

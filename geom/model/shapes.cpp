@@ -249,7 +249,7 @@ std::array<Uv, 2> ends_at_surface(const BodyOutline& outline, const PylonOptions
     const double fall = (top - *outline.height(trailing.u + room)) / room;
     if (std::isfinite(climb)) sink = std::min(sink, room * (climb + fall));
     if (!(sink > 0.0))
-      refuse(attempted,
+      throw_bad_argument(attempted,
              "its trailing edge runs back to the wing below the nacelle's surface and leaves through the plane where that ends; nacelle_to or wing_to has to "
              "be less");
     trailing.v = top - sink;
@@ -259,7 +259,7 @@ std::array<Uv, 2> ends_at_surface(const BodyOutline& outline, const PylonOptions
     const double t = static_cast<double>(i) / k_pylon_stations, x = leading.u + t * (trailing.u - leading.u);
     if (is_behind && leading.v + t * (trailing.v - leading.v) > *outline.height(x)) break;  // from here on it stands on the air behind
     const auto top = outline.height(x, 0.5 * o.thickness * (trailing.u - leading.u));
-    if (!top) refuse(attempted, "it is thicker than the nacelle is wide: thickness has to be less");
+    if (!top) throw_bad_argument(attempted, "it is thicker than the nacelle is wide: thickness has to be less");
     // Near the trailing edge the section is thin again.
     if (t < 0.7) leading.v = std::min(leading.v, (*top - t * trailing.v) / (1.0 - t) - 0.1 * k_pylon_sink * outline.half_height(x));
   }
