@@ -142,10 +142,10 @@ std::string discs_json(const std::vector<ActuatorDisc>& discs) {
   PlainJson list = PlainJson::array();
   for (const ActuatorDisc& disc : discs) {
     PlainJson entry = {{"name", disc.name},
-                  {"center", {disc.center.x, disc.center.y, disc.center.z}},
-                  {"axis", {disc.axis.x, disc.axis.y, disc.axis.z}},
-                  {"radius", disc.radius},
-                  {"inner_radius", disc.inner_radius}};
+                       {"center", {disc.center.x, disc.center.y, disc.center.z}},
+                       {"axis", {disc.axis.x, disc.axis.y, disc.axis.z}},
+                       {"radius", disc.radius},
+                       {"inner_radius", disc.inner_radius}};
     if (!is_automatic(disc.edge)) entry["edge"] = disc.edge;
     list.push_back(std::move(entry));
   }

@@ -216,15 +216,15 @@ std::string json_of(const InspectReport& report, const std::string& name) {
   const auto number = [](double value) { return std::isfinite(value) ? PlainJson(value) : PlainJson(nullptr); };
   const auto point = [](const Point& p) { return PlainJson{p.x, p.y, p.z}; };
   PlainJson json = {{"schema", "sterna-inspect-1"},
-               {"input", name},
-               {"ok", report.is_ok()},
-               {"triangles", report.mesh.n_triangles()},
-               {"closed", report.is_closed},
-               {"parts", report.n_bodies},
-               {"length", report.length},
-               {"errors", report.count(Severity::error)},
-               {"warnings", report.count(Severity::warn)},
-               {"notes", report.count(Severity::note)}};
+                    {"input", name},
+                    {"ok", report.is_ok()},
+                    {"triangles", report.mesh.n_triangles()},
+                    {"closed", report.is_closed},
+                    {"parts", report.n_bodies},
+                    {"length", report.length},
+                    {"errors", report.count(Severity::error)},
+                    {"warnings", report.count(Severity::warn)},
+                    {"notes", report.count(Severity::note)}};
   json["findings"] = PlainJson::array();
   for (const Finding& finding : report.findings) {
     PlainJson places = PlainJson::array();

@@ -330,7 +330,7 @@ std::string volume_help() {
          "periodic = { { \"left\", \"right\" }, ... }: flat sides that are each other's image, moved; the mesh matches there node by node and face by face\n";
 }
 
-constexpr std::array<ScriptVerb, 6> k_verbs = {{
+constexpr std::array<ScriptVerb, 6> k_first_verbs = {{
     {"read_surface", k_read_surface_usage, "Reads surface files and joins them to one wall.", read_surface, surface_help, true, "surface"},
     {"union", k_union_usage, "Unites closed surfaces that stick in each other, or the crossing parts of one file, to one wall; or models to one model.", unite,
      union_help, true, "model or surface", true},
@@ -362,7 +362,7 @@ const ScriptVerb k_error_field = {"error", "", "", error_field};
 
 std::span<const ScriptVerb> script_verbs() {
   static const std::vector<ScriptVerb> all = [] {
-    std::vector<ScriptVerb> verbs(k_verbs.begin(), k_verbs.end());
+    std::vector<ScriptVerb> verbs(k_first_verbs.begin(), k_first_verbs.end());
     verbs.insert(verbs.end(), surface_verbs().begin(), surface_verbs().end());
     verbs.insert(verbs.end(), inspect_verbs().begin(), inspect_verbs().end());
     verbs.insert(verbs.end(), stage_verbs().begin(), stage_verbs().end());

@@ -65,7 +65,7 @@ Json quality_json(const surfmesh::SurfaceMeshReport& report) {
   return json;
 }
 
-[[noreturn]] void refuse(const InputPath& file, const std::string& problem) {
+[[noreturn]] void refuse_manifest(const InputPath& file, const std::string& problem) {
   throw Error(
       {.code = ErrorCode::file_malformed, .attempted = "reading " + file.name + ".json", .problem = problem, .hint = "delete it, or write the surface anew"});
 }
@@ -94,7 +94,7 @@ std::map<std::string, PatchKind> kinds_of(const Json& json, const InputPath& fil
       kinds[patch["name"].get<std::string>()] = kind;
       is_known = true;
     }
-    if (!is_known) refuse(file, "an entry of its patches has no name, or no kind of patch");
+    if (!is_known) refuse_manifest(file, "an entry of its patches has no name, or no kind of patch");
   }
   return kinds;
 }
@@ -143,7 +143,7 @@ std::optional<KnownSurface> read_surface_manifest(const InputPath& file, const s
   }
   const Json::json_pointer pointer("/quality/max_smooth_angle/degrees");
   if (!json.contains(pointer) || !json.at(pointer).is_number() || !(json.at(pointer).get<double>() >= 0.0 && json.at(pointer).get<double>() <= 180.0))
-    refuse(file, "its quality.max_smooth_angle.degrees is no angle");
+    refuse_manifest(file, "its quality.max_smooth_angle.degrees is no angle");
   const Json::json_pointer inside("/mesh/encloses_fluid");
   const bool encloses = json.contains(inside) && json.at(inside).is_boolean() && json.at(inside).get<bool>();
   return KnownSurface{json.at(pointer).get<double>() / k_degrees, kinds_of(json, file), encloses,

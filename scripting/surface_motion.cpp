@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view k_surface_move_usage = "wall:move{ 0, 0, 1.5 }";
 constexpr std::string_view k_surface_rotate_usage =
     "wall:rotate{ about = {1.2, 0, 0}, pitch = 4*deg, yaw = 2*deg }  or  wall:rotate{ axis = {0, 0, 1}, angle = 30*deg }";
-constexpr std::size_t k_listed_places = 5;  ///< places that an error names
+constexpr std::size_t k_named_pairs = 5;    ///< places that an error names
 constexpr std::size_t k_most_pairs = 1000;  ///< crossings looked at
 
 /// The surface as placed parts: itself where it has none.
@@ -36,7 +36,7 @@ void require_apart(const TriMesh& mesh, const RunContext& context) {
                  .problem = std::to_string(found.total) + " pairs of their triangles cross",
                  .hint = "union{ ... } unites surfaces that stick in each other"};
   info.n_places = found.total;
-  for (std::size_t i = 0; i < std::min(k_listed_places, found.pairs.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(k_named_pairs, found.pairs.size()); ++i) {
     const TriangleId a(found.pairs[i][0]), b(found.pairs[i][1]);
     const auto p = corners(mesh, a);
     info.places.push_back(

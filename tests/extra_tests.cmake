@@ -64,14 +64,16 @@ set_tests_properties(report_page_browser PROPERTIES COST 250)
 set_tests_properties(report_real_pages PROPERTIES COST 200)
 set_tests_properties(test_volmesh_driver test_scripting_series test_scripting_gates test_scripting PROPERTIES COST 100)
 
-# Benchmarks: tests/bench/NAME_main.cpp -> NAME, built and run by hand.
+# Benchmarks: tests/bench/NAME_main.cpp -> NAME, built (tools/build benches) and run by hand.
 file(GLOB bench_sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/bench/*_main.cpp)
 foreach(source ${bench_sources})
   get_filename_component(name ${source} NAME_WE)
   string(REGEX REPLACE "_main$" "" name ${name})
-  add_executable(${name} ${source})
+  add_executable(${name} EXCLUDE_FROM_ALL ${source})
   target_link_libraries(${name} PRIVATE sterna_test_support)
+  list(APPEND benches ${name})
 endforeach()
+add_custom_target(benches DEPENDS ${benches})
 # Compares our evaluators with OpenCASCADE's own.
 target_include_directories(spline_bench SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
 target_link_libraries(spline_bench PRIVATE ${STERNA_OCCT})

@@ -51,7 +51,7 @@ std::string expected_text(Unit dimension) {
   return units.empty() ? what : what + " (" + units + ")";
 }
 
-std::string number_text(double value) {
+std::string option_number_text(double value) {
   if (is_automatic(value)) return "automatic";
   char buffer[40];
   const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
@@ -63,7 +63,7 @@ std::string value_text(const OptionValue& value) {
       [](const auto& v) -> std::string {
         using V = std::decay_t<decltype(v)>;
         if constexpr (std::is_same_v<V, bool>) return v ? "true" : "false";
-        else if constexpr (std::is_same_v<V, double>) return number_text(v);
+        else if constexpr (std::is_same_v<V, double>) return option_number_text(v);
         else if constexpr (std::is_same_v<V, std::string>) return "\"" + v + "\"";
         else return std::to_string(v);
       },
@@ -72,7 +72,7 @@ std::string value_text(const OptionValue& value) {
 
 /// With its unit as users write it: angles in degrees, to six digits, which hides the conversion's rounding.
 std::string display_text(double value, Unit unit) {
-  if (unit != Unit::radian) return number_text(value) + (unit == Unit::none ? "" : " " + std::string(to_string(unit)));
+  if (unit != Unit::radian) return option_number_text(value) + (unit == Unit::none ? "" : " " + std::string(to_string(unit)));
   std::ostringstream text;
   text << value * 180.0 / std::numbers::pi << " deg";
   return text.str();
@@ -127,7 +127,7 @@ void check_range(const Option& option, double value) {
     return;
   }
   if (value < option.min || value > option.max || std::isinf(value))
-    reject(option, number_text(value) + (option.unit == Unit::radian ? " rad (" + display_text(value, option.unit) + ")" : ""),
+    reject(option, option_number_text(value) + (option.unit == Unit::radian ? " rad (" + display_text(value, option.unit) + ")" : ""),
            std::string(kind_text(option.kind)) + " in " + option.range_text());
 }
 
@@ -180,7 +180,7 @@ std::string Option::range_text() const {
   }
   const bool has_min = !std::isinf(min);
   const bool has_max = !std::isinf(max);
-  if (has_min && has_max) return (unit == Unit::radian ? display_text(min, unit) : number_text(min)) + " .. " + display_text(max, unit);
+  if (has_min && has_max) return (unit == Unit::radian ? display_text(min, unit) : option_number_text(min)) + " .. " + display_text(max, unit);
   if (has_min) return "x >= " + display_text(min, unit);
   if (has_max) return "x <= " + display_text(max, unit);
   return {};

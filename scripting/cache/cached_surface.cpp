@@ -17,7 +17,7 @@ constexpr const char* k_stage = "surface_mesh";
 constexpr std::size_t k_listed_parts = 4;
 
 /// Of all that the surface is made from; nothing where a model does not say what it was made of.
-std::optional<ContentKey> key_of(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, bool has_function, const RunContext& context) {
+std::optional<ContentKey> surface_key_of(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, bool has_function, const RunContext& context) {
   KeyMaker maker(k_stage);
   for (const ModelHandle& model : models) {
     if (!model->provenance.key()) return std::nullopt;
@@ -27,7 +27,7 @@ std::optional<ContentKey> key_of(const std::vector<ModelHandle>& models, const S
 }
 
 /// Of a part; nothing where it is not known what it was made of, or sizes depend on its place.
-std::optional<ContentKey> key_of(const PartTask& task, const RunContext& context) {
+std::optional<ContentKey> surface_key_of(const PartTask& task, const RunContext& context) {
   if (!task.model_key || task.has_sizes_by_place) return std::nullopt;
   surfmesh::SurfaceMeshOptions options = task.options;
   KeyMaker maker("surface of a part");
@@ -84,12 +84,12 @@ std::string names_of(const std::vector<ModelHandle>& models) {
 
 PartMesher cached_part_mesher(const Reuse& reuse) {
   const PartMesher ordinary = [reuse](const PartTask& task, const RunContext& context) {
-    const std::optional<ContentKey> key = reuse.cache ? key_of(task, context) : std::nullopt;
+    const std::optional<ContentKey> key = reuse.cache ? surface_key_of(task, context) : std::nullopt;
     const std::string what =
         task.model.components.size() == 0 ? std::string("of a part") : "of " + task.model.components.raw().front().name + " in its own frame";
     return cached<surfmesh::SurfaceMesh>(reuse, k_stage, what, key, context, [&] { return mesh_part(task, context); });
   };
-  return starting_mesher(reuse, ordinary, [](const PartTask& task, const RunContext& context) { return key_of(task, context); });
+  return starting_mesher(reuse, ordinary, [](const PartTask& task, const RunContext& context) { return surface_key_of(task, context); });
 }
 
 SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const SizeFunction& size,
@@ -97,7 +97,8 @@ SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const Surfac
                             const RunContext& context) {
   ReferenceUse* reference = reuse.reference;
   if (reference) reference->begin_surface();
-  std::optional<ContentKey> key = reuse.cache ? beside_reference(key_of(models, asked, static_cast<bool>(size), context), reuse, context) : std::nullopt;
+  std::optional<ContentKey> key =
+      reuse.cache ? beside_reference(surface_key_of(models, asked, static_cast<bool>(size), context), reuse, context) : std::nullopt;
   if (key && reference && !reference->is_this())
     key = KeyMaker("call").add(*key).add(reference->surface()).key();  // parts start from those of the same call first
   if (!reuse.cache || !key)

@@ -12,7 +12,7 @@
 namespace sterna::scripting {
 namespace {
 
-constexpr std::string_view k_usage = "report{ mesh, \"mesh.html\", cuts = { \"nose\", { x = 1.2 } } }  or  report{ wall, \"wall.html\" }";
+constexpr std::string_view k_report_usage = "report{ mesh, \"mesh.html\", cuts = { \"nose\", { x = 1.2 } } }  or  report{ wall, \"wall.html\" }";
 
 /// cuts = "tip", or a list of names, planes as texts, { x = 1.2 } and { point = ..., normal = ... }.
 std::vector<std::string> read_cuts(TableReader& reader) {
@@ -35,7 +35,7 @@ std::vector<std::string> read_cuts(TableReader& reader) {
 }
 
 ScriptValue make_report(const ScriptCall& call) {
-  const ScriptTable table = table_argument(call, 0, k_usage);
+  const ScriptTable table = table_argument(call, 0, k_report_usage);
   ReportOptions options;
   const OptionTable schema = sterna::options_of(options);
   TableReader reader(table, call.attempted());
@@ -77,13 +77,13 @@ std::string report_help() {
          options_help(sterna::options_of(options));
 }
 
-constexpr std::array<ScriptVerb, 1> k_verbs = {{{"report", k_usage,
-                                                 "Writes a page (HTML, one file, opens without a network) that shows a mesh: view, cuts, worst places, "
-                                                 "histograms, gates, coverage, times, options (docs/report.md).",
-                                                 make_report, report_help, true, "nothing"}}};
+constexpr std::array<ScriptVerb, 1> k_report_verbs = {{{"report", k_report_usage,
+                                                        "Writes a page (HTML, one file, opens without a network) that shows a mesh: view, cuts, worst places, "
+                                                        "histograms, gates, coverage, times, options (docs/report.md).",
+                                                        make_report, report_help, true, "nothing"}}};
 
 }  // namespace
 
-std::span<const ScriptVerb> report_verbs() { return k_verbs; }
+std::span<const ScriptVerb> report_verbs() { return k_report_verbs; }
 
 }  // namespace sterna::scripting

@@ -254,7 +254,7 @@ std::string help_of() {
   return options_help(sterna::options_of(options));
 }
 
-constexpr std::array<ScriptVerb, 5> k_verbs = {{
+constexpr std::array<ScriptVerb, 5> k_series_verbs = {{
     {"series", k_series_usage, "Runs a function for many cases, each in a process and a folder of its own; resumes, and ends with one table.", series_verb,
      help_of<SeriesOptions>, true, "table"},
     {"jobs", k_jobs_usage, "Runs the cases of a series in processes on this machine, so many at a time.", jobs_verb, help_of<JobsOptions>, false, "table"},
@@ -266,6 +266,6 @@ constexpr std::array<ScriptVerb, 5> k_verbs = {{
 
 }  // namespace
 
-std::span<const ScriptVerb> series_verbs() { return k_verbs; }
+std::span<const ScriptVerb> series_verbs() { return k_series_verbs; }
 
 }  // namespace sterna::scripting

@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 namespace fs = std::filesystem;
 
-constexpr std::chrono::milliseconds k_queue_pause{100};   ///< between two looks at the folders of cases
+constexpr std::chrono::milliseconds k_look_pause{100};    ///< between two looks at the folders of cases
 constexpr std::chrono::milliseconds k_queue_pause{2000};  ///< between two questions to the queue, which a whole cluster uses
 /// Looks at the queue that must miss a job before it counts as lost: its last files may be on their way through the network's file system.
 constexpr int k_misses = 2;
@@ -113,7 +113,7 @@ class SlurmArray {
         settle_lost();
         asked = Clock::now();
       }
-      std::this_thread::sleep_for(k_queue_pause);
+      std::this_thread::sleep_for(k_look_pause);
     }
   }
 

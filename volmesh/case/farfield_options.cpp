@@ -40,7 +40,7 @@ SideRule parse_side(const std::string& entry) {
   return rule;
 }
 
-std::string number_text(double value) {
+std::string exact_number_text(double value) {
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), "%.17g", value);
   return text.data();
@@ -74,7 +74,7 @@ std::string sides_text(const std::vector<SideRule>& rules) {
     text += (text.empty() ? "" : " ") + rule.side + "=";
     std::string values = rule.has_kind ? std::string(to_string(rule.kind)) : "";
     if (!rule.name.empty()) values += (values.empty() ? "name:" : ",name:") + rule.name;
-    if (!is_automatic(rule.edge)) values += (values.empty() ? "edge:" : ",edge:") + number_text(rule.edge);
+    if (!is_automatic(rule.edge)) values += (values.empty() ? "edge:" : ",edge:") + exact_number_text(rule.edge);
     text += values;
   }
   return text;

@@ -11,7 +11,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_digits = 4;
+constexpr int k_height_digits = 4;
 
 /// Barycentric coordinates of a point of the triangle's plane; of a triangle without area the first corner.
 std::array<double, 3> weights_of(const std::array<Point, 3>& t, const Point& p) {
@@ -34,12 +34,12 @@ FirstHeights::FirstHeights(const TriMesh& surface, std::vector<double> heights, 
   for (const VertexId v : surface_.points.ids()) {
     const double height = heights_[v.index()];
     if (std::isfinite(height) && height >= k_least_first_height) continue;
-    if (wrong.size() < k_max_places) wrong.push_back({surface_.points[v], "first height " + in_metres(height, k_digits)});
+    if (wrong.size() < k_max_places) wrong.push_back({surface_.points[v], "first height " + in_metres(height, k_height_digits)});
   }
   if (!wrong.empty())
     throw Error({.code = ErrorCode::bad_argument,
                  .attempted = "taking first heights by place",
-                 .problem = "the function of first_height gives what is no height of " + in_metres(k_least_first_height, k_digits) + " at least",
+                 .problem = "the function of first_height gives what is no height of " + in_metres(k_least_first_height, k_height_digits) + " at least",
                  .places = std::move(wrong),
                  .hint = "it is asked at every vertex of the surface, also of patches that carry no layers"});
   const auto [least, greatest] = std::minmax_element(heights_.begin(), heights_.end());

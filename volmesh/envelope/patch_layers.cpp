@@ -20,7 +20,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_digits = 4;              ///< of lengths in the log
+constexpr int k_length_digits = 4;       ///< of lengths in the log
 constexpr double k_blend_heights = 3.0;  ///< automatic blend over the taller layer: its top rises by a third of what the border asks for
 constexpr double k_blend_edges = 8.0;    ///< and over the mean edge: neighbouring lines differ by at most a ninth of the whole step (its slope is 0.86 at most)
 
@@ -190,8 +190,8 @@ class Blender {
       std::string names;
       for (const PatchId patch : base_.wall.patches.ids())
         if (group_of_patch_[patch.index()] == static_cast<int>(g)) names += (names.empty() ? "" : ", ") + base_.wall.patches[patch].name;
-      context_.info("layers of " + names + ": first height " + (groups_[g].by_place ? "by place" : in_metres(groups_[g].first_height, k_digits)) +
-                    (groups_[g].blend > 0.0 ? ", blended with its neighbours over " + in_metres(groups_[g].blend, k_digits) : ""));
+      context_.info("layers of " + names + ": first height " + (groups_[g].by_place ? "by place" : in_metres(groups_[g].first_height, k_length_digits)) +
+                    (groups_[g].blend > 0.0 ? ", blended with its neighbours over " + in_metres(groups_[g].blend, k_length_digits) : ""));
     }
   }
 

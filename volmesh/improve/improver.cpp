@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geom/base/parallel.h"
+#include "geom/base/sort_unique.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -24,11 +25,6 @@ std::uint64_t spread_bits(std::uint64_t x) {
   x = (x | x << 8) & 0x100f00f00f00f00f;
   x = (x | x << 4) & 0x10c30c30c30c30c3;
   return (x | x << 2) & 0x1249249249249249;
-}
-
-void sort_unique(std::vector<std::uint32_t>& values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 }  // namespace

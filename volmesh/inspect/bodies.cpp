@@ -6,7 +6,7 @@
 namespace sterna::volmesh {
 namespace {
 
-struct Part {
+struct BodyPart {
   TriangleId first;  ///< the lowest
   std::int64_t n_triangles = 0;
   double volume = 0.0;  ///< m^3, signed: negative where the normals point inwards
@@ -14,11 +14,11 @@ struct Part {
   bool is_open = false;
 };
 
-std::vector<Part> parts_of(const TriMesh& mesh, const Topology& topology, const Components& components) {
-  std::vector<Part> parts(components.count);
+std::vector<BodyPart> parts_of(const TriMesh& mesh, const Topology& topology, const Components& components) {
+  std::vector<BodyPart> parts(components.count);
   const Point origin = bounding_box(mesh).center();
   for (const TriangleId t : mesh.triangles.ids()) {
-    Part& part = parts[components.component[t]];
+    BodyPart& part = parts[components.component[t]];
     if (part.n_triangles++ == 0) part.first = t;
     const auto [a, b, c] = corners(mesh, t);
     part.volume += tet_volume(origin, a, b, c);
@@ -28,7 +28,7 @@ std::vector<Part> parts_of(const TriMesh& mesh, const Topology& topology, const 
   return parts;
 }
 
-std::vector<TriangleId> triangles_of(const Components& components, const std::vector<Part>& parts, auto&& is_meant) {
+std::vector<TriangleId> triangles_of(const Components& components, const std::vector<BodyPart>& parts, auto&& is_meant) {
   std::vector<TriangleId> list;
   for (const TriangleId t : components.component.ids())
     if (is_meant(parts[components.component[t]])) list.push_back(t);
@@ -40,16 +40,16 @@ std::vector<TriangleId> triangles_of(const Components& components, const std::ve
 void survey_bodies(const Survey& survey, const Topology& topology) {
   const TriMesh& mesh = survey.mesh;
   const Components components = connected_components(mesh, topology);
-  const std::vector<Part> parts = parts_of(mesh, topology, components);
+  const std::vector<BodyPart> parts = parts_of(mesh, topology, components);
   survey.report.n_bodies = components.count;
   // The one part that encloses the fluid has its normals inwards, too; it holds the box of all.
   const Box all = bounding_box(mesh);
-  const auto encloses_all = [&](const Part& part) { return part.box.min == all.min && part.box.max == all.max; };
-  const auto is_cavity = [&](const Part& part) { return !part.is_open && part.volume < 0.0 && !encloses_all(part); };
+  const auto encloses_all = [&](const BodyPart& part) { return part.box.min == all.min && part.box.max == all.max; };
+  const auto is_cavity = [&](const BodyPart& part) { return !part.is_open && part.volume < 0.0 && !encloses_all(part); };
   std::int64_t n_cavities = 0;
   Finding cavities{.kind = FindingKind::cavity, .severity = Severity::warn};
   Finding bodies{.kind = FindingKind::bodies, .severity = Severity::note, .count = static_cast<std::int64_t>(parts.size())};
-  for (const Part& part : parts) {
+  for (const BodyPart& part : parts) {
     const FindingPlace place{part.box.center(), survey.patch_of(part.first), part.volume,
                              "part of " + count_of(part.n_triangles, "triangle", "triangles") + ", " + number_text(part.volume, k_text_digits) + " m^3"};
     n_cavities += is_cavity(part);

@@ -18,7 +18,7 @@ namespace sterna::volmesh {
 namespace {
 
 constexpr double k_full_share = 0.9;   ///< of the target that counts as full, as in the report of a mesh
-constexpr int k_denoising_sweeps = 3;  ///< of directions everywhere, as in the envelope's smoothing step
+constexpr int k_predicted_sweeps = 3;  ///< of directions everywhere, as in the envelope's smoothing step
 /// Of the wide smoothing around concave places: a third of the envelope's, which costs most of the time and changes the coverage by less than 1 % of the area.
 constexpr int k_concave_sweeps = 16;
 constexpr int k_tangled_rings = 6;  ///< as in the envelope
@@ -46,7 +46,7 @@ Heights predict(MeshingSite& site, const RunContext& context) {
   const Classification classes = classify_vertices(base, options, context);
   Heights heights{initial_envelope(base, options, context), {}};
   Envelope& envelope = heights.envelope;
-  smooth_directions(base, classes, std::min(options.direction_sweeps, k_denoising_sweeps), envelope, context);
+  smooth_directions(base, classes, std::min(options.direction_sweeps, k_predicted_sweeps), envelope, context);
   const Column<VertexId, std::uint8_t> concave = concave_region(base, classes, context);
   smooth_directions(base, classes, std::min(options.direction_sweeps, k_concave_sweeps), envelope, context, &concave);
   smooth_tangled(base, classes, envelope, context);

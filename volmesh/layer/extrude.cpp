@@ -6,6 +6,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
+#include "geom/base/sort_unique.h"
 #include "volmesh/envelope/keep_inside.h"
 #include "volmesh/envelope/untangle.h"
 #include "volmesh/layer/layer_cells.h"
@@ -27,12 +28,6 @@ template <class T>
 std::vector<T> joined(std::vector<T> a, const std::vector<T>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
-}
-
-template <class T>
-void sort_unique(std::vector<T>& list) {
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_digits = 4;                  ///< of lengths in texts
+constexpr int k_report_digits = 4;           ///< of lengths in texts
 constexpr double k_full_height_share = 0.9;  ///< of h_target that counts as covered
 constexpr double k_suspicious_share = 0.5;   ///< of the area compressed: more likely a mistake in the settings than a difficult shape
 
@@ -83,7 +83,7 @@ void list_places(const LayerBase& base, const Envelope& envelope, const Classifi
   std::stable_sort(compressed.begin(), compressed.end(), [&](VertexId a, VertexId b) { return envelope.height[a] < envelope.height[b]; });
   compressed.resize(std::min(compressed.size(), k_listed_compressed));
   for (const VertexId v : compressed)
-    report.compressed.push_back({base.wall.points[v], in_metres(envelope.height[v], k_digits) + ", " + vertex_text(base, envelope, v)});
+    report.compressed.push_back({base.wall.points[v], in_metres(envelope.height[v], k_report_digits) + ", " + vertex_text(base, envelope, v)});
 }
 
 /// Layers that are thinner than their own first cells come from a wrong unit more often than from a difficult shape.
@@ -99,9 +99,9 @@ void warn(const Envelope& envelope, const Classifier& classifier, LayerReport& r
   char share[32];
   std::snprintf(share, sizeof share, "%.0f %%", 100.0 * report.compressed_area);
   report.warnings.push_back("the layer is compressed on " + std::string(share) + " of the wall: " + std::to_string(scale.n(v)) + " layers of first_height " +
-                            in_metres(scale.h0(v), k_digits) + " are " + in_metres(scale.compressed(v), k_digits) + " tall" +
-                            (is_target_low ? ", more than the tallest target of " + in_metres(tallest, k_digits) : "") + " (body length " +
-                            in_metres(report.body_length, k_digits) + "); are first_height and the surface in the same unit?");
+                            in_metres(scale.h0(v), k_report_digits) + " are " + in_metres(scale.compressed(v), k_report_digits) + " tall" +
+                            (is_target_low ? ", more than the tallest target of " + in_metres(tallest, k_report_digits) : "") + " (body length " +
+                            in_metres(report.body_length, k_report_digits) + "); are first_height and the surface in the same unit?");
 }
 
 constexpr double k_interface_ratio = 3.0;

@@ -14,7 +14,7 @@ namespace {
 using Origin = BoundarySplits::Origin;
 
 /// The splits of one of the two surfaces that make up the tetrahedra's boundary.
-struct Part {
+struct SplitPart {
   const TriMesh& mesh;
   std::size_t first_triangle;            ///< of the boundary
   std::vector<std::size_t> points = {};  ///< of splits.points, those on this surface
@@ -22,7 +22,7 @@ struct Part {
   TriangleId triangle(const Origin& origin) const { return TriangleId(origin.triangle - first_triangle); }
 };
 
-void find_points(const BoundarySplits& splits, Part& part) {
+void find_points(const BoundarySplits& splits, SplitPart& part) {
   for (std::size_t i = 0; i < splits.points.size(); ++i)
     if (part.has_triangle(splits.origins[i].triangle)) part.points.push_back(i);
 }
@@ -36,7 +36,7 @@ T mixed(const TriangleVertices& corners, const Origin& origin, T sum, const F& v
 }
 
 /// The surface with its triangles split, new vertices on its old triangles.
-TriMesh split_mesh(const Part& part, const BoundarySplits& splits, std::span<const std::uint32_t> node2vertex) {
+TriMesh split_mesh(const SplitPart& part, const BoundarySplits& splits, std::span<const std::uint32_t> node2vertex) {
   const TriMesh& old = part.mesh;
   TriMesh mesh;
   mesh.patches = old.patches;
@@ -55,18 +55,18 @@ TriMesh split_mesh(const Part& part, const BoundarySplits& splits, std::span<con
 }
 
 /// Vertex of its surface for each point of the boundary as split: old ones keep their number, new ones follow in their order.
-std::vector<std::uint32_t> vertices_of_nodes(const Part& wall, const Part& outer, const BoundarySplits& splits) {
+std::vector<std::uint32_t> vertices_of_nodes(const SplitPart& wall, const SplitPart& outer, const BoundarySplits& splits) {
   const std::size_t n_wall = wall.mesh.n_vertices(), n_old = n_wall + outer.mesh.n_vertices();
   std::vector<std::uint32_t> node2vertex(n_old + splits.points.size());
   for (std::size_t i = 0; i < n_old; ++i) node2vertex[i] = static_cast<std::uint32_t>(i < n_wall ? i : i - n_wall);
-  for (const Part* part : {&wall, &outer})
+  for (const SplitPart* part : {&wall, &outer})
     for (std::size_t i = 0; i < part->points.size(); ++i) node2vertex[n_old + part->points[i]] = static_cast<std::uint32_t>(part->mesh.n_vertices() + i);
   return node2vertex;
 }
 
 /// Heights and directions of new lines: from the wall's new vertex to the envelope's new point. Where all corners that a point lies between are collapsed, so
 /// is it.
-Envelope split_envelope(const Envelope& old, const Part& part, const BoundarySplits& splits, const TriMesh& new_wall) {
+Envelope split_envelope(const Envelope& old, const SplitPart& part, const BoundarySplits& splits, const TriMesh& new_wall) {
   Envelope envelope = old;
   for (std::size_t i = 0; i < part.points.size(); ++i) {
     const Origin& origin = splits.origins[part.points[i]];
@@ -89,7 +89,7 @@ Envelope split_envelope(const Envelope& old, const Part& part, const BoundarySpl
 }
 
 /// From boundary points and splits as fill() numbers them to the points of the new fill_boundary().
-void renumber(const Part& wall, const Part& outer, std::span<const std::uint32_t> node2vertex, TetraResult& tets, const RunContext& context) {
+void renumber(const SplitPart& wall, const SplitPart& outer, std::span<const std::uint32_t> node2vertex, TetraResult& tets, const RunContext& context) {
   const std::size_t n_wall = wall.mesh.n_vertices(), n_old = n_wall + outer.mesh.n_vertices();
   std::vector<std::uint8_t> is_outer(node2vertex.size(), 0);
   for (std::size_t i = n_wall; i < n_old; ++i) is_outer[i] = 1;
@@ -117,7 +117,7 @@ bool is_proven(const FillBoundary& boundary, const TetraResult& tets, const RunC
 
 SplitLayer split_layer(const LayerBase& base, const Envelope& envelope, const TriMesh& outer, const MeshCase& options, const TrueSurface& true_surface,
                        TetraResult& tets, const RunContext& context) {
-  Part wall_part{base.wall, 0}, outer_part{outer, base.wall.n_triangles()};
+  SplitPart wall_part{base.wall, 0}, outer_part{outer, base.wall.n_triangles()};
   find_points(tets.splits, wall_part);
   find_points(tets.splits, outer_part);
   const std::vector<std::uint32_t> node2vertex = vertices_of_nodes(wall_part, outer_part, tets.splits);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t k_triangle_chunk = 512;   ///< triangles per task: about 2 ms
 constexpr std::int64_t k_findings_kept = 1000;  ///< of each kind
-constexpr int k_digits = 3;                     ///< of numbers in messages
+constexpr int k_angle_digits = 3;               ///< of numbers in messages
 /// A triangle flatter than this (height over longest edge) has no normal that could separate it from others.
 constexpr double k_flat_sine = 1e-6;
 /// Rounding error of a distance to a plane over the largest coordinate, generously.
@@ -185,9 +185,9 @@ std::string text_of(const PreflightFinding& finding) {
   switch (finding.trouble) {
     case Trouble::crossing: return "crosses " + other;
     case Trouble::duplicate: return "is the same as " + other;
-    case Trouble::folded: return "is folded onto " + other + ", angle " + number_text(finding.value * 180.0 / std::numbers::pi, k_digits) + " deg";
-    case Trouble::sliver: return "is a sliver, height over longest edge " + number_text(finding.value, k_digits);
-    case Trouble::gap: return "is close to " + other + ", distance over edge " + number_text(finding.value, k_digits);
+    case Trouble::folded: return "is folded onto " + other + ", angle " + number_text(finding.value * 180.0 / std::numbers::pi, k_angle_digits) + " deg";
+    case Trouble::sliver: return "is a sliver, height over longest edge " + number_text(finding.value, k_angle_digits);
+    case Trouble::gap: return "is close to " + other + ", distance over edge " + number_text(finding.value, k_angle_digits);
   }
   return {};
 }

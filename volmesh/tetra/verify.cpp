@@ -46,7 +46,7 @@ struct Defects {
   bool empty() const { return kept.empty(); }
 };
 
-Defects joined(Defects a, const Defects& b) {
+Defects joined_defects(Defects a, const Defects& b) {
   for (std::size_t i = 0; i < a.counts.size(); ++i) a.counts[i] += b.counts[i];
   const std::size_t room = std::min(b.kept.size(), k_places_kept - a.kept.size());
   a.kept.insert(a.kept.end(), b.kept.begin(), b.kept.begin() + static_cast<std::ptrdiff_t>(room));
@@ -206,7 +206,7 @@ Defects match_faces(const Owners& owners, std::size_t n_nodes, const RunContext&
         }
         return findings;
       },
-      joined, k_buckets_per_task);
+      joined_defects, k_buckets_per_task);
 }
 
 Defects judge_tetrahedra(const Nodes& nodes, const TetraResult& result, const RunContext& context) {
@@ -225,7 +225,7 @@ Defects judge_tetrahedra(const Nodes& nodes, const TetraResult& result, const Ru
         }
         return findings;
       },
-      joined, k_owner_chunk);
+      joined_defects, k_owner_chunk);
 }
 
 ErrorInfo invalid(std::string problem) {
