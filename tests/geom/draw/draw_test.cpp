@@ -12,6 +12,7 @@
 #include "geom/draw/choices.h"
 #include "geom/draw/colours.h"
 #include "geom/draw/legend.h"
+#include "geom/draw/scene.h"
 #include "geom/mesh/surface_fields.h"
 #include "tests/support/constants.h"
 #include "tests/support/hybrid_shapes.h"
@@ -125,6 +126,36 @@ TEST(Draw, IsoShowsThreeSidesOfACube) {
   EXPECT_TRUE(is_shade_of(image.at(45, 120), 0));
   EXPECT_TRUE(is_shade_of(image.at(135, 130), 2));
   EXPECT_TRUE(is_shade_of(image.at(100, 40), 5));
+}
+
+/// A block whose side at y = 0, or at y = 1, is a plane of symmetry.
+TEST(Draw, HalfModelsAreSeenFromTheSideOfTheFluidWhetherIsoIsNamedOrNot) {
+  for (const double at : {0.0, 1.0}) {
+    HybridMesh mesh = plate_block(4, {.n_layers = 3, .layer_height = 0.5, .ratio = 1.0, .outer_height = 1.0});
+    PatchId plane;
+    const auto look = [&](const auto& face) {
+      if (std::ranges::all_of(face.nodes, [&](NodeId n) { return std::abs(mesh.points[n].y - at) < 1e-12; })) plane = face.patch;
+    };
+    for (const BoundaryTriangle& t : mesh.boundary_triangles) look(t);
+    for (const BoundaryQuad& q : mesh.boundary_quads) look(q);
+    ASSERT_TRUE(plane.is_valid());
+    // Of its own, whatever else has the patch's name.
+    const PatchId symmetry = mesh.patches.push_back({"symmetry", PatchKind::symmetry});
+    const auto take = [&](auto& face) {
+      if (std::ranges::all_of(face.nodes, [&](NodeId n) { return std::abs(mesh.points[n].y - at) < 1e-12; })) face.patch = symmetry;
+    };
+    for (BoundaryTriangle& t : mesh.boundary_triangles) take(t);
+    for (BoundaryQuad& q : mesh.boundary_quads) take(q);
+    const double inwards = at == 0.0 ? 1.0 : -1.0;
+    for (const char* view : {"automatic", "iso", "ISO"}) {
+      DrawOptions options;
+      options.view = view;
+      EXPECT_GT(draw::build_scene(mesh, false, options, k_context).toward.y * inwards, 0.0) << view << ", symmetry at y = " << at;
+    }
+    DrawOptions options;
+    options.view = at == 0.0 ? "left" : "right";  // who names a side sees that side
+    EXPECT_LT(draw::build_scene(mesh, false, options, k_context).toward.y * inwards, 0.0);
+  }
 }
 
 TEST(Draw, PatchesThatAreNotNamedAreNotShown) {

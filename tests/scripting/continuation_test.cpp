@@ -1,0 +1,85 @@
+// A run that is stopped behind a step and continued, from a script or from the command line, gives the bytes of the whole run: with everything that a domain
+// can have beside bodies in a sphere.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "scripting/exit_status.h"
+#include "tests/support/data.h"
+#include "tests/support/process.h"
+
+namespace sterna::scripting {
+namespace {
+
+struct Domain {
+  const char* name;
+  const char* wall;     ///< Lua: makes `wall`
+  const char* options;  ///< of make_envelope and volume_mesh
+};
+
+void PrintTo(const Domain& domain, std::ostream* out) { *out << domain.name; }
+
+class Continuation : public testing::TestWithParam<Domain> {
+ protected:
+  Continuation() : folder(test::scratch()) { std::filesystem::copy(test::corpus() / "scripts" / "box.stl", folder / "box.stl"); }
+
+  void run(const std::string& name, const std::string& text) {
+    std::ofstream(folder / (name + ".lua")) << text;
+    expect_success({"run", name + ".lua"});
+  }
+  void expect_success(const std::vector<std::string>& arguments) {
+    const test::ProcessResult result = test::run_process(test::sterna_program(), arguments, folder, -1.0);
+    EXPECT_EQ(result.status, k_exit_success) << result.errors;
+  }
+  std::string contents(const std::string& name) {
+    std::ifstream file(folder / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  std::filesystem::path folder;
+};
+
+TEST_P(Continuation, GivesTheBytesOfTheWholeRun) {
+  const std::string wall = std::string("local wall = read_surface 'box.stl'\n") + GetParam().wall + "\n";
+  const std::string layer = std::string("layers = 4, first_height = 2e-3, ") + GetParam().options;
+  run("whole", wall + "volume_mesh{ wall, " + layer + ", stages = 'all.sterna' }:write 'whole.su2'");
+  run("envelope", wall + "make_envelope{ wall, " + layer + " }:write 'env.sterna'");
+  std::filesystem::remove(folder / "room.stl");  // the file of the steps has what it needs
+  run("tetrahedra", "tetrahedra{ read_stages('env.sterna').envelope }:write 'tets.sterna'");
+  run("prisms", "local s = read_stages 'tets.sterna'\nprisms{ s.envelope, s.tetrahedra }:write 'script.su2'");
+  expect_success({"mesh", "env.sterna", "-o", "command.su2"});
+  expect_success({"mesh", "tets.sterna", "-o", "late.su2"});
+  const std::string whole = contents("whole.su2");
+  EXPECT_GT(whole.size(), 10000u);
+  for (const char* name : {"script.su2", "command.su2", "late.su2"}) EXPECT_TRUE(contents(name) == whole) << name << " differs";
+}
+
+TEST_P(Continuation, TakesOptionsOfTheStepsThatAreToCome) {
+  const std::string wall = std::string("local wall = read_surface 'box.stl'\n") + GetParam().wall + "\n";
+  const std::string layer = std::string("layers = 4, first_height = 2e-3, ") + GetParam().options;
+  run("whole", wall + "volume_mesh{ wall, " + layer + ", ends_growth = 1.25, size_growth = 1.5, improve_rounds = 3 }:write 'whole.su2'");
+  run("envelope", wall + "make_envelope{ wall, " + layer + " }:write 'env.sterna'");
+  run("script",
+      "local e = read_stages('env.sterna').envelope\nprisms{ e, tetrahedra{ e, ends_growth = 1.25, size_growth = 1.5 }, improve_rounds = 3 }:write "
+      "'script.su2'");
+  expect_success({"mesh", "env.sterna", "--ends-growth", "1.25", "--size-growth", "1.5", "--improve-rounds", "3", "-o", "command.su2"});
+  const std::string whole = contents("whole.su2");
+  EXPECT_GT(whole.size(), 10000u);
+  for (const char* name : {"script.su2", "command.su2"}) EXPECT_TRUE(contents(name) == whole) << name << " differs";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Domains, Continuation,
+    testing::Values(
+        Domain{"Half", "wall = half{ wall:move{ 0, -0.5, 0 } }", "farfield = sphere{ radius = 6 }"},
+        Domain{"Disc", "", "farfield = sphere{ radius = 6 }, interfaces = { actuator_disc{ name = 'prop', center = {-0.8, 0.5, 0.5}, radius = 0.6 } }"},
+        Domain{"Periodic", "",
+               "farfield = box{ {-3, -3, -3}, {4, 4, 4}, edge = 1.5, sides = { y_min = { kind = 'slip', name = 'left' }, y_max = { kind = 'slip', name = "
+               "'right' } } }, periodic = { { 'left', 'right' } }"},
+        Domain{"FarfieldSurface", "surface_mesh{ box{ {-3, -3, -3}, {4, 4, 4} }, max_edge = 1.5 }:write 'room.stl'", "farfield = 'room.stl'"}),
+    [](const testing::TestParamInfo<Domain>& tested) { return std::string(tested.param.name); });
+
+}  // namespace
+}  // namespace sterna::scripting
