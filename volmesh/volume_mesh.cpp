@@ -32,22 +32,8 @@ TrueSurface true_surface_of(const TrueSurface& of_surface, const Domain& domain)
 }
 
 /// \p is_clear: proved already; not where patches were triangulated anew.
-TetraBoundary boundary_for_engines(const FillBoundary& boundary, std::span<const Point> holes, bool is_clear, SplitTaker take_splits) {
-  return {boundary.points, boundary.triangles, holes, is_clear, boundary.patch_names, boundary.triangle_patch, std::move(take_splits)};
-}
-
-/// Carries the splits of a result to the layer; where the layer must be lower with them, the volume inside the split boundary, kept now, is filled once more.
-SplitLayer take_splits(const MeshingSite& site, const Envelope& envelope, const Makers& makers, TetraResult& tets, const RunContext& context) {
-  const MeshCase& options = site.options;
-  SplitLayer layer = split_layer(site.base, envelope, site.domain.outer, options, true_surface_of(makers.true_surface, site.domain), tets, context);
-  if (layer.is_filled) return layer;
-  TetraOptions keeping = options.tetrahedra;
-  keeping.boundary_splits = "never";
-  const std::vector<Point> holes = find_cavity_points(*layer.wall, context);
-  const TetraBoundary domain = boundary_for_engines(layer.boundary, holes, true, {});
-  SizeSupply sizes(domain, options.sources, options.size, context);
-  tets = fill(domain, sizes, keeping, context);
-  return layer;
+TetraBoundary boundary_for_engines(const FillBoundary& boundary, std::span<const Point> holes, bool is_clear, bool may_split) {
+  return {boundary.points, boundary.triangles, holes, is_clear, boundary.patch_names, boundary.triangle_patch, may_split};
 }
 
 /// What one attempt at the tetrahedra has made.
@@ -57,22 +43,49 @@ struct Filling {
   std::optional<LayerProof> proof;  ///< of the layer that the tetrahedra are around
 };
 
+/// Where the layer had to be lower with the splits, the volume inside the split boundary, kept now, is filled anew.
+void refill(const SplitLayer& layer, const MeshCase& options, TetraResult& tets, const RunContext& context) {
+  TetraOptions keeping = options.tetrahedra;
+  keeping.boundary_splits = "never";
+  const std::vector<Point> holes = find_cavity_points(*layer.wall, context);
+  const TetraBoundary domain = boundary_for_engines(layer.boundary, holes, true, false);
+  SizeSupply sizes(domain, options.sources, options.size, context);
+  tets = fill(domain, sizes, keeping, context);
+}
+
+/// The first candidate of the engines whose splits the layer can follow.
+void climb(const MeshingSite& site, const Envelope& envelope, const Makers& makers, TetraLadder& ladder, Filling& filling, const RunContext& context) {
+  const TrueSurface true_surface = true_surface_of(makers.true_surface, site.domain);
+  for (;;) {
+    filling.tets = ladder.next();
+    if (filling.tets.splits.empty()) return;
+    try {
+      filling.split = split_layer(site.base, envelope, site.domain.outer, site.options, true_surface, filling.tets, context);
+      if (!filling.split->is_filled) refill(*filling.split, site.options, filling.tets, context);
+      return;
+    } catch (const Error& error) {
+      filling.split.reset();
+      ladder.reject(error);
+    }
+  }
+}
+
 /// The tetrahedra around a layer, and meanwhile the layer's proof. \throws FillError
 Filling fill_around(const MeshingSite& site, const Envelope& envelope, const LaidLayer& layer, const Makers& makers, const RunContext& context) {
   const StageTimer timer(context, "tetrahedra");
   Filling filling;
-  SplitTaker taker;  // where layers end on other patches, and where sides are periodic, the boundary stays as it is
-  if (!site.domain.has_rims() && site.domain.periodic.empty())
-    taker = [&](TetraResult& of_engine) { filling.split = take_splits(site, envelope, makers, of_engine, context); };
+  // Where layers end on other patches, and where sides are periodic, the boundary stays as it is.
+  const bool may_split = !site.domain.has_rims() && site.domain.periodic.empty();
   const std::vector<Point> holes = find_cavity_points(site.domain.bodies, context);
-  TetraBoundary domain = boundary_for_engines(layer.boundary, holes, !site.domain.has_rims(), taker);
+  TetraBoundary domain = boundary_for_engines(layer.boundary, holes, !site.domain.has_rims(), may_split);
   domain.has_sheets = !site.options.discs.empty();
   SizeSupply sizes(domain, site.options.sources, site.options.size, context);
   Alongside<LayerProof> proof(context, [&sizes, &layer](const RunContext& side) {
     sizes.wait();  // the engine needs them sooner
     return prove_layer(layer.mesh, side);
   });
-  filling.tets = fill(domain, sizes, site.options.tetrahedra, context.part("tetrahedra", k_prisms_share, k_tetrahedra_share));
+  TetraLadder ladder(domain, &sizes, site.options.tetrahedra, context.part("tetrahedra", k_prisms_share, k_tetrahedra_share));
+  climb(site, envelope, makers, ladder, filling, context);
   filling.proof.emplace(proof.take());
   return filling;
 }

@@ -46,11 +46,11 @@ std::vector<Rung> rungs_of(const TetraBoundary& boundary, const TetraOptions& op
     throw_bad("boundary_splits", "always", "triangles beside sheets without thickness (actuator discs) cannot be split");
   if (options.boundary_splits == "always") {
     if (options.engine == "hxt") throw_bad("boundary_splits", "always", "HXT keeps the boundary: leave the engine automatic, or choose tetgen");
-    if (!boundary.take_splits) throw_bad("boundary_splits", "always", "nothing here can take splits of the boundary");
+    if (!boundary.may_split) throw_bad("boundary_splits", "always", "nothing here can take splits of the boundary");
     return {{EngineKind::tetgen, SplitMode::quality, options.two_pass}, {EngineKind::hxt}};
   }
   if (options.boundary_splits == "ladder") {
-    if (boundary.take_splits && !boundary.has_sheets) rungs.push_back({EngineKind::tetgen, SplitMode::recovery});
+    if (boundary.may_split && !boundary.has_sheets) rungs.push_back({EngineKind::tetgen, SplitMode::recovery});
   } else if (options.boundary_splits != "never") {
     throw_bad("boundary_splits", options.boundary_splits, "one of never, ladder, always");
   }
@@ -66,18 +66,6 @@ bool may_follow(const Rung& rung, const std::vector<EngineFailure>& failures, co
   const bool is_over = last->kind == FailureKind::limit && !options.fall_back_on_limits;
   if (has_splits) return !is_over;
   return options.try_other_engine && (!is_over || last->is_own_limit);
-}
-
-/// A result with splits is one only when its boundary's owner can follow.
-EngineOutcome taken(EngineOutcome outcome, const TetraBoundary& boundary) {
-  if (!outcome.result || outcome.result->splits.empty()) return outcome;
-  try {
-    boundary.take_splits(*outcome.result);
-    return outcome;
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::cancelled) throw;
-    return {std::nullopt, {FailureKind::deterministic, error.info()}};
-  }
 }
 
 /// One run of an engine, or two.
@@ -112,74 +100,110 @@ void tell_all(const std::vector<EngineFailure>& failures, ErrorInfo& error) {
       "tetrahedra.time_limit (seconds) lets engines go on";
 }
 
-TetraResult fill_with(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, const RunContext& context) {
-  const std::vector<Rung> rungs = rungs_of(boundary, options);
-  // A sheet's two sides are one for the engines.
-  std::optional<JoinedBoundary> joined;
-  if (boundary.has_sheets) joined.emplace(join_sheets(boundary, context));
-  const JoinedBoundary* const joined_sides = joined ? &*joined : nullptr;
-  PreflightReport seen;
-  const BoundaryParts parts = [&] {
-    const StageTimer timer(context, "tetrahedra/boundary");
-    const TetraBoundary closed =
-        joined ? TetraBoundary{.points = joined->points, .triangles = joined->triangles(), .hole_points = boundary.hole_points} : boundary;
-    const auto sheets = joined ? joined->sheets() : std::span<const std::array<std::uint32_t, 3>>();
-    check_boundary(closed, context, sheets);
-    if (!boundary.is_clear) judge(seen = preflight(boundary, {}, context), boundary, context);
-    return find_parts(boundary, joined_sides, context);
-  }();
+/// What engines are to fill, parts counted. \throws Error for a boundary that is not closed, not manifold or crosses itself
+BoundaryParts checked_parts(const TetraBoundary& boundary, const std::optional<JoinedBoundary>& joined, PreflightReport& seen, const RunContext& context) {
+  const StageTimer timer(context, "tetrahedra/boundary");
+  const TetraBoundary closed =
+      joined ? TetraBoundary{.points = joined->points, .triangles = joined->triangles(), .hole_points = boundary.hole_points} : boundary;
+  const auto sheets = joined ? joined->sheets() : std::span<const std::array<std::uint32_t, 3>>();
+  check_boundary(closed, context, sheets);
+  if (!boundary.is_clear) judge(seen = preflight(boundary, {}, context), boundary, context);
+  return find_parts(boundary, joined ? &*joined : nullptr, context);
+}
 
-  // Of a boundary that is known to be clear, preflight can only say what engines find hard: that can wait until one has run.
-  std::optional<Alongside<PreflightReport>> look;
-  if (boundary.is_clear) {
-    look.emplace(context, [&boundary, sizes](const RunContext& side) {
+}  // namespace
+
+struct TetraLadder::State {
+  State(const TetraBoundary& of, SizeSupply* size_supply, const TetraOptions& tetra_options, const RunContext& run_context)
+      : boundary(of),
+        sizes(size_supply),
+        options(tetra_options),
+        context(run_context),
+        rungs(rungs_of(of, tetra_options)),
+        joined(of.has_sheets ? std::optional(join_sheets(of, run_context)) : std::nullopt),
+        parts(checked_parts(of, joined, seen, run_context)) {
+    // Of a boundary that is known to be clear, preflight can only say what engines find hard: that can wait until one has run.
+    if (!boundary.is_clear) return;
+    look.emplace(context, [this](const RunContext& side) {
       if (sizes) sizes->wait();  // the engine needs them sooner
       return preflight(boundary, {.is_clear = true}, side);
     });
   }
 
-  std::vector<EngineFailure> failures;
-  for (const Rung& rung : rungs) {
-    if (!failures.empty()) {
-      if (!may_follow(rung, failures, options)) continue;
-      context.warn("trying " + text_of(rung));
-    }
-    EngineOutcome outcome = taken(run(rung, boundary, joined_sides, parts, sizes, options, context), boundary);
-    if (look) judge(seen = look->take(), boundary, context);
-    look.reset();
-    if (outcome.result) {
+  TetraResult next() {
+    for (; next_rung < rungs.size(); ++next_rung) {
+      const Rung& rung = rungs[next_rung];
+      if (!failures.empty()) {
+        if (!may_follow(rung, failures, options)) continue;
+        context.warn("trying " + text_of(rung));
+      }
+      EngineOutcome outcome = run(rung, boundary, joined ? &*joined : nullptr, parts, sizes, options, context);
+      if (look) judge(seen = look->take(), boundary, context);
+      look.reset();
+      if (!outcome.result) {
+        add(std::move(outcome.failure));
+        continue;
+      }
+      ++next_rung;
       for (const EngineFailure& failure : failures) {
         outcome.result->failures.push_back(failure.error.problem);
         outcome.result->is_reproducible &= failure.kind != FailureKind::limit;
       }
       return std::move(*outcome.result);
     }
-    failures.push_back(std::move(outcome.failure));
-    const EngineFailure& failure = failures.back();
-    context.warn(failure.error.attempted + ": " + failure.error.problem);
+    throw_failures();
   }
-  // An engine that is not there explains less than one that failed.
-  const auto telling = std::ranges::find_if(failures, [](const EngineFailure& f) { return f.kind != FailureKind::missing; });
-  std::vector<std::string> problems;
-  for (const EngineFailure& failure : failures) problems.push_back(failure.error.problem);
-  const bool is_repeatable = telling != failures.end() && std::ranges::none_of(failures, [](const EngineFailure& f) { return f.kind == FailureKind::limit; });
-  ErrorInfo error = telling == failures.end() ? failures.front().error : telling->error;
-  const bool has_no_end = std::ranges::any_of(failures, &EngineFailure::is_own_limit);
-  if (is_repeatable || has_no_end) add_suspects(seen, boundary, error);
-  if (has_no_end) tell_all(failures, error);
-  throw FillError(std::move(error), is_repeatable, std::move(problems));
+
+  void add(EngineFailure failure) {
+    failures.push_back(std::move(failure));
+    context.warn(failures.back().error.attempted + ": " + failures.back().error.problem);
+  }
+
+  [[noreturn]] void throw_failures() const {
+    // An engine that is not there explains less than one that failed.
+    const auto telling = std::ranges::find_if(failures, [](const EngineFailure& f) { return f.kind != FailureKind::missing; });
+    std::vector<std::string> problems;
+    for (const EngineFailure& failure : failures) problems.push_back(failure.error.problem);
+    const bool is_repeatable = telling != failures.end() && std::ranges::none_of(failures, [](const EngineFailure& f) { return f.kind == FailureKind::limit; });
+    ErrorInfo error = telling == failures.end() ? failures.front().error : telling->error;
+    const bool has_no_end = std::ranges::any_of(failures, &EngineFailure::is_own_limit);
+    if (is_repeatable || has_no_end) add_suspects(seen, boundary, error);
+    if (has_no_end) tell_all(failures, error);
+    throw FillError(std::move(error), is_repeatable, std::move(problems));
+  }
+
+  const TetraBoundary& boundary;
+  SizeSupply* sizes;
+  const TetraOptions& options;
+  RunContext context;
+  std::vector<Rung> rungs;
+  std::size_t next_rung = 0;
+  PreflightReport seen;
+  std::optional<JoinedBoundary> joined;  // a sheet's two sides are one for the engines
+  BoundaryParts parts;
+  std::optional<Alongside<PreflightReport>> look;
+  std::vector<EngineFailure> failures;
+};
+
+TetraLadder::TetraLadder(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, const RunContext& context)
+    : state_(std::make_unique<State>(boundary, sizes, options, context)) {}
+TetraLadder::~TetraLadder() = default;
+
+TetraResult TetraLadder::next() { return state_->next(); }
+
+void TetraLadder::reject(const Error& reason) {
+  if (reason.code() == ErrorCode::cancelled) throw reason;
+  state_->add({FailureKind::deterministic, reason.info()});
 }
 
-}  // namespace
-
 TetraResult fill(const TetraBoundary& boundary, SizeSupply& sizes, const TetraOptions& options, const RunContext& context) {
-  return fill_with(boundary, &sizes, options, context);
+  return TetraLadder(boundary, &sizes, options, context).next();
 }
 
 TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, const TetraOptions& options, const RunContext& context) {
-  if (!size_field) return fill_with(boundary, nullptr, options, context);
+  if (!size_field) return TetraLadder(boundary, nullptr, options, context).next();
   SizeSupply sizes(*size_field);
-  return fill_with(boundary, &sizes, options, context);
+  return fill(boundary, sizes, options, context);
 }
 
 }  // namespace sterna::volmesh

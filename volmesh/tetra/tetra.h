@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -19,12 +18,6 @@ namespace sterna::volmesh {
 class SizeField;
 class SizeSupply;
 
-struct TetraResult;
-
-/// Takes over a result whose engine has split triangles of the boundary (TetraResult::splits is not empty): carries the splits to whatever the boundary belongs
-/// to. Throws where that cannot be done; the attempt has failed then.
-using SplitTaker = std::function<void(TetraResult&)>;
-
 /// Closed boundary of the domain: triangles whose right-hand normals point INTO the domain (envelope outwards of the body, farfield inwards).
 struct TetraBoundary {
   std::span<const Vec3> points;
@@ -33,7 +26,7 @@ struct TetraBoundary {
   bool is_clear = false;                               ///< the caller has proven that the triangles meet in shared vertices and edges only; else fill() does
   std::span<const std::string> patch_names = {};       ///< for messages; may be missing
   std::span<const std::uint32_t> triangle_patch = {};  ///< index into patch_names for each triangle; empty without them
-  SplitTaker take_splits = {};                         ///< empty: no engine may split the triangles
+  bool may_split = false;                              ///< engines may split the triangles: whoever asks can follow, or rejects (TetraLadder)
   /// Some triangles lie back to back on others: the two sides of sheets without thickness inside the domain (actuator discs). Their points at the same place
   /// are two, but on a rim that ends free in the domain: there both sides share one, and every triangle has a corner that is not. A rim may also lie on edges
   /// of the rest of the boundary, which has two points at each place there, too. All triangles together are closed and manifold by their indices.
@@ -68,6 +61,25 @@ class FillError : public Error {
   std::shared_ptr<const std::vector<std::string>> failures_;
 };
 
+/// The attempts at filling a boundary, one after the other, until the caller takes one: see fill(), which takes the first.
+class TetraLadder {
+ public:
+  /// Checks the boundary. The arguments must outlive it; `sizes` may be null. \throws as fill() for the boundary and options
+  TetraLadder(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, const RunContext& context);
+  ~TetraLadder();
+  TetraLadder(const TetraLadder&) = delete;
+  TetraLadder& operator=(const TetraLadder&) = delete;
+
+  /// The next candidate, proven. One with splits fills the boundary as split. \throws FillError when no attempt is left
+  TetraResult next();
+  /// The latest candidate is of no use, because the boundary's owner cannot follow its splits: a failure as an engine's own. \throws `reason` if it is a stop
+  void reject(const Error& reason);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
 /// Runs an engine in its helper process, found beside the running executable or one folder above it, and proves its answer (verify.h).
 /// Engines: "tetgen", TetGen 1.5 with its radius-edge ratio; "hxt", HXT of Gmsh; "automatic" is hxt, or tetgen where hxt is not built in (docs/tetrahedra.md:
 /// better meshes in less time on the clean surfaces). Both keep the boundary and make edges of about the length that the size field asks for; without one
@@ -75,7 +87,7 @@ class FillError : public Error {
 /// units is the same mesh. Before any engine runs, the boundary is checked, exactly where it must be (preflight.h); what engines find hard is logged. Of a
 /// clear boundary that is looked for while the first engine runs. Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof,
 /// too many new points), the other engine is tried, then TetGen with leave to split triangles of the boundary where it cannot keep them (`boundary_splits`
-/// "ladder", and a boundary with take_splits). With "always" TetGen comes first and splits them where tetrahedra become better by it, too. A time or memory
+/// "ladder", and a boundary that may be split). With "always" TetGen comes first and splits them where tetrahedra become better by it, too. A time or memory
 /// limit of the user ends the call unless `fall_back_on_limits`; after the engine's own limit of processor time, which is in proportion to boundary and sizes,
 /// the other engine is tried, but no splits. Every step is logged as a warning and kept in the result. Sheets are one layer of facets for the engines
 /// (sheets.h); what comes back is parted. No engine may split triangles then. With `two_pass` TetGen comes first and runs twice: a coarse mesh without sizes,
@@ -83,6 +95,7 @@ class FillError : public Error {
 /// it never outlives the call. \throws FillError when the engines have failed; Error bad_argument (index, coordinate, unused point, repeated or collinear
 /// corners), open_surface, non_manifold_surface, self_intersection, not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own
 /// error, time or memory limit); tetra_result_invalid; cancelled. Each with places where there are any; of several failures the first.
+/// \pre !boundary.may_split: nobody would follow.
 TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, const TetraOptions& options, const RunContext& context);
 /// Engines begin with the boundary and wait for the sizes when they need them. \throws what the making of the size field throws, too.
 TetraResult fill(const TetraBoundary& boundary, SizeSupply& sizes, const TetraOptions& options, const RunContext& context);

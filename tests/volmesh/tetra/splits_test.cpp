@@ -89,12 +89,24 @@ Domain as_split(const Domain& domain, const BoundarySplits& splits) {
 
 class FillWithSplits : public testing::Test {
  protected:
-  TetraResult fill(const TetraOptions& options, SplitTaker taker) {
+  /// Climbs until `taker`, which throws what it cannot follow, takes a result with splits; without one nothing may be split.
+  TetraResult fill(const TetraOptions& options, const std::function<void(TetraResult&)>& taker) {
     TetraBoundary boundary = domain_.boundary();
-    boundary.take_splits = std::move(taker);
-    return volmesh::fill(boundary, nullptr, options, RunContext({.log = [this](LogLevel level, std::string_view text) {
-                           if (level == LogLevel::warning) log_ += std::string(text) + "\n";
-                         }}));
+    boundary.may_split = taker != nullptr;
+    const RunContext context({.log = [this](LogLevel level, std::string_view text) {
+      if (level == LogLevel::warning) log_ += std::string(text) + "\n";
+    }});
+    TetraLadder ladder(boundary, nullptr, options, context);
+    for (;;) {
+      TetraResult result = ladder.next();
+      if (result.splits.empty()) return result;
+      try {
+        taker(result);
+        return result;
+      } catch (const Error& error) {
+        ladder.reject(error);
+      }
+    }
   }
   Domain domain_ = domain_around(test::box({0, 0, 0}, {1, 0.3, 0.1}), 10.0);
   std::string log_;
