@@ -205,12 +205,12 @@ std::string file_with_device(const std::string& inner, const std::string& outer,
 
 TEST(Cpacs, borders_need_not_say_where_their_other_end_is) {
   const AircraftReading both =
-      read_text(file_with_device("<etaLE>0.2</etaLE><etaTE>0.2</etaTE><xsiLE>0.7</xsiLE>", "<etaLE>0.6</etaLE><etaTE>0.6</etaTE><xsiLE>0.7</xsiLE>"));
+      read_cpacs_text(file_with_device("<etaLE>0.2</etaLE><etaTE>0.2</etaTE><xsiLE>0.7</xsiLE>", "<etaLE>0.6</etaLE><etaTE>0.6</etaTE><xsiLE>0.7</xsiLE>"));
   ASSERT_EQ(both.aircraft.control_surfaces.size(), 1u);
   EXPECT_THAT(both.messages, testing::IsEmpty());  // a structure is no shape
   for (const char* tag : {"etaLE", "etaTE"}) {
     const auto border = [&](const std::string& eta) { return "<" + std::string(tag) + ">" + eta + "</" + tag + "><xsiLE>0.7</xsiLE>"; };
-    const AircraftReading one = read_text(file_with_device(border("0.2"), border("0.6")));
+    const AircraftReading one = read_cpacs_text(file_with_device(border("0.2"), border("0.6")));
     ASSERT_EQ(one.aircraft.control_surfaces.size(), 1u) << tag;
     for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(one.aircraft.control_surfaces[0].hinge[k].span, both.aircraft.control_surfaces[0].hinge[k].span) << tag;
     EXPECT_THAT(one.messages, testing::IsEmpty());
@@ -222,14 +222,14 @@ TEST(Cpacs, devices_and_pylons_that_cannot_be_read_are_left_out_with_a_word) {
   for (const auto& [text, problem] :
        {std::pair{file_with_device("<xsiLE>0.7</xsiLE>", border), "the element 'etaLE' is missing; the control surface is left out"},
         std::pair{file_with_device(border, border, "E9"), "element 'E9' is not in the wing; the control surface is left out"}}) {
-    const AircraftReading reading = read_text(text);
+    const AircraftReading reading = read_cpacs_text(text);
     EXPECT_EQ(reading.aircraft.wings.size(), 1u);
     EXPECT_EQ(reading.aircraft.control_surfaces.size(), 0u);
     EXPECT_THAT(reading.messages, testing::ElementsAre(HasSubstr(problem)));
   }
   std::string text = wing_file("", k_diamond);
   text.insert(text.find("</wings>") + 8, "<enginePylons><enginePylon uID='P'><name>no segments</name></enginePylon></enginePylons>");
-  const AircraftReading reading = read_text(text);
+  const AircraftReading reading = read_cpacs_text(text);
   EXPECT_EQ(reading.aircraft.wings.size(), 1u);
   EXPECT_THAT(reading.messages, testing::ElementsAre(HasSubstr("enginePylon[P]: the component has no segments; the pylon is left out")));
 }

@@ -77,11 +77,11 @@ TEST_F(CheckScript, ACorrectScriptIsCorrectAndWritesNothing) {
 
 TEST_F(CheckScript, ShippedScriptsAreCorrect) {
   std::size_t n_scripts = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() / "scripts")) {
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(STERNA_SOURCE_DIR) / "scripts")) {
     if (entry.path().extension() != ".lua") continue;
     ++n_scripts;
     ScriptCheck check;
-    check_script({.script = entry.path(), .print = {}, .on_mesh = {}}, check, RunContext({.threads = 1}));
+    check_script({.script = entry.path(), .overrides = {}, .print = {}, .on_mesh = {}}, check, RunContext({.threads = 1}));
     for (const ErrorHandle& problem : check.problems) ADD_FAILURE() << entry.path().filename() << ": " << problem->what();
   }
   EXPECT_GE(n_scripts, 10u);

@@ -256,7 +256,7 @@ TEST(MeshModel, TheDefaultNacellesLipIsResolved) {
     SurfaceMeshOptions options;
     options.refinement = refinement;
     const SurfaceMesh mesh = mesh_model(make_body(nacelle_body("engine", {}, n), ComponentKind::nacelle), options, {}, k_context);
-    EXPECT_LT(mesh.report.max_smooth_angle, 45 * k_deg) << to_text(mesh.report);
+    EXPECT_LT(mesh.report.max_smooth_angle, 45 * k_degree) << to_text(mesh.report);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "tests/support/shapes.h"
 #include "volmesh/case/growth_law.h"
 #include "volmesh/case/layer_choice.h"
+#include "volmesh/volume_mesh.h"
 
 namespace sterna::volmesh {
 namespace {

@@ -20,7 +20,7 @@
 namespace sterna::volmesh {
 namespace {
 
-TriMesh turned(TriMesh mesh) {
+TriMesh turned_inwards(TriMesh mesh) {
   for (TriangleVertices& t : mesh.triangles) std::swap(t[1], t[2]);
   return mesh;
 }
@@ -63,7 +63,7 @@ void close_plane(TriMesh& mesh, const std::string& name, PatchKind kind) {
 /// Half a ball of radius 1 in half a ball of radius 10, with the plane between them.
 TriMesh half_ball_domain(int fineness) {
   TriMesh mesh = named(test::cut_off(test::sphere(fineness), 1, 0.0), "ball", PatchKind::wall);
-  append(mesh, named(turned(test::cut_off(test::sphere(4, 10.0), 1, 0.0)), "farfield", PatchKind::farfield));
+  append(mesh, named(turned_inwards(test::cut_off(test::sphere(4, 10.0), 1, 0.0)), "farfield", PatchKind::farfield));
   close_plane(mesh, "symmetry", PatchKind::symmetry);
   return mesh;
 }

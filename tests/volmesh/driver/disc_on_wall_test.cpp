@@ -14,6 +14,7 @@
 #include "tests/support/halves.h"
 #include "tests/volmesh/domain/room.h"
 #include "tests/volmesh/driver/revolved_bodies.h"
+#include "volmesh/domain/disc_sheets.h"
 #include "volmesh/stages.h"
 
 namespace sterna::volmesh {

@@ -7,6 +7,7 @@
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/data.h"
 #include "volmesh/inspect/inspect.h"
+#include "volmesh/volume_mesh.h"
 
 namespace sterna::volmesh {
 namespace {

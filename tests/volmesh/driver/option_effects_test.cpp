@@ -1,0 +1,194 @@
+// Every option of a volume mesh changes something where it matters: the mesh, or what is refused. Read off the tables of options, so a new option fails here
+// until somebody says where it matters.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "geom/base/error.h"
+#include "tests/support/constants.h"
+#include "tests/support/shapes.h"
+#include "tests/volmesh/domain/room.h"
+#include "volmesh/volume_mesh.h"
+
+namespace sterna::volmesh {
+namespace {
+
+using test::k_context;
+
+/// A bent block: an L of voxels, concave and convex edges, edges of 0.25 m.
+TriMesh bent_block() {
+  return test::voxel_boundary(
+      {8, 4, 8}, 0.25, [](int i, int, int k) { return i < 4 || k < 4; },
+      [](const Point&, const Vec3&) -> Patch {
+        return {"body", PatchKind::wall};
+      });
+}
+
+/// Two cubes nearer to each other than their layers are high.
+TriMesh near_cubes() {
+  TriMesh mesh = test::cube(4), other = test::cube(4);
+  for (Point& p : other.points) p.x += 1.12;
+  append(mesh, other);
+  return mesh;
+}
+
+struct Setting {
+  TriMesh wall;
+  MeshCase mesh_case;
+};
+
+MeshCase few_layers() {
+  MeshCase mesh_case = layers(6, 4e-3);
+  mesh_case.farfield.farfield_radius = 8.0;
+  return mesh_case;
+}
+
+/// Where options matter, by name.
+Setting setting_of(const std::string& name) {
+  Setting setting{bent_block(), few_layers()};
+  if (name == "cubes") setting.wall = near_cubes();
+  if (name == "tetgen") setting.mesh_case.tetrahedra.engine = "tetgen";
+  if (name == "height") setting.mesh_case.envelope.total_height = 0.05;
+  if (name == "lbfgs") setting.mesh_case.envelope.optimiser = "lbfgs";
+  if (name == "box" || name == "cylinder") {
+    FarfieldOptions& far = setting.mesh_case.farfield;
+    far.farfield_shape = name;
+    far.farfield_from_x = far.farfield_from_y = far.farfield_from_z = -5.0;
+    far.farfield_to_x = far.farfield_to_y = far.farfield_to_z = 6.0;
+    if (name == "cylinder") far.farfield_from_y = far.farfield_from_z = far.farfield_to_y = far.farfield_to_z = 0.5;
+  }
+  if (name == "room")
+    setting.wall = room([](const std::string&) { return PatchKind::slip; }, [](int i, int, int k) { return i >= 8 && i < 14 && k >= 5 && k < 7; });
+  if (name == "surface") {
+    TriMesh far = test::sphere(6, 7.0);
+    for (Patch& patch : far.patches) patch = {"far", PatchKind::farfield};
+    setting.mesh_case.farfield.farfield_shape = "surface";
+    setting.mesh_case.farfield.farfield_surface = "far.stl";
+    setting.mesh_case.farfield_surface = std::make_shared<const TriMesh>(std::move(far));
+  }
+  return setting;
+}
+
+/// Another value of an option, and where that matters.
+struct Change {
+  std::string value;
+  std::string where = "block";
+};
+
+const std::map<std::string, Change> k_changes = {
+    {"family.refinement", {"1.3"}},
+    {"envelope.layers", {"5"}},
+    {"envelope.first_height", {"3e-3"}},
+    {"envelope.max_growth", {"1.2"}},
+    {"envelope.total_height", {"0.05"}},
+    {"envelope.solve_for", {"layers", "height"}},
+    {"envelope.max_thickness", {"0.03"}},
+    {"envelope.max_relative_height", {"0.1"}},
+    {"envelope.feature_angle", {"2.0"}},
+    {"envelope.height_gradient", {"0.05"}},
+    {"envelope.height_sweeps", {"1"}},
+    {"envelope.direction_sweeps", {"1"}},
+    {"envelope.envelope_sweeps", {"1"}},
+    {"envelope.untangle_share", {"0.3"}},
+    {"envelope.max_retract_sweeps", {"1", "cubes"}},
+    {"envelope.height_floor", {"0.5"}},
+    {"envelope.optimiser", {"none"}},
+    {"envelope.optimiser_evaluations", {"1"}},
+    {"envelope.height_weight", {"4"}},
+    {"envelope.top_weight", {"3"}},
+    {"envelope.barrier_weight", {"0.5"}},
+    {"prisms.wall_perpendicularity", {"0.4"}},
+    {"farfield.farfield_shape", {"cylinder"}},
+    {"farfield.farfield_radius", {"9"}},
+    {"farfield.farfield_edge", {"1.5"}},
+    {"farfield.farfield_center_x", {"1.5"}},
+    {"farfield.farfield_center_y", {"1.5"}},
+    {"farfield.farfield_center_z", {"1.5"}},
+    {"farfield.farfield_from_x", {"-6", "box"}},
+    {"farfield.farfield_from_y", {"-6", "box"}},
+    {"farfield.farfield_from_z", {"-6", "box"}},
+    {"farfield.farfield_to_x", {"7", "box"}},
+    {"farfield.farfield_to_y", {"7", "box"}},
+    {"farfield.farfield_to_z", {"7", "box"}},
+    {"farfield.farfield_sides", {"x_min=inflow", "box"}},
+    {"ends.ends_growth", {"1.8", "room"}},
+    {"ends.ends_min_angle", {"0.1", "room"}},
+    {"ends.ends_max_triangles", {"10", "room"}},
+    {"size.size_growth", {"1.8"}},
+    {"size.size_max", {"0.8"}},
+    {"tetrahedra.engine", {"tetgen"}},
+    {"tetrahedra.radius_edge", {"2", "tetgen"}},
+    {"tetrahedra.two_pass", {"true", "tetgen"}},
+    {"tetrahedra.hxt_improve_below", {"0.35"}},
+    {"tetrahedra.max_new_points", {"1"}},
+    {"tetrahedra.helper_folder", {"/nowhere"}},
+    {"tetrahedra.boundary_splits", {"always", "tetgen"}},
+    {"improve.improve_min_angle", {"0.5"}},
+    {"improve.improve_max_angle", {"2.1"}},
+    {"improve.improve_rounds", {"0"}},
+};
+
+/// Options that show only when something fails or takes too long: each has its test.
+const std::map<std::string, std::string> k_elsewhere = {
+    {"tetrahedra.memory_limit", "process_test: an engine that wants more memory"},
+    {"tetrahedra.time_limit", "ladder_test: an engine without end"},
+    {"tetrahedra.try_other_engine", "ladder_test: engines that fail"},
+    {"tetrahedra.repair_boundary", "graceful_test and driver/ladder_test: boundaries that no engine fills"},
+    {"tetrahedra.fall_back_on_limits", "ladder_test: limits"},
+    {"farfield.farfield_surface", "the file's name is for messages; continuation_test and farfield_test read it"},
+};
+
+/// What a user sees of a run: nodes and cells, or the error.
+struct Outcome {
+  std::vector<Point> points;
+  std::vector<std::array<NodeId, 4>> tetrahedra;
+  std::vector<PatchKind> kinds;
+  std::string error;
+  bool operator==(const Outcome&) const = default;
+};
+
+Outcome outcome_of(const Setting& setting) {
+  Outcome outcome;
+  try {
+    const VolumeMeshResult result = volume_mesh(setting.wall, setting.mesh_case, k_context);
+    EXPECT_TRUE(result.check.is_valid());
+    outcome.points = result.mesh.points.raw();
+    outcome.tetrahedra = result.mesh.tetrahedra;
+    for (const Patch& patch : result.mesh.patches) outcome.kinds.push_back(patch.kind);
+  } catch (const Error& error) {
+    outcome.error = error.what();
+  }
+  return outcome;
+}
+
+TEST(OptionEffects, EachOptionChangesTheMeshWhereItMatters) {
+  std::map<std::string, Outcome> usual;  // by setting
+  MeshCase all;
+  for (const Option& option : options_of(all)) {
+    const std::string name = std::string(option.stage) + "." + std::string(option.name);
+    if (k_elsewhere.contains(name)) continue;
+    SCOPED_TRACE(name);
+    const auto change = k_changes.find(name);
+    if (change == k_changes.end()) {
+      ADD_FAILURE() << "say where this option matters";
+      continue;
+    }
+    const auto& [value, where] = change->second;
+    Setting setting = setting_of(where);
+    if (!usual.contains(where)) {
+      usual[where] = outcome_of(setting);
+      EXPECT_EQ(usual[where].error, "") << where;
+    }
+    const OptionTable table = options_of(setting.mesh_case);
+    set_option_from_text(find_option(table, name, "changing"), value);
+    EXPECT_FALSE(outcome_of(setting) == usual[where]) << name << " = " << value << " changes nothing";
+  }
+}
+
+}  // namespace
+}  // namespace sterna::volmesh
