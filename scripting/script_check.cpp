@@ -111,8 +111,7 @@ ScriptValue stand_in(const ScriptCall& call, std::string_view gives) {
   if (gives == k_either) return kept(check, is_about_surfaces(call) ? "surface" : "model");
   if (object_kind(gives)) return kept(check, gives);
   if (gives == "inspection") return inspection_stand_in();
-  if (gives != "stages" && gives != "table") return std::monostate{};
-  if (gives == "table") return OpaqueValue{k_unknown_value};  // its names follow from what was not made
+  if (gives != "stages") return OpaqueValue{k_unknown_value};  // a table whose names follow from what was not made, a source
   auto table = std::make_shared<ScriptTable>();
   for (const char* kind : {"surface", "envelope", "tetrahedra", "mesh"}) table->fields[kind] = kept(check, kind);
   return table;
