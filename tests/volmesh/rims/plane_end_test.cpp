@@ -49,6 +49,18 @@ TEST(PlaneEnd, SquareWithRoundHoleFrom1e3To100Metres) {
   for (const Point& p : result.new_points) EXPECT_EQ(p.y, 0.0);
 }
 
+TEST(PlaneEnd, TheGoalForAnglesIsKeptWhereThereIsOne) {
+  EndRegion region{.surface = &k_symmetry, .name = "symmetry"};
+  add_loop(region, rectangle(on_xz, -500, -500, 500, 500, 10, 10));
+  add_loop(region, circle(on_xz, 0.1, 0.2, -0.16, 200));
+  EndOptions none, some;
+  none.size_growth = some.size_growth = 2.0;
+  none.min_angle = 0.0;
+  const double without = triangulate_end(region, none, k_context).min_angle, with = triangulate_end(region, some, k_context).min_angle;
+  EXPECT_LT(without, with);
+  EXPECT_GE(with, some.min_angle - 1e-12);
+}
+
 TEST(PlaneEnd, CoordinateOfAxisPlanesToTheBit) {
   const double where = 0.1 + 1e-17;
   const ConstraintPlane plane({5, where, 7}, {0, -1, 0});
