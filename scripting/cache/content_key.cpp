@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "scripting/cache/stored_types.h"
-#include "scripting/component_value.h"
-#include "scripting/stages.h"
-#include "scripting/verbs.h"
+#include "scripting/values/component_value.h"
+#include "scripting/values/stages.h"
+#include "scripting/values/stored_types.h"
+#include "scripting/values/verbs.h"
 
 namespace sterna::scripting {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/hash.h"
-#include "scripting/series/value_json.h"
+#include "scripting/values/value_json.h"
 
 namespace sterna::scripting {
 namespace {

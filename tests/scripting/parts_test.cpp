@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 
 #include "geom/model/shapes.h"
-#include "scripting/fluid_model.h"
-#include "scripting/model_surface.h"
-#include "scripting/surface_motion.h"
+#include "scripting/values/fluid_model.h"
+#include "scripting/values/model_surface.h"
+#include "scripting/verbs/surface_motion.h"
 #include "tests/scripting/script_fixture.h"
 #include "tests/support/constants.h"
 

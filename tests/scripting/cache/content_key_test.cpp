@@ -5,10 +5,10 @@
 
 #include <set>
 
-#include "scripting/component_value.h"
-#include "scripting/models.h"
-#include "scripting/stages.h"
-#include "scripting/verbs.h"
+#include "scripting/values/component_value.h"
+#include "scripting/values/models.h"
+#include "scripting/values/stages.h"
+#include "scripting/values/verbs.h"
 #include "tests/support/shapes.h"
 
 namespace sterna::scripting {
