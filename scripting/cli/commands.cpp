@@ -22,6 +22,7 @@
 #include "scripting/series/case_worker.h"
 #include "scripting/terminal/exit_status.h"
 #include "scripting/values/disc_verbs.h"
+#include "scripting/values/flow_verbs.h"
 #include "scripting/values/layer_options.h"
 #include "scripting/values/model_surface.h"
 #include "scripting/values/models.h"
@@ -31,7 +32,6 @@
 #include "scripting/values/summary.h"
 #include "scripting/values/verbs.h"
 #include "scripting/verbs/farfield_verbs.h"
-#include "scripting/verbs/flow_verbs.h"
 #include "scripting/verbs/gate_limits.h"
 #include "scripting/verbs/half_verbs.h"
 #include "scripting/verbs/model_gates.h"
@@ -272,37 +272,6 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
 std::string read_write(bool is_read, bool is_written) { return is_read && is_written ? "read, write" : is_read ? "read" : is_written ? "write" : "-"; }
 
 }  // namespace
-
-void set_options(const OptionTable& table, const OptionOverrides& given, const CommandContext& context) {
-  std::string problems;
-  std::size_t n_problems = 0;
-  std::map<std::string, std::pair<std::string, OptionValue>> before;  // what options were set to, by full name
-  for (const auto& [name, text] : given) {
-    try {
-      const Option& option = find_option(table, name, "option " + name);
-      set_option_as_typed(option, text);
-      const auto [same, is_new] = before.try_emplace(std::string(option.stage) + "." + std::string(option.name), text, option.get());
-      if (!is_new && same->second.second != option.get())
-        throw Error({.code = ErrorCode::bad_argument,
-                     .attempted = "option " + name,
-                     .problem = same->first + " is given twice, as " + same->second.first + " and as " + text});
-    } catch (const Error& error) {
-      problems += "\n  - " + error.info().attempted + ": " + error.info().problem + (error.info().hint.empty() ? "" : " (" + error.info().hint + ")");
-      ++n_problems;
-    }
-  }
-  try {
-    require_options(table, "mesh");
-  } catch (const Error& error) {
-    problems += "\n  - " + error.info().problem;
-    ++n_problems;
-  }
-  if (n_problems == 0 && context.only_options) throw OptionsShown{options_to_json(table)};
-  if (n_problems == 0) return;
-  throw Error({.code = ErrorCode::bad_argument,
-               .attempted = "reading the options",
-               .problem = n_problems == 1 ? problems.substr(5) : std::to_string(n_problems) + " problems" + problems});
-}
 
 std::unique_ptr<const StageCache> cache_of(const CacheChoice& choice) {
   if (choice.folder.empty()) return nullptr;

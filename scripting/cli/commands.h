@@ -12,20 +12,13 @@
 #include "geom/cad/read_cad.h"
 #include "scripting/cache/stage_cache.h"
 #include "scripting/cli/convert.h"
+#include "scripting/command/command_context.h"
 #include "scripting/lua/script_call.h"
 #include "scripting/terminal/console.h"
 #include "scripting/values/check_options.h"
 #include "surfmesh/model/surface_mesh.h"
 
 namespace sterna::scripting {
-
-/// What every command gets: where to print, and the run.
-struct CommandContext {
-  Console& console;
-  const RunContext& run;
-  bool only_options = false;                    ///< --show-options: the command ends when its options are set
-  std::function<void(bool)> stops_itself = {};  ///< see SeriesSettings
-};
 
 /// --cache and --cache-limit.
 struct CacheChoice {
@@ -114,14 +107,6 @@ int convert_model(const ConvertCommand& command, const CommandContext& context);
 
 /// The options of `sterna surface`, and of `sterna mesh` of a model, but for those of the volume. The arguments must outlive the table.
 OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCadOptions& reading);
-
-/// Thrown with --show-options once all options of a command are set. No error.
-struct OptionsShown {
-  std::string json;
-};
-
-/// Sets every option; all problems are reported together, also options that are given twice with different values. \throws Error(bad_argument); OptionsShown
-void set_options(const OptionTable& table, const OptionOverrides& given, const CommandContext& context);
 
 /// Null without a folder. \throws Error(write_failed) when the folder cannot be made
 std::unique_ptr<const StageCache> cache_of(const CacheChoice& choice);

@@ -3,13 +3,13 @@
 #include <CLI/CLI.hpp>
 
 #include "geom/base/error.h"
-#include "scripting/cli/cli_options.h"
+#include "scripting/command/cli_options.h"
 #include "scripting/terminal/exit_status.h"
+#include "scripting/values/flow_verbs.h"
 #include "scripting/values/inspect_surface.h"
 #include "scripting/values/layer_options.h"
 #include "scripting/values/models.h"
 #include "scripting/values/patch_rules.h"
-#include "scripting/verbs/flow_verbs.h"
 
 namespace sterna::scripting {
 namespace {

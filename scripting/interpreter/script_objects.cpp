@@ -3,8 +3,8 @@
 #include <array>
 
 #include "scripting/interpreter/script_verbs.h"
+#include "scripting/values/flow_verbs.h"
 #include "scripting/verbs/component_verbs.h"
-#include "scripting/verbs/flow_verbs.h"
 #include "scripting/verbs/geometry_verbs.h"
 #include "scripting/verbs/model_methods.h"
 #include "scripting/verbs/stage_verbs.h"
@@ -130,24 +130,6 @@ const std::array k_kinds = {
     ObjectKind{"error", "sterna.error", "What a verb raised, as pcall gives it.", &k_error_field, no_methods, k_error_fields},
 };
 
-template <class Handle>
-bool is(const ScriptValue& value) {
-  return std::holds_alternative<Handle>(value);
-}
-
-std::string_view name_of(const ScriptValue& value) {
-  return is<SurfaceHandle>(value)      ? "surface"
-         : is<EnvelopeHandle>(value)   ? "envelope"
-         : is<TetrahedraHandle>(value) ? "tetrahedra"
-         : is<MeshHandle>(value)       ? "mesh"
-         : is<ModelHandle>(value)      ? "model"
-         : is<ComponentHandle>(value)  ? "component"
-         : is<AirfoilHandle>(value)    ? "airfoil"
-         : is<QuantityHandle>(value)   ? "quantity"
-         : is<ErrorHandle>(value)      ? "error"
-                                       : "";
-}
-
 }  // namespace
 
 std::span<const ObjectKind> object_kinds() { return k_kinds; }
@@ -158,6 +140,6 @@ const ObjectKind* object_kind(std::string_view name) {
   return nullptr;
 }
 
-const ObjectKind* kind_of(const ScriptValue& value) { return object_kind(name_of(value)); }
+const ObjectKind* kind_of(const ScriptValue& value) { return object_kind(object_name(value)); }
 
 }  // namespace sterna::scripting

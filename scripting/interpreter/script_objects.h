@@ -5,22 +5,9 @@
 #include <string_view>
 
 #include "scripting/lua/script_call.h"
+#include "scripting/lua/script_hooks.h"
 
 namespace sterna::scripting {
-
-struct FieldDoc {
-  std::string_view name;
-  std::string_view help;  ///< with its unit; "if ..." where it is not always there
-};
-
-struct ObjectKind {
-  std::string_view name;     ///< "surface", in front of the names of its methods
-  const char* type;          ///< key of its metatable
-  std::string_view summary;  ///< one sentence
-  const ScriptVerb* field;   ///< object.name for names that are no method
-  std::span<const ScriptVerb> (*methods)();
-  std::span<const FieldDoc> fields;
-};
 
 std::span<const ObjectKind> object_kinds();
 /// The kind of that name, or null.

@@ -1,20 +1,10 @@
 #include "scripting/interpreter/script_run.h"
 
-#include <fstream>
-#include <iterator>
-
 #include "geom/base/error.h"
 #include "scripting/interpreter/script_state.h"
 #include "scripting/lua/script_check.h"
 
 namespace sterna::scripting {
-
-std::string read_script(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw Error({.code = ErrorCode::file_not_found, .attempted = "reading " + path.string(), .problem = "the script cannot be opened"});
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 ScriptOutcome run_script(const ScriptSettings& settings, const RunContext& context) {
   ScriptState state(settings, context);

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "scripting/lua/script_call.h"
+#include "scripting/lua/script_sandbox.h"
 
 namespace sterna::scripting {
 
@@ -42,8 +43,5 @@ ScriptOutcome run_script(const ScriptSettings& settings, const RunContext& conte
 /// Runs a script without meshing or writing (script_check.h); what is wrong is in `check`, nothing of that is thrown.
 /// \throws Error cancelled; of overrides, as run_script
 void check_script(const ScriptSettings& settings, ScriptCheck& check, const RunContext& context);
-
-/// The text of a script. \throws Error(file_not_found)
-std::string read_script(const std::filesystem::path& path);
 
 }  // namespace sterna::scripting

@@ -9,9 +9,15 @@
 
 #include "geom/base/error.h"
 #include "scripting/interpreter/script_args.h"
+#include "scripting/interpreter/script_objects.h"
 #include "scripting/interpreter/script_verbs.h"
+#include "scripting/interpreter/stand_ins.h"
+#include "scripting/lua/script_hooks.h"
 #include "scripting/lua/script_sandbox.h"
 #include "scripting/lua/script_unknowns.h"
+#include "scripting/values/cached_model.h"
+#include "scripting/values/script_key.h"
+#include "scripting/values/verbs.h"
 
 namespace sterna::scripting {
 namespace {
@@ -178,6 +184,15 @@ Error with_traceback(const Error& error, const std::string& traceback) {
 
 }  // namespace
 
+namespace {
+
+ScriptValue run_with_cache(const ScriptVerb& verb, const ScriptCall& call) { return with_provenance(cached_model(verb, call), call); }
+
+const ScriptHooks k_hooks = {
+    .kinds = object_kinds, .describe = &k_describe_object, .run = run_with_cache, .stand_in = make_stand_in, .set_option = set_option_as_typed};
+
+}  // namespace
+
 struct ScriptState::Parts {
   ScriptSession session;
   Memory memory;
@@ -211,6 +226,7 @@ ScriptState::ScriptState(const ScriptSettings& settings, const RunContext& conte
            .check = settings.check,
            .input_folder = settings.input_folder,
            .series = {.settings = settings.series, .script_text = {}},
+           .hooks = &k_hooks,
            .value = {}},
       .memory = {.used = 0, .limit = settings.memory_limit},
       .traceback = {},

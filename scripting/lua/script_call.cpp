@@ -5,15 +5,12 @@
 #include <new>
 #include <span>
 
-#include "scripting/interpreter/script_objects.h"
-#include "scripting/interpreter/script_verbs.h"
 #include "scripting/lua/quantity.h"
 #include "scripting/lua/script_check.h"
 #include "scripting/lua/script_function.h"
+#include "scripting/lua/script_hooks.h"
 #include "scripting/lua/script_sandbox.h"
 #include "scripting/lua/script_unknowns.h"
-#include "scripting/values/cached_model.h"
-#include "scripting/values/script_key.h"
 
 namespace sterna::scripting {
 namespace {
@@ -177,7 +174,7 @@ bool run_verb(lua_State* state, ScriptSession& session, const ScriptVerb& verb) 
   try {
     for (int i = 1; i <= lua_gettop(state); ++i) call.arguments.push_back(read_value(state, i, 0));
     if (session.check && is_about_unknown(call)) session.value = verb.gives.empty() ? ScriptValue(OpaqueValue{k_unknown_value}) : stand_in(call, verb.gives);
-    else session.value = with_provenance(cached_model(verb, call), call);
+    else session.value = session.hooks->run(verb, call);
     return true;
   } catch (const ChecksDone&) {
     session.value = stand_in(call, verb.gives);
@@ -195,6 +192,12 @@ bool run_verb(lua_State* state, ScriptSession& session, const ScriptVerb& verb) 
 }
 
 // ---- Pushing: may raise, so no frame here owns a C++ object ------------------------------------------------------------------------------
+
+const ObjectKind* kind_named(lua_State* state, std::string_view name) {
+  for (const ObjectKind& kind : session_of(state).hooks->kinds())
+    if (kind.name == name) return &kind;
+  return nullptr;
+}
 
 void push_object(lua_State* state, const ScriptValue& value, const char* type) {
   auto* box = new (lua_newuserdatauv(state, sizeof(ObjectBox), 0)) ObjectBox;
@@ -224,7 +227,7 @@ void push_value(lua_State* state, const ScriptValue& value) {
   else if (const auto* number = std::get_if<double>(&value)) lua_pushnumber(state, *number);
   else if (const auto* text = std::get_if<std::string>(&value)) lua_pushlstring(state, text->data(), text->size());
   else if (const auto* table = std::get_if<std::shared_ptr<const ScriptTable>>(&value)) push_table(state, **table);
-  else if (const ObjectKind* kind = kind_of(value)) push_object(state, value, kind->type);
+  else if (const ObjectKind* kind = kind_named(state, object_name(value))) push_object(state, value, kind->type);
   else if (is_unknown(value)) push_unknown(state);
   else lua_pushnil(state);
 }
@@ -271,7 +274,7 @@ void register_type(lua_State* state, const ObjectKind& kind) {
   lua_setfield(state, -2, "__metatable");
   lua_pushcfunction(state, collect_object);
   lua_setfield(state, -2, "__gc");
-  push_verb(state, k_describe_object);
+  push_verb(state, *session_of(state).hooks->describe);
   lua_setfield(state, -2, "__tostring");
   lua_pushlightuserdata(state, const_cast<ScriptVerb*>(kind.field));
   lua_createtable(state, 0, static_cast<int>(methods.size()));
@@ -351,10 +354,11 @@ void push_verb_table(lua_State* state, const ScriptVerb& verb, const ScriptVerb&
 }
 
 void register_objects(lua_State* state) {
-  for (const ObjectKind* kind = object_kinds().data(); kind != object_kinds().data() + object_kinds().size(); ++kind) register_type(state, *kind);
-  register_arithmetic(state, object_kind("quantity")->type);
+  const std::span<const ObjectKind> kinds = session_of(state).hooks->kinds();
+  for (const ObjectKind* kind = kinds.data(); kind != kinds.data() + kinds.size(); ++kind) register_type(state, *kind);
+  register_arithmetic(state, kind_named(state, "quantity")->type);
   luaL_newmetatable(state, k_shape_type);
-  push_verb(state, k_describe_object);
+  push_verb(state, *session_of(state).hooks->describe);
   lua_setfield(state, -2, "__tostring");
   lua_pop(state, 1);
 }

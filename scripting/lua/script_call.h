@@ -23,6 +23,7 @@ namespace sterna::scripting {
 using OptionOverrides = std::vector<std::pair<std::string, std::string>>;  ///< "stage.option", "value"
 
 struct ScriptCheck;  // script_check.h
+struct ScriptHooks;  // script_hooks.h
 
 /// Everything a running script shares with its verbs.
 struct ScriptSession {
@@ -40,6 +41,8 @@ struct ScriptSession {
   std::filesystem::path input_folder = {};   ///< see ScriptSettings
   std::filesystem::path output_folder = {};  ///< relative output names go there; empty = current folder
   SeriesSession series = {};
+
+  const ScriptHooks* hooks = nullptr;  ///< never null where a script runs
 
   ScriptValue value;  ///< what a verb leaves for call_verb: its result or its error
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scripting/lua/input_path.h"
 #include "scripting/lua/script_call.h"
 
 namespace sterna::scripting {

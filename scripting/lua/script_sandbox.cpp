@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "geom/base/error.h"
-#include "scripting/interpreter/script_run.h"
 #include "scripting/lua/script_call.h"
 
 namespace sterna::scripting {
@@ -196,6 +195,13 @@ void wrap_global(lua_State* state, const char* name, lua_CFunction ours) {
 }
 
 }  // namespace
+
+std::string read_script(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+    throw Error({.code = ErrorCode::file_not_found, .attempted = "reading " + path.string(), .problem = "the script cannot be opened"});
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 bool is_protected_call(int (*function)(lua_State*)) { return function == protected_call || function == protected_call_with_handler; }
 

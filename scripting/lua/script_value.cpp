@@ -1,7 +1,7 @@
 #include "scripting/lua/script_value.h"
 
+#include "scripting/lua/component_value.h"
 #include "scripting/lua/quantity.h"
-#include "scripting/values/component_value.h"
 
 namespace sterna::scripting {
 
@@ -27,6 +27,19 @@ std::string_view type_text(const ScriptValue& value) {
     std::string_view operator()(const OpaqueValue& v) const { return v.type_name; }
   };
   return std::visit(Name{}, value);
+}
+
+std::string_view object_name(const ScriptValue& value) {
+  return std::holds_alternative<SurfaceHandle>(value)      ? "surface"
+         : std::holds_alternative<EnvelopeHandle>(value)   ? "envelope"
+         : std::holds_alternative<TetrahedraHandle>(value) ? "tetrahedra"
+         : std::holds_alternative<MeshHandle>(value)       ? "mesh"
+         : std::holds_alternative<ModelHandle>(value)      ? "model"
+         : std::holds_alternative<ComponentHandle>(value)  ? "component"
+         : std::holds_alternative<AirfoilHandle>(value)    ? "airfoil"
+         : std::holds_alternative<QuantityHandle>(value)   ? "quantity"
+         : std::holds_alternative<ErrorHandle>(value)      ? "error"
+                                                           : "";
 }
 
 bool is_unknown(const ScriptValue& value) {

@@ -10,24 +10,9 @@
 #include <vector>
 
 #include "geom/base/error.h"
-#include "scripting/values/stages.h"
-#include "scripting/values/verbs.h"
-
-namespace sterna {
-struct Airfoil;  // geom/model/airfoil.h
-}
+#include "scripting/lua/handles.h"
 
 namespace sterna::scripting {
-
-struct ModelValue;      // models.h
-struct ComponentValue;  // component_value.h
-struct QuantityValue;   // quantity.h
-class ScriptFunction;   // script_function.h
-using ModelHandle = std::shared_ptr<const ModelValue>;
-using ComponentHandle = std::shared_ptr<ComponentValue>;
-using AirfoilHandle = std::shared_ptr<const Airfoil>;
-using FunctionHandle = std::shared_ptr<const ScriptFunction>;
-using QuantityHandle = std::shared_ptr<const QuantityValue>;
 
 struct ScriptTable;
 struct ScriptVerb;  // script_call.h
@@ -55,5 +40,7 @@ bool is_unknown(const ScriptValue& value);
 
 /// "a number", "a surface", "a table": the type for messages.
 std::string_view type_text(const ScriptValue& value);
+/// "surface" and so on of an object (script_objects.h); empty where it is a number, a text, a table or a function.
+std::string_view object_name(const ScriptValue& value);
 
 }  // namespace sterna::scripting

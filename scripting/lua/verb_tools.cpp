@@ -1,7 +1,7 @@
 #include "scripting/lua/verb_tools.h"
 
 #include "scripting/lua/script_check.h"
-#include "scripting/values/verbs.h"
+#include "scripting/lua/script_hooks.h"
 
 namespace sterna::scripting {
 
@@ -79,7 +79,7 @@ std::vector<std::filesystem::path> output_names(const ScriptCall& call) {
 void apply_overrides(const ScriptCall& call, const OptionTable& options) {
   for (const auto& [name, text] : call.session.overrides)
     for (const Option& option : options)
-      if (name == option.name || name == std::string(option.stage) + "." + std::string(option.name)) set_option_as_typed(option, text);
+      if (name == option.name || name == std::string(option.stage) + "." + std::string(option.name)) call.session.hooks->set_option(option, text);
 }
 
 ScriptValue select_field(const ScriptCall& call, Fields fields, std::span<const ScriptVerb> methods) {

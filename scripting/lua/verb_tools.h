@@ -10,12 +10,11 @@
 #include <vector>
 
 #include "geom/base/error.h"
+#include "scripting/lua/input_path.h"
 #include "scripting/lua/script_call.h"
 #include "scripting/lua/table_reader.h"
 
 namespace sterna::scripting {
-
-using TableHandle = std::shared_ptr<const ScriptTable>;
 
 /// Throws Error(bad_argument) at the call's place.
 [[noreturn]] void reject(const ScriptCall& call, std::string problem, std::string hint = {});

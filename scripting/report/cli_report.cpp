@@ -6,7 +6,7 @@
 #include "geom/base/number_text.h"
 #include "io/file/format_table.h"
 #include "io/output/atomic_file.h"
-#include "scripting/cli/cli_options.h"
+#include "scripting/command/cli_options.h"
 #include "scripting/report/report_command.h"
 #include "scripting/report/report_data.h"
 #include "scripting/terminal/exit_status.h"

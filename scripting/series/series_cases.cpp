@@ -15,7 +15,6 @@
 namespace sterna::scripting {
 namespace {
 
-using TableHandle = std::shared_ptr<const ScriptTable>;
 /// What cases are made of: one choice of each axis, merged.
 using Axis = std::vector<ScriptTable>;
 

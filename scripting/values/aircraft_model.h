@@ -6,7 +6,7 @@
 
 #include "geom/base/run_context.h"
 #include "geom/cad/unite.h"
-#include "scripting/values/component_value.h"
+#include "scripting/lua/component_value.h"
 #include "scripting/values/models.h"
 
 namespace sterna::scripting {

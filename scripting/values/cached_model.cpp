@@ -7,15 +7,15 @@
 
 #include "geom/base/error.h"
 #include "geom/cad/shape.h"
-#include "scripting/cache/content_key.h"
 #include "scripting/cache/stage_cache.h"
+#include "scripting/lua/component_value.h"
 #include "scripting/lua/script_function.h"
 #include "scripting/lua/verb_tools.h"
-#include "scripting/values/component_value.h"
 #include "scripting/values/model_archive.h"
 #include "scripting/values/models.h"
 #include "scripting/values/script_key.h"
 #include "scripting/values/stored_types.h"
+#include "scripting/values/value_keys.h"
 
 namespace sterna::scripting {
 namespace {

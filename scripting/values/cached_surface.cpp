@@ -4,11 +4,11 @@
 #include <string>
 #include <utility>
 
-#include "scripting/cache/content_key.h"
 #include "scripting/cache/stage_cache.h"
 #include "scripting/values/start_from_reference.h"
 #include "scripting/values/stored_types.h"
 #include "scripting/values/summary.h"
+#include "scripting/values/value_keys.h"
 
 namespace sterna::scripting {
 namespace {

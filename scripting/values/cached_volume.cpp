@@ -3,10 +3,10 @@
 #include <string>
 
 #include "geom/base/error.h"
-#include "scripting/cache/content_key.h"
 #include "scripting/values/start_from_reference.h"
 #include "scripting/values/stored_types.h"
 #include "scripting/values/summary.h"
+#include "scripting/values/value_keys.h"
 #include "volmesh/tetra/engine_process.h"
 
 namespace sterna::scripting {

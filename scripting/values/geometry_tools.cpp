@@ -1,9 +1,9 @@
 #include "scripting/values/geometry_tools.h"
 
-#include "scripting/cache/content_key.h"
+#include "scripting/lua/component_value.h"
 #include "scripting/lua/quantity.h"
 #include "scripting/values/aircraft_model.h"
-#include "scripting/values/component_value.h"
+#include "scripting/values/value_keys.h"
 
 namespace sterna::scripting {
 

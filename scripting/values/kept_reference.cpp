@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "geom/base/error.h"
-#include "scripting/cache/content_key.h"
 #include "scripting/cache/sealed_file.h"
 #include "scripting/values/kept_types.h"
+#include "scripting/values/value_keys.h"
 
 namespace sterna::scripting {
 namespace {

@@ -7,8 +7,8 @@
 #include "geom/cad/aircraft_union.h"
 #include "geom/model/deform.h"
 #include "geom/model/model_builder.h"
-#include "scripting/cache/content_key.h"
 #include "scripting/values/models.h"
+#include "scripting/values/value_keys.h"
 
 namespace sterna::scripting {
 namespace {

@@ -11,7 +11,6 @@
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
 #include "geom/mesh/topology.h"
-#include "scripting/cache/content_key.h"
 #include "scripting/values/aircraft_model.h"
 #include "scripting/values/cached_surface.h"
 #include "scripting/values/fluid_model.h"
@@ -19,6 +18,7 @@
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/start_from_reference.h"
 #include "scripting/values/summary.h"
+#include "scripting/values/value_keys.h"
 #include "volmesh/case/size_sources.h"
 
 namespace sterna {

@@ -13,8 +13,8 @@
 #include "geom/model/cpacs.h"
 #include "geom/model/smx.h"
 #include "io/file/cad_file.h"
-#include "scripting/cache/content_key.h"
 #include "scripting/values/summary.h"
+#include "scripting/values/value_keys.h"
 
 namespace sterna::scripting {
 namespace {

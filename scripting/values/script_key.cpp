@@ -8,13 +8,13 @@
 
 #include "geom/base/hash.h"
 #include "geom/model/airfoil.h"
-#include "scripting/cache/content_key.h"
+#include "scripting/lua/component_value.h"
 #include "scripting/lua/script_function.h"
 #include "scripting/lua/verb_tools.h"
-#include "scripting/values/component_value.h"
 #include "scripting/values/geometry_tools.h"
 #include "scripting/values/models.h"
 #include "scripting/values/stored_types.h"
+#include "scripting/values/value_keys.h"
 
 namespace sterna::scripting {
 namespace {

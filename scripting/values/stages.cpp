@@ -12,6 +12,7 @@
 #include "io/volume/sterna_file.h"
 #include "scripting/values/cached_volume.h"
 #include "scripting/values/disc_verbs.h"
+#include "scripting/values/envelope_site.h"
 #include "scripting/values/layer_json.h"
 #include "scripting/values/layer_options.h"
 #include "scripting/values/manifest.h"
@@ -19,7 +20,6 @@
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/periodic_sides.h"
 #include "scripting/values/summary.h"
-#include "scripting/verbs/envelope_steps.h"
 #include "volmesh/case/layer_choice.h"
 #include "volmesh/layer/assemble.h"
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "scripting/cache/reuse.h"
+#include "scripting/lua/handles.h"
 #include "scripting/values/verbs.h"
 #include "volmesh/envelope/steps.h"
 #include "volmesh/stages.h"
@@ -29,9 +30,6 @@ struct TetrahedraValue {
   volmesh::MeshCase options;
   volmesh::FilledStage stage;
 };
-
-using EnvelopeHandle = std::shared_ptr<const EnvelopeValue>;
-using TetrahedraHandle = std::shared_ptr<const TetrahedraValue>;
 
 /// What each of the three steps takes. The arguments must outlive the tables.
 OptionTable envelope_options(volmesh::MeshCase& options);

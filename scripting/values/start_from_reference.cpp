@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "geom/base/error.h"
-#include "scripting/cache/content_key.h"
 #include "scripting/values/kept_types.h"
+#include "scripting/values/value_keys.h"
 #include "volmesh/envelope/build_envelope.h"
 
 namespace sterna::scripting {

@@ -11,8 +11,6 @@ namespace sterna::scripting {
 namespace {
 
 using PlainJson = nlohmann::json;
-using TableHandle = std::shared_ptr<const ScriptTable>;
-
 PlainJson json_of(const ScriptValue& value) {
   if (const auto* flag = std::get_if<bool>(&value)) return *flag;
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return *whole;

@@ -14,12 +14,12 @@
 #include "io/output/atomic_file.h"
 #include "io/volume/sterna_file.h"
 #include "scripting/lua/quantity.h"
+#include "scripting/values/flow_verbs.h"
 #include "scripting/values/layer_json.h"
 #include "scripting/values/manifest.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/surface_manifest.h"
 #include "scripting/values/wall_files.h"
-#include "scripting/verbs/flow_verbs.h"
 
 namespace sterna::scripting {
 namespace {

@@ -13,6 +13,8 @@
 #include "geom/boolean/union_meshes.h"
 #include "geom/mesh/check.h"
 #include "scripting/cache/provenance.h"
+#include "scripting/lua/handles.h"
+#include "scripting/lua/input_path.h"
 #include "surfmesh/model/model_wall.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "surfmesh/stitch/stitch_surface.h"
@@ -78,15 +80,6 @@ struct MeshValue {
   std::optional<MeshOrigin> origin;
   mutable std::optional<CheckReport> check;  ///< of the default options, always there for a mesh made here; then of the last whole check that was asked for, so
                                              ///< that manifests and reports say what that found
-};
-
-using SurfaceHandle = std::shared_ptr<const SurfaceValue>;
-using MeshHandle = std::shared_ptr<const MeshValue>;
-
-/// A file as the user wrote it and where it was found.
-struct InputPath {
-  std::string name;
-  std::filesystem::path path;
 };
 
 /// Reads the files and joins them to one surface; manifests beside them say how far smooth places turn. \throws Error of io and of surfmesh::stitch_surface.

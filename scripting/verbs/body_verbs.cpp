@@ -5,7 +5,7 @@
 #include <map>
 
 #include "geom/model/shapes.h"
-#include "scripting/values/component_value.h"
+#include "scripting/lua/component_value.h"
 #include "scripting/values/geometry_tools.h"
 #include "scripting/verbs/component_verbs.h"
 

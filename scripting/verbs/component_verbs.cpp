@@ -1,6 +1,6 @@
 // aircraft{}, and what all components have: methods, fields, a line of description.
 #include "scripting/verbs/component_verbs.h"
-#include "scripting/values/component_value.h"
+#include "scripting/lua/component_value.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "geom/model/deflection.h"
-#include "scripting/values/component_value.h"
+#include "scripting/lua/component_value.h"
 #include "scripting/values/geometry_tools.h"
 #include "scripting/verbs/component_verbs.h"
 

@@ -3,10 +3,10 @@
 #include <array>
 #include <charconv>
 
-#include "scripting/cli/draw_command.h"
 #include "scripting/lua/script_check.h"
 #include "scripting/lua/verb_tools.h"
 #include "scripting/values/geometry_tools.h"
+#include "scripting/verbs/draw_command.h"
 
 namespace sterna::scripting {
 namespace {

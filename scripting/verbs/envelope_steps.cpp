@@ -8,11 +8,11 @@
 #include "geom/base/error.h"
 #include "scripting/lua/verb_tools.h"
 #include "scripting/values/disc_verbs.h"
+#include "scripting/values/envelope_site.h"
 #include "scripting/values/layer_options.h"
 #include "scripting/values/patch_rules.h"
 #include "scripting/values/stages.h"
 #include "scripting/verbs/farfield_verbs.h"
-#include "volmesh/envelope/certificate.h"
 #include "volmesh/envelope/initial.h"
 #include "volmesh/parts/joint_envelope.h"
 
@@ -31,15 +31,6 @@ OptionTable some_options(MeshCase& options, std::string_view names) {
     return padded.find(" " + std::string(option.stage == "farfield" ? option.stage : option.name) + " ") == std::string::npos;
   });
   return table;
-}
-
-/// The site of a value; the feature angle is the one that it was classified with.
-std::unique_ptr<MeshingSite> site_of(const EnvelopeValue& value, const RunContext& context) {
-  MeshCase options = knowing(*value.wall, value.options);
-  // Classes are of the wall alone, but a site wants to know of a layer: any will do.
-  if (value.step == EnvelopeStep::classified && is_automatic(options.envelope.first_height)) options.envelope.first_height = 1.0;
-  options.envelope.feature_angle = value.stage.feature_angle;
-  return std::make_unique<MeshingSite>(value.wall->mesh, options, context);
 }
 
 /// The steps work on the wall as it stands. make_envelope does more where parts were placed, or sides are periodic: the steps would not give its envelope.
@@ -97,7 +88,7 @@ ScriptValue classify(const ScriptCall& call) {
   const RunContext context = call.session.context.part("classify", 0.0, 1.0);
   EnvelopeValue value{.wall = with_inputs(wall, inputs), .options = options, .stage = {}, .step = EnvelopeStep::classified};
   value.stage.feature_angle = options.envelope.feature_angle;
-  const auto site = site_of(value, context);
+  const auto site = envelope_site(value, context);
   require_one_part(call, *site, context);
   value.classes = std::make_shared<const volmesh::Classification>(volmesh::classify_vertices(site->base, site->options.envelope, context));
   value.stage.feature_angle = site->options.envelope.feature_angle;
@@ -130,7 +121,7 @@ ScriptValue make_initial(const ScriptCall& call) {
   const RunContext context = call.session.context.part("initial", 0.0, 1.0);
   EnvelopeValue value{.wall = with_inputs((*classes)->wall, inputs), .options = options, .stage = {}, .step = EnvelopeStep::initial};
   value.stage.feature_angle = (*classes)->stage.feature_angle;
-  const auto site = site_of(value, context);
+  const auto site = envelope_site(value, context);
   require_one_part(call, *site, context);
   value.stage.envelope = volmesh::initial_envelope(site->base, site->options.envelope, context);
   return std::make_shared<const EnvelopeValue>(std::move(value));
@@ -195,7 +186,7 @@ ScriptValue run_step(const ScriptCall& call) {
   apply_overrides(call, schema);
   reader.finish();
   const RunContext context = call.session.context.part(call.verb.substr(call.verb.find('.') + 1), 0.0, 1.0);
-  const auto site = site_of(value, context);
+  const auto site = envelope_site(value, context);
   require_one_part(call, *site, context);
   step.run(*site, value.stage.envelope, context);
   value.step = step.makes;
@@ -232,26 +223,5 @@ constexpr std::array<ScriptVerb, 7> k_envelope_steps_verbs = {{
 }  // namespace
 
 std::span<const ScriptVerb> envelope_step_verbs() { return k_envelope_steps_verbs; }
-
-void require_ready(const EnvelopeValue& envelope, const MeshCase& options, const RunContext& context) {
-  if (envelope.step == EnvelopeStep::finished) return;
-  const auto refuse = [&](std::string problem, std::vector<ErrorPlace> places) {
-    throw Error({.code = ErrorCode::bad_argument,
-                 .attempted = "tetrahedra around an envelope that is only " + std::string(to_string(envelope.step)),
-                 .problem = std::move(problem),
-                 .places = std::move(places),
-                 .hint = "envelope.unwarp{ env } makes its elements valid, envelope.retract{ env } parts what meets"});
-  };
-  if (envelope.step == EnvelopeStep::classified) refuse("it has no heights yet", {});
-  EnvelopeValue value = envelope;
-  value.options = options;
-  const auto site = site_of(value, context);
-  const volmesh::EnvelopeCertificate proof = volmesh::certify_envelope(site->base, site->collider, envelope.stage.envelope, context);
-  if (proof.is_proved()) return;
-  refuse(std::to_string(proof.n_invalid_macro_elements) + " of its elements are invalid, " + std::to_string(proof.n_crossings) +
-             " pairs of triangles around it cross, " + std::to_string(proof.n_swallowings) + " surfaces are within a layer",
-         proof.n_invalid_macro_elements > 0 ? std::vector<ErrorPlace>{{proof.worst_macro_element.place, "worst element: " + proof.worst_macro_element.what}}
-                                            : std::vector<ErrorPlace>{});
-}
 
 }  // namespace sterna::scripting

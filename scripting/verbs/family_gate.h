@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geom/mesh/family.h"
-#include "scripting/cli/commands.h"
+#include "scripting/command/command_context.h"
 #include "scripting/lua/script_call.h"
 #include "scripting/values/verbs.h"
 

@@ -5,11 +5,11 @@
 
 #include "geom/base/error.h"
 #include "io/output/atomic_file.h"
+#include "scripting/lua/component_value.h"
 #include "scripting/lua/script_check.h"
-#include "scripting/values/component_value.h"
+#include "scripting/values/flow_verbs.h"
 #include "scripting/values/geometry_tools.h"
 #include "scripting/values/models.h"
-#include "scripting/verbs/flow_verbs.h"
 #include "scripting/verbs/su2_config.h"
 
 namespace sterna::scripting {

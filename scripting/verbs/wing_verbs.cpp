@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scripting/values/component_value.h"
+#include "scripting/lua/component_value.h"
 #include "scripting/values/geometry_tools.h"
 #include "scripting/verbs/component_verbs.h"
 #include "scripting/verbs/geometry_verbs.h"

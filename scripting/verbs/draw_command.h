@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "geom/draw/draw.h"
-#include "scripting/cli/commands.h"
+#include "scripting/command/command_context.h"
 
 namespace CLI {
 class App;

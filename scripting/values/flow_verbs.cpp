@@ -1,4 +1,4 @@
-#include "scripting/verbs/flow_verbs.h"
+#include "scripting/values/flow_verbs.h"
 
 #include <algorithm>
 #include <array>

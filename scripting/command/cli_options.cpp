@@ -1,4 +1,4 @@
-#include "scripting/cli/cli_options.h"
+#include "scripting/command/cli_options.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "scripting/cli/draw_command.h"
+#include "scripting/verbs/draw_command.h"
 
 #include <CLI/CLI.hpp>
 
@@ -7,7 +7,7 @@
 #include "io/file/surface_file.h"
 #include "io/file/volume_file.h"
 #include "io/output/atomic_file.h"
-#include "scripting/cli/cli_options.h"
+#include "scripting/command/cli_options.h"
 #include "scripting/terminal/exit_status.h"
 #include "scripting/values/models.h"
 
