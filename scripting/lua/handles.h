@@ -17,6 +17,7 @@ struct ModelValue;       // values/models.h
 struct ComponentValue;   // component_value.h
 struct QuantityValue;    // quantity.h
 class ScriptFunction;    // script_function.h
+struct ScriptTable;      // script_value.h
 using SurfaceHandle = std::shared_ptr<const SurfaceValue>;
 using MeshHandle = std::shared_ptr<const MeshValue>;
 using EnvelopeHandle = std::shared_ptr<const EnvelopeValue>;
