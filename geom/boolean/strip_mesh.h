@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "geom/math/bvh.h"
+#include "geom/mesh/bvh.h"
 
 namespace sterna {
 

@@ -21,9 +21,9 @@
 #include "geom/base/parallel.h"
 #include "geom/cad/occt_call.h"
 #include "geom/cad/occt_shape.h"
-#include "geom/math/bvh.h"
 #include "geom/math/intersect.h"
 #include "geom/math/nearest.h"
+#include "geom/mesh/bvh.h"
 #include "geom/model/projection.h"
 
 namespace sterna::cad {

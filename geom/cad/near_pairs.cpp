@@ -23,7 +23,7 @@
 #include <memory>
 #include <vector>
 
-#include "geom/math/bvh.h"
+#include "geom/mesh/bvh.h"
 
 namespace sterna::cad {
 namespace {

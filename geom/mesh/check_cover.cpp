@@ -7,8 +7,8 @@
 #include <numeric>
 #include <optional>
 
-#include "geom/math/bvh.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/bvh.h"
 #include "geom/mesh/check_parts.h"
 #include "geom/mesh/sheets.h"
 

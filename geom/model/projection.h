@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geom/base/run_context.h"
-#include "geom/math/bvh.h"
+#include "geom/mesh/bvh.h"
 #include "geom/model/curve.h"
 #include "geom/model/surface.h"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/container_wire.h"
+#include "io/container/container_wire.h"
 
 namespace sterna::io::reader {
 

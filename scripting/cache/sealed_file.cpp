@@ -13,7 +13,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/hash.h"
-#include "io/atomic_file.h"
+#include "io/output/atomic_file.h"
 
 namespace sterna::scripting {
 namespace {

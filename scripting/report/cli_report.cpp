@@ -4,14 +4,14 @@
 
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
-#include "io/atomic_file.h"
-#include "io/format_table.h"
-#include "scripting/cli_options.h"
-#include "scripting/exit_status.h"
-#include "scripting/gate_limits.h"
-#include "scripting/models.h"
+#include "io/file/format_table.h"
+#include "io/output/atomic_file.h"
+#include "scripting/command/cli_options.h"
 #include "scripting/report/report_command.h"
 #include "scripting/report/report_data.h"
+#include "scripting/terminal/exit_status.h"
+#include "scripting/values/models.h"
+#include "scripting/verbs/gate_limits.h"
 
 namespace sterna::scripting {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geom/base/error.h"
-#include "io/gzip.h"
+#include "io/input/gzip.h"
 #include "scripting/report/report_page.h"
 
 namespace sterna::scripting {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geom/mesh/gates.h"
-#include "scripting/commands.h"
+#include "scripting/command/command_context.h"
 #include "scripting/report/report_options.h"
 
 namespace CLI {

@@ -13,13 +13,13 @@
 #include "geom/draw/choices.h"
 #include "geom/mesh/cut_places.h"
 #include "geom/mesh/surface_fields.h"
-#include "scripting/manifest.h"
-#include "scripting/patch_rules.h"
 #include "scripting/report/page_arrays.h"
 #include "scripting/report/report_gates.h"
 #include "scripting/report/report_page.h"
 #include "scripting/report/thin_surface.h"
-#include "scripting/summary.h"
+#include "scripting/values/manifest.h"
+#include "scripting/values/patch_rules.h"
+#include "scripting/values/summary.h"
 
 namespace sterna::scripting {
 using Json = nlohmann::ordered_json;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scripting/report/report_options.h"
-#include "scripting/verbs.h"
+#include "scripting/values/verbs.h"
 
 namespace sterna::scripting {
 

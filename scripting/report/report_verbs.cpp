@@ -2,12 +2,12 @@
 
 #include <array>
 
-#include "scripting/draw_verbs.h"
-#include "scripting/geometry_tools.h"
+#include "scripting/lua/script_check.h"
+#include "scripting/lua/verb_tools.h"
 #include "scripting/report/report_command.h"
 #include "scripting/report/report_data.h"
-#include "scripting/script_check.h"
-#include "scripting/verb_tools.h"
+#include "scripting/values/geometry_tools.h"
+#include "scripting/verbs/draw_verbs.h"
 
 namespace sterna::scripting {
 namespace {

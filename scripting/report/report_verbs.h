@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "scripting/script_call.h"
+#include "scripting/lua/script_call.h"
 
 namespace sterna::scripting {
 

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geom/base/hash.h"
-#include "io/atomic_file.h"
-#include "scripting/series/series_session.h"
+#include "io/output/atomic_file.h"
+#include "scripting/lua/series_session.h"
 
 namespace sterna::scripting {
 namespace {

@@ -14,13 +14,13 @@
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
 #include "geom/mesh/check.h"
-#include "io/atomic_file.h"
-#include "io/trouble_vtu.h"
-#include "scripting/script_function.h"
+#include "io/field/trouble_vtu.h"
+#include "io/output/atomic_file.h"
+#include "scripting/lua/script_function.h"
 #include "scripting/series/case_status.h"
-#include "scripting/series/kept_reference.h"
-#include "scripting/series/value_json.h"
-#include "scripting/summary.h"
+#include "scripting/values/kept_reference.h"
+#include "scripting/values/summary.h"
+#include "scripting/values/value_json.h"
 
 namespace sterna::scripting {
 namespace {

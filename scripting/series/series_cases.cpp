@@ -10,12 +10,11 @@
 
 #include "geom/base/error.h"
 #include "geom/base/hash.h"
-#include "scripting/series/value_json.h"
+#include "scripting/values/value_json.h"
 
 namespace sterna::scripting {
 namespace {
 
-using TableHandle = std::shared_ptr<const ScriptTable>;
 /// What cases are made of: one choice of each axis, merged.
 using Axis = std::vector<ScriptTable>;
 

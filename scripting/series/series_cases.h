@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scripting/script_value.h"
+#include "scripting/lua/script_value.h"
 
 namespace sterna::scripting {
 

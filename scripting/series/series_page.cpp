@@ -8,11 +8,11 @@
 #include <set>
 
 #include "geom/mesh/gates.h"
-#include "io/gzip.h"
+#include "io/input/gzip.h"
 #include "scripting/report/page_arrays.h"
 #include "scripting/report/report_data.h"
 #include "scripting/report/report_page.h"
-#include "scripting/series/value_json.h"
+#include "scripting/values/value_json.h"
 
 namespace sterna::scripting {
 namespace {

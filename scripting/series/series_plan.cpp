@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geom/base/hash.h"
-#include "scripting/series/value_json.h"
+#include "scripting/values/value_json.h"
 
 namespace sterna::scripting {
 namespace {

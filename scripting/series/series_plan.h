@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scripting/script_call.h"
+#include "scripting/lua/script_call.h"
 #include "scripting/series/series_cases.h"
 
 namespace sterna::scripting {

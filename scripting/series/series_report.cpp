@@ -11,9 +11,9 @@
 #include <set>
 
 #include "geom/base/error.h"
-#include "scripting/console.h"
-#include "scripting/series/value_json.h"
-#include "scripting/summary.h"
+#include "scripting/terminal/console.h"
+#include "scripting/values/summary.h"
+#include "scripting/values/value_json.h"
 
 namespace sterna::scripting {
 namespace {

@@ -6,16 +6,16 @@
 
 #include "geom/base/error.h"
 #include "geom/base/hash.h"
-#include "io/atomic_file.h"
-#include "scripting/console.h"
-#include "scripting/script_function.h"
+#include "io/output/atomic_file.h"
+#include "scripting/lua/script_function.h"
+#include "scripting/lua/verb_tools.h"
 #include "scripting/series/case_runners.h"
 #include "scripting/series/case_worker.h"
 #include "scripting/series/folder_lock.h"
 #include "scripting/series/series_page.h"
 #include "scripting/series/series_report.h"
-#include "scripting/series/value_json.h"
-#include "scripting/verb_tools.h"
+#include "scripting/terminal/console.h"
+#include "scripting/values/value_json.h"
 
 namespace sterna::scripting {
 namespace {

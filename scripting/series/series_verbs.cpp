@@ -7,9 +7,9 @@
 #include "geom/base/error.h"
 #include "geom/base/hash.h"
 #include "geom/base/schema.h"
+#include "scripting/lua/verb_tools.h"
 #include "scripting/series/series_run.h"
-#include "scripting/series/value_json.h"
-#include "scripting/verb_tools.h"
+#include "scripting/values/value_json.h"
 
 namespace sterna {
 

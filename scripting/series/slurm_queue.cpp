@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "geom/base/error.h"
-#include "io/atomic_file.h"
+#include "io/output/atomic_file.h"
 #include "scripting/series/case_runners.h"
 #include "scripting/series/child_process.h"
 

@@ -11,8 +11,8 @@
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
-#include "geom/math/bvh.h"
 #include "geom/math/nearest.h"
+#include "geom/mesh/bvh.h"
 
 namespace sterna::surfmesh {
 namespace {

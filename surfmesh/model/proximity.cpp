@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "geom/base/parallel.h"
-#include "geom/math/bvh.h"
+#include "geom/mesh/bvh.h"
 #include "surfmesh/model/surface_mesh.h"
 
 namespace sterna::surfmesh {

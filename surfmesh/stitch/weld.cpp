@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "geom/base/error.h"
-#include "geom/math/bvh.h"
+#include "geom/mesh/bvh.h"
 #include "surfmesh/stitch/clean_facets.h"
 #include "surfmesh/stitch/edge_table.h"
 

@@ -11,7 +11,7 @@
 #include <map>
 
 #include "geom/model/model_measures.h"
-#include "io/cad_file.h"
+#include "io/file/cad_file.h"
 
 using namespace sterna;
 

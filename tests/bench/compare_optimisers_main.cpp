@@ -18,7 +18,7 @@
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "geom/mesh/quality.h"
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/nlopt_optimise.h"

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "geom/math/intersect.h"
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/certificate.h"

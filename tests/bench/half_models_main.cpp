@@ -10,8 +10,8 @@
 
 #include "geom/base/error.h"
 #include "geom/mesh/half.h"
-#include "io/surface_file.h"
-#include "io/volume_file.h"
+#include "io/file/surface_file.h"
+#include "io/file/volume_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "volmesh/volume_mesh.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "volmesh/inspect/inspect.h"
 #include "volmesh/stages.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "volmesh/tetra/boundary_check.h"
 #include "volmesh/tetra/preflight.h"

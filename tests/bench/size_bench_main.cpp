@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "volmesh/domain/farfield.h"
 #include "volmesh/tetra/size_field.h"

@@ -13,12 +13,12 @@
 
 #include "geom/base/parallel.h"
 #include "geom/mesh/quality.h"
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "volmesh/envelope/build_envelope.h"
-#include "volmesh/layer/layer_report.h"
 #include "volmesh/layer/extrude.h"
 #include "volmesh/layer/layer_cells.h"
+#include "volmesh/layer/layer_report.h"
 
 namespace {
 

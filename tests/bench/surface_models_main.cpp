@@ -27,8 +27,8 @@
 #include "geom/model/cpacs.h"
 #include "geom/model/projection.h"
 #include "geom/model/smx.h"
-#include "io/cad_file.h"
-#include "io/surface_file.h"
+#include "io/file/cad_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "tests/support/triangle_quality.h"
 

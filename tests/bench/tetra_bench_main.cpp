@@ -15,7 +15,7 @@
 
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "volmesh/volume_mesh.h"
 

@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "io/atomic_file.h"
-#include "io/format_table.h"
-#include "io/volume_file.h"
-#include "io/vtk_cells.h"
+#include "io/file/format_table.h"
+#include "io/file/volume_file.h"
+#include "io/grammar/vtk_cells.h"
+#include "io/output/atomic_file.h"
 #include "tests/support/hybrid_shapes.h"
 
 namespace {

@@ -1,4 +1,4 @@
-// io/container_file.cpp is compiled with another name for its read_container(), so that this one is linked.
+// io/container/container_file.cpp is compiled with another name for its read_container(), so that this one is linked.
 #include "tests/fuzz/container_input.h"
 
 #include <fcntl.h>
@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "geom/base/helper_process.h"
-#include "io/container_file.h"
-#include "io/file_buffer.h"
+#include "io/container/container_file.h"
+#include "io/input/file_buffer.h"
 
 namespace sterna::io {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/format_table.h"
+#include "io/file/format_table.h"
 #include "tests/fuzz/model_readers.h"
 
 namespace sterna::fuzz {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <set>
 
-#include "io/sterna_file.h"
+#include "io/volume/sterna_file.h"
 
 namespace sterna::fuzz {
 namespace {

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "scripting/exit_status.h"
+#include "scripting/terminal/exit_status.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"
 

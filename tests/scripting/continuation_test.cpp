@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "scripting/exit_status.h"
+#include "scripting/terminal/exit_status.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"
 

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "geom/base/error.h"
-#include "scripting/draw_command.h"
-#include "scripting/script_run.h"
+#include "scripting/interpreter/script_run.h"
+#include "scripting/verbs/draw_command.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"
 

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <thread>
 
-#include "scripting/script_run.h"
+#include "scripting/interpreter/script_run.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"
 

@@ -4,9 +4,9 @@
 #include <fstream>
 
 #include "geom/base/error.h"
-#include "scripting/exit_status.h"
-#include "scripting/farfield_verbs.h"
-#include "scripting/script_run.h"
+#include "scripting/interpreter/script_run.h"
+#include "scripting/terminal/exit_status.h"
+#include "scripting/verbs/farfield_verbs.h"
 #include "tests/support/data.h"
 #include "tests/support/error_of.h"
 #include "tests/support/process.h"

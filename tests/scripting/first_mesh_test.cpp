@@ -2,8 +2,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "io/sterna_file.h"
-#include "scripting/exit_status.h"
+#include "io/volume/sterna_file.h"
+#include "scripting/terminal/exit_status.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"
 

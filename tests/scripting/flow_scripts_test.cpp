@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "geom/base/number_text.h"
-#include "io/sterna_file.h"
-#include "io/surface_file.h"
-#include "scripting/pentagrow_config.h"
-#include "scripting/su2_config.h"
+#include "io/file/surface_file.h"
+#include "io/volume/sterna_file.h"
+#include "scripting/cli/pentagrow_config.h"
+#include "scripting/verbs/su2_config.h"
 #include "tests/scripting/script_fixture.h"
 #include "tests/support/error_of.h"
 #include "tests/support/process.h"

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 
 #include "geom/model/shapes.h"
-#include "scripting/fluid_model.h"
-#include "scripting/model_surface.h"
-#include "scripting/surface_motion.h"
+#include "scripting/values/fluid_model.h"
+#include "scripting/values/model_surface.h"
+#include "scripting/verbs/surface_motion.h"
 #include "tests/scripting/script_fixture.h"
 #include "tests/support/constants.h"
 
@@ -97,8 +97,8 @@ TEST(Parts, SeveralModelsKeepTheirPlacesInAnAssembly) {
 }
 
 TEST(Parts, WhatPassesThroughTheTunnelIsMeshedWhereItIs) {
-  auto with_way_out = std::make_shared<ModelValue>(*tunnel());
-  with_way_out->through = {"rod*"};
+  ModelValue with_way_out = tunnel();
+  with_way_out.through = {"rod*"};
   const SurfaceValue cut = meshed({moved(rod(), translation({2.0, 0, 0}) * k_turn), with_way_out});
   EXPECT_TRUE(cut.parts.empty());
   EXPECT_TRUE(cut.report.is_closed);

@@ -2,7 +2,7 @@
 #include <fstream>
 
 #include "geom/base/error.h"
-#include "scripting/script_run.h"
+#include "scripting/interpreter/script_run.h"
 #include "tests/support/data.h"
 
 namespace sterna::scripting {

@@ -1,4 +1,4 @@
-#include "scripting/script_run.h"
+#include "scripting/interpreter/script_run.h"
 
 #include <gmock/gmock.h>
 #include <chrono>
@@ -8,9 +8,9 @@
 #include <thread>
 
 #include "geom/base/error.h"
-#include "scripting/component_verbs.h"
-#include "scripting/model_methods.h"
-#include "scripting/script_verbs.h"
+#include "scripting/interpreter/script_verbs.h"
+#include "scripting/verbs/component_verbs.h"
+#include "scripting/verbs/model_methods.h"
 #include "tests/support/data.h"
 
 namespace sterna::scripting {

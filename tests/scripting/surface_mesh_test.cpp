@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "geom/base/error.h"
-#include "io/volume_file.h"
-#include "scripting/exit_status.h"
+#include "io/file/volume_file.h"
+#include "scripting/terminal/exit_status.h"
 #include "tests/scripting/script_fixture.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"

@@ -1,4 +1,4 @@
-#include "scripting/table_reader.h"
+#include "scripting/lua/table_reader.h"
 
 #include "geom/base/error.h"
 

@@ -1,9 +1,9 @@
 // A volume mesh where a surface is expected: refused in every format that holds both, unless its boundary is asked for.
 #include <gmock/gmock.h>
 
-#include "io/format_table.h"
-#include "io/surface_file.h"
-#include "io/volume_file.h"
+#include "io/file/format_table.h"
+#include "io/file/surface_file.h"
+#include "io/file/volume_file.h"
 #include "tests/scripting/script_fixture.h"
 
 namespace sterna::scripting {

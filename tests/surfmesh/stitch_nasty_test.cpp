@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "tests/support/data.h"
 #include "tests/surfmesh/soups.h"
 

@@ -16,13 +16,49 @@ CLEAN = {
     "geom/base/a.h": '#pragma once\n#include <vector>\n#include <sys/stat.h>\n',
     "geom/base/a.cpp": '// std::cout << 1; printf("x") in a comment is no printing\n#include "geom/base/a.h"\n#include <tbb/parallel_for.h>\n'
                        'const char* k_text = "std::cout << stderr"; int f(char* b) { return snprintf(b, 1, "puts("); }\n',
-    "surfmesh/s.cpp": '#include "geom/base/a.h"\n#include <Eigen/Dense>\n',
+    "surfmesh/face/s.cpp": '#include "geom/base/a.h"\n#include <Eigen/Dense>\n',
     "volmesh/tetra/tetgen_main.cpp": '#include <tetgen.h>\nvoid f() { std::fprintf(stderr, "died"); }\n',
-    "io/w.cpp": '#include "geom/base/a.h"\n#include <zlib.h>\n',
-    "scripting/m.cpp": '#include "io/w.h"\n#include "surfmesh/s.h"\n#include <lua.hpp>\n#include <CLI/CLI.hpp>\nvoid f() { std::cout << 1; }\n',
-    "io/w.h": "#pragma once\n",
-    "surfmesh/s.h": "#pragma once\n",
+    "io/text/w.cpp": '#include "geom/base/a.h"\n#include <zlib.h>\n',
+    "scripting/cli/m.cpp": '#include "io/text/w.h"\n#include "surfmesh/face/s.h"\n#include <lua.hpp>\n#include <CLI/CLI.hpp>\nvoid f() { std::cout << 1; }\n',
+    "io/text/w.h": "#pragma once\n",
+    "surfmesh/face/s.h": "#pragma once\n",
+    "geom/mesh/m.h": '#pragma once\n#include "geom/base/a.h"\n',
+    "geom/model/m.h": '#pragma once\n#include "geom/mesh/m.h"\n',
+    "volmesh/envelope/e.h": "#pragma once\n",
+    "volmesh/v.h": '#pragma once\n#include "volmesh/envelope/e.h"\n',
 }
+
+FOLDERS = """# a comment
+geom/base:
+geom/mesh: geom/base
+geom/model: geom/base geom/mesh
+surfmesh/face: geom/*
+volmesh/envelope: geom/*
+volmesh/tetra: geom/* volmesh/envelope
+volmesh: geom/* volmesh/*
+io/text: geom/*
+scripting/cli: geom/* surfmesh/* volmesh/* volmesh io/*
+"""
+
+DRAWING = """```text
+scripting -> geom, io, surfmesh, volmesh
+   1  cli
+io -> geom
+   1  text
+surfmesh -> geom
+   1  face
+volmesh -> geom
+   3  (volmesh itself)
+   2  tetra
+   1  envelope
+geom
+   3  model
+   2  mesh
+   1  base
+```
+"""
+BEGIN = "<!-- layers: the output of tools/check_architecture --draw -->\n"
+END = "<!-- end of layers -->\n"
 
 
 class CheckArchitecture(unittest.TestCase):
@@ -31,6 +67,8 @@ class CheckArchitecture(unittest.TestCase):
         self.root = pathlib.Path(self.folder.name)
         for name, text in CLEAN.items():
             self.write(name, text)
+        self.write("tools/folders.txt", FOLDERS)
+        self.write("ARCHITECTURE.md", "# Title\n" + BEGIN + DRAWING + END)
 
     def tearDown(self):
         self.folder.cleanup()
@@ -61,14 +99,69 @@ class CheckArchitecture(unittest.TestCase):
         self.assertEqual(self.run_check().returncode, 1)
 
     def test_direction(self):
-        self.write("geom/base/b.h", '#pragma once\n#include "io/w.h"\n')
-        self.write("volmesh/v.cpp", '#include "surfmesh/s.h"\n')
-        self.write("io/x.cpp", '\n\n#include "scripting/m.h"\n')
-        self.expect("geom/base/b.h:2: direction:", "volmesh/v.cpp:1: direction:", "io/x.cpp:3: direction:")
+        self.write("volmesh/v.cpp", '#include "surfmesh/face/s.h"\n')
+        self.write("io/text/x.cpp", '\n\n#include "surfmesh/face/s.h"\n')
+        self.expect("volmesh/v.cpp:1: direction:", "io/text/x.cpp:3: direction:")
+
+    def test_direction_between_folders_of_one_folder(self):
+        self.write("volmesh/envelope/x.cpp", '#include "volmesh/tetra/t.h"\n')
+        self.write("volmesh/tetra/t.h", "#pragma once\n")
+        self.expect("volmesh/envelope/x.cpp:1: direction:")
+
+    def test_circle_of_folders(self):
+        self.write("geom/base/b.h", '#pragma once\n\n#include "geom/model/m.h"\n')
+        self.expect("geom/base/b.h:3: direction:", "geom/base/b.h:3: circle: geom/base -> geom/model")
+
+    def test_circle_of_top_folders(self):
+        self.write("geom/base/b.h", '#include "io/text/w.h"\n')
+        self.expect("geom/base/b.h:1: direction:", "geom/base/b.h:1: circle: geom -> io")
+
+    def test_circle_of_deeper_folders(self):
+        self.write("tools/folders.txt", FOLDERS + "io/text/a: io/text/b\nio/text/b:\n")
+        self.write("io/text/a/a.h", '#include "io/text/b/b.h"\n')
+        self.write("io/text/b/b.h", "#pragma once\n")
+        self.write("io/text/b/c.h", '#include "io/text/a/a.h"\n')
+        self.write("ARCHITECTURE.md", BEGIN + self.run_check("--draw").stdout + END)
+        self.expect("io/text/b/c.h:1: direction:", "io/text/a/a.h:1: circle: io/text/a -> io/text/b")
+
+    def test_exceptions(self):
+        """One lets a circle pass while it is there, shows in the drawing, and is a violation itself when nothing needs it."""
+        self.write("tools/folders.txt", FOLDERS + "except geom/base -> geom/model: until it is split\n")
+        self.write("geom/base/b.h", '#include "geom/model/m.h"\n')
+        drawing = self.run_check("--draw").stdout
+        self.assertIn("excepted: geom/base -> geom/model", drawing)
+        self.write("ARCHITECTURE.md", BEGIN + drawing + END)
+        self.expect()
+        (self.root / "geom/base/b.h").unlink()
+        self.expect("tools/folders.txt:11: table:")
+
+    def test_mistakes_in_the_table(self):
+        self.write("tools/folders.txt", FOLDERS + "this is no line\n")
+        self.expect("tools/folders.txt:11: table:")
+        self.write("tools/folders.txt", FOLDERS + "io/text: geom/base\n")
+        self.expect("tools/folders.txt:11: table:")
+        self.write("tools/folders.txt", FOLDERS.replace("geom/model: geom/base", "geom/model: geom/bsae"))
+        self.expect("tools/folders.txt: table: geom/model may not use geom/bsae")
+        self.write("tools/folders.txt", FOLDERS.replace("geom/base:", "geom/base: geom/model"))
+        self.expect("tools/folders.txt: circle:", "ARCHITECTURE.md:2: drawing:")
+
+    def test_folder_without_an_entry_and_entry_without_a_folder(self):
+        self.write("geom/other/x.h", "#pragma once\n")
+        self.expect("geom/other/x.h: folder:")
+        (self.root / "geom/other/x.h").unlink()
+        (self.root / "geom/model/m.h").unlink()
+        self.expect("tools/folders.txt: table: there is no source file in geom/model")
+
+    def test_drawing(self):
+        self.assertEqual(self.run_check("--draw").stdout, DRAWING)
+        self.write("ARCHITECTURE.md", "# Title\n" + BEGIN + DRAWING.replace("tetra", "tetrahedra") + END)
+        self.expect("ARCHITECTURE.md:2: drawing:")
+        self.write("ARCHITECTURE.md", "# Title\n")
+        self.expect("ARCHITECTURE.md: drawing:")
 
     def test_include_paths(self):
-        self.write("io/x.cpp", '#include "w.h"\n#include "io/missing.h"\n#include "io/w.cpp"\n')
-        self.expect("io/x.cpp:1: include path:", "io/x.cpp:2: include path:", "io/x.cpp:3: include path:")
+        self.write("io/text/x.cpp", '#include "w.h"\n#include "io/text/missing.h"\n#include "io/text/w.cpp"\n')
+        self.expect("io/text/x.cpp:1: include path:", "io/text/x.cpp:2: include path:", "io/text/x.cpp:3: include path:")
 
     def test_third_party_headers_outside_their_adapter(self):
         planted = {
@@ -76,10 +169,10 @@ class CheckArchitecture(unittest.TestCase):
             "geom/base/a.h": ["tbb/parallel_for.h", "Eigen/Dense", "nlohmann/json.hpp"],
             "volmesh/envelope/e.h": ["nlopt.h"],
             "volmesh/tetra/engine.cpp": ["tetgen.h", "gmsh.h_cwrap"],
-            "surfmesh/s.cpp": ["CGAL/Surface_mesh.h", "zlib.h", "spdlog/spdlog.h"],
-            "scripting/m.cpp": ["cgnslib.h", "netcdf.h", "hdf5.h", "lz4.h", "tbb/task_arena.h"],
-            "io/w.cpp": ["CLI/CLI.hpp", "readline/readline.h", "fmt/core.h", "xxhash.h", "xxh3.h"],
-            "scripting/h.h": ["CLI/CLI.hpp", "spdlog/spdlog.h"],
+            "surfmesh/face/s.cpp": ["CGAL/Surface_mesh.h", "zlib.h", "spdlog/spdlog.h"],
+            "scripting/cli/m.cpp": ["cgnslib.h", "netcdf.h", "hdf5.h", "lz4.h", "tbb/task_arena.h"],
+            "io/text/w.cpp": ["CLI/CLI.hpp", "readline/readline.h", "fmt/core.h", "xxhash.h", "xxh3.h"],
+            "scripting/cli/h.h": ["CLI/CLI.hpp", "spdlog/spdlog.h"],
         }
         expected = []
         for name, headers in planted.items():
@@ -88,8 +181,8 @@ class CheckArchitecture(unittest.TestCase):
         self.expect(*expected)
 
     def test_unknown_library(self):
-        self.write("io/x.cpp", "#include <boost/any.hpp>\n")
-        self.expect("io/x.cpp:1: unknown library:")
+        self.write("io/text/x.cpp", "#include <boost/any.hpp>\n")
+        self.expect("io/text/x.cpp:1: unknown library:")
 
     def test_cgal_in_two_files(self):
         self.write("geom/mesh/a.cpp", "#include <CGAL/Surface_mesh.h>\n")
@@ -104,15 +197,15 @@ class CheckArchitecture(unittest.TestCase):
 
     def test_printing(self):
         self.write("geom/base/p.cpp", "void f() {\n  std::cout << 1;\n}\n")
-        self.write("io/p.cpp", 'void f() { printf("x"); }\n')
-        self.write("surfmesh/p.cpp", "void f(FILE* f);\nvoid g() { f(stderr); }\n")
+        self.write("io/text/p.cpp", 'void f() { printf("x"); }\n')
+        self.write("surfmesh/face/p.cpp", "void f(FILE* f);\nvoid g() { f(stderr); }\n")
         self.write("volmesh/tetra/hxt_main.cpp", "void f() { std::cout << 1; }\n")
-        self.expect("geom/base/p.cpp:2: printing:", "io/p.cpp:1: printing:", "surfmesh/p.cpp:2: printing:", "volmesh/tetra/hxt_main.cpp:1: printing:")
+        self.expect("geom/base/p.cpp:2: printing:", "io/text/p.cpp:1: printing:", "surfmesh/face/p.cpp:2: printing:", "volmesh/tetra/hxt_main.cpp:1: printing:")
 
     def test_length(self):
-        self.write("io/long.cpp", "\n" * 801)
-        self.write("io/just.cpp", "\n" * 800)
-        self.expect("io/long.cpp:800: length:")
+        self.write("io/text/long.cpp", "\n" * 801)
+        self.write("io/text/just.cpp", "\n" * 800)
+        self.expect("io/text/long.cpp:800: length:")
 
     def test_linking(self):
         source = self.root / "planted.cpp"

@@ -6,7 +6,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
-#include "geom/math/bvh.h"
+#include "geom/mesh/bvh.h"
 
 namespace sterna::volmesh {
 namespace {

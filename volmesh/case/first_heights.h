@@ -9,7 +9,7 @@
 #include "geom/mesh/tri_mesh.h"
 
 namespace sterna {
-class TriangleTree;  // geom/math/bvh.h
+class TriangleTree;  // geom/mesh/bvh.h
 }
 
 namespace sterna::volmesh {

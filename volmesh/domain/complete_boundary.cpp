@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "geom/base/error.h"
-#include "geom/math/bvh.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/bvh.h"
 #include "geom/mesh/half.h"
 #include "geom/mesh/topology.h"
 #include "volmesh/domain/end_planes.h"

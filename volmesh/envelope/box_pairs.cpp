@@ -1,6 +1,6 @@
 #include "volmesh/envelope/box_pairs.h"
 
-#include "geom/math/bvh.h"
+#include "geom/mesh/bvh.h"
 
 namespace sterna::volmesh {
 namespace {

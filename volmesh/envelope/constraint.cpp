@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "geom/math/bvh.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/bvh.h"
 
 namespace sterna::volmesh {
 

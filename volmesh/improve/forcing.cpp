@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geom/base/parallel.h"
-#include "geom/math/bvh.h"
+#include "geom/mesh/bvh.h"
 #include "volmesh/improve/tet_quality.h"
 
 namespace sterna::volmesh {

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "geom/base/error.h"
-#include "geom/math/bvh.h"
+#include "geom/mesh/bvh.h"
 #include "geom/mesh/topology.h"
 #include "volmesh/rims/copy_translated.h"
 #include "volmesh/rims/end_surface.h"

@@ -11,8 +11,8 @@
 #include <limits>
 #include <numbers>
 
-#include "geom/math/bvh.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/bvh.h"
 #include "volmesh/rims/end_errors.h"
 
 namespace sterna::volmesh {

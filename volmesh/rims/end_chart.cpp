@@ -5,8 +5,8 @@
 
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
-#include "geom/math/bvh.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/bvh.h"
 #include "volmesh/rims/end_errors.h"
 
 namespace sterna::volmesh {

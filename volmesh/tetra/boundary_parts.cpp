@@ -6,8 +6,8 @@
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
-#include "geom/math/bvh.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/bvh.h"
 
 namespace sterna::volmesh {
 namespace {

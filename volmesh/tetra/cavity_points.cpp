@@ -16,9 +16,9 @@
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
-#include "geom/math/bvh.h"
 #include "geom/math/measures.h"
 #include "geom/math/predicates.h"
+#include "geom/mesh/bvh.h"
 #include "geom/mesh/topology.h"
 #include "volmesh/tetra/tetra.h"
 

@@ -6,8 +6,8 @@
 
 #include "geom/base/number_text.h"
 #include "geom/base/parallel.h"
-#include "geom/math/bvh.h"
 #include "geom/math/intersect.h"
+#include "geom/mesh/bvh.h"
 #include "volmesh/tetra/boundary_check.h"
 #include "volmesh/tetra/sheets.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geom/base/parallel.h"
-#include "geom/math/bvh.h"
+#include "geom/mesh/bvh.h"
 
 namespace sterna::volmesh {
 namespace {

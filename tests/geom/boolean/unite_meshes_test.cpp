@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "geom/math/bvh.h"
+#include "geom/mesh/bvh.h"
 #include "tests/geom/boolean/bodies.h"
 
 namespace sterna::test {

@@ -1,7 +1,7 @@
 // Real surfaces whose parts cross: each ends in a wall that is meshed with layers to a VALID mesh, or in an error with its place.
 #include <gmock/gmock.h>
 
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/geom/boolean/bodies.h"
 #include "tests/support/data.h"

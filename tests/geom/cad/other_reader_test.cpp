@@ -10,7 +10,7 @@
 #include <optional>
 #include <sstream>
 
-#include "io/cad_file.h"
+#include "io/file/cad_file.h"
 #include "tests/geom/cad/cylinder.h"
 #include "tests/support/data.h"
 

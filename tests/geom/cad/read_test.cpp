@@ -3,7 +3,7 @@
 
 #include "geom/cad/shape.h"
 #include "geom/model/model_measures.h"
-#include "io/cad_file.h"
+#include "io/file/cad_file.h"
 #include "tests/support/data.h"
 
 namespace sterna {

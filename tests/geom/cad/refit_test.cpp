@@ -9,7 +9,7 @@
 #include "geom/model/components.h"
 #include "geom/model/deform.h"
 #include "geom/model/model_measures.h"
-#include "io/cad_file.h"
+#include "io/file/cad_file.h"
 #include "tests/geom/cad/cylinder.h"
 #include "tests/support/data.h"
 

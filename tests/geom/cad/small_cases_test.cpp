@@ -8,7 +8,7 @@
 #include "geom/cad/write_cad.h"
 #include "geom/model/model_builder.h"
 #include "geom/model/model_measures.h"
-#include "io/cad_file.h"
+#include "io/file/cad_file.h"
 #include "tests/support/data.h"
 
 namespace sterna {

@@ -1,4 +1,4 @@
-#include "geom/math/bvh.h"
+#include "geom/mesh/bvh.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "geom/math/measures.h"
 #include "geom/math/sub_volumes.h"
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/geom/mesh/check_support.h"
 #include "tests/geom/mesh/naive_dual.h"

@@ -1,4 +1,4 @@
-#include "io/surface_cgns.h"
+#include "io/surface/surface_cgns.h"
 
 #include "tests/io/surface/surface_tools.h"
 #include "tests/support/data.h"

@@ -1,4 +1,4 @@
-#include "io/format_table.h"
+#include "io/file/format_table.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // Formats of quad patches (LaWGS, PLOT3D, zml) and dwfs: small files made by hand in tests/data/io, and the real ones.
 #include <gmock/gmock.h>
 
-#include "io/format_table.h"
+#include "io/file/format_table.h"
 #include "tests/io/surface/surface_tools.h"
 #include "tests/support/data.h"
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <sstream>
 
-#include "io/format_table.h"
+#include "io/file/format_table.h"
 #include "tests/io/surface/surface_tools.h"
 #include "tests/support/data.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "io/format_table.h"
+#include "io/file/format_table.h"
 #include "tests/io/surface/surface_tools.h"
 #include "tests/support/data.h"
 

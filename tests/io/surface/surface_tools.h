@@ -11,7 +11,7 @@
 
 #include "geom/base/error.h"
 #include "geom/mesh/surface_soup.h"
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 
 namespace sterna::test {
 

@@ -1,4 +1,4 @@
-#include "io/surface_tau.h"
+#include "io/surface/surface_tau.h"
 
 #include "tests/io/surface/surface_tools.h"
 #include "tests/support/data.h"

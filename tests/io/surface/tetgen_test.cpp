@@ -5,7 +5,7 @@
 #include <map>
 #include <sstream>
 
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/io/surface/surface_tools.h"
 #include "tests/support/data.h"

@@ -1,8 +1,8 @@
 // Legacy VTK, Nastran, Cart3D, TetGen: variants that the samples lack, and mistakes.
 #include <gmock/gmock.h>
 
-#include "io/surface_file.h"
-#include "io/volume_file.h"
+#include "io/file/surface_file.h"
+#include "io/file/volume_file.h"
 #include "tests/io/surface/surface_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/error_of.h"

@@ -1,4 +1,4 @@
-#include "io/surface_vtkhdf.h"
+#include "io/surface/surface_vtkhdf.h"
 
 #include "tests/io/surface/surface_tools.h"
 #include "tests/support/data.h"

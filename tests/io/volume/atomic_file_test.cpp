@@ -1,5 +1,5 @@
-#include "io/atomic_file.h"
-#include "io/atomic_folder.h"
+#include "io/output/atomic_file.h"
+#include "io/output/atomic_folder.h"
 
 #include <signal.h>
 #include <sys/resource.h>
@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-#include "io/volume_file.h"
+#include "io/file/volume_file.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"

@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "io/cgns_output.h"
-#include "io/volume_cgns.h"
-#include "io/volume_file.h"
+#include "io/container/cgns_output.h"
+#include "io/file/volume_file.h"
+#include "io/volume/volume_cgns.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"

@@ -7,9 +7,9 @@
 #include <stop_token>
 #include <thread>
 
-#include "io/container_file.h"
-#include "io/hdf5_output.h"
-#include "io/volume_cgns.h"
+#include "io/container/container_file.h"
+#include "io/container/hdf5_output.h"
+#include "io/volume/volume_cgns.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"

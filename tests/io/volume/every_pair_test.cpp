@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "geom/mesh/check.h"
-#include "io/format_table.h"
-#include "io/patch_names.h"
-#include "io/volume_file.h"
+#include "io/file/format_table.h"
+#include "io/file/volume_file.h"
+#include "io/names/patch_names.h"
 #include "tests/io/volume/round_trip.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"

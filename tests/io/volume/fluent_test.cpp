@@ -3,8 +3,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "io/surface_file.h"
-#include "io/volume_file.h"
+#include "io/file/surface_file.h"
+#include "io/file/volume_file.h"
 #include "tests/io/volume/openfoam_tools.h"
 #include "tests/io/volume/round_trip.h"
 #include "tests/io/volume/volume_tools.h"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "io/sterna_file.h"
+#include "io/volume/sterna_file.h"
 #include "tests/io/volume/openfoam_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"

@@ -2,7 +2,7 @@
 
 #include <fstream>
 
-#include "io/volume_file.h"
+#include "io/file/volume_file.h"
 #include "tests/io/volume/openfoam_tools.h"
 #include "tests/io/volume/round_trip.h"
 #include "tests/io/volume/volume_tools.h"

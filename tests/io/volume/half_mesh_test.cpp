@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "io/volume_file.h"
+#include "io/file/volume_file.h"
 #include "tests/io/volume/openfoam_tools.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"

@@ -4,7 +4,7 @@
 
 #include "geom/mesh/check.h"
 #include "geom/mesh/periodic.h"
-#include "io/volume_file.h"
+#include "io/file/volume_file.h"
 #include "tests/io/volume/openfoam_tools.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/constants.h"

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <fstream>
 
-#include "io/patch_names.h"
-#include "io/volume_file.h"
-#include "io/volume_foam.h"
+#include "io/file/volume_file.h"
+#include "io/names/patch_names.h"
+#include "io/volume/volume_foam.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/reader_checks.h"

@@ -1,4 +1,4 @@
-#include "io/sterna_file.h"
+#include "io/volume/sterna_file.h"
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "geom/base/hash.h"
-#include "io/surface_file.h"
-#include "io/volume_file.h"
+#include "io/file/surface_file.h"
+#include "io/file/volume_file.h"
 #include "tests/io/volume/round_trip.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/constants.h"

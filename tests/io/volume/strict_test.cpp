@@ -10,7 +10,7 @@
 #include <limits>
 #include <set>
 
-#include "io/format_table.h"
+#include "io/file/format_table.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/constants.h"
 #include "tests/support/data.h"

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "geom/math/measures.h"
-#include "io/volume_file.h"
+#include "io/file/volume_file.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"

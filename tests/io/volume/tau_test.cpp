@@ -3,8 +3,8 @@
 #include <fstream>
 #include <limits>
 
-#include "io/volume_file.h"
-#include "io/volume_tau.h"
+#include "io/file/volume_file.h"
+#include "io/volume/volume_tau.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"

@@ -1,7 +1,7 @@
 #include <limits>
 
-#include "io/format_table.h"
-#include "io/volume_file.h"
+#include "io/file/format_table.h"
+#include "io/file/volume_file.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"

@@ -10,8 +10,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "io/format_table.h"
-#include "io/volume_file.h"
+#include "io/file/format_table.h"
+#include "io/file/volume_file.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/process.h"

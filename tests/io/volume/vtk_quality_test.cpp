@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "io/volume_file.h"
+#include "io/file/volume_file.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"
 #include "tests/support/process.h"

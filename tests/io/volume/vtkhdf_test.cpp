@@ -3,8 +3,8 @@
 #include <fstream>
 #include <limits>
 
-#include "io/hdf5_output.h"
-#include "io/volume_file.h"
+#include "io/container/hdf5_output.h"
+#include "io/file/volume_file.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"
 #include "tests/support/hybrid_shapes.h"

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
-#include "io/surface_vtu.h"
-#include "io/trouble_vtu.h"
-#include "io/volume_file.h"
+#include "io/field/trouble_vtu.h"
+#include "io/file/volume_file.h"
+#include "io/surface/surface_vtu.h"
 #include "tests/io/volume/round_trip.h"
 #include "tests/io/volume/volume_tools.h"
 #include "tests/support/data.h"

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "scripting/cache/stage_cache.h"
-#include "scripting/script_run.h"
+#include "scripting/interpreter/script_run.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"
 

@@ -1,14 +1,14 @@
 // Every option is in the key of the stage that it belongs to, and of none before it.
-#include "scripting/cache/content_key.h"
+#include "scripting/values/value_keys.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "scripting/component_value.h"
-#include "scripting/models.h"
-#include "scripting/stages.h"
-#include "scripting/verbs.h"
+#include "scripting/lua/component_value.h"
+#include "scripting/values/models.h"
+#include "scripting/values/stages.h"
+#include "scripting/values/verbs.h"
 #include "tests/support/shapes.h"
 
 namespace sterna::scripting {

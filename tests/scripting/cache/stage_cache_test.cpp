@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "scripting/cache/content_key.h"
+#include "scripting/values/value_keys.h"
 #include "tests/support/data.h"
 #include "tests/support/error_of.h"
 

@@ -1,5 +1,5 @@
 // Gate G22 as a user runs it.
-#include "scripting/determinism.h"
+#include "scripting/cli/determinism.h"
 
 #include <gmock/gmock.h>
 
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "scripting/exit_status.h"
+#include "scripting/terminal/exit_status.h"
 #include "tests/support/data.h"
 #include "tests/support/error_of.h"
 #include "tests/support/process.h"

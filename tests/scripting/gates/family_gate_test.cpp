@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geom/mesh/family.h"
-#include "scripting/exit_status.h"
+#include "scripting/terminal/exit_status.h"
 #include "tests/scripting/script_fixture.h"
 #include "tests/support/error_of.h"
 #include "tests/support/process.h"

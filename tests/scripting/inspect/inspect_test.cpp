@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/surface_file.h"
-#include "scripting/inspect_surface.h"
+#include "io/file/surface_file.h"
+#include "scripting/values/inspect_surface.h"
 #include "tests/scripting/script_fixture.h"
 #include "tests/support/process.h"
 #include "tests/support/shapes.h"

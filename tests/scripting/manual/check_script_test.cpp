@@ -1,9 +1,9 @@
 // Checking a script without meshing, arguments of the command line, steps of the envelope by hand, help of objects, tracebacks.
 #include <gmock/gmock.h>
 
-#include "scripting/script_check.h"
-#include "scripting/script_help.h"
-#include "scripting/script_objects.h"
+#include "scripting/interpreter/script_help.h"
+#include "scripting/interpreter/script_objects.h"
+#include "scripting/lua/script_check.h"
 #include "tests/scripting/script_fixture.h"
 #include "tests/support/process.h"
 

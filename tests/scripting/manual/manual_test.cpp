@@ -2,10 +2,10 @@
 #include <fstream>
 #include <iterator>
 
-#include "scripting/script_check.h"
-#include "scripting/script_help.h"
-#include "scripting/script_manual.h"
-#include "scripting/script_state.h"
+#include "scripting/interpreter/script_help.h"
+#include "scripting/interpreter/script_manual.h"
+#include "scripting/interpreter/script_state.h"
+#include "scripting/lua/script_check.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"
 

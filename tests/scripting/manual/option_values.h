@@ -4,7 +4,7 @@
 #include <string>
 
 #include "geom/base/schema.h"
-#include "scripting/script_help.h"
+#include "scripting/interpreter/script_help.h"
 
 namespace sterna::scripting {
 

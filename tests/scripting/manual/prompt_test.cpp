@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "scripting/completion.h"
+#include "scripting/interpreter/completion.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"
 

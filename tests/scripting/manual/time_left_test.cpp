@@ -1,5 +1,5 @@
 // The time left, on made-up and on recorded runs (tests/data/progress, by tools/record_progress).
-#include "scripting/time_left.h"
+#include "scripting/terminal/time_left.h"
 
 #include <gtest/gtest.h>
 

@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "geom/math/measures.h"
-#include "io/volume_file.h"
-#include "scripting/exit_status.h"
+#include "io/file/volume_file.h"
 #include "scripting/report/report_page.h"
+#include "scripting/terminal/exit_status.h"
 #include "tests/scripting/report/page_json.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "geom/base/error.h"
-#include "scripting/series/value_json.h"
+#include "scripting/values/value_json.h"
 #include "tests/support/error_of.h"
 
 namespace sterna::scripting {

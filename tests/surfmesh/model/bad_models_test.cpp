@@ -15,7 +15,7 @@
 #include "geom/model/curves.h"
 #include "geom/model/model_builder.h"
 #include "geom/model/shapes.h"
-#include "io/cad_file.h"
+#include "io/file/cad_file.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "tests/support/constants.h"
 #include "tests/support/data.h"

@@ -9,7 +9,7 @@
 #include "geom/model/deform.h"
 #include "geom/model/model_measures.h"
 #include "geom/model/radial_map.h"
-#include "io/cad_file.h"
+#include "io/file/cad_file.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "tests/support/data.h"
 #include "tests/support/shapes.h"

@@ -9,7 +9,7 @@
 
 #include "geom/model/components.h"
 #include "geom/model/shapes.h"
-#include "io/cad_file.h"
+#include "io/file/cad_file.h"
 #include "tests/support/constants.h"
 #include "tests/support/data.h"
 #include "tests/support/model_meshes.h"

@@ -12,7 +12,7 @@
 #include "geom/model/components.h"
 #include "geom/model/shapes.h"
 #include "geom/model/smx.h"
-#include "io/cad_file.h"
+#include "io/file/cad_file.h"
 #include "surfmesh/model/model_sizes.h"
 #include "surfmesh/model/model_wall.h"
 #include "surfmesh/model/surface_mesh.h"

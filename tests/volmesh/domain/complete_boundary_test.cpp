@@ -11,7 +11,7 @@
 #include "geom/math/measures.h"
 #include "geom/mesh/half.h"
 #include "geom/mesh/topology.h"
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/constants.h"
 #include "tests/support/data.h"

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "geom/math/measures.h"
-#include "io/surface_file.h"
-#include "io/volume_file.h"
+#include "io/file/surface_file.h"
+#include "io/file/volume_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/data.h"
 #include "tests/support/process.h"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "geom/base/error.h"
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/data.h"
 #include "tests/support/shapes.h"

@@ -5,8 +5,8 @@
 #include <array>
 #include <numbers>
 
-#include "geom/math/bvh.h"
-#include "io/surface_file.h"
+#include "geom/mesh/bvh.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/constants.h"
 #include "tests/support/data.h"

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/class_bodies.h"
 #include "tests/support/class_drawing.h"

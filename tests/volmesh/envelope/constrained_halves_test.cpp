@@ -8,7 +8,7 @@
 #include "geom/base/error.h"
 #include "geom/math/intersect.h"
 #include "geom/math/measures.h"
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/constants.h"
 #include "tests/support/data.h"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "geom/math/bvh.h"
+#include "geom/mesh/bvh.h"
 #include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 #include "volmesh/envelope/build_envelope.h"

@@ -3,7 +3,7 @@
 
 #include <iostream>
 
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/data.h"
 #include "volmesh/inspect/inspect.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/surface_file.h"
+#include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/constants.h"
 #include "tests/support/data.h"

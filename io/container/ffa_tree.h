@@ -1,0 +1,62 @@
+// FFA data sets, the container of FOI Edge (formats.md sections 5.1 - 5.3): a tree of named nodes with numbers or strings, binary (version 1 and 2) or text.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/input/file_buffer.h"
+
+namespace sterna::io {
+
+/// A node of a tree that was read. Its values are decoded when asked for; the FileBuffer must outlive it.
+class FfaNode {
+ public:
+  std::string name;
+  char type = 'N';  ///< I, J, R, D numbers; S, L strings; N none
+  std::uint64_t n_columns = 0;
+  std::uint64_t n_rows = 0;
+  std::vector<FfaNode> children;
+
+  std::uint64_t n_values() const { return n_columns * n_rows; }
+  bool is_integer() const { return type == 'I' || type == 'J'; }
+  bool is_real() const { return type == 'R' || type == 'D'; }
+  bool is_text() const { return type == 'S' || type == 'L'; }
+  /// \pre is_integer(); row, column in range
+  std::int64_t integer(std::uint64_t row, std::uint64_t column) const;
+  /// Any number; may not be finite. \pre is_real() or is_integer()
+  double real(std::uint64_t row, std::uint64_t column) const;
+  /// The first string, without blanks at its end. \pre is_text() and n_values() > 0
+  std::string text() const;
+
+  /// The first child of that name; nullptr when there is none.
+  const FfaNode* find(std::string_view child) const;
+  /// As find(). \throws Error(file_malformed)
+  const FfaNode& at(std::string_view child) const;
+  /// "byte 120" or "line 7".
+  std::string place() const;
+  [[noreturn]] void fail(const std::string& problem) const;
+
+ private:
+  friend class FfaParser;
+  std::uint64_t place_of(std::uint64_t row, std::uint64_t column) const { return column * n_rows + row; }
+
+  const FileBuffer* buffer_ = nullptr;
+  std::size_t begin_ = 0;  ///< of the node, for messages
+  std::size_t data_ = 0;   ///< first byte of the values
+  std::endian order_ = std::endian::big;
+  bool is_ascii_ = false;
+  std::vector<double> reals_;           ///< of text files
+  std::vector<std::int64_t> integers_;  ///< of text files
+  std::string text_;                    ///< of text files
+};
+
+/// Reads the tree; which container it is follows from the content. \throws Error file_malformed, unsupported_format (records of 2 GiB and more in version 1)
+FfaNode parse_ffa(const FileBuffer& buffer);
+
+/// Bytes of a node's type field and of one value.
+std::size_t ffa_value_size(char type);
+
+}  // namespace sterna::io

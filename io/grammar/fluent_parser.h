@@ -1,0 +1,30 @@
+// The sections of a Fluent mesh as faces with their cells.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/base/vec3.h"
+#include "geom/mesh/tri_mesh.h"
+#include "io/input/file_buffer.h"
+#include "io/mesh/face_mesh.h"
+
+namespace sterna::io {
+
+struct FluentContent {
+  std::vector<Vec3> points;
+  FaceMesh faces;                  ///< patches by number of their zone's appearance
+  Column<PatchId, Patch> patches;  ///< zones of boundary faces
+  std::int64_t n_inner_walls = 0;  ///< faces of boundary zones between two cells, taken as inner faces
+};
+
+/// The kind of patch that a zone of that type and name is.
+PatchKind kind_of_fluent_zone(std::int64_t type, std::string_view name);
+
+/// \throws Error file_malformed, unsupported_format
+FluentContent parse_fluent(const FileBuffer& buffer, const RunContext& context);
+
+}  // namespace sterna::io

@@ -1,0 +1,44 @@
+// Gmsh MSH 2.2 and 4.1, text and binary (formats.md section 8.1): what the surface and the volume reader share.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "geom/base/run_context.h"
+#include "geom/base/vec3.h"
+#include "io/input/file_buffer.h"
+
+namespace sterna::io {
+
+/// Element types of Gmsh of first order.
+inline constexpr std::int64_t k_msh_triangle = 2;
+inline constexpr std::int64_t k_msh_quad = 3;
+inline constexpr std::int64_t k_msh_tetrahedron = 4;
+inline constexpr std::int64_t k_msh_hexahedron = 5;
+inline constexpr std::int64_t k_msh_prism = 6;
+inline constexpr std::int64_t k_msh_pyramid = 7;
+
+/// Takes what the parser finds, in the order of the file.
+class MshSink {
+ public:
+  virtual ~MshSink() = default;
+  virtual void reserve_points(std::size_t n) = 0;
+  /// Points are numbered from 0 in the order of the calls.
+  virtual void add_point(const Vec3& p) = 0;
+  /// The patch of the faces that follow: the name of their physical group, else "patch_<number>" of the group, else of the entity.
+  virtual void set_patch(std::string_view name) = 0;
+  /// Triangles and quads of any order, by their corners.
+  virtual void add_face(std::span<const std::uint32_t> corners) = 0;
+  /// A volume element of first order. \param nodes in Gmsh's order, which is that of CGNS
+  virtual void add_cell(std::int64_t type, std::span<const std::uint32_t> nodes) = 0;
+  /// A volume element of second order.
+  virtual void add_curved_cell() = 0;
+};
+
+/// Reads the whole file. \returns whether a physical group of dimension 2 with faces has a name
+/// \throws Error file_malformed (line, or byte offset in binary sections), unsupported_format (other versions, partitions, unknown elements)
+bool parse_msh(const FileBuffer& buffer, const RunContext& context, MshSink& sink);
+
+}  // namespace sterna::io

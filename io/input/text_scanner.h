@@ -1,0 +1,84 @@
+// Strict tokenizer for text formats over a loaded file: numbers by from_chars, any kind of line end, errors with their line.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "io/input/file_buffer.h"
+
+namespace sterna::io {
+
+/// Tokens are separated by blanks and line ends (\n, \r\n or \r). A UTF-8 byte order mark at the beginning is skipped.
+/// The functions that take `expected` ("the number of vertices") throw Error(file_malformed) with line, what was found and that text.
+class TextScanner {
+ public:
+  struct Rules {
+    char comment = '\0';       ///< from here to the end of the line is blank; '\0' = none
+    char continuation = '\0';  ///< before a line end: the line goes on; '\0' = none
+    bool line_bound = false;   ///< token(), real(), integer() never cross a line end
+  };
+  explicit TextScanner(const FileBuffer& buffer) : TextScanner(buffer, Rules{}) {}
+  /// \pre `buffer` outlives the scanner.
+  TextScanner(const FileBuffer& buffer, Rules rules);
+
+  void set_line_bound(bool value) { rules_.line_bound = value; }
+
+  /// Skips blanks, comments and line ends; true when nothing is left.
+  bool at_end();
+  /// Skips blanks and a comment; true when the line has no further token.
+  bool at_line_end();
+  /// Moves to the beginning of the next line (to the end of the text after the last).
+  void next_line();
+  /// The rest of the current line without blanks at its ends and without comment; moves to the next line.
+  std::string_view rest_of_line();
+
+  /// The next token; never empty.
+  std::string_view token(std::string_view expected);
+  /// The next token without consuming it; empty at the end of the text (of the line, when line-bound).
+  std::string_view peek();
+  /// Skips one token.
+  void skip_token(std::string_view expected) { token(expected); }
+  /// A finite number. Values too small for a double become zero.
+  double real(std::string_view expected);
+  std::int64_t integer(std::string_view expected);
+  /// An integer in [0, remaining bytes / min_bytes]: a count of things of which each takes at least `min_bytes` of the text that is left,
+  /// so that memory reserved for it stays in proportion to the file.
+  std::size_t count(std::string_view expected, std::size_t min_bytes);
+  /// An integer in [base, base + n), less base.
+  std::uint32_t index(std::string_view expected, std::int64_t base, std::size_t n);
+  /// Consumes the token `word` (letter case ignored).
+  void keyword(std::string_view word);
+
+  /// Line (from 1) of the byte at `offset`; takes time in proportion to the offset, for messages only.
+  std::size_t line_at(std::size_t offset) const;
+  std::size_t line() const { return line_at(token_begin_); }
+  std::size_t offset() const { return position_; }
+  /// Goes on at that byte. \pre offset <= size of the file
+  void seek(std::size_t offset) { position_ = token_begin_ = offset; }
+  std::size_t remaining() const { return text_.size() - position_; }
+  const std::string& source() const { return source_; }
+
+  /// Throws Error(file_malformed) at the token that was last looked at.
+  [[noreturn]] void fail(std::string_view problem, std::string_view hint = {}) const;
+  /// fail() with "found ..., expected ...".
+  [[noreturn]] void fail_expected(std::string_view expected) const;
+
+ private:
+  void skip_space(bool over_lines);
+  bool is_token_end(std::size_t position) const;
+  void begin_token(std::string_view expected);
+  std::size_t end_of_line(std::size_t position) const;
+
+  std::string_view text_;
+  std::string source_;
+  Rules rules_;
+  std::size_t position_ = 0;
+  std::size_t token_begin_ = 0;
+};
+
+/// Equal but for the case of ASCII letters.
+bool equal_ignoring_case(std::string_view a, std::string_view b);
+
+}  // namespace sterna::io

@@ -1,0 +1,349 @@
+// polyMesh writer: five files in a new folder. Inner faces first, by their lower cell and then by the other; then the boundary, patch by patch.
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <limits>
+#include <map>
+
+#include "geom/base/error.h"
+#include "geom/mesh/periodic.h"
+#include "io/names/name_rules.h"
+#include "io/output/atomic_folder.h"
+#include "io/output/cell_sections.h"
+#include "io/output/mesh_faces.h"
+#include "io/output/section_output.h"
+#include "io/volume/volume_foam.h"
+
+namespace sterna::io {
+namespace {
+
+constexpr std::uint64_t k_max_label = std::numeric_limits<std::int32_t>::max();
+constexpr std::size_t k_most_foam_faces = 6;
+constexpr std::size_t k_max_label_text = 11;                             // with a blank or a line end
+constexpr std::size_t k_max_face_text = 2 + 4 * k_max_label_text + 2;    // "4(1 2 3 4)\n"
+constexpr std::size_t k_max_point_text = 3 * (k_max_real_text + 1) + 3;  // "(1 2 3)\n"
+
+/// The second of two periodic sides in OpenFOAM's order: its faces as those of the first, each from the node on that is the partner of the first one's first.
+struct CyclicSide {
+  std::vector<std::uint32_t> triangles, quads;
+  std::vector<std::uint8_t> triangle_begins, quad_begins;  ///< number of that node
+};
+
+/// \pre `match` of these sides
+CyclicSide order_cyclic(const HybridMesh& mesh, const FacesByPatch& faces, PatchId first, const PeriodicMatch& match) {
+  const auto n_triangles = static_cast<std::uint32_t>(mesh.boundary_triangles.size());
+  const auto nodes_of = [&](std::uint32_t face) {
+    return face < n_triangles ? std::span<const NodeId>(mesh.boundary_triangles[face].nodes)
+                              : std::span<const NodeId>(mesh.boundary_quads[face - n_triangles].nodes);
+  };
+  const auto node_partner = [&](NodeId node) { return std::ranges::lower_bound(match.nodes, node, {}, [](const auto& pair) { return pair[0]; })->at(1); };
+  std::vector<std::array<std::uint32_t, 2>> pairs = match.faces;
+  std::ranges::sort(pairs);
+  CyclicSide side;
+  const auto add = [&](std::uint32_t face, std::uint32_t offset, std::vector<std::uint32_t>& others, std::vector<std::uint8_t>& begins) {
+    const std::uint32_t other = std::ranges::lower_bound(pairs, face, {}, [](const auto& pair) { return pair[0]; })->at(1);
+    const std::span<const NodeId> nodes = nodes_of(other);
+    others.push_back(other - offset);
+    begins.push_back(static_cast<std::uint8_t>(std::ranges::find(nodes, node_partner(nodes_of(face)[0])) - nodes.begin()));
+  };
+  for (const std::uint32_t t : faces.triangles(first)) add(t, 0, side.triangles, side.triangle_begins);
+  for (const std::uint32_t q : faces.quads(first)) add(n_triangles + q, n_triangles, side.quads, side.quad_begins);
+  return side;
+}
+
+class FoamWriter {
+ public:
+  FoamWriter(const HybridMesh& mesh, const std::filesystem::path& path, bool is_binary, const RunContext& context)
+      : mesh_(mesh), path_(path.string()), is_binary_(is_binary), context_(context), faces_(mesh, context.part("faces", 0.0, 0.3)), by_patch_(mesh) {
+    const std::uint64_t n_boundary = mesh.boundary_triangles.size() + mesh.boundary_quads.size();
+    n_internal_ = faces_.n_internal();
+    n_faces_ = n_internal_ + n_boundary;
+    n_face_nodes_ = faces_.n_internal_nodes() + 3 * mesh.boundary_triangles.size() + 4 * mesh.boundary_quads.size();
+    require_count(mesh.points.size(), k_max_label, "points", "OpenFOAM with 32-bit labels", path_);
+    require_count(n_faces_, k_max_label, "faces", "OpenFOAM with 32-bit labels", path_);
+    require_count(is_binary ? n_face_nodes_ : 0, k_max_label, "nodes of faces", "OpenFOAM's binary list with 32-bit labels", path_);
+    for (const PeriodicSides& sides : mesh.periodic) {
+      neighbour_[sides.first] = sides.second;
+      neighbour_[sides.second] = sides.first;
+      cyclic_.emplace(sides.second, order_cyclic(mesh, by_patch_, sides.first, match_periodic(mesh, sides.first, sides.second, periodic_tolerance(mesh))));
+    }
+  }
+
+  void write(const AtomicFolder& folder) const {
+    write_file(folder, "points", "vectorField", {points()}, mesh_.points.size(), 0.3, 0.45);
+    if (is_binary_) write_faces_compact(folder);
+    else write_file(folder, "faces", "faceList", face_texts(), n_faces_, 0.45, 0.7);
+    write_file(folder, "owner", "labelList", owners(), n_faces_, 0.7, 0.85);
+    write_file(folder, "neighbour", "labelList", {neighbours()}, n_internal_, 0.85, 1.0);
+    write_boundary(folder);
+  }
+
+ private:
+  std::string header(std::string_view object, std::string_view object_class, bool is_binary) const {
+    std::string text = "FoamFile\n{\n    version 2.0;\n    format " + std::string(is_binary ? "binary" : "ascii") + ";\n";
+    if (is_binary) text += "    arch \"LSB;label=32;scalar=64\";\n";
+    text += "    class " + std::string(object_class) + ";\n";
+    if (object == "owner" || object == "neighbour")
+      text += "    note \"nPoints:" + std::to_string(mesh_.points.size()) + " nCells:" + std::to_string(faces_.n_cells()) +
+              " nFaces:" + std::to_string(n_faces_) + " nInternalFaces:" + std::to_string(n_internal_) + "\";\n";
+    return text + "    location \"constant/polyMesh\";\n    object " + std::string(object) + ";\n}\n\n";
+  }
+
+  /// A list's frame; OpenFOAM's binary lists have no brackets when they are empty.
+  void add_list(std::vector<OutputSection>& file, std::vector<OutputSection> items, std::uint64_t n) const {
+    if (is_binary_ && n == 0) {
+      file.push_back(fixed_section("0\n"));
+      return;
+    }
+    file.push_back(fixed_section(std::to_string(n) + (is_binary_ ? "\n(" : "\n(\n")));
+    std::move(items.begin(), items.end(), std::back_inserter(file));
+    file.push_back(fixed_section(")\n"));
+  }
+
+  void write_file(const AtomicFolder& folder, std::string_view object, std::string_view object_class, std::vector<OutputSection> items, std::uint64_t n,
+                  double from, double to) const {
+    std::vector<OutputSection> sections{fixed_section(header(object, object_class, is_binary_))};
+    add_list(sections, std::move(items), n);
+    AtomicFile file(folder.file(object));
+    write_sections(file, sections, context_.part(object, from, to));
+    file.commit();
+  }
+
+  void write_faces_compact(const AtomicFolder& folder) const {
+    std::vector<OutputSection> sections{fixed_section(header("faces", "faceCompactList", true))};
+    add_list(sections, face_places(), n_faces_ + 1);
+    add_list(sections, face_labels(), n_face_nodes_);
+    AtomicFile file(folder.file("faces"));
+    write_sections(file, sections, context_.part("faces", 0.45, 0.7));
+    file.commit();
+  }
+
+  char* put_label(char* at, std::uint64_t value) const {
+    if (is_binary_) return put_bytes(at, static_cast<std::int32_t>(value), std::endian::little);
+    at = put_integer_text(at, static_cast<std::int64_t>(value));
+    *at++ = '\n';
+    return at;
+  }
+
+  OutputSection points() const {
+    return {.n_items = mesh_.points.size(), .format = [this](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
+              char* at = out.reserve((end - begin) * k_max_point_text);
+              for (std::uint64_t i = begin; i < end; ++i) {
+                const Point& p = mesh_.points.raw()[i];
+                if (!is_finite(p)) throw_node_not_finite(i);
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                  if (is_binary_) {
+                    at = put_bytes(at, p[axis], std::endian::little);
+                  } else {
+                    *at++ = axis == 0 ? '(' : ' ';
+                    at = put_real_text(at, p[axis]);
+                  }
+                }
+                if (is_binary_) continue;
+                *at++ = ')';
+                *at++ = '\n';
+              }
+              out.end_at(at);
+            }};
+  }
+
+  /// put(at, cell, face) for the internal faces of cells [begin, end).
+  template <class Put>
+  OutputSection internal(std::size_t max_bytes, const Put& put) const {
+    return {.n_items = faces_.n_cells(), .format = [this, max_bytes, put](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
+              char* at = out.reserve((end - begin) * k_most_foam_faces * max_bytes);
+              faces_.for_each_internal(begin, end, [&](std::uint64_t cell, const CellFace& face) { at = put(at, cell, face); });
+              out.end_at(at);
+            }};
+  }
+
+  /// put(at, nodes, cell) for the faces of a patch: triangles, then quads.
+  template <class Put>
+  void add_boundary(std::vector<OutputSection>& sections, std::size_t max_bytes, const Put& put) const {
+    for (const PatchId patch : mesh_.patches.ids()) {
+      const auto add = [&](std::span<const std::uint32_t> which, std::span<const std::uint8_t> begins, auto get) {
+        sections.push_back({.n_items = which.size(), .format = [which, begins, get, put, max_bytes](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
+                              char* at = out.reserve((end - begin) * max_bytes);
+                              for (std::uint64_t i = begin; i < end; ++i) at = get(at, which[i], begins.empty() ? 0u : begins[i], put);
+                              out.end_at(at);
+                            }});
+      };
+      const auto cyclic = cyclic_.find(patch);
+      const bool is_plain = cyclic == cyclic_.end();
+      const std::span<const std::uint8_t> none;
+      add(is_plain ? by_patch_.triangles(patch) : std::span<const std::uint32_t>(cyclic->second.triangles),
+          is_plain ? none : std::span<const std::uint8_t>(cyclic->second.triangle_begins),
+          [this](char* at, std::uint32_t i, std::uint32_t first, const Put& p) {
+            std::array<NodeId, 3> nodes = mesh_.boundary_triangles[i].nodes;
+            std::rotate(nodes.begin(), nodes.begin() + first, nodes.end());
+            return p(at, std::span<const NodeId>(nodes), faces_.cell_of_triangle(i));
+          });
+      add(is_plain ? by_patch_.quads(patch) : std::span<const std::uint32_t>(cyclic->second.quads),
+          is_plain ? none : std::span<const std::uint8_t>(cyclic->second.quad_begins), [this](char* at, std::uint32_t i, std::uint32_t first, const Put& p) {
+            std::array<NodeId, 4> nodes = mesh_.boundary_quads[i].nodes;
+            std::rotate(nodes.begin(), nodes.begin() + first, nodes.end());
+            return p(at, std::span<const NodeId>(nodes), faces_.cell_of_quad(i));
+          });
+    }
+  }
+
+  static char* put_face_text(char* at, std::span<const NodeId> nodes) {
+    *at++ = static_cast<char>('0' + nodes.size());
+    char separator = '(';
+    for (const NodeId node : nodes) {
+      *at++ = separator;
+      at = put_integer_text(at, node.value());
+      separator = ' ';
+    }
+    *at++ = ')';
+    *at++ = '\n';
+    return at;
+  }
+
+  std::vector<OutputSection> face_texts() const {
+    std::vector<OutputSection> sections{
+        internal(k_max_face_text, [](char* at, std::uint64_t, const CellFace& face) { return put_face_text(at, face.span()); })};
+    add_boundary(sections, k_max_face_text, [](char* at, std::span<const NodeId> nodes, std::uint32_t) { return put_face_text(at, nodes); });
+    return sections;
+  }
+
+  static char* put_face_labels(char* at, std::span<const NodeId> nodes) {
+    for (const NodeId node : nodes) at = put_bytes(at, static_cast<std::int32_t>(node.value()), std::endian::little);
+    return at;
+  }
+
+  std::vector<OutputSection> face_labels() const {
+    constexpr std::size_t k_bytes = 4 * sizeof(std::int32_t);
+    std::vector<OutputSection> sections{internal(k_bytes, [](char* at, std::uint64_t, const CellFace& face) { return put_face_labels(at, face.span()); })};
+    add_boundary(sections, k_bytes, [](char* at, std::span<const NodeId> nodes, std::uint32_t) { return put_face_labels(at, nodes); });
+    return sections;
+  }
+
+  /// Where each face's nodes begin, and the end of the last.
+  std::vector<OutputSection> face_places() const {
+    std::vector<OutputSection> sections{{.n_items = faces_.n_cells(), .format = [this](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
+                                           char* at = out.reserve((end - begin) * k_most_foam_faces * sizeof(std::int32_t));
+                                           std::uint64_t place = faces_.internal_before(begin).nodes;
+                                           faces_.for_each_internal(begin, end, [&](std::uint64_t, const CellFace& face) {
+                                             at = put_label(at, place);
+                                             place += face.size;
+                                           });
+                                           out.end_at(at);
+                                         }}};
+    std::uint64_t place = faces_.n_internal_nodes();
+    const auto add = [&](std::uint64_t n, std::uint64_t size) {
+      sections.push_back({.n_items = n, .format = [this, first = place, size](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
+                            char* at = out.reserve((end - begin) * sizeof(std::int32_t));
+                            for (std::uint64_t i = begin; i < end; ++i) at = put_label(at, first + i * size);
+                            out.end_at(at);
+                          }});
+      place += n * size;
+    };
+    for (const PatchId patch : mesh_.patches.ids()) {
+      add(by_patch_.triangles(patch).size(), 3);
+      add(by_patch_.quads(patch).size(), 4);
+    }
+    add(1, 0);
+    return sections;
+  }
+
+  std::vector<OutputSection> owners() const {
+    std::vector<OutputSection> sections{internal(k_max_label_text, [this](char* at, std::uint64_t cell, const CellFace&) { return put_label(at, cell); })};
+    add_boundary(sections, k_max_label_text, [this](char* at, std::span<const NodeId>, std::uint32_t cell) { return put_label(at, cell); });
+    return sections;
+  }
+
+  OutputSection neighbours() const {
+    return internal(k_max_label_text, [this](char* at, std::uint64_t, const CellFace& face) { return put_label(at, face.neighbour); });
+  }
+
+  /// OpenFOAM compares the unit normals of a symmetryPlane to 1e-15: only those in coordinate planes are exact.
+  bool is_in_coordinate_plane(PatchId patch) const {
+    Box box;
+    for (const std::uint32_t f : by_patch_.triangles(patch))
+      for (const NodeId node : mesh_.boundary_triangles[f].nodes) box.add(mesh_.points[node]);
+    for (const std::uint32_t f : by_patch_.quads(patch))
+      for (const NodeId node : mesh_.boundary_quads[f].nodes) box.add(mesh_.points[node]);
+    return box.min.x == box.max.x || box.min.y == box.max.y || box.min.z == box.max.z;
+  }
+
+  /// The type, and for kinds that types do not tell, a group.
+  std::string type_of(PatchId patch) const {
+    const PatchKind kind = mesh_.patches[patch].kind;
+    if (kind == PatchKind::wall) return "wall";
+    if (kind == PatchKind::symmetry) return is_in_coordinate_plane(patch) ? "symmetryPlane" : "symmetry";
+    if (kind == PatchKind::farfield) return "patch";
+    return "patch;\n        inGroups 1(" + std::string(to_string(kind)) + ")";
+  }
+
+  void write_boundary(const AtomicFolder& folder) const {
+    // Words of OpenFOAM: no blanks, quotes, slashes, semicolons, braces; brackets and '$', '#', ':' mean something to its dictionaries.
+    const std::vector<std::string> names = names_by_rules(
+        mesh_.patches, {.format = "OpenFOAM", .forbidden = "\"'\\/;{}()[]<>$#:,|*?!", .may_begin_with_digit = false, .may_have_blanks = false}, context_);
+    std::string entries;
+    std::uint64_t first = n_internal_;
+    int n = 0;
+    for (const PatchId patch : mesh_.patches.ids()) {
+      const std::uint64_t n_faces = by_patch_.count(patch);
+      if (n_faces == 0) continue;
+      const auto neighbour = neighbour_.find(patch);
+      const std::string type = neighbour == neighbour_.end() ? type_of(patch) : "cyclic;\n        neighbourPatch " + names[neighbour->second.index()];
+      entries += "    " + names[patch.index()] + "\n    {\n        type " + type + ";\n        nFaces " + std::to_string(n_faces) + ";\n        startFace " +
+                 std::to_string(first) + ";\n    }\n";
+      first += n_faces;
+      ++n;
+    }
+    AtomicFile file(folder.file("boundary"));
+    file.append(header("boundary", "polyBoundaryMesh", false) + std::to_string(n) + "\n(\n" + entries + ")\n");
+    file.commit();
+  }
+
+  const HybridMesh& mesh_;
+  std::string path_;
+  bool is_binary_;
+  RunContext context_;
+  MeshFaces faces_;
+  FacesByPatch by_patch_;
+  std::map<PatchId, PatchId> neighbour_;  ///< of periodic sides
+  std::map<PatchId, CyclicSide> cyclic_;  ///< of the second ones
+  std::uint64_t n_internal_ = 0, n_faces_ = 0, n_face_nodes_ = 0;
+};
+
+/// The empty file by which ParaView opens a case; none where `path` names a folder.
+std::filesystem::path marker_of(const std::filesystem::path& path) {
+  std::error_code status;
+  if (!path.has_filename() || polymesh_folder(path) == path || std::filesystem::is_directory(path, status)) return {};
+  return polymesh_folder(path) == path / "constant" / "polyMesh" ? std::filesystem::path() : path;
+}
+
+}  // namespace
+
+void require_foam_output(const std::filesystem::path& path) {
+  const std::filesystem::path marker = marker_of(path);
+  std::error_code status;  // of what cannot be looked at: the writer says what is wrong with it
+  if (marker.empty() || std::filesystem::exists(marker, status) || !std::filesystem::exists(polymesh_folder(path), status)) return;
+  const std::filesystem::path folder = marker.has_parent_path() ? marker.parent_path() : ".";
+  std::vector<std::string> others;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, status))
+    if (entry.path().extension() == ".foam" && entry.is_regular_file(status)) others.push_back(entry.path().filename().string());
+  if (others.empty()) return;
+  throw Error({.code = ErrorCode::write_failed,
+               .attempted = "writing " + path.string(),
+               .problem = "the mesh beside it, " + polymesh_folder(path).string() + ", is that of " + *std::min_element(others.begin(), others.end()),
+               .hint = "OpenFOAM has one mesh in a case: write to a folder for each, or to constant/polyMesh to replace that one"});
+}
+
+void write_volume_foam(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  require_foam_output(path);
+  const std::filesystem::path folder_path = polymesh_folder(path), marker = marker_of(path);
+  std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const FoamWriter writer(mesh, folder_path, name.ends_with(".bin.foam"), context);
+  AtomicFolder folder(folder_path, "faces");
+  writer.write(folder);
+  folder.commit();
+  std::error_code status;
+  if (!marker.empty() && !std::filesystem::exists(marker, status)) AtomicFile(marker).commit();
+}
+
+}  // namespace sterna::io

@@ -1,0 +1,172 @@
+// UGRID writer: seven counts, nodes, faces (inwards, as NASA's tools have them), their patch numbers, cells. Text and binary differ in how a number is put.
+#include <algorithm>
+#include <cctype>
+#include <limits>
+
+#include "io/grammar/ugrid_source.h"
+#include "io/output/cell_sections.h"
+#include "io/output/section_output.h"
+#include "io/volume/volume_ugrid.h"
+
+namespace sterna::io {
+namespace {
+
+constexpr std::array<CellKind, 4> k_ugrid_kinds = {CellKind::tetrahedron, CellKind::pyramid, CellKind::prism, CellKind::hexahedron};
+constexpr std::size_t k_max_line = 8 * (k_max_integer_text + 1);  // of a hexahedron; a node's three coordinates and a binary item take less
+
+/// Puts the numbers of one item, as text (a line each) or as bytes.
+class ItemWriter {
+ public:
+  ItemWriter(const UgridVariant& variant, char* at) : variant_(variant), at_(at) {}
+  void integer(std::int64_t value) {
+    if (variant_.is_text) {
+      at_ = put_integer_text(at_, value);
+      *at_++ = ' ';
+    } else if (variant_.is_wide) {
+      at_ = put_bytes(at_, value, variant_.order);
+    } else {
+      at_ = put_bytes(at_, static_cast<std::int32_t>(value), variant_.order);  // counts were checked
+    }
+  }
+  void node(NodeId id) { integer(static_cast<std::int64_t>(id.value()) + 1); }
+  void real(double value) {
+    if (variant_.is_text) {
+      at_ = put_real_text(at_, value);
+      *at_++ = ' ';
+    } else if (variant_.is_single) {
+      at_ = put_bytes(at_, static_cast<float>(value), variant_.order);
+    } else {
+      at_ = put_bytes(at_, value, variant_.order);
+    }
+  }
+  void end_item() {
+    if (variant_.is_text) at_[-1] = '\n';
+  }
+  char* end() const { return at_; }
+
+ private:
+  const UgridVariant& variant_;
+  char* at_;
+};
+
+/// Items of which `put(i, writer)` writes number i.
+template <class Put>
+OutputSection items(const UgridVariant& variant, std::uint64_t n, const Put& put) {
+  return {.n_items = n, .format = [&variant, put](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
+            ItemWriter writer(variant, out.reserve((end - begin) * k_max_line));
+            for (std::uint64_t i = begin; i < end; ++i) {
+              put(i, writer);
+              writer.end_item();
+            }
+            out.end_at(writer.end());
+          }};
+}
+
+OutputSection cell_section(const UgridVariant& variant, const CellSections& cells, CellKind kind) {
+  return {.n_items = cells.count(kind), .format = [&variant, &cells, kind](std::uint64_t begin, std::uint64_t end, ByteBuffer& out) {
+            ItemWriter writer(variant, out.reserve((end - begin) * k_max_line));
+            cells.for_each(kind, begin, end, [&](std::span<const NodeId> nodes, int) {
+              for (std::size_t k = 0; k < nodes.size(); ++k) writer.node(nodes[kind == CellKind::pyramid ? k_ugrid_pyramid[k] : k]);
+              writer.end_item();
+            });
+            out.end_at(writer.end());
+          }};
+}
+
+std::vector<OutputSection> sections_of(const HybridMesh& mesh, const CellSections& cells, const UgridVariant& variant) {
+  std::vector<OutputSection> sections;
+  std::array<std::uint64_t, 7> counts = {mesh.points.size(), mesh.boundary_triangles.size(), mesh.boundary_quads.size()};
+  for (std::size_t k = 0; k < k_ugrid_kinds.size(); ++k) counts[3 + k] = cells.count(k_ugrid_kinds[k]);
+  sections.push_back(items(variant, 1, [counts](std::uint64_t, ItemWriter& out) {
+    for (const std::uint64_t n : counts) out.integer(static_cast<std::int64_t>(n));
+  }));
+  sections.push_back(items(variant, mesh.points.size(), [&mesh](std::uint64_t i, ItemWriter& out) {
+    const Point& p = mesh.points.raw()[i];
+    if (!is_finite(p)) throw_node_not_finite(i);
+    for (std::size_t axis = 0; axis < 3; ++axis) out.real(p[axis]);
+  }));
+  sections.push_back(items(variant, mesh.boundary_triangles.size(), [&mesh](std::uint64_t i, ItemWriter& out) {
+    for (const std::size_t k : {0, 2, 1}) out.node(mesh.boundary_triangles[i].nodes[k]);
+  }));
+  sections.push_back(items(variant, mesh.boundary_quads.size(), [&mesh](std::uint64_t i, ItemWriter& out) {
+    for (const std::size_t k : {0, 3, 2, 1}) out.node(mesh.boundary_quads[i].nodes[k]);
+  }));
+  sections.push_back(
+      items(variant, mesh.boundary_triangles.size(), [&mesh](std::uint64_t i, ItemWriter& out) { out.integer(mesh.boundary_triangles[i].patch.value() + 1); }));
+  sections.push_back(
+      items(variant, mesh.boundary_quads.size(), [&mesh](std::uint64_t i, ItemWriter& out) { out.integer(mesh.boundary_quads[i].patch.value() + 1); }));
+  for (const CellKind kind : k_ugrid_kinds) sections.push_back(cell_section(variant, cells, kind));
+  return sections;
+}
+
+/// FUN3D has one symmetry condition per axis: 6661, 6662, 6663 for the normal x, y, z. \returns the axis in which the patch is thinnest
+int symmetry_axis(const HybridMesh& mesh, const FacesByPatch& faces, PatchId patch) {
+  Box box;
+  for (const std::uint32_t f : faces.triangles(patch))
+    for (const NodeId node : mesh.boundary_triangles[f].nodes) box.add(mesh.points[node]);
+  for (const std::uint32_t f : faces.quads(patch))
+    for (const NodeId node : mesh.boundary_quads[f].nodes) box.add(mesh.points[node]);
+  const Vec3 size = box.max - box.min;
+  int thinnest = 1;  // y of aircraft, where sizes are equal
+  for (const int axis : {0, 2})
+    if (size[static_cast<std::size_t>(axis)] < size[static_cast<std::size_t>(thinnest)]) thinnest = axis;
+  return thinnest;
+}
+
+int condition_of(const HybridMesh& mesh, const FacesByPatch& faces, PatchId patch, const RunContext& context) {
+  switch (mesh.patches[patch].kind) {
+    case PatchKind::wall: return 4000;
+    case PatchKind::slip: return 3000;
+    case PatchKind::symmetry: return 6661 + symmetry_axis(mesh, faces, patch);
+    case PatchKind::inflow: return 7011;
+    case PatchKind::outflow: return 7012;
+    case PatchKind::farfield: return 5000;
+    case PatchKind::interface: break;
+  }
+  context.warn("patch \"" + mesh.patches[patch].name + "\" is an interface, for which .mapbc has no condition; it is written as 3000 (slip)");
+  return 3000;
+}
+
+/// A name on one line; a patch without name has its number.
+std::string mapbc_name(const Patch& patch, PatchId id) {
+  std::string name = patch.name;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; }, '_');
+  return name.empty() ? "patch_" + std::to_string(id.value() + 1) : name;
+}
+
+std::string mapbc_text(const HybridMesh& mesh, const FacesByPatch& faces, const RunContext& context) {
+  std::string lines;
+  int n = 0;
+  for (const PatchId patch : mesh.patches.ids()) {
+    if (faces.count(patch) == 0) continue;
+    lines += std::to_string(patch.value() + 1) + " " + std::to_string(condition_of(mesh, faces, patch, context)) + " " +
+             mapbc_name(mesh.patches[patch], patch) + "\n";
+    ++n;
+  }
+  return std::to_string(n) + "\n" + lines;
+}
+
+}  // namespace
+
+void write_volume_ugrid(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context) {
+  const UgridVariant variant = ugrid_variant(path);
+  const CellSections cells(mesh);
+  const FacesByPatch faces(mesh);
+  if (!variant.is_text && !variant.is_wide) {
+    constexpr std::uint64_t k_limit = std::numeric_limits<std::int32_t>::max();
+    const std::string format = "UGRID with 32-bit integers (64-bit: .lb8l.ugrid, .b8l.ugrid)";
+    require_count(mesh.points.size(), k_limit, "nodes", format, path.string());
+    require_count(std::max(mesh.boundary_triangles.size(), mesh.boundary_quads.size()), k_limit, "boundary faces", format, path.string());
+    for (const CellKind kind : k_ugrid_kinds) require_count(cells.count(kind), k_limit, "cells of kind " + std::string(to_string(kind)), format, path.string());
+  }
+  AtomicFile conditions(mapbc_path(path));
+  conditions.append(mapbc_text(mesh, faces, context));
+  AtomicFile file(path);
+  write_sections(file, sections_of(mesh, cells, variant), context);
+  const StageTimer timer(context, "sync");
+  file.commit();
+  conditions.commit();
+}
+
+}  // namespace sterna::io

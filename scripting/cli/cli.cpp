@@ -1,0 +1,498 @@
+// Parsing only: what the commands do is in commands.cpp. CLI11 is slow to compile, so only the cli*.cpp include it.
+#include "scripting/cli/cli.h"
+
+#include <unistd.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <functional>
+#include <sstream>
+
+#include "geom/base/error.h"
+#include "geom/base/schema.h"
+#include "geom/cad/read_cad.h"
+#include "geom/cad/unite.h"
+#include "geom/cad/write_cad.h"
+#include "geom/mesh/half.h"
+#include "io/file/format_table.h"
+#include "scripting/cli/cli_gates.h"
+#include "scripting/cli/cli_scripts.h"
+#include "scripting/cli/commands.h"
+#include "scripting/cli/inspect_command.h"
+#include "scripting/cli/line_editor.h"
+#include "scripting/cli/pentagrow_command.h"
+#include "scripting/cli/prompt.h"
+#include "scripting/command/cli_options.h"
+#include "scripting/interpreter/script_manual.h"
+#include "scripting/report/report_command.h"
+#include "scripting/terminal/console.h"
+#include "scripting/terminal/exit_status.h"
+#include "scripting/terminal/interrupt.h"
+#include "scripting/values/verbs.h"
+#include "scripting/verbs/draw_command.h"
+#include "scripting/verbs/farfield_verbs.h"
+
+namespace sterna::scripting {
+namespace {
+
+/// More threads are a slip of the keyboard: far above any machine, far below what the system refuses.
+constexpr int k_max_threads = 1024;
+constexpr int k_max_tasks = 1000000;
+
+/// Options that every command has.
+struct CommonSettings {
+  ConsoleSettings console;
+  int threads = 0;
+  std::uint64_t seed = 1;
+  std::filesystem::path dump_directory;
+  bool only_options = false;
+};
+
+/// What the command line asks for: one command, and where the picture of a failure goes.
+struct Request {
+  std::function<int(const CommandContext&)> execute;
+  std::filesystem::path trouble;  ///< beside the output, or beside the input of commands that write nothing
+  bool is_prompt = false;
+};
+
+void add_common_options(CLI::App& app, CommonSettings& common) {
+  app.add_option("--threads", common.threads, "worker threads; 0 = all of the machine. The result does not depend on it")->check(CLI::Range(0, k_max_threads));
+  app.add_option("--seed", common.seed, "seed of random numbers (math.random of scripts)");
+  app.add_flag("-q,--quiet", common.console.is_quiet, "no log and no progress, only results, warnings and errors");
+  app.add_flag("-v,--verbose", common.console.is_verbose, "more log");
+  app.add_option("--log", common.console.log_file, "write every log line with its time to this file")->type_name("FILE");
+  app.add_flag("--show-options", common.only_options,
+               "print the options that mesh, surface, half, union, convert, draw or report would use, as JSON, and stop");
+  app.add_option("--dump-dir", common.dump_directory, "where VTU pictures of failures go; default: beside the output")
+      ->type_name("FOLDER")
+      ->check(CLI::ExistingDirectory);
+}
+
+std::filesystem::path beside(const std::filesystem::path& file) { return file.string() + ".trouble.vtu"; }
+
+void add_cache_options(CLI::App& command, CacheChoice& cache) {
+  command
+      .add_option("--cache", cache.folder,
+                  "keep results of stages in this folder, and take them from there where all that they depend on is the same: equal bytes in less time")
+      ->type_name("FOLDER");
+  command.add_option("--cache-limit", cache.limit, "bytes in that folder, above which the results go that were not used for longest; 20e9 unless given")
+      ->check(CLI::PositiveNumber)
+      ->type_name("BYTES");
+}
+
+void add_cache_command(CLI::App& app, CacheCommand& cache, Request& request) {
+  CLI::App* command = app.add_subcommand("cache", "say what a cache holds, or empty it");
+  command->add_option("--folder", cache.folder, "the folder that --cache named")->required()->type_name("FOLDER");
+  command->add_flag("--list", cache.is_listed, "every entry by itself");
+  command->add_flag("--clear", cache.is_cleared, "remove all entries");
+  command->final_callback([&] { request.execute = [&](const CommandContext& context) { return execute(cache, context); }; });
+}
+
+void add_run_command(CLI::App& app, RunCommand& run, Request& request) {
+  CLI::App* command = app.add_subcommand("run", "run a Lua case");
+  command->add_option("script", run.script, "case.lua; input files are looked for in the current folder, then beside it; outputs go to the current folder")
+      ->required();
+  add_script_arguments(*command, run.arguments);
+  add_set_option(*command, run.overrides);
+  command->add_option("--tasks", run.tasks, "cases of a series at a time, whatever the script says")->check(CLI::Range(1, k_max_tasks));
+  command->add_option("--series-case", run.series_case, "")->group("");  // hidden: what series{} gives its workers
+  command->add_option("--look-in", run.input_folder, "")->group("");     // hidden: what `sterna determinism` gives its runs
+  add_cache_options(*command, run.cache);
+  command->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(run, context); };
+    request.trouble = beside(run.script.filename());
+  });
+}
+
+void add_script_commands(CLI::App& app, CheckScriptCommand& check, Request& request) {
+  CLI::App* command = app.add_subcommand(
+      "check-script", "find mistakes in a Lua case without meshing or writing: unknown verbs and keys, wrong types, units and ranges, missing files");
+  command->add_option("script", check.script.script, "case.lua")->required();
+  add_script_arguments(*command, check.script.arguments);
+  add_set_option(*command, check.script.overrides);
+  command->final_callback([&] { request.execute = [&](const CommandContext& context) { return execute(check, context); }; });
+  app.add_subcommand("prompt", "Lua with the verbs, a statement at a time; what `sterna` alone does on a terminal. Statements may come through a pipe")
+      ->final_callback([&] { request.is_prompt = true; });
+  app.add_subcommand("manual", "print the reference of verbs, objects, options and commands (docs/lua.md)")->final_callback([&] {
+    request.execute = [&](const CommandContext& context) {
+      context.console.print(manual_text(commands_markdown(app)));
+      return k_exit_success;
+    };
+  });
+}
+
+void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Request& request) {
+  CLI::App* command = app.add_subcommand("mesh", "mesh the space around a surface or a model: prism layers and tetrahedra");
+  command
+      ->add_option("surfaces", mesh.inputs,
+                   "surface files; several are joined to one wall. Or model files (STEP, IGES, BREP, sumo, CPACS), whose faces are meshed first. `sterna "
+                   "formats` lists what is read")
+      ->required();
+  command->add_option("-o,--output", mesh.outputs, "mesh file: " + io::list_formats_with(io::FormatUse::write_volume) + "; may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_option("--stats", mesh.stats, "write sizes, times and memory of this run as JSON")->type_name("FILE");
+  command
+      ->add_option("--stages", mesh.stages,
+                   "keep surface, envelope, tetrahedra and mesh in this .sterna file; `sterna mesh case.sterna -o ...` continues behind the last step in it")
+      ->type_name("FILE");
+  command
+      ->add_option(
+          "--disc", mesh.discs,
+          "an actuator disc in the fluid, e.g. --disc \"prop center=-0.4,0,0 axis=1,0,0 radius=1.2 inner_radius=0.25 edge=5cm\"; may be given several times")
+      ->type_name("DISC")
+      ->allow_extra_args(false)
+      ->take_all();
+  command
+      ->add_option(
+          "--periodic", mesh.periodic,
+          "two flat sides that are each other's image, moved, e.g. --periodic left,right: the mesh matches there node by node; may be given several times")
+      ->type_name("FIRST,SECOND")
+      ->allow_extra_args(false)
+      ->take_all();
+  command
+      ->add_option_function<std::string>(
+          "--farfield",
+          [&mesh](const std::string& text) {
+            for (auto& [name, value] : farfield_of_text(text)) mesh.options.emplace_back(std::move(name), std::move(value));
+          },
+          "what is put around the bodies: \"sphere radius=100 edge=20\", \"box -10 -5 -5 20 5 5 edge=2 x_min=inflow x_max=outflow,edge:0.5\", \"cylinder -10 0 "
+          "0 20 0 0 radius=5 edge=1\", \"none\", or the file of a closed surface")
+      ->type_name("SHAPE");
+  command->add_flag(
+      "--half", mesh.is_half,
+      "mesh the half of the surface beside a plane, by default y = 0 on the side of y > 0; others with --set half.axis=z --set half.at=0.5 --set half.keep=-");
+  surfmesh::StitchOptions surface;
+  volmesh::MeshCase volume;
+  add_schema_options(*command, all_options(surface, volume), mesh.options);
+  add_set_option(*command, set);
+  add_cache_options(*command, mesh.cache);
+  add_patch_option(*command, mesh.patches,
+                   "what patches with such names ask for instead, e.g. --patch \"tunnel*:layers=20,first_height=2e-5\": kind (slip, symmetry, inflow, outflow, "
+                   "farfield, interface, wall), layers, first_height, max_growth, total_height, max_thickness, blend; of models also what `sterna surface "
+                   "--patch` takes: max_edge ...; may be given several times");
+  command->footer(
+      "Numbers take units: 2e-6, 0.5mm, 35deg, --unit inch. Heights may be found from the flow: --first-height \"y_plus 1 mach=0.78 altitude=11000 "
+      "length=4.2\", --total-height \"boundary_layer factor=1.3 reynolds=6e6 length=1\"; `sterna run` a script with help(y_plus). Of models, options of their "
+      "surface: --set surface_mesh.max_edge=0.2; `sterna surface --help` lists them.");
+  command->final_callback([&] {
+    for (auto& [names, options] : mesh.patches)
+      for (auto& [name, text] : options) text = with_degrees(name, text);
+    for (const auto& [name, value] : set) (name.starts_with("half.") ? mesh.half : mesh.options).emplace_back(name, value);
+    request.execute = [&](const CommandContext& context) { return execute(mesh, context); };
+    request.trouble = beside(mesh.outputs.front());
+  });
+}
+
+void add_surface_command(CLI::App& app, SurfaceCommand& surface, OptionOverrides& set, Request& request) {
+  CLI::App* command = app.add_subcommand("surface", "mesh the faces of a model (STEP, IGES, BREP, sumo, CPACS): triangles, closed where the model is");
+  command->add_option("models", surface.inputs, "model files; several stand side by side. Components of sumo and CPACS files are united first")->required();
+  command->add_option("-o,--output", surface.outputs, "surface file: " + io::list_formats_with(io::FormatUse::write_surface) + "; may be given several times")
+      ->required()
+      ->allow_extra_args(false)
+      ->take_all();
+  surfmesh::SurfaceMeshOptions options;
+  ReadCadOptions reading;
+  add_schema_options(*command, model_surface_options(options, reading), surface.options);
+  add_set_option(*command, set);
+  add_cache_options(*command, surface.cache);
+  add_patch_option(*command, surface.patches,
+                   "what faces with such names ask for instead, e.g. --patch \"wing*:max_edge=0.1,curvature_angle=8\": max_edge, min_edge, curvature_angle, "
+                   "chord_error, leading_edge_factor, trailing_edge_factor; and what `sterna mesh --patch` takes, which is kept for it: kind, layers, "
+                   "first_height ...; may be given several times");
+  command
+      ->add_option("--source", surface.sources,
+                   "shorter edges in a region, e.g. --source \"line 0 0 0 8 0 0 size=0.02 radius=0.5\"; point, line, box, sphere, cylinder, wake; may be given "
+                   "several times")
+      ->type_name("SOURCE")
+      ->allow_extra_args(false)
+      ->take_all();
+  command->footer("Numbers take units: 0.2, 5mm, 12deg; --curvature-angle 12 is degrees, too.");
+  command->final_callback([&] {
+    for (auto& [names, options] : surface.patches)
+      for (auto& [name, text] : options) text = with_degrees(name, text);
+    for (auto& [name, text] : surface.options) text = with_degrees(name, text);
+    surface.options.insert(surface.options.end(), set.begin(), set.end());
+    request.execute = [&](const CommandContext& context) { return execute(surface, context); };
+    request.trouble = beside(surface.outputs.front());
+  });
+}
+
+void add_half_command(CLI::App& app, HalfCommand& half, Request& request) {
+  CLI::App* command = app.add_subcommand("half", "cut a surface at a plane and write the half beside it, its rim closed and in the plane");
+  command->add_option("surface", half.input, "surface file. `sterna formats` lists what is read")->required();
+  command->add_option("-o,--output", half.output, "surface file: " + io::list_formats_with(io::FormatUse::write_surface))->required();
+  HalfOptions options;
+  add_schema_options(*command, sterna::options_of(options), half.options);
+  command->add_option_function<std::string>(
+      "--unit", [&half](const std::string& text) { half.options.emplace_back("unit", text); }, "length of one unit of the file: mm, inch, 0.5mm ...");
+  command->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(half, context); };
+    request.trouble = beside(half.output);
+  });
+}
+
+void add_union_command(CLI::App& app, UnionCommand& unite, Request& request) {
+  CLI::App* command =
+      app.add_subcommand("union", "unite closed surfaces that stick in each other, or the crossing parts of one file, to one wall; or models to one model");
+  command->add_option("parts", unite.inputs, "surface files, or model files (STEP, IGES, BREP, sumo, CPACS). `sterna formats` lists what is read")->required();
+  command
+      ->add_option("-o,--output", unite.output,
+                   "surface file: " + io::list_formats_with(io::FormatUse::write_surface) + "; of models: STEP, IGES, BREP (.step, .iges, .brep)")
+      ->required();
+  UnionOptions options;
+  UniteOptions models;
+  add_schema_options(*command, sterna::options_of(options), unite.options);
+  add_schema_options(*command, sterna::options_of(models), unite.options);
+  command->add_option_function<std::string>(
+      "--unit", [&unite](const std::string& text) { unite.options.emplace_back("unit", text); }, "length of one unit of the files: mm, inch, 0.5mm ...");
+  command->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(unite, context); };
+    request.trouble = beside(unite.output);
+  });
+}
+
+void add_check_command(CLI::App& app, CheckCommand& check, Request& request) {
+  CLI::App* command = app.add_subcommand("check",
+                                         "prove that a volume mesh tiles its domain and measure its quality; exit status 0 only if it is VALID. Of a model "
+                                         "(STEP ...): whether it is closed, and where not");
+  command->add_option("mesh", check.input, "mesh file, or model file")->required();
+  command->add_flag("--json", check.is_json, "print the report as JSON");
+  command
+      ->add_option(
+          "--model", check.models,
+          "compare the walls of the mesh with the model that it was made of (gates G17, G18): STEP, IGES, BREP, sumo, CPACS; may be given several times")
+      ->type_name("FILE")
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_option("--findings-per-kind", check.options.findings_per_kind, "places listed for each kind of violation")->check(CLI::PositiveNumber);
+  command->add_flag("--strict", check.options.strict, "exit status 3 also when a QUALITY gate FAILs");
+  command->add_flag("--cell-centred,!--no-cell-centred", check.options.cell_centred,
+                    "measure what cell-centred solvers feel: OpenFOAM's non-orthogonality, skewness ... (default)");
+  command
+      ->add_option("--cells", check.cells,
+                   "write the mesh with the quality of each cell (scaled Jacobian, volume, dihedral angles as VTK has them) to this .vtu")
+      ->type_name("FILE");
+  command
+      ->add_option("--gate", check.gates,
+                   "limits of a QUALITY gate instead of the usual ones, e.g. --gate orthogonality:hard=3deg,target=15deg --gate face_weight:none; help "
+                   "\"mesh:check\" lists them; may be given several times")
+      ->type_name("MEASURE:LIMITS")
+      ->allow_extra_args(false)
+      ->take_all();
+  command->add_flag("--intersections,!--no-intersections", check.options.intersections, "test boundaries exactly for intersection (default)");
+  command->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(check, context); };
+    request.trouble = beside(std::filesystem::path(check.input).filename());
+  });
+}
+
+void add_info_command(CLI::App& app, InfoCommand& info, Request& request) {
+  CLI::App* command =
+      app.add_subcommand("info", "say what a surface, mesh or model file holds: counts, patches, box, units; of models areas, volumes, mean chords");
+  command->add_option("file", info.input, "surface, mesh or model file")->required();
+  command->add_option("--unit", info.unit, "length of one unit of the file: mm, inch, 0.5mm ...");
+  command->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(info, context); };
+    request.trouble = beside(std::filesystem::path(info.input).filename());
+  });
+}
+
+void add_convert_command(CLI::App& app, ConvertCommand& convert, Request& request) {
+  CLI::App* command = app.add_subcommand("convert", "write a surface, a volume mesh or a model in another format");
+  command->add_option("input", convert.input, "surface, mesh or model file (STEP, IGES, BREP, sumo .smx, CPACS .xml)")->required();
+  command->add_option("output", convert.output, "file to write; `sterna formats` lists the formats")->required();
+  command->add_option("--format", convert.settings.format, "format of the output by its name in `sterna formats`, e.g. \"STL text\"; default: by the extension")
+      ->type_name("NAME");
+  command->add_flag("--surface", convert.settings.as_surface, "of a volume mesh write the boundary");
+  ReadCadOptions reading;
+  WriteCadOptions writing;
+  for (const OptionTable& table : {sterna::options_of(reading), sterna::options_of(writing)}) add_schema_options(*command, table, convert.options);
+  command->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(convert, context); };
+    request.trouble = beside(convert.output);
+  });
+}
+
+void add_draw_command(CLI::App& app, DrawCommand& draw, Request& request) {
+  add_draw_arguments(app, draw)->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(draw, context); };
+    request.trouble = beside(draw.output);
+  });
+}
+
+void add_report_command(CLI::App& app, ReportCommand& report, Request& request) {
+  add_report_arguments(app, report)->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(report, context); };
+    request.trouble = beside(report.output);
+  });
+}
+
+void add_pentagrow_command(CLI::App& app, PentagrowCommand& pentagrow, Request& request) {
+  CLI::App* command = app.add_subcommand(
+      "pentagrow",
+      "mesh the space around a surface as a configuration of pentagrow says, with its names of files; also as the program pentagrow beside sterna");
+  command->add_option("surface", pentagrow.surface, "surface file")->required();
+  command->add_option("config", pentagrow.config, "configuration: Key = value in each line; without it, pentagrow's defaults");
+  command->final_callback([&] {
+    request.execute = [&](const CommandContext& context) { return execute(pentagrow, context); };
+    request.trouble = beside("hybrid");
+  });
+}
+
+int execute_request(const Request& request, const CommonSettings& common) {
+  InterruptGuard interrupt;
+  Console console(common.console);
+  const RunSettings settings{.threads = common.threads,
+                             .seed = common.seed,
+                             .stop = interrupt.token(),
+                             .dump_directory = common.dump_directory,
+                             .log = [&](LogLevel level, std::string_view text) { console.log(level, text); },
+                             .progress = [&](const ProgressState& state) { console.progress(state); }};
+  if (request.is_prompt)
+    return run_prompt({.script = {.script = "prompt", .overrides = {}, .print = [&](std::string_view text) { console.print(text); }, .on_mesh = {}},
+                       .run = settings,
+                       .history_file = default_history_file()},
+                      console, interrupt);
+  const RunContext context(settings);
+  try {
+    return request.execute({console, context, common.only_options, [&](bool is_left) { interrupt.leave_to_work(is_left); }});
+  } catch (const OptionsShown& shown) {
+    console.print(shown.json);
+    return k_exit_success;
+  } catch (const Error& error) {
+    const std::filesystem::path trouble = common.dump_directory.empty() ? request.trouble : common.dump_directory / request.trouble.filename();
+    console.end_progress();
+    console.error(error.what() + draw_trouble(error, trouble));
+    return exit_status_of(error.code());
+  }
+}
+
+/// The commands of the program by name, or the long options that a command takes.
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+std::vector<std::string> long_options(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* level = &app; level; level = level->get_parent())
+    for (const CLI::Option* option : level->get_options())
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// What is misspelt in a command line that was refused, with a suggestion; empty where every name is known and something else is wrong.
+std::string misspelling(const CLI::App& app, int argc, const char* const* argv) {
+  const std::vector<std::string> commands = command_names(app);
+  const auto with_suggestion = [](const std::string& what, const std::string& word, const std::vector<std::string>& known) {
+    const std::string nearest = nearest_name(word, known);
+    return "there is no " + what + " " + word + (nearest.empty() ? "" : ", did you mean " + nearest + "?");
+  };
+  const CLI::App* command = nullptr;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--") break;
+    if (!word.starts_with("--")) {
+      if (command || word.starts_with("-")) continue;
+      if (std::find(commands.begin(), commands.end(), word) == commands.end()) return with_suggestion("command", word, commands);
+      command = app.get_subcommand(word);
+      continue;
+    }
+    const std::string name = word.substr(0, word.find('='));
+    const std::vector<std::string> known = long_options(command ? *command : app);
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      return with_suggestion(command ? "option of " + command->get_name() : "option", name, known);
+    const CLI::Option* option = (command ? *command : app).get_option_no_throw(name);
+    if (!option) option = app.get_option_no_throw(name);
+    if (!command && option && option->get_items_expected_min() > 0 && word.find('=') == std::string::npos) ++i;  // its value is no command
+  }
+  return {};
+}
+
+int parse_and_execute(int argc, const char* const* argv) {
+  CLI::App app("sterna: hybrid meshes (prism layers and tetrahedra) around aircraft, for RANS solvers", "sterna");
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.set_version_flag("--version", "sterna " STERNA_VERSION);
+  app.footer(k_exit_status_help);
+  CommonSettings common;
+  RunCommand run;
+  CheckScriptCommand check_script;
+  MeshCommand mesh;
+  SurfaceCommand surface;
+  HalfCommand half;
+  CacheCommand cache;
+  UnionCommand unite;
+  CheckCommand check;
+  GateCommands gates;
+  InfoCommand info;
+  InspectCommand inspect;
+  ConvertCommand convert;
+  DrawCommand draw;
+  ReportCommand report;
+  PentagrowCommand pentagrow;
+  OptionOverrides set;
+  Request request;
+  add_common_options(app, common);
+  add_run_command(app, run, request);
+  add_script_commands(app, check_script, request);
+  add_mesh_command(app, mesh, set, request);
+  add_surface_command(app, surface, set, request);
+  add_half_command(app, half, request);
+  add_cache_command(app, cache, request);
+  add_union_command(app, unite, request);
+  add_check_command(app, check, request);
+  add_gate_commands(app, gates, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
+  add_info_command(app, info, request);
+  add_inspect_arguments(*app.add_subcommand("inspect", std::string(k_inspect_summary)), inspect, [&] {
+    request.execute = [&](const CommandContext& context) { return execute(inspect, context); };
+    request.trouble = beside(std::filesystem::path(inspect.inputs.front()).filename());
+  });
+  add_convert_command(app, convert, request);
+  add_draw_command(app, draw, request);
+  add_report_command(app, report, request);
+  add_pentagrow_command(app, pentagrow, request);
+  app.add_subcommand("formats", "list the file formats")->final_callback([&] { request.execute = list_formats; });
+  // Alone and at a terminal the program is a prompt.
+  constexpr std::array k_prompt = {"sterna", "prompt"};
+  const bool is_alone = argc == 1 && ::isatty(STDIN_FILENO) != 0;
+  try {
+    if (is_alone) app.parse(static_cast<int>(k_prompt.size()), k_prompt.data());
+    else app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    if (const std::string wrong = misspelling(app, argc, argv); !wrong.empty()) {
+      std::fprintf(stderr, "error: %s\nRun with --help for more information.\n", wrong.c_str());
+      return k_exit_usage;
+    }
+    app.exit(error);
+    return k_exit_usage;
+  }
+  return execute_request(request, common);
+}
+
+}  // namespace
+
+int run_command_line(int argc, const char* const* argv) noexcept {
+  // Before the console stands, and for what no Error describes, stderr is all there is.
+  try {
+    std::vector<const char*> arguments(argv, argv + argc);
+    if (argc > 0 && std::filesystem::path(argv[0]).filename() == "pentagrow") arguments.insert(arguments.begin() + 1, "pentagrow");
+    return parse_and_execute(static_cast<int>(arguments.size()), arguments.data());
+  } catch (const Error& error) {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return exit_status_of(error.code());
+  } catch (const std::bad_alloc&) {
+    std::fputs("error: not enough memory\n", stderr);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: %s (please report this)\n", error.what());
+  }
+  return k_exit_failed;
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,520 @@
+#include "scripting/cli/commands.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "geom/base/error.h"
+#include "geom/mesh/check.h"
+#include "geom/mesh/half.h"
+#include "io/field/trouble_vtu.h"
+#include "io/file/format_table.h"
+#include "io/file/surface_file.h"
+#include "io/output/atomic_file.h"
+#include "io/volume/volume_vtu.h"
+#include "scripting/interpreter/script_run.h"
+#include "scripting/series/case_worker.h"
+#include "scripting/terminal/exit_status.h"
+#include "scripting/values/disc_verbs.h"
+#include "scripting/values/flow_verbs.h"
+#include "scripting/values/layer_options.h"
+#include "scripting/values/model_surface.h"
+#include "scripting/values/models.h"
+#include "scripting/values/patch_rules.h"
+#include "scripting/values/periodic_sides.h"
+#include "scripting/values/stages.h"
+#include "scripting/values/summary.h"
+#include "scripting/values/verbs.h"
+#include "scripting/verbs/farfield_verbs.h"
+#include "scripting/verbs/gate_limits.h"
+#include "scripting/verbs/half_verbs.h"
+#include "scripting/verbs/model_gates.h"
+
+namespace sterna::scripting {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Shares of the progress of `sterna mesh`, from runs on surfaces of 10 k to 200 k triangles.
+constexpr double k_read_end = 0.05;
+constexpr double k_surface_end = 0.2;  ///< of models
+constexpr double k_mesh_end = 0.90;
+
+struct PatchSize {
+  std::int64_t n_triangles = 0, n_quads = 0;
+};
+
+void print_box(const CommandContext& context, const Box& box) {
+  if (!box.empty())
+    context.console.print(fmt::format("  box      {} to {}, longest side {:.6g} m", format_point(box.min), format_point(box.max), box.longest_side()));
+}
+
+void print_patches(const CommandContext& context, const Column<PatchId, Patch>& patches, const std::vector<PatchSize>& sizes) {
+  for (const PatchId id : patches.ids()) {
+    const PatchSize& size = sizes[id.index()];
+    std::string text = fmt::format("  patch    \"{}\", {}: {} triangles", patches[id].name, to_string(patches[id].kind), count_text(size.n_triangles));
+    if (size.n_quads > 0) text += ", " + count_text(size.n_quads) + " quads";
+    context.console.print(text);
+  }
+}
+
+int print_volume_info(const InputPath& input, double unit, const CommandContext& context) {
+  MeshValue value = read_mesh(input, context.run);
+  if (count_cells(value.mesh).total() == 0) return -1;
+  Box box;
+  for (const Point& p : value.mesh.points) box.add(unit * p);
+  std::vector<PatchSize> sizes(value.mesh.patches.size());
+  for (const BoundaryTriangle& face : value.mesh.boundary_triangles) ++sizes[face.patch.index()].n_triangles;
+  for (const BoundaryQuad& face : value.mesh.boundary_quads) ++sizes[face.patch.index()].n_quads;
+  context.console.print("  " + describe(value));
+  print_box(context, box);
+  print_patches(context, value.mesh.patches, sizes);
+  // In brief: without the slow exact test for intersections.
+  const CheckReport report = check(value.mesh, {.intersections = false}, context.run.part("check", 0.3, 1.0));
+  context.console.print("  check    " +
+                        std::string(report.is_valid() ? "no faults found, boundaries not tested for intersection" : "INVALID, `sterna check` says where") +
+                        "; " + quality_text(report));
+  return k_exit_success;
+}
+
+/// Ranges of edges and angles; of triangles without area nothing but their number.
+void print_triangle_quality(const CommandContext& context, const TriMesh& mesh) {
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0.0, least_angle = std::numbers::pi, most_angle = 0.0, area = 0.0;
+  std::int64_t n_degenerate = 0;
+  for (const TriangleId t : mesh.triangles.ids()) {
+    const std::array<Point, 3> p = corners(mesh, t);
+    const double twice_area = norm(cross(p[1] - p[0], p[2] - p[0]));
+    if (twice_area <= 0.0) {
+      ++n_degenerate;
+      continue;
+    }
+    area += 0.5 * twice_area;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 edge = p[(k + 1) % 3] - p[k];
+      const double angle = angle_between(edge, p[(k + 2) % 3] - p[k]);
+      shortest = std::min(shortest, norm(edge));
+      longest = std::max(longest, norm(edge));
+      least_angle = std::min(least_angle, angle);
+      most_angle = std::max(most_angle, angle);
+    }
+  }
+  constexpr double k_degrees = 180.0 / std::numbers::pi;
+  if (area > 0.0)
+    context.console.print(fmt::format("  quality  area {:.6g} m^2, edges {:.4g} to {:.4g} m, angles {:.3g} to {:.4g} deg", area, shortest, longest,
+                                      k_degrees * least_angle, k_degrees * most_angle));
+  if (n_degenerate > 0) context.console.print(fmt::format("  quality  triangles without area: {}", count_text(n_degenerate)));
+}
+
+int print_surface_info(const InputPath& input, double unit, const CommandContext& context) {
+  const SurfaceSoup soup = io::read_surface_file(input.path, context.run.part("read", 0.0, 0.3));
+  context.console.print(fmt::format("  surface  {} triangles, {} points, patches {}", count_text(static_cast<std::int64_t>(soup.triangles.size())),
+                                    count_text(static_cast<std::int64_t>(soup.points.size())), soup.has_names ? "by name" : "without names"));
+  Box box;
+  for (const Vec3& p : soup.points) box.add(unit * p);
+  print_box(context, box);
+  // Joined as `sterna mesh` would join it, but for the slow exact test for intersections; what cannot be joined is reported by the caller.
+  surfmesh::StitchOptions options;
+  options.unit = unit;
+  options.allow_open = true;
+  options.check_intersections = false;
+  SurfaceValue wall;
+  surfmesh::StitchResult stitched = surfmesh::stitch_surface({soup}, options, context.run.part("stitch", 0.3, 1.0));
+  wall.mesh = std::move(stitched.mesh);
+  wall.report = std::move(stitched.report);
+  std::vector<PatchSize> sizes(wall.mesh.patches.size());
+  for (const PatchId patch : wall.mesh.triangle_patch) ++sizes[patch.index()].n_triangles;
+  context.console.print("  joined   " + describe(wall));
+  print_patches(context, wall.mesh.patches, sizes);
+  print_triangle_quality(context, wall.mesh);
+  return k_exit_success;
+}
+
+/// The steps of a run, where the one input is a .sterna file that holds some; else nothing.
+StageContent steps_of(const MeshCommand& command, const CommandContext& context) {
+  if (command.inputs.size() != 1 || std::filesystem::path(command.inputs.front()).extension() != ".sterna") return {};
+  return read_stages({command.inputs.front(), command.inputs.front()}, context.run.part("read", 0.0, k_read_end));
+}
+
+/// Whether the command line names the option, alone or with its stage.
+bool is_given(const MeshCommand& command, std::string_view stage, std::string_view name) {
+  return std::ranges::any_of(command.options, [&](const auto& option) {
+    return option.first == name ? stage != "surface_mesh" : option.first == std::string(stage) + "." + std::string(name);
+  });
+}
+
+/// Reads the file of the shape "surface", where one is named, and notes it with the wall's inputs.
+void read_farfield_of(volmesh::MeshCase& options, SurfaceValue& wall, const RunContext& context) {
+  const SurfaceHandle surface = read_farfield(
+      options.farfield,
+      [](const std::string& name) {
+        return InputPath{name, name};
+      },
+      context);
+  if (!surface) return;
+  options.farfield_surface = std::shared_ptr<const TriMesh>(surface, &surface->mesh);
+  wall.inputs.insert(wall.inputs.end(), surface->inputs.begin(), surface->inputs.end());
+}
+
+/// From the last step on. Options that are given win over those of the file.
+MeshValue continue_mesh(const StageContent& steps, const MeshCommand& command, const Reuse& reuse, const CommandContext& context) {
+  if (!command.stages.empty())
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "mesh",
+                 .problem = "--stages keeps the steps of a whole run; this one continues from " + command.inputs.front()});
+  const std::string done = "belongs to a step that is done already in " + command.inputs.front();
+  const auto refuse_done = [&](std::string_view option) {
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + std::string(option), .problem = done, .hint = "mesh the surface anew"});
+  };
+  if (!command.discs.empty()) refuse_done("--disc");
+  if (!command.periodic.empty()) refuse_done("--periodic");
+  if (!command.patches.empty()) refuse_done("--patch");
+  volmesh::MeshCase options = steps.envelope->options, all;
+  const volmesh::MeshSteps to_come = volmesh::k_finish_step | (steps.tetrahedra ? volmesh::MeshSteps{0} : volmesh::k_tetrahedra_step);
+  const OptionTable open = volmesh::options_of(options, to_come);
+  const OptionTable known = volmesh::options_of(all);
+  for (const auto& [name, text] : command.options)
+    if (const Option& option = find_option(known, name, "option " + name);
+        std::none_of(open.begin(), open.end(), [&](const Option& o) { return o.name == option.name; }))
+      refuse_done(name);
+  set_options(open, command.options, context);
+  if (is_given(command, "farfield", "farfield_surface")) {  // else the file holds it
+    SurfaceValue inputs;
+    read_farfield_of(options, inputs, context.run);
+  }
+  const RunContext part = context.run.part("volume_mesh", k_read_end, k_mesh_end);
+  context.run.info("continuing behind the " + std::string(steps.tetrahedra ? "tetrahedra" : "envelope") + " of " + command.inputs.front());
+  return steps.tetrahedra ? finish_mesh(*steps.tetrahedra, options, part, reuse)
+                          : finish_mesh(make_tetrahedra(*steps.envelope, options, part, reuse), options, part, reuse);
+}
+
+std::vector<volmesh::ActuatorDisc> discs_of(const MeshCommand& command) {
+  std::vector<volmesh::ActuatorDisc> discs;
+  for (const std::string& text : command.discs) discs.push_back(disc_of_text(text));
+  return discs;
+}
+
+std::vector<volmesh::PeriodicNames> periodic_of(const MeshCommand& command) {
+  std::vector<volmesh::PeriodicNames> pairs;
+  for (const std::string& text : command.periodic) pairs.push_back(periodic_of_text(text));
+  return pairs;
+}
+
+/// With --half: the half of what was read.
+void halve(const MeshCommand& command, SurfaceValue& wall, const CommandContext& context) {
+  if (!command.is_half) {
+    if (!command.half.empty())
+      throw Error({.code = ErrorCode::bad_argument, .attempted = "option " + command.half.front().first, .problem = "is given without --half"});
+    return;
+  }
+  HalfOptions options;
+  set_options(sterna::options_of(options), command.half, context);
+  wall = half_surface(wall, options, context.run);
+}
+
+/// What follows from the options together, and what heights were found from flow conditions.
+void complete_options(volmesh::MeshCase& options, const MeshCommand& command, const RunContext& context) {
+  choose_solve_for(
+      options, [&](std::string_view name) { return is_given(command, "envelope", name); }, "reading the options");
+  for (const auto& [name, text] : command.options)
+    if (is_flow_text(text)) context.info(name + ": " + quantity_of_text(text).text);
+  for (const auto& [names, of_patch] : command.patches)
+    for (const auto& [name, text] : of_patch)
+      if (is_flow_text(text)) context.info(name + " of " + names + ": " + quantity_of_text(text).text);
+}
+
+/// Of models: their faces are meshed first. --unit is then that of reading CAD; the options of joining triangulations are unknown.
+MeshValue make_mesh_of_models(const MeshCommand& command, const std::vector<InputPath>& inputs, const Reuse& reuse, const CommandContext& context) {
+  SurfaceRecipe recipe;
+  ReadCadOptions reading;
+  volmesh::MeshCase volume_options;
+  volume_options.patches = layer_rules_of(command.patches, &recipe.patches);
+  OptionTable table = volmesh::required_options_of(volume_options);
+  for (Option& option : model_surface_options(recipe.options, reading)) table.push_back(std::move(option));
+  set_options(table, command.options, context);
+  if (is_given(command, "family", "refinement") && !is_given(command, "surface_mesh", "refinement"))
+    recipe.options.refinement = volume_options.family.refinement;
+  complete_options(volume_options, command, context.run);
+  volume_options.discs = discs_of(command);
+  volume_options.periodic = periodic_of(command);
+  SurfaceValue wall = mesh_model_files(inputs, reading, recipe, context.run.part("surface", 0.0, k_surface_end), reuse);
+  halve(command, wall, context);
+  read_farfield_of(volume_options, wall, context.run);
+  return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_surface_end, k_mesh_end), reuse);
+}
+
+MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const CommandContext& context) {
+  std::vector<InputPath> inputs;
+  for (const std::string& name : command.inputs) inputs.push_back({name, name});
+  if (std::any_of(inputs.begin(), inputs.end(), [](const InputPath& input) { return is_model_file(input.path); }))
+    return make_mesh_of_models(command, inputs, reuse, context);
+  surfmesh::StitchOptions surface_options;
+  volmesh::MeshCase volume_options;
+  volume_options.patches = layer_rules_of(command.patches);
+  surface_options.allow_open = command.is_half;
+  OptionTable table = volmesh::required_options_of(volume_options);
+  for (Option& option : sterna::options_of(surface_options)) table.push_back(std::move(option));
+  set_options(table, command.options, context);
+  complete_options(volume_options, command, context.run);
+  volume_options.discs = discs_of(command);
+  volume_options.periodic = periodic_of(command);
+  SurfaceValue wall = read_wall(inputs, surface_options, context.run.part("surface", 0.0, k_read_end));
+  halve(command, wall, context);
+  read_farfield_of(volume_options, wall, context.run);
+  return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_read_end, k_mesh_end), reuse);
+}
+
+std::string read_write(bool is_read, bool is_written) { return is_read && is_written ? "read, write" : is_read ? "read" : is_written ? "write" : "-"; }
+
+}  // namespace
+
+std::unique_ptr<const StageCache> cache_of(const CacheChoice& choice) {
+  if (choice.folder.empty()) return nullptr;
+  return std::make_unique<const StageCache>(CacheSettings{.folder = choice.folder, .limit = choice.limit});
+}
+
+/// "polar/3"
+CaseAddress case_of_text(const std::string& text) {
+  const std::size_t slash = text.rfind('/');
+  CaseAddress address{.series = text.substr(0, slash)};
+  const char* end = text.data() + text.size();
+  if (slash == std::string::npos || std::from_chars(text.data() + slash + 1, end, address.index).ptr != end || address.index == 0)
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "--series-case " + text, .problem = "it is not NAME/INDEX"});
+  return address;
+}
+
+/// All of the command line that can change what a script does: a worker gets the same.
+std::vector<std::string> worker_words(const RunCommand& command, const RunContext& run) {
+  std::vector<std::string> words;
+  for (const auto& [name, value] : command.overrides) words.push_back("--set=" + name + "=" + value);
+  words.push_back("--seed=" + std::to_string(run.seed()));
+  for (const auto& [name, value] : command.arguments) words.push_back(name + "=" + value);
+  if (!command.input_folder.empty()) words.push_back("--look-in=" + command.input_folder.string());
+  return words;
+}
+
+int execute(const RunCommand& command, const CommandContext& context) {
+  const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
+  SeriesSettings series{.program = std::filesystem::read_symlink("/proc/self/exe"),
+                        .words = worker_words(command, context.run),
+                        .worker = {},
+                        .stops_itself = context.stops_itself,
+                        .tasks = command.tasks};
+  if (!command.series_case.empty() || !command.input_folder.empty()) become_worker();
+  if (!command.series_case.empty()) {
+    series.worker = case_of_text(command.series_case);
+  }
+  const ScriptOutcome outcome = run_script({.script = command.script,
+                                            .overrides = command.overrides,
+                                            .print = [&](std::string_view text) { context.console.print(text); },
+                                            .on_mesh = [&](const MeshValue& mesh) { context.run.info(summary_text(mesh)); },
+                                            .cache = cache.get(),
+                                            .series = series,
+                                            .arguments = command.arguments,
+                                            .input_folder = command.input_folder},
+                                           context.run);
+  if (outcome.n_failed_cases > 0) return k_exit_failed;
+  return outcome.n_invalid_cases > 0 ? k_exit_invalid : k_exit_success;
+}
+
+int execute(const MeshCommand& command, const CommandContext& context) {
+  for (const auto& output : command.outputs) require_mesh_output(output);
+  const Clock::time_point start = Clock::now();
+  const StageContent steps = steps_of(command, context);
+  const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
+  const Reuse reuse{.cache = cache.get(), .lines = nullptr};
+  const MeshValue mesh = steps.envelope ? continue_mesh(steps, command, reuse, context) : make_mesh(command, reuse, context);
+  const RunContext write_part = context.run.part("write", k_mesh_end, 1.0);
+  for (const auto& output : command.outputs) write_mesh(mesh, output, write_part);
+  const RunMeasure measure{
+      .wall_seconds = std::chrono::duration<double>(Clock::now() - start).count(), .stages = context.run.times(), .threads = context.run.threads()};
+
+  context.console.end_progress();
+  for (const auto& output : command.outputs) context.run.info("wrote " + output.string() + " and " + output.string() + ".json");
+  context.run.info(summary_text(mesh));
+  context.run.info(measure_text(mesh, measure));
+  if (!command.stats.empty()) io::write_whole(command.stats, stats_json(mesh, measure));
+  return k_exit_success;
+}
+
+int execute(const CacheCommand& command, const CommandContext& context) {
+  std::map<std::string, std::pair<std::size_t, std::uint64_t>> stages;
+  std::pair<std::size_t, std::uint64_t> all;
+  for (const CacheEntry& entry : StageCache::entries(command.folder)) {
+    const std::string stage = entry.stage.empty() ? "damaged" : entry.stage;
+    if (command.is_listed) context.console.print(fmt::format("{:>14} bytes  {:<14} {}", entry.bytes, stage, entry.file.string()));
+    for (auto* sum : {&stages[stage], &all}) {
+      ++sum->first;
+      sum->second += entry.bytes;
+    }
+  }
+  for (const auto& [stage, sum] : stages)
+    context.console.print(fmt::format("{:<14} {:>8} entries  {:>10.3f} MB", stage, sum.first, static_cast<double>(sum.second) * 1e-6));
+  context.console.print(fmt::format("{:<14} {:>8} entries  {:>10.3f} MB", "all", all.first, static_cast<double>(all.second) * 1e-6));
+  if (command.is_cleared) context.console.print(fmt::format("removed {} entries", StageCache::clear(command.folder)));
+  return k_exit_success;
+}
+
+int execute(const HalfCommand& command, const CommandContext& context) {
+  require_surface_output(command.output);
+  HalfOptions options;
+  surfmesh::StitchOptions reading;
+  OptionTable table = sterna::options_of(options);
+  table.push_back(find_option(sterna::options_of(reading), "unit", "half"));
+  set_options(table, command.options, context);
+  reading.allow_open = true;
+  const std::array files = {InputPath{command.input, command.input}};
+  const SurfaceValue half = half_surface(read_wall(files, reading, context.run.part("read", 0.0, 0.5)), options, context.run.part("half", 0.5, k_mesh_end));
+  write_surface(half, command.output, context.run.part("write", k_mesh_end, 1.0));
+  context.console.end_progress();
+  context.run.info("wrote " + command.output.string() + ": " + describe(half));
+  return k_exit_success;
+}
+
+int execute(const UnionCommand& command, const CommandContext& context) {
+  for (const std::string& name : command.inputs) {
+    std::error_code none;  // of files that are not there: they are no input, or not yet an output
+    if (std::filesystem::equivalent(name, command.output, none))
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "union",
+                   .problem = "the output " + command.output.string() + " is one of the inputs, which it would replace",
+                   .hint = "give it another name"});
+  }
+  if (std::any_of(command.inputs.begin(), command.inputs.end(), [](const std::string& name) { return is_model_file(name); }))
+    return unite_models(command, context);
+  UnionOptions options;
+  surfmesh::StitchOptions reading;
+  OptionTable table = sterna::options_of(options);
+  table.push_back(find_option(sterna::options_of(reading), "unit", "union"));
+  set_options(table, command.options, context);
+  require_surface_output(command.output);
+  std::vector<UnionItem> items;
+  for (const std::string& name : command.inputs) items.emplace_back(InputPath{name, name});
+  const SurfaceValue united = unite_surfaces(items, reading.unit, options, context.run.part("union", 0.0, k_mesh_end));
+  write_surface(united, command.output, context.run.part("write", k_mesh_end, 1.0));
+  context.console.end_progress();
+  context.run.info("wrote " + command.output.string() + ": " + describe(united));
+  return k_exit_success;
+}
+
+namespace {
+
+/// \throws Error(unsupported_format) unless the name ends in .vtu, (bad_argument) where it is the mesh itself
+void require_cells_output(const std::filesystem::path& path, const std::filesystem::path& input) {
+  const std::string attempted = "--cells " + path.string();
+  if (path.extension() != ".vtu")
+    throw Error({.code = ErrorCode::unsupported_format,
+                 .attempted = attempted,
+                 .problem = "the quality of cells is written as a .vtu file",
+                 .hint = "such as --cells " + path.stem().string() + ".vtu"});
+  std::error_code none;  // a file that is not there is another one
+  if (std::filesystem::equivalent(path, input, none))
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = attempted,
+                 .problem = "it is the mesh that is checked",
+                 .hint = "such as --cells " + path.stem().string() + "_cells.vtu"});
+}
+
+[[noreturn]] void refuse_to_check_surface(const std::string& input, const std::string& what) {
+  throw Error({.code = ErrorCode::unsupported_format,
+               .attempted = "checking " + input,
+               .problem = what,
+               .hint = "check proves volume meshes. `sterna info " + input + "` says what the surface holds and whether it is closed, `sterna mesh " + input +
+                       " ...` meshes the space around it"});
+}
+
+}  // namespace
+
+int execute(const CheckCommand& command, const CommandContext& context) {
+  if (is_model_file(command.input)) return check_model(command, context);
+  if (const io::Format& format = io::format_of(command.input); !format.read_volume)
+    refuse_to_check_surface(command.input, std::string(format.name) + " holds surfaces only");
+  for (const std::string& model : command.models)
+    if (!is_model_file(model))
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "--model " + model,
+                   .problem = "it is no model",
+                   .hint = "give the file of STEP, IGES, BREP, sumo or CPACS that the mesh was made of"});
+  GateTable limits;
+  for (const std::string& text : command.gates) set_gate_limits(text, limits);
+  if (!command.cells.empty()) require_cells_output(command.cells, command.input);
+  const MeshValue mesh = read_mesh({command.input, command.input}, context.run.part("read", 0.0, 0.3));
+  if (count_cells(mesh.mesh).total() == 0 && !mesh.mesh.boundary_triangles.empty())
+    refuse_to_check_surface(command.input,
+                            "it holds a surface of " + count_text(static_cast<std::int64_t>(mesh.mesh.boundary_triangles.size())) + " triangles and no cells");
+  const double checked = command.models.empty() ? 1.0 : 0.5;
+  CheckReport report = check(mesh.mesh, command.options.to_options(limits), context.run.part("check", 0.3, checked));
+  if (!command.models.empty() && report.quality_measured) {
+    std::vector<InputPath> models;
+    for (const std::string& model : command.models) models.push_back({model, model});
+    const SurfaceValue wall = mesh_model_files(models, {}, {}, context.run.part("surface", checked, 0.8));
+    measure_on_model(mesh.mesh, wall, limits, report, context.run.part("model", 0.8, 1.0));
+  }
+  context.console.end_progress();
+  if (!command.cells.empty()) io::write_quality_vtu(mesh.mesh, command.cells, context.run);
+  context.console.print(command.is_json ? to_json(report) : to_text(report));
+  return command.options.accepts(report) ? k_exit_success : k_exit_invalid;
+}
+
+int execute(const InfoCommand& command, const CommandContext& context) {
+  surfmesh::StitchOptions unit;
+  const OptionTable schema = sterna::options_of(unit);
+  set_option_as_typed(find_option(schema, "unit", "info"), command.unit);
+  if (is_model_file(command.input)) return print_model_info(command, context);
+  const InputPath input{command.input, command.input};
+  const io::Format& format = io::format_of(input.path);
+  context.console.print(fmt::format("{}: {}, 1 unit of the file = {:g} m", command.input, format.name, unit.unit));
+  // A format that holds volume meshes may hold a surface alone; then it is read as one.
+  if (format.read_volume) {
+    const int status = print_volume_info(input, unit.unit, context);
+    if (status >= 0) return status;
+  }
+  return print_surface_info(input, unit.unit, context);
+}
+
+int execute(const ConvertCommand& command, const CommandContext& context) {
+  if (is_model_file(command.input)) return convert_model(command, context);
+  if (!command.options.empty())
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "convert",
+                 .problem = "option " + command.options.front().first + " is for models (STEP, IGES, BREP, sumo, CPACS); " + command.input + " is none"});
+  const std::string what = convert({command.input, command.input}, command.output, command.settings, context.run);
+  context.console.end_progress();
+  context.run.info("wrote " + command.output.string() + ": " + what);
+  return k_exit_success;
+}
+
+int list_formats(const CommandContext& context) {
+  constexpr const char* k_row = "{:<16} {:<12} {:<12} {:<12} {}";
+  context.console.print(fmt::format(k_row, "format", "surface", "volume", "patch names", "extensions (each also with .gz for reading)"));
+  for (const io::Format& format : io::formats())
+    context.console.print(fmt::format(k_row, format.name, read_write(format.read_surface != nullptr, format.write_surface != nullptr),
+                                      read_write(format.read_volume != nullptr, format.write_volume != nullptr), format.carries_patch_names ? "yes" : "no",
+                                      format.extensions));
+  constexpr const char* k_model_row = "{:<16} {:<25} {:<12} {}";
+  context.console.print("");
+  context.console.print(fmt::format(k_model_row, "format", "model (exact geometry)", "names", "extensions"));
+  context.console.print(fmt::format(k_model_row, "STEP", "read, write", "yes", ".step .stp"));
+  context.console.print(fmt::format(k_model_row, "IGES", "read, write", "layers", ".iges .igs"));
+  context.console.print(fmt::format(k_model_row, "BREP", "read, write", "no", ".brep .egads"));
+  context.console.print(fmt::format(k_model_row, "sumo", "read, write", "yes", ".smx"));
+  context.console.print(fmt::format(k_model_row, "CPACS", "read", "yes", ".xml"));
+  return k_exit_success;
+}
+
+std::string draw_trouble(const Error& error, const std::filesystem::path& path) {
+  if (error.info().geometry.empty()) return {};
+  try {
+    io::write_trouble_vtu(error.info().geometry, path);
+    return "\n  drawn in " + path.string();
+  } catch (const Error& failure) {
+    return std::string("\n  and it could not be drawn: ") + failure.what();
+  }
+}
+
+}  // namespace sterna::scripting

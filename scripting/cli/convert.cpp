@@ -1,0 +1,62 @@
+#include "scripting/cli/convert.h"
+
+#include <fmt/format.h>
+
+#include "geom/base/error.h"
+#include "io/file/format_table.h"
+#include "io/file/surface_file.h"
+#include "io/file/volume_file.h"
+#include "scripting/values/summary.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr double k_convert_read_end = 0.5;  // reading and writing take about the same time
+
+std::string convert_volume(const HybridMesh& mesh, const std::filesystem::path& output, const std::string& format, const RunContext& context) {
+  io::write_volume_file(mesh, output, context, format);
+  return fmt::format("volume mesh, {} nodes, {} cells, {} patches", count_text(static_cast<std::int64_t>(mesh.points.size())),
+                     count_text(count_cells(mesh).total()), mesh.patches.size());
+}
+
+std::string convert_surface(const InputPath& input, const std::filesystem::path& output, const std::string& format, const RunContext& context) {
+  const TriMesh mesh = io::to_tri_mesh(io::read_surface_file(input.path, context.part("read", 0.0, k_convert_read_end)));
+  io::write_surface_file(mesh, output, context.part("write", k_convert_read_end, 1.0), format);
+  return fmt::format("surface, {} triangles, {} patches", count_text(static_cast<std::int64_t>(mesh.n_triangles())), mesh.patches.size());
+}
+
+/// Whether the output's format has that use; the format must exist.
+bool can_write(const std::filesystem::path& output, io::FormatUse use, const std::string& format) {
+  try {
+    io::format_to_write(output, use, format);
+    return true;
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::unsupported_format) throw;
+    return false;
+  }
+}
+
+}  // namespace
+
+std::string convert(const InputPath& input, const std::filesystem::path& output, const ConvertSettings& settings, const RunContext& context) {
+  const io::Format& from = io::format_of(input.path);
+  const bool has_volume = can_write(output, io::FormatUse::write_volume, settings.format);
+  if (!has_volume) io::format_to_write(output, io::FormatUse::write_surface, settings.format);  // throws where it has neither
+  if (settings.as_surface || !from.read_volume) {
+    io::format_to_write(output, io::FormatUse::write_surface, settings.format);
+    return convert_surface(input, output, settings.format, context);
+  }
+  const HybridMesh mesh = io::read_volume_file(input.path, context.part("read", 0.0, k_convert_read_end));
+  if (count_cells(mesh).total() == 0) {
+    io::format_to_write(output, io::FormatUse::write_surface, settings.format);
+    return convert_surface(input, output, settings.format, context);
+  }
+  if (!has_volume)
+    throw Error({.code = ErrorCode::unsupported_format,
+                 .attempted = "converting " + input.name + " into " + output.string(),
+                 .problem = "the input is a volume mesh of " + count_text(count_cells(mesh).total()) + " cells, the output's format holds surfaces only",
+                 .hint = "--surface writes the boundary; volume meshes are written as " + io::list_formats_with(io::FormatUse::write_volume)});
+  return convert_volume(mesh, output, settings.format, context.part("write", k_convert_read_end, 1.0));
+}
+
+}  // namespace sterna::scripting

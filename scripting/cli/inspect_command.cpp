@@ -1,0 +1,89 @@
+#include "scripting/cli/inspect_command.h"
+
+#include <CLI/CLI.hpp>
+
+#include "geom/base/error.h"
+#include "scripting/command/cli_options.h"
+#include "scripting/terminal/exit_status.h"
+#include "scripting/values/flow_verbs.h"
+#include "scripting/values/inspect_surface.h"
+#include "scripting/values/layer_options.h"
+#include "scripting/values/models.h"
+#include "scripting/values/patch_rules.h"
+
+namespace sterna::scripting {
+namespace {
+
+/// Of reading, inspecting and the volume mesh; no first height is needed. The arguments must outlive the table.
+OptionTable inspect_options(surfmesh::StitchOptions& surface, volmesh::InspectRequest& request) {
+  OptionTable table = sterna::options_of(request.limits);
+  for (Option& option : all_options(surface, request.volume)) table.push_back(std::move(option));
+  for (Option& option : table) option.required = false;
+  return table;
+}
+
+bool is_given(const InspectCommand& command, std::string_view name) {
+  return std::ranges::any_of(command.options, [&](const auto& option) { return option.first == name || option.first == "envelope." + std::string(name); });
+}
+
+std::string names_of(const InspectCommand& command) {
+  std::string text;
+  for (const std::string& name : command.inputs) text += (text.empty() ? "" : " ") + name;
+  return text;
+}
+
+}  // namespace
+
+void add_inspect_arguments(CLI::App& command, InspectCommand& inspect, const std::function<void()>& chosen) {
+  command.add_option("surfaces", inspect.inputs, "surface files; several are joined to one wall. `sterna formats` lists what is read")->required();
+  command
+      .add_option(
+          "-o,--output", inspect.output,
+          "picture of the trouble: .vtu, the surface with the predicted share of the layer's height, visibility angles, gaps and what was found; or .png")
+      ->type_name("FILE");
+  command.add_flag("--json", inspect.is_json, "print the report as JSON");
+  command.add_flag("--strict", inspect.is_strict, "exit status 1 also for warnings");
+  command.add_option("--flow", inspect.flow, "flow conditions, for the y+ of the first height, e.g. --flow \"mach=0.78 altitude=11000 length=4.2\"")
+      ->type_name("CONDITIONS");
+  surfmesh::StitchOptions surface;
+  volmesh::InspectRequest request;
+  add_schema_options(command, inspect_options(surface, request), inspect.options);
+  add_set_option(command, inspect.options);
+  add_patch_option(
+      command, inspect.patches,
+      "what patches with such names ask for instead, as of `sterna mesh`, e.g. --patch \"tunnel*:layers=20,first_height=2e-5\"; may be given several times");
+  command.footer(
+      "Without --first-height the surface is looked at, but not how high the layers will be. Options of later stages (tetrahedra ...) are taken and have no "
+      "effect.");
+  command.final_callback(chosen);
+}
+
+int execute(const InspectCommand& command, const CommandContext& context) {
+  std::vector<InputPath> inputs;
+  for (const std::string& name : command.inputs) {
+    inputs.push_back({name, name});
+    if (is_model_file(name))
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "inspect " + name,
+                   .problem = "it is a model",
+                   .hint = "`sterna surface` meshes its faces, and that surface can be inspected; `sterna check` says whether the model is closed"});
+  }
+  surfmesh::StitchOptions surface;
+  volmesh::InspectRequest request;
+  request.volume.patches = layer_rules_of(command.patches);
+  set_options(inspect_options(surface, request), command.options, context);
+  choose_solve_for(
+      request.volume, [&](std::string_view name) { return is_given(command, name); }, "reading the options");
+  if (!command.flow.empty()) request.flow = quantity_of_text("y_plus 1 " + command.flow).flow;
+  if (!command.output.empty()) require_inspection_output(command.output);
+  const volmesh::InspectReport report = inspect_files(inputs, surface, request, context.run);
+  const std::string name = names_of(command);
+  context.console.print(command.is_json ? json_of(report, name) : text_of(report, name));
+  if (!command.output.empty()) {
+    write_inspection(report, command.output, context.run);
+    context.run.info("wrote " + command.output.string());
+  }
+  return report.is_ok() && !(command.is_strict && report.count(volmesh::Severity::warn) > 0) ? k_exit_success : k_exit_failed;
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,39 @@
+// `sterna inspect`: the pre-flight inspection on the command line.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scripting/cli/commands.h"
+
+namespace CLI {
+class App;
+}
+
+namespace sterna::scripting {
+
+inline constexpr std::string_view k_inspect_summary =
+    "predict in seconds what volume_mesh will make of a surface: what it refuses, where layers get low, where cells get bad, each with a line of advice. Exit "
+    "status 0 where nothing is an error, else 1";
+
+struct InspectCommand {
+  std::vector<std::string> inputs;
+  OptionOverrides options;                                       ///< --layers 30 as {"layers", "30"} and --set stage.option=value
+  std::vector<std::pair<std::string, OptionOverrides>> patches;  ///< pattern of names, what it asks for
+  std::string flow;                                              ///< "mach=0.78 altitude=11000 length=4.2"; empty: none
+  std::filesystem::path output;
+  bool is_json = false;
+  bool is_strict = false;  ///< warnings count, too
+};
+
+/// Adds the arguments of the command, and calls `chosen` where it was chosen.
+void add_inspect_arguments(CLI::App& command, InspectCommand& inspect, const std::function<void()>& chosen);
+
+/// Prints the report; status 1 where something is an error, with is_strict also for a warning.
+int execute(const InspectCommand& command, const CommandContext& context);
+
+}  // namespace sterna::scripting

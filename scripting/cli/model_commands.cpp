@@ -1,0 +1,127 @@
+// The commands on files of models: STEP, IGES, BREP, sumo, CPACS.
+#include <fmt/format.h>
+
+#include "geom/base/error.h"
+#include "geom/cad/unite.h"
+#include "scripting/cli/commands.h"
+#include "scripting/terminal/exit_status.h"
+#include "scripting/values/aircraft_model.h"
+#include "scripting/values/model_surface.h"
+#include "scripting/values/models.h"
+#include "scripting/values/patch_rules.h"
+#include "scripting/values/summary.h"
+#include "scripting/verbs/source_verbs.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr double k_model_read_end = 0.4;
+/// Open edges that `sterna info` lists; `sterna check` lists all.
+constexpr std::size_t k_listed_edges = 10;
+
+InputPath input_of(const std::string& name) { return {name, name}; }
+
+}  // namespace
+
+int print_model_info(const InfoCommand& command, const CommandContext& context) {
+  ReadCadOptions options;
+  if (command.unit != InfoCommand{}.unit) set_options(sterna::options_of(options), {{"unit", command.unit}}, context);
+  const ModelValue value = read_model(input_of(command.input), options, context.run.part("read", 0.0, k_model_read_end));
+  const ModelReport measures = measure_model(value, context.run.part("measure", k_model_read_end, 1.0));
+  context.console.end_progress();
+  if (!value.report.empty()) context.console.print(command.input + ": " + value.report);
+  context.console.print(describe(value));
+  context.console.print(measures_text(measures));
+  context.console.print("  closed   " + closedness_text(value.model, k_listed_edges));
+  return k_exit_success;
+}
+
+int check_model(const CheckCommand& command, const CommandContext& context) {
+  if (!command.models.empty())
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "check",
+                 .problem = "--model is for volume meshes; " + command.input + " is a model itself",
+                 .hint = "sterna check mesh.su2 --model " + command.input});
+  if (command.is_json)
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "check", .problem = "--json is for volume meshes; " + command.input + " is a model"});
+  const ModelValue value = read_model(input_of(command.input), {}, context.run.part("read", 0.0, 1.0));
+  context.console.end_progress();
+  context.console.print(describe(value));
+  context.console.print("  " + closedness_text(value.model, value.model.edges.size()));
+  const bool is_closed = !value.model.faces.empty() && free_edges(value.model).empty();
+  context.console.print(is_closed ? "CLOSED" : "OPEN");
+  return is_closed ? k_exit_success : k_exit_invalid;
+}
+
+OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCadOptions& reading) {
+  OptionTable table = sterna::options_of(surface);
+  for (Option& option : sterna::options_of(reading)) table.push_back(std::move(option));
+  return table;
+}
+
+int execute(const SurfaceCommand& command, const CommandContext& context) {
+  SurfaceRecipe recipe;
+  ReadCadOptions reading;
+  set_options(model_surface_options(recipe.options, reading), command.options, context);
+  const std::vector<volmesh::PatchRule> layers = layer_rules_of(command.patches, &recipe.patches);
+  for (const std::string& source : command.sources) recipe.sources.push_back(source_of_text(source));
+  for (const auto& output : command.outputs) require_surface_output(output);
+  std::vector<InputPath> inputs;
+  for (const std::string& name : command.inputs) inputs.push_back(input_of(name));
+  const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
+  SurfaceValue surface = mesh_model_files(inputs, reading, recipe, context.run.part("surface", 0.0, 0.95), {.cache = cache.get(), .lines = nullptr});
+  add_layer_rules(layers, surface);
+  for (const auto& output : command.outputs) write_surface(surface, output, context.run.part("write", 0.95, 1.0));
+  context.console.end_progress();
+  for (const auto& output : command.outputs) context.run.info("wrote " + output.string() + ": " + describe(surface));
+  return k_exit_success;
+}
+
+int unite_models(const UnionCommand& command, const CommandContext& context) {
+  for (const std::string& name : command.inputs)
+    if (!is_model_file(name))
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "union",
+                   .problem = name + " is no model, the other files are",
+                   .hint = "unite models (STEP, IGES, BREP, sumo, CPACS) or surfaces (STL ...), not both"});
+  UniteOptions options;
+  ReadCadOptions reading;
+  OptionTable table = sterna::options_of(options);
+  table.push_back(find_option(sterna::options_of(reading), "unit", "union"));
+  set_options(table, command.options, context);
+  require_model_output({.without_description = "it is a union"}, command.output);
+  std::vector<ModelHandle> models;
+  const double n = static_cast<double>(command.inputs.size());
+  for (const std::string& name : command.inputs) {
+    const double i = static_cast<double>(models.size());
+    models.push_back(std::make_shared<const ModelValue>(
+        read_model(input_of(name), reading, context.run.part("read", k_model_read_end * i / n, k_model_read_end * (i + 1) / n))));
+  }
+  ModelValue united = unite_solids(models, options, context.run.part("union", k_model_read_end, 0.95));
+  united.description.reset();  // the file has the union, not what went into it
+  write_model(united, command.output, {}, context.run.part("write", 0.95, 1.0));
+  context.console.end_progress();
+  context.run.info("wrote " + command.output.string() + ": " + describe(united));
+  return k_exit_success;
+}
+
+int convert_model(const ConvertCommand& command, const CommandContext& context) {
+  if (!command.settings.format.empty() || command.settings.as_surface)
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "convert",
+                 .problem = "--format and --surface are for meshes; " + command.input + " is a model",
+                 .hint = "the extension of the output says the format: .step, .iges, .brep, .smx"});
+  ReadCadOptions reading;
+  WriteCadOptions writing;
+  OptionTable table = sterna::options_of(reading);
+  for (Option& option : sterna::options_of(writing)) table.push_back(std::move(option));
+  set_options(table, command.options, context);
+  if (!is_model_output(command.output)) require_model_output({}, command.output);  // before the input is read
+  const ModelValue value = read_model(input_of(command.input), reading, context.run.part("read", 0.0, k_model_read_end));
+  write_model(value, command.output, writing, context.run.part("write", k_model_read_end, 1.0));
+  context.console.end_progress();
+  context.run.info("wrote " + command.output.string() + ": " + describe(value));
+  return k_exit_success;
+}
+
+}  // namespace sterna::scripting

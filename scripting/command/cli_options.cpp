@@ -1,0 +1,96 @@
+#include "scripting/command/cli_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+
+#include "geom/base/error.h"
+
+namespace sterna::scripting {
+namespace {
+
+std::string kebab(std::string_view name) {
+  std::string text(name);
+  std::replace(text.begin(), text.end(), '_', '-');
+  return text;
+}
+
+/// "stage.option=value" as name and value.
+std::pair<std::string, std::string> split_assignment(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) throw CLI::ValidationError("--set", "\"" + text + "\" is not stage.option=value");
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+}  // namespace
+
+void add_set_option(CLI::App& command, OptionOverrides& overrides) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&overrides](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) overrides.push_back(split_assignment(text));
+          },
+          "any option of any stage, e.g. --set envelope.layers=24")
+      ->type_name("STAGE.OPTION=VALUE")
+      ->allow_extra_args(false)
+      ->take_all();
+}
+
+void add_schema_options(CLI::App& command, const OptionTable& table, OptionOverrides& overrides) {
+  for (const Option& option : table) {
+    const std::string name(option.name);
+    std::string help = std::string(option.help) + "; " + option.default_text();
+    if (const std::string range = option.range_text(); !range.empty()) help += "; " + range;
+    // Given twice, both are kept: set_options refuses them where they differ.
+    CLI::Option* added = command.add_option_function<std::vector<std::string>>(
+        "--" + kebab(name),
+        [&overrides, name](const std::vector<std::string>& texts) {
+          for (const std::string& text : texts) overrides.emplace_back(name, text.empty() ? "true" : text);
+        },
+        help);
+    added->group("Options of stage " + std::string(option.stage));
+    added->type_name(option.kind == OptionKind::boolean ? "[true|false]" : option.kind == OptionKind::text ? "TEXT" : "NUMBER");
+    added->allow_extra_args(false)->take_all();
+    if (option.kind == OptionKind::boolean) added->expected(0, 1);
+  }
+}
+
+std::string with_degrees(const std::string& name, const std::string& text) {
+  constexpr double k_surely_degrees = 1.6;  // largest curvature_angle in radians
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (name != "curvature_angle" || error != std::errc() || end != text.data() + text.size()) return text;
+  if (value > k_surely_degrees) return text + "deg";
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = "option curvature_angle",
+               .problem = text + " may be degrees or radians",
+               .hint = "write " + text + "deg or " + text + "rad"});
+}
+
+void add_patch_option(CLI::App& command, std::vector<std::pair<std::string, OptionOverrides>>& patches, const std::string& help) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--patch",
+          [&patches](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) {
+              const std::size_t equals = text.find('='), colon = text.rfind(':', equals);
+              if (equals == std::string::npos || colon == std::string::npos || colon == 0)
+                throw CLI::ValidationError("--patch", "\"" + text + "\" is not NAMES:OPTION=VALUE,OPTION=VALUE");
+              auto& [names, options] = patches.emplace_back(text.substr(0, colon), OptionOverrides{});
+              std::istringstream list(text.substr(colon + 1));
+              for (std::string entry; std::getline(list, entry, ',');) {
+                const std::size_t at = entry.find('=');
+                if (at == std::string::npos || at == 0) throw CLI::ValidationError("--patch", "\"" + entry + "\" is not OPTION=VALUE");
+                options.emplace_back(entry.substr(0, at), entry.substr(at + 1));
+              }
+            }
+          },
+          help)
+      ->type_name("NAMES:OPTION=VALUE,...")
+      ->allow_extra_args(false)
+      ->take_all();
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,43 @@
+#include "scripting/command/command_context.h"
+
+#include <cstddef>
+#include <map>
+#include <utility>
+
+#include "geom/base/error.h"
+#include "scripting/values/verbs.h"
+
+namespace sterna::scripting {
+
+void set_options(const OptionTable& table, const OptionOverrides& given, const CommandContext& context) {
+  std::string problems;
+  std::size_t n_problems = 0;
+  std::map<std::string, std::pair<std::string, OptionValue>> before;  // what options were set to, by full name
+  for (const auto& [name, text] : given) {
+    try {
+      const Option& option = find_option(table, name, "option " + name);
+      set_option_as_typed(option, text);
+      const auto [same, is_new] = before.try_emplace(std::string(option.stage) + "." + std::string(option.name), text, option.get());
+      if (!is_new && same->second.second != option.get())
+        throw Error({.code = ErrorCode::bad_argument,
+                     .attempted = "option " + name,
+                     .problem = same->first + " is given twice, as " + same->second.first + " and as " + text});
+    } catch (const Error& error) {
+      problems += "\n  - " + error.info().attempted + ": " + error.info().problem + (error.info().hint.empty() ? "" : " (" + error.info().hint + ")");
+      ++n_problems;
+    }
+  }
+  try {
+    require_options(table, "mesh");
+  } catch (const Error& error) {
+    problems += "\n  - " + error.info().problem;
+    ++n_problems;
+  }
+  if (n_problems == 0 && context.only_options) throw OptionsShown{options_to_json(table)};
+  if (n_problems == 0) return;
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = "reading the options",
+               .problem = n_problems == 1 ? problems.substr(5) : std::to_string(n_problems) + " problems" + problems});
+}
+
+}  // namespace sterna::scripting

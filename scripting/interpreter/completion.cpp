@@ -1,0 +1,183 @@
+// Steps: where the end of the text is (which tables are open, of which verb; in a text or not); the word there; what that place takes; what begins with the
+// word.
+#include "scripting/interpreter/completion.h"
+
+#include <lua.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "scripting/interpreter/script_help.h"
+#include "scripting/interpreter/script_objects.h"
+#include "scripting/interpreter/script_verbs.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr std::array k_keywords = {"and",   "break", "do",  "else", "elseif", "end",    "false", "for",  "function", "if",   "in",
+                                   "local", "nil",   "not", "or",   "repeat", "return", "then",  "true", "until",    "while"};
+
+bool is_word_letter(char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)); }
+
+/// A brace or bracket that is still open, with the name in front of it.
+struct Opening {
+  char bracket;
+  std::string name;
+};
+
+struct Place {
+  std::vector<Opening> open;
+  bool is_text = false;
+};
+
+/// The name that ends at `end`: "volume_mesh", "mesh:check", or "farfield" of `farfield = {`.
+std::string name_before(std::string_view text, std::size_t end) {
+  const auto skip_blanks = [&] {
+    while (end > 0 && std::isspace(static_cast<unsigned char>(text[end - 1]))) --end;
+  };
+  skip_blanks();
+  if (end > 0 && text[end - 1] == '=') {
+    --end;
+    skip_blanks();
+  }
+  std::size_t start = end;
+  while (start > 0 && (is_word_letter(text[start - 1]) || text[start - 1] == ':' || text[start - 1] == '.')) --start;
+  return std::string(text.substr(start, end - start));
+}
+
+Place place_at_end(std::string_view text) {
+  Place place;
+  char quote = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quote) {
+      if (c == '\\') ++i;
+      else if (c == quote) quote = 0;
+    } else if (c == '-' && text.substr(i).starts_with("--")) {
+      i = std::min(text.find('\n', i), text.size());
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '{' || c == '(') {
+      place.open.push_back({c, name_before(text, i)});
+    } else if ((c == '}' || c == ')') && !place.open.empty()) {
+      place.open.pop_back();
+    }
+  }
+  place.is_text = quote != 0;
+  return place;
+}
+
+// ---- Values of the script: raw looks only, so nothing of the script runs -----------------------------------------------------------------------------------
+
+/// Pushes the value of a path of names, "design.wing"; nil where there is none. Fields of objects are not followed.
+void push_path(lua_State* state, std::string_view path) {
+  lua_pushglobaltable(state);
+  while (!path.empty() && lua_type(state, -1) == LUA_TTABLE) {
+    const std::size_t dot = std::min(path.find('.'), path.size());
+    lua_pushlstring(state, path.data(), dot);
+    lua_rawget(state, -2);
+    lua_remove(state, -2);
+    path.remove_prefix(std::min(dot + 1, path.size()));
+  }
+}
+
+/// The keys of the table on top of the stack that are names, `of` in front.
+void add_keys(lua_State* state, const std::string& of, std::vector<std::string>& names) {
+  lua_pushnil(state);
+  while (lua_next(state, -2) != 0) {
+    lua_pop(state, 1);
+    if (lua_type(state, -1) == LUA_TSTRING) names.push_back(of + lua_tostring(state, -1));
+  }
+}
+
+const ObjectKind* kind_on_top(lua_State* state) {
+  if (lua_type(state, -1) != LUA_TUSERDATA || !lua_getmetatable(state, -1)) return nullptr;
+  const ObjectKind* found = nullptr;
+  for (const ObjectKind& kind : object_kinds()) {
+    luaL_getmetatable(state, kind.type);
+    if (lua_rawequal(state, -1, -2)) found = &kind;
+    lua_pop(state, 1);
+  }
+  lua_pop(state, 1);
+  return found;
+}
+
+std::vector<std::string> globals(lua_State* state) {
+  std::vector<std::string> names(k_keywords.begin(), k_keywords.end());
+  lua_pushglobaltable(state);
+  add_keys(state, "", names);
+  lua_settop(state, 0);
+  return names;
+}
+
+/// What follows "wall." or "wall:".
+std::vector<std::string> members(lua_State* state, const std::string& path, char separator) {
+  std::vector<std::string> names;
+  push_path(state, path);
+  const std::string of = path + separator;
+  if (const ObjectKind* kind = kind_on_top(state)) {
+    for (const ScriptVerb& method : kind->methods())
+      if (separator == ':') names.push_back(of + std::string(method.name.substr(method.name.find(':') + 1)));
+    for (const FieldDoc& field : kind->fields)
+      if (separator == '.') names.push_back(of + std::string(field.name));
+  } else if (lua_type(state, -1) == LUA_TTABLE) {
+    add_keys(state, of, names);
+  }
+  lua_settop(state, 0);
+  return names;
+}
+
+// ---- Options -------------------------------------------------------------------------------------------------------------------------------
+
+/// The verb that is called "mesh:check" or "volume_mesh" at the prompt.
+const ScriptVerb* verb_called(std::string_view name) {
+  for (const ScriptVerb& verb : script_verbs())
+    if (verb.name == name) return &verb;
+  const std::size_t colon = name.rfind(':');
+  return colon == std::string_view::npos ? nullptr : find_verb(name.substr(colon + 1));
+}
+
+/// The options that the innermost open table takes: all of its verb, or in `farfield = {` those of that name without it.
+std::vector<std::string> options_at(const Place& place) {
+  std::string stage;
+  for (auto it = place.open.rbegin(); it != place.open.rend(); ++it) {
+    if (it->bracket != '{') return {};
+    const ScriptVerb* verb = verb_called(it->name);
+    if (!verb) {
+      if (stage.empty()) stage = it->name;
+      continue;
+    }
+    std::vector<std::string> names = option_names(*verb);
+    if (stage.empty()) return names;
+    std::vector<std::string> short_names;
+    for (const std::string& name : names)
+      if (name.starts_with(stage + "_")) short_names.push_back(name.substr(stage.size() + 1));
+    return short_names.empty() ? names : short_names;
+  }
+  return {};
+}
+
+}  // namespace
+
+Completion complete(std::string_view text, ScriptState& state) {
+  const Place place = place_at_end(text);
+  std::size_t start = text.size();
+  while (start > 0 && (is_word_letter(text[start - 1]) || text[start - 1] == '.' || text[start - 1] == ':')) --start;
+  Completion result{.start = start, .candidates = {}, .is_text = place.is_text};
+  if (place.is_text) return result;
+  const std::string word(text.substr(start));
+  const std::size_t separator = word.find_last_of(".:");
+  if (separator != std::string::npos) {
+    result.candidates = members(state.lua(), word.substr(0, separator), word[separator]);
+  } else {
+    result.candidates = globals(state.lua());
+    for (const std::string& option : options_at(place)) result.candidates.push_back(option + " = ");
+  }
+  std::erase_if(result.candidates, [&](const std::string& candidate) { return !candidate.starts_with(word); });
+  std::sort(result.candidates.begin(), result.candidates.end());
+  result.candidates.erase(std::unique(result.candidates.begin(), result.candidates.end()), result.candidates.end());
+  return result;
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,140 @@
+#include "scripting/interpreter/script_args.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "geom/base/error.h"
+#include "geom/base/number_with_unit.h"
+#include "geom/base/schema.h"
+#include "scripting/interpreter/script_verbs.h"
+#include "scripting/lua/verb_tools.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr std::string_view k_script_args_usage = "local p = args{ alpha = 0, half = false, name = \"polar\" }";
+
+bool is_name(std::string_view text) {
+  return !text.empty() && !std::isdigit(static_cast<unsigned char>(text.front())) &&
+         std::all_of(text.begin(), text.end(), [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)); });
+}
+
+/// "4", "2.5mm", "10*deg": a number in SI.
+std::optional<double> number_of_text(const std::string& text) {
+  try {
+    return parse_number_with_unit(text, text.find_first_of("dr") == std::string::npos ? Unit::metre : Unit::radian);
+  } catch (const Error&) {
+    return std::nullopt;  // no number: the caller decides what else it may be
+  }
+}
+
+/// A text as the value that it looks like.
+ScriptValue value_of(const std::string& text) {
+  if (text == "true" || text == "false") return text == "true";
+  if (const auto number = number_of_text(text)) {
+    if (text.find_first_not_of("+-0123456789") == std::string::npos && *number == static_cast<double>(static_cast<std::int64_t>(*number)))
+      return static_cast<std::int64_t>(*number);
+    return *number;
+  }
+  return text;
+}
+
+/// The text as a value of the same type as `like`; notes a problem where it is none.
+ScriptValue value_like(const std::string& name, const std::string& text, const ScriptValue& like, TableReader& reader) {
+  if (std::holds_alternative<std::string>(like)) return text;
+  ScriptValue value = value_of(text);
+  const bool is_number = std::holds_alternative<std::int64_t>(value) || std::holds_alternative<double>(value),
+             needs_number = std::holds_alternative<std::int64_t>(like) || std::holds_alternative<double>(like);
+  if (needs_number ? !is_number : value.index() != like.index())
+    reader.add_problem("argument " + name + "=" + text + ": expected " + (needs_number ? "a number, also with a unit: 4, 2.5mm, 10deg" : "true or false"));
+  return value;
+}
+
+bool is_value(const ScriptValue& value) {
+  return std::holds_alternative<bool>(value) || std::holds_alternative<std::int64_t>(value) || std::holds_alternative<double>(value) ||
+         std::holds_alternative<std::string>(value);
+}
+
+const std::string* given(const ScriptCall& call, std::string_view name) {
+  for (const auto& [given_name, text] : call.session.arguments)
+    if (given_name == name) return &text;
+  return nullptr;
+}
+
+/// args{ alpha = 0, "name" }: defaults by name; texts without names must be given.
+ScriptValue declare(const ScriptCall& of_table) {
+  ScriptCall call = of_table;
+  call.arguments.erase(call.arguments.begin());  // the table that was called
+  const ScriptTable table = table_argument(call, 0, k_script_args_usage);
+  TableReader reader(table, call.attempted());
+  ScriptTable result;
+  std::vector<std::string> known;
+  std::string missing;
+  for (const auto& [name, value] : table.fields) {
+    reader.field(name);
+    known.push_back(name);
+    if (!is_value(value)) reader.add_problem(name + ": a default is a number, a text, true or false, not " + std::string(type_text(value)));
+    const std::string* text = given(call, name);
+    result.fields[name] = text && is_value(value) ? value_like(name, *text, value, reader) : value;
+  }
+  for (const ScriptValue& item : reader.items()) {
+    const auto* name = std::get_if<std::string>(&item);
+    if (!name || !is_name(*name)) {
+      reader.add_problem("expected the name of an argument, not " + std::string(name ? "\"" + *name + "\"" : type_text(item)));
+      continue;
+    }
+    known.push_back(*name);
+    if (const std::string* text = given(call, *name)) result.fields[*name] = value_of(*text);
+    else if (call.session.check) result.fields[*name] = std::int64_t{1};  // any value will do
+    else reader.add_problem("argument " + *name + " is missing: sterna run " + call.session.script.filename().string() + " " + *name + "=VALUE");
+  }
+  for (const auto& [name, text] : call.session.arguments) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string nearest = nearest_name(name, known);
+    reader.add_problem("this script has no argument " + name + (nearest.empty() ? "" : ", did you mean " + nearest + "?"));
+  }
+  reader.finish();
+  return std::make_shared<const ScriptTable>(std::move(result));
+}
+
+/// args.alpha
+ScriptValue read_argument(const ScriptCall& call) {
+  const auto* name = call.arguments.size() < 2 ? nullptr : std::get_if<std::string>(&call.arguments[1]);
+  if (!name) reject(call, "arguments are named", std::string(k_script_args_usage));
+  if (const std::string* text = given(call, *name)) return value_of(*text);
+  if (call.session.check) return std::int64_t{1};
+  std::vector<std::string> known;
+  for (const auto& [given_name, text] : call.session.arguments) known.push_back(given_name);
+  const std::string nearest = nearest_name(*name, known);
+  reject(call, "argument " + *name + " was not given" + (nearest.empty() ? "" : ", but " + nearest + " was"),
+         "sterna run " + call.session.script.filename().string() + " " + *name + "=VALUE, or a default in the script: args{ " + *name + " = 0 }." + *name);
+}
+
+constexpr std::array<ScriptVerb, 1> k_script_args_verbs = {{
+    {"args", k_script_args_usage,
+     "What the command line says, `sterna run case.lua alpha=4 height=2mm half=true`: names with their defaults, or as texts where they must be given; "
+     "args.alpha reads one alone.",
+     declare},
+}};
+
+}  // namespace
+
+const ScriptVerb k_argument_field = {"args", "", "", read_argument};
+
+std::span<const ScriptVerb> argument_verbs() { return k_script_args_verbs; }
+
+const ScriptVerb& arguments_verb() {
+  for (const ScriptVerb& verb : script_verbs())
+    if (verb.name == k_script_args_verbs.front().name) return verb;
+  return k_script_args_verbs.front();
+}
+
+std::pair<std::string, std::string> split_argument(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || !is_name(std::string_view(text).substr(0, equals)))
+    throw Error({.code = ErrorCode::bad_argument, .attempted = "argument \"" + text + "\"", .problem = "is not NAME=VALUE, as in alpha=4"});
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+}  // namespace sterna::scripting

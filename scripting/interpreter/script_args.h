@@ -1,0 +1,19 @@
+// args: what `sterna run case.lua alpha=4 half=true` gives to a script.
+#pragma once
+
+#include <span>
+
+#include "scripting/lua/script_call.h"
+
+namespace sterna::scripting {
+
+/// args.
+std::span<const ScriptVerb> argument_verbs();
+/// The verb itself, which is also a table: args.alpha.
+const ScriptVerb& arguments_verb();
+extern const ScriptVerb k_argument_field;
+
+/// "alpha=4" as name and value. \throws Error(bad_argument) for what is no NAME=VALUE
+std::pair<std::string, std::string> split_argument(const std::string& text);
+
+}  // namespace sterna::scripting

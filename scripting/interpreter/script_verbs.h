@@ -1,0 +1,32 @@
+// The verbs that a script can call, and the methods and fields of its objects.
+#pragma once
+
+#include <span>
+
+#include "scripting/lua/script_call.h"
+
+namespace sterna::scripting {
+
+/// Global verbs: read_surface, union, read_mesh, volume_mesh, sphere, help, and those of stage_verbs.h, source_verbs.h, geometry_verbs.h and component_verbs.h.
+std::span<const ScriptVerb> script_verbs();
+std::span<const ScriptVerb> surface_methods();
+std::span<const ScriptVerb> mesh_methods();
+
+/// tostring() of any object of ours.
+extern const ScriptVerb k_describe_object;
+/// object.name for names that are no method.
+extern const ScriptVerb k_surface_field;
+extern const ScriptVerb k_mesh_field;
+extern const ScriptVerb k_error_field;
+
+struct ScriptUnit {
+  const char* name;
+  double value;  ///< SI
+};
+/// mm, cm, inch, ft, deg: global numbers.
+std::span<const ScriptUnit> script_units();
+
+/// The verb or unit whose name is nearest to a misspelt one; empty when none is near.
+std::string nearest_global(std::string_view name);
+
+}  // namespace sterna::scripting

@@ -1,0 +1,162 @@
+#include "scripting/lua/table_reader.h"
+
+#include <algorithm>
+
+#include "geom/base/error.h"
+#include "scripting/lua/quantity.h"
+#include "scripting/lua/script_check.h"
+
+namespace sterna::scripting {
+namespace {
+
+std::string joined(const ErrorInfo& info) { return info.hint.empty() ? info.problem : info.problem + " (" + info.hint + ")"; }
+
+const Option* find(const OptionTable& options, std::string_view name) {
+  const auto it = std::find_if(options.begin(), options.end(), [&](const Option& o) { return o.name == name; });
+  return it == options.end() ? nullptr : &*it;
+}
+
+bool is_stage(const OptionTable& options, std::string_view name) {
+  return std::any_of(options.begin(), options.end(), [&](const Option& o) { return o.stage == name; });
+}
+
+/// The name of a stage's option inside the stage's own table: without the stage's prefix.
+std::string short_name(const Option& option) {
+  const std::string prefix = std::string(option.stage) + "_";
+  const std::string name(option.name);
+  return name.starts_with(prefix) ? name.substr(prefix.size()) : name;
+}
+
+bool contains(const std::vector<std::string>& names, std::string_view name) { return std::ranges::find(names, name) != names.end(); }
+
+}  // namespace
+
+TableReader::TableReader(const ScriptTable& table, std::string attempted) : table_(table), attempted_(std::move(attempted)) {}
+
+TableReader::TableReader(const ScriptTable& table, const Attempt& attempted)
+    : table_(table), attempted_(attempted), check_(attempted.check), ends_with_checks_(attempted.ends_with_checks) {}
+
+const FunctionHandle* TableReader::option_function(std::string_view stage, std::string_view name) {
+  const auto function_in = [&](const ScriptTable& table) {
+    const auto place = table.fields.find(std::string(name));
+    return place == table.fields.end() ? nullptr : std::get_if<FunctionHandle>(&place->second);
+  };
+  const FunctionHandle* function = function_in(table_);
+  if (const auto place = table_.fields.find(std::string(stage)); !function && place != table_.fields.end())
+    if (const auto* nested = std::get_if<std::shared_ptr<const ScriptTable>>(&place->second)) function = function_in(**nested);
+  if (function) functions_.insert(std::string(stage) + "." + std::string(name));
+  return function;
+}
+
+std::size_t TableReader::read_options(const OptionTable& options) {
+  const std::size_t n_before = given_.size();
+  for (const Option& option : options) {
+    known_.emplace_back(option.name);
+    if (std::find(known_.begin(), known_.end(), option.stage) == known_.end()) known_.emplace_back(option.stage);
+  }
+  for (const auto& [key, value] : table_.fields) {
+    const auto* nested = std::get_if<std::shared_ptr<const ScriptTable>>(&value);
+    if (nested && is_stage(options, key)) {
+      asked_.insert(key);
+      read_stage(options, key, **nested);
+    } else if (const Option* option = find(options, key)) {
+      asked_.insert(key);
+      set(*option, key, value);
+    } else if (is_stage(options, key)) {
+      asked_.insert(key);
+      add_problem(key + ": expected a table of the options of this stage, not " + std::string(type_text(value)));
+    }
+  }
+  return given_.size() - n_before;
+}
+
+void TableReader::read_stage(const OptionTable& options, const std::string& stage, const ScriptTable& table) {
+  std::vector<std::string> known;
+  for (const Option& option : options)
+    if (option.stage == stage) known.push_back(short_name(option));
+  for (const auto& [key, value] : table.fields) {
+    const auto it = std::find_if(options.begin(), options.end(),
+                                 [&, name = std::string_view(key)](const Option& o) { return o.stage == stage && (o.name == name || short_name(o) == name); });
+    if (it == options.end()) add_unknown(stage + "." + key, known);
+    else set(*it, stage + "." + key, value);
+  }
+  if (!table.items.empty() || !table.other_keys.empty()) add_problem(stage + ": every entry of this table needs a name");
+}
+
+void TableReader::set(const Option& option, const std::string& key, const ScriptValue& value) {
+  if (!given_.insert(std::string(option.stage) + "." + std::string(option.name)).second) {
+    add_problem(key + ": given twice");
+    return;
+  }
+  if (functions_.contains(std::string(option.stage) + "." + std::string(option.name)) && std::holds_alternative<FunctionHandle>(value)) return;
+  try {
+    if (const auto* flag = std::get_if<bool>(&value)) set_option(option, *flag);
+    else if (const auto* whole = std::get_if<std::int64_t>(&value)) set_option(option, *whole);
+    else if (const auto* text = std::get_if<std::string>(&value); text && option.kind == OptionKind::number && *text == "automatic")
+      set_option(option, k_automatic);
+    else if (text) set_option(option, *text);
+    else if (const auto* number = std::get_if<double>(&value); number && is_automatic(*number)) add_problem(key + ": is not a number (0/0 or the like)");
+    else if (number) set_option(option, *number);
+    else if (const auto* quantity = std::get_if<QuantityHandle>(&value);
+             quantity && (*quantity)->is_length() && option.kind == OptionKind::number && option.unit == Unit::metre)
+      set_option(option, (*quantity)->metres);
+    else add_problem(key + ": " + std::string(type_text(value)) + " is not allowed here (" + std::string(option.help) + ")");
+    if (check_) check_->options.push_back({attempted_, std::string(option.stage) + "." + std::string(option.name), option.get()});
+  } catch (const Error& error) {
+    const bool is_angle_in_degrees = option.unit == Unit::radian && !std::holds_alternative<std::string>(value);
+    add_problem(key + ": " + (is_angle_in_degrees ? error.info().problem + " (angles are in radians; write degrees as 40*deg)" : joined(error.info())));
+  }
+}
+
+const std::vector<ScriptValue>& TableReader::items() {
+  are_items_asked_ = true;
+  return table_.items;
+}
+
+const ScriptValue* TableReader::field(const std::string& name) {
+  known_.push_back(name);
+  asked_.insert(name);
+  const auto it = table_.fields.find(name);
+  return it == table_.fields.end() ? nullptr : &it->second;
+}
+
+void TableReader::require(const OptionTable& options) {
+  OptionTable not_given;
+  for (const Option& option : options)
+    if (!given_.contains(std::string(option.stage) + "." + std::string(option.name)) && !contains(table_.unknown_fields, option.name))
+      not_given.push_back(option);
+  try {
+    require_options(not_given, attempted_);
+  } catch (const Error& error) {
+    add_problem(error.info().problem);
+  }
+}
+
+void TableReader::add_problem(std::string problem) { problems_.push_back(std::move(problem)); }
+
+void TableReader::add_unknown(const std::string& key, const std::vector<std::string>& known) {
+  const std::string nearest = nearest_name(key.substr(key.rfind('.') + 1), known);
+  add_problem("unknown key \"" + key + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"));
+  ++n_unknown_;
+}
+
+void TableReader::finish() {
+  for (const auto& [key, value] : table_.fields)
+    if (!asked_.contains(key)) add_unknown(key, known_);
+  for (const std::string& key : table_.unknown_fields)
+    if (!contains(known_, key)) add_unknown(key, known_);
+  if (!are_items_asked_ && !table_.items.empty()) add_problem("entry 1: every entry of this table needs a name");
+  for (const std::string& key : table_.other_keys) add_problem("key " + key + ": keys are names");
+  if (problems_.empty() && ends_with_checks_) throw ChecksDone{};
+  if (problems_.empty()) return;
+  std::string text;
+  if (problems_.size() == 1) {
+    text = problems_.front();
+  } else {
+    text = std::to_string(problems_.size()) + " problems in this table";
+    for (const std::string& problem : problems_) text += "\n  - " + problem;
+  }
+  throw Error({.code = n_unknown_ == problems_.size() ? ErrorCode::unknown_option : ErrorCode::bad_argument, .attempted = attempted_, .problem = text});
+}
+
+}  // namespace sterna::scripting

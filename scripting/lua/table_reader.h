@@ -1,0 +1,63 @@
+// The one reader of a verb's table: collects every problem (unknown keys with a suggestion, wrong types, ranges, missing values) before it complains.
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geom/base/schema.h"
+#include "scripting/lua/script_call.h"
+#include "scripting/lua/script_value.h"
+
+namespace sterna::scripting {
+
+/// Reads one table of one call. Every entry must be asked for by one of the members; finish() complains about the rest.
+class TableReader {
+ public:
+  /// \p attempted starts the message: "case.lua:5: volume_mesh".
+  TableReader(const ScriptTable& table, std::string attempted);
+  /// Of a verb's own table: where the run only checks (script_check.h), the options are noted and finish() ends a heavy verb.
+  TableReader(const ScriptTable& table, const Attempt& attempted);
+
+  /// Sets the options that the table names, flat ("layers = 30") or in a table by stage ("envelope = { layers = 30 }"; there the stage's
+  /// name may be left off: "farfield = { radius = 50 }" for farfield_radius).
+  /// Returns how many were named.
+  std::size_t read_options(const OptionTable& options);
+  /// The function that the table has for this option, alone or in its stage's table; from now on the option counts as given. Null: there is none. Call before
+  /// read_options.
+  const FunctionHandle* option_function(std::string_view stage, std::string_view name);
+  /// Whether the table names the option, alone or in its stage's table. \pre read_options
+  bool is_given(std::string_view stage, std::string_view name) const { return given_.contains(std::string(stage) + "." + std::string(name)); }
+  bool has_problems() const { return !problems_.empty(); }
+  /// Number of unnamed entries; from now on they count as asked for.
+  const std::vector<ScriptValue>& items();
+  /// A named entry that is no option, or nullptr; from now on it counts as asked for.
+  const ScriptValue* field(const std::string& name);
+  /// Notes the required options that still have no value; one whose value was rejected is a problem already.
+  void require(const OptionTable& options);
+  /// Notes a problem of the caller's own.
+  void add_problem(std::string problem);
+
+  /// \throws Error(bad_argument; unknown_option when all problems are unknown keys) with every problem of the table; ChecksDone where it ends the verb.
+  void finish();
+
+ private:
+  void set(const Option& option, const std::string& key, const ScriptValue& value);
+  void read_stage(const OptionTable& options, const std::string& stage, const ScriptTable& table);
+  void add_unknown(const std::string& key, const std::vector<std::string>& known);
+
+  const ScriptTable& table_;
+  std::string attempted_;
+  ScriptCheck* check_ = nullptr;
+  bool ends_with_checks_ = false;
+  std::vector<std::string> known_;   ///< keys that the verb takes, for suggestions
+  std::set<std::string> asked_;      ///< keys that were read
+  std::set<std::string> functions_;  ///< options that have a function instead of a value
+  std::set<std::string> given_;      ///< options that have a value already, to find contradictions
+  bool are_items_asked_ = false;
+  std::vector<std::string> problems_;
+  std::size_t n_unknown_ = 0;
+};
+
+}  // namespace sterna::scripting

@@ -1,3 +1,0 @@
-#include "scripting/cli.h"
-
-int main(int argc, char** argv) { return sterna::scripting::run_command_line(argc, argv); }

@@ -1,0 +1,33 @@
+#include "scripting/terminal/time_left.h"
+
+#include <algorithm>
+
+namespace sterna::scripting {
+namespace {
+
+/// A share of nought after more than this is not the same work done again.
+constexpr double k_over = 0.9;
+
+}  // namespace
+
+void TimeLeft::note(const ProgressState& state, double seconds) {
+  const std::string work = state.stage.substr(0, state.stage.find('/'));
+  if (!is_begun_ || work != work_ || (state.share == 0.0 && share_ > k_over)) {
+    *this = {};
+    is_begun_ = true;
+    work_ = work;
+    start_ = seconds;
+  }
+  now_ = seconds - start_;
+  if (state.share <= share_) return;
+  share_ = state.share;
+  at_share_ = now_;
+}
+
+std::optional<double> TimeLeft::estimate() const {
+  if (share_ < k_least_share || now_ < k_least_seconds) return std::nullopt;
+  const double whole = at_share_ / share_;  // shares are shares of the time
+  return std::max(0.0, whole - now_);
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,233 @@
+#include "scripting/values/cached_model.h"
+
+#include <algorithm>
+#include <cstring>
+#include <mutex>
+#include <set>
+
+#include "geom/base/error.h"
+#include "geom/cad/shape.h"
+#include "scripting/cache/stage_cache.h"
+#include "scripting/lua/component_value.h"
+#include "scripting/lua/script_function.h"
+#include "scripting/lua/verb_tools.h"
+#include "scripting/values/model_archive.h"
+#include "scripting/values/models.h"
+#include "scripting/values/script_key.h"
+#include "scripting/values/stored_types.h"
+#include "scripting/values/value_keys.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr std::size_t k_listed_names = 4;  ///< of inputs, in the log
+
+class MemorySink final : public ByteSink {
+ public:
+  void put(const void* bytes, std::size_t n) override { bytes_.append(static_cast<const char*>(bytes), n); }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  std::string bytes_;
+};
+
+class MemorySource final : public ByteSource {
+ public:
+  explicit MemorySource(const std::string& bytes) : bytes_(bytes) {}
+  void take(void* bytes, std::size_t n) override {
+    if (n > n_left()) refuse();
+    std::memcpy(bytes, bytes_.data() + at_, n);
+    at_ += n;
+  }
+  std::uint64_t n_left() const override { return bytes_.size() - at_; }
+  [[noreturn]] void refuse() const override {
+    throw Error({.code = ErrorCode::internal, .attempted = "keeping a model", .problem = "what was written cannot be read"});
+  }
+
+ private:
+  const std::string& bytes_;
+  std::size_t at_ = 0;
+};
+
+using ShapeOf = std::function<std::shared_ptr<const CadShape>(std::size_t)>;
+
+/// \throws NotKept
+void write_model_value(ByteSink& sink, const ModelValue& value) {
+  const auto& [model, description, without_description, inputs, report, sizes, layers, parts, through, provenance] =
+      value;  // all of them: a new one does not compile
+  ModelWriter writer(sink);
+  writer.model(model);
+  write_value(sink, description);
+  write_value(sink, without_description);
+  write_value(sink, inputs);
+  write_value(sink, report);
+  write_value(sink, sizes);
+  write_value(sink, layers);
+  write_value(sink, through);
+  write_value(sink, static_cast<std::uint64_t>(parts.size()));
+  for (const ModelPart& part : parts) {
+    const auto& [own, placement, key] = part;
+    writer.shared(own);
+    write_value(sink, placement);
+    write_value(sink, key.has_value());
+    if (key) write_value(sink, key->bytes);
+  }
+  static_cast<void>(provenance);  // known to whoever reads this
+}
+
+ModelValue read_model_value(ByteSource& source, const ShapeOf& shape_of) {
+  ModelValue value;
+  ModelReader reader(source, shape_of);
+  value.model = reader.model();
+  read_value(source, value.description);
+  read_value(source, value.without_description);
+  read_value(source, value.inputs);
+  read_value(source, value.report);
+  read_value(source, value.sizes);
+  read_value(source, value.layers);
+  read_value(source, value.through);
+  for (std::size_t n = detail::read_count(source, 1); n > 0; --n) {
+    ModelPart part;
+    part.own = reader.shared();
+    if (!part.own) source.refuse();
+    read_value(source, part.placement);
+    bool has_key = false;
+    read_value(source, has_key);
+    if (has_key) read_value(source, part.key.emplace().bytes);
+    value.parts.push_back(std::move(part));
+  }
+  return value;
+}
+
+/// The bytes of a model that comes back as it is; empty: it does not, for a reason that the log tells.
+std::string bytes_of(const ModelValue& value, std::string_view verb, const RunContext& context) {
+  const auto written = [](const ModelValue& v) {
+    MemorySink sink;
+    write_model_value(sink, v);
+    return sink.bytes();
+  };
+  try {
+    std::string bytes = written(value);
+    MemorySource source(bytes);
+    const auto some_shape = std::make_shared<const CadShape>(std::function<std::shared_ptr<const CadShape>()>());
+    if (written(read_model_value(source, [&](std::size_t) { return some_shape; })) == bytes) return bytes;
+    context.debug(std::string(verb) + ": its model is not kept, as it would not come back to the bit");
+  } catch (const NotKept& what) {
+    context.debug(std::string(verb) + ": its model is not kept, as it has " + what.kind);
+  }
+  return {};
+}
+
+/// What a key by content leaves out, but the value of the model or its messages hold. False: there is a function, whose answers are not known before it is
+/// asked.
+bool add_names(const ScriptValue& value, KeyMaker& maker) {
+  const auto add_inputs = [&](const std::vector<InputFile>& inputs) {
+    for (const InputFile& file : inputs) maker.add(file.name);
+  };
+  if (const auto* text = std::get_if<std::string>(&value)) maker.add(*text);
+  else if (const auto* model = std::get_if<ModelHandle>(&value)) add_inputs((*model)->inputs);
+  else if (const auto* surface = std::get_if<SurfaceHandle>(&value)) add_inputs((*surface)->inputs);
+  else if (const auto* table = std::get_if<TableHandle>(&value)) {
+    for (const ScriptValue& item : (*table)->items)
+      if (!add_names(item, maker)) return false;
+    return std::all_of((*table)->fields.begin(), (*table)->fields.end(), [&](const auto& field) { return add_names(field.second, maker); });
+  }
+  return !std::holds_alternative<FunctionHandle>(value);
+}
+
+std::optional<ContentKey> key_of_model(const ScriptCall& call) {
+  KeyMaker maker("model");
+  if (!std::all_of(call.arguments.begin(), call.arguments.end(), [&](const ScriptValue& argument) { return add_names(argument, maker); })) return std::nullopt;
+  const std::optional<ContentKey> key = key_of_call(call);
+  return key ? std::optional(maker.add(*key).key()) : std::nullopt;
+}
+
+/// Components change in place: what is run later needs them as they are now.
+ScriptValue frozen(const ScriptValue& value) {
+  if (const auto* component = std::get_if<ComponentHandle>(&value)) return std::make_shared<ComponentValue>(**component);
+  const auto* table = std::get_if<TableHandle>(&value);
+  if (!table) return value;
+  auto copy = std::make_shared<ScriptTable>(**table);
+  for (ScriptValue& item : copy->items) item = frozen(item);
+  for (auto& [name, field] : copy->fields) field = frozen(field);
+  return TableHandle(std::move(copy));
+}
+
+/// The verb's model, made when something is asked for that is not kept.
+class MadeLater {
+ public:
+  MadeLater(const ScriptVerb& verb, const ScriptCall& call, const ContentKey& bytes_key) : verb_(verb), call_(call), bytes_key_(bytes_key) {
+    for (ScriptValue& argument : call_.arguments) argument = frozen(argument);
+  }
+  /// Of the n-th model that was written: the whole, then the different models of parts.
+  std::shared_ptr<const CadShape> shape(std::size_t n) {
+    std::call_once(is_made_, [&] { made_ = make(); });
+    if (n == 0) return made_->model.shape;
+    std::set<const Model*> seen;
+    for (const ModelPart& part : made_->parts)
+      if (seen.insert(part.own.get()).second && seen.size() == n) return part.own->shape;
+    return nullptr;
+  }
+
+ private:
+  ModelHandle make() const {
+    const RunContext& context = call_.session.context;
+    context.info(std::string(call_.verb) + ": once more, as OpenCASCADE's shape of its model is needed, which caches do not keep");
+    const ScriptValue value = verb_.run(call_);
+    ModelHandle model = std::get<ModelHandle>(value);
+    if (KeyMaker("bytes").add(bytes_of(*model, call_.verb, context)).key() != bytes_key_)
+      throw Error({.code = ErrorCode::geometry_failed,
+                   .attempted = call_.attempted(),
+                   .problem = "gives another model than before in this run",
+                   .hint = "an input file changed meanwhile: run the script again"});
+    return model;
+  }
+  const ScriptVerb& verb_;
+  ScriptCall call_;
+  ContentKey bytes_key_;
+  std::once_flag is_made_;
+  ModelHandle made_;
+};
+
+/// "of a.step, b.step"
+std::string inputs_text(const ModelValue& value) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(k_listed_names, value.inputs.size()); ++i) text += (i == 0 ? "of " : ", ") + value.inputs[i].name;
+  return value.inputs.size() > k_listed_names ? text + " and " + std::to_string(value.inputs.size() - k_listed_names) + " more" : text;
+}
+
+}  // namespace
+
+ScriptValue cached_model(const ScriptVerb& verb, const ScriptCall& call) {
+  const StageCache* cache = verb.is_kept ? call.session.cache : nullptr;
+  if (!cache) return verb.run(call);
+  const std::optional<ContentKey> key = key_of_model(call);
+  if (!key) {
+    call.session.context.debug(std::string(verb.name) + ": cannot be cached, as it is not known what all of its input was made of");
+    return verb.run(call);
+  }
+  const RunContext& context = call.session.context;
+  ModelHandle found;
+  const auto read = [&](ByteSource& source) {
+    std::string bytes;
+    read_value(source, bytes);
+    const auto later = std::make_shared<MadeLater>(verb, call, KeyMaker("bytes").add(bytes).key());
+    const auto shape_of = [&](std::size_t n) { return std::make_shared<const CadShape>([later, n] { return later->shape(n); }); };
+    MemorySource memory(bytes);
+    found = std::make_shared<const ModelValue>(read_model_value(memory, shape_of));
+  };
+  if (cache->find(verb.name, *key, read, context)) {
+    report_reuse(call.session.reuse(), verb.name, inputs_text(*found), context);
+    return found;
+  }
+  ScriptValue value = verb.run(call);
+  if (const auto* model = std::get_if<ModelHandle>(&value)) {
+    const std::string bytes = bytes_of(**model, verb.name, context);
+    if (!bytes.empty())
+      cache->store(
+          verb.name, *key, [&](ByteSink& sink) { write_value(sink, bytes); }, context);
+  }
+  return value;
+}
+
+}  // namespace sterna::scripting

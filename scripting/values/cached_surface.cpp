@@ -1,0 +1,131 @@
+#include "scripting/values/cached_surface.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "scripting/cache/stage_cache.h"
+#include "scripting/values/start_from_reference.h"
+#include "scripting/values/stored_types.h"
+#include "scripting/values/summary.h"
+#include "scripting/values/value_keys.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr const char* k_stage = "surface_mesh";
+constexpr std::size_t k_listed_parts = 4;
+
+/// Of all that the surface is made from; nothing where a model does not say what it was made of.
+std::optional<ContentKey> surface_key_of(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, bool has_function, const RunContext& context) {
+  KeyMaker maker(k_stage);
+  for (const ModelHandle& model : models) {
+    if (!model->provenance.key()) return std::nullopt;
+    maker.add(*model->provenance.key());
+  }
+  return maker.add(scripting::key_of(asked)).add(has_function).add(context.seed()).key();
+}
+
+/// Of a part; nothing where it is not known what it was made of, or sizes depend on its place.
+std::optional<ContentKey> surface_key_of(const PartTask& task, const RunContext& context) {
+  if (!task.model_key || task.has_sizes_by_place) return std::nullopt;
+  surfmesh::SurfaceMeshOptions options = task.options;
+  KeyMaker maker("surface of a part");
+  maker.add(*task.model_key).add(sterna::options_of(options)).add(task.patches).add(context.seed());
+  for (const Component& component : task.model.components) maker.add(component.name).add(component.kind);
+  for (const ModelEdge& edge : task.model.edges) maker.add(edge.name);
+  for (const ModelFace& face : task.model.faces) maker.add(face.name).add(face.role).add(face.kind);
+  for (const ModelSolid& solid : task.model.solids) maker.add(solid.name);
+  return maker.key();
+}
+
+/// Without inputs, which are the models', and without the model.
+void write_parts(ByteSink& sink, const SurfaceValue& surface) {
+  const auto& [mesh, report, options, inputs, union_options, recipe, mesh_report, smooth_angle, layers, model_wall, parts, model_wall_key] =
+      surface;  // all of them: a new one does not compile
+  write_value(sink, mesh);
+  write_value(sink, report);
+  write_value(sink, recipe);
+  write_value(sink, mesh_report);
+  write_value(sink, smooth_angle);
+  write_value(sink, layers);
+  write_value(sink, parts);
+  write_value(sink, model_wall->places());
+  static_cast<void>(options), static_cast<void>(union_options);  // surface_mesh has none
+  static_cast<void>(inputs), static_cast<void>(model_wall_key);  // known to whoever reads this
+}
+
+SurfaceValue read_parts(ByteSource& source, const std::vector<ModelHandle>& models, const std::function<Model()>& all) {
+  SurfaceValue surface;
+  surfmesh::WallPlaces places;
+  read_value(source, surface.mesh);
+  read_value(source, surface.report);
+  read_value(source, surface.recipe);
+  read_value(source, surface.mesh_report);
+  read_value(source, surface.smooth_angle);
+  read_value(source, surface.layers);
+  read_value(source, surface.parts);
+  read_value(source, places);
+  surface.model_wall = std::make_shared<const surfmesh::ModelWall>(all, std::move(places), surface.mesh.triangles);
+  for (const ModelHandle& model : models) surface.inputs.insert(surface.inputs.end(), model->inputs.begin(), model->inputs.end());
+  return surface;
+}
+
+}  // namespace
+
+std::string names_of(const std::vector<ModelHandle>& models) {
+  std::string text;
+  std::size_t n = 0;
+  for (const ModelHandle& model : models)
+    for (const Component& component : model->model.components)
+      if (++n <= k_listed_parts) text += (text.empty() ? "of " : ", ") + component.name;
+  return n <= k_listed_parts ? text : text + " and " + std::to_string(n - k_listed_parts) + " more";
+}
+
+PartMesher cached_part_mesher(const Reuse& reuse) {
+  const PartMesher ordinary = [reuse](const PartTask& task, const RunContext& context) {
+    const std::optional<ContentKey> key = reuse.cache ? surface_key_of(task, context) : std::nullopt;
+    const std::string what =
+        task.model.components.size() == 0 ? std::string("of a part") : "of " + task.model.components.raw().front().name + " in its own frame";
+    return cached<surfmesh::SurfaceMesh>(reuse, k_stage, what, key, context, [&] { return mesh_part(task, context); });
+  };
+  return starting_mesher(reuse, ordinary, [](const PartTask& task, const RunContext& context) { return surface_key_of(task, context); });
+}
+
+SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const SizeFunction& size,
+                            const std::function<SurfaceValue(const SizeFunction&)>& make, const std::function<Model()>& all, const Reuse& reuse,
+                            const RunContext& context) {
+  ReferenceUse* reference = reuse.reference;
+  if (reference) reference->begin_surface();
+  std::optional<ContentKey> key =
+      reuse.cache ? beside_reference(surface_key_of(models, asked, static_cast<bool>(size), context), reuse, context) : std::nullopt;
+  if (key && reference && !reference->is_this())
+    key = KeyMaker("call").add(*key).add(reference->surface()).key();  // parts start from those of the same call first
+  if (!reuse.cache || !key)
+    return cached<SurfaceValue>(
+        reuse, k_stage, {}, std::nullopt, context, [&] { return make(size); }, write_parts, std::function<SurfaceValue(ByteSource&)>());
+  const std::string what = names_of(models);
+  const ReferenceUse::Mark mark = reference ? reference->mark() : ReferenceUse::Mark();
+  std::optional<ReferenceUse::Beside> found;
+  const auto write = [&](ByteSink& sink, const SurfaceValue& surface) {
+    write_parts(sink, surface);
+    if (reference) write_beside(sink, reference->since(mark));
+  };
+  const auto read = [&](ByteSource& source) {
+    SurfaceValue surface = read_parts(source, models, all);
+    if (reference) found = read_beside(source);
+    return surface;
+  };
+  const auto make_here = [&](const SizeFunction& asked_size) {
+    found.reset();  // of an entry that was not this one after all
+    return make(asked_size);
+  };
+  SurfaceValue surface = size ? cached_by_answers<SurfaceValue>(reuse, k_stage, what, key, size, context, make_here, write, read)
+                              : cached<SurfaceValue>(
+                                    reuse, k_stage, what, key, context, [&] { return make_here({}); }, write, std::function<SurfaceValue(ByteSource&)>(read));
+  if (found) reference->take(std::move(*found), reuse, context);
+  surface.model_wall_key = key;
+  return surface;
+}
+
+}  // namespace sterna::scripting

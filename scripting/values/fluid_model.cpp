@@ -1,0 +1,256 @@
+#include "scripting/values/fluid_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "geom/base/error.h"
+#include "geom/base/glob.h"
+#include "geom/cad/aircraft_union.h"
+#include "geom/cad/fluid.h"
+#include "geom/cad/refit.h"
+#include "geom/model/analytic_surfaces.h"
+#include "geom/model/model_builder.h"
+#include "geom/model/model_measures.h"
+#include "scripting/values/aircraft_model.h"
+
+namespace sterna::scripting {
+namespace {
+
+/// Of the longest side: how near deformed surfaces are met before a boolean, as by write_cad.
+constexpr double k_refit_share = 1e-6;
+/// Of a body's longest side: boxes of samples are short of it by about a thousandth.
+constexpr double k_box_margin = 0.01;
+/// Of a tunnel's longest side: corners so near to the plane of a face are in it.
+constexpr double k_flat_share = 1e-9;
+
+bool is_container(const Model& model, const ModelSolid& solid) {
+  return solid.is_closed && std::all_of(solid.faces.begin(), solid.faces.end(),
+                                        [&](FaceId f) { return model.components[model.faces[f].component].kind == ComponentKind::tunnel; });
+}
+
+/// Solids of tunnels, and the others; nothing where there are sheets or loose faces.
+struct Solids {
+  std::vector<Model> containers, bodies;
+  bool is_all_closed = true;
+};
+
+Solids solids_of(const Model& model) {
+  Solids result;
+  std::size_t n_faces = 0;
+  for (const ModelSolid& solid : model.solids) {
+    n_faces += solid.faces.size();
+    result.is_all_closed = result.is_all_closed && solid.is_closed;
+  }
+  result.is_all_closed = result.is_all_closed && n_faces == model.faces.size();
+  if (!result.is_all_closed) return result;
+  for (Model& part : cad::split_solids(model)) (is_container(part, part.solids.raw().front()) ? result.containers : result.bodies).push_back(std::move(part));
+  return result;
+}
+
+std::string names_text(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "\"" : ", \"") + name + "\"";
+  return text;
+}
+
+/// The planes of a convex container's faces: points in space and unit normals to the inside; empty where it has other faces or corners.
+struct Plane {
+  Point at;
+  Vec3 inward;
+};
+std::vector<Plane> planes_of(const Model& model, const ModelSolid& container) {
+  std::vector<Plane> planes;
+  std::vector<Point> points;
+  for (const FaceId f : container.faces)
+    for (const Border& border : model.faces[f].borders)
+      for (const EdgeUse& use : border) {
+        const ModelEdge& edge = model.edges[use.edge];
+        if (edge.is_degenerate()) return {};
+        for (const double share : {0.0, 0.25, 0.5, 0.75}) points.push_back(edge.curve->point(edge.range.from + share * (edge.range.to - edge.range.from)));
+      }
+  Box box;
+  for (const Point& p : points) box.add(p);
+  const double tolerance = k_flat_share * box.longest_side();
+  for (const FaceId f : container.faces) {
+    const ModelFace& face = model.faces[f];
+    const ParameterBox domain = face.surface->domain();
+    const Uv middle{0.5 * (domain.u.from + domain.u.to), 0.5 * (domain.v.from + domain.v.to)};
+    if (!dynamic_cast<const PlaneSurface*>(face.surface.get())) return {};
+    const SurfaceDerivatives d = face.surface->derivatives(middle);
+    Plane plane{d.point, normalized(cross(d.du, d.dv))};
+    const double side = dot(box.center() - plane.at, plane.inward);
+    if (side < 0.0) plane.inward = -plane.inward;
+    if (std::abs(side) <= tolerance || std::any_of(points.begin(), points.end(), [&](const Point& p) { return dot(p - plane.at, plane.inward) < -tolerance; }))
+      return {};
+    planes.push_back(plane);
+  }
+  return planes;
+}
+
+/// A box that surely holds a part: box_of() is one of samples.
+Box surely_around(const Model& model, const ModelSolid& solid) {
+  Box box;
+  for (const FaceId f : solid.faces) box.add(box_of(model, f));
+  const double margin = k_box_margin * box.longest_side();
+  box.min = box.min - Vec3{margin, margin, margin};
+  box.max = box.max + Vec3{margin, margin, margin};
+  return box;
+}
+
+bool boxes_meet(const Box& a, const Box& b) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a.max[k] < b.min[k] || b.max[k] < a.min[k]) return false;
+  return true;
+}
+
+/// Whether boxes tell that no boolean is needed: one convex container with plane faces that looks inwards, all other solids closed, within it and apart from
+/// each other.
+bool are_bodies_apart(const Model& model) {
+  const ModelSolid* container = nullptr;
+  std::vector<Box> boxes;
+  std::size_t n_faces = 0;
+  for (const SolidId s : model.solids.ids()) {
+    const ModelSolid& solid = model.solids[s];
+    n_faces += solid.faces.size();
+    if (!solid.is_closed) return false;
+    if (is_container(model, solid)) {
+      if (container || solid_measures(model, s).volume >= 0.0) return false;
+      container = &solid;
+    } else {
+      boxes.push_back(surely_around(model, solid));
+    }
+  }
+  if (n_faces != model.faces.size() || !container || boxes.empty()) return false;
+  const std::vector<Plane> planes = planes_of(model, *container);
+  if (planes.empty()) return false;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      const Point p{(corner & 1u) != 0 ? boxes[i].max.x : boxes[i].min.x, (corner & 2u) != 0 ? boxes[i].max.y : boxes[i].min.y,
+                    (corner & 4u) != 0 ? boxes[i].max.z : boxes[i].min.z};
+      if (std::any_of(planes.begin(), planes.end(), [&](const Plane& plane) { return dot(p - plane.at, plane.inward) <= 0.0; })) return false;
+    }
+    for (std::size_t k = 0; k < i; ++k)
+      if (boxes_meet(boxes[i], boxes[k])) return false;
+  }
+  return true;
+}
+
+ModelValue as_fluid(ModelValue value) {
+  value.description.reset();
+  value.without_description = "it is the fluid in a tunnel";
+  return value;
+}
+
+std::string inside_text(const std::vector<std::string>& names) { return names_text(names) + (names.size() == 1 ? " is" : " are") + " inside"; }
+
+std::vector<std::string> names_of_bodies(const Model& model) {
+  std::vector<std::string> names;
+  for (const ModelSolid& solid : model.solids)
+    if (!is_container(model, solid)) names.push_back(model.components[model.faces[solid.faces.front()].component].name);
+  return names;
+}
+
+}  // namespace
+
+void refit_for_cad(Model& model, const RunContext& context) {
+  if (!cad::needs_refit(model)) return;
+  cad::RefitReport refit;
+  model = cad::refitted(model, k_refit_share * box_of(model).longest_side(), refit, context);
+  context.info(fmt::format("{} deformed surfaces and {} curves became splines, at most {:.3g} m away, before OpenCASCADE takes them", refit.n_surfaces,
+                           refit.n_curves, refit.error));
+}
+
+bool has_container(const Model& model) {
+  return std::any_of(model.solids.begin(), model.solids.end(), [&](const ModelSolid& solid) { return is_container(model, solid); });
+}
+
+ModelValue assemble_united(const std::vector<ModelHandle>& models, const RunContext& context) {
+  ModelValue value = assemble(models, context);
+  if (models.size() == 1) return value;
+  Model for_cad = value.model;
+  refit_for_cad(for_cad, context);
+  Solids solids = solids_of(for_cad);
+  if (!solids.is_all_closed) {
+    context.info("the assembly has open surfaces: its models stay side by side, touching or not");
+    return value;
+  }
+  const std::vector<Model> united = cad::unite_touching(solids.bodies, {}, context);
+  if (united.size() == solids.bodies.size()) return value;
+  context.info(fmt::format("assembly: {} solids that touch are {} now", solids.bodies.size(), united.size()));
+  Model all;
+  for (const std::vector<Model>* parts : {&united, &std::as_const(solids.containers)})
+    for (const Model& part : *parts) append(all, part);
+  take_solids(for_cad, all, value);
+  return value;
+}
+
+ModelValue fluid_of(ModelValue all, const RunContext& context) {
+  if (!has_container(all.model)) return all;
+  if (are_bodies_apart(all.model)) {  // the tunnel less cavities: no face changes
+    all.report = "fluid: no body comes near the tunnel's faces or another body; " + inside_text(names_of_bodies(all.model));
+    context.info(all.report);
+    const Solids solids = solids_of(all.model);
+    Model in_order = solids.containers.front();
+    for (const Model& body : solids.bodies) append(in_order, body);
+    take_solids(Model(all.model), in_order, all);
+    return as_fluid(std::move(all));
+  }
+  Model for_cad = all.model;
+  refit_for_cad(for_cad, context);
+  Solids solids = solids_of(for_cad);
+  if (!solids.is_all_closed) {
+    const std::vector<OpenEdge> open = open_edges(all.model);
+    ErrorInfo info{.code = ErrorCode::open_surface,
+                   .attempted = "taking the model out of its tunnel",
+                   .problem = "the model has open surfaces",
+                   .hint = "only closed bodies have an inside: read_cad{ ..., cap = true } closes flat openings"};
+    for (const OpenEdge& edge : open)
+      if (info.places.size() < 5) info.places.push_back({edge.middle, "open edge of face \"" + edge.face + "\""});
+    info.n_places = static_cast<std::int64_t>(open.size());
+    throw Error(std::move(info));
+  }
+  if (solids.containers.size() > 1)
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "taking the model out of its tunnel",
+                 .problem = fmt::format("there are {} tunnels", solids.containers.size()),
+                 .hint = "one closed container holds the fluid"});
+  if (solids.bodies.empty()) return all;
+  const auto may_pass = [&](const cad::Overhang& overhang) {
+    return overhang.kind == ComponentKind::sting || std::ranges::any_of(all.through, [&](const std::string& pattern) {
+             return matches_glob(overhang.component, pattern) || matches_glob(overhang.face, pattern);
+           });
+  };
+  FluidDomain fluid = cad::fluid_domain(solids.containers.front(), solids.bodies, {}, context, may_pass);
+  std::string text = fmt::format("fluid: {:.6g} m^3 of {:.6g} m^3", fluid.report.volume, fluid.report.container_volume);
+  if (!fluid.report.cut.empty())
+    text += "; " + names_text(fluid.report.cut) + (fluid.report.cut.size() == 1 ? " passes" : " pass") + " through the tunnel's faces";
+  if (!fluid.report.inside.empty()) text += "; " + inside_text(fluid.report.inside);
+  for (const UniteTry& attempt : fluid.report.tries)
+    if (!attempt.problem.empty()) text += fmt::format("\n  tolerance {:.3g} m was not enough: {}", attempt.tolerance, attempt.problem);
+  context.info(text);
+  take_solids(for_cad, fluid.model, all);
+  all.report = text;
+  return as_fluid(std::move(all));
+}
+
+ModelValue half_of_model(const ModelValue& whole, const HalfModelOptions& options, const RunContext& context) {
+  ModelValue value = whole;
+  if (free_edges(value.model).empty()) refit_for_cad(value.model, context);
+  HalfModel half = cad::half_model(value.model, options, context);
+  const HalfModelReport& r = half.report;
+  value.model = std::move(half.model);
+  value.parts.clear();
+  value.report = r.was_half
+                     ? "half model as it is"
+                     : fmt::format("half at {} = {:g}: {} faces cut{}", options.axis, options.at, r.n_faces_cut, r.was_united ? ", after the union" : "");
+  if (r.n_solids_left_out > 0) value.report += fmt::format(", {} solids of the other half left out", r.n_solids_left_out);
+  if (r.n_flat_faces > 0) value.report += fmt::format(", {} faces in the plane left out", r.n_flat_faces);
+  value.report += fmt::format("; rim of {} edges, {:.4g} m, moved by at most {:.3g} m into the plane", r.n_rim_edges, r.rim_length, r.largest_shift);
+  context.info(value.report);
+  value.description.reset();
+  value.without_description = "it is half of a model";
+  return value;
+}
+
+}  // namespace sterna::scripting

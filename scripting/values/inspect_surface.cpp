@@ -1,0 +1,302 @@
+#include "scripting/values/inspect_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "geom/base/error.h"
+#include "geom/draw/draw.h"
+#include "io/field/field_vtu.h"
+#include "io/file/format_table.h"
+#include "io/file/surface_file.h"
+#include "io/file/volume_file.h"
+#include "io/output/atomic_file.h"
+#include "scripting/values/stages.h"
+#include "scripting/values/summary.h"
+#include "scripting/values/wall_files.h"
+
+namespace sterna::scripting {
+namespace {
+
+using volmesh::Finding;
+using volmesh::FindingKind;
+using volmesh::InspectReport;
+using volmesh::InspectRequest;
+using volmesh::Severity;
+using PlainJson = nlohmann::json;
+
+constexpr double k_joined = 0.3;  ///< of the progress: files read and joined
+constexpr double k_percent = 100.0;
+
+FindingKind kind_of(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::open_surface: return FindingKind::open;
+    case ErrorCode::non_manifold_surface: return FindingKind::non_manifold;
+    case ErrorCode::not_orientable: return FindingKind::not_orientable;
+    case ErrorCode::self_intersection: return FindingKind::crossing;
+    case ErrorCode::file_malformed:
+    case ErrorCode::empty_surface: return FindingKind::malformed;
+    default: return FindingKind::refused;
+  }
+}
+
+bool is_of_surface(ErrorCode code) { return kind_of(code) != FindingKind::refused; }
+
+Finding finding_of(const Error& error, const InspectRequest& request) {
+  const ErrorInfo& info = error.info();
+  Finding finding{.kind = kind_of(info.code), .severity = Severity::error, .count = error.n_places(), .text = info.problem, .advice = info.hint};
+  const std::size_t n = std::min(info.places.size(), static_cast<std::size_t>(request.limits.max_places));
+  for (std::size_t i = 0; i < n; ++i) finding.places.push_back({info.places[i].position, {}, 0.0, info.places[i].what});
+  return finding;
+}
+
+/// In the report's place of the same kind where it has one, whose triangles are marked already.
+void replace_finding(InspectReport& report, Finding finding) {
+  const auto same = std::find_if(report.findings.begin(), report.findings.end(), [&](const Finding& other) { return other.kind == finding.kind; });
+  if (same != report.findings.end()) *same = std::move(finding);
+  else volmesh::add_finding(report, std::move(finding), {});
+}
+
+/// All triangles as the files have them, in metres; nothing is joined but corners of STL at one place.
+TriMesh triangles_of(const WallFiles& files) {
+  TriMesh all;
+  for (const SurfaceSoup& soup : files.soups) {
+    const auto is_wrong = [&](const auto& t) { return std::ranges::any_of(t, [&](std::uint32_t v) { return v >= soup.points.size(); }); };
+    if (std::ranges::any_of(soup.triangles, is_wrong)) continue;  // its finding says so
+    TriMesh mesh = io::to_tri_mesh(soup);
+    for (Point& p : mesh.points) p *= files.wall.options.unit;
+    append(all, mesh);
+  }
+  return all;
+}
+
+/// Triangles that the reader turned over, where its triangles are those of the files one by one.
+std::vector<TriangleId> turned_triangles(const WallFiles& files, const TriMesh& mesh) {
+  std::vector<TriangleId> turned;
+  std::size_t n = 0;
+  for (const SurfaceSoup& soup : files.soups) n += soup.triangles.size();
+  if (n != mesh.n_triangles()) return turned;
+  TriangleId t(0);
+  for (const SurfaceSoup& soup : files.soups) {
+    for (const auto& v : soup.triangles) {
+      const Vec3 before = cross(soup.points[v[1]] - soup.points[v[0]], soup.points[v[2]] - soup.points[v[0]]);
+      const auto [a, b, c] = corners(mesh, t);
+      if (dot(before, cross(b - a, c - a)) < 0.0) turned.push_back(t);
+      t = TriangleId(t.index() + 1);
+    }
+  }
+  return turned;
+}
+
+void add_repairs(const SurfaceValue& wall, const WallFiles& files, const InspectRequest& request, InspectReport& report) {
+  const surfmesh::StitchReport& stitched = wall.report;
+  if (stitched.n_flipped > 0) {
+    const std::vector<TriangleId> turned = turned_triangles(files, wall.mesh);
+    Finding finding{.kind = FindingKind::turned, .severity = Severity::note, .count = stitched.n_flipped};
+    finding.text = count_text(stitched.n_flipped) + (stitched.n_flipped == 1 ? " triangle was" : " triangles were") +
+                   " turned over on reading: orientation against the neighbours, or a body inside out";
+    finding.advice = "nothing: volume_mesh reads it the same way. `sterna convert` writes the repaired surface for other programs";
+    for (std::size_t i = 0; i < std::min(turned.size(), static_cast<std::size_t>(request.limits.max_places)); ++i) {
+      const auto [a, b, c] = corners(wall.mesh, turned[i]);
+      finding.places.push_back(
+          {(a + b + c) / 3.0, wall.mesh.patches[wall.mesh.triangle_patch[turned[i]]].name, 0.0, "triangle " + std::to_string(turned[i].value())});
+    }
+    volmesh::add_finding(report, std::move(finding), turned);
+  }
+  const std::int64_t n_repairs = stitched.n_degenerate_removed + stitched.n_duplicate_removed + stitched.n_welded_near;
+  if (n_repairs == 0) return;
+  Finding finding{.kind = FindingKind::repaired, .severity = Severity::note, .count = n_repairs};
+  finding.text = fmt::format("repaired on reading: {} triangles without area, {} copies of triangles or doubled sheets, {} vertices welded to near ones",
+                             count_text(stitched.n_degenerate_removed), count_text(stitched.n_duplicate_removed), count_text(stitched.n_welded_near));
+  finding.advice = "nothing: volume_mesh reads it the same way. Look there when the shape matters: -v tells of each repair";
+  volmesh::add_finding(report, std::move(finding), {});
+}
+
+}  // namespace
+
+namespace {
+
+/// Cells of the file; none where it is not written as a volume mesh is. What is wrong with it as a surface, the reader of surfaces says.
+std::int64_t n_cells_of(const InputPath& input, const RunContext& context) {
+  if (!io::format_of(input.path).read_volume) return 0;
+  try {
+    return count_cells(io::read_volume_file(input.path, context)).total();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::file_malformed && error.code() != ErrorCode::unsupported_format) throw;
+    context.debug(input.name + " is no volume mesh: " + error.info().problem);
+    return 0;
+  }
+}
+
+/// volume_mesh takes it, but hardly anybody means it.
+void warn_of_cells(const InputPath& input, const RunContext& context) {
+  if (const std::int64_t n = n_cells_of(input, context); n > 0)
+    context.warn(input.name + " is a volume mesh of " + count_text(n) +
+                 " cells: all of its boundary, farfield and symmetry planes too, is taken for the walls of a new one. `sterna check " + input.name +
+                 "` measures the mesh itself");
+}
+
+}  // namespace
+
+InspectReport inspect_files(std::span<const InputPath> inputs, const surfmesh::StitchOptions& options, InspectRequest request, const RunContext& context) {
+  for (const InputPath& input : inputs) warn_of_cells(input, context);
+  WallFiles files = read_wall_files(inputs, options, context.part("read", 0.0, 0.5 * k_joined));
+  files.wall.options.check_intersections = false;  // inspect_wall finds the pairs itself
+  std::optional<Finding> refusal;
+  std::optional<SurfaceValue> wall;
+  for (const bool is_lenient : {false, true}) {
+    if (is_lenient) files.wall.options.allow_open = true;
+    try {
+      wall = join_wall(files, context.part("join", 0.5 * k_joined, k_joined));
+      break;
+    } catch (const Error& error) {
+      if (!is_of_surface(error.code())) throw;
+      if (!refusal) refusal = finding_of(error, request);
+    }
+  }
+  if (wall) {
+    request.volume = knowing(*wall, request.volume);
+    InspectReport report = volmesh::inspect_wall(wall->mesh, request, context.part("inspect", k_joined, 1.0));
+    if (refusal) replace_finding(report, std::move(*refusal));
+    add_repairs(*wall, files, request, report);
+    return report;
+  }
+  InspectReport report = volmesh::inspect_triangles(triangles_of(files), request, context.part("inspect", k_joined, 1.0));
+  replace_finding(report, std::move(*refusal));
+  return report;
+}
+
+InspectReport inspect_surface(const SurfaceValue& surface, InspectRequest request, const RunContext& context) {
+  request.volume = knowing(surface, request.volume);
+  return volmesh::inspect_wall(surface.mesh, request, context);
+}
+
+// ---- Telling it ------------------------------------------------------------------------------------------------------------------------------
+
+namespace {
+
+std::string verdict_of(const InspectReport& report) {
+  const auto counted = [&](Severity severity, const char* one, const char* many) {
+    const std::int64_t n = report.count(severity);
+    return n == 0 ? std::string() : fmt::format(", {} {}", n, n == 1 ? one : many);
+  };
+  return (report.is_ok() ? "volume_mesh will take it" : "volume_mesh will refuse it") + counted(Severity::error, "error", "errors") +
+         counted(Severity::warn, "warning", "warnings") + counted(Severity::note, "note", "notes");
+}
+
+std::string prediction_of(const volmesh::LayerPrediction& layer) {
+  std::string text = fmt::format("layers: full height on about {:.3g} % of the area, {:.3g} % compressed, {:.3g} % collapsed", k_percent * layer.coverage,
+                                 k_percent * layer.compressed, k_percent * layer.collapsed);
+  for (std::size_t i = 0; i < layer.lost_area.size(); ++i)
+    text += fmt::format("{}{:.3g} % {}", i == 0 ? " (lower: " : ", ", k_percent * layer.lost_area[i].second, layer.lost_area[i].first);
+  return text + (layer.lost_area.empty() ? "" : ")");
+}
+
+}  // namespace
+
+std::string text_of(const InspectReport& report, const std::string& name) {
+  std::string text = fmt::format("inspect {}: {} triangles, {}, {} {}, {:.4g} m long\n", name, count_text(static_cast<std::int64_t>(report.mesh.n_triangles())),
+                                 report.is_closed ? "closed" : "not closed", report.n_bodies, report.n_bodies == 1 ? "part" : "parts", report.length);
+  for (const Finding& finding : report.findings) {
+    text += fmt::format("  {:<5} {:<13} {}\n", to_string(finding.severity), to_string(finding.kind), finding.text);
+    for (const volmesh::FindingPlace& place : finding.places)
+      text += fmt::format("        at {}{}: {}\n", format_point(place.position), place.patch.empty() ? "" : " on " + place.patch, place.what);
+    if (!finding.advice.empty()) text += "        try: " + finding.advice + "\n";
+  }
+  if (report.layer.is_known) text += "  " + prediction_of(report.layer) + "\n";
+  return text + "  " + verdict_of(report);
+}
+
+std::string json_of(const InspectReport& report, const std::string& name) {
+  const auto number = [](double value) { return std::isfinite(value) ? PlainJson(value) : PlainJson(nullptr); };
+  const auto point = [](const Point& p) { return PlainJson{p.x, p.y, p.z}; };
+  PlainJson json = {{"schema", "sterna-inspect-1"},
+                    {"input", name},
+                    {"ok", report.is_ok()},
+                    {"triangles", report.mesh.n_triangles()},
+                    {"closed", report.is_closed},
+                    {"parts", report.n_bodies},
+                    {"length", report.length},
+                    {"errors", report.count(Severity::error)},
+                    {"warnings", report.count(Severity::warn)},
+                    {"notes", report.count(Severity::note)}};
+  json["findings"] = PlainJson::array();
+  for (const Finding& finding : report.findings) {
+    PlainJson places = PlainJson::array();
+    for (const volmesh::FindingPlace& place : finding.places)
+      places.push_back({{"at", point(place.position)}, {"patch", place.patch}, {"value", number(place.value)}, {"what", place.what}});
+    json["findings"].push_back({{"kind", to_string(finding.kind)},
+                                {"severity", to_string(finding.severity)},
+                                {"count", finding.count},
+                                {"share", number(finding.share)},
+                                {"value", number(finding.value)},
+                                {"limit", number(finding.limit)},
+                                {"unit", finding.unit},
+                                {"text", finding.text},
+                                {"advice", finding.advice},
+                                {"places", std::move(places)}});
+  }
+  if (report.layer.is_known) {
+    const volmesh::LayerPrediction& layer = report.layer;
+    PlainJson lost = PlainJson::object(), patches = PlainJson::array();
+    for (const auto& [reason, share] : layer.lost_area) lost[reason] = share;
+    for (const auto& patch : layer.patches)
+      patches.push_back(
+          {{"name", patch.name}, {"area", patch.area}, {"coverage", patch.coverage}, {"compressed", patch.compressed}, {"collapsed", patch.collapsed}});
+    json["layer"] = {{"coverage", layer.coverage},
+                     {"compressed", layer.compressed},
+                     {"collapsed", layer.collapsed},
+                     {"lost_area", std::move(lost)},
+                     {"patches", std::move(patches)}};
+  }
+  return json.dump(2);
+}
+
+void require_inspection_output(const std::filesystem::path& path) {
+  if (path.extension() != ".vtu" && path.extension() != ".png")
+    throw Error({.code = ErrorCode::unsupported_format,
+                 .attempted = "writing " + path.string(),
+                 .problem = "the picture of an inspection is a .vtu or a .png file",
+                 .hint = "such as " + path.stem().string() + ".vtu"});
+  io::AtomicFile probe(path);  // says why nothing can be written there; gone at once
+}
+
+namespace {
+
+/// The surface with a patch for each kind of finding that is the most severe one somewhere.
+TriMesh by_finding(const InspectReport& report) {
+  TriMesh mesh = report.mesh;
+  mesh.patches = {};
+  const auto field = std::ranges::find(report.fields, "finding", &TriMeshField::name);
+  std::map<int, PatchId> patches;
+  for (const TriangleId t : mesh.triangles.ids()) {
+    const int kind = field == report.fields.end() ? 0 : static_cast<int>(field->values[t.index()]);
+    const auto [patch, is_new] = patches.try_emplace(kind, static_cast<std::uint32_t>(mesh.patches.size()));
+    if (is_new) mesh.patches.push_back({.name = kind == 0 ? "nothing found" : std::string(to_string(static_cast<volmesh::FindingKind>(kind)))});
+    mesh.triangle_patch[t] = patch->second;
+  }
+  return mesh;
+}
+
+void draw_inspection(const InspectReport& report, const std::filesystem::path& path, const RunContext& context) {
+  std::vector<DrawMark> marks;
+  for (const Finding& finding : report.findings)
+    if (!finding.places.empty()) marks.push_back({finding.places.front().position, std::string(to_string(finding.severity)) + ": " + finding.text});
+  DrawOptions options;
+  options.places = true;
+  io::write_whole(path, draw_png(by_finding(report), options, "inspection", marks, context));
+}
+
+}  // namespace
+
+void write_inspection(const InspectReport& report, const std::filesystem::path& path, const RunContext& context) {
+  if (path.extension() == ".png") return draw_inspection(report, path, context);
+  io::write_field_vtu(report.mesh, report.fields, path, context);
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,31 @@
+// The inspection of files and surfaces, and how it is told: as text, as JSON, as a picture.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "scripting/values/verbs.h"
+#include "volmesh/inspect/inspect.h"
+
+namespace sterna::scripting {
+
+/// Reads the files and joins them as read_surface does; what that refuses is a finding, and as much as can be is looked at all the same. The rules of manifests
+/// beside the files come before those of the request. \throws Error of io (no such file, no such format), cancelled
+volmesh::InspectReport inspect_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, volmesh::InspectRequest request,
+                                     const RunContext& context);
+/// \throws Error(cancelled)
+volmesh::InspectReport inspect_surface(const SurfaceValue& surface, volmesh::InspectRequest request, const RunContext& context);
+
+/// Several lines: the surface, the verdict, the prediction, each finding with its places and its advice.
+std::string text_of(const volmesh::InspectReport& report, const std::string& name);
+/// The same, schema "sterna-inspect-1".
+std::string json_of(const volmesh::InspectReport& report, const std::string& name);
+
+/// "-o trouble.vtu": the surface with all fields; "-o trouble.png": a picture of it, by the most severe finding, with the worst place of each marked.
+/// \throws Error(unsupported_format) for another extension, Error(write_failed)
+void write_inspection(const volmesh::InspectReport& report, const std::filesystem::path& path, const RunContext& context);
+/// The same before the work. \throws as write_inspection
+void require_inspection_output(const std::filesystem::path& path);
+
+}  // namespace sterna::scripting

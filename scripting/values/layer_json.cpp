@@ -1,0 +1,89 @@
+#include "scripting/values/layer_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace sterna::scripting {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json shares_json(const std::vector<std::pair<std::string, double>>& shares) {
+  Json json = Json::object();
+  for (const auto& [reason, share] : shares) json[reason] = share;
+  return json;
+}
+
+Json places_json(const std::vector<ErrorPlace>& places) {
+  Json json = Json::array();
+  for (const ErrorPlace& place : places) json.push_back({{"at", {place.position.x, place.position.y, place.position.z}}, {"what", place.what}});
+  return json;
+}
+
+Json patch_coverage_json(const volmesh::LayerReport& layer) {
+  Json patches = Json::array();
+  for (const volmesh::PatchCoverage& patch : layer.patches)
+    patches.push_back({{"name", patch.name},
+                       {"area", patch.area},
+                       {"full", patch.full},
+                       {"compressed", patch.compressed},
+                       {"collapsed", patch.collapsed},
+                       {"lost_area", shares_json(patch.lost_area)}});
+  return patches;
+}
+
+Json first_node_json(const volmesh::LayerReport& layer) {
+  const volmesh::FirstNodeReport& first = layer.first_node;
+  const auto at = [](const Point& p) { return Json{p.x, p.y, p.z}; };
+  return {{"vertices_within_2_percent", first.vertex_share},
+          {"smooth_facet_area_within_2_percent", first.facet_share},
+          {"ridge_area", first.ridge_area},
+          {"worst_vertex", {{"deviation", first.worst_vertex}, {"at", at(first.worst_vertex_place)}}},
+          {"worst_facet", {{"deviation", first.worst_facet}, {"at", at(first.worst_facet_place)}}}};
+}
+
+}  // namespace
+
+std::string layer_json(const volmesh::LayerReport& layer) {
+  Json json = {{"body_length", layer.body_length},
+               {"coverage", layer.coverage},
+               {"compressed_area", layer.compressed_area},
+               {"collapsed_area", layer.collapsed_area},
+               {"target_over_eq1", layer.target_over_eq1},
+               {"feature_angle", layer.feature_angle},
+               {"max_visibility_angle", layer.visibility.max_angle},
+               {"lost_area", shares_json(layer.lost_area)},
+               {"mean_height", layer.mean_height},
+               {"vertices", layer.n_vertices},
+               {"compressed", layer.n_compressed}};
+  json["first_node"] = first_node_json(layer);
+  json["interface"] = {{"within", layer.interface.within},
+                       {"below", layer.interface.below},
+                       {"above", layer.interface.above},
+                       {"within_of_full", layer.interface.within_of_full}};
+  json["reduced_curving"] = layer.reduced_curving;
+  json["patches"] = patch_coverage_json(layer);
+  json["most_compressed"] = places_json(layer.compressed);
+  json["collapsed"] = places_json(layer.collapsed);
+  json["warnings"] = layer.warnings;
+  return json.dump();
+}
+
+std::string certificate_json(const volmesh::EnvelopeCertificate& certificate) {
+  const auto worst = [](const volmesh::WorstElement& element) {
+    return Json{{"quality", element.quality}, {"at", {element.place.x, element.place.y, element.place.z}}, {"what", element.what}};
+  };
+  const Json json = {{"proved", certificate.is_proved()},
+                     {"boundary_triangles", certificate.n_triangles},
+                     {"pairs_tested", certificate.n_pairs},
+                     {"crossings", certificate.n_crossings},
+                     {"swallowed_surfaces", certificate.n_swallowings},
+                     {"macro_elements", certificate.n_macro_elements},
+                     {"invalid_macro_elements", certificate.n_invalid_macro_elements},
+                     {"worst_macro_element", worst(certificate.worst_macro_element)},
+                     {"layer_cells", certificate.n_layer_cells},
+                     {"invalid_layer_cells", certificate.n_invalid_layer_cells},
+                     {"worst_layer_cell", worst(certificate.worst_layer_cell)}};
+  return json.dump();
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,127 @@
+#include "scripting/values/layer_options.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "geom/base/error.h"
+#include "scripting/lua/script_function.h"
+#include "scripting/lua/verb_tools.h"
+#include "volmesh/case/layer_choice.h"
+
+namespace sterna::scripting {
+
+struct FamilyVerbOptions {
+  int levels = 3;
+  double factor = 1.5;
+  int medium = 2;
+};
+
+}  // namespace sterna::scripting
+
+namespace sterna {
+
+template <>
+struct Schema<scripting::FamilyVerbOptions> {
+  using O = scripting::FamilyVerbOptions;
+  static constexpr std::string_view stage = "family";
+  static constexpr std::array fields = {
+      Field<O>{.name = "levels", .member = &O::levels, .min = 1, .max = 12, .help = "members of the family, from coarse to fine"},
+      Field<O>{.name = "factor",
+               .member = &O::factor,
+               .min = 1.01,
+               .max = 4.0,
+               .help = "ratio of edge lengths of a member and the next; its third power is about that of their nodes: 1.5 for 3.4 times, 1.442 for 3 times"},
+      Field<O>{.name = "medium", .member = &O::medium, .min = 1, .max = 12, .help = "number of the member that is as the options say"},
+  };
+};
+
+}  // namespace sterna
+
+namespace sterna::scripting {
+namespace {
+
+bool is_option(const std::string& given, std::string_view name) { return given == name || given == "envelope." + std::string(name); }
+
+std::string member_name(int finer) {
+  constexpr std::array<const char*, 5> k_names = {"extra_coarse", "coarse", "medium", "fine", "extra_fine"};
+  if (std::abs(finer) <= 2) return k_names[static_cast<std::size_t>(finer + 2)];
+  return (finer < 0 ? "coarse_" : "fine_") + std::to_string(std::abs(finer));
+}
+
+constexpr std::string_view k_family_usage = "for _, member in ipairs(family{ levels = 3, factor = 1.5 }) do print(member.name, member.refinement) end";
+
+ScriptValue make_family(const ScriptCall& call) {
+  FamilyVerbOptions options;
+  const ScriptTable table = table_argument(call, 0, k_family_usage);
+  TableReader reader(table, call.attempted());
+  reader.read_options(sterna::options_of(options));
+  reader.finish();
+  auto members = std::make_shared<ScriptTable>();
+  for (int level = 1; level <= options.levels; ++level) {
+    auto member = std::make_shared<ScriptTable>();
+    member->fields = {{"name", member_name(level - options.medium)}, {"refinement", std::pow(options.factor, level - options.medium)}};
+    members->items.emplace_back(TableHandle(member));
+  }
+  return members;
+}
+
+std::string family_help() {
+  FamilyVerbOptions options;
+  return options_help(sterna::options_of(options));
+}
+
+constexpr std::array<ScriptVerb, 1> k_layer_options_verbs = {{
+    {"family", k_family_usage, "The members of a mesh family, each with a name and the refinement that surface_mesh and volume_mesh both take.", make_family,
+     family_help, false, "table"},
+}};
+
+}  // namespace
+
+void choose_solve_for(volmesh::MeshCase& options, const std::function<bool(std::string_view)>& is_given, std::string_view attempted) {
+  if (is_automatic(options.envelope.total_height) || is_given("solve_for")) return;
+  options.envelope.solve_for = volmesh::solved_for(is_given("layers"), is_given("max_growth"), true, attempted);
+}
+
+void choose_solve_for(volmesh::MeshCase& options, TableReader& reader, const ScriptCall& call) {
+  const auto is_given = [&](std::string_view name) {
+    return reader.is_given("envelope", name) || std::ranges::any_of(call.session.overrides, [&](const auto& entry) { return is_option(entry.first, name); });
+  };
+  try {
+    choose_solve_for(options, is_given, call.verb);
+  } catch (const Error& error) {
+    reader.add_problem(error.info().problem + " (" + error.info().hint + ")");
+  }
+}
+
+FunctionHandle read_first_heights(TableReader& reader, const ScriptCall& call) {
+  const FunctionHandle* function = reader.option_function("envelope", "first_height");
+  const bool is_overruled = std::ranges::any_of(call.session.overrides, [&](const auto& entry) { return is_option(entry.first, "first_height"); });
+  return function && !is_overruled ? *function : nullptr;
+}
+
+void set_first_heights(const FunctionHandle& function, const SurfaceValue& wall, volmesh::MeshCase& options, const RunContext& context) {
+  if (!function) return;
+  std::vector<double> heights;
+  heights.reserve(wall.mesh.n_vertices());
+  for (const Point& p : wall.mesh.points) {
+    double height = 0.0;
+    function->call(std::array{p.x, p.y, p.z}, std::span(&height, 1));
+    heights.push_back(height);
+  }
+  options.first_heights = std::make_shared<const volmesh::FirstHeights>(wall.mesh, std::move(heights), context);
+  options.envelope.first_height = options.first_heights->least();
+  context.info(fmt::format("first heights by a function: {:.4g} m to {:.4g} m", options.first_heights->least(), options.first_heights->greatest()));
+}
+
+void warn_of_other_member(const SurfaceValue& wall, const volmesh::MeshCase& options, const RunContext& context) {
+  if (!wall.recipe || wall.recipe->options.refinement == options.family.refinement) return;
+  context.warn(fmt::format("the surface was made with refinement {:.4g}, the volume with {:.4g}: for a mesh family give both the same",
+                           wall.recipe->options.refinement, options.family.refinement));
+}
+
+std::span<const ScriptVerb> family_verbs() { return k_layer_options_verbs; }
+
+}  // namespace sterna::scripting

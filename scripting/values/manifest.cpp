@@ -1,0 +1,139 @@
+#include "scripting/values/manifest.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "io/output/atomic_file.h"
+#include "scripting/values/disc_verbs.h"
+#include "scripting/values/layer_json.h"
+#include "scripting/values/model_surface.h"
+#include "scripting/values/patch_rules.h"
+#include "scripting/values/periodic_sides.h"
+
+namespace sterna::scripting {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json cells_json(const HybridMesh& mesh) {
+  const CellCounts cells = count_cells(mesh);
+  return {
+      {"nodes", mesh.points.size()}, {"prisms", cells.prisms}, {"pyramids", cells.pyramids}, {"tetrahedra", cells.tetrahedra}, {"hexahedra", cells.hexahedra}};
+}
+
+/// Angles in degrees, as in reports; the whole report is what `sterna check --json` prints.
+/// Hard, target and usual in the unit of reports; empty where they are the usual ones.
+Json own_limits_json(const MeasureInfo& info, const GateLimits& limits) {
+  Json json = Json::object();
+  for (const auto& [name, own, usual] : {std::tuple("hard", limits.hard, info.limits.hard), std::tuple("target", limits.target, info.limits.target),
+                                         std::tuple("usual", limits.usual, info.limits.usual)}) {
+    if (own == usual || (std::isnan(own) && std::isnan(usual))) continue;
+    json[name] = std::isfinite(own) ? Json(in_report_unit(info, own)) : Json(nullptr);
+  }
+  return json;
+}
+
+Json quality_json(const CheckReport& report) {
+  Json measures = Json::object();
+  for (const GateResult& gate : report.gates) {
+    const MeasureInfo& info = info_of(gate.measure);
+    Json entry = {{"gate", info.gate}, {"state", to_string(gate.state)}};
+    if (gate.state != GateState::not_checked) {
+      const double worst = in_report_unit(info, gate.worst);
+      entry["worst"] = std::isfinite(worst) ? Json(worst) : Json(nullptr);
+      entry["share_within"] = gate.share_within;
+      if (Json limits = own_limits_json(info, gate.limits); !limits.empty()) entry["limits"] = std::move(limits);
+    }
+    measures[std::string(info.name)] = std::move(entry);
+  }
+  Json json = {{"verdict", to_string(report.quality_state())}};
+  for (const auto& [key, state] : {std::pair("failed", GateState::fail), std::pair("warned", GateState::warn)}) {
+    json[key] = Json::array();
+    for (const GateResult& gate : report.gates)
+      if (gate.state == state) json[key].push_back(info_of(gate.measure).name);
+  }
+  json["measures"] = std::move(measures);
+  return json;
+}
+
+/// Sides of the mesh that match, and how well where that was checked.
+Json periodic_sides_json(const MeshValue& mesh) {
+  Json list = Json::array();
+  for (const PeriodicSides& sides : mesh.mesh.periodic) {
+    const std::string &first = mesh.mesh.patches[sides.first].name, &second = mesh.mesh.patches[sides.second].name;
+    Json entry = {{"first", first}, {"second", second}, {"translation", {sides.translation.x, sides.translation.y, sides.translation.z}}};
+    if (mesh.check)
+      for (const PeriodicMatchReport& match : mesh.check->periodic)
+        if (match.first == first && match.second == second) entry.update({{"nodes", match.n_nodes}, {"faces", match.n_faces}, {"worst_distance", match.worst}});
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json improvement_json(const volmesh::ImproveReport& report) {
+  Json remaining = Json::array();
+  for (const ErrorPlace& place : report.remaining) remaining.push_back({{"at", {place.position.x, place.position.y, place.position.z}}, {"what", place.what}});
+  return {{"bad_before", report.n_bad_before},
+          {"bad_after", report.n_bad_after},
+          {"bad_off_boundary", report.n_bad_free_after},
+          {"forced", report.n_forced},
+          {"unforced", report.n_bad_after - report.n_bad_free_after - report.n_forced},
+          {"at_boundary", report.n_at_boundary},
+          {"remaining", remaining}};
+}
+
+}  // namespace
+
+std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& output, std::uint64_t seed) {
+  Json json;
+  json["schema"] = "sterna-manifest-1";
+  json["program"] = "sterna " STERNA_VERSION;
+  json["output"] = output.filename().string();
+  json["seed"] = seed;
+  json["inputs"] = Json::array();
+  for (const InputFile& input : mesh.inputs) json["inputs"].push_back({{"file", input.name}, {"xxh3_128", input.hash}});
+  if (mesh.origin) {
+    surfmesh::StitchOptions surface = mesh.origin->surface_options;
+    volmesh::MeshCase volume = mesh.origin->options;
+    OptionTable options = all_options(surface, volume);
+    UnionOptions unite = mesh.origin->union_options.value_or(UnionOptions{});
+    if (mesh.origin->union_options)
+      for (Option& option : sterna::options_of(unite)) options.push_back(std::move(option));
+    SurfaceRecipe recipe = mesh.origin->recipe.value_or(SurfaceRecipe{});
+    if (mesh.origin->recipe)
+      for (Option& option : sterna::options_of(recipe.options)) options.push_back(std::move(option));
+    json["options"] = Json::parse(options_to_json(options));
+    if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
+    if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
+    if (mesh.origin->smooth_angle) json["wall"] = {{"max_smooth_angle", *mesh.origin->smooth_angle}};
+    if (!volume.patches.empty()) json["patch_rules"] = Json::parse(layer_rules_json(volume.patches));
+    if (volume.first_heights)
+      json["first_heights"] = {{"by", "a function of place"}, {"least", volume.first_heights->least()}, {"greatest", volume.first_heights->greatest()}};
+    if (!volume.sources.empty()) json["sources"] = Json::parse(sources_text(volume.sources, false));
+    if (!volume.discs.empty()) json["actuator_discs"] = Json::parse(discs_json(volume.discs));
+    if (!volume.periodic.empty()) json["periodic"] = Json::parse(periodic_json(volume.periodic));
+  }
+  json["patches"] = Json::array();
+  for (const Patch& patch : mesh.mesh.patches) json["patches"].push_back({{"name", patch.name}, {"kind", to_string(patch.kind)}});
+  if (!mesh.mesh.periodic.empty()) json["periodic_sides"] = periodic_sides_json(mesh);
+  json["mesh"] = cells_json(mesh.mesh);
+  if (mesh.origin) {
+    json["layer"] = Json::parse(layer_json(mesh.origin->layer));
+    json["certificate"] = Json::parse(certificate_json(mesh.origin->certificate));
+    json["improvement"] = improvement_json(mesh.origin->improvement);
+    json["tetra_engine"] = mesh.origin->tetra_engine;
+    if (!mesh.origin->tetra_failures.empty()) json["tetra_failures"] = mesh.origin->tetra_failures;
+    if (mesh.origin->n_split_triangles > 0) json["boundary_triangles_added_by_splits"] = mesh.origin->n_split_triangles;
+    if (!mesh.origin->is_reproducible) json["reproducible"] = "not reproducible: a time or memory limit decided which engine made the tetrahedra";
+  }
+  json["verdict"] = !mesh.check ? "not checked" : mesh.check->is_valid() ? "VALID" : "INVALID";
+  if (mesh.check && mesh.check->quality_measured) json["quality"] = quality_json(*mesh.check);
+  return json.dump(2) + "\n";
+}
+
+void write_manifest(const MeshValue& mesh, const std::filesystem::path& output, const RunContext& context) {
+  io::write_whole(output.string() + ".json", manifest_json(mesh, output, context.seed()));
+}
+
+}  // namespace sterna::scripting

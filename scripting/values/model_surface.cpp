@@ -1,0 +1,321 @@
+#include "scripting/values/model_surface.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "geom/base/error.h"
+#include "geom/base/glob.h"
+#include "geom/mesh/topology.h"
+#include "scripting/values/aircraft_model.h"
+#include "scripting/values/cached_surface.h"
+#include "scripting/values/fluid_model.h"
+#include "scripting/values/mesh_parts.h"
+#include "scripting/values/patch_rules.h"
+#include "scripting/values/start_from_reference.h"
+#include "scripting/values/summary.h"
+#include "scripting/values/value_keys.h"
+#include "volmesh/case/size_sources.h"
+
+namespace sterna {
+
+template <>
+struct Schema<surfmesh::PatchSurfaceOptions> {
+  using O = surfmesh::PatchSurfaceOptions;
+  static constexpr std::string_view stage = "patches";
+  static constexpr std::string_view as_all = "as of all patches";
+  static constexpr std::array fields = {
+      Field<O>{.name = "names", .member = &O::names, .help = "pattern of the names of faces"},
+      Field<O>{.name = "max_edge", .member = &O::max_edge, .unit = Unit::metre, .min = 1e-9, .help = "longest edge wanted", .automatic = as_all},
+      Field<O>{.name = "min_edge",
+               .member = &O::min_edge,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "curvature and narrow places ask for no shorter edges",
+               .automatic = as_all},
+      Field<O>{.name = "curvature_angle",
+               .member = &O::curvature_angle,
+               .unit = Unit::radian,
+               .min = 0.001,
+               .max = 1.6,
+               .help = "an edge spans at most this angle of the surface",
+               .automatic = as_all},
+      Field<O>{.name = "chord_error",
+               .member = &O::chord_error,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "triangles' middles are at most this far from the surface; what is smaller than this need not be resolved",
+               .automatic = as_all},
+      Field<O>{.name = "leading_edge_factor",
+               .member = &O::leading_edge_factor,
+               .min = 0.01,
+               .max = 1.0,
+               .help = "of the longest edge, at leading edges",
+               .automatic = as_all},
+      Field<O>{.name = "trailing_edge_factor",
+               .member = &O::trailing_edge_factor,
+               .min = 0.01,
+               .max = 1.0,
+               .help = "of the longest edge, at trailing edges",
+               .automatic = as_all},
+      Field<O>{.name = "leading_edge_chordwise",
+               .member = &O::leading_edge_chordwise,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "first cell beside leading edges",
+               .automatic = as_all},
+      Field<O>{.name = "leading_edge_stretch",
+               .member = &O::leading_edge_stretch,
+               .min = 1.0,
+               .max = 50.0,
+               .help = "longest cell along : first cell across",
+               .automatic = as_all},
+      Field<O>{.name = "leading_edge_growth",
+               .member = &O::leading_edge_growth,
+               .min = 1.01,
+               .max = 1.2,
+               .help = "ratio of rows that follow each other",
+               .automatic = as_all},
+      Field<O>{.name = "trailing_edge_chordwise",
+               .member = &O::trailing_edge_chordwise,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "first cell beside trailing edges",
+               .automatic = as_all},
+      Field<O>{.name = "trailing_edge_stretch",
+               .member = &O::trailing_edge_stretch,
+               .min = 1.0,
+               .max = 50.0,
+               .help = "longest cell along : first cell across",
+               .automatic = as_all},
+      Field<O>{.name = "trailing_edge_growth",
+               .member = &O::trailing_edge_growth,
+               .min = 1.01,
+               .max = 1.2,
+               .help = "ratio of rows that follow each other",
+               .automatic = as_all},
+      Field<O>{.name = "trailing_edge_cells",
+               .member = &O::trailing_edge_cells,
+               .min = 1.0,
+               .max = 100.0,
+               .help = "cells across the base of blunt trailing edges",
+               .automatic = as_all},
+  };
+};
+
+}  // namespace sterna
+
+namespace sterna::scripting {
+namespace {
+
+/// Open edges and absorbed parts in the log; the report has all.
+constexpr std::size_t k_listed = 10;
+// Shares of mesh_model_files's progress.
+constexpr double k_model_file_end = 0.3;
+constexpr double k_unite_end = 0.5;
+
+bool is_description(const std::filesystem::path& path) { return path.extension() == ".smx" || path.extension() == ".xml"; }
+
+/// sumo's own normal angle: what files say that leave it alone.
+constexpr double k_sumo_angle = 30.0 * std::numbers::pi / 180.0;
+constexpr double k_same_angle = 1e-3;
+
+/// What an .smx file says of its components' triangles, unless sumo found it by itself; for those that have faces of their name.
+std::vector<surfmesh::PatchSurfaceOptions> rules_of(const Aircraft& aircraft, const Model& model) {
+  std::vector<surfmesh::PatchSurfaceOptions> rules;
+  const auto add = [&](const std::string& name, const std::optional<MeshCriterion>& criterion) {
+    if (!criterion || criterion->is_automatic || std::none_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return face.name == name; }))
+      return;
+    surfmesh::PatchSurfaceOptions rule{.names = name};
+    if (criterion->max_edge) rule.max_edge = *criterion->max_edge;
+    if (criterion->min_edge) rule.min_edge = *criterion->min_edge;
+    if (criterion->max_normal_angle && std::abs(*criterion->max_normal_angle - k_sumo_angle) > k_same_angle)
+      rule.curvature_angle = *criterion->max_normal_angle;
+    if (criterion->is_wing) {
+      rule.leading_edge_factor = std::clamp(criterion->leading_edge_factor, 0.01, 1.0);
+      rule.trailing_edge_factor = std::clamp(criterion->trailing_edge_factor, 0.01, 1.0);
+    }
+    rules.push_back(std::move(rule));
+  };
+  for (const Body& body : aircraft.bodies) add(body.name, body.criterion);
+  for (const Wing& wing : aircraft.wings) add(wing.name, wing.criterion);
+  return rules;
+}
+
+/// The user's rules win over those of files.
+void put_first(std::vector<surfmesh::PatchSurfaceOptions> rules, SurfaceRecipe& recipe) {
+  recipe.patches.insert(recipe.patches.begin(), rules.begin(), rules.end());
+}
+
+/// Those that a face is named like: a boolean may have left nothing of others.
+std::vector<surfmesh::PatchSurfaceOptions> present(std::vector<surfmesh::PatchSurfaceOptions> rules, const Model& model) {
+  std::erase_if(rules, [&](const surfmesh::PatchSurfaceOptions& rule) {
+    return std::none_of(model.faces.begin(), model.faces.end(), [&](const ModelFace& face) { return matches_glob(face.name, rule.names); });
+  });
+  return rules;
+}
+
+surfmesh::SpaceSizes space_sizes(const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size) {
+  surfmesh::SpaceSizes asked{.regions = {}, .function = size, .samples = {}};
+  std::vector<volmesh::SizeSource> regions;
+  for (const volmesh::SizeSource& source : recipe.sources) {
+    if (const std::string problem = problem_of(source, recipe.options.growth); !problem.empty())
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "reading the sources of a surface mesh",
+                   .problem = std::string(to_string(source.kind)) + ": " + problem});
+    if (source.kind != volmesh::SourceKind::samples) regions.push_back(source);
+    for (std::size_t i = 0; i < source.points.size(); ++i) asked.samples.push_back({source.points[i], source.sizes[i]});
+  }
+  if (!regions.empty())
+    asked.regions = [regions = std::move(regions)](const Point& p, double slope) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const volmesh::SizeSource& source : regions) least = std::min(least, size_of(source, p, slope));
+      return least;
+    };
+  return asked;
+}
+
+std::string indented(std::string text) {
+  while (text.ends_with('\n')) text.pop_back();
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 3) text.replace(at, 1, "\n  ");
+  return "  " + text;
+}
+
+SurfaceValue mesh_anew(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size,
+                       const RunContext& context, const Reuse& reuse) {
+  const ModelValue all = fluid_of(assemble(models, context), context);
+  SurfaceRecipe recipe = asked;
+  put_first(present(all.sizes, all.model), recipe);
+  for (const ModelHandle& model : models)
+    if (model->description) put_first(rules_of(*model->description, all.model), recipe);
+  PartsMesh made = mesh_parts(all, recipe, space_sizes(recipe, size), cached_part_mesher(reuse), context,
+                              reuse.reference ? starting_mesher(reuse, mesh_part) : PartMesher());
+  SurfaceValue surface{.inputs = all.inputs, .recipe = recipe};
+  surface.parts = std::move(made.parts);
+  surface.recipe->sources_text = sources_text(recipe.sources, static_cast<bool>(size));
+  for (const volmesh::PatchRule& rule : all.layers)
+    if (std::any_of(all.model.faces.begin(), all.model.faces.end(), [&](const ModelFace& face) { return face.name == rule.names; }))
+      surface.layers.push_back(rule);
+  surface.smooth_angle = made.mesh.report.max_smooth_angle;
+  surface.model_wall = std::make_shared<const surfmesh::ModelWall>(all.model, made.mesh);
+  surface.mesh = std::move(made.mesh.mesh);
+  const Topology topology(surface.mesh, context);
+  surface.report.n_triangles_read = static_cast<std::int64_t>(surface.mesh.n_triangles());
+  surface.report.n_vertices_read = static_cast<std::int64_t>(surface.mesh.n_vertices());
+  surface.report.n_components = static_cast<std::int64_t>(connected_components(surface.mesh, topology).count);
+  surface.report.is_closed = topology.n_boundary_halfedges() == 0;
+  surface.mesh_report = std::move(made.mesh.report);
+  context.info(surface_mesh_text(all.model, surface));
+  return surface;
+}
+
+}  // namespace
+
+std::string sources_text(const std::vector<volmesh::SizeSource>& sources, bool has_function) {
+  if (sources.empty() && !has_function) return {};
+  const auto point = [](const Vec3& p) { return nlohmann::ordered_json{p.x, p.y, p.z}; };
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const volmesh::SizeSource& s : sources) {
+    if (s.kind == volmesh::SourceKind::samples) list.push_back({{"kind", to_string(s.kind)}, {"points", s.points.size()}});
+    else
+      list.push_back({{"kind", to_string(s.kind)},
+                      {"from", point(s.from)},
+                      {"to", point(s.to)},
+                      {"direction", point(s.direction)},
+                      {"radius", s.radius},
+                      {"length", s.length},
+                      {"height", s.height},
+                      {"spread", s.spread},
+                      {"size", s.size},
+                      {"size_end", s.size_end}});
+  }
+  if (has_function) list.push_back({{"kind", "function"}});
+  return list.dump();
+}
+
+OptionTable with_edge_tables(OptionTable table) {
+  for (Option& option : table)
+    for (const std::string_view edge : {"leading_edge", "trailing_edge"})
+      if (option.name.starts_with(edge)) option.stage = edge;
+  return table;
+}
+
+OptionTable patch_rule_options(surfmesh::PatchSurfaceOptions& rule) {
+  OptionTable table = with_edge_tables(sterna::options_of(rule));
+  std::erase_if(table, [](const Option& option) { return option.name == "names"; });  // the key of the entry
+  return table;
+}
+
+std::string patch_rules_json(const std::vector<surfmesh::PatchSurfaceOptions>& rules) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (surfmesh::PatchSurfaceOptions rule : rules) list.push_back(nlohmann::ordered_json::parse(rule_json(rule.names, patch_rule_options(rule))));
+  return list.dump();
+}
+
+std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const std::string& text) {
+  std::vector<surfmesh::PatchSurfaceOptions> rules;
+  read_rules_json(text, "reading the options of a surface mesh", [&](const std::string& names) {
+    rules.push_back({.names = names});
+    return patch_rule_options(rules.back());
+  });
+  return rules;
+}
+
+std::string surface_mesh_text(const Model& model, const SurfaceValue& surface) {
+  const surfmesh::SurfaceMeshReport& report = *surface.mesh_report;
+  std::string text = describe(surface) + "\n" + indented(to_text(report));
+  if (report.n_free_edges > 0) {
+    const std::vector<OpenEdge> open = open_edges(model);
+    for (std::size_t i = 0; i < std::min(k_listed, open.size()); ++i)
+      text += fmt::format("\n  open      along {:.4g} m of face \"{}\" about {}", open[i].length, open[i].face, format_point(open[i].middle));
+    if (open.size() > k_listed) text += fmt::format("\n  open      and {} more edges of the model", open.size() - k_listed);
+  }
+  for (std::size_t i = 0; i < std::min(k_listed, report.absorbed.size()); ++i)
+    text += fmt::format("\n  absorbed  {} at {}, {:.3g} m", report.absorbed[i].what, format_point(report.absorbed[i].place), report.absorbed[i].size);
+  if (report.absorbed.size() > k_listed) text += fmt::format("\n  absorbed  and {} more", report.absorbed.size() - k_listed);
+  return text;
+}
+
+SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size,
+                         const RunContext& context, const Reuse& reuse) {
+  const StageTimer timer(context, "surface_mesh");
+  const auto make = [&](const std::function<double(const Point&)>& asked_size) { return mesh_anew(models, asked, asked_size, context, reuse); };
+  // In whatever thread asks first, so with no threads of its own.
+  const auto all = [models, stop = context.stop_token(), seed = context.seed()] {
+    const RunContext quiet({.threads = 1, .seed = seed, .stop = stop});
+    return fluid_of(assemble(models, quiet), quiet).model;
+  };
+  return cached_surface(models, asked, size, make, all, reuse, context);
+}
+
+SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOptions& reading, const SurfaceRecipe& recipe, const RunContext& context,
+                              const Reuse& reuse) {
+  for (const InputPath& file : files)
+    if (!is_model_file(file.path))
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "meshing the surface of " + file.name,
+                   .problem = "it is no model (STEP, IGES, BREP, sumo .smx, CPACS .xml)",
+                   .hint = "a triangulation is meshed as it is: sterna mesh " + file.name});
+  std::vector<ModelHandle> models;
+  SurfaceRecipe with_files = recipe;
+  const double n = static_cast<double>(files.size());
+  for (const InputPath& file : files) {
+    const double i = static_cast<double>(models.size());
+    auto model = std::make_shared<ModelValue>(read_model(file, reading, context.part("read", k_model_file_end * i / n, k_model_file_end * (i + 1) / n)));
+    if (is_description(file.path) && model->model.solids.size() > 1) {
+      const std::optional<Aircraft> description = model->description;  // a union has none
+      const std::optional<ContentKey> of_file = model->provenance.key();
+      *model = unite_solids({std::make_shared<const ModelValue>(std::move(*model))}, {}, context.part("union", k_model_file_end, k_unite_end));
+      model->provenance = KeyMaker("united").add(*of_file).key();
+      if (description) put_first(rules_of(*description, model->model), with_files);
+    }
+    models.push_back(std::move(model));
+  }
+  return mesh_models(models, with_files, {}, context.part("surface_mesh", k_unite_end, 1.0), reuse);
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,162 @@
+#include "scripting/values/patch_rules.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "geom/base/error.h"
+#include "geom/base/glob.h"
+#include "scripting/lua/verb_tools.h"
+#include "scripting/values/model_surface.h"
+#include "volmesh/envelope/patch_layers.h"
+
+namespace sterna::scripting {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// One entry of `patches`; notes problems.
+void read_rule(const std::string& names, const ScriptValue& value, std::string_view example, TableReader& reader, const AddRule& add) {
+  const std::string where = "patches[\"" + names + "\"]";
+  const auto* table = std::get_if<TableHandle>(&value);
+  if (!table || (*table)->fields.empty()) {
+    reader.add_problem(where + ": expected a table of what these patches ask for instead, like { " + std::string(example) + " }, not " +
+                       std::string(table ? "one without named entries" : type_text(value)));
+    return;
+  }
+  const OptionTable schema = add(names);
+  TableReader entries(**table, where);
+  entries.read_options(schema);
+  try {
+    entries.finish();
+  } catch (const Error& error) {
+    reader.add_problem(where + ": " + error.info().problem);
+  }
+}
+
+Json to_json(const OptionValue& value) {
+  return std::visit([](const auto& v) { return Json(v); }, value);
+}
+
+void set_from_json(const Option& option, const Json& value) {
+  if (value.is_boolean()) set_option(option, value.get<bool>());
+  else if (value.is_number_integer()) set_option(option, value.get<std::int64_t>());
+  else if (value.is_number()) set_option(option, value.get<double>());
+  else set_option(option, value.get<std::string>());
+}
+
+}  // namespace
+
+void read_patch_rules(TableReader& reader, std::string_view example, const AddRule& add) {
+  const ScriptValue* value = reader.field("patches");
+  if (!value) return;
+  const auto* table = std::get_if<TableHandle>(value);
+  if (!table || !(*table)->items.empty() || !(*table)->other_keys.empty()) {
+    reader.add_problem("patches: expected a table by names of patches, { [\"wing*\"] = { " + std::string(example) + " } }" +
+                       (table ? "; its keys are texts" : ", not " + std::string(type_text(*value))));
+    return;
+  }
+  for (const auto& [names, entry] : (*table)->fields) read_rule(names, entry, example, reader, add);
+}
+
+bool is_default(const Option& option) {
+  const OptionValue value = option.get();
+  if (const double* number = std::get_if<double>(&value); number && is_automatic(*number)) return is_automatic(std::get<double>(option.default_value));
+  return value == option.default_value;
+}
+
+OptionTable patch_rule_options(volmesh::PatchRule& rule) {
+  OptionTable table = sterna::options_of(rule);
+  std::erase_if(table, [](const Option& option) { return option.name == "names"; });  // the key of the entry
+  return table;
+}
+
+OptionTable surface_and_layer_options(surfmesh::PatchSurfaceOptions& sizes, volmesh::PatchRule& layers) {
+  OptionTable table = patch_rule_options(sizes);
+  for (Option& option : patch_rule_options(layers)) table.push_back(std::move(option));
+  return table;
+}
+
+void keep_set_rules(std::vector<volmesh::PatchRule>& rules) {
+  std::erase_if(rules, [](volmesh::PatchRule& rule) { return std::ranges::all_of(patch_rule_options(rule), is_default); });
+}
+
+void add_layer_rules(const std::vector<volmesh::PatchRule>& rules, SurfaceValue& surface) {
+  volmesh::apply_patch_kinds(surface.mesh, rules);
+  surface.layers.insert(surface.layers.end(), rules.begin(), rules.end());
+}
+
+std::string layer_rules_help() {
+  volmesh::PatchRule rule;
+  return "patches = { [\"tunnel*\"] = { ... } }, what patches with such names ask for instead; of two patterns that match the one with more letters counts:\n" +
+         options_help(patch_rule_options(rule));
+}
+
+std::vector<volmesh::PatchRule> read_layer_rules(TableReader& reader) {
+  std::vector<volmesh::PatchRule> rules;
+  read_patch_rules(reader, "layers = 20, first_height = 2e-5", [&](const std::string& names) {
+    rules.push_back({.names = names});
+    return patch_rule_options(rules.back());
+  });
+  sort_by_pattern(rules);
+  return rules;
+}
+
+std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>>& given,
+                                               std::vector<surfmesh::PatchSurfaceOptions>* sizes) {
+  std::vector<volmesh::PatchRule> rules;
+  for (const auto& [names, options] : given) {
+    rules.push_back({.names = names});
+    surfmesh::PatchSurfaceOptions size{.names = names};
+    if (sizes) sizes->push_back(size);
+    const OptionTable table = sizes ? surface_and_layer_options(sizes->back(), rules.back()) : patch_rule_options(rules.back());
+    for (const auto& [name, text] : options) set_option_as_typed(find_option(table, name, "--patch \"" + names + "\""), text);
+  }
+  if (sizes) {
+    keep_set_rules(rules);
+    sort_by_pattern(*sizes);
+  }
+  sort_by_pattern(rules);
+  return rules;
+}
+
+std::string rule_json(const std::string& names, const OptionTable& options) {
+  Json entry = {{"names", names}};
+  for (const Option& option : options)
+    if (!is_default(option)) entry[std::string(option.name)] = to_json(option.get());
+  return entry.dump();
+}
+
+void read_rules_json(const std::string& text, std::string_view attempted, const AddRule& add) {
+  const Json list = Json::parse(text, nullptr, false);
+  const auto refuse = [&] {
+    throw Error(
+        {.code = ErrorCode::file_malformed, .attempted = std::string(attempted), .problem = "found no list of rules with the names of patches and options"});
+  };
+  if (!list.is_array()) refuse();
+  for (const Json& entry : list) {
+    if (!entry.is_object() || !entry.contains("names") || !entry["names"].is_string()) refuse();
+    const OptionTable options = add(entry["names"].get<std::string>());
+    for (const auto& [name, value] : entry.items()) {
+      if (name == "names") continue;
+      if (!value.is_primitive() || value.is_null()) refuse();
+      set_from_json(find_option(options, name, attempted), value);
+    }
+  }
+}
+
+std::string layer_rules_json(const std::vector<volmesh::PatchRule>& rules) {
+  Json list = Json::array();
+  for (volmesh::PatchRule rule : rules) list.push_back(Json::parse(rule_json(rule.names, patch_rule_options(rule))));
+  return list.dump();
+}
+
+std::vector<volmesh::PatchRule> layer_rules_of_json(const std::string& text) {
+  std::vector<volmesh::PatchRule> rules;
+  read_rules_json(text, "reading the rules for patches of a volume mesh", [&](const std::string& names) {
+    rules.push_back({.names = names});
+    return patch_rule_options(rules.back());
+  });
+  return rules;
+}
+
+}  // namespace sterna::scripting

@@ -1,0 +1,470 @@
+#include "scripting/values/stages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "geom/base/error.h"
+#include "geom/mesh/topology.h"
+#include "io/file/input_hash.h"
+#include "io/volume/sterna_file.h"
+#include "scripting/values/cached_volume.h"
+#include "scripting/values/disc_verbs.h"
+#include "scripting/values/envelope_site.h"
+#include "scripting/values/layer_json.h"
+#include "scripting/values/layer_options.h"
+#include "scripting/values/manifest.h"
+#include "scripting/values/model_surface.h"
+#include "scripting/values/patch_rules.h"
+#include "scripting/values/periodic_sides.h"
+#include "scripting/values/summary.h"
+#include "volmesh/case/layer_choice.h"
+#include "volmesh/layer/assemble.h"
+
+namespace sterna::scripting {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// ---- volmesh's values as a file has them ---------------------------------------------------------------------------------------------------
+
+io::StoredEnvelope stored(const volmesh::Envelope& envelope, const TriMesh& surface, const volmesh::FirstHeights* first_heights) {
+  io::StoredEnvelope result{
+      .direction = envelope.direction, .height = envelope.height, .target = envelope.target, .eq1 = envelope.eq1, .cap = envelope.cap, .limit = {}};
+  for (const volmesh::HeightLimit limit : envelope.limit) result.limit.push_back(static_cast<std::uint8_t>(limit));
+  if (first_heights)
+    for (const Point& p : surface.points) result.first_height.push_back(first_heights->at(p));
+  return result;
+}
+
+io::StoredTetrahedra stored(const volmesh::FilledStage& filled) {
+  return {.n_boundary_points = volmesh::boundary_of(filled.layers).points.size(), .new_points = filled.tets.new_points, .tetrahedra = filled.tets.tetrahedra};
+}
+
+[[noreturn]] void refuse(const InputPath& file, std::string problem) {
+  throw Error({.code = ErrorCode::file_malformed, .attempted = "reading the steps of a run in " + file.name, .problem = std::move(problem)});
+}
+
+volmesh::Envelope envelope_of(io::StoredEnvelope file_envelope, const InputPath& file) {
+  volmesh::Envelope envelope;
+  envelope.direction = std::move(file_envelope.direction);
+  envelope.height = std::move(file_envelope.height);
+  envelope.target = std::move(file_envelope.target);
+  envelope.eq1 = std::move(file_envelope.eq1);
+  envelope.cap = std::move(file_envelope.cap);
+  for (const std::uint8_t limit : file_envelope.limit) {
+    if (limit >= volmesh::k_height_limits)
+      refuse(file, "found the limit " + std::to_string(limit) + " of a height, there are " + std::to_string(volmesh::k_height_limits));
+    envelope.limit.push_back(static_cast<volmesh::HeightLimit>(limit));
+  }
+  return envelope;
+}
+
+/// The mesh without what came behind its layer: the first `n_outer` nodes behind the lines stay.
+HybridMesh layers_of(HybridMesh mesh, std::uint64_t n_boundary_points, const InputPath& file) {
+  const std::size_t n_lines = mesh.layers.n_lines();
+  std::size_t n_nodes = 0;
+  for (std::uint32_t line = 0; line < n_lines; ++line) n_nodes = std::max(n_nodes, mesh.layers.top(line).index() + 1);
+  if (n_boundary_points < n_lines || n_boundary_points - n_lines > mesh.points.size() - n_nodes)
+    refuse(file, "found tetrahedra within " + std::to_string(n_boundary_points) + " points of a boundary, but a mesh of " + std::to_string(n_lines) +
+                     " lines and " + std::to_string(mesh.points.size()) + " nodes");
+  mesh.points.raw().resize(n_nodes + (n_boundary_points - n_lines));
+  mesh.tetrahedra.clear();
+  return mesh;
+}
+
+// ---- The rest is JSON ----------------------------------------------------------------------------------------------------------------------
+
+Json stage_json(const volmesh::EnvelopeStage& envelope, std::int64_t n_wall_triangles) {
+  return {{"feature_angle", envelope.feature_angle}, {"wall_triangles", n_wall_triangles}};
+}
+
+Json stage_json(const volmesh::FilledStage& filled, std::int64_t n_wall_triangles) {
+  Json json = stage_json(filled.envelope, n_wall_triangles);
+  json["engine"] = filled.tets.engine;
+  json["is_two_pass"] = filled.tets.is_two_pass;
+  json["is_reproducible"] = filled.tets.is_reproducible;
+  json["failures"] = filled.tetra_failures;
+  json["curving_shares"] = filled.curving_shares;
+  json["boundary_triangles_added_by_splits"] = filled.n_split_triangles;
+  return json;
+}
+
+/// Of placed parts: the thickness that their layers have at most where nobody says so, by their own lengths, which do not change with their attitude or what is
+/// beside them.
+std::vector<volmesh::PatchRule> thickness_rules(const SurfaceValue& wall, const volmesh::MeshCase& options) {
+  std::vector<volmesh::PatchRule> rules;
+  if (!is_automatic(options.envelope.max_thickness)) return rules;
+  for (const volmesh::PlacedPart& part : wall.parts) {
+    const double thickness = volmesh::k_default_thickness_share * body_length(*part.own);
+    for (const Patch& patch : part.own->patches) {
+      const auto known = std::ranges::find_if(rules, [&](const volmesh::PatchRule& rule) { return rule.names == patch.name; });
+      if (known == rules.end()) rules.push_back({.names = patch.name, .max_thickness = thickness});
+      else known->max_thickness = std::max(known->max_thickness, thickness);
+    }
+  }
+  return rules;
+}
+
+/// What is asked of patches: by default of placed parts, by the makers of the wall, by the user; what comes later wins.
+std::vector<volmesh::PatchRule> rules_of(const SurfaceValue& wall, const volmesh::MeshCase& options) {
+  std::vector<volmesh::PatchRule> rules = thickness_rules(wall, options);
+  rules.insert(rules.end(), wall.layers.begin(), wall.layers.end());
+  rules.insert(rules.end(), options.patches.begin(), options.patches.end());
+  return rules;
+}
+
+/// What a run that is not ready knows of itself; a finished one has its manifest.
+std::string unfinished_json(const SurfaceValue& wall, const volmesh::MeshCase& options, Json stage) {
+  surfmesh::StitchOptions surface_options = wall.options;
+  volmesh::MeshCase volume_options = options;
+  Json json = {{"schema", "sterna-stage-1"}, {"program", "sterna " STERNA_VERSION}, {"inputs", Json::array()}};
+  for (const InputFile& input : wall.inputs) json["inputs"].push_back({{"file", input.name}, {"xxh3_128", input.hash}});
+  OptionTable table = all_options(surface_options, volume_options);
+  SurfaceRecipe recipe = wall.recipe.value_or(SurfaceRecipe{});
+  if (wall.recipe)
+    for (Option& option : sterna::options_of(recipe.options)) table.push_back(std::move(option));
+  json["options"] = Json::parse(options_to_json(table));
+  if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
+  if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
+  if (wall.smooth_angle) json["wall"] = {{"max_smooth_angle", *wall.smooth_angle}};
+  if (const std::vector<volmesh::PatchRule> rules = rules_of(wall, options); !rules.empty()) json["patch_rules"] = Json::parse(layer_rules_json(rules));
+  json["sources"] = options.sources.size();
+  if (!options.discs.empty()) json["actuator_discs"] = Json::parse(discs_json(options.discs));
+  if (!options.periodic.empty()) json["periodic"] = Json::parse(periodic_json(options.periodic));
+  json["stage"] = std::move(stage);
+  return json.dump(2) + "\n";
+}
+
+/// Members of the JSON in a file, each of the type that it must have.
+class StageJson {
+ public:
+  StageJson(const std::string& text, const InputPath& file) : file_(file), json_(Json::parse(text, nullptr, false)) {
+    if (json_.is_discarded() || !json_.is_object()) refuse(file_, "its manifest is not JSON");
+  }
+
+  template <class T>
+  T get(const std::string& pointer) const {
+    try {
+      return json_.at(Json::json_pointer(pointer)).get<T>();
+    } catch (const Json::exception& error) {
+      refuse(file_, "its manifest has no proper " + pointer + ": " + error.what());
+    }
+  }
+
+  std::vector<InputFile> inputs() const {
+    std::vector<InputFile> result;
+    for (std::size_t i = 0; i < get<Json::array_t>("/inputs").size(); ++i)
+      result.push_back({get<std::string>("/inputs/" + std::to_string(i) + "/file"), get<std::string>("/inputs/" + std::to_string(i) + "/xxh3_128")});
+    return result;
+  }
+
+  void read_options(const OptionTable& options) const {
+    for (const Option& option : options) {
+      const std::string pointer = "/options/" + std::string(option.stage) + "/" + std::string(option.name);
+      if (!json_.contains(Json::json_pointer(pointer))) continue;  // of a version that did not have it: as it is without
+      const Json& value = json_.at(Json::json_pointer(pointer));
+      set_option_from_text(option, value.is_string() ? value.get<std::string>() : value.dump());
+    }
+  }
+
+  std::vector<volmesh::PatchRule> patch_rules() const {
+    return json_.contains("patch_rules") ? layer_rules_of_json(json_.at("patch_rules").dump()) : std::vector<volmesh::PatchRule>{};
+  }
+
+  volmesh::EnvelopeStep step() const {
+    return json_.contains(Json::json_pointer("/stage/step")) ? volmesh::envelope_step_of(get<std::string>("/stage/step")) : volmesh::EnvelopeStep::finished;
+  }
+
+  /// Of a wall that surface_mesh made.
+  std::optional<SurfaceRecipe> recipe() const {
+    if (!json_.contains(Json::json_pointer("/options/surface_mesh"))) return std::nullopt;
+    SurfaceRecipe result;
+    read_options(sterna::options_of(result.options));
+    if (json_.contains("surface_patches")) result.patches = patch_rules_of_json(json_.at("surface_patches").dump());
+    if (json_.contains("surface_sources")) result.sources_text = json_.at("surface_sources").dump();
+    return result;
+  }
+
+  /// Of a wall that surface_mesh made, in this run or an earlier one. Radians.
+  std::optional<double> smooth_angle() const {
+    if (!json_.contains(Json::json_pointer("/wall/max_smooth_angle"))) return std::nullopt;
+    return get<double>("/wall/max_smooth_angle");
+  }
+
+  std::vector<volmesh::ActuatorDisc> discs() const {
+    const auto found = json_.find("actuator_discs");
+    return found == json_.end() ? std::vector<volmesh::ActuatorDisc>() : discs_of_json(found->dump());
+  }
+
+  std::vector<volmesh::PeriodicNames> periodic() const {
+    const auto found = json_.find("periodic");
+    return found == json_.end() ? std::vector<volmesh::PeriodicNames>() : periodic_of_json(found->dump());
+  }
+
+  /// Finished runs list them, the others count them.
+  std::size_t n_sources() const {
+    const auto found = json_.find("sources");
+    return found == json_.end() ? 0 : found->is_array() ? found->size() : get<std::size_t>("/sources");
+  }
+
+ private:
+  const InputPath& file_;
+  Json json_;
+};
+
+volmesh::FilledStage filled_of(const StageJson& json, volmesh::EnvelopeStage envelope, io::SternaContent& content, const InputPath& file) {
+  volmesh::FilledStage filled;
+  filled.envelope = std::move(envelope);
+  filled.layers = layers_of(*content.mesh, content.tetrahedra->n_boundary_points, file);
+  filled.tets.new_points = std::move(content.tetrahedra->new_points);
+  filled.tets.tetrahedra = std::move(content.tetrahedra->tetrahedra);
+  filled.tets.engine = json.get<std::string>("/stage/engine");
+  filled.tets.is_two_pass = json.get<bool>("/stage/is_two_pass");
+  filled.tets.is_reproducible = json.get<bool>("/stage/is_reproducible");
+  filled.tetra_failures = json.get<std::vector<std::string>>("/stage/failures");
+  filled.curving_shares = json.get<std::array<std::int64_t, 5>>("/stage/curving_shares");
+  filled.n_split_triangles = json.get<std::int64_t>("/stage/boundary_triangles_added_by_splits");
+  return filled;
+}
+
+SurfaceHandle surface_of(TriMesh mesh, std::vector<InputFile> inputs, const RunContext& context) {
+  auto surface = std::make_shared<SurfaceValue>();
+  surface->report.n_triangles_read = static_cast<std::int64_t>(mesh.n_triangles());
+  surface->report.n_vertices_read = static_cast<std::int64_t>(mesh.n_vertices());
+  surface->report.is_closed = Topology(mesh, context).n_boundary_halfedges() == 0;
+  surface->mesh = std::move(mesh);
+  surface->inputs = std::move(inputs);
+  return surface;
+}
+
+MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, const volmesh::MeshCase& options, volmesh::VolumeMeshResult result) {
+  MeshValue value;
+  value.mesh = std::move(result.mesh);
+  value.inputs = wall.inputs;
+  value.check = std::move(result.check);
+  value.origin = MeshOrigin{.surface_options = wall.options,
+                            .union_options = wall.union_options,
+                            .recipe = wall.recipe,
+                            .smooth_angle = wall.smooth_angle,
+                            .options = options,
+                            .layer = std::move(result.layer),
+                            .certificate = std::move(result.certificate),
+                            .n_wall_triangles = n_wall_triangles,
+                            .improvement = std::move(result.improvement),
+                            .tetra_engine = result.tetra_engine,
+                            .tetra_failures = result.tetra_failures,
+                            .n_split_triangles = result.n_split_triangles,
+                            .is_reproducible = result.is_reproducible,
+                            .tetra_engine_seconds = result.tetra_engine_seconds,
+                            .tetra_engine_peak_bytes = result.tetra_engine_peak_bytes};
+  return value;
+}
+
+std::int64_t n_triangles(const SurfaceValue& surface) { return static_cast<std::int64_t>(surface.mesh.n_triangles()); }
+
+// ---- Writing -------------------------------------------------------------------------------------------------------------------------------
+
+void write_envelope(const SurfaceValue& wall, const volmesh::MeshCase& options, const volmesh::EnvelopeStage& stage, const std::filesystem::path& path,
+                    const RunContext& context, volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished) {
+  const StageTimer timer(context, "write");
+  const io::StoredEnvelope envelope = stored(stage.envelope, wall.mesh, options.first_heights.get());
+  Json json = stage_json(stage, n_triangles(wall));
+  if (step != volmesh::EnvelopeStep::finished) json["step"] = volmesh::to_string(step);
+  io::write_sterna(
+      {.surface = &wall.mesh, .farfield = options.farfield_surface.get(), .envelope = &envelope, .manifest = unfinished_json(wall, options, std::move(json))},
+      path, context);
+}
+
+void write_filled(const SurfaceValue& wall, std::int64_t n_wall_triangles, const volmesh::MeshCase& options, const volmesh::FilledStage& stage,
+                  const std::filesystem::path& path, const RunContext& context) {
+  const StageTimer timer(context, "write");
+  const TriMesh& surface = stage.split_wall ? *stage.split_wall : wall.mesh;
+  const io::StoredEnvelope envelope = stored(stage.envelope.envelope, surface, options.first_heights.get());
+  const io::StoredTetrahedra tetrahedra = stored(stage);
+  io::write_sterna({.surface = &surface,
+                    .farfield = options.farfield_surface.get(),
+                    .envelope = &envelope,
+                    .tetrahedra = &tetrahedra,
+                    .mesh = &stage.layers,
+                    .manifest = unfinished_json(wall, options, stage_json(stage, n_wall_triangles))},
+                   path, context);
+}
+
+/// What is left of a stage when its layer has become the mesh.
+struct FinishedParts {
+  std::optional<TriMesh> split_wall;
+  io::StoredEnvelope envelope;
+  io::StoredTetrahedra tetrahedra;
+  Json json;
+};
+
+void write_finished(const SurfaceValue& wall, const FinishedParts& parts, const MeshValue& mesh, const std::filesystem::path& path, const RunContext& context) {
+  const StageTimer timer(context, "write");
+  Json manifest = Json::parse(manifest_json(mesh, path, context.seed()));
+  manifest["stage"] = parts.json;
+  io::write_sterna({.surface = parts.split_wall ? &*parts.split_wall : &wall.mesh,
+                    .farfield = mesh.origin->options.farfield_surface.get(),
+                    .envelope = &parts.envelope,
+                    .tetrahedra = &parts.tetrahedra,
+                    .mesh = &mesh.mesh,
+                    .manifest = manifest.dump(2) + "\n",
+                    .certificate = certificate_json(mesh.origin->certificate),
+                    .quality = to_json(*mesh.check)},
+                   path, context);
+}
+
+}  // namespace
+
+OptionTable envelope_options(volmesh::MeshCase& options) { return volmesh::options_of(options, volmesh::k_envelope_step); }
+OptionTable tetrahedra_options(volmesh::MeshCase& options) { return volmesh::options_of(options, volmesh::k_tetrahedra_step); }
+OptionTable finish_options(volmesh::MeshCase& options) { return volmesh::options_of(options, volmesh::k_finish_step); }
+
+volmesh::MeshCase knowing(const SurfaceValue& wall, volmesh::MeshCase options) {
+  if (wall.smooth_angle) options.smooth_angle = *wall.smooth_angle;
+  if (!options.first_heights) options.parts = wall.parts;  // else their layers depend on where they are
+  options.patches = rules_of(wall, options);
+  return options;
+}
+
+EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse) {
+  warn_of_other_member(*wall, options, context);
+  return {.wall = wall, .options = options, .stage = cached_envelope(*wall, knowing(*wall, options), reuse, context)};
+}
+
+TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse) {
+  require_ready(envelope, options, context);
+  if (envelope.n_sources_in_file > 0 && options.sources.empty())
+    context.warn("the run that made this envelope had " + std::to_string(envelope.n_sources_in_file) +
+                 " sources of the size field; a file does not keep them: give them again");
+  const SurfaceValue& wall = *envelope.wall;
+  return {.wall = envelope.wall,
+          .n_wall_triangles = n_triangles(wall),
+          .options = options,
+          .stage = cached_tetrahedra(wall, envelope.stage, knowing(wall, options), reuse, context)};
+}
+
+MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse) {
+  return mesh_value(*tetrahedra.wall, tetrahedra.n_wall_triangles, options,
+                    cached_finish(*tetrahedra.wall, tetrahedra.stage, knowing(*tetrahedra.wall, options), reuse, context));
+}
+
+MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& options, const std::filesystem::path& stages, const RunContext& context,
+                           const Reuse& reuse) {
+  warn_of_other_member(wall, options, context);
+  if (stages.empty()) return mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall, knowing(wall, options), {}, reuse, context));
+  require_stage_output(stages);
+  FinishedParts parts;
+  const volmesh::StageWatch watch{
+      .envelope = {},
+      .enveloped = [&](const volmesh::EnvelopeStage& stage) { write_envelope(wall, options, stage, stages, context.part("stages", 0.0, 0.0)); },
+      .filled =
+          [&](const volmesh::FilledStage& stage) {
+            write_filled(wall, n_triangles(wall), options, stage, stages, context.part("stages", 0.0, 0.0));
+            parts = {.split_wall = stage.split_wall,
+                     .envelope = stored(stage.envelope.envelope, stage.split_wall ? *stage.split_wall : wall.mesh, options.first_heights.get()),
+                     .tetrahedra = stored(stage),
+                     .json = stage_json(stage, n_triangles(wall))};
+          }};
+  MeshValue mesh = mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall, knowing(wall, options), watch, reuse, context));
+  write_finished(wall, parts, mesh, stages, context.part("stages", 1.0, 1.0));
+  return mesh;
+}
+
+StageContent read_stages(const InputPath& file, const RunContext& context) {
+  const StageTimer timer(context, "read");
+  io::SternaContent content = io::read_sterna(file.path, context);
+  StageContent result;
+  if (content.surface && !content.envelope) result.surface = surface_of(std::move(*content.surface), {{file.name, io::hash_input(file.path)}}, context);
+  if (content.envelope) {
+    if (content.manifest.empty()) refuse(file, "found an envelope, but not the options that made it");
+    const StageJson json(content.manifest, file);
+    auto wall = std::make_shared<SurfaceValue>(*surface_of(std::move(*content.surface), json.inputs(), context));
+    volmesh::MeshCase options;
+    json.read_options(all_options(wall->options, options));
+    options.discs = json.discs();
+    options.periodic = json.periodic();
+    options.patches = json.patch_rules();
+    if (content.farfield) options.farfield_surface = std::make_shared<const TriMesh>(std::move(*content.farfield));
+    if (!content.envelope->first_height.empty())
+      options.first_heights = std::make_shared<const volmesh::FirstHeights>(wall->mesh, std::move(content.envelope->first_height), context);
+    wall->recipe = json.recipe();
+    wall->smooth_angle = json.smooth_angle();
+    result.surface = wall;
+    volmesh::EnvelopeStage envelope{.envelope = envelope_of(std::move(*content.envelope), file), .feature_angle = json.get<double>("/stage/feature_angle")};
+    result.envelope = std::make_shared<const EnvelopeValue>(
+        EnvelopeValue{.wall = wall, .options = options, .stage = envelope, .step = json.step(), .n_sources_in_file = json.n_sources()});
+    if (content.tetrahedra && content.mesh)
+      result.tetrahedra = std::make_shared<const TetrahedraValue>(TetrahedraValue{.wall = wall,
+                                                                                  .n_wall_triangles = json.get<std::int64_t>("/stage/wall_triangles"),
+                                                                                  .options = options,
+                                                                                  .stage = filled_of(json, std::move(envelope), content, file)});
+  }
+  if (content.mesh && count_cells(*content.mesh).total() > 0 && !(result.tetrahedra && content.mesh->tetrahedra.empty())) {
+    MeshValue mesh;
+    mesh.mesh = std::move(*content.mesh);
+    mesh.inputs.push_back({file.name, io::hash_input(file.path)});
+    result.mesh = std::make_shared<const MeshValue>(std::move(mesh));
+  }
+  return result;
+}
+
+void write_stage(const EnvelopeValue& envelope, const std::filesystem::path& path, const RunContext& context) {
+  require_stage_output(path);
+  if (envelope.step == volmesh::EnvelopeStep::classified)
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "writing " + path.string(),
+                 .problem = "classes alone are not kept",
+                 .hint = "write the value of envelope.initial"});
+  write_envelope(*envelope.wall, envelope.options, envelope.stage, path, context, envelope.step);
+}
+
+void write_stage(const TetrahedraValue& tetrahedra, const std::filesystem::path& path, const RunContext& context) {
+  require_stage_output(path);
+  write_filled(*tetrahedra.wall, tetrahedra.n_wall_triangles, tetrahedra.options, tetrahedra.stage, path, context);
+}
+
+void require_stage_output(const std::filesystem::path& path) {
+  if (path.extension() != ".sterna")
+    throw Error({.code = ErrorCode::bad_argument,
+                 .attempted = "writing " + path.string(),
+                 .problem = "steps of a run are written to .sterna files only, not to \"" + path.extension().string() + "\""});
+  require_mesh_output(path);
+}
+
+namespace {
+
+std::string describe_classes(const volmesh::Classification& classes) {
+  const auto count = [&](bool volmesh::VertexClass::*flag) {
+    return count_text(std::count_if(classes.vertex.begin(), classes.vertex.end(), [&](const volmesh::VertexClass& v) { return v.*flag; }));
+  };
+  return fmt::format("Classification: {} vertices, {} on ridges, {} corners, {} convex, {} concave, feature angle {:.4g} deg",
+                     count_text(static_cast<std::int64_t>(classes.vertex.size())), count(&volmesh::VertexClass::is_ridge),
+                     count(&volmesh::VertexClass::is_corner), count(&volmesh::VertexClass::is_convex), count(&volmesh::VertexClass::is_concave),
+                     classes.feature_angle * 180.0 / std::numbers::pi);
+}
+
+}  // namespace
+
+std::string describe(const EnvelopeValue& envelope) {
+  if (envelope.classes) return describe_classes(*envelope.classes);
+  const auto& heights = envelope.stage.envelope.height;
+  const auto n_collapsed = std::count(heights.begin(), heights.end(), 0.0);
+  return fmt::format("Envelope{}: {} vertices, {} collapsed, {}, up to {:.6g} m tall",
+                     envelope.step == volmesh::EnvelopeStep::finished ? "" : ", " + std::string(to_string(envelope.step)),
+                     count_text(static_cast<std::int64_t>(heights.size())), count_text(n_collapsed),
+                     envelope.options.patches.empty() ? fmt::format("{} layers", volmesh::effective_options(envelope.options, RunContext()).envelope.layers)
+                                                      : "layers by patch",
+                     heights.size() == 0 ? 0.0 : *std::max_element(heights.begin(), heights.end()));
+}
+
+std::string describe(const TetrahedraValue& tetrahedra) {
+  const volmesh::TetraResult& tets = tetrahedra.stage.tets;
+  return fmt::format("Tetrahedra: {} tetrahedra, {} points of their own, by {}, around a layer of {} columns",
+                     count_text(static_cast<std::int64_t>(tets.tetrahedra.size())), count_text(static_cast<std::int64_t>(tets.new_points.size())), tets.engine,
+                     count_text(static_cast<std::int64_t>(tetrahedra.stage.layers.layers.n_columns())));
+}
+
+}  // namespace sterna::scripting

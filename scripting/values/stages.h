@@ -1,0 +1,73 @@
+// A volume mesh step by step: values between the steps, which a .sterna file holds, so that a run can be stopped and continued to the same bytes.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+
+#include "scripting/cache/reuse.h"
+#include "scripting/lua/handles.h"
+#include "scripting/values/verbs.h"
+#include "volmesh/envelope/steps.h"
+#include "volmesh/stages.h"
+
+namespace sterna::scripting {
+
+/// The envelope of a wall, with all that the rest of the run needs.
+struct EnvelopeValue {
+  SurfaceHandle wall;
+  volmesh::MeshCase options;
+  volmesh::EnvelopeStage stage;
+  volmesh::EnvelopeStep step = volmesh::EnvelopeStep::finished;  ///< of make_envelope by hand (envelope_steps.h): what has been done to it
+  std::shared_ptr<const volmesh::Classification> classes = {};   ///< of the step "classified", which has nothing else
+  std::size_t n_sources_in_file = 0;                             ///< of the run that wrote the file that this was read from; `options` do not have them
+};
+
+/// Layer and tetrahedra, not yet one mesh.
+struct TetrahedraValue {
+  SurfaceHandle wall;
+  std::int64_t n_wall_triangles = 0;  ///< as they were given, before any were split
+  volmesh::MeshCase options;
+  volmesh::FilledStage stage;
+};
+
+/// What each of the three steps takes. The arguments must outlive the tables.
+OptionTable envelope_options(volmesh::MeshCase& options);
+OptionTable tetrahedra_options(volmesh::MeshCase& options);
+OptionTable finish_options(volmesh::MeshCase& options);
+
+/// The options with what the wall itself knows: turns where it is smooth, rules for its patches, the model that it is of.
+volmesh::MeshCase knowing(const SurfaceValue& wall, volmesh::MeshCase options);
+
+/// \throws Error of volmesh::make_envelope, make_tetrahedra, finish_mesh.
+EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse = {});
+TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse = {});
+MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse = {});
+
+/// make_volume_mesh() that leaves surface, envelope, tetrahedra and at last the mesh, its manifest, certificate and quality in a .sterna file, which is
+/// replaced as each step ends; nothing is written without a name.
+MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& options, const std::filesystem::path& stages, const RunContext& context,
+                           const Reuse& reuse = {});
+
+/// What a .sterna file holds; null where it does not. An envelope in a file with tetrahedra is the one that their layer has, of its wall with splits.
+struct StageContent {
+  SurfaceHandle surface;
+  EnvelopeHandle envelope;
+  TetrahedraHandle tetrahedra;
+  MeshHandle mesh;
+};
+/// \throws Error of io; file_malformed where parts do not belong together or options are missing.
+StageContent read_stages(const InputPath& file, const RunContext& context);
+
+/// Writes a step's value to a .sterna file. \throws Error of io; bad_argument for another extension.
+void write_stage(const EnvelopeValue& envelope, const std::filesystem::path& path, const RunContext& context);
+void write_stage(const TetrahedraValue& tetrahedra, const std::filesystem::path& path, const RunContext& context);
+
+/// Throws Error(bad_argument) unless steps can be written to a file of this name.
+void require_stage_output(const std::filesystem::path& path);
+
+/// One line each.
+std::string describe(const EnvelopeValue& envelope);
+std::string describe(const TetrahedraValue& tetrahedra);
+
+}  // namespace sterna::scripting

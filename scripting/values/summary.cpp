@@ -1,0 +1,202 @@
+#include "scripting/values/summary.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "geom/math/constants.h"
+#include "scripting/values/layer_json.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr double k_bytes_per_mb = 1e6;
+constexpr std::size_t k_listed_places = 10;   ///< collapsed vertices in the summary; the manifest has all
+constexpr std::size_t k_listed_patches = 10;  ///< patches in the summary, worst covered first
+
+std::string counted(std::int64_t n, std::string_view one, std::string_view many) { return count_text(n) + " " + std::string(n == 1 ? one : many); }
+
+std::string verdict_text(const MeshValue& mesh) {
+  if (!mesh.check) return "not checked";
+  return mesh.check->is_valid() ? "VALID" : "INVALID";
+}
+
+std::int64_t n_nodes(const MeshValue& mesh) { return static_cast<std::int64_t>(mesh.mesh.points.size()); }
+
+/// The patches that are not covered to their full height, worst first; nothing for a wall of one patch.
+std::string patch_text(const volmesh::LayerReport& layer) {
+  std::vector<volmesh::PatchCoverage> patches = layer.patches;
+  if (patches.size() < 2) return "";
+  std::erase_if(patches, [](const volmesh::PatchCoverage& patch) { return patch.full >= 1.0; });
+  std::stable_sort(patches.begin(), patches.end(), [](const auto& a, const auto& b) { return a.full < b.full; });
+  patches.resize(std::min(patches.size(), k_listed_patches));
+  std::string text;
+  for (const volmesh::PatchCoverage& patch : patches)
+    text += fmt::format("    patch {}: {:.2f} % full, {:.2f} % compressed, {:.2f} % collapsed\n", patch.name, 100.0 * patch.full, 100.0 * patch.compressed,
+                        100.0 * patch.collapsed);
+  return text;
+}
+
+/// Time outside the engine: what this program itself needs.
+double rest_seconds(const MeshValue& mesh, const RunMeasure& measure) { return measure.wall_seconds - mesh.origin->tetra_engine_seconds; }
+
+}  // namespace
+
+std::string count_text(std::int64_t n) {
+  std::string digits = std::to_string(n);
+  for (std::ptrdiff_t i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > (n < 0 ? 1 : 0); i -= 3) digits.insert(static_cast<std::size_t>(i), 1, ' ');
+  return digits;
+}
+
+std::string describe(const SurfaceValue& surface) {
+  const Box box = bounding_box(surface.mesh);
+  return fmt::format("TriMesh: {}, {}, {}, {:.6g} m long", counted(static_cast<std::int64_t>(surface.mesh.n_triangles()), "triangle", "triangles"),
+                     surface.report.is_closed ? "closed" : "open", counted(static_cast<std::int64_t>(surface.mesh.patches.size()), "patch", "patches"),
+                     box.empty() ? 0.0 : box.longest_side());
+}
+
+std::string describe(const MeshValue& mesh) {
+  const CellCounts cells = count_cells(mesh.mesh);
+  std::string text = "HybridMesh: " + counted(n_nodes(mesh), "node", "nodes");
+  if (cells.prisms > 0) text += ", " + counted(cells.prisms, "prism", "prisms");
+  if (cells.pyramids > 0) text += ", " + counted(cells.pyramids, "pyramid", "pyramids");
+  if (cells.tetrahedra > 0) text += ", " + counted(cells.tetrahedra, "tetrahedron", "tetrahedra");
+  if (cells.hexahedra > 0) text += ", " + counted(cells.hexahedra, "hexahedron", "hexahedra");
+  return text + ", " + counted(static_cast<std::int64_t>(mesh.mesh.patches.size()), "patch", "patches") + ", " + verdict_text(mesh);
+}
+
+double peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024.0;  // Linux counts in KiB
+}
+
+std::string quality_text(const CheckReport& report) {
+  const auto gates_in = [&](GateState state) {
+    std::string text;
+    std::string_view last;
+    for (const GateResult& gate : report.gates) {
+      if (gate.state != state || info_of(gate.measure).gate == last) continue;
+      last = info_of(gate.measure).gate;
+      text += " " + std::string(last);
+    }
+    return text;
+  };
+  const std::string failed = gates_in(GateState::fail), warned = gates_in(GateState::warn);
+  std::string text = "quality ";
+  if (failed.empty() && warned.empty()) return text + std::string(to_string(report.quality_state()));
+  if (!failed.empty()) text += "FAIL:" + failed;
+  if (!warned.empty()) text += (failed.empty() ? "warn:" : "; warn:") + warned;
+  return text;
+}
+
+std::string summary_text(const MeshValue& mesh) {
+  const CellCounts cells = count_cells(mesh.mesh);
+  const volmesh::LayerReport& layer = mesh.origin->layer;
+  std::string text = fmt::format("  wall        {} triangles, body length {:.6g} m\n", count_text(mesh.origin->n_wall_triangles), layer.body_length);
+  text += fmt::format("  mesh        {} nodes: {} prisms in {}{} layers, {} pyramids, {} tetrahedra\n", count_text(n_nodes(mesh)), count_text(cells.prisms),
+                      mesh.mesh.layers.is_uniform() ? "" : "up to ", mesh.mesh.layers.n_layers, count_text(cells.pyramids), count_text(cells.tetrahedra));
+  if (mesh.origin->n_split_triangles > 0)
+    text += fmt::format("  splits      {} more triangles on wall and farfield, made for the tetrahedra\n", count_text(mesh.origin->n_split_triangles));
+  text += fmt::format("  layer       {:.2f} % of the area at its full height, mean height {:.4g} m\n", 100.0 * layer.coverage, layer.mean_height);
+  for (const auto& [reason, share] : layer.lost_area) text += fmt::format("              {:.2f} % below: {}\n", 100.0 * share, reason);
+  text += fmt::format("  compressed  {:.2f} % of the area, {} of {} vertices (total height below layers x first height)\n", 100.0 * layer.compressed_area,
+                      count_text(layer.n_compressed), count_text(layer.n_vertices));
+  const std::int64_t n_full = layer.first_node.n_lines - layer.first_node.n_compressed - layer.first_node.n_collapsed;
+  if (n_full == 0) text += "  first node  no line is full: first_height is met nowhere\n";
+  else
+    text += fmt::format(
+        "  first node  within 2 % of first_height at {:.2f} % of the full lines, on {:.2f} % of the facets off ridges ({:.2f} % of the area is at ridges)\n",
+        100.0 * layer.first_node.vertex_share, 100.0 * layer.first_node.facet_share, 100.0 * layer.first_node.ridge_area);
+  text += fmt::format(
+      "  interface   last layer between 1/3 and 3 heights of a regular tetrahedron on {:.2f} % of the envelope ({:.2f} % where the layer is full); {:.2f} % "
+      "thinner, {:.2f} % thicker\n",
+      100.0 * layer.interface.within, 100.0 * layer.interface.within_of_full, 100.0 * layer.interface.below, 100.0 * layer.interface.above);
+  text += fmt::format("  collapsed   {:.2f} % of the area, {}\n", 100.0 * layer.collapsed_area,
+                      counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"));
+  for (std::size_t i = 0; i < std::min(layer.collapsed.size(), k_listed_places); ++i)
+    text += "    at " + format_point(layer.collapsed[i].position) + ": " + layer.collapsed[i].what + "\n";
+  if (layer.collapsed.size() > k_listed_places)
+    text += fmt::format("    and {} more, all in the manifest\n", count_text(static_cast<std::int64_t>(layer.collapsed.size() - k_listed_places)));
+  text += patch_text(layer);
+  text += "  certificate " + to_text(mesh.origin->certificate) + "\n";
+  const volmesh::ImproveReport& improvement = mesh.origin->improvement;
+  text += fmt::format("  angles      of tetrahedra {:.3g} to {:.4g} deg; {} beyond the limits, {} before improvement", k_degrees * improvement.min_angle_after,
+                      k_degrees * improvement.max_angle_after, count_text(improvement.n_bad_after), count_text(improvement.n_bad_before));
+  const std::int64_t n_unforced = improvement.n_bad_after - improvement.n_bad_free_after - improvement.n_forced;
+  if (improvement.n_bad_after > 0)
+    text += fmt::format("\n              of these {} away from the boundary, {} forced by it, {} neither ({:.2g} % of the tetrahedra at the boundary)",
+                        count_text(improvement.n_bad_free_after), count_text(improvement.n_forced), count_text(n_unforced),
+                        100.0 * static_cast<double>(n_unforced) / static_cast<double>(std::max<std::int64_t>(1, improvement.n_at_boundary)));
+  return text + "\n  verdict     " + verdict_text(mesh) + (mesh.check && mesh.check->quality_measured ? ", " + quality_text(*mesh.check) : "");
+}
+
+std::string measure_text(const MeshValue& mesh, const RunMeasure& measure) {
+  std::string text = fmt::format("  seconds     {:.2f} in all on {} threads: {:.2f} in {}, {:.2f} the rest\n", measure.wall_seconds, measure.threads,
+                                 mesh.origin->tetra_engine_seconds, mesh.origin->tetra_engine, rest_seconds(mesh, measure));
+  text += fmt::format("  memory      {:.0f} MB at most here, {:.0f} MB in the engine's process\n", peak_memory_bytes() / k_bytes_per_mb,
+                      mesh.origin->tetra_engine_peak_bytes / k_bytes_per_mb);
+  text += "  stages     ";
+  for (const StageTime& stage : measure.stages) text += fmt::format(" {} {:.2f}", stage.stage, stage.seconds);
+  return text;
+}
+
+std::string stats_json(const MeshValue& mesh, const RunMeasure& measure) {
+  const CellCounts cells = count_cells(mesh.mesh);
+  const volmesh::LayerReport& layer = mesh.origin->layer;
+  nlohmann::ordered_json json;
+  json["schema"] = "sterna-stats-1";
+  json["program"] = "sterna " STERNA_VERSION;
+  json["triangles"] = mesh.origin->n_wall_triangles;
+  json["layers"] = mesh.mesh.layers.n_layers;
+  json["nodes"] = n_nodes(mesh);
+  json["prisms"] = cells.prisms;
+  json["pyramids"] = cells.pyramids;
+  json["tetrahedra"] = cells.tetrahedra;
+  json["body_length"] = layer.body_length;
+  json["coverage"] = layer.coverage;
+  json["target_over_eq1"] = layer.target_over_eq1;
+  json["mean_height_share"] = layer.mean_height_share;
+  json["mean_height"] = layer.mean_height;
+  json["lost_area"] = nlohmann::ordered_json::object();
+  for (const auto& [reason, share] : layer.lost_area) json["lost_area"][reason] = share;
+  json["vertices"] = layer.n_vertices;
+  json["compressed"] = layer.n_compressed;
+  json["collapsed"] = layer.collapsed.size();
+  json["layer"] = nlohmann::ordered_json::parse(layer_json(layer));
+  json["certificate"] = nlohmann::ordered_json::parse(certificate_json(mesh.origin->certificate));
+  const volmesh::ImproveReport& improvement = mesh.origin->improvement;
+  json["bad_tetrahedra_of_engine"] = improvement.n_bad_before;
+  json["bad_tetrahedra"] = improvement.n_bad_after;
+  json["bad_tetrahedra_off_boundary"] = improvement.n_bad_free_after;
+  json["bad_tetrahedra_forced"] = improvement.n_forced;
+  json["bad_tetrahedra_unforced"] = improvement.n_bad_after - improvement.n_bad_free_after - improvement.n_forced;
+  json["tetrahedra_at_boundary"] = improvement.n_at_boundary;
+  json["min_dihedral_deg"] = k_degrees * improvement.min_angle_after;
+  json["max_dihedral_deg"] = k_degrees * improvement.max_angle_after;
+  json["verdict"] = verdict_text(mesh);
+  json["measures"] = nlohmann::ordered_json::object();
+  if (mesh.check)
+    for (const GateResult& gate : mesh.check->gates) {
+      if (gate.state == GateState::not_checked) continue;
+      const MeasureInfo& info = info_of(gate.measure);
+      const double worst = in_report_unit(info, gate.worst);
+      json["measures"][std::string(info.name)] = {
+          {"state", to_string(gate.state)}, {"worst", std::isfinite(worst) ? nlohmann::ordered_json(worst) : nullptr}, {"share_within", gate.share_within}};
+    }
+  json["threads"] = measure.threads;
+  json["wall_seconds"] = measure.wall_seconds;
+  json["engine_seconds"] = mesh.origin->tetra_engine_seconds;
+  json["rest_seconds"] = rest_seconds(mesh, measure);
+  json["stage_seconds"] = nlohmann::ordered_json::object();
+  for (const StageTime& stage : measure.stages) json["stage_seconds"][stage.stage] = stage.seconds;
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  json["engine_peak_memory_bytes"] = mesh.origin->tetra_engine_peak_bytes;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace sterna::scripting

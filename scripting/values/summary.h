@@ -1,0 +1,39 @@
+// What a run says of itself: one-paragraph descriptions of surfaces and meshes, the closing summary, and the same as JSON for benchmarks.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scripting/values/verbs.h"
+
+namespace sterna::scripting {
+
+/// "316 204": groups of three digits.
+std::string count_text(std::int64_t n);
+
+/// "TriMesh: 316 204 triangles, closed, 7 patches"
+std::string describe(const SurfaceValue& surface);
+/// "HybridMesh: 248 181 nodes, 383 760 prisms, 131 799 tetrahedra, 3 patches, VALID"
+std::string describe(const MeshValue& mesh);
+
+/// Measured by the caller around a whole run; log and statistics only.
+struct RunMeasure {
+  double wall_seconds = 0.0;  ///< from opening the first input to the last renamed output
+  std::vector<StageTime> stages;
+  int threads = 0;
+};
+
+/// Peak resident memory of this process so far, bytes.
+double peak_memory_bytes();
+
+/// "quality pass", "quality FAIL: G5 G14; warn: G9", "quality not checked".
+std::string quality_text(const CheckReport& report);
+/// Several lines: sizes, coverage, compressed and collapsed vertices (each listed), verdict. \pre mesh.origin
+std::string summary_text(const MeshValue& mesh);
+/// Several lines: seconds in the tetrahedra engine and the rest, stages, memory. \pre mesh.origin
+std::string measure_text(const MeshValue& mesh, const RunMeasure& measure);
+/// Both as JSON, schema "sterna-stats-1". \pre mesh.origin
+std::string stats_json(const MeshValue& mesh, const RunMeasure& measure);
+
+}  // namespace sterna::scripting

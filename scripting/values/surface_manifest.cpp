@@ -1,0 +1,153 @@
+#include "scripting/values/surface_manifest.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "geom/base/error.h"
+#include "geom/math/constants.h"
+#include "geom/math/measures.h"
+#include "io/file/input_hash.h"
+#include "io/output/atomic_file.h"
+#include "scripting/values/model_surface.h"
+#include "scripting/values/patch_rules.h"
+
+namespace sterna::scripting {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* k_schema = "sterna-surface-1";
+
+std::filesystem::path manifest_of(const std::filesystem::path& file) { return file.string() + ".json"; }
+
+Json point_json(const Point& p) { return {p.x, p.y, p.z}; }
+
+Json faces_json(const surfmesh::SurfaceMeshReport& report) {
+  Json list = Json::array();
+  for (const surfmesh::FaceMeshSummary& face : report.faces) {
+    if (face.n_triangles == 0) continue;
+    list.push_back({{"face", face.face.value()},
+                    {"name", face.name},
+                    {"triangles", face.n_triangles},
+                    {"min_angle", k_degrees * face.min_angle},
+                    {"max_angle", k_degrees * face.max_angle},
+                    {"min_angle_at", point_json(face.worst_place)},
+                    {"outside_20_130", face.n_outside_20_130},
+                    {"max_normal_angle", k_degrees * face.max_normal_angle},
+                    {"normal_at", point_json(face.normal_place)}});
+  }
+  return list;
+}
+
+Json quality_json(const surfmesh::SurfaceMeshReport& report) {
+  Json json = {{"min_angle", k_degrees * report.min_angle},
+               {"max_angle", k_degrees * report.max_angle},
+               {"angle_quantile_1_percent", k_degrees * report.angle_quantile_1},
+               {"share_20_130", report.share_20_130},
+               {"mean_radius_ratio", report.mean_radius_ratio},
+               {"least_angles_by_10_degrees", report.least_angles}};
+  if (report.worst_face.is_valid()) {
+    const surfmesh::FaceMeshSummary& worst = report.faces[report.worst_face.index()];
+    json["worst"] = {{"face", worst.name}, {"at", point_json(worst.worst_place)}};
+  }
+  json["max_smooth_angle"] = {{"degrees", k_degrees * report.max_smooth_angle}, {"at", point_json(report.smooth_angle_place)}};
+  json["edges_to_surfaces"] = {{"metres", report.max_edge_distance}, {"at", point_json(report.edge_distance_place)}};
+  json["edges_beyond_tolerance"] = report.loose_edges.size();
+  json["share_normals_within_curvature_angle"] = report.share_normals;
+  json["crossings"] = report.n_crossings;
+  json["absorbed"] = Json::array();
+  for (const surfmesh::AbsorbedPart& part : report.absorbed)
+    json["absorbed"].push_back({{"what", part.what}, {"at", point_json(part.place)}, {"metres", part.size}});
+  json["faces"] = faces_json(report);
+  return json;
+}
+
+[[noreturn]] void refuse_manifest(const InputPath& file, const std::string& problem) {
+  throw Error(
+      {.code = ErrorCode::file_malformed, .attempted = "reading " + file.name + ".json", .problem = problem, .hint = "delete it, or write the surface anew"});
+}
+
+/// Normals point into the fluid: inwards all in all.
+bool encloses_fluid(const TriMesh& mesh) {
+  if (mesh.points.empty()) return false;
+  const Point origin = mesh.points[VertexId(0)];
+  double volume = 0.0;
+  for (const TriangleId t : mesh.triangles.ids()) {
+    const auto [a, b, c] = corners(mesh, t);
+    volume += tet_volume(origin, a, b, c);
+  }
+  return volume < 0.0;
+}
+
+std::map<std::string, PatchKind> kinds_of(const Json& json, const InputPath& file) {
+  std::map<std::string, PatchKind> kinds;
+  const Json list = json.value("patches", Json::array());
+  for (const Json& patch : list) {
+    const bool is_sound = patch.is_object() && patch.contains("name") && patch["name"].is_string() && patch.contains("kind") && patch["kind"].is_string();
+    bool is_known = false;
+    for (const PatchKind kind :
+         {PatchKind::wall, PatchKind::slip, PatchKind::symmetry, PatchKind::inflow, PatchKind::outflow, PatchKind::farfield, PatchKind::interface}) {
+      if (!is_sound || patch["kind"].get<std::string>() != to_string(kind)) continue;
+      kinds[patch["name"].get<std::string>()] = kind;
+      is_known = true;
+    }
+    if (!is_known) refuse_manifest(file, "an entry of its patches has no name, or no kind of patch");
+  }
+  return kinds;
+}
+
+}  // namespace
+
+std::string surface_manifest_json(const SurfaceValue& surface, const std::filesystem::path& written) {
+  const surfmesh::SurfaceMeshReport& report = *surface.mesh_report;
+  Json json = {{"schema", k_schema},
+               {"program", "sterna " STERNA_VERSION},
+               {"output", written.filename().string()},
+               {"output_xxh3_128", io::hash_input(written)},
+               {"inputs", Json::array()}};
+  for (const InputFile& input : surface.inputs) json["inputs"].push_back({{"file", input.name}, {"xxh3_128", input.hash}});
+  SurfaceRecipe recipe = surface.recipe.value_or(SurfaceRecipe{});
+  json["options"] = Json::parse(options_to_json(sterna::options_of(recipe.options)));
+  if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
+  json["patches"] = Json::array();
+  Column<PatchId, std::int64_t> n_triangles(surface.mesh.patches.size(), 0);
+  for (const PatchId patch : surface.mesh.triangle_patch) ++n_triangles[patch];
+  for (const PatchId patch : surface.mesh.patches.ids())
+    json["patches"].push_back(
+        {{"name", surface.mesh.patches[patch].name}, {"kind", to_string(surface.mesh.patches[patch].kind)}, {"triangles", n_triangles[patch]}});
+  if (!surface.layers.empty()) json["layers"] = Json::parse(layer_rules_json(surface.layers));
+  json["mesh"] = {{"vertices", surface.mesh.n_vertices()},
+                  {"triangles", surface.mesh.n_triangles()},
+                  {"closed", surface.report.is_closed},
+                  {"free_edges", report.n_free_edges},
+                  {"encloses_fluid", encloses_fluid(surface.mesh)}};
+  json["quality"] = quality_json(report);
+  return json.dump(2) + "\n";
+}
+
+void write_surface_manifest(const SurfaceValue& surface, const std::filesystem::path& written) {
+  io::write_whole(manifest_of(written), surface_manifest_json(surface, written));
+}
+
+std::optional<KnownSurface> read_surface_manifest(const InputPath& file, const std::string& hash, const RunContext& context) {
+  std::ifstream in(manifest_of(file.path), std::ios::binary);
+  if (!in) return std::nullopt;
+  const Json json = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}), nullptr, false);
+  if (!json.is_object() || json.value("schema", Json()) != k_schema) return std::nullopt;  // somebody else's file
+  if (json.value("output_xxh3_128", Json()) != hash) {
+    context.info(file.name + ".json is of another state of " + file.name + " and does not count");
+    return std::nullopt;
+  }
+  const Json::json_pointer pointer("/quality/max_smooth_angle/degrees");
+  if (!json.contains(pointer) || !json.at(pointer).is_number() || !(json.at(pointer).get<double>() >= 0.0 && json.at(pointer).get<double>() <= 180.0))
+    refuse_manifest(file, "its quality.max_smooth_angle.degrees is no angle");
+  const Json::json_pointer inside("/mesh/encloses_fluid");
+  const bool encloses = json.contains(inside) && json.at(inside).is_boolean() && json.at(inside).get<bool>();
+  return KnownSurface{json.at(pointer).get<double>() / k_degrees, kinds_of(json, file), encloses,
+                      layer_rules_of_json(json.value("layers", Json::array()).dump())};
+}
+
+}  // namespace sterna::scripting

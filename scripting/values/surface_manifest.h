@@ -1,0 +1,32 @@
+// The manifest beside a surface that surface_mesh made: what it was made of and how good it is, and what a later run can know of it.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scripting/values/verbs.h"
+
+namespace sterna::scripting {
+
+/// Schema sterna-surface-1: inputs with hashes, options, patches, sizes, quality with worst places (angles in degrees, as in reports), the hash of `written`.
+/// \pre surface.mesh_report; `written` is the finished file. \throws Error of io
+std::string surface_manifest_json(const SurfaceValue& surface, const std::filesystem::path& written);
+
+/// Writes it as "<written>.json".
+void write_surface_manifest(const SurfaceValue& surface, const std::filesystem::path& written);
+
+/// What the manifest beside a surface file knows of it.
+struct KnownSurface {
+  double smooth_angle = 0.0;               ///< rad: SurfaceMeshReport::max_smooth_angle
+  std::map<std::string, PatchKind> kinds;  ///< of its patches by name: surface formats do not hold them
+  bool encloses_fluid = false;             ///< its outermost part has normals inwards
+  std::vector<volmesh::PatchRule> layers;  ///< SurfaceValue::layers
+};
+/// Nothing where there is none, or where it is of another state of the file (`hash` differs), which is told in the log.
+/// \throws Error(file_malformed) where it is ours but its contents are not as they must be
+std::optional<KnownSurface> read_surface_manifest(const InputPath& file, const std::string& hash, const RunContext& context);
+
+}  // namespace sterna::scripting

@@ -1,0 +1,183 @@
+#include "scripting/values/verbs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "geom/base/error.h"
+#include "io/file/format_table.h"
+#include "io/file/input_hash.h"
+#include "io/file/surface_file.h"
+#include "io/file/volume_file.h"
+#include "io/output/atomic_file.h"
+#include "io/volume/sterna_file.h"
+#include "scripting/lua/quantity.h"
+#include "scripting/values/flow_verbs.h"
+#include "scripting/values/layer_json.h"
+#include "scripting/values/manifest.h"
+#include "scripting/values/summary.h"
+#include "scripting/values/surface_manifest.h"
+#include "scripting/values/wall_files.h"
+
+namespace sterna::scripting {
+namespace {
+
+// Shares of read_wall's progress; reading is bound by the disk, stitching by the intersection test.
+constexpr double k_wall_read_end = 0.3;
+/// Of unite_surfaces; cutting and remeshing take most of its time.
+constexpr double k_union_read_end = 0.2;
+
+void require_output(const std::filesystem::path& path, io::FormatUse use) {
+  const io::Format& format = io::format_to_write(path, use);
+  if (format.require_output) format.require_output(path);
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder))
+    throw Error({.code = ErrorCode::write_failed, .attempted = "writing " + path.string(), .problem = "there is no folder " + folder.string()});
+  if (!format.require_output) io::AtomicFile probe(path);  // says why nothing can be written there; gone at once
+}
+
+/// A volume mesh that is taken for a wall is one of wall, planes and farfield: the aircraft becomes a cavity of a body as large as the domain.
+void require_surface(const SurfaceSoup& soup, const InputPath& file, const surfmesh::StitchOptions& options) {
+  if (soup.n_cells == 0 || options.take_boundary) return;
+  std::string names;
+  constexpr std::size_t k_named = 8;
+  for (std::size_t i = 0; i < soup.patch_names.size() && i < k_named; ++i) names += (i > 0 ? ", " : "") + soup.patch_names[i];
+  if (soup.patch_names.size() > k_named) names += ", ...";
+  throw Error({.code = ErrorCode::bad_argument,
+               .attempted = "reading " + file.name + " as a surface",
+               .problem = fmt::format("it is a volume mesh of {} cells; its boundary ({}) is more than a wall",
+                                      count_text(static_cast<std::int64_t>(soup.n_cells)), names),
+               .hint = "the surface that it was made of is to be meshed. `sterna convert " + file.name +
+                       " boundary.stl --surface` writes its boundary; read_surface{ ..., take_boundary = true } or --take-boundary takes all of it"});
+}
+
+}  // namespace
+
+WallFiles read_wall_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context) {
+  WallFiles result;
+  SurfaceValue& wall = result.wall;
+  wall.options = options;
+  const StageTimer timer(context, "read");
+  for (const InputPath& file : files) {
+    result.soups.push_back(io::read_surface_file(file.path, context));
+    require_surface(result.soups.back(), file, options);
+    wall.inputs.push_back({file.name, io::hash_input(file.path)});
+    const auto known = read_surface_manifest(file, wall.inputs.back().hash, context);
+    if (!known || wall.inputs.size() == 1) wall.smooth_angle = known ? std::optional(known->smooth_angle) : std::nullopt;
+    else if (wall.smooth_angle) wall.smooth_angle = std::max(*wall.smooth_angle, known->smooth_angle);
+    if (known) {
+      if (known->encloses_fluid && options.fluid == "automatic") wall.options.fluid = "inside";
+      result.kinds.insert(known->kinds.begin(), known->kinds.end());
+      wall.layers.insert(wall.layers.end(), known->layers.begin(), known->layers.end());
+    }
+    context.progress(static_cast<double>(result.soups.size()) / static_cast<double>(files.size()));
+  }
+  return result;
+}
+
+SurfaceValue join_wall(const WallFiles& files, const RunContext& context) {
+  const StageTimer timer(context, "stitch");
+  SurfaceValue wall = files.wall;
+  surfmesh::StitchResult stitched = surfmesh::stitch_surface(files.soups, wall.options, context);
+  wall.mesh = std::move(stitched.mesh);
+  wall.report = std::move(stitched.report);
+  for (Patch& patch : wall.mesh.patches)
+    if (const auto kind = files.kinds.find(patch.name); kind != files.kinds.end()) patch.kind = kind->second;
+  return wall;
+}
+
+SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context) {
+  const WallFiles read = read_wall_files(files, options, context.part("read", 0.0, k_wall_read_end));
+  SurfaceValue wall = join_wall(read, context.part("stitch", k_wall_read_end, 1.0));
+  // The unit is never silent: a factor of 1000 looks fine until the solver runs.
+  context.info(describe(wall) + fmt::format(" (1 unit of the file = {:g} m)", options.unit));
+  return wall;
+}
+
+SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const UnionOptions& options, const RunContext& context) {
+  SurfaceValue result;
+  result.options.unit = unit;
+  result.options.check_intersections = false;  // crossings are what union is for; it proves that its result has none
+  result.union_options = options;
+  std::vector<UnionPart> parts;
+  for (const UnionItem& item : items) {
+    SurfaceValue read;
+    if (const auto* file = std::get_if<InputPath>(&item)) {
+      const double n = static_cast<double>(items.size()), i = static_cast<double>(parts.size());
+      read = read_wall(std::span(file, 1), result.options, context.part("read", k_union_read_end * i / n, k_union_read_end * (i + 1) / n));
+    } else {
+      read = *std::get<SurfaceHandle>(item);
+    }
+    parts.push_back({read.inputs.empty() ? "" : std::filesystem::path(read.inputs.front().name).stem().string(), std::move(read.mesh)});
+    for (InputFile& input : read.inputs) result.inputs.push_back(std::move(input));
+  }
+  const StageTimer timer(context, "union");
+  UnionResult united = unite_meshes(parts, options, context.part("union", k_union_read_end, 1.0));
+  result.mesh = std::move(united.mesh);
+  result.report.n_triangles_read = 0;
+  for (const UnionPart& part : parts) result.report.n_triangles_read += static_cast<std::int64_t>(part.mesh.n_triangles());
+  result.report.n_components = united.report.n_components;
+  result.report.messages = std::move(united.report.messages);
+  return result;
+}
+
+MeshValue read_mesh(const InputPath& file, const RunContext& context) {
+  const StageTimer timer(context, "read");
+  MeshValue value;
+  value.mesh = io::read_volume_file(file.path, context.part("read", 0.0, 1.0));
+  value.inputs.push_back({file.name, io::hash_input(file.path)});
+  return value;
+}
+
+void require_mesh_output(const std::filesystem::path& path) { require_output(path, io::FormatUse::write_volume); }
+void require_surface_output(const std::filesystem::path& path) { require_output(path, io::FormatUse::write_surface); }
+
+void write_mesh(const MeshValue& mesh, const std::filesystem::path& given, const RunContext& context) {
+  const std::filesystem::path path = given.has_filename() ? given : given.parent_path();  // a folder may end in a slash
+  const StageTimer timer(context, "write");
+  const RunContext part = context.part("write " + path.filename().string(), 0.0, 1.0);
+  if (path.extension() == ".sterna") {  // holds what is known of the mesh, too
+    io::write_sterna({.mesh = &mesh.mesh,
+                      .manifest = manifest_json(mesh, path, context.seed()),
+                      .certificate = mesh.origin ? certificate_json(mesh.origin->certificate) : std::string(),
+                      .quality = mesh.check ? to_json(*mesh.check) : std::string()},
+                     path, part);
+  } else {
+    io::write_volume_file(mesh.mesh, path, part);
+  }
+  write_manifest(mesh, path, context);
+}
+
+void write_surface(const SurfaceValue& surface, const std::filesystem::path& path, const RunContext& context) {
+  io::write_surface_file(surface.mesh, path, context);
+  if (surface.mesh_report) write_surface_manifest(surface, path);
+}
+
+OptionTable all_options(surfmesh::StitchOptions& surface, volmesh::MeshCase& volume) {
+  OptionTable table = sterna::options_of(surface);
+  for (Option& option : volmesh::options_of(volume)) table.push_back(std::move(option));
+  return table;
+}
+
+void set_option_as_typed(const Option& option, std::string_view text) {
+  if (is_flow_text(text) && option.kind == OptionKind::number && option.unit == Unit::metre)
+    return set_option(option, quantity_of_text(std::string(text)).metres);
+  const bool is_bare_unit = option.kind == OptionKind::number && option.unit == Unit::metre && !text.empty() &&
+                            std::isalpha(static_cast<unsigned char>(text.front())) && text != "automatic";
+  try {
+    set_option_from_text(option, is_bare_unit ? "1*" + std::string(text) : std::string(text));
+  } catch (const Error& error) {
+    if (option.unit != Unit::radian && !is_bare_unit) throw;
+    ErrorInfo info = error.info();
+    if (is_bare_unit) {
+      info.problem = std::string(option.name) + ": \"" + std::string(text) + "\" is neither a number nor a unit of length (m, mm, cm, inch, in, ft)";
+      throw Error(std::move(info));
+    }
+    if (text.find("deg") == std::string_view::npos) info.hint = "angles are in radians; write degrees as 40deg";
+    throw Error(std::move(info));
+  }
+}
+
+}  // namespace sterna::scripting

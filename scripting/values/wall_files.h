@@ -1,0 +1,26 @@
+// A wall in two steps: its files read, and then joined, so that what joining refuses can be looked at without reading twice.
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geom/mesh/surface_soup.h"
+#include "scripting/values/verbs.h"
+
+namespace sterna::scripting {
+
+/// The files of a wall before they are joined.
+struct WallFiles {
+  SurfaceValue wall;  ///< all but its mesh; its options know what the manifests beside the files say
+  std::vector<SurfaceSoup> soups;
+  std::map<std::string, PatchKind> kinds;  ///< of patches, by the manifests
+};
+
+/// \throws Error of io
+WallFiles read_wall_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context);
+/// Joins them by the wall's options. \throws Error of surfmesh::stitch_surface
+SurfaceValue join_wall(const WallFiles& files, const RunContext& context);
+
+}  // namespace sterna::scripting

@@ -1,0 +1,227 @@
+// Each verb makes the site (wall, outer boundary, their hierarchy) anew: a value is what a file can hold, nothing more.
+#include "scripting/verbs/envelope_steps.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "geom/base/error.h"
+#include "scripting/lua/verb_tools.h"
+#include "scripting/values/disc_verbs.h"
+#include "scripting/values/envelope_site.h"
+#include "scripting/values/layer_options.h"
+#include "scripting/values/patch_rules.h"
+#include "scripting/values/stages.h"
+#include "scripting/verbs/farfield_verbs.h"
+#include "volmesh/envelope/initial.h"
+#include "volmesh/parts/joint_envelope.h"
+
+namespace sterna::scripting {
+namespace {
+
+using volmesh::EnvelopeStep;
+using volmesh::MeshCase;
+using volmesh::MeshingSite;
+
+/// The options of the envelope with these names, separated by blanks, and of the farfield where they end with it.
+OptionTable some_options(MeshCase& options, std::string_view names) {
+  const std::string padded = " " + std::string(names) + " ";
+  OptionTable table = envelope_options(options);
+  std::erase_if(table, [&](const Option& option) {
+    return padded.find(" " + std::string(option.stage == "farfield" ? option.stage : option.name) + " ") == std::string::npos;
+  });
+  return table;
+}
+
+/// The steps work on the wall as it stands. make_envelope does more where parts were placed, or sides are periodic: the steps would not give its envelope.
+void require_one_part(const ScriptCall& call, const MeshingSite& site, const RunContext& context) {
+  if (!site.options.periodic.empty())
+    reject(call, "the steps by hand do not keep periodic sides alike", "make_envelope{ wall, periodic = ... } does all of them");
+  const std::vector<volmesh::WholePart> parts = volmesh::whole_parts(site.domain, site.options.parts, context);
+  if (parts.empty()) return;
+  const volmesh::PlacedPart& first = site.options.parts[parts.front().part];
+  if (parts.size() == 1 && first.placement == Transform{} && first.own->n_triangles() == site.base.wall.n_triangles()) return;
+  reject(call,
+         "the wall has " + std::to_string(parts.size()) + (parts.size() == 1 ? " part" : " parts") +
+             " whose envelopes are made in their own frames, then moved and made clear of each other: the steps by hand are for a wall as a whole",
+         "make_envelope{ wall, ... } does all of it; surface_mesh{ ..., gap_cells = ... } meshes parts together in their places, and read_surface knows of no "
+         "parts");
+}
+
+SurfaceHandle with_inputs(const SurfaceHandle& wall, const std::vector<InputFile>& inputs) {
+  if (inputs.empty()) return wall;
+  auto given = std::make_shared<SurfaceValue>(*wall);
+  given->inputs.insert(given->inputs.end(), inputs.begin(), inputs.end());
+  return given;
+}
+
+// ---- classify, initial ---------------------------------------------------------------------------------------------------------------------
+
+constexpr std::string_view k_classify_names = "feature_angle farfield";
+constexpr std::string_view k_classify_usage = "envelope.classify{ wall, feature_angle = 40*deg }";
+constexpr std::string_view k_initial_names =
+    "layers first_height max_growth total_height solve_for max_thickness max_relative_height height_gradient refinement farfield";
+constexpr std::string_view k_initial_usage = "envelope.initial{ wall, class, layers = 5, first_height = 0.01, max_growth = 1.35 }";
+
+/// The wall as entry 1; for initial the classes as entry 2.
+SurfaceHandle wall_of(TableReader& reader, std::string_view usage) {
+  const std::vector<ScriptValue>& items = reader.items();
+  if (const auto* wall = items.empty() ? nullptr : std::get_if<SurfaceHandle>(&items.front())) return *wall;
+  reader.add_problem("entry 1: expected a surface (from surface_mesh or read_surface), not " +
+                     std::string(items.empty() ? "nothing" : type_text(items.front())) + ": " + std::string(usage));
+  return nullptr;
+}
+
+ScriptValue classify(const ScriptCall& call) {
+  MeshCase options;
+  std::vector<InputFile> inputs;
+  const ScriptTable table = with_farfield(call, table_argument(call, 0, k_classify_usage), options.farfield_surface, inputs);
+  const OptionTable schema = some_options(options, k_classify_names);
+  TableReader reader(table, call.attempted());
+  const SurfaceHandle wall = wall_of(reader, k_classify_usage);
+  if (reader.items().size() > 1) reader.add_problem("entry 2: there is one too many");
+  reader.read_options(schema);
+  options.discs = read_interfaces(reader, call);
+  options.patches = read_layer_rules(reader);
+  apply_overrides(call, schema);
+  reader.finish();
+  const RunContext context = call.session.context.part("classify", 0.0, 1.0);
+  EnvelopeValue value{.wall = with_inputs(wall, inputs), .options = options, .stage = {}, .step = EnvelopeStep::classified};
+  value.stage.feature_angle = options.envelope.feature_angle;
+  const auto site = envelope_site(value, context);
+  require_one_part(call, *site, context);
+  value.classes = std::make_shared<const volmesh::Classification>(volmesh::classify_vertices(site->base, site->options.envelope, context));
+  value.stage.feature_angle = site->options.envelope.feature_angle;
+  return std::make_shared<const EnvelopeValue>(std::move(value));
+}
+
+ScriptValue make_initial(const ScriptCall& call) {
+  const ScriptTable given = table_argument(call, 0, k_initial_usage);
+  const auto* classes = given.items.size() < 2 ? nullptr : std::get_if<EnvelopeHandle>(&given.items[1]);
+  const bool is_classified = classes && ((*classes)->step == EnvelopeStep::classified || call.session.check);
+  MeshCase options = is_classified ? (*classes)->options : MeshCase();
+  std::vector<InputFile> inputs;
+  const ScriptTable table = with_farfield(call, given, options.farfield_surface, inputs);
+  const OptionTable schema = some_options(options, k_initial_names);
+  TableReader reader(table, call.attempted());
+  SurfaceHandle wall = wall_of(reader, k_initial_usage);
+  if (given.items.size() != 2 || !is_classified) reader.add_problem("entry 2: expected what envelope.classify gave: " + std::string(k_initial_usage));
+  else if (wall && (*classes)->wall->mesh.n_vertices() != wall->mesh.n_vertices()) reader.add_problem("entry 2: is of another wall");
+  const FunctionHandle first_heights = read_first_heights(reader, call);
+  reader.read_options(schema);
+  if (table.fields.contains("interfaces")) options.discs = read_interfaces(reader, call);
+  if (table.fields.contains("patches")) options.patches = read_layer_rules(reader);
+  apply_overrides(call, schema);
+  choose_solve_for(options, reader, call);
+  MeshCase known = options;
+  if (wall) known.patches.insert(known.patches.end(), wall->layers.begin(), wall->layers.end());  // the surface's own may give the first height
+  reader.require(volmesh::required_options_of(known));
+  reader.finish();
+  set_first_heights(first_heights, *wall, options, call.session.context);
+  const RunContext context = call.session.context.part("initial", 0.0, 1.0);
+  EnvelopeValue value{.wall = with_inputs((*classes)->wall, inputs), .options = options, .stage = {}, .step = EnvelopeStep::initial};
+  value.stage.feature_angle = (*classes)->stage.feature_angle;
+  const auto site = envelope_site(value, context);
+  require_one_part(call, *site, context);
+  value.stage.envelope = volmesh::initial_envelope(site->base, site->options.envelope, context);
+  return std::make_shared<const EnvelopeValue>(std::move(value));
+}
+
+// ---- The steps that change an envelope --------------------------------------------------------------------------------------------------------
+
+struct Step {
+  std::string_view verb;
+  EnvelopeStep needs, makes;
+  std::string_view options;
+  std::string_view usage;
+  void (*run)(MeshingSite&, volmesh::Envelope&, const RunContext&);
+};
+
+void run_smooth(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
+  volmesh::smooth_step(site.base, volmesh::classify_vertices(site.base, site.options.envelope, context), site.options.envelope, envelope, context);
+}
+void run_untangle(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
+  volmesh::untangle_step(site.base, site.options.envelope, envelope, context);
+}
+void run_unwarp(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
+  volmesh::unwarp_step(site.base, volmesh::classify_vertices(site.base, site.options.envelope, context), site.options.envelope, envelope, context);
+}
+void run_retract(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
+  volmesh::retract_step(site.base, site.options.envelope, site.collider, envelope, context);
+}
+void run_optimise(MeshingSite& site, volmesh::Envelope& envelope, const RunContext& context) {
+  volmesh::optimise_step(site.base, site.options.envelope, site.collider, envelope, context);
+}
+
+constexpr std::array<Step, 5> k_steps = {{
+    {"envelope.smooth", EnvelopeStep::initial, EnvelopeStep::smoothed, "height_sweeps direction_sweeps height_floor",
+     "envelope.smooth{ env, height_sweeps = 5, direction_sweeps = 50 }", run_smooth},
+    {"envelope.untangle", EnvelopeStep::initial, EnvelopeStep::untangled, "untangle_share", "envelope.untangle{ env }", run_untangle},
+    {"envelope.unwarp", EnvelopeStep::initial, EnvelopeStep::unwarped, "envelope_sweeps", "envelope.unwarp{ env }", run_unwarp},
+    {"envelope.retract", EnvelopeStep::unwarped, EnvelopeStep::retracted, "max_retract_sweeps", "envelope.retract{ env }", run_retract},
+    {"envelope.optimise", EnvelopeStep::retracted, EnvelopeStep::finished, "optimiser optimiser_evaluations height_weight top_weight barrier_weight",
+     "envelope.optimise{ env, optimiser_evaluations = 30 }", run_optimise},
+}};
+
+const Step& step_of(std::string_view verb) {
+  return *std::find_if(k_steps.begin(), k_steps.end(), [&](const Step& step) { return step.verb == verb; });
+}
+
+ScriptValue run_step(const ScriptCall& call) {
+  const Step& step = step_of(call.verb);
+  const ScriptTable table = table_argument(call, 0, step.usage);
+  TableReader reader(table, call.attempted());
+  const std::vector<ScriptValue>& items = reader.items();
+  const auto* given = items.empty() ? nullptr : std::get_if<EnvelopeHandle>(&items.front());
+  EnvelopeValue value = given ? **given : EnvelopeValue();
+  if (!given)
+    reader.add_problem("entry 1: expected an envelope, not " + std::string(items.empty() ? "nothing" : type_text(items.front())) + ": " +
+                       std::string(step.usage));
+  else if (value.step < step.needs && !call.session.check)
+    reader.add_problem("entry 1: expected an envelope that is " + std::string(to_string(step.needs)) + " at least; this one is " +
+                       std::string(to_string(value.step)) + " only");
+  if (items.size() > 1) reader.add_problem("entry 2: there is one too many");
+  const OptionTable schema = some_options(value.options, step.options);
+  reader.read_options(schema);
+  apply_overrides(call, schema);
+  reader.finish();
+  const RunContext context = call.session.context.part(call.verb.substr(call.verb.find('.') + 1), 0.0, 1.0);
+  const auto site = envelope_site(value, context);
+  require_one_part(call, *site, context);
+  step.run(*site, value.stage.envelope, context);
+  value.step = step.makes;
+  return std::make_shared<const EnvelopeValue>(std::move(value));
+}
+
+template <const std::string_view& Names>
+std::string help_of_names() {
+  MeshCase options;
+  return options_help(some_options(options, Names)) + layer_rules_help();
+}
+template <std::size_t I>
+std::string help_of_step() {
+  MeshCase options;
+  return options_help(some_options(options, k_steps[I].options));
+}
+
+constexpr std::array<ScriptVerb, 7> k_envelope_steps_verbs = {{
+    {"envelope.classify", k_classify_usage, "Ridges, corners, convex and concave places of a wall: the first step of make_envelope by hand.", classify,
+     help_of_names<k_classify_names>, true, "envelope"},
+    {"envelope.initial", k_initial_usage, "Directions and target heights: the second step.", make_initial, help_of_names<k_initial_names>, true, "envelope"},
+    {k_steps[0].verb, k_steps[0].usage, "Smooths heights and directions.", run_step, help_of_step<0>, true, "envelope"},
+    {k_steps[1].verb, k_steps[1].usage, "Lowers heights where growth lines would meet.", run_step, help_of_step<1>, true, "envelope"},
+    {k_steps[2].verb, k_steps[2].usage,
+     "Lowers heights until every macro-element is valid, smooths the envelope itself and lets it grow back as far as that holds.", run_step, help_of_step<2>,
+     true, "envelope"},
+    {k_steps[3].verb, k_steps[3].usage,
+     "Shares gaps and lowers heights until nothing of the layer meets anything: from here on the envelope is good for tetrahedra.", run_step, help_of_step<3>,
+     true, "envelope"},
+    {k_steps[4].verb, k_steps[4].usage, "Optimises the whole envelope: the last step of make_envelope, with which it gives the same bytes.", run_step,
+     help_of_step<4>, true, "envelope"},
+}};
+
+}  // namespace
+
+std::span<const ScriptVerb> envelope_step_verbs() { return k_envelope_steps_verbs; }
+
+}  // namespace sterna::scripting

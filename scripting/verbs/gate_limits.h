@@ -1,0 +1,22 @@
+// Limits of the QUALITY gates as users give them: gates = { orthogonality = { hard = 3*deg, target = 15*deg }, face_weight = false }.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "geom/mesh/gates.h"
+#include "scripting/lua/table_reader.h"
+
+namespace sterna::scripting {
+
+/// The entry `gates` of a table. Keys are names of measures (or of a gate that has one measure, "G5"); hard, target, usual are numbers (angles in radians) or
+/// false for none, share in [0, 1]. A measure that is false has no limits: it is shown only. Notes problems. Returns whether there was any.
+bool read_gate_limits(TableReader& reader, GateTable& limits);
+
+/// The same off the command line: "orthogonality:hard=3deg,target=15deg", "face_weight:none". \throws Error(bad_argument)
+void set_gate_limits(std::string_view text, GateTable& limits);
+
+/// The measures with their limits, for help.
+std::string gate_limits_help();
+
+}  // namespace sterna::scripting

@@ -1,0 +1,21 @@
+// The verb half: of models cut as exact geometry, of triangulated surfaces as triangles.
+#pragma once
+
+#include <span>
+
+#include "scripting/lua/script_call.h"
+#include "scripting/values/verbs.h"
+
+namespace sterna {
+struct HalfOptions;  // geom/mesh/half.h
+}
+
+namespace sterna::scripting {
+
+/// half. Takes a surface, the name of a surface's file, models or components.
+std::span<const ScriptVerb> half_verbs();
+
+/// The half of a surface with where it came from. \throws Error of half_of
+SurfaceValue half_surface(const SurfaceValue& surface, const HalfOptions& options, const RunContext& context);
+
+}  // namespace sterna::scripting

@@ -1,0 +1,177 @@
+#include "scripting/verbs/inspect_verbs.h"
+
+#include <array>
+#include <cmath>
+
+#include "scripting/lua/quantity.h"
+#include "scripting/lua/table_reader.h"
+#include "scripting/lua/verb_tools.h"
+#include "scripting/values/disc_verbs.h"
+#include "scripting/values/inspect_surface.h"
+#include "scripting/values/layer_options.h"
+#include "scripting/values/patch_rules.h"
+#include "scripting/values/periodic_sides.h"
+#include "scripting/verbs/farfield_verbs.h"
+#include "scripting/verbs/source_verbs.h"
+
+namespace sterna::scripting {
+namespace {
+
+constexpr std::string_view k_inspect_usage =
+    "inspect(wall)  or  inspect{ wall, layers = 32, first_height = 2e-6, flow = flow{ mach = 0.78, altitude = 11000, length = 4.2 }, output = \"trouble.vtu\" "
+    "}  or  inspect{ \"wall.stl\", unit = mm }";
+
+/// inspect(wall) is inspect{ wall }.
+ScriptTable inspection_table(const ScriptCall& call) {
+  if (call.arguments.size() != 1 || !std::holds_alternative<SurfaceHandle>(call.arguments.front())) return table_argument(call, 0, k_inspect_usage);
+  ScriptTable table;
+  table.items.push_back(call.arguments.front());
+  return table;
+}
+
+TableHandle handle(ScriptTable table) { return std::make_shared<const ScriptTable>(std::move(table)); }
+
+/// A number that is not there has no entry in the table.
+void set_number(ScriptTable& table, const std::string& name, double value) {
+  if (std::isfinite(value)) table.fields[name] = value;
+}
+
+TableHandle point_table(const Point& p) {
+  ScriptTable table;
+  table.items = {p.x, p.y, p.z};
+  return handle(std::move(table));
+}
+
+TableHandle finding_table(const volmesh::Finding& finding) {
+  ScriptTable table, places;
+  table.fields = {{"kind", std::string(to_string(finding.kind))},
+                  {"severity", std::string(to_string(finding.severity))},
+                  {"count", finding.count},
+                  {"unit", finding.unit},
+                  {"text", finding.text},
+                  {"advice", finding.advice}};
+  set_number(table, "share", finding.share);
+  set_number(table, "value", finding.value);
+  set_number(table, "limit", finding.limit);
+  for (const volmesh::FindingPlace& place : finding.places) {
+    ScriptTable entry;
+    entry.fields = {{"at", point_table(place.position)}, {"patch", place.patch}, {"value", place.value}, {"what", place.what}};
+    places.items.emplace_back(handle(std::move(entry)));
+  }
+  if (!finding.places.empty()) {
+    table.fields["at"] = point_table(finding.places.front().position);
+    table.fields["patch"] = finding.places.front().patch;
+  }
+  table.fields["places"] = handle(std::move(places));
+  return handle(std::move(table));
+}
+
+TableHandle report_table(const volmesh::InspectReport& report) {
+  ScriptTable table, findings;
+  for (const volmesh::Finding& finding : report.findings) findings.items.emplace_back(finding_table(finding));
+  table.fields = {{"ok", report.is_ok()},
+                  {"errors", report.count(volmesh::Severity::error)},
+                  {"warnings", report.count(volmesh::Severity::warn)},
+                  {"notes", report.count(volmesh::Severity::note)},
+                  {"triangles", static_cast<std::int64_t>(report.mesh.n_triangles())},
+                  {"parts", report.n_bodies},
+                  {"is_closed", report.is_closed},
+                  {"length", report.length},
+                  {"findings", handle(std::move(findings))}};
+  if (report.layer.is_known) {
+    table.fields["coverage"] = report.layer.coverage;
+    table.fields["compressed"] = report.layer.compressed;
+    table.fields["collapsed"] = report.layer.collapsed;
+  }
+  return handle(std::move(table));
+}
+
+/// A surface, or files: exactly one kind of them.
+struct Given {
+  SurfaceHandle surface;
+  std::vector<InputPath> files;
+};
+
+Given read_given(const ScriptCall& call, TableReader& reader) {
+  Given given;
+  const std::vector<ScriptValue>& items = reader.items();
+  if (items.size() == 1 && std::holds_alternative<SurfaceHandle>(items.front())) {
+    given.surface = std::get<SurfaceHandle>(items.front());
+    return given;
+  }
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (const auto* name = std::get_if<std::string>(&items[i])) given.files.push_back(find_input(call, *name));
+    else reader.add_problem("entry " + std::to_string(i + 1) + ": expected one surface, or names of files, not " + std::string(type_text(items[i])));
+  }
+  if (items.empty()) reader.add_problem("needs a surface or the name of a file: " + std::string(k_inspect_usage));
+  return given;
+}
+
+ScriptValue inspect(const ScriptCall& call) {
+  volmesh::InspectRequest request;
+  volmesh::MeshCase& options = request.volume;
+  std::vector<InputFile> farfield_inputs;
+  const ScriptTable table = with_farfield(call, inspection_table(call), options.farfield_surface, farfield_inputs);
+  TableReader reader(table, call.attempted());
+  const Given given = read_given(call, reader);
+  surfmesh::StitchOptions reading;
+  const OptionTable limits = sterna::options_of(request.limits), volume = volmesh::options_of(options), surface = sterna::options_of(reading);
+  const FunctionHandle first_heights = read_first_heights(reader, call);
+  reader.read_options(limits);
+  reader.read_options(volume);
+  if (!given.surface) reader.read_options(surface);
+  options.sources = read_sources(reader, call);
+  options.discs = read_interfaces(reader, call);
+  options.periodic = read_periodic(reader);
+  options.patches = read_layer_rules(reader);
+  if (const ScriptValue* value = reader.field("flow")) {
+    if (const auto* quantity = std::get_if<QuantityHandle>(value)) request.flow = (*quantity)->flow;
+    else reader.add_problem("flow: expected flow{ mach = 0.78, altitude = 11000, length = 4.2 }, not " + std::string(type_text(*value)));
+  }
+  std::filesystem::path output;
+  if (const ScriptValue* value = reader.field("output")) {
+    if (const auto* name = std::get_if<std::string>(value)) output = output_path(call, *name);
+    else reader.add_problem("output: expected the name of a .vtu or .png file, not " + std::string(type_text(*value)));
+  }
+  for (const OptionTable* part : {&limits, &volume, &surface}) apply_overrides(call, *part);
+  choose_solve_for(options, reader, call);
+  if (first_heights && !given.surface) reader.add_problem("first_height: a function needs a surface as the first entry (from read_surface), not a file");
+  reader.finish();
+  if (!output.empty()) require_inspection_output(output);
+  if (given.surface) set_first_heights(first_heights, *given.surface, options, call.session.context);
+  const RunContext context = call.session.context.part("inspect", 0.0, 1.0);
+  const volmesh::InspectReport report =
+      given.surface ? inspect_surface(*given.surface, request, context) : inspect_files(given.files, reading, request, context);
+  std::string name;
+  if (given.surface)
+    for (const InputFile& input : given.surface->inputs) name += (name.empty() ? "" : " ") + input.name;
+  for (const InputPath& file : given.files) name += (name.empty() ? "" : " ") + file.name;
+  call.session.print(text_of(report, name.empty() ? "surface" : name));
+  if (!output.empty()) write_inspection(report, output, context);
+  return report_table(report);
+}
+
+std::string inspect_help() {
+  volmesh::InspectOptions limits;
+  return options_help(sterna::options_of(limits)) +
+         "flow = flow{ ... }: the first height is compared with its y+. output = \"trouble.vtu\": the surface with predicted heights, visibility angles, gaps "
+         "and what was found; \"trouble.png\": a picture\n"
+         "and what volume_mesh takes, first_height too if the layer is to be predicted; with names of files what read_surface takes\n"
+         "gives a table: ok (nothing is an error), errors, warnings, notes, coverage, compressed, collapsed (predicted shares of the area), findings = { { "
+         "kind, severity, count, share, value, limit, unit, at, patch, "
+         "text, advice, places = { { at, patch, value, what } } } }\n";
+}
+
+constexpr std::array<ScriptVerb, 1> k_inspect_verbs = {{
+    {"inspect", k_inspect_usage,
+     "Predicts in seconds what volume_mesh will make of a surface: what it refuses, where layers get low, where cells get bad, with a line of advice each.",
+     inspect, inspect_help, true, "inspection"},
+}};
+
+}  // namespace
+
+std::span<const ScriptVerb> inspect_verbs() { return k_inspect_verbs; }
+
+ScriptValue inspection_stand_in() { return report_table({}); }
+
+}  // namespace sterna::scripting

@@ -1,0 +1,20 @@
+// Methods and fields of models: model:write, model:move, model:rotate, model:deform and so on. Each gives a new model; none changes the old one.
+#pragma once
+
+#include <span>
+
+#include "geom/model/frame.h"
+#include "scripting/lua/script_call.h"
+
+namespace sterna::scripting {
+
+std::span<const ScriptVerb> model_methods();
+/// model.faces; model["wing*"] are the components of that name, as a model.
+extern const ScriptVerb k_model_field;
+
+/// What object:move{ dx, dy, dz } and object:rotate{ ... } say, of models and surfaces. \throws Error(bad_argument)
+Transform read_shift(const ScriptCall& call, std::string_view usage);
+Transform read_turn(const ScriptCall& call, std::string_view usage);
+std::string rotate_help();
+
+}  // namespace sterna::scripting

@@ -1,0 +1,24 @@
+// The verbs that make sources of the size field: box{...}, line{...}, wake{...} and so on, and reading them back from a verb's table.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scripting/lua/script_call.h"
+#include "scripting/lua/table_reader.h"
+#include "volmesh/case/size_sources.h"
+
+namespace sterna::scripting {
+
+/// point, line, box, cylinder, wake, size_samples. The values are tables with the field "shape", whose name is the verb's.
+std::span<const ScriptVerb> source_verbs();
+/// ball of a given size: sphere{ {x, y, z}, radius = 1, size = 0.1 }, which shares its verb with the farfield.
+ScriptValue make_sphere_source(const ScriptCall& call);
+
+/// The entry "sources" of a table: a list of what the verbs above made, or one. Notes problems with the reader.
+std::vector<volmesh::SizeSource> read_sources(TableReader& reader, const ScriptCall& call);
+/// A source of the command line, "line 0 0 0 8 0 0 size=0.02 radius=0.5": the verb's name, its points, its named numbers. Numbers take units.
+/// \throws Error(bad_argument, unknown_option)
+volmesh::SizeSource source_of_text(const std::string& text);
+
+}  // namespace sterna::scripting

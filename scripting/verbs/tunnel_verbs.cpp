@@ -1,0 +1,306 @@
+// test_section{}: a rectangular or round duct, or a solid of the user's, whose patches have kinds, sizes and layers of their own. assembly{}: models that are
+// one where they touch.
+#include "scripting/verbs/tunnel_verbs.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "geom/base/glob.h"
+#include "geom/model/deform.h"
+#include "geom/model/model_builder.h"
+#include "geom/model/model_measures.h"
+#include "geom/model/shapes.h"
+#include "scripting/lua/script_check.h"
+#include "scripting/values/aircraft_model.h"
+#include "scripting/values/fluid_model.h"
+#include "scripting/values/geometry_tools.h"
+#include "scripting/values/model_surface.h"
+#include "scripting/verbs/surface_motion.h"
+
+namespace sterna::scripting {
+
+struct AssemblyOptions {
+  bool unite = true;
+};
+struct TunnelSizeOptions {
+  double max_edge = k_automatic;
+};
+
+}  // namespace sterna::scripting
+
+namespace sterna {
+
+template <>
+struct Schema<scripting::AssemblyOptions> {
+  using O = scripting::AssemblyOptions;
+  static constexpr std::string_view stage = "assembly";
+  static constexpr std::array fields = {
+      Field<O>{.name = "unite", .member = &O::unite, .help = "make one closed surface of solids that touch (tunnels stay aside); else all stand side by side"},
+  };
+};
+
+template <>
+struct Schema<scripting::TunnelSizeOptions> {
+  using O = scripting::TunnelSizeOptions;
+  static constexpr std::string_view stage = "tunnel_sizes";
+  static constexpr std::array fields = {
+      Field<O>{.name = "max_edge",
+               .member = &O::max_edge,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "longest edge on all its patches, whatever surface_mesh says for the model",
+               .automatic = "a twelfth of its shortest side"},
+  };
+};
+
+}  // namespace sterna
+
+namespace sterna::scripting {
+namespace {
+
+/// Edges along the shortest side of a tunnel, unless said otherwise: what its walls need where nothing is near.
+constexpr double k_edges_across = 12.0;
+
+constexpr std::string_view k_test_section_usage =
+    "test_section{ length = 6, width = 2.1, height = 1.5, position = {0, 0, 0}, inflow = \"inlet\", outflow = \"outlet\", walls = { layers = 20, first_height "
+    "= 20e-6 }, floor = \"slip\" }  or  test_section{ length = 6, diameter = 2 }";
+constexpr std::string_view k_assembly_usage = "assembly{ model, sting_model }  or, of surfaces,  assembly{ wall, read_surface(\"sting.stl\"):move{ 3, 0, 0 } }";
+
+/// Names of the walls as the script calls them.
+constexpr std::array<const char*, 4> k_sides = {"floor", "right", "ceiling", "left"};
+
+std::set<std::string> names_of_role(const Model& model, FaceRole role) {
+  std::set<std::string> names;
+  for (const ModelFace& face : model.faces)
+    if (face.role == role) names.insert(face.name);
+  return names;
+}
+
+bool is_any(const volmesh::PatchRule& rule) {
+  return rule.layers >= 0 || !is_automatic(rule.first_height) || !is_automatic(rule.max_growth) || !is_automatic(rule.max_thickness) ||
+         !is_automatic(rule.blend);
+}
+
+/// The size of all patches, as a rule that those of single patches overrule.
+void add_size(const TunnelSizeOptions& options, ModelValue& tunnel) {
+  const Box box = box_of(tunnel.model);
+  if (box.empty()) return;
+  const Vec3 sides = box.max - box.min;
+  const double size = is_automatic(options.max_edge) ? std::min({sides.x, sides.y, sides.z}) / k_edges_across : options.max_edge;
+  std::set<std::string> names;
+  for (const ModelFace& face : tunnel.model.faces) names.insert(face.name);
+  for (const std::string& name : names) tunnel.sizes.push_back({.names = name, .max_edge = size});
+}
+
+/// What walls = ... or an entry of patches = {...} says of patches: their kind, or a table with kind, sizes and layers. Notes problems.
+void read_patch(const ScriptValue& value, const std::string& key, const std::set<std::string>& names, ModelValue& tunnel, TableReader& reader) {
+  std::optional<PatchKind> kind;
+  surfmesh::PatchSurfaceOptions sizes;
+  volmesh::PatchRule layer;
+  if (const auto* table = std::get_if<TableHandle>(&value)) {
+    const OptionTable size_options = patch_rule_options(sizes);
+    OptionTable layer_options = sterna::options_of(layer);
+    std::erase_if(layer_options, [](const Option& option) { return option.name == "names" || option.name == "kind"; });
+    TableReader entries(**table, key);
+    entries.read_options(size_options);
+    entries.read_options(layer_options);
+    if (const ScriptValue* given = entries.field("kind")) kind = read_patch_kind(*given, "kind", entries);
+    try {
+      entries.finish();
+    } catch (const Error& error) {
+      reader.add_problem(key + ": " + error.info().problem);
+      return;
+    }
+  } else {
+    kind = read_patch_kind(value, key, reader);
+  }
+  for (const std::string& name : names) {
+    sizes.names = layer.names = name;
+    if (surfmesh::PatchSurfaceOptions none{.names = name}; patch_rules_json({sizes}) != patch_rules_json({none})) tunnel.sizes.push_back(sizes);
+    if (is_any(layer)) tunnel.layers.push_back(layer);
+  }
+  if (kind)
+    for (ModelFace& face : tunnel.model.faces)
+      if (names.contains(face.name)) face.kind = kind;
+}
+
+/// patches = { ["inlet*"] = { max_edge = 0.2 } }
+void read_patches(TableReader& reader, ModelValue& tunnel) {
+  const ScriptValue* value = reader.field("patches");
+  if (!value) return;
+  const auto* table = std::get_if<TableHandle>(value);
+  if (!table || !(*table)->items.empty()) {
+    reader.add_problem("patches: expected a table by names of faces, { [\"tunnel*\"] = { max_edge = 0.1 } }");
+    return;
+  }
+  std::vector<std::string> patterns;
+  for (const auto& [pattern, entry] : (*table)->fields) patterns.push_back(pattern);
+  std::stable_sort(patterns.begin(), patterns.end(), [](const std::string& a, const std::string& b) { return n_spelled_out(a) < n_spelled_out(b); });
+  for (const std::string& pattern : patterns) {
+    std::set<std::string> names;
+    for (const ModelFace& face : tunnel.model.faces)
+      if (matches_glob(face.name, pattern)) names.insert(face.name);
+    if (names.empty()) reader.add_problem("patches: no face of the tunnel has a name like \"" + pattern + "\"");
+    else read_patch((*table)->fields.at(pattern), "patches[\"" + pattern + "\"]", names, tunnel, reader);
+  }
+}
+
+/// The user's solid as a tunnel: inflow and outflow are patterns of names of its faces, all others are walls.
+void take_solid(const ModelHandle& solid, TableReader& reader, ModelValue& tunnel) {
+  tunnel = *solid;
+  tunnel.description.reset();
+  tunnel.without_description = "it is a tunnel";
+  for (Component& component : tunnel.model.components) component.kind = ComponentKind::tunnel;
+  for (ModelFace& face : tunnel.model.faces) face.role = FaceRole::wall;
+  for (const auto& [key, role] : {std::pair<const char*, FaceRole>{"inflow", FaceRole::inflow}, {"outflow", FaceRole::outflow}}) {
+    const ScriptValue* value = reader.field(key);
+    if (!value) continue;
+    const auto* pattern = std::get_if<std::string>(value);
+    bool is_used = false;
+    for (ModelFace& face : tunnel.model.faces)
+      if (pattern && matches_glob(face.name, *pattern)) {
+        face.role = role;
+        is_used = true;
+      }
+    if (!is_used) reader.add_problem(std::string(key) + ": expected the name of faces of the model, or a pattern of them");
+  }
+  if (tunnel.model.solids.size() != 1 || !tunnel.model.solids.raw().front().is_closed)
+    reader.add_problem("a tunnel is one closed solid; this is " + describe(tunnel));
+  else if (solid_measures(tunnel.model, SolidId(0)).volume > 0.0) {  // the fluid is inside
+    turn_inside_out(tunnel.model);
+    tunnel.parts.clear();
+  }
+}
+
+/// through = "sting*" or { "sting*", "strut" }
+void read_through(TableReader& reader, ModelValue& tunnel) {
+  const ScriptValue* value = reader.field("through");
+  if (!value) return;
+  const auto* table = std::get_if<TableHandle>(value);
+  const std::vector<ScriptValue> names = table ? (*table)->items : std::vector<ScriptValue>{*value};
+  const bool are_texts = std::ranges::all_of(names, [](const ScriptValue& name) { return std::holds_alternative<std::string>(name); });
+  if (!are_texts || (table && !(*table)->fields.empty())) {
+    reader.add_problem("through: expected names of components or faces that pass through walls, or patterns of them: through = { \"sting*\", \"strut\" }");
+    return;
+  }
+  for (const ScriptValue& name : names) tunnel.through.push_back(std::get<std::string>(name));
+}
+
+ScriptValue make_test_section_verb(const ScriptCall& call) {
+  const ScriptTable table = table_argument(call, 0, k_test_section_usage);
+  TestSectionOptions options;
+  const OptionTable schema = sterna::options_of(options);
+  TableReader reader(table, call.attempted());
+  const std::vector<ScriptValue>& items = reader.items();
+  ModelValue tunnel{.without_description = "it is a test section"};
+  const bool is_given = !items.empty();
+  refuse_items_beyond(reader, 1);
+  if (is_given && is_stand_in(call, items.front())) finish_checks(call);  // nothing is known of its faces
+  if (is_given) {
+    if (const ModelHandle solid = model_of(items.front(), call)) take_solid(solid, reader, tunnel);
+    else reader.add_problem("entry 1: expected the model of a closed solid, not " + std::string(type_text(items.front())));
+  } else {
+    reader.read_options(schema);
+    apply_overrides(call, schema);
+    reader.require(schema);
+    const bool is_round = !is_automatic(options.diameter);
+    if (is_round && (!is_automatic(options.width) || !is_automatic(options.height)))
+      reader.add_problem("diameter: a round section has neither width nor height");
+    if (!is_round && (is_automatic(options.width) || is_automatic(options.height)))
+      reader.add_problem("needs width and height, or the diameter of a round section");
+    const std::optional<Vec3> position = read_point(reader, "position");
+    // What is wrong so far is told together with what follows: a section that cannot be made has no faces.
+    if (!is_automatic(options.length) && is_round == (is_automatic(options.width) && is_automatic(options.height))) {
+      tunnel.model = make_test_section(options);
+      if (position) tunnel.model = transformed(tunnel.model, translation(*position));
+    }
+  }
+  TunnelSizeOptions size;
+  reader.read_options(sterna::options_of(size));
+  add_size(size, tunnel);
+  if (const ScriptValue* walls = reader.field("walls")) read_patch(*walls, "walls", names_of_role(tunnel.model, FaceRole::wall), tunnel, reader);
+  if (!is_given)
+    for (const char* side : k_sides)
+      if (const ScriptValue* value = reader.field(side)) {
+        if (!is_automatic(options.diameter)) reader.add_problem(std::string(side) + ": a round section has one wall: walls = ...");
+        else read_patch(*value, side, {options.wall + "_" + side}, tunnel, reader);
+      }
+  read_patches(reader, tunnel);
+  read_through(reader, tunnel);
+  reader.finish();
+  return std::make_shared<const ModelValue>(std::move(tunnel));
+}
+
+std::string test_section_help() {
+  TestSectionOptions options;
+  surfmesh::PatchSurfaceOptions sizes;
+  TunnelSizeOptions size;
+  volmesh::PatchRule layer;
+  OptionTable layer_options = sterna::options_of(layer);
+  std::erase_if(layer_options, [](const Option& option) { return option.name == "names" || option.name == "kind"; });
+  return options_help(sterna::options_of(options)) + options_help(sterna::options_of(size)) +
+         "position = {x, y, z}: where the model stands, in place of the origin. Walls: walls, floor, ceiling, left, right = \"slip\", \"symmetry\", \"wall\" "
+         "or a table; patches = { [\"outlet*\"] = { ... } } of any patch:\n"
+         "  kind: wall, slip, symmetry, inflow, outflow, farfield, interface\n" +
+         options_help(patch_rule_options(sizes)) + options_help(layer_options) +
+         "through = \"strut*\" or { \"strut*\", \"wing\" }: components or faces, by name, that pass through the walls and are cut off there, as stings made "
+         "by\n"
+         "sting{} may; whatever else reaches out of the tunnel is an error\n"
+         "test_section{ model, inflow = \"in*\", outflow = \"out*\", walls = ... }: a closed solid is the tunnel\n";
+}
+
+/// All entries as models; notes what is none.
+std::vector<ModelHandle> model_items(const ScriptCall& call, TableReader& reader) {
+  std::vector<ModelHandle> models;
+  std::size_t number = 0;
+  for (const ScriptValue& item : reader.items()) {
+    ++number;
+    if (ModelHandle model = model_of(item, call)) models.push_back(std::move(model));
+    else reader.add_problem("entry " + std::to_string(number) + ": expected a model or a component, not " + std::string(type_text(item)));
+  }
+  if (number == 0) reader.add_problem("needs a model or a component");
+  return models;
+}
+
+/// Whether all entries are surfaces.
+bool is_of_surfaces(TableReader& reader, std::vector<SurfaceHandle>& surfaces) {
+  const std::vector<ScriptValue>& items = reader.items();
+  for (const ScriptValue& item : items)
+    if (const auto* surface = std::get_if<SurfaceHandle>(&item)) surfaces.push_back(*surface);
+  return !items.empty() && surfaces.size() == items.size();
+}
+
+ScriptValue make_assembly(const ScriptCall& call) {
+  const ScriptTable table = table_argument(call, 0, k_assembly_usage);
+  AssemblyOptions options;
+  TableReader reader(table, call.attempted());
+  const RunContext& context = call.session.context;
+  if (std::vector<SurfaceHandle> surfaces; is_of_surfaces(reader, surfaces)) {
+    reader.finish();
+    return std::make_shared<const SurfaceValue>(side_by_side(surfaces, context));
+  }
+  const std::vector<ModelHandle> models = model_items(call, reader);
+  reader.read_options(sterna::options_of(options));
+  reader.finish();
+  return std::make_shared<const ModelValue>(options.unite ? assemble_united(models, context) : assemble(models, context));
+}
+
+std::string assembly_help() {
+  AssemblyOptions options;
+  return options_help(sterna::options_of(options));
+}
+
+constexpr std::array<ScriptVerb, 2> k_tunnel_verbs = {{
+    {"test_section", k_test_section_usage,
+     "Wind tunnel around the x axis, rectangular or round, or a solid of yours: surface_mesh{ model, tunnel } makes the fluid between the two.",
+     make_test_section_verb, test_section_help, true, "model"},
+    {"assembly", k_assembly_usage, "Models and components as one model: united where they touch. Surfaces: side by side.", make_assembly, assembly_help, true,
+     "model or surface", true},
+}};
+
+}  // namespace
+
+std::span<const ScriptVerb> tunnel_verbs() { return k_tunnel_verbs; }
+
+}  // namespace sterna::scripting

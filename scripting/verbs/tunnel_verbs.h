@@ -1,0 +1,13 @@
+// Verbs of wind tunnels: the test section, and what is put together in it.
+#pragma once
+
+#include <span>
+
+#include "scripting/lua/script_call.h"
+
+namespace sterna::scripting {
+
+/// test_section, assembly.
+std::span<const ScriptVerb> tunnel_verbs();
+
+}  // namespace sterna::scripting

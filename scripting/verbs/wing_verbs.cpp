@@ -1,0 +1,358 @@
+// wing{}: numbers from the root to the tip -> sections of geom/model/aircraft.h, tip first.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "scripting/lua/component_value.h"
+#include "scripting/values/geometry_tools.h"
+#include "scripting/verbs/component_verbs.h"
+#include "scripting/verbs/geometry_verbs.h"
+
+namespace sterna::scripting {
+
+struct WingOptions {
+  std::string name;
+  bool symmetric = false;
+  std::string spanwise = "linear";
+  double sweep_at = 0.25;
+  double incidence = 0.0;
+  double trailing_edge = k_automatic;
+  std::string tip = "round";
+  double tip_height = 1.0;
+  std::string root = "flat";
+};
+struct WingSectionOptions {
+  double x = k_automatic;
+  double y = k_automatic;
+  double z = k_automatic;
+  double span = k_automatic;
+  double chord = k_automatic;
+  double sweep = 0.0;
+  double dihedral = 0.0;
+  double twist = 0.0;
+  double roll = k_automatic;
+  bool is_break = false;
+  bool is_reversed = false;
+};
+struct WingletOptions {
+  double height = k_automatic;
+  double cant = 80.0 * std::numbers::pi / 180.0;
+  double taper = 0.4;
+  double sweep = 35.0 * std::numbers::pi / 180.0;
+  double toe = 0.0;
+  double bend = 0.25;
+};
+
+}  // namespace sterna::scripting
+
+namespace sterna {
+
+template <>
+struct Schema<scripting::WingOptions> {
+  using O = scripting::WingOptions;
+  static constexpr std::string_view stage = "wing";
+  static constexpr std::array fields = {
+      Field<O>{.name = "name", .member = &O::name, .help = "of component and patches; empty: the verb's"},
+      Field<O>{.name = "symmetric", .member = &O::symmetric, .help = "both halves: one component where the root stands at y = 0, else a mirror image"},
+      Field<O>{.name = "spanwise", .member = &O::spanwise, .help = "between sections: linear, or cubic between breaks", .choices = "linear cubic"},
+      Field<O>{.name = "sweep_at", .member = &O::sweep_at, .min = 0.0, .max = 1.0, .help = "part of the chord at which sweep is measured; 0 = leading edge"},
+      Field<O>{
+          .name = "incidence", .member = &O::incidence, .unit = Unit::radian, .min = -1.6, .max = 1.6, .help = "nose up, of the whole wing about its position"},
+      Field<O>{.name = "trailing_edge",
+               .member = &O::trailing_edge,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "its thickness; 0 = sharp",
+               .automatic = "as the airfoils have it"},
+      Field<O>{.name = "tip", .member = &O::tip, .help = "end of the last section", .choices = "round flat"},
+      Field<O>{.name = "tip_height", .member = &O::tip_height, .min = 0.01, .max = 5.0, .help = "of a round tip, of the section's half thickness"},
+      Field<O>{.name = "root", .member = &O::root, .help = "end of the first section, where that is one", .choices = "flat round"},
+  };
+};
+template <>
+struct Schema<scripting::WingSectionOptions> {
+  using O = scripting::WingSectionOptions;
+  static constexpr std::string_view stage = "section";
+  static constexpr std::array fields = {
+      Field<O>{.name = "x", .member = &O::x, .unit = Unit::metre, .help = "of the leading edge, from the wing's position", .automatic = "from sweep"},
+      Field<O>{.name = "y", .member = &O::y, .unit = Unit::metre, .help = "of the leading edge", .automatic = "that of the section before, or from span"},
+      Field<O>{.name = "z", .member = &O::z, .unit = Unit::metre, .help = "of the leading edge", .automatic = "from dihedral"},
+      Field<O>{.name = "span",
+               .member = &O::span,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "distance from the section before along the panel, in place of y and z",
+               .automatic = "from y and z"},
+      Field<O>{.name = "chord",
+               .member = &O::chord,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .help = "of the airfoil",
+               .automatic = "that of the section before; the first one needs it"},
+      Field<O>{.name = "sweep",
+               .member = &O::sweep,
+               .unit = Unit::radian,
+               .min = -1.5,
+               .max = 1.5,
+               .help = "of the panel from the section before, aft; see sweep_at"},
+      Field<O>{
+          .name = "dihedral", .member = &O::dihedral, .unit = Unit::radian, .min = -1.5708, .max = 1.5708, .help = "of the panel from the section before, up"},
+      Field<O>{.name = "twist", .member = &O::twist, .unit = Unit::radian, .min = -1.6, .max = 1.6, .help = "nose up, about the leading edge"},
+      Field<O>{.name = "roll",
+               .member = &O::roll,
+               .unit = Unit::radian,
+               .help = "of the section about x: 90 deg for an upright fin",
+               .automatic = "half way between the panels beside it; 0 at the root of a symmetric wing"},
+      Field<O>{.name = "is_break", .member = &O::is_break, .help = "a kink of a wing that is cubic along its span"},
+      Field<O>{.name = "is_reversed", .member = &O::is_reversed, .help = "airfoil upside down"},
+  };
+};
+template <>
+struct Schema<scripting::WingletOptions> {
+  using O = scripting::WingletOptions;
+  static constexpr std::string_view stage = "winglet";
+  static constexpr std::array fields = {
+      Field<O>{.name = "height", .member = &O::height, .unit = Unit::metre, .min = 1e-9, .help = "along the winglet", .required = true},
+      Field<O>{.name = "cant", .member = &O::cant, .unit = Unit::radian, .min = -1.5708, .max = 1.5708, .help = "dihedral of the winglet; 90 deg = upright"},
+      Field<O>{.name = "taper", .member = &O::taper, .min = 0.01, .max = 2.0, .help = "chord of its tip, of the wing's tip"},
+      Field<O>{.name = "sweep", .member = &O::sweep, .unit = Unit::radian, .min = -1.5, .max = 1.5, .help = "aft, as the wing's"},
+      Field<O>{.name = "toe", .member = &O::toe, .unit = Unit::radian, .min = -0.5, .max = 0.5, .help = "twist of its tip"},
+      Field<O>{.name = "bend", .member = &O::bend, .min = 0.0, .max = 0.9, .help = "part of the winglet over which it bends up from the wing; 0 = a kink"},
+  };
+};
+
+}  // namespace sterna
+
+namespace sterna::scripting {
+namespace {
+
+/// Sections of the bend between wing and winglet; an arc in so many straight parts is met to 1 % of its radius.
+constexpr int k_bend_sections = 5;
+/// Steeper panels need z or span: y says nothing.
+constexpr double k_steep = 1.5;
+
+/// A section as the table has it, in order from the root.
+struct GivenSection {
+  std::string name;
+  Point leading;
+  double chord = 0.0;
+  double twist = 0.0;
+  double roll = k_automatic;
+  bool is_break = false;
+  bool is_reversed = false;
+  double dihedral = 0.0;  ///< of the panel before it, as it stands
+  Airfoil airfoil;
+};
+
+/// Angle of a panel about x: up to the right is positive, as is down to the left.
+double panel_roll(const Point& from, const Point& to) {
+  const double dy = to.y - from.y, dz = to.z - from.z;
+  return dy < 0.0 ? -std::atan2(dz, -dy) : std::atan2(dz, dy);
+}
+
+class SectionList {
+ public:
+  SectionList(const ScriptCall& call, TableReader& reader, const WingOptions& options) : call_(call), reader_(reader), options_(options) {}
+
+  void read(const ScriptValue* sections) {
+    const auto* list = sections ? std::get_if<TableHandle>(sections) : nullptr;
+    if (!list || (*list)->items.size() < 2) {
+      reader_.add_problem("sections: needs a list of at least 2 sections: " + std::string(k_wing_usage));
+      return;
+    }
+    for (std::size_t i = 0; i < (*list)->items.size(); ++i) add((*list)->items[i], "section " + std::to_string(i + 1));
+  }
+  void add_winglet(const ScriptValue& value);
+
+  std::vector<GivenSection> sections;
+
+ private:
+  void add(const ScriptValue& value, const std::string& where);
+  void place(GivenSection& section, const WingSectionOptions& o, const std::string& where);
+  const ScriptCall& call_;
+  TableReader& reader_;
+  const WingOptions& options_;
+};
+
+/// Where the section stands, from what is given and the section before.
+void SectionList::place(GivenSection& s, const WingSectionOptions& o, const std::string& where) {
+  const bool is_first = sections.empty();
+  const Point before = is_first ? Point{} : sections.back().leading;
+  const auto or_else = [](double value, double other) { return is_automatic(value) ? other : value; };
+  if (!is_automatic(o.span)) {
+    if (is_first) reader_.add_problem(where + ": span: there is no section before");
+    if (!is_automatic(o.y) || !is_automatic(o.z)) reader_.add_problem(where + ": give y and z, or span and dihedral");
+    s.leading.y = before.y + o.span * std::cos(o.dihedral);
+    s.leading.z = before.z + o.span * std::sin(o.dihedral);
+  } else {
+    s.leading.y = or_else(o.y, before.y);
+    if (is_automatic(o.z) && std::abs(o.dihedral) > k_steep) reader_.add_problem(where + ": a panel this steep needs z, or span in place of y");
+    s.leading.z = or_else(o.z, before.z + std::abs(s.leading.y - before.y) * std::tan(std::clamp(o.dihedral, -k_steep, k_steep)));
+  }
+  const double step = std::hypot(s.leading.y - before.y, s.leading.z - before.z);
+  const double chord_before = is_first ? s.chord : sections.back().chord;
+  s.leading.x = or_else(o.x, is_first ? 0.0 : before.x + options_.sweep_at * (chord_before - s.chord) + step * std::tan(o.sweep));
+  if (!is_first && step == 0.0) reader_.add_problem(where + ": stands where the one before it does; give y, z or span");
+}
+
+void SectionList::add(const ScriptValue& value, const std::string& where) {
+  const auto* table = std::get_if<TableHandle>(&value);
+  if (!table) {
+    reader_.add_problem(where + ": expected a section { y = 5, chord = 2 }, not " + std::string(type_text(value)));
+    return;
+  }
+  WingSectionOptions o;
+  const OptionTable schema = sterna::options_of(o);
+  TableReader reader(**table, where);
+  reader.read_options(schema);
+  const auto position = read_point(reader, "position");
+  if (position && !(is_automatic(o.x) && is_automatic(o.y) && is_automatic(o.z) && is_automatic(o.span)))
+    reader.add_problem("position: stands in place of x, y, z and span");
+  GivenSection s{.name = where, .chord = o.chord, .twist = o.twist, .roll = o.roll, .is_break = o.is_break, .is_reversed = o.is_reversed};
+  if (is_automatic(s.chord)) {
+    if (sections.empty()) reader.add_problem("needs a chord");
+    s.chord = sections.empty() ? 1.0 : sections.back().chord;
+  }
+  if (const ScriptValue* airfoil = reader.field("airfoil")) {
+    if (auto given = read_airfoil_value(*airfoil, call_, reader, "airfoil")) s.airfoil = normalized(*given);
+  } else if (!sections.empty()) {
+    s.airfoil = sections.back().airfoil;
+  } else {
+    reader.add_problem("needs an airfoil: a NACA designation, a file name or airfoil{...}");
+  }
+  try {
+    reader.finish();
+  } catch (const Error& error) {
+    reader_.add_problem(where + ": " + error.info().problem);
+  }
+  if (position) s.leading = *position;
+  else place(s, o, where);
+  sections.push_back(std::move(s));
+}
+
+/// The last section goes on upwards: bent over sections of equal turn, then straight to the winglet's tip.
+void SectionList::add_winglet(const ScriptValue& value) {
+  const auto* table = std::get_if<TableHandle>(&value);
+  if (!table) {
+    reader_.add_problem("winglet: expected a table { height = 1, cant = 80*deg }, not " + std::string(type_text(value)));
+    return;
+  }
+  WingletOptions o;
+  const OptionTable schema = sterna::options_of(o);
+  TableReader reader(**table, "winglet");
+  reader.read_options(schema);
+  reader.require(schema);
+  std::optional<Airfoil> airfoil;
+  if (const ScriptValue* given = reader.field("airfoil")) airfoil = read_airfoil_value(*given, call_, reader, "airfoil");
+  try {
+    reader.finish();
+  } catch (const Error& error) {
+    reader_.add_problem("winglet: " + error.info().problem);
+    return;
+  }
+  if (sections.size() < 2) return;
+  const GivenSection tip = sections.back();
+  const double from = panel_roll(sections[sections.size() - 2].leading, tip.leading);
+  sections.back().roll = from;
+  Point at = tip.leading;
+  double done = 0.0, chord = tip.chord;
+  const auto go = [&](double length, double angle, double roll, bool is_break, const std::string& name) {
+    const double next_chord = tip.chord * (1.0 + (o.taper - 1.0) * (done + length) / o.height);
+    at += Vec3{options_.sweep_at * (chord - next_chord) + length * std::tan(o.sweep), length * std::cos(angle), length * std::sin(angle)};
+    done += length;
+    chord = next_chord;
+    const double part = done / o.height;
+    GivenSection s{.name = name,
+                   .leading = at,
+                   .chord = chord,
+                   .twist = tip.twist + part * o.toe,
+                   .roll = roll,
+                   .is_break = is_break,
+                   .airfoil = airfoil && part == 1.0 ? normalized(*airfoil) : tip.airfoil};
+    sections.push_back(std::move(s));
+  };
+  sections.back().is_break = true;
+  if (o.bend > 0.0) {
+    for (int i = 1; i <= k_bend_sections; ++i) {
+      const double middle = from + (o.cant - from) * (i - 0.5) / k_bend_sections, here = from + (o.cant - from) * i / k_bend_sections;
+      go(o.bend * o.height / k_bend_sections, middle, here, i == k_bend_sections, "winglet " + std::to_string(i));
+    }
+  } else {
+    sections.back().roll = 0.5 * (from + o.cant);
+  }
+  done = o.bend * o.height;
+  go(o.height - done, o.cant, o.cant, true, "winglet tip");
+}
+
+/// Rolls that are not given.
+void complete_rolls(std::vector<GivenSection>& sections, bool is_root_in_plane) {
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    if (!is_automatic(sections[i].roll)) continue;
+    const bool has_before = i > 0, has_after = i + 1 < sections.size();
+    const double before = has_before ? panel_roll(sections[i - 1].leading, sections[i].leading) : 0.0;
+    const double after = has_after ? panel_roll(sections[i].leading, sections[i + 1].leading) : 0.0;
+    sections[i].roll = has_before && has_after ? 0.5 * (before + after) : has_before ? before : is_root_in_plane ? 0.0 : after;
+  }
+}
+
+/// Roll about x, then twist about the section's own span axis, as rotations about the fixed axes x, y, z.
+WingSection section_of(const GivenSection& s) {
+  const double cr = std::cos(s.roll), sr = std::sin(s.roll), ct = std::cos(s.twist), st = std::sin(s.twist);
+  WingSection section{.name = s.name, .leading_edge = s.leading, .chord = s.chord};
+  section.twist = std::asin(std::clamp(cr * st, -1.0, 1.0));
+  section.yaw = std::atan2(sr * st, ct);
+  section.dihedral = std::atan2(sr, cr * ct);
+  section.airfoil = s.airfoil.name;
+  section.points = s.airfoil.points;
+  section.is_break = s.is_break;
+  section.is_reversed = s.is_reversed;
+  return section;
+}
+
+}  // namespace
+
+ScriptValue make_wing_verb(const ScriptCall& call) {
+  const ScriptTable table = table_argument(call, 0, k_wing_usage);
+  WingOptions o{.name = "wing"};
+  const OptionTable schema = sterna::options_of(o);
+  TableReader reader(table, call.attempted());
+  const Point position = read_point(reader, "position").value_or(Point{});
+  reader.read_options(schema);
+  if (o.name.empty()) reader.add_problem("name: must not be empty");
+  SectionList list(call, reader, o);
+  list.read(reader.field("sections"));
+  if (const ScriptValue* winglet = reader.field("winglet")) list.add_winglet(*winglet);
+  reader.finish();
+  std::vector<GivenSection>& given = list.sections;
+  const bool is_root_in_plane = position.y + given.front().leading.y == 0.0 &&
+                                std::any_of(given.begin(), given.end(), [&](const GivenSection& s) { return s.leading.y != given.front().leading.y; });
+  const bool is_one = o.symmetric && is_root_in_plane;
+  complete_rolls(given, is_one);
+  Wing wing{.name = o.name,
+            .placement = {position, {0.0, o.incidence, 0.0}},
+            .is_symmetric = is_one,
+            .has_mirror_image = o.symmetric && !is_one,
+            .is_cubic = o.spanwise == "cubic"};
+  for (std::size_t i = given.size(); i-- > 0;) wing.sections.push_back(section_of(given[i]));
+  if (!is_automatic(o.trailing_edge)) wing.trailing_edge = o.trailing_edge;
+  wing.right_tip = {CapShape::strip, o.tip == "round" ? o.tip_height : 0.0};
+  wing.left_tip = is_one ? wing.right_tip : EndCap{CapShape::strip, o.root == "round" ? o.tip_height : 0.0};
+  return std::make_shared<ComponentValue>(ComponentValue{.kind = ComponentKind::wing, .shape = std::move(wing)});
+}
+
+std::string wing_help() {
+  WingOptions wing;
+  WingSectionOptions section;
+  WingletOptions winglet;
+  constexpr const char* k_position = "  position = {x, y, z}\n      ";
+  constexpr const char* k_airfoil = "  airfoil = \"naca23012\", a file's name, or airfoil{...}\n      ";
+  return options_help(sterna::options_of(wing)) + k_position +
+         "of the whole wing; {0, 0, 0}\n  sections = { {...}, {...} }\n      required: two at least, from the root to the tip\n  winglet = {...}\n      goes "
+         "on from the last section; none\n" +
+         "each section:\n" + options_help(sterna::options_of(section)) + k_position + "of the leading edge, in place of x, y, z and span\n" + k_airfoil +
+         "that of the section before; the first one needs it\n" + "winglet:\n" + options_help(sterna::options_of(winglet)) + k_airfoil +
+         "of its tip; that of the wing's tip\n";
+}
+
+}  // namespace sterna::scripting
