@@ -44,9 +44,12 @@ struct StageWatch {
 /// volume_mesh() with someone who looks on.
 VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const Makers& makers, const StageWatch& watch, const RunContext& context);
 
-/// The first step. \pre, \throws as volume_mesh()
+/// The first step.
+/// \pre,
+/// \throws as volume_mesh()
 EnvelopeStage make_envelope(const TriMesh& wall, const MeshCase& options, const Makers& makers, const RunContext& context);
-/// The second. Everything that the envelope is made of is proved again. \pre `envelope` of make_envelope() on this wall
+/// The second. Everything that the envelope is made of is proved again.
+/// \pre `envelope` of make_envelope() on this wall
 /// \throws Error(bad_argument) for an envelope of another size, else of the stages
 FilledStage make_tetrahedra(const TriMesh& wall, const EnvelopeStage& envelope, const MeshCase& options, const Makers& makers, const RunContext& context);
 /// The last: improves, joins, checks. What the stage holds is proved again; options of earlier steps have no effect but in the report.

@@ -32,8 +32,9 @@ struct VolumeMeshResult {
 
 /// Steps: farfield, envelope (build_envelope.h), extrude and repair, certificate, tetrahedra, improve, assemble, check. Where the tetrahedra's engine was to
 /// split triangles of its boundary (tetra.h), wall, envelope and farfield of the mesh are split with them (split_layer.h); where all engines fail, the envelope
-/// is repaired and everything from the extrusion on is done again (repair_envelope.h), 3 times at most. \pre wall closed, manifold, free of self-intersection,
-/// normals into the fluid. \throws Error of the stages; mesh_invalid when the final check finds violations.
+/// is repaired and everything from the extrusion on is done again (repair_envelope.h), 3 times at most.
+/// \pre wall closed, manifold, free of self-intersection, normals into the fluid.
+/// \throws Error of the stages; mesh_invalid when the final check finds violations.
 VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -46,7 +46,8 @@ class Alongside {
   bool is_done() const { return ended_.try_wait(); }
   /// From any thread.
   void wait() const { ended_.wait(); }
-  /// Waits for the result; call it once. \throws what the work has thrown.
+  /// Waits for the result; call it once.
+  /// \throws what the work has thrown.
   T take() {
     if (thread_.joinable()) thread_.join();
     if (exception_) std::rethrow_exception(exception_);

@@ -1,4 +1,5 @@
-// Structs of columns visited by one list: `columns_of(s)` returns a tuple of references to all members, and everything that has to touch each of them goes through it.
+// Structs of columns visited by one list: `columns_of(s)` returns a tuple of references to all members, and everything that has to touch each of them goes
+// through it.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,8 @@ void for_each_column(const F& f, Structs&... structs) {
   const auto lists = std::make_tuple(columns_of(structs)...);
   constexpr std::size_t n = std::tuple_size_v<std::tuple_element_t<0, decltype(lists)>>;
   const auto visit = [&]<std::size_t I>(std::integral_constant<std::size_t, I>) { std::apply([&](const auto&... list) { f(std::get<I>(list)...); }, lists); };
-  [&]<std::size_t... I>(std::index_sequence<I...>) { (visit(std::integral_constant<std::size_t, I>{}), ...); }(std::make_index_sequence<n>{});
+  [&]<std::size_t... I>(std::index_sequence<I...>) { (visit(std::integral_constant<std::size_t, I>{}), ...); }
+  (std::make_index_sequence<n>{});
 }
 
 }  // namespace sterna

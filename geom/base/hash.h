@@ -17,7 +17,8 @@ namespace sterna {
 std::string hash_file(const std::filesystem::path& path);
 
 /// Of several files in one: the hash of the text that `xxhsum -H2 NAME NAME ...` prints in their folder (each line the file's hash, two blanks, its name).
-/// Their order counts. \throws Error as hash_file
+/// Their order counts.
+/// \throws Error as hash_file
 std::string hash_files(std::span<const std::filesystem::path> paths);
 
 /// XXH3, 64 bits, seed 0; the same on every machine. About 20 GB/s.

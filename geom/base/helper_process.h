@@ -39,7 +39,8 @@ class SharedBlock {
   int descriptor() const { return descriptor_; }
   /// Maps the block at its present size, which another process may have changed; nullptr when it is empty. The mapping lives as long as the object.
   std::byte* map();
-  /// Puts data at its end, which moves. \throws Error(task.failed) when there is no memory for it.
+  /// Puts data at its end, which moves.
+  /// \throws Error(task.failed) when there is no memory for it.
   void append(std::span<const std::byte> data);
   std::size_t size() const { return size_; }  ///< of the mapping
 
@@ -71,12 +72,14 @@ struct HelperExit {
   bool is_success() const { return wait_status == 0 && !is_time_over; }
 };
 
-/// Starts the helper with the descriptors `request` and `reply` as its 3 and 4, waits for its end. Its own process group, so that Ctrl-C reaches it through
-/// the context's stop only. \pre request and reply are 10 or more, as those of SharedBlock are; see above_helper_descriptors()
+/// Starts the helper with the descriptors `request` and `reply` as its 3 and 4, waits for its end. Its own process group, so that Ctrl-C reaches it through the
+/// context's stop only.
+/// \pre request and reply are 10 or more, as those of SharedBlock are; see above_helper_descriptors()
 /// \throws Error task.missing when it cannot be started, task.failed; cancelled (the helper is killed and reaped first).
 HelperExit run_helper(const HelperStart& start, int request, int reply, const RunContext& context);
 
-/// The same file under a number that run_helper takes; the old one is closed. \throws Error(task.failed)
+/// The same file under a number that run_helper takes; the old one is closed.
+/// \throws Error(task.failed)
 int above_helper_descriptors(int descriptor, const HelperTask& task);
 
 /// Path of the helper executable `name`: in `folder` if that is not empty, else in the folder of the running executable or one of the two above it.

@@ -56,7 +56,8 @@ R parallel_reduce(const RunContext& context, std::size_t n, R initial, const Map
   return result;
 }
 
-/// Sorts [data, data+n). \pre less is a total order (no two different elements are equivalent), so that the result is unique.
+/// Sorts [data, data+n).
+/// \pre less is a total order (no two different elements are equivalent), so that the result is unique.
 template <class T, class Less>
 void parallel_sort(const RunContext& context, std::vector<T>& values, const Less& less) {
   constexpr std::size_t k_run = 1 << 15;

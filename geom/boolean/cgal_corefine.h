@@ -27,8 +27,9 @@ struct CorefinedUnion {
 
 /// Adds the solids one by one, in order; exact constructions throughout, rounded once at the end, so that no solid is cut by the rounding of an earlier cut.
 /// Faces that two solids share exactly are handled; of two coplanar pieces with the same side the one of the earlier solid stays. Serial, one result for any
-/// number of threads. Rounding may turn pieces thinner than the last bit; the caller checks the result.
-/// Cost: about 10 us a triangle plus 0.2 ms a pair of crossing triangles. \throws Error(cancelled) between solids.
+/// number of threads. Rounding may turn pieces thinner than the last bit; the caller checks the result. Cost: about 10 us a triangle plus 0.2 ms a pair of
+/// crossing triangles.
+/// \throws Error(cancelled) between solids.
 CorefinedUnion corefine_union(const std::vector<TaggedSolid>& solids, const RunContext& context);
 
 }  // namespace sterna

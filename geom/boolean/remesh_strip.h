@@ -32,7 +32,8 @@ struct StripOutput {
 /// Rounds of splitting, collapsing, flipping and smoothing within options.strip_width local edge lengths of the curve; lengths grow from those of the curve to
 /// those of the input. Kept edges (borders of regions, ridges) stay polylines of their own vertices and midpoints. Never adds a crossing; farther than
 /// options.deviation local edge lengths from the input no triangle comes. Serial; ends after a fixed number of rounds. Fills the figures of the strip in
-/// `report`. \pre closed, manifold
+/// `report`.
+/// \pre closed, manifold
 StripOutput remesh_strip(StripInput input, const UnionOptions& options, UnionReport& report, const RunContext& context);
 
 }  // namespace sterna

@@ -63,7 +63,8 @@ struct CollapseLimits {
 /// Vertices and triangles are never renumbered; dead ones stay as holes.
 class StripMesh {
  public:
-  /// `reference`: the surface to stay near; must outlive this. \pre closed, manifold
+  /// `reference`: the surface to stay near; must outlive this.
+  /// \pre closed, manifold
   StripMesh(std::vector<Vec3> points, std::vector<StripTriangle> triangles, const StripLimits& limits, const TriangleTree& reference);
 
   std::vector<Vec3> points;
@@ -84,8 +85,8 @@ class StripMesh {
   std::vector<std::uint32_t> neighbours(std::uint32_t v) const;
   std::vector<std::uint32_t> kept_neighbours(std::uint32_t v) const;
 
-  /// Each changes the mesh and returns true, or leaves it as it was. `tolerance` (m): farthest from the reference.
-  /// Puts the other diagonal. \pre the edge is not kept
+  /// Each changes the mesh and returns true, or leaves it as it was. `tolerance` (m): farthest from the reference. Puts the other diagonal.
+  /// \pre the edge is not kept
   bool flip(std::uint32_t a, std::uint32_t b, double min_gain, double tolerance);
   /// Puts `from` where `to` is and joins the two. A vertex of kept edges goes along them only, one of a corner nowhere.
   bool collapse(std::uint32_t from, std::uint32_t to, const CollapseLimits& limits);

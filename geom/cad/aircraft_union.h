@@ -18,7 +18,8 @@ namespace cad {
 std::vector<Model> split_solids(const Model& components);
 
 /// Solids that cross, touch or lie inside others are united; those that stay apart stay as they are. Each result is one solid, in the order of the first part
-/// of each. \throws Error of find_contacts and unite
+/// of each.
+/// \throws Error of find_contacts and unite
 std::vector<Model> unite_touching(std::span<const Model> solids, const UniteOptions& options, const RunContext& context);
 
 /// The union of all solids of a model (make_components, a CAD file), as unite does it. What looks hard about the contacts of the parts goes to the log as

@@ -30,7 +30,8 @@ struct FaceOrigin {
 };
 using FaceOrigins = NCollection_DataMap<TopoDS_Shape, FaceOrigin, TopTools_ShapeMapHasher>;
 
-/// With shape, volume and area. \throws Error(open_surface) with places unless every solid is closed
+/// With shape, volume and area.
+/// \throws Error(open_surface) with places unless every solid is closed
 BooleanPart boolean_part(const Model& model, const std::string& attempted, const RunContext& context);
 
 /// Faces of the parts' shapes and their pieces after `operation`; faces that coincide belong to the first part.

@@ -49,8 +49,8 @@ inline constexpr double k_tangent_angle = 0.1;
 inline constexpr double k_mostly_inside = 0.9;
 
 /// Contacts of all pairs of parts, and those groups that are apart. Parts are triangulated to 1e-3 of their size; places, angles and gaps are then taken from
-/// the surfaces themselves. Contacts smaller than these triangles may be missed. Takes a few per cent of the time of uniting. \throws Error(geometry_failed)
-/// naming the part that cannot be triangulated, Error(cancelled)
+/// the surfaces themselves. Contacts smaller than these triangles may be missed. Takes a few per cent of the time of uniting.
+/// \throws Error(geometry_failed) naming the part that cannot be triangulated, Error(cancelled)
 ContactReport find_contacts(std::span<const Model> parts, const RunContext& context);
 
 /// Patches of a body that reach out of a container.
@@ -64,7 +64,8 @@ struct Overhang {
 };
 
 /// Those of all bodies that reach out of the container by more than 1e-4 of the body's longest side (what stands on a wall does not), by samples as
-/// find_contacts takes them; in the order of the bodies and their faces, one for each name of faces in a component. \pre normals of both point out of them
+/// find_contacts takes them; in the order of the bodies and their faces, one for each name of faces in a component.
+/// \pre normals of both point out of them
 /// \throws as find_contacts
 std::vector<Overhang> find_overhangs(const Model& container, std::span<const Model> bodies, const RunContext& context);
 

@@ -57,9 +57,10 @@ using MayPass = std::function<bool(const Overhang&)>;
 /// stand on them, are cut off there, and their openings in these faces; what reaches out without leave (find_overhangs) is an error. Without `may_pass` all
 /// may. Faces keep names, components, roles, kinds, colours and surfaces; normals point into the fluid: those of the container inwards, those of bodies
 /// outwards. The container may be given with normals either way. Solids of the result: the container with what was cut, then each body inside. Proven like a
-/// union: valid, closed, volume and what is left of each part's area as they must be. The same bytes for any number of threads. \throws Error(open_surface) for
-/// open parts; Error(bad_argument) naming a body, with its place, that lies outside of the container, fills it, or cuts the fluid in two, or parts that would
-/// be cut off, with how far they reach out; Error(geometry_failed) after the last tolerance or past the time limit; Error(cancelled)
+/// union: valid, closed, volume and what is left of each part's area as they must be. The same bytes for any number of threads.
+/// \throws Error(open_surface) for open parts; Error(bad_argument) naming a body, with its place, that lies outside of the container, fills it, or cuts the
+/// fluid in two, or parts that would be cut off, with how far they reach out; Error(geometry_failed) after the last tolerance or past the time limit;
+/// Error(cancelled)
 FluidDomain fluid_domain(const Model& container, std::span<const Model> bodies, const FluidOptions& options, const RunContext& context,
                          const MayPass& may_pass = {});
 

@@ -62,9 +62,10 @@ namespace cad {
 /// The half of a model on one side of a plane x, y or z = constant. Solids wholly beyond it are left out first, those that remain are united where there are
 /// several; faces that cross the plane are cut, those in it left out, and the rim's edges and corners put into the plane exactly: coordinates of points on them
 /// are `at` to the last bit. A model that is open in the plane already, or closed by faces in it, and has nothing beyond, is taken as it is. Names, components,
-/// roles, kinds and surfaces are kept. \post every free edge is in the plane \throws Error(bad_argument) when the model does not reach the plane or has nothing
-/// on the side that is kept; Error(open_surface) with places for free edges elsewhere, and for open models that cross the plane; Error(geometry_failed) where
-/// the cut fails; all of unite; Error(cancelled)
+/// roles, kinds and surfaces are kept.
+/// \post every free edge is in the plane
+/// \throws Error(bad_argument) when the model does not reach the plane or has nothing on the side that is kept; Error(open_surface) with places for free edges
+/// elsewhere, and for open models that cross the plane; Error(geometry_failed) where the cut fails; all of unite; Error(cancelled)
 HalfModel half_model(const Model& model, const HalfModelOptions& options, const RunContext& context);
 
 }  // namespace cad

@@ -50,8 +50,9 @@ struct LabelledShape {
   FaceLabels labels;
 };
 
-/// The model of labelled shapes, with model.shape set. Faces of solids come first, in the order of the parts. Every edge gets its curves in space and in
-/// the faces (built where missing, made to agree in parameter). \throws Error(geometry_failed) with the place of a face or edge that has no geometry.
+/// The model of labelled shapes, with model.shape set. Faces of solids come first, in the order of the parts. Every edge gets its curves in space and in the
+/// faces (built where missing, made to agree in parameter).
+/// \throws Error(geometry_failed) with the place of a face or edge that has no geometry.
 Model model_of(const LabelledShape& labelled, const std::string& attempted, const RunContext& context);
 
 /// A point on the shape: of an edge half way along it, of a face its centre in the parameters, of others their first vertex.

@@ -107,8 +107,8 @@ namespace cad {
 
 /// Reads the bytes of a file, unpacked. `source` is its name for messages; its stem names components that have no other name. A file without a single face is
 /// refused. Placed instances of assemblies become components of their own, named after the instance, else the product; faces without a name get that of their
-/// component. What cannot be closed is no error: it is listed in the report, and each warning also goes to the log. \throws Error file_malformed,
-/// geometry_failed (OpenCASCADE gave up, the time limit), cancelled.
+/// component. What cannot be closed is no error: it is listed in the report, and each warning also goes to the log.
+/// \throws Error file_malformed, geometry_failed (OpenCASCADE gave up, the time limit), cancelled.
 CadFile read_cad_bytes(std::string_view bytes, CadFormat format, const std::string& source, const ReadCadOptions& options, const RunContext& context);
 
 }  // namespace cad

@@ -15,7 +15,8 @@ struct RefitReport {
 bool needs_refit(const Model& model);
 
 /// The same topology, names and parameters on splines within `tolerance`, metres; what faces or edges share stays shared. Tolerances of edges and corners grow
-/// by what was lost. Exact surfaces and curves stay as they are. \throws Error(bad_argument) with the place where the tolerance is not reached
+/// by what was lost. Exact surfaces and curves stay as they are.
+/// \throws Error(bad_argument) with the place where the tolerance is not reached
 Model refitted(const Model& model, double tolerance, RefitReport& report, const RunContext& context);
 
 }  // namespace sterna::cad

@@ -49,8 +49,8 @@ std::optional<BooleanTry> climb(const BooleanTask& task, const std::vector<Boole
                                 const RunContext& context);
 
 /// The first objection that any result may meet: faults of OpenCASCADE's check, free edges (their places go to outcome.places); empty where there is none. Then
-/// the areas that are left of each part, m^2, and the volume of the result are measured. \p what names it in messages: "half". \pre one entry of `areas` per
-/// part, 0
+/// the areas that are left of each part, m^2, and the volume of the result are measured. \p what names it in messages: "half".
+/// \pre one entry of `areas` per part, 0
 std::string measure_result(BooleanTry& result, const std::string& what, std::vector<double>& areas, const RunContext& context);
 
 /// Longest side of the largest part.

@@ -57,12 +57,13 @@ struct UniteResult {
 
 namespace cad {
 
-/// The union of closed models. Each result face keeps component, role, name, colour, layer and, by handle, the surface of the face it is a part of; inner
-/// faces are gone; faces that coincide belong to the first part. Doubts about the contacts are logged as warnings before anything is united. The result is
-/// proven: valid (OpenCASCADE's check), closed, its volume between that of the largest part and the sum of all, and of every part as much area is left as
-/// samples of it lie outside of the others. The same bytes for any number of threads. \pre every part is closed \throws Error(open_surface) naming a part that
-/// is not; Error(geometry_failed) after the last tolerance, naming the pair of components that alone does not unite, where there is one, with the place, or
-/// past the time limit of a try; Error(cancelled)
+/// The union of closed models. Each result face keeps component, role, name, colour, layer and, by handle, the surface of the face it is a part of; inner faces
+/// are gone; faces that coincide belong to the first part. Doubts about the contacts are logged as warnings before anything is united. The result is proven:
+/// valid (OpenCASCADE's check), closed, its volume between that of the largest part and the sum of all, and of every part as much area is left as samples of it
+/// lie outside of the others. The same bytes for any number of threads.
+/// \pre every part is closed
+/// \throws Error(open_surface) naming a part that is not; Error(geometry_failed) after the last tolerance, naming the pair of components that alone does not
+/// unite, where there is one, with the place, or past the time limit of a try; Error(cancelled)
 UniteResult unite(std::span<const Model> parts, const UniteOptions& options, const RunContext& context);
 
 }  // namespace cad

@@ -75,9 +75,10 @@ ParameterBox box_of(const FaceBorder& border);
 
 /// Meshes a face: CDT of the border, vertices where the surface turns, refinement by size, by quality, flips, smoothing, collapses. `size` holds what curvature
 /// asks for. `mean_speed`: mean lengths of du and dv, metres by parameter. Depends on the input alone; linear in the number of triangles. The border is kept as
-/// it is. \pre border points within their tolerance of the surface \throws Error(self_intersection) where the border crosses or touches itself along a line in
-/// (u, v); Error(bad_argument) for an empty border or a size that is not positive; Error(overflow) when max_triangles is not enough, with the place and the
-/// size wanted there
+/// it is.
+/// \pre border points within their tolerance of the surface
+/// \throws Error(self_intersection) where the border crosses or touches itself along a line in (u, v); Error(bad_argument) for an empty border or a size that
+/// is not positive; Error(overflow) when max_triangles is not enough, with the place and the size wanted there
 FaceMesh mesh_face(const Surface& surface, const FaceBorder& border, const SizeFunction& size, Vec2 mean_speed, const FaceMeshOptions& options,
                    const RunContext& context);
 

@@ -17,7 +17,8 @@ struct FaceState {
 
 SurfaceSample sample(const Surface& surface, Uv at);
 
-/// What is wanted at a place, not below min_edge. \throws Error(bad_argument) when it is not positive
+/// What is wanted at a place, not below min_edge.
+/// \throws Error(bad_argument) when it is not positive
 double wanted_size(const FaceState& state, Uv at, const Point& point);
 
 /// Parameters, and the sample there, near `target`, by Newton's method on the tangent plane from `guess`; held within the box of the border.

@@ -10,7 +10,8 @@
 
 namespace sterna::delaunay {
 
-/// The indices 0 .. n - 1 in order of insertion; depends on the points and their numbering alone. O(n log n). \pre finite
+/// The indices 0 .. n - 1 in order of insertion; depends on the points and their numbering alone. O(n log n).
+/// \pre finite
 std::vector<std::uint32_t> insertion_order(std::span<const Vec2> points);
 
 /// Indices of points along Hilbert's curve, without rounds: what is near in the plane is near in this order.

@@ -56,7 +56,8 @@ struct Triangulation {
   /// Sets the kind of an edge on both sides.
   void set_flags(HalfedgeId h, EdgeFlags flags);
 
-  /// +1 when a, b, c turn counter-clockwise. \pre none is the ghost
+  /// +1 when a, b, c turn counter-clockwise.
+  /// \pre none is the ghost
   int turn(VertexId a, VertexId b, VertexId c) const { return orient2d(uv[a], uv[b], uv[c]); }
 
   /// A slot for a triangle; the caller fills it.
@@ -67,13 +68,16 @@ struct Triangulation {
 
 /// True when the edge may be replaced by the other diagonal: free, two real triangles, both new ones strictly counter-clockwise.
 bool is_flip_valid(const Triangulation& mesh, HalfedgeId h);
-/// Replaces an edge by the other diagonal; afterwards `h` is the new edge, from the apex of its twin's triangle to its own former apex. \pre is_flip_valid
+/// Replaces an edge by the other diagonal; afterwards `h` is the new edge, from the apex of its twin's triangle to its own former apex.
+/// \pre is_flip_valid
 void flip(Triangulation& mesh, HalfedgeId h);
 
-/// The half-edge from a to b, or an invalid one; goes around a, whichever side the border is on. \pre the star of a is one fan
+/// The half-edge from a to b, or an invalid one; goes around a, whichever side the border is on.
+/// \pre the star of a is one fan
 HalfedgeId find_edge(const Triangulation& mesh, VertexId a, VertexId b);
 
-/// Calls f(half-edge from v) for every triangle at v, counter-clockwise; once around, or from border to border. \pre the star is one fan
+/// Calls f(half-edge from v) for every triangle at v, counter-clockwise; once around, or from border to border.
+/// \pre the star is one fan
 template <class F>
 void for_star(const Triangulation& mesh, VertexId v, const F& f) {
   const HalfedgeId first = mesh.outgoing[v];

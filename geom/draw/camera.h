@@ -31,7 +31,8 @@ struct Camera {
   Vec3 to_eye(const Point& p) const { return is_perspective() ? normalized(target + distance * toward - p) : toward; }
 };
 
-/// Looks along -toward, z upwards in the picture (y where it looks along z). \pre toward is no zero vector
+/// Looks along -toward, z upwards in the picture (y where it looks along z).
+/// \pre toward is no zero vector
 Camera camera_towards(const Vec3& toward);
 
 }  // namespace sterna::draw

@@ -29,8 +29,8 @@ std::optional<CutPlane> plane_of(const std::string& text);
 /// \throws Error(bad_argument)
 std::optional<Sphere> sphere_of(const std::string& text);
 
-/// The place of that name (upper and lower case are the same). \throws Error(bad_argument) with the names that there are; `attempted` is who asks ("draw"),
-/// `what` for what ("cut")
+/// The place of that name (upper and lower case are the same).
+/// \throws Error(bad_argument) with the names that there are; `attempted` is who asks ("draw"), `what` for what ("cut")
 const CutPlace& place_of(std::span<const CutPlace> places, const std::string& name, std::string_view attempted, std::string_view what);
 
 /// \throws Error(unknown_option) with the known names and a suggestion

@@ -27,7 +27,8 @@ Figure face_figure(const HybridMesh& mesh, const std::string& name, const RunCon
 /// Of the polygons of a cut: quality (CutPolygon::shape), volume, layer.
 Figure cell_figure(const MeshCut& cut, const std::string& name);
 
-/// Range of the colours by the values of what is shown. \throws Error(bad_argument) for a range that is empty, or not positive where the scale is logarithmic
+/// Range of the colours by the values of what is shown.
+/// \throws Error(bad_argument) for a range that is empty, or not positive where the scale is logarithmic
 void set_range(ColorBar& bar, std::vector<double> shown, const std::string& name, const DrawOptions& options);
 
 }  // namespace sterna::draw

@@ -13,7 +13,8 @@ struct SphericalCap {
 };
 
 /// Incremental (Welzl 1991, on the sphere); exact to rounding for vectors within a hemisphere. Beyond that the angle is still the true one of the returned
-/// axis. \pre not empty, unit vectors
+/// axis.
+/// \pre not empty, unit vectors
 SphericalCap smallest_spherical_cap(std::span<const Vec3> vectors);
 
 }  // namespace sterna

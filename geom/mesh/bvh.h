@@ -82,7 +82,9 @@ struct NearestHit {
 /// Hierarchy over the triangles of a mesh (a copy of the coordinates is kept).
 class TriangleTree {
  public:
-  /// Built in parallel. \pre vertex ids in range. \throws Error(bad_argument) when a corner of a triangle is not finite.
+  /// Built in parallel.
+  /// \pre vertex ids in range.
+  /// \throws Error(bad_argument) when a corner of a triangle is not finite.
   TriangleTree(const TriMesh& mesh, const RunContext& context);
 
   /// Nearest point on any triangle within `limit`; of equally near triangles the lowest id. A triangle without area counts as its edges.

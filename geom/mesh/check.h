@@ -79,7 +79,7 @@ struct CheckReport {
   std::int64_t n_nodes = 0;
   std::int64_t n_boundary_triangles = 0, n_boundary_quads = 0;
   std::vector<std::pair<Violation, std::int64_t>> counts;  ///< violations found, by kind; empty = VALID
-  std::vector<CheckFinding> findings;                           ///< the first few of each kind, in mesh order
+  std::vector<CheckFinding> findings;                      ///< the first few of each kind, in mesh order
   double layer_volume = 0.0, layer_volume_error = 0.0;     ///< m^3; error relative to layer_volume, limit 1e-11
   double tet_volume = 0.0, tet_volume_error = 0.0;         ///< likewise for the tets
   double total_volume = 0.0;

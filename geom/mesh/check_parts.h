@@ -96,10 +96,12 @@ class FaceSlots {
   bool is_boundary(std::uint32_t slot) const { return slot >= first_boundary(); }
   Face face(std::uint32_t slot) const;
   Point center(std::uint32_t slot) const;
-  /// Number of the cell that has the face. \pre !is_boundary(slot)
+  /// Number of the cell that has the face.
+  /// \pre !is_boundary(slot)
   std::uint64_t owner(std::uint32_t slot) const;
   bool is_layer(std::uint32_t slot) const { return slot < first_[k_tetrahedra]; }
-  /// Number of the explicit tet that has the face. \pre !is_layer(slot), !is_boundary(slot)
+  /// Number of the explicit tet that has the face.
+  /// \pre !is_layer(slot), !is_boundary(slot)
   std::uint32_t tet_of(std::uint32_t slot) const { return (slot - first_[k_tetrahedra]) / 4; }
   /// Column whose bottom the face is, if it is one.
   std::optional<std::uint32_t> column_under(std::uint32_t slot) const {
@@ -238,7 +240,8 @@ void check_crossings(const HybridMesh& mesh, const FaceSlots& slots, const FaceM
 /// overlapping_parts; does nothing when faces or crossings were found wrong, since then no side of a boundary is the fluid's.
 void check_cover(const HybridMesh& mesh, const FaceSlots& slots, const RunContext& context, Findings& findings);
 
-/// negative_sub_volume, open_dual_cell (G4), and the nodes' statistics. \pre no G1 violation
+/// negative_sub_volume, open_dual_cell (G4), and the nodes' statistics.
+/// \pre no G1 violation
 DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const DualScan* ahead, const GateTable& limits, const RunContext& context,
                     Findings& findings);
 /// off_symmetry_plane (G20).

@@ -20,7 +20,8 @@ struct PrismMeasures {
 class ColumnScan {
  public:
   explicit ColumnScan(const HybridMesh& mesh) : mesh_(mesh) {}
-  /// Measures of the prisms of a column from the wall up; valid until the next call. \pre no line of it is collapsed
+  /// Measures of the prisms of a column from the wall up; valid until the next call.
+  /// \pre no line of it is collapsed
   const std::vector<PrismMeasures>& measure(std::size_t column);
 
  private:

@@ -42,8 +42,8 @@ struct DualScan {
 };
 
 /// One pass over all nodes: columns along their lines, four layers at a time, everything else cell by cell around each node. Parallel; needs about 12 bytes for
-/// each node that is not inside a column and 4 for each corner of an explicit cell. \pre as dual_metrics
-/// `lines`: what scan_lines() has found; not used when explicit cells or boundary faces touch nodes inside columns.
+/// each node that is not inside a column and 4 for each corner of an explicit cell.
+/// \pre as dual_metrics `lines`: what scan_lines() has found; not used when explicit cells or boundary faces touch nodes inside columns.
 DualScan scan_dual(const HybridMesh& mesh, const GateTable& limits, const RunContext& context, const DualScan* lines = nullptr);
 /// The part of it for nodes inside columns; nothing else of the mesh is looked at.
 DualScan scan_lines(const HybridMesh& mesh, const GateTable& limits, const RunContext& context);

@@ -75,7 +75,8 @@ struct FamilyReport {
   GateState state() const;  ///< the worst of all rules
 };
 
-/// Checks consecutive members, from coarse to fine. \throws Error(bad_argument) for fewer than two members, or one that is not finer than the one before
+/// Checks consecutive members, from coarse to fine.
+/// \throws Error(bad_argument) for fewer than two members, or one that is not finer than the one before
 FamilyReport check_family(std::vector<FamilyMember> members, const FamilyTolerances& tolerances);
 
 /// Tables for people: the members, then each step with its rules.

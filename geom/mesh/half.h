@@ -21,11 +21,13 @@ struct HalfOptions {
 /// shared by their neighbours; what is beyond it, and triangles in it (the flat side of a closed half model), are left out. Before the cut, vertices are moved
 /// along an edge to where it meets the plane when that is near (`snap`) and no triangle turns by more than 20 degrees: there are no slivers beside the rim.
 /// With snap = 0 the cut is exact. Kept vertices and triangles keep their order, the rim's new vertices follow them; patches that lost all triangles are left
-/// out. \pre edges with one triangle or two with opposite sense A surface that ends in other planes x, y or z = constant, as the half of which this is the
-/// quarter, ends in them still, to the bit. \post every edge with one triangle has both ends in the plane, exactly, or in such another one; such edges form
-/// closed loops; no other vertex is in the plane \throws Error(bad_argument) when the surface does not reach the plane; (open_surface) with places when it has
-/// rims elsewhere; (non_manifold_surface) where the rim touches itself or the surface touches the plane beside it; (mesh_invalid) when moving vertices within
-/// the tolerance would turn a triangle over
+/// out.
+/// \pre edges with one triangle or two with opposite sense A surface that ends in other planes x, y or z = constant, as the half of which this is the quarter,
+/// ends in them still, to the bit.
+/// \post every edge with one triangle has both ends in the plane, exactly, or in such another one; such edges form closed loops; no other vertex is in the
+/// plane
+/// \throws Error(bad_argument) when the surface does not reach the plane; (open_surface) with places when it has rims elsewhere; (non_manifold_surface) where
+/// the rim touches itself or the surface touches the plane beside it; (mesh_invalid) when moving vertices within the tolerance would turn a triangle over
 TriMesh half_of(const TriMesh& surface, const HalfOptions& options, const RunContext& context);
 
 template <>

@@ -65,7 +65,8 @@ struct LayerBlock {
     const auto& b = base[column];
     return is_collapsed[b[0]] + is_collapsed[b[1]] + is_collapsed[b[2]];
   }
-  /// Cell `layer` (0 = at the wall) of a column. \pre not all three lines are collapsed.
+  /// Cell `layer` (0 = at the wall) of a column.
+  /// \pre not all three lines are collapsed.
   Cell cell(std::size_t column, int layer) const;
 };
 

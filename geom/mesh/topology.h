@@ -12,7 +12,8 @@ namespace sterna {
 
 class Topology {
  public:
-  /// Twins by sorting; parallel, O(n log n). \pre indices in range, no triangle with a repeated vertex.
+  /// Twins by sorting; parallel, O(n log n).
+  /// \pre indices in range, no triangle with a repeated vertex.
   /// \throws Error(non_manifold_surface) when an edge has more than two triangles or two of the same sense.
   Topology(const TriMesh& mesh, const RunContext& context);
 

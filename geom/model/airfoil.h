@@ -40,7 +40,8 @@ Airfoil parse_airfoil(std::string_view text, const std::string& attempted);
 /// \throws Error(bad_argument) for a designation that is none
 Airfoil naca_airfoil(std::string_view designation, int n_side = 80);
 
-/// Flat plate with a half-elliptic nose of length 1.5 thicknesses; tail square. \throws Error(bad_argument) unless 0 < thickness < 0.5
+/// Flat plate with a half-elliptic nose of length 1.5 thicknesses; tail square.
+/// \throws Error(bad_argument) unless 0 < thickness < 0.5
 Airfoil rounded_plate(double thickness, int n_side = 80);
 
 /// Another trailing-edge thickness (of the chord; 0 = sharp): closed by turning both sides about the leading edge, opened by adding linearly along the chord.
@@ -62,9 +63,11 @@ struct Repaneled {
   Airfoil airfoil;
   double error = 0.0;  ///< largest distance of samples of the old spline from the new one, of the chord
 };
-/// `n_side` points along each side, dense where the section is curved. \throws Error(bad_argument) unless 5 <= n_side <= 2000
+/// `n_side` points along each side, dense where the section is curved.
+/// \throws Error(bad_argument) unless 5 <= n_side <= 2000
 Repaneled repaneled(const Airfoil& airfoil, int n_side);
-/// As few points as keep the error below `tolerance` (of the chord). \throws Error(bad_argument) when 2000 points are not enough
+/// As few points as keep the error below `tolerance` (of the chord).
+/// \throws Error(bad_argument) when 2000 points are not enough
 Repaneled repaneled_within(const Airfoil& airfoil, double tolerance);
 
 }  // namespace sterna

@@ -17,7 +17,8 @@ struct Document {
   explicit Document(const std::filesystem::path& path);
   ~Document();
   XmlFile file;
-  /// The element with a uID. \throws Error(file_malformed) at `from` when there is none
+  /// The element with a uID.
+  /// \throws Error(file_malformed) at `from` when there is none
   pugi::xml_node resolve(const pugi::xml_node& from, const std::string& uid) const;
   /// The same, empty when there is none.
   pugi::xml_node find(const std::string& uid) const;

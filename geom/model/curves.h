@@ -23,7 +23,8 @@ class LineCurve final : public Curve {
   Vec3 direction_;
   Interval domain_;
 };
-/// From a to b with t in [0, distance]. \throws Error(bad_argument) when they coincide
+/// From a to b with t in [0, distance].
+/// \throws Error(bad_argument) when they coincide
 CurvePtr segment(const Point& a, const Point& b);
 
 /// centre + cos t * x + sin t * y: circle or ellipse, or an arc of it; periodic when the domain is a whole turn. x and y carry the half axes. No exact
@@ -46,7 +47,8 @@ class EllipseCurve final : public Curve {
   Interval domain_;
   bool is_periodic_;
 };
-/// Circle about frame.z. \throws Error(bad_argument) unless radius > 0
+/// Circle about frame.z.
+/// \throws Error(bad_argument) unless radius > 0
 CurvePtr circle(const Frame& frame, double radius, Interval angles);
 
 /// base(scale * t + shift) on its own domain: a part, other units, or backwards (scale < 0).
@@ -92,7 +94,8 @@ class ParameterLine final : public ParameterCurve {
   Uv origin_, direction_;
   Interval domain_;
 };
-/// From a at the domain's start to b at its end. \throws Error(bad_argument) when they coincide
+/// From a at the domain's start to b at its end.
+/// \throws Error(bad_argument) when they coincide
 ParameterCurvePtr parameter_segment(Uv a, Uv b, Interval domain = {0.0, 1.0});
 
 /// centre + cos t * x + sin t * y in a parameter plane: circle or ellipse, or an arc of it. No exact NURBS, as for EllipseCurve.

@@ -10,7 +10,8 @@ namespace sterna {
 
 /// The same control surface with its hinge given from the root: span 0 at the root, 1 at the tip, of the length seen along the flow; chord as ever. The root of
 /// a symmetric wing is its middle (the result lies on the right half); of others the end nearer to y = 0 where they have a mirror image, else the end with the
-/// longer chord. Points may come in any order. \throws Error(bad_argument) for fewer than 2 points
+/// longer chord. Points may come in any order.
+/// \throws Error(bad_argument) for fewer than 2 points
 ControlSurface from_root(const Wing& wing, ControlSurface surface);
 
 /// The wing with sealed, blended control surfaces and with their patches. Between the hinge points every section is turned about the hinge line behind the
@@ -22,9 +23,10 @@ ControlSurface from_root(const Wing& wing, ControlSurface surface);
 /// wider than the moving part's round (or flat) nose; walls at both ends, `end_gap` apart; the part's skin is the wing's own. All-moving surfaces are cut off
 /// by walls; at a tip they take it with them. Turned about swept hinges by large angles a part may touch the wing: a union tells. Deflections of no angle only
 /// add patches: then the result equals `wing` apart from them; else it has a section for every place where the shape changes, from tip to tip, and is not
-/// symmetric any more. \throws Error(bad_argument) for surfaces of other wings, hinge points out of order, angles beyond 60 degrees, surfaces that overlap on
-/// the same edge (with their fairings, where they are deflected), open ones that reach a tip, have no room for the slot, or whose straight hinge leaves the
-/// middle of a section by more than half of it
+/// symmetric any more.
+/// \throws Error(bad_argument) for surfaces of other wings, hinge points out of order, angles beyond 60 degrees, surfaces that overlap on the same edge (with
+/// their fairings, where they are deflected), open ones that reach a tip, have no room for the slot, or whose straight hinge leaves the middle of a section by
+/// more than half of it
 Wing deflected(const Wing& wing, const std::vector<Deflection>& deflections);
 
 /// The deflection's image: its name as image_name says, its angle as `other_side` says (none: no angle); the hinge as it is.

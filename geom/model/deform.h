@@ -13,7 +13,8 @@
 
 namespace sterna {
 
-/// The model moved, turned, scaled, mirrored; a mirror keeps outward normals outward. `shape` is dropped. \throws Error(bad_argument) when T flattens space
+/// The model moved, turned, scaled, mirrored; a mirror keeps outward normals outward. `shape` is dropped.
+/// \throws Error(bad_argument) when T flattens space
 Model transformed(const Model& model, const Transform& transform);
 
 /// New name of a component, face, solid or edge from its old one.
@@ -22,7 +23,8 @@ using NameRule = std::function<std::string(const std::string&)>;
 std::string mirrored_name(const std::string& name);
 /// The same for names that become patches of meshes, without blanks: a name without a side gets "Left" ("RightNacelle" -> "LeftNacelle", "pod" -> "podLeft").
 std::string image_name(const std::string& name);
-/// Mirror image in the plane through `at`; empty names stay empty. \throws Error(bad_argument) for a normal without a direction
+/// Mirror image in the plane through `at`; empty names stay empty.
+/// \throws Error(bad_argument) for a normal without a direction
 Model mirrored(const Model& model, const Point& at, const Vec3& normal, const NameRule& rename = mirrored_name);
 
 /// Intervals of the fold-over check in each direction of a face's (u, v) box; where its surface has more breaks, these are the samples.

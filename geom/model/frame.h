@@ -41,11 +41,13 @@ struct Transform {
 Transform operator*(const Transform& a, const Transform& b);
 
 Transform translation(const Vec3& shift);
-/// Right-hand rule about the axis through `at`, radians. \throws Error(bad_argument) for an axis without a direction
+/// Right-hand rule about the axis through `at`, radians.
+/// \throws Error(bad_argument) for an axis without a direction
 Transform rotation(const Point& at, const Vec3& axis, double angle);
 /// \throws Error(bad_argument) unless factor > 0
 Transform scaling(const Point& about, double factor);
-/// Mirror image in the plane through `at`. \throws Error(bad_argument) for a normal without a direction
+/// Mirror image in the plane through `at`.
+/// \throws Error(bad_argument) for a normal without a direction
 Transform mirroring(const Point& at, const Vec3& normal);
 
 }  // namespace sterna

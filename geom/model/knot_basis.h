@@ -31,7 +31,8 @@ struct BasisValues {
 /// lanes), above they come from the triangular recurrence (de Boor; Piegl & Tiller, The NURBS Book, A2.3).
 class KnotBasis {
  public:
-  /// \pre knots as in NurbsCurveForm. \throws Error(bad_argument) that starts with `attempted`
+  /// \pre knots as in NurbsCurveForm.
+  /// \throws Error(bad_argument) that starts with `attempted`
   KnotBasis(int degree, std::vector<double> knots, bool is_periodic, std::string_view attempted);
 
   int degree() const { return degree_; }

@@ -9,7 +9,8 @@ namespace sterna {
 /// Any NURBS curve, degree 1 .. 25.
 class NurbsCurve final : public Curve {
  public:
-  /// `is_periodic`: the end is the start, and parameters outside the domain are wrapped. \throws Error(bad_argument) when the form breaks its rules
+  /// `is_periodic`: the end is the start, and parameters outside the domain are wrapped.
+  /// \throws Error(bad_argument) when the form breaks its rules
   explicit NurbsCurve(NurbsCurveForm<Point> form, bool is_periodic = false);
   Interval domain() const override { return basis_.domain(); }
   bool is_periodic() const override { return basis_.is_periodic(); }

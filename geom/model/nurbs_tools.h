@@ -10,16 +10,19 @@
 
 namespace sterna {
 
-/// w * (x, y, z, 1) of every pole. \throws Error(bad_argument) unless there are `n` poles, none or `n` positive weights, all finite
+/// w * (x, y, z, 1) of every pole.
+/// \throws Error(bad_argument) unless there are `n` poles, none or `n` positive weights, all finite
 std::vector<Lanes4> weighted_poles(const std::vector<Point>& poles, const std::vector<double>& weights, std::size_t n, std::string_view attempted);
 
-/// The same curve on other knots of the same or a higher degree. \pre the new knots are clamped, lie inside the domain (restriction is allowed) and
-/// have every old knot at least as often as the new degree exceeds the old one plus its old multiplicity (insertion, elevation).
+/// The same curve on other knots of the same or a higher degree.
+/// \pre the new knots are clamped, lie inside the domain (restriction is allowed) and have every old knot at least as often as the new degree exceeds the old
+/// one plus its old multiplicity (insertion, elevation).
 NurbsCurveForm<Point> on_knots(const NurbsCurveForm<Point>& form, int degree, const std::vector<double>& knots);
 NurbsSurfaceForm on_knots_u(const NurbsSurfaceForm& form, int degree, const std::vector<double>& knots);
 NurbsSurfaceForm on_knots_v(const NurbsSurfaceForm& form, int degree, const std::vector<double>& knots);
 
-/// Knots of the part `range` of a spline, clamped at both ends. \pre range lies in the domain and has a length
+/// Knots of the part `range` of a spline, clamped at both ends.
+/// \pre range lies in the domain and has a length
 std::vector<double> restricted_knots(int degree, const std::vector<double>& knots, Interval range);
 /// Knots of the same curve of a higher degree: every distinct knot appears `by` times more.
 std::vector<double> elevated_knots(const std::vector<double>& knots, int by);
@@ -29,7 +32,8 @@ std::vector<double> united_knots(const std::vector<double>& a, const std::vector
 /// Knots stretched to begin and end where `domain` does.
 std::vector<double> stretched_knots(const std::vector<double>& knots, Interval domain);
 
-/// The part of a curve as a curve. \pre range lies in the domain
+/// The part of a curve as a curve.
+/// \pre range lies in the domain
 NurbsCurveForm<Point> restricted(const NurbsCurveForm<Point>& form, Interval range);
 /// The part of a surface as a surface.
 NurbsSurfaceForm restricted(const NurbsSurfaceForm& form, Interval range_u, Interval range_v);

@@ -31,7 +31,8 @@ class SurfaceProjector {
   /// Nearest point: every cell of samples is tried that could hold a nearer one. Cells bound the surface by their samples with a margin, so a feature
   /// far thinner than a cell may be missed.
   SurfaceFoot nearest(const Point& p) const;
-  /// feet[i] = seeded(points[i], seeds[i]); with empty seeds nearest(points[i]). Parallel. \pre equal sizes
+  /// feet[i] = seeded(points[i], seeds[i]); with empty seeds nearest(points[i]). Parallel.
+  /// \pre equal sizes
   void project(std::span<const Point> points, std::span<const Uv> seeds, std::span<SurfaceFoot> feet, const RunContext& context) const;
 
   const SurfacePtr& surface() const { return surface_; }

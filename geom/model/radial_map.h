@@ -50,7 +50,8 @@ struct Schema<RadialMapOptions> {
 /// logarithm of the distance at the points themselves and are cut off there. Based on: Wendland, Adv. Comp. Math. 4, 1995; Duchon 1977.
 class RadialMap final : public SpaceMap {
  public:
-  /// O(n^3), n up to 6000. \throws Error(bad_argument): no points, too many, two at one place with different displacements, not solvable
+  /// O(n^3), n up to 6000.
+  /// \throws Error(bad_argument): no points, too many, two at one place with different displacements, not solvable
   RadialMap(const ScatteredDisplacements& data, const RadialMapOptions& options = {});
   Point point(const Point& p) const override;
   SpaceMapDerivatives derivatives(const Point& p) const override;

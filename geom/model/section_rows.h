@@ -37,8 +37,9 @@ std::pair<Point, Point> points_at(const std::vector<Point>& row, const RowCrossi
 std::vector<Point> section_loop(const WingSection& section, const std::optional<double>& trailing_edge);
 AirfoilRow airfoil_row(const std::vector<Point>& loop, std::size_t n, const std::string& name);
 
-/// Rows of all sections of a wing in component axes, right tip first, both halves of a symmetric one. Sharp trailing edges where any section has one
-/// (thinner than 1e-6 chord). \throws Error(bad_argument)
+/// Rows of all sections of a wing in component axes, right tip first, both halves of a symmetric one. Sharp trailing edges where any section has one (thinner
+/// than 1e-6 chord).
+/// \throws Error(bad_argument)
 struct WingRows {
   std::vector<std::vector<Point>> rows;
   std::vector<bool> is_break;  ///< the wing may have a kink at the row; always at the ends
@@ -62,8 +63,9 @@ WingPanel wing_panel(const std::vector<std::vector<Point>>& rows, std::size_t fi
 /// One for each part between breaks, in order.
 std::vector<WingPanel> wing_panels(const WingRows& rows);
 
-/// Points of a frame in component axes: 2 m + 1, from the bottom over the right side to the top (index m) and back on the left; the last repeats the
-/// first. All equal where the frame is a point. \throws Error(bad_argument, unsupported_format) naming the frame
+/// Points of a frame in component axes: 2 m + 1, from the bottom over the right side to the top (index m) and back on the left; the last repeats the first. All
+/// equal where the frame is a point.
+/// \throws Error(bad_argument, unsupported_format) naming the frame
 std::vector<Point> frame_row(const BodyFrame& frame, std::size_t m);
 
 }  // namespace sterna

@@ -249,9 +249,10 @@ std::array<Uv, 2> ends_at_surface(const BodyOutline& outline, const PylonOptions
     const double fall = (top - *outline.height(trailing.u + room)) / room;
     if (std::isfinite(climb)) sink = std::min(sink, room * (climb + fall));
     if (!(sink > 0.0))
-      throw_bad_argument(attempted,
-             "its trailing edge runs back to the wing below the nacelle's surface and leaves through the plane where that ends; nacelle_to or wing_to has to "
-             "be less");
+      throw_bad_argument(
+          attempted,
+          "its trailing edge runs back to the wing below the nacelle's surface and leaves through the plane where that ends; nacelle_to or wing_to has to "
+          "be less");
     trailing.v = top - sink;
   }
   // The section is thick and the surface round: where it would stand out beside its middle, the leading end goes deeper.

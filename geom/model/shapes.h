@@ -10,10 +10,12 @@
 
 namespace sterna {
 
-/// Axis-parallel box as a solid body. \throws Error(bad_argument) when it has no size
+/// Axis-parallel box as a solid body.
+/// \throws Error(bad_argument) when it has no size
 Model make_box(const std::string& name, const Point& from, const Point& to);
 
-/// Solid cylinder between two points. \throws Error(bad_argument) when it has no length or radius
+/// Solid cylinder between two points.
+/// \throws Error(bad_argument) when it has no length or radius
 Model make_cylinder(const std::string& name, const Point& from, const Point& to, double radius);
 
 /// Wind-tunnel test section around the x axis, the fluid inside; the model stands at the origin. Rectangular (width, height: walls <wall>_floor, <wall>_right
@@ -127,11 +129,13 @@ struct Schema<PylonOptions> {
 /// the nozzle plane all the same
 Wing pylon_wing(const std::string& name, const Wing& wing, const Body& nacelle, const PylonOptions& options);
 
-/// Where a body stands whose axis leads from a point towards another; no roll. \throws Error(bad_argument) when they coincide
+/// Where a body stands whose axis leads from a point towards another; no roll.
+/// \throws Error(bad_argument) when they coincide
 Placement placement_along(const Point& from, const Point& to);
 
 /// Body of circular sections through profile points: u = x along the axis of `placement`, v = radius; ascending x, radius 0 (a point) only at the ends, which
-/// are flat where it is not. Smooth, nowhere thicker than the points say, or straight between the points. \throws Error(bad_argument) naming the point
+/// are flat where it is not. Smooth, nowhere thicker than the points say, or straight between the points.
+/// \throws Error(bad_argument) naming the point
 Body body_of_revolution(const std::string& name, const Placement& placement, const std::vector<Uv>& profile, bool is_straight = false,
                         ComponentKind kind = ComponentKind::body);
 

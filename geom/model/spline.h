@@ -48,16 +48,18 @@ struct PointGrid {
   const Point& operator()(std::size_t i, std::size_t j) const { return points[i * n_v + j]; }
 };
 
-/// Parameters of the points of a curve in [0, 1]. \throws Error(bad_argument) with the place where two neighbours coincide
+/// Parameters of the points of a curve in [0, 1].
+/// \throws Error(bad_argument) with the place where two neighbours coincide
 std::vector<double> spline_parameters(std::span<const Point> points, SplineParameters kind);
 
-/// Spline through at least two points. \throws Error(bad_argument) with the place of what is wrong
+/// Spline through at least two points.
+/// \throws Error(bad_argument) with the place of what is wrong
 NurbsCurveForm<Point> spline_form(std::span<const Point> points, const SplineOptions& options);
 CurvePtr spline_curve(std::span<const Point> points, const SplineOptions& options);
 
-/// Spline surface through a grid: along u first, then along v through the poles of that; so S(u, v_j) is the spline of column j exactly. All columns
-/// share their parameters, means of those of the columns (columns of no length, poles, do not count). Clamped in u and in v: without twist at the
-/// corners. \throws Error(bad_argument) with the place of what is wrong
+/// Spline surface through a grid: along u first, then along v through the poles of that; so S(u, v_j) is the spline of column j exactly. All columns share
+/// their parameters, means of those of the columns (columns of no length, poles, do not count). Clamped in u and in v: without twist at the corners.
+/// \throws Error(bad_argument) with the place of what is wrong
 NurbsSurfaceForm spline_surface_form(const PointGrid& grid, const SplineOptions& u, const SplineOptions& v);
 /// kind(): "bicubic spline", "linear-cubic spline" or "bilinear spline".
 SurfacePtr spline_surface(const PointGrid& grid, const SplineOptions& u, const SplineOptions& v);

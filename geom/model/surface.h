@@ -37,7 +37,8 @@ class Surface {
   virtual Point point(Uv at) const = 0;
   /// Point and all derivatives to the second order.
   virtual SurfaceDerivatives derivatives(Uv at) const = 0;
-  /// points[i] = point(at[i]), faster than one by one where the surface can. \pre equal sizes
+  /// points[i] = point(at[i]), faster than one by one where the surface can.
+  /// \pre equal sizes
   virtual void points(std::span<const Uv> at, std::span<Point> points) const;
   /// Parameters inside the domain, ascending, along which the surface is less than twice continuously differentiable.
   virtual std::vector<double> breaks_u() const { return {}; }

@@ -81,7 +81,8 @@ class SurfaceView final : public Surface {
     double operator()(double t) const { return scale * t + shift; }
     friend bool operator==(const Map&, const Map&) = default;
   };
-  /// `domain` is the view's own. \throws Error(bad_argument) for a scale of 0, or a part that is not within the base (to 1e-9) where that is not periodic
+  /// `domain` is the view's own.
+  /// \throws Error(bad_argument) for a scale of 0, or a part that is not within the base (to 1e-9) where that is not periodic
   SurfaceView(SurfacePtr base, const ParameterBox& domain, Map u, Map v, bool is_exchanged = false);
   ParameterBox domain() const override { return domain_; }
   bool is_periodic_u() const override;

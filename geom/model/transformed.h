@@ -7,8 +7,9 @@
 
 namespace sterna {
 
-/// T(C(t)): poles and frames are transformed where the type allows (NURBS and lines by any map, circles by similarities), others are wrapped.
-/// A mirror turns the normal du x dv of a surface against its image: faces change `is_reversed`. \throws Error(bad_argument) when T flattens space
+/// T(C(t)): poles and frames are transformed where the type allows (NURBS and lines by any map, circles by similarities), others are wrapped. A mirror turns
+/// the normal du x dv of a surface against its image: faces change `is_reversed`.
+/// \throws Error(bad_argument) when T flattens space
 CurvePtr transformed(const CurvePtr& curve, const Transform& transform);
 SurfacePtr transformed(const SurfacePtr& surface, const Transform& transform);
 

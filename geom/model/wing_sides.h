@@ -23,7 +23,8 @@ SurfacePtr trailing_edge_surface(const WingSides& sides);
 
 double first_place(const WingPatch& patch);
 double last_place(const WingPatch& patch);
-/// On a line through places; between them straight. \pre `place` within them
+/// On a line through places; between them straight.
+/// \pre `place` within them
 WingPatch::Place crossing_at(const std::vector<WingPatch::Place>& line, double place);
 /// A patch's hinge in a section: where it crosses the sides, the middle between, and the unit direction from there into the wing that stays.
 struct HingeSection {

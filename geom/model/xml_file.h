@@ -37,7 +37,8 @@ class XmlFile {
   std::vector<std::string>& messages() { return messages_; }
 
   std::string text(const pugi::xml_node& node, const char* attribute, std::string_view fallback = {}) const;
-  /// Attribute that must be there. \throws Error(file_malformed)
+  /// Attribute that must be there.
+  /// \throws Error(file_malformed)
   std::string required_text(const pugi::xml_node& node, const char* attribute) const;
   double number(const pugi::xml_node& node, const char* attribute) const;
   double number(const pugi::xml_node& node, const char* attribute, double fallback) const;
@@ -45,17 +46,21 @@ class XmlFile {
   std::int64_t integer(const pugi::xml_node& node, const char* attribute, std::int64_t fallback) const;
   /// "true" or "false"; anything else is told and counts as false.
   bool boolean(const pugi::xml_node& node, const char* attribute, bool fallback);
-  /// Three numbers of an attribute. \throws Error(file_malformed)
+  /// Three numbers of an attribute.
+  /// \throws Error(file_malformed)
   Vec3 vector(const pugi::xml_node& node, const char* attribute) const;
   Vec3 vector(const pugi::xml_node& node, const char* attribute, const Vec3& fallback) const;
-  /// All numbers of a text, separated by blanks, line ends or ';'. \throws Error(file_malformed) naming the first word that is no finite number
+  /// All numbers of a text, separated by blanks, line ends or ';'.
+  /// \throws Error(file_malformed) naming the first word that is no finite number
   std::vector<double> numbers(const pugi::xml_node& node, std::string_view text) const;
   /// Text of an element and its CDATA sections.
   static std::string content(const pugi::xml_node& node);
-  /// The same as pairs. \throws Error(file_malformed) when their number is odd
+  /// The same as pairs.
+  /// \throws Error(file_malformed) when their number is odd
   std::vector<Uv> pairs(const pugi::xml_node& node) const;
 
-  /// Number in the text of a child element, `fallback` where there is no such child. \throws Error(file_malformed)
+  /// Number in the text of a child element, `fallback` where there is no such child.
+  /// \throws Error(file_malformed)
   double child_number(const pugi::xml_node& node, const char* child, double fallback) const;
   double required_child_number(const pugi::xml_node& node, const char* child) const;
   /// Text of a child without blanks around it; empty where there is none.

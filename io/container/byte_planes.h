@@ -5,9 +5,11 @@
 
 namespace sterna::io {
 
-/// planes[k * n + i] = values[i * size + k] for n values of `size` bytes. \pre no overlap
+/// planes[k * n + i] = values[i * size + k] for n values of `size` bytes.
+/// \pre no overlap
 void gather_planes(const char* values, std::size_t n, std::size_t size, char* planes);
-/// The inverse: values[i * size + k] = planes[k * n + i]. \pre no overlap
+/// The inverse: values[i * size + k] = planes[k * n + i].
+/// \pre no overlap
 void scatter_planes(const char* planes, std::size_t n, std::size_t size, char* values);
 
 }  // namespace sterna::io

@@ -26,12 +26,14 @@ CgnsOutputNode cgns_node(std::string name, std::string label);
 CgnsOutputNode cgns_node(std::string name, std::string label, OutputArray array);
 
 /// Writes the file around the children of the root, by libhdf5 (so that sizes have 64 bits), or as ADF by libcgns, whose sizes have 32 bits. Whole or not at
-/// all, the same bytes each time. \pre names are 1 to 32 bytes without '/', siblings' names differ; for ADF extents are below 2^31 \throws Error write_failed;
-/// what the arrays throw; cancelled
+/// all, the same bytes each time.
+/// \pre names are 1 to 32 bytes without '/', siblings' names differ; for ADF extents are below 2^31
+/// \throws Error write_failed; what the arrays throw; cancelled
 void write_cgns_hdf5(const CgnsOutputNode& root, const std::filesystem::path& path, const RunContext& context);
 void write_cgns_adf(const CgnsOutputNode& root, const std::filesystem::path& path, const RunContext& context);
 
-/// The type of CGNS ("I4", ...) for a kind of numbers. \pre kind is written by us
+/// The type of CGNS ("I4", ...) for a kind of numbers.
+/// \pre kind is written by us
 std::string cgns_type_of(NumberKind kind);
 
 }  // namespace sterna::io

@@ -27,10 +27,12 @@ inline constexpr std::uint64_t k_chunk_bytes = 3u << 17;
 /// What `fill` writes for [begin, end) are the values' bytes, little endian; called from any thread.
 using FillValues = std::function<void(std::uint64_t begin, std::uint64_t end, char* out)>;
 
-/// Array after array, then finish(). \throws Error write_failed, cancelled, and what a fill function throws
+/// Array after array, then finish().
+/// \throws Error write_failed, cancelled, and what a fill function throws
 class ChunkedWriter {
  public:
-  /// Begins the file. \pre `file` is empty and outlives the writer
+  /// Begins the file.
+  /// \pre `file` is empty and outlives the writer
   explicit ChunkedWriter(AtomicFile& file);
 
   /// `n_values` counts all components.
@@ -38,7 +40,8 @@ class ChunkedWriter {
   /// The bytes of values that lie in memory as in the file.
   void add_memory(std::string_view name, NumberType type, std::uint32_t n_components, std::uint64_t n_values, const void* values, const RunContext& context);
 
-  /// Writes the directory, and where it is to the head. Does not commit. \pre version <= k_chunked_version
+  /// Writes the directory, and where it is to the head. Does not commit.
+  /// \pre version <= k_chunked_version
   void finish(std::uint32_t version = k_first_chunked_version);
 
  private:
@@ -67,12 +70,14 @@ struct StoredArray {
 /// The directory of a file, checked; arrays are unpacked when asked for.
 class ChunkedReader {
  public:
-  /// \pre `buffer` outlives the reader. \throws Error file_malformed, unsupported_format
+  /// \pre `buffer` outlives the reader.
+  /// \throws Error file_malformed, unsupported_format
   explicit ChunkedReader(const FileBuffer& buffer);
 
   bool has(std::string_view name) const { return arrays_.find(name) != arrays_.end(); }
-  /// Unpacks all values in parallel into `to`. \pre has(name), as many bytes as the array has. \throws Error(file_malformed) for a chunk that is not what it
-  /// was
+  /// Unpacks all values in parallel into `to`.
+  /// \pre has(name), as many bytes as the array has.
+  /// \throws Error(file_malformed) for a chunk that is not what it was
   void read(std::string_view name, char* to, const RunContext& context) const;
   const StoredArray& at(std::string_view name) const { return arrays_.find(name)->second; }
   [[noreturn]] void fail(std::string_view name, const std::string& problem) const;

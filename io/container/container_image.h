@@ -45,7 +45,8 @@ class ContainerImage {
   const ContainerNode& root() const { return root_; }
   /// \throws Error(file_malformed) when there is none of that name.
   const ContainerNode& child(const ContainerNode& parent, std::string_view name) const;
-  /// The values of a dataset. \throws Error file_malformed, unsupported_format where they are not to be had
+  /// The values of a dataset.
+  /// \throws Error file_malformed, unsupported_format where they are not to be had
   NumberArray data(const ContainerNode& dataset) const;
 
  private:

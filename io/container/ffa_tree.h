@@ -26,14 +26,17 @@ class FfaNode {
   bool is_text() const { return type == 'S' || type == 'L'; }
   /// \pre is_integer(); row, column in range
   std::int64_t integer(std::uint64_t row, std::uint64_t column) const;
-  /// Any number; may not be finite. \pre is_real() or is_integer()
+  /// Any number; may not be finite.
+  /// \pre is_real() or is_integer()
   double real(std::uint64_t row, std::uint64_t column) const;
-  /// The first string, without blanks at its end. \pre is_text() and n_values() > 0
+  /// The first string, without blanks at its end.
+  /// \pre is_text() and n_values() > 0
   std::string text() const;
 
   /// The first child of that name; nullptr when there is none.
   const FfaNode* find(std::string_view child) const;
-  /// As find(). \throws Error(file_malformed)
+  /// As find().
+  /// \throws Error(file_malformed)
   const FfaNode& at(std::string_view child) const;
   /// "byte 120" or "line 7".
   std::string place() const;
@@ -53,7 +56,8 @@ class FfaNode {
   std::string text_;                    ///< of text files
 };
 
-/// Reads the tree; which container it is follows from the content. \throws Error file_malformed, unsupported_format (records of 2 GiB and more in version 1)
+/// Reads the tree; which container it is follows from the content.
+/// \throws Error file_malformed, unsupported_format (records of 2 GiB and more in version 1)
 FfaNode parse_ffa(const FileBuffer& buffer);
 
 /// Bytes of a node's type field and of one value.

@@ -29,7 +29,8 @@ struct Hdf5OutputNode {
   OutputArray array;
 };
 
-/// Writes the file under `root`, readable from HDF5 1.8 on; whole or not at all. \pre names of siblings differ, attributes are below 64 kB
+/// Writes the file under `root`, readable from HDF5 1.8 on; whole or not at all.
+/// \pre names of siblings differ, attributes are below 64 kB
 /// \throws Error write_failed; what the arrays throw; cancelled
 void write_hdf5(const Hdf5OutputNode& root, const std::filesystem::path& path, const RunContext& context);
 

@@ -12,7 +12,8 @@
 
 namespace sterna::io {
 
-/// The product of extents. \throws Error(file_malformed), speaking of `where` in `source`, when it does not fit 64 bits.
+/// The product of extents.
+/// \throws Error(file_malformed), speaking of `where` in `source`, when it does not fit 64 bits.
 std::uint64_t count_of(const std::vector<std::uint64_t>& extents, const std::string& source, const std::string& where);
 
 /// A view of the values; whoever has them (ContainerImage) must outlive it. bytes.size() == count() * byte_size(kind).
@@ -27,7 +28,8 @@ struct NumberArray {
   std::uint64_t count() const { return bytes.size() / byte_size(kind); }
   /// \pre is_integer(kind), i < count(). Unsigned numbers beyond 2^63 come out negative, which every range check refuses.
   std::int64_t integer(std::uint64_t i) const;
-  /// Of any kind of number. \pre i < count()
+  /// Of any kind of number.
+  /// \pre i < count()
   double real(std::uint64_t i) const;
   /// Bytes up to the first NUL, trailing blanks cut.
   std::string text() const;

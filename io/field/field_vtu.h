@@ -11,7 +11,8 @@
 namespace sterna::io {
 
 /// Triangles with "marker" = patch number + 1 and each field as an array of 32-bit floats at vertices or cells; names and kinds of patches as field data.
-/// \pre each field has as many values as the mesh has vertices or triangles \throws Error write_failed, cancelled
+/// \pre each field has as many values as the mesh has vertices or triangles
+/// \throws Error write_failed, cancelled
 void write_field_vtu(const TriMesh& mesh, const std::vector<TriMeshField>& fields, const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

@@ -7,7 +7,8 @@
 
 namespace sterna::io {
 
-/// VTU with the triangles, edges and vertices of the failure. \throws Error(write_failed).
+/// VTU with the triangles, edges and vertices of the failure.
+/// \throws Error(write_failed).
 void write_trouble_vtu(const TroubleGeometry& geometry, const std::filesystem::path& path);
 
 }  // namespace sterna::io

@@ -51,12 +51,14 @@ inline constexpr std::size_t k_sniffed_bytes = 4096;
 std::span<const Format> formats();
 
 /// The format of a file that is to be read, by its name (case-insensitive; ".gz" peeled off) and, where several formats have that extension, by what the file
-/// begins with. A file that cannot be opened, or that is none of them, goes to the first of them: its reader says what it misses. \throws
-/// Error(unsupported_format) with the list of known extensions.
+/// begins with. A file that cannot be opened, or that is none of them, goes to the first of them: its reader says what it misses.
+/// \throws Error(unsupported_format) with the list of known extensions.
 const Format& format_of(const std::filesystem::path& path);
 
 /// The format to write `path` in: the first of that extension that writes surfaces (volumes), or the one of that name (case-insensitive), whatever the
-/// extension. \pre use is write_surface or write_volume \throws Error(unsupported_format) with the list of those that do.
+/// extension.
+/// \pre use is write_surface or write_volume
+/// \throws Error(unsupported_format) with the list of those that do.
 const Format& format_to_write(const std::filesystem::path& path, FormatUse use, std::string_view name = {});
 
 /// "SU2 (.su2), VTU (.vtu)": the formats for which it holds, each once, for hints and help.

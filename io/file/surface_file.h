@@ -15,9 +15,9 @@ namespace sterna::io {
 /// \throws Error file_not_found, file_malformed (line or byte offset and what was expected), unsupported_format.
 SurfaceSoup read_surface_file(const std::filesystem::path& path, const RunContext& context);
 
-/// Writes a surface; the format follows from the extension, or is named. Names and kinds of patches that the format cannot hold are told in the log.
-/// An existing file stays as it was on failure. \throws Error unsupported_format, write_failed, overflow, mesh_invalid (coordinates that are not finite),
-/// cancelled.
+/// Writes a surface; the format follows from the extension, or is named. Names and kinds of patches that the format cannot hold are told in the log. An
+/// existing file stays as it was on failure.
+/// \throws Error unsupported_format, write_failed, overflow, mesh_invalid (coordinates that are not finite), cancelled.
 void write_surface_file(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name = {});
 
 /// The soup as it is, in the form that writers take: nothing is welded, turned or repaired, unless every triangle has corners of its own (STL): then corners at

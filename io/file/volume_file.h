@@ -10,12 +10,13 @@
 namespace sterna::io {
 
 /// Reads a volume mesh; format by extension (".gz" accepted) and contents. Cells land in the explicit arrays; wedges and others in the wrong winding are
-/// flipped and counted in the log. Nodes and elements are checked for range. \throws Error file_not_found, file_malformed (line or offset, expectation),
-/// unsupported_format.
+/// flipped and counted in the log. Nodes and elements are checked for range.
+/// \throws Error file_not_found, file_malformed (line or offset, expectation), unsupported_format.
 HybridMesh read_volume_file(const std::filesystem::path& path, const RunContext& context);
 
 /// Writes a volume mesh; format by extension, or named. Writes to a temporary name in the same folder, syncs, renames: an existing file stays as it was on
-/// failure. \throws Error unsupported_format, write_failed, overflow.
+/// failure.
+/// \throws Error unsupported_format, write_failed, overflow.
 void write_volume_file(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context, std::string_view format_name = {});
 
 }  // namespace sterna::io

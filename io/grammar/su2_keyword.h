@@ -22,7 +22,8 @@ struct Su2Keyword {
 /// No key when the line is something else. "NPOIN= 7", "NPOIN=7" and "NPOIN = 7" are the same.
 Su2Keyword split_su2_keyword(std::string_view line);
 
-/// The first number of a keyword's value (old files add a second). \throws Error(file_malformed) with the cursor's line
+/// The first number of a keyword's value (old files add a second).
+/// \throws Error(file_malformed) with the cursor's line
 std::uint64_t su2_count(const Su2Keyword& keyword, const LineCursor& cursor);
 
 /// A marker's name without its blanks, as SU2 itself removes them.

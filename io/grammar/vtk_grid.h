@@ -51,10 +51,12 @@ struct VtkGrid {
 };
 
 /// Triangles, quads, polygons, pixels, strips, corners of faces of second order; of a volume mesh its boundary faces. Points that no face uses are left out of
-/// a volume mesh. \throws Error file_malformed (indices out of range, sizes that disagree, a volume mesh without faces), overflow, cancelled.
+/// a volume mesh.
+/// \throws Error file_malformed (indices out of range, sizes that disagree, a volume mesh without faces), overflow, cancelled.
 SurfaceSoup surface_of(const VtkGrid& grid, const RunContext& context);
 
-/// Cells in the explicit arrays, windings repaired. \throws Error file_malformed, unsupported_format (other cells), overflow, cancelled.
+/// Cells in the explicit arrays, windings repaired.
+/// \throws Error file_malformed, unsupported_format (other cells), overflow, cancelled.
 HybridMesh volume_of(const VtkGrid& grid, const RunContext& context);
 
 }  // namespace sterna::io

@@ -8,8 +8,8 @@
 
 namespace sterna::io {
 
-/// UNSTRUCTURED_GRID and POLYDATA. \throws Error file_not_found, file_malformed (line, or byte offset in binary blocks), unsupported_format (other data sets),
-/// cancelled.
+/// UNSTRUCTURED_GRID and POLYDATA.
+/// \throws Error file_not_found, file_malformed (line, or byte offset in binary blocks), unsupported_format (other data sets), cancelled.
 VtkGrid read_vtk_grid(const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

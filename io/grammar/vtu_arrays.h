@@ -25,7 +25,8 @@ class VtuValues {
   double real(std::size_t i) const {
     return visit<double>(i, [](auto value) { return static_cast<double>(value); });
   }
-  /// An id or count; negative ones come out as huge numbers, which range checks refuse. \pre is_integer()
+  /// An id or count; negative ones come out as huge numbers, which range checks refuse.
+  /// \pre is_integer()
   std::uint64_t id(std::size_t i) const {
     return visit<std::uint64_t>(i, [](auto value) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(value)); });
   }
@@ -58,7 +59,8 @@ class VtuValues {
   std::vector<char> bytes_;
 };
 
-/// Decodes arrays of one file. \throws Error file_malformed, unsupported_format.
+/// Decodes arrays of one file.
+/// \throws Error file_malformed, unsupported_format.
 class VtuDecoder {
  public:
   /// \param tags of the whole file; the last is AppendedData when there is such a section. Both must outlive the decoder.

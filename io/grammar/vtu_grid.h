@@ -8,7 +8,8 @@
 
 namespace sterna::io {
 
-/// Decodes the arrays of all pieces. \throws Error file_not_found, file_malformed (byte offset), unsupported_format, cancelled.
+/// Decodes the arrays of all pieces.
+/// \throws Error file_not_found, file_malformed (byte offset), unsupported_format, cancelled.
 VtkGrid read_vtu_grid(const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

@@ -41,7 +41,8 @@ class ByteReader {
     return take<T>();
   }
 
-  /// As read(), when require() has already been asked. \pre sizeof(T) bytes are left
+  /// As read(), when require() has already been asked.
+  /// \pre sizeof(T) bytes are left
   template <class T>
   requires std::is_arithmetic_v<T> T take() {
     std::array<char, sizeof(T)> raw;

@@ -6,7 +6,8 @@
 
 namespace sterna::io {
 
-/// A gzip stream without name and time: the same bytes each time. \throws Error(internal) when zlib has no memory
+/// A gzip stream without name and time: the same bytes each time.
+/// \throws Error(internal) when zlib has no memory
 std::string gzip(std::string_view bytes);
 /// RFC 4648, with padding, on one line.
 std::string base64(std::string_view bytes);

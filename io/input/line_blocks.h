@@ -48,7 +48,8 @@ class LineCursor {
   /// An integer below `limit`.
   std::uint32_t index(std::uint64_t limit, const char* expected, std::uint64_t number);
 
-  /// Takes the n items from the next line on as a block. \pre the position is in the keyword's line
+  /// Takes the n items from the next line on as a block.
+  /// \pre the position is in the keyword's line
   LineBlock take_block(std::uint64_t n, std::string_view keyword);
 
   [[noreturn]] void fail(std::string_view problem, std::string_view hint = {}) const;

@@ -55,7 +55,8 @@ class TextScanner {
   std::size_t line_at(std::size_t offset) const;
   std::size_t line() const { return line_at(token_begin_); }
   std::size_t offset() const { return position_; }
-  /// Goes on at that byte. \pre offset <= size of the file
+  /// Goes on at that byte.
+  /// \pre offset <= size of the file
   void seek(std::size_t offset) { position_ = token_begin_ = offset; }
   std::size_t remaining() const { return text_.size() - position_; }
   const std::string& source() const { return source_; }

@@ -24,8 +24,9 @@ struct FaceMesh {
 };
 
 /// Fills the explicit cells and the boundary of `mesh`, whose points and patches are there. Cells of a kind keep their order; prisms stand on the triangle with
-/// their lowest node. \pre node and cell numbers in range \throws Error file_malformed (a cell whose faces do not close, a face with the wrong sense),
-/// unsupported_format (polyhedra, faces of five and more nodes)
+/// their lowest node.
+/// \pre node and cell numbers in range
+/// \throws Error file_malformed (a cell whose faces do not close, a face with the wrong sense), unsupported_format (polyhedra, faces of five and more nodes)
 void add_cells_and_boundary(const FaceMesh& faces, HybridMesh& mesh, const std::string& source, const RunContext& context);
 
 }  // namespace sterna::io

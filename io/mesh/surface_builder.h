@@ -29,7 +29,8 @@ class SurfaceBuilder {
   /// Polygons added from now on belong to the patch of this name; patches are numbered in the order of their first call.
   void set_patch(std::string_view name);
 
-  /// Indices may refer to points that are added later. \pre 3 <= corners.size() <= k_max_polygon_corners
+  /// Indices may refer to points that are added later.
+  /// \pre 3 <= corners.size() <= k_max_polygon_corners
   void add_polygon(std::span<const std::uint32_t> corners);
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (patch_names_.empty()) set_patch({});
@@ -38,7 +39,8 @@ class SurfaceBuilder {
   }
 
   /// Splits the polygons, drops patches without triangles. With `drop_unused_points` (the boundary of a volume mesh) only the points in use stay, in their
-  /// order. \pre every index is below n_points()
+  /// order.
+  /// \pre every index is below n_points()
   SurfaceSoup finish(bool drop_unused_points = false);
 
  private:

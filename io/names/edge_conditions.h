@@ -11,7 +11,8 @@
 
 namespace sterna::io {
 
-/// Kinds by boundary name from x.aboc or x.bboc beside the mesh x.bmsh, x.v2.bmsh or x.amsh; empty when there is neither. \throws Error(file_malformed)
+/// Kinds by boundary name from x.aboc or x.bboc beside the mesh x.bmsh, x.v2.bmsh or x.amsh; empty when there is neither.
+/// \throws Error(file_malformed)
 std::map<std::string, PatchKind> read_edge_conditions(const std::filesystem::path& mesh_path, const RunContext& context);
 
 /// Where the writer puts them: x.aboc.

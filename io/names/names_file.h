@@ -14,7 +14,8 @@ namespace sterna::io {
 /// wing.names for wing.mesh, wing.meshb, wing.v4.meshb, each perhaps with .gz.
 std::filesystem::path names_path(const std::filesystem::path& mesh_path);
 
-/// Patches by number; empty when there is no such file. \throws Error(file_malformed) with its line
+/// Patches by number; empty when there is no such file.
+/// \throws Error(file_malformed) with its line
 std::map<std::int64_t, Patch> read_names(const std::filesystem::path& mesh_path, const RunContext& context);
 
 /// The file's text; patches are numbered from 1. Warns of names that it cannot spell.

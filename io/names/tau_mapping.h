@@ -20,8 +20,8 @@ struct TauMarker {
 
 /// mesh.bmap for mesh.taumesh, mesh.grid.
 std::filesystem::path bmap_path(const std::filesystem::path& mesh_path);
-/// By number; none when there is no such file beside the mesh. Keys other than Markers, Type and Name are passed over. \throws Error(file_malformed) with the
-/// line.
+/// By number; none when there is no such file beside the mesh. Keys other than Markers, Type and Name are passed over.
+/// \throws Error(file_malformed) with the line.
 std::map<std::int64_t, TauMarker> read_bmap(const std::filesystem::path& mesh_path, const RunContext& context);
 std::string bmap_text(const std::vector<TauMarker>& markers);
 

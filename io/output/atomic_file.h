@@ -21,7 +21,8 @@ class AtomicFile {
 
   /// Adds bytes at the end. Not buffered: give it pieces of some 100 kB where speed matters.
   void append(std::string_view bytes);
-  /// Replaces bytes that were written before. \pre offset + bytes.size() <= size()
+  /// Replaces bytes that were written before.
+  /// \pre offset + bytes.size() <= size()
   void overwrite(std::uint64_t offset, std::string_view bytes);
   std::uint64_t size() const { return size_; }
 

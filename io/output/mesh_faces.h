@@ -30,8 +30,9 @@ class MeshFaces {
   static constexpr std::uint32_t k_boundary = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::size_t k_most_faces = 6;
 
-  /// Parallel, same result for any number of threads. \throws Error mesh_invalid: a face of one cell only that is no boundary face, of three cells, a boundary
-  /// face of no cell, a node that does not exist; overflow: more than 2^32 - 2 cells or unmatched faces; cancelled
+  /// Parallel, same result for any number of threads.
+  /// \throws Error mesh_invalid: a face of one cell only that is no boundary face, of three cells, a boundary face of no cell, a node that does not exist;
+  /// overflow: more than 2^32 - 2 cells or unmatched faces; cancelled
   MeshFaces(const HybridMesh& mesh, const RunContext& context);
 
   std::uint64_t n_cells() const { return n_column_cells_ + n_explicit_; }

@@ -40,11 +40,13 @@ using FillChunk = std::function<void(std::size_t chunk, ByteBuffer& out)>;
 /// Takes the bytes of the chunks in order, one call at a time; called from any thread.
 using TakeBytes = std::function<void(std::string_view bytes)>;
 
-/// Hands over the bytes of chunks 0 .. n_chunks-1, in order; the same for any number of threads. At most 2 * k_batch_chunks buffers live at a time.
-/// Reports progress in [0, 1] of `context`. \throws what `fill` and `take` throw; Error(cancelled).
+/// Hands over the bytes of chunks 0 .. n_chunks-1, in order; the same for any number of threads. At most 2 * k_batch_chunks buffers live at a time. Reports
+/// progress in [0, 1] of `context`.
+/// \throws what `fill` and `take` throw; Error(cancelled).
 void write_ordered(const TakeBytes& take, std::size_t n_chunks, const FillChunk& fill, const RunContext& context);
 
-/// The same to the end of `file`. \throws what AtomicFile::append throws, too
+/// The same to the end of `file`.
+/// \throws what AtomicFile::append throws, too
 void write_ordered(AtomicFile& file, std::size_t n_chunks, const FillChunk& fill, const RunContext& context);
 
 /// Chunks per batch: enough for 16 threads, and with buffers of 0.3 - 1.6 MB below 100 MB in all.

@@ -33,7 +33,8 @@ std::uint64_t count_of(const OutputArray& array);  ///< product of the extents
 /// Takes the next values of an array: whole items of its sections, all in order, one call at a time, from any thread.
 using PutValues = std::function<void(std::size_t array, std::uint64_t first_value, std::string_view bytes)>;
 
-/// Hands over the values of all arrays, one array after the other. \throws what the sections and `put` throw; Error(cancelled)
+/// Hands over the values of all arrays, one array after the other.
+/// \throws what the sections and `put` throw; Error(cancelled)
 void stream_arrays(const std::vector<const OutputArray*>& arrays, const PutValues& put, const RunContext& context);
 
 /// The libraries of container files have global state: whoever writes with them holds this.

@@ -26,7 +26,8 @@ struct OutputSection {
 /// Bytes as they are: headers, keywords.
 OutputSection fixed_section(std::string bytes);
 
-/// Appends the sections to `file`; the same bytes for any number of threads. \throws what the sections and AtomicFile::append throw; Error(cancelled)
+/// Appends the sections to `file`; the same bytes for any number of threads.
+/// \throws what the sections and AtomicFile::append throw; Error(cancelled)
 void write_sections(AtomicFile& file, const std::vector<OutputSection>& sections, const RunContext& context);
 
 /// The same to `take`, in chunks of a number of items.
@@ -49,7 +50,8 @@ char* put_bytes(char* at, T value, std::endian order) {
   return at + sizeof(T);
 }
 
-/// Writes the shortest decimals that read back to the same number. \pre room for k_max_real_text bytes
+/// Writes the shortest decimals that read back to the same number.
+/// \pre room for k_max_real_text bytes
 char* put_real_text(char* at, double value);
 /// \pre room for k_max_integer_text bytes
 char* put_integer_text(char* at, std::int64_t value);

@@ -42,7 +42,8 @@ struct Node {
   std::vector<std::uint64_t> extents;
   wire::Trouble trouble = wire::Trouble::none;
   std::string problem;
-  /// Writes the values' bytes; empty with a trouble or without values. \throws Failure
+  /// Writes the values' bytes; empty with a trouble or without values.
+  /// \throws Failure
   std::function<void(char* at)> fill;
 
   bool has_values() const { return role == wire::Role::dataset || role == wire::Role::attribute; }
@@ -58,12 +59,14 @@ struct Node {
 class Image {
  public:
   explicit Image(const Limits& limits) : limits_(limits) {}
-  /// \returns its number. \throws Failure when there are more nodes than the file has room for
+  /// \returns its number.
+  /// \throws Failure when there are more nodes than the file has room for
   std::uint32_t add(Node node);
   const std::vector<Node>& nodes() const { return nodes_; }
   std::vector<Node>& nodes() { return nodes_; }
 
-  /// Lays the image out in the memfd, fills it. \throws Failure when it would be larger than the file justifies
+  /// Lays the image out in the memfd, fills it.
+  /// \throws Failure when it would be larger than the file justifies
   void write();
 
  private:

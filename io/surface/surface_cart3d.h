@@ -13,9 +13,11 @@ namespace sterna::io {
 /// \throws Error file_not_found, file_malformed (line or byte offset), cancelled.
 SurfaceSoup read_cart3d(const std::filesystem::path& path, const RunContext& context);
 
-/// Text with every digit; components count patches from 1. \throws Error write_failed, cancelled.
+/// Text with every digit; components count patches from 1.
+/// \throws Error write_failed, cancelled.
 void write_cart3d(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
-/// Little-endian Fortran records, single precision. \throws Error write_failed, overflow (float range, 31-bit records), cancelled.
+/// Little-endian Fortran records, single precision.
+/// \throws Error write_failed, overflow (float range, 31-bit records), cancelled.
 void write_cart3d_binary(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

@@ -13,7 +13,8 @@ namespace sterna::io {
 /// \throws Error file_not_found, file_malformed (place, what was found, what was expected), unsupported_format, cancelled.
 SurfaceSoup read_msh(const std::filesystem::path& path, const RunContext& context);
 
-/// MSH 4.1 (2.2) as text with every digit: a surface entity and a physical group for each patch. \throws Error write_failed, cancelled.
+/// MSH 4.1 (2.2) as text with every digit: a surface entity and a physical group for each patch.
+/// \throws Error write_failed, cancelled.
 void write_msh(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 void write_msh_2_2(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

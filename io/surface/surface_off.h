@@ -13,7 +13,8 @@ namespace sterna::io {
 /// \throws Error file_not_found, file_malformed (place, what was found, what was expected), unsupported_format, cancelled.
 SurfaceSoup read_off(const std::filesystem::path& path, const RunContext& context);
 
-/// Text with every digit; the format has no patches. \throws Error write_failed, cancelled.
+/// Text with every digit; the format has no patches.
+/// \throws Error write_failed, cancelled.
 void write_off(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

@@ -13,7 +13,8 @@ namespace sterna::io {
 /// \throws Error file_not_found, file_malformed (line), unsupported_format (facets with holes, plane files of Triangle), cancelled.
 SurfaceSoup read_tetgen(const std::filesystem::path& path, const RunContext& context);
 
-/// Nodes and facets counted from 1, every digit, markers count patches from 1, no holes and no regions. \throws Error write_failed, overflow, cancelled.
+/// Nodes and facets counted from 1, every digit, markers count patches from 1, no holes and no regions.
+/// \throws Error write_failed, overflow, cancelled.
 void write_smesh(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 void write_poly(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 

@@ -14,7 +14,8 @@ namespace sterna::io {
 SurfaceSoup read_ugrid(const std::filesystem::path& path, const RunContext& context);
 
 /// Writes the surface as the boundary of a mesh without cells, normals as in `mesh` (into the fluid), variant by the name as in reading; names go to the .mapbc
-/// file beside it. \throws Error write_failed, overflow (31-bit counts), cancelled.
+/// file beside it.
+/// \throws Error write_failed, overflow (31-bit counts), cancelled.
 void write_ugrid(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

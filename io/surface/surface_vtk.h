@@ -11,7 +11,8 @@
 namespace sterna::io {
 
 /// Versions 1.0 to 5.1, text and binary. POLYDATA and the faces of an UNSTRUCTURED_GRID; patches by the first integer cell array of marker, boundary,
-/// CellEntityIds, gmsh:physical, ids. \throws Error file_not_found, file_malformed (line or byte offset), unsupported_format, cancelled.
+/// CellEntityIds, gmsh:physical, ids.
+/// \throws Error file_not_found, file_malformed (line or byte offset), unsupported_format, cancelled.
 SurfaceSoup read_surface_vtk(const std::filesystem::path& path, const RunContext& context);
 /// Cells in the explicit arrays, windings repaired.
 HybridMesh read_volume_vtk(const std::filesystem::path& path, const RunContext& context);

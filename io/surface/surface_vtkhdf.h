@@ -9,7 +9,8 @@
 
 namespace sterna::io {
 
-/// The triangles and quads of a VTKHDF file, of a volume mesh its boundary; coordinates as in the file. \throws what read_volume_vtkhdf throws
+/// The triangles and quads of a VTKHDF file, of a volume mesh its boundary; coordinates as in the file.
+/// \throws what read_volume_vtkhdf throws
 SurfaceSoup read_surface_vtkhdf(const std::filesystem::path& path, const RunContext& context);
 
 /// Triangles with "marker" = patch number + 1, names and kinds as field data: see write_volume_vtkhdf.

@@ -13,7 +13,8 @@ namespace sterna::io {
 /// \throws Error file_not_found, file_malformed (byte offset), unsupported_format, cancelled.
 SurfaceSoup read_surface_vtu(const std::filesystem::path& path, const RunContext& context);
 
-/// Triangles with "marker" = patch number + 1; names and kinds as field data "patch:<kind>:<name>". \throws Error write_failed, cancelled.
+/// Triangles with "marker" = patch number + 1; names and kinds as field data "patch:<kind>:<name>".
+/// \throws Error write_failed, cancelled.
 void write_surface_vtu(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 /// The same as PolyData.
 void write_surface_vtp(const TriMesh& mesh, const std::filesystem::path& path, const RunContext& context);

@@ -10,15 +10,15 @@
 namespace sterna::io {
 
 /// Reads text and binary sections (2010, 2012, 2013, 3010, 3012, 3013). Cells are rebuilt from the faces; zones of cells are joined; face zones are patches
-/// with the names of sections 45 and 39, kinds by their type. Walls between two cells become inner faces, told in the log. \throws Error file_malformed (line,
-/// or byte in binary sections), unsupported_format (two dimensions, polyhedra, hanging nodes), file_not_found
+/// with the names of sections 45 and 39, kinds by their type. Walls between two cells become inner faces, told in the log.
+/// \throws Error file_malformed (line, or byte in binary sections), unsupported_format (two dimensions, polyhedra, hanging nodes), file_not_found
 HybridMesh read_volume_fluent(const std::filesystem::path& path, const RunContext& context);
 
 /// The faces of all walls (zone type 3); of all boundary zones when there is no wall. Normals into the fluid.
 SurfaceSoup read_surface_fluent(const std::filesystem::path& path, const RunContext& context);
 
-/// Writes text; cells are numbered column by column, faces have their normal into the first cell. \throws Error overflow (2^31 faces), mesh_invalid (faces that
-/// do not match), write_failed, cancelled
+/// Writes text; cells are numbered column by column, faces have their normal into the first cell.
+/// \throws Error overflow (2^31 faces), mesh_invalid (faces that do not match), write_failed, cancelled
 void write_volume_fluent(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 
 }  // namespace sterna::io

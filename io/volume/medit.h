@@ -31,15 +31,16 @@ inline constexpr std::int32_t k_medit_end = 54;
 
 /// Reads either form, told apart by content. Patches are the reference numbers of triangles and quads, in order of appearance; names and kinds come from
 /// x.names beside the mesh, else "patch_<number>". Other sections (corners, ridges, normals) are passed over. Cells in a wrong winding are flipped, boundary
-/// faces turned outwards. \throws Error file_malformed (line or byte), unsupported_format (two dimensions, elements of higher order), file_not_found
+/// faces turned outwards.
+/// \throws Error file_malformed (line or byte), unsupported_format (two dimensions, elements of higher order), file_not_found
 HybridMesh read_volume_medit(const std::filesystem::path& path, const RunContext& context);
 
 /// The triangles and quads of such a file, as they are.
 SurfaceSoup read_surface_medit(const std::filesystem::path& path, const RunContext& context);
 
 /// Writes x.mesh as text; x.meshb in the lowest version that holds it (2: below 2 GiB; 3: 64-bit places; 4: 64-bit numbers), x.v2.meshb, x.v3.meshb, x.v4.meshb
-/// in that one; and x.names. Patches are numbered from 1, the fluid is 1. Streams: below 100 MB beside the mesh. \throws Error overflow, mesh_invalid,
-/// write_failed, cancelled
+/// in that one; and x.names. Patches are numbered from 1, the fluid is 1. Streams: below 100 MB beside the mesh.
+/// \throws Error overflow, mesh_invalid, write_failed, cancelled
 void write_volume_medit(const HybridMesh& mesh, const std::filesystem::path& path, const RunContext& context);
 void write_surface_medit(const TriMesh& surface, const std::filesystem::path& path, const RunContext& context);
 

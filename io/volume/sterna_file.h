@@ -63,10 +63,12 @@ struct SternaContent {
 void write_sterna(const SternaParts& parts, const std::filesystem::path& path, const RunContext& context);
 
 /// Reads everything, to the bit. Every chunk is compared with its hash, every number with its range: what comes back can be used without further checks of
-/// indices. \throws Error file_malformed (byte offset), unsupported_format (a later version), file_not_found
+/// indices.
+/// \throws Error file_malformed (byte offset), unsupported_format (a later version), file_not_found
 SternaContent read_sterna(const std::filesystem::path& path, const RunContext& context);
 
-/// The mesh of such a file, with its columns. \throws as read_sterna(); file_malformed when it holds none, with what it holds
+/// The mesh of such a file, with its columns.
+/// \throws as read_sterna(); file_malformed when it holds none, with what it holds
 HybridMesh read_volume_sterna(const std::filesystem::path& path, const RunContext& context);
 /// Its surface, or else the boundary of its mesh.
 SurfaceSoup read_surface_sterna(const std::filesystem::path& path, const RunContext& context);

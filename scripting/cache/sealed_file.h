@@ -34,13 +34,16 @@ class SealedFile {
   bool is_open() const { return descriptor_ >= 0; }  ///< errno says why not, right after construction
   int descriptor() const { return descriptor_; }
 
-  /// What is wrong with the file as one of that key; empty when nothing is. Reads all of it. \throws Error(cancelled)
+  /// What is wrong with the file as one of that key; empty when nothing is. Reads all of it.
+  /// \throws Error(cancelled)
   std::string problem(const ContentKey& key, const RunContext& context);
   /// Whether it begins as such a file does, of whatever key; its content is not proved.
   bool has_head();
-  /// Hash of content and head. \pre problem() was empty
+  /// Hash of content and head.
+  /// \pre problem() was empty
   const ContentKey& seal() const { return seal_; }
-  /// The content, from its start; must not outlive this. \pre problem() was empty, or has_head()
+  /// The content, from its start; must not outlive this.
+  /// \pre problem() was empty, or has_head()
   std::unique_ptr<ByteSource> content() const;
 
  private:

@@ -40,15 +40,19 @@ class StageCache {
   const std::filesystem::path& folder() const { return settings_.folder; }
 
   /// Hands the entry of this stage and key to `read`, once its hash has proved that it is as it was stored. False: there is none. One that is damaged is
-  /// removed, with a warning. \throws Error(cancelled)
+  /// removed, with a warning.
+  /// \throws Error(cancelled)
   bool find(std::string_view stage, const ContentKey& key, const std::function<void(ByteSource&)>& read, const RunContext& context) const;
-  /// Keeps what `write` writes. The entry appears whole or not at all. A disk that is full or may not be written to is a warning: the run goes on.
-  /// Then the entries that were not used for longest go, until the limit holds; never this one, nor one that is being read. \throws Error(cancelled)
+  /// Keeps what `write` writes. The entry appears whole or not at all. A disk that is full or may not be written to is a warning: the run goes on. Then the
+  /// entries that were not used for longest go, until the limit holds; never this one, nor one that is being read.
+  /// \throws Error(cancelled)
   void store(std::string_view stage, const ContentKey& key, const std::function<void(ByteSink&)>& write, const RunContext& context) const;
 
-  /// Of a folder, in order of file names; entries of all builds. \throws Error(file_not_found) when there is no such folder
+  /// Of a folder, in order of file names; entries of all builds.
+  /// \throws Error(file_not_found) when there is no such folder
   static std::vector<CacheEntry> entries(const std::filesystem::path& folder);
-  /// Removes all entries; returns how many. \throws Error(file_not_found, write_failed)
+  /// Removes all entries; returns how many.
+  /// \throws Error(file_not_found, write_failed)
   static std::size_t clear(const std::filesystem::path& folder);
 
  private:

@@ -108,7 +108,8 @@ int convert_model(const ConvertCommand& command, const CommandContext& context);
 /// The options of `sterna surface`, and of `sterna mesh` of a model, but for those of the volume. The arguments must outlive the table.
 OptionTable model_surface_options(surfmesh::SurfaceMeshOptions& surface, ReadCadOptions& reading);
 
-/// Null without a folder. \throws Error(write_failed) when the folder cannot be made
+/// Null without a folder.
+/// \throws Error(write_failed) when the folder cannot be made
 std::unique_ptr<const StageCache> cache_of(const CacheChoice& choice);
 
 /// Each throws Error; the caller prints it and turns its code into the exit status.

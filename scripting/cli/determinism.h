@@ -42,8 +42,8 @@ struct DeterminismReport {
   bool is_pass() const;
 };
 
-/// Adds what a run has written in `folder` to the report, against the first run in `first` (the same folder for the first run itself). \throws Error of
-/// hash_file
+/// Adds what a run has written in `folder` to the report, against the first run in `first` (the same folder for the first run itself).
+/// \throws Error of hash_file
 void compare_run(const std::filesystem::path& first, const std::filesystem::path& folder, int threads, DeterminismReport& report);
 
 /// "G22 determinism: pass, 4 files equal for 1, 2 and 7 threads" and the files with their hashes, or FAIL with what differs where.

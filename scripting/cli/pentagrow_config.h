@@ -23,8 +23,9 @@ struct PentagrowCase {
 };
 
 /// Reads "Key = value" lines (# comments, vectors blank-separated, booleans y yes true n no false). Angles in degrees, lengths in those of the surface. Keys
-/// that are not there keep pentagrow's defaults. \throws Error(file_malformed, bad_argument) that names the file's line: misspelt keys with a suggestion, wrong
-/// values, what cannot be done and what to use instead; all problems at once
+/// that are not there keep pentagrow's defaults.
+/// \throws Error(file_malformed, bad_argument) that names the file's line: misspelt keys with a suggestion, wrong values, what cannot be done and what to use
+/// instead; all problems at once
 PentagrowCase read_pentagrow_config(const std::string& text, const std::string& file_name);
 
 /// The region around the wall that Nearfield... asks for, as a box of small tetrahedra; nothing without.

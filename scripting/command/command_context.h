@@ -24,7 +24,8 @@ struct OptionsShown {
   std::string json;
 };
 
-/// Sets every option; all problems are reported together, also options that are given twice with different values. \throws Error(bad_argument); OptionsShown
+/// Sets every option; all problems are reported together, also options that are given twice with different values.
+/// \throws Error(bad_argument); OptionsShown
 void set_options(const OptionTable& table, const OptionOverrides& given, const CommandContext& context);
 
 }  // namespace sterna::scripting

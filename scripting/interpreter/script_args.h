@@ -13,7 +13,8 @@ std::span<const ScriptVerb> argument_verbs();
 const ScriptVerb& arguments_verb();
 extern const ScriptVerb k_argument_field;
 
-/// "alpha=4" as name and value. \throws Error(bad_argument) for what is no NAME=VALUE
+/// "alpha=4" as name and value.
+/// \throws Error(bad_argument) for what is no NAME=VALUE
 std::pair<std::string, std::string> split_argument(const std::string& text);
 
 }  // namespace sterna::scripting

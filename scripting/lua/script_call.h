@@ -88,8 +88,8 @@ void register_objects(lua_State* state);
 /// The session of a state that was made by run_script.
 ScriptSession& session_of(lua_State* state) noexcept;
 void set_session(lua_State* state, ScriptSession& session) noexcept;
-/// For functions of scripts that are called from C++: pushes a value, may raise; copies one out, never raises. \throws Error(bad_argument) of tables nested too
-/// deep
+/// For functions of scripts that are called from C++: pushes a value, may raise; copies one out, never raises.
+/// \throws Error(bad_argument) of tables nested too deep
 void push_script_value(lua_State* state, const ScriptValue& value);
 ScriptValue script_value_at(lua_State* state, int index);
 /// Raises the error in session.value as a Lua error. Never returns.

@@ -41,8 +41,8 @@ bool is_stand_in(const ScriptCall& call, const ScriptValue& value);
 
 /// Notes a file that is written; a later verb may read it.
 void note_output(const ScriptCall& call, const std::filesystem::path& path);
-/// Of a heavy verb, where the run only checks (light ones read their files): \throws Error(file_not_found) for a file that is not there and would not have been
-/// written before.
+/// Of a heavy verb, where the run only checks (light ones read their files):
+/// \throws Error(file_not_found) for a file that is not there and would not have been written before.
 void check_input(const ScriptCall& call, const InputPath& file);
 
 }  // namespace sterna::scripting

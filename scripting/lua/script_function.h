@@ -14,7 +14,8 @@ namespace sterna::scripting {
 /// Lives as long as the call whose argument it is; only the thread that runs the script may call it.
 class ScriptFunction {
  public:
-  /// Of the function at `index` of the stack, which stays as it is. \throws Error(overflow) without memory
+  /// Of the function at `index` of the stack, which stays as it is.
+  /// \throws Error(overflow) without memory
   ScriptFunction(lua_State* state, int index);
   ~ScriptFunction();
   ScriptFunction(const ScriptFunction&) = delete;
@@ -23,7 +24,8 @@ class ScriptFunction {
   /// The first results.size() values that the function returns for these numbers.
   /// \throws Error(script_failed) with file:line where it fails or returns something else than numbers, Error(cancelled), or the Error of a verb that it calls
   void call(std::span<const double> arguments, std::span<double> results) const;
-  /// What it returns for this value. \throws Error(script_failed) with file:line where it fails, Error(cancelled), or the Error of a verb that it calls
+  /// What it returns for this value.
+  /// \throws Error(script_failed) with file:line where it fails, Error(cancelled), or the Error of a verb that it calls
   ScriptValue call(const ScriptValue& argument) const;
 
   /// Of all arguments that it was called with through this object, and all that it returned.

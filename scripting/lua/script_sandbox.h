@@ -15,7 +15,8 @@ void refuse_unknown_globals(lua_State* state);
 /// From here on a stop request ends the script: at its next instruction, and behind every verb. No pcall of a script keeps it.
 void watch_for_stop(lua_State* state);
 
-/// The text of a script. \throws Error(file_not_found)
+/// The text of a script.
+/// \throws Error(file_not_found)
 std::string read_script(const std::filesystem::path& path);
 
 /// Whether this is a script's pcall or xpcall.

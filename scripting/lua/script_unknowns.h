@@ -10,7 +10,8 @@ inline constexpr const char* k_unknown_type = "sterna.unknown";
 /// Makes its metatable and lets the functions of Lua's libraries take it. `assert` is passed over once anything stands for what was not made.
 /// After open_sandbox(). May raise.
 void open_unknowns(lua_State* state);
-/// Pushes such a value. \pre open_unknowns() May raise.
+/// Pushes such a value.
+/// \pre open_unknowns() May raise.
 void push_unknown(lua_State* state);
 
 }  // namespace sterna::scripting

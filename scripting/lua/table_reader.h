@@ -27,7 +27,8 @@ class TableReader {
   /// The function that the table has for this option, alone or in its stage's table; from now on the option counts as given. Null: there is none. Call before
   /// read_options.
   const FunctionHandle* option_function(std::string_view stage, std::string_view name);
-  /// Whether the table names the option, alone or in its stage's table. \pre read_options
+  /// Whether the table names the option, alone or in its stage's table.
+  /// \pre read_options
   bool is_given(std::string_view stage, std::string_view name) const { return given_.contains(std::string(stage) + "." + std::string(name)); }
   bool has_problems() const { return !problems_.empty(); }
   /// Number of unnamed entries; from now on they count as asked for.

@@ -33,7 +33,8 @@ class PageArrays {
 /// Ten bits of the mantissa, three digits: enough to colour, and half the bytes once packed.
 float shortened(double value);
 
-/// The whole page: the template with JSON and arrays filled in. \throws Error(unsupported_format) in a build without the page
+/// The whole page: the template with JSON and arrays filled in.
+/// \throws Error(unsupported_format) in a build without the page
 std::string page_text(const std::string& json, const PageArrays& arrays);
 
 }  // namespace sterna::scripting

@@ -16,7 +16,8 @@ struct ThinSurface {
 };
 
 /// At most `most` triangles: of each cube of the smallest grid that does it, the vertex next to the mean of its vertices stands for all; triangles of which two
-/// corners fell together go, and of those with the same corners the first stays. All of them where there are not more. Deterministic. \pre most >= 1
+/// corners fell together go, and of those with the same corners the first stays. All of them where there are not more. Deterministic.
+/// \pre most >= 1
 ThinSurface thin_surface(std::span<const Point> points, std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t most);
 
 }  // namespace sterna::scripting

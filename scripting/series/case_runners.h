@@ -31,7 +31,8 @@ struct RunnerContext {
 
 std::vector<std::string> words_of(const RunnerContext& runner, const CaseTask& task);
 
-/// Runs the cases in processes of this machine. \throws Error(cancelled) after the workers were stopped, or killed if they take longer than that
+/// Runs the cases in processes of this machine.
+/// \throws Error(cancelled) after the workers were stopped, or killed if they take longer than that
 void run_in_pool(std::span<const CaseTask> tasks, const RunnerContext& runner);
 
 /// Runs the cases as an array of jobs of Slurm; the folder must be visible on all machines under the same path.

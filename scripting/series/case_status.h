@@ -55,7 +55,8 @@ inline constexpr const char* k_log_file = "log.txt";
 
 /// State none where there is no status, or one that is damaged, which is told in the log.
 CaseStatus read_status(const std::filesystem::path& folder, const RunContext& context);
-/// Whole or not at all. \throws Error(write_failed)
+/// Whole or not at all.
+/// \throws Error(write_failed)
 void write_status(const CaseStatus& status, const std::filesystem::path& folder);
 
 /// Whether the case is over, with this key, and inputs and outputs are still as it recorded them.
@@ -65,10 +66,12 @@ bool is_current(const CaseStatus& status, const std::filesystem::path& folder, c
 std::map<std::string, std::string> outputs_in(const std::filesystem::path& folder, const std::vector<std::string>& found);
 
 /// Removes what an earlier run of the case has left: its outputs, and of one that was killed on its way all that it did not find there. Returns the files that
-/// are not the case's. \throws Error(write_failed) where something cannot be removed
+/// are not the case's.
+/// \throws Error(write_failed) where something cannot be removed
 std::vector<std::string> clear_case_folder(const std::filesystem::path& folder, const CaseStatus& before);
 
-/// Removes half-written files that a killed process has left in the folder itself. \pre nobody writes there
+/// Removes half-written files that a killed process has left in the folder itself.
+/// \pre nobody writes there
 void remove_parts(const std::filesystem::path& folder);
 
 /// "signal 9 (Killed)"

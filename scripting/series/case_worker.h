@@ -17,8 +17,8 @@ inline constexpr int k_series_lock_descriptor = 3;
 ScriptValue argument_of(const SeriesCase& c);
 
 /// Runs the function of the plan with the parameters of the case and leaves everything in its folder: case.json, script/, outputs, quality.json, measure.json,
-/// status.json. What the function throws is the case's failure and ends there. Afterwards the session's series says that the case is over. \throws
-/// Error(write_failed) where the folder cannot be written
+/// status.json. What the function throws is the case's failure and ends there. Afterwards the session's series says that the case is over.
+/// \throws Error(write_failed) where the folder cannot be written
 void run_case(const ScriptCall& call, const SeriesPlan& plan, const SeriesCase& c);
 
 /// The worst value of the first gate in the worst state: "skew 63.1 deg"; empty where quality was not measured.

@@ -16,7 +16,8 @@ namespace sterna::scripting {
 class ChildProcess {
  public:
   /// Starts the program in a process group of its own, with stdout and stderr in `output` (emptied first); it inherits `lock`, where that is not -1, as
-  /// descriptor k_series_lock_descriptor. `folder`: its current folder, if not empty. \throws Error(internal) when it cannot be started
+  /// descriptor k_series_lock_descriptor. `folder`: its current folder, if not empty.
+  /// \throws Error(internal) when it cannot be started
   ChildProcess(const std::vector<std::string>& words, const std::filesystem::path& output, int lock, const std::filesystem::path& folder = {});
   ~ChildProcess();
   ChildProcess(ChildProcess&& other) noexcept;
@@ -41,7 +42,8 @@ struct CommandResult {
   std::string errors;  ///< stderr
 };
 
-/// Runs a command of the PATH to its end. \throws Error(file_not_found) where there is none of that name; cancelled (it is killed first)
+/// Runs a command of the PATH to its end.
+/// \throws Error(file_not_found) where there is none of that name; cancelled (it is killed first)
 CommandResult run_command(const std::vector<std::string>& words, const RunContext& context);
 
 }  // namespace sterna::scripting

@@ -11,8 +11,8 @@ namespace sterna::scripting {
 /// is left to be cleaned up after kill -9. Across machines it holds where the file system has locks.
 class FolderLock {
  public:
-  /// Waits a moment for workers of a killed run to end. \throws Error(write_failed) when another run holds it, saying which, or when the folder cannot be
-  /// written
+  /// Waits a moment for workers of a killed run to end.
+  /// \throws Error(write_failed) when another run holds it, saying which, or when the folder cannot be written
   FolderLock(const std::filesystem::path& folder, const RunContext& context);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -20,8 +20,8 @@ bool is_safe_name(const std::string& name);
 
 /// The cases of over = ...: of { alpha = {0, 4}, beta = {0, 5} } the product, names in alphabetical order, the last of them changing fastest; a value that is
 /// no list counts as a list of one. Entries without name are tables of parameters, or lists of such tables (zip{}); they come before the named ones, so those
-/// change faster. A case is called by its parameters ("alpha=-4_beta=0"), or as the parameter `name` says; long and doubtful names end with a hash. \throws
-/// Error(bad_argument) for values that are not plain, empty lists, two cases with the same parameters or the same given name, more than k_max_cases.
+/// change faster. A case is called by its parameters ("alpha=-4_beta=0"), or as the parameter `name` says; long and doubtful names end with a hash.
+/// \throws Error(bad_argument) for values that are not plain, empty lists, two cases with the same parameters or the same given name, more than k_max_cases.
 std::vector<SeriesCase> cases_of(const ScriptTable& over);
 
 /// {alpha = {0, 1}, bend = {0, 0.1}} as a list of tables { {alpha = 0, bend = 0}, {alpha = 1, bend = 0.1} }.

@@ -36,7 +36,8 @@ std::string table_csv(const SeriesPlan& plan, std::span<const CaseResult> result
 std::string table_json(const SeriesPlan& plan, std::span<const CaseResult> results);
 /// Without "measure": what series{} returns.
 std::string result_json(const SeriesPlan& plan, std::span<const CaseResult> results);
-/// The same of a series.json. \throws Error(file_malformed)
+/// The same of a series.json.
+/// \throws Error(file_malformed)
 std::string result_json_of(const std::string& series_json, const std::filesystem::path& file);
 
 }  // namespace sterna::scripting

@@ -9,10 +9,10 @@
 
 namespace sterna::scripting {
 
-/// While it lives, SIGINT and SIGTERM are taken by a thread of its own and become a stop request; the second one ends the program at once (status 130).
-/// Where work does not take the request in time (a library that does not ask, a Lua pattern without end), the program ends, too: helpers are killed and
-/// temporary files removed, so that nothing is left half-written. \pre constructed before any other thread is started, so that all of them inherit the blocked
-/// signals.
+/// While it lives, SIGINT and SIGTERM are taken by a thread of its own and become a stop request; the second one ends the program at once (status 130). Where
+/// work does not take the request in time (a library that does not ask, a Lua pattern without end), the program ends, too: helpers are killed and temporary
+/// files removed, so that nothing is left half-written.
+/// \pre constructed before any other thread is started, so that all of them inherit the blocked signals.
 class InterruptGuard {
  public:
   InterruptGuard();

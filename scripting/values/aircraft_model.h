@@ -17,7 +17,8 @@ struct AircraftParts {
   std::vector<ModelHandle> models;  ///< solids beside them, from files or other verbs
 };
 
-/// The components as data: deflections, controls and engines included. \throws Error(bad_argument) for two components of one name
+/// The components as data: deflections, controls and engines included.
+/// \throws Error(bad_argument) for two components of one name
 Aircraft aircraft_of(const AircraftParts& parts);
 
 /// All components side by side, mirror images included, with their kinds and the patch names of engines; deflected where the script says so.

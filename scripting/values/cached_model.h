@@ -7,7 +7,8 @@ namespace sterna::scripting {
 
 /// What the verb gives, or, of a verb whose models are kept, the model that the same call gave before: same arguments by content, same names of inputs. Its
 /// shape for OpenCASCADE is not kept: whoever needs it has the verb run again then, which is seldom. Calls with functions, and models of deformed or foreign
-/// surfaces, are made anew. \throws what the verb throws
+/// surfaces, are made anew.
+/// \throws what the verb throws
 ScriptValue cached_model(const ScriptVerb& verb, const ScriptCall& call);
 
 }  // namespace sterna::scripting

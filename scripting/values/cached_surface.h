@@ -22,7 +22,8 @@ std::string names_of(const std::vector<ModelHandle>& models);
 PartMesher cached_part_mesher(const Reuse& reuse);
 
 /// What `make` makes of the models, or what it made of the same before. A surface from the cache knows its models, too: what its model wall needs of them is
-/// made by `all` when a vertex has to go there, which is seldom. \throws what make() throws
+/// made by `all` when a vertex has to go there, which is seldom.
+/// \throws what make() throws
 SurfaceValue cached_surface(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const SizeFunction& size,
                             const std::function<SurfaceValue(const SizeFunction&)>& make, const std::function<Model()>& all, const Reuse& reuse,
                             const RunContext& context);

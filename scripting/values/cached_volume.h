@@ -11,7 +11,8 @@
 
 namespace sterna::scripting {
 
-/// `options` are those of volmesh, with all that is known of the wall. \throws as the functions of volmesh/stages.h
+/// `options` are those of volmesh, with all that is known of the wall.
+/// \throws as the functions of volmesh/stages.h
 volmesh::EnvelopeStage cached_envelope(const SurfaceValue& wall, const volmesh::MeshCase& options, const Reuse& reuse, const RunContext& context);
 volmesh::FilledStage cached_tetrahedra(const SurfaceValue& wall, const volmesh::EnvelopeStage& envelope, const volmesh::MeshCase& options, const Reuse& reuse,
                                        const RunContext& context);

@@ -21,7 +21,8 @@ std::vector<volmesh::ActuatorDisc> read_interfaces(TableReader& reader, const Sc
 /// \throws Error(bad_argument, unknown_option)
 volmesh::ActuatorDisc disc_of_text(const std::string& text);
 
-/// Discs as a JSON list, for manifests and the files of stages; and back. \throws Error(bad_argument) for text that is none
+/// Discs as a JSON list, for manifests and the files of stages; and back.
+/// \throws Error(bad_argument) for text that is none
 std::string discs_json(const std::vector<volmesh::ActuatorDisc>& discs);
 std::vector<volmesh::ActuatorDisc> discs_of_json(const std::string& text);
 

@@ -11,7 +11,8 @@
 namespace sterna::scripting {
 
 /// Reads the files and joins them as read_surface does; what that refuses is a finding, and as much as can be is looked at all the same. The rules of manifests
-/// beside the files come before those of the request. \throws Error of io (no such file, no such format), cancelled
+/// beside the files come before those of the request.
+/// \throws Error of io (no such file, no such format), cancelled
 volmesh::InspectReport inspect_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, volmesh::InspectRequest request,
                                      const RunContext& context);
 /// \throws Error(cancelled)
@@ -25,7 +26,8 @@ std::string json_of(const volmesh::InspectReport& report, const std::string& nam
 /// "-o trouble.vtu": the surface with all fields; "-o trouble.png": a picture of it, by the most severe finding, with the worst place of each marked.
 /// \throws Error(unsupported_format) for another extension, Error(write_failed)
 void write_inspection(const volmesh::InspectReport& report, const std::filesystem::path& path, const RunContext& context);
-/// The same before the work. \throws as write_inspection
+/// The same before the work.
+/// \throws as write_inspection
 void require_inspection_output(const std::filesystem::path& path);
 
 }  // namespace sterna::scripting

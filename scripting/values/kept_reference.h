@@ -82,7 +82,9 @@ class ReferenceUse {
   /// To the log and to the lines of what the case reused.
   void tell(const std::string& line, const Reuse& reuse, const RunContext& context);
 
-  /// Writes the kept file, whole or not at all. \pre is_this() \throws Error(write_failed)
+  /// Writes the kept file, whole or not at all.
+  /// \pre is_this()
+  /// \throws Error(write_failed)
   void save(const RunContext& context) const;
 
   /// What a stage left here beside its result, so that one from the cache leaves the same.

@@ -14,12 +14,15 @@
 
 namespace sterna::scripting {
 
-/// Sets solve_for by what was given. \p is_given: of options of the stage "envelope", by name. \throws Error(bad_argument) of volmesh::solved_for
+/// Sets solve_for by what was given. \p is_given: of options of the stage "envelope", by name.
+/// \throws Error(bad_argument) of volmesh::solved_for
 void choose_solve_for(volmesh::MeshCase& options, const std::function<bool(std::string_view)>& is_given, std::string_view attempted);
-/// The same for a verb's table and the overrides of the command line; notes problems. \pre the options are read
+/// The same for a verb's table and the overrides of the command line; notes problems.
+/// \pre the options are read
 void choose_solve_for(volmesh::MeshCase& options, TableReader& reader, const ScriptCall& call);
 
-/// The function that the table has as first_height, unless the command line gives a number; null: none. \pre the options are not read yet
+/// The function that the table has as first_height, unless the command line gives a number; null: none.
+/// \pre the options are not read yet
 FunctionHandle read_first_heights(TableReader& reader, const ScriptCall& call);
 /// Asks the function, f(x, y, z) in metres, at every vertex of the wall, in their order: then first heights are by place. Nothing without a function.
 /// \throws Error(script_failed) of the function, Error(bad_argument) with places for what is no height

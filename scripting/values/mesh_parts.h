@@ -24,7 +24,8 @@ struct PartTask {
   std::optional<ContentKey> model_key;                 ///< of what the model was made of, but for its names and kinds; nothing: not known
 };
 
-/// Meshes one part. \throws Error of surfmesh::mesh_model
+/// Meshes one part.
+/// \throws Error of surfmesh::mesh_model
 surfmesh::SurfaceMesh mesh_part(const PartTask& task, const RunContext& context);
 
 /// Who makes the meshes of parts: mesh_part(), or one who knows some already.
@@ -38,7 +39,8 @@ struct PartsMesh {
 /// Meshes the parts of a model and joins them. A model of one part that was never moved is meshed as it is. Sizes by place (sources, functions) are asked where
 /// the parts are. All is meshed at once, in its place, which the log tells: with gap_cells for several parts, since gaps between them ask for sizes; and where
 /// triangles of two parts cross that finer ones part. `sizes` are in space. \p in_place meshes what is meshed at once, as one part in its place; empty:
-/// mesh_part(). \throws Error of surfmesh::mesh_model, join_parts
+/// mesh_part().
+/// \throws Error of surfmesh::mesh_model, join_parts
 PartsMesh mesh_parts(const ModelValue& value, const SurfaceRecipe& recipe, const surfmesh::SpaceSizes& sizes, const PartMesher& mesher,
                      const RunContext& context, const PartMesher& in_place = {});
 

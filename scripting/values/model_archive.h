@@ -23,7 +23,8 @@ struct NotKept {
 class ModelWriter {
  public:
   explicit ModelWriter(ByteSink& sink) : sink_(sink) {}
-  /// Of its shape only whether there is one. \throws NotKept
+  /// Of its shape only whether there is one.
+  /// \throws NotKept
   void model(const Model& model);
   void shared(const std::shared_ptr<const Model>& model);
 

@@ -29,14 +29,16 @@ std::vector<ModelPart> parts_of(const ModelValue& value);
 /// Part `i` in its own frame, with the names, roles and kinds that the model's faces have now.
 Model own_model(const ModelValue& value, const std::vector<ModelPart>& parts, std::size_t i);
 
-/// The model moved and turned: its parts stay what they are. \pre `motion` is a rotation and a shift
+/// The model moved and turned: its parts stay what they are.
+/// \pre `motion` is a rotation and a shift
 void move_parts(const Transform& motion, ModelValue& value);
 /// The mirror image in the plane through `at`: parts become their own mirror images, in places that are the images of theirs.
 void mirror_parts(const Point& at, const Vec3& normal, ModelValue& value);
 
 /// Makes `value` the solids of `changed`, which a boolean made of those of `looked_at` (the model of `value`, or what OpenCASCADE took instead of it). Solids
 /// that it left as they were stay the parts that they are, with the surfaces that `value` had; others that follow each other are one part, in their place;
-/// where all are such, nothing is known of parts any more. Order: that of `changed`. \pre all faces of both are of solids
+/// where all are such, nothing is known of parts any more. Order: that of `changed`.
+/// \pre all faces of both are of solids
 void take_solids(const Model& looked_at, const Model& changed, ModelValue& value);
 
 }  // namespace sterna::scripting

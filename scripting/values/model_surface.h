@@ -18,10 +18,9 @@ namespace sterna::scripting {
 
 /// Meshes the models, side by side where there are several. The log says what was made: triangles, patches, closed or open and where, the worst angle with its
 /// face, absorbed parts, crossings (a warning). Patches have the faces' names.
-/// \throws Error of surfmesh::mesh_model
-/// What .smx files say of their components' triangles (maxlen, minlen, maxphi other than sumo's 30 degrees, lerfactor, terfactor; not where defaults="true")
-/// counts as rules before the recipe's. `size`: lengths of edges by place, called by this thread alone. \throws also Error(bad_argument) for a source that
-/// volmesh::problem_of objects to
+/// \throws Error of surfmesh::mesh_model What .smx files say of their components' triangles (maxlen, minlen, maxphi other than sumo's 30 degrees, lerfactor,
+/// terfactor; not where defaults="true") counts as rules before the recipe's. `size`: lengths of edges by place, called by this thread alone.
+/// \throws also Error(bad_argument) for a source that volmesh::problem_of objects to
 SurfaceValue mesh_models(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const std::function<double(const Point&)>& size,
                          const RunContext& context, const Reuse& reuse = {});
 
@@ -38,7 +37,8 @@ std::string surface_mesh_text(const Model& model, const SurfaceValue& surface);
 OptionTable with_edge_tables(OptionTable table);
 /// What one entry of patches = { ["wing*"] = { max_edge = 0.1 } } takes. `rule` must outlive the table.
 OptionTable patch_rule_options(surfmesh::PatchSurfaceOptions& rule);
-/// A list of objects with the options that each rule sets, for manifests; and back. \throws Error(file_malformed, bad_argument)
+/// A list of objects with the options that each rule sets, for manifests; and back.
+/// \throws Error(file_malformed, bad_argument)
 std::string patch_rules_json(const std::vector<surfmesh::PatchSurfaceOptions>& rules);
 std::vector<surfmesh::PatchSurfaceOptions> patch_rules_of_json(const std::string& text);
 /// Sources of a size field as a JSON list, for manifests; samples by their number only. Empty: there is nothing.

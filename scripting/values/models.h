@@ -50,14 +50,16 @@ ModelValue read_cpacs_model(const InputPath& file, const RunContext& context);
 
 /// \throws Error(unsupported_format, write_failed) when a model cannot be written to a file of this name. Before the work.
 void require_model_output(const ModelValue& value, const std::filesystem::path& path);
-/// STEP, IGES, BREP by extension (what has no exact form becomes splines), .smx where there is a description. \throws Error of io and geom
+/// STEP, IGES, BREP by extension (what has no exact form becomes splines), .smx where there is a description.
+/// \throws Error of io and geom
 void write_model(const ModelValue& value, const std::filesystem::path& path, const WriteCadOptions& options, const RunContext& context);
 
 /// Box around the faces, from samples: within about a thousandth of its size.
 Box box_of(const Model& model);
 Box box_of(const Model& model, FaceId face);
 
-/// The components whose names match, whole. \throws Error(bad_argument) naming those that exist where none does
+/// The components whose names match, whole.
+/// \throws Error(bad_argument) naming those that exist where none does
 Model select_components(const Model& model, const std::string& pattern, const std::string& attempted);
 
 /// Of a component, a solid, or all: what model_measures finds, and the view from above.

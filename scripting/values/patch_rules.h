@@ -28,7 +28,8 @@ OptionTable patch_rule_options(volmesh::PatchRule& rule);
 OptionTable surface_and_layer_options(surfmesh::PatchSurfaceOptions& sizes, volmesh::PatchRule& layers);
 /// Leaves those that ask for something.
 void keep_set_rules(std::vector<volmesh::PatchRule>& rules);
-/// Adds the rules behind those that the surface has, and gives its patches their kinds. \throws Error(bad_argument) for names that no patch has
+/// Adds the rules behind those that the surface has, and gives its patches their kinds.
+/// \throws Error(bad_argument) for names that no patch has
 void add_layer_rules(const std::vector<volmesh::PatchRule>& rules, SurfaceValue& surface);
 /// Several lines for help(): what entries of `patches` of volume_mesh take.
 std::string layer_rules_help();
@@ -41,7 +42,8 @@ std::vector<volmesh::PatchRule> layer_rules_of(const std::vector<std::pair<std::
 
 /// An object with `names` and the options that are not at their default.
 std::string rule_json(const std::string& names, const OptionTable& options);
-/// Makes the rules of a list of such objects. \throws Error(file_malformed, bad_argument, unknown_option)
+/// Makes the rules of a list of such objects.
+/// \throws Error(file_malformed, bad_argument, unknown_option)
 void read_rules_json(const std::string& list, std::string_view attempted, const AddRule& add);
 
 /// Of volume_mesh, for manifests; and back.

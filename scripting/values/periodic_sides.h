@@ -12,10 +12,12 @@ namespace sterna::scripting {
 /// The entry "periodic" of a table: a list of pairs of names, or one pair. Notes problems with the reader.
 std::vector<volmesh::PeriodicNames> read_periodic(TableReader& reader);
 
-/// A pair of the command line, "left,right". \throws Error(bad_argument)
+/// A pair of the command line, "left,right".
+/// \throws Error(bad_argument)
 volmesh::PeriodicNames periodic_of_text(const std::string& text);
 
-/// Pairs as a JSON list of lists, for manifests and the files of stages; and back. \throws Error(bad_argument) for text that is none
+/// Pairs as a JSON list of lists, for manifests and the files of stages; and back.
+/// \throws Error(bad_argument) for text that is none
 std::string periodic_json(const std::vector<volmesh::PeriodicNames>& pairs);
 std::vector<volmesh::PeriodicNames> periodic_of_json(const std::string& text);
 

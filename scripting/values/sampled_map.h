@@ -21,8 +21,8 @@ struct SampledMapOptions {
 class SampledMap final : public SpaceMap {
  public:
   /// Samples `displacement` in `box`, refined along each axis until the spline is within the tolerance (metres; automatic: 1e-6 of the box's longest side) at
-  /// places between all samples. The function is called from this thread only. \throws Error(bad_argument) with the place: not finite, or the tolerance is not
-  /// reached with max_samples
+  /// places between all samples. The function is called from this thread only.
+  /// \throws Error(bad_argument) with the place: not finite, or the tolerance is not reached with max_samples
   SampledMap(const std::function<Vec3(const Point&)>& displacement, const Box& box, const SampledMapOptions& options);
   Point point(const Point& p) const override;
   SpaceMapDerivatives derivatives(const Point& p) const override;

@@ -59,7 +59,8 @@ struct StageContent {
 /// \throws Error of io; file_malformed where parts do not belong together or options are missing.
 StageContent read_stages(const InputPath& file, const RunContext& context);
 
-/// Writes a step's value to a .sterna file. \throws Error of io; bad_argument for another extension.
+/// Writes a step's value to a .sterna file.
+/// \throws Error of io; bad_argument for another extension.
 void write_stage(const EnvelopeValue& envelope, const std::filesystem::path& path, const RunContext& context);
 void write_stage(const TetrahedraValue& tetrahedra, const std::filesystem::path& path, const RunContext& context);
 

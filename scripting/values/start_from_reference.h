@@ -21,8 +21,9 @@ namespace sterna::scripting {
 PartMesher starting_mesher(const Reuse& reuse, const PartMesher& ordinary,
                            const std::function<std::optional<ContentKey>(const PartTask&, const RunContext&)>& key = {});
 
-/// Makers of envelopes that start from the reference's where the wall has its triangles (volmesh::warm_start), and keep the reference's own.
-/// `ordinary` makes the envelope of a part in any other case, under `key` in the cache. \pre reuse.reference
+/// Makers of envelopes that start from the reference's where the wall has its triangles (volmesh::warm_start), and keep the reference's own. `ordinary` makes
+/// the envelope of a part in any other case, under `key` in the cache.
+/// \pre reuse.reference
 volmesh::Makers starting_envelopes(volmesh::Makers makers, const Reuse& reuse, const volmesh::PartEnvelopeMaker& ordinary,
                                    const std::function<ContentKey(const volmesh::PartEnvelopeTask&, const RunContext&)>& key);
 

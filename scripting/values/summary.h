@@ -29,11 +29,14 @@ double peak_memory_bytes();
 
 /// "quality pass", "quality FAIL: G5 G14; warn: G9", "quality not checked".
 std::string quality_text(const CheckReport& report);
-/// Several lines: sizes, coverage, compressed and collapsed vertices (each listed), verdict. \pre mesh.origin
+/// Several lines: sizes, coverage, compressed and collapsed vertices (each listed), verdict.
+/// \pre mesh.origin
 std::string summary_text(const MeshValue& mesh);
-/// Several lines: seconds in the tetrahedra engine and the rest, stages, memory. \pre mesh.origin
+/// Several lines: seconds in the tetrahedra engine and the rest, stages, memory.
+/// \pre mesh.origin
 std::string measure_text(const MeshValue& mesh, const RunMeasure& measure);
-/// Both as JSON, schema "sterna-stats-1". \pre mesh.origin
+/// Both as JSON, schema "sterna-stats-1".
+/// \pre mesh.origin
 std::string stats_json(const MeshValue& mesh, const RunMeasure& measure);
 
 }  // namespace sterna::scripting

@@ -12,7 +12,8 @@
 namespace sterna::scripting {
 
 /// Schema sterna-surface-1: inputs with hashes, options, patches, sizes, quality with worst places (angles in degrees, as in reports), the hash of `written`.
-/// \pre surface.mesh_report; `written` is the finished file. \throws Error of io
+/// \pre surface.mesh_report; `written` is the finished file.
+/// \throws Error of io
 std::string surface_manifest_json(const SurfaceValue& surface, const std::filesystem::path& written);
 
 /// Writes it as "<written>.json".

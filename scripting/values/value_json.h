@@ -17,7 +17,8 @@ std::string to_result(const ScriptValue& value);
 /// are null. A table with unnamed entries is a list; one with both is an object whose entry "items" is the list.
 std::string to_json(const ScriptValue& value);
 
-/// null is nil, which tables do not hold. \throws Error(file_malformed)
+/// null is nil, which tables do not hold.
+/// \throws Error(file_malformed)
 ScriptValue value_of_json(std::string_view text);
 
 }  // namespace sterna::scripting

@@ -82,27 +82,32 @@ struct MeshValue {
                                              ///< that manifests and reports say what that found
 };
 
-/// Reads the files and joins them to one surface; manifests beside them say how far smooth places turn. \throws Error of io and of surfmesh::stitch_surface.
+/// Reads the files and joins them to one surface; manifests beside them say how far smooth places turn.
+/// \throws Error of io and of surfmesh::stitch_surface.
 SurfaceValue read_wall(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context);
 
 /// What union takes: a surface that was read, or a file, whose closed components may cross each other.
 using UnionItem = std::variant<SurfaceHandle, InputPath>;
-/// Files are read with `unit` (m). Parts have the names of their files. \throws Error of read_wall and of unite_meshes.
+/// Files are read with `unit` (m). Parts have the names of their files.
+/// \throws Error of read_wall and of unite_meshes.
 SurfaceValue unite_surfaces(std::span<const UnionItem> items, double unit, const UnionOptions& options, const RunContext& context);
 
-/// Reads a volume mesh. \throws Error of io.
+/// Reads a volume mesh.
+/// \throws Error of io.
 MeshValue read_mesh(const InputPath& file, const RunContext& context);
 
 /// \throws Error unsupported_format or write_failed when a mesh of this name cannot be written: unknown extension, no such folder. Before the work.
 void require_mesh_output(const std::filesystem::path& path);
 
 /// Writes the mesh and, once that is done, its manifest "<path>.json"; a .sterna file holds manifest, certificate and quality, too. Each file appears whole or
-/// not at all. \throws Error of io.
+/// not at all.
+/// \throws Error of io.
 void write_mesh(const MeshValue& mesh, const std::filesystem::path& path, const RunContext& context);
 
 /// \throws Error unsupported_format or write_failed when a surface cannot be written to a file of this name. Before the work.
 void require_surface_output(const std::filesystem::path& path);
-/// Writes a surface; format by extension; of one that surface_mesh made also its manifest "<path>.json". \throws Error of io.
+/// Writes a surface; format by extension; of one that surface_mesh made also its manifest "<path>.json".
+/// \throws Error of io.
 void write_surface(const SurfaceValue& surface, const std::filesystem::path& path, const RunContext& context);
 
 /// The options of reading a surface and of all stages of the volume mesh, for `--set stage.option=value`. The arguments must outlive the table.

@@ -20,7 +20,8 @@ struct WallFiles {
 
 /// \throws Error of io
 WallFiles read_wall_files(std::span<const InputPath> files, const surfmesh::StitchOptions& options, const RunContext& context);
-/// Joins them by the wall's options. \throws Error of surfmesh::stitch_surface
+/// Joins them by the wall's options.
+/// \throws Error of surfmesh::stitch_surface
 SurfaceValue join_wall(const WallFiles& files, const RunContext& context);
 
 }  // namespace sterna::scripting

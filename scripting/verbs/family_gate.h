@@ -23,7 +23,8 @@ struct CheckFamilyCommand {
 /// own. `file`: where it was read from; empty: it was made here.
 FamilyMember member_of(const MeshValue& mesh, std::string name, const std::filesystem::path& file, const RunContext& context);
 
-/// Status 3 where a rule FAILs. \throws Error of read_mesh and check_family
+/// Status 3 where a rule FAILs.
+/// \throws Error of read_mesh and check_family
 int execute(const CheckFamilyCommand& command, const CommandContext& context);
 
 /// check_family.

@@ -26,7 +26,8 @@ std::string sphere_help();
 ScriptTable with_farfield(const ScriptCall& call, ScriptTable table, std::shared_ptr<const TriMesh>& surface, std::vector<InputFile>& inputs);
 
 /// The options that a text stands for: "none", "sphere radius=100 edge=20", "box -10 -5 -5 20 5 5 edge=2 x_min=inflow x_max=outflow,edge:0.5", "cylinder -10 0
-/// 0 20 0 0 radius=5", a file. \throws Error(bad_argument)
+/// 0 20 0 0 radius=5", a file.
+/// \throws Error(bad_argument)
 OptionOverrides farfield_of_text(const std::string& text);
 /// The surface in the file of the shape "surface", if the options name one, with its file.
 /// \throws Error of read_wall, of meshing a model

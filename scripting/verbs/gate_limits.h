@@ -13,7 +13,8 @@ namespace sterna::scripting {
 /// false for none, share in [0, 1]. A measure that is false has no limits: it is shown only. Notes problems. Returns whether there was any.
 bool read_gate_limits(TableReader& reader, GateTable& limits);
 
-/// The same off the command line: "orthogonality:hard=3deg,target=15deg", "face_weight:none". \throws Error(bad_argument)
+/// The same off the command line: "orthogonality:hard=3deg,target=15deg", "face_weight:none".
+/// \throws Error(bad_argument)
 void set_gate_limits(std::string_view text, GateTable& limits);
 
 /// The measures with their limits, for help.

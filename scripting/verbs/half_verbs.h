@@ -15,7 +15,8 @@ namespace sterna::scripting {
 /// half. Takes a surface, the name of a surface's file, models or components.
 std::span<const ScriptVerb> half_verbs();
 
-/// The half of a surface with where it came from. \throws Error of half_of
+/// The half of a surface with where it came from.
+/// \throws Error of half_of
 SurfaceValue half_surface(const SurfaceValue& surface, const HalfOptions& options, const RunContext& context);
 
 }  // namespace sterna::scripting

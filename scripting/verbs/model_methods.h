@@ -12,7 +12,8 @@ std::span<const ScriptVerb> model_methods();
 /// model.faces; model["wing*"] are the components of that name, as a model.
 extern const ScriptVerb k_model_field;
 
-/// What object:move{ dx, dy, dz } and object:rotate{ ... } say, of models and surfaces. \throws Error(bad_argument)
+/// What object:move{ dx, dy, dz } and object:rotate{ ... } say, of models and surfaces.
+/// \throws Error(bad_argument)
 Transform read_shift(const ScriptCall& call, std::string_view usage);
 Transform read_turn(const ScriptCall& call, std::string_view usage);
 std::string rotate_help();

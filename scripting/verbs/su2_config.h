@@ -49,8 +49,8 @@ struct Su2Reference {
 /// The text of the configuration. Walls: MARKER_HEATFLUX (adiabatic) or MARKER_ISOTHERMAL, without viscosity MARKER_EULER; slip: MARKER_EULER; symmetry:
 /// MARKER_SYM; farfield: MARKER_FAR; inflow and outflow of tunnels (no farfield): total conditions and pressure of the flow, along the patch's normal; of
 /// bodies in a farfield, and actuator discs: as `boundaries` says. Forces are counted on all walls but those of tunnels (which touch an inflow or outflow).
-/// Half models: half the area. What was decided goes to the log. \p boundaries by the names of patches \throws Error(bad_argument) with everything that cannot
-/// be known from the mesh and what was given
+/// Half models: half the area. What was decided goes to the log. \p boundaries by the names of patches
+/// \throws Error(bad_argument) with everything that cannot be known from the mesh and what was given
 std::string su2_config(const HybridMesh& mesh, const Su2Options& options, const volmesh::FlowState& flow, const Su2Reference& reference,
                        const std::map<std::string, Su2Boundary>& boundaries, const RunContext& context);
 

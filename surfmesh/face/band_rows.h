@@ -49,8 +49,8 @@ struct BandedFace {
 };
 
 /// mesh_face with rows along parts of the border: vertices of rows lie on the surface, their triangles are what they are; the rest is meshed from the rows'
-/// outer line. Neighbouring columns differ by one row at most. Rows end before another border, another run, or a fold. \throws as mesh_face, never because of
-/// the rows
+/// outer line. Neighbouring columns differ by one row at most. Rows end before another border, another run, or a fold.
+/// \throws as mesh_face, never because of the rows
 BandedFace mesh_banded_face(const Surface& surface, const FaceBorder& border, const std::vector<BandRun>& runs, const SizeFunction& size, Vec2 mean_speed,
                             const FaceMeshOptions& options, const RunContext& context);
 

@@ -34,7 +34,8 @@ class CurvatureSizes {
   /// Samples the curvature in `box`, at least k_samples_per_piece times between breaks. With `loops` (closed polygons in (u, v)) only samples inside them
   /// (by parity) ask for something: what is trimmed away does not count. Sizes are infinite until they are limited.
   CurvatureSizes(const Surface& surface, const ParameterBox& box, std::span<const std::vector<Uv>> loops = {});
-  /// Turns curvatures into sizes. \pre the first call
+  /// Turns curvatures into sizes.
+  /// \pre the first call
   void limit(const CurvatureLimits& limits);
   /// Metres; infinite on a plane. Bilinear between samples.
   double operator()(Uv at) const;

@@ -17,7 +17,8 @@ struct StructuredMesh {
 };
 
 /// Points of the mesh's vertices on `model`: corners are the model's, vertices on edges at the same parameter of their edge's curve, inner ones at the same (u,
-/// v) of their face. \pre difference_of(from.structure, now) is empty, and `now` is of `model`
+/// v) of their face.
+/// \pre difference_of(from.structure, now) is empty, and `now` is of `model`
 Column<VertexId, Point> carried_points(const StructuredMesh& from, const Model& model, const ModelStructure& now, const RunContext& context);
 
 /// Of the least angle of a triangle, or of k_good_angle where that is less: what it keeps at least. By 30 % less it is still as good as the mesher's own worst
@@ -38,7 +39,8 @@ struct CarriedMesh {
 
 /// The mesh on `model`, once it is proved as good as one: no triangle folds (its normal against those of the surface at its corners, k_normal_slack), angles
 /// and edges are not much worse than the same triangle's were (k_kept_angle, k_edge_stretch), and, unless options.crossings is "ignore", no triangles cross or
-/// touch (exact). The report is measured anew, but for what was absorbed (at its vertex' new place), bands and rounds. \pre as carried_points; `points` of it
+/// touch (exact). The report is measured anew, but for what was absorbed (at its vertex' new place), bands and rounds.
+/// \pre as carried_points; `points` of it
 CarriedMesh carry_mesh(const StructuredMesh& from, const Model& model, const ModelStructure& now, Column<VertexId, Point> points,
                        const SurfaceMeshOptions& options, const RunContext& context);
 

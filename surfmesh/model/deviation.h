@@ -24,7 +24,8 @@ struct Deviation {
 
 /// Measures the boundary faces of the mesh on patches that `wall` has by name. The triangles of `wall` are looked up only to find faces and seeds: the distance
 /// is that to the exact faces within their borders and to the exact edges. Where several faces are about as near as the nearest (creases, edges, thin tips) a
-/// facet is compared with the one that agrees best. Parallel, the same for any number of threads. \pre `model` is of `wall`, and `wall` has a triangle
+/// facet is compared with the one that agrees best. Parallel, the same for any number of threads.
+/// \pre `model` is of `wall`, and `wall` has a triangle
 Deviation measure_deviation(const HybridMesh& mesh, const TriMesh& wall, const ModelWall& model, const GateTable& limits, const RunContext& context);
 /// The same of a surface, all of its patches that `wall` has; it may be `wall` itself.
 Deviation measure_deviation(const TriMesh& surface, const TriMesh& wall, const ModelWall& model, const GateTable& limits, const RunContext& context);

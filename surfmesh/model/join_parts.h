@@ -20,10 +20,10 @@ struct PlacedMesh {
 };
 
 /// Joins the meshes in their order: vertices, triangles, faces, edges and corners of each follow those of the one before; a patch for each name and kind of a
-/// face. What the report counts is counted over all; triangles are tested for crossings again, of all parts against all. \pre `model` has the faces, edges and
-/// corners of the meshes' models, in this order, in their places; meshes are not empty \return nothing where triangles of different parts cross that finer ones
-/// would part: such parts are to be meshed together \throws Error(self_intersection) where triangles cross otherwise, unless options.crossings says so;
-/// Error(overflow) beyond max_triangles
+/// face. What the report counts is counted over all; triangles are tested for crossings again, of all parts against all.
+/// \pre `model` has the faces, edges and corners of the meshes' models, in this order, in their places; meshes are not empty \return nothing where triangles of
+/// different parts cross that finer ones would part: such parts are to be meshed together
+/// \throws Error(self_intersection) where triangles cross otherwise, unless options.crossings says so; Error(overflow) beyond max_triangles
 std::optional<SurfaceMesh> join_parts(const Model& model, std::span<const PlacedMesh> parts, const SurfaceMeshOptions& options, const RunContext& context);
 
 /// The mesh moved; its report's places too.

@@ -59,7 +59,8 @@ struct WingBands;
 void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options,
                  ModelSizes& sizes, const RunContext& context, const WingBands* bands = nullptr);
 
-/// Sets `places`: factors of wings, sources of the user. \pre sizes_of_faces
+/// Sets `places`: factors of wings, sources of the user.
+/// \pre sizes_of_faces
 void add_place_sizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, const SpaceSizes& asked,
                      ModelSizes& sizes);
 

@@ -44,12 +44,14 @@ struct ModelNormal {
 
 class ModelWall {
  public:
-  /// Keeps copies of what it needs. \pre `mesh` is of this model
+  /// Keeps copies of what it needs.
+  /// \pre `mesh` is of this model
   ModelWall(Model model, const SurfaceMesh& mesh);
   /// The same of a model that is made when it is first needed, which is seldom: in the thread that then asks, while others wait.
   ModelWall(std::function<Model()> model, WallPlaces places, Column<TriangleId, TriangleVertices> triangles);
 
-  /// The same wall elsewhere. \pre `motion` is a rotation and a shift
+  /// The same wall elsewhere.
+  /// \pre `motion` is a rotation and a shift
   ModelWall(const ModelWall& other, const Transform& motion);
 
   /// The nearest point of the model around a point on a triangle: on the edge of the model that the triangle's edge lies on where the weight of the corner
@@ -68,7 +70,8 @@ class ModelWall {
   std::optional<Point> place_of(VertexId v) const;
   /// Nothing where the surface has no normal, not even close by. Thread-safe.
   std::optional<ModelNormal> normal(FaceId face, Uv at) const;
-  /// For messages. \pre foot.face is valid
+  /// For messages.
+  /// \pre foot.face is valid
   const std::string& name_of(FaceId face) const;
 
   const WallPlaces& places() const { return places_; }

@@ -19,8 +19,8 @@ struct LabelledBorder {
 };
 
 /// Joins the two loops that run around the period (or the one, to the pole on its left) to one loop by a seam: there and back, a period apart, straight in (u,
-/// v), cut by `size`; moves holes between. Nothing where all loops close. \throws Error(geometry_failed) where loops run around in another way, or no straight
-/// seam clears the borders
+/// v), cut by `size`; moves holes between. Nothing where all loops close.
+/// \throws Error(geometry_failed) where loops run around in another way, or no straight seam clears the borders
 void add_own_seam(const Surface& surface, const std::function<double(Uv, const Point&)>& size, LabelledBorder& labelled);
 
 /// Makes the seam's vertices inner ones, each once; `labelled` keeps the model's points alone.

@@ -37,7 +37,8 @@ class PlaceSizes {
   PlaceSizes() = default;
   /// \pre sizes.faces resolved
   PlaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelSizes& sizes, const SpaceSizes& asked, double refinement);
-  /// Adds sources that count on this face only. \pre none of it before
+  /// Adds sources that count on this face only.
+  /// \pre none of it before
   void set_sources(FaceId f, std::vector<SizeSource> sources);
 
   /// Metres: at most the face's largest edge.

@@ -26,7 +26,8 @@ class SurfaceSizes {
   SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes,
                std::vector<SizeSource> in_space, const RunContext& context, bool keeps_grids = false);
 
-  /// Metres, from many threads. \pre the face is not absorbed
+  /// Metres, from many threads.
+  /// \pre the face is not absorbed
   double on_face(FaceId face, Uv at, const Point& point) const;
   /// Metres, on an edge that has faces and is no point.
   double on_edge(EdgeId edge, double t) const;

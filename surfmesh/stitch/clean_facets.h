@@ -15,8 +15,8 @@ void drop_degenerate_facets(WorkingSurface& surface, StitchReport& report);
 void drop_doubled_facets(WorkingSurface& surface, StitchReport& report);
 
 /// Removes facets of exactly zero area (three different vertices on a line) without moving the surface: the middle vertex lies on the long edge, so flipping
-/// that edge hands it to the neighbour, which is split there. Such facets are what fills T-junctions. \pre at most two facets at each edge, consistent
-/// orientation. \return facets for which no flip was possible.
+/// that edge hands it to the neighbour, which is split there. Such facets are what fills T-junctions.
+/// \pre at most two facets at each edge, consistent orientation. \return facets for which no flip was possible.
 std::vector<std::uint32_t> flip_flat_facets(WorkingSurface& surface, StitchReport& report);
 
 /// Whether three points lie on one line; exact.

@@ -18,8 +18,8 @@ struct Orientation {
 Orientation flood_orientation(const WorkingSurface& surface, const EdgeTable& edges);
 
 /// Applies a consistent orientation: closed components by signed volume and nesting depth (0 = a body, normals out; 1 = a cavity in it, normals into the
-/// cavity; 2 = a body in the cavity ...), open ones by the majority of their area. Depths are found by winding numbers. \pre no crowded edge, orientation
-/// without conflicts.
+/// cavity; 2 = a body in the cavity ...), open ones by the majority of their area. Depths are found by winding numbers.
+/// \pre no crowded edge, orientation without conflicts.
 void orient_outward(WorkingSurface& surface, const EdgeTable& edges, const Orientation& orientation, bool is_fluid_inside, StitchReport& report,
                     const RunContext& context);
 

@@ -15,7 +15,8 @@ std::vector<std::string> clean_patch_names(const std::vector<SurfaceSoup>& soups
 /// "My wing (left)" -> "My_wing_left", "3" -> "patch_3"; may be empty.
 std::string clean_name(std::string_view name);
 
-/// The mesh: vertices numbered by first use, patches in the order of the files, unused ones dropped. \pre coordinates in metres.
+/// The mesh: vertices numbered by first use, patches in the order of the files, unused ones dropped.
+/// \pre coordinates in metres.
 TriMesh make_mesh(const WorkingSurface& surface, const std::vector<std::string>& names);
 
 /// Splits each patch into the regions that edges which bend by more than `angle` (rad) cut off; the regions of wing become wing_1, wing_2 ..., by first

@@ -12,9 +12,10 @@ namespace sterna::surfmesh {
 WorkingSurface weld_exact(const std::vector<SurfaceSoup>& soups, const StitchOptions& options, StitchReport& report);
 
 /// Welds near vertices. With a tolerance given: all vertices within it, always. Automatic: only when the surface is open, only vertices of its boundary, within
-/// the rounding of the file's own numbers, and only if that closes edges and adds no crowded edge and no pinched vertex; so small features survive.
-/// A chain of near vertices becomes one, at the place of the first. \throws Error(bad_argument) for a tolerance above 2 % of the body length. \post no facet
-/// has a repeated vertex or a copy.
+/// the rounding of the file's own numbers, and only if that closes edges and adds no crowded edge and no pinched vertex; so small features survive. A chain of
+/// near vertices becomes one, at the place of the first.
+/// \throws Error(bad_argument) for a tolerance above 2 % of the body length.
+/// \post no facet has a repeated vertex or a copy.
 void weld_near(WorkingSurface& surface, const StitchOptions& options, StitchReport& report, const RunContext& context);
 
 /// The tolerance that weld_near works with, metres.

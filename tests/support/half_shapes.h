@@ -11,7 +11,8 @@ struct HalfShellOptions {
   bool has_collapsed_rim = false;  ///< a line of the rim, another with its neighbour along the rim, and another with one inside have no height
 };
 
-/// The half y >= 0 of sphere_shell(f): patches "sphere" (wall), "farfield", and "symmetry" at y = 0 exactly. \pre f >= 4
+/// The half y >= 0 of sphere_shell(f): patches "sphere" (wall), "farfield", and "symmetry" at y = 0 exactly.
+/// \pre f >= 4
 HybridMesh half_sphere_shell(int f, const HalfShellOptions& options = {});
 
 /// The same with a patch of each kind: the plane y = 0 is parted by quadrants into "symmetry", "slip_wall", "inflow", "outflow", and "disc" (interface) is a

@@ -9,8 +9,8 @@
 namespace sterna::test {
 
 /// Boundary of the cubes (i, j, k) of edge length `size`, 0 <= i < n[0] and so on, for which is_fluid holds; normals into the fluid; every square is two
-/// triangles. `patch_of`: of a square's middle and normal. Patches in the order in which they appear. \pre no two fluid cubes touch in an edge or a corner
-/// alone
+/// triangles. `patch_of`: of a square's middle and normal. Patches in the order in which they appear.
+/// \pre no two fluid cubes touch in an edge or a corner alone
 TriMesh voxel_boundary(const std::array<int, 3>& n, double size, const std::function<bool(int, int, int)>& is_fluid,
                        const std::function<Patch(const Point&, const Vec3&)>& patch_of);
 

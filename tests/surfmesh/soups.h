@@ -94,7 +94,8 @@ inline double area(const TriMesh& mesh) {
   return sum;
 }
 
-/// The contract's \post for a closed surface.
+/// The contract's
+/// \post for a closed surface.
 inline void expect_stitched(const TriMesh& mesh) {
   const RunContext context = quiet();
   const Topology topology(mesh, context);  // throws when not manifold or not consistently oriented

@@ -43,7 +43,8 @@ std::vector<SideRule> parse_sides(const std::string& text);
 /// The same text from rules; parse_sides() gives them back.
 std::string sides_text(const std::vector<SideRule>& rules);
 
-/// Kind by its name. \throws Error(bad_argument) that lists them
+/// Kind by its name.
+/// \throws Error(bad_argument) that lists them
 PatchKind patch_kind_of(const std::string& name, const std::string& attempted);
 
 }  // namespace sterna::volmesh

@@ -17,7 +17,8 @@ namespace sterna::volmesh {
 /// Immutable; may be asked from many threads.
 class FirstHeights {
  public:
-  /// One height per vertex, metres. \throws Error(bad_argument) with the place of a height that is not a length of at least k_least_first_height
+  /// One height per vertex, metres.
+  /// \throws Error(bad_argument) with the place of a height that is not a length of at least k_least_first_height
   FirstHeights(const TriMesh& surface, std::vector<double> heights, const RunContext& context);
   ~FirstHeights();
   FirstHeights(const FirstHeights&) = delete;

@@ -19,8 +19,9 @@ struct LayerChoice {
 };
 
 /// Solves for what `solve_for` names ("layers": the fewest that reach H with growth r at most, "max_growth": the growth with which n layers reach H); "none":
-/// proves that they agree. Without H nothing changes. \p where names the patch or the walls in messages. \post n h0 <= H <= the height of n layers that grow by
-/// r \throws Error(bad_argument) where no such layer exists: with the numbers that would do
+/// proves that they agree. Without H nothing changes. \p where names the patch or the walls in messages.
+/// \post n h0 <= H <= the height of n layers that grow by r
+/// \throws Error(bad_argument) where no such layer exists: with the numbers that would do
 LayerChoice solve_layers(LayerChoice asked, std::string_view solve_for, std::string_view where);
 
 /// What solve_for becomes where only some of the three are given: "layers" or "max_growth"; "none" without a total height.

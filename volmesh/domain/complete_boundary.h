@@ -20,10 +20,11 @@ struct OuterOptions {
 /// bit; then the shape's; then the planes', with long thin triangles between the rims: to be triangulated anew. The planes' patches are of kind symmetry and
 /// called "symmetry", where there are several "symmetry_y" or "symmetry_y_min"; farfield_sides names them otherwise. A plane in which the shape has a patch of
 /// another kind than farfield takes over its name and kind (the side wall of a tunnel that a wing stands on). Of a user's surface, normals are turned into the
-/// fluid; where it has walls alone and farfield_sides says nothing of them, they become farfield. \pre surface manifold, normals into the fluid \post closed
-/// (no boundary edges), manifold; body volumes positive, the outermost negative \throws Error(open_surface) for rims in no plane; (bad_argument) when the shape
-/// does not enclose the bodies, when there is nothing around them (shape none), or when a shape is asked for around a surface that encloses its fluid;
-/// (empty_surface)
+/// fluid; where it has walls alone and farfield_sides says nothing of them, they become farfield.
+/// \pre surface manifold, normals into the fluid
+/// \post closed (no boundary edges), manifold; body volumes positive, the outermost negative
+/// \throws Error(open_surface) for rims in no plane; (bad_argument) when the shape does not enclose the bodies, when there is nothing around them (shape none),
+/// or when a shape is asked for around a surface that encloses its fluid; (empty_surface)
 TriMesh complete_boundary(const TriMesh& surface, const OuterOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh

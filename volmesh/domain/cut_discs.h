@@ -28,9 +28,10 @@ struct DiscCuts {
 /// it along that edge where triangles and edges between patches and facets allow it, so that no slivers come. All stay on the given triangles: a run that is
 /// continued from a file, without the model behind the wall, has to find the same wall. Coordinates are exact for a plane along a coordinate axis. Vertices
 /// keep their numbers, new ones follow; triangles stay in the order of those that they come from. Discs that meet no wall with layers, or another patch beside,
-/// are left out: they are judged where they are put into the fluid. \p has_layer: of each patch. \pre boundary closed, normals into the fluid \throws
-/// Error(self_intersection) with places where a wall with layers goes through a disc's rim, touches its plane without going through, lies in it, or where two
-/// outlines meet
+/// are left out: they are judged where they are put into the fluid. \p has_layer: of each patch.
+/// \pre boundary closed, normals into the fluid
+/// \throws Error(self_intersection) with places where a wall with layers goes through a disc's rim, touches its plane without going through, lies in it, or
+/// where two outlines meet
 DiscCuts cut_discs(TriMesh& boundary, const Column<PatchId, std::uint8_t>& has_layer, const std::vector<ActuatorDisc>& discs, const RunContext& context);
 
 }  // namespace sterna::volmesh

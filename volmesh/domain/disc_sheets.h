@@ -16,7 +16,8 @@ std::string back_name(const ActuatorDisc& disc);
 
 /// Triangles of the disc in rings, shorter towards walls near by: edges as the size field has them there, `edge` at most (default: a twelfth of the radius).
 /// One patch of kind interface; normals against the axis. No triangle has all its corners on the rims, no edge inside joins two rims. \p walls: for sizes; \p
-/// growth: of the size field \throws Error(bad_argument) for numbers that make no disc
+/// growth: of the size field
+/// \throws Error(bad_argument) for numbers that make no disc
 TriMesh triangulate_disc(const ActuatorDisc& disc, const TriMesh& walls, double growth, const RunContext& context);
 
 /// \throws Error(bad_argument) for numbers that make no disc

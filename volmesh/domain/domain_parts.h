@@ -73,9 +73,10 @@ struct Domain {
 
 /// Takes a closed surface apart. Vertices of flat end patches are moved into their plane, by 1e-6 of their distance to the wall's middle plus body length at
 /// most; symmetry patches on which layers end must be flat. \p has_layer: of each patch. \p periodic: sides of the surface that match; rim vertices at partners
-/// have the same freedom. \pre normals into the fluid. Without rims wall and outer are the surface's triangles, unchanged. \throws Error(open_surface) with
-/// places for open edges; Error(non_manifold_surface) where walls with layers touch in single points; Error(bad_argument) for a symmetry patch that is not
-/// plane, with its vertex farthest off, and where walls end on one periodic side alone
+/// have the same freedom.
+/// \pre normals into the fluid. Without rims wall and outer are the surface's triangles, unchanged.
+/// \throws Error(open_surface) with places for open edges; Error(non_manifold_surface) where walls with layers touch in single points; Error(bad_argument) for
+/// a symmetry patch that is not plane, with its vertex farthest off, and where walls end on one periodic side alone
 Domain split_domain(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, const RunContext& context,
                     std::span<const PeriodicPatches> periodic = {});
 

@@ -16,13 +16,15 @@ namespace sterna::volmesh {
 std::vector<EndPlane> end_planes_of(const Constraints& rims);
 
 /// Signed volume of each component, as flux of a coordinate along itself for which the planes count nothing: positive for bodies with normals out of them, also
-/// where they are open in the planes. \throws Error(open_surface) when there are two planes across each axis
+/// where they are open in the planes.
+/// \throws Error(open_surface) when there are two planes across each axis
 std::vector<double> volumes_of(const TriMesh& mesh, const Components& components, std::span<const EndPlane> ends);
 
 /// Closes `mesh` by one patch per plane, between the rims that lie in it; patches[i] is that of ends[i]. Where two planes meet, the line between rims is
 /// divided with lengths that grow from rim to rim, and both planes share its new vertices; they have no other ones. Long thin triangles; normals into the
-/// fluid. \pre rims lie in their planes to the bit \throws Error(open_surface) with places where rims are no border between inside and outside, and where three
-/// planes meet
+/// fluid.
+/// \pre rims lie in their planes to the bit
+/// \throws Error(open_surface) with places where rims are no border between inside and outside, and where three planes meet
 void fill_ends(TriMesh& mesh, std::span<const EndPlane> ends, std::span<const Patch> patches, const RunContext& context);
 
 }  // namespace sterna::volmesh

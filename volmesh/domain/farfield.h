@@ -25,8 +25,9 @@ struct EndPlane {
 TriMesh farfield_sphere(const TriMesh& wall, const FarfieldOptions& options, const RunContext& context, std::span<const EndPlane> ends = {});
 
 /// Axis-parallel box from farfield_from to farfield_to; patches x_min, x_max, y_min ... of kind farfield. Sides have their own edge lengths, the edges between
-/// them that of the finer; triangles grow away from finer edges. \throws Error(bad_argument) when it does not enclose the wall with a margin of 0.02 body
-/// lengths (but for sides beyond `ends`), or would have more than 20 million triangles
+/// them that of the finer; triangles grow away from finer edges.
+/// \throws Error(bad_argument) when it does not enclose the wall with a margin of 0.02 body lengths (but for sides beyond `ends`), or would have more than 20
+/// million triangles
 TriMesh farfield_box(const TriMesh& wall, const FarfieldOptions& options, std::span<const EndPlane> ends, const RunContext& context);
 
 /// Circular cylinder from farfield_from to farfield_to, along x through the centre of the wall's box by default; patches start, end, side of kind farfield. As

@@ -22,7 +22,8 @@ struct PolygonFill {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise
 };
 
-/// Delaunay refinement of the polygon. \pre counter-clockwise
+/// Delaunay refinement of the polygon.
+/// \pre counter-clockwise
 /// \throws Error(self_intersection) when the polygon crosses itself
 PolygonFill fill_polygon(std::span<const Vec2> polygon, const std::function<LocalSize(const Vec2&)>& size, const RunContext& context);
 

@@ -25,8 +25,9 @@ inline constexpr double k_side_tolerance = 1e-6;
 /// the bit, by k_side_tolerance of the boundary's box at most. Borders along the same lines that are cut into as many edges at other places (by a mesher whose
 /// sizes differ a little) match, too: there the second side's vertices go up to 0.35 edges along its border. Where borders match and the triangles between them
 /// do not, the second gets those of the first: its own and their vertices inside go (unused vertices stay in the mesh; triangles keep their order, those of the
-/// second side go to the end). Several pairs may share edges. \throws Error(bad_argument) for a name that is no patch (with those there are), a patch in
-/// several pairs, sides that are not flat, do not face each other or do not match: with places and distances
+/// second side go to the end). Several pairs may share edges.
+/// \throws Error(bad_argument) for a name that is no patch (with those there are), a patch in several pairs, sides that are not flat, do not face each other or
+/// do not match: with places and distances
 std::vector<PeriodicPatches> join_periodic_sides(TriMesh& boundary, std::span<const PeriodicNames> names, const RunContext& context);
 
 }  // namespace sterna::volmesh

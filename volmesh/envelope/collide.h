@@ -46,15 +46,17 @@ class Collider {
   /// Brings the top to where `shape` has it; with `stretched`, marked vertices to `stretch` times their height. Cheap where nothing moved.
   void move_top(const EnvelopeShape& shape, const RunContext& context, double stretch = 1.0, const Column<VertexId, std::uint8_t>* stretched = nullptr);
 
-  /// Crossing pairs (triangles_cross; corners are shared by wall vertex) of which at least one triangle belongs to top or sides and, with `around`, to one
-  /// of these vertices; sorted. With `against`, only pairs of such a triangle and one of top or sides at a marked vertex. Where all three corners are
-  /// collapsed, the wall triangle stands for the top's. \pre move_top() was called.
+  /// Crossing pairs (triangles_cross; corners are shared by wall vertex) of which at least one triangle belongs to top or sides and, with `around`, to one of
+  /// these vertices; sorted. With `against`, only pairs of such a triangle and one of top or sides at a marked vertex. Where all three corners are collapsed,
+  /// the wall triangle stands for the top's.
+  /// \pre move_top() was called.
   std::vector<BoundaryCrossing> crossings(const RunContext& context, const std::vector<VertexId>* around = nullptr,
                                           const Column<VertexId, std::uint8_t>* against = nullptr);
   /// Crossing pairs among wall and outer boundary: no height can repair them.
   std::vector<BoundaryCrossing> fixed_crossings(const RunContext& context);
   /// Parts of the boundary (connected parts of wall and top, the outer boundary) that lie within the layer of another part, which can be although nothing
-  /// crosses. One entry per part. \pre crossings() is empty at `shape`, to which move_top() was called.
+  /// crosses. One entry per part.
+  /// \pre crossings() is empty at `shape`, to which move_top() was called.
   std::vector<Swallowing> swallowings(const EnvelopeShape& shape) const;
   /// Pairs with overlapping boxes, tested exactly, of the last call of one of the two.
   std::int64_t n_pairs() const { return n_pairs_; }

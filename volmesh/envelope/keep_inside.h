@@ -10,12 +10,14 @@ namespace sterna::volmesh {
 /// of the wall vertex's own distance. For planes this holds for the whole envelope when it holds at its vertices.
 bool is_inside(const LayerBase& base, VertexId v, const Vec3& growth);
 
-/// Lowers heights until every vertex is inside, as the gap to the mirrored body would ask (HeightLimit::gap). \post is_inside() everywhere.
+/// Lowers heights until every vertex is inside, as the gap to the mirrored body would ask (HeightLimit::gap).
+/// \post is_inside() everywhere.
 void keep_inside(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
 
 /// Moves envelope vertices with Freedom::surface onto their surface where the envelope stays valid and clear; where it does not, lower. Directions are chords,
 /// so this has to follow whatever changed heights. Without `collider` (may be null) clearance is left to the caller. Does nothing without such vertices.
-/// \pre envelope valid and clear. \post the same, and every such vertex on its surface to rounding or collapsed.
+/// \pre envelope valid and clear.
+/// \post the same, and every such vertex on its surface to rounding or collapsed.
 void seat_on_surfaces(const LayerBase& base, const EnvelopeOptions& options, Collider* collider, Envelope& envelope, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -72,11 +72,14 @@ struct LayerElement {
   /// Returns the distance from infeasibility, in the units of the barrier's terms; -1 where infeasible (then the terms are not all set).
   /// An element near its barriers is infeasible too when its scaled Jacobian (wedge_quality) is below `least_quality`.
   double measure(double least_quality = 0.0);
-  /// Weighted f_3 and barrier. \pre feasible and measured.
+  /// Weighted f_3 and barrier.
+  /// \pre feasible and measured.
   double energy(const ElementWeights& weights) const;
-  /// Adds gradient and positive semi-definite Hessian of energy() with respect to the growth edge of corner 0. \pre as energy().
+  /// Adds gradient and positive semi-definite Hessian of energy() with respect to the growth edge of corner 0.
+  /// \pre as energy().
   void differentiate_corner_0(const ElementWeights& weights, Vec3& gradient, SymmetricBlock& hessian) const;
-  /// Gradient of energy() with respect to all three growth edges; false when it is zero. \pre as energy().
+  /// Gradient of energy() with respect to all three growth edges; false when it is zero.
+  /// \pre as energy().
   bool differentiate(const ElementWeights& weights, Vec3* gradient) const;
 };
 

@@ -14,7 +14,8 @@
 
 namespace sterna::volmesh {
 
-/// Sets the kinds of patches that rules name one for; of several the last. \throws Error(bad_argument) for a rule that no patch has a name like: with the names
+/// Sets the kinds of patches that rules name one for; of several the last.
+/// \throws Error(bad_argument) for a rule that no patch has a name like: with the names
 void apply_patch_kinds(TriMesh& surface, std::span<const PatchRule> rules);
 
 /// What is asked of the layer on one patch.
@@ -30,17 +31,18 @@ struct PatchLayers {
 };
 
 /// Per patch: the options of the envelope, overruled by the rules in their order. Patches of other kinds than wall carry no layers, whatever is asked.
-/// \pre kinds are set (apply_patch_kinds) \throws Error(bad_argument) for a patch with layers and without a first height
+/// \pre kinds are set (apply_patch_kinds)
+/// \throws Error(bad_argument) for a patch with layers and without a first height
 Column<PatchId, PatchLayers> layers_of_patches(const Column<PatchId, Patch>& patches, const EnvelopeOptions& options, std::span<const PatchRule> rules);
 
 /// What is asked of the layer at each vertex, where patches ask for different things; empty when all triangles of the base ask for the same as the options do.
 /// First heights and thicknesses are blended in their logarithms, growth ratios as they are: within `blend` of the border with a patch that asks for something
 /// else, by the distance along the wall, so that both sides meet in the mean of the patches at the border. Layers: per connected part of the wall the largest
-/// number asked for; parts in which patches ask for several are logged.
-/// Vertices that must grow alike get the least of what theirs ask for.
-/// Triangles of patches without layers (which a base has no use for) ask for what the options say. Deterministic; about 1 s per million vertices and different
-/// patch. `by_place` may be null: else it gives the first heights of patches that no rule gives one for. \throws Error(bad_argument) as layers_of_patches \pre
-/// `options` are those that envelope and extrusion get
+/// number asked for; parts in which patches ask for several are logged. Vertices that must grow alike get the least of what theirs ask for. Triangles of
+/// patches without layers (which a base has no use for) ask for what the options say. Deterministic; about 1 s per million vertices and different patch.
+/// `by_place` may be null: else it gives the first heights of patches that no rule gives one for.
+/// \throws Error(bad_argument) as layers_of_patches
+/// \pre `options` are those that envelope and extrusion get
 LayerDemand demand_of(const LayerBase& base, const EnvelopeOptions& options, std::span<const PatchRule> rules, const FirstHeights* by_place,
                       const RunContext& context);
 

@@ -24,24 +24,27 @@ std::vector<WallGap> share_gaps(const LayerBase& base, const EnvelopeOptions& op
 
 /// Lowers heights until the exact triangle tests find top and sides of the layer clear of each other, of the wall and of the outer boundary, with
 /// macro-elements made valid again after each sweep; what still collides after max_retract_sweeps collapses, so it ends. With `suspects`, the top is known to
-/// be clear elsewhere. Returns whether it changed anything. \pre wall and outer boundary do not cross.
+/// be clear elsewhere. Returns whether it changed anything.
+/// \pre wall and outer boundary do not cross.
 bool retract_collisions(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context,
                         const std::vector<VertexId>* suspects = nullptr);
 
-/// Raises heights that were lowered more than needed towards min(target, cap) where macro-elements stay valid and the top stays clear.
-/// With `where`, only at these vertices. \pre, \post clear, as after retract_collisions.
+/// Raises heights that were lowered more than needed towards min(target, cap) where macro-elements stay valid and the top stays clear. With `where`, only at
+/// these vertices.
+/// \pre, \post clear, as after retract_collisions.
 void regrow_clear(const LayerBase& base, Collider& collider, Envelope& envelope, const RunContext& context, const std::vector<VertexId>* where = nullptr);
 
 /// How much taller than wanted a changed height must still be clear, as a factor: room for the tetrahedra.
 inline constexpr double k_clearance = 1.06;
 
-/// Puts a change in force where macro-elements stay valid and the top stays clear of itself, the wall and the outer boundary, at `clearance` times the
-/// changed heights and at the heights themselves: all at once, then vertices of crossing or invalid elements go back until there are none.
-/// Cost: two exact passes over what moved (one with clearance 1), then around what went back. \pre, \post valid and clear.
-/// Returns the vertices where it is in force.
+/// Puts a change in force where macro-elements stay valid and the top stays clear of itself, the wall and the outer boundary, at `clearance` times the changed
+/// heights and at the heights themselves: all at once, then vertices of crossing or invalid elements go back until there are none. Cost: two exact passes over
+/// what moved (one with clearance 1), then around what went back.
+/// \pre, \post valid and clear. Returns the vertices where it is in force.
 std::vector<VertexId> apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, ShapeChange change, const RunContext& context,
                                         double clearance = k_clearance);
-/// The same for a whole shape. \pre vertices with proposal == envelope are not touched.
+/// The same for a whole shape.
+/// \pre vertices with proposal == envelope are not touched.
 std::vector<VertexId> apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, const EnvelopeShape& proposal,
                                         const RunContext& context, double clearance = k_clearance);
 

@@ -23,7 +23,8 @@ void smooth_step(const LayerBase& base, const Classification& classes, const Env
 void untangle_step(const LayerBase& base, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
 /// \post every macro-element valid, heights as tall as that allows, the envelope itself smoothed.
 void unwarp_step(const LayerBase& base, const Classification& classes, const EnvelopeOptions& options, Envelope& envelope, const RunContext& context);
-/// \pre macro-elements valid. \post the same, and free of self-intersection: good for tetrahedra.
+/// \pre macro-elements valid.
+/// \post the same, and free of self-intersection: good for tetrahedra.
 void retract_step(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context);
 /// \pre, \post valid and clear.
 void optimise_step(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context);

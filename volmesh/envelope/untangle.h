@@ -27,7 +27,8 @@ std::vector<VertexId> unwarp(const LayerBase& base, const EnvelopeOptions& optio
 /// Heights raised one step towards min(target, cap), without steep steps; a proposal, not tested. Steps are smaller where earlier ones failed, and
 /// after a few failures there are none.
 ShapeChange raised(const LayerBase& base, const Envelope& envelope, const Column<VertexId, std::uint8_t>& n_failures, const RunContext& context);
-/// Counts the vertices of `tried` that are not in `done`. \pre both ascending.
+/// Counts the vertices of `tried` that are not in `done`.
+/// \pre both ascending.
 void count_failures(const std::vector<VertexId>& tried, const std::vector<VertexId>& done, Column<VertexId, std::uint8_t>& n_failures);
 
 /// Raises heights towards min(target, cap) where macro-elements stay valid; undoes what earlier steps lowered more than needed.

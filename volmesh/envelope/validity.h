@@ -68,7 +68,8 @@ class TrialChange {
 };
 
 /// Moves `envelope` to `proposal` (direction and height) at every vertex where this leaves its macro-elements valid and itself is_inside(): all at once, then
-/// vertices of invalid elements go back, until none is invalid that was not so before. \pre same wall; vertices with proposal == envelope are not touched.
+/// vertices of invalid elements go back, until none is invalid that was not so before.
+/// \pre same wall; vertices with proposal == envelope are not touched.
 void apply_where_valid(const LayerBase& base, EnvelopeShape& envelope, const EnvelopeShape& proposal, const RunContext& context);
 
 }  // namespace sterna::volmesh

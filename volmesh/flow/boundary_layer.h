@@ -42,7 +42,8 @@ struct FirstHeight {
   FlowState flow;
 };
 /// y = y+ nu / u_tau with u_tau = U sqrt(cf/2), so y = y+ (L/Re) / sqrt(cf/2): free-stream values, which at an adiabatic wall in compressible flow give y+ a
-/// little below the wanted. Cell-centred solvers measure y+ at the middle of the first cell, node-centred ones at its upper nodes. \throws as skin_friction
+/// little below the wanted. Cell-centred solvers measure y+ at the middle of the first cell, node-centred ones at its upper nodes.
+/// \throws as skin_friction
 FirstHeight first_height(const FirstHeightOptions& options, const FlowState& flow);
 
 /// m, factor times the thickness (99 % of the speed) of a turbulent layer after the flow's length:

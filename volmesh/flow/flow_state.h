@@ -36,7 +36,8 @@ struct FlowState {
 
 /// One of: altitude with mach or speed (air of the standard atmosphere); temperature and pressure or density, with mach or speed (air); density, viscosity and
 /// speed (any fluid); reynolds alone, or with temperature and mach or speed, from which the density follows (air). Always the length. A viscosity of the user's
-/// replaces Sutherland's. \throws Error(bad_argument) with everything that is missing or says the same twice; as standard_atmosphere
+/// replaces Sutherland's.
+/// \throws Error(bad_argument) with everything that is missing or says the same twice; as standard_atmosphere
 FlowState flow_state(const FlowConditions& given);
 
 /// "Re 2.14e+07 at 4.2 m, Mach 0.78, 230.2 m/s, 216.7 K, 22632 Pa, 0.3639 kg/m^3, 1.422e-05 Pa s, 11000 m of the standard atmosphere": what is known.

@@ -15,7 +15,8 @@ struct AirState {
 };
 
 /// At a geopotential (pressure) altitude in m, as flight levels and ISA tables have it. With an offset ("ISA+15") the pressure is that of the altitude and the
-/// air is that much (K) warmer. \throws Error(bad_argument) outside of [k_lowest_altitude, k_highest_altitude], and for an offset that leaves no temperature
+/// air is that much (K) warmer.
+/// \throws Error(bad_argument) outside of [k_lowest_altitude, k_highest_altitude], and for an offset that leaves no temperature
 AirState standard_atmosphere(double altitude, double temperature_offset = 0.0);
 
 /// Dynamic viscosity of air, Pa s: Sutherland's formula with the constants of the 1976 standard, 1.458e-6 T^1.5 / (T + 110.4).

@@ -20,7 +20,8 @@ class Improver {
  public:
   using Corners = std::array<std::uint32_t, 4>;
 
-  /// \p bad: those below the target. \pre verify_tetrahedra() passes.
+  /// \p bad: those below the target.
+  /// \pre verify_tetrahedra() passes.
   Improver(const TetraBoundary& boundary, TetraResult& tets, const QualityLimits& limits, std::span<const std::uint32_t> bad, const RunContext& context);
   /// Number of passes made.
   int run(int max_passes);

@@ -39,7 +39,8 @@ class Region {
   };
 
   explicit Region(const QualityLimits& limits) : limits_(limits) {}
-  /// Starts anew; memory is kept. \pre tetrahedra positive.
+  /// Starts anew; memory is kept.
+  /// \pre tetrahedra positive.
   void assign(std::span<const Vec3> points, std::span<const VertexRole> roles, std::span<const Corners> tets);
   /// Works on the bad ones of these tetrahedra and on all bad ones that take their place, worst first, until they reach the target, nothing helps as they and
   /// their neighbours are, or nothing helped max_failures() times. `n_failures` of the given ones so far. True when something changed.

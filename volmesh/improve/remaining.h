@@ -10,8 +10,8 @@ namespace sterna::volmesh {
 /// Fills `n_forced`, `n_bad_free_after` and `remaining` of the report. A tetrahedron is forced when an edge of it lies on the boundary where the domain's angle
 /// is below the smallest allowed (all tetrahedra there share that angle), or when it lies on a boundary triangle without room (forcing.h). Of the others the
 /// sharpest angle of the boundary nearby is told: between its triangles, through the domain, at the tetrahedron's edges, or of a triangle's corner at its
-/// vertices; a sharp corner alone forces nothing, for slender tetrahedra with good dihedral angles fit it. \p bad_tets all beyond the limits. \pre
-/// verify_tetrahedra() passes. Parallel, O(n log n).
+/// vertices; a sharp corner alone forces nothing, for slender tetrahedra with good dihedral angles fit it. \p bad_tets all beyond the limits.
+/// \pre verify_tetrahedra() passes. Parallel, O(n log n).
 void list_remaining(const TetraBoundary& boundary, const TetraResult& tets, std::span<const std::uint32_t> bad_tets, const ImproveOptions& options,
                     ImproveReport& report, const RunContext& context);
 

@@ -39,7 +39,8 @@ inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   return std::min(1.0, det * std::sqrt(smallest));
 }
 
-/// Cosines of the smallest and of the largest dihedral angle. \pre positive tetrahedron.
+/// Cosines of the smallest and of the largest dihedral angle.
+/// \pre positive tetrahedron.
 inline std::array<double, 2> dihedral_cosines(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const Vec3 ab = b - a, ac = c - a, ad = d - a;
   const Vec3 n3 = cross(ab, ac), n2 = cross(ad, ab), n1 = cross(ac, ad);

@@ -17,14 +17,16 @@ struct InspectRequest {
   std::optional<FlowState> flow;  ///< for y+
 };
 
-/// Looks at a joined surface: closed or open, crossing or not. Never throws for a bad surface: what volume_mesh would say is a finding.
-/// Cost: about 10 s of processor time per million triangles. The same report for any number of threads.
+/// Looks at a joined surface: closed or open, crossing or not. Never throws for a bad surface: what volume_mesh would say is a finding. Cost: about 10 s of
+/// processor time per million triangles. The same report for any number of threads.
 /// \pre manifold, consistently oriented, finite coordinates, no triangle with a repeated vertex (what surfmesh::stitch_surface gives with allow_open and
-/// without check_intersections) \throws Error(cancelled)
+/// without check_intersections)
+/// \throws Error(cancelled)
 InspectReport inspect_wall(const TriMesh& surface, const InspectRequest& request, const RunContext& context);
 
 /// Of triangles that could not be joined: only what needs no neighbours.
-/// \pre indices in range; coordinates may be anything. \throws Error(cancelled)
+/// \pre indices in range; coordinates may be anything.
+/// \throws Error(cancelled)
 InspectReport inspect_triangles(const TriMesh& triangles, const InspectRequest& request, const RunContext& context);
 
 /// Adds a finding in its place and marks the triangles in the field "finding".

@@ -98,7 +98,8 @@ void survey_unit(const Survey& survey);
 void survey_edges(const Survey& survey, const Topology& topology, double feature_angle);
 /// bodies.cpp: connected parts, parts in parts.
 void survey_bodies(const Survey& survey, const Topology& topology);
-/// contacts.cpp: vertices that nearly touch another wall. \pre no crossings
+/// contacts.cpp: vertices that nearly touch another wall.
+/// \pre no crossings
 void survey_contacts(const Survey& survey, const LayerBase& base, const Collider& collider, const WallMap& map);
 /// crossings.cpp: pairs of triangles, exact. Returns whether there are none.
 bool survey_crossings(const Survey& survey);

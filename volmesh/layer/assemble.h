@@ -29,7 +29,8 @@ ClosedOuter outer_of(const HybridMesh& layers, std::size_t n_wall_patches);
 /// All of the mesh but its tetrahedra. Nodes: lines of the layer, outer boundary. Patches: the wall's, then the outer ones. Boundary triangles: the wall's, the
 /// outer ones, sides of cells beside a collapsed line; quadrilaterals: sides of cells.
 HybridMesh assemble_layers(const LayerBase& base, Extrusion extrusion, const ClosedOuter& outer, std::span<const LayerSide> sides);
-/// \pre mesh of assemble_layers(), `boundary` of the same. \post Steiner points follow its nodes.
+/// \pre mesh of assemble_layers(), `boundary` of the same.
+/// \post Steiner points follow its nodes.
 void add_tetrahedra(const FillBoundary& boundary, const TetraResult& tets, HybridMesh& mesh, const RunContext& context);
 
 }  // namespace sterna::volmesh

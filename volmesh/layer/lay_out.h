@@ -25,7 +25,8 @@ struct LaidLayer {
   EnvelopeCertificate certificate;  ///< of the envelope, proved; its cells are to be counted still
 };
 
-/// The layer under the envelope as it is now, which may get lower. \pre, \post envelope valid and clear
+/// The layer under the envelope as it is now, which may get lower.
+/// \pre, \post envelope valid and clear
 /// \throws Error of the stages; envelope_failed where the certificate fails
 LaidLayer lay_out(MeshingSite& site, Envelope& envelope, const RunContext& context);
 
@@ -37,7 +38,8 @@ struct LayerProof {
 /// \p mesh: of assemble_layers()
 LayerProof prove_layer(const HybridMesh& mesh, const RunContext& context);
 
-/// Counts the layer's cells in the certificate. \throws Error where one of them is not proved
+/// Counts the layer's cells in the certificate.
+/// \throws Error where one of them is not proved
 void require_proved_cells(const LayerCertificate& cells, EnvelopeCertificate& certificate);
 
 }  // namespace sterna::volmesh

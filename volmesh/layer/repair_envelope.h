@@ -12,8 +12,8 @@ namespace sterna::volmesh {
 
 /// Around each triangle of the layer's top that the pre-flight objects to, and the vertex of the top that is nearest to each of `places`: heights go to 0.7 of
 /// the mean around, less and less so over four rings, and directions to the mean of their neighbours', wherever macro-elements stay valid and the top stays
-/// clear. Wall connectivity is kept. \p boundary: fill_boundary() of this envelope; \p has_sheets: TetraBoundary::has_sheets of it. \pre, \post envelope valid
-/// and clear. Returns the vertices that it changed; none when there is nothing to object to.
+/// clear. Wall connectivity is kept. \p boundary: fill_boundary() of this envelope; \p has_sheets: TetraBoundary::has_sheets of it.
+/// \pre, \post envelope valid and clear. Returns the vertices that it changed; none when there is nothing to object to.
 std::vector<VertexId> repair_envelope(const LayerBase& base, const FillBoundary& boundary, bool has_sheets, const std::vector<ErrorPlace>& places,
                                       Collider& collider, Envelope& envelope, const RunContext& context);
 

@@ -23,9 +23,10 @@ struct SplitLayer {
 };
 
 /// Splits wall, envelope and outer boundary as tets.splits says; each new wall vertex is moved to the true surface (where `true_surface` is not empty) and its
-/// line ends where the engine put the new point of the envelope. Extrudes again, proves again. \pre tets fill fill_boundary() of these; no vertex of the base
-/// has a constraint. \post tets are those of the new boundary, without splits; where not is_filled they have to be made anew. \throws Error of the stages where
-/// wall or layer would not be valid.
+/// line ends where the engine put the new point of the envelope. Extrudes again, proves again.
+/// \pre tets fill fill_boundary() of these; no vertex of the base has a constraint.
+/// \post tets are those of the new boundary, without splits; where not is_filled they have to be made anew.
+/// \throws Error of the stages where wall or layer would not be valid.
 SplitLayer split_layer(const LayerBase& base, const Envelope& envelope, const TriMesh& outer, const MeshCase& options, const TrueSurface& true_surface,
                        TetraResult& tets, const RunContext& context);
 

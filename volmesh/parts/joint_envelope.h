@@ -24,7 +24,9 @@ std::vector<WholePart> whole_parts(const Domain& domain, std::span<const PlacedP
 /// Steps: envelopes of the parts by `make` (empty: part_envelope()), moved; that of the rest of the wall with the outer boundary around it; then, of all
 /// together, heights lowered where the envelope leaves the surfaces that hold it in (keep_inside), where gaps between different parts, or to the outer
 /// boundary, are too narrow (share_gaps), and where anything still collides (retract_collisions); what was lowered grows back where that is clear. Where
-/// nothing is near, a part keeps the envelope that it has alone. \pre `parts` of whole_parts(), not empty \post as of build_envelope()
+/// nothing is near, a part keeps the envelope that it has alone.
+/// \pre `parts` of whole_parts(), not empty
+/// \post as of build_envelope()
 Envelope joint_envelope(MeshingSite& site, std::span<const WholePart> parts, const PartEnvelopeMaker& make, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -26,8 +26,9 @@ struct PartEnvelope {
   double feature_angle = 0.0;  ///< rad, the user's or the one found for this part
 };
 
-/// build_envelope() of the part with nothing around it, or what `make` makes in its place. \pre wall closed \throws Error(self_intersection) where the part
-/// crosses itself; of the stages
+/// build_envelope() of the part with nothing around it, or what `make` makes in its place.
+/// \pre wall closed
+/// \throws Error(self_intersection) where the part crosses itself; of the stages
 PartEnvelope part_envelope(const PartEnvelopeTask& task, const RunContext& context, const WallEnvelopeMaker& make = {});
 
 /// Who makes such envelopes: part_envelope(), or one who knows some already.

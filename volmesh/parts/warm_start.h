@@ -30,8 +30,10 @@ struct WarmStart {
 /// there to here, into the cone that sees the vertex' faces. Targets are asked anew (initial_envelope); of its target a vertex keeps the share of height that
 /// it had, and not more metres than it had where something but its target limited it. Then only what makes an envelope valid: keep_inside, unwarp, share_gaps,
 /// retract_collisions, regrowth of what these lowered, seat_on_surfaces, the certificate. No classification, smoothing, or optimisation: what these found is in
-/// the start. \pre `collider` is of `base` \post a returned envelope is valid and clear as build_envelope()'s, and certified. It depends on the arguments
-/// alone. Objections: other numbers of vertices; vertices that must grow alike (periodic sides); coverage lost beyond k_lost_coverage; not proved.
+/// the start.
+/// \pre `collider` is of `base`
+/// \post a returned envelope is valid and clear as build_envelope()'s, and certified. It depends on the arguments alone. Objections: other numbers of vertices;
+/// vertices that must grow alike (periodic sides); coverage lost beyond k_lost_coverage; not proved.
 WarmStart warm_start(const LayerBase& base, const EnvelopeOptions& options, const StartingEnvelope& start, Collider& collider, const RunContext& context);
 
 /// Who makes the envelope of a wall: build_envelope(), or one who knows another to start from.

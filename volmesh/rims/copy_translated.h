@@ -10,8 +10,9 @@ inline constexpr double k_periodic_tolerance = 1e-10;
 
 /// The triangles of `from` for `to`, whose loops are those of `from` moved by `translation` within k_periodic_tolerance * body_length: in the same sense, or
 /// all in the opposite one (sides that face each other), then triangles are turned over. New points are moved exactly; in a plane along a coordinate axis they
-/// have its coordinate to the bit. The n-th new points of both are partners. \pre `triangles` are of `from`. \throws Error(bad_argument) with the places where
-/// loops do not match
+/// have its coordinate to the bit. The n-th new points of both are partners.
+/// \pre `triangles` are of `from`.
+/// \throws Error(bad_argument) with the places where loops do not match
 EndTriangles copy_translated(const EndRegion& from, const EndTriangles& triangles, const EndRegion& to, const Vec3& translation, double body_length);
 
 }  // namespace sterna::volmesh

@@ -9,7 +9,8 @@
 namespace sterna::volmesh {
 
 /// Kept triangles go to `result` (their vertices as new points where they are not points of the region); the parts' edges index both.
-/// \pre region.original is there. \throws Error(geometry_failed) for a footprint around which no part has a projection, with the place
+/// \pre region.original is there.
+/// \throws Error(geometry_failed) for a footprint around which no part has a projection, with the place
 std::vector<EndPart> split_curved(const EndRegion& region, EndTriangles& result, const RunContext& context);
 
 }  // namespace sterna::volmesh

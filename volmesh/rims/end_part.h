@@ -30,7 +30,8 @@ const Point& point_of(const EndRegion& region, const EndTriangles& result, std::
 /// \throws `info` with the places where as many edges do not end as begin
 void check_closed(const EndRegion& region, const EndTriangles& result, std::span<const EndEdge> edges, ErrorInfo info);
 
-/// Edges in closed loops of points; at points where several loops touch any way on is as good. \pre check_closed
+/// Edges in closed loops of points; at points where several loops touch any way on is as good.
+/// \pre check_closed
 std::vector<std::vector<std::uint32_t>> closed_loops(std::span<const EndEdge> edges);
 
 /// Meshes the part and proves it (end_surface.h); adds new points and triangles to the result.

@@ -43,10 +43,10 @@ struct EndTriangles {
 /// degrees of their mean is meshed in that projection, new points put on the surface, angles judged in space, edges short enough for the surface's curvature;
 /// of any other piece (a whole cylinder, a sphere) only the neighbourhood of the footprint is. Edges of the original that turn by more than 40 degrees stay;
 /// footprints may touch but not cross them. The result is proved before it is returned: every edge exactly once a border edge in its sense, no other border,
-/// all triangles positive in their plane, Euler number. One thread; depends on the input alone; 200 to 300 k triangles/s on planes. \throws Error(bad_argument)
-/// for loops that are not closed or run the wrong way, points off the surface, a curved surface without original; Error(self_intersection) where loops cross or
-/// touch along an edge, or lie on the wrong side of each other (footprints that overlap or leave the patch), with place and patch; Error(geometry_failed) where
-/// even the neighbourhood of a footprint has no projection; Error(overflow) for more than max_triangles
+/// all triangles positive in their plane, Euler number. One thread; depends on the input alone; 200 to 300 k triangles/s on planes.
+/// \throws Error(bad_argument) for loops that are not closed or run the wrong way, points off the surface, a curved surface without original;
+/// Error(self_intersection) where loops cross or touch along an edge, or lie on the wrong side of each other (footprints that overlap or leave the patch), with
+/// place and patch; Error(geometry_failed) where even the neighbourhood of a footprint has no projection; Error(overflow) for more than max_triangles
 EndTriangles triangulate_end(const EndRegion& region, const EndOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh

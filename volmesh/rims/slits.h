@@ -21,8 +21,9 @@ struct SlitOptions {
 };
 
 /// Finds the outlines on the wall, holds them in their planes, keeps layers beside them on their sides, and adds one side of each disc as if the layer had no
-/// height: what layers of other walls keep clear of. \p size_growth: of the size field \pre `domain` of the cut boundary, its wall2surface too; other discs are
-/// in it already \throws Error(self_intersection) with places where a disc meets anything but its outlines
+/// height: what layers of other walls keep clear of. \p size_growth: of the size field
+/// \pre `domain` of the cut boundary, its wall2surface too; other discs are in it already
+/// \throws Error(self_intersection) with places where a disc meets anything but its outlines
 void add_slits(const TriMesh& boundary, const DiscCuts& cuts, const std::vector<ActuatorDisc>& discs, double size_growth, const RunContext& context,
                Domain& domain);
 
@@ -44,9 +45,11 @@ std::vector<LayerSide> layer_sides(const Domain& domain);
 /// The line of the layer under a corner of a wall triangle: its vertex, or downstream of a disc the second one there.
 std::uint32_t line_under(const Domain& domain, TriangleId t, std::size_t corner);
 
-/// Second lines, behind all that are there, at the same places to the bit; columns downstream stand on them. \pre layers and points of the closed wall
+/// Second lines, behind all that are there, at the same places to the bit; columns downstream stand on them.
+/// \pre layers and points of the closed wall
 void open_slits(const Domain& domain, LayerBlock& layers, std::vector<Point>& points);
-/// What is asked of the second lines. \pre of the closed wall
+/// What is asked of the second lines.
+/// \pre of the closed wall
 void open_slits(const Domain& domain, LayerRequest& request);
 
 }  // namespace sterna::volmesh

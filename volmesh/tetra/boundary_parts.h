@@ -23,8 +23,9 @@ struct BoundaryParts {
 };
 
 /// A surface whose normals point inwards encloses a region; the others are bodies in the smallest region around them, as sheets are, which may touch the
-/// boundary. \p joined: of a boundary with sheets, or null; its triangles are numbered then. \pre check_boundary() passed, no self-intersection. \throws
-/// Error(not_orientable) when a body lies in no region, with its place.
+/// boundary. \p joined: of a boundary with sheets, or null; its triangles are numbered then.
+/// \pre check_boundary() passed, no self-intersection.
+/// \throws Error(not_orientable) when a body lies in no region, with its place.
 BoundaryParts find_parts(const TetraBoundary& boundary, const JoinedBoundary* joined, const RunContext& context);
 
 }  // namespace sterna::volmesh

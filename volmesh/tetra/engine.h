@@ -52,7 +52,8 @@ struct EngineInput {
   const JoinedBoundary* joined = nullptr;  ///< of a boundary with sheets: the engine gets this one
 };
 
-/// \pre check_boundary() passed; splits with TetGen only, and without sheets. \post the result is proven, with splits for the boundary as split.
+/// \pre check_boundary() passed; splits with TetGen only, and without sheets.
+/// \post the result is proven, with splits for the boundary as split.
 /// \throws Error(cancelled) on a stop of the context (the helper is gone by then); Error(tetra_engine_failed) when the system has no memory for the request.
 EngineOutcome run_engine(EngineKind kind, const EngineInput& input, const TetraOptions& options, const RunContext& context);
 

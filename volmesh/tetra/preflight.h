@@ -42,7 +42,8 @@ struct PreflightReport {
   std::int64_t count(Trouble trouble) const { return counts[static_cast<std::size_t>(trouble)]; }
 };
 
-/// Parallel over a BoxTree; the same report for any number of threads. The two sides of a sheet count once. \pre check_boundary() passed.
+/// Parallel over a BoxTree; the same report for any number of threads. The two sides of a sheet count once.
+/// \pre check_boundary() passed.
 PreflightReport preflight(const TetraBoundary& boundary, const PreflightLimits& limits, const RunContext& context);
 
 /// Where an engine that says no place may have met its trouble: adds the triangles found (folded ones, then gaps, then slivers; the

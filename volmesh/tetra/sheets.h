@@ -31,7 +31,8 @@ struct JoinedBoundary {
 JoinedBoundary join_sheets(const TetraBoundary& boundary, const RunContext& context);
 
 /// From a mesh inside the joined boundary, each of whose sheets' triangles is a face of two tetrahedra, to one inside the boundary: each tetrahedron gets the
-/// point of its own side. \p result: nodes are points of `joined`, then new ones. \post the same of `boundary`
+/// point of its own side. \p result: nodes are points of `joined`, then new ones.
+/// \post the same of `boundary`
 /// \throws Error(tetra_result_invalid) with the first place where the two sides of a sheet cannot be told
 void part_sheets(const TetraBoundary& boundary, const JoinedBoundary& joined, TetraResult& result);
 

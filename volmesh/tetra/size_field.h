@@ -36,8 +36,9 @@ class SizeField {
 };
 
 /// Parallel, same bytes for any number of threads; about a microsecond per leaf and thread.
-/// \pre points of the boundary finite. \throws Error(bad_argument) for a source that problem_of() objects to, for a boundary without triangles;
-/// Error(overflow) when the sources ask for more than 2^24 leaves.
+/// \pre points of the boundary finite.
+/// \throws Error(bad_argument) for a source that problem_of() objects to, for a boundary without triangles; Error(overflow) when the sources ask for more than
+/// 2^24 leaves.
 SizeField build_size_field(const TetraBoundary& boundary, std::span<const SizeSource> sources, const SizeFieldOptions& options, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -49,7 +49,8 @@ class SizeFieldView {
   bool is_valid() const { return nodes_ != nullptr; }
   const Header& header() const { return header_; }
 
-  /// Wanted edge length at a place, both in metres; outside the root cube that of the nearest point of the cube. Positive. \pre is_valid(), coordinates finite.
+  /// Wanted edge length at a place, both in metres; outside the root cube that of the nearest point of the cube. Positive.
+  /// \pre is_valid(), coordinates finite.
   double operator()(double x, double y, double z) const {
     constexpr double k_steps = 1 << k_max_depth;
     const double u[3] = {place(x, 0), place(y, 1), place(z, 2)};

@@ -20,7 +20,8 @@ struct SizeSite {
 /// Hierarchy over sites for min over sites of (size + slope * distance), a nearest-neighbour search with additive weights.
 class SizeSites {
  public:
-  /// Built in parallel, O(n log n). \pre at least one site, finite coordinates.
+  /// Built in parallel, O(n log n).
+  /// \pre at least one site, finite coordinates.
   SizeSites(std::span<const SizeSite> sites, double slope, const RunContext& context);
 
   /// The minimum over all sites, exact to rounding. \p hint: a site to start from, changed to the one that gave the minimum (any value below size() is correct;

@@ -19,7 +19,8 @@ class SizeSupply {
   bool is_ready() const { return field_ || making_->is_done(); }
   /// From any thread.
   void wait() const;
-  /// Waits. \throws what build_size_field() has thrown.
+  /// Waits.
+  /// \throws what build_size_field() has thrown.
   const SizeField& get();
   /// A field that asks for these sizes, too, where they are smaller; sizes grow as in this one. Waits, throws as get() does.
   SizeField with(const SizeSource& samples, const TetraBoundary& boundary, const RunContext& context);

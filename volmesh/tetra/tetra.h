@@ -64,15 +64,18 @@ class FillError : public Error {
 /// The attempts at filling a boundary, one after the other, until the caller takes one: see fill(), which takes the first.
 class TetraLadder {
  public:
-  /// Checks the boundary. The arguments must outlive it; `sizes` may be null. \throws as fill() for the boundary and options
+  /// Checks the boundary. The arguments must outlive it; `sizes` may be null.
+  /// \throws as fill() for the boundary and options
   TetraLadder(const TetraBoundary& boundary, SizeSupply* sizes, const TetraOptions& options, const RunContext& context);
   ~TetraLadder();
   TetraLadder(const TetraLadder&) = delete;
   TetraLadder& operator=(const TetraLadder&) = delete;
 
-  /// The next candidate, proven. One with splits fills the boundary as split. \throws FillError when no attempt is left
+  /// The next candidate, proven. One with splits fills the boundary as split.
+  /// \throws FillError when no attempt is left
   TetraResult next();
-  /// The latest candidate is of no use, because the boundary's owner cannot follow its splits: a failure as an engine's own. \throws `reason` if it is a stop
+  /// The latest candidate is of no use, because the boundary's owner cannot follow its splits: a failure as an engine's own.
+  /// \throws `reason` if it is a stop
   void reject(const Error& reason);
 
  private:
@@ -80,24 +83,25 @@ class TetraLadder {
   std::unique_ptr<State> state_;
 };
 
-/// Runs an engine in its helper process, found beside the running executable or one folder above it, and proves its answer (verify.h).
-/// Engines: "tetgen", TetGen 1.5 with its radius-edge ratio; "hxt", HXT of Gmsh; "automatic" is hxt, or tetgen where hxt is not built in (docs/tetrahedra.md:
-/// better meshes in less time on the clean surfaces). Both keep the boundary and make edges of about the length that the size field asks for; without one
-/// (nullptr) TetGen's sizes follow from the radius-edge ratio, HXT's from the boundary. Coordinates are scaled by a power of two first, so a mesh in other
-/// units is the same mesh. Before any engine runs, the boundary is checked, exactly where it must be (preflight.h); what engines find hard is logged. Of a
-/// clear boundary that is looked for while the first engine runs. Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof,
-/// too many new points), the other engine is tried, then TetGen with leave to split triangles of the boundary where it cannot keep them (`boundary_splits`
-/// "ladder", and a boundary that may be split). With "always" TetGen comes first and splits them where tetrahedra become better by it, too. A time or memory
-/// limit of the user ends the call unless `fall_back_on_limits`; after the engine's own limit of processor time, which is in proportion to boundary and sizes,
-/// the other engine is tried, but no splits. Every step is logged as a warning and kept in the result. Sheets are one layer of facets for the engines
-/// (sheets.h); what comes back is parted. No engine may split triangles then. With `two_pass` TetGen comes first and runs twice: a coarse mesh without sizes,
-/// then the mesh with the smoothed sizes at its nodes and the size field, the smaller ones. A stop of the context or the time limit kills the helper at once;
-/// it never outlives the call. \throws FillError when the engines have failed; Error bad_argument (index, coordinate, unused point, repeated or collinear
-/// corners), open_surface, non_manifold_surface, self_intersection, not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own
-/// error, time or memory limit); tetra_result_invalid; cancelled. Each with places where there are any; of several failures the first.
+/// Runs an engine in its helper process, found beside the running executable or one folder above it, and proves its answer (verify.h). Engines: "tetgen",
+/// TetGen 1.5 with its radius-edge ratio; "hxt", HXT of Gmsh; "automatic" is hxt, or tetgen where hxt is not built in (docs/tetrahedra.md: better meshes in
+/// less time on the clean surfaces). Both keep the boundary and make edges of about the length that the size field asks for; without one (nullptr) TetGen's
+/// sizes follow from the radius-edge ratio, HXT's from the boundary. Coordinates are scaled by a power of two first, so a mesh in other units is the same mesh.
+/// Before any engine runs, the boundary is checked, exactly where it must be (preflight.h); what engines find hard is logged. Of a clear boundary that is
+/// looked for while the first engine runs. Ladder: when the engine fails in a way that it will repeat (exit code, signal, failed proof, too many new points),
+/// the other engine is tried, then TetGen with leave to split triangles of the boundary where it cannot keep them (`boundary_splits` "ladder", and a boundary
+/// that may be split). With "always" TetGen comes first and splits them where tetrahedra become better by it, too. A time or memory limit of the user ends the
+/// call unless `fall_back_on_limits`; after the engine's own limit of processor time, which is in proportion to boundary and sizes, the other engine is tried,
+/// but no splits. Every step is logged as a warning and kept in the result. Sheets are one layer of facets for the engines (sheets.h); what comes back is
+/// parted. No engine may split triangles then. With `two_pass` TetGen comes first and runs twice: a coarse mesh without sizes, then the mesh with the smoothed
+/// sizes at its nodes and the size field, the smaller ones. A stop of the context or the time limit kills the helper at once; it never outlives the call.
+/// \throws FillError when the engines have failed; Error bad_argument (index, coordinate, unused point, repeated or collinear corners), open_surface,
+/// non_manifold_surface, self_intersection, not_orientable for the boundary; tetra_engine_missing; tetra_engine_failed (crash, its own error, time or memory
+/// limit); tetra_result_invalid; cancelled. Each with places where there are any; of several failures the first.
 /// \pre !boundary.may_split: nobody would follow.
 TetraResult fill(const TetraBoundary& boundary, const SizeField* size_field, const TetraOptions& options, const RunContext& context);
-/// Engines begin with the boundary and wait for the sizes when they need them. \throws what the making of the size field throws, too.
+/// Engines begin with the boundary and wait for the sizes when they need them.
+/// \throws what the making of the size field throws, too.
 TetraResult fill(const TetraBoundary& boundary, SizeSupply& sizes, const TetraOptions& options, const RunContext& context);
 
 /// One point strictly inside each cavity of a wall, that is in each connected solid region (a shell inside out bounds a hole of the solid around it, not a

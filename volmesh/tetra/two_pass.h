@@ -11,7 +11,8 @@ namespace sterna::volmesh {
 inline constexpr double k_coarse_radius_edge = 1.5;
 
 /// Sizes (m) at the nodes of a coarse mesh in the volume: the mean of their edges' lengths, smoothed over the mesh's edges while those of the boundary's nodes
-/// stay. Edges count once for each tetrahedron around them. Serial, O(n). \pre verify_tetrahedra() passed.
+/// stay. Edges count once for each tetrahedron around them. Serial, O(n).
+/// \pre verify_tetrahedra() passed.
 SizeSource nodal_sizes(const TetraBoundary& boundary, const TetraResult& coarse, const RunContext& context);
 
 }  // namespace sterna::volmesh

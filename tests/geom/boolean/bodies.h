@@ -75,7 +75,8 @@ inline double volume(const TriMesh& mesh) {
 
 inline RunContext quiet(int threads = 2) { return RunContext({.threads = threads}); }
 
-/// The contract's \post.
+/// The contract's
+/// \post.
 inline void expect_wall(const TriMesh& mesh) {
   const RunContext context = quiet();
   const Topology topology(mesh, context);  // throws when not manifold or not consistently oriented

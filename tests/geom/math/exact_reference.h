@@ -12,7 +12,8 @@ namespace sterna::test {
 using BigInt = boost::multiprecision::cpp_int;
 using BigRational = boost::multiprecision::cpp_rational;
 
-/// value * 2^shift. \pre it is an integer.
+/// value * 2^shift.
+/// \pre it is an integer.
 inline BigInt scaled_integer(double value, int shift) {
   int exponent = 0;
   const double fraction = std::frexp(value, &exponent);

@@ -30,7 +30,8 @@ inline bool is_near(double t, const std::vector<double>& breaks, double step) {
 }
 
 /// Within a piece of an analytic function central differences of step h and h/2 differ from the derivative by c h^2 + O(h^4): the error falls fourfold, or is
-/// rounding. \pre no knot within 2 h: where c jumps it falls by as little as half
+/// rounding.
+/// \pre no knot within 2 h: where c jumps it falls by as little as half
 inline void expect_second_order(const Vec3& exact, const Vec3& coarse, const Vec3& fine, double rounding, const char* what) {
   constexpr double k_least_fall = 0.3;  // a quarter, and what O(h^4) adds
   const double e1 = norm(coarse - exact), e2 = norm(fine - exact);

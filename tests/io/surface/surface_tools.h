@@ -34,7 +34,8 @@ double volume_of(const SurfaceSoup& soup);
 /// Triangles by name of their patch.
 std::map<std::string, int> triangles_by_patch(const SurfaceSoup& soup);
 
-/// A gzip member that holds `content` unpacked (RFC 1952, stored blocks). \pre content is below 65536 bytes
+/// A gzip member that holds `content` unpacked (RFC 1952, stored blocks).
+/// \pre content is below 65536 bytes
 std::string packed(std::string_view content);
 std::string with_crlf(std::string_view text);
 std::string replaced(std::string text, std::string_view from, std::string_view to);

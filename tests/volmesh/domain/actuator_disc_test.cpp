@@ -1,6 +1,6 @@
 // Actuator discs: their triangles, their two sides, and the mesh around them.
-#include "volmesh/domain/disc_sheets.h"
 #include "tests/support/error_of.h"
+#include "volmesh/domain/disc_sheets.h"
 
 #include <gmock/gmock.h>
 
