@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "geom/base/disjoint_sets.h"
 #include "geom/base/parallel.h"
 #include "geom/math/intersect.h"
 #include "geom/math/measures.h"
@@ -126,23 +127,15 @@ void find_links(SolidParts& all, const RunContext& context) {
 }
 
 void find_groups(SolidParts& all) {
-  std::vector<std::uint32_t> leader(all.solids.size());
-  std::iota(leader.begin(), leader.end(), 0u);
-  const auto find = [&](std::uint32_t s) {
-    while (leader[s] != s) s = leader[s] = leader[leader[s]];
-    return s;
-  };
-  for (const auto& [a, b] : all.crossings) {
-    const std::uint32_t x = find(all.facets[a].solid), y = find(all.facets[b].solid);
-    leader[std::max(x, y)] = std::min(x, y);
-  }
+  DisjointSets sets(all.solids.size());
+  for (const auto& [a, b] : all.crossings) sets.join(all.facets[a].solid, all.facets[b].solid);
   std::vector<std::uint32_t> group(all.solids.size());
   for (std::uint32_t s = 0; s < all.solids.size(); ++s) {
-    if (find(s) == s) {
+    if (sets.root(s) == s) {
       group[s] = static_cast<std::uint32_t>(all.groups.size());
       all.groups.emplace_back();
     }
-    all.groups[group[find(s)]].push_back(s);
+    all.groups[group[sets.root(s)]].push_back(s);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "geom/base/disjoint_sets.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/bvh.h"
 #include "geom/mesh/check_parts.h"
@@ -54,20 +55,12 @@ std::vector<std::uint32_t> label_pieces(const TriMesh& mesh, const RunContext& c
     }
   }
   parallel_sort(context, edges, std::less<>{});
-  std::vector<std::uint32_t> parent(mesh.n_triangles());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root_of = [&](std::uint32_t t) {
-    while (parent[t] != t) t = parent[t] = parent[parent[t]];
-    return t;
-  };
+  DisjointSets pieces(mesh.n_triangles());
   for (std::size_t i = 0, e = 0; i < edges.size(); i = e) {
     for (e = i; e < edges.size() && edges[e].lower == edges[i].lower && edges[e].upper == edges[i].upper;) ++e;
-    if (e - i != 2) continue;
-    const std::uint32_t a = root_of(edges[i].triangle), b = root_of(edges[i + 1].triangle);
-    parent[std::max(a, b)] = std::min(a, b);
+    if (e - i == 2) pieces.join(edges[i].triangle, edges[i + 1].triangle);
   }
-  for (std::uint32_t t = 0; t < parent.size(); ++t) parent[t] = root_of(t);
-  return parent;
+  return std::move(pieces).roots();
 }
 
 /// The largest triangle of each piece, ascending.

@@ -5,29 +5,12 @@
 #include <numeric>
 #include <unordered_map>
 
+#include "geom/base/disjoint_sets.h"
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
 
 namespace sterna {
 namespace {
-
-/// Disjoint sets; the root of a set is its lowest member.
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 /// What is looked at, the best first: walls under layers, walls, boundaries near the body, any.
 int rank_of(PatchKind kind, bool is_layer_base) {
@@ -90,15 +73,15 @@ std::vector<SectionPiece> WallSections::section(const Point& origin, const Vec3&
     }
     if (n == 2) segments.push_back(segment);
   }
-  Sets sets(segments.size());
+  DisjointSets sets(segments.size());
   std::unordered_map<std::uint64_t, std::size_t> seen;
   for (std::size_t i = 0; i < segments.size(); ++i)
     for (const std::uint64_t key : segments[i].keys)
-      if (const auto [found, is_new] = seen.emplace(key, i); !is_new) sets.join(found->second, i);
+      if (const auto [found, is_new] = seen.emplace(key, i); !is_new) sets.join(static_cast<std::uint32_t>(found->second), static_cast<std::uint32_t>(i));
   std::vector<SectionPiece> pieces;
   std::vector<std::size_t> piece_of(segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    const std::size_t root = sets.root(i);
+    const std::size_t root = sets.root(static_cast<std::uint32_t>(i));
     if (root == i) {
       piece_of[i] = pieces.size();
       pieces.emplace_back();
@@ -148,11 +131,11 @@ EdgeChain WallSections::longest_chain(double least, bool is_concave, bool betwee
       if (node != a.lower && node != a.upper) apex = node;
     if ((dot(normal(s), point(apex) - point(a.lower)) > 0.0) == is_concave) sharp.push_back({a.lower, a.upper});
   }
-  Sets sets(sharp.size());
+  DisjointSets sets(sharp.size());
   std::unordered_map<std::uint32_t, std::size_t> seen;
   for (std::size_t i = 0; i < sharp.size(); ++i)
     for (const std::uint32_t node : sharp[i])
-      if (const auto [found, is_new] = seen.emplace(node, i); !is_new) sets.join(found->second, i);
+      if (const auto [found, is_new] = seen.emplace(node, i); !is_new) sets.join(static_cast<std::uint32_t>(found->second), static_cast<std::uint32_t>(i));
   std::vector<double> lengths(sharp.size(), 0.0);
   for (std::size_t i = 0; i < sharp.size(); ++i) lengths[sets.root(i)] += distance(point(sharp[i][0]), point(sharp[i][1]));
   EdgeChain chain;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "geom/base/disjoint_sets.h"
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "surfmesh/stitch/weld.h"
@@ -70,20 +71,12 @@ double length(const WorkingSurface& surface, const Edge& edge) { return surface.
 
 /// Connected chains of boundary edges: the holes (two that touch count as one).
 std::int64_t count_holes(const std::vector<Edge>& boundary, std::size_t n_points) {
-  std::vector<std::uint32_t> parent(n_points);
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto find = [&](std::uint32_t v) {
-    while (parent[v] != v) {
-      parent[v] = parent[parent[v]];
-      v = parent[v];
-    }
-    return v;
-  };
+  DisjointSets chains(n_points);
   std::int64_t n = 0;
-  for (const Edge& edge : boundary) parent[find(edge.low)] = find(edge.high);
+  for (const Edge& edge : boundary) chains.join(edge.low, edge.high);
   std::vector<char> seen(n_points, 0);
   for (const Edge& edge : boundary) {
-    const std::uint32_t root = find(edge.low);
+    const std::uint32_t root = chains.root(edge.low);
     n += !seen[root];
     seen[root] = 1;
   }

@@ -3,34 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "geom/base/disjoint_sets.h"
 #include "geom/base/ids.h"
 
 namespace sterna::surfmesh {
-namespace {
-
-/// Disjoint sets; the root of a set is its lowest member, so the result does not depend on the order of the joins.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) {
-      parent_[i] = parent_[parent_[i]];
-      i = parent_[i];
-    }
-    return i;
-  }
-  void join(std::uint32_t i, std::uint32_t j) {
-    i = find(i);
-    j = find(j);
-    if (i < j) parent_[j] = i;
-    if (j < i) parent_[i] = j;
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
-}  // namespace
 
 EdgeTable::EdgeTable(const std::vector<Facet>& facets, std::size_t n_points) {
   const std::size_t n = 3 * facets.size();
@@ -74,7 +50,7 @@ Parts connected_parts(std::size_t n_facets, const EdgeTable& edges) {
   Parts parts;
   parts.part.resize(n_facets);
   for (std::uint32_t i = 0; i < n_facets; ++i) {
-    const std::uint32_t root = sets.find(i);  // the lowest facet of the part, so already numbered
+    const std::uint32_t root = sets.root(i);  // the lowest facet of the part, so already numbered
     parts.part[i] = root == i ? parts.count++ : parts.part[root];
   }
   return parts;
@@ -95,7 +71,7 @@ Defects find_defects(const std::vector<Facet>& facets, std::size_t n_points, con
   }
   std::vector<std::uint32_t> n_fans(n_points, 0);
   for (std::uint32_t c = 0; c < 3 * facets.size(); ++c)
-    if (corners.find(c) == c) ++n_fans[facets[c / 3][c % 3]];
+    if (corners.root(c) == c) ++n_fans[facets[c / 3][c % 3]];
   for (std::uint32_t v = 0; v < n_points; ++v)
     if (n_fans[v] > 1) defects.pinched.push_back(v);
   return defects;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <optional>
 
+#include "geom/base/disjoint_sets.h"
 #include "geom/base/error.h"
 #include "geom/mesh/bvh.h"
 #include "surfmesh/stitch/clean_facets.h"
@@ -94,22 +95,12 @@ std::vector<std::uint32_t> near_representatives(const WorkingSurface& surface, c
     const Vec3& p = surface.points[candidates[i]];
     boxes[i] = {p - Vec3{reach, reach, reach}, p + Vec3{reach, reach, reach}};
   }
-  std::vector<std::uint32_t> parent(surface.points.size());
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto find = [&](std::uint32_t v) {
-    while (parent[v] != v) {
-      parent[v] = parent[parent[v]];
-      v = parent[v];
-    }
-    return v;
-  };
+  DisjointSets welded(surface.points.size());
   for (const auto& [i, j] : BoxTree(boxes, context).overlapping_pairs(context)) {
     if (distance(surface.points[candidates[i]], surface.points[candidates[j]]) > tolerance) continue;
-    const auto [low, high] = std::minmax({find(candidates[i]), find(candidates[j])});
-    parent[high] = low;
+    welded.join(candidates[i], candidates[j]);
   }
-  for (std::uint32_t v = 0; v < parent.size(); ++v) parent[v] = find(v);
-  return parent;
+  return std::move(welded).roots();
 }
 
 /// Vertices in use, or only those of boundary edges, ascending.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "geom/base/disjoint_sets.h"
 #include "geom/base/number_text.h"
 #include "geom/math/measures.h"
 #include "volmesh/envelope/constrain_rims.h"
@@ -16,19 +17,13 @@ using Rim = std::vector<VertexId>;
 
 /// Vertices of the boundary's connected parts, ascending.
 std::vector<Rim> rims_of(const Topology& topology, const TriMesh& mesh) {
-  std::vector<std::uint32_t> parent(mesh.n_vertices());
-  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
-  const auto root = [&](VertexId v) {
-    std::uint32_t r = v.value();
-    while (parent[r] != r) r = parent[r] = parent[parent[r]];
-    return r;
-  };
+  DisjointSets sets(mesh.n_vertices());
+  const auto root = [&](VertexId v) { return sets.root(v.value()); };
   std::vector<VertexId> on_rims;
   for (std::size_t i = 0; i < topology.n_halfedges(); ++i) {
     const HalfedgeId h(i);
     if (!topology.is_boundary(h)) continue;
-    const std::uint32_t a = root(topology.from(h)), b = root(topology.to(h));
-    parent[std::max(a, b)] = std::min(a, b);
+    sets.join(topology.from(h).value(), topology.to(h).value());
     on_rims.push_back(topology.from(h));
   }
   std::sort(on_rims.begin(), on_rims.end(), [&](VertexId a, VertexId b) { return std::pair(root(a), a) < std::pair(root(b), b); });

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 
+#include "geom/base/disjoint_sets.h"
 #include "geom/base/error.h"
 
 namespace sterna::volmesh {
@@ -33,21 +34,12 @@ std::vector<BorderEdge> boundary_edges(const TriMesh& wall, const Topology& topo
 
 /// Closed polygons of the boundary; edges that share a vertex belong to the same one.
 std::size_t count_rims(const TriMesh& wall, const std::vector<BorderEdge>& edges) {
-  std::vector<std::uint32_t> parent(wall.n_vertices());
-  for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = i;
-  const auto root = [&](VertexId v) {
-    std::uint32_t r = v.value();
-    while (parent[r] != r) r = parent[r] = parent[parent[r]];
-    return r;
-  };
+  DisjointSets rims(wall.n_vertices());
   std::size_t n = 0;
   std::vector<std::uint8_t> is_on_rim(wall.n_vertices(), 0);
   for (const BorderEdge& e : edges) {
     for (const VertexId v : {e.from, e.to}) n += is_on_rim[v.index()]++ == 0 ? 1 : 0;
-    const std::uint32_t a = root(e.from), b = root(e.to);
-    if (a == b) continue;
-    parent[std::max(a, b)] = std::min(a, b);
-    --n;
+    if (rims.join(e.from.value(), e.to.value())) --n;
   }
   return n;
 }

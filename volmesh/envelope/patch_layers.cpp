@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "geom/base/disjoint_sets.h"
 #include "geom/base/error.h"
 #include "geom/base/glob.h"
 #include "geom/base/number_text.h"
@@ -56,23 +57,15 @@ PatchKind kind_of(std::string_view name) {
 /// Number of the connected part of each vertex: its lowest vertex. Vertices that must grow alike connect, too.
 Column<VertexId, std::uint32_t> parts_of(const LayerBase& base) {
   const TriMesh& wall = base.wall;
-  Column<VertexId, std::uint32_t> part(wall.n_vertices());
-  std::iota(part.begin(), part.end(), 0u);
-  const auto root = [&](std::uint32_t v) {
-    while (part.raw()[v] != v) v = part.raw()[v] = part.raw()[part.raw()[v]];
-    return v;
-  };
+  DisjointSets parts(wall.n_vertices());
   for (const TriangleVertices& t : wall.triangles) {
-    const std::uint32_t a = root(t[0].value()), b = root(t[1].value()), c = root(t[2].value());
-    const std::uint32_t lowest = std::min({a, b, c});
-    part.raw()[a] = part.raw()[b] = part.raw()[c] = lowest;
+    parts.join(t[0].value(), t[1].value());
+    parts.join(t[0].value(), t[2].value());
   }
   for (const std::vector<VertexId>& group : base.groups)
-    for (const VertexId v : group) {
-      const std::uint32_t a = root(group.front().value()), b = root(v.value());
-      part.raw()[std::max(a, b)] = std::min(a, b);
-    }
-  for (std::uint32_t& p : part) p = root(p);
+    for (const VertexId v : group) parts.join(group.front().value(), v.value());
+  Column<VertexId, std::uint32_t> part;
+  part.raw() = std::move(parts).roots();
   return part;
 }
 

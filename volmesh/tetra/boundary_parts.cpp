@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "geom/base/disjoint_sets.h"
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
@@ -16,24 +17,18 @@ constexpr double k_inside_winding = 0.5;  ///< winding numbers come out as 0 or 
 
 /// Number of the component of each vertex; components in order of their first triangle.
 std::vector<std::int32_t> number_components(std::size_t n_points, std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t& n_components) {
-  std::vector<std::uint32_t> parent(n_points);
-  std::iota(parent.begin(), parent.end(), 0u);
-  const auto root = [&](std::uint32_t v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets components(n_points);
   for (const auto& t : triangles) {
-    const std::uint32_t a = root(t[0]);
-    parent[root(t[1])] = a;
-    parent[root(t[2])] = a;
+    components.join(t[0], t[1]);
+    components.join(t[0], t[2]);
   }
   std::vector<std::int32_t> number(n_points, -1);
   n_components = 0;
   for (const auto& t : triangles) {
-    std::int32_t& n = number[root(t[0])];
+    std::int32_t& n = number[components.root(t[0])];
     if (n < 0) n = static_cast<std::int32_t>(n_components++);
   }
-  for (std::uint32_t v = 0; v < number.size(); ++v) number[v] = number[root(v)];
+  for (std::uint32_t v = 0; v < number.size(); ++v) number[v] = number[components.root(v)];
   return number;
 }
 

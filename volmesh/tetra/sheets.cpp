@@ -7,6 +7,7 @@
 #include <numeric>
 #include <optional>
 
+#include "geom/base/disjoint_sets.h"
 #include "geom/base/error.h"
 
 namespace sterna::volmesh {
@@ -145,21 +146,14 @@ namespace {
 /// Corners of tetrahedra at points with two sides, numbered 4 * place in the list + corner, joined over faces.
 class Sides {
  public:
-  explicit Sides(std::size_t n_tets) : parent_(4 * n_tets), side_(4 * n_tets, 0) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  void join(std::uint32_t a, std::uint32_t b) {
-    const std::uint32_t ra = root(a), rb = root(b);
-    parent_[std::max(ra, rb)] = std::min(ra, rb);
-  }
+  explicit Sides(std::size_t n_tets) : sets_(4 * n_tets), side_(4 * n_tets, 0) {}
+  void join(std::uint32_t a, std::uint32_t b) { sets_.join(a, b); }
   /// After all were joined. `side` 1: first, 2: second.
-  void mark(std::uint32_t a, std::uint8_t side) { side_[root(a)] |= side; }
-  std::uint8_t side(std::uint32_t a) { return side_[root(a)]; }
+  void mark(std::uint32_t a, std::uint8_t side) { side_[sets_.root(a)] |= side; }
+  std::uint8_t side(std::uint32_t a) { return side_[sets_.root(a)]; }
 
  private:
-  std::uint32_t root(std::uint32_t a) {
-    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-    return a;
-  }
-  std::vector<std::uint32_t> parent_;
+  DisjointSets sets_;
   std::vector<std::uint8_t> side_;
 };
 
