@@ -12,6 +12,14 @@
 #include "volmesh/tetra/two_pass.h"
 
 namespace sterna::volmesh {
+
+/// One attempt.
+struct LadderRung {
+  EngineKind engine;
+  SplitMode splits = SplitMode::none;
+  bool is_two_pass = false;
+};
+
 namespace {
 
 [[noreturn]] void throw_bad(const std::string& option, const std::string& value, std::string hint) {
@@ -21,21 +29,14 @@ namespace {
                .hint = std::move(hint)});
 }
 
-/// One attempt.
-struct Rung {
-  EngineKind engine;
-  SplitMode splits = SplitMode::none;
-  bool is_two_pass = false;
-};
-
-std::string text_of(const Rung& rung) {
+std::string text_of(const LadderRung& rung) {
   return std::string(display_name(rung.engine)) + (rung.splits == SplitMode::none ? "" : " with splits of the boundary's triangles") +
          (rung.is_two_pass ? " in two passes" : "");
 }
 
 /// What is to be tried, in this order.
-std::vector<Rung> rungs_of(const TetraBoundary& boundary, const TetraOptions& options) {
-  std::vector<Rung> rungs = {{EngineKind::hxt}, {EngineKind::tetgen}};
+std::vector<LadderRung> rungs_of(const TetraBoundary& boundary, const TetraOptions& options) {
+  std::vector<LadderRung> rungs = {{EngineKind::hxt}, {EngineKind::tetgen}};
   if (options.engine == "tetgen") std::ranges::reverse(rungs);
   else if (options.engine != "hxt" && options.engine != "automatic") throw_bad("engine", options.engine, "one of automatic, tetgen, hxt");
   if (options.two_pass) {
@@ -59,7 +60,7 @@ std::vector<Rung> rungs_of(const TetraBoundary& boundary, const TetraOptions& op
 
 /// Whether this attempt may follow after these failures: the last one of an engine that is there decides. An engine that did not end has used up the time for
 /// splits, too: after it only the other one is tried.
-bool may_follow(const Rung& rung, const std::vector<EngineFailure>& failures, const TetraOptions& options) {
+bool may_follow(const LadderRung& rung, const std::vector<EngineFailure>& failures, const TetraOptions& options) {
   const auto last = std::find_if(failures.rbegin(), failures.rend(), [](const EngineFailure& f) { return f.kind != FailureKind::missing; });
   const bool has_splits = rung.splits != SplitMode::none;
   if (last == failures.rend()) return !has_splits && options.engine == "automatic";
@@ -69,7 +70,7 @@ bool may_follow(const Rung& rung, const std::vector<EngineFailure>& failures, co
 }
 
 /// One run of an engine, or two.
-EngineOutcome run(const Rung& rung, const TetraBoundary& boundary, const JoinedBoundary* joined, const BoundaryParts& parts, SizeSupply* sizes,
+EngineOutcome run(const LadderRung& rung, const TetraBoundary& boundary, const JoinedBoundary* joined, const BoundaryParts& parts, SizeSupply* sizes,
                   const TetraOptions& options, const RunContext& context) {
   if (!rung.is_two_pass) return run_engine(rung.engine, {boundary, parts, sizes, rung.splits, joined}, options, context);
   TetraOptions coarse = options;
@@ -132,7 +133,7 @@ struct TetraLadder::State {
 
   TetraResult next() {
     for (; next_rung < rungs.size(); ++next_rung) {
-      const Rung& rung = rungs[next_rung];
+      const LadderRung& rung = rungs[next_rung];
       if (!failures.empty()) {
         if (!may_follow(rung, failures, options)) continue;
         context.warn("trying " + text_of(rung));
@@ -176,7 +177,7 @@ struct TetraLadder::State {
   SizeSupply* sizes;
   const TetraOptions& options;
   RunContext context;
-  std::vector<Rung> rungs;
+  std::vector<LadderRung> rungs;
   std::size_t next_rung = 0;
   PreflightReport seen;
   std::optional<JoinedBoundary> joined;  // a sheet's two sides are one for the engines
