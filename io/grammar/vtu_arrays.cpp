@@ -29,7 +29,7 @@ constexpr std::array<std::pair<std::string_view, Type>, 10> k_types = {{{"Int8",
 
 /// Deflate makes at most 1032 bytes of one, LZ4 255: a block that claims more is damaged, and no memory is reserved for it.
 constexpr std::uint64_t k_max_zlib_expansion = 1032;
-constexpr std::uint64_t k_expansion_floor = 4096;
+constexpr std::uint64_t k_array_expansion_floor = 4096;
 
 std::optional<std::uint64_t> to_number(std::string_view text) {
   std::uint64_t value = 0;
@@ -211,7 +211,7 @@ std::vector<char> VtuDecoder::decode_blocks(std::string_view encoded, const XmlT
     const std::uint64_t packed = header_word(encoded, 3 + i, tag);
     const std::uint64_t size = i + 1 == n_blocks ? last_size : block_size;
     if (at > encoded.size() || packed > encoded.size() - at) fail(tag, "block " + std::to_string(i) + " reaches beyond the end of the data");
-    if (size > k_expansion_floor + k_max_zlib_expansion * packed)
+    if (size > k_array_expansion_floor + k_max_zlib_expansion * packed)
       fail(tag, "block " + std::to_string(i) + " claims to unpack to " + std::to_string(size) + " bytes");
     blocks.push_back({.packed = encoded.substr(at, packed), .place = place, .size = size});
     at += packed;

@@ -17,11 +17,11 @@ constexpr std::string_view k_grid_type = "UnstructuredGrid";
 constexpr std::string_view k_surface_type = "PolyData";
 
 /// A section of cells and the VTK type of all of them; 0: the array "types" says. PolyData counts its cells in this order.
-struct Section {
+struct VtuSection {
   std::string_view name;
   int type = 0;
 };
-constexpr std::array<Section, 5> k_sections = {{{"Cells", 0}, {"Verts", 2}, {"Lines", 4}, {"Polys", 7}, {"Strips", 6}}};
+constexpr std::array<VtuSection, 5> k_sections = {{{"Cells", 0}, {"Verts", 2}, {"Lines", 4}, {"Polys", 7}, {"Strips", 6}}};
 
 struct CellTags {
   const XmlTag* connectivity = nullptr;
@@ -37,13 +37,13 @@ struct PieceTags {
   std::vector<const XmlTag*> cell_data;
 };
 
-struct Outline {
+struct VtuOutline {
   bool is_surface = false;
   std::vector<PieceTags> pieces;
   std::vector<const XmlTag*> field_data;
 };
 
-void take_array(const XmlTag& tag, std::string_view section, Outline& outline) {
+void take_array(const XmlTag& tag, std::string_view section, VtuOutline& outline) {
   if (section == "FieldData") outline.field_data.push_back(&tag);
   if (outline.pieces.empty()) return;
   PieceTags& piece = outline.pieces.back();
@@ -60,11 +60,11 @@ void take_array(const XmlTag& tag, std::string_view section, Outline& outline) {
 
 bool is_section(std::string_view name) {
   if (name == "Points" || name == "CellData" || name == "PointData" || name == "FieldData") return true;
-  return std::any_of(k_sections.begin(), k_sections.end(), [name](const Section& section) { return section.name == name; });
+  return std::any_of(k_sections.begin(), k_sections.end(), [name](const VtuSection& section) { return section.name == name; });
 }
 
-Outline outline_of(const std::vector<XmlTag>& tags, std::string_view source) {
-  Outline outline;
+VtuOutline outline_of(const std::vector<XmlTag>& tags, std::string_view source) {
+  VtuOutline outline;
   std::string section;
   bool is_vtk = false;
   for (const XmlTag& tag : tags) {
@@ -162,7 +162,7 @@ class PieceDecoder {
 VtkGrid read_vtu_grid(const std::filesystem::path& path, const RunContext& context) {
   const FileBuffer buffer = load_file(path, context);
   const std::vector<XmlTag> tags = scan_xml_tags(buffer.text(), "AppendedData", buffer.source);
-  const Outline outline = outline_of(tags, buffer.source);
+  const VtuOutline outline = outline_of(tags, buffer.source);
   const VtuDecoder decoder(buffer, tags, context);
   VtkGrid grid{.source = buffer.source, .is_surface = outline.is_surface};
   for (const XmlTag* tag : outline.field_data) {

@@ -16,7 +16,7 @@ namespace {
 /// Unpacked over packed size. Mesh text reaches about 10, repetitive test files 50; deflate itself allows 1032, which only bombs need.
 constexpr std::size_t k_max_expansion = 200;
 /// Bytes that may be unpacked whatever the packed size: small files of zeros are harmless.
-constexpr std::size_t k_expansion_floor = std::size_t{1} << 24;
+constexpr std::size_t k_gzip_expansion_floor = std::size_t{1} << 24;
 /// Bytes per call of read or inflate; between two of them a stop request is honoured.
 constexpr std::size_t k_piece = std::size_t{1} << 22;
 constexpr std::size_t k_longest_excerpt = 40;
@@ -60,7 +60,7 @@ std::vector<char> unpack(const std::vector<char>& packed, const std::string& sou
   constexpr int k_gzip_window = 15 + 16;
   if (inflateInit2(&stream, k_gzip_window) != Z_OK) throw_file(ErrorCode::internal, source, "zlib cannot be started");
 
-  const std::size_t limit = std::max(k_expansion_floor, k_max_expansion * packed.size());
+  const std::size_t limit = std::max(k_gzip_expansion_floor, k_max_expansion * packed.size());
   std::vector<char> bytes;
   std::size_t n_fed = 0;
   bool is_complete = false;

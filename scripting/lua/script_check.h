@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "geom/base/schema.h"
 #include "scripting/lua/input_path.h"
 #include "scripting/lua/script_call.h"
 

@@ -8,6 +8,7 @@
 
 #include "geom/mesh/gates.h"
 #include "scripting/command/command_context.h"
+#include "scripting/lua/input_path.h"
 #include "scripting/report/report_options.h"
 
 namespace CLI {

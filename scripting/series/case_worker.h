@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "geom/mesh/check.h"
 #include "scripting/series/series_plan.h"
 
 namespace sterna::scripting {

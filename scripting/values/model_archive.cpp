@@ -9,15 +9,12 @@
 #include "geom/model/nurbs_surface.h"
 #include "geom/model/swept_surfaces.h"
 #include "geom/model/transformed.h"
+#include "scripting/values/kept_types.h"
 #include "scripting/values/stored_types.h"
 
 namespace sterna::scripting {
 
 // What curves and surfaces are made of.
-template <>
-inline constexpr std::size_t k_members<Interval> = 2;
-template <>
-inline constexpr std::size_t k_members<ParameterBox> = 2;
 template <>
 inline constexpr std::size_t k_members<Frame> = 4;
 template <>
@@ -26,8 +23,6 @@ template <class P>
 inline constexpr std::size_t k_members<NurbsCurveForm<P>> = 4;
 template <>
 inline constexpr std::size_t k_members<NurbsSurfaceForm> = 8;
-template <>
-inline constexpr std::size_t k_members<Component> = 2;
 template <>
 inline constexpr std::size_t k_members<ModelCorner> = 2;
 template <>

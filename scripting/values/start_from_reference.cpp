@@ -24,7 +24,7 @@ namespace {
 using surfmesh::CarriedMesh;
 using surfmesh::ModelStructure;
 
-std::string name_of(const Model& part) { return part.components.size() == 0 ? part.faces.raw().front().name : part.components.raw().front().name; }
+std::string part_name_of(const Model& part) { return part.components.size() == 0 ? part.faces.raw().front().name : part.components.raw().front().name; }
 
 ContentKey points_key(const Column<VertexId, Point>& points) { return KeyMaker("points of vertices").add(points).key(); }
 
@@ -47,7 +47,7 @@ std::string differing(const OptionTable& a, const OptionTable& b, std::string_vi
 // ---- Surfaces --------------------------------------------------------------------------------------------------------------------------------
 
 KeptPart kept_part(const PartTask& task, const surfmesh::SurfaceMesh& mesh, const RunContext& context) {
-  KeptPart part{.name = name_of(task.model),
+  KeptPart part{.name = part_name_of(task.model),
                 .mesh = {surfmesh::structure_of(task.model), mesh},
                 .options = task.options,
                 .patches = task.patches,
@@ -85,7 +85,7 @@ std::string objection(const KeptPart& like, const PartTask& task) {
 surfmesh::SurfaceMesh mesh_from_reference(const PartTask& task, const Reuse& reuse, const PartMesher& ordinary, const std::optional<ContentKey>& key,
                                           const RunContext& context) {
   ReferenceUse& reference = *reuse.reference;
-  const std::string what = "surface of " + name_of(task.model) + ": ";
+  const std::string what = "surface of " + part_name_of(task.model) + ": ";
   const auto anew = [&](const std::string& why) {
     reference.tell(what + "meshed anew: " + why, reuse, context);
     return ordinary(task, context);
@@ -93,7 +93,7 @@ surfmesh::SurfaceMesh mesh_from_reference(const PartTask& task, const Reuse& reu
   const std::vector<KeptPart>& parts = reference.parts(context);
   const ModelStructure structure = surfmesh::structure_of(task.model);
   const KeptPart* like = find_like(parts, structure, reference.surface());
-  if (like == nullptr) return anew(difference_text(parts, name_of(task.model), structure));
+  if (like == nullptr) return anew(difference_text(parts, part_name_of(task.model), structure));
   const std::string against = objection(*like, task);
   Column<VertexId, Point> points = surfmesh::carried_points(like->mesh, task.model, structure, context);
   if (points_key(points) == like->geometry) {
@@ -101,14 +101,14 @@ surfmesh::SurfaceMesh mesh_from_reference(const PartTask& task, const Reuse& reu
     return ordinary(task, context);  // the geometry is the reference's own
   }
   if (!against.empty()) return anew(against);
-  const std::string of_cache = "of " + name_of(task.model) + " with the triangles of " + reference.name();
+  const std::string of_cache = "of " + part_name_of(task.model) + " with the triangles of " + reference.name();
   std::optional<ContentKey> of_like;  // which of the reference's parts it is
   if (key) of_like = KeyMaker("carried").add(*key).add(static_cast<std::uint64_t>(like - parts.data())).key();
   CarriedMesh carried = cached<CarriedMesh>(reuse, "surface_mesh", of_cache, of_like, context,
                                             [&] { return surfmesh::carry_mesh(like->mesh, task.model, structure, std::move(points), task.options, context); });
   if (!carried.mesh) return anew(carried.objection + at(carried.place));
   reference.tell(what + "topology of " + reference.name(), reuse, context);
-  reference.note_carried(carried.mesh->mesh, name_of(task.model));
+  reference.note_carried(carried.mesh->mesh, part_name_of(task.model));
   return std::move(*carried.mesh);
 }
 

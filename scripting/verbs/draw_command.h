@@ -9,6 +9,7 @@
 
 #include "geom/draw/draw.h"
 #include "scripting/command/command_context.h"
+#include "scripting/lua/input_path.h"
 
 namespace CLI {
 class App;
