@@ -42,9 +42,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // Shares of the progress of `sterna mesh`, from runs on surfaces of 10 k to 200 k triangles.
-constexpr double k_read_end = 0.05;
+constexpr double k_read_end = 0.03;
 constexpr double k_surface_end = 0.2;  ///< of models
-constexpr double k_mesh_end = 0.90;
+constexpr double k_mesh_end = 0.93;
 
 struct PatchSize {
   std::int64_t n_triangles = 0, n_quads = 0;
