@@ -1,5 +1,6 @@
 #include "volmesh/volume_mesh.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -20,9 +21,20 @@ namespace {
 
 constexpr int k_max_boundary_repairs = 3;
 
-/// Shares of the time at which steps end, two threads, measured on wing_body (79 k triangles) and DLR-F6 (184 k and 613 k), 30 and 35 layers: each within 0.08
-/// of these, but where bad tetrahedra take long to improve.
-constexpr double k_envelope_share = 0.08, k_prisms_share = 0.11, k_tetrahedra_share = 0.64, k_improve_share = 0.73;
+/// Shares of the time at which steps end.
+struct StepEnds {
+  double envelope, prisms, tetrahedra, improve;
+};
+
+/// From processor seconds of the steps of DLR-F6, 184 k triangles, 30 layers (one thread; wing_body, 79 k, and DLR-F6 with 45 layers have the same shares
+/// within 0.08). Engines run on one thread; where there is another one, layers are proved beside them.
+StepEnds step_ends(int threads) {
+  constexpr double k_envelope = 4.5, k_lay_out = 1.3, k_prove = 3.0, k_engine = 7.3, k_improve = 4.8, k_check = 9.3;
+  const double n = std::min(threads, 8);  // what is left on one thread tells beyond
+  const double envelope = k_envelope / n, prisms = envelope + (n == 1.0 ? k_lay_out + k_prove : k_lay_out / n), tetrahedra = prisms + k_engine,
+               improve = tetrahedra + k_improve / n, all = improve + k_check / n;
+  return {envelope / all, prisms / all, tetrahedra / all, improve / all};
+}
 
 /// The user's own true surface, asked with triangles of the wall.
 TrueSurface true_surface_of(const TrueSurface& of_surface, const Domain& domain) {
@@ -85,7 +97,8 @@ Filling fill_around(const MeshingSite& site, const Envelope& envelope, const Lai
     sizes.wait();  // the engine needs them sooner
     return prove_layer(layer.mesh, side);
   });
-  TetraLadder ladder(domain, &sizes, site.options.tetrahedra, context.part("tetrahedra", k_prisms_share, k_tetrahedra_share));
+  const StepEnds ends = step_ends(context.threads());
+  TetraLadder ladder(domain, &sizes, site.options.tetrahedra, context.part("tetrahedra", ends.prisms, ends.tetrahedra));
   climb(site, envelope, makers, ladder, filling, context);
   filling.proof.emplace(proof.take());
   return filling;
@@ -143,7 +156,7 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const
 
 EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunContext& context) {
   const StageTimer timer(context, "envelope");
-  const RunContext part = context.part("envelope", 0.0, k_envelope_share);
+  const RunContext part = context.part("envelope", 0.0, step_ends(context.threads()).envelope);
   const std::vector<WholePart> parts =
       site.domain.slits.empty() ? whole_parts(site.domain, site.options.parts, context) : std::vector<WholePart>{};  // cut walls are no parts' any more
   const auto of_wall = [&] {
@@ -156,7 +169,8 @@ EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunCo
 }
 
 FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers& makers, LayerKnowledge& knowledge, const RunContext& context) {
-  LaidLayer layer = lay_out(site, stage.envelope, context.part("prisms", k_envelope_share, k_prisms_share));
+  const StepEnds ends = step_ends(context.threads());
+  LaidLayer layer = lay_out(site, stage.envelope, context.part("prisms", ends.envelope, ends.prisms));
   for (const std::string& warning : layer.report.warnings) context.warn(warning);
 
   FilledStage filled;
@@ -190,6 +204,7 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers
 }
 
 VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const ImproveOptions& options, const RunContext& context) {
+  const StepEnds ends = step_ends(context.threads());
   VolumeMeshResult result;
   TetraResult& tets = filled.tets;
   result.mesh = std::move(filled.layers);
@@ -204,8 +219,7 @@ VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const
   const FillBoundary boundary = boundary_of(result.mesh);
   {
     const StageTimer timer(context, "improve");
-    result.improvement =
-        improve_tetrahedra({boundary.points, boundary.triangles, {}}, tets, options, context.part("improve", k_tetrahedra_share, k_improve_share));
+    result.improvement = improve_tetrahedra({boundary.points, boundary.triangles, {}}, tets, options, context.part("improve", ends.tetrahedra, ends.improve));
   }
   {
     const StageTimer timer(context, "assemble");
@@ -213,7 +227,7 @@ VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const
   }
   {
     const StageTimer timer(context, "check");
-    result.check = check(result.mesh, {}, context.part("check", k_improve_share, 1.0), &*knowledge.check);
+    result.check = check(result.mesh, {}, context.part("check", ends.improve, 1.0), &*knowledge.check);
   }
   require_valid(result.check);
   for (const PeriodicMatchReport& sides : result.check.periodic)

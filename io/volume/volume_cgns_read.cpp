@@ -125,12 +125,7 @@ class CgnsReader {
         sizes.fail("found a zone of " + std::to_string(shape_[k]) + " nodes along an index");
     }
     read_points(zone);
-    if (is_structured) {
-      if (rank == 3)
-        n_cells_ += static_cast<std::uint64_t>(std::max<std::int64_t>(shape_[0] - 1, 0) * std::max<std::int64_t>(shape_[1] - 1, 0) *
-                                               std::max<std::int64_t>(shape_[2] - 1, 0));
-      return read_structured(zone, rank);
-    }
+    if (is_structured) return read_structured(zone, rank);  // its walls only: no volume mesh taken for a surface
     for (const CgnsNode& node : zone.children)
       if (node.label == "Elements_t") read_section(node);
     std::sort(faces_.begin(), faces_.end(), [](const Face& a, const Face& b) { return std::pair(a.element, a.index) < std::pair(b.element, b.index); });

@@ -12,12 +12,12 @@ constexpr double k_over = 0.9;
 
 void TimeLeft::note(const ProgressState& state, double seconds) {
   const std::string work = state.stage.substr(0, state.stage.find('/'));
-  if (!is_begun_ || work != work_ || (state.share == 0.0 && share_ > k_over)) {
+  if (!is_begun_ || (work != work_ && state.share < share_) || (state.share == 0.0 && share_ > k_over)) {
     *this = {};
     is_begun_ = true;
-    work_ = work;
     start_ = seconds;
   }
+  work_ = work;
   now_ = seconds - start_;
   if (state.share <= share_) return;
   share_ = state.share;

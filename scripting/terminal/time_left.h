@@ -11,8 +11,8 @@ namespace sterna::scripting {
 /// Follows the progress of one piece of work after the other. Times are the caller's: any clock, in seconds.
 class TimeLeft {
  public:
-  /// Notes the state at a time. A share of nought after one near the end, or below another first stage, begins a new piece of work; a share that falls within
-  /// one (a part that is done again) counts as the largest so far.
+  /// Notes the state at a time. A share of nought after one near the end, or one that falls where another first stage begins, begins a new piece of work; a
+  /// share that falls within a stage (a part that is done again) counts as the largest so far.
   void note(const ProgressState& state, double seconds);
   /// Seconds from the latest note on; nothing before k_least_share of the work and k_least_seconds: too little is known.
   std::optional<double> estimate() const;

@@ -119,32 +119,7 @@ void add_repairs(const SurfaceValue& wall, const WallFiles& files, const Inspect
 
 }  // namespace
 
-namespace {
-
-/// Cells of the file; none where it is not written as a volume mesh is. What is wrong with it as a surface, the reader of surfaces says.
-std::int64_t n_cells_of(const InputPath& input, const RunContext& context) {
-  if (!io::format_of(input.path).read_volume) return 0;
-  try {
-    return count_cells(io::read_volume_file(input.path, context)).total();
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::file_malformed && error.code() != ErrorCode::unsupported_format) throw;
-    context.debug(input.name + " is no volume mesh: " + error.info().problem);
-    return 0;
-  }
-}
-
-/// volume_mesh takes it, but hardly anybody means it.
-void warn_of_cells(const InputPath& input, const RunContext& context) {
-  if (const std::int64_t n = n_cells_of(input, context); n > 0)
-    context.warn(input.name + " is a volume mesh of " + count_text(n) +
-                 " cells: all of its boundary, farfield and symmetry planes too, is taken for the walls of a new one. `sterna check " + input.name +
-                 "` measures the mesh itself");
-}
-
-}  // namespace
-
 InspectReport inspect_files(std::span<const InputPath> inputs, const surfmesh::StitchOptions& options, InspectRequest request, const RunContext& context) {
-  for (const InputPath& input : inputs) warn_of_cells(input, context);
   WallFiles files = read_wall_files(inputs, options, context.part("read", 0.0, 0.5 * k_joined));
   files.wall.options.check_intersections = false;  // inspect_wall finds the pairs itself
   std::optional<Finding> refusal;

@@ -41,7 +41,9 @@ TEST(TimeLeft, ANewPieceOfWorkBeginsAnew) {
   EXPECT_FALSE(left.estimate().has_value());
   left.note({"mesh", 0.25}, 110.0);
   EXPECT_NEAR(left.estimate().value(), 30.0, 1e-9);
-  left.note({"write", 0.5}, 120.0);
+  left.note({"write", 0.5}, 120.0);  // the stages of one command go on
+  EXPECT_NEAR(left.estimate().value(), 20.0, 1e-9);
+  left.note({"mesh", 0.1}, 121.0);
   EXPECT_FALSE(left.estimate().has_value());  // nothing is known of it yet
 }
 
