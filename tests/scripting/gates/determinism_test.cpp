@@ -60,6 +60,22 @@ TEST_F(Determinism, MeshesAreEqualForAnyNumberOfThreads) {
   EXPECT_EQ(json["files"][0]["xxh3_128"].get<std::string>().size(), 32u);
 }
 
+/// HXT reads memory that it has not written; glibc fills what it gives out with the bytes that MALLOC_PERTURB_ asks for.
+TEST_F(Determinism, MeshesDoNotDependOnWhatWasInMemory) {
+  STERNA_NEEDS_SHARED_DATA();
+  const std::string wall = (test::shared_data() / "surfaces/clean/pygeo_bwb.stl").string();
+  std::vector<std::string> meshes;
+  for (const char* fill : {"0", "85", "170"}) {
+    setenv("MALLOC_PERTURB_", fill, 1);
+    const test::ProcessResult result = sterna({"mesh", wall, "--layers", "10", "--first-height", "1e-4", "--quiet", "-o", "bwb.su2"});
+    unsetenv("MALLOC_PERTURB_");
+    ASSERT_EQ(result.status, k_exit_success) << result.errors;
+    std::ifstream file(folder / "bwb.su2", std::ios::binary);
+    meshes.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  }
+  EXPECT_TRUE(meshes[0] == meshes[1] && meshes[0] == meshes[2]);
+}
+
 TEST_F(Determinism, ComparisonsFindTheFirstByteAndMissingFiles) {
   const fs::path a = folder / "a", b = folder / "b";
   std::string text(200'000, 'x');
