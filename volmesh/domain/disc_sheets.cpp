@@ -14,7 +14,7 @@
 #include "geom/base/number_text.h"
 #include "geom/math/intersect.h"
 #include "geom/mesh/sheets.h"
-#include "volmesh/tetra/size_sites.h"
+#include "geom/mesh/size_sites.h"
 
 namespace sterna::volmesh {
 namespace {
