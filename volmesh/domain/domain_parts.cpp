@@ -234,19 +234,19 @@ class Splitter {
       if (is_convex[v]) constraint.freedom = Freedom::fixed;
     }
     share_freedoms();
-    std::size_t n_fast = 0;
-    Point fast;
+    std::size_t n_fixed_rim = 0;
+    Point fixed_rim;
     for (const VertexId on_surface : vertices) {
       const VertexId v = wall_.surface2part[on_surface];
       if (domain_.constraints.vertex[v].freedom != Freedom::fixed) continue;
-      ++n_fast;
-      fast = wall_.mesh.points[v];
+      ++n_fixed_rim;
+      fixed_rim = wall_.mesh.points[v];
     }
-    if (n_fast > 0)
-      context_.warn("no layer at " + std::to_string(n_fast) +
+    if (n_fixed_rim > 0)
+      context_.warn("no layer at " + std::to_string(n_fixed_rim) +
                     " rim vertices, where more than two patches without layers meet the wall, or where its layer would leave the patch beyond (a wall that "
                     "ends at an outer edge, as a nacelle at the border of its nozzle); one is at " +
-                    format_point(fast));
+                    format_point(fixed_rim));
     for (std::size_t i = 0; i < fans.size(); ++i) add_chain(fans[i], vertices[i]);
     mark_near();
   }

@@ -25,8 +25,8 @@ bool is_prism(const MacroElement& element);
 /// Quality of a macro-element that is a prism (wedge_quality).
 double scaled_jacobian(const MacroElement& element);
 /// Triangles with a marked corner whose macro-element is not valid or, being a prism, of a lower quality than `least_quality`; ascending.
-std::vector<TriangleId> poor_macros(const LayerBase& base, const EnvelopeShape& shape, double least_quality, const Column<VertexId, std::uint8_t>& marked,
-                                    const RunContext& context);
+std::vector<TriangleId> low_quality_elements(const LayerBase& base, const EnvelopeShape& shape, double least_quality,
+                                             const Column<VertexId, std::uint8_t>& marked, const RunContext& context);
 
 /// Triangles whose macro-element is not valid, ascending. With `around`, only triangles at these vertices are looked at.
 std::vector<TriangleId> invalid_macros(const LayerBase& base, const EnvelopeShape& shape, const RunContext& context,
