@@ -86,9 +86,9 @@ struct RimFan {
   std::vector<HalfedgeId> changes;  ///< of the surface, start at the vertex; one less than patches
 };
 
-class Splitter {
+class DomainSplitter {
  public:
-  Splitter(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, std::span<const PeriodicPatches> periodic, const RunContext& context)
+  DomainSplitter(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, std::span<const PeriodicPatches> periodic, const RunContext& context)
       : surface_(surface), has_layer_(has_layer), periodic_(periodic), context_(context), topology_(surface, context) {}
 
   Domain split() {
@@ -433,7 +433,7 @@ class Splitter {
 
 Domain split_domain(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, const RunContext& context,
                     std::span<const PeriodicPatches> periodic) {
-  return Splitter(surface, has_layer, periodic, context).split();
+  return DomainSplitter(surface, has_layer, periodic, context).split();
 }
 
 }  // namespace sterna::volmesh
