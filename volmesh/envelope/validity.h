@@ -47,7 +47,6 @@ class TrialChange {
   /// Puts the change in force wherever it is_inside(). `base` and `shape` must outlive this.
   TrialChange(const LayerBase& base, EnvelopeShape& shape, ShapeChange change, const RunContext& context);
 
-  bool is_in_force(VertexId v) const { return is_in_force_[v] != 0; }
   const Column<VertexId, std::uint8_t>& in_force() const { return is_in_force_; }
   std::vector<VertexId> vertices_in_force() const;
   /// False when the change is not in force there.
