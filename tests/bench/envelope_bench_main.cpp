@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "geom/math/intersect.h"
+#include "geom/mesh/find_crossings.h"
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/envelope_surface.h"

@@ -12,7 +12,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
-#include "geom/math/intersect.h"
+#include "geom/mesh/find_crossings.h"
 #include "geom/mesh/sheets.h"
 #include "geom/mesh/size_sites.h"
 

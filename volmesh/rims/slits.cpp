@@ -7,7 +7,7 @@
 
 #include "geom/base/columns.h"
 #include "geom/base/error.h"
-#include "geom/math/intersect.h"
+#include "geom/mesh/find_crossings.h"
 #include "volmesh/domain/disc_plane.h"
 #include "volmesh/domain/disc_sheets.h"
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "geom/base/error.h"
-#include "geom/math/intersect.h"
+#include "geom/mesh/find_crossings.h"
 #include "tests/support/constants.h"
 #include "tests/support/envelope_surface.h"
 #include "tests/support/error_of.h"

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "geom/base/error.h"
-#include "geom/math/intersect.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/find_crossings.h"
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/constants.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geom/math/intersect.h"
+#include "geom/mesh/find_crossings.h"
 #include "tests/support/constants.h"
 #include "tests/support/envelope_surface.h"
 #include "tests/support/shapes.h"
