@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <queue>
 #include <string>
 
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
 #include "volmesh/domain/flat_patch.h"
+#include "volmesh/domain/wall_reach.h"
 #include "volmesh/envelope/constrain_rims.h"
 
 namespace sterna::volmesh {
@@ -21,8 +21,6 @@ namespace {
 constexpr double k_chain_sine = 1e-3;      ///< planes at a smaller angle have their line along their common edge
 constexpr double k_forward_cosine = 0.02;  ///< a line along which a layer grows leads away from the wall at least as steeply
 constexpr double k_open_cosine = 0.1;      ///< between a wall's normal and the way into the patch beyond: below, the fluid's angle there is above 174 degrees
-constexpr double k_near_edges = 8.0;       ///< mean edges at a vertex: a layer is not thicker by much, nor does it reach farther along the wall
-constexpr std::uint8_t k_max_masked = 64;  ///< surfaces that a mask has bits for
 
 ErrorInfo error(ErrorCode code, std::string problem, std::string hint) {
   return {.code = code, .attempted = "volume_mesh", .problem = std::move(problem), .hint = std::move(hint)};
@@ -381,42 +379,16 @@ class DomainSplitter {
   /// Vertices from which a layer can reach an end patch along the wall; a plane of symmetry concerns all.
   void mark_near() {
     domain_.constraints.near.assign(wall_.mesh.n_vertices(), 0);
-    Column<VertexId, double> mean_edge(wall_.mesh.n_vertices(), 0.0);
-    Column<VertexId, std::uint32_t> n_edges(wall_.mesh.n_vertices(), 0);
-    std::vector<std::vector<std::pair<VertexId, double>>> neighbours(wall_.mesh.n_vertices());
-    for (const TriangleVertices& t : wall_.mesh.triangles) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const VertexId a = t[k], b = t[(k + 1) % 3];
-        const double length = distance(wall_.mesh.points[a], wall_.mesh.points[b]);
-        neighbours[a.index()].emplace_back(b, length);
-        neighbours[b.index()].emplace_back(a, length);
-        mean_edge[a] += length;
-        mean_edge[b] += length;
-        ++n_edges[a];
-        ++n_edges[b];
-      }
-    }
-    for (const VertexId v : mean_edge.ids()) mean_edge[v] /= std::max(n_edges[v], 1u);
+    const WallReach reach(wall_.mesh);
     for (const EndPatch& end : domain_.ends) {
-      if (end.surface >= k_max_masked) continue;  // the collider sees these still
-      const std::uint64_t bit = std::uint64_t{1} << end.surface;
       if (outer_.mesh.patches[end.patch].kind == PatchKind::symmetry) {
-        for (std::uint64_t& mask : domain_.constraints.near) mask |= bit;
+        for (std::uint64_t& mask : domain_.constraints.near) mask |= end.surface < k_max_masked ? std::uint64_t{1} << end.surface : 0;
         continue;
       }
-      using Entry = std::pair<double, std::uint32_t>;
-      std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+      std::vector<VertexId> from;
       for (const VertexId v : domain_.constraints.vertex.ids())
-        if (domain_.constraints.vertex[v].is_on(static_cast<std::size_t>(end.surface))) queue.emplace(0.0, v.value());
-      while (!queue.empty()) {
-        const auto [reached, number] = queue.top();
-        queue.pop();
-        const VertexId v(number);
-        if ((domain_.constraints.near[v] & bit) != 0 || reached > k_near_edges * mean_edge[v]) continue;
-        domain_.constraints.near[v] |= bit;
-        for (const auto& [other, length] : neighbours[v.index()])
-          if ((domain_.constraints.near[other] & bit) == 0) queue.emplace(reached + length, other.value());
-      }
+        if (domain_.constraints.vertex[v].is_on(static_cast<std::size_t>(end.surface))) from.push_back(v);
+      reach.mark(from, end.surface, {}, domain_.constraints.near);
     }
   }
 
