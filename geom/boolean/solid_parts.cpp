@@ -8,8 +8,8 @@
 
 #include "geom/base/disjoint_sets.h"
 #include "geom/base/parallel.h"
-#include "geom/math/intersect.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/find_crossings.h"
 #include "geom/mesh/topology.h"
 
 namespace sterna {

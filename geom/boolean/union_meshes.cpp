@@ -16,9 +16,9 @@
 #include "geom/boolean/remesh_strip.h"
 #include "geom/boolean/solid_parts.h"
 #include "geom/math/constants.h"
-#include "geom/math/intersect.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/bvh.h"
+#include "geom/mesh/find_crossings.h"
 #include "geom/mesh/topology.h"
 
 namespace sterna {

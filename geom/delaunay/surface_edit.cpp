@@ -238,20 +238,4 @@ bool collapse_edge(SurfaceTriangulation& surface, HalfedgeId h, double worst_all
   return true;
 }
 
-bool remove_vertex(SurfaceTriangulation& surface, VertexId v) {
-  if (surface.is_border(v)) return false;
-  double best = std::numeric_limits<double>::infinity();
-  HalfedgeId best_edge;
-  for_star(surface.mesh, v, [&](HalfedgeId h) {
-    const double worst = worst_after_collapse(surface, h);
-    if (worst < best) {
-      best = worst;
-      best_edge = h;
-    }
-  });
-  if (!best_edge.is_valid()) return false;
-  join(surface.mesh, best_edge);
-  return true;
-}
-
 }  // namespace sterna::delaunay

@@ -108,24 +108,6 @@ bool looks_along_surface(const SurfaceTriangulation& surface, VertexId p, const 
   return true;
 }
 
-bool split_edge(SurfaceTriangulation& surface, HalfedgeId h, double t, const SurfaceSample& sample, Cavity& cavity) {
-  Triangulation& mesh = surface.mesh;
-  const VertexId a = mesh.origin(h), b = mesh.target(h);
-  const Vec2 pa = mesh.uv[a], pb = mesh.uv[b];
-  const Vec2 place{pa.x + t * (pb.x - pa.x), pa.y + t * (pb.y - pa.y)};
-  // The rounded place is a little off the line: both triangles beside the edge must see it from inside all the same.
-  const auto sees = [&](HalfedgeId side) { return orient2d(mesh.uv[mesh.origin(side)], mesh.uv[mesh.target(side)], place) > 0; };
-  const HalfedgeId g = mesh.twin(h);
-  if (!sees(next(h)) || !sees(previous(h)) || (g.is_valid() && (!sees(next(g)) || !sees(previous(g))))) return false;
-  const VertexId p = mesh.uv.push_back(place);
-  surface.points.push_back(sample.point);
-  surface.frames.push_back(sample.frame);
-  surface.stands_for.push_back(p);
-  mesh.outgoing.push_back(HalfedgeId{});
-  insert(mesh, p, {Location::Kind::on_edge, h}, SphereCriterion{&surface.points, &surface.frames}, cavity);
-  return true;
-}
-
 std::vector<TriangleVertices> extract_triangles(const SurfaceTriangulation& surface) {
   std::vector<TriangleVertices> triangles;
   triangles.reserve(surface.mesh.n_triangles());

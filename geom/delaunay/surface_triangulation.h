@@ -119,11 +119,6 @@ double worst_after_collapse(const SurfaceTriangulation& surface, HalfedgeId h);
 /// Joins the origin of `h`, an inner vertex, to its target, when the triangles left are valid in the plane, look along the surface and have no cotangent above
 /// `worst_allowed`. \return false: nothing changed
 bool collapse_edge(SurfaceTriangulation& surface, HalfedgeId h, double worst_allowed);
-/// Removes an inner vertex by its best collapse. \return false: none is valid, nothing changed
-bool remove_vertex(SurfaceTriangulation& surface, VertexId v);
-/// Splits an edge, constrained or not, at a place on the open line between its ends (in the plane, exactly or rounded: then the nearest valid).
-/// For borders this adds a vertex that is not below n_border but on the border all the same. \return false: the place is not strictly between, nothing changed
-bool split_edge(SurfaceTriangulation& surface, HalfedgeId h, double t, const SurfaceSample& sample, Cavity& cavity);
 
 /// Living triangles that are not flat, with poles as their first vertex, in ascending order of slots.
 std::vector<TriangleVertices> extract_triangles(const SurfaceTriangulation& surface);

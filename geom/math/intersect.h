@@ -1,4 +1,4 @@
-// Exact triangle-triangle intersection and the self-intersections of a set of triangles.
+// Exact triangle-triangle intersection.
 // Triangles are closed point sets, also when they touch or are coplanar; a triangle without area (collinear or repeated corners) is the segment or
 // point that it covers. Range of coordinates: as for orient3d.
 #pragma once
@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "geom/base/run_context.h"
 #include "geom/base/vec3.h"
 
 namespace sterna {
@@ -21,15 +20,5 @@ bool triangles_intersect(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>
 /// three different shared vertices. Vertices are shared by index only: equal coordinates under two indices touch, hence cross. Exact.
 /// \pre indices in range, coordinates finite.
 bool triangles_cross(std::span<const Vec3> points, const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b);
-
-/// All crossing pairs (i < j) by triangles_cross, sorted; parallel over a tree of boxes, about 1e6 triangles/s/core measured on clean surfaces. At most `limit`
-/// pairs are returned (the first in order), `total` counts all.
-struct CrossingPairs {
-  std::vector<std::array<std::uint32_t, 2>> pairs;
-  std::int64_t total = 0;
-};
-/// \throws Error(bad_argument) for an index out of range or a triangle's point that is not finite.
-CrossingPairs find_crossings(std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles, const RunContext& context,
-                             std::size_t limit = static_cast<std::size_t>(-1));
 
 }  // namespace sterna

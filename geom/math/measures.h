@@ -31,8 +31,6 @@ double bilinear_flux(const Vec3& origin, const Vec3& a, const Vec3& b, const Vec
 /// b0 > 0, b2 > 0 and b1 > -sqrt(b0 b2). Floating-point filter with a forward error bound (about 14 M wedges/s/core), undecided cases in exact
 /// arithmetic (3 us). False when a coordinate is not finite. Coordinates zero or of magnitude 1e-36 .. 1e48.
 bool is_wedge_valid(const WedgePoints& p);
-/// The same test without the exact fallback: false where the filter cannot prove validity. For inner loops that only need "surely valid".
-bool is_wedge_surely_valid(const WedgePoints& p);
 /// Smallest of the nine numbers b0, b1', b2 over the three edges (b1' = b1 + sqrt(b0 b2) when b0, b2 > 0), each divided by the product of the lengths of
 /// the three edges that meet there (for b1': twice the geometric mean of both ends' products): a scaled Jacobian in (-inf, 1]; positive iff valid
 /// (up to rounding); at most 0 when an edge has no length. For reports and heuristics.

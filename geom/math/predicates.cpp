@@ -10,8 +10,6 @@ namespace {
 using exact::Bounded;
 using exact::difference;
 using exact::Expansion;
-using exact::LongExpansion;
-using exact::Triple;
 
 // Roundings carried by a term of each determinant as written below (rule at exact::Bounded).
 // orient2d: two differences, product, subtraction.
@@ -20,8 +18,6 @@ constexpr int k_orient2d_roundings = 4;
 constexpr int k_orient3d_roundings = 8;
 // incircle: minor (4); lift: difference twice, square, addition (4); product, two additions.
 constexpr int k_incircle_roundings = 11;
-// insphere: minor of order three as orient3d (8); lift: difference twice, square, two additions (5); product, three additions.
-constexpr int k_insphere_roundings = 17;
 
 template <class T>
 auto orient2d_determinant(const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -41,15 +37,6 @@ auto incircle_determinant(const Vec2& a, const Vec2& b, const Vec2& c, const Vec
   return (ax * ax + ay * ay) * (bx * cy - by * cx) + (bx * bx + by * by) * (cx * ay - cy * ax) + (cx * cx + cy * cy) * (ax * by - ay * bx);
 }
 
-template <class T>
-auto insphere_determinant(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e) {
-  const Triple<T> u = difference<T>(e, a), v = difference<T>(e, b), w = difference<T>(e, c), s = difference<T>(e, d);
-  const auto uv = u.x * v.y - u.y * v.x, uw = u.x * w.y - u.y * w.x, us = u.x * s.y - u.y * s.x;
-  const auto vw = v.x * w.y - v.y * w.x, vs = v.x * s.y - v.y * s.x, ws = w.x * s.y - w.y * s.x;
-  return dot(u, u) * (v.z * ws - w.z * vs + s.z * vw) - dot(v, v) * (u.z * ws - w.z * us + s.z * uw) +
-         (dot(w, w) * (u.z * vs - v.z * us + s.z * uv) - dot(s, s) * (u.z * vw - v.z * uw + w.z * uv));
-}
-
 constexpr int k_undecided = 2;
 
 }  // namespace
@@ -67,11 +54,6 @@ int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
 int incircle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const int sign = incircle_determinant<Bounded>(a, b, c, d).sign(k_incircle_roundings);
   return sign != k_undecided ? sign : incircle_determinant<Expansion<2>>(a, b, c, d).sign();
-}
-
-int insphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e) {
-  const int sign = insphere_determinant<Bounded>(a, b, c, d, e).sign(k_insphere_roundings);
-  return sign != k_undecided ? sign : insphere_determinant<LongExpansion>(a, b, c, d, e).sign();
 }
 
 }  // namespace sterna

@@ -19,7 +19,5 @@ int orient2d(const Vec2& a, const Vec2& b, const Vec2& c);
 int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 /// +1 when d lies inside the circle through a, b, c given counter-clockwise (sign flips with the orientation).
 int incircle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
-/// +1 when e lies inside the sphere through a, b, c, d with orient3d(a, b, c, d) > 0 (sign flips with the orientation).
-int insphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& e);
 
 }  // namespace sterna

@@ -106,8 +106,6 @@ bool is_wedge_valid(const WedgePoints& p) {
   return verdict == Verdict::undecided ? is_wedge_valid_exactly(p) : verdict == Verdict::valid;
 }
 
-bool is_wedge_surely_valid(const WedgePoints& p) { return filter(p) == Verdict::valid; }
-
 double wedge_volume(const WedgePoints& p) {
   // Integral of the Jacobian: mean over the triangle of the three edges, mean over the height of the three coefficients, times 1/2.
   const Vec3 a = p[1] - p[0], b = p[2] - p[0];

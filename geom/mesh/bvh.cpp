@@ -13,8 +13,6 @@
 namespace sterna {
 namespace {
 
-/// Items in a leaf: a box test costs as much as the step to a child.
-constexpr std::uint32_t k_leaf_items = 4;
 /// Query items per task of overlapping_pairs.
 constexpr std::size_t k_query_chunk = 512;
 /// Nodes of a level per task; the nodes of the upper levels are large, so one by one there.
@@ -52,7 +50,7 @@ std::vector<Entry> make_entries(std::span<const Box> boxes, const RunContext& co
 
 }  // namespace
 
-BoxTree::BoxTree(std::span<const Box> boxes, const RunContext& context) : boxes_(boxes.begin(), boxes.end()) {
+BoxTree::BoxTree(std::span<const Box> boxes, const RunContext& context, std::uint32_t leaf_items) : boxes_(boxes.begin(), boxes.end()) {
   if (boxes.empty()) return;
   if (boxes.size() >= std::size_t{1} << 31) throw_id_overflow(boxes.size());
   std::vector<Entry> entries = make_entries(boxes, context);
@@ -69,12 +67,12 @@ BoxTree::BoxTree(std::span<const Box> boxes, const RunContext& context) : boxes_
         context, end - begin,
         [&](std::size_t i) {
           const Node& node = nodes_[begin + i];
-          if (node.count > k_leaf_items) split_at_median(std::span(entries).subspan(node.first, node.count));
+          if (node.count > leaf_items) split_at_median(std::span(entries).subspan(node.first, node.count));
         },
         chunk);
     for (std::size_t i = begin; i < end; ++i) {
       const auto [box, first, count] = nodes_[i];
-      if (count <= k_leaf_items) continue;
+      if (count <= leaf_items) continue;
       const std::uint32_t left = count / 2;
       nodes_[i].first = static_cast<std::uint32_t>(nodes_.size());
       nodes_[i].count = 0;

@@ -18,8 +18,9 @@ namespace sterna {
 class BoxTree {
  public:
   /// Built in parallel by median splits of the box centres along their longest extent, O(n log n); an empty box overlaps nothing.
+  /// `leaf_items`: at most so many in a leaf; by default few, as for items whose test costs as much as that of a box, or more.
   /// \throws Error(bad_argument) when a box is not finite, Error(overflow) for 2^31 boxes or more.
-  BoxTree(std::span<const Box> boxes, const RunContext& context);
+  BoxTree(std::span<const Box> boxes, const RunContext& context, std::uint32_t leaf_items = 4);
 
   /// Calls visit(item) for every item whose box overlaps `box` (closed boxes); visit returns false to stop. Order is deterministic.
   void visit_overlaps(const Box& box, const std::function<bool(std::uint32_t)>& visit) const;

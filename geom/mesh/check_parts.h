@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "geom/base/parallel.h"
-#include "geom/math/intersect.h"
 #include "geom/mesh/check.h"
 #include "geom/mesh/dual_metrics.h"
+#include "geom/mesh/find_crossings.h"
 #include "geom/mesh/quality.h"
 
 namespace sterna::check_parts {

@@ -9,7 +9,7 @@
 
 namespace sterna {
 
-/// Of one prism, as is_wedge_surely_valid, wedge_volume, wedge_quality and skew_angle have it; the angle to 2e-8.
+/// Of one prism, as is_wedge_valid (its filter alone), wedge_volume, wedge_quality and skew_angle have it; the angle to 2e-8.
 struct PrismMeasures {
   bool is_surely_valid = false;  ///< false: ask is_wedge_valid
   double volume = 0.0;           ///< m^3

@@ -9,6 +9,8 @@
 // 4. Most of them are neighbours on a smooth surface: seen along an axis, an edge of one separates them (two triangles whose projections are apart but for what
 // they share
 //    cannot cross). By a filter of orient2d that is sure or silent; triangles_cross decides whatever remains.
+#include "geom/mesh/find_crossings.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>

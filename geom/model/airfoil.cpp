@@ -178,23 +178,4 @@ Repaneled repaneled_within(const Airfoil& airfoil, double tolerance) {
                      "an error of " + number_text(tolerance) + " chords is not reached with " + std::to_string(k_max_side) + " points along a side");
 }
 
-Airfoil rounded_plate(double thickness, int n_side) {
-  if (!(thickness > 0.0) || !(thickness < 0.5))
-    throw_bad_argument("making a rounded plate", "a thickness of " + number_text(thickness) + " chords, must be between 0 and 0.5");
-  if (n_side < 8 || n_side > k_max_side)
-    throw_bad_argument("making a rounded plate", std::to_string(n_side) + " points along a side, must be 8 .. " + std::to_string(k_max_side));
-  constexpr double k_nose = 1.5;  // length of the half ellipse, in thicknesses
-  const double a = k_nose * thickness, b = 0.5 * thickness;
-  const int n_nose = n_side / 2, n_flat = n_side - n_nose;
-  std::vector<Uv> upper;  // from the leading edge
-  for (int i = 0; i < n_nose; ++i) {
-    const double angle = 0.5 * std::numbers::pi * i / n_nose;
-    upper.push_back({a * (1.0 - std::cos(angle)), b * std::sin(angle)});
-  }
-  for (int i = 0; i <= n_flat; ++i) upper.push_back({a + (1.0 - a) * i * i / (static_cast<double>(n_flat) * n_flat), b});
-  std::vector<Uv> points(upper.rbegin(), upper.rend());
-  for (std::size_t i = 1; i < upper.size(); ++i) points.push_back({upper[i].u, -upper[i].v});
-  return airfoil_parts::make("plate", points);
-}
-
 }  // namespace sterna

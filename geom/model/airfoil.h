@@ -40,10 +40,6 @@ Airfoil parse_airfoil(std::string_view text, const std::string& attempted);
 /// \throws Error(bad_argument) for a designation that is none
 Airfoil naca_airfoil(std::string_view designation, int n_side = 80);
 
-/// Flat plate with a half-elliptic nose of length 1.5 thicknesses; tail square.
-/// \throws Error(bad_argument) unless 0 < thickness < 0.5
-Airfoil rounded_plate(double thickness, int n_side = 80);
-
 /// Another trailing-edge thickness (of the chord; 0 = sharp): closed by turning both sides about the leading edge, opened by adding linearly along the chord.
 /// \throws Error(bad_argument) unless 0 <= thickness < 0.2
 Airfoil with_trailing_edge(const Airfoil& airfoil, double thickness);

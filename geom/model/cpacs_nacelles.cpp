@@ -13,7 +13,7 @@ using Node = pugi::xml_node;
 
 CowlSection read_section(Document& document, const Node& node) {
   XmlFile& file = document.file;
-  file.tell_unknown(node, "uID xsi:type", "name description transformation profileUID");
+  file.warn_unknown(node, "uID xsi:type", "name description transformation profileUID");
   CowlSection section;
   section.name = file.text(node, "uID");
   const Transformation t = read_transformation(document, node);
@@ -29,7 +29,7 @@ CowlSection read_section(Document& document, const Node& node) {
 
 Cowl read_cowl(Document& document, const Node& node) {
   XmlFile& file = document.file;
-  file.tell_unknown(node, "uID xsi:type", "name description sections guideCurves rotationCurve");
+  file.warn_unknown(node, "uID xsi:type", "name description sections guideCurves rotationCurve");
   Cowl cowl;
   cowl.name = file.text(node, "uID");
   for (const Node section : node.child("sections").children("section")) cowl.sections.push_back(read_section(document, section));
@@ -49,11 +49,11 @@ CowlNacelle read_nacelle(Document& document, const Node& installed, const Transf
   nacelle.name = file.required_text(installed, "uID");
   nacelle.placement = placement;
   const Node node = engine.child("nacelle");
-  file.tell_unknown(node, "uID xsi:type", "name description fanCowl coreCowl centerCowl");
+  file.warn_unknown(node, "uID xsi:type", "name description fanCowl coreCowl centerCowl");
   for (const char* tag : {"fanCowl", "coreCowl"})
     if (const Node cowl = node.child(tag)) nacelle.cowls.push_back(read_cowl(document, cowl));
   if (const Node center = node.child("centerCowl")) {
-    file.tell_unknown(center, "uID xsi:type", "name description xOffset curveUID");
+    file.warn_unknown(center, "uID xsi:type", "name description xOffset curveUID");
     const double offset = file.child_number(center, "xOffset", 0.0);
     for (const Uv p : read_curve_profile(document, center, XmlFile::child_text(center, "curveUID"))) nacelle.center_body.push_back({p.u + offset, p.v});
     if (nacelle.center_body.front().u > nacelle.center_body.back().u) std::reverse(nacelle.center_body.begin(), nacelle.center_body.end());

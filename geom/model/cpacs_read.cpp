@@ -127,7 +127,7 @@ void Reader::header() {
     if (const std::string v = XmlFile::child_text(info, "cpacsVersion"); !v.empty()) version = v;
   if (!version.empty() && version.front() != '2' && version.front() != '3')
     file_.fail(header, "CPACS version " + version + " is not supported; versions 2 and 3 are");
-  file_.tell_unknown(root.child("vehicles"), "xsi:type uID", {"aircraft engines profiles", k_no_shape});
+  file_.warn_unknown(root.child("vehicles"), "xsi:type uID", {"aircraft engines profiles", k_no_shape});
 }
 
 bool Reader::is_mirrored(const Node& component) {
@@ -200,7 +200,7 @@ std::vector<Reader::Element> Reader::chain(const Node& component) {
   std::set<std::string> targets;
   std::vector<std::string> order;
   for (const Node node : component.child("segments").children("segment")) {
-    file_.tell_unknown(node, "uID xsi:type", {"name description fromElementUID toElementUID guideCurves", k_no_shape});
+    file_.warn_unknown(node, "uID xsi:type", {"name description fromElementUID toElementUID guideCurves", k_no_shape});
     if (node.child("guideCurves")) file_.tell(node.child("guideCurves"), "guide curves are not supported; the segment is made from its sections alone");
     const std::string from = XmlFile::child_text(node, "fromElementUID"), to = XmlFile::child_text(node, "toElementUID");
     if (!next.emplace(from, Link{node, to}).second) file_.fail(node, "two segments begin at element '" + from + "'; branched components are not supported");
@@ -229,7 +229,7 @@ std::vector<Reader::Element> Reader::chain(const Node& component) {
 }
 
 void Reader::wing(const Node& node, bool is_pylon) {
-  file_.tell_unknown(node, "uID symmetry xsi:type", {"name description parentUID transformation sections positionings segments componentSegments", k_no_shape});
+  file_.warn_unknown(node, "uID symmetry xsi:type", {"name description parentUID transformation sections positionings segments componentSegments", k_no_shape});
   Wing wing;
   wing.name = file_.required_text(node, "uID");
   wing.is_pylon = is_pylon;
@@ -298,9 +298,9 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
     file_.fail(from, "element '" + uid + "' is not in the wing");
   };
   for (const Node segment : node.child("componentSegments").children("componentSegment")) {
-    file_.tell_unknown(segment, "uID xsi:type", {"name description fromElementUID toElementUID controlSurfaces", k_no_shape});
+    file_.warn_unknown(segment, "uID xsi:type", {"name description fromElementUID toElementUID controlSurfaces", k_no_shape});
     const Node surfaces = segment.child("controlSurfaces");
-    file_.tell_unknown(surfaces, "xsi:type", "trailingEdgeDevices leadingEdgeDevices");
+    file_.warn_unknown(surfaces, "xsi:type", "trailingEdgeDevices leadingEdgeDevices");
     for (const char* list : {"trailingEdgeDevices", "leadingEdgeDevices"}) {
       const bool is_trailing = list[0] == 't';
       for (const Node device : surfaces.child(list).children(is_trailing ? "trailingEdgeDevice" : "leadingEdgeDevice")) {
@@ -345,7 +345,7 @@ void Reader::devices(const Node& node, const Wing& wing, const std::vector<Eleme
 }
 
 void Reader::fuselage(const Node& node) {
-  file_.tell_unknown(node, "uID symmetry xsi:type", {"name description parentUID transformation sections positionings segments", k_no_shape});
+  file_.warn_unknown(node, "uID symmetry xsi:type", {"name description parentUID transformation sections positionings segments", k_no_shape});
   Body body;
   body.name = file_.required_text(node, "uID");
   body.has_mirror_image = is_mirrored(node);
@@ -373,7 +373,7 @@ void Reader::fuselage(const Node& node) {
 
 void Reader::read_model(const Node& model) {
   Aircraft& aircraft = reading_.aircraft;
-  file_.tell_unknown(model, "uID xsi:type", {"name description reference wings fuselages enginePylons engines", k_no_shape});
+  file_.warn_unknown(model, "uID xsi:type", {"name description reference wings fuselages enginePylons engines", k_no_shape});
   aircraft.name = file_.text(model, "uID");
   if (const Node reference = model.child("reference")) {
     if (reference.child("area")) aircraft.reference_area = file_.child_number(reference, "area", 0.0);
@@ -384,7 +384,7 @@ void Reader::read_model(const Node& model) {
   for (const Node node : model.child("wings").children("wing")) wing(node, false);
   for (const Node node : model.child("enginePylons").children("enginePylon")) or_leave_out("pylon", [&] { wing(node, true); });
   for (const Node node : model.child("engines").children("engine")) {
-    file_.tell_unknown(node, "uID symmetry xsi:type", {"name description engineUID parentUID transformation", k_no_shape});
+    file_.warn_unknown(node, "uID symmetry xsi:type", {"name description engineUID parentUID transformation", k_no_shape});
     const Node engine = document_.resolve(node, XmlFile::child_text(node, "engineUID"));
     const bool has_cowls = engine.child("nacelle").child("fanCowl") || engine.child("nacelle").child("coreCowl") || engine.child("nacelle").child("centerCowl");
     if (!has_cowls) {

@@ -196,21 +196,4 @@ Model deformed(const Model& model, const SpaceMapPtr& map, const RunContext& con
   return result;
 }
 
-TriMesh reevaluated(const TriMesh& mesh, const Column<VertexId, VertexPlace>& places, const Model& model, const RunContext& context) {
-  const auto refuse = [](std::string problem, std::vector<ErrorPlace> at) {
-    throw Error({.code = ErrorCode::bad_argument, .attempted = "moving a surface mesh with its model", .problem = std::move(problem), .places = std::move(at)});
-  };
-  if (places.size() != mesh.n_vertices()) refuse(std::to_string(places.size()) + " places for " + std::to_string(mesh.n_vertices()) + " vertices", {});
-  for (const VertexId v : mesh.points.ids())
-    if (!places[v].face.is_valid() || places[v].face.index() >= model.faces.size())
-      refuse("vertex " + std::to_string(v.value()) + " has no face of the model, which has " + std::to_string(model.faces.size()),
-             {{mesh.points[v], "vertex"}});
-  TriMesh result = mesh;
-  parallel_for(context, mesh.n_vertices(), [&](std::size_t i) {
-    const VertexId v(static_cast<std::uint64_t>(i));
-    result.points[v] = model.faces[places[v].face].surface->point(places[v].at);
-  });
-  return result;
-}
-
 }  // namespace sterna

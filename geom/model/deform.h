@@ -39,8 +39,5 @@ struct VertexPlace {
   FaceId face;
   Uv at;
 };
-/// The same mesh on another model of the same faces (a deformed or moved one): vertices are evaluated anew, connectivity and patches stay.
-/// \throws Error(bad_argument) when sizes differ, or a vertex has no face of the model
-TriMesh reevaluated(const TriMesh& mesh, const Column<VertexId, VertexPlace>& places, const Model& model, const RunContext& context);
 
 }  // namespace sterna

@@ -86,26 +86,26 @@ bool SmxReader::read_shape(const Node& node, BodyFrame& frame) {
     if (n_shapes++ > 0) file_.fail(child, "a frame has one shape; this is its second");
     frame.n_points = static_cast<int>(std::clamp<std::int64_t>(file_.integer(child, "npoints", tag.starts_with("Circ") ? 7 : 11), 4, 10000));
     if (tag == "CircularShapeConstraint") {
-      file_.tell_unknown(child, "npoints radius", "");
+      file_.warn_unknown(child, "npoints radius", "");
       frame.shape = FrameShape::circle;
       frame.width = frame.height = positive(child, "radius");  // sumo's "radius" is the diameter
     } else if (tag == "EllipticShapeConstraint") {
-      file_.tell_unknown(child, "npoints exponent", "");
+      file_.warn_unknown(child, "npoints exponent", "");
       frame.shape = FrameShape::ellipse;
       frame.exponent = file_.number(child, "exponent", 2.0);
       if (!(frame.exponent > 0.0)) file_.fail(child, "the exponent is " + exact_text(frame.exponent) + "; it must be positive");
     } else if (tag == "HuegelschaefferConstraint") {
-      file_.tell_unknown(child, "npoints distortion", "");
+      file_.warn_unknown(child, "npoints distortion", "");
       frame.shape = FrameShape::egg;
       frame.distortion = file_.number(child, "distortion", 0.0);
       if (!(std::abs(frame.distortion) < 1.0)) file_.fail(child, "the distortion is " + exact_text(frame.distortion) + "; it must be within -1 and 1");
     } else if (tag == "DoubleEllipticConstraint") {
-      file_.tell_unknown(child, "npoints offset", "");
+      file_.warn_unknown(child, "npoints offset", "");
       frame.shape = FrameShape::double_ellipse;
       frame.offset = file_.number(child, "offset", 0.0);
       if (!(std::abs(frame.offset) < 1.0)) file_.fail(child, "the offset is " + exact_text(frame.offset) + "; it must be within -1 and 1");
     } else if (tag == "IsikverenShapeConstraint") {
-      file_.tell_unknown(child, "npoints zp a0 a1 b1", "");
+      file_.warn_unknown(child, "npoints zp a0 a1 b1", "");
       frame.shape = FrameShape::isikveren;
       frame.zp = file_.number(child, "zp", 0.0);
       frame.a0 = file_.number(child, "a0", 0.0);
@@ -138,7 +138,7 @@ void SmxReader::normalise(const Node& node, BodyFrame& frame) {
 }
 
 BodyFrame SmxReader::frame(const Node& node) {
-  file_.tell_unknown(node, "name center height width symmetric",
+  file_.warn_unknown(node, "name center height width symmetric",
                      "CircularShapeConstraint EllipticShapeConstraint HuegelschaefferConstraint DoubleEllipticConstraint IsikverenShapeConstraint");
   BodyFrame frame;
   frame.name = file_.text(node, "name");
@@ -159,7 +159,7 @@ BodyFrame SmxReader::frame(const Node& node) {
 }
 
 Body SmxReader::body(const Node& node) {
-  file_.tell_unknown(node, "name origin rotation akimatg", "NacelleInletLip BodyFrame Cap Caps MeshCriterion");
+  file_.warn_unknown(node, "name origin rotation akimatg", "NacelleInletLip BodyFrame Cap Caps MeshCriterion");
   Body body;
   body.name = file_.required_text(node, "name");
   body.placement = placement(node);
@@ -177,7 +177,7 @@ Body SmxReader::body(const Node& node) {
       file_.tell(node, "frames '" + body.frames[i - 1].name + "' and '" + body.frames[i].name +
                            "' stand in the same plane x = " + exact_text(body.frames[i].center.x) + "; no surface can be made through both");
   if (const Node lip = node.child("NacelleInletLip")) {
-    file_.tell_unknown(lip, "axialOffset radialOffset shapeCoef", "");
+    file_.warn_unknown(lip, "axialOffset radialOffset shapeCoef", "");
     body.lip = InletLip{file_.number(lip, "axialOffset", 0.4), file_.number(lip, "radialOffset", 0.2), file_.number(lip, "shapeCoef", 1.0)};
   }
   read_caps(node, body.nose, body.tail);
@@ -191,12 +191,12 @@ Body SmxReader::body(const Node& node) {
 
 void SmxReader::read_caps(const Node& node, EndCap& south, EndCap& north) {
   if (const Node old = node.child("Caps")) {
-    file_.tell_unknown(old, "height_north height_south", "");
+    file_.warn_unknown(old, "height_north height_south", "");
     north = {CapShape::strip, file_.number(old, "height_north", 0.0)};
     south = {CapShape::strip, file_.number(old, "height_south", 0.0)};
   }
   for (const Node cap : node.children("Cap")) {
-    file_.tell_unknown(cap, "shape height side", "");
+    file_.warn_unknown(cap, "shape height side", "");
     const std::string shape = file_.required_text(cap, "shape"), side = file_.required_text(cap, "side");
     if (shape != "LongCap" && shape != "RingCap") file_.fail(cap, "a cap has the shape LongCap or RingCap, not '" + shape + "'");
     if (side != "south" && side != "north") file_.fail(cap, "caps stand on the sides south and north, not '" + side + "'");
@@ -209,7 +209,7 @@ void SmxReader::read_caps(const Node& node, EndCap& south, EndCap& north) {
 // ---- wings
 
 WingSection SmxReader::section(const Node& node) {
-  file_.tell_unknown(node, "name center chord twist dihedral yaw airfoil napprox vbreak reversed naca extend_xle extend_yle extend_xte extend_yte", "");
+  file_.warn_unknown(node, "name center chord twist dihedral yaw airfoil napprox vbreak reversed naca extend_xle extend_yle extend_xte extend_yte", "");
   WingSection s;
   s.name = file_.text(node, "name");
   s.leading_edge = file_.vector(node, "center");
@@ -248,7 +248,7 @@ WingSection SmxReader::section(const Node& node) {
 
 Wing SmxReader::wing(const Node& node) {
   Wing wing;
-  file_.tell_unknown(node, "name flags origin rotation akimatg", "WingSection Cap Caps WingCriterion MeshCriterion");
+  file_.warn_unknown(node, "name flags origin rotation akimatg", "WingSection Cap Caps WingCriterion MeshCriterion");
   wing.name = file_.required_text(node, "name");
   wing.placement = placement(node);
   wing.trailing_edge = 0.0;  // sumo closes every airfoil, by turning its sides about the leading edge
@@ -284,7 +284,7 @@ std::optional<MeshCriterion> SmxReader::criterion(const Node& parent) {
   Node node = parent.child("WingCriterion");
   if (!node) node = parent.child("MeshCriterion");
   if (!node) return std::nullopt;
-  file_.tell_unknown(node, "maxlen minlen maxphi maxstretch nvmax lerfactor terfactor defaults xcoarse postrefine smoothing",
+  file_.warn_unknown(node, "maxlen minlen maxphi maxstretch nvmax lerfactor terfactor defaults xcoarse postrefine smoothing",
                      "RefinementRegion Scale Breaks Kinks KinkTangents");
   MeshCriterion c;
   c.is_automatic = file_.boolean(node, "defaults", false);
@@ -298,7 +298,7 @@ std::optional<MeshCriterion> SmxReader::criterion(const Node& parent) {
   c.leading_edge_factor = file_.number(node, "lerfactor", 1.0);
   c.trailing_edge_factor = file_.number(node, "terfactor", 1.0);
   for (const Node child : node.children("RefinementRegion")) {
-    file_.tell_unknown(child, "factor lower upper center ru rv", "");
+    file_.warn_unknown(child, "factor lower upper center ru rv", "");
     RefinementRegion region;
     const auto pair = [&](const char* attribute) {
       const std::vector<double> n = file_.numbers(child, file_.required_text(child, attribute));
@@ -339,9 +339,9 @@ std::optional<MeshCriterion> SmxReader::criterion(const Node& parent) {
 // ---- systems
 
 void SmxReader::controls(const Node& node, Aircraft& aircraft) {
-  file_.tell_unknown(node, "", "ControlSrf Control");
+  file_.warn_unknown(node, "", "ControlSrf Control");
   for (const Node child : node.children("ControlSrf")) {
-    file_.tell_unknown(child, "name wing type", "Hingepoint");
+    file_.warn_unknown(child, "name wing type", "Hingepoint");
     ControlSurface surface;
     surface.name = file_.required_text(child, "name");
     surface.wing = file_.required_text(child, "wing");
@@ -351,7 +351,7 @@ void SmxReader::controls(const Node& node, Aircraft& aircraft) {
     else if (type == "AM") surface.kind = ControlKind::all_moving;
     else file_.fail(child, "the type of a control surface is TEF, LEF or AM, not '" + type + "'");
     for (const Node point : child.children("Hingepoint")) {
-      file_.tell_unknown(point, "spanpos chordpos", "");
+      file_.warn_unknown(point, "spanpos chordpos", "");
       surface.hinge.push_back({file_.number(point, "spanpos"), file_.number(point, "chordpos")});
     }
     if (surface.hinge.size() < 2) file_.fail(child, "a control surface needs 2 hinge points; it has " + std::to_string(surface.hinge.size()));
@@ -359,10 +359,10 @@ void SmxReader::controls(const Node& node, Aircraft& aircraft) {
     control_nodes_.push_back(child);
   }
   for (const Node child : node.children("Control")) {
-    file_.tell_unknown(child, "name", "Participation");
+    file_.warn_unknown(child, "name", "Participation");
     Control control{file_.required_text(child, "name"), {}};
     for (const Node p : child.children("Participation")) {
-      file_.tell_unknown(p, "id factor", "");
+      file_.warn_unknown(p, "id factor", "");
       control.participations.push_back({file_.required_text(p, "id"), file_.number(p, "factor", 1.0)});
     }
     aircraft.controls.push_back(std::move(control));
@@ -370,14 +370,14 @@ void SmxReader::controls(const Node& node, Aircraft& aircraft) {
 }
 
 JetEngine SmxReader::engine(const Node& node) {
-  file_.tell_unknown(node, "name massflow vt_in vt_out", "Turbofan IntakeRegions NozzleRegions");
+  file_.warn_unknown(node, "name massflow vt_in vt_out", "Turbofan IntakeRegions NozzleRegions");
   JetEngine engine;
   engine.name = file_.required_text(node, "name");
   engine.mass_flow = file_.optional_number(node, "massflow");
   engine.inflow_velocity = file_.optional_number(node, "vt_in");
   engine.outflow_velocity = file_.optional_number(node, "vt_out");
   if (const Node fan = node.child("Turbofan")) {
-    file_.tell_unknown(fan, "name bypass_ratio fan_pr total_pr turbine_temp eta_inlet eta_nozzle eta_spool eta_comb eta_inf dp_comb", "");
+    file_.warn_unknown(fan, "name bypass_ratio fan_pr total_pr turbine_temp eta_inlet eta_nozzle eta_spool eta_comb eta_inf dp_comb", "");
     engine.turbofan = Turbofan{.name = file_.text(fan, "name"),
                                .bypass_ratio = file_.number(fan, "bypass_ratio"),
                                .fan_pressure_ratio = file_.number(fan, "fan_pr"),
@@ -398,7 +398,7 @@ JetEngine SmxReader::engine(const Node& node) {
         file_.tell(region, "this element is not known and was left out");
         continue;
       }
-      file_.tell_unknown(region, "surface type", "");
+      file_.warn_unknown(region, "surface type", "");
       const std::string type = file_.required_text(region, "type");
       if (type != "nose" && type != "tail") file_.fail(region, "the region of an engine is nose or tail, not '" + type + "'");
       found.push_back({file_.required_text(region, "surface"), type == "nose"});
@@ -454,7 +454,7 @@ AircraftReading SmxReader::read() {
   } else if (tag == "WingSkeleton") {
     aircraft.wings.push_back(wing(root));
   } else if (tag == "Assembly") {
-    file_.tell_unknown(root, "name sumo_version ppMaxStretch ppMaxPhi ppNiter tgRadius tgQuality", "BodySkeleton WingSkeleton ControlSystem JetEngineSpec");
+    file_.warn_unknown(root, "name sumo_version ppMaxStretch ppMaxPhi ppNiter tgRadius tgQuality", "BodySkeleton WingSkeleton ControlSystem JetEngineSpec");
     aircraft.name = file_.text(root, "name");
     aircraft.sumo = settings(root);
     for (const Node child : root.children()) {

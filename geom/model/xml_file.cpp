@@ -205,7 +205,7 @@ std::vector<Uv> XmlFile::pairs(const pugi::xml_node& node) const {
   return pairs;
 }
 
-void XmlFile::tell_unknown(const pugi::xml_node& node, std::string_view attributes, std::initializer_list<std::string_view> children) {
+void XmlFile::warn_unknown(const pugi::xml_node& node, std::string_view attributes, std::initializer_list<std::string_view> children) {
   for (const pugi::xml_attribute a : node.attributes())
     if (!is_listed(attributes, a.name())) tell(node, std::string("attribute '") + a.name() + "' is not known and was left out");
   for (const pugi::xml_node child : node.children())

@@ -67,8 +67,8 @@ class XmlFile {
   static std::string child_text(const pugi::xml_node& node, const char* child);
 
   /// Tells every attribute and child element that is in none of the lists (names separated by blanks).
-  void tell_unknown(const pugi::xml_node& node, std::string_view attributes, std::initializer_list<std::string_view> children);
-  void tell_unknown(const pugi::xml_node& node, std::string_view attributes, std::string_view children) { tell_unknown(node, attributes, {children}); }
+  void warn_unknown(const pugi::xml_node& node, std::string_view attributes, std::initializer_list<std::string_view> children);
+  void warn_unknown(const pugi::xml_node& node, std::string_view attributes, std::string_view children) { warn_unknown(node, attributes, {children}); }
 
  private:
   std::filesystem::path path_;

@@ -223,7 +223,7 @@ class FluentParser {
   void read_faces(std::int64_t index, bool is_binary) {
     const Header header = read_header("faces");
     if (header.zone == 0) return skip_to_close();
-    FaceMesh& faces = content_.faces;
+    FaceBasedMesh& faces = content_.faces;
     if (header.first != static_cast<std::int64_t>(faces.n_faces()) + 1)
       fail("found faces from " + std::to_string(header.first) + " on, expected " + std::to_string(faces.n_faces() + 1));
     if (header.element == 2) throw_unsupported(buffer_.source, "faces of two nodes", "meshes of 3 dimensions are read");
@@ -245,7 +245,7 @@ class FluentParser {
       if (inner < 1 || outer < 0 || inner >= static_cast<std::int64_t>(NodeId::k_invalid) || outer >= static_cast<std::int64_t>(NodeId::k_invalid))
         fail("found the cells " + std::to_string(inner) + " and " + std::to_string(outer) + " of a face, expected one or two above 0");
       faces.owner.push_back(static_cast<std::uint32_t>(inner - 1));
-      faces.neighbour.push_back(outer == 0 ? FaceMesh::k_none : static_cast<std::uint32_t>(outer - 1));
+      faces.neighbour.push_back(outer == 0 ? FaceBasedMesh::k_none : static_cast<std::uint32_t>(outer - 1));
       faces.first.push_back(faces.nodes.size());
       if (outer == 0 && header.type == k_interior) fail("found an interior face with one cell");
     }
@@ -269,7 +269,7 @@ class FluentParser {
   }
 
   void finish() {
-    FaceMesh& faces = content_.faces;
+    FaceBasedMesh& faces = content_.faces;
     if (content_.points.empty() || faces.n_faces() == 0)
       fail(std::string("found the end of the file, expected a section of ") + (content_.points.empty() ? "nodes" : "faces"));
     for (const std::uint32_t node : faces.nodes)
@@ -277,7 +277,7 @@ class FluentParser {
     if (n_cells_ > faces.n_faces()) fail("found " + std::to_string(n_cells_) + " cells, too many for " + std::to_string(faces.n_faces()) + " faces");
     faces.n_cells = n_cells_;
     for (std::size_t f = 0; f < faces.n_faces(); ++f)
-      if (faces.owner[f] >= n_cells_ || (faces.neighbour[f] != FaceMesh::k_none && faces.neighbour[f] >= n_cells_))
+      if (faces.owner[f] >= n_cells_ || (faces.neighbour[f] != FaceBasedMesh::k_none && faces.neighbour[f] >= n_cells_))
         fail("face " + std::to_string(f + 1) + " has the cells " + std::to_string(faces.owner[f] + 1ull) + " and " + std::to_string(faces.neighbour[f] + 1ull) +
              ", there are " + std::to_string(n_cells_));
     faces.patch.resize(faces.n_faces());
@@ -286,13 +286,13 @@ class FluentParser {
 
   void add_patch(const Zone& zone) {
     if (zone.type == k_interior || zone.n_faces == 0) return;
-    FaceMesh& faces = content_.faces;
+    FaceBasedMesh& faces = content_.faces;
     const auto named = names_.find(zone.id);
     const std::string name = named == names_.end() ? numbered_patch(zone.id) : named->second;
     const PatchId patch = find_or_add_patch(content_.patches, name);
     content_.patches[patch].kind = kind_of_fluent_zone(zone.type, name);
     for (std::size_t f = zone.first_face; f < zone.first_face + zone.n_faces; ++f) {
-      if (faces.neighbour[f] == FaceMesh::k_none) faces.patch[f] = patch;
+      if (faces.neighbour[f] == FaceBasedMesh::k_none) faces.patch[f] = patch;
       else ++content_.n_inner_walls;
     }
   }

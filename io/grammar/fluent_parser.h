@@ -10,13 +10,13 @@
 #include "geom/base/vec3.h"
 #include "geom/mesh/tri_mesh.h"
 #include "io/input/file_buffer.h"
-#include "io/mesh/face_mesh.h"
+#include "io/mesh/face_based_mesh.h"
 
 namespace sterna::io {
 
 struct FluentContent {
   std::vector<Vec3> points;
-  FaceMesh faces;                  ///< patches by number of their zone's appearance
+  FaceBasedMesh faces;             ///< patches by number of their zone's appearance
   Column<PatchId, Patch> patches;  ///< zones of boundary faces
   std::int64_t n_inner_walls = 0;  ///< faces of boundary zones between two cells, taken as inner faces
 };

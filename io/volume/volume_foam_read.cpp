@@ -6,7 +6,7 @@
 #include "geom/base/error.h"
 #include "geom/mesh/periodic.h"
 #include "io/grammar/foam_file.h"
-#include "io/mesh/face_mesh.h"
+#include "io/mesh/face_based_mesh.h"
 #include "io/mesh/orientation.h"
 #include "io/names/patch_names.h"
 #include "io/volume/volume_foam.h"
@@ -76,7 +76,7 @@ FoamPatch read_patch(FoamFile& file) {
 }
 
 /// Patches with the faces from n_internal to n_faces, without gap. Returns the neighbours of cyclic ones, by patch.
-std::vector<std::string> read_boundary(const std::filesystem::path& folder, std::uint64_t n_internal, FaceMesh& faces, HybridMesh& mesh,
+std::vector<std::string> read_boundary(const std::filesystem::path& folder, std::uint64_t n_internal, FaceBasedMesh& faces, HybridMesh& mesh,
                                        const RunContext& context) {
   FoamFile file(folder / "boundary", "polyBoundaryMesh", context);
   const std::uint64_t n = file.count("the number of patches", 20);  // "a{type b;nFaces 1;startFace 1;}" is longer
@@ -149,7 +149,7 @@ HybridMesh read_volume_foam(const std::filesystem::path& path, const RunContext&
     mesh.points.raw().assign(points.begin(), points.end());
   }
   context.progress(0.2);
-  FaceMesh faces;
+  FaceBasedMesh faces;
   {
     FoamFile file(folder / "faces", "faceList faceCompactList", context);
     if (file.object_class() == "faceList") file.label_lists("a node of a face", mesh.points.size(), faces.nodes, faces.first);
@@ -163,7 +163,7 @@ HybridMesh read_volume_foam(const std::filesystem::path& path, const RunContext&
   FoamFile neighbours(folder / "neighbour", "labelList", context);
   faces.neighbour = neighbours.labels("the cell of a face", n_faces, n_faces);
   const std::uint64_t n_internal = faces.neighbour.size();
-  faces.neighbour.resize(n_faces, FaceMesh::k_none);
+  faces.neighbour.resize(n_faces, FaceBasedMesh::k_none);
   faces.patch.resize(n_faces);
   for (const std::uint32_t cell : faces.owner) faces.n_cells = std::max<std::uint64_t>(faces.n_cells, cell + 1ull);
   for (std::uint64_t f = 0; f < n_internal; ++f) faces.n_cells = std::max<std::uint64_t>(faces.n_cells, faces.neighbour[f] + 1ull);

@@ -14,7 +14,7 @@ using volmesh::MeshCase;
 using volmesh::MeshingSite;
 
 std::unique_ptr<MeshingSite> envelope_site(const EnvelopeValue& value, const RunContext& context) {
-  MeshCase options = knowing(*value.wall, value.options);
+  MeshCase options = with_wall_facts(*value.wall, value.options);
   // Classes are of the wall alone, but a site wants to know of a layer: any will do.
   if (value.step == EnvelopeStep::classified && is_automatic(options.envelope.first_height)) options.envelope.first_height = 1.0;
   options.envelope.feature_angle = value.stage.feature_angle;

@@ -135,7 +135,7 @@ InspectReport inspect_files(std::span<const InputPath> inputs, const surfmesh::S
     }
   }
   if (wall) {
-    request.volume = knowing(*wall, request.volume);
+    request.volume = with_wall_facts(*wall, request.volume);
     InspectReport report = volmesh::inspect_wall(wall->mesh, request, context.part("inspect", k_joined, 1.0));
     if (refusal) replace_finding(report, std::move(*refusal));
     add_repairs(*wall, files, request, report);
@@ -147,7 +147,7 @@ InspectReport inspect_files(std::span<const InputPath> inputs, const surfmesh::S
 }
 
 InspectReport inspect_surface(const SurfaceValue& surface, InspectRequest request, const RunContext& context) {
-  request.volume = knowing(surface, request.volume);
+  request.volume = with_wall_facts(surface, request.volume);
   return volmesh::inspect_wall(surface.mesh, request, context);
 }
 

@@ -21,7 +21,7 @@ Json places_json(const std::vector<ErrorPlace>& places) {
 
 Json patch_coverage_json(const volmesh::LayerReport& layer) {
   Json patches = Json::array();
-  for (const volmesh::PatchCoverage& patch : layer.patches)
+  for (const volmesh::PatchLayerReport& patch : layer.patches)
     patches.push_back({{"name", patch.name},
                        {"area", patch.area},
                        {"full", patch.full},

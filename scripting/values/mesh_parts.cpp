@@ -20,7 +20,7 @@ SpaceSizes in_frame(const SpaceSizes& sizes, const Transform& placement) {
   if (sizes.regions) own.regions = [regions = sizes.regions, placement](const Point& p, double slope) { return regions(placement.point(p), slope); };
   if (sizes.function) own.function = [function = sizes.function, placement](const Point& p) { return function(placement.point(p)); };
   const Transform back = placement.inverse();
-  for (const surfmesh::SizeSource& sample : sizes.samples) own.samples.push_back({back.point(sample.point), sample.size});
+  for (const SizeSite& sample : sizes.samples) own.samples.push_back({back.point(sample.point), sample.size});
   return own;
 }
 

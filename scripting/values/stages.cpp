@@ -322,7 +322,7 @@ OptionTable envelope_options(volmesh::MeshCase& options) { return volmesh::optio
 OptionTable tetrahedra_options(volmesh::MeshCase& options) { return volmesh::options_of(options, volmesh::k_tetrahedra_step); }
 OptionTable finish_options(volmesh::MeshCase& options) { return volmesh::options_of(options, volmesh::k_finish_step); }
 
-volmesh::MeshCase knowing(const SurfaceValue& wall, volmesh::MeshCase options) {
+volmesh::MeshCase with_wall_facts(const SurfaceValue& wall, volmesh::MeshCase options) {
   if (wall.smooth_angle) options.smooth_angle = *wall.smooth_angle;
   if (!options.first_heights) options.parts = wall.parts;  // else their layers depend on where they are
   options.patches = rules_of(wall, options);
@@ -331,7 +331,7 @@ volmesh::MeshCase knowing(const SurfaceValue& wall, volmesh::MeshCase options) {
 
 EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse) {
   warn_of_other_member(*wall, options, context);
-  return {.wall = wall, .options = options, .stage = cached_envelope(*wall, knowing(*wall, options), reuse, context)};
+  return {.wall = wall, .options = options, .stage = cached_envelope(*wall, with_wall_facts(*wall, options), reuse, context)};
 }
 
 TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse) {
@@ -343,18 +343,18 @@ TetrahedraValue make_tetrahedra(const EnvelopeValue& envelope, const volmesh::Me
   return {.wall = envelope.wall,
           .n_wall_triangles = n_triangles(wall),
           .options = options,
-          .stage = cached_tetrahedra(wall, envelope.stage, knowing(wall, options), reuse, context)};
+          .stage = cached_tetrahedra(wall, envelope.stage, with_wall_facts(wall, options), reuse, context)};
 }
 
 MeshValue finish_mesh(const TetrahedraValue& tetrahedra, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse) {
   return mesh_value(*tetrahedra.wall, tetrahedra.n_wall_triangles, options,
-                    cached_finish(*tetrahedra.wall, tetrahedra.stage, knowing(*tetrahedra.wall, options), reuse, context));
+                    cached_finish(*tetrahedra.wall, tetrahedra.stage, with_wall_facts(*tetrahedra.wall, options), reuse, context));
 }
 
 MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& options, const std::filesystem::path& stages, const RunContext& context,
                            const Reuse& reuse) {
   warn_of_other_member(wall, options, context);
-  if (stages.empty()) return mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall, knowing(wall, options), {}, reuse, context));
+  if (stages.empty()) return mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall, with_wall_facts(wall, options), {}, reuse, context));
   require_stage_output(stages);
   FinishedParts parts;
   const volmesh::StageWatch watch{
@@ -368,7 +368,7 @@ MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& op
                      .tetrahedra = stored(stage),
                      .json = stage_json(stage, n_triangles(wall))};
           }};
-  MeshValue mesh = mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall, knowing(wall, options), watch, reuse, context));
+  MeshValue mesh = mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall, with_wall_facts(wall, options), watch, reuse, context));
   write_finished(wall, parts, mesh, stages, context.part("stages", 1.0, 1.0));
   return mesh;
 }

@@ -37,7 +37,7 @@ OptionTable tetrahedra_options(volmesh::MeshCase& options);
 OptionTable finish_options(volmesh::MeshCase& options);
 
 /// The options with what the wall itself knows: turns where it is smooth, rules for its patches, the model that it is of.
-volmesh::MeshCase knowing(const SurfaceValue& wall, volmesh::MeshCase options);
+volmesh::MeshCase with_wall_facts(const SurfaceValue& wall, volmesh::MeshCase options);
 
 /// \throws Error of volmesh::make_envelope, make_tetrahedra, finish_mesh.
 EnvelopeValue make_envelope(const SurfaceHandle& wall, const volmesh::MeshCase& options, const RunContext& context, const Reuse& reuse = {});

@@ -96,7 +96,7 @@ inline constexpr std::size_t k_members<PeriodicSides> = 3;
 template <>
 inline constexpr std::size_t k_members<PeriodicMatchReport> = 6;
 template <>
-inline constexpr std::size_t k_members<volmesh::PatchCoverage> = 6;
+inline constexpr std::size_t k_members<volmesh::PatchLayerReport> = 6;
 template <>
 inline constexpr std::size_t k_members<volmesh::VisibilityReport> = 4;
 template <>

@@ -29,13 +29,13 @@ std::int64_t n_nodes(const MeshValue& mesh) { return static_cast<std::int64_t>(m
 
 /// The patches that are not covered to their full height, worst first; nothing for a wall of one patch.
 std::string patch_text(const volmesh::LayerReport& layer) {
-  std::vector<volmesh::PatchCoverage> patches = layer.patches;
+  std::vector<volmesh::PatchLayerReport> patches = layer.patches;
   if (patches.size() < 2) return "";
-  std::erase_if(patches, [](const volmesh::PatchCoverage& patch) { return patch.full >= 1.0; });
+  std::erase_if(patches, [](const volmesh::PatchLayerReport& patch) { return patch.full >= 1.0; });
   std::stable_sort(patches.begin(), patches.end(), [](const auto& a, const auto& b) { return a.full < b.full; });
   patches.resize(std::min(patches.size(), k_listed_patches));
   std::string text;
-  for (const volmesh::PatchCoverage& patch : patches)
+  for (const volmesh::PatchLayerReport& patch : patches)
     text += fmt::format("    patch {}: {:.2f} % full, {:.2f} % compressed, {:.2f} % collapsed\n", patch.name, 100.0 * patch.full, 100.0 * patch.compressed,
                         100.0 * patch.collapsed);
   return text;

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "geom/base/error.h"
-#include "geom/math/intersect.h"
+#include "geom/mesh/find_crossings.h"
 #include "geom/mesh/topology.h"
 #include "scripting/lua/verb_tools.h"
 #include "scripting/values/summary.h"

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "geom/math/intersect.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/find_crossings.h"
 
 namespace sterna::surfmesh {
 namespace {

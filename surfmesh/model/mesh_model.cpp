@@ -38,7 +38,7 @@ struct Meshing {
   ModelTopology topology;
   WingBands bands;
   std::vector<AbsorbedPart> absorbed;
-  std::vector<SizeSource> repairs;
+  std::vector<SizeSite> repairs;
   Column<EdgeId, EdgeCut> cuts;
   Column<FaceId, MeshedFace> faces;
   std::set<FaceId> to_mesh;

@@ -276,7 +276,7 @@ std::vector<double> sizes_along(const Model& model, const std::vector<EdgeUsePla
 }
 
 /// Sources at the samples and, where these are farther apart than the sizes, between them: else lengths would grow from sample to sample and shrink again.
-void add_sources_along(const Curve& curve, const std::vector<EdgeSample>& samples, const std::vector<double>& size, std::vector<SizeSource>& sources) {
+void add_sources_along(const Curve& curve, const std::vector<EdgeSample>& samples, const std::vector<double>& size, std::vector<SizeSite>& sources) {
   constexpr double k_most_between = 4096.0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     sources.push_back({samples[i].point, size[i]});
@@ -340,12 +340,12 @@ ModelSizes sizes_of_faces(const Model& model, const Column<EdgeId, EdgeSamples>&
 void add_place_sizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const SurfaceMeshOptions& options, const SpaceSizes& asked,
                      ModelSizes& sizes) {
   sizes.places = PlaceSizes(model, edges, sizes, asked, options.refinement);
-  for (const SizeSource& s : asked.samples) sizes.in_space.push_back({s.point, s.size / options.refinement});
+  for (const SizeSite& s : asked.samples) sizes.in_space.push_back({s.point, s.size / options.refinement});
 }
 
 void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const SurfaceMeshOptions& options,
                  ModelSizes& sizes, const RunContext& context, const WingBands* bands) {
-  std::vector<std::vector<SizeSource>> of_faces(model.faces.size());
+  std::vector<std::vector<SizeSite>> of_faces(model.faces.size());
   parallel_for(
       context, model.faces.size(),
       [&](std::size_t i) {
@@ -370,9 +370,9 @@ void add_sources(const Model& model, const Column<EdgeId, EdgeSamples>& edges, c
   for (const auto& list : narrow)
     for (const NarrowPlace& place : list) narrow_of_edge[place.edge].push_back(place);
   const Column<EdgeId, std::vector<EdgeUsePlace>> uses = uses_of_edges(model);
-  std::vector<std::vector<SizeSource>> of_edges(model.edges.size());
+  std::vector<std::vector<SizeSite>> of_edges(model.edges.size());
   sizes.edge_sizes.resize(model.edges.size());
-  const auto ask_along = [&](EdgeId e, std::vector<double> size, std::vector<SizeSource>& list) {
+  const auto ask_along = [&](EdgeId e, std::vector<double> size, std::vector<SizeSite>& list) {
     add_sources_along(*model.edges[e].curve, edges[e].samples, size, list);
     sizes.edge_sizes[e] = std::move(size);
   };

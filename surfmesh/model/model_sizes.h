@@ -9,10 +9,10 @@
 
 #include "geom/base/glob.h"
 #include "surfmesh/face/face_sizes.h"
+#include "surfmesh/model/background_sizes.h"
 #include "surfmesh/model/edge_samples.h"
 #include "surfmesh/model/face_outline.h"
 #include "surfmesh/model/place_sizes.h"
-#include "surfmesh/model/size_field.h"
 #include "surfmesh/model/surface_mesh.h"
 
 namespace sterna::surfmesh {
@@ -40,10 +40,10 @@ struct ModelSizes {
   Column<FaceId, FaceOutline> outlines;
   Column<FaceId, FaceSizes> faces;
   Column<EdgeId, std::vector<double>>
-      edge_sizes;                    ///< m, at the samples of each edge: what its curvature, that of its faces beside it, narrow faces and its length ask for
-  std::vector<SizeSource> sources;   ///< the same in space, and the curvature of faces: where sizes may be small
-  std::vector<SizeSource> in_space;  ///< sources of the user that count on all faces
-  PlaceSizes places;                 ///< what is asked for by place: never more than max_edge
+      edge_sizes;                  ///< m, at the samples of each edge: what its curvature, that of its faces beside it, narrow faces and its length ask for
+  std::vector<SizeSite> sources;   ///< the same in space, and the curvature of faces: where sizes may be small
+  std::vector<SizeSite> in_space;  ///< sources of the user that count on all faces
+  PlaceSizes places;               ///< what is asked for by place: never more than max_edge
   std::function<bool(FaceId, const Point&)> is_covered;  ///< curvature asks for nothing there, because a band answers for it; empty: nowhere
   double growth = 0.2;                                   ///< change of length by distance
   double largest = 0.0;                                  ///< max_edge of all faces

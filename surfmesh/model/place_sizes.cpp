@@ -126,8 +126,8 @@ PlaceSizes::PlaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& ed
   }
 }
 
-void PlaceSizes::set_sources(FaceId f, std::vector<SizeSource> sources) {
-  if (!sources.empty()) faces_[f].sources = std::make_shared<const SizeField>(std::move(sources), growth_ / refinement_, faces_[f].max_edge);
+void PlaceSizes::set_sources(FaceId f, const std::vector<SizeSite>& sources, const RunContext& context) {
+  if (!sources.empty()) faces_[f].sources = std::make_shared<const BackgroundSizes>(sources, growth_ / refinement_, faces_[f].max_edge, context);
 }
 
 double PlaceSizes::operator()(FaceId f, const Point& p) const {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "geom/model/model.h"
+#include "surfmesh/model/background_sizes.h"
 #include "surfmesh/model/edge_samples.h"
-#include "surfmesh/model/size_field.h"
 
 namespace sterna::surfmesh {
 
@@ -39,7 +39,7 @@ class PlaceSizes {
   PlaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelSizes& sizes, const SpaceSizes& asked, double refinement);
   /// Adds sources that count on this face only.
   /// \pre none of it before
-  void set_sources(FaceId f, std::vector<SizeSource> sources);
+  void set_sources(FaceId f, const std::vector<SizeSite>& sources, const RunContext& context);
 
   /// Metres: at most the face's largest edge.
   double operator()(FaceId f, const Point& p) const;
@@ -54,7 +54,7 @@ class PlaceSizes {
     double leading = 1.0, trailing = 1.0;
     bool has_strips = false;
     std::shared_ptr<const WingFactors> wing;
-    std::shared_ptr<const SizeField> sources;
+    std::shared_ptr<const BackgroundSizes> sources;
   };
   Column<FaceId, OfFace> faces_;
   std::function<double(const Point&, double)> regions_;

@@ -14,7 +14,7 @@
 #include "geom/mesh/tri_mesh.h"
 #include "geom/model/deform.h"
 #include "geom/model/model.h"
-#include "surfmesh/model/size_field.h"
+#include "surfmesh/model/background_sizes.h"
 
 namespace sterna::surfmesh {
 
@@ -66,7 +66,7 @@ struct SpaceSizes {
   /// m, for a point and the change of length by distance: growing with it, infinite where nothing is asked for. From many threads.
   std::function<double(const Point&, double)> regions;
   std::function<double(const Point&)> function;  ///< m, > 0; called by the thread that called mesh_model alone; may jump
-  std::vector<SizeSource> samples;               ///< least lengths at points
+  std::vector<SizeSite> samples;                 ///< least lengths at points
 };
 
 /// Where a vertex lies on an edge of the model; no edge: inside a face, or a corner.

@@ -45,7 +45,7 @@ struct SurfaceSizes::Builder {
   const ModelSizes& sizes;
   const RunContext& context;
   bool keeps_grids;
-  SizeField in_space;
+  BackgroundSizes in_space;
   Column<EdgeId, std::vector<Stop>> stops;
   SizeGraph graph;
 
@@ -324,13 +324,13 @@ struct SurfaceSizes::Builder {
 };
 
 SurfaceSizes::SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes,
-                           std::vector<SizeSource> in_space, const RunContext& context, bool keeps_grids)
-    : bound_({}, sizes.growth, sizes.largest), growth_(sizes.growth), largest_(sizes.largest) {
+                           std::vector<SizeSite> in_space, const RunContext& context, bool keeps_grids)
+    : bound_({}, sizes.growth, sizes.largest, context), growth_(sizes.growth), largest_(sizes.largest) {
   in_space.insert(in_space.end(), sizes.in_space.begin(), sizes.in_space.end());
-  std::vector<SizeSource> all = sizes.sources;
+  std::vector<SizeSite> all = sizes.sources;
   all.insert(all.end(), in_space.begin(), in_space.end());
-  bound_ = SizeField(std::move(all), sizes.growth, sizes.largest);
-  Builder builder{*this, model, edges, topology, sizes, context, keeps_grids, SizeField(std::move(in_space), sizes.growth, sizes.largest), {}, {}};
+  bound_ = BackgroundSizes(all, sizes.growth, sizes.largest, context);
+  Builder builder{*this, model, edges, topology, sizes, context, keeps_grids, BackgroundSizes(in_space, sizes.growth, sizes.largest, context), {}, {}};
   builder.run();
 }
 

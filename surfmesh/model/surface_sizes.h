@@ -8,10 +8,10 @@
 
 #include "geom/base/run_context.h"
 #include "geom/model/model.h"
+#include "surfmesh/model/background_sizes.h"
 #include "surfmesh/model/edge_samples.h"
 #include "surfmesh/model/face_grid.h"
 #include "surfmesh/model/model_topology.h"
-#include "surfmesh/model/size_field.h"
 
 namespace sterna::surfmesh {
 
@@ -24,7 +24,7 @@ class SurfaceSizes {
   /// `in_space`: sources that count on all faces within their reach, besides those of `sizes`. With `keeps_grids` the nodes of grid() stay, and cells are no
   /// longer than two edges everywhere.
   SurfaceSizes(const Model& model, const Column<EdgeId, EdgeSamples>& edges, const ModelTopology& topology, const ModelSizes& sizes,
-               std::vector<SizeSource> in_space, const RunContext& context, bool keeps_grids = false);
+               std::vector<SizeSite> in_space, const RunContext& context, bool keeps_grids = false);
 
   /// Metres, from many threads.
   /// \pre the face is not absorbed
@@ -57,7 +57,7 @@ class SurfaceSizes {
   };
   struct Builder;
 
-  SizeField bound_;
+  BackgroundSizes bound_;
   double growth_ = 0.0, largest_ = 0.0;
   Column<FaceId, FaceField> faces_;
   Column<EdgeId, std::vector<Station>> edges_;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "geom/base/run_context.h"
-#include "geom/math/intersect.h"
+#include "geom/mesh/find_crossings.h"
 #include "surfmesh/stitch/edge_table.h"
 #include "surfmesh/stitch/orient.h"
 #include "surfmesh/stitch/stitch_surface.h"

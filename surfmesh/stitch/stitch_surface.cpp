@@ -3,7 +3,7 @@
 #include "surfmesh/stitch/stitch_surface.h"
 
 #include "geom/base/error.h"
-#include "geom/math/intersect.h"
+#include "geom/mesh/find_crossings.h"
 #include "surfmesh/stitch/clean_facets.h"
 #include "surfmesh/stitch/defect_errors.h"
 #include "surfmesh/stitch/edge_table.h"

@@ -16,9 +16,10 @@
 #include <string>
 #include <vector>
 
-#include "geom/math/intersect.h"
+#include "geom/mesh/find_crossings.h"
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
+#include "tests/support/envelope_surface.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/certificate.h"
 #include "volmesh/envelope/nlopt_optimise.h"
@@ -125,7 +126,7 @@ void run(const std::string& path, const TriMesh& wall, int threads, const Settin
   row.timed("envelope", n, "triangles", [&] { envelope = build_envelope(*base, options, *collider, context); });
   row.timed("certificate of the envelope", n, "triangles", [&] { proof = certify_envelope(*base, *collider, envelope, context); });
   collider.reset();
-  const EnvelopeSurface surface = envelope_surface(*base, envelope, context);
+  const test::EnvelopeSurface surface = test::envelope_surface(*base, envelope, context);
   if (settings.n_nlopt > 0) time_optimisers(row, *base, options, settings.n_nlopt, context);
   row.timed("one exact self-intersection pass", n, "triangles", [&] { crossings = find_crossings(surface.points, surface.triangles, context); });
   row.timed("extrusion", n_prisms, "prisms", [&] { extrusion = extrude_prisms(*base, options, prisms, envelope, context); });

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "geom/base/error.h"
-#include "geom/math/intersect.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/find_crossings.h"
 #include "geom/mesh/topology.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/shapes.h"

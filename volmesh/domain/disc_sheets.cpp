@@ -12,9 +12,9 @@
 
 #include "geom/base/error.h"
 #include "geom/base/number_text.h"
-#include "geom/math/intersect.h"
+#include "geom/mesh/find_crossings.h"
 #include "geom/mesh/sheets.h"
-#include "volmesh/tetra/size_sites.h"
+#include "geom/mesh/size_sites.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -224,10 +224,23 @@ void require_own_names(const std::vector<ActuatorDisc>& discs, const Column<Patc
   }
 }
 
+void require_clear(const ActuatorDisc& disc, std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t n_own,
+                   const std::function<const std::string&(std::size_t)>& patch_of, const std::string& apart_from, const RunContext& context) {
+  ErrorInfo error = problem_with(disc, ErrorCode::self_intersection, "", "a disc may end on walls with layers only: leave a gap to everything else");
+  for (const auto& [a, b] : find_crossings(points, triangles, context).pairs) {
+    if ((a < n_own) == (b < n_own)) continue;
+    const auto& t = triangles[std::min(a, b)];
+    error.add_place((points[t[0]] + points[t[1]] + points[t[2]]) / 3.0, "the disc meets patch \"" + patch_of(std::max(a, b) - n_own) + "\"");
+  }
+  if (error.n_places == 0) return;
+  error.problem = std::to_string(error.n_places) + " pairs of its triangles and others meet" + apart_from;
+  throw Error(std::move(error));
+}
+
 namespace {
 
-/// Where triangles of the sheet cross others, all meshes by indices of their own.
-void require_clear(const ActuatorDisc& disc, const TriMesh& sheet, const TriMesh& others, const RunContext& context) {
+/// The same of a sheet and a mesh, all by indices of their own.
+void require_sheet_clear(const ActuatorDisc& disc, const TriMesh& sheet, const TriMesh& others, const RunContext& context) {
   std::vector<Vec3> points(sheet.points.begin(), sheet.points.end());
   points.insert(points.end(), others.points.begin(), others.points.end());
   Box box;
@@ -247,21 +260,8 @@ void require_clear(const ActuatorDisc& disc, const TriMesh& sheet, const TriMesh
     triangles.push_back({n_sheet + v[0].value(), n_sheet + v[1].value(), n_sheet + v[2].value()});
     sources.push_back(t);
   }
-  ErrorInfo error;
-  for (const auto& [a, b] : find_crossings(points, triangles, context).pairs) {
-    if ((a < n_own) == (b < n_own)) continue;
-    ++error.n_places;
-    if (error.places.size() == k_max_places) continue;
-    const TriangleId other = sources[std::max(a, b) - n_own];
-    const auto [p, q, r] = corners(sheet, TriangleId(std::min(a, b)));
-    error.places.push_back({(p + q + r) / 3.0, "the disc meets patch \"" + others.patches[others.triangle_patch[other]].name + "\""});
-  }
-  if (error.n_places == 0) return;
-  ErrorInfo info = problem_with(disc, ErrorCode::self_intersection, std::to_string(error.n_places) + " pairs of its triangles and others meet",
-                                "a disc may end on walls with layers only: leave a gap to everything else");
-  info.places = std::move(error.places);
-  info.n_places = error.n_places;
-  throw Error(std::move(info));
+  const auto patch_of = [&](std::size_t i) -> const std::string& { return others.patches[others.triangle_patch[sources[i]]].name; };
+  require_clear(disc, points, triangles, n_own, patch_of, "", context);
 }
 
 /// Vertices on the border of the part of a mesh that these triangles are.
@@ -290,7 +290,7 @@ TriMesh with_discs(TriMesh outer, const TriMesh& walls, const std::vector<Actuat
   append(so_far, walls);
   for (const ActuatorDisc& disc : discs) {
     const TriMesh sheet = triangulate_disc(disc, walls, growth, context);
-    require_clear(disc, sheet, so_far, context);
+    require_sheet_clear(disc, sheet, so_far, context);
     append(so_far, sheet);
     append(outer, sheet);
   }

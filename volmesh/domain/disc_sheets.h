@@ -1,7 +1,10 @@
 // Actuator discs as triangles, and in the outer boundary.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,6 +32,12 @@ void require_own_names(const std::vector<ActuatorDisc>& discs, const Column<Patc
 std::vector<Point> rim_polygon(const ActuatorDisc& disc, double radius, const TriMesh& walls, double growth, const RunContext& context);
 /// The longest edge at a place of the disc, m: `edge`, or less near walls. One thread at a time.
 std::function<double(const Point&)> disc_sizes(const ActuatorDisc& disc, const TriMesh& walls, double growth, const RunContext& context);
+
+/// Triangles of a disc, the first `n_own`, and others meet in nothing but what their shared vertices require.
+/// \p patch_of: name of the patch of each of the others, counted from 0; \p apart_from: what follows "meet" where meeting is right in places
+/// \throws Error(self_intersection) with places
+void require_clear(const ActuatorDisc& disc, std::span<const Vec3> points, std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t n_own,
+                   const std::function<const std::string&(std::size_t)>& patch_of, const std::string& apart_from, const RunContext& context);
 
 /// The outer boundary with one side of each disc, the upstream one, behind its own triangles: what layers keep clear of.
 /// \p walls: those with layers, for sizes

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <queue>
 #include <string>
 
 #include "geom/base/error.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/topology.h"
 #include "volmesh/domain/flat_patch.h"
+#include "volmesh/domain/wall_reach.h"
 #include "volmesh/envelope/constrain_rims.h"
 
 namespace sterna::volmesh {
@@ -21,8 +21,6 @@ namespace {
 constexpr double k_chain_sine = 1e-3;      ///< planes at a smaller angle have their line along their common edge
 constexpr double k_forward_cosine = 0.02;  ///< a line along which a layer grows leads away from the wall at least as steeply
 constexpr double k_open_cosine = 0.1;      ///< between a wall's normal and the way into the patch beyond: below, the fluid's angle there is above 174 degrees
-constexpr double k_near_edges = 8.0;       ///< mean edges at a vertex: a layer is not thicker by much, nor does it reach farther along the wall
-constexpr std::uint8_t k_max_masked = 64;  ///< surfaces that a mask has bits for
 
 ErrorInfo error(ErrorCode code, std::string problem, std::string hint) {
   return {.code = code, .attempted = "volume_mesh", .problem = std::move(problem), .hint = std::move(hint)};
@@ -86,9 +84,9 @@ struct RimFan {
   std::vector<HalfedgeId> changes;  ///< of the surface, start at the vertex; one less than patches
 };
 
-class Splitter {
+class DomainSplitter {
  public:
-  Splitter(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, std::span<const PeriodicPatches> periodic, const RunContext& context)
+  DomainSplitter(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, std::span<const PeriodicPatches> periodic, const RunContext& context)
       : surface_(surface), has_layer_(has_layer), periodic_(periodic), context_(context), topology_(surface, context) {}
 
   Domain split() {
@@ -234,19 +232,19 @@ class Splitter {
       if (is_convex[v]) constraint.freedom = Freedom::fixed;
     }
     share_freedoms();
-    std::size_t n_fast = 0;
-    Point fast;
+    std::size_t n_fixed_rim = 0;
+    Point fixed_rim;
     for (const VertexId on_surface : vertices) {
       const VertexId v = wall_.surface2part[on_surface];
       if (domain_.constraints.vertex[v].freedom != Freedom::fixed) continue;
-      ++n_fast;
-      fast = wall_.mesh.points[v];
+      ++n_fixed_rim;
+      fixed_rim = wall_.mesh.points[v];
     }
-    if (n_fast > 0)
-      context_.warn("no layer at " + std::to_string(n_fast) +
+    if (n_fixed_rim > 0)
+      context_.warn("no layer at " + std::to_string(n_fixed_rim) +
                     " rim vertices, where more than two patches without layers meet the wall, or where its layer would leave the patch beyond (a wall that "
                     "ends at an outer edge, as a nacelle at the border of its nozzle); one is at " +
-                    format_point(fast));
+                    format_point(fixed_rim));
     for (std::size_t i = 0; i < fans.size(); ++i) add_chain(fans[i], vertices[i]);
     mark_near();
   }
@@ -381,42 +379,16 @@ class Splitter {
   /// Vertices from which a layer can reach an end patch along the wall; a plane of symmetry concerns all.
   void mark_near() {
     domain_.constraints.near.assign(wall_.mesh.n_vertices(), 0);
-    Column<VertexId, double> mean_edge(wall_.mesh.n_vertices(), 0.0);
-    Column<VertexId, std::uint32_t> n_edges(wall_.mesh.n_vertices(), 0);
-    std::vector<std::vector<std::pair<VertexId, double>>> neighbours(wall_.mesh.n_vertices());
-    for (const TriangleVertices& t : wall_.mesh.triangles) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const VertexId a = t[k], b = t[(k + 1) % 3];
-        const double length = distance(wall_.mesh.points[a], wall_.mesh.points[b]);
-        neighbours[a.index()].emplace_back(b, length);
-        neighbours[b.index()].emplace_back(a, length);
-        mean_edge[a] += length;
-        mean_edge[b] += length;
-        ++n_edges[a];
-        ++n_edges[b];
-      }
-    }
-    for (const VertexId v : mean_edge.ids()) mean_edge[v] /= std::max(n_edges[v], 1u);
+    const WallReach reach(wall_.mesh);
     for (const EndPatch& end : domain_.ends) {
-      if (end.surface >= k_max_masked) continue;  // the collider sees these still
-      const std::uint64_t bit = std::uint64_t{1} << end.surface;
       if (outer_.mesh.patches[end.patch].kind == PatchKind::symmetry) {
-        for (std::uint64_t& mask : domain_.constraints.near) mask |= bit;
+        for (std::uint64_t& mask : domain_.constraints.near) mask |= end.surface < k_max_masked ? std::uint64_t{1} << end.surface : 0;
         continue;
       }
-      using Entry = std::pair<double, std::uint32_t>;
-      std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+      std::vector<VertexId> from;
       for (const VertexId v : domain_.constraints.vertex.ids())
-        if (domain_.constraints.vertex[v].is_on(static_cast<std::size_t>(end.surface))) queue.emplace(0.0, v.value());
-      while (!queue.empty()) {
-        const auto [reached, number] = queue.top();
-        queue.pop();
-        const VertexId v(number);
-        if ((domain_.constraints.near[v] & bit) != 0 || reached > k_near_edges * mean_edge[v]) continue;
-        domain_.constraints.near[v] |= bit;
-        for (const auto& [other, length] : neighbours[v.index()])
-          if ((domain_.constraints.near[other] & bit) == 0) queue.emplace(reached + length, other.value());
-      }
+        if (domain_.constraints.vertex[v].is_on(static_cast<std::size_t>(end.surface))) from.push_back(v);
+      reach.mark(from, end.surface, {}, domain_.constraints.near);
     }
   }
 
@@ -433,7 +405,7 @@ class Splitter {
 
 Domain split_domain(const TriMesh& surface, const Column<PatchId, std::uint8_t>& has_layer, const RunContext& context,
                     std::span<const PeriodicPatches> periodic) {
-  return Splitter(surface, has_layer, periodic, context).split();
+  return DomainSplitter(surface, has_layer, periodic, context).split();
 }
 
 }  // namespace sterna::volmesh

@@ -202,10 +202,4 @@ Constraints constraints_of_rims(const TriMesh& wall, const Topology& topology) {
   return constraints_of_planes(wall, topology, planes);
 }
 
-void snap_to_surfaces(const Constraints& constraints, TriMesh& wall) {
-  for (const VertexId v : constraints.vertex.ids())
-    for (const std::int32_t k : constraints.vertex[v].on)
-      if (k >= 0) wall.points[v] = constraints.surfaces[static_cast<std::size_t>(k)]->closest(wall.points[v]);
-}
-
 }  // namespace sterna::volmesh

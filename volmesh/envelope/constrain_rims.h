@@ -20,7 +20,4 @@ Constraints constraints_of_planes(const TriMesh& wall, const Topology& topology,
 /// \throws as above; the error names how many rims there are, and where the edges are that lie in no such plane.
 Constraints constraints_of_rims(const TriMesh& wall, const Topology& topology);
 
-/// Moves boundary vertices, by k_rim_tolerance at most, exactly onto their planes; the wall's files may have them only nearly there.
-void snap_to_surfaces(const Constraints& constraints, TriMesh& wall);
-
 }  // namespace sterna::volmesh

@@ -40,10 +40,7 @@ class LayerObjective {
 
   std::size_t size() const { return h_u_.size(); }
   bool is_moving(std::size_t v) const { return is_moving_[v] != 0; }
-  /// Standing elements with a moving corner.
-  bool is_element(std::size_t t) const { return is_element_[t] != 0; }
-  double upper(std::size_t v) const { return h_u_[v]; }              ///< h_u, m
-  double lower_share(std::size_t v) const { return h_l_share_[v]; }  ///< lower bound over h_u
+  double upper(std::size_t v) const { return h_u_[v]; }  ///< h_u, m
   std::size_t n_moving() const { return n_moving_; }
   Vec3Field unknowns(const Envelope& envelope) const;
   /// Writes directions and heights of the moving vertices.

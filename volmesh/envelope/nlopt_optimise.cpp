@@ -161,7 +161,7 @@ std::size_t go_back(const LayerBase& base, const PaperProblem& problem, const En
   Column<VertexId, std::uint8_t> dirty(n, 1), n_halvings(n, 0);
   std::size_t n_back = 0;
   while (true) {
-    const std::vector<TriangleId> bad = poor_macros(base, optimised, least_quality, dirty, context);
+    const std::vector<TriangleId> bad = low_quality_elements(base, optimised, least_quality, dirty, context);
     dirty.assign(n, 0);
     bool has_moved = false;
     for (const TriangleId t : bad) {

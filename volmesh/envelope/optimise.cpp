@@ -108,7 +108,7 @@ std::size_t take_back(const LayerBase& base, const Envelope& start, double limit
   std::size_t n_back = 0;
   Column<VertexId, std::uint8_t> dirty(n, 1);
   while (true) {
-    const std::vector<TriangleId> bad = poor_macros(base, envelope, limit, dirty, context);
+    const std::vector<TriangleId> bad = low_quality_elements(base, envelope, limit, dirty, context);
     dirty.assign(n, 0);
     bool has_changed = false;
     for (const TriangleId t : bad) {

@@ -48,11 +48,4 @@ std::vector<VertexId> apply_where_clear(const LayerBase& base, Collider& collide
 std::vector<VertexId> apply_where_clear(const LayerBase& base, Collider& collider, EnvelopeShape& envelope, const EnvelopeShape& proposal,
                                         const RunContext& context, double clearance = k_clearance);
 
-/// The envelope as an indexed triangle set: points = wall points, then one envelope point per vertex; corners of collapsed vertices refer to the wall.
-struct EnvelopeSurface {
-  std::vector<Vec3> points;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-};
-EnvelopeSurface envelope_surface(const LayerBase& base, const EnvelopeShape& envelope, const RunContext& context);
-
 }  // namespace sterna::volmesh

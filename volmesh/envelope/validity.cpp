@@ -74,8 +74,8 @@ double scaled_jacobian(const MacroElement& e) {
   return wedge_quality(p);
 }
 
-std::vector<TriangleId> poor_macros(const LayerBase& base, const EnvelopeShape& shape, double least_quality, const Column<VertexId, std::uint8_t>& marked,
-                                    const RunContext& context) {
+std::vector<TriangleId> low_quality_elements(const LayerBase& base, const EnvelopeShape& shape, double least_quality,
+                                             const Column<VertexId, std::uint8_t>& marked, const RunContext& context) {
   using List = std::vector<TriangleId>;
   return parallel_reduce(
       context, base.wall.n_triangles(), List{},

@@ -25,8 +25,8 @@ bool is_prism(const MacroElement& element);
 /// Quality of a macro-element that is a prism (wedge_quality).
 double scaled_jacobian(const MacroElement& element);
 /// Triangles with a marked corner whose macro-element is not valid or, being a prism, of a lower quality than `least_quality`; ascending.
-std::vector<TriangleId> poor_macros(const LayerBase& base, const EnvelopeShape& shape, double least_quality, const Column<VertexId, std::uint8_t>& marked,
-                                    const RunContext& context);
+std::vector<TriangleId> low_quality_elements(const LayerBase& base, const EnvelopeShape& shape, double least_quality,
+                                             const Column<VertexId, std::uint8_t>& marked, const RunContext& context);
 
 /// Triangles whose macro-element is not valid, ascending. With `around`, only triangles at these vertices are looked at.
 std::vector<TriangleId> invalid_macros(const LayerBase& base, const EnvelopeShape& shape, const RunContext& context,
@@ -47,7 +47,6 @@ class TrialChange {
   /// Puts the change in force wherever it is_inside(). `base` and `shape` must outlive this.
   TrialChange(const LayerBase& base, EnvelopeShape& shape, ShapeChange change, const RunContext& context);
 
-  bool is_in_force(VertexId v) const { return is_in_force_[v] != 0; }
   const Column<VertexId, std::uint8_t>& in_force() const { return is_in_force_; }
   std::vector<VertexId> vertices_in_force() const;
   /// False when the change is not in force there.

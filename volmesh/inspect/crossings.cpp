@@ -1,6 +1,6 @@
 // Pairs of triangles that cross or touch, by the exact test.
-#include "geom/math/intersect.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/find_crossings.h"
 #include "volmesh/inspect/survey.h"
 
 namespace sterna::volmesh {

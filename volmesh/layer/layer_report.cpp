@@ -54,11 +54,11 @@ std::vector<std::pair<std::string, double>> shares_of(const Areas& areas) {
   return shares;
 }
 
-std::vector<PatchCoverage> cover_patches(const LayerBase& base, const Classifier& classifier) {
+std::vector<PatchLayerReport> cover_patches(const LayerBase& base, const Classifier& classifier) {
   std::vector<Areas> areas(base.wall.patches.size());
   for (const TriangleId t : base.wall.triangles.ids())
     for (const VertexId v : base.wall.triangles[t]) classifier.add(v, base.area[t] / 3.0, areas[base.wall.triangle_patch[t].index()]);
-  std::vector<PatchCoverage> patches;
+  std::vector<PatchLayerReport> patches;
   for (const PatchId p : base.wall.patches.ids()) {
     const Areas& own = areas[p.index()];
     const auto share = [&own](double part) { return own.all > 0.0 ? part / own.all : 0.0; };

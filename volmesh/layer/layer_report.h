@@ -15,7 +15,7 @@
 namespace sterna::volmesh {
 
 /// Shares of a patch's area, by its triangles' corners. The rest has less than its full height, but its first height.
-struct PatchCoverage {
+struct PatchLayerReport {
   std::string name;
   double area = 0.0;                                      ///< m^2
   double full = 0.0;                                      ///< h >= 0.9 h_target
@@ -46,7 +46,7 @@ struct LayerReport {
   std::vector<std::pair<std::string, double>> lost_area;  ///< share of wall area below 0.9 h_target by reason, largest first
   double compressed_area = 0.0;                           ///< share of the wall area
   double collapsed_area = 0.0;                            ///< share of the wall area
-  std::vector<PatchCoverage> patches;                     ///< in the wall's order
+  std::vector<PatchLayerReport> patches;                  ///< in the wall's order
   std::vector<ErrorPlace> collapsed;                      ///< each collapsed vertex: place, patch and reason
   std::vector<ErrorPlace> compressed;  ///< the lowest standing vertices below n h0 (k_listed_compressed at most): place, patch, height and reason
   FirstNodeReport first_node;          ///< how far the first nodes are off the wall

@@ -39,7 +39,7 @@ void number_rings(const LayerBase& base, Column<VertexId, std::uint8_t>& ring) {
 }
 
 /// Another height and direction for one vertex. Collapsed vertices and constrained directions stay.
-void calm(const LayerBase& base, const Envelope& envelope, VertexId v, double share, EnvelopeShape& proposal) {
+void lower_and_smooth(const LayerBase& base, const Envelope& envelope, VertexId v, double share, EnvelopeShape& proposal) {
   if (envelope.is_collapsed(v)) return;
   double height = envelope.height[v];
   Vec3 direction = envelope.direction[v];
@@ -64,7 +64,7 @@ std::vector<VertexId> repair_envelope(const LayerBase& base, const FillBoundary&
   number_rings(base, ring);
   EnvelopeShape proposal = envelope;
   for (const VertexId v : ring.ids())
-    if (ring[v] != k_far) calm(base, envelope, v, k_lowered + (1.0 - k_lowered) * ring[v] / (k_rings + 1.0), proposal);
+    if (ring[v] != k_far) lower_and_smooth(base, envelope, v, k_lowered + (1.0 - k_lowered) * ring[v] / (k_rings + 1.0), proposal);
   return apply_where_clear(base, collider, envelope, proposal, context, 1.0);
 }
 

@@ -40,9 +40,9 @@ struct PartHalf {
   friend bool operator<(const PartHalf& a, const PartHalf& b) { return a.from != b.from ? a.from < b.from : a.to != b.to ? a.to < b.to : a.id < b.id; }
 };
 
-class Splitter {
+class CurvedEndSplitter {
  public:
-  Splitter(const EndRegion& region, EndTriangles& result, const RunContext& context)
+  CurvedEndSplitter(const EndRegion& region, EndTriangles& result, const RunContext& context)
       : region_(region), mesh_(*region.original), result_(result), context_(context), tree_(mesh_, context), n_(mesh_.n_triangles()) {}
 
   std::vector<EndPart> split() {
@@ -116,7 +116,7 @@ class Splitter {
   std::vector<std::vector<TriangleId>> cuts_;  ///< each one part
 };
 
-void Splitter::match() {
+void CurvedEndSplitter::match() {
   const auto less = [](const Point& a, const Point& b) { return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z; };
   std::vector<std::uint32_t> order;
   for (const EndEdge& edge : region_.edges) order.push_back(edge[0]);
@@ -151,7 +151,7 @@ void Splitter::match() {
   std::set_difference(edges.begin(), edges.end(), border.begin(), border.end(), std::back_inserter(footprints_));
 }
 
-void Splitter::find_pieces() {
+void CurvedEndSplitter::find_pieces() {
   piece_.assign(n_, k_no_part);
   std::vector<std::uint32_t> stack;
   for (std::uint32_t seed = 0; seed < n_; ++seed) {
@@ -180,14 +180,14 @@ void Splitter::find_pieces() {
   }
 }
 
-void Splitter::check_normals() const {
+void CurvedEndSplitter::check_normals() const {
   ErrorInfo info = end_error(region_, ErrorCode::bad_argument, "triangles of the patch look against the surface's normals");
   for (std::uint32_t t = 0; t < n_; ++t)
     if (is_touched_[piece_[t]] != 0 && dot(normal(t), region_.surface->normal(centre(t))) < 0.0) info.add_place(centre(t), "centre of a triangle");
   if (info.n_places > 0) throw Error(std::move(info));
 }
 
-Vec3 Splitter::mean_normal(std::span<const TriangleId> triangles) const {
+Vec3 CurvedEndSplitter::mean_normal(std::span<const TriangleId> triangles) const {
   Vec3 sum{};
   for (const TriangleId t : triangles) {
     const auto [a, b, c] = corners(mesh_, t);
@@ -196,12 +196,12 @@ Vec3 Splitter::mean_normal(std::span<const TriangleId> triangles) const {
   return normalized(sum);
 }
 
-bool Splitter::has_projection(std::span<const TriangleId> triangles) const {
+bool CurvedEndSplitter::has_projection(std::span<const TriangleId> triangles) const {
   const Vec3 mean = mean_normal(triangles);
   return std::all_of(triangles.begin(), triangles.end(), [&](TriangleId t) { return dot(normal(t.value()), mean) >= k_steepest; });
 }
 
-std::vector<std::vector<TriangleId>> Splitter::connected(const std::vector<std::uint32_t>& triangles, State state) const {
+std::vector<std::vector<TriangleId>> CurvedEndSplitter::connected(const std::vector<std::uint32_t>& triangles, State state) const {
   std::vector<std::vector<TriangleId>> groups;
   std::vector<std::uint8_t> is_seen(n_, 0);
   std::vector<std::uint32_t> stack;
@@ -227,7 +227,7 @@ std::vector<std::vector<TriangleId>> Splitter::connected(const std::vector<std::
   return groups;
 }
 
-void Splitter::choose_cut(std::uint32_t piece) {
+void CurvedEndSplitter::choose_cut(std::uint32_t piece) {
   context_.check_stop();
   std::vector<std::uint32_t> triangles;
   std::vector<TriangleId> ids;
@@ -261,7 +261,7 @@ void Splitter::choose_cut(std::uint32_t piece) {
 }
 
 /// Triangles that a footprint touches or is near to, triangles with replaced border, and some rings around: are their connected groups projectable?
-bool Splitter::try_reach(std::uint32_t piece, const std::vector<std::uint32_t>& triangles, Reach reach) {
+bool CurvedEndSplitter::try_reach(std::uint32_t piece, const std::vector<std::uint32_t>& triangles, Reach reach) {
   for (const std::uint32_t t : triangles) {
     state_[t] = State::kept;
     for (std::uint32_t h = 3 * t; h < 3 * t + 3; ++h)
@@ -298,7 +298,7 @@ bool Splitter::try_reach(std::uint32_t piece, const std::vector<std::uint32_t>& 
 }
 
 /// Where a triangle is, seen from the nearest footprint edge of its piece. At an end of edges the mean of both sides counts.
-Splitter::Side Splitter::side_of(std::uint32_t t) const {
+CurvedEndSplitter::Side CurvedEndSplitter::side_of(std::uint32_t t) const {
   const Point p = centre(t);
   Side result;
   Vec3 inwards{};
@@ -321,7 +321,7 @@ Splitter::Side Splitter::side_of(std::uint32_t t) const {
   return result;
 }
 
-void Splitter::drop_covered(const std::vector<std::uint32_t>& triangles) {
+void CurvedEndSplitter::drop_covered(const std::vector<std::uint32_t>& triangles) {
   for (const std::vector<TriangleId>& group : connected(triangles, State::kept)) {
     // Its triangle beside the cut that is nearest to a footprint says on which side of that all of it is.
     Side side;
@@ -336,7 +336,7 @@ void Splitter::drop_covered(const std::vector<std::uint32_t>& triangles) {
   }
 }
 
-std::uint32_t Splitter::number_of(std::uint32_t vertex) {
+std::uint32_t CurvedEndSplitter::number_of(std::uint32_t vertex) {
   if (point_[vertex] == k_no_part) {
     point_[vertex] = static_cast<std::uint32_t>(region_.points.size() + result_.new_points.size());
     result_.new_points.push_back(mesh_.points[VertexId(vertex)]);
@@ -344,7 +344,7 @@ std::uint32_t Splitter::number_of(std::uint32_t vertex) {
   return point_[vertex];
 }
 
-void Splitter::keep() {
+void CurvedEndSplitter::keep() {
   for (std::uint32_t t = 0; t < n_; ++t) {
     if (state_[t] != State::kept) continue;
     const TriangleVertices& v = mesh_.triangles[TriangleId(t)];
@@ -353,7 +353,7 @@ void Splitter::keep() {
   result_.n_kept = static_cast<std::int64_t>(result_.triangles.size());
 }
 
-EndPart Splitter::make_part(const std::vector<TriangleId>& cut) {
+EndPart CurvedEndSplitter::make_part(const std::vector<TriangleId>& cut) {
   EndPart part;
   part.triangles = cut;
   Box box;
@@ -372,7 +372,7 @@ EndPart Splitter::make_part(const std::vector<TriangleId>& cut) {
 }
 
 /// The distance of two triangles' centres across an edge, for the angle between them, grown to the angle that is allowed.
-void Splitter::add_curvature_sizes(TriangleId t, EndPart& part) const {
+void CurvedEndSplitter::add_curvature_sizes(TriangleId t, EndPart& part) const {
   double size = std::numeric_limits<double>::infinity();
   for (std::uint32_t h = 3 * t.value(); h < 3 * t.value() + 3; ++h) {
     if (twin_[h] == k_no_part || piece_[twin_[h] / 3] != piece_[t.index()]) continue;
@@ -389,7 +389,7 @@ void Splitter::add_curvature_sizes(TriangleId t, EndPart& part) const {
   if (std::isfinite(size)) part.curvature_sizes.push_back({centre(t.value()), size});
 }
 
-void Splitter::assign_footprints(std::vector<EndPart>& parts) {
+void CurvedEndSplitter::assign_footprints(std::vector<EndPart>& parts) {
   std::vector<std::uint32_t> part_of(n_, k_no_part);
   for (std::uint32_t i = 0; i < parts.size(); ++i)
     for (const TriangleId t : parts[i].triangles) part_of[t.index()] = i;
@@ -399,7 +399,7 @@ void Splitter::assign_footprints(std::vector<EndPart>& parts) {
 }  // namespace
 
 std::vector<EndPart> split_curved(const EndRegion& region, EndTriangles& result, const RunContext& context) {
-  return Splitter(region, result, context).split();
+  return CurvedEndSplitter(region, result, context).split();
 }
 
 }  // namespace sterna::volmesh

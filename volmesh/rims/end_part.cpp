@@ -1,5 +1,5 @@
 // 1. closed_loops   edges to loops
-// 2. loop_sizes     what edges of the loops, and curvature, allow around them
+// 2. places_of      what edges of the loops, and curvature, allow around them
 // 3. mesh_face      of geom/delaunay, in the part's plane
 // 4. prove          edges, senses, Euler number, positive areas
 #include "volmesh/rims/end_part.h"
@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "geom/delaunay/face_mesh.h"
 #include "geom/math/predicates.h"
@@ -16,6 +17,7 @@
 namespace sterna::volmesh {
 namespace {
 
+constexpr double k_size_tolerance = 0.02;  ///< of a size at the centre of a circular loop, whose points are all as near
 constexpr const char* k_crossing_hint =
     "footprints of layers may not overlap, nor leave the patch: lower max_thickness of the layers that end here, move the bodies apart, or make the patch "
     "larger";
@@ -45,9 +47,9 @@ void check_places(const EndRegion& region, const EndTriangles& result, std::span
   if (info.n_places > 0) throw Error(std::move(info));
 }
 
-std::vector<SizePlace> places_of(const EndRegion& region, const EndTriangles& result, const EndPart& part) {
+std::vector<SizeSite> places_of(const EndRegion& region, const EndTriangles& result, const EndPart& part) {
   const std::vector<std::uint32_t> used = used_points(part.edges);
-  std::vector<SizePlace> places(used.size());
+  std::vector<SizeSite> places(used.size());
   std::vector<double> n(used.size(), 0.0);
   for (const EndEdge& edge : part.edges) {
     const double length = distance(point_of(region, result, edge[0]), point_of(region, result, edge[1]));
@@ -62,6 +64,8 @@ std::vector<SizePlace> places_of(const EndRegion& region, const EndTriangles& re
     places[k].point = point_of(region, result, used[k]);
   }
   places.insert(places.end(), part.curvature_sizes.begin(), part.curvature_sizes.end());
+  // What is found within the tolerance depends on the order of the sites: so not on how points are numbered.
+  std::ranges::sort(places, {}, [](const SizeSite& s) { return std::tuple(s.point.x, s.point.y, s.point.z, s.size); });
   return places;
 }
 
@@ -184,8 +188,11 @@ void mesh_part(const EndRegion& region, const EndPart& part, const EndOptions& o
   }
   check_places(region, result, part.edges);
   const PartBorder border = border_of(region, result, part);
-  const LoopSizes grown(places_of(region, result, part), options.size_growth - 1.0);
-  const delaunay::SizeFunction size = [&](Uv, const Point& p) { return region.size ? std::min(grown(p), region.size(p)) : grown(p); };
+  const SizeSites grown(places_of(region, result, part), options.size_growth - 1.0, context);
+  const delaunay::SizeFunction size = [&](Uv, const Point& p) {
+    const double by_loops = grown.smallest(p, {.tolerance = k_size_tolerance});
+    return region.size ? std::min(by_loops, region.size(p)) : by_loops;
+  };
   delaunay::FaceMeshOptions face_options;
   face_options.size_growth = options.size_growth - 1.0;
   face_options.min_angle = options.min_angle;

@@ -8,9 +8,9 @@
 
 #include "geom/base/error.h"
 #include "geom/base/run_context.h"
+#include "geom/mesh/size_sites.h"
 #include "volmesh/rims/end_chart.h"
 #include "volmesh/rims/end_surface.h"
-#include "volmesh/rims/loop_sizes.h"
 
 namespace sterna::volmesh {
 
@@ -20,8 +20,8 @@ using EndEdge = std::array<std::uint32_t, 2>;
 struct EndPart {
   std::vector<EndEdge> edges;
   EndFrame frame;
-  std::vector<TriangleId> triangles;       ///< of the original, that cover it; empty: a plane
-  std::vector<SizePlace> curvature_sizes;  ///< what the surface's curvature allows
+  std::vector<TriangleId> triangles;      ///< of the original, that cover it; empty: a plane
+  std::vector<SizeSite> curvature_sizes;  ///< what the surface's curvature allows
 };
 
 /// A point of the region, or of those that came later.

@@ -2,20 +2,16 @@
 
 #include <algorithm>
 #include <map>
-#include <queue>
 #include <utility>
 
 #include "geom/base/columns.h"
 #include "geom/base/error.h"
-#include "geom/math/intersect.h"
 #include "volmesh/domain/disc_plane.h"
 #include "volmesh/domain/disc_sheets.h"
+#include "volmesh/domain/wall_reach.h"
 
 namespace sterna::volmesh {
 namespace {
-
-constexpr double k_near_edges = 8.0;       ///< mean edges at a vertex: a layer does not reach farther along the wall (as on end patches, domain_parts.cpp)
-constexpr std::int32_t k_max_masked = 64;  ///< surfaces that a mask has bits for
 
 /// One side of a disc, upstream, between its outlines and free rims.
 struct Sheet {
@@ -95,7 +91,7 @@ Sheet make_sheet(const TriMesh& wall, const DiscSlit& slit, const ActuatorDisc& 
 }
 
 /// The sheet meets walls in its outlines and nothing else.
-void require_clear(const ActuatorDisc& disc, const Sheet& sheet, const Domain& domain, const RunContext& context) {
+void require_sheet_clear(const ActuatorDisc& disc, const Sheet& sheet, const Domain& domain, const RunContext& context) {
   std::vector<Vec3> points(domain.wall.points.begin(), domain.wall.points.end());
   const auto n_wall = static_cast<std::uint32_t>(points.size());
   points.insert(points.end(), domain.outer.points.begin(), domain.outer.points.end());
@@ -116,35 +112,21 @@ void require_clear(const ActuatorDisc& disc, const Sheet& sheet, const Domain& d
     }
     triangles.push_back(corner);
   }
-  const std::size_t n_own = sheet.triangles.size();
-  ErrorInfo error{.code = ErrorCode::self_intersection, .attempted = "making actuator disc \"" + disc.name + "\""};
-  for (const auto& [a, b] : find_crossings(points, triangles, context).pairs) {
-    if ((a < n_own) == (b < n_own)) continue;
-    ++error.n_places;
-    if (error.places.size() == k_max_places) continue;
-    const std::size_t other = std::max(a, b) - n_own, n_of_wall = domain.wall.n_triangles();
-    const std::string& name = other < n_of_wall ? domain.wall.patches[domain.wall.triangle_patch[TriangleId(other)]].name
-                                                : domain.outer.patches[domain.outer.triangle_patch[TriangleId(other - n_of_wall)]].name;
-    const auto& t = triangles[std::min(a, b)];
-    error.places.push_back({(points[t[0]] + points[t[1]] + points[t[2]]) / 3.0, "the disc meets patch \"" + name + "\""});
-  }
-  if (error.n_places == 0) return;
-  error.problem = std::to_string(error.n_places) + " pairs of its triangles and others meet away from where walls with layers go through it";
-  error.hint = "a disc may end on walls with layers only: leave a gap to everything else";
-  throw Error(std::move(error));
+  const auto patch_of = [&](std::size_t i) -> const std::string& {
+    const std::size_t n_of_wall = domain.wall.n_triangles();
+    return i < n_of_wall ? domain.wall.patches[domain.wall.triangle_patch[TriangleId(i)]].name
+                         : domain.outer.patches[domain.outer.triangle_patch[TriangleId(i - n_of_wall)]].name;
+  };
+  require_clear(disc, points, triangles, sheet.triangles.size(), patch_of, " away from where walls with layers go through it", context);
 }
 
 /// Holds the outlines, and says which vertices beside them keep on their side of the plane.
 class Holder {
  public:
-  explicit Holder(Domain& domain) : domain_(domain), neighbours_(domain.wall.n_vertices()) {
-    const TriMesh& wall = domain.wall;
-    for (const TriangleVertices& t : wall.triangles)
-      for (std::size_t k = 0; k < 3; ++k)
-        neighbours_[t[k]].emplace_back(t[(k + 1) % 3], distance(wall.points[t[k]], wall.points[t[(k + 1) % 3]]));  // the wall is closed there: both ways
+  explicit Holder(Domain& domain) : domain_(domain), reach_(domain.wall) {
     Constraints& constraints = domain.constraints;
-    constraints.vertex.resize(wall.n_vertices());
-    if (constraints.near.empty()) constraints.near.assign(wall.n_vertices(), 0);
+    constraints.vertex.resize(domain.wall.n_vertices());
+    if (constraints.near.empty()) constraints.near.assign(domain.wall.n_vertices(), 0);
   }
 
   void hold(const DiscPlane& plane, const std::vector<VertexId>& vertices, DiscSlit& slit) {
@@ -160,28 +142,12 @@ class Holder {
  private:
   /// Vertices on one side from which a layer can reach the outline along the wall.
   void mark_near(const DiscPlane& plane, const std::vector<VertexId>& from, std::int32_t surface, double side) {
-    if (surface >= k_max_masked) return;  // the collider sees the disc still
-    const std::uint64_t bit = std::uint64_t{1} << surface;
-    using Entry = std::pair<double, std::uint32_t>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    for (const VertexId v : from) queue.emplace(0.0, v.value());
-    while (!queue.empty()) {
-      const auto [reached, number] = queue.top();
-      queue.pop();
-      const VertexId v(number);
-      double edges = 0.0;
-      for (const auto& [other, length] : neighbours_[v]) edges += length;
-      if ((domain_.constraints.near[v] & bit) != 0 || neighbours_[v].empty() || reached > k_near_edges * edges / static_cast<double>(neighbours_[v].size()))
-        continue;
-      domain_.constraints.near[v] |= bit;
-      for (const auto& [other, length] : neighbours_[v])
-        if ((domain_.constraints.near[other] & bit) == 0 && side * plane.height(domain_.wall.points[other]) > 0.0)
-          queue.emplace(reached + length, other.value());
-    }
+    const auto is_on_side = [&](VertexId v) { return side * plane.height(domain_.wall.points[v]) > 0.0; };
+    reach_.mark(from, surface, is_on_side, domain_.constraints.near);
   }
 
   Domain& domain_;
-  Column<VertexId, std::vector<std::pair<VertexId, double>>> neighbours_;
+  WallReach reach_;
 };
 
 /// Half-edges of the wall that the outline's edges are.
@@ -246,7 +212,7 @@ void add_slits(const TriMesh& boundary, const DiscCuts& cuts, const std::vector<
 
     const Sheet sheet = make_sheet(
         domain.wall, slit, disc, [&](VertexId v) { return domain.wall.points[v]; }, {.size_growth = size_growth, .ends = {}}, context);
-    require_clear(disc, sheet, domain, context);
+    require_sheet_clear(disc, sheet, domain, context);
     slit.patch = domain.outer.patches.push_back({disc.name, PatchKind::interface});
     slit.back = domain.outer.patches.push_back({back_name(disc), PatchKind::interface});
     const std::size_t first = domain.outer.n_vertices();

@@ -13,7 +13,7 @@
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
-#include "volmesh/tetra/size_sites.h"
+#include "geom/mesh/size_sites.h"
 
 namespace sterna::volmesh {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "geom/base/error.h"
 #include "geom/boolean/union_meshes.h"
-#include "geom/math/intersect.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/find_crossings.h"
 #include "geom/mesh/topology.h"
 #include "tests/support/shapes.h"
 

@@ -1,4 +1,5 @@
 #include "geom/math/intersect.h"
+#include "geom/mesh/find_crossings.h"
 
 #include <gtest/gtest.h>
 

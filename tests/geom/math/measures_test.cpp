@@ -72,7 +72,6 @@ const WedgePoints k_right = with_top(1, 0, 0, 1, 1);
 TEST(Wedge, RightWedgeHasItsVolumeAndQuality) {
   EXPECT_DOUBLE_EQ(wedge_volume(k_right), 0.5);
   EXPECT_DOUBLE_EQ(wedge_quality(k_right), std::sqrt(0.5));  // the 45 degree corners
-  EXPECT_TRUE(is_wedge_surely_valid(k_right));
   for (const WedgePoints& p : same_wedges(k_right)) {
     EXPECT_TRUE(is_wedge_valid(p));
     EXPECT_FALSE(is_wedge_valid(inside_out(p)));
@@ -106,7 +105,6 @@ TEST(Wedge, TwistedWedgeIsValidUpToTheHalfTurn) {
   }
   for (const WedgePoints& q : same_wedges(with_top(-1, 0, 0, -1, 0.5))) {
     EXPECT_FALSE(is_wedge_valid(q));
-    EXPECT_FALSE(is_wedge_surely_valid(q));
   }
   // One unit in the last place to the valid side of the limit.
   EXPECT_TRUE(reference_is_valid(with_top(-1, 0x1p-53, -0x1p-53, -1, 0.5)));
@@ -130,7 +128,6 @@ TEST(Wedge, CoordinatesThatAreNotFiniteAreInvalid) {
       WedgePoints p = k_right;
       p[i / 3][i % 3] = bad;
       EXPECT_FALSE(is_wedge_valid(p)) << bad << " at " << i;
-      EXPECT_FALSE(is_wedge_surely_valid(p)) << bad << " at " << i;
     }
   }
 }
@@ -166,7 +163,6 @@ TEST(Wedge, MatchesRationalTestOnIntegersMovedAndScaled) {
       ASSERT_EQ(is_wedge_valid(mapped(q, [](const Vec3& x) { return 1e6 * x + Vec3{1e3, 1e3, -1e3}; })), expected) << n;
       ASSERT_EQ(is_wedge_valid(mapped(q, [](const Vec3& x) { return 0x1p-20 * Vec3{x.z, x.x, x.y} + Vec3{1e3, 0, -1e3}; })), expected) << n;
       ASSERT_EQ(is_wedge_valid(inside_out(mapped(q, [](const Vec3& x) { return Vec3{x.y, x.x, x.z}; }))), expected) << n;
-      ASSERT_TRUE(expected || !is_wedge_surely_valid(q));
     }
   }
   EXPECT_GT(n_valid, 500);
@@ -210,9 +206,9 @@ WedgePoints flat_wedge(std::mt19937_64& random, double height) {
   return p;
 }
 
-TEST(Wedge, FilterDecidesFlatWedgesFarFromTheOrigin) {
+TEST(Wedge, FlatWedgesFarFromTheOrigin) {
   std::mt19937_64 random(33);
-  for (int n = 0; n < 20000; ++n) ASSERT_TRUE(is_wedge_surely_valid(flat_wedge(random, 1e-6))) << n;
+  for (int n = 0; n < 20000; ++n) ASSERT_TRUE(is_wedge_valid(flat_wedge(random, 1e-6))) << n;
   // Where the height is a few units in the last place of the coordinates, either answer may be right, but it is the exact one.
   int n_valid = 0;
   for (int n = 0; n < 2000; ++n) {

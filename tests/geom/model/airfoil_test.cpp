@@ -223,13 +223,5 @@ TEST(Airfoil, RepanelingKeepsItsBound) {
   test::expect_error(ErrorCode::bad_argument, "the tolerance is 0 chords, must be positive", [&] { (void)repaneled_within(airfoil, 0.0); });
 }
 
-TEST(Airfoil, RoundedPlate) {
-  const Airfoil plate = rounded_plate(0.04);
-  EXPECT_NEAR(measure(plate).thickness, 0.04, 1e-4);
-  EXPECT_NEAR(plate.trailing_edge_thickness(), 0.04, 1e-15);
-  EXPECT_EQ(plate.points[plate.leading_edge], (Uv{0.0, 0.0}));
-  test::expect_error(ErrorCode::bad_argument, "a thickness of 0 chords, must be between 0 and 0.5", [&] { (void)rounded_plate(0.0); });
-}
-
 }  // namespace
 }  // namespace sterna

@@ -309,28 +309,5 @@ TEST(DeformedModel, FoldOverIsAnErrorWithItsPlace) {
   }
 }
 
-TEST(DeformedModel, MeshesFollowByReevaluation) {
-  const RunContext context({.threads = 2});
-  const Model model = two_faces();
-  TriMesh mesh;
-  Column<VertexId, VertexPlace> places;
-  mesh.patches.push_back({"wing", PatchKind::wall});
-  for (int i = 0; i < 5; ++i)
-    for (int j = 0; j < 5; ++j) {
-      const FaceId face(i < 2 ? 0 : 1);
-      const Uv at{i / 4.0, j / 4.0};
-      places.push_back({face, at});
-      mesh.points.push_back(model.faces[face].surface->point(at));
-    }
-  mesh.triangles.push_back({VertexId(0), VertexId(5), VertexId(1)});
-  mesh.triangle_patch.push_back(PatchId(0));
-  const TriMesh moved = reevaluated(mesh, places, deformed(model, std::make_shared<Bend>(), context), context);
-  for (const VertexId v : mesh.points.ids()) EXPECT_LE(distance(moved.points[v], Bend().point(mesh.points[v])), 1e-15);
-  EXPECT_EQ(moved.triangles, mesh.triangles);
-  EXPECT_EQ(reevaluated(mesh, places, model, context).points, mesh.points);
-  places[VertexId(3)].face = FaceId();
-  test::expect_error(ErrorCode::bad_argument, "vertex 3 has no face of the model, which has 2", [&] { (void)reevaluated(mesh, places, model, context); });
-}
-
 }  // namespace
 }  // namespace sterna

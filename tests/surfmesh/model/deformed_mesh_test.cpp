@@ -37,6 +37,13 @@ Vec3 normal_of(const TriMesh& mesh, TriangleId t) {
   return cross(mesh.points[v[1]] - mesh.points[v[0]], mesh.points[v[2]] - mesh.points[v[0]]);
 }
 
+/// The same mesh on another model of the same faces.
+TriMesh reevaluated(const SurfaceMesh& surface, const Model& model) {
+  TriMesh result = surface.mesh;
+  for (const VertexId v : result.points.ids()) result.points[v] = model.faces[surface.places[v].face].surface->point(surface.places[v].at);
+  return result;
+}
+
 TEST(DeformedMesh, AMeshedWingBendsByItsFileOfDisplacements) {
   STERNA_NEEDS_SHARED_DATA();
   const RunContext context({.threads = 2});
@@ -46,7 +53,7 @@ TEST(DeformedMesh, AMeshedWingBendsByItsFileOfDisplacements) {
   const SurfaceMesh surface = mesh_model(wing, options, {}, context);
   const auto map = std::make_shared<RadialMap>(read_displacements(displacements(0.25)));
   const Model bent = deformed(wing, map, context);
-  const TriMesh moved = reevaluated(surface.mesh, surface.places, bent, context);
+  const TriMesh moved = reevaluated(surface, bent);
   EXPECT_EQ(moved.triangles, surface.mesh.triangles);
   EXPECT_EQ(moved.triangle_patch, surface.mesh.triangle_patch);
   for (const VertexId v : moved.points.ids())

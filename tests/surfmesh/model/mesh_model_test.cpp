@@ -277,15 +277,15 @@ TEST(MeshModel, AChordErrorThatNeedsAbsurdlyManyTrianglesIsRefusedAtOnce) {
   EXPECT_GT(mesh_model(make_ball(3.0), options, {}, k_context).mesh.n_triangles(), 100u);
 }
 
-TEST(SizeField, IsTheLeastOfItsSources) {
-  std::vector<SizeSource> sources;
+TEST(BackgroundSizes, IsTheLeastOfItsSources) {
+  std::vector<SizeSite> sources;
   for (int i = 0; i < 200; ++i)
     sources.push_back({{std::sin(12.9898 * i), std::sin(78.233 * i), std::sin(37.719 * i)}, 0.05 + 0.1 * std::abs(std::sin(4.1 * i))});
-  const SizeField field(sources, 0.2, 1.0);
+  const BackgroundSizes field(sources, 0.2, 1.0, k_context);
   for (int i = 0; i < 100; ++i) {
     const Point p{2 * std::sin(1.3 * i), 2 * std::sin(2.7 * i), 2 * std::sin(3.9 * i)};
     double exact = 0.3;
-    for (const SizeSource& s : sources) exact = std::min(exact, s.size + 0.2 * distance(p, s.point));
+    for (const SizeSite& s : sources) exact = std::min(exact, s.size + 0.2 * distance(p, s.point));
     EXPECT_GE(field(p, 0.3), exact);
     // Sources of one cell become the least of them: at most its diagonal away.
     EXPECT_LE(field(p, 0.3), 1.35 * exact);

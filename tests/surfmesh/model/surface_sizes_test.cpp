@@ -58,7 +58,7 @@ struct Field {
     const auto n = static_cast<int>(std::ceil(edges[e].length / size));
     for (int i = 0; i <= n; ++i) sizes.sources.push_back({edge.curve->point(edge.range.from + edge.range.length() * i / n), size});
   }
-  SurfaceSizes made(std::vector<SizeSource> in_space = {}) const { return SurfaceSizes(model, edges, topology, sizes, std::move(in_space), k_context); }
+  SurfaceSizes made(std::vector<SizeSite> in_space = {}) const { return SurfaceSizes(model, edges, topology, sizes, std::move(in_space), k_context); }
 };
 
 /// Largest and mean of |field / exact - 1| over a face.

@@ -43,7 +43,7 @@ TEST_P(TooThick, EndsInAValidMesh) {
   double lost = 0.0, area = 0.0, full = 0.0;
   for (const auto& [reason, share] : layer.lost_area) lost += share;
   EXPECT_NEAR(layer.coverage + lost, 1.0, 1e-9);
-  for (const PatchCoverage& patch : layer.patches) {
+  for (const PatchLayerReport& patch : layer.patches) {
     area += patch.area;
     full += patch.area * patch.full;
     EXPECT_LE(patch.full + patch.collapsed, 1.0 + 1e-9);

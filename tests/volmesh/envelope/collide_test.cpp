@@ -8,8 +8,9 @@
 #include <set>
 
 #include "geom/base/error.h"
-#include "geom/math/intersect.h"
+#include "geom/mesh/find_crossings.h"
 #include "tests/support/constants.h"
+#include "tests/support/envelope_surface.h"
 #include "tests/support/error_of.h"
 #include "tests/support/shapes.h"
 #include "volmesh/envelope/certificate.h"
@@ -36,7 +37,7 @@ EnvelopeShape tangle(const LayerBase& base, double tallest, unsigned seed) {
 
 /// The same crossings by find_crossings over one indexed set, without sides; pairs of wall and outer boundary among themselves left out.
 std::set<BoundaryCrossing> slow_crossings(const LayerBase& base, const TriMesh* outer, const EnvelopeShape& shape) {
-  EnvelopeSurface all = envelope_surface(base, shape, k_context);
+  test::EnvelopeSurface all = test::envelope_surface(base, shape, k_context);
   std::vector<BoundaryTriangle> name;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   for (const TriangleId t : base.wall.triangles.ids()) {

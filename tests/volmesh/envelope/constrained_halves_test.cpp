@@ -6,12 +6,13 @@
 #include <numbers>
 
 #include "geom/base/error.h"
-#include "geom/math/intersect.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/find_crossings.h"
 #include "io/file/surface_file.h"
 #include "surfmesh/stitch/stitch_surface.h"
 #include "tests/support/constants.h"
 #include "tests/support/data.h"
+#include "tests/support/envelope_surface.h"
 #include "tests/support/error_of.h"
 #include "tests/support/halves.h"
 #include "tests/support/shapes.h"
@@ -73,7 +74,7 @@ std::size_t expect_sound(const ConstrainedLayer& layer) {
   const LayerBase& base = layer.base;
   EXPECT_TRUE(invalid_macros(base, layer.envelope, k_context).empty());
   EXPECT_EQ(n_invalid_cells(layer.extrusion), 0);
-  const EnvelopeSurface surface = envelope_surface(base, layer.envelope, k_context);
+  const test::EnvelopeSurface surface = test::envelope_surface(base, layer.envelope, k_context);
   EXPECT_EQ(find_crossings(surface.points, surface.triangles, k_context).total, 0);
   std::size_t n_nodes = 0;
   for (const VertexId v : base.wall.points.ids()) {
@@ -129,19 +130,6 @@ TEST(ConstrainRims, FindsThePlanesOfHalfAndQuarterCubesAndTurnsTheirNormals) {
     EXPECT_EQ(quarter.points[v].z, 0.5);
   }
   EXPECT_EQ(n_line, 2u);
-}
-
-TEST(ConstrainRims, SnapsWhatIsNearlyThere) {
-  TriMesh half = test::cut_off(test::cube(4), 1, 0.5);
-  std::size_t n = 0;
-  for (Point& p : half.points)
-    if (p.y == 0.5 && n++ % 4 == 3) p.y += 4e-7;
-  const Constraints constraints = constraints_of_rims(half, Topology(half, k_context));
-  snap_to_surfaces(constraints, half);
-  for (const VertexId v : half.points.ids())
-    if (constraints.vertex[v].freedom == Freedom::plane) {
-      EXPECT_EQ(half.points[v].y, 0.5);
-    }
 }
 
 TEST(ConstrainRims, ObliquePlanesMayBeGiven) {

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "geom/math/intersect.h"
+#include "geom/mesh/find_crossings.h"
 #include "tests/support/constants.h"
+#include "tests/support/envelope_surface.h"
 #include "tests/support/shapes.h"
 #include "volmesh/envelope/build_envelope.h"
 #include "volmesh/envelope/initial.h"
@@ -126,7 +127,7 @@ TEST(BuildEnvelope, OpposingCubesShareTheirGapAndDoNotCollide) {
   EnvelopeOptions options = layers_of(1e-4, 15);
   options.max_thickness = 0.2;
   const Envelope envelope = build_envelope(base, options, k_context);
-  const EnvelopeSurface surface = envelope_surface(base, envelope, k_context);
+  const test::EnvelopeSurface surface = test::envelope_surface(base, envelope, k_context);
   EXPECT_EQ(find_crossings(surface.points, surface.triangles, k_context).total, 0);
   const VertexId left = vertex_at(two, {1, 0.5, 0.5});
   const VertexId right = vertex_at(two, {1.1, 0.5, 0.5});

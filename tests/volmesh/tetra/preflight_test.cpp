@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "geom/math/intersect.h"
+#include "geom/mesh/find_crossings.h"
 #include "tests/support/data.h"
 #include "tests/support/shapes.h"
 #include "tests/volmesh/tetra/cases.h"

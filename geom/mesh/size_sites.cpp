@@ -1,4 +1,4 @@
-#include "volmesh/tetra/size_sites.h"
+#include "geom/mesh/size_sites.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,11 @@
 #include "geom/base/parallel.h"
 #include "geom/mesh/bvh.h"
 
-namespace sterna::volmesh {
+namespace sterna {
 namespace {
+
+/// A site is tested in less time than a box.
+constexpr std::uint32_t k_leaf_sites = 8;
 
 float below(double x) { return std::nextafter(static_cast<float>(x), -std::numeric_limits<float>::infinity()); }
 float above(double x) { return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity()); }
@@ -16,8 +19,8 @@ float above(double x) { return std::nextafter(static_cast<float>(x), std::numeri
 
 SizeSites::SizeSites(std::span<const SizeSite> sites, double slope, const RunContext& context) : slope_(slope) {
   std::vector<Box> boxes(sites.size());
-  parallel_for(context, sites.size(), [&](std::size_t i) { boxes[i].add(sites[i].at); });
-  const BoxTree tree(boxes, context);
+  parallel_for(context, sites.size(), [&](std::size_t i) { boxes[i].add(sites[i].point); });
+  const BoxTree tree(boxes, context, k_leaf_sites);
   sites_.resize(sites.size());
   parallel_for(context, sites.size(), [&](std::size_t i) { sites_[i] = sites[tree.order()[i]]; });
 
@@ -41,45 +44,58 @@ SizeSites::SizeSites(std::span<const SizeSite> sites, double slope, const RunCon
   }
 }
 
-double SizeSites::lower_bound(const Node& node, const Vec3& p) const {
+double SizeSites::lower_bound(const Node& node, const Point& p, double reach) const {
   double squared = 0.0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double away = std::max({static_cast<double>(node.min[axis]) - p[axis], p[axis] - static_cast<double>(node.max[axis]), 0.0});
     squared += away * away;
   }
-  return static_cast<double>(node.smallest) + slope_ * std::sqrt(squared);
+  return static_cast<double>(node.smallest) + slope_ * std::max(0.0, std::sqrt(squared) - reach);
 }
 
-double SizeSites::smallest(const Vec3& p, std::uint32_t& hint) const {
-  double best = sites_[hint].size + slope_ * distance(p, sites_[hint].at);
+template <class Found>
+void SizeSites::lower(const Point& p, const Search& search, double& best, const Found& found) const {
+  if (nodes_.empty()) return;
   struct Entry {
     std::uint32_t node;
-    double bound;
+    double bound;  ///< with the tolerance
   };
+  const auto entry_of = [&](std::uint32_t node) { return Entry{node, lower_bound(nodes_[node], p, search.reach) * (1.0 + search.tolerance)}; };
   Entry stack[64];  // median splits: one entry stays behind on each of at most 32 levels
   int n = 0;
-  stack[n++] = {0, lower_bound(nodes_[0], p)};
+  stack[n++] = entry_of(0);
   while (n > 0) {
     const Entry entry = stack[--n];
     if (entry.bound >= best) continue;
     const Node& node = nodes_[entry.node];
     if (node.count == 0) {
-      Entry near{node.first, lower_bound(nodes_[node.first], p)};
-      Entry far{node.first + 1, lower_bound(nodes_[node.first + 1], p)};
+      Entry near = entry_of(node.first);
+      Entry far = entry_of(node.first + 1);
       if (far.bound < near.bound) std::swap(near, far);
       if (far.bound < best) stack[n++] = far;
       if (near.bound < best) stack[n++] = near;
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const double value = sites_[i].size + slope_ * distance(p, sites_[i].at);
+      const double value = sites_[i].size + slope_ * std::max(0.0, distance(p, sites_[i].point) - search.reach);
       if (value < best) {
         best = value;
-        hint = i;
+        found(i);
       }
     }
   }
+}
+
+double SizeSites::smallest(const Point& p, const Search& search) const {
+  double best = search.cap;
+  lower(p, search, best, [](std::uint32_t) {});
   return best;
 }
 
-}  // namespace sterna::volmesh
+double SizeSites::smallest(const Point& p, std::uint32_t& hint) const {
+  double best = sites_[hint].size + slope_ * distance(p, sites_[hint].point);
+  lower(p, {}, best, [&](std::uint32_t site) { hint = site; });
+  return best;
+}
+
+}  // namespace sterna

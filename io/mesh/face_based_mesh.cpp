@@ -1,6 +1,6 @@
 // Cells from faces: the kind follows from the numbers of triangles and quads; the nodes from one face and what is opposite. Each rebuilt cell is compared with
 // its faces, one by one.
-#include "io/mesh/face_mesh.h"
+#include "io/mesh/face_based_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -118,20 +118,20 @@ struct FacesOfCells {
   std::vector<std::uint64_t> first, entries;
 };
 
-FacesOfCells faces_of_cells(const FaceMesh& faces) {
+FacesOfCells faces_of_cells(const FaceBasedMesh& faces) {
   FacesOfCells of;
   of.first.assign(faces.n_cells + 1, 0);
   const auto count = [&](std::uint32_t cell) { ++of.first[cell + 1]; };
   for (std::size_t f = 0; f < faces.n_faces(); ++f) {
     count(faces.owner[f]);
-    if (faces.neighbour[f] != FaceMesh::k_none) count(faces.neighbour[f]);
+    if (faces.neighbour[f] != FaceBasedMesh::k_none) count(faces.neighbour[f]);
   }
   for (std::size_t c = 0; c < faces.n_cells; ++c) of.first[c + 1] += of.first[c];
   std::vector<std::uint64_t> next(of.first.begin(), of.first.end() - 1);
   of.entries.resize(of.first.back());
   for (std::size_t f = 0; f < faces.n_faces(); ++f) {
     of.entries[next[faces.owner[f]]++] = 2 * f;
-    if (faces.neighbour[f] != FaceMesh::k_none) of.entries[next[faces.neighbour[f]]++] = 2 * f + 1;
+    if (faces.neighbour[f] != FaceBasedMesh::k_none) of.entries[next[faces.neighbour[f]]++] = 2 * f + 1;
   }
   return of;
 }
@@ -157,9 +157,9 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
-void add_boundary(const FaceMesh& faces, HybridMesh& mesh) {
+void add_boundary(const FaceBasedMesh& faces, HybridMesh& mesh) {
   for (std::size_t f = 0; f < faces.n_faces(); ++f) {
-    if (faces.neighbour[f] != FaceMesh::k_none) continue;
+    if (faces.neighbour[f] != FaceBasedMesh::k_none) continue;
     const std::span<const std::uint32_t> nodes(faces.nodes.data() + faces.first[f], faces.first[f + 1] - faces.first[f]);
     if (nodes.size() == 3) mesh.boundary_triangles.push_back({ids<3>(nodes), faces.patch[f]});
     else mesh.boundary_quads.push_back({ids<4>(nodes), faces.patch[f]});
@@ -168,7 +168,7 @@ void add_boundary(const FaceMesh& faces, HybridMesh& mesh) {
 
 }  // namespace
 
-void add_cells_and_boundary(const FaceMesh& faces, HybridMesh& mesh, const std::string& source, const RunContext& context) {
+void add_cells_and_boundary(const FaceBasedMesh& faces, HybridMesh& mesh, const std::string& source, const RunContext& context) {
   for (std::size_t f = 0; f < faces.n_faces(); ++f) {
     const std::uint64_t n = faces.first[f + 1] - faces.first[f];
     if (n != 3 && n != 4) throw_unsupported(source, "face " + std::to_string(f) + " has " + std::to_string(n) + " nodes", "faces of 3 and 4 nodes are read");

@@ -11,7 +11,7 @@
 namespace sterna::io {
 
 /// Faces with their cells. Internal faces have a neighbour, boundary faces a patch.
-struct FaceMesh {
+struct FaceBasedMesh {
   static constexpr std::uint32_t k_none = NodeId::k_invalid;
   std::vector<std::uint32_t> nodes;      ///< of all faces, one after the other
   std::vector<std::uint64_t> first;      ///< of each face in `nodes`, and the end; starts with 0
@@ -27,6 +27,6 @@ struct FaceMesh {
 /// their lowest node.
 /// \pre node and cell numbers in range
 /// \throws Error file_malformed (a cell whose faces do not close, a face with the wrong sense), unsupported_format (polyhedra, faces of five and more nodes)
-void add_cells_and_boundary(const FaceMesh& faces, HybridMesh& mesh, const std::string& source, const RunContext& context);
+void add_cells_and_boundary(const FaceBasedMesh& faces, HybridMesh& mesh, const std::string& source, const RunContext& context);
 
 }  // namespace sterna::io

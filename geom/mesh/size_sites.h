@@ -1,0 +1,59 @@
+// Places with a size, and the smallest size that grows from any of them to a point.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/base/vec3.h"
+
+namespace sterna {
+
+/// At `point` edges are `size` long.
+struct SizeSite {
+  Point point;        ///< m
+  double size = 0.0;  ///< m, positive
+};
+
+/// Hierarchy over sites for min over sites of (size + slope * distance), a nearest-neighbour search with additive weights. Reading it is thread-safe.
+class SizeSites {
+ public:
+  /// Built in parallel, O(n log n).
+  /// \pre finite coordinates, positive sizes, slope > 0
+  SizeSites(std::span<const SizeSite> sites, double slope, const RunContext& context);
+
+  struct Search {
+    double cap = std::numeric_limits<double>::infinity();  ///< m, the result where no site gives less
+    double reach = 0.0;                                    ///< m; sizes grow from here on only: the least size within `reach` of the point
+    /// Boxes that could lower the value by less than this part of it are not opened: at the centre of a circle all its points are as near.
+    double tolerance = 0.0;
+  };
+  /// The minimum over all sites, exact to rounding but for the search's tolerance.
+  double smallest(const Point& p, const Search& search) const;
+  /// The same without cap, reach and tolerance. \p hint: a site to start from, changed to the one that gave the minimum (any value below size() is correct;
+  /// a neighbour's makes the search short).
+  /// \pre there are sites
+  double smallest(const Point& p, std::uint32_t& hint) const;
+  std::size_t size() const { return sites_.size(); }
+
+ private:
+  struct Node {
+    std::array<float, 3> min, max;  ///< rounded outwards
+    float smallest;                 ///< of the sizes below, rounded down
+    std::uint32_t first;            ///< leaf: first site; inner: left child, the right one follows
+    std::uint32_t count;            ///< leaf: number of sites; inner: 0
+  };
+  double lower_bound(const Node& node, const Point& p, double reach) const;
+  /// Calls found(site, value) for each site that lowers `best`.
+  template <class Found>
+  void lower(const Point& p, const Search& search, double& best, const Found& found) const;
+
+  double slope_;
+  std::vector<Node> nodes_;
+  std::vector<SizeSite> sites_;  ///< in the order of the leaves
+};
+
+}  // namespace sterna
