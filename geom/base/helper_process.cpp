@@ -2,25 +2,20 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cctype>
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <optional>
 #include <thread>
 
+#include "geom/base/child_process.h"
 #include "geom/base/schema.h"
-
-extern char** environ;
 
 namespace sterna {
 namespace {
@@ -29,21 +24,10 @@ constexpr int k_poll_ms = 20;                ///< how soon a stop or the time li
 constexpr int k_late_poll_ms = 2;            ///< how soon data that comes late is handed on
 constexpr std::size_t k_output_kept = 4096;  ///< bytes of the helper's last words kept for the error text
 constexpr int k_folders_up = 3;              ///< the program's folder and two above it: tests and fuzz targets lie below the build folder
-constexpr int k_first_free_descriptor = 10;  ///< above the descriptors that the helper inherits, so that dup2 in the child never clobbers a source
 
 [[noreturn]] void throw_system_failure(const HelperTask& task, const std::string& what, int error) {
   throw Error({.code = task.failed, .attempted = task.attempted, .problem = what + ": " + std::strerror(error)});
 }
-
-/// Closes a descriptor at the end of a scope.
-struct Descriptor {
-  int value = -1;
-  ~Descriptor() { reset(); }
-  void reset() {
-    if (value >= 0) close(value);
-    value = -1;
-  }
-};
 
 /// Moves a descriptor out of the range that the helper's own descriptors will have.
 int moved_up(int descriptor, const HelperTask& task) {
@@ -54,61 +38,12 @@ int moved_up(int descriptor, const HelperTask& task) {
   return moved;
 }
 
-/// A started process; killed and reaped at the latest when the object goes.
-class Child {
- public:
-  explicit Child(pid_t pid) : pid_(pid) {}
-  ~Child() { kill_and_reap(); }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
-  /// True once it has ended (and is reaped).
-  bool has_ended() {
-    if (pid_ > 0 && waitpid(pid_, &wait_status_, WNOHANG) == pid_) pid_ = -1;
-    return pid_ <= 0;
-  }
-  void kill_and_reap() {
-    if (pid_ <= 0) return;
-    kill(pid_, SIGKILL);
-    while (waitpid(pid_, &wait_status_, 0) < 0 && errno == EINTR) {
-    }
-    pid_ = -1;
-  }
-  int wait_status() const { return wait_status_; }
-
- private:
-  pid_t pid_;
-  int wait_status_ = 0;
-};
-
-/// File actions and attributes of posix_spawn, released with the object.
-struct SpawnSetup {
-  SpawnSetup() {
-    posix_spawn_file_actions_init(&actions);
-    posix_spawnattr_init(&attributes);
-  }
-  ~SpawnSetup() {
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
-  }
-  posix_spawn_file_actions_t actions;
-  posix_spawnattr_t attributes;
-};
-
-struct Pipe {
-  explicit Pipe(const HelperTask& task) {
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw_system_failure(task, "pipe2", errno);
-    read_end.value = moved_up(ends[0], task);
-    write_end.value = moved_up(ends[1], task);
-  }
-  Descriptor read_end, write_end;
-};
+Pipe pipe_of(const HelperTask& task) { return Pipe(task.failed, task.attempted); }
 
 /// What a helper gets later than its start. The read end of the pipe stays open here: writing to it must not raise SIGPIPE when the helper has died.
 class LateBlock {
  public:
-  explicit LateBlock(const HelperTask& task) : task_(task), block_("sterna late", 0, task), ready_(task) {}
+  explicit LateBlock(const HelperTask& task) : task_(task), block_("sterna late", 0, task), ready_(pipe_of(task)) {}
   /// False as long as there is no data.
   bool send(std::span<const std::byte> data) {
     if (is_sent_ || data.empty()) return is_sent_;
@@ -127,48 +62,31 @@ class LateBlock {
   bool is_sent_ = false;
 };
 
-pid_t spawn(const HelperStart& start, int request, int reply, int output, const LateBlock* late) {
-  SpawnSetup setup;
-  posix_spawn_file_actions_addopen(&setup.actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_adddup2(&setup.actions, output, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&setup.actions, output, STDERR_FILENO);
-  posix_spawn_file_actions_adddup2(&setup.actions, request, k_helper_request_fd);
-  posix_spawn_file_actions_adddup2(&setup.actions, reply, k_helper_reply_fd);
+ChildProcess start_child(const HelperStart& start, int request, int reply, int output, const LateBlock* late) {
+  ChildStart child{.words = {start.path},
+                   .descriptors = {{output, STDOUT_FILENO}, {output, STDERR_FILENO}, {request, k_helper_request_fd}, {reply, k_helper_reply_fd}},
+                   .output = {},
+                   .folder = {}};
+  child.words.insert(child.words.end(), start.arguments.begin(), start.arguments.end());
   if (late) {
-    posix_spawn_file_actions_adddup2(&setup.actions, late->descriptor(), k_helper_late_fd);
-    posix_spawn_file_actions_adddup2(&setup.actions, late->ready_descriptor(), k_helper_late_ready_fd);
+    child.descriptors.emplace_back(late->descriptor(), k_helper_late_fd);
+    child.descriptors.emplace_back(late->ready_descriptor(), k_helper_late_ready_fd);
   }
-  sigset_t none, all;
-  sigemptyset(&none);
-  sigfillset(&all);
-  posix_spawnattr_setsigmask(&setup.attributes, &none);
-  posix_spawnattr_setsigdefault(&setup.attributes, &all);
-  posix_spawnattr_setpgroup(&setup.attributes, 0);
-  posix_spawnattr_setflags(&setup.attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
-  std::vector<std::string> words = {start.path};
-  words.insert(words.end(), start.arguments.begin(), start.arguments.end());
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  pid_t pid = -1;
-  const int error = posix_spawn(&pid, start.path.c_str(), &setup.actions, &setup.attributes, arguments.data(), environ);
-  if (error != 0) {
+  try {
+    return ChildProcess(child);
+  } catch (const Error& error) {
     throw Error({.code = start.task.missing,
                  .attempted = "starting " + start.task.helper,
-                 .problem = "cannot start " + start.path + ": " + std::strerror(error),
+                 .problem = "cannot start " + start.path + ": " + error.info().problem,
                  .hint = "build the target " + std::filesystem::path(start.path).filename().string() + start.task.else_try});
   }
-  return pid;
 }
 
-/// Reads what is there. False at the end of the stream.
+/// Reads what is there and keeps the end of it. False at the end of the stream.
 bool read_output(int descriptor, std::string& output) {
-  std::array<char, 4096> buffer;
-  const ssize_t n = read(descriptor, buffer.data(), buffer.size());
-  if (n < 0) return errno == EINTR || errno == EAGAIN;
-  output.append(buffer.data(), static_cast<std::size_t>(n));
+  const bool is_open = read_some(descriptor, output);
   if (output.size() > 2 * k_output_kept) output.erase(0, output.size() - k_output_kept);
-  return n > 0;
+  return is_open;
 }
 
 }  // namespace
@@ -215,18 +133,19 @@ int above_helper_descriptors(int descriptor, const HelperTask& task) { return mo
 
 HelperExit run_helper(const HelperStart& start, int request, int reply, const RunContext& context) {
   using Clock = std::chrono::steady_clock;
-  Pipe words(start.task);
+  Pipe words = pipe_of(start.task);
   std::optional<LateBlock> late_block;
   if (start.late) late_block.emplace(start.task);
 
   HelperExit result;
   const auto begin = Clock::now();
-  Child child(spawn(start, request, reply, words.write_end.value, late_block ? &*late_block : nullptr));
+  ChildProcess child = start_child(start, request, reply, words.write_end.value, late_block ? &*late_block : nullptr);
   words.write_end.reset();
   const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
 
   // The end of the output is the end of the helper, unless it has closed its output; then it is waited for in small sleeps.
-  for (bool is_open = true; is_open || !child.has_ended();) {
+  std::optional<int> ended;
+  for (bool is_open = true; is_open || !(ended = child.ended());) {
     const bool is_waiting = late_block && !late_block->send(start.late());
     if (is_open) {
       pollfd event{words.read_end.value, POLLIN, 0};
@@ -237,11 +156,11 @@ HelperExit run_helper(const HelperStart& start, int request, int reply, const Ru
     context.check_stop();
     if (!is_automatic(start.time_limit) && seconds() > start.time_limit) {
       result.is_time_over = true;
-      child.kill_and_reap();
+      ended = child.kill();
       break;
     }
   }
-  result.wait_status = child.wait_status();
+  result.wait_status = *ended;
   result.seconds = seconds();
   return result;
 }

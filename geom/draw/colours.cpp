@@ -48,7 +48,13 @@ Rgb interpolate(std::span<const Rgb> table, double share) {
 Rgb patch_color(std::size_t index, PatchKind kind) {
   if (kind == PatchKind::symmetry) return {222, 222, 228};
   if (kind == PatchKind::farfield || kind == PatchKind::inflow || kind == PatchKind::outflow) return {206, 216, 226};
-  return k_patches[index % k_patches.size()];
+  // Beyond the table its colours come again darker, then lighter, so that no two of the first 36 patches look the same in the legend.
+  constexpr std::array<double, 3> k_shares = {1.0, 0.68, 0.55};
+  constexpr std::array<double, 3> k_white = {0.0, 0.0, 0.45};
+  const Rgb base = k_patches[index % k_patches.size()];
+  const std::size_t round = (index / k_patches.size()) % k_shares.size();
+  const auto toned = [&](std::uint8_t c) { return static_cast<std::uint8_t>(std::floor(k_shares[round] * c + k_white[round] * 255.0 + 0.5)); };
+  return {toned(base.r), toned(base.g), toned(base.b)};
 }
 
 Rgb kind_color(CellKind kind) {

@@ -40,7 +40,7 @@ SurfaceSoup read_surface_fluent(const std::filesystem::path& path, const RunCont
   }
   SurfaceSoup soup = builder.finish(true);
   soup.has_names = true;
-  if (!has_walls) soup.n_cells = content.faces.n_cells;  // walls alone are a surface, whatever lies between them
+  soup.n_cells = content.faces.n_cells;
   return soup;
 }
 

@@ -56,6 +56,7 @@ struct Request {
   std::function<int(const CommandContext&)> execute;
   std::filesystem::path trouble;  ///< beside the output, or beside the input of commands that write nothing
   bool is_prompt = false;
+  bool tells_itself = false;  ///< what it reads is its result: the log says nothing of it, unless it is verbose
 };
 
 void add_common_options(CLI::App& app, CommonSettings& common) {
@@ -298,6 +299,7 @@ void add_info_command(CLI::App& app, InfoCommand& info, Request& request) {
   command->add_option("--unit", info.unit, "length of one unit of the file: mm, inch, 0.5mm ...");
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(info, context); };
+    request.tells_itself = true;
     request.trouble = beside(std::filesystem::path(info.input).filename());
   });
 }
@@ -351,7 +353,11 @@ int execute_request(const Request& request, const CommonSettings& common) {
                              .seed = common.seed,
                              .stop = interrupt.token(),
                              .dump_directory = common.dump_directory,
-                             .log = [&](LogLevel level, std::string_view text) { console.log(level, text); },
+                             .log =
+                                 [&](LogLevel level, std::string_view text) {
+                                   const bool is_told = request.tells_itself && level == LogLevel::info && !common.console.is_verbose;
+                                   if (!is_told) console.log(level, text);
+                                 },
                              .progress = [&](const ProgressState& state) { console.progress(state); }};
   if (request.is_prompt)
     return run_prompt({.script = {.script = "prompt", .overrides = {}, .print = [&](std::string_view text) { console.print(text); }, .on_mesh = {}},

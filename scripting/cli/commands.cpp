@@ -468,6 +468,8 @@ int execute(const InfoCommand& command, const CommandContext& context) {
   if (is_model_file(command.input)) return print_model_info(command, context);
   const InputPath input{command.input, command.input};
   const io::Format& format = io::format_of(input.path);
+  if (!std::filesystem::exists(input.path))
+    throw Error({.code = ErrorCode::file_not_found, .attempted = "reading " + command.input, .problem = "there is no such file"});
   context.console.print(fmt::format("{}: {}, 1 unit of the file = {:g} m", command.input, format.name, unit.unit));
   // A format that holds volume meshes may hold a surface alone; then it is read as one.
   if (format.read_volume) {

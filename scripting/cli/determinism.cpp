@@ -248,7 +248,7 @@ int execute(const DeterminismCommand& command, const CommandContext& context) {
     fs::create_directory(folder);
     const Clock::time_point start = Clock::now();
     context.run.info(fmt::format("run {} of {}: {}", i + 1, command.threads.size(), threads_text(threads)));
-    ChildProcess process(words_of(command, threads, context.run), output, -1, folder);
+    ChildProcess process = start_worker(words_of(command, threads, context.run), output, -1, folder);
     if (const int status = finish(process, context.run); status != 0) {
       work.keep();
       refuse_failed_run(command, threads, status, output, work.path());

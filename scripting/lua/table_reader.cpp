@@ -121,14 +121,13 @@ const ScriptValue* TableReader::field(const std::string& name) {
 }
 
 void TableReader::require(const OptionTable& options) {
-  OptionTable not_given;
-  for (const Option& option : options)
-    if (!given_.contains(std::string(option.stage) + "." + std::string(option.name)) && !contains(table_.unknown_fields, option.name))
-      not_given.push_back(option);
-  try {
-    require_options(not_given, attempted_);
-  } catch (const Error& error) {
-    add_problem(error.info().problem);
+  for (const Option& option : options) {
+    if (given_.contains(std::string(option.stage) + "." + std::string(option.name)) || contains(table_.unknown_fields, option.name)) continue;
+    try {
+      require_options({option}, attempted_);
+    } catch (const Error& error) {
+      add_problem(error.info().problem);
+    }
   }
 }
 
@@ -136,6 +135,8 @@ void TableReader::add_problem(std::string problem) { problems_.push_back(std::mo
 
 void TableReader::add_unknown(const std::string& key, const std::vector<std::string>& known) {
   const std::string nearest = nearest_name(key.substr(key.rfind('.') + 1), known);
+  // A mistyped key is one mistake: that its option is not there (see require()) is not told beside it.
+  if (!nearest.empty()) std::erase_if(problems_, [&](const std::string& problem) { return problem.starts_with("needs " + nearest + " ("); });
   add_problem("unknown key \"" + key + "\"" + (nearest.empty() ? "" : ", did you mean \"" + nearest + "\"?"));
   ++n_unknown_;
 }

@@ -116,7 +116,7 @@ void run_in_pool(std::span<const CaseTask> tasks, const RunnerContext& runner) {
     while (next < tasks.size() && running.size() < static_cast<std::size_t>(runner.tasks)) {
       const CaseTask& task = tasks[next++];
       prepare(task, runner.run);
-      running.push_back({&task, ChildProcess(words_of(runner, task), task.folder / k_log_file, runner.lock), memory_kills()});
+      running.push_back({&task, start_worker(words_of(runner, task), task.folder / k_log_file, runner.lock), memory_kills()});
     }
     for (auto it = running.begin(); it != running.end();) {
       const std::optional<int> ended = it->process.ended();

@@ -80,6 +80,21 @@ class SeriesRun {
     for (const SeriesCase& c : plan.cases) results_.push_back({.of = &c});
   }
 
+  /// \throws Error as run(); where it is a stop, its text says what is kept and how to go on
+  const std::vector<CaseResult>& run_or_tell_what_is_kept() {
+    try {
+      return run();
+    } catch (const Error& error) {
+      if (error.info().code != ErrorCode::cancelled) throw;
+      const auto n_done = std::count_if(results_.begin(), results_.end(), [](const CaseResult& result) { return result.status.state == CaseState::done; });
+      ErrorInfo info = error.info();
+      info.problem = "stopped; " + std::to_string(n_done) + " of " + std::to_string(results_.size()) + " cases are done and kept in " + plan_.folder.string();
+      info.hint = "run the same command to go on";
+      throw Error(std::move(info));
+    }
+  }
+
+ private:
   const std::vector<CaseResult>& run() {
     remove_parts(plan_.folder);
     cancel_left_jobs(plan_.folder, context_);
@@ -92,7 +107,6 @@ class SeriesRun {
     return results_;
   }
 
- private:
   void run_cases(const std::vector<std::size_t>& indices) {
     std::vector<CaseTask> tasks;
     for (const std::size_t i : indices) {
@@ -167,7 +181,7 @@ ScriptValue run_all(const ScriptCall& call, const SeriesPlan& plan) {
   if (series.settings.program.empty()) reject(call, "starts processes of the program sterna", "run the script with `sterna run`");
   const StopNotice notice(series.settings.stops_itself);
   SeriesRun run(call, plan);
-  const std::vector<CaseResult>& results = run.run();
+  const std::vector<CaseResult>& results = run.run_or_tell_what_is_kept();
   for (const CaseResult& result : results) {
     if (result.status.state != CaseState::done) ++series.n_failed;
     else if (result.status.mesh.verdict == "INVALID") ++series.n_invalid;

@@ -103,7 +103,9 @@ std::string summary_text(const MeshValue& mesh) {
   if (mesh.origin->n_split_triangles > 0)
     text += fmt::format("  splits      {} more triangles on wall and farfield, made for the tetrahedra\n", count_text(mesh.origin->n_split_triangles));
   text += fmt::format("  layer       {:.2f} % of the area at its full height, mean height {:.4g} m\n", 100.0 * layer.coverage, layer.mean_height);
-  for (const auto& [reason, share] : layer.lost_area) text += fmt::format("              {:.2f} % below: {}\n", 100.0 * share, reason);
+  for (const auto& [reason, share] : layer.lost_area)
+    text += fmt::format("              {:.2f} % below: {}\n", 100.0 * share,
+                        reason == "none" ? "height_gradient and smoothing, from what lowers the layer nearby" : reason);
   text += fmt::format("  compressed  {:.2f} % of the area, {} of {} vertices (total height below layers x first height)\n", 100.0 * layer.compressed_area,
                       count_text(layer.n_compressed), count_text(layer.n_vertices));
   const std::int64_t n_full = layer.first_node.n_lines - layer.first_node.n_compressed - layer.first_node.n_collapsed;

@@ -66,8 +66,11 @@ ScriptTable with_texts(const ScriptCall& call, ScriptTable table) {
   return table;
 }
 
+/// What a picture's title calls it: the first file that it was made of, and how many there are beside that.
 std::string name_of(const std::vector<InputFile>& inputs) {
-  return inputs.size() == 1 ? std::filesystem::path(inputs.front().name).filename().string() : std::string();
+  if (inputs.empty()) return {};
+  const std::string first = std::filesystem::path(inputs.front().name).filename().string();
+  return inputs.size() == 1 ? first : first + " and " + std::to_string(inputs.size() - 1) + " more";
 }
 
 ScriptValue draw_object(const ScriptCall& call) {

@@ -73,6 +73,12 @@ std::string list(const std::vector<std::string>& entries) {
   return text + " )";
 }
 
+/// A component of a vector of this length: what rounding has left of a zero is one, so no "-3.3e-16" stands in a file that people read.
+double component(double x, double length) {
+  constexpr double k_rounding = 1e-14;
+  return std::abs(x) <= k_rounding * length ? 0.0 : x;
+}
+
 std::string number(double x) { return fmt::format("{:.10g}", std::abs(x) < 1e-300 ? 0.0 : x); }
 
 class Configuration {
@@ -170,11 +176,16 @@ class Configuration {
                                    : "no patch has a name like \"" + options_.monitor + "\" (monitor)");
   }
 
+  Point moment_origin() const {
+    const Point& o = reference_.moment_origin;
+    return {component(o.x, length()), component(o.y, length()), component(o.z, length())};
+  }
   double heat(double power) const { return std::pow(1.0 + 0.5 * (volmesh::k_heat_ratio - 1.0) * flow_.mach * flow_.mach, power); }
 
   void add_inflow(PatchId p, const std::string& name) {
     const Su2Boundary given = boundary_of(p) ? *boundary_of(p) : Su2Boundary{};
-    const Vec3 along = -1.0 * normalized(facts_[p].area);
+    const Vec3 inward = -1.0 * normalized(facts_[p].area);
+    const Vec3 along{component(inward.x, 1.0), component(inward.y, 1.0), component(inward.z, 1.0)};
     if (is_tunnel_ && flow_.mach >= 1.0) {
       supersonic_inlets_.push_back(fmt::format("{}, {}, {}, {}, {}, {}", name, number(flow_.temperature), number(flow_.pressure), number(flow_.speed * along.x),
                                                number(flow_.speed * along.y), number(flow_.speed * along.z)));
@@ -249,8 +260,7 @@ class Configuration {
     context_.info(fmt::format("SU2: {}, {} walls, reference area {:.6g} m^2{}{}, length {:.6g} m, moments about ({:.6g}, {:.6g}, {:.6g}) m", solver_,
                               walls_.size() + (is_viscous_ ? 0 : euler_.size()), area(),
                               is_half_ ? fmt::format(" (half of {:.6g}: half model)", reference_.area) : "",
-                              reference_.source.empty() ? "" : " of " + reference_.source, length(), reference_.moment_origin.x, reference_.moment_origin.y,
-                              reference_.moment_origin.z));
+                              reference_.source.empty() ? "" : " of " + reference_.source, length(), moment_origin().x, moment_origin().y, moment_origin().z));
     if (!unmonitored_.empty()) context_.info("SU2: walls of the tunnel, whose forces do not count: " + list(unmonitored_));
   }
 
@@ -278,7 +288,7 @@ class Configuration {
   }
 
   std::string reference_values() const {
-    const Point& o = reference_.moment_origin;
+    const Point o = moment_origin();
     return title("Reference values" + (is_half_ ? " (half model: half the area of the aircraft)" : std::string())) + "REF_AREA= " + number(area()) +
            "\nREF_LENGTH= " + number(length()) + "\nREF_ORIGIN_MOMENT_X= " + number(o.x) + "\nREF_ORIGIN_MOMENT_Y= " + number(o.y) +
            "\nREF_ORIGIN_MOMENT_Z= " + number(o.z) + "\nREF_DIMENSIONALIZATION= DIMENSIONAL\n";

@@ -115,6 +115,7 @@ TEST_F(CommandLine, MissingFilesAreNamed) {
     EXPECT_EQ(result.status, k_exit_failed) << arguments.front();
     EXPECT_NE(result.errors.find("error: "), std::string::npos);
     EXPECT_NE(result.errors.find("no_such"), std::string::npos) << result.errors;
+    EXPECT_EQ(result.output, "") << "said before the file was looked for";
   }
   EXPECT_EQ(files(), std::vector<std::string>{"box.stl"});
 }
@@ -238,6 +239,8 @@ TEST_F(CommandLine, ModelsAreConvertedUnitedDescribedAndChecked) {
     EXPECT_NE(info.output.find(part), std::string::npos) << part << " in\n" << info.output;
   const ProcessResult smx = sterna({"info", "body.smx"});
   EXPECT_NE(smx.output.find("\"body\", body"), std::string::npos) << smx.output;
+  EXPECT_EQ(smx.errors.find("Model:"), std::string::npos) << "told twice: " << smx.errors;
+  EXPECT_EQ(info.errors.find("closed solid"), std::string::npos) << "told twice: " << info.errors;
   for (const char* name : {"c.iges", "c.brep", "c2.step"}) EXPECT_EQ(sterna({"convert", "c.step", name}).status, k_exit_success) << name;
   EXPECT_EQ(sterna({"convert", "body.smx", "body.step", "--step-schema", "ap242"}).status, k_exit_success);
   EXPECT_EQ(sterna({"check", "body.step"}).status, k_exit_success);

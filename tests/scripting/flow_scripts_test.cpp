@@ -49,6 +49,20 @@ TEST_F(FlowScripts, wrong_flow_conditions_are_told_at_their_line) {
               HasSubstr("flow conditions is not allowed here"));
 }
 
+TEST_F(FlowScripts, a_mistyped_needed_option_is_one_mistake) {
+  const std::string one = error("volume_mesh{ read_surface 'ball.off', first_heigth = 0.01 }");
+  EXPECT_THAT(one, HasSubstr("did you mean \"first_height\"?"));
+  EXPECT_THAT(one, Not(HasSubstr("needs")));
+  EXPECT_THAT(one, Not(HasSubstr("problems")));
+  EXPECT_THAT(error("volume_mesh{ read_surface 'ball.off', layerz = 3 }"), AllOf(HasSubstr("needs first_height"), HasSubstr("did you mean \"layers\"?")));
+}
+
+TEST_F(FlowScripts, a_family_of_one_is_the_mesh_that_its_options_describe) {
+  EXPECT_THAT(run("local f = family{ levels = 1 } print(#f, f[1].name, f[1].refinement)"), HasSubstr("1\tmedium\t1.0"));
+  EXPECT_THAT(run("local f = family{ levels = 1, medium = 2 } print(f[1].name)"), HasSubstr("coarse"));  // asked for
+  EXPECT_THAT(run("local f = family{} print(f[1].name, f[2].name, f[3].name)"), HasSubstr("coarse\tmedium\tfine"));
+}
+
 TEST_F(FlowScripts, a_total_height_leaves_one_of_layers_and_growth_to_follow) {
   const std::string mesh = "local m = volume_mesh{ read_surface 'ball.off', farfield = sphere{ radius = 8 }, first_height = 0.01, ";
   run(mesh + "max_growth = 1.2, total_height = 0.12 } print(m.mean_height)");
@@ -228,6 +242,7 @@ TEST_F(FlowScripts, su2_configuration_of_a_body_in_a_farfield) {
   EXPECT_EQ(at("MARKER_MONITORING"), "( wall )");
   EXPECT_EQ(at("AOA"), "2");
   EXPECT_EQ(at("REF_AREA"), "15");
+  for (const char* key : {"REF_ORIGIN_MOMENT_Y", "REF_ORIGIN_MOMENT_Z"}) EXPECT_EQ(at(key), "0") << key << ": what rounding leaves of zero is told as zero";
   EXPECT_NEAR(std::stod(at("REF_LENGTH")), 2.0 / 3.0 * 2.0 * (1 + 0.5 + 0.25) / 1.5, 1e-9);
   EXPECT_EQ(at("MESH_FILENAME"), "case.su2");
   EXPECT_EQ(at("REYNOLDS_LENGTH"), "2");

@@ -5,6 +5,9 @@ export async function use_series({ page, open, file, report, shot }) {
   const { cases, parameters, figures } = report;
   require_equal((await state_of(page)).rows.length, cases.length, "rows");
   await shot("series");
+  const chips = await page.$$eval("#cases tbody .chip", (list) => list.map((element) => [element.textContent, element.className]));
+  for (const [text, classes] of chips)
+    require_that(!/^(fail|warn|pass)/i.test(text) || classes.includes(text.slice(0, 4).toLowerCase()), `"${text}" has the colour of ${classes}`);
   const value_of = (key, entry) => (key.startsWith("p:") ? entry.parameters?.[key.slice(2)] : key.startsWith("f:") ? entry.figures?.[key.slice(2)] : key.startsWith("g:") ? entry.gates?.[key.slice(2)] : entry[key]);
   const keys = await page.$$eval("#cases .sort", (list) => list.map((element) => element.dataset.key));
   for (const key of keys)

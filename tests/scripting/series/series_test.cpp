@@ -13,6 +13,7 @@
 namespace sterna::scripting {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -230,7 +231,7 @@ bool wait_for(const std::filesystem::path& file, const std::string& text) {
 
 TEST_F(Series, CtrlCStopsTheWorkersAndKeepsWhatIsDone) {
   write(k_endless, folder_);
-  test::StartedProcess main(test::sterna_program(), {"run", "case.lua"}, folder_);
+  test::StartedProcess main("/bin/sh", {"-c", "exec \"$0\" run case.lua 2> errors.txt", test::sterna_program().string()}, folder_);
   ASSERT_TRUE(wait_for(folder_ / "small/x=1/status.json", "done"));
   ASSERT_TRUE(wait_for(folder_ / "small/x=3/status.json", "running"));
   const std::vector<pid_t> workers = test::children_of(main.pid());
@@ -242,6 +243,7 @@ TEST_F(Series, CtrlCStopsTheWorkersAndKeepsWhatIsDone) {
   for (const pid_t worker : workers) EXPECT_FALSE(is_running(worker));
   EXPECT_THAT(text_of("small/x=2/status.json"), HasSubstr("\"killed\": \"stopped on request\""));
   EXPECT_THAT(text_of("small/x=1/status.json"), HasSubstr("done"));
+  EXPECT_THAT(text_of("errors.txt"), AllOf(HasSubstr("1 of 3 cases are done and kept in"), HasSubstr("run the same command to go on")));
 }
 
 TEST_F(Series, AKilledCaseDoesNotStopTheOthers) {
