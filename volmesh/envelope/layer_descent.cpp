@@ -85,6 +85,7 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
       scratch.fixed[n][k] = e.e[k] + g;
       e.set_growth(k + 1, g);
     }
+    e.set_corners();
     ++n;
   }
   const Vec3& normal = normal_[i];

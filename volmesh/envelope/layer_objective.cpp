@@ -166,6 +166,7 @@ bool LayerObjective::load(std::size_t t, const Vec3Field& y, LayerElement& e) co
     e.e[k] = base_.wall.points[v[k + 1]] - p;
     e.top[k] = e.e[k] + (g[k + 1] - g[0]);
   }
+  e.set_corners();
   return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
+#include "volmesh/envelope/corner_shape.h"
 #include "volmesh/envelope/keep_inside.h"
 
 namespace sterna::volmesh {
@@ -28,6 +29,10 @@ bool is_prism_valid_with_margin(const MacroElement& e) {
   if (dot(n_wall, n_top) < k_min_area_share * wall2) return false;
   const double wall_length = std::sqrt(wall2);
   const double top_length = norm(n_top);
+  const std::array<double, 3> wall_sines = corner_sines(e.wall[1] - e.wall[0], e.wall[2] - e.wall[0], wall_length);
+  const std::array<double, 3> top_sines = corner_sines(top[1] - top[0], top[2] - top[0], top_length);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (top_sines[k] < least_corner_sine(wall_sines[k])) return false;
   for (std::size_t k = 0; k < 3; ++k) {
     const double seen_from_wall = dot(n_wall, e.direction[k]) / wall_length;
     if (seen_from_wall <= 0.0) return false;
