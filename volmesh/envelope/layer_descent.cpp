@@ -45,6 +45,8 @@ Vec3 solve_within(const SymmetricBlock& h, const std::array<Vec3, 3>& directions
 struct LayerObjective::VisitScratch {
   std::vector<LayerElement> elements = std::vector<LayerElement>(k_max_incident);
   std::vector<std::array<Vec3, 2>> fixed = std::vector<std::array<Vec3, 2>>(k_max_incident);  ///< top edges less the moving growth edge
+  std::vector<FoldPoints> fold_points;
+  std::vector<std::size_t> fold_corner;
 };
 
 void LayerObjective::colour_vertices() {
@@ -54,6 +56,9 @@ void LayerObjective::colour_vertices() {
     std::uint64_t taken = 0;
     for (const VertexId other : base_.topology.neighbours(VertexId(i)))
       if (other.index() < i && is_moving_[other.index()]) taken |= std::uint64_t{1} << colour[other.index()];
+    for (const std::uint32_t fold : folds_.at(i))
+      for (const std::uint32_t other : folds_.corners(fold))
+        if (other < i && is_moving_[other]) taken |= std::uint64_t{1} << colour[other];
     std::uint8_t c = 0;
     while (taken >> c & 1) ++c;
     colour[i] = c;
@@ -85,7 +90,18 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
       scratch.fixed[n][k] = e.e[k] + g;
       e.set_growth(k + 1, g);
     }
+    e.set_corners();
     ++n;
+  }
+  const std::span<const std::uint32_t> folds = folds_.at(i);
+  std::vector<FoldPoints>& fold_points = scratch.fold_points;
+  std::vector<std::size_t>& fold_corner = scratch.fold_corner;
+  fold_points.resize(folds.size());
+  fold_corner.resize(folds.size());
+  for (std::size_t f = 0; f < folds.size(); ++f) {
+    fold_points[f] = this->fold_points(folds[f], y);
+    const LayerFolds::Corners& corners = folds_.corners(folds[f]);
+    fold_corner[f] = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), static_cast<std::uint32_t>(i)) - corners.begin());
   }
   const Vec3& normal = normal_[i];
   /// The part of the objective that this vertex changes; infinite where an element is infeasible.
@@ -97,6 +113,10 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
       e.top = {scratch.fixed[m][0] - g, scratch.fixed[m][1] - g};
       if (!(e.measure(least_quality_) > 0.0)) return std::numeric_limits<double>::infinity();
       sum += e.energy(weights);
+    }
+    for (std::size_t f = 0; f < folds.size(); ++f) {
+      fold_points[f][fold_corner[f]] = base_.wall.points[v] + g;
+      sum += weights.barrier * fold_energy(fold_of(fold_points[f]), folds[f]);
     }
     return sum;
   };
@@ -111,6 +131,15 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
   hessian.add(-turning, u);
   hessian.add(height_weight(i) / (scale * scale), u);  // f_2 is linear: a step of one h_u against its slope
   for (std::size_t m = 0; m < n; ++m) elements[m].differentiate_corner_0(weights, gradient, hessian);
+  for (std::size_t f = 0; f < folds.size(); ++f) {
+    const Fold shape = fold_of(fold_points[f]);
+    const double slack = fold_slack(shape, folds_.limit(folds[f]));
+    if (slack >= 1.0) continue;
+    const Barrier b = barrier(slack, 1.0);
+    const Vec3 d = fold_gradient(fold_points[f], shape)[fold_corner[f]] / folds_.limit(folds[f]).range;
+    gradient += (weights.barrier * b.slope) * d;
+    hessian.add(weights.barrier * b.curvature, d);
+  }
 
   const TangentAxes tangents = tangent_axes(base_.constraint[v], normal);
   std::array<Vec3, 3> directions{};
@@ -165,6 +194,8 @@ std::size_t LayerObjective::descend(Vec3Field& y, std::vector<std::uint8_t>& act
     if (!is_moving_[i]) return;
     active[i] = has_moved[i];
     for (const VertexId other : base_.topology.neighbours(VertexId(i))) active[i] |= has_moved[other.index()];
+    for (const std::uint32_t fold : folds_.at(i))
+      for (const std::uint32_t other : folds_.corners(fold)) active[i] |= has_moved[other];
   });
   return n_visits;
 }

@@ -7,7 +7,23 @@ namespace {
 struct Seeds {
   Vec3 to_top, to_middle;           ///< n_top, n_middle
   std::array<Vec3, 3> to_growth{};  ///< growth edges, directly
+  std::array<Vec3, 2> to_edge{};    ///< edges of the envelope, directly
 };
+
+/// Of corner k: the sine is twice the area over the two lengths at the corner.
+Seeds corner_seeds(const LayerElement& el, std::size_t k) {
+  const double sine = (1.0 + el.corner[k]) * el.least_sine[k];
+  const Vec3 third = el.top[1] - el.top[0];
+  const double a = norm2(el.top[0]), b = norm2(el.top[1]), c = norm2(third);
+  Seeds s;
+  s.to_top = (sine / (el.top_area2 * el.top_area2 * el.least_sine[k])) * el.n_top;
+  const double share = sine / el.least_sine[k];
+  const Vec3 to_a = (-share / a) * el.top[0], to_b = (-share / b) * el.top[1], to_c = (-share / c) * third;
+  if (k == 0) s.to_edge = {to_a, to_b};
+  else if (k == 1) s.to_edge = {to_a - to_c, to_c};
+  else s.to_edge = {-to_c, to_b + to_c};
+  return s;
+}
 
 /// Calls f(x, onset, seeds) for every barrier term that is active.
 template <class F>
@@ -18,6 +34,8 @@ void for_each_active_term(const LayerElement& el, const F& f) {
     f(el.area - el.margins->area, k_area_onset, s);
   }
   const Vec3 unit_top = el.n_top / el.top_area2;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (el.corner[k] < k_corner_onset) f(el.corner[k], k_corner_onset, corner_seeds(el, k));
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3& u = el.unit[k];
     const auto along = [&](const Vec3& d) { return (d - dot(d, u) * u) / el.length[k]; };
@@ -49,13 +67,14 @@ void for_each_active_term(const LayerElement& el, const F& f) {
 }
 
 // n_top = top0 x top1, n_middle = (e0 x top1 + top0 x e1) / 2, top_k = e_k + g_(k+1) - g_0: derivatives with respect to top0 and top1.
-Vec3 to_edge_0(const LayerElement& el, const Seeds& s) { return cross(el.top[1], s.to_top) + 0.5 * cross(el.e[1], s.to_middle); }
-Vec3 to_edge_1(const LayerElement& el, const Seeds& s) { return cross(s.to_top, el.top[0]) + 0.5 * cross(s.to_middle, el.e[0]); }
+Vec3 to_edge_0(const LayerElement& el, const Seeds& s) { return cross(el.top[1], s.to_top) + 0.5 * cross(el.e[1], s.to_middle) + s.to_edge[0]; }
+Vec3 to_edge_1(const LayerElement& el, const Seeds& s) { return cross(s.to_top, el.top[0]) + 0.5 * cross(s.to_middle, el.e[0]) + s.to_edge[1]; }
 
 void add_scaled(Seeds& sum, double w, const Seeds& s) {
   sum.to_top += w * s.to_top;
   sum.to_middle += w * s.to_middle;
   for (std::size_t k = 0; k < 3; ++k) sum.to_growth[k] += w * s.to_growth[k];
+  for (std::size_t k = 0; k < 2; ++k) sum.to_edge[k] += w * s.to_edge[k];
 }
 
 /// Seeds of f_3 = sum over k of 1 - top_cosine[k].
@@ -99,6 +118,12 @@ double LayerElement::measure(double least_quality) {
   area = dot(n_wall, n_top) / wall_area2;
   double slack = area - margins->area;
   if (!(slack > 0.0)) return -1.0;
+  const std::array<double, 3> sines = corner_sines(top[0], top[1], top_area2);
+  for (std::size_t k = 0; k < 3; ++k) {
+    corner[k] = sines[k] / least_sine[k] - 1.0;
+    if (!(corner[k] > 0.0)) return -1.0;
+    slack = std::min(slack, corner[k]);
+  }
   for (std::size_t k = 0; k < 3; ++k) {
     wall_cosine[k] = dot(n_wall, unit[k]);
     top_cosine[k] = dot(n_top, unit[k]) / top_area2;
@@ -115,6 +140,7 @@ double LayerElement::energy(const ElementWeights& weights) const {
   double sum = 0.0;
   if (area - margins->area < k_area_onset) sum += barrier_value(area - margins->area, k_area_onset);
   for (std::size_t k = 0; k < 3; ++k) {
+    if (corner[k] < k_corner_onset) sum += barrier_value(corner[k], k_corner_onset);
     if (wall_cosine[k] < k_wall_cosine_onset) sum += barrier_value(wall_cosine[k], k_wall_cosine_onset);
     const double above = top_cosine[k] - top_margin(k);
     if (above < k_top_cosine_onset) sum += barrier_value(above, k_top_cosine_onset);

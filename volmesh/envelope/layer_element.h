@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geom/base/vec3.h"
+#include "volmesh/envelope/corner_shape.h"
 #include "volmesh/envelope/lbfgs.h"
 
 namespace sterna::volmesh {
@@ -15,6 +16,7 @@ inline constexpr double k_wall_cosine_onset = 0.2;  ///< cosine between growth e
 inline constexpr double k_area_onset = 0.2;         ///< share of the wall's area that the envelope triangle keeps in projection
 inline constexpr double k_top_cosine_onset = 0.25;  ///< cosine between growth edge and envelope normal
 inline constexpr double k_middle_onset = 0.3;       ///< b_1 + sqrt(b_0 b_2) of the exact wedge test
+inline constexpr double k_corner_onset = 1.0;       ///< sine of an envelope corner over its least one, less one: a straight prism on a needle is there
 /// Least values of an element's quantities; barriers begin above them.
 struct ElementMargins {
   double area = 0.01;        ///< share of the wall's area
@@ -27,6 +29,8 @@ inline constexpr ElementMargins k_least_margins = {};
 /// Those that elements keep which have them at the start: prisms of the extruded layer have room left for their curved lines.
 inline constexpr ElementMargins k_wide_margins = {.area = 0.06, .top = 0.15, .top_of_wall = 0.5, .middle = 0.1};
 
+/// Of the least sine: envelopes that stand on the limit by the test of validity.cpp are inside by rounding, too.
+inline constexpr double k_corner_slack = 1.0 - 1e-9;
 /// Slack below which the scaled Jacobian is looked at: elements further away have large ones, unless the wall triangle itself is a needle.
 inline constexpr double k_quality_onset = 0.3;
 
@@ -60,6 +64,7 @@ struct LayerElement {
   Vec3 n_top, n_middle;  ///< Bernstein coefficients of the normal over the height; n_wall * wall_area2 is the first
   double top_area2 = 0.0, area = 0.0;
   std::array<double, 3> wall_cosine{}, top_cosine{}, middle{};
+  std::array<double, 3> least_sine{}, corner{};  ///< of the envelope's corners: least sine, and sine over it less one
 
   void set_growth(std::size_t k, const Vec3& g) {
     length[k] = norm(g);
@@ -67,6 +72,11 @@ struct LayerElement {
   }
   /// wedge_quality(), from what measure() has computed.
   double scaled_jacobian() const;
+  /// Sets least_sine. \pre wall edges and area are set.
+  void set_corners() {
+    const std::array<double, 3> sines = corner_sines(e[0], e[1], wall_area2);
+    for (std::size_t k = 0; k < 3; ++k) least_sine[k] = k_corner_slack * least_corner_sine(sines[k]);
+  }
   double top_margin(std::size_t k) const { return std::min(margins->top, margins->top_of_wall * wall_cosine[k]); }
 
   /// Returns the distance from infeasibility, in the units of the barrier's terms; -1 where infeasible (then the terms are not all set).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geom/base/parallel.h"
 
@@ -101,6 +102,9 @@ LayerObjective::LayerObjective(const LayerBase& base, const Envelope& start, con
       is_element_[t] = 0;
       for (const VertexId v : base.wall.triangles[TriangleId(t)]) is_moving_[v.index()] = 0;
     }
+    folds_ = LayerFolds(base, start, is_moving_, context);
+    for (const std::uint32_t v : folds_.drop_infeasible(base, start)) is_moving_[v] = 0;
+    fold_gradient_.resize(4 * folds_.size());
   }
   for (std::size_t i = 0; i < n; ++i) {
     n_moving_ += is_moving_[i];
@@ -166,7 +170,49 @@ bool LayerObjective::load(std::size_t t, const Vec3Field& y, LayerElement& e) co
     e.e[k] = base_.wall.points[v[k + 1]] - p;
     e.top[k] = e.e[k] + (g[k + 1] - g[0]);
   }
+  e.set_corners();
   return true;
+}
+
+FoldPoints LayerObjective::fold_points(std::size_t fold, const Vec3Field& y) const {
+  FoldPoints points;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::uint32_t v = folds_.corners(fold)[k];
+    points[k] = base_.wall.points[VertexId(v)] + h_u_[v] * y[v];
+  }
+  return points;
+}
+
+double LayerObjective::fold_energy(const Fold& shape, std::size_t fold) const {
+  const double slack = fold_slack(shape, folds_.limit(fold));
+  if (slack >= 1.0) return 0.0;
+  return slack > 0.0 ? barrier_value(slack, 1.0) : std::numeric_limits<double>::infinity();
+}
+
+/// Sum of the folds' barriers; their gradients into fold_gradient_.
+double LayerObjective::add_folds(const Vec3Field& y, bool with_gradient, const RunContext& context) {
+  const double weight = element_weights().barrier;
+  return parallel_reduce(
+      context, folds_.size(), 0.0,
+      [&](std::size_t begin, std::size_t end) {
+        double sum = 0.0;
+        for (std::size_t i = begin; i < end; ++i) {
+          const FoldPoints points = fold_points(i, y);
+          const Fold shape = fold_of(points);
+          const double energy = fold_energy(shape, i);
+          sum += energy;
+          if (!with_gradient) continue;
+          std::array<Vec3, 4> d{};
+          if (energy > 0.0) {
+            d = fold_gradient(points, shape);
+            const double slope = weight * barrier(fold_slack(shape, folds_.limit(i)), 1.0).slope / folds_.limit(i).range;
+            for (Vec3& g : d) g *= slope;
+          }
+          std::copy(d.begin(), d.end(), fold_gradient_.begin() + static_cast<std::ptrdiff_t>(4 * i));
+        }
+        return sum;
+      },
+      [](double a, double b) { return a + b; });
 }
 
 ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, Vec3Field* gradient, const RunContext& context) {
@@ -196,6 +242,7 @@ ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, Vec3Field* gradient,
         return sum;
       },
       add);
+  value.barrier += add_folds(y, gradient != nullptr, context);
   value.f3 *= element_weight;
   value.barrier *= element_weight;
   if (gradient) gradient->resize(size());
@@ -217,6 +264,9 @@ ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, Vec3Field* gradient,
           Vec3 d = (-element_weight / length) * (normal_sum_[i] - seen * u) - height_weight(i) * normal_[i];
           for (const HalfedgeId h : base_.topology.outgoing(VertexId(i)))
             if (has_gradient_[h.index() / 3]) d += h_u_[i] * corner_gradient_[h.index()];
+          for (const std::uint32_t fold : folds_.at(i))
+            for (std::size_t k = 0; k < 4; ++k)
+              if (folds_.corners(fold)[k] == i) d += h_u_[i] * fold_gradient_[4 * fold + k];
           (*gradient)[i] = within(base_.constraint[VertexId(i)], d);
         }
         return sum;
@@ -237,10 +287,11 @@ void LayerObjective::free_part(const Vec3Field& y, Vec3Field& gradient, const Ru
 }
 
 void LayerObjective::slacks(const Vec3Field& y, std::vector<float>& slack, const RunContext& context) const {
-  slack.resize(is_element_.size());
+  const std::size_t n = is_element_.size();
+  slack.resize(n + folds_.size());
   parallel_for(context, slack.size(), [&](std::size_t t) {
     LayerElement e;
-    slack[t] = load(t, y, e) ? static_cast<float>(e.measure()) : 1.0f;
+    slack[t] = static_cast<float>(t >= n ? fold_slack(fold_of(fold_points(t - n, y)), folds_.limit(t - n)) : load(t, y, e) ? e.measure() : 1.0);
   });
 }
 
@@ -248,18 +299,27 @@ std::size_t LayerObjective::hold_back(const Vec3Field& from, const std::vector<f
                                       const RunContext& context) const {
   std::vector<std::uint8_t> dirty(size(), 1), halvings(size(), 0);
   std::size_t n_held = 0;
+  const std::size_t n_elements = is_element_.size();  // then folds
+  const auto vertices_of = [&](std::size_t t) -> LayerFolds::Corners {
+    if (t >= n_elements) return folds_.corners(t - n_elements);
+    const TriangleVertices& v = base_.wall.triangles[TriangleId(t)];
+    return {v[0].value(), v[1].value(), v[2].value(), v[2].value()};
+  };
   while (true) {
+    const auto is_bad = [&](std::size_t t) {
+      const double least = std::min(k_far, keep * static_cast<double>(slack_from[t]));
+      if (t >= n_elements) return fold_slack(fold_of(fold_points(t - n_elements, to)), folds_.limit(t - n_elements)) < least;
+      LayerElement e;
+      return load(t, to, e) && e.measure(least_quality_) < least;
+    };
     const std::vector<std::uint32_t> bad = parallel_reduce(
-        context, is_element_.size(), std::vector<std::uint32_t>{},
+        context, n_elements + folds_.size(), std::vector<std::uint32_t>{},
         [&](std::size_t begin, std::size_t end) {
           std::vector<std::uint32_t> list;
           for (std::size_t t = begin; t < end; ++t) {
-            if (!is_element_[t]) continue;
-            const TriangleVertices& v = base_.wall.triangles[TriangleId(t)];
-            if (!dirty[v[0].index()] && !dirty[v[1].index()] && !dirty[v[2].index()]) continue;
-            LayerElement e;
-            load(t, to, e);
-            if (e.measure(least_quality_) < std::min(k_far, keep * static_cast<double>(slack_from[t]))) list.push_back(static_cast<std::uint32_t>(t));
+            const auto vertices = vertices_of(t);
+            if (std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return dirty[v] != 0; }) && is_bad(t))
+              list.push_back(static_cast<std::uint32_t>(t));
           }
           return list;
         },
@@ -270,7 +330,7 @@ std::size_t LayerObjective::hold_back(const Vec3Field& from, const std::vector<f
     if (bad.empty()) return n_held;
     dirty.assign(size(), 0);
     for (const std::uint32_t t : bad)
-      for (const VertexId v : base_.wall.triangles[TriangleId(std::uint64_t{t})]) dirty[v.index()] = 1;
+      for (const std::uint32_t v : vertices_of(t)) dirty[v] = 1;
     bool has_moved = false;
     for (std::size_t i = 0; i < size(); ++i) {
       if (!dirty[i] || to[i] == from[i]) continue;

@@ -8,6 +8,7 @@
 
 #include "volmesh/envelope/envelope.h"
 #include "volmesh/envelope/layer_element.h"
+#include "volmesh/envelope/layer_folds.h"
 #include "volmesh/envelope/lbfgs.h"
 
 namespace sterna::volmesh {
@@ -59,7 +60,7 @@ class LayerObjective {
   /// y into the bounds.
   void clamp(std::size_t v, Vec3& y) const;
 
-  /// Distance of every element from infeasibility (0), in the units of the barrier's terms.
+  /// Distance of every element, then of every fold from infeasibility (0), in the units of the barrier's terms.
   void slacks(const Vec3Field& y, std::vector<float>& slack, const RunContext& context) const;
   /// Draws vertices of `to` back towards `from`, until every element keeps at least `keep` of its slack in `from` (or is far from the barrier). Returns how
   /// many vertices were drawn back.
@@ -68,6 +69,10 @@ class LayerObjective {
  private:
   const ElementMargins* margins_of(std::size_t t) const { return has_wide_margins_[t] ? &k_wide_margins : &k_least_margins; }
   bool load(std::size_t t, const Vec3Field& y, LayerElement& e) const;
+  FoldPoints fold_points(std::size_t fold, const Vec3Field& y) const;
+  /// Barrier of the fold; infinite where it is too sharp.
+  double fold_energy(const Fold& shape, std::size_t fold) const;
+  double add_folds(const Vec3Field& y, bool with_gradient, const RunContext& context);
   struct VisitScratch;
   void colour_vertices();
   /// The step of one vertex; returns how far it went, in units of h_u.
@@ -91,7 +96,9 @@ class LayerObjective {
   std::vector<double> mirror_share_;            ///< of the whole body's vertex that is here: 1, 1/2 on a plane, 1/4 on a line; counts in f_2
   std::vector<std::uint8_t> is_element_;        ///< no collapsed corner, some corner moves
   std::vector<std::uint8_t> has_wide_margins_;  ///< likewise per triangle
-  std::vector<Vec3> corner_gradient_;           ///< 3 per element, scratch of evaluate()
+  LayerFolds folds_;
+  std::vector<Vec3> fold_gradient_;    ///< 4 per fold, scratch of evaluate()
+  std::vector<Vec3> corner_gradient_;  ///< 3 per element, scratch of evaluate()
   std::vector<std::uint8_t> has_gradient_;
   std::vector<std::vector<std::uint32_t>> colours_;  ///< moving vertices that share no element with others of their colour
 };

@@ -112,15 +112,66 @@ void untangle_edges(const LayerBase& base, const EnvelopeOptions& options, Envel
 
 namespace {
 
-/// What is lowered in one round, without repetition.
-/// Lowers the corners of invalid elements, or collapses them; returns the lowered vertices.
+/// Edges of these triangles at which the envelope is folded too sharply, ascending, each by its lower half-edge.
+std::vector<HalfedgeId> closed_folds(const LayerBase& base, const EnvelopeShape& envelope, const std::vector<TriangleId>& triangles) {
+  std::vector<HalfedgeId> closed;
+  for (const TriangleId t : triangles)
+    for (int corner = 0; corner < 3; ++corner) {
+      const HalfedgeId h = halfedge(t, corner);
+      if (!is_fold_open(base, envelope, h)) closed.push_back(std::min(h, base.topology.twin(h)));
+    }
+  sort_unique(closed);
+  return closed;
+}
+
+/// Share of the heights at the edge's four vertices at which the fold is open: near the wall it is as open as the wall.
+double open_share(const LayerBase& base, const Envelope& envelope, HalfedgeId h) {
+  const EdgeDiamond diamond = edge_diamond(base, h);
+  const FoldPoints wall = wall_points(base, diamond), top = envelope_points(base, envelope, diamond);
+  const FoldLimit limit = fold_limit(wall);
+  double open = k_smallest_scale, closed = 1.0;
+  for (int step = 0; step < k_bisection_steps; ++step) {
+    const double middle = std::sqrt(open * closed);
+    FoldPoints points = wall;
+    for (std::size_t k = 0; k < 4; ++k) points[k] += middle * (top[k] - wall[k]);
+    (fold_slack(fold_of(points), limit) > 0.0 ? open : closed) = middle;
+  }
+  return open;
+}
+
+/// Lowers all four vertices of closed folds: lower at the edge alone, the fold would be sharper.
+std::vector<VertexId> lower_folds(const LayerBase& base, const std::vector<TriangleId>& bad, const EnvelopeScale& scale, HeightLimit reason, Envelope& envelope,
+                                  const RunContext& context) {
+  const std::vector<HalfedgeId> folds = closed_folds(base, envelope, bad);
+  std::vector<double> share(folds.size());
+  parallel_for(
+      context, folds.size(), [&](std::size_t i) { share[i] = open_share(base, envelope, folds[i]); }, 64);
+  std::vector<std::pair<VertexId, double>> wanted;
+  for (std::size_t i = 0; i < folds.size(); ++i)
+    for (const VertexId v : edge_diamond(base, folds[i])) wanted.push_back({v, k_reserve * share[i] * envelope.height[v]});
+  std::vector<VertexId> lowered;
+  for (const auto& [v, height] : wanted) {
+    if (!(height < envelope.height[v])) continue;
+    lower(envelope, v, height, reason, scale);
+    lowered.push_back(v);
+  }
+  return lowered;
+}
+
+/// Lowers the corners of invalid elements and folds, or collapses them; returns the lowered vertices, without repetition.
 std::vector<VertexId> lower_elements(const LayerBase& base, const std::vector<TriangleId>& bad, bool must_collapse, const EnvelopeScale& scale,
                                      HeightLimit reason, Envelope& envelope, const RunContext& context) {
   std::vector<double> bound(bad.size(), 0.0);
   if (!must_collapse)
     parallel_for(
-        context, bad.size(), [&](std::size_t i) { bound[i] = valid_cut(macro_element(base, envelope, bad[i])); }, 64);
+        context, bad.size(),
+        [&](std::size_t i) {
+          const MacroElement element = macro_element(base, envelope, bad[i]);
+          bound[i] = is_macro_valid(element) ? std::numeric_limits<double>::infinity() : valid_cut(element);
+        },
+        64);
   std::vector<VertexId> lowered;
+  if (!must_collapse) lowered = lower_folds(base, bad, scale, reason, envelope, context);
   for (std::size_t i = 0; i < bad.size(); ++i) {
     const TriangleVertices& vertices = base.wall.triangles[bad[i]];
     const std::array<double, 3> before = {envelope.height[vertices[0]], envelope.height[vertices[1]], envelope.height[vertices[2]]};

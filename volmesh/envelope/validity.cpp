@@ -4,6 +4,7 @@
 
 #include "geom/base/parallel.h"
 #include "geom/math/measures.h"
+#include "volmesh/envelope/corner_shape.h"
 #include "volmesh/envelope/keep_inside.h"
 
 namespace sterna::volmesh {
@@ -16,6 +17,8 @@ constexpr double k_min_warp_cosine = 0.05;
 constexpr double k_warp_share_of_wall = 0.2;
 /// Up to this share of the vertices it is cheaper to list their triangles than to look at all.
 constexpr std::size_t k_list_share = 16;
+/// Cosine between neighbouring normals above which no edge is folded: 60 degrees between the triangles.
+constexpr double k_open_cosine = -0.5;
 /// Elements per task: about 50 us.
 constexpr std::size_t k_chunk = 512;
 
@@ -28,6 +31,10 @@ bool is_prism_valid_with_margin(const MacroElement& e) {
   if (dot(n_wall, n_top) < k_min_area_share * wall2) return false;
   const double wall_length = std::sqrt(wall2);
   const double top_length = norm(n_top);
+  const std::array<double, 3> wall_sines = corner_sines(e.wall[1] - e.wall[0], e.wall[2] - e.wall[0], wall_length);
+  const std::array<double, 3> top_sines = corner_sines(top[1] - top[0], top[2] - top[0], top_length);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (top_sines[k] < least_corner_sine(wall_sines[k])) return false;
   for (std::size_t k = 0; k < 3; ++k) {
     const double seen_from_wall = dot(n_wall, e.direction[k]) / wall_length;
     if (seen_from_wall <= 0.0) return false;
@@ -63,6 +70,31 @@ bool is_macro_valid(const MacroElement& e) {
   return is_tet_valid({e.wall[a], e.wall[b], e.wall[c], top(a)});
 }
 
+EdgeDiamond edge_diamond(const LayerBase& base, HalfedgeId h) {
+  const Topology& topology = base.topology;
+  return {topology.from(h), topology.to(h), topology.to(next(h)), topology.to(next(topology.twin(h)))};
+}
+
+FoldPoints wall_points(const LayerBase& base, const EdgeDiamond& diamond) {
+  FoldPoints points;
+  for (std::size_t k = 0; k < 4; ++k) points[k] = base.wall.points[diamond[k]];
+  return points;
+}
+
+FoldPoints envelope_points(const LayerBase& base, const EnvelopeShape& shape, const EdgeDiamond& diamond) {
+  FoldPoints points;
+  for (std::size_t k = 0; k < 4; ++k) points[k] = shape.point(base.wall, diamond[k]);
+  return points;
+}
+
+bool is_fold_open(const LayerBase& base, const EnvelopeShape& shape, HalfedgeId h) {
+  if (base.topology.is_boundary(h)) return true;
+  const EdgeDiamond diamond = edge_diamond(base, h);
+  const Fold fold = fold_of(envelope_points(base, shape, diamond));
+  if (!(fold.cosine < k_open_cosine)) return true;  // or a triangle without area, which is another test's
+  return fold_slack(fold, fold_limit(wall_points(base, diamond))) > 0.0;
+}
+
 bool is_prism(const MacroElement& e) { return e.height[0] > 0.0 && e.height[1] > 0.0 && e.height[2] > 0.0; }
 
 double scaled_jacobian(const MacroElement& e) {
@@ -73,6 +105,14 @@ double scaled_jacobian(const MacroElement& e) {
   }
   return wedge_quality(p);
 }
+
+namespace {
+
+bool has_open_folds(const LayerBase& base, const EnvelopeShape& shape, TriangleId t) {
+  return is_fold_open(base, shape, halfedge(t, 0)) && is_fold_open(base, shape, halfedge(t, 1)) && is_fold_open(base, shape, halfedge(t, 2));
+}
+
+}  // namespace
 
 std::vector<TriangleId> low_quality_elements(const LayerBase& base, const EnvelopeShape& shape, double least_quality,
                                              const Column<VertexId, std::uint8_t>& marked, const RunContext& context) {
@@ -86,7 +126,7 @@ std::vector<TriangleId> low_quality_elements(const LayerBase& base, const Envelo
           const TriangleVertices& v = base.wall.triangles[t];
           if (!marked[v[0]] && !marked[v[1]] && !marked[v[2]]) continue;
           const MacroElement e = macro_element(base, shape, t);
-          if (!is_macro_valid(e) || (is_prism(e) && scaled_jacobian(e) < least_quality)) list.push_back(t);
+          if (!is_macro_valid(e) || !has_open_folds(base, shape, t) || (is_prism(e) && scaled_jacobian(e) < least_quality)) list.push_back(t);
         }
         return list;
       },
@@ -118,7 +158,7 @@ std::vector<TriangleId> invalid_macros(const LayerBase& base, const EnvelopeShap
           const TriangleId t = is_list ? candidates[i] : TriangleId(i);
           const TriangleVertices& v = base.wall.triangles[t];
           if (!is_marked.empty() && !is_marked[v[0]] && !is_marked[v[1]] && !is_marked[v[2]]) continue;
-          if (!is_macro_valid(macro_element(base, shape, t))) bad.push_back(t);
+          if (!is_macro_valid(macro_element(base, shape, t)) || !has_open_folds(base, shape, t)) bad.push_back(t);
         }
         return bad;
       },

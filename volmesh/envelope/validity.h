@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "volmesh/envelope/edge_fold.h"
 #include "volmesh/envelope/envelope.h"
 
 namespace sterna::volmesh {
@@ -28,7 +29,17 @@ double scaled_jacobian(const MacroElement& element);
 std::vector<TriangleId> low_quality_elements(const LayerBase& base, const EnvelopeShape& shape, double least_quality,
                                              const Column<VertexId, std::uint8_t>& marked, const RunContext& context);
 
-/// Triangles whose macro-element is not valid, ascending. With `around`, only triangles at these vertices are looked at.
+/// The vertices at an edge between two triangles: its ends, the third corner of the triangle of the half-edge, that of the other one.
+using EdgeDiamond = std::array<VertexId, 4>;
+/// \pre the half-edge is none of the boundary.
+EdgeDiamond edge_diamond(const LayerBase& base, HalfedgeId h);
+FoldPoints wall_points(const LayerBase& base, const EdgeDiamond& diamond);
+FoldPoints envelope_points(const LayerBase& base, const EnvelopeShape& shape, const EdgeDiamond& diamond);
+/// The envelope leaves room for tetrahedra along the edge (edge_fold.h); true on the boundary.
+bool is_fold_open(const LayerBase& base, const EnvelopeShape& shape, HalfedgeId h);
+
+/// Triangles whose macro-element is not valid or whose envelope triangle is folded too sharply with a neighbour, ascending. With `around`, only triangles at
+/// these vertices are looked at.
 std::vector<TriangleId> invalid_macros(const LayerBase& base, const EnvelopeShape& shape, const RunContext& context,
                                        const std::vector<VertexId>* around = nullptr);
 
