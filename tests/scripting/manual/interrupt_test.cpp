@@ -69,7 +69,7 @@ const Work k_work[] = {
     {"metamethod", "",
      "local t = setmetatable({}, { __index = function(t, k) return t[k + 1] end, __close = function() while true do end end }) do local c <close> = t while "
      "true do end end"},
-    {"rep_and_gsub", "", "while true do string.rep('ab', 2^28):gsub('a', 'x') end"},
+    {"rep_and_gsub", "", "while true do string.rep('ab', 2^26):gsub('a', 'x') end"},
     {"pattern", "", "string.find(string.rep('a', 100000), '.-.-.-.-.-b')"},
     {"sort", "",
      "local t = {} for i = 1, 2^23 do t[i] = (i * 7919) % 1000003 end while true do table.sort(t) table.sort(t, function(a, b) return a > b end) end"},
