@@ -83,6 +83,11 @@ void optimise_globally(const LayerBase& base, const EnvelopeOptions& options, Co
     });
     apply_where_clear(base, collider, envelope, proposal, context);
   }
+  // What nothing else keeps low, the shape of the envelope does: here it was free to rise.
+  parallel_for(context, base.wall.n_vertices(), [&](std::size_t i) {
+    const VertexId v(i);
+    if (envelope.limit[v] == HeightLimit::none && envelope.height[v] < k_full_height * envelope.target[v]) envelope.limit[v] = HeightLimit::warp;
+  });
 }
 
 }  // namespace sterna::volmesh

@@ -205,13 +205,13 @@ int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
 }
 }
 
-/// glibc reads this before main() begins, so the process starts itself anew where it has another value.
+/// glibc reads this before main() begins, so the process starts itself anew where it has another value; without what would fill blocks that are given back.
 void require_no_thread_cache() {
   constexpr const char *k_name = "GLIBC_TUNABLES", *k_value = "glibc.malloc.tcache_count=0";
   if (const char* now = std::getenv(k_name); now && std::strcmp(now, k_value) == 0) return;
   char path[] = "/proc/self/exe";
   char* arguments[] = {path, nullptr};
-  if (setenv(k_name, k_value, 1) == 0) execv(path, arguments);
+  if (unsetenv("MALLOC_PERTURB_") == 0 && setenv(k_name, k_value, 1) == 0) execv(path, arguments);
   helper::say("HXT's process cannot set how its memory is kept: its answer may differ from run to run\n");
 }
 

@@ -60,12 +60,13 @@ TEST_F(Determinism, MeshesAreEqualForAnyNumberOfThreads) {
   EXPECT_EQ(json["files"][0]["xxh3_128"].get<std::string>().size(), 32u);
 }
 
-/// HXT reads memory that it has not written; glibc fills what it gives out with the bytes that MALLOC_PERTURB_ asks for.
+/// HXT reads memory that it has not written, or has given back (the key of glibc's cache differs from run to run); glibc fills what it gives out and takes back
+/// with the bytes that MALLOC_PERTURB_ asks for, which our own process must not see, either.
 TEST_F(Determinism, MeshesDoNotDependOnWhatWasInMemory) {
   STERNA_NEEDS_SHARED_DATA();
   const std::string wall = (test::shared_data() / "surfaces/clean/pygeo_bwb.stl").string();
   std::vector<std::string> meshes;
-  for (const char* fill : {"0", "85", "170"}) {
+  for (const char* fill : {"0", "85", "170", "0", "0", "0"}) {
     setenv("MALLOC_PERTURB_", fill, 1);
     const test::ProcessResult result = sterna({"mesh", wall, "--layers", "10", "--first-height", "1e-4", "--quiet", "-o", "bwb.su2"});
     unsetenv("MALLOC_PERTURB_");
@@ -73,7 +74,7 @@ TEST_F(Determinism, MeshesDoNotDependOnWhatWasInMemory) {
     std::ifstream file(folder / "bwb.su2", std::ios::binary);
     meshes.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
   }
-  EXPECT_TRUE(meshes[0] == meshes[1] && meshes[0] == meshes[2]);
+  for (const std::string& mesh : meshes) EXPECT_TRUE(mesh == meshes[0]);
 }
 
 TEST_F(Determinism, ComparisonsFindTheFirstByteAndMissingFiles) {

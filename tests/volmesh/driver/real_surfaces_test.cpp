@@ -111,9 +111,10 @@ TEST_P(RealSurface, GivesAValidMeshWithItsLayers) {
   EXPECT_LE(result.layer.collapsed.size(), 3u);
 }
 
+// couplingdown: a coarse wall under a layer of a tenth of its length, which gives way where its envelope would have needles.
 INSTANTIATE_TEST_SUITE_P(Clean, RealSurface,
                          testing::Values(Case{"clean/caturbs_wing_wing.stl", 0.9}, Case{"clean/cgal_data_anchor_dense.off", 0.0},
-                                         Case{"clean/cgal_data_couplingdown.off", 0.9}, Case{"clean/flowpanel_duct_duct_remeshed_refined.msh", 0.9},
+                                         Case{"clean/cgal_data_couplingdown.off", 0.75}, Case{"clean/flowpanel_duct_duct_remeshed_refined.msh", 0.9},
                                          Case{"clean/gmsh_stl_TwoObjects.stl.gz", 0.9}, Case{"clean/meshpy_ka6d_ka-6d.ply", 0.0},
                                          Case{"clean/pmp_fandisk.off", 0.9}, Case{"clean/pygeo_bwb.stl", 0.9},
                                          Case{"clean/pymeshlab_airplane_airplane.obj", 0.9}, Case{"clean/vspgeom_geom2_geom2.stl", 0.98}));
