@@ -53,7 +53,9 @@ void expect_same_figures(const std::string& script, const std::filesystem::path&
     testing::Test::RecordProperty(measure, std::to_string(ours));
   }
   const double openness = number_after_one_of(*output, {"Max cell openness =", "***Open cells found, max cell openness:"});
-  EXPECT_NEAR(openness, worst_of(report, "cell_openness"), k_rounding) << *output;  // both are rounding, over the size of the cell
+  if (openness >= 0.0) {                                                              // not printed beside a high aspect ratio
+    EXPECT_NEAR(openness, worst_of(report, "cell_openness"), k_rounding) << *output;  // both are rounding, over the size of the cell
+  }
 }
 
 TEST(FoamQuality, OfAWingAreCheckMeshs) {
