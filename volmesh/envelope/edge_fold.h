@@ -1,6 +1,7 @@
 // How sharply the envelope may be folded along an edge, on the side of the fluid: tetrahedra must fit in between.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

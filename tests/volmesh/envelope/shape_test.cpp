@@ -21,7 +21,7 @@ namespace {
 
 using test::k_context;
 
-constexpr double k_degree = std::numbers::pi / 180.0;
+constexpr double k_one_degree = std::numbers::pi / 180.0;
 
 std::array<double, 3> sines_of(const std::array<Point, 3>& p) {
   const Vec3 a = p[1] - p[0], b = p[2] - p[0];
@@ -44,7 +44,7 @@ void expect_shapely(const TriMesh& wall, const EnvelopeOptions& options) {
     }
     const std::array<double, 3> wall_sines = sines_of(below), top_sines = sines_of(top);
     for (std::size_t k = 0; k < 3; ++k)
-      ASSERT_GE(top_sines[k], std::min(std::sin(12.0 * k_degree), 0.5 * wall_sines[k]) * (1.0 - 1e-3)) << "triangle " << t.value();
+      ASSERT_GE(top_sines[k], std::min(std::sin(12.0 * k_one_degree), 0.5 * wall_sines[k]) * (1.0 - 1e-3)) << "triangle " << t.value();
     for (int corner = 0; corner < 3; ++corner) {
       const HalfedgeId h = halfedge(t, corner);
       if (base.topology.is_boundary(h)) continue;
@@ -58,7 +58,7 @@ void expect_shapely(const TriMesh& wall, const EnvelopeOptions& options) {
         return dot(other, normal) > 0.0 ? between : 2.0 * std::numbers::pi - between;
       };
       const double on_wall = angle(below, wall.points[apex]);
-      ASSERT_GE(angle(top, envelope.point(wall, apex)), std::min(15.0 * k_degree, 0.5 * on_wall) * (1.0 - 1e-3)) << "triangle " << t.value();
+      ASSERT_GE(angle(top, envelope.point(wall, apex)), std::min(15.0 * k_one_degree, 0.5 * on_wall) * (1.0 - 1e-3)) << "triangle " << t.value();
     }
   }
   EXPECT_GT(n_prisms, wall.n_triangles() / 2);
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(Clean, RealEnvelopeShape,
 
 TEST(EdgeFold, AnglesOfTheFluidAreThoseOfAHinge) {
   for (double degrees = 4.0; degrees < 179.0; degrees += 7.0) {
-    const double angle = degrees * k_degree;
+    const double angle = degrees * k_one_degree;
     // The edge along x, one triangle in the plane z = 0 towards +y, the fluid above it; the other one turned up towards the first.
     const FoldPoints hinge = {Point{0, 0, 0}, Point{1, 0, 0}, Point{0.4, 1, 0}, Point{0.6, std::cos(angle), std::sin(angle)}};
     const Fold fold = fold_of(hinge);
@@ -108,7 +108,7 @@ TEST(EdgeFold, AnglesOfTheFluidAreThoseOfAHinge) {
 }
 
 TEST(EdgeFold, TrianglesDoNotSwapSidesInAConcaveCorner) {
-  const double angle = 20.0 * k_degree;
+  const double angle = 20.0 * k_one_degree;
   const FoldPoints above = {Point{0, 0, 0}, Point{1, 0, 0}, Point{0.4, 1, 0}, Point{0.6, std::cos(angle), std::sin(angle)}};
   FoldPoints below = above;
   below[3].z = -below[3].z;
