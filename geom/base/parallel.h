@@ -56,6 +56,23 @@ R parallel_reduce(const RunContext& context, std::size_t n, R initial, const Map
   return result;
 }
 
+/// What collect(begin, end, list) appends to the list of its chunk, from the first chunk to the last.
+template <class T, class Collect>
+std::vector<T> parallel_collect(const RunContext& context, std::size_t n, const Collect& collect, std::size_t chunk = k_default_chunk) {
+  return parallel_reduce(
+      context, n, std::vector<T>{},
+      [&](std::size_t begin, std::size_t end) {
+        std::vector<T> list;
+        collect(begin, end, list);
+        return list;
+      },
+      [](std::vector<T> all, const std::vector<T>& more) {
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+      },
+      chunk);
+}
+
 /// Sorts [data, data+n).
 /// \pre less is a total order (no two different elements are equivalent), so that the result is unique.
 template <class T, class Less>

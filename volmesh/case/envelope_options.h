@@ -17,7 +17,7 @@ struct EnvelopeOptions {
   double max_thickness = k_automatic;
   double max_relative_height = k_automatic;
   double feature_angle = k_automatic;
-  double height_gradient = 0.5;
+  double height_gradient = 0.35;
   int height_sweeps = 20;
   int direction_sweeps = 50;
   int envelope_sweeps = 5;
@@ -28,6 +28,7 @@ struct EnvelopeOptions {
   int optimiser_evaluations = 30;
   double height_weight = 1.0;
   double top_weight = 0.4;
+  double membrane_weight = 1.0;
   double barrier_weight = 0.02;
 };
 
@@ -112,6 +113,11 @@ struct Schema<volmesh::EnvelopeOptions> {
                .min = 0.0,
                .max = 1000.0,
                .help = "of lines normal to the envelope against lines normal to the wall (our optimisers)"},
+      Field<O>{.name = "membrane_weight",
+               .member = &O::membrane_weight,
+               .min = 0.0,
+               .max = 1000.0,
+               .help = "of even heights, by their slope along edges, against lines normal to the wall (our optimisers)"},
       Field<O>{.name = "barrier_weight",
                .member = &O::barrier_weight,
                .min = 1e-9,

@@ -7,7 +7,7 @@
 namespace sterna::volmesh {
 
 struct PrismOptions {
-  double wall_perpendicularity = 0.1;
+  double wall_perpendicularity = 1.0;
 };
 
 }  // namespace sterna::volmesh
@@ -24,7 +24,7 @@ struct Schema<volmesh::PrismOptions> {
                .member = &O::wall_perpendicularity,
                .min = 0.0,
                .max = 1.0,
-               .help = "c_t of the layer curves: how far from the wall they stay normal to it; 0 = straight"},
+               .help = "c_t of the layer curves: how far from the wall they stay normal to it; less where cells would suffer; 0 = straight"},
   };
 };
 

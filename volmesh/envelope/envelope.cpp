@@ -45,6 +45,14 @@ double EnvelopeScale::h_min(VertexId v) const { return k_min_height_share * n(v)
 
 EnvelopeScale scale_of(const LayerBase& base, const EnvelopeOptions& options) { return {base, options}; }
 
+double envelope_edge(const LayerBase& base, const EnvelopeShape& envelope, VertexId v) {
+  const auto around = base.topology.neighbours(v);
+  const Point own = envelope.point(base.wall, v);
+  double sum = 0.0;
+  for (const VertexId other : around) sum += distance(own, envelope.point(base.wall, other));
+  return around.empty() ? 0.0 : sum / static_cast<double>(around.size());
+}
+
 void lower(Envelope& envelope, VertexId v, double height, HeightLimit reason, const EnvelopeScale& scale) {
   if (height >= envelope.height[v]) return;
   envelope.height[v] = height < scale.h_min(v) ? 0.0 : height;

@@ -79,6 +79,9 @@ class EnvelopeScale {
 };
 EnvelopeScale scale_of(const LayerBase& base, const EnvelopeOptions& options);
 
+/// Mean length of the envelope's edges at a vertex, m.
+double envelope_edge(const LayerBase& base, const EnvelopeShape& envelope, VertexId v);
+
 /// Lowers a height (never raises), remembers why, and collapses below h_min.
 void lower(Envelope& envelope, VertexId v, double height, HeightLimit reason, const EnvelopeScale& scale);
 

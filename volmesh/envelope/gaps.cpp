@@ -3,15 +3,16 @@
 #include <cmath>
 
 #include "geom/base/parallel.h"
+#include "volmesh/envelope/keep_distance.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/untangle.h"
 
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_remaining_edges = 0.2;  ///< of the longer local envelope edge stays between two layers, for tets
-constexpr double k_remaining_share = 0.5;  ///< of a gap that is too narrow for that
-constexpr double k_opposing_cosine = 0.7;  ///< walls that face the line within 45 degrees oppose it; the rest is left to the exact test
+constexpr double k_remaining_edges = k_kept_edges;  ///< of the longer local envelope edge stays between two layers, for tets
+constexpr double k_remaining_share = k_kept_share;  ///< of a gap that is too narrow for that
+constexpr double k_opposing_cosine = 0.7;           ///< walls that face the line within 45 degrees oppose it; the rest is left to the exact test
 constexpr int k_level_sweeps = 3;
 
 /// Parameter along the segment p + s d (s in [0, 1]) where it meets the triangle, or a negative number. Rounding does not matter: heights keep a reserve.
@@ -27,15 +28,6 @@ double segment_hit(const Point& p, const Vec3& d, const std::array<Point, 3>& t)
   if (u < 0.0 || v < 0.0 || u + v > 1.0) return -1.0;
   const double hit = dot(e2, r) / det;
   return hit <= 1.0 ? hit : -1.0;
-}
-
-/// Mean length of the envelope's edges at a vertex.
-double envelope_edge(const LayerBase& base, const Envelope& envelope, VertexId v) {
-  const auto around = base.topology.neighbours(v);
-  const Point own = envelope.point(base.wall, v);
-  double sum = 0.0;
-  for (const VertexId other : around) sum += distance(own, envelope.point(base.wall, other));
-  return around.empty() ? 0.0 : sum / static_cast<double>(around.size());
 }
 
 class GapFinder {
@@ -135,18 +127,11 @@ std::vector<WallGap> share_gaps(const LayerBase& base, const EnvelopeOptions& op
   const EnvelopeScale scale = scale_of(base, options);
   collider.move_top(envelope, context);
   const GapFinder finder(base, collider, envelope, group, context);
-  using List = std::vector<WallGap>;
-  List hits = parallel_reduce(
-      context, base.wall.n_vertices(), List{},
-      [&](std::size_t begin, std::size_t end) {
-        List found;
+  std::vector<WallGap> hits = parallel_collect<WallGap>(
+      context, base.wall.n_vertices(),
+      [&](std::size_t begin, std::size_t end, std::vector<WallGap>& found) {
         std::vector<std::uint32_t> buffer;
         for (std::size_t i = begin; i < end; ++i) finder.find(VertexId(i), buffer, found);
-        return found;
-      },
-      [](List a, List b) {
-        a.insert(a.end(), b.begin(), b.end());
-        return a;
       },
       256);
   if (hits.empty()) return hits;

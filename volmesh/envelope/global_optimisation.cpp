@@ -17,6 +17,8 @@ constexpr std::array<double, 4> k_shares = {1.0, 0.5, 0.25, 0.125};
 
 /// Of the target, just above the share that counts as full height (layer_report.cpp).
 constexpr double k_full_height = 0.91;
+/// Of the target: what optimisation leaves at least. Evenness is worth a little height, a hole in the layer is not.
+constexpr double k_least_height = 0.7;
 
 void log_result(const OptimiseReport& report, std::string_view optimiser, const RunContext& context) {
   if (report.history.empty()) {  // no vertex may move, or none of the points tried was feasible
@@ -38,9 +40,9 @@ Envelope optimum(const LayerBase& base, const EnvelopeOptions& options, const En
     OptimiseSettings settings;
     settings.method = options.optimiser == "descent" ? OptimiseMethod::descent : OptimiseMethod::lbfgs;
     settings.max_evaluations = options.optimiser_evaluations;
-    settings.weights = {.height = options.height_weight, .top = options.top_weight, .barrier = options.barrier_weight};
-    settings.height_floor = start.target;  // what counts as full height stays so
-    for (double& h : settings.height_floor) h *= k_full_height;
+    settings.weights = {.height = options.height_weight, .top = options.top_weight, .membrane = options.membrane_weight, .barrier = options.barrier_weight};
+    settings.height_floor = start.target;
+    for (double& h : settings.height_floor) h *= k_least_height;
     OptimiseReport report;
     Envelope result = optimise(base, start, h_u, h_l, settings, report, context);
     log_result(report, options.optimiser, context);

@@ -55,7 +55,7 @@ Envelope initial_envelope(const LayerBase& base, const EnvelopeOptions& options,
   const EnvelopeScale scale = scale_of(base, options);
   parallel_for(context, n_vertices, [&](std::size_t i) {
     const VertexId v(i);
-    const double r = growth_for_edge(scale.h0(v), base.mean_edge[v], scale.max_growth(v), scale.n(v));
+    const double r = growth_for_edge(scale.h0(v), base.layer_edge[v], scale.max_growth(v), scale.n(v));
     const double asked = scale.total_height(v);
     envelope.eq1[v] = is_automatic(asked) ? layer_height(scale.h0(v), r, scale.n(v)) : asked;
     envelope.target[v] = base.constraint[v].freedom == Freedom::fixed ? 0.0 : std::min(envelope.eq1[v], scale.max_thickness(v));

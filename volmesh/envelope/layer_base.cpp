@@ -1,6 +1,8 @@
 #include "volmesh/envelope/layer_base.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -10,6 +12,10 @@
 
 namespace sterna::volmesh {
 namespace {
+
+constexpr double k_equilateral = 2.309401076758503;  ///< 4 / sqrt(3): square of the edge of an equilateral triangle over its area
+constexpr double k_least_edge_share = 1.0 / 3.0;     ///< of the mean edge, where triangles are stretched
+constexpr int k_edge_sweeps = 20;                    ///< of smoothing: about five rings, the thickness of a layer by eq. (1)
 
 double worst_cosine_of(std::span<const Vec3> normals, const Vec3& d) {
   double worst = 1.0;
@@ -76,6 +82,7 @@ LayerBase::LayerBase(const TriMesh& mesh, const RunContext& context, Constraints
       visible_direction(mesh.n_vertices()),
       visibility(mesh.n_vertices()),
       mean_edge(mesh.n_vertices()),
+      layer_edge(mesh.n_vertices()),
       vertex_area(mesh.n_vertices()) {
   if (constraint.empty()) constraint.resize(mesh.n_vertices());
   parallel_for(context, mesh.n_triangles(), [&](std::size_t i) {
@@ -89,6 +96,34 @@ LayerBase::LayerBase(const TriMesh& mesh, const RunContext& context, Constraints
     const VertexId v(i);
     derive({&v, 1});
   });
+  set_layer_edges(context);
+}
+
+void LayerBase::set_layer_edges(const RunContext& context) {
+  const std::size_t n = wall.n_vertices();
+  parallel_for(context, n, [&](std::size_t i) {
+    const VertexId v(i);
+    const auto n_triangles = static_cast<double>(topology.outgoing(v).size());
+    if (n_triangles == 0.0) return;
+    const double equal_area = std::sqrt(k_equilateral * 3.0 * vertex_area[v] / n_triangles);
+    layer_edge[v] = std::clamp(equal_area, k_least_edge_share * mean_edge[v], mean_edge[v]);
+  });
+  std::vector<double> own(n), next(n);
+  for (std::size_t i = 0; i < n; ++i) own[i] = std::log(std::max(layer_edge[VertexId(i)], std::numeric_limits<double>::min()));
+  for (int sweep = 0; sweep < k_edge_sweeps; ++sweep) {
+    parallel_for(context, n, [&](std::size_t i) {
+      const VertexId v(i);
+      double sum = 0.0, weights = 0.0;
+      for (const VertexId other : topology.neighbours(v)) {
+        const double weight = mirror_weight(v, other);
+        sum += weight * own[other.index()];
+        weights += weight;
+      }
+      next[i] = weights > 0.0 ? 0.5 * (own[i] + sum / weights) : own[i];
+    });
+    own.swap(next);
+  }
+  parallel_for(context, n, [&](std::size_t i) { layer_edge[VertexId(i)] = std::exp(own[i]); });
 }
 
 /// What depends on the triangles at a vertex, or at all vertices of a group, which get the same; of areas each its own.
@@ -161,6 +196,9 @@ void LayerBase::let_grow_alike(const std::vector<std::array<VertexId, 2>>& partn
     }
     groups.push_back(std::move(entry.second));
     derive(groups.back());
+    double least = layer_edge[groups.back().front()];
+    for (const VertexId v : groups.back()) least = std::min(least, layer_edge[v]);
+    for (const VertexId v : groups.back()) layer_edge[v] = least;
   }
 }
 

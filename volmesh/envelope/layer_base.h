@@ -30,7 +30,8 @@ struct LayerBase {
   Column<VertexId, Vec3> vertex_normal;      ///< unit, angle-weighted mean of the incident normals (Thuermer & Wuethrich 1998), within the constraint
   Column<VertexId, Vec3> visible_direction;  ///< unit, within the constraint; sees the worst incident normal best: axis of the smallest cap that holds them all
   Column<VertexId, double> visibility;       ///< cosine between visible_direction and the worst incident normal; <= 0: no direction sees all faces
-  Column<VertexId, double> mean_edge;        ///< m, l_j of eq. (1)
+  Column<VertexId, double> mean_edge;        ///< m, of the edges at the vertex
+  Column<VertexId, double> layer_edge;       ///< m, l_j of eq. (1), see set_layer_edges()
   Column<VertexId, double> vertex_area;      ///< m^2, a third of the incident triangles
 
   /// Vertices that must grow alike (where walls end on periodic sides), each group ascending; and each vertex's group (empty: there are none), k_no_group where
@@ -54,6 +55,10 @@ struct LayerBase {
 
  private:
   void derive(std::span<const VertexId> alike);
+  /// The edge that the last prisms are as tall as: of an equilateral triangle with the mean area of those at the vertex, because tetrahedra get that edge, too
+  /// (stretched triangles: at least a third of the mean edge); its logarithm smoothed over some rings, because a layer several edges thick does not follow the
+  /// chance of single triangles, whose steps would tilt the tops of all its prisms.
+  void set_layer_edges(const RunContext& context);
 };
 
 /// Calls f(w) for v and all that must grow like it, ascending.

@@ -106,7 +106,8 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
   const Vec3& normal = normal_[i];
   /// The part of the objective that this vertex changes; infinite where an element is infeasible.
   const auto local_objective = [&](const Vec3& g) {
-    double sum = f1_weight * (n_incident_[i] - dot(normal_sum_[i], g) / norm(g)) - height_weight(i) * dot(g, normal) / scale;
+    double sum =
+        f1_weight * (n_incident_[i] - dot(normal_sum_[i], g) / norm(g)) - height_weight(i) * dot(g, normal) / scale + membrane(i, dot(g, normal), y).energy;
     for (std::size_t m = 0; m < n; ++m) {
       LayerElement& e = elements[m];
       e.set_growth(0, g);
@@ -124,11 +125,13 @@ double LayerObjective::visit(std::size_t i, Vec3Field& y, VisitScratch& scratch)
   const double length = norm(start);
   const Vec3 u = start / length;
   const double seen = dot(normal_sum_[i], u);
-  Vec3 gradient = (-f1_weight / length) * (normal_sum_[i] - seen * u) - (height_weight(i) / scale) * normal;
+  const Membrane even = membrane(i, dot(start, normal), y);
+  Vec3 gradient = (-f1_weight / length) * (normal_sum_[i] - seen * u) + (even.slope - height_weight(i) / scale) * normal;
   SymmetricBlock hessian;
   const double turning = f1_weight * std::max(seen, k_min_turning_share * n_incident_[i]) / (length * length);
   hessian.add_identity(turning);
   hessian.add(-turning, u);
+  hessian.add(even.curvature, normal);
   hessian.add(height_weight(i) / (scale * scale), u);  // f_2 is linear: a step of one h_u against its slope
   for (std::size_t m = 0; m < n; ++m) elements[m].differentiate_corner_0(weights, gradient, hessian);
   for (std::size_t f = 0; f < folds.size(); ++f) {

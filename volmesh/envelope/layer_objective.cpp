@@ -215,12 +215,29 @@ double LayerObjective::add_folds(const Vec3Field& y, bool with_gradient, const R
       [](double a, double b) { return a + b; });
 }
 
+LayerObjective::Membrane LayerObjective::membrane(std::size_t v, double height, const Vec3Field& y) const {
+  Membrane sum;
+  if (weights_.membrane == 0.0) return sum;
+  for (const VertexId w : base_.topology.neighbours(VertexId(v))) {
+    const std::size_t other = w.index();
+    if (y[other] == Vec3{}) continue;  // collapsed
+    const double length = distance(base_.wall.points[VertexId(v)], base_.wall.points[w]), weight = membrane_weight(v, other) / (length * length);
+    const double rise = height - normal_height(other, y[other]), energy = 0.5 * weight * rise * rise;
+    sum.energy += energy;
+    sum.share += is_moving_[other] ? 0.5 * energy : energy;
+    sum.slope += weight * rise;
+    sum.curvature += weight;
+  }
+  return sum;
+}
+
 ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, Vec3Field* gradient, const RunContext& context) {
   const double element_weight = corner_weight();
   const auto add = [](ObjectiveValue a, const ObjectiveValue& b) {
     a.f1 += b.f1;
     a.f2 += b.f2;
     a.f3 += b.f3;
+    a.f4 += b.f4;
     a.barrier += b.barrier;
     return a;
   };
@@ -260,8 +277,10 @@ ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, Vec3Field* gradient,
           const double seen = dot(normal_sum_[i], u);
           sum.f1 += n_incident_[i] - seen;
           sum.f2 += mirror_share_[i] * (1.0 - dot(y[i], normal_[i]));
+          const Membrane even = membrane(i, normal_height(i, y[i]), y);
+          sum.f4 += even.share;
           if (!gradient) continue;
-          Vec3 d = (-element_weight / length) * (normal_sum_[i] - seen * u) - height_weight(i) * normal_[i];
+          Vec3 d = (-element_weight / length) * (normal_sum_[i] - seen * u) + (h_u_[i] * even.slope - height_weight(i)) * normal_[i];
           for (const HalfedgeId h : base_.topology.outgoing(VertexId(i)))
             if (has_gradient_[h.index() / 3]) d += h_u_[i] * corner_gradient_[h.index()];
           for (const std::uint32_t fold : folds_.at(i))
@@ -274,7 +293,7 @@ ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, Vec3Field* gradient,
       add);
   value.f1 = element_weight * own.f1;
   value.f2 = vertex_weight() * own.f2;
-  value.total = value.f1 + weights_.height * value.f2 + weights_.top * value.f3 + weights_.barrier * value.barrier;
+  value.total = value.f1 + weights_.height * value.f2 + weights_.top * value.f3 + value.f4 + weights_.barrier * value.barrier;
   return value;
 }
 
@@ -312,20 +331,13 @@ std::size_t LayerObjective::hold_back(const Vec3Field& from, const std::vector<f
       LayerElement e;
       return load(t, to, e) && e.measure(least_quality_) < least;
     };
-    const std::vector<std::uint32_t> bad = parallel_reduce(
-        context, n_elements + folds_.size(), std::vector<std::uint32_t>{},
-        [&](std::size_t begin, std::size_t end) {
-          std::vector<std::uint32_t> list;
+    const std::vector<std::uint32_t> bad =
+        parallel_collect<std::uint32_t>(context, n_elements + folds_.size(), [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& list) {
           for (std::size_t t = begin; t < end; ++t) {
             const auto vertices = vertices_of(t);
             if (std::any_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) { return dirty[v] != 0; }) && is_bad(t))
               list.push_back(static_cast<std::uint32_t>(t));
           }
-          return list;
-        },
-        [](std::vector<std::uint32_t> a, const std::vector<std::uint32_t>& b) {
-          a.insert(a.end(), b.begin(), b.end());
-          return a;
         });
     if (bad.empty()) return n_held;
     dirty.assign(size(), 0);

@@ -16,6 +16,7 @@ namespace sterna::volmesh {
 struct ObjectiveWeights {
   double height = 1.0;    ///< of f_2 against f_1
   double top = 0.0;       ///< of f_3 against f_1
+  double membrane = 0.0;  ///< of f_4 against f_1
   double barrier = 0.02;  ///< of the barrier, sum over its terms and elements, against f_1
 };
 
@@ -24,6 +25,7 @@ struct ObjectiveValue {
   double f1 = 0.0;  ///< eq. (8), over the moving vertices
   double f2 = 0.0;  ///< eq. (9)
   double f3 = 0.0;  ///< eq. (8) with the envelope's normals
+  double f4 = 0.0;  ///< membrane: mean over the vertices of half the squared slope of the normal height along their edges, weighted
   double barrier = 0.0;
   double total = 0.0;  ///< weighted sum
 };
@@ -81,6 +83,18 @@ class LayerObjective {
   double corner_weight() const { return 1.0 / (3.0 * static_cast<double>(std::max<std::size_t>(n_elements_, 1))); }
   ElementWeights element_weights() const { return {corner_weight() * weights_.top, corner_weight() * weights_.barrier}; }
   double vertex_weight() const { return n_counted_ > 0.0 ? 1.0 / n_counted_ : 1.0; }  ///< of a whole vertex in f_2
+  /// Of half the squared slope along one edge, so that six edges at each vertex make a mean over the vertices.
+  double membrane_weight(std::size_t v, std::size_t other) const {
+    return weights_.membrane * std::max(mirror_share_[v], mirror_share_[other]) * vertex_weight() / 6.0;
+  }
+  double normal_height(std::size_t v, const Vec3& y) const { return h_u_[v] * dot(y, normal_[v]); }  ///< m
+  /// f_4's terms of the edges at one vertex, weighted, as a function of its normal height.
+  struct Membrane {
+    double energy = 0.0;
+    double share = 0.0;  ///< of the energy, so that the sum over all moving vertices has each edge once
+    double slope = 0.0, curvature = 0.0;
+  };
+  Membrane membrane(std::size_t v, double height, const Vec3Field& y) const;
   double height_weight(std::size_t v) const { return weights_.height * mirror_share_[v] * vertex_weight(); }
 
   const LayerBase& base_;

@@ -210,7 +210,7 @@ class Blender {
       for (const std::size_t g : here) {
         if (std::all_of(here.begin(), here.end(), [&](std::size_t other) { return groups_[g].asks_as(groups_[other]); })) continue;
         heights[g] += tallest;
-        edges[g] += base_.mean_edge[v];
+        edges[g] += base_.layer_edge[v];
         n[g] += 1.0;
       }
     }
@@ -226,7 +226,7 @@ class Blender {
     if (!is_automatic(group.total_height)) return std::min(group.total_height, group.max_thickness);
     const int n = demand_.layers[v];
     const double h0 = first_height_at(group, v);
-    return std::min(layer_height(h0, growth_for_edge(h0, base_.mean_edge[v], group.max_growth, n), n), group.max_thickness);
+    return std::min(layer_height(h0, growth_for_edge(h0, base_.layer_edge[v], group.max_growth, n), n), group.max_thickness);
   }
 
   Column<VertexId, double> distances_to(std::size_t group, double reach) const {

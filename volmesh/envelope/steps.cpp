@@ -6,6 +6,7 @@
 
 #include "geom/base/error.h"
 #include "volmesh/envelope/global_optimisation.h"
+#include "volmesh/envelope/keep_distance.h"
 #include "volmesh/envelope/keep_inside.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/smooth.h"
@@ -52,11 +53,15 @@ void retract_step(const LayerBase& base, const EnvelopeOptions& options, Collide
   share_gaps(base, options, collider, envelope, context);
   retract_collisions(base, options, collider, envelope, context);
   regrow_clear(base, collider, envelope, context);
+  keep_distance(base, options, collider, envelope, context);
 }
 
 void optimise_step(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context) {
   optimise_globally(base, options, collider, envelope, context);
-  if (options.optimiser != "none") regrow_clear(base, collider, envelope, context);
+  if (options.optimiser != "none") {
+    regrow_clear(base, collider, envelope, context);
+    keep_distance(base, options, collider, envelope, context);
+  }
   seat_on_surfaces(base, options, &collider, envelope, context);
 }
 

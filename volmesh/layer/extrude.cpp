@@ -1,5 +1,5 @@
-// Steps of Extruder::extrude: place_stale_lines, invalid_among; while any column is invalid: reduce_curving, lower_heights where that does not help, and both
-// again for what changed. Curving falls only and heights fall only, so the rounds end.
+// Steps of Extruder::extrude: place_stale_lines, limit_growth, invalid_among; while any column is invalid: reduce_curving, lower_heights where that does not
+// help, and both again for what changed. Curving falls only and heights fall only, so the rounds end.
 #include "volmesh/layer/extrude.h"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
 #include "geom/base/sort_unique.h"
+#include "volmesh/case/growth_law.h"
 #include "volmesh/envelope/keep_inside.h"
 #include "volmesh/envelope/untangle.h"
 #include "volmesh/layer/layer_cells.h"
@@ -20,14 +21,23 @@ constexpr int k_curving_rounds = 8;         ///< rounds that reduce c_t by bisec
 constexpr int k_bisections = 6;             ///< c_t to 1/64 of what it was
 constexpr double k_equalise_factor = 1.05;  ///< corners of an invalid cell keep heights within this ratio of the lowest
 constexpr double k_shrink_factor = 0.7;     ///< of the heights of a cell that stays invalid with equal heights and straight lines
-constexpr double k_hopeless = -1.0;         ///< invalid with straight lines
+/// Ratio of consecutive node distances that a curved line may have, over the ratio of its heights; but at most k_max_growth (of 1.5 that gate G8 allows).
+constexpr double k_growth_reserve = 1.15, k_max_growth = 1.45;
+/// A line whose heights grow by nearly so much themselves has this reserve.
+constexpr double k_least_reserve = 1.02;
+constexpr double k_hopeless = -1.0;  ///< invalid with straight lines
 constexpr std::size_t k_line_chunk = 512;
 constexpr std::size_t k_column_chunk = 256;
 
-template <class T>
-std::vector<T> joined(std::vector<T> a, const std::vector<T>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
+/// Largest share of c_t, to 1/64, of which `is_good(share)` holds, taking for granted that it does for 0 and does not for 1.
+template <class IsGood>
+double largest_share(const IsGood& is_good) {
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < k_bisections; ++i) {
+    const double middle = 0.5 * (low + high);
+    (is_good(middle) ? low : high) = middle;
+  }
+  return low;
 }
 
 }  // namespace
@@ -62,10 +72,9 @@ Extruder::Extruder(const LayerBase& base, const EnvelopeOptions& envelope_option
 
 /// Places the lines whose height, direction or curving is not the one they were placed with; returns them, ascending.
 std::vector<VertexId> Extruder::place_stale_lines(const Envelope& envelope) {
-  return parallel_reduce(
-      context_, base_.wall.n_vertices(), std::vector<VertexId>{},
-      [&](std::size_t begin, std::size_t end) {
-        std::vector<VertexId> stale;
+  return parallel_collect<VertexId>(
+      context_, base_.wall.n_vertices(),
+      [&](std::size_t begin, std::size_t end, std::vector<VertexId>& stale) {
         LinePlacer placer(base_, scale_);
         for (std::size_t i = begin; i < end; ++i) {
           const VertexId v(i);
@@ -76,9 +85,8 @@ std::vector<VertexId> Extruder::place_stale_lines(const Envelope& envelope) {
           placer.place(envelope, v, curving_[v], points_.data() + layers_.first_node[i]);
           stale.push_back(v);
         }
-        return stale;
       },
-      joined<VertexId>, k_line_chunk);
+      k_line_chunk);
 }
 
 Extruder::Columns Extruder::columns_at(const std::vector<VertexId>& lines) const {
@@ -91,17 +99,58 @@ Extruder::Columns Extruder::columns_at(const std::vector<VertexId>& lines) const
 
 /// The invalid ones of some columns, or of all.
 Extruder::Columns Extruder::invalid_among(const Columns* some) const {
-  return parallel_reduce(
-      context_, some ? some->size() : layers_.n_columns(), Columns{},
-      [&](std::size_t begin, std::size_t end) {
-        Columns bad;
+  return parallel_collect<std::size_t>(
+      context_, some ? some->size() : layers_.n_columns(),
+      [&](std::size_t begin, std::size_t end, Columns& bad) {
         for (std::size_t i = begin; i < end; ++i) {
           const std::size_t column = some ? (*some)[i] : i;
           if (!is_column_certain(column_lines(layers_, points_, column), layers_.layers_of_column(column))) bad.push_back(column);
         }
-        return bad;
       },
-      joined<std::size_t>, k_column_chunk);
+      k_column_chunk);
+}
+
+namespace {
+
+double worst_ratio(std::span<const Point> nodes) {
+  double worst = 1.0, before = distance(nodes[0], nodes[1]);
+  for (std::size_t j = 1; j + 1 < nodes.size(); ++j) {
+    const double step = distance(nodes[j], nodes[j + 1]);
+    worst = std::max({worst, step / before, before / step});
+    before = step;
+  }
+  return worst;
+}
+
+}  // namespace
+
+/// Limits c_t of lines whose cells would grow by more than their heights do. True where there are any.
+bool Extruder::limit_growth(const Envelope& envelope, const std::vector<VertexId>& lines) {
+  std::vector<double> share(lines.size(), 1.0);
+  parallel_chunks(context_, lines.size(), k_line_chunk, [&](std::size_t begin, std::size_t end) {
+    LinePlacer placer(base_, scale_);
+    std::vector<Point> nodes;
+    for (std::size_t i = begin; i < end; ++i) {
+      const VertexId v = lines[i];
+      const int n = scale_.n(v);
+      if (envelope.is_collapsed(v) || curving_[v] == 0.0) continue;
+      const double ratio = growth_for_height(scale_.h0(v), normal_height(base_, envelope, v), n);
+      const double allowed = std::max(k_least_reserve * ratio, std::min(k_growth_reserve * ratio, k_max_growth));
+      nodes.resize(static_cast<std::size_t>(n) + 1);
+      const auto is_even = [&](double part) {
+        placer.place(envelope, v, part * curving_[v], nodes.data());
+        return worst_ratio(nodes) <= allowed;
+      };
+      if (!is_even(1.0)) share[i] = largest_share(is_even);
+    }
+  });
+  bool has_any = false;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (share[i] == 1.0) continue;
+    curving_.limit(lines[i], share[i] * curving_[lines[i]]);
+    has_any = true;
+  }
+  return has_any;
 }
 
 /// Largest common share of the present c_t of its lines with which a column is valid, to 1/64; k_hopeless where straight lines are not either.
@@ -120,13 +169,7 @@ double Extruder::valid_share_of_curving(const Envelope& envelope, std::size_t co
     }
     return is_column_certain(lines, n);
   };
-  if (!is_valid(0.0)) return k_hopeless;
-  double low = 0.0, high = 1.0;
-  for (int i = 0; i < k_bisections; ++i) {
-    const double middle = 0.5 * (low + high);
-    (is_valid(middle) ? low : high) = middle;
-  }
-  return low;
+  return is_valid(0.0) ? largest_share(is_valid) : k_hopeless;
 }
 
 /// Limits c_t at the lines of invalid columns to what bisection finds; returns the columns that no c_t makes valid.
@@ -168,8 +211,13 @@ void Extruder::lower_heights(const Columns& columns, Envelope& envelope) const {
 }
 
 void Extruder::extrude(Envelope& envelope) {
-  Columns some = columns_at(is_first_ ? std::vector<VertexId>{} : place_stale_lines(envelope));
-  if (is_first_) place_stale_lines(envelope);
+  std::vector<VertexId> placed = place_stale_lines(envelope);
+  if (limit_growth(envelope, placed)) {
+    curving_.smooth(context_);
+    const std::vector<VertexId> again = place_stale_lines(envelope);
+    placed.insert(placed.end(), again.begin(), again.end());
+  }
+  Columns some = is_first_ ? Columns{} : columns_at(placed);
   Columns bad = invalid_among(is_first_ ? nullptr : &some);
   is_first_ = false;
   for (int round = 0; !bad.empty(); ++round) {

@@ -25,10 +25,10 @@ class Extruder {
  public:
   Extruder(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, const RunContext& context);
 
-  /// Nodes by LinePlacer. Columns with an invalid cell (exact tests of cell and dual sub-volumes) are repaired: c_t of their lines to the largest value, found
-  /// by bisection, for which the column is valid, smoothed over the surface (Curving); only where straight lines do not help, heights are made equal over the
-  /// column's corners and then lowered (through `unwarp`), down to collapse. Changes `envelope` accordingly.
-  /// \post every cell is valid with positive dual sub-volumes; top nodes are envelope.point() to the bit.
+  /// Nodes by LinePlacer, with c_t as large as the growth along the line (G8) allows. Columns with an invalid cell (exact tests of cell and dual sub-volumes)
+  /// are repaired: c_t of their lines to the largest value, found by bisection, for which the column is valid, smoothed over the surface (Curving); only where
+  /// straight lines do not help, heights are made equal over the column's corners and then lowered (through `unwarp`), down to collapse. Changes `envelope`
+  /// accordingly. \post every cell is valid with positive dual sub-volumes; top nodes are envelope.point() to the bit.
   /// \throws Error(envelope_failed) when columns stay invalid after 200 rounds.
   void extrude(Envelope& envelope);
   /// The layer of the last extrude(); ends the use of this object.
@@ -38,6 +38,7 @@ class Extruder {
   using Columns = std::vector<std::size_t>;  ///< of the layer (= wall triangles), ascending
 
   std::vector<VertexId> place_stale_lines(const Envelope& envelope);
+  bool limit_growth(const Envelope& envelope, const std::vector<VertexId>& lines);
   Columns columns_at(const std::vector<VertexId>& lines) const;
   Columns invalid_among(const Columns* some) const;
   Columns reduce_curving(const Envelope& envelope, const Columns& bad);

@@ -12,13 +12,8 @@ namespace sterna::volmesh {
 /// apart.
 double normal_height(const LayerBase& base, const Envelope& envelope, VertexId v);
 
-/// Distance of the first node along the wall normal over h0. Along a facet's normal it is smaller by the cosine between the two normals; the factor makes the
-/// cells on the vertex's triangles h0 high on average (inverse area-weighted mean cosine) and the lowest of them within 2 % where that can be, but stays at
-/// most 1.019: within the 2 % by which the distance along the wall normal may differ from h0 (G11).
-double first_height_factor(const LayerBase& base, VertexId v);
-
 /// Nodes p_0 .. p_n of a line: p_j = p + t_j (s_j h_n n + (1 - s_j)(e - p)) with envelope point e, wall normal n, h_n = normal_height and eq. (11) for
-/// h_n and h0 times first_height_factor.
+/// h_n: the first node is h0 off the wall along its normal.
 /// Eq. (10) has h in place of h_n; with h_n every node's distance along n is t_j h_n, and curving slides nodes along the wall only.
 /// s_j = s(t_j) of eq. (12), normalised: 1 at the wall, 0 at the top.
 class LinePlacer {

@@ -118,6 +118,7 @@ const std::map<std::string, Change> k_changes = {
     {"envelope.optimiser_evaluations", {"1"}},
     {"envelope.height_weight", {"4"}},
     {"envelope.top_weight", {"3"}},
+    {"envelope.membrane_weight", {"0"}},
     {"envelope.barrier_weight", {"0.5"}},
     {"prisms.wall_perpendicularity", {"0.4"}},
     {"farfield.farfield_shape", {"cylinder"}},

@@ -94,22 +94,6 @@ TEST(LayerLine, ALineWithoutRoomForItsCellsIsEquallySpaced) {
   for (std::size_t j = 0; j <= 10; ++j) EXPECT_NEAR(p[j].z - 1.0, 0.1 * static_cast<double>(j) * normal_height(base, envelope, v), 1e-14);
 }
 
-TEST(LayerLine, TheFirstHeightMakesUpForFacetsThatBendAwayWithinTwoPercent) {
-  const TriMesh coarse = test::sphere(4), fine = test::sphere(12), cube = test::cube(4);
-  const LayerBase coarse_base(coarse, k_context), fine_base(fine, k_context), cube_base(cube, k_context);
-  EXPECT_DOUBLE_EQ(first_height_factor(cube_base, face_centre(cube)), 1.0);
-  for (const VertexId v : coarse.points.ids()) {
-    const double factor = first_height_factor(coarse_base, v);
-    EXPECT_GE(factor, 1.0);
-    EXPECT_LE(factor, 1.02);
-  }
-  for (const VertexId v : fine.points.ids()) {
-    const double factor = first_height_factor(fine_base, v);
-    for (const HalfedgeId h : fine_base.topology.outgoing(v))
-      EXPECT_NEAR(factor * dot(fine_base.unit_normal[triangle_of(h)], fine_base.vertex_normal[v]), 1.0, 0.02);
-  }
-}
-
 TEST(LayerLine, LinesOnAPlaneKeepItsCoordinateToTheBit) {
   const TriMesh cube = test::cube(4);
   const VertexId v = face_centre(cube);

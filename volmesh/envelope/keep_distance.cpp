@@ -1,0 +1,127 @@
+// Steps: find near places around every top vertex, share what is missing between both sides, make valid and clear again; a few sweeps.
+#include "volmesh/envelope/keep_distance.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "geom/base/parallel.h"
+#include "geom/base/sort_unique.h"
+#include "geom/math/nearest.h"
+#include "volmesh/envelope/retract.h"
+#include "volmesh/envelope/untangle.h"
+
+namespace sterna::volmesh {
+namespace {
+
+constexpr int k_sweeps = 4;
+constexpr double k_facing_cosine = 0.5;  ///< between growth direction (or facet normal) and the way to the other side: within 60 degrees
+constexpr double k_least_share = 0.6;    ///< of a height is left by one sweep
+constexpr double k_good_enough = 0.98;   ///< of the distance: no sweep for rounding
+constexpr double k_outer_share = 0.5;    ///< of the distance, from the outer boundary
+constexpr std::size_t k_chunk = 256;
+
+/// A vertex and the height that keeps its distance, m.
+using Wanted = std::pair<VertexId, double>;
+
+class NearPlaces {
+ public:
+  NearPlaces(const LayerBase& base, const Collider& collider, const Envelope& envelope, const RunContext& context)
+      : base_(base), collider_(collider), envelope_(envelope), edge_(base.wall.n_vertices()) {
+    parallel_for(context, edge_.size(), [&](std::size_t i) { edge_[VertexId(i)] = envelope_edge(base, envelope, VertexId(i)); });
+  }
+
+  /// Appends the heights that v's top point and what it faces should have. `buffer` is scratch.
+  void find(VertexId v, std::vector<std::uint32_t>& buffer, std::vector<Wanted>& wanted) const {
+    if (envelope_.is_collapsed(v)) return;
+    const double kept = k_kept_edges * edge_[v];
+    Box box;
+    const Point p = envelope_.point(base_.wall, v);
+    box.add(p - Vec3{kept, kept, kept});
+    box.add(p + Vec3{kept, kept, kept});
+    buffer.clear();
+    collider_.find_cells(box, buffer);
+    for (const std::uint32_t item : buffer) against_top(v, p, kept, TriangleId(item), wanted);
+    buffer.clear();
+    if (collider_.outer()) collider_.find_outer(box, buffer);
+    for (const std::uint32_t item : buffer)
+      if (!collider_.holds(item, v)) against_fixed(v, p, k_outer_share * kept, corners(*collider_.outer(), TriangleId(item)), wanted);
+  }
+
+ private:
+  /// How near a triangle in front of the point is that looks back at it; nothing where it is none or far enough.
+  struct Near {
+    double distance = 0.0, cosine = 0.0, back = 0.0;
+  };
+  std::optional<Near> near(VertexId v, const Point& p, double kept, const std::array<Point, 3>& t, double sense) const {
+    const Vec3 way = nearest_on_triangle(p, t) - p;
+    const double length = norm(way);
+    if (length == 0.0 || length >= k_good_enough * kept) return {};
+    const double cosine = dot(way, envelope_.direction[v]) / length, back = -sense * dot(way, normalized(cross(t[1] - t[0], t[2] - t[0]))) / length;
+    if (cosine < k_facing_cosine || back < k_facing_cosine) return {};
+    return Near{length, cosine, back};
+  }
+  void against_top(VertexId v, const Point& p, double kept, TriangleId t, std::vector<Wanted>& wanted) const {
+    const TriangleVertices& w = base_.wall.triangles[t];
+    if (is_beside(v, w)) return;
+    const double gap = norm(nearest_on_triangle(base_.wall.points[v], corners(base_.wall, t)) - base_.wall.points[v]);
+    kept = std::min(kept, k_kept_share * gap);
+    const std::array<Point, 3> top = {envelope_.point(base_.wall, w[0]), envelope_.point(base_.wall, w[1]), envelope_.point(base_.wall, w[2])};
+    const std::optional<Near> found = near(v, p, kept, top, 1.0);
+    if (!found) return;
+    const bool has_height = std::ranges::any_of(w, [&](VertexId u) { return !envelope_.is_collapsed(u); });
+    const double missing = (has_height ? 0.5 : 1.0) * (kept - found->distance);
+    lower_by(v, missing / found->cosine, wanted);
+    for (const VertexId u : w) lower_by(u, missing / found->back, wanted);
+  }
+  void against_fixed(VertexId v, const Point& p, double kept, const std::array<Point, 3>& t, std::vector<Wanted>& wanted) const {
+    // The outer boundary's triangles look out of the fluid or into it, as they please.
+    std::optional<Near> found = near(v, p, kept, t, 1.0);
+    if (!found) found = near(v, p, kept, t, -1.0);
+    if (found) lower_by(v, (kept - found->distance) / found->cosine, wanted);
+  }
+  void lower_by(VertexId v, double depth, std::vector<Wanted>& wanted) const {
+    const double height = envelope_.height[v];
+    if (height > 0.0) wanted.emplace_back(v, std::max(height - depth, k_least_share * height));
+  }
+  bool is_beside(VertexId v, const TriangleVertices& t) const {
+    const auto around = base_.topology.neighbours(v);
+    return std::ranges::any_of(t, [&](VertexId w) { return w == v || std::ranges::find(around, w) != around.end(); });
+  }
+
+  const LayerBase& base_;
+  const Collider& collider_;
+  const Envelope& envelope_;
+  Column<VertexId, double> edge_;  ///< m, of the envelope
+};
+
+}  // namespace
+
+void keep_distance(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context) {
+  const EnvelopeScale scale = scale_of(base, options);
+  for (int sweep = 0; sweep < k_sweeps; ++sweep) {
+    collider.move_top(envelope, context);
+    const NearPlaces places(base, collider, envelope, context);
+    std::vector<Wanted> wanted = parallel_collect<Wanted>(
+        context, base.wall.n_vertices(),
+        [&](std::size_t begin, std::size_t end, std::vector<Wanted>& list) {
+          std::vector<std::uint32_t> buffer;
+          for (std::size_t i = begin; i < end; ++i) places.find(VertexId(i), buffer, list);
+        },
+        k_chunk);
+    if (wanted.empty()) return;
+    std::ranges::sort(wanted);
+    std::vector<VertexId> lowered;
+    for (const auto& [v, height] : wanted) {
+      if (!lowered.empty() && lowered.back() == v) continue;  // the lowest came first
+      lowered.push_back(v);
+      lower(envelope, v, height, HeightLimit::gap, scale);
+      envelope.cap[v] = std::min(envelope.cap[v], height);
+    }
+    const std::vector<VertexId> more = unwarp(base, options, HeightLimit::warp, envelope, context, &lowered);
+    lowered.insert(lowered.end(), more.begin(), more.end());
+    sort_unique(lowered);
+    retract_collisions(base, options, collider, envelope, context, &lowered);
+  }
+}
+
+}  // namespace sterna::volmesh
