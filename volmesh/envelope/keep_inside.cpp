@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "geom/base/parallel.h"
+#include "volmesh/envelope/keep_distance.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/untangle.h"
 
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_clearance_share = 0.05;  ///< of the distance to the surface that stays free: what share_gaps leaves between a body and its mirror image
 constexpr int k_inside_bisections = 12;     ///< halvings: 0.02 % of the height
 constexpr int k_chord_steps = 4;            ///< each reduces the error of the chord's length by the angle it turns, squared
 constexpr double k_seat_tolerance = 1e-12;  ///< of the body length: rounding of a point on the surface
@@ -42,7 +42,8 @@ bool is_inside(const LayerBase& base, VertexId v, const Vec3& growth) {
     const double own = base.surfaces[k]->inside_distance(p);
     if (own <= 0.0 && !base.near.empty()) continue;  // beyond the border of the surface that this is the plane of
     const double there = base.surfaces[k]->inside_distance(p + growth);
-    if (there <= 0.0 || there < k_clearance_share * own) return false;
+    // Half of what a body and its mirror image would leave between their layers.
+    if (there <= 0.0 || there < std::min(k_kept_share * own, 0.5 * k_kept_edges * base.mean_edge[v])) return false;
   }
   return true;
 }

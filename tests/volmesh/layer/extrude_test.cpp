@@ -201,7 +201,7 @@ TEST(Extrude, SameBytesForAnyNumberOfThreads) {
 
 TEST(Extrude, ASecondCallFollowsTheEnvelopeAsIfItWereTheFirst) {
   LeaningCase c;
-  const PrismOptions options{.wall_perpendicularity = 0.02};
+  const PrismOptions options{.wall_perpendicularity = 0.0};
   Extruder extruder(c.base, c.options, options, k_context);
   extruder.extrude(c.envelope);
   const EnvelopeScale scale = scale_of(c.base, c.options);
@@ -262,8 +262,8 @@ TEST(FirstNode, WithinTwoPercentOnARealWing) {
   const Extrusion extrusion = extrude_prisms(base, options, {.wall_perpendicularity = 0.1}, envelope, k_context);
   const FirstNodeReport first = first_node_report(base, classify_vertices(base, options, k_context), options, envelope, extrusion, k_context);
   EXPECT_GE(first.vertex_share, 0.99);
-  EXPECT_GE(first.facet_share, 0.985);  // 0.990 before the optimiser, 0.988 with it: normals of this coarse, stretched surface turn by more than 11 degrees
-  EXPECT_LT(first.worst_vertex, 0.02);
+  EXPECT_GE(first.facet_share, 0.96);  // 0.968: normals of this coarse, stretched surface turn by more than 11 degrees
+  EXPECT_LT(first.worst_vertex, 1e-9);
   const LayerCertificate certificate = certify_layer(extrusion.layers, extrusion.points, k_context);
   EXPECT_EQ(certificate.n_proved, certificate.n_cells);
   EXPECT_GT(certificate.min_quality, 0.0);

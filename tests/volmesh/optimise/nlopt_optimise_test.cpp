@@ -104,9 +104,9 @@ TEST_P(Nlopt, RealWingImprovesUntilTheEvaluationsAreSpent) {
   STERNA_NEEDS_SHARED_DATA();
   const Case c = Case::wing();
   NloptReport report;
-  const Envelope result = c.run(settings_of(GetParam(), 60), report);
+  const Envelope result = c.run(settings_of(GetParam(), 30), report);
   EXPECT_EQ(report.run.stopped, "evaluations");
-  EXPECT_EQ(report.run.n_evaluations, 60);
+  EXPECT_EQ(report.run.n_evaluations, 30);
   EXPECT_EQ(report.n_feasibility_evaluations, 0);  // a valid envelope is feasible
   EXPECT_FALSE(report.is_time_limit);
   EXPECT_LT(report.best.total, 0.9 * report.run.history.front().total);  // 0.6 measured; without slack or scaling 1
