@@ -181,7 +181,8 @@ void Improver::work(Job& job, std::uint32_t number, Region& region) {
       is_whole &= is_ours;
       if (is_ours && v == std::min({c[0], c[1], c[2], c[3]})) job.tets.push_back(t);
     });
-    roles.push_back(v < n_fixed_ ? VertexRole::boundary : is_whole ? VertexRole::free : VertexRole::kept);
+    if (v < n_fixed_) roles.push_back(is_whole ? VertexRole::boundary : VertexRole::kept_boundary);
+    else roles.push_back(is_whole ? VertexRole::free : VertexRole::kept);
   }
   sort_unique(job.tets);
   std::vector<Corners> corners(job.tets.size());

@@ -10,6 +10,9 @@ namespace {
 /// A bad tetrahedron away from the boundary costs as much as so many at it.
 constexpr double k_interior_weight = 20.0;
 
+/// A tetrahedron beyond the hard limits costs as much as so many beyond those of improvement only.
+constexpr double k_hard_weight = 3.0;
+
 /// A detour may cost so much at first, and goes so many changes far; it is the dearest of all, so each tetrahedron gets one, after others around it had their
 /// chance.
 constexpr double k_detour = 2.0;
@@ -40,26 +43,30 @@ void Region::assign(std::span<const Vec3> points, std::span<const VertexRole> ro
 double Region::quality(const Corners& c) const { return tet_quality(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]], limits_.obtuse_weight); }
 
 bool Region::touches_boundary(const Corners& c) const {
-  return std::ranges::any_of(c, [&](std::uint32_t v) { return v < roles_.size() && roles_[v] == VertexRole::boundary; });
+  return std::ranges::any_of(c, [&](std::uint32_t v) { return v < roles_.size() && is_of_boundary(roles_[v]); });
 }
 bool Region::touches_boundary(const Face& face) const {
-  return std::ranges::any_of(face, [&](std::uint32_t v) { return roles_[v] == VertexRole::boundary; });
+  return std::ranges::any_of(face, [&](std::uint32_t v) { return is_of_boundary(roles_[v]); });
+}
+
+double Region::weight_of(double quality, bool is_boundary) const {
+  return (is_boundary ? 1.0 : k_interior_weight) * (quality < limits_.hard ? k_hard_weight : 1.0);
 }
 
 /// Below the target a step, so that their number counts, and a slope, so that the worst gain most; above it a little up to twice the target, so that others
-/// keep clear of it.
+/// keep clear of it. Beyond the hard limits all of it several times.
 double Region::cost_of(double quality, bool is_boundary) const {
   const double x = quality / limits_.target;
   if (x >= 2.0) return 0.0;
   const double soft = 0.25 * (1.0 - 0.5 * x) * (1.0 - 0.5 * x);
-  return x >= 1.0 ? soft : (soft + 1.0 - 0.5 * x) * (is_boundary ? 1.0 : k_interior_weight);
+  return x >= 1.0 ? soft : (soft + 1.0 - 0.5 * x) * weight_of(quality, is_boundary);
 }
 
 double Region::slope_of_cost(double quality, bool is_boundary) const {
   const double x = quality / limits_.target;
   if (x >= 2.0) return 0.0;
   const double soft = 0.25 * (1.0 - 0.5 * x);
-  return (x >= 1.0 ? soft : (soft + 0.5) * (is_boundary ? 1.0 : k_interior_weight)) / limits_.target;
+  return (x >= 1.0 ? soft : (soft + 0.5) * weight_of(quality, is_boundary)) / limits_.target;
 }
 
 void Region::compare_with(std::span<const std::uint32_t> removed) {
@@ -240,6 +247,10 @@ bool Region::is_given_up(std::uint32_t tet) const {
   return tets_[tet].n_failures > 0 && tets_[tet].n_failures >= max_failures({points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]}, touches_boundary(c));
 }
 
+bool Region::has_all_neighbours(std::uint32_t tet) const {
+  return std::ranges::all_of(tets_[tet].corners, [&](std::uint32_t v) { return roles_[v] == VertexRole::free || roles_[v] == VertexRole::boundary; });
+}
+
 bool Region::improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures) {
   std::vector<std::uint32_t> work(tets.begin(), tets.end());
   for (std::size_t i = 0; i < tets.size(); ++i) tets_[tets[i]].n_failures = n_failures[i];
@@ -253,7 +264,7 @@ bool Region::improve(std::span<const std::uint32_t> tets, std::span<const std::u
     const std::size_t n_before = tets_.size();
     if (!help(worst)) {
       tets_[worst].tried = clock_;
-      ++tets_[worst].n_failures;
+      tets_[worst].n_failures += has_all_neighbours(worst);
     }
     for (std::size_t t = n_before; t < tets_.size(); ++t) work.push_back(static_cast<std::uint32_t>(t));
   }

@@ -14,18 +14,20 @@
 namespace sterna::volmesh {
 
 enum class VertexRole : std::uint8_t {
-  kept,      ///< some of its tetrahedra are elsewhere
-  free,      ///< may move or vanish
-  boundary,  ///< of the domain: stays
+  kept,           ///< some of its tetrahedra are elsewhere
+  free,           ///< may move or vanish
+  boundary,       ///< of the domain: stays
+  kept_boundary,  ///< of the domain, and some of its tetrahedra are elsewhere
 };
+inline bool is_of_boundary(VertexRole role) { return role >= VertexRole::boundary; }
 
 /// How often nothing may help a tetrahedron before it is given up. Away from the boundary all can be helped, sooner or later; slender ones at it hardly ever,
 /// and they are many.
 int max_failures(const std::array<Vec3, 4>& corners, bool is_at_boundary);
 
-/// Local mesh. Corners are local vertices. Each tetrahedron below twice the target has a cost (cost()), more for one without a vertex on the domain's boundary,
-/// where its angles may force bad ones. Every operation replaces some tetrahedra by others that fill the same space, all proven positive (exact), of a smaller
-/// sum of costs, and none worse than the worst that it removes or than the floor of the limits.
+/// Local mesh. Corners are local vertices. Each tetrahedron below twice the target has a cost (cost()), more for one beyond the hard limits, and for one
+/// without a vertex on the domain's boundary, where its angles may force bad ones. Every operation replaces some tetrahedra by others that fill the same space,
+/// all proven positive (exact), of a smaller sum of costs, and none worse than the worst that it removes or than the floor of the limits.
 class Region {
  public:
   using Corners = std::array<std::uint32_t, 4>;
@@ -43,7 +45,8 @@ class Region {
   /// \pre tetrahedra positive.
   void assign(std::span<const Vec3> points, std::span<const VertexRole> roles, std::span<const Corners> tets);
   /// Works on the bad ones of these tetrahedra and on all bad ones that take their place, worst first, until they reach the target, nothing helps as they and
-  /// their neighbours are, or nothing helped max_failures() times. `n_failures` of the given ones so far. True when something changed.
+  /// their neighbours are, or nothing helped max_failures() times; only tries with all neighbours here count, for one flip with a tetrahedron elsewhere may be
+  /// all that it takes. `n_failures` of the given ones so far. True when something changed.
   bool improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures);
   const QualityLimits& limits() const { return limits_; }
   std::span<const Vec3> points() const { return points_; }  ///< those given, moved perhaps, then new ones
@@ -67,6 +70,8 @@ class Region {
   bool touches_boundary(const Face& face) const;
   double quality(const Corners& c) const;
   double cost_of(double quality, bool is_boundary) const;
+  /// Of what is below the target.
+  double weight_of(double quality, bool is_boundary) const;
   /// How fast the cost falls with quality.
   double slope_of_cost(double quality, bool is_boundary) const;
   /// Sets what new tetrahedra are compared with: the sum of the costs of those that a change removes, and the worst quality allowed after it.
@@ -85,6 +90,7 @@ class Region {
   /// Whether nothing helps this tetrahedron as it and its neighbours are now.
   bool is_stuck(std::uint32_t tet) const;
   bool is_given_up(std::uint32_t tet) const;
+  bool has_all_neighbours(std::uint32_t tet) const;
   bool help(std::uint32_t tet);
   bool help_with_what_is_there(std::uint32_t tet);
   // region_flips.cpp

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geom/base/vec3.h"
+#include "geom/mesh/gates.h"
 
 namespace sterna::volmesh {
 
@@ -14,10 +15,14 @@ struct QualityLimits {
   double target = 0.0;         ///< tetrahedra below are worked on
   double obtuse_weight = 1.0;  ///< of tet_quality(), such that both angle limits give the target
   double floor = 0.0;          ///< a change may make tetrahedra as bad as this, or as the worst that it removes
+  double hard = 0.0;           ///< every tetrahedron beyond the hard limits of gate G14 is below, none that is within the target
 };
 /// \p min_angle, \p max_angle of a dihedral, radians.
 inline QualityLimits quality_limits(double min_angle, double max_angle) {
-  return {.target = std::sin(min_angle), .obtuse_weight = std::sin(min_angle) / std::sin(max_angle)};
+  const double target = std::sin(min_angle), weight = target / std::sin(max_angle);
+  const GateTable gates;
+  const double hard_acute = std::sin(gates[Measure::min_dihedral].hard), hard_obtuse = weight * std::sin(gates[Measure::max_dihedral].hard);
+  return {.target = target, .obtuse_weight = weight, .hard = std::min(target, std::max(hard_acute, hard_obtuse))};
 }
 
 /// Smallest sine of the six dihedral angles, those of obtuse angles times `obtuse_weight` (Klingner and Shewchuk 2007), in (0, 1]; -1 for a tetrahedron that is

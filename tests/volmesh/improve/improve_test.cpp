@@ -186,6 +186,11 @@ TEST(TetQuality, both_limits_are_one_threshold) {
   EXPECT_NEAR(wedge(160 * k_degree), limits.target, 1e-12);
   EXPECT_LT(wedge(11 * k_degree), limits.target);
   EXPECT_GT(wedge(100 * k_degree), limits.target);
+  // Hard limits are 5 and 170 degrees.
+  EXPECT_LT(wedge(4.9 * k_degree), limits.hard);
+  EXPECT_LT(wedge(170.1 * k_degree), limits.hard);
+  EXPECT_GT(wedge(165 * k_degree), limits.hard);
+  EXPECT_LE(quality_limits(3 * k_degree, 175 * k_degree).hard, std::sin(3 * k_degree));
 }
 
 /// Tetrahedra around the edge 0-1 with a ring of n vertices.
@@ -230,6 +235,22 @@ TEST(Region, removes_an_edge_with_a_ring_of_any_size) {
     }
     EXPECT_EQ(n_alive, 2 * (n - 2));
   }
+}
+
+TEST(Region, only_tries_with_all_neighbours_at_hand_count) {
+  // A flat tetrahedron at the edge 0-1, which goes when all three around it are there; without one of them nothing helps.
+  const std::vector<Vec3> points = {{0.45, 0, -1.0}, {0.45, 0, 1.0}, {0.5, -0.87, 0.0}, {0.5, 0.87, 0.0}, {-1.0, 0.0, 0.0}};
+  const std::vector<Region::Corners> tets = around_edge(3);
+  const auto tries = [&](std::size_t n_tets, VertexRole role) {
+    Region region(quality_limits(12 * k_degree, 160 * k_degree));
+    region.assign(points, std::vector<VertexRole>(points.size(), role), std::span(tets).first(n_tets));
+    EXPECT_EQ(improve_all(region), n_tets == 3);
+    return region.tets()[0].n_failures;
+  };
+  EXPECT_EQ(tries(2, VertexRole::kept_boundary), 0);
+  EXPECT_EQ(tries(2, VertexRole::kept), 0);
+  EXPECT_GT(tries(2, VertexRole::boundary), 0);
+  EXPECT_EQ(tries(3, VertexRole::kept_boundary), 0);
 }
 
 TEST(Region, two_three_flip_opens_a_flat_pair) {
@@ -356,6 +377,14 @@ TEST(Improve, a_thin_slab_is_forced_and_a_cube_is_not) {
   cube.add(test::cube(4), true);
   cube.tets = fill(cube.boundary(), nullptr, {.engine = "tetgen"}, RunContext());
   EXPECT_EQ(improve_tetrahedra(cube.boundary(), cube.tets, {}, RunContext()).n_bad_after, 0);
+}
+
+TEST(Improve, group_boundaries_stop_no_flip) {
+  // Some thousand bad ones, so that groups of them meet; the smooth boundary forces none.
+  Filled filled = shell(24, 2.0);
+  const ImproveReport report = improve_tetrahedra(filled.boundary(), filled.tets, {.improve_min_angle = 15 * k_degree}, RunContext());
+  EXPECT_GT(report.n_bad_before, 1000);
+  EXPECT_EQ(report.n_bad_after, 0);
 }
 
 TEST(Improve, is_the_same_for_any_number_of_threads) {
