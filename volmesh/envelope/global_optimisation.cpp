@@ -18,7 +18,7 @@ constexpr std::array<double, 4> k_shares = {1.0, 0.5, 0.25, 0.125};
 /// Of the target, just above the share that counts as full height (layer_report.cpp).
 constexpr double k_full_height = 0.91;
 /// Of the target: what optimisation leaves at least. Evenness is worth a little height, a hole in the layer is not.
-constexpr double k_least_height = 0.7;
+constexpr double k_least_height = 0.8;
 
 void log_result(const OptimiseReport& report, std::string_view optimiser, const RunContext& context) {
   if (report.history.empty()) {  // no vertex may move, or none of the points tried was feasible

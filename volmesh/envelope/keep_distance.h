@@ -6,8 +6,8 @@
 
 namespace sterna::volmesh {
 
-/// Of the local envelope edge: the distance of the top from whatever it faces. Tetrahedra between two tops this far apart reach some 20 degrees.
-inline constexpr double k_kept_edges = 0.4;
+/// Of the local envelope edge: the distance of the top from whatever it faces. Tetrahedra between two tops this far apart reach some 15 degrees.
+inline constexpr double k_kept_edges = 0.3;
 /// Of a gap between walls: no more than this is kept free, the rest is for the layers.
 inline constexpr double k_kept_share = 0.5;
 

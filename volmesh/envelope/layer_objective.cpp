@@ -293,6 +293,7 @@ ObjectiveValue LayerObjective::evaluate(const Vec3Field& y, Vec3Field* gradient,
       add);
   value.f1 = element_weight * own.f1;
   value.f2 = vertex_weight() * own.f2;
+  value.f4 = own.f4;
   value.total = value.f1 + weights_.height * value.f2 + weights_.top * value.f3 + value.f4 + weights_.barrier * value.barrier;
   return value;
 }

@@ -129,7 +129,7 @@ TEST(ShareGaps, TwoPlatesShareInProportionToWhatTheyAskFor) {
       const double mine = envelope.height[v], theirs = envelope.height[w];
       EXPECT_NEAR(mine / theirs, low / high, 1e-9);
       // Mean edge of the coarse plate: 4 sides of 1/4 and 2 diagonals of sqrt(2)/4.
-      EXPECT_NEAR(gap - mine - theirs, 0.4 * (4 + 2 * std::sqrt(2.0)) / 6 / 4, 1e-9);
+      EXPECT_NEAR(gap - mine - theirs, 0.3 * (4 + 2 * std::sqrt(2.0)) / 6 / 4, 1e-9);
       EXPECT_EQ(envelope.limit[v], HeightLimit::gap);
       EXPECT_LE(envelope.height[v], envelope.cap[v]);
     }

@@ -187,6 +187,21 @@ TEST(Extrude, CurvingGivesWayBeforeHeightsDoAndOnlyAroundThePlace) {
   EXPECT_EQ(certificate.n_proved, certificate.n_cells);
 }
 
+TEST(Extrude, CurvedLinesGrowLittleMoreThanTheirHeights) {
+  LeaningCase c;
+  const Extrusion curved = extrude_prisms(c.base, c.options, {.wall_perpendicularity = 1.0}, c.envelope, k_context);
+  const EnvelopeScale scale = scale_of(c.base, c.options);
+  for (const VertexId v : c.cube.points.ids()) {
+    const double own = growth_for_height(1e-3, normal_height(c.base, c.envelope, v), 16);
+    double worst = 1.0;
+    const auto step = [&](int j) {
+      return distance(curved.points[curved.layers.node(v.value(), j).index()], curved.points[curved.layers.node(v.value(), j + 1).index()]);
+    };
+    for (int j = 0; j + 1 < 16; ++j) worst = std::max(worst, step(j + 1) / step(j));
+    EXPECT_LE(worst, std::max(1.03 * own, std::min(1.16 * own, 1.46)));
+  }
+}
+
 TEST(Extrude, SameBytesForAnyNumberOfThreads) {
   std::vector<Extrusion> results;
   for (const int threads : {1, 2, 7}) {
