@@ -55,7 +55,7 @@ LayerKnowledge reprove(const LayerBase& base, Collider& collider, const Domain& 
   Extrusion extrusion{.layers = std::move(filled.layers.layers),
                       .points = std::move(filled.layers.points.raw()),
                       .curving_shares = filled.curving_shares};  // lent: no copy of a large mesh
-  knowledge.report = report_layer(base, envelope_options, filled.envelope.envelope, extrusion, context);
+  knowledge.report = report_layer(base, envelope_options, filled.envelope.envelope, extrusion, &domain.outer, context);
   filled.layers.layers = std::move(extrusion.layers);
   filled.layers.points.raw() = std::move(extrusion.points);
   filled.layers.request = layer_request(base, envelope_options, filled.envelope.envelope);

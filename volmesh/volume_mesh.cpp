@@ -120,7 +120,7 @@ LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOpt
                std::to_string(split.boundary.triangles.size() - unsplit.boundary.triangles.size()) + " more triangles");
   LaidLayer layer;
   layer.certificate = split.certificate;
-  layer.report = report_layer(*split.base, options, split.envelope, split.extrusion, context);
+  layer.report = report_layer(*split.base, options, split.envelope, split.extrusion, split.outer.get(), context);
   layer.curving_shares = split.extrusion.curving_shares;
   layer.mesh = assemble_layers(*split.base, std::move(split.extrusion), unlinked(*split.outer), {});
   layer.mesh.request = layer_request(*split.base, options, split.envelope);

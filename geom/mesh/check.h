@@ -58,11 +58,14 @@ struct Quality {
   double skew_below_6 = 0.0, skew_below_18 = 0.0, skew_above_60 = 0.0;
 };
 
-/// What became of the layer on one patch, by area (G12). Full: at least 0.9 of the target height; compressed: below layers x first height.
+/// What became of the layer on one patch, by area (G12). Full: at least 0.9 of the target height, along the wall's normal; compressed: below layers x first
+/// height.
 struct PatchCoverage {
   std::string patch;
   double area = 0.0;                                                    ///< m^2 of wall
   double full = 0.0, reduced = 0.0, compressed = 0.0, collapsed = 0.0;  ///< shares of it; they sum to 1
+  double attainable = 0.0;                                              ///< share on which the geometry permits the full height (layer_room.h)
+  double attained = 0.0;                                                ///< share that has at least 0.9 of the height that the geometry permits
   std::vector<std::pair<std::string, double>> lost;                     ///< share of the area below full height by reason, largest first
 };
 

@@ -4,6 +4,8 @@
 #include <map>
 
 #include "geom/math/measures.h"
+#include "geom/math/spherical_cap.h"
+#include "geom/mesh/layer_room.h"
 #include "geom/mesh/line_measures.h"
 
 namespace sterna::check_parts {
@@ -16,35 +18,13 @@ constexpr double k_height_slack = 1e-9;
 constexpr std::size_t k_gate_line_chunk = 1024;
 constexpr const char* k_no_request = "the mesh does not say what was asked for";
 
-/// Unit normals of the symmetry patches at the feet of lines that stand on them: the body goes on behind with its mirror image, so normals there are means with
-/// theirs.
-class MirrorFeet {
- public:
-  explicit MirrorFeet(const HybridMesh& mesh) {
-    for (const BoundaryQuad& quad : mesh.boundary_quads) {
-      if (quad.patch.index() >= mesh.patches.size() || mesh.patches[quad.patch].kind != PatchKind::symmetry) continue;
-      const auto& p = mesh.points;
-      const Vec3 normal = normalized(cross(p[quad.nodes[2]] - p[quad.nodes[0]], p[quad.nodes[3]] - p[quad.nodes[1]]));
-      for (const NodeId node : quad.nodes) feet_.push_back({node, quad.patch, normal});
-    }
-    std::sort(feet_.begin(), feet_.end(), [](const Foot& a, const Foot& b) { return std::pair(a.node, a.patch) < std::pair(b.node, b.patch); });
-    feet_.erase(std::unique(feet_.begin(), feet_.end(), [](const Foot& a, const Foot& b) { return a.node == b.node && a.patch == b.patch; }), feet_.end());
-  }
-  /// The part of a normal at a node that lies in the planes that the node is on.
-  Vec3 mirrored(NodeId node, Vec3 normal) const {
-    for (auto foot = std::lower_bound(feet_.begin(), feet_.end(), node, [](const Foot&a, NodeId b) { return a.node < b; });
-         foot != feet_.end() && foot->node == node; ++foot)
-      normal = normal - dot(normal, foot->normal) * foot->normal;
-    return normalized(normal);
-  }
-
- private:
-  struct Foot {
-    NodeId node;
-    PatchId patch;
-    Vec3 normal;
-  };
-  std::vector<Foot> feet_;
+/// What the coverage needs of a line.
+struct LineHeight {
+  double height = 0.0;         ///< m, of the layer along the wall's normal
+  Vec3 normal;                 ///< unit, of the wall at the foot
+  double visibility = 0.0;     ///< cosine, as RoomRequest has it; of lines below their full height
+  bool is_full = false;        ///< at least k_full_height_share of what was asked for
+  bool is_compressed = false;  ///< below layers x first height
 };
 
 struct LayerScan {
@@ -64,21 +44,22 @@ struct LayerScan {
 
 class LineScanner {
  public:
-  /// `is_compressed` has one entry per line, which is set where the mesh's request can be used.
+  /// `line_heights` has one entry per line, which is set where the mesh's request can be used.
   LineScanner(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const MirrorFeet& feet, const GateTable& limits, bool is_request_usable,
-              std::vector<std::uint8_t>& is_compressed)
-      : mesh_(mesh), lines_(lines), fans_(fans), feet_(feet), is_compressed_(is_compressed), is_request_usable_(is_request_usable), scan_(limits) {}
+              std::vector<LineHeight>& line_heights)
+      : mesh_(mesh), lines_(lines), fans_(fans), feet_(feet), line_heights_(line_heights), is_request_usable_(is_request_usable), scan_(limits) {}
 
   LayerScan take() { return std::move(scan_); }
 
   void add(std::uint32_t line) {
     const int n = lines_.n_layers(line);
     read_fan(line, n);
+    if (lines_.are_columns() && is_request_usable_) read_height(line, n);
     if (n == 0) return;
     read_heights(line, n);
     if (n > 1) scan_.growth.add(worst_growth(heights_) * growth_scale(line), line, area_);
     scan_.angle.add(stack_angle(mesh_, lines_, line, normals_), line, area_);
-    if (lines_.are_columns() && is_request_usable_) add_first_height(line, n);
+    if (lines_.are_columns() && is_request_usable_) add_first_height(line);
   }
 
  private:
@@ -135,11 +116,22 @@ class LineScanner {
     return request.max_growth / request.line_max_growth[line];
   }
 
-  void add_first_height(std::uint32_t line, int n) {
+  void read_height(std::uint32_t line, int n) {
+    LineHeight& own = line_heights_[line];
+    own.normal = vertex_normal_;
+    own.height = dot(point(line, n) - point(line, 0), vertex_normal_);
+    // What was asked for cannot be met.
+    own.is_compressed = n > 0 && own.height < n * mesh_.request.first_height_of(line) * (1.0 - k_height_slack);
+    own.is_full = n > 0 && own.height >= k_full_height_share * mesh_.request.target_height[line] * (1.0 - k_height_slack);
+    if (own.is_full || normals_.empty()) return;
+    std::vector<Vec3> normals = normals_;
+    feet_.add_images(lines_.node(line, 0), normals);
+    own.visibility = std::cos(smallest_spherical_cap(normals).angle);
+  }
+
+  void add_first_height(std::uint32_t line) {
+    if (line_heights_[line].is_compressed) return;
     const double asked = mesh_.request.first_height_of(line);
-    // Compressed, by the height along the normal, as the extrusion has it: what was asked for cannot be met.
-    is_compressed_[line] = dot(point(line, n) - point(line, 0), vertex_normal_) < n * asked * (1.0 - k_height_slack);
-    if (is_compressed_[line] != 0) return;
     scan_.first_height.add(std::abs(dot(point(line, 1) - point(line, 0), vertex_normal_) / asked - 1.0), line);
   }
 
@@ -147,7 +139,7 @@ class LineScanner {
   const LayerLines& lines_;
   const Fans& fans_;
   const MirrorFeet& feet_;
-  std::vector<std::uint8_t>& is_compressed_;
+  std::vector<LineHeight>& line_heights_;
   bool is_request_usable_;
   LayerScan scan_;
   std::vector<Vec3> normals_;
@@ -156,16 +148,80 @@ class LineScanner {
   double area_ = 0.0;
 };
 
+/// Mean edge of the envelope above each wall triangle, m.
+std::vector<double> envelope_edges(const HybridMesh& mesh, const LayerLines& lines, const RunContext& context) {
+  std::vector<double> edges(lines.triangles().size());
+  parallel_for(context, edges.size(), [&](std::size_t t) {
+    const auto top = [&](std::size_t k) { return mesh.points[lines.node(lines.triangles()[t][k], lines.n_layers(lines.triangles()[t][k]))]; };
+    edges[t] = (distance(top(0), top(1)) + distance(top(1), top(2)) + distance(top(2), top(0))) / 3.0;
+  });
+  return edges;
+}
+
+/// Walls under layers, with what was asked for on them, and all other boundary faces.
+std::vector<FacingTriangle> facing_triangles(const HybridMesh& mesh, const LayerLines& lines, const std::vector<double>& edges) {
+  std::vector<FacingTriangle> facing;
+  std::vector<std::uint8_t> has_layers(mesh.patches.size(), 0);
+  for (std::size_t t = 0; t < lines.triangles().size(); ++t) {
+    const auto& feet = lines.triangles()[t];
+    FacingTriangle triangle{.feet = feet, .edge = edges[t]};
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangle.corners[k] = mesh.points[lines.node(feet[k], 0)];
+      triangle.asked = std::max(triangle.asked, mesh.request.target_height[feet[k]]);
+    }
+    facing.push_back(triangle);
+    if (lines.patch(t).index() < has_layers.size()) has_layers[lines.patch(t).index()] = 1;
+  }
+  const auto add = [&](PatchId patch, NodeId a, NodeId b, NodeId c) {
+    if (patch.index() < has_layers.size() && has_layers[patch.index()] != 0) return;
+    constexpr std::uint32_t k_none = FacingTriangle::k_no_foot;
+    facing.push_back({.corners = {mesh.points[a], mesh.points[b], mesh.points[c]}, .feet = {k_none, k_none, k_none}});
+  };
+  for (const BoundaryTriangle& t : mesh.boundary_triangles) add(t.patch, t.nodes[0], t.nodes[1], t.nodes[2]);
+  for (const BoundaryQuad& q : mesh.boundary_quads) {
+    add(q.patch, q.nodes[0], q.nodes[1], q.nodes[2]);
+    add(q.patch, q.nodes[0], q.nodes[2], q.nodes[3]);
+  }
+  return facing;
+}
+
+/// Height that the geometry permits each line, m; the target where the line has its full height.
+std::vector<double> permitted_heights(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const std::vector<LineHeight>& heights,
+                                      const RunContext& context) {
+  std::vector<double> permitted = mesh.request.target_height;
+  if (std::all_of(heights.begin(), heights.end(), [](const LineHeight& line) { return line.is_full; })) return permitted;
+  const std::vector<double> edges = envelope_edges(mesh, lines, context);
+  const LayerRoom room(facing_triangles(mesh, lines, edges), context);
+  parallel_for(context, heights.size(), [&](std::size_t k) {
+    const auto line = static_cast<std::uint32_t>(k);
+    const auto around = fans.around(line);
+    if (heights[k].is_full || around.empty()) return;
+    double edge = 0.0;
+    for (const std::uint32_t t : around) edge += edges[t] / static_cast<double>(around.size());
+    permitted[k] = room.permitted({line, mesh.points[lines.node(line, 0)], heights[k].normal, permitted[k], edge, heights[k].visibility});
+  });
+  return permitted;
+}
+
 /// Areas of one patch by what became of the layer there.
 struct PatchAreas {
-  double full = 0.0, reduced = 0.0, compressed = 0.0, collapsed = 0.0;
+  double full = 0.0, reduced = 0.0, compressed = 0.0, collapsed = 0.0, attainable = 0.0, attained = 0.0;
   std::map<std::string, double> lost;
   double total() const { return full + reduced + compressed + collapsed; }
+  void add(const PatchAreas& more) {
+    full += more.full;
+    reduced += more.reduced;
+    compressed += more.compressed;
+    collapsed += more.collapsed;
+    attainable += more.attainable;
+    attained += more.attained;
+    for (const auto& [reason, area] : more.lost) lost[reason] += area;
+  }
 };
 
 /// Each corner of a wall triangle stands for a third of it.
-std::map<std::uint32_t, PatchAreas> measure_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::vector<std::uint8_t>& is_compressed,
-                                                     const RunContext& context) {
+std::map<std::uint32_t, PatchAreas> measure_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::vector<LineHeight>& heights,
+                                                     const std::vector<double>& permitted, const RunContext& context) {
   const LayerRequest& request = mesh.request;
   using Areas = std::map<std::uint32_t, PatchAreas>;
   return parallel_reduce(
@@ -178,24 +234,17 @@ std::map<std::uint32_t, PatchAreas> measure_coverage(const HybridMesh& mesh, con
           const double third = triangle_area(foot(0), foot(1), foot(2)) / 3.0;
           PatchAreas& patch = areas[lines.patch(t).value()];
           for (const std::uint32_t line : corner) {
-            const int n = lines.n_layers(line);
-            const double height = n == 0 ? 0.0 : distance(mesh.points[lines.node(line, 0)], mesh.points[lines.node(line, n)]);
-            const bool is_full = n > 0 && height >= k_full_share * request.target_height[line];
-            (n == 0 ? patch.collapsed : is_full ? patch.full : is_compressed[line] != 0 ? patch.compressed : patch.reduced) += third;
-            if (!is_full) patch.lost[request.reasons[request.reason[line]]] += third;
+            const LineHeight& own = heights[line];
+            (lines.n_layers(line) == 0 ? patch.collapsed : own.is_full ? patch.full : own.is_compressed ? patch.compressed : patch.reduced) += third;
+            if (permitted[line] >= k_full_height_share * request.target_height[line]) patch.attainable += third;
+            if (own.is_full || own.height >= k_full_height_share * permitted[line]) patch.attained += third;
+            if (!own.is_full) patch.lost[request.reasons[request.reason[line]]] += third;
           }
         }
         return areas;
       },
       [](Areas all, const Areas& more) {
-        for (const auto& [patch, areas] : more) {
-          PatchAreas& sum = all[patch];
-          sum.full += areas.full;
-          sum.reduced += areas.reduced;
-          sum.compressed += areas.compressed;
-          sum.collapsed += areas.collapsed;
-          for (const auto& [reason, area] : areas.lost) sum.lost[reason] += area;
-        }
+        for (const auto& [patch, areas] : more) all[patch].add(areas);
         return all;
       });
 }
@@ -209,17 +258,20 @@ PatchCoverage share_out(const HybridMesh& mesh, std::uint32_t patch, const Patch
   result.reduced = scale * areas.reduced;
   result.compressed = scale * areas.compressed;
   result.collapsed = scale * areas.collapsed;
+  result.attainable = scale * areas.attainable;
+  result.attained = scale * areas.attained;
   for (const auto& [reason, area] : areas.lost) result.lost.emplace_back(reason, scale * area);
   std::stable_sort(result.lost.begin(), result.lost.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
   return result;
 }
 
-void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::vector<std::uint8_t>& is_compressed, const GateTable& limits,
+void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const std::vector<LineHeight>& heights, const GateTable& limits,
                     const RunContext& context, CheckReport& report) {
-  double full = 0.0, collapsed = 0.0, total = 0.0;
-  for (const auto& [patch, areas] : measure_coverage(mesh, lines, is_compressed, context)) {
+  double attained = 0.0, collapsed = 0.0, total = 0.0;
+  const std::vector<double> permitted = permitted_heights(mesh, lines, fans, heights, context);
+  for (const auto& [patch, areas] : measure_coverage(mesh, lines, heights, permitted, context)) {
     report.coverage.push_back(share_out(mesh, patch, areas));
-    full += areas.full;
+    attained += areas.attained;
     collapsed += areas.collapsed;
     total += areas.total();
   }
@@ -230,7 +282,7 @@ void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::
     result.places.clear();  // it is of the whole wall; patches and gate G13 say where
     report.gates[static_cast<std::size_t>(measure)] = std::move(result);
   };
-  put(Measure::coverage, total > 0.0 ? full / total : 0.0);
+  put(Measure::coverage, total > 0.0 ? attained / total : 0.0);
   put(Measure::collapsed, total > 0.0 ? collapsed / total : 0.0);
 }
 
@@ -260,11 +312,11 @@ void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatc
   const Fans fans(lines);
   const MirrorFeet feet(mesh);
   const bool is_usable = lines.are_columns() && is_request_usable(mesh);
-  std::vector<std::uint8_t> is_compressed(lines.n_lines(), 0);
+  std::vector<LineHeight> heights(lines.n_lines());
   const LayerScan scan = parallel_reduce(
       context, lines.n_lines(), LayerScan(limits),
       [&](std::size_t begin, std::size_t end) {
-        LineScanner scanner(mesh, lines, fans, feet, limits, is_usable, is_compressed);
+        LineScanner scanner(mesh, lines, fans, feet, limits, is_usable, heights);
         for (std::size_t k = begin; k < end; ++k) scanner.add(static_cast<std::uint32_t>(k));
         return scanner.take();
       },
@@ -288,7 +340,7 @@ void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatc
     return;
   }
   put(scan.first_height.result(line));
-  judge_coverage(mesh, lines, is_compressed, limits, context, report);
+  judge_coverage(mesh, lines, fans, heights, limits, context, report);
 }
 
 }  // namespace sterna::check_parts

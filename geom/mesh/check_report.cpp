@@ -113,8 +113,14 @@ Json to_json(const GateResult& gate) {
 }
 
 Json to_json(const PatchCoverage& patch) {
-  Json json = {{"patch", patch.patch},           {"area", patch.area},          {"full", patch.full}, {"reduced", patch.reduced},
-               {"compressed", patch.compressed}, {"collapsed", patch.collapsed}};
+  Json json = {{"patch", patch.patch},
+               {"area", patch.area},
+               {"full", patch.full},
+               {"reduced", patch.reduced},
+               {"compressed", patch.compressed},
+               {"collapsed", patch.collapsed},
+               {"attainable", patch.attainable},
+               {"attained", patch.attained}};
   json["lost"] = Json::object();
   for (const auto& [reason, share] : patch.lost) json["lost"][reason] = share;
   return json;
@@ -122,8 +128,8 @@ Json to_json(const PatchCoverage& patch) {
 
 std::string coverage_text(const PatchCoverage& patch) {
   std::string text = "         patch " + patch.patch +
-                     print_text(": %.2f %% full, %.2f %% reduced, %.2f %% compressed, %.2f %% collapsed", 100.0 * patch.full, 100.0 * patch.reduced,
-                                100.0 * patch.compressed, 100.0 * patch.collapsed);
+                     print_text(": %.2f %% full (the geometry permits %.2f %%), %.2f %% reduced, %.2f %% compressed, %.2f %% collapsed", 100.0 * patch.full,
+                                100.0 * patch.attainable, 100.0 * patch.reduced, 100.0 * patch.compressed, 100.0 * patch.collapsed);
   for (const auto& [reason, share] : patch.lost) text += print_text("; %.2f %% ", 100.0 * share) + reason;
   return text + "\n";
 }

@@ -35,7 +35,7 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
     {M::interface_volume, "G9", "interface_volume", "3 tet / prism volume", "prisms", false, false, {8, k_nan, 3, 0.99}, {1, 0x1p8, 48, 6}},
     {M::stack_angle, "G10", "stack_angle", "stack angle beyond the best", "area", true, false, {k_nan, k_nan, 10 * k_degree, 0.995}, {0, k_right, 45}},
     {M::first_height, "G11", "first_height", "first height against request", "lines", false, false, {0.2, k_nan, 0.02, 0.99}, {0, 0.5, 50}},
-    {M::coverage, "G12", "coverage", "area at its full height", "area", false, true, {0.95, 0.99, k_nan, 1.0}, {}},
+    {M::coverage, "G12", "coverage", "area at its attainable height", "area", false, true, {0.95, 0.99, k_nan, 1.0}, {}},
     {M::collapsed, "G12", "collapsed", "area without layers", "area", false, false, {k_nan, 0.0, k_nan, 1.0}, {}},
     {M::layer_step, "G13", "layer_step", "layers lost over an edge", "edges", false, false, {1, 0, k_nan, 1.0}, {}},
     {M::min_dihedral, "G14", "min_dihedral", "smallest dihedral of a tet", "tets", true, true, {5 * k_degree, 12 * k_degree, k_nan, 1.0}, {0, k_right, 45}},

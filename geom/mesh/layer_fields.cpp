@@ -22,6 +22,7 @@ struct LineFigures {
 
 std::vector<LineFigures> measure_lines(const HybridMesh& mesh, const LayerLines& lines, const RunContext& context) {
   const Fans fans(lines);
+  const MirrorFeet feet(mesh);
   const bool has_target = lines.are_columns() && is_request_usable(mesh);
   std::vector<LineFigures> all(lines.n_lines());
   parallel_chunks(context, lines.n_lines(), k_chunk, [&](std::size_t begin, std::size_t end) {
@@ -32,6 +33,7 @@ std::vector<LineFigures> measure_lines(const HybridMesh& mesh, const LayerLines&
       const auto point = [&](int j) { return mesh.points[lines.node(line, j)]; };
       LineFigures& figures = all[k];
       const int n = lines.n_layers(line);
+      double normal_height = 0.0;  // m, of the layer along the wall's normal
       heights.clear();
       for (int j = 0; j < n; ++j) heights.push_back(distance(point(j), point(j + 1)));
       if (n > 0) {
@@ -39,14 +41,18 @@ std::vector<LineFigures> measure_lines(const HybridMesh& mesh, const LayerLines&
         figures.first = heights.front();
         figures.growth = n > 1 ? worst_growth(heights) : k_nan;
         normals.clear();
+        Vec3 wall_normal{};
         for (const std::uint32_t t : fans.around(line)) {
           const auto& corner = lines.triangles()[t];
           const auto foot = [&](std::size_t i) { return mesh.points[lines.node(corner[i], 0)]; };
           normals.push_back(normalized(area_vector(foot(0), foot(1), foot(2))));
+          const std::size_t c = corner[0] == line ? 0 : corner[1] == line ? 1 : 2;
+          wall_normal += corner_angle(foot(c), foot((c + 1) % 3), foot((c + 2) % 3)) * normals.back();
         }
+        if (!normals.empty()) normal_height = dot(point(n) - point(0), feet.mirrored(lines.node(line, 0), wall_normal));
         if (!normals.empty()) figures.angle = k_degrees * stack_angle(mesh, lines, line, normals);
       }
-      if (has_target && mesh.request.target_height[k] > 0.0) figures.coverage = std::min(1.0, figures.height / mesh.request.target_height[k]);
+      if (has_target && mesh.request.target_height[k] > 0.0) figures.coverage = std::clamp(normal_height / mesh.request.target_height[k], 0.0, 1.0);
     }
   });
   return all;

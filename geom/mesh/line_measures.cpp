@@ -24,6 +24,34 @@ Fans::Fans(const LayerLines& lines) : first_(lines.n_lines() + 1, 0), triangles_
     for (const std::uint32_t line : lines.triangles()[t]) triangles_[cursor[line]++] = t;
 }
 
+MirrorFeet::MirrorFeet(const HybridMesh& mesh) {
+  for (const BoundaryQuad& quad : mesh.boundary_quads) {
+    if (quad.patch.index() >= mesh.patches.size() || mesh.patches[quad.patch].kind != PatchKind::symmetry) continue;
+    const auto& p = mesh.points;
+    const Vec3 normal = normalized(cross(p[quad.nodes[2]] - p[quad.nodes[0]], p[quad.nodes[3]] - p[quad.nodes[1]]));
+    for (const NodeId node : quad.nodes) feet_.push_back({node, quad.patch, normal});
+  }
+  std::sort(feet_.begin(), feet_.end(), [](const Foot& a, const Foot& b) { return std::pair(a.node, a.patch) < std::pair(b.node, b.patch); });
+  feet_.erase(std::unique(feet_.begin(), feet_.end(), [](const Foot& a, const Foot& b) { return a.node == b.node && a.patch == b.patch; }), feet_.end());
+}
+
+std::span<const MirrorFeet::Foot> MirrorFeet::of(NodeId node) const {
+  const auto first = std::lower_bound(feet_.begin(), feet_.end(), node, [](const Foot& a, NodeId b) { return a.node < b; });
+  auto last = first;
+  while (last != feet_.end() && last->node == node) ++last;
+  return {first, last};
+}
+
+Vec3 MirrorFeet::mirrored(NodeId node, Vec3 normal) const {
+  for (const Foot& foot : of(node)) normal = normal - dot(normal, foot.normal) * foot.normal;
+  return normalized(normal);
+}
+
+void MirrorFeet::add_images(NodeId node, std::vector<Vec3>& normals) const {
+  for (const Foot& foot : of(node))
+    for (std::size_t i = 0, n = normals.size(); i < n; ++i) normals.push_back(normals[i] - 2.0 * dot(normals[i], foot.normal) * foot.normal);
+}
+
 double worst_growth(std::span<const double> heights) {
   double worst = 1.0;
   for (std::size_t j = 1; j < heights.size(); ++j) {

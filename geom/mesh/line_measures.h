@@ -8,9 +8,6 @@
 
 namespace sterna::check_parts {
 
-/// Share of the target height that counts as full (method.md §2).
-inline constexpr double k_full_share = 0.9;
-
 /// Wall triangles around each line.
 class Fans {
  public:
@@ -19,6 +16,26 @@ class Fans {
 
  private:
   std::vector<std::uint32_t> first_, triangles_;
+};
+
+/// Unit normals of the symmetry patches at the feet of lines that stand on them: the body goes on behind with its mirror image, so normals there are means with
+/// theirs.
+class MirrorFeet {
+ public:
+  explicit MirrorFeet(const HybridMesh& mesh);
+  /// The part of a normal at a node that lies in the planes that the node is on, as a unit.
+  Vec3 mirrored(NodeId node, Vec3 normal) const;
+  /// Adds the images of the facets' normals behind the planes that the node is on.
+  void add_images(NodeId node, std::vector<Vec3>& normals) const;
+
+ private:
+  struct Foot {
+    NodeId node;
+    PatchId patch;
+    Vec3 normal;
+  };
+  std::span<const Foot> of(NodeId node) const;
+  std::vector<Foot> feet_;  ///< ascending by node and patch
 };
 
 /// The larger over the smaller of consecutive heights, at worst (G8); 1 for fewer than two.

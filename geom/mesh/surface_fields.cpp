@@ -11,6 +11,7 @@
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/mesh/layer_fields.h"
+#include "geom/mesh/layer_room.h"
 
 namespace sterna {
 namespace {
@@ -32,7 +33,7 @@ const std::vector<SurfaceFieldInfo>& table() {
       {"area_ratio", "area ratio to neighbours", "", true, false, k_no_limits, false},
       {"layer_height", "height of the layer", "m", true, false, k_no_limits, true},
       {"first_height", "first height", "m", true, false, k_no_limits, true},
-      {"coverage", "height / target height", "", false, true, {k_nan, k_nan, check_parts::k_full_share, info_of(Measure::coverage).limits.target}, true},
+      {"coverage", "height / target height", "", false, true, {k_nan, k_nan, k_full_height_share, info_of(Measure::coverage).limits.target}, true},
       {"layers", "number of layers", "", false, true, k_no_limits, true},
       {"growth", "growth along a line", "", false, false, limits_of(Measure::stack_growth), true},
       {"skew", "skew angle of the worst prism", "deg", false, false, k_no_limits, true},

@@ -34,7 +34,7 @@ struct SurfaceField {
 ///   area_ratio    largest ratio of areas to a face across an edge (the larger over the smaller), among faces of as many corners whose patches are of one kind
 ///   layer_height  mean of its three lines from the wall to the end (chords; collapsed lines count 0), m
 ///   first_height  mean length of the first step of its lines that stand, m
-///   coverage      mean of height over target height of its lines, at most 1 each; only where the mesh says what was asked for
+///   coverage      mean of height along the wall's normal over target height of its lines, at most 1 each; only where the mesh says what was asked for
 ///   layers        cells of the longest line
 ///   growth        largest ratio of consecutive heights along a line (G8)
 ///   skew          skew angle of the worst prism, degrees

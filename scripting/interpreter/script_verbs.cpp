@@ -300,6 +300,7 @@ ScriptValue mesh_field(const ScriptCall& call) {
                    {"patches", patch_names(mesh.mesh.patches)}};
   if (mesh.origin) {
     fields.emplace_back("coverage", mesh.origin->layer.coverage);
+    fields.emplace_back("attainable", mesh.origin->layer.attainable);
     fields.emplace_back("mean_height", mesh.origin->layer.mean_height);
     fields.emplace_back("compressed", mesh.origin->layer.n_compressed);
     fields.emplace_back("collapsed", static_cast<std::int64_t>(mesh.origin->layer.collapsed.size()));

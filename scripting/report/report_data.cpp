@@ -283,7 +283,8 @@ Json facts_json(const MeshValue& value) {
   if (mesh.request.is_known()) facts.push_back({"first height", in_metres(mesh.request.first_height)});
   if (value.origin) {
     facts.push_back({"mean height of the layer", in_metres(value.origin->layer.mean_height, 4)});
-    facts.push_back({"full height", number_text(100.0 * value.origin->layer.coverage, 4) + " % of the area"});
+    facts.push_back({"full height", number_text(100.0 * value.origin->layer.coverage, 4) + " % of the area; the geometry permits " +
+                                        number_text(100.0 * value.origin->layer.attainable, 4) + " %"});
     facts.push_back({"tetrahedra by", value.origin->tetra_engine});
   }
   return facts;

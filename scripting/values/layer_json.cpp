@@ -25,6 +25,8 @@ Json patch_coverage_json(const volmesh::LayerReport& layer) {
     patches.push_back({{"name", patch.name},
                        {"area", patch.area},
                        {"full", patch.full},
+                       {"attainable", patch.attainable},
+                       {"attained", patch.attained},
                        {"compressed", patch.compressed},
                        {"collapsed", patch.collapsed},
                        {"lost_area", shares_json(patch.lost_area)}});
@@ -46,6 +48,8 @@ Json first_node_json(const volmesh::LayerReport& layer) {
 std::string layer_json(const volmesh::LayerReport& layer) {
   Json json = {{"body_length", layer.body_length},
                {"coverage", layer.coverage},
+               {"attainable", layer.attainable},
+               {"attained", layer.attained},
                {"compressed_area", layer.compressed_area},
                {"collapsed_area", layer.collapsed_area},
                {"target_over_eq1", layer.target_over_eq1},

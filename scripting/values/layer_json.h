@@ -7,8 +7,8 @@
 
 namespace sterna::scripting {
 
-/// Object: coverage in all and per patch (shares of area at full height, compressed, collapsed; lost area by reason), every collapsed vertex, the most
-/// compressed ones, warnings.
+/// Object: coverage in all and per patch (shares of area at full height along the normal, and where the geometry permits it, compressed, collapsed; lost area
+/// by reason), every collapsed vertex, the most compressed ones, warnings.
 std::string layer_json(const volmesh::LayerReport& layer);
 /// Object: what was tested, what failed (nothing), the worst elements with place.
 std::string certificate_json(const volmesh::EnvelopeCertificate& certificate);

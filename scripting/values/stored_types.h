@@ -82,7 +82,7 @@ inline constexpr std::size_t k_members<CheckFinding> = 3;
 template <>
 inline constexpr std::size_t k_members<Quality> = 9;
 template <>
-inline constexpr std::size_t k_members<PatchCoverage> = 7;
+inline constexpr std::size_t k_members<PatchCoverage> = 9;
 template <>
 inline constexpr std::size_t k_members<GateLimits> = 4;
 template <>
@@ -96,7 +96,7 @@ inline constexpr std::size_t k_members<PeriodicSides> = 3;
 template <>
 inline constexpr std::size_t k_members<PeriodicMatchReport> = 6;
 template <>
-inline constexpr std::size_t k_members<volmesh::PatchLayerReport> = 6;
+inline constexpr std::size_t k_members<volmesh::PatchLayerReport> = 8;
 template <>
 inline constexpr std::size_t k_members<volmesh::VisibilityReport> = 4;
 template <>
@@ -104,7 +104,7 @@ inline constexpr std::size_t k_members<volmesh::InterfaceReport> = 4;
 template <>
 inline constexpr std::size_t k_members<volmesh::FirstNodeReport> = 11;
 template <>
-inline constexpr std::size_t k_members<volmesh::LayerReport> = 19;
+inline constexpr std::size_t k_members<volmesh::LayerReport> = 21;
 template <>
 inline constexpr std::size_t k_members<volmesh::WorstElement> = 3;
 template <>

@@ -36,8 +36,8 @@ std::string patch_text(const volmesh::LayerReport& layer) {
   patches.resize(std::min(patches.size(), k_listed_patches));
   std::string text;
   for (const volmesh::PatchLayerReport& patch : patches)
-    text += fmt::format("    patch {}: {:.2f} % full, {:.2f} % compressed, {:.2f} % collapsed\n", patch.name, 100.0 * patch.full, 100.0 * patch.compressed,
-                        100.0 * patch.collapsed);
+    text += fmt::format("    patch {}: {:.2f} % full (the geometry permits {:.2f} %), {:.2f} % compressed, {:.2f} % collapsed\n", patch.name,
+                        100.0 * patch.full, 100.0 * patch.attainable, 100.0 * patch.compressed, 100.0 * patch.collapsed);
   return text;
 }
 
@@ -102,7 +102,8 @@ std::string summary_text(const MeshValue& mesh) {
                       mesh.mesh.layers.is_uniform() ? "" : "up to ", mesh.mesh.layers.n_layers, count_text(cells.pyramids), count_text(cells.tetrahedra));
   if (mesh.origin->n_split_triangles > 0)
     text += fmt::format("  splits      {} more triangles on wall and farfield, made for the tetrahedra\n", count_text(mesh.origin->n_split_triangles));
-  text += fmt::format("  layer       {:.2f} % of the area at its full height, mean height {:.4g} m\n", 100.0 * layer.coverage, layer.mean_height);
+  text += fmt::format("  layer       {:.2f} % of the area at its full height along the normal, the geometry permits {:.2f} %; mean height {:.4g} m\n",
+                      100.0 * layer.coverage, 100.0 * layer.attainable, layer.mean_height);
   for (const auto& [reason, share] : layer.lost_area)
     text += fmt::format("              {:.2f} % below: {}\n", 100.0 * share,
                         reason == "none" ? "height_gradient and smoothing, from what lowers the layer nearby" : reason);
@@ -161,6 +162,8 @@ std::string stats_json(const MeshValue& mesh, const RunMeasure& measure) {
   json["tetrahedra"] = cells.tetrahedra;
   json["body_length"] = layer.body_length;
   json["coverage"] = layer.coverage;
+  json["attainable"] = layer.attainable;
+  json["attained"] = layer.attained;
   json["target_over_eq1"] = layer.target_over_eq1;
   json["mean_height_share"] = layer.mean_height_share;
   json["mean_height"] = layer.mean_height;

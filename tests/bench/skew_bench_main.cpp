@@ -106,8 +106,8 @@ void run(const std::string& argument, const RunContext& context) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const double processor = static_cast<double>(std::clock() - clock) / CLOCKS_PER_SEC;
     const Extrusion x = extrude_prisms(base, options, {.wall_perpendicularity = 0.1}, envelope, context);
-    const Skew skew = measure_skew(options, envelope, x, context);
-    const LayerReport report = report_layer(base, options, envelope, x, context);
+    const Skew skew = measure_skew(options, envelope, x, nullptr, context);
+    const LayerReport report = report_layer(base, options, envelope, x, nullptr, context);
     const LayerCertificate certificate = certify_layer(x.layers, x.points, context);
     std::printf("| %s | %zu | %s | %.1f | %.1f | %.2f | %.1f | %.1f | %.2f | %.2f | %.3f | %.2g | %.2f | %.2f |\n", name.c_str(), wall.n_triangles(), optimiser,
                 skew.below(6.0), skew.below(18.0), 100.0 - skew.below(60.0), ceiling(base, 6.0), ceiling(base, 18.0), 100.0 * report.mean_height_share,

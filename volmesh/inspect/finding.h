@@ -78,7 +78,7 @@ struct Finding {
 /// What will become of the layer, by the first steps of the envelope.
 struct LayerPrediction {
   bool is_known = false;                                  ///< false: no first height was given, or the surface is refused
-  double coverage = 0.0;                                  ///< share of the wall's area at 0.9 of its target height or more
+  double coverage = 0.0;                                  ///< share of the wall's area at 0.9 of its target height or more, along the normal
   double compressed = 0.0;                                ///< share of the area below n h0
   double collapsed = 0.0;                                 ///< share of the area without layer
   std::vector<std::pair<std::string, double>> lost_area;  ///< share below 0.9 of the target, by reason, largest first

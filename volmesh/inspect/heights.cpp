@@ -145,7 +145,7 @@ class HeightSurvey {
   }
 
  private:
-  bool is_full(VertexId v) const { return envelope_.height[v] >= k_full_share * envelope_.target[v]; }
+  bool is_full(VertexId v) const { return normal_height(base_, envelope_, v) >= k_full_share * envelope_.target[v]; }
   bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < scale_.compressed(v); }
   double share_of(VertexId v) const { return envelope_.target[v] > 0.0 ? envelope_.height[v] / envelope_.target[v] : k_no_value; }
   const std::string& patch_of(VertexId v) const { return survey_.patch_of(map_.triangle(triangle_of(base_.topology.outgoing(v).front()))); }

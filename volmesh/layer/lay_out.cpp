@@ -62,7 +62,7 @@ LaidLayer lay_out(MeshingSite& site, Envelope& envelope, const RunContext& conte
     laid.certificate = certify_envelope(site.base, site.collider, envelope, context);
     require_proved(laid.certificate);
   }
-  laid.report = report_layer(site.base, site.options.envelope, envelope, extrusion, context);
+  laid.report = report_layer(site.base, site.options.envelope, envelope, extrusion, &site.domain.outer, context);
   laid.curving_shares = extrusion.curving_shares;
   const ClosedOuter outer = closed_around(site, envelope, context);
   open_slits(site.domain, extrusion.layers, extrusion.points);

@@ -8,35 +8,99 @@
 #include "geom/base/parallel.h"
 #include "geom/math/constants.h"
 #include "geom/math/measures.h"
+#include "geom/mesh/layer_room.h"
 #include "volmesh/layer/layer_line.h"
 
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_report_digits = 4;           ///< of lengths in texts
-constexpr double k_full_height_share = 0.9;  ///< of h_target that counts as covered
-constexpr double k_suspicious_share = 0.5;   ///< of the area compressed: more likely a mistake in the settings than a difficult shape
+constexpr int k_report_digits = 4;          ///< of lengths in texts
+constexpr double k_suspicious_share = 0.5;  ///< of the area compressed: more likely a mistake in the settings than a difficult shape
 
-using LostArea = std::array<double, k_height_limits>;
+/// Reasons for less than the full height: those of HeightLimit, then lines that are long enough but lean.
+constexpr std::size_t k_lean = k_height_limits;
+using LostArea = std::array<double, k_height_limits + 1>;
+
+std::string_view reason_text(std::size_t reason) {
+  return reason == k_lean ? "growth lines lean from the normal" : to_string(static_cast<HeightLimit>(reason));
+}
 
 /// Areas by state, m^2.
 struct Areas {
-  double all = 0.0, full = 0.0, compressed = 0.0, collapsed = 0.0;
+  double all = 0.0, full = 0.0, compressed = 0.0, collapsed = 0.0, attainable = 0.0, attained = 0.0;
   LostArea lost{};
 };
 
+/// Height of the layer along the wall's normal, m. Unlike normal_height() without a floor.
+double height_along_normal(const LayerBase& base, const Envelope& envelope, VertexId v) {
+  return envelope.height[v] * dot(envelope.direction[v], base.vertex_normal[v]);
+}
+
+bool has_full_height(const LayerBase& base, const Envelope& envelope, VertexId v) {
+  return !envelope.is_collapsed(v) && height_along_normal(base, envelope, v) >= k_full_height_share * envelope.target[v];
+}
+
+std::size_t reason_of(const LayerBase& base, const Envelope& envelope, VertexId v) {
+  const bool is_long = !envelope.is_collapsed(v) && envelope.height[v] >= k_full_height_share * envelope.target[v];
+  return is_long && !has_full_height(base, envelope, v) ? k_lean : static_cast<std::size_t>(envelope.limit[v]);
+}
+
+double mean_top_edge(const LayerBase& base, const Envelope& envelope, TriangleId t) {
+  const TriangleVertices& v = base.wall.triangles[t];
+  const auto top = [&](std::size_t k) { return envelope.point(base.wall, v[k]); };
+  return (distance(top(0), top(1)) + distance(top(1), top(2)) + distance(top(2), top(0))) / 3.0;
+}
+
+/// The wall with what is asked for on it, and the outer boundary.
+LayerRoom room_around(const LayerBase& base, const Envelope& envelope, const TriMesh* outer, const RunContext& context) {
+  std::vector<FacingTriangle> facing(base.wall.n_triangles());
+  parallel_for(context, facing.size(), [&](std::size_t i) {
+    const TriangleId t(i);
+    const TriangleVertices& v = base.wall.triangles[t];
+    facing[i] = {.corners = corners(base.wall, t),
+                 .feet = {v[0].value(), v[1].value(), v[2].value()},
+                 .asked = std::max({envelope.target[v[0]], envelope.target[v[1]], envelope.target[v[2]]}),
+                 .edge = mean_top_edge(base, envelope, t)};
+  });
+  constexpr std::uint32_t k_none = FacingTriangle::k_no_foot;
+  if (outer != nullptr)
+    for (const TriangleId t : outer->triangles.ids()) facing.push_back({.corners = corners(*outer, t), .feet = {k_none, k_none, k_none}});
+  return LayerRoom(std::move(facing), context);
+}
+
+/// Height along the normal that the geometry permits at each vertex, m; the target where the vertex has its full height.
+Column<VertexId, double> permitted_heights(const LayerBase& base, const Envelope& envelope, const TriMesh* outer, const RunContext& context) {
+  Column<VertexId, double> permitted = envelope.target;
+  const auto is_full = [&](VertexId v) { return has_full_height(base, envelope, v) || base.topology.outgoing(v).empty(); };
+  std::size_t n_low = 0;
+  for (const VertexId v : envelope.height.ids()) n_low += is_full(v) ? 0 : 1;
+  if (n_low == 0) return permitted;
+  const LayerRoom room = room_around(base, envelope, outer, context);
+  parallel_for(context, permitted.size(), [&](std::size_t i) {
+    const VertexId v(i);
+    if (is_full(v)) return;
+    const auto around = base.topology.outgoing(v);
+    double edge = 0.0;
+    for (const HalfedgeId h : around) edge += mean_top_edge(base, envelope, triangle_of(h)) / static_cast<double>(around.size());
+    permitted[v] = room.permitted({v.value(), base.wall.points[v], base.vertex_normal[v], envelope.target[v], edge, base.visibility[v]});
+  });
+  return permitted;
+}
+
 class Classifier {
  public:
-  Classifier(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope)
-      : base_(base), envelope_(envelope), scale_(scale_of(base, options)) {}
-  bool is_full(VertexId v) const { return envelope_.height[v] >= k_full_height_share * envelope_.target[v]; }
+  Classifier(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const TriMesh* outer, const RunContext& context)
+      : base_(base), envelope_(envelope), scale_(scale_of(base, options)), permitted_(permitted_heights(base, envelope, outer, context)) {}
+  bool is_full(VertexId v) const { return has_full_height(base_, envelope_, v); }
   bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < scale_.compressed(v); }
   void add(VertexId v, double area, Areas& areas) const {
     areas.all += area;
     if (is_full(v)) areas.full += area;
-    else areas.lost[static_cast<std::size_t>(envelope_.limit[v])] += area;
+    else areas.lost[reason_of(base_, envelope_, v)] += area;
     if (is_compressed(v)) areas.compressed += area;
     if (envelope_.is_collapsed(v)) areas.collapsed += area;
+    if (permitted_[v] >= k_full_height_share * envelope_.target[v]) areas.attainable += area;
+    if (is_full(v) || height_along_normal(base_, envelope_, v) >= k_full_height_share * permitted_[v]) areas.attained += area;
   }
   const EnvelopeScale& scale() const { return scale_; }
 
@@ -44,12 +108,13 @@ class Classifier {
   const LayerBase& base_;
   const Envelope& envelope_;
   EnvelopeScale scale_;
+  Column<VertexId, double> permitted_;  ///< m
 };
 
 std::vector<std::pair<std::string, double>> shares_of(const Areas& areas) {
   std::vector<std::pair<std::string, double>> shares;
   for (std::size_t i = 0; i < areas.lost.size(); ++i)
-    if (areas.lost[i] > 0.0) shares.emplace_back(to_string(static_cast<HeightLimit>(i)), areas.lost[i] / areas.all);
+    if (areas.lost[i] > 0.0) shares.emplace_back(reason_text(i), areas.lost[i] / areas.all);
   std::stable_sort(shares.begin(), shares.end(), [](const auto& x, const auto& y) { return x.second > y.second; });
   return shares;
 }
@@ -62,7 +127,8 @@ std::vector<PatchLayerReport> cover_patches(const LayerBase& base, const Classif
   for (const PatchId p : base.wall.patches.ids()) {
     const Areas& own = areas[p.index()];
     const auto share = [&own](double part) { return own.all > 0.0 ? part / own.all : 0.0; };
-    patches.push_back({base.wall.patches[p].name, own.all, share(own.full), share(own.compressed), share(own.collapsed), shares_of(own)});
+    patches.push_back({base.wall.patches[p].name, own.all, share(own.full), share(own.compressed), share(own.collapsed), share(own.attainable),
+                       share(own.attained), shares_of(own)});
   }
   return patches;
 }
@@ -146,24 +212,26 @@ InterfaceReport report_interface(const LayerBase& base, const Classifier& classi
 
 }  // namespace
 
-LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion,
+LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion, const TriMesh* outer,
                          const RunContext& context) {
   LayerReport report;
   report.body_length = base.body_length;
   report.feature_angle = options.feature_angle;
   report.visibility = report_visibility(base);
   report.n_vertices = static_cast<std::int64_t>(base.wall.n_vertices());
-  const Classifier classifier(base, options, envelope);
+  const Classifier classifier(base, options, envelope, outer, context);
   Areas areas;
   double heights = 0.0, targets = 0.0, ratios = 0.0;
   for (const VertexId v : envelope.height.ids()) {
     const double a = base.vertex_area[v];
     classifier.add(v, a, areas);
-    heights += a * envelope.height[v];
+    heights += a * height_along_normal(base, envelope, v);
     targets += a * envelope.target[v];
     ratios += a * envelope.target[v] / envelope.eq1[v];
   }
   report.coverage = areas.full / areas.all;
+  report.attainable = areas.attainable / areas.all;
+  report.attained = areas.attained / areas.all;
   report.compressed_area = areas.compressed / areas.all;
   report.collapsed_area = areas.collapsed / areas.all;
   report.lost_area = shares_of(areas);
@@ -190,9 +258,9 @@ LayerRequest layer_request(const LayerBase& base, const EnvelopeOptions& options
     request.max_growth = *std::max_element(demand.max_growth.begin(), demand.max_growth.end());
   }
   request.target_height = envelope.target.raw();
-  for (std::size_t i = 0; i < k_height_limits; ++i) request.reasons.emplace_back(to_string(static_cast<HeightLimit>(i)));
+  for (std::size_t i = 0; i <= k_lean; ++i) request.reasons.emplace_back(reason_text(i));
   request.reason.reserve(envelope.limit.size());
-  for (const HeightLimit limit : envelope.limit) request.reason.push_back(static_cast<std::uint8_t>(limit));
+  for (const VertexId v : envelope.limit.ids()) request.reason.push_back(static_cast<std::uint8_t>(reason_of(base, envelope, v)));
   return request;
 }
 

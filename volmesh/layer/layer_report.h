@@ -18,9 +18,11 @@ namespace sterna::volmesh {
 struct PatchLayerReport {
   std::string name;
   double area = 0.0;                                      ///< m^2
-  double full = 0.0;                                      ///< h >= 0.9 h_target
+  double full = 0.0;                                      ///< height along the wall's normal >= 0.9 h_target
   double compressed = 0.0;                                ///< 0 < normal_height < n h0: equally spaced, h0 not met
   double collapsed = 0.0;                                 ///< no layer
+  double attainable = 0.0;                                ///< where the geometry permits the full height (geom/mesh/layer_room.h)
+  double attained = 0.0;                                  ///< at least 0.9 of the height that the geometry permits
   std::vector<std::pair<std::string, double>> lost_area;  ///< share below 0.9 h_target by reason, largest first
 };
 
@@ -35,10 +37,12 @@ struct InterfaceReport {
 /// What became of the layer; see method.md §2 for h_target.
 struct LayerReport {
   double body_length = 0.0;        ///< m
-  double coverage = 0.0;           ///< share of wall area with h >= 0.9 h_target
+  double coverage = 0.0;           ///< share of wall area with a height along the wall's normal >= 0.9 h_target
+  double attainable = 0.0;         ///< share of wall area on which the geometry permits that (geom/mesh/layer_room.h)
+  double attained = 0.0;           ///< share of wall area with at least 0.9 of the height that the geometry permits
   double target_over_eq1 = 0.0;    ///< area mean of h_target over eq. (1)
-  double mean_height_share = 0.0;  ///< area mean h over area mean h_target
-  double mean_height = 0.0;        ///< m, area-weighted
+  double mean_height_share = 0.0;  ///< area mean of the height along the normal over that of h_target
+  double mean_height = 0.0;        ///< m, along the normal, area-weighted
   double feature_angle = 0.0;      ///< rad, the user's or the one found
   VisibilityReport visibility;
   std::int64_t n_vertices = 0;
@@ -57,7 +61,8 @@ struct LayerReport {
 
 inline constexpr std::size_t k_listed_compressed = 20;
 
-LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion,
+/// `outer`: the boundary without layers, which walls may face; may be null.
+LayerReport report_layer(const LayerBase& base, const EnvelopeOptions& options, const Envelope& envelope, const Extrusion& extrusion, const TriMesh* outer,
                          const RunContext& context);
 
 /// What was asked of each line, for the gates of `check`.

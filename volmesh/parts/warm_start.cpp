@@ -11,6 +11,7 @@
 #include "volmesh/envelope/keep_inside.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/untangle.h"
+#include "volmesh/layer/layer_line.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -125,8 +126,8 @@ Loss lost_coverage(const LayerBase& base, const Envelope& was, const Envelope& e
   double area = 0.0, before = 0.0, now = 0.0, most = 0.0;
   Loss loss;
   for (const VertexId v : envelope.height.ids()) {
-    const bool was_full = was.target[v] > 0.0 && was.height[v] >= k_full_height * was.target[v];
-    const bool is_full = envelope.target[v] > 0.0 && envelope.height[v] >= k_full_height * envelope.target[v];
+    const bool was_full = was.target[v] > 0.0 && normal_height(base, was, v) >= k_full_height * was.target[v];
+    const bool is_full = envelope.target[v] > 0.0 && normal_height(base, envelope, v) >= k_full_height * envelope.target[v];
     area += base.vertex_area[v];
     before += was_full ? base.vertex_area[v] : 0.0;
     now += is_full ? base.vertex_area[v] : 0.0;

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "geom/math/spherical_cap.h"
+#include "geom/mesh/layer_room.h"
 #include "tests/geom/mesh/check_support.h"
 #include "tests/support/constants.h"
 
@@ -176,6 +177,46 @@ TEST(Gates, FirstHeightIsMeasuredAlongTheNormalWhereTheLayerIsNotCompressed) {
   for (Point& p : mesh.points) p.x += p.z * std::tan(60 * k_degree);
   ask_for(mesh, 0.1, 0.6, 1.2);
   EXPECT_NEAR(checked(mesh).gate(Measure::first_height).worst, 0.0, 1e-12);
+}
+
+TEST(Gates, CoverageIsByTheHeightAlongTheNormal) {
+  HybridMesh mesh = regular_plate(3, {.n_layers = 3, .layer_height = 0.3, .ratio = 1.0});
+  ask_for(mesh, 0.1, 0.32, 1.2);
+  EXPECT_NEAR(checked(mesh).coverage[0].full, 1.0, 1e-14);
+  for (Point& p : mesh.points) p.x += p.z * std::tan(60 * k_degree);  // twice as long, as high as before
+  EXPECT_NEAR(checked(mesh).coverage[0].full, 1.0, 1e-14);
+  ask_for(mesh, 0.1, 0.6, 1.2);
+  EXPECT_NEAR(checked(mesh).coverage[0].full, 0.0, 1e-14);
+  EXPECT_NEAR(checked(mesh).coverage[0].reduced, 1.0, 1e-14);
+}
+
+TEST(Gates, WhatAnOpposingWallForbidsIsNotAskedFor) {
+  // Equal plates of layers of one height over each other; without cells between them the mesh is no tiling, but its coverage can be told by LayerRoom.
+  constexpr double k_gap = 1.0, k_target = 0.8, k_edge = 0.5;
+  const auto plate = [&](double z, std::array<std::uint32_t, 3> feet, double asked) {
+    std::array<Point, 3> corners = {Point{-1, -1, z}, {1, -1, z}, {0, 2, z}};
+    if (z > 0.0) std::swap(corners[1], corners[2]);
+    return FacingTriangle{.corners = corners, .feet = feet, .asked = asked, .edge = k_edge};
+  };
+  const RoomRequest line{.line = 0, .foot = {0, 0, 0}, .normal = {0, 0, 1}, .target = k_target, .edge = k_edge};
+  const auto permitted = [&](std::vector<FacingTriangle> boundary, const RoomRequest& of) { return LayerRoom(std::move(boundary), k_context).permitted(of); };
+  const FacingTriangle own = plate(0.0, {0, 1, 2}, k_target);
+  // Half of what 0.2 edges leave of the gap; all of it where nothing grows from the other side; the target where there is room.
+  EXPECT_NEAR(permitted({own, plate(k_gap, {3, 4, 5}, k_target)}, line), 0.5 * (k_gap - 0.2 * k_edge), 1e-14);
+  EXPECT_EQ(permitted({own, plate(k_gap, {3, 4, 5}, 0.0)}, line), k_target);
+  EXPECT_NEAR(permitted({own, plate(0.5, {3, 4, 5}, 0.0)}, line), 0.5 - 0.2 * k_edge, 1e-14);
+  EXPECT_EQ(permitted({own, plate(2.0, {3, 4, 5}, k_target)}, line), k_target);
+  // Half of a gap that is narrower than what is kept, and nothing from a wall's back.
+  EXPECT_NEAR(permitted({own, plate(0.1, {3, 4, 5}, 0.0)}, line), 0.05, 1e-14);
+  FacingTriangle back = plate(k_gap, {3, 4, 5}, k_target);
+  std::swap(back.corners[0], back.corners[1]);
+  EXPECT_EQ(permitted({own, back}, line), k_target);
+  // A corner of a cube: its diagonal sees three faces at 0.577; where no direction sees all facets nothing is permitted.
+  RoomRequest corner = line;
+  corner.visibility = 1 / std::sqrt(3.0);
+  EXPECT_NEAR(permitted({own}, corner), k_target * corner.visibility / 0.9, 1e-14);
+  corner.visibility = -0.1;
+  EXPECT_EQ(permitted({own}, corner), 0.0);
 }
 
 TEST(Gates, LeanOfTheFirstCellsBeyondTheBestPossible) {

@@ -19,12 +19,13 @@ function together(list) {
   for (const [name] of k_parts) total[name] = list.reduce((sum, entry) => sum + entry.area * entry[name], 0) / area;
   const lost = new Map();
   for (const entry of list) for (const [reason, share] of entry.lost ?? []) lost.set(reason, (lost.get(reason) ?? 0) + (share * entry.area) / area);
+  total.attainable = list.reduce((sum, entry) => sum + entry.area * entry.attainable, 0) / area;
   total.lost = [...lost];
   return total;
 }
 
 export function coverage_tab({ report }) {
   const list = report.coverage.length > 1 ? [together(report.coverage), ...report.coverage] : report.coverage;
-  const rows = list.map((entry) => h("div.coverage", null, h("div.coverage_head", null, h("b", null, entry.patch), h("small", null, `${number_text(entry.area)} m\u00b2`), h("span", null, percent_text(entry.full))), bar(entry), reasons(entry)));
-  return [h("h2", null, "Layer coverage of the walls"), h("div.keys", null, k_parts.map(([name, title]) => h("span", null, h(`i.${name}`), title))), rows, h("p.note", null, "Shares of the area. Full height: at least 0.9 of the height asked for. Compressed: lower than layers \u00d7 first height. Collapsed: without layers.")];
+  const rows = list.map((entry) => h("div.coverage", null, h("div.coverage_head", null, h("b", null, entry.patch), h("small", null, `${number_text(entry.area)} m\u00b2`), h("span", null, `${percent_text(entry.full)} of ${percent_text(entry.attainable)} attainable`)), bar(entry), reasons(entry)));
+  return [h("h2", null, "Layer coverage of the walls"), h("div.keys", null, k_parts.map(([name, title]) => h("span", null, h(`i.${name}`), title))), rows, h("p.note", null, "Shares of the area. Full height: along the wall's normal at least 0.9 of the height asked for. Attainable: where gaps and corners of the walls permit it. Compressed: lower than layers \u00d7 first height. Collapsed: without layers.")];
 }
