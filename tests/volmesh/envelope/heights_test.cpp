@@ -114,7 +114,7 @@ TEST(Membrane, EvensOutWhatTheBoundsLeaveAndTakesLittleHeight) {
     return result;
   };
   for (const OptimiseMethod method : {OptimiseMethod::descent, OptimiseMethod::lbfgs}) {
-    const Envelope without = optimised(0.0, method), with = optimised(10.0, method);
+    const Envelope without = optimised(0.0, method), with = optimised(100.0, method);
     EXPECT_LT(mean_square_slope(base, with), 0.5 * mean_square_slope(base, without));
     double height = 0.0, before = 0.0;
     for (const VertexId v : wall.points.ids()) {
