@@ -219,7 +219,8 @@ VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const
   const FillBoundary boundary = boundary_of(result.mesh);
   {
     const StageTimer timer(context, "improve");
-    result.improvement = improve_tetrahedra({boundary.points, boundary.triangles, {}}, tets, options, context.part("improve", ends.tetrahedra, ends.improve));
+    const TetraBoundary domain{.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}, .layer_volumes = boundary.layer_volumes};
+    result.improvement = improve_tetrahedra(domain, tets, options, context.part("improve", ends.tetrahedra, ends.improve));
   }
   {
     const StageTimer timer(context, "assemble");

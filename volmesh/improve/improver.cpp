@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 
 #include "geom/base/parallel.h"
 #include "geom/base/sort_unique.h"
+#include "geom/math/measures.h"
 
 namespace sterna::volmesh {
 namespace {
@@ -18,6 +20,9 @@ constexpr std::size_t k_job_chunk = 1;
 constexpr std::uint32_t k_no_region = 0xffffffffu;
 /// Changes may make tetrahedra of this share of the target as long as the mesh has worse ones.
 constexpr double k_floor = 0.5;
+/// Volume of a prism over that of a tetrahedron that fits it: a third of the height of a regular one is the step that gates G9 count from.
+constexpr double k_prism_over_tet = 3.0;
+constexpr std::size_t k_scan_chunk = 1 << 15;
 
 std::uint64_t spread_bits(std::uint64_t x) {
   x = (x | x << 32) & 0x1f00000000ffff;
@@ -29,18 +34,96 @@ std::uint64_t spread_bits(std::uint64_t x) {
 
 }  // namespace
 
-Improver::Improver(const TetraBoundary& boundary, TetraResult& tets, const QualityLimits& limits, std::span<const std::uint32_t> bad, const RunContext& context)
+Improver::Improver(const TetraBoundary& boundary, TetraResult& tets, const QualityLimits& limits, const RunContext& context)
     : limits_(limits), n_fixed_(boundary.points.size()), tets_(tets.tetrahedra), context_(context) {
   points_.reserve(n_fixed_ + tets.new_points.size());
   points_.assign(boundary.points.begin(), boundary.points.end());
   points_.insert(points_.end(), tets.new_points.begin(), tets.new_points.end());
   n_failures_.assign(tets_.size(), 0);
-  double worst = limits.target;
+  list_incident();
+  if (std::isfinite(limits.size_step)) find_sizes(boundary);
+}
+
+double Improver::quality(const Corners& c) const {
+  const TetShape shape = tet_shape(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]], limits_.obtuse_weight);
+  if (size_weights_.empty()) return shape.quality;
+  const std::optional<double> on_layer = quality_on_layer(shape, c, layer_faces_, static_cast<std::uint32_t>(n_fixed_), limits_);
+  return on_layer ? *on_layer : quality_among(shape, size_weights_[c[0]] * size_weights_[c[1]] * size_weights_[c[2]] * size_weights_[c[3]], limits_);
+}
+
+/// Of each vertex the mean of the logarithms of the volumes around it; on top of the layer the mean of that and of what would fit the last prisms there.
+void Improver::find_sizes(const TetraBoundary& boundary) {
+  std::vector<double> log_volume(tets_.size());
+  parallel_for(context_, tets_.size(), [&](std::size_t t) {
+    const Corners& c = tets_[t];
+    log_volume[t] = std::log(6.0 * tet_volume(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]));
+  });
+  find_layer_faces(boundary);
+  struct Mean {
+    double sum = 0.0;
+    int n = 0;
+  };
+  std::vector<Mean> of_layer(n_fixed_);
+  for (const LayerFace& face : layer_faces_)
+    for (const std::uint32_t v : face.corners) {
+      of_layer[v].sum -= std::log(face.weight);
+      ++of_layer[v].n;
+    }
+  size_weights_.resize(points_.size());
+  parallel_for(context_, points_.size(), [&](std::size_t v) {
+    double sum = 0.0;
+    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) sum += log_volume[incident_[i]];
+    double mean = sum / std::max(1.0, static_cast<double>(first_[v + 1] - first_[v]));
+    if (v < n_fixed_ && of_layer[v].n > 0) mean = 0.5 * (mean + of_layer[v].sum / of_layer[v].n);
+    size_weights_[v] = size_weight(mean);
+  });
+}
+
+void Improver::find_layer_faces(const TetraBoundary& boundary) {
+  for (std::size_t t = 0; t < boundary.layer_volumes.size(); ++t) {
+    if (!(boundary.layer_volumes[t] > 0.0)) continue;
+    LayerFace& face = layer_faces_.emplace_back(boundary.triangles[t], k_prism_over_tet / (6.0 * boundary.layer_volumes[t]));
+    std::ranges::sort(face.corners);
+  }
+  parallel_sort(context_, layer_faces_, std::less<>());
+}
+
+/// Those between vertices of a job, with its numbers.
+std::vector<LayerFace> Improver::local_layer_faces(const Job& job, std::uint32_t number) const {
+  std::vector<LayerFace> faces;
+  for (const std::uint32_t v : job.vertices) {
+    const auto begin = std::ranges::lower_bound(layer_faces_, v, {}, [](const LayerFace& face) { return face.corners[0]; });
+    for (auto face = begin; face != layer_faces_.end() && face->corners[0] == v; ++face)
+      if (std::ranges::all_of(face->corners, [&](std::uint32_t u) { return owner_of(u) == number; }))
+        faces.push_back({{local_[face->corners[0]], local_[face->corners[1]], local_[face->corners[2]]}, face->weight});
+  }
+  return faces;  // local numbers ascend with the others: sorted
+}
+
+void Improver::work_on_all_but(std::span<const std::uint32_t> left) {
+  work_on(parallel_reduce(
+      context_, tets_.size(), std::vector<std::uint32_t>{},
+      [&](std::size_t begin, std::size_t end) {
+        std::vector<std::uint32_t> bad;
+        for (std::size_t t = begin; t < end; ++t)
+          if (quality(tets_[t]) < limits_.target && !std::ranges::binary_search(left, static_cast<std::uint32_t>(t)))
+            bad.push_back(static_cast<std::uint32_t>(t));
+        return bad;
+      },
+      [](std::vector<std::uint32_t> all, const std::vector<std::uint32_t>& more) {
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+      },
+      k_scan_chunk));
+}
+
+void Improver::work_on(std::span<const std::uint32_t> bad) {
+  double worst = limits_.target;
   for (const std::uint32_t t : bad) {
     bad_.push_back({quality(tets_[t]), t});
     worst = std::min(worst, bad_.back().quality);
   }
-  limits_.floor = std::max(k_floor * limits_.target, worst);
+  limits_.floor = std::max({limits_.floor, k_floor * limits_.target, worst});
 }
 
 bool Improver::is_alive(std::uint32_t tet) const { return tets_[tet][0] != k_no_region; }
@@ -78,7 +161,6 @@ void Improver::for_each_at(std::uint32_t vertex, const F& f) const {
 }
 
 int Improver::run(int max_passes) {
-  list_incident();
   int pass = 0;
   for (; pass < max_passes; ++pass) {
     context_.check_stop();
@@ -117,8 +199,8 @@ std::vector<Improver::Job> Improver::choose_jobs(int pass) const {
   for (const Bad& bad : bad_) {
     const Corners& c = tets_[bad.tet];
     const bool is_at_boundary = std::min({c[0], c[1], c[2], c[3]}) < n_fixed_;
-    if (n_failures_[bad.tet] > 0 && n_failures_[bad.tet] >= max_failures({points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]}, is_at_boundary))
-      continue;
+    const int most = std::min(limits_.max_failures, max_failures({points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]}, is_at_boundary));
+    if (n_failures_[bad.tet] > 0 && n_failures_[bad.tet] >= most) continue;
     std::uint64_t code = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       double x = 0.0;
@@ -168,9 +250,11 @@ void Improver::work(Job& job, std::uint32_t number, Region& region) {
   std::erase_if(job.vertices, [&](std::uint32_t v) { return owner_of(v) != number; });
   std::sort(job.vertices.begin(), job.vertices.end());
   std::vector<Vec3> points(job.vertices.size());
+  std::vector<double> weights;
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i] = points_[job.vertices[i]];
     local_[job.vertices[i]] = static_cast<std::uint32_t>(i);
+    if (!size_weights_.empty()) weights.push_back(size_weights_[job.vertices[i]]);
   }
   std::vector<VertexRole> roles;
   for (const std::uint32_t v : job.vertices) {
@@ -192,12 +276,13 @@ void Improver::work(Job& job, std::uint32_t number, Region& region) {
     if (const auto place = std::ranges::lower_bound(job.tets, t); place != job.tets.end() && *place == t)
       job.worked.push_back(static_cast<std::uint32_t>(place - job.tets.begin()));
 
-  region.assign(points, roles, corners);
+  region.assign(points, roles, corners, {weights, local_layer_faces(job, number)});
   for (const std::uint32_t t : job.worked) job.n_failures.push_back(n_failures_[job.tets[t]]);
   job.has_changed = region.improve(job.worked, job.n_failures);
   for (std::size_t i = 0; i < job.worked.size(); ++i) job.n_failures[i] = region.tets()[job.worked[i]].n_failures;
   if (!job.has_changed) return;
   job.points.assign(region.points().begin(), region.points().end());
+  if (!size_weights_.empty()) job.size_weights.assign(region.size_weights().begin(), region.size_weights().end());
   for (std::size_t i = 0; i < region.tets().size(); ++i) {
     const Region::Tet& tet = region.tets()[i];
     if (i < job.tets.size() && !tet.is_alive) job.removed.push_back(job.tets[i]);
@@ -212,6 +297,7 @@ void Improver::put_back(const Job& job) {
   const auto shift = static_cast<std::uint32_t>(points_.size());
   for (std::size_t i = 0; i < n_old; ++i) points_[job.vertices[i]] = job.points[i];
   points_.insert(points_.end(), job.points.begin() + n_old, job.points.end());
+  if (!size_weights_.empty()) size_weights_.insert(size_weights_.end(), job.size_weights.begin() + n_old, job.size_weights.end());
   later_.resize(points_.size());
   for (std::size_t i = 0; i < std::max(job.added.size(), job.removed.size()); ++i) {
     std::uint32_t slot = 0;

@@ -20,9 +20,12 @@ class Improver {
  public:
   using Corners = std::array<std::uint32_t, 4>;
 
-  /// \p bad: those below the target.
   /// \pre verify_tetrahedra() passes.
-  Improver(const TetraBoundary& boundary, TetraResult& tets, const QualityLimits& limits, std::span<const std::uint32_t> bad, const RunContext& context);
+  Improver(const TetraBoundary& boundary, TetraResult& tets, const QualityLimits& limits, const RunContext& context);
+  /// Before run(): what to work on, all of it below the target.
+  void work_on(std::span<const std::uint32_t> bad);
+  /// The same: all that is below the target but these (ascending).
+  void work_on_all_but(std::span<const std::uint32_t> left);
   /// Number of passes made.
   int run(int max_passes);
   /// Removes what has vanished: numbers close up in order.
@@ -42,11 +45,15 @@ class Improver {
     std::vector<std::uint8_t> n_failures;  ///< of these
     bool has_changed = false;
     std::vector<Vec3> points;            ///< of the local vertices, new ones at the end
+    std::vector<double> size_weights;    ///< likewise
     std::vector<std::uint32_t> removed;  ///< of `tets`
     std::vector<Corners> added;          ///< local corners
   };
 
-  double quality(const Corners& c) const { return tet_quality(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]], limits_.obtuse_weight); }
+  double quality(const Corners& c) const;
+  void find_sizes(const TetraBoundary& boundary);
+  void find_layer_faces(const TetraBoundary& boundary);
+  std::vector<LayerFace> local_layer_faces(const Job& job, std::uint32_t number) const;
   bool is_alive(std::uint32_t tet) const;
   std::uint32_t owner_of(std::uint32_t vertex) const { return owner_[vertex] & 0x0fffffffu; }
   void drop_good();
@@ -64,6 +71,8 @@ class Improver {
   std::vector<Corners>& tets_;
   const RunContext& context_;
   std::vector<Vec3> points_;
+  std::vector<double> size_weights_;               ///< of each vertex; empty where sizes are not limited
+  std::vector<LayerFace> layer_faces_;             ///< likewise, of all the boundary; sorted
   std::vector<std::uint8_t> n_failures_;           ///< of each tetrahedron: how often nothing helped it
   std::vector<Bad> bad_;                           ///< may name tetrahedra twice, or good ones, until drop_good()
   std::vector<std::uint32_t> first_, incident_;    ///< tetrahedra at each vertex as they were at first

@@ -1,6 +1,7 @@
 #include "volmesh/improve/region.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geom/math/predicates.h"
 
@@ -25,22 +26,60 @@ constexpr int k_max_failures = 8;
 
 }  // namespace
 
-void Region::assign(std::span<const Vec3> points, std::span<const VertexRole> roles, std::span<const Corners> tets) {
+std::optional<double> quality_on_layer(const TetShape& shape, const std::array<std::uint32_t, 4>& corners, std::span<const LayerFace> faces,
+                                       std::uint32_t n_boundary, const QualityLimits& limits) {
+  std::optional<double> quality;
+  for (std::size_t k = 0; k < 4 && !faces.empty(); ++k) {
+    LayerFace face{{corners[(k + 1) % 4], corners[(k + 2) % 4], corners[(k + 3) % 4]}};
+    if (std::ranges::max(face.corners) >= n_boundary) continue;
+    std::ranges::sort(face.corners);
+    const auto found = std::lower_bound(faces.begin(), faces.end(), face);
+    if (found == faces.end() || found->corners != face.corners) continue;
+    quality = std::min(quality.value_or(1.0), quality_among(shape, found->weight, limits));
+  }
+  return quality;
+}
+
+void Region::assign(std::span<const Vec3> points, std::span<const VertexRole> roles, std::span<const Corners> tets, const Sizes& sizes) {
   points_.assign(points.begin(), points.end());
   roles_.assign(roles.begin(), roles.end());
+  size_weights_.assign(points.size(), 1.0);
+  std::ranges::copy(sizes.vertex_weights, size_weights_.begin());
+  layer_faces_.assign(sizes.layer_faces.begin(), sizes.layer_faces.end());
+  n_boundary_ = static_cast<std::uint32_t>(std::ranges::find_if_not(roles, is_of_boundary) - roles.begin());
   changed_.assign(points.size(), 0);
   clock_ = 1;
   for (auto& list : incident_) list.clear();
   incident_.resize(std::max(incident_.size(), points.size()));
   tets_.clear();
-  for (const Corners& corners : tets) {
-    for (const std::uint32_t v : corners) incident_[v].push_back(static_cast<std::uint32_t>(tets_.size()));
-    const double q = quality(corners);
-    tets_.push_back({corners, q, cost_of(q, touches_boundary(corners))});
-  }
+  for (const Corners& corners : tets) add(corners);
 }
 
-double Region::quality(const Corners& c) const { return tet_quality(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]], limits_.obtuse_weight); }
+void Region::add(const Corners& c) {
+  for (const std::uint32_t v : c) incident_[v].push_back(static_cast<std::uint32_t>(tets_.size()));
+  const Grade g = grade(c);
+  tets_.push_back({c, g.of_angles, g.quality, cost_of(g.quality, touches_boundary(c))});
+}
+
+/// On top of the layer the last prism is what a size is compared with, elsewhere the sizes around the vertices.
+Region::Grade Region::grade(const TetShape& shape, const Corners& c, double weights) const {
+  const std::optional<double> on_layer = quality_on_layer(shape, c, layer_faces_, n_boundary_, limits_);
+  return {shape.quality, on_layer ? *on_layer : quality_among(shape, weights, limits_)};
+}
+
+Region::Grade Region::grade(const Corners& c) const {
+  return grade(tet_shape(points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]], limits_.obtuse_weight), c,
+               size_weights_[c[0]] * size_weights_[c[1]] * size_weights_[c[2]] * size_weights_[c[3]]);
+}
+
+Region::Grade Region::grade(const Face& f, const Vec3& apex) const {
+  return grade(tet_shape(points_[f[0]], points_[f[1]], points_[f[2]], apex, limits_.obtuse_weight), {f[0], f[1], f[2], k_none},
+               size_weights_[f[0]] * size_weights_[f[1]] * size_weights_[f[2]] * apex_weight_);
+}
+
+double Region::mean_weight(const Corners& c) const {
+  return std::sqrt(std::sqrt(size_weights_[c[0]] * size_weights_[c[1]] * size_weights_[c[2]] * size_weights_[c[3]]));
+}
 
 bool Region::touches_boundary(const Corners& c) const {
   return std::ranges::any_of(c, [&](std::uint32_t v) { return v < roles_.size() && is_of_boundary(roles_[v]); });
@@ -74,18 +113,18 @@ void Region::compare_with(std::span<const std::uint32_t> removed) {
   worst_allowed_ = limits_.floor;
   for (const std::uint32_t t : removed) {
     cost_before_ += tets_[t].cost;
-    worst_allowed_ = std::min(worst_allowed_, tets_[t].quality);
+    worst_allowed_ = std::min(worst_allowed_, tets_[t].angle_quality);
   }
 }
 
 double Region::cost(const Corners& c) const {
-  const double q = quality(c);
-  return q < worst_allowed_ || q <= 0.0 ? k_infinite : q >= 2.0 * limits_.target ? 0.0 : cost_of(q, touches_boundary(c));
+  const Grade g = grade(c);
+  return g.of_angles < worst_allowed_ || g.of_angles <= 0.0 ? k_infinite : g.quality >= 2.0 * limits_.target ? 0.0 : cost_of(g.quality, touches_boundary(c));
 }
 
 double Region::cost(const Face& face, const Vec3& apex) const {
-  const double q = tet_quality(points_[face[0]], points_[face[1]], points_[face[2]], apex, limits_.obtuse_weight);
-  return q < worst_allowed_ || q <= 0.0 ? k_infinite : q >= 2.0 * limits_.target ? 0.0 : cost_of(q, touches_boundary(face));
+  const Grade g = grade(face, apex);
+  return g.of_angles < worst_allowed_ || g.of_angles <= 0.0 ? k_infinite : g.quality >= 2.0 * limits_.target ? 0.0 : cost_of(g.quality, touches_boundary(face));
 }
 
 Region::Face Region::opposite(const Corners& c, std::size_t corner) {
@@ -96,14 +135,15 @@ Region::Face Region::opposite(const Corners& c, std::size_t corner) {
 bool Region::apply(const Change& change, double least_drop) {
   if (!(change.drop > least_drop) || change.removed.empty()) return false;
   const auto place = [&](std::uint32_t v) -> const Vec3& { return v == change.moved ? change.place : points_[v]; };
+  const auto weight = [&](std::uint32_t v) { return v == change.moved ? change.size_weight : size_weights_[v]; };
   compare_with(change.removed);
   double sum = 0.0;
   for (const Corners& c : change.added) {
     const Vec3 &p0 = place(c[0]), &p1 = place(c[1]), &p2 = place(c[2]), &p3 = place(c[3]);
     if (orient3d(p0, p1, p2, p3) <= 0) return false;
-    const double q = tet_quality(p0, p1, p2, p3, limits_.obtuse_weight);
-    if (q < worst_allowed_ || q <= 0.0) return false;
-    sum += cost_of(q, touches_boundary(c));
+    const Grade g = grade(tet_shape(p0, p1, p2, p3, limits_.obtuse_weight), c, weight(c[0]) * weight(c[1]) * weight(c[2]) * weight(c[3]));
+    if (g.of_angles < worst_allowed_ || g.of_angles <= 0.0) return false;
+    sum += cost_of(g.quality, touches_boundary(c));
   }
   const double drop = cost_before_ - sum;
   if (!(drop > least_drop)) return false;
@@ -115,6 +155,7 @@ bool Region::apply(const Change& change, double least_drop) {
   if (change.moved == points_.size()) {
     points_.push_back(change.place);
     roles_.push_back(VertexRole::free);
+    size_weights_.push_back(change.size_weight);
     changed_.push_back(0);
     incident_.resize(std::max(incident_.size(), points_.size()));
   } else if (change.moved != k_none) {
@@ -129,12 +170,8 @@ bool Region::apply(const Change& change, double least_drop) {
     }
   }
   for (const Corners& c : change.added) {
-    for (const std::uint32_t v : c) {
-      incident_[v].push_back(static_cast<std::uint32_t>(tets_.size()));
-      changed_[v] = clock_;
-    }
-    const double q = quality(c);
-    tets_.push_back({c, q, cost_of(q, touches_boundary(c))});
+    add(c);
+    for (const std::uint32_t v : c) changed_[v] = clock_;
   }
   return true;
 }
@@ -177,6 +214,7 @@ void Region::undo(std::size_t log_size) {
     if (last.is_new) {
       points_.pop_back();
       roles_.pop_back();
+      size_weights_.pop_back();
       changed_.pop_back();
     } else if (last.moved != k_none) {
       points_[last.moved] = last.place;
@@ -244,7 +282,8 @@ int max_failures(const std::array<Vec3, 4>& corners, bool is_at_boundary) {
 
 bool Region::is_given_up(std::uint32_t tet) const {
   const Corners& c = tets_[tet].corners;
-  return tets_[tet].n_failures > 0 && tets_[tet].n_failures >= max_failures({points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]}, touches_boundary(c));
+  const int n = tets_[tet].n_failures;
+  return n > 0 && n >= std::min(limits_.max_failures, max_failures({points_[c[0]], points_[c[1]], points_[c[2]], points_[c[3]]}, touches_boundary(c)));
 }
 
 bool Region::has_all_neighbours(std::uint32_t tet) const {

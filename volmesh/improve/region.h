@@ -25,6 +25,17 @@ inline bool is_of_boundary(VertexRole role) { return role >= VertexRole::boundar
 /// and they are many.
 int max_failures(const std::array<Vec3, 4>& corners, bool is_at_boundary);
 
+/// A boundary triangle with a layer under it.
+struct LayerFace {
+  std::array<std::uint32_t, 3> corners;  ///< ascending
+  double weight = 0.0;                   ///< six volumes of the tetrahedron on it, times this, are its volume over the one that fits the last prism
+  friend bool operator<(const LayerFace& a, const LayerFace& b) { return a.corners < b.corners; }
+};
+/// The quality of a tetrahedron on top of the layer by the last prisms under it; nothing for others. \p faces sorted, \p n_boundary: all their corners are
+/// below
+std::optional<double> quality_on_layer(const TetShape& shape, const std::array<std::uint32_t, 4>& corners, std::span<const LayerFace> faces,
+                                       std::uint32_t n_boundary, const QualityLimits& limits);
+
 /// Local mesh. Corners are local vertices. Each tetrahedron below twice the target has a cost (cost()), more for one beyond the hard limits, and for one
 /// without a vertex on the domain's boundary, where its angles may force bad ones. Every operation replaces some tetrahedra by others that fill the same space,
 /// all proven positive (exact), of a smaller sum of costs, and none worse than the worst that it removes or than the floor of the limits.
@@ -33,24 +44,33 @@ class Region {
   using Corners = std::array<std::uint32_t, 4>;
   struct Tet {
     Corners corners;
-    double quality = 0.0;
+    double angle_quality = 0.0;  ///< tet_quality()
+    double quality = 0.0;        ///< of its angles and of its size
     double cost = 0.0;
     std::uint32_t tried = 0;      ///< clock when nothing helped it
     std::uint8_t n_failures = 0;  ///< how often nothing helped it
     bool is_alive = true;
   };
 
+  /// What sizes are compared with; empty where they are not limited.
+  struct Sizes {
+    std::span<const double> vertex_weights;  ///< size_weight() of each vertex
+    std::span<const LayerFace> layer_faces;  ///< sorted; vertices of the boundary come first
+  };
+
   explicit Region(const QualityLimits& limits) : limits_(limits) {}
   /// Starts anew; memory is kept.
   /// \pre tetrahedra positive.
-  void assign(std::span<const Vec3> points, std::span<const VertexRole> roles, std::span<const Corners> tets);
+  void assign(std::span<const Vec3> points, std::span<const VertexRole> roles, std::span<const Corners> tets, const Sizes& sizes);
+  void assign(std::span<const Vec3> points, std::span<const VertexRole> roles, std::span<const Corners> tets) { assign(points, roles, tets, Sizes{}); }
   /// Works on the bad ones of these tetrahedra and on all bad ones that take their place, worst first, until they reach the target, nothing helps as they and
   /// their neighbours are, or nothing helped max_failures() times; only tries with all neighbours here count, for one flip with a tetrahedron elsewhere may be
   /// all that it takes. `n_failures` of the given ones so far. True when something changed.
   bool improve(std::span<const std::uint32_t> tets, std::span<const std::uint8_t> n_failures);
   const QualityLimits& limits() const { return limits_; }
   std::span<const Vec3> points() const { return points_; }  ///< those given, moved perhaps, then new ones
-  std::span<const Tet> tets() const { return tets_; }       ///< those given, dead perhaps, then new ones
+  std::span<const double> size_weights() const { return size_weights_; }
+  std::span<const Tet> tets() const { return tets_; }  ///< those given, dead perhaps, then new ones
 
  private:
   using Face = std::array<std::uint32_t, 3>;
@@ -60,6 +80,7 @@ class Region {
     std::vector<Corners> added;
     std::uint32_t moved = k_none;  ///< vertex that goes to `place`; points().size(): a new one
     Vec3 place;
+    double size_weight = 1.0;  ///< of that vertex
   };
   static constexpr std::uint32_t k_none = 0xffffffffu;
   /// A change must lower the sum of costs by this much: progress that cannot go on for ever.
@@ -68,7 +89,16 @@ class Region {
 
   bool touches_boundary(const Corners& c) const;
   bool touches_boundary(const Face& face) const;
-  double quality(const Corners& c) const;
+  struct Grade {
+    double of_angles = -1.0;
+    double quality = -1.0;  ///< of the size, too
+  };
+  Grade grade(const TetShape& shape, const Corners& c, double weights) const;
+  Grade grade(const Corners& c) const;
+  Grade grade(const Face& face, const Vec3& apex) const;
+  void add(const Corners& c);
+  /// Of a vertex that is added within a tetrahedron.
+  double mean_weight(const Corners& c) const;
   double cost_of(double quality, bool is_boundary) const;
   /// Of what is below the target.
   double weight_of(double quality, bool is_boundary) const;
@@ -122,8 +152,12 @@ class Region {
   QualityLimits limits_;
   double cost_before_ = 0.0;
   double worst_allowed_ = 0.0;
+  double apex_weight_ = 1.0;  ///< size weight of the vertex whose place is looked for
   std::vector<Vec3> points_;
   std::vector<VertexRole> roles_;
+  std::vector<double> size_weights_;
+  std::vector<LayerFace> layer_faces_;
+  std::uint32_t n_boundary_ = 0;  ///< vertices, the first ones; where there are layer faces
   std::vector<Tet> tets_;
   std::vector<std::vector<std::uint32_t>> incident_;  ///< living tetrahedra of each vertex
   std::vector<std::uint32_t> changed_;                ///< clock of the last change at each vertex

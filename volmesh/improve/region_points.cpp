@@ -52,9 +52,6 @@ std::pair<Vec3, double> Region::best_place(std::span<const Face> faces, const Ve
   for (const Face& face : faces)
     for (const std::uint32_t v : face) longest = std::max(longest, norm2(points_[v] - p));
   const double size = std::sqrt(longest), step = k_difference * size;
-  const auto quality_at = [&](const Face& f, const Vec3& apex) {
-    return tet_quality(points_[f[0]], points_[f[1]], points_[f[2]], apex, limits_.obtuse_weight);
-  };
   double reach = 0.2 * size;
   for (int i_step = 0; i_step < k_max_steps && now > 0.0 && reach > 1e-3 * size; ++i_step) {
     // Gradients of the qualities that cost anything, worst first.
@@ -65,13 +62,13 @@ std::pair<Vec3, double> Region::best_place(std::span<const Face> faces, const Ve
     };
     std::vector<Slope> slopes;
     for (const Face& face : faces) {
-      const double q = quality_at(face, p);
+      const double q = grade(face, p).quality;
       if (q >= 2.0 * limits_.target) continue;
       Slope slope{q, {}, touches_boundary(face)};
       for (std::size_t axis = 0; axis < 3; ++axis) {
         Vec3 moved = p;
         moved[axis] += step;
-        slope.gradient[axis] = (quality_at(face, moved) - q) / step;
+        slope.gradient[axis] = (grade(face, moved).quality - q) / step;
       }
       slopes.push_back(slope);
     }
@@ -116,9 +113,10 @@ void Region::try_smoothing(std::uint32_t tet, Change& best) {
       faces.push_back(opposite(c, static_cast<std::size_t>(std::ranges::find(c, v) - c.begin())));
     }
     compare_with(incident_[v]);
+    apex_weight_ = size_weights_[v];
     const auto [place, after] = best_place(faces, points_[v]);
     if (cost_before_ - after <= best.drop) continue;
-    best = Change{.drop = cost_before_ - after, .removed = incident_[v], .moved = v, .place = place};
+    best = Change{.drop = cost_before_ - after, .removed = incident_[v], .moved = v, .place = place, .size_weight = apex_weight_};
     for (const Face& face : faces) best.added.push_back({face[0], face[1], face[2], v});
   }
 }
@@ -158,6 +156,7 @@ void Region::try_contractions(std::uint32_t tet, Change& best) {
 void Region::try_insertions(std::uint32_t tet, Change& best) {
   const Corners c = tets_[tet].corners;
   const auto center = [&](const Corners& x) { return 0.25 * (points_[x[0]] + points_[x[1]] + points_[x[2]] + points_[x[3]]); };
+  apex_weight_ = mean_weight(c);
   std::vector<Cavity> cavities;
   const auto add = [&](const Vec3& place) {
     if (std::optional<Cavity> cavity = cavity_of(tet, place)) cavities.push_back(std::move(*cavity));
@@ -185,7 +184,7 @@ std::optional<Region::Cavity> Region::cavity_of(std::uint32_t tet, const Vec3& p
   struct Side {
     Face face;
     std::uint32_t beyond;
-    double quality;
+    double quality;  ///< of the angles
     double cost;
   };
   std::vector<std::uint32_t> cavity;
@@ -200,12 +199,12 @@ std::optional<Region::Cavity> Region::cavity_of(std::uint32_t tet, const Vec3& p
       const Face face = opposite(tets_[t].corners, k);
       const std::uint32_t beyond = across(t, face);
       if (beyond != k_none && in_cavity(beyond)) continue;
-      const double q = tet_quality(points_[face[0]], points_[face[1]], points_[face[2]], p, limits_.obtuse_weight);
-      sides.push_back({face, beyond, q, q >= 2.0 * limits_.target ? 0.0 : cost_of(q, touches_boundary(face))});
+      const Grade g = grade(face, p);
+      sides.push_back({face, beyond, g.of_angles, g.quality >= 2.0 * limits_.target ? 0.0 : cost_of(g.quality, touches_boundary(face))});
     }
   };
   add(tet);
-  double cost_before = tets_[tet].cost, worst_allowed = std::min(limits_.floor, tets_[tet].quality);
+  double cost_before = tets_[tet].cost, worst_allowed = std::min(limits_.floor, tets_[tet].angle_quality);
   while (cavity.size() < k_max_cavity) {
     double sum = 0.0;
     const Side* lowest = &sides[0];
@@ -221,7 +220,7 @@ std::optional<Region::Cavity> Region::cavity_of(std::uint32_t tet, const Vec3& p
     const std::uint32_t beyond = lowest->beyond;
     if (beyond == k_none) break;
     cost_before += tets_[beyond].cost;
-    worst_allowed = std::min(worst_allowed, tets_[beyond].quality);
+    worst_allowed = std::min(worst_allowed, tets_[beyond].angle_quality);
     add(beyond);
   }
   if (best_drop == -k_infinite) return std::nullopt;
@@ -235,7 +234,8 @@ void Region::try_insertion(const Cavity& cavity, Change& best) {
   compare_with(cavity.tets);
   const auto [place, after] = best_place(cavity.faces, cavity.place);
   if (cost_before_ - after <= best.drop) return;
-  best = Change{.drop = cost_before_ - after, .removed = cavity.tets, .moved = static_cast<std::uint32_t>(points_.size()), .place = place};
+  best = Change{
+      .drop = cost_before_ - after, .removed = cavity.tets, .moved = static_cast<std::uint32_t>(points_.size()), .place = place, .size_weight = apex_weight_};
   for (const Face& face : cavity.faces) best.added.push_back({face[0], face[1], face[2], best.moved});
 }
 

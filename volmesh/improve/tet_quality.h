@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "geom/base/vec3.h"
 #include "geom/mesh/gates.h"
@@ -14,8 +15,11 @@ namespace sterna::volmesh {
 struct QualityLimits {
   double target = 0.0;         ///< tetrahedra below are worked on
   double obtuse_weight = 1.0;  ///< of tet_quality(), such that both angle limits give the target
-  double floor = 0.0;          ///< a change may make tetrahedra as bad as this, or as the worst that it removes
-  double hard = 0.0;           ///< every tetrahedron beyond the hard limits of gate G14 is below, none that is within the target
+  double floor = 0.0;          ///< a change may make tetrahedra with angles as bad as this, or as the worst that it removes
+  int max_failures = 255;      ///< tetrahedra are given up after so many tries, if not before
+  /// Volumes may be so many times larger or smaller than those around (size_weight()); beyond it, quality is below the target, too.
+  double size_step = std::numeric_limits<double>::infinity();
+  double hard = 0.0;  ///< every tetrahedron beyond the hard limits of gate G14 is below, none that is within the target
 };
 /// \p min_angle, \p max_angle of a dihedral, radians.
 inline QualityLimits quality_limits(double min_angle, double max_angle) {
@@ -25,15 +29,20 @@ inline QualityLimits quality_limits(double min_angle, double max_angle) {
   return {.target = target, .obtuse_weight = weight, .hard = std::min(target, std::max(hard_acute, hard_obtuse))};
 }
 
+/// What the angles of a tetrahedron say of it.
+struct TetShape {
+  double quality = -1.0;     ///< see tet_shape()
+  double six_volumes = 0.0;  ///< m^3
+};
 /// Smallest sine of the six dihedral angles, those of obtuse angles times `obtuse_weight` (Klingner and Shewchuk 2007), in (0, 1]; -1 for a tetrahedron that is
 /// not positive. 0.05 us.
-inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double obtuse_weight) {
+inline TetShape tet_shape(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double obtuse_weight) {
   const Vec3 ab = b - a, ac = c - a, ad = d - a;
   // Twice the faces' area vectors, inwards; face k is opposite corner k. |n_i x n_j| = 6 V times the length of the edge that faces i and j share.
   const Vec3 n3 = cross(ab, ac), n2 = cross(ad, ab), n1 = cross(ac, ad);
   const Vec3 n0 = -(n1 + n2 + n3);
   const double det = dot(n3, ad);
-  if (!(det > 0.0)) return -1.0;
+  if (!(det > 0.0)) return {};
   const std::array<Vec3, 4> n = {n0, n1, n2, n3};
   const std::array<double, 4> inverse = {1.0 / norm2(n0), 1.0 / norm2(n1), 1.0 / norm2(n2), 1.0 / norm2(n3)};
   const double weight = obtuse_weight * obtuse_weight;
@@ -41,7 +50,21 @@ inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
     return norm2(edge) * inverse[i] * inverse[j] * (dot(n[i], n[j]) > 0.0 ? weight : 1.0);
   };
   const double smallest = std::min({squared(2, 3, ab), squared(1, 3, ac), squared(1, 2, ad), squared(0, 3, c - b), squared(0, 2, d - b), squared(0, 1, d - c)});
-  return std::min(1.0, det * std::sqrt(smallest));
+  return {std::min(1.0, det * std::sqrt(smallest)), det};
+}
+inline double tet_quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double obtuse_weight) {
+  return tet_shape(a, b, c, d, obtuse_weight).quality;
+}
+
+/// Of a vertex around which tetrahedra have such volumes, as the mean of their logarithms: six volumes of a tetrahedron times the weights of its vertices are
+/// its volume over the geometric mean of theirs.
+inline double size_weight(double mean_log_of_six_volumes) { return std::exp(-0.25 * mean_log_of_six_volumes); }
+/// The quality of a shape among such sizes (product of the weights of its vertices). A step of volumes beyond the limit is as bad as an angle beyond its limit,
+/// and falls with the fourth root only, which keeps it among the qualities that angles have.
+inline double quality_among(const TetShape& shape, double weights, const QualityLimits& limits) {
+  const double ratio = shape.six_volumes * weights, step = std::max(ratio, 1.0 / ratio);
+  return shape.quality <= 0.0 || step <= limits.size_step ? shape.quality
+                                                          : std::min(shape.quality, limits.target * std::sqrt(std::sqrt(limits.size_step / step)));
 }
 
 /// Cosines of the smallest and of the largest dihedral angle.

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "geom/base/parallel.h"
+#include "geom/math/measures.h"
 
 namespace sterna::volmesh {
 
@@ -16,6 +17,22 @@ std::vector<std::uint32_t> outer_points(const ClosedOuter& outer, std::size_t n_
   auto next = static_cast<std::uint32_t>(n_lines);
   for (const VertexId v : outer.mesh.points.ids()) numbers.push_back(outer.line[v].is_valid() ? outer.line[v].value() : next++);
   return numbers;
+}
+
+/// Of each column's last cell; 0 for what is no prism.
+std::vector<double> last_prism_volumes(const LayerBlock& layers, std::span<const Point> points) {
+  std::vector<double> volumes(layers.n_columns(), 0.0);
+  for (std::size_t column = 0; column < volumes.size(); ++column) {
+    const int n = layers.layers_of_column(column);
+    if (n == 0 || layers.n_collapsed(column) > 0) continue;
+    WedgePoints p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      p[k] = points[layers.node(layers.base[column][k], n - 1).index()];
+      p[k + 3] = points[layers.node(layers.base[column][k], n).index()];
+    }
+    volumes[column] = wedge_volume(p);
+  }
+  return volumes;
 }
 
 }  // namespace
@@ -40,6 +57,8 @@ FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, co
   boundary.triangles.reserve(base.wall.n_triangles() + outer.mesh.n_triangles());
   boundary.triangles.insert(boundary.triangles.end(), layers.base.begin(), layers.base.end());
   for (const TriangleVertices& v : outer.mesh.triangles) boundary.triangles.push_back({point[v[0].index()], point[v[1].index()], point[v[2].index()]});
+  boundary.layer_volumes = last_prism_volumes(layers, extrusion.points);
+  boundary.layer_volumes.resize(boundary.triangles.size(), 0.0);
   for (const TriMesh* mesh : {&base.wall, &outer.mesh}) {
     const auto first = static_cast<std::uint32_t>(boundary.patch_names.size());
     for (const Patch& patch : mesh->patches) boundary.patch_names.push_back(patch.name);
@@ -135,6 +154,8 @@ FillBoundary boundary_of(const HybridMesh& layers) {
     boundary.triangles.push_back({point(face.nodes[0]), point(face.nodes[2]), point(face.nodes[1])});
     boundary.triangle_patch.push_back(face.patch.value());
   }
+  boundary.layer_volumes = last_prism_volumes(block, layers.points.raw());
+  boundary.layer_volumes.resize(boundary.triangles.size(), 0.0);
   return boundary;
 }
 

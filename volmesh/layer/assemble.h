@@ -18,6 +18,7 @@ struct FillBoundary {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<std::string> patch_names;       ///< the wall's, then the outer ones
   std::vector<std::uint32_t> triangle_patch;  ///< index into patch_names; a triangle on top of the layer has that of its wall triangle
+  std::vector<double> layer_volumes;          ///< of the last prism under each triangle, m^3; 0 where there is none
   std::vector<NodeId> point2node;             ///< layer nodes first; outer nodes follow the layer's
 };
 FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const ClosedOuter& outer);

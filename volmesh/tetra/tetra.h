@@ -31,6 +31,7 @@ struct TetraBoundary {
   /// are two, but on a rim that ends free in the domain: there both sides share one, and every triangle has a corner that is not. A rim may also lie on edges
   /// of the rest of the boundary, which has two points at each place there, too. All triangles together are closed and manifold by their indices.
   bool has_sheets = false;
+  std::span<const double> layer_volumes = {};  ///< of the last prism under each triangle, m^3; 0 where there is none; may be missing
 };
 
 /// \post points of the boundary come first, in order, to the bit; every boundary triangle is a face of exactly one tet; every tet positive (exact);

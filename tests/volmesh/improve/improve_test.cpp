@@ -387,6 +387,90 @@ TEST(Improve, group_boundaries_stop_no_flip) {
   EXPECT_EQ(report.n_bad_after, 0);
 }
 
+/// Last prisms under the inner sphere as tall as fits regular tetrahedra on it; none elsewhere.
+std::vector<double> fitting_layer(const Filled& filled) {
+  std::vector<double> volumes;
+  for (const auto& t : filled.triangles) {
+    const Vec3 &a = filled.points[t[0]], &b = filled.points[t[1]], &c = filled.points[t[2]];
+    const double area = 0.5 * norm(cross(b - a, c - a)), edge = std::sqrt(4.0 / std::sqrt(3.0) * area);
+    volumes.push_back(norm(a) < 2.0 ? area * std::sqrt(2.0 / 3.0) * edge : 0.0);
+  }
+  return volumes;
+}
+
+struct Wishes {
+  int n_steps = 0;       ///< tetrahedra on the layer whose volume is beyond a third or three times of what fits
+  int n_hard_steps = 0;  ///< an eighth, or eight times
+  int n_obtuse = 0;      ///< tetrahedra with an angle above 155 degrees
+};
+Wishes unmet(const Filled& filled, const std::vector<double>& layer) {
+  std::map<std::array<std::uint32_t, 3>, double> fitting;
+  for (std::size_t t = 0; t < filled.triangles.size(); ++t) {
+    auto corners = filled.triangles[t];
+    std::ranges::sort(corners);
+    if (layer[t] > 0.0) fitting[corners] = layer[t] / 3.0;
+  }
+  Wishes unmet;
+  for (std::size_t t = 0; t < filled.tets.tetrahedra.size(); ++t) {
+    const auto p = filled.corners(t);
+    unmet.n_obtuse += tet_dihedral_range(p)[1] > 155 * k_degree;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto& c = filled.tets.tetrahedra[t];
+      std::array<std::uint32_t, 3> corners = {c[(k + 1) % 4], c[(k + 2) % 4], c[(k + 3) % 4]};
+      std::ranges::sort(corners);
+      const auto found = fitting.find(corners);
+      if (found == fitting.end()) continue;
+      const double ratio = tet_volume(p[0], p[1], p[2], p[3]) / found->second, step = std::max(ratio, 1.0 / ratio);
+      unmet.n_steps += step > 3.0;
+      unmet.n_hard_steps += step > 8.0;
+    }
+  }
+  return unmet;
+}
+
+TEST(Improve, steps_of_volume_on_the_layer_and_obtuse_angles_become_what_gates_wish_for) {
+  const Filled start = shell(12, 2.0);
+  const std::vector<double> layer = fitting_layer(start);
+  const Wishes before = unmet(start, layer);
+  ASSERT_GT(before.n_steps, 20);
+  ASSERT_GT(before.n_obtuse, 20);
+  std::optional<TetraResult> first;
+  for (const int threads : {1, 2, 7}) {
+    Filled filled = start;
+    TetraBoundary boundary = filled.boundary();
+    boundary.layer_volumes = layer;
+    const ImproveReport report = improve_tetrahedra(boundary, filled.tets, {}, RunContext({.threads = threads}));
+    if (!first) first = filled.tets;
+    EXPECT_TRUE(filled.tets.new_points == first->new_points && filled.tets.tetrahedra == first->tetrahedra) << threads;
+    if (threads > 1) continue;
+    EXPECT_NO_THROW(verify_tetrahedra(boundary, filled.tets, RunContext()));
+    EXPECT_EQ(report.n_bad_after, 0);
+    const Wishes after = unmet(filled, layer);
+    EXPECT_EQ(after.n_hard_steps, 0);
+    EXPECT_LT(10 * after.n_steps, before.n_steps);
+    EXPECT_LT(10 * after.n_obtuse, before.n_obtuse);
+  }
+}
+
+TEST(TetQuality, a_step_of_volumes_beyond_the_limit_is_beyond_the_target) {
+  QualityLimits limits = quality_limits(12 * k_degree, 155 * k_degree);
+  const TetShape shape = tet_shape({1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}, limits.obtuse_weight);
+  EXPECT_NEAR(shape.six_volumes, 16.0, 1e-12);
+  const auto among = [&](double mean_volume) {
+    const double weight = size_weight(std::log(6.0 * mean_volume));
+    return quality_among(shape, weight * weight * weight * weight, limits);
+  };
+  EXPECT_EQ(among(1e-9), shape.quality);  // no limit
+  limits.size_step = 3.0;
+  const double volume = shape.six_volumes / 6.0;
+  EXPECT_EQ(among(2.9 * volume), shape.quality);
+  EXPECT_EQ(among(volume / 2.9), shape.quality);
+  EXPECT_LT(among(3.1 * volume), limits.target);
+  EXPECT_LT(among(volume / 3.1), limits.target);
+  EXPECT_LT(among(100.0 * volume), among(10.0 * volume));
+  EXPECT_GT(among(1e9 * volume), 0.0);
+}
+
 TEST(Improve, is_the_same_for_any_number_of_threads) {
   const Filled start = shell(16, 1.8);
   std::optional<TetraResult> first;
