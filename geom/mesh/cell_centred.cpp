@@ -1,6 +1,8 @@
 #include "geom/mesh/cell_centred.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sterna::check_parts {
 namespace {
@@ -9,6 +11,8 @@ namespace {
 constexpr double k_tiny = 1e-150;
 /// Share of the distance between centres (for a boundary face of the distance to its plane) that counts as the face's reach where the face itself is smaller.
 constexpr double k_inner_reach = 0.2, k_boundary_reach = 0.4;
+/// A sphere's radius that is as good as none, for flat tets (OpenFOAM's GREAT).
+constexpr double k_great = 1e15;
 /// Columns per chunk; each holds some 30 cells.
 constexpr std::size_t k_cell_column_chunk = 64;
 constexpr std::uint8_t k_top = 7;
@@ -39,6 +43,44 @@ double skewness_of(const FaceShape& face, std::span<const Point> corners, const 
   return length / reach(corners, face.centre, miss / (length + k_tiny), share * norm(d) + k_tiny);
 }
 
+/// OpenFOAM's quality of a tet: its signed volume over that of the regular one in the same sphere.
+double tet_quality(const Point& p, const Point& q, const Point& r, const Point& s) {
+  const Vec3 a = q - p, b = r - p, c = s - p;
+  const double six_volumes = dot(cross(a, b), c);
+  const Vec3 to_centre = norm2(c) * cross(a, b) + norm2(b) * cross(c, a) + norm2(a) * cross(b, c);
+  const double radius = std::abs(six_volumes) < k_tiny ? k_great : std::min(k_great, norm(to_centre) / (2.0 * std::abs(six_volumes)));
+  return six_volumes / 6.0 / (8.0 / (9.0 * std::numbers::sqrt3) * radius * radius * radius + k_tiny);
+}
+
+/// Worst of the tets on the face's edges and centre with a cell's centre on the side `sign` (1: that of the face's normal).
+double worst_around_centre(const FaceShape& face, std::span<const Point> corners, const Point& cell, double sign) {
+  double worst = 1.0;
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    worst = std::min(worst, sign * tet_quality(corners[k], corners[(k + 1) % corners.size()], face.centre, cell));
+  return worst;
+}
+
+/// Worst of the two tets that a quadrilateral cut at corner `base` makes with a cell's centre.
+double worst_from_corner(std::span<const Point> corners, std::size_t base, const Point& cell, double sign) {
+  const auto corner = [&](std::size_t k) { return corners[(base + k) % 4]; };
+  return std::min(sign * tet_quality(corner(0), corner(1), corner(2), cell), sign * tet_quality(corner(0), corner(2), corner(3), cell));
+}
+
+/// checkMesh's decomposition of a face for tracking: all tets around its centre, and those of the best of its cuts into triangles, must be the right way round
+/// on both sides. Of a triangle the second are as good as the first. `other`: null at the boundary.
+double face_tet_quality(const FaceShape& face, std::span<const Point> corners, const Point& cell, const Point* other) {
+  double worst = worst_around_centre(face, corners, cell, -1.0);
+  if (other != nullptr) worst = std::min(worst, worst_around_centre(face, corners, *other, 1.0));
+  if (corners.size() == 3) return worst;
+  double best = -k_great;
+  for (std::size_t base = 0; base < 4; ++base) {
+    double cut = worst_from_corner(corners, base, cell, -1.0);
+    if (other != nullptr) cut = std::min(cut, worst_from_corner(corners, base, *other, 1.0));
+    best = std::max(best, cut);
+  }
+  return std::min(worst, best);
+}
+
 void add_inner(CellCentredScan& scan, std::uint64_t id, std::span<const Point> corners, const Place& a, const Place& b) {
   const FaceShape face = face_shape(corners);
   const Vec3 d = b.centre - a.centre;
@@ -49,6 +91,7 @@ void add_inner(CellCentredScan& scan, std::uint64_t id, std::span<const Point> c
   scan.face_weight.add(std::min(to_a, to_b) / (to_a + to_b + k_tiny), id);
   scan.volume_ratio.add(std::min(a.volume, b.volume) / (std::max(a.volume, b.volume) + k_tiny), id);
   if (corners.size() == 4) scan.face_flatness.add(face.flatness, id);
+  scan.face_tets.add(face_tet_quality(face, corners, a.centre, &b.centre), id);
 }
 
 void add_boundary(CellCentredScan& scan, std::uint64_t id, std::span<const Point> corners, const Place& cell) {
@@ -56,7 +99,52 @@ void add_boundary(CellCentredScan& scan, std::uint64_t id, std::span<const Point
   const Vec3 normal = face.area / (norm(face.area) + k_tiny);
   scan.skewness.add(skewness_of(face, corners, cell.centre, dot(normal, face.centre - cell.centre) * normal, k_boundary_reach), id);
   if (corners.size() == 4) scan.face_flatness.add(face.flatness, id);
+  scan.face_tets.add(face_tet_quality(face, corners, cell.centre, nullptr), id);
 }
+
+/// Which faces of cells are on the boundary; faces of periodic sides are not, flow goes through them.
+class OuterFaces {
+ public:
+  OuterFaces(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match)
+      : slots_(slots), has_any_(cells.first_tetrahedron() + mesh.tetrahedra.size(), 0) {
+    std::vector<std::uint8_t> is_periodic(mesh.patches.size(), 0);
+    for (const PeriodicSides& sides : mesh.periodic) is_periodic[sides.first.index()] = is_periodic[sides.second.index()] = 1;
+    for (std::size_t i = 0; i < match.outer.size(); ++i) {
+      if (is_periodic[slots.patch(match.outer_boundary[i]).index()] != 0) continue;
+      const std::uint64_t owner = slots.owner(match.outer[i]);
+      faces_.push_back({owner, match.outer[i]});
+      has_any_[owner] = 1;
+    }
+    std::sort(faces_.begin(), faces_.end());
+  }
+
+  /// Bit f: face f of the cell is no boundary face.
+  unsigned inner(std::uint64_t number, const Cell& cell) const {
+    unsigned bits = ~0u;
+    if (has_any_[number] == 0) return bits;
+    const auto local = cell_faces(cell.kind);
+    for (auto own = std::lower_bound(faces_.begin(), faces_.end(), std::pair(number, std::uint32_t{0})); own != faces_.end() && own->first == number; ++own) {
+      const Face outer = slots_.face(own->second);
+      for (std::size_t f = 0; f < local.size(); ++f)
+        if (is_same(cell, local[f], outer)) bits &= ~(1u << f);
+    }
+    return bits;
+  }
+
+ private:
+  static bool is_same(const Cell& cell, const LocalFace& local, const Face& face) {
+    // Faces of one cell share two nodes at most; a face of a degenerate cell repeats nodes, so the other way round.
+    for (std::size_t k = 0; k < face.size; ++k) {
+      const auto has = [&](std::uint8_t node) { return cell.nodes[node] == face.nodes[k]; };
+      if (std::none_of(local.nodes.begin(), local.nodes.begin() + local.size, has)) return false;
+    }
+    return true;
+  }
+
+  const FaceSlots& slots_;
+  std::vector<std::uint8_t> has_any_;                           ///< per cell number
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> faces_;  ///< cell and slot, ascending
+};
 
 /// Centres and volumes: of tetrahedra on demand, of all other cells once.
 class Places {
@@ -106,13 +194,14 @@ class Scanner {
       : mesh_(mesh), limits_(limits), context_(context), places_(mesh, cells) {}
 
   /// Cells, each by itself.
-  void scan_cells(const CellNumbers& cells, CellCentredScan& scan) {
+  void scan_cells(const CellNumbers& cells, const OuterFaces& outer, CellCentredScan& scan) {
     const auto n_layers = static_cast<std::uint64_t>(mesh_.layers.n_layers);
     const auto add = [&](CellCentredScan& part, std::uint64_t number, const Cell& cell) {
-      const CellShape shape = cell_shape(mesh_, cell);
+      const CellShape shape = cell_shape(mesh_, cell, outer.inner(number, cell));
       if (number < cells.first_tetrahedron()) places_.keep(number, shape);
       part.cell_aspect_ratio.add(shape.aspect_ratio, number);
       part.cell_openness.add(shape.openness, number);
+      part.cell_determinant.add(shape.determinant, number);
     };
     gather(
         scan, mesh_.layers.n_columns(),
@@ -184,6 +273,26 @@ class Scanner {
   Places places_;
 };
 
+double determinant_of(std::span<const FaceShape> faces, unsigned inner) {
+  double mean = 0.0;
+  int n = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if ((inner >> f & 1u) != 0) {
+      mean += norm(faces[f].area);
+      ++n;
+    }
+  if (n == 0) return 0.0;
+  mean /= n;
+  double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if ((inner >> f & 1u) == 0) continue;
+    const Vec3 a = faces[f].area / mean;
+    xx += a.x * a.x, xy += a.x * a.y, xz += a.x * a.z, yy += a.y * a.y, yz += a.y * a.z, zz += a.z * a.z;
+  }
+  constexpr double k_of_cube = 8.0;
+  return std::abs(xx * yy * zz + xy * yz * xz + xz * xy * yz - xx * yz * yz - xy * xy * zz - xz * yy * xz) / k_of_cube;
+}
+
 GateScan scan_of(Measure measure, const GateTable& limits) { return {info_of(measure), limits[measure]}; }
 
 }  // namespace
@@ -208,7 +317,7 @@ FaceShape face_shape(std::span<const Point> corners) {
   return {0.5 * normal, centre, norm(normal) / (about_centre + k_tiny)};
 }
 
-CellShape cell_shape(const HybridMesh& mesh, const Cell& cell) {
+CellShape cell_shape(const HybridMesh& mesh, const Cell& cell, unsigned inner) {
   std::array<FaceShape, 6> faces;
   const auto local = cell_faces(cell.kind);
   Point guess{};
@@ -236,6 +345,7 @@ CellShape cell_shape(const HybridMesh& mesh, const Cell& cell) {
   area = sizes.x + sizes.y + sizes.z;
   shape.aspect_ratio = std::max(high / (low + k_tiny), area / 6.0 / std::cbrt(shape.volume * shape.volume));
   shape.openness = std::max({std::abs(sum.x) / (sizes.x + k_tiny), std::abs(sum.y) / (sizes.y + k_tiny), std::abs(sum.z) / (sizes.z + k_tiny)});
+  shape.determinant = determinant_of({faces.data(), local.size()}, inner);
   return shape;
 }
 
@@ -246,7 +356,9 @@ CellCentredScan::CellCentredScan(const GateTable& limits)
       volume_ratio(scan_of(Measure::volume_ratio, limits)),
       face_flatness(scan_of(Measure::face_flatness, limits)),
       cell_aspect_ratio(scan_of(Measure::cell_aspect_ratio, limits)),
-      cell_openness(scan_of(Measure::cell_openness, limits)) {}
+      cell_openness(scan_of(Measure::cell_openness, limits)),
+      face_tets(scan_of(Measure::face_tets, limits)),
+      cell_determinant(scan_of(Measure::cell_determinant, limits)) {}
 
 void CellCentredScan::merge(const CellCentredScan& other) {
   non_orthogonality.merge(other.non_orthogonality);
@@ -256,13 +368,15 @@ void CellCentredScan::merge(const CellCentredScan& other) {
   face_flatness.merge(other.face_flatness);
   cell_aspect_ratio.merge(other.cell_aspect_ratio);
   cell_openness.merge(other.cell_openness);
+  face_tets.merge(other.face_tets);
+  cell_determinant.merge(other.cell_determinant);
 }
 
 CellCentredScan scan_cell_centred(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match,
                                   std::span<const std::uint32_t> neighbours, const GateTable& limits, const RunContext& context) {
   CellCentredScan scan(limits);
   Scanner scanner(mesh, cells, limits, context);
-  scanner.scan_cells(cells, scan);
+  scanner.scan_cells(cells, OuterFaces(mesh, cells, slots, match), scan);
   scanner.scan_columns(neighbours, scan);
   scanner.scan_slots(slots, match, scan);
   return scan;
@@ -286,8 +400,9 @@ void judge_cell_centred(const CellCentredScan& scan, const HybridMesh& mesh, con
     GateResult result = measure.result(describe);
     report.gates[static_cast<std::size_t>(result.measure)] = std::move(result);
   };
-  for (const GateScan* measure : {&scan.non_orthogonality, &scan.skewness, &scan.face_weight, &scan.volume_ratio, &scan.face_flatness}) put(*measure, face);
-  for (const GateScan* measure : {&scan.cell_aspect_ratio, &scan.cell_openness}) put(*measure, cell);
+  for (const GateScan* measure : {&scan.non_orthogonality, &scan.skewness, &scan.face_weight, &scan.volume_ratio, &scan.face_flatness, &scan.face_tets})
+    put(*measure, face);
+  for (const GateScan* measure : {&scan.cell_aspect_ratio, &scan.cell_openness, &scan.cell_determinant}) put(*measure, cell);
 }
 
 }  // namespace sterna::check_parts

@@ -28,15 +28,17 @@ struct CellShape {
   double volume = 0.0;        ///< m^3
   double aspect_ratio = 1.0;  ///< larger of: largest over smallest sum of face areas seen along an axis; a sixth of all areas over volume^(2/3)
   double openness = 0.0;
+  double determinant = 0.0;  ///< of the sum of a a^T over the inner faces' areas a, each over their mean size; over 8, which a cube has
 };
-CellShape cell_shape(const HybridMesh& mesh, const Cell& cell);
+/// `inner`: bit f is set where face f of the kind's table is no boundary face.
+CellShape cell_shape(const HybridMesh& mesh, const Cell& cell, unsigned inner = ~0u);
 
 /// Statistics over all faces and cells. Ids of faces: 8 cell + local number for sides of columns (corner 0..2) and tops (7) inside columns; k_of_slot + slot
 /// for others. Of cells: their numbers.
 struct CellCentredScan {
   static constexpr std::uint64_t k_of_slot = std::uint64_t{1} << 63;
   explicit CellCentredScan(const GateTable& limits);
-  GateScan non_orthogonality, skewness, face_weight, volume_ratio, face_flatness, cell_aspect_ratio, cell_openness;
+  GateScan non_orthogonality, skewness, face_weight, volume_ratio, face_flatness, cell_aspect_ratio, cell_openness, face_tets, cell_determinant;
   void merge(const CellCentredScan& other);
 };
 

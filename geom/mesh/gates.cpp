@@ -61,11 +61,15 @@ constexpr std::array<MeasureInfo, k_n_measures> k_measures = {{
      {90 * k_degree, 70 * k_degree, 65 * k_degree, 0.999},
      {0, k_right, 45}},
     {M::skewness, "OF", "skewness", "OpenFOAM skewness", "faces", false, false, {20, 4, k_nan, 1.0}, {0x1p-6, 0x1p4, 40, 4}},
-    {M::face_weight, "OF", "face_weight", "OpenFOAM face weight", "inner faces", false, true, {k_nan, 0.05, k_nan, 1.0}, {0, 0.5, 50}},
-    {M::volume_ratio, "OF", "volume_ratio", "OpenFOAM volume ratio", "inner faces", false, true, {k_nan, 0.01, k_nan, 1.0}, {0, 1, 50}},
+    {M::face_weight, "OF", "face_weight", "OpenFOAM face weight", "inner faces", false, true, {0.05, 0.05, k_nan, 1.0}, {0, 0.5, 50}},
+    {M::volume_ratio, "OF", "volume_ratio", "OpenFOAM volume ratio", "inner faces", false, true, {0.01, 0.01, k_nan, 1.0}, {0, 1, 50}},
     {M::face_flatness, "OF", "face_flatness", "OpenFOAM flatness of quads", "quads", false, true, {k_nan, 0.8, k_nan, 1.0}, {0.5, 1, 50}},
     {M::cell_aspect_ratio, "OF", "cell_aspect_ratio", "OpenFOAM aspect ratio", "cells", false, false, {k_nan, k_nan, k_nan, 1.0}, {1, 0x1p16, 48, 3}},
     {M::cell_openness, "OF", "cell_openness", "OpenFOAM openness", "cells", false, false, {1e-6, 1e-9, k_nan, 1.0}, {0x1p-60, 0x1p-20, 40, 1}},
+    // The limit is checkMesh's (SMALL squared): tets that are upside down or flat; their shape does not matter to it.
+    {M::face_tets, "OF", "face_tets", "OpenFOAM decomposition tets", "faces", false, true, {1e-30, k_nan, k_nan, 1.0}, {0, 1, 50}},
+    // First cells of y+ = 1 are beyond any limit of checkMesh's here, too: shown only.
+    {M::cell_determinant, "OF", "cell_determinant", "OpenFOAM cell determinant", "cells", false, true, {k_nan, k_nan, k_nan, 1.0}, {0, 2, 50}},
     {M::cad_distance, "G17", "cad_distance", "wall nodes off the CAD, / length", "nodes", false, false, {1e-6, 1e-9, k_nan, 1.0}, {0x1p-60, 0x1p-12, 48, 1}},
     {M::cad_normal, "G18", "cad_normal", "wall facets against the CAD", "facets", true, false, {30 * k_degree, 10 * k_degree, k_nan, 1.0}, {0, k_right, 45}},
 }};

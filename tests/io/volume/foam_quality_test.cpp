@@ -17,7 +17,8 @@ namespace {
 /// checkMesh prints all digits here (writePrecision 17); sums of some ten products in another order differ by rounding, which small differences of large
 /// coordinates enlarge.
 constexpr double k_printed = 1e-9;
-constexpr double k_rounding = 1e-13;  ///< of figures that are quotients of sums of order one
+constexpr double k_rounding = 1e-13;              ///< of figures that are quotients of sums of order one
+constexpr double k_determinant_rounding = 1e-16;  ///< of differences of products of order one
 
 /// checkMesh words what it finds good and what it finds bad in two ways; -1 where it says neither.
 double number_after_one_of(const std::string& output, const std::vector<std::string>& labels) {
@@ -31,6 +32,20 @@ double worst_of(const nlohmann::json& report, const std::string& measure) {
     if (entry["measure"] == measure) return entry["worst"].get<double>();
   ADD_FAILURE() << "no measure " << measure;
   return std::nan("");
+}
+
+double beyond_hard(const nlohmann::json& report, const std::string& measure) {
+  for (const auto& entry : report["measures"])
+    if (entry["measure"] == measure) return entry["beyond_hard"].get<double>();
+  ADD_FAILURE() << "no measure " << measure;
+  return std::nan("");
+}
+
+/// "<<Writing 12 faces with ..."
+double number_before(const std::string& output, const std::string& label) {
+  const std::size_t end = output.find(label);
+  if (end == std::string::npos) return -1.0;
+  return std::stod(output.substr(output.rfind(' ', end - 1) + 1, end));
 }
 
 void expect_same_figures(const std::string& script, const std::filesystem::path& folder) {
@@ -52,6 +67,15 @@ void expect_same_figures(const std::string& script, const std::filesystem::path&
     EXPECT_NEAR(theirs, ours, k_printed * std::abs(ours) + k_rounding) << measure << "\n" << *output;
     testing::Test::RecordProperty(measure, std::to_string(ours));
   }
+  const double determinant = test::number_after(*output, "Cell determinant (wellposedness) : minimum:");
+  EXPECT_NEAR(determinant, worst_of(report, "cell_determinant"), k_printed * determinant + k_determinant_rounding) << *output;
+  const std::string bad_tets = "***Error in face tets: ";
+  const bool has_bad_tets = output->find(bad_tets) != std::string::npos;
+  EXPECT_TRUE(has_bad_tets || output->find("Face tets OK.") != std::string::npos) << *output;
+  // What is written is the set of faces; the line above it counts a face once for each of its faults.
+  EXPECT_EQ(has_bad_tets ? number_before(*output, " faces with low quality or negative volume decomposition tets to set") : 0.0,
+            beyond_hard(report, "face_tets"))
+      << *output;
   const double openness = number_after_one_of(*output, {"Max cell openness =", "***Open cells found, max cell openness:"});
   if (openness >= 0.0) {                                                              // not printed beside a high aspect ratio
     EXPECT_NEAR(openness, worst_of(report, "cell_openness"), k_rounding) << *output;  // both are rounding, over the size of the cell
@@ -63,6 +87,16 @@ TEST(FoamQuality, OfAWingAreCheckMeshs) {
   expect_same_figures("local wall = read_surface{ \"" + (test::shared_data() / "surfaces" / "clean" / "caturbs_wing_wing.stl").string() +
                           "\", split_angle = 60*deg }\n" +
                           "volume_mesh{ wall, layers = 6, first_height = 1e-4 * wall.length, farfield = sphere{ radius = 20 * wall.length } "
+                          "}:write(\"case.bin.foam\", \"case.sterna\")\n",
+                      test::scratch());
+}
+
+/// Cells as tall as wide: determinants that are not tiny.
+TEST(FoamQuality, OfACoarseLayerAreCheckMeshs) {
+  STERNA_NEEDS_SHARED_DATA();
+  expect_same_figures("local wall = read_surface{ \"" + (test::shared_data() / "surfaces" / "clean" / "meshpy_ka6d_ka-6d.ply").string() +
+                          "\", split_angle = 60*deg }\n" +
+                          "volume_mesh{ wall, layers = 2, first_height = 5e-3 * wall.length, farfield = sphere{ radius = 5 * wall.length } "
                           "}:write(\"case.bin.foam\", \"case.sterna\")\n",
                       test::scratch());
 }
