@@ -22,7 +22,7 @@ constexpr std::uint32_t k_no_region = 0xffffffffu;
 constexpr double k_floor = 0.5;
 /// Volume of a prism over that of a tetrahedron that fits it: a third of the height of a regular one is the step that gates G9 count from.
 constexpr double k_prism_over_tet = 3.0;
-constexpr std::size_t k_scan_chunk = 1 << 15;
+constexpr std::size_t k_listing_chunk = 1 << 15;
 
 std::uint64_t spread_bits(std::uint64_t x) {
   x = (x | x << 32) & 0x1f00000000ffff;
@@ -114,7 +114,7 @@ void Improver::work_on_all_but(std::span<const std::uint32_t> left) {
         all.insert(all.end(), more.begin(), more.end());
         return all;
       },
-      k_scan_chunk));
+      k_listing_chunk));
 }
 
 void Improver::work_on(std::span<const std::uint32_t> bad) {
