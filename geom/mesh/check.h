@@ -98,6 +98,8 @@ struct CheckReport {
   bool is_valid() const { return counts.empty(); }
   /// Worst state of the QUALITY gates; not_checked when none was.
   GateState quality_state() const;
+  /// Violations of hard limits that the given boundary is proven to force, over all measures: they do not FAIL.
+  std::int64_t n_forced() const;
   /// \pre quality_measured
   const GateResult& gate(Measure measure) const { return gates[static_cast<std::size_t>(measure)]; }
   /// Puts a measure that was taken elsewhere in the place of its own (G17, G18). Nothing where quality was not asked for.

@@ -64,7 +64,12 @@ std::string gate_text(const GateResult& gate) {
     text += print_text("; %.4g %% of %s ", 100.0 * gate.share_within, std::string(info.counted).c_str()) + (info.is_low_bad ? ">= " : "<= ") +
             shown_text(info, gate.limits.usual);
   if (const std::string limits = limits_text(info, gate.limits); !limits.empty()) text += " (" + limits + ")";
+  if (gate.n_forced > 0)
+    text += "; " + std::to_string(gate.n_forced) + " of " + std::to_string(gate.n_beyond_hard) + " beyond the hard limit are forced by the given surface";
   text += "\n";
+  for (const GatePlace& place : gate.forced)
+    text += "         forced: " + shown_text(info, place.value) + " at " + format_point(place.position) + ": " + place.what + ": " + place.forcing.why + "; " +
+            place.forcing.remedy + "\n";
   if (gate.state == GateState::pass) return text;
   for (const GatePlace& place : gate.places)
     text += "         " + shown_text(info, place.value) + " at " + format_point(place.position) + ": " + place.what + "\n";
@@ -105,10 +110,18 @@ Json to_json(const GateResult& gate) {
   json["total"] = gate.total;
   json["share_within"] = gate.share_within;
   json["beyond_hard"] = gate.n_beyond_hard;
+  json["forced"] = gate.n_forced;
   json["histogram"] = histogram_json(gate, info);
   json["places"] = Json::array();
   for (const GatePlace& place : gate.places)
     json["places"].push_back({{"value", number(in_report_unit(info, place.value))}, {"position", to_array(place.position)}, {"what", place.what}});
+  json["forced_places"] = Json::array();
+  for (const GatePlace& place : gate.forced)
+    json["forced_places"].push_back({{"value", number(in_report_unit(info, place.value))},
+                                     {"position", to_array(place.position)},
+                                     {"what", place.what},
+                                     {"why", place.forcing.why},
+                                     {"remedy", place.forcing.remedy}});
   return json;
 }
 
@@ -204,12 +217,19 @@ GateState CheckReport::quality_state() const {
   return worst;
 }
 
+std::int64_t CheckReport::n_forced() const {
+  std::int64_t n = 0;
+  for (const GateResult& gate : gates) n += gate.n_forced;
+  return n;
+}
+
 std::string to_text(const GateResult& gate) { return gate_text(gate); }
 
 std::string to_text(const CheckReport& report) {
   const auto n = [](std::int64_t value) { return std::to_string(value); };
   std::string text = report.is_valid() ? "VALID" : "INVALID";
   if (report.quality_measured) text += ", quality " + std::string(to_string(report.quality_state()));
+  if (const std::int64_t forced = report.n_forced(); forced > 0) text += ", " + n(forced) + " forced";
   text += "\n";
   text += "  cells: " + n(report.cells.prisms) + " prisms, " + n(report.cells.pyramids) + " pyramids, " + n(report.cells.hexahedra) + " hexahedra, " +
           n(report.cells.tetrahedra) + " tetrahedra; " + n(report.n_nodes) + " nodes; boundary: " + n(report.n_boundary_triangles) + " triangles, " +
@@ -254,6 +274,7 @@ std::string to_json(const CheckReport& report) {
   json["schema"] = "sterna-check-2";
   json["verdict"] = report.is_valid() ? "VALID" : "INVALID";
   json["quality_verdict"] = report.quality_measured ? to_string(report.quality_state()) : "not checked";
+  json["forced"] = report.n_forced();
   json["is_complete"] = report.is_complete;
   json["cells"] = {{"prisms", report.cells.prisms},
                    {"pyramids", report.cells.pyramids},

@@ -145,7 +145,8 @@ void GateScan::remember(const Item& item) {
 void GateScan::merge(const GateScan& other) {
   total_ += other.total_;
   within_ += other.within_;
-  n_beyond_hard_ += other.n_beyond_hard_;
+  worst_within_ = std::max(worst_within_, other.worst_within_);
+  beyond_.insert(beyond_.end(), other.beyond_.begin(), other.beyond_.end());
   for (std::size_t i = 0; i < histogram_.size(); ++i) histogram_[i] += other.histogram_[i];
   for (const Item& item : other.worst_) remember(item);
 }
@@ -155,12 +156,20 @@ bool GateScan::is_notable(const Item& item) const {
   return item.badness > std::min({hard_, target_, usual_});
 }
 
-GateResult GateScan::judge() const {
+std::vector<GateScan::Beyond> GateScan::beyond_hard() const {
+  std::vector<Beyond> sorted = beyond_;
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Beyond& a, const Beyond& b) { return a.item.badness != b.item.badness ? a.item.badness > b.item.badness : a.item.id < b.item.id; });
+  return sorted;
+}
+
+GateResult GateScan::judge(std::int64_t n_forced, double forced_weight) const {
   GateResult result;
   result.measure = measure_;
   result.limits = limits_;
   result.total = total_;
-  result.n_beyond_hard = n_beyond_hard_;
+  result.n_beyond_hard = static_cast<std::int64_t>(beyond_.size());
+  result.n_forced = n_forced;
   result.histogram.assign(histogram_.begin(), histogram_.begin() + classes_->n);
   if (worst_.empty()) {
     result.reason = "the mesh has none";
@@ -168,9 +177,10 @@ GateResult GateScan::judge() const {
   }
   result.worst = value_of(worst_.front());
   result.share_within = total_ > 0.0 ? within_ / total_ : 0.0;
-  const double badness = worst_.front().badness;
-  const bool is_usual_missed = !is_none(limits_.usual) && within_ < limits_.usual_share * total_;
-  result.state = badness > hard_ ? GateState::fail : badness > target_ || is_usual_missed ? GateState::warn : GateState::pass;
+  // What is forced counts as if it kept its limits.
+  const bool is_usual_missed = !is_none(limits_.usual) && within_ + forced_weight < limits_.usual_share * total_;
+  const bool is_hard_missed = n_forced < result.n_beyond_hard;
+  result.state = is_hard_missed ? GateState::fail : worst_within_ > target_ || is_usual_missed ? GateState::warn : GateState::pass;
   return result;
 }
 

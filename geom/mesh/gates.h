@@ -1,9 +1,11 @@
 // The gates of quality.md that are numbers: what each measures, its limits, and the running statistics that decide it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -101,11 +103,18 @@ std::string_view to_string(GateState state);
 /// The measure of this name; nothing for others.
 const MeasureInfo* find_measure(std::string_view name);
 
+/// Why no mesh on the given boundary keeps a limit at a place: a proof, and what would remove the cause.
+struct Forcing {
+  std::string why;
+  std::string remedy;
+};
+
 /// One of the worst places of a measure.
 struct GatePlace {
   double value = 0.0;
   Point position;
   std::string what;  ///< entity by name
+  Forcing forcing;   ///< empty: ours to mend
 };
 
 struct GateResult {
@@ -117,7 +126,9 @@ struct GateResult {
   double total = 0.0;              ///< number of items, or m^2 where areas are counted
   double share_within = 0.0;       ///< share of it within limits.usual; within limits.target where there is no usual limit
   std::int64_t n_beyond_hard = 0;  ///< items
-  std::vector<GatePlace> places;   ///< the worst ten that miss a limit (any, for a measure without limits), worst first
+  std::int64_t n_forced = 0;       ///< of them, proven to be forced by the given boundary: they do not FAIL
+  std::vector<GatePlace> places;   ///< the worst ten that miss a limit and are not forced (any, for a measure without limits), worst first
+  std::vector<GatePlace> forced;   ///< the worst ten that are forced, worst first
   std::vector<double> histogram;   ///< items, or m^2, of each class of MeasureInfo::classes; empty where the measure has none
 };
 
@@ -138,7 +149,8 @@ class GateScan {
     const double badness = value == value ? sign_ * value : std::numeric_limits<double>::infinity();
     total_ += weight;
     if (badness <= usual_) within_ += weight;
-    if (badness > hard_) ++n_beyond_hard_;
+    if (badness > hard_) beyond_.push_back({{badness, id}, weight});
+    else worst_within_ = std::max(worst_within_, badness);
     if (classes_->n > 0) histogram_[static_cast<std::size_t>(classes_->of(value))] += weight;
     if (badness >= entry_) remember({badness, id});
   }
@@ -150,19 +162,47 @@ class GateScan {
   /// `describe(id) -> pair(Point, string)` names the places.
   template <class Describe>
   GateResult result(const Describe& describe) const {
-    GateResult result = judge();
-    for (const Item& item : worst_) {
-      if (!is_notable(item)) break;
+    return result(describe, [](std::uint64_t) { return std::optional<Forcing>(); });
+  }
+  /// `prove(id) -> optional<Forcing>` is asked for every item beyond the hard limit.
+  template <class Describe, class Prove>
+  GateResult result(const Describe& describe, const Prove& prove) const {
+    std::vector<GatePlace> places, forced;
+    const auto list = [&](std::vector<GatePlace>& to, const Item& item, Forcing forcing) {
+      if (to.size() == k_most_places) return;
       auto [position, what] = describe(item.id);
-      result.places.push_back({value_of(item), position, std::move(what)});
+      to.push_back({value_of(item), position, std::move(what), std::move(forcing)});
+    };
+    std::int64_t n_forced = 0;
+    double forced_weight = 0.0;
+    for (const Beyond& beyond : beyond_hard()) {
+      std::optional<Forcing> forcing = prove(beyond.item.id);
+      if (forcing) {
+        ++n_forced;
+        forced_weight += beyond.weight;
+      }
+      const bool is_forced = forcing.has_value();
+      list(is_forced ? forced : places, beyond.item, std::move(forcing).value_or(Forcing{}));
     }
+    for (const Item& item : worst_)
+      if (item.badness <= hard_ && is_notable(item)) list(places, item, {});
+    GateResult result = judge(n_forced, forced_weight);
+    result.places = std::move(places);
+    result.forced = std::move(forced);
     return result;
   }
+  bool has_beyond_hard() const { return !beyond_.empty(); }
 
  private:
+  struct Beyond {
+    Item item;
+    double weight;
+  };
   void remember(const Item& item);
   bool is_notable(const Item& item) const;
-  GateResult judge() const;
+  /// Worst first; equal ones by ascending id.
+  std::vector<Beyond> beyond_hard() const;
+  GateResult judge(std::int64_t n_forced, double forced_weight) const;
 
   Measure measure_;
   GateLimits limits_;
@@ -170,7 +210,8 @@ class GateScan {
   double hard_, target_, usual_;  ///< as badness; infinity where there is none
   double entry_ = -std::numeric_limits<double>::infinity();
   double total_ = 0.0, within_ = 0.0;
-  std::int64_t n_beyond_hard_ = 0;
+  double worst_within_ = -std::numeric_limits<double>::infinity();  ///< badness of what keeps the hard limit
+  std::vector<Beyond> beyond_;                                      ///< all beyond the hard limit
   const HistogramClasses* classes_;
   std::array<double, HistogramClasses::k_most> histogram_{};
   std::vector<Item> worst_;

@@ -34,6 +34,22 @@ void add_places(const Json& measure, Json& places) {
   }
 }
 
+/// What the given boundary forces: listed apart, after all that is ours to mend.
+void add_forced(const Json& measure, Json& places) {
+  int rank = 0;
+  for (const Json& place : measure["forced_places"])
+    places.push_back({{"gate", measure["gate"]},
+                      {"measure", measure["measure"]},
+                      {"title", measure["title"].get<std::string>() + ", forced by the given surface"},
+                      {"state", "forced"},
+                      {"value", place["value"]},
+                      {"unit", measure["unit"]},
+                      {"limit", measure["limits"]["hard"]},
+                      {"at", place["position"]},
+                      {"what", place["what"].get<std::string>() + ": " + place["why"].get<std::string>() + "; " + place["remedy"].get<std::string>()},
+                      {"rank", ++rank}});
+}
+
 }  // namespace
 
 std::string page_check_json(const CheckReport& report) {
@@ -65,9 +81,12 @@ std::string page_check_json(const CheckReport& report) {
   for (const char* state : {"fail", "warn", "pass", "not checked"})
     for (const Json& measure : check["measures"])
       if (measure["state"] == state && measure.contains("places")) add_places(measure, page["places"]);
+  for (const Json& measure : check["measures"])
+    if (measure.contains("forced_places")) add_forced(measure, page["places"]);
   for (const Json& measure : check["measures"]) {
     Json gate = measure;
     gate.erase("places");
+    gate.erase("forced_places");
     gate.erase("histogram");
     page["gates"].push_back(gate);
     if (!measure.contains("histogram") || measure["histogram"].is_null()) continue;

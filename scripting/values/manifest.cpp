@@ -53,6 +53,9 @@ Json quality_json(const CheckReport& report) {
     for (const GateResult& gate : report.gates)
       if (gate.state == state) json[key].push_back(info_of(gate.measure).name);
   }
+  json["forced"] = Json::object();
+  for (const GateResult& gate : report.gates)
+    if (gate.n_forced > 0) json["forced"][std::string(info_of(gate.measure).name)] = gate.n_forced;
   json["measures"] = std::move(measures);
   return json;
 }

@@ -86,9 +86,11 @@ inline constexpr std::size_t k_members<PatchCoverage> = 9;
 template <>
 inline constexpr std::size_t k_members<GateLimits> = 4;
 template <>
-inline constexpr std::size_t k_members<GatePlace> = 3;
+inline constexpr std::size_t k_members<Forcing> = 2;
 template <>
-inline constexpr std::size_t k_members<GateResult> = 10;
+inline constexpr std::size_t k_members<GatePlace> = 4;
+template <>
+inline constexpr std::size_t k_members<GateResult> = 12;
 template <>
 inline constexpr std::size_t k_members<CheckReport> = 20;
 template <>

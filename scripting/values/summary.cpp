@@ -87,11 +87,13 @@ std::string quality_text(const CheckReport& report) {
     return text;
   };
   const std::string failed = gates_in(GateState::fail), warned = gates_in(GateState::warn);
+  const std::int64_t n_forced = report.n_forced();
+  const std::string forced = n_forced > 0 ? ", " + count_text(n_forced) + " forced" : "";
   std::string text = "quality ";
-  if (failed.empty() && warned.empty()) return text + std::string(to_string(report.quality_state()));
+  if (failed.empty() && warned.empty()) return text + std::string(to_string(report.quality_state())) + forced;
   if (!failed.empty()) text += "FAIL:" + failed;
   if (!warned.empty()) text += (failed.empty() ? "warn:" : "; warn:") + warned;
-  return text;
+  return text + forced;
 }
 
 std::string summary_text(const MeshValue& mesh) {

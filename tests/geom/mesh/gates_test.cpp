@@ -179,6 +179,69 @@ TEST(Gates, FirstHeightIsMeasuredAlongTheNormalWhereTheLayerIsNotCompressed) {
   EXPECT_NEAR(checked(mesh).gate(Measure::first_height).worst, 0.0, 1e-12);
 }
 
+TEST(Gates, WhatIsForcedDoesNotFailAndIsListedApart) {
+  const MeasureInfo& info = info_of(Measure::edge_ratio);  // upper: hard 100, 10 on 99.9 %
+  GateScan scan(info, info.limits);
+  for (std::uint64_t i = 0; i < 100; ++i) scan.add(i < 90 ? 2.0 : 101.0 + static_cast<double>(i), i);
+  const auto describe = [](std::uint64_t id) { return std::pair(Point{}, "item " + std::to_string(id)); };
+  const auto judged_with = [&](std::uint64_t first_forced) {
+    return scan.result(describe, [=](std::uint64_t id) { return id >= first_forced ? std::optional(Forcing{"the wall", "remesh"}) : std::nullopt; });
+  };
+  const GateResult some = judged_with(92);
+  EXPECT_EQ(some.state, GateState::fail);
+  EXPECT_EQ(some.n_beyond_hard, 10);
+  EXPECT_EQ(some.n_forced, 8);
+  ASSERT_EQ(some.places.size(), 2u);
+  EXPECT_EQ(some.places.front().what, "item 91");
+  ASSERT_EQ(some.forced.size(), 8u);
+  EXPECT_EQ(some.forced.front().what, "item 99");
+  EXPECT_EQ(some.forced.front().forcing.remedy, "remesh");
+  const GateResult all = judged_with(90);
+  EXPECT_EQ(all.state, GateState::pass);
+  EXPECT_EQ(all.n_forced, 10);
+  EXPECT_TRUE(all.places.empty());
+  EXPECT_NE(to_text(all).find("10 of 10 beyond the hard limit are forced"), std::string::npos);
+}
+
+TEST(Gates, EdgeRatiosOfTheWallAreForcedThoseAboveItAreNot) {
+  // The middle line stands a thousandth beside its neighbour, in all layers; the layers are lower than that.
+  HybridMesh mesh = regular_plate(4, {.n_layers = 3, .layer_height = 1e-4});
+  const auto move_from = [&](int layer) {
+    HybridMesh moved = mesh;
+    for (int j = layer; j <= 3; ++j) {
+      const Point &at = mesh.points[mesh.layers.node(12, j)], &to = mesh.points[mesh.layers.node(13, j)];
+      moved.points[moved.layers.node(12, j)] = to + (1e-3 / distance(at, to)) * (at - to);
+    }
+    return checked(moved).gate(Measure::edge_ratio);
+  };
+  const GateResult wall = move_from(0);
+  EXPECT_NE(wall.state, GateState::fail);
+  EXPECT_GT(wall.n_beyond_hard, 0);
+  EXPECT_EQ(wall.n_forced, wall.n_beyond_hard);
+  EXPECT_NE(wall.forced.front().forcing.why.find("the wall has edges"), std::string::npos);
+  const GateResult above = move_from(1);
+  EXPECT_EQ(above.state, GateState::fail);
+  EXPECT_EQ(above.n_forced, 0);
+}
+
+TEST(Gates, TetsInANarrowAngleOfTheBoundaryAreForced) {
+  const double angle = 2 * k_degree;
+  HybridMesh mesh;
+  for (const Point& p : {Point{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, std::cos(angle), std::sin(angle)}}) mesh.points.push_back(p);
+  mesh.patches.push_back({.name = "wall"});
+  mesh.tetrahedra.push_back({NodeId(0), NodeId(1), NodeId(2), NodeId(3)});
+  for (const LocalFace& face : cell_faces(CellKind::tetrahedron))
+    mesh.boundary_triangles.push_back({{NodeId(face.nodes[0]), NodeId(face.nodes[1]), NodeId(face.nodes[2])}, PatchId(0)});
+  const CheckReport report = checked(mesh);
+  EXPECT_TRUE(report.is_valid()) << to_text(report);
+  const GateResult& gate = report.gate(Measure::min_dihedral);
+  EXPECT_NEAR(gate.worst, angle, 1e-12);
+  EXPECT_EQ(gate.n_forced, 1);
+  EXPECT_NE(gate.state, GateState::fail);
+  EXPECT_EQ(report.n_forced(), 1);
+  EXPECT_NE(to_json(report).find("\"forced\": 1"), std::string::npos);
+}
+
 TEST(Gates, CoverageIsByTheHeightAlongTheNormal) {
   HybridMesh mesh = regular_plate(3, {.n_layers = 3, .layer_height = 0.3, .ratio = 1.0});
   ask_for(mesh, 0.1, 0.32, 1.2);

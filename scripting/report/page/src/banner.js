@@ -8,9 +8,9 @@ export function state_colour(state) {
   return k_state_colours[String(state).toLowerCase()] ?? k_state_colours["not checked"];
 }
 
-/** Class of a state for style sheets: "pass", "warn", "fail", "invalid", "unknown". Of several ("FAIL: G6 G7; warn: G5") the first, which is the worst. */
+/** Class of a state for style sheets: "pass", "warn", "fail", "invalid", "unknown". Of several ("FAIL: G6 G7; warn: G5", "pass, 3 forced") the first, which is the worst. */
 export function state_class(state) {
-  const name = String(state).toLowerCase().split(":")[0];
+  const name = String(state).toLowerCase().split(/[:,]/)[0];
   if (name === "valid") return "pass";
   if (name === "failed") return "fail";
   return ["pass", "warn", "fail", "invalid"].includes(name) ? name : "unknown";

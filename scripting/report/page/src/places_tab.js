@@ -18,11 +18,11 @@ export function place_text(place) {
   return typeof place.value === "number" ? `${value_text(place)} \u00b7 ${place.what}` : place.what;
 }
 
-/** Groups of places in the order of the report: by gate and measure. */
+/** Groups of places in the order of the report: by gate and measure; what the given surface forces apart. */
 function groups_of(places) {
   const groups = new Map();
   places.forEach((place, k) => {
-    const key = `${place.gate}\n${place.measure ?? ""}`;
+    const key = `${place.gate}\n${place.measure ?? ""}\n${place.state === "forced"}`;
     if (!groups.has(key)) groups.set(key, { gate: place.gate, title: place.title, state: place.state, list: [] });
     groups.get(key).list.push(k);
   });

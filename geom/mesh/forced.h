@@ -1,0 +1,45 @@
+// Proofs that the given boundary alone puts a value beyond its hard limit. Each is a bound, stated in docs/quality_gates.md: what is not proven is not forced.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "geom/mesh/check_parts.h"
+
+namespace sterna::check_parts {
+
+class GivenBoundary {
+ public:
+  explicit GivenBoundary(const HybridMesh& mesh);
+
+  /// G16. A wall node has its wall edges in any mesh, so their own ratio bounds the measure. In layer j both ends of an edge are at most d_j, the length of the
+  /// line so far, off their feet: edges there are at least L - d - d' and at most s + d + d' long.
+  std::optional<Forcing> edge_ratio(NodeId node, double limit) const;
+  /// G14. Tets at an edge of the boundary share the angle of the fluid there: none of them has more.
+  std::optional<Forcing> min_dihedral(const std::array<NodeId, 4>& tet, double limit) const;
+
+ private:
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  struct Ring {
+    double longest = 0.0, shortest = 0.0;  ///< m, bounds
+  };
+  /// A node of a line: the line's number and the node's layer.
+  struct OnLine {
+    std::uint32_t line = 0, layer = 0;
+  };
+  std::optional<OnLine> on_line(std::uint32_t node) const;
+  double off_foot(const OnLine& place) const;
+  std::optional<Ring> ring_of(NodeId node) const;
+  double fluid_angle(std::uint32_t a, std::uint32_t b) const;
+
+  const HybridMesh& mesh_;
+  std::vector<Edge> wall_edges_;                                  ///< of walls, from each end, ascending
+  std::vector<std::pair<Edge, std::uint32_t>> boundary_sides_;    ///< sides of boundary triangles, lower node first, ascending
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> line_at_;  ///< first node and line, ascending
+};
+
+}  // namespace sterna::check_parts
