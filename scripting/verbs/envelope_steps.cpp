@@ -159,8 +159,9 @@ constexpr std::array<Step, 5> k_steps = {{
     {"envelope.untangle", EnvelopeStep::initial, EnvelopeStep::untangled, "untangle_share", "envelope.untangle{ env }", run_untangle},
     {"envelope.unwarp", EnvelopeStep::initial, EnvelopeStep::unwarped, "envelope_sweeps", "envelope.unwarp{ env }", run_unwarp},
     {"envelope.retract", EnvelopeStep::unwarped, EnvelopeStep::retracted, "max_retract_sweeps", "envelope.retract{ env }", run_retract},
-    {"envelope.optimise", EnvelopeStep::retracted, EnvelopeStep::finished, "optimiser optimiser_evaluations height_weight top_weight membrane_weight barrier_weight",
-     "envelope.optimise{ env, optimiser_evaluations = 30 }", run_optimise},
+    {"envelope.optimise", EnvelopeStep::retracted, EnvelopeStep::finished,
+     "optimiser optimiser_evaluations height_weight top_weight membrane_weight barrier_weight", "envelope.optimise{ env, optimiser_evaluations = 30 }",
+     run_optimise},
 }};
 
 const Step& step_of(std::string_view verb) {
