@@ -15,8 +15,7 @@ namespace sterna::scripting {
 namespace {
 
 constexpr double k_bytes_per_mb = 1e6;
-constexpr std::size_t k_listed_places = 10;   ///< collapsed vertices in the summary; the manifest has all
-constexpr std::size_t k_listed_patches = 10;  ///< patches in the summary, worst covered first
+constexpr std::size_t k_listed_troubles = 5;  ///< measures that miss a limit in the summary; a finished mesh is told in at most 25 lines
 
 std::string counted(std::int64_t n, std::string_view one, std::string_view many) { return count_text(n) + " " + std::string(n == 1 ? one : many); }
 
@@ -27,17 +26,57 @@ std::string verdict_text(const MeshValue& mesh) {
 
 std::int64_t n_nodes(const MeshValue& mesh) { return static_cast<std::int64_t>(mesh.mesh.points.size()); }
 
-/// The patches that are not covered to their full height, worst first; nothing for a wall of one patch.
-std::string patch_text(const volmesh::LayerReport& layer) {
-  std::vector<volmesh::PatchLayerReport> patches = layer.patches;
-  if (patches.size() < 2) return "";
-  std::erase_if(patches, [](const volmesh::PatchLayerReport& patch) { return patch.full >= 1.0; });
-  std::stable_sort(patches.begin(), patches.end(), [](const auto& a, const auto& b) { return a.full < b.full; });
-  patches.resize(std::min(patches.size(), k_listed_patches));
+/// What a user can do about a measure that misses its limits.
+std::string_view remedy_of(Measure measure) {
+  switch (measure) {
+    case Measure::stack_growth:
+    case Measure::interface_height:
+    case Measure::interface_volume: return "more layers, a larger max_growth, or finer triangles on the wall there";
+    case Measure::first_height:
+    case Measure::coverage:
+    case Measure::collapsed:
+    case Measure::layer_step: return "fewer layers, or a smaller first_height or max_thickness, where walls are near";
+    case Measure::cad_distance:
+    case Measure::cad_normal: return "smaller chord_error of surface_mesh";
+    case Measure::orthogonality:
+    case Measure::non_orthogonality:
+    case Measure::skewness:
+    case Measure::stack_angle: return "finer triangles at the sharp edge, or round it";
+    default: return "remesh the wall there: triangles without needles that change slowly in size";
+  }
+}
+
+/// "hard limit 5 deg", "target 12 deg", "usual limit 35 deg": the strictest kind of limit that `value` misses.
+std::string missed_limit_text(const GateResult& gate, double value) {
+  const MeasureInfo& info = info_of(gate.measure);
+  const bool is_target_missed = info.is_low_bad ? value < gate.limits.target : value > gate.limits.target;
+  std::pair<const char*, double> missed{"usual limit", gate.limits.usual};
+  if (gate.state == GateState::fail) missed = {"hard limit", gate.limits.hard};
+  else if (is_target_missed) missed = {"target", gate.limits.target};
+  return fmt::format("{} {:.4g}{}", missed.first, in_report_unit(info, missed.second), info.is_angle ? " deg" : "");
+}
+
+/// A measure that misses a limit, in one line: its worst place that is ours, and what would mend it.
+std::string trouble_text(const GateResult& gate) {
+  const MeasureInfo& info = info_of(gate.measure);
+  const double value = gate.places.empty() ? gate.worst : gate.places.front().value;
+  std::string text = fmt::format("  {:<11} {} {}: {:.4g}{} ({})", info.gate, to_string(gate.state), info.title, in_report_unit(info, value),
+                                 info.is_angle ? " deg" : "", missed_limit_text(gate, value));
+  if (!gate.places.empty()) text += " at " + format_point(gate.places.front().position) + ", " + gate.places.front().what;
+  return text + "; " + std::string(remedy_of(gate.measure)) + "\n";
+}
+
+/// The first few measures that FAIL, then those that warn; what is forced; where the rest is told.
+std::string troubles_text(const CheckReport& report) {
+  std::vector<const GateResult*> troubles;
+  for (const GateState state : {GateState::fail, GateState::warn})
+    for (const GateResult& gate : report.gates)
+      if (gate.state == state) troubles.push_back(&gate);
   std::string text;
-  for (const volmesh::PatchLayerReport& patch : patches)
-    text += fmt::format("    patch {}: {:.2f} % full (the geometry permits {:.2f} %), {:.2f} % compressed, {:.2f} % collapsed\n", patch.name,
-                        100.0 * patch.full, 100.0 * patch.attainable, 100.0 * patch.compressed, 100.0 * patch.collapsed);
+  for (std::size_t i = 0; i < std::min(troubles.size(), k_listed_troubles); ++i) text += trouble_text(*troubles[i]);
+  if (troubles.size() > k_listed_troubles)
+    text +=
+        fmt::format("  more        {} measures miss a limit: sterna check, the manifest and sterna report list them\n", troubles.size() - k_listed_troubles);
   return text;
 }
 
@@ -106,38 +145,16 @@ std::string summary_text(const MeshValue& mesh) {
     text += fmt::format("  splits      {} more triangles on wall and farfield, made for the tetrahedra\n", count_text(mesh.origin->n_split_triangles));
   text += fmt::format("  layer       {:.2f} % of the area at its full height along the normal, the geometry permits {:.2f} %; mean height {:.4g} m\n",
                       100.0 * layer.coverage, 100.0 * layer.attainable, layer.mean_height);
-  for (const auto& [reason, share] : layer.lost_area)
-    text += fmt::format("              {:.2f} % below: {}\n", 100.0 * share,
-                        reason == "none" ? "height_gradient and smoothing, from what lowers the layer nearby" : reason);
-  text += fmt::format("  compressed  {:.2f} % of the area, {} of {} vertices (total height below layers x first height)\n", 100.0 * layer.compressed_area,
-                      count_text(layer.n_compressed), count_text(layer.n_vertices));
-  const std::int64_t n_full = layer.first_node.n_lines - layer.first_node.n_compressed - layer.first_node.n_collapsed;
-  if (n_full == 0) text += "  first node  no line is full: first_height is met nowhere\n";
-  else
-    text += fmt::format(
-        "  first node  within 2 % of first_height at {:.2f} % of the full lines, on {:.2f} % of the facets off ridges ({:.2f} % of the area is at ridges)\n",
-        100.0 * layer.first_node.vertex_share, 100.0 * layer.first_node.facet_share, 100.0 * layer.first_node.ridge_area);
-  text += fmt::format(
-      "  interface   last layer between 1/3 and 3 heights of a regular tetrahedron on {:.2f} % of the envelope ({:.2f} % where the layer is full); {:.2f} % "
-      "thinner, {:.2f} % thicker\n",
-      100.0 * layer.interface.within, 100.0 * layer.interface.within_of_full, 100.0 * layer.interface.below, 100.0 * layer.interface.above);
-  text += fmt::format("  collapsed   {:.2f} % of the area, {}\n", 100.0 * layer.collapsed_area,
-                      counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"));
-  for (std::size_t i = 0; i < std::min(layer.collapsed.size(), k_listed_places); ++i)
-    text += "    at " + format_point(layer.collapsed[i].position) + ": " + layer.collapsed[i].what + "\n";
-  if (layer.collapsed.size() > k_listed_places)
-    text += fmt::format("    and {} more, all in the manifest\n", count_text(static_cast<std::int64_t>(layer.collapsed.size() - k_listed_places)));
-  text += patch_text(layer);
-  text += "  certificate " + to_text(mesh.origin->certificate) + "\n";
-  const volmesh::ImproveReport& improvement = mesh.origin->improvement;
-  text += fmt::format("  angles      of tetrahedra {:.3g} to {:.4g} deg; {} beyond the limits, {} before improvement", k_degrees * improvement.min_angle_after,
-                      k_degrees * improvement.max_angle_after, count_text(improvement.n_bad_after), count_text(improvement.n_bad_before));
-  const std::int64_t n_unforced = improvement.n_bad_after - improvement.n_bad_free_after - improvement.n_forced;
-  if (improvement.n_bad_after > 0)
-    text += fmt::format("\n              of these {} away from the boundary, {} forced by it, {} neither ({:.2g} % of the tetrahedra at the boundary)",
-                        count_text(improvement.n_bad_free_after), count_text(improvement.n_forced), count_text(n_unforced),
-                        100.0 * static_cast<double>(n_unforced) / static_cast<double>(std::max<std::int64_t>(1, improvement.n_at_boundary)));
-  return text + "\n  verdict     " + verdict_text(mesh) + (mesh.check && mesh.check->quality_measured ? ", " + quality_text(*mesh.check) : "");
+  if (layer.n_compressed > 0)
+    text += fmt::format("  compressed  {:.2f} % of the area, {} of {} vertices (total height below layers x first height)\n", 100.0 * layer.compressed_area,
+                        count_text(layer.n_compressed), count_text(layer.n_vertices));
+  if (!layer.collapsed.empty())
+    text += fmt::format("  collapsed   {:.2f} % of the area, {}; first at {}: {}\n", 100.0 * layer.collapsed_area,
+                        counted(static_cast<std::int64_t>(layer.collapsed.size()), "vertex", "vertices"), format_point(layer.collapsed.front().position),
+                        layer.collapsed.front().what);
+  const bool is_measured = mesh.check && mesh.check->quality_measured;
+  if (is_measured) text += troubles_text(*mesh.check);
+  return text + "  verdict     " + verdict_text(mesh) + (is_measured ? ", " + quality_text(*mesh.check) : "");
 }
 
 std::string measure_text(const MeshValue& mesh, const RunMeasure& measure) {

@@ -29,7 +29,8 @@ double peak_memory_bytes();
 
 /// "quality pass", "quality FAIL: G5 G14; warn: G9", "quality not checked".
 std::string quality_text(const CheckReport& report);
-/// Several lines: sizes, coverage, compressed and collapsed vertices (each listed), verdict.
+/// A dozen lines at most: sizes, coverage, up to five measures that miss a limit with their worst place and a remedy, verdict. The rest is in `check`, the
+/// manifest and the page.
 /// \pre mesh.origin
 std::string summary_text(const MeshValue& mesh);
 /// Several lines: seconds in the tetrahedra engine and the rest, stages, memory.
