@@ -51,7 +51,7 @@ local mesh = volume_mesh{ wall,
     max_thickness = "automatic",
     max_relative_height = "automatic",  -- total height over the length of the wall's edges there; automatic: no limit
     feature_angle = 35*deg,
-    height_gradient = 0.5,
+    height_gradient = 0.35,
     height_sweeps = 20,
     direction_sweeps = 50,
     envelope_sweeps = 5,
@@ -62,10 +62,11 @@ local mesh = volume_mesh{ wall,
     optimiser_evaluations = 30,
     height_weight = 1.0,          -- of full height, against lines normal to the wall
     top_weight = 0.4,             -- of lines normal to the envelope
+    membrane_weight = 2.0,        -- even heights against lines normal to the wall
     barrier_weight = 0.02,        -- around invalid elements
   },
   prisms = {
-    wall_perpendicularity = 0.1,
+    wall_perpendicularity = 1.0,
   },
   patches = {                         -- what patches with such names ask for instead; of two patterns that match the one with more letters counts
     ["*"] = {

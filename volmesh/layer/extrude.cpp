@@ -1,5 +1,5 @@
-// Steps of Extruder::extrude: place_stale_lines, limit_growth, invalid_among; while any column is invalid: reduce_curving, lower_heights where that does not
-// help, and both again for what changed. Curving falls only and heights fall only, so the rounds end.
+// Steps of Extruder::extrude: place_stale_lines, limit_growth, limit_warp, invalid_among; while any column is invalid: reduce_curving, lower_heights where that
+// does not help, and both again for what changed. Curving falls only and heights fall only, so the rounds end.
 #include "volmesh/layer/extrude.h"
 
 #include <algorithm>
@@ -18,6 +18,7 @@ namespace {
 
 constexpr int k_max_repair_rounds = 200;
 constexpr int k_curving_rounds = 8;         ///< rounds that reduce c_t by bisection; later ones straighten the lines and lower heights at once
+constexpr int k_warp_rounds = 3;            ///< less curving at one column changes those beside it
 constexpr int k_bisections = 6;             ///< c_t to 1/64 of what it was
 constexpr double k_equalise_factor = 1.05;  ///< corners of an invalid cell keep heights within this ratio of the lowest
 constexpr double k_shrink_factor = 0.7;     ///< of the heights of a cell that stays invalid with equal heights and straight lines
@@ -97,17 +98,22 @@ Extruder::Columns Extruder::columns_at(const std::vector<VertexId>& lines) const
   return columns;
 }
 
-/// The invalid ones of some columns, or of all.
-Extruder::Columns Extruder::invalid_among(const Columns* some) const {
+/// Those of some columns, or of all, of which predicate(lines, number of layers) holds.
+template <class Predicate>
+Extruder::Columns Extruder::columns_where(const Columns* some, const Predicate& predicate) const {
   return parallel_collect<std::size_t>(
       context_, some ? some->size() : layers_.n_columns(),
       [&](std::size_t begin, std::size_t end, Columns& bad) {
         for (std::size_t i = begin; i < end; ++i) {
           const std::size_t column = some ? (*some)[i] : i;
-          if (!is_column_certain(column_lines(layers_, points_, column), layers_.layers_of_column(column))) bad.push_back(column);
+          if (predicate(column_lines(layers_, points_, column), layers_.layers_of_column(column))) bad.push_back(column);
         }
       },
       k_column_chunk);
+}
+
+Extruder::Columns Extruder::invalid_among(const Columns* some) const {
+  return columns_where(some, [](const ColumnLines& lines, int n) { return !is_column_certain(lines, n); });
 }
 
 namespace {
@@ -153,13 +159,15 @@ bool Extruder::limit_growth(const Envelope& envelope, const std::vector<VertexId
   return has_any;
 }
 
-/// Largest common share of the present c_t of its lines with which a column is valid, to 1/64; k_hopeless where straight lines are not either.
-double Extruder::valid_share_of_curving(const Envelope& envelope, std::size_t column) const {
+/// Largest common share of the present c_t of its lines with which is_good(lines, number of layers) holds of a column, to 1/64; k_hopeless where straight lines
+/// are not good either.
+template <class IsGood>
+double Extruder::share_of_curving(const Envelope& envelope, std::size_t column, const IsGood& is_good) const {
   const int n = layers_.layers_of_column(column);
   const std::size_t per_line = static_cast<std::size_t>(n) + 1;
   std::vector<Point> nodes(3 * per_line);
   LinePlacer placer(base_, scale_);
-  const auto is_valid = [&](double share) {
+  const auto is_good_with = [&](double share) {
     ColumnLines lines;
     for (std::size_t k = 0; k < 3; ++k) {
       const VertexId v(layers_.base[column][k]);
@@ -167,16 +175,31 @@ double Extruder::valid_share_of_curving(const Envelope& envelope, std::size_t co
       lines.nodes[k] = nodes.data() + k * per_line;
       lines.is_collapsed[k] = envelope.is_collapsed(v);
     }
-    return is_column_certain(lines, n);
+    return is_good(lines, n);
   };
-  return is_valid(0.0) ? largest_share(is_valid) : k_hopeless;
+  return is_good_with(0.0) ? largest_share(is_good_with) : k_hopeless;
+}
+
+/// Limits c_t where the sides of last prisms cannot be cut and less curving helps. True where there is such a place.
+bool Extruder::limit_warp(const Envelope& envelope, const Columns* some) {
+  const Columns warped = columns_where(some, [](const ColumnLines& lines, int n) { return !can_last_prisms_be_cut(lines, n); });
+  std::vector<double> share(warped.size());
+  parallel_for(
+      context_, warped.size(), [&](std::size_t i) { share[i] = share_of_curving(envelope, warped[i], can_last_prisms_be_cut); }, 8);
+  bool has_any = false;
+  for (std::size_t i = 0; i < warped.size(); ++i) {
+    if (share[i] == k_hopeless) continue;
+    has_any = true;
+    for (const VertexId v : base_.wall.triangles[TriangleId(warped[i])]) curving_.limit(v, share[i] * curving_[v]);
+  }
+  return has_any;
 }
 
 /// Limits c_t at the lines of invalid columns to what bisection finds; returns the columns that no c_t makes valid.
 Extruder::Columns Extruder::reduce_curving(const Envelope& envelope, const Columns& bad) {
   std::vector<double> share(bad.size());
   parallel_for(
-      context_, bad.size(), [&](std::size_t i) { share[i] = valid_share_of_curving(envelope, bad[i]); }, 8);
+      context_, bad.size(), [&](std::size_t i) { share[i] = share_of_curving(envelope, bad[i], is_column_certain); }, 8);
   Columns hopeless;
   for (std::size_t i = 0; i < bad.size(); ++i) {
     if (share[i] == k_hopeless) {
@@ -212,12 +235,17 @@ void Extruder::lower_heights(const Columns& columns, Envelope& envelope) const {
 
 void Extruder::extrude(Envelope& envelope) {
   std::vector<VertexId> placed = place_stale_lines(envelope);
-  if (limit_growth(envelope, placed)) {
+  const auto place_again = [&] {
     curving_.smooth(context_);
     const std::vector<VertexId> again = place_stale_lines(envelope);
     placed.insert(placed.end(), again.begin(), again.end());
-  }
+  };
+  if (limit_growth(envelope, placed)) place_again();
   Columns some = is_first_ ? Columns{} : columns_at(placed);
+  for (int round = 0; round < k_warp_rounds && limit_warp(envelope, is_first_ ? nullptr : &some); ++round) {
+    place_again();
+    if (!is_first_) some = columns_at(placed);
+  }
   Columns bad = invalid_among(is_first_ ? nullptr : &some);
   is_first_ = false;
   for (int round = 0; !bad.empty(); ++round) {

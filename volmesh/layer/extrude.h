@@ -25,11 +25,11 @@ class Extruder {
  public:
   Extruder(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, const RunContext& context);
 
-  /// Nodes by LinePlacer, with c_t as large as the growth along the line (G8) allows. Columns with an invalid cell (exact tests of cell and dual sub-volumes)
-  /// are repaired: c_t of their lines to the largest value, found by bisection, for which the column is valid, smoothed over the surface (Curving); only where
-  /// straight lines do not help, heights are made equal over the column's corners and then lowered (through `unwarp`), down to collapse. Changes `envelope`
-  /// accordingly. \post every cell is valid with positive dual sub-volumes; top nodes are envelope.point() to the bit.
-  /// \throws Error(envelope_failed) when columns stay invalid after 200 rounds.
+  /// Nodes by LinePlacer, with c_t as large as the growth along the line (G8) and sides of last prisms that can be cut (OpenFOAM) allow. Columns with an
+  /// invalid cell (exact tests of cell and dual sub-volumes) are repaired: c_t of their lines to the largest value, found by bisection, for which the column is
+  /// valid, smoothed over the surface (Curving); only where straight lines do not help, heights are made equal over the column's corners and then lowered
+  /// (through `unwarp`), down to collapse. Changes `envelope` accordingly. \post every cell is valid with positive dual sub-volumes; top nodes are
+  /// envelope.point() to the bit. \throws Error(envelope_failed) when columns stay invalid after 200 rounds.
   void extrude(Envelope& envelope);
   /// The layer of the last extrude(); ends the use of this object.
   Extrusion take();
@@ -39,10 +39,14 @@ class Extruder {
 
   std::vector<VertexId> place_stale_lines(const Envelope& envelope);
   bool limit_growth(const Envelope& envelope, const std::vector<VertexId>& lines);
+  bool limit_warp(const Envelope& envelope, const Columns* some);
   Columns columns_at(const std::vector<VertexId>& lines) const;
+  template <class Predicate>
+  Columns columns_where(const Columns* some, const Predicate& predicate) const;
   Columns invalid_among(const Columns* some) const;
+  template <class IsGood>
+  double share_of_curving(const Envelope& envelope, std::size_t column, const IsGood& is_good) const;
   Columns reduce_curving(const Envelope& envelope, const Columns& bad);
-  double valid_share_of_curving(const Envelope& envelope, std::size_t column) const;
   void lower_heights(const Columns& columns, Envelope& envelope) const;
 
   const LayerBase& base_;

@@ -9,6 +9,8 @@
 namespace sterna::volmesh {
 namespace {
 
+constexpr double k_cut_reserve = 0.05;      ///< of the mean tetrahedron of a side, that each keeps: the centre of the cell beyond is another
+constexpr int k_cut_layers = 3;             ///< at the top; below, lines are nearly normal and cells flat
 constexpr std::size_t k_proof_chunk = 256;  ///< columns, some 10^4 cells
 
 WedgePoints wedge_of(const ColumnLines& lines, int layer) {
@@ -37,6 +39,32 @@ std::array<Vec3, 4> tet_of(const PartialColumn& column, int layer) {
 }
 
 int n_collapsed(const ColumnLines& lines) { return lines.is_collapsed[0] + lines.is_collapsed[1] + lines.is_collapsed[2]; }
+
+/// Six times the volume of a triangle's tetrahedron with the cell's centre; positive where it looks away from it.
+double outward_volume(const Point& a, const Point& b, const Point& c, const Point& centre) { return dot(cross(b - a, c - a), a - centre); }
+
+bool can_be_cut(const WedgePoints& p) {
+  const Point centre = (p[0] + p[1] + p[2] + p[3] + p[4] + p[5]) / 6.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    const std::array<Point, 4> q = {p[k], p[next], p[next + 3], p[k + 3]};
+    const Point middle = 0.25 * (q[0] + q[1] + q[2] + q[3]);
+    std::array<double, 4> around{};
+    double mean = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      around[i] = outward_volume(q[i], q[(i + 1) % 4], middle, centre);
+      mean += 0.25 * around[i];
+    }
+    const double least = k_cut_reserve * std::abs(mean), sign = mean < 0.0 ? -1.0 : 1.0;
+    if (std::ranges::any_of(around, [&](double volume) { return sign * volume < least; })) return false;
+    const auto is_cut = [&](std::size_t base) {
+      const auto at = [&](std::size_t i) { return q[(base + i) % 4]; };
+      return sign * outward_volume(at(0), at(1), at(2), centre) >= least && sign * outward_volume(at(0), at(2), at(3), centre) >= least;
+    };
+    if (!is_cut(0) && !is_cut(1)) return false;
+  }
+  return true;
+}
 
 void add_column(const ColumnLines& lines, std::size_t column, int n_layers, LayerCertificate& certificate) {
   const int n_down = n_collapsed(lines);
@@ -90,6 +118,13 @@ bool is_column_certain(const ColumnLines& lines, int n_layers) {
     const std::array<Vec3, 5> p = pyramid_of(partial, j);
     if (!is_pyramid_valid(p) || !are_sub_volumes_positive(p)) return false;
   }
+  return true;
+}
+
+bool can_last_prisms_be_cut(const ColumnLines& lines, int n_layers) {
+  if (n_collapsed(lines) > 0) return true;
+  for (int j = std::max(0, n_layers - k_cut_layers); j < n_layers; ++j)
+    if (!can_be_cut(wedge_of(lines, j))) return false;
   return true;
 }
 

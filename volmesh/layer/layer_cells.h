@@ -19,6 +19,10 @@ ColumnLines column_lines(const LayerBlock& layers, std::span<const Point> points
 /// Whether every cell of a column is valid (exact wedge, pyramid or tet test, G3) and has positive dual sub-volumes (exact, G4).
 bool is_column_certain(const ColumnLines& lines, int n_layers);
 
+/// Whether the sides of the last prisms of a column can be cut into tetrahedra with the prism's centre, around their own centre and along one of their
+/// diagonals, as cell-centred solvers cut them (checkMesh's decomposition tets); with a reserve. True for columns that are not all prisms.
+bool can_last_prisms_be_cut(const ColumnLines& lines, int n_layers);
+
 /// Every cell of a layer, tested by the exact test of its kind.
 struct LayerCertificate {
   std::int64_t n_cells = 0;
