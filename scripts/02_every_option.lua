@@ -62,7 +62,7 @@ local mesh = volume_mesh{ wall,
     optimiser_evaluations = 30,
     height_weight = 1.0,          -- of full height, against lines normal to the wall
     top_weight = 0.4,             -- of lines normal to the envelope
-    membrane_weight = 2.0,        -- even heights against lines normal to the wall
+    membrane_weight = 1.0,        -- even heights against lines normal to the wall
     barrier_weight = 0.02,        -- around invalid elements
   },
   prisms = {

@@ -28,7 +28,7 @@ struct EnvelopeOptions {
   int optimiser_evaluations = 30;
   double height_weight = 1.0;
   double top_weight = 0.4;
-  double membrane_weight = 2.0;
+  double membrane_weight = 1.0;
   double barrier_weight = 0.02;
 };
 

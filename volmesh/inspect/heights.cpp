@@ -1,6 +1,6 @@
 // What will become of the layer: the first steps of the envelope, in a short form, on the very walls and demands that volume_mesh would have.
 // Steps: targets and directions; directions smoothed as the envelope does, but where elements are tangled once only; heights where growth lines meet and where
-//        elements are warped, grown back as far as they are valid; gaps between opposing walls shared.
+//        elements are warped, grown back as far as they are valid; gaps between opposing walls shared, room kept.
 // Left out: smoothing of heights and of the envelope itself (they keep 0.94 of the target), the exact tests for collisions (gaps stand for most of them), the
 //        optimiser, which raises what these steps lower too much. docs/inspect.md compares the prediction with finished meshes.
 #include <array>
@@ -8,6 +8,7 @@
 
 #include "geom/base/number_text.h"
 #include "volmesh/envelope/initial.h"
+#include "volmesh/envelope/keep_distance.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/smooth.h"
 #include "volmesh/envelope/untangle.h"
@@ -21,8 +22,7 @@ constexpr double k_full_share = 0.9;   ///< of the target that counts as full, a
 constexpr int k_predicted_sweeps = 3;  ///< of directions everywhere, as in the envelope's smoothing step
 /// Of the wide smoothing around concave places: a third of the envelope's, which costs most of the time and changes the coverage by less than 1 % of the area.
 constexpr int k_concave_sweeps = 16;
-constexpr int k_tangled_rings = 6;  ///< as in the envelope
-constexpr int k_tangled_sweeps = 32;
+constexpr int k_tangled_rings = 1, k_tangled_sweeps = 20;  ///< as in the envelope
 
 struct Heights {
   Envelope envelope;
@@ -56,6 +56,7 @@ Heights predict(MeshingSite& site, const RunContext& context) {
   regrow(base, envelope, context);
   context.check_stop();
   heights.gaps = share_gaps(base, options, site.collider, envelope, context);
+  keep_distance(base, options, site.collider, envelope, context);
   regrow(base, envelope, context);
   return heights;
 }
@@ -145,7 +146,8 @@ class HeightSurvey {
   }
 
  private:
-  bool is_full(VertexId v) const { return normal_height(base_, envelope_, v) >= k_full_share * envelope_.target[v]; }
+  /// By the length of the line: what leans here is turned to the normal by the optimiser.
+  bool is_full(VertexId v) const { return envelope_.height[v] >= k_full_share * envelope_.target[v]; }
   bool is_compressed(VertexId v) const { return !envelope_.is_collapsed(v) && normal_height(base_, envelope_, v) < scale_.compressed(v); }
   double share_of(VertexId v) const { return envelope_.target[v] > 0.0 ? envelope_.height[v] / envelope_.target[v] : k_no_value; }
   const std::string& patch_of(VertexId v) const { return survey_.patch_of(map_.triangle(triangle_of(base_.topology.outgoing(v).front()))); }

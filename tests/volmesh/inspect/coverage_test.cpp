@@ -12,10 +12,9 @@
 namespace sterna::volmesh {
 namespace {
 
-/// The prediction leaves out the optimiser, which raises heights, and the tests for collisions, which lower them: on the clean surfaces that docs/inspect.md
-/// lists it was 0.023 below to 0.022 above the finished envelope where that has full height on more than four fifths of the area. Three times that, as other
-/// settings were not measured.
-constexpr double k_tolerance = 0.07;
+/// The prediction leaves out the optimiser and the tests for collisions, and counts the lengths of lines, where the mesh counts heights along the normal.
+/// Measured: 0.001 (caturbs), 0.004 (bwb), 0.075 (couplingdown: at the corners of this coarse wall lines have to lean).
+constexpr double k_tolerance = 0.09;
 
 TEST(InspectCoverage, IsNearThatOfTheFinishedMesh) {
   STERNA_NEEDS_SHARED_DATA();
