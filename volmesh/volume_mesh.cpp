@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "geom/base/alongside.h"
 #include "geom/base/error.h"
@@ -171,7 +173,12 @@ EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunCo
 FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers& makers, LayerKnowledge& knowledge, const RunContext& context) {
   const StepEnds ends = step_ends(context.threads());
   LaidLayer layer = lay_out(site, stage.envelope, context.part("prisms", ends.envelope, ends.prisms));
-  for (const std::string& warning : layer.report.warnings) context.warn(warning);
+  std::vector<std::string> told;
+  const auto tell_warnings = [&] {
+    for (const std::string& warning : layer.report.warnings)
+      if (std::ranges::find(told, warning) == told.end()) context.warn(told.emplace_back(warning));
+  };
+  tell_warnings();
 
   FilledStage filled;
   Filling filling;
@@ -192,6 +199,7 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers
     filled.split_wall = *filling.split->wall;
     stage.envelope = std::move(filling.split->envelope);
   }
+  tell_warnings();  // of a layer that is not the first one any more
   require_proved_cells(filling.proof->cells, layer.certificate);
 
   knowledge = {std::move(layer.report), std::move(layer.certificate), std::move(filling.proof->check)};
