@@ -13,8 +13,9 @@ namespace sterna {
 
 /// Share of a height that counts as reached (method.md §2).
 inline constexpr double k_full_height_share = 0.9;
-/// Of the longer local envelope edge stays between two layers, for tets; at most k_kept_share of the gap. What the envelope keeps to itself (method.md §5).
-inline constexpr double k_kept_edges = 0.2;
+/// Of the longer local envelope edge stays between two layers, for tets, which reach some 15 degrees there; at most k_kept_share of the gap, the rest is for
+/// the layers. What the envelope keeps to itself (method.md §5, layer-quality.md section 4).
+inline constexpr double k_kept_edges = 0.3;
 inline constexpr double k_kept_share = 0.5;
 
 /// A triangle of the boundary that may stand opposite to a line.

@@ -7,6 +7,7 @@
 #include "geom/base/parallel.h"
 #include "geom/base/sort_unique.h"
 #include "geom/math/nearest.h"
+#include "geom/mesh/layer_room.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/untangle.h"
 

@@ -6,14 +6,9 @@
 
 namespace sterna::volmesh {
 
-/// Of the local envelope edge: the distance of the top from whatever it faces. Tetrahedra between two tops this far apart reach some 15 degrees.
-inline constexpr double k_kept_edges = 0.3;
-/// Of a gap between walls: no more than this is kept free, the rest is for the layers.
-inline constexpr double k_kept_share = 0.5;
-
-/// Lowers heights on both sides where the top is nearer than min(k_kept_edges edges, k_kept_share of the gap between the walls) to another part of the top, or
-/// to the wall, that faces it; than half of that to the outer boundary, on whose other side a mirrored layer may be. Limits `cap`, too, so that nothing grows
-/// back. Triangles at the vertex itself or its neighbours are no part of this: there the folds of the envelope decide.
+/// Lowers heights on both sides where the top is nearer than min(k_kept_edges edges, k_kept_share of the gap between the walls) (layer_room.h) to another part
+/// of the top, or to the wall, that faces it; than half of that to the outer boundary, on whose other side a mirrored layer may be. Limits `cap`, too, so that
+/// nothing grows back. Triangles at the vertex itself or its neighbours are no part of this: there the folds of the envelope decide.
 /// \pre, \post macro-elements valid, the top clear (retract.h).
 void keep_distance(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geom/base/parallel.h"
+#include "geom/mesh/layer_room.h"
 #include "volmesh/envelope/keep_distance.h"
 #include "volmesh/envelope/retract.h"
 #include "volmesh/envelope/untangle.h"

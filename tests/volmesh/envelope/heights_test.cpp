@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geom/mesh/bvh.h"
+#include "geom/mesh/layer_room.h"
 #include "tests/support/constants.h"
 #include "tests/support/shapes.h"
 #include "volmesh/envelope/build_envelope.h"
