@@ -264,10 +264,10 @@ TEST(Gates, WhatAnOpposingWallForbidsIsNotAskedFor) {
   const RoomRequest line{.line = 0, .foot = {0, 0, 0}, .normal = {0, 0, 1}, .target = k_target, .edge = k_edge};
   const auto permitted = [&](std::vector<FacingTriangle> boundary, const RoomRequest& of) { return LayerRoom(std::move(boundary), k_context).permitted(of); };
   const FacingTriangle own = plate(0.0, {0, 1, 2}, k_target);
-  // Half of what 0.2 edges leave of the gap; all of it where nothing grows from the other side; the target where there is room.
-  EXPECT_NEAR(permitted({own, plate(k_gap, {3, 4, 5}, k_target)}, line), 0.5 * (k_gap - 0.2 * k_edge), 1e-14);
+  // Half of what the kept edges leave of the gap; all of it where nothing grows from the other side; the target where there is room.
+  EXPECT_NEAR(permitted({own, plate(k_gap, {3, 4, 5}, k_target)}, line), 0.5 * (k_gap - k_kept_edges * k_edge), 1e-14);
   EXPECT_EQ(permitted({own, plate(k_gap, {3, 4, 5}, 0.0)}, line), k_target);
-  EXPECT_NEAR(permitted({own, plate(0.5, {3, 4, 5}, 0.0)}, line), 0.5 - 0.2 * k_edge, 1e-14);
+  EXPECT_NEAR(permitted({own, plate(0.5, {3, 4, 5}, 0.0)}, line), 0.5 - k_kept_edges * k_edge, 1e-14);
   EXPECT_EQ(permitted({own, plate(2.0, {3, 4, 5}, k_target)}, line), k_target);
   // Half of a gap that is narrower than what is kept, and nothing from a wall's back.
   EXPECT_NEAR(permitted({own, plate(0.1, {3, 4, 5}, 0.0)}, line), 0.05, 1e-14);
