@@ -98,22 +98,17 @@ Extruder::Columns Extruder::columns_at(const std::vector<VertexId>& lines) const
   return columns;
 }
 
-/// Those of some columns, or of all, of which predicate(lines, number of layers) holds.
-template <class Predicate>
-Extruder::Columns Extruder::columns_where(const Columns* some, const Predicate& predicate) const {
+/// The invalid ones of some columns, or of all.
+Extruder::Columns Extruder::invalid_among(const Columns* some) const {
   return parallel_collect<std::size_t>(
       context_, some ? some->size() : layers_.n_columns(),
       [&](std::size_t begin, std::size_t end, Columns& bad) {
         for (std::size_t i = begin; i < end; ++i) {
           const std::size_t column = some ? (*some)[i] : i;
-          if (predicate(column_lines(layers_, points_, column), layers_.layers_of_column(column))) bad.push_back(column);
+          if (!is_column_certain(column_lines(layers_, points_, column), layers_.layers_of_column(column))) bad.push_back(column);
         }
       },
       k_column_chunk);
-}
-
-Extruder::Columns Extruder::invalid_among(const Columns* some) const {
-  return columns_where(some, [](const ColumnLines& lines, int n) { return !is_column_certain(lines, n); });
 }
 
 namespace {
@@ -159,15 +154,13 @@ bool Extruder::limit_growth(const Envelope& envelope, const std::vector<VertexId
   return has_any;
 }
 
-/// Largest common share of the present c_t of its lines with which is_good(lines, number of layers) holds of a column, to 1/64; k_hopeless where straight lines
-/// are not good either.
-template <class IsGood>
-double Extruder::share_of_curving(const Envelope& envelope, std::size_t column, const IsGood& is_good) const {
+/// Largest common share of the present c_t of its lines with which a column is valid, to 1/64; k_hopeless where straight lines are not either.
+double Extruder::valid_share(const Envelope& envelope, std::size_t column) const {
   const int n = layers_.layers_of_column(column);
   const std::size_t per_line = static_cast<std::size_t>(n) + 1;
   std::vector<Point> nodes(3 * per_line);
   LinePlacer placer(base_, scale_);
-  const auto is_good_with = [&](double share) {
+  const auto is_valid = [&](double share) {
     ColumnLines lines;
     for (std::size_t k = 0; k < 3; ++k) {
       const VertexId v(layers_.base[column][k]);
@@ -175,22 +168,69 @@ double Extruder::share_of_curving(const Envelope& envelope, std::size_t column, 
       lines.nodes[k] = nodes.data() + k * per_line;
       lines.is_collapsed[k] = envelope.is_collapsed(v);
     }
-    return is_good(lines, n);
+    return is_column_certain(lines, n);
   };
-  return is_good_with(0.0) ? largest_share(is_good_with) : k_hopeless;
+  return is_valid(0.0) ? largest_share(is_valid) : k_hopeless;
+}
+
+/// Ends of a wall edge, the third corner of its triangle and that of the triangle beyond (invalid at the wall's boundary).
+std::array<VertexId, 4> Extruder::vertices_at(HalfedgeId side) const {
+  const HalfedgeId twin = base_.topology.twin(side);
+  return {base_.topology.from(side), base_.topology.to(side), base_.topology.from(previous(side)),
+          twin.is_valid() ? base_.topology.from(previous(twin)) : VertexId()};
+}
+
+/// Edges of some triangles, or of all, over which the sides of the last prisms cannot be cut; each by its lower half-edge.
+std::vector<HalfedgeId> Extruder::warped_sides(const Envelope& envelope, const Columns* some) const {
+  return parallel_collect<HalfedgeId>(
+      context_, some ? some->size() : layers_.n_columns(),
+      [&](std::size_t begin, std::size_t end, std::vector<HalfedgeId>& warped) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const std::size_t column = some ? (*some)[i] : i;
+          for (int corner = 0; corner < 3; ++corner) {
+            const HalfedgeId side = halfedge(TriangleId(column), corner), twin = base_.topology.twin(side);
+            if (twin.is_valid() && twin < side && !(some && !std::ranges::binary_search(*some, triangle_of(twin).index()))) continue;
+            const std::array<VertexId, 4> v = vertices_at(side);
+            if (std::ranges::any_of(v, [&](VertexId w) { return w.is_valid() && envelope.is_collapsed(w); })) continue;
+            const auto line = [&](VertexId w) { return w.is_valid() ? points_.data() + layers_.first_node[w.index()] : nullptr; };
+            if (!can_side_be_cut({line(v[0]), line(v[1]), line(v[2]), line(v[3])}, layers_.layers_of_column(column))) warped.push_back(side);
+          }
+        }
+      },
+      k_column_chunk);
+}
+
+/// Largest common share of the present c_t of the lines around a side with which it can be cut; k_hopeless where straight lines do not help.
+double Extruder::unwarped_share(const Envelope& envelope, HalfedgeId side) const {
+  const int n = layers_.layers_of_column(triangle_of(side).index());
+  const std::size_t per_line = static_cast<std::size_t>(n) + 1;
+  const std::array<VertexId, 4> v = vertices_at(side);
+  std::vector<Point> nodes(4 * per_line);
+  LinePlacer placer(base_, scale_);
+  const auto is_good = [&](double share) {
+    std::array<const Point*, 4> lines{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (!v[k].is_valid()) continue;
+      placer.place(envelope, v[k], share * curving_[v[k]], nodes.data() + k * per_line);
+      lines[k] = nodes.data() + k * per_line;
+    }
+    return can_side_be_cut({lines[0], lines[1], lines[2], lines[3]}, n);
+  };
+  return is_good(0.0) ? largest_share(is_good) : k_hopeless;
 }
 
 /// Limits c_t where the sides of last prisms cannot be cut and less curving helps. True where there is such a place.
 bool Extruder::limit_warp(const Envelope& envelope, const Columns* some) {
-  const Columns warped = columns_where(some, [](const ColumnLines& lines, int n) { return !can_last_prisms_be_cut(lines, n); });
+  const std::vector<HalfedgeId> warped = warped_sides(envelope, some);
   std::vector<double> share(warped.size());
   parallel_for(
-      context_, warped.size(), [&](std::size_t i) { share[i] = share_of_curving(envelope, warped[i], can_last_prisms_be_cut); }, 8);
+      context_, warped.size(), [&](std::size_t i) { share[i] = unwarped_share(envelope, warped[i]); }, 8);
   bool has_any = false;
   for (std::size_t i = 0; i < warped.size(); ++i) {
     if (share[i] == k_hopeless) continue;
     has_any = true;
-    for (const VertexId v : base_.wall.triangles[TriangleId(warped[i])]) curving_.limit(v, share[i] * curving_[v]);
+    for (const VertexId v : vertices_at(warped[i]))
+      if (v.is_valid()) curving_.limit(v, share[i] * curving_[v]);
   }
   return has_any;
 }
@@ -199,7 +239,7 @@ bool Extruder::limit_warp(const Envelope& envelope, const Columns* some) {
 Extruder::Columns Extruder::reduce_curving(const Envelope& envelope, const Columns& bad) {
   std::vector<double> share(bad.size());
   parallel_for(
-      context_, bad.size(), [&](std::size_t i) { share[i] = share_of_curving(envelope, bad[i], is_column_certain); }, 8);
+      context_, bad.size(), [&](std::size_t i) { share[i] = valid_share(envelope, bad[i]); }, 8);
   Columns hopeless;
   for (std::size_t i = 0; i < bad.size(); ++i) {
     if (share[i] == k_hopeless) {

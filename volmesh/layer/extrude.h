@@ -41,11 +41,11 @@ class Extruder {
   bool limit_growth(const Envelope& envelope, const std::vector<VertexId>& lines);
   bool limit_warp(const Envelope& envelope, const Columns* some);
   Columns columns_at(const std::vector<VertexId>& lines) const;
-  template <class Predicate>
-  Columns columns_where(const Columns* some, const Predicate& predicate) const;
   Columns invalid_among(const Columns* some) const;
-  template <class IsGood>
-  double share_of_curving(const Envelope& envelope, std::size_t column, const IsGood& is_good) const;
+  std::vector<HalfedgeId> warped_sides(const Envelope& envelope, const Columns* some) const;
+  std::array<VertexId, 4> vertices_at(HalfedgeId side) const;
+  double unwarped_share(const Envelope& envelope, HalfedgeId side) const;
+  double valid_share(const Envelope& envelope, std::size_t column) const;
   Columns reduce_curving(const Envelope& envelope, const Columns& bad);
   void lower_heights(const Columns& columns, Envelope& envelope) const;
 

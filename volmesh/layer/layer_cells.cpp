@@ -43,28 +43,28 @@ int n_collapsed(const ColumnLines& lines) { return lines.is_collapsed[0] + lines
 /// Six times the volume of a triangle's tetrahedron with the cell's centre; positive where it looks away from it.
 double outward_volume(const Point& a, const Point& b, const Point& c, const Point& centre) { return dot(cross(b - a, c - a), a - centre); }
 
-bool can_be_cut(const WedgePoints& p) {
-  const Point centre = (p[0] + p[1] + p[2] + p[3] + p[4] + p[5]) / 6.0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t next = (k + 1) % 3;
-    const std::array<Point, 4> q = {p[k], p[next], p[next + 3], p[k + 3]};
-    const Point middle = 0.25 * (q[0] + q[1] + q[2] + q[3]);
-    std::array<double, 4> around{};
-    double mean = 0.0;
-    for (std::size_t i = 0; i < 4; ++i) {
-      around[i] = outward_volume(q[i], q[(i + 1) % 4], middle, centre);
-      mean += 0.25 * around[i];
-    }
-    const double least = k_cut_reserve * std::abs(mean), sign = mean < 0.0 ? -1.0 : 1.0;
-    if (std::ranges::any_of(around, [&](double volume) { return sign * volume < least; })) return false;
-    const auto is_cut = [&](std::size_t base) {
-      const auto at = [&](std::size_t i) { return q[(base + i) % 4]; };
-      return sign * outward_volume(at(0), at(1), at(2), centre) >= least && sign * outward_volume(at(0), at(2), at(3), centre) >= least;
-    };
-    if (!is_cut(0) && !is_cut(1)) return false;
+using Quad = std::array<Point, 4>;
+
+/// How a quadrilateral can be cut with a cell's centre: not at all, or along one or both of its diagonals.
+struct Cuts {
+  std::array<bool, 2> diagonal{};
+};
+Cuts cuts_of(const Quad& q, const Point& centre) {
+  const Point middle = 0.25 * (q[0] + q[1] + q[2] + q[3]);
+  std::array<double, 4> around{};
+  for (std::size_t i = 0; i < 4; ++i) around[i] = outward_volume(q[i], q[(i + 1) % 4], middle, centre);
+  const double mean = 0.25 * (around[0] + around[1] + around[2] + around[3]);
+  const double least = k_cut_reserve * std::abs(mean), sign = mean < 0.0 ? -1.0 : 1.0;
+  Cuts cuts;
+  if (std::ranges::any_of(around, [&](double volume) { return sign * volume < least; })) return cuts;
+  for (std::size_t base = 0; base < 2; ++base) {
+    const auto at = [&](std::size_t i) { return q[(base + i) % 4]; };
+    cuts.diagonal[base] = sign * outward_volume(at(0), at(1), at(2), centre) >= least && sign * outward_volume(at(0), at(2), at(3), centre) >= least;
   }
-  return true;
+  return cuts;
 }
+
+Point centre_of(const Quad& side, const Point* third, int layer) { return (side[0] + side[1] + side[2] + side[3] + third[layer] + third[layer + 1]) / 6.0; }
 
 void add_column(const ColumnLines& lines, std::size_t column, int n_layers, LayerCertificate& certificate) {
   const int n_down = n_collapsed(lines);
@@ -121,10 +121,13 @@ bool is_column_certain(const ColumnLines& lines, int n_layers) {
   return true;
 }
 
-bool can_last_prisms_be_cut(const ColumnLines& lines, int n_layers) {
-  if (n_collapsed(lines) > 0) return true;
-  for (int j = std::max(0, n_layers - k_cut_layers); j < n_layers; ++j)
-    if (!can_be_cut(wedge_of(lines, j))) return false;
+bool can_side_be_cut(const SideLines& lines, int n_layers) {
+  for (int j = std::max(0, n_layers - k_cut_layers); j < n_layers; ++j) {
+    const Quad side = {lines.from[j], lines.to[j], lines.to[j + 1], lines.from[j + 1]};
+    const Cuts own = cuts_of(side, centre_of(side, lines.own, j));
+    const Cuts beyond = lines.beyond ? cuts_of(side, centre_of(side, lines.beyond, j)) : own;
+    if (!(own.diagonal[0] && beyond.diagonal[0]) && !(own.diagonal[1] && beyond.diagonal[1])) return false;
+  }
   return true;
 }
 

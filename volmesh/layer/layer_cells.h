@@ -19,9 +19,14 @@ ColumnLines column_lines(const LayerBlock& layers, std::span<const Point> points
 /// Whether every cell of a column is valid (exact wedge, pyramid or tet test, G3) and has positive dual sub-volumes (exact, G4).
 bool is_column_certain(const ColumnLines& lines, int n_layers);
 
-/// Whether the sides of the last prisms of a column can be cut into tetrahedra with the prism's centre, around their own centre and along one of their
-/// diagonals, as cell-centred solvers cut them (checkMesh's decomposition tets); with a reserve. True for columns that are not all prisms.
-bool can_last_prisms_be_cut(const ColumnLines& lines, int n_layers);
+/// The lines around a side of the layer, from the wall up: its own two, the third one of the column whose sense it has, and that of the column beyond (null: it
+/// has none).
+struct SideLines {
+  const Point *from, *to, *own, *beyond;
+};
+/// Whether the quadrilaterals of a side at the top of the layer can be cut into tetrahedra with the centres of the prisms on both sides, around their own
+/// centre and along one and the same diagonal, as cell-centred solvers cut them (checkMesh's decomposition tets); with a reserve. \pre no line is collapsed
+bool can_side_be_cut(const SideLines& lines, int n_layers);
 
 /// Every cell of a layer, tested by the exact test of its kind.
 struct LayerCertificate {

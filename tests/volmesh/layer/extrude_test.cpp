@@ -202,6 +202,37 @@ TEST(Extrude, CurvedLinesGrowLittleMoreThanTheirHeights) {
   }
 }
 
+TEST(LayerCells, ASideIsCutAlongTheSameDiagonalOnBothSidesOrNotAtAll) {
+  // A unit square between two prisms; its upper corner is pushed towards one and then the other.
+  const auto can_be_cut = [](double push, bool has_beyond) {
+    const std::array<Point, 2> from = {Point{0, 0, 0}, {0, 0, 1}}, to = {Point{1, 0, 0}, {1, push, 1}}, own = {Point{0.5, 1, 0}, {0.5, 1, 1}},
+                               beyond = {Point{0.5, -1, 0}, {0.5, -1, 1}};
+    return can_side_be_cut({from.data(), to.data(), own.data(), has_beyond ? beyond.data() : nullptr}, 1);
+  };
+  for (const bool has_beyond : {false, true})
+    for (const double push : {-0.5, 0.0, 0.5}) EXPECT_TRUE(can_be_cut(push, has_beyond)) << push;
+  EXPECT_TRUE(can_be_cut(-3.0, false));
+  EXPECT_FALSE(can_be_cut(-3.0, true));
+  EXPECT_FALSE(can_be_cut(3.0, true));
+}
+
+TEST(Extrude, LeavesFewSidesThatCannotBeCut) {
+  LeaningCase c;
+  const auto n_uncut = [&](const Extrusion& x) {
+    int n = 0;
+    for (std::size_t h = 0; h < c.base.topology.n_halfedges(); ++h) {
+      const HalfedgeId side(h), twin = c.base.topology.twin(side);
+      const auto line = [&](VertexId v) { return x.points.data() + x.layers.first_node[v.index()]; };
+      const Topology& topology = c.base.topology;
+      n += !can_side_be_cut({line(topology.from(side)), line(topology.to(side)), line(topology.from(previous(side))), line(topology.from(previous(twin)))}, 16);
+    }
+    return n;
+  };
+  const Extrusion straight = extrude_prisms(c.base, c.options, {.wall_perpendicularity = 0.0}, c.envelope, k_context);
+  const Extrusion curved = extrude_prisms(c.base, c.options, {.wall_perpendicularity = 1.0}, c.envelope, k_context);
+  EXPECT_LE(n_uncut(curved), n_uncut(straight));
+}
+
 TEST(Extrude, SameBytesForAnyNumberOfThreads) {
   std::vector<Extrusion> results;
   for (const int threads : {1, 2, 7}) {
