@@ -76,6 +76,7 @@ end }
 
   // Ctrl-C takes the jobs out of the queue. A main process that is killed leaves them there: the next run does it.
   for (const int signal : {SIGINT, SIGKILL}) {
+    std::filesystem::remove(folder_ / "s/x=2/status.json");  // the one of before says "running", too
     test::StartedProcess main(test::sterna_program(), {"run", "case.lua"}, folder_);
     ASSERT_TRUE(wait_for("s/x=2/status.json", "running"));
     const auto begin = std::chrono::steady_clock::now();
