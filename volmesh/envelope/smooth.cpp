@@ -21,8 +21,7 @@ constexpr double k_convex_feature_weight = 0.2;
 constexpr int k_concave_rings = 8;  ///< reach of the wide smoothing around concave features: a layer is 4 to 9 edges thick by eq. (1)
 constexpr int k_region_rounds = 6;
 constexpr double k_worthwhile_share = 0.93;  ///< of the invalid elements may be left by a round, or the next one is not worth its time
-/// Around tangled elements, and sweeps there: more would tilt lines far away from the wall's normal.
-constexpr int k_region_rings = 1, k_region_sweeps = 20;
+constexpr int k_region_rings = 6;
 
 /// Calls f(neighbour, weight) for the vertices that take part in the smoothing of v.
 template <class F>
@@ -123,7 +122,7 @@ void smooth_tangled_regions(const LayerBase& base, const Classification& classes
     for (const TriangleId t : bad)
       for (const VertexId v : base.wall.triangles[t]) region[v] = 1;
     grow_region(base, k_region_rings, region, context);
-    smooth_directions(base, classes, std::min(options.direction_sweeps, k_region_sweeps), envelope, context, &region);
+    smooth_directions(base, classes, options.direction_sweeps, envelope, context, &region);
   }
 }
 

@@ -22,7 +22,8 @@ constexpr double k_full_share = 0.9;   ///< of the target that counts as full, a
 constexpr int k_predicted_sweeps = 3;  ///< of directions everywhere, as in the envelope's smoothing step
 /// Of the wide smoothing around concave places: a third of the envelope's, which costs most of the time and changes the coverage by less than 1 % of the area.
 constexpr int k_concave_sweeps = 16;
-constexpr int k_tangled_rings = 1, k_tangled_sweeps = 20;  ///< as in the envelope
+constexpr int k_tangled_rings = 6;  ///< as in the envelope
+constexpr int k_tangled_sweeps = 32;
 
 struct Heights {
   Envelope envelope;
