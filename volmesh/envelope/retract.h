@@ -16,7 +16,7 @@ struct WallGap {
 };
 
 /// Shares the gap between opposing walls: where a growth line meets a wall that faces it, both heights are lowered, in proportion to what each asks for,
-/// until a gap of k_kept_edges (keep_distance.h) of the longer of the two local envelope edges remains (half the gap, where it is narrower). Limits `cap` too.
+/// until a gap of k_kept_edges (layer_room.h) of the longer of the two local envelope edges remains (half the gap, where it is narrower). Limits `cap` too.
 /// With `group`, only walls of different groups oppose each other, and vertices of group 0 know the outer boundary already: the rest was shared before.
 /// \post every macro-element valid. Returns what it found, by vertex.
 std::vector<WallGap> share_gaps(const LayerBase& base, const EnvelopeOptions& options, Collider& collider, Envelope& envelope, const RunContext& context,

@@ -32,7 +32,8 @@ struct ImproveReport {
 /// only when it lowers a sum of costs without a tetrahedron of worse angles than the worst that it removes or than half of the limit, so the smallest quality
 /// of the mesh never falls. Then once more for what gates wish for: no angle beyond the target of G14, no step of volume beyond that of G9, between tetrahedra
 /// and last prisms (TetraBoundary::layer_volumes) or among tetrahedra; no angle gets worse for it than the worst removed, or than the limits. Disjoint
-/// neighbourhoods of bad tetrahedra are worked on in parallel: same bytes for any number of threads. \pre verify_tetrahedra() passed.
+/// neighbourhoods of bad tetrahedra are worked on in parallel: same bytes for any number of threads.
+/// \pre verify_tetrahedra() passed.
 /// \post it passes again; points of the boundary and its triangles as before.
 ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tets, const ImproveOptions& options, const RunContext& context);
 

@@ -101,18 +101,12 @@ std::vector<LayerFace> Improver::local_layer_faces(const Job& job, std::uint32_t
 }
 
 void Improver::work_on_all_but(std::span<const std::uint32_t> left) {
-  work_on(parallel_reduce(
-      context_, tets_.size(), std::vector<std::uint32_t>{},
-      [&](std::size_t begin, std::size_t end) {
-        std::vector<std::uint32_t> bad;
+  work_on(parallel_collect<std::uint32_t>(
+      context_, tets_.size(),
+      [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& bad) {
         for (std::size_t t = begin; t < end; ++t)
           if (quality(tets_[t]) < limits_.target && !std::ranges::binary_search(left, static_cast<std::uint32_t>(t)))
             bad.push_back(static_cast<std::uint32_t>(t));
-        return bad;
-      },
-      [](std::vector<std::uint32_t> all, const std::vector<std::uint32_t>& more) {
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
       },
       k_listing_chunk));
 }
