@@ -13,6 +13,7 @@
 #include "volmesh/envelope/periodic.h"
 #include "volmesh/layer/lay_out.h"
 #include "volmesh/layer/repair_envelope.h"
+#include "volmesh/layer/slide_lines.h"
 #include "volmesh/layer/split_layer.h"
 #include "volmesh/parts/joint_envelope.h"
 #include "volmesh/stages.h"
@@ -130,6 +131,25 @@ LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOpt
   return layer;
 }
 
+constexpr int k_slide_rounds = 2;
+
+/// Improvement within the boundary; then, where the boundary is at fault, lines of the layer slide, and improvement once more around them.
+ImproveReport improve_with_slides(HybridMesh& layers, FillBoundary& boundary, TetraResult& tets, const ImproveOptions& options, const RunContext& context) {
+  const auto domain = [&] {
+    return TetraBoundary{.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}, .layer_volumes = boundary.layer_volumes};
+  };
+  ImproveReport report = improve_tetrahedra(domain(), tets, options, context);
+  if (options.improve_rounds == 0 || options.slide_share == 0.0) return report;
+  LineSlider slider(layers, boundary, options, context);
+  for (int round = 0; round < k_slide_rounds; ++round) {
+    const std::vector<std::uint32_t> moved = slider.slide(tets);
+    if (moved.empty()) break;
+    improve_around(domain(), moved, tets, options, report, context);
+  }
+  report.n_slid = static_cast<std::int64_t>(slider.n_moved());
+  return report;
+}
+
 void require_valid(const CheckReport& report) {
   if (report.is_valid()) return;
   ErrorInfo info{.code = ErrorCode::mesh_invalid, .attempted = "checking the finished mesh", .hint = "report this surface"};
@@ -224,19 +244,19 @@ VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const
   result.is_reproducible = tets.is_reproducible;
   result.tetra_engine_seconds = tets.engine_seconds;
   result.tetra_engine_peak_bytes = tets.engine_peak_bytes;
-  const FillBoundary boundary = boundary_of(result.mesh);
+  FillBoundary boundary = boundary_of(result.mesh);
   {
     const StageTimer timer(context, "improve");
-    const TetraBoundary domain{.points = boundary.points, .triangles = boundary.triangles, .hole_points = {}, .layer_volumes = boundary.layer_volumes};
-    result.improvement = improve_tetrahedra(domain, tets, options, context.part("improve", ends.tetrahedra, ends.improve));
+    result.improvement = improve_with_slides(result.mesh, boundary, tets, options, context.part("improve", ends.tetrahedra, ends.improve));
   }
+  const bool is_layer_known = result.improvement.n_slid == 0;
   {
     const StageTimer timer(context, "assemble");
     add_tetrahedra(boundary, tets, result.mesh, context);
   }
   {
     const StageTimer timer(context, "check");
-    result.check = check(result.mesh, {}, context.part("check", ends.improve, 1.0), &*knowledge.check);
+    result.check = check(result.mesh, {}, context.part("check", ends.improve, 1.0), is_layer_known ? &*knowledge.check : nullptr);
   }
   require_valid(result.check);
   for (const PeriodicMatchReport& sides : result.check.periodic)

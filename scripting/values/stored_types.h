@@ -112,7 +112,7 @@ inline constexpr std::size_t k_members<volmesh::WorstElement> = 3;
 template <>
 inline constexpr std::size_t k_members<volmesh::EnvelopeCertificate> = 10;
 template <>
-inline constexpr std::size_t k_members<volmesh::ImproveReport> = 11;
+inline constexpr std::size_t k_members<volmesh::ImproveReport> = 12;
 template <>
 inline constexpr std::size_t k_members<volmesh::VolumeMeshResult> = 11;
 template <>

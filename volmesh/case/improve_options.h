@@ -12,6 +12,7 @@ struct ImproveOptions {
   double improve_min_angle = 12.0 * std::numbers::pi / 180.0;
   double improve_max_angle = 160.0 * std::numbers::pi / 180.0;
   int improve_rounds = 30;
+  double slide_share = 0.2;
 };
 
 }  // namespace sterna::volmesh
@@ -41,6 +42,12 @@ struct Schema<volmesh::ImproveOptions> {
                .min = 0,
                .max = 1000,
                .help = "passes over the bad tetrahedra; 0 leaves the mesh as the engine made it"},
+      Field<O>{.name = "slide_share",
+               .member = &O::slide_share,
+               .min = 0.0,
+               .max = 0.5,
+               .help = "of the layer's height: how much lower (half of it: higher) lines may end after improvement where last prisms and tetrahedra do not fit "
+                       "each other; 0: never"},
   };
 };
 

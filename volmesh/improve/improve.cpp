@@ -23,32 +23,56 @@ QualityLimits wished_limits(const ImproveOptions& options) {
   return limits;
 }
 
-void improve_to(const TetraBoundary& boundary, TetraResult& tets, const ImproveOptions& options, const QualityLimits& limits, AngleSurvey& survey,
-                ImproveReport& report, const RunContext& context) {
-  Improver improver(boundary, tets, limits, context);
-  if (std::isfinite(limits.size_step)) improver.work_on_all_but(survey.bad);
-  else improver.work_on(survey.bad);
-  report.rounds += improver.run(options.improve_rounds);
-  improver.finish(tets);
-  survey = survey_angles(boundary, tets, quality_limits(options.improve_min_angle, options.improve_max_angle), context);
+/// What is bad by the limits of the options.
+AngleSurvey survey_of(const TetraBoundary& boundary, const TetraResult& tets, const ImproveOptions& options, const RunContext& context) {
+  return survey_angles(boundary, tets, quality_limits(options.improve_min_angle, options.improve_max_angle), context);
 }
 
-}  // namespace
-
-ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tets, const ImproveOptions& options, const RunContext& context) {
-  const QualityLimits limits = quality_limits(options.improve_min_angle, options.improve_max_angle);
-  AngleSurvey survey = survey_angles(boundary, tets, limits, context);
-  ImproveReport report{.n_bad_before = static_cast<std::int64_t>(survey.bad.size()), .min_angle_before = survey.smallest, .max_angle_before = survey.largest};
-  if (options.improve_rounds > 0) {
-    if (!survey.bad.empty()) improve_to(boundary, tets, options, limits, survey, report, context);
-    improve_to(boundary, tets, options, wished_limits(options), survey, report, context);
-  }
+void tell_remaining(const TetraBoundary& boundary, const TetraResult& tets, const AngleSurvey& survey, const ImproveOptions& options, ImproveReport& report,
+                    const RunContext& context) {
   report.n_bad_after = static_cast<std::int64_t>(survey.bad.size());
   report.n_at_boundary = survey.n_at_boundary;
   report.min_angle_after = survey.smallest;
   report.max_angle_after = survey.largest;
   list_remaining(boundary, tets, survey.bad, options, report, context);
+}
+
+}  // namespace
+
+ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tets, const ImproveOptions& options, const RunContext& context) {
+  AngleSurvey survey = survey_of(boundary, tets, options, context);
+  ImproveReport report{.n_bad_before = static_cast<std::int64_t>(survey.bad.size()), .min_angle_before = survey.smallest, .max_angle_before = survey.largest};
+  const auto improve_to = [&](const QualityLimits& limits, const auto& choose) {
+    Improver improver(boundary, tets, limits, context);
+    choose(improver);
+    report.rounds += improver.run(options.improve_rounds);
+    improver.finish(tets);
+    survey = survey_of(boundary, tets, options, context);
+  };
+  if (options.improve_rounds > 0) {
+    if (!survey.bad.empty())
+      improve_to(quality_limits(options.improve_min_angle, options.improve_max_angle), [&](Improver& improver) { improver.work_on(survey.bad); });
+    improve_to(wished_limits(options), [&](Improver& improver) { improver.work_on_all_but(survey.bad); });
+  }
+  tell_remaining(boundary, tets, survey, options, report, context);
   return report;
+}
+
+void improve_around(const TetraBoundary& boundary, std::span<const std::uint32_t> around, TetraResult& tets, const ImproveOptions& options,
+                    ImproveReport& report, const RunContext& context) {
+  std::vector<std::uint8_t> is_around(boundary.points.size(), 0);
+  for (const std::uint32_t v : around) is_around[v] = 1;
+  for (const QualityLimits& limits : {quality_limits(options.improve_min_angle, options.improve_max_angle), wished_limits(options)}) {
+    std::vector<std::uint32_t> some;
+    for (std::size_t t = 0; t < tets.tetrahedra.size(); ++t)
+      if (std::ranges::any_of(tets.tetrahedra[t], [&](std::uint32_t v) { return v < is_around.size() && is_around[v]; }))
+        some.push_back(static_cast<std::uint32_t>(t));
+    Improver improver(boundary, tets, limits, context);
+    improver.work_on_bad_of(some);
+    report.rounds += improver.run(options.improve_rounds);
+    improver.finish(tets);
+  }
+  tell_remaining(boundary, tets, survey_of(boundary, tets, options, context), options, report, context);
 }
 
 }  // namespace sterna::volmesh

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geom/base/error.h"
@@ -24,6 +25,7 @@ struct ImproveReport {
   std::int64_t n_at_boundary = 0;  ///< all tetrahedra with a vertex on the boundary
   std::int64_t n_forced =
       0;  ///< bad ones that the boundary is proven to force, see remaining.h; what is neither forced nor within the limits is a failure of improvement
+  std::int64_t n_slid = 0;            ///< lines of the layer that end at another height since
   std::vector<ErrorPlace> remaining;  ///< each bad one, worst first: its centre, its angles, the sharpest angle of the boundary at it; the first 10 000
 };
 
@@ -36,5 +38,10 @@ struct ImproveReport {
 /// \pre verify_tetrahedra() passed.
 /// \post it passes again; points of the boundary and its triangles as before.
 ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tets, const ImproveOptions& options, const RunContext& context);
+
+/// The same once more for the tetrahedra around some points of the boundary, which have moved since; brings the report up to date.
+/// \pre, \post as above; `around` ascending
+void improve_around(const TetraBoundary& boundary, std::span<const std::uint32_t> around, TetraResult& tets, const ImproveOptions& options,
+                    ImproveReport& report, const RunContext& context);
 
 }  // namespace sterna::volmesh

@@ -111,6 +111,13 @@ void Improver::work_on_all_but(std::span<const std::uint32_t> left) {
       k_listing_chunk));
 }
 
+void Improver::work_on_bad_of(std::span<const std::uint32_t> some) {
+  std::vector<std::uint32_t> bad;
+  for (const std::uint32_t t : some)
+    if (quality(tets_[t]) < limits_.target) bad.push_back(t);
+  work_on(bad);
+}
+
 void Improver::work_on(std::span<const std::uint32_t> bad) {
   double worst = limits_.target;
   for (const std::uint32_t t : bad) {

@@ -26,6 +26,8 @@ class Improver {
   void work_on(std::span<const std::uint32_t> bad);
   /// The same: all that is below the target but these (ascending).
   void work_on_all_but(std::span<const std::uint32_t> left);
+  /// The same: those of some that are below the target.
+  void work_on_bad_of(std::span<const std::uint32_t> some);
   /// Number of passes made.
   int run(int max_passes);
   /// Removes what has vanished: numbers close up in order.

@@ -19,23 +19,25 @@ std::vector<std::uint32_t> outer_points(const ClosedOuter& outer, std::size_t n_
   return numbers;
 }
 
-/// Of each column's last cell; 0 for what is no prism.
+/// Of each column.
 std::vector<double> last_prism_volumes(const LayerBlock& layers, std::span<const Point> points) {
-  std::vector<double> volumes(layers.n_columns(), 0.0);
-  for (std::size_t column = 0; column < volumes.size(); ++column) {
-    const int n = layers.layers_of_column(column);
-    if (n == 0 || layers.n_collapsed(column) > 0) continue;
-    WedgePoints p;
-    for (std::size_t k = 0; k < 3; ++k) {
-      p[k] = points[layers.node(layers.base[column][k], n - 1).index()];
-      p[k + 3] = points[layers.node(layers.base[column][k], n).index()];
-    }
-    volumes[column] = wedge_volume(p);
-  }
+  std::vector<double> volumes(layers.n_columns());
+  for (std::size_t column = 0; column < volumes.size(); ++column) volumes[column] = last_prism_volume(layers, points, column);
   return volumes;
 }
 
 }  // namespace
+
+double last_prism_volume(const LayerBlock& layers, std::span<const Point> points, std::size_t column) {
+  const int n = layers.layers_of_column(column);
+  if (n == 0 || layers.n_collapsed(column) > 0) return 0.0;
+  WedgePoints p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    p[k] = points[layers.node(layers.base[column][k], n - 1).index()];
+    p[k + 3] = points[layers.node(layers.base[column][k], n).index()];
+  }
+  return wedge_volume(p);
+}
 
 FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const ClosedOuter& outer) {
   FillBoundary boundary;

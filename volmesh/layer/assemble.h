@@ -21,6 +21,8 @@ struct FillBoundary {
   std::vector<double> layer_volumes;          ///< of the last prism under each triangle, m^3; 0 where there is none
   std::vector<NodeId> point2node;             ///< layer nodes first; outer nodes follow the layer's
 };
+/// m^3, of a column's last cell; 0 where that is no prism.
+double last_prism_volume(const LayerBlock& layers, std::span<const Point> points, std::size_t column);
 FillBoundary fill_boundary(const LayerBase& base, const Extrusion& extrusion, const ClosedOuter& outer);
 /// The same of what assemble_layers() made of them. Uses columns and boundary triangles, nodes up to the last of the outer boundary.
 FillBoundary boundary_of(const HybridMesh& layers);

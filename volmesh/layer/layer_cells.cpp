@@ -3,14 +3,15 @@
 #include <algorithm>
 
 #include "geom/base/parallel.h"
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/math/sub_volumes.h"
 
 namespace sterna::volmesh {
 namespace {
 
-constexpr double k_cut_reserve = 0.05;      ///< of the mean tetrahedron of a side, that each keeps: the centre of the cell beyond is another
-constexpr int k_cut_layers = 3;             ///< at the top; below, lines are nearly normal and cells flat
+constexpr int k_cut_layers = 3;  ///< at the top; below, lines are nearly normal and cells flat
+constexpr int k_shape_layers = 6;
 constexpr std::size_t k_proof_chunk = 256;  ///< columns, some 10^4 cells
 
 WedgePoints wedge_of(const ColumnLines& lines, int layer) {
@@ -45,23 +46,21 @@ double outward_volume(const Point& a, const Point& b, const Point& c, const Poin
 
 using Quad = std::array<Point, 4>;
 
-/// How a quadrilateral can be cut with a cell's centre: not at all, or along one or both of its diagonals.
-struct Cuts {
-  std::array<bool, 2> diagonal{};
-};
-Cuts cuts_of(const Quad& q, const Point& centre) {
+/// Along each diagonal: the smallest of the tetrahedra into which a quadrilateral is cut with a cell's centre, around its middle and along the diagonal, over
+/// the mean of those around its middle; negative where one is turned inside out.
+std::array<double, 2> cut_shares(const Quad& q, const Point& centre) {
   const Point middle = 0.25 * (q[0] + q[1] + q[2] + q[3]);
   std::array<double, 4> around{};
   for (std::size_t i = 0; i < 4; ++i) around[i] = outward_volume(q[i], q[(i + 1) % 4], middle, centre);
   const double mean = 0.25 * (around[0] + around[1] + around[2] + around[3]);
-  const double least = k_cut_reserve * std::abs(mean), sign = mean < 0.0 ? -1.0 : 1.0;
-  Cuts cuts;
-  if (std::ranges::any_of(around, [&](double volume) { return sign * volume < least; })) return cuts;
+  if (mean == 0.0) return {-k_infinity, -k_infinity};
+  std::array<double, 2> shares{};
   for (std::size_t base = 0; base < 2; ++base) {
     const auto at = [&](std::size_t i) { return q[(base + i) % 4]; };
-    cuts.diagonal[base] = sign * outward_volume(at(0), at(1), at(2), centre) >= least && sign * outward_volume(at(0), at(2), at(3), centre) >= least;
+    shares[base] = std::min({around[0] / mean, around[1] / mean, around[2] / mean, around[3] / mean, outward_volume(at(0), at(1), at(2), centre) / mean,
+                             outward_volume(at(0), at(2), at(3), centre) / mean});
   }
-  return cuts;
+  return shares;
 }
 
 Point centre_of(const Quad& side, const Point* third, int layer) { return (side[0] + side[1] + side[2] + side[3] + third[layer] + third[layer + 1]) / 6.0; }
@@ -121,14 +120,42 @@ bool is_column_certain(const ColumnLines& lines, int n_layers) {
   return true;
 }
 
+namespace {
+
+/// Of the side in one layer: the better diagonal's share, by the worse of both cells.
+double cut_share(const Quad& side, const Point& own_centre, const Point* centre_beyond) {
+  const std::array<double, 2> own = cut_shares(side, own_centre);
+  const std::array<double, 2> beyond = centre_beyond ? cut_shares(side, *centre_beyond) : own;
+  return std::max(std::min(own[0], beyond[0]), std::min(own[1], beyond[1]));
+}
+
+Quad side_in(const SideLines& lines, int layer) { return {lines.from[layer], lines.to[layer], lines.to[layer + 1], lines.from[layer + 1]}; }
+
+}  // namespace
+
 bool can_side_be_cut(const SideLines& lines, int n_layers) {
   for (int j = std::max(0, n_layers - k_cut_layers); j < n_layers; ++j) {
-    const Quad side = {lines.from[j], lines.to[j], lines.to[j + 1], lines.from[j + 1]};
-    const Cuts own = cuts_of(side, centre_of(side, lines.own, j));
-    const Cuts beyond = lines.beyond ? cuts_of(side, centre_of(side, lines.beyond, j)) : own;
-    if (!(own.diagonal[0] && beyond.diagonal[0]) && !(own.diagonal[1] && beyond.diagonal[1])) return false;
+    const Quad side = side_in(lines, j);
+    const Point beyond = lines.beyond ? centre_of(side, lines.beyond, j) : Point{};
+    if (!(cut_share(side, centre_of(side, lines.own, j), lines.beyond ? &beyond : nullptr) >= k_cut_reserve)) return false;
   }
   return true;
+}
+
+SideShape side_shape(const SideLines& lines, int n_layers, const PrismCentre& own_centre, const PrismCentre& centre_beyond) {
+  SideShape shape;
+  for (int j = std::max(0, n_layers - k_shape_layers); j < n_layers; ++j) {
+    const Quad side = side_in(lines, j);
+    const Point own = own_centre ? own_centre(j) : centre_of(side, lines.own, j);
+    const Point beyond = !lines.beyond ? Point{} : centre_beyond ? centre_beyond(j) : centre_of(side, lines.beyond, j);
+    shape.cut_share = std::min(shape.cut_share, cut_share(side, own, lines.beyond ? &beyond : nullptr));
+    if (!lines.beyond) continue;
+    const Point middle = 0.25 * (side[0] + side[1] + side[2] + side[3]);
+    const Vec3 normal = cross(side[2] - side[0], side[3] - side[1]);
+    const double near = std::abs(dot(own - middle, normal)), far = std::abs(dot(beyond - middle, normal));
+    if (near + far > 0.0) shape.weight = std::min(shape.weight, std::min(near, far) / (near + far));
+  }
+  return shape;
 }
 
 LayerCertificate certify_layer(const LayerBlock& layers, std::span<const Point> points, const RunContext& context) {

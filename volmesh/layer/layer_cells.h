@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 
 #include "geom/base/run_context.h"
 #include "geom/mesh/hybrid_mesh.h"
@@ -24,9 +25,21 @@ bool is_column_certain(const ColumnLines& lines, int n_layers);
 struct SideLines {
   const Point *from, *to, *own, *beyond;
 };
+/// Of the mean tetrahedron of a side, that each keeps: centres of cells are approximate here.
+inline constexpr double k_cut_reserve = 0.05;
 /// Whether the quadrilaterals of a side at the top of the layer can be cut into tetrahedra with the centres of the prisms on both sides, around their own
 /// centre and along one and the same diagonal, as cell-centred solvers cut them (checkMesh's decomposition tets); with a reserve. \pre no line is collapsed
 bool can_side_be_cut(const SideLines& lines, int n_layers);
+
+/// How good a side's quadrilaterals are for cell-centred solvers, at the layer's top, by the worst.
+struct SideShape {
+  double cut_share = 1.0;  ///< of the smallest tetrahedron of the best cut (can_side_be_cut: at least k_cut_reserve), in the mean one; negative: none is valid
+  double weight = 0.5;     ///< share of the nearer prism's centre in the distance of both from the side's plane
+};
+/// The centre of a column's prism in a layer, m.
+using PrismCentre = std::function<Point(int layer)>;
+/// Empty functions: the means of the corners, which is near.
+SideShape side_shape(const SideLines& lines, int n_layers, const PrismCentre& own_centre, const PrismCentre& centre_beyond);
 
 /// Every cell of a layer, tested by the exact test of its kind.
 struct LayerCertificate {

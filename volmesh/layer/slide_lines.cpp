@@ -1,0 +1,486 @@
+#include "volmesh/layer/slide_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "geom/base/parallel.h"
+#include "geom/base/sort_unique.h"
+#include "geom/math/constants.h"
+#include "geom/math/measures.h"
+#include "geom/mesh/cell_centred.h"
+#include "geom/mesh/line_measures.h"
+#include "volmesh/layer/layer_cells.h"
+
+namespace sterna::volmesh {
+namespace {
+
+/// Steps that are tried, over the largest allowed; the next smaller one where none helps.
+constexpr std::array k_tried_steps = {0.5, 0.25, 0.1, 0.04, 0.015};
+constexpr int k_most_moves = 8;  ///< of one line in a sweep
+constexpr int k_sweeps = 3;
+constexpr double k_reserve = 0.75;                         ///< of a hard limit: beyond it a place is worked on
+constexpr double k_regular_volumes = 3.0;                  ///< volume of a prism over that of the tetrahedron that fits it (G9)
+constexpr double k_cut_slope = 5.0;                        ///< excess of a side by how much its share is below k_cut_reserve
+constexpr double k_least_win = 0.02;                       ///< of the cost: less is no reason to move
+constexpr double k_far_reserve = 0.2, k_far_excess = 0.8;  ///< sides better than this by approximate centres need no others
+constexpr int k_newton_steps = 30;
+constexpr double k_sum_tolerance = 1e-12;
+constexpr double k_most_power = 3.0;
+constexpr double k_growth_rounding = 1e-6;
+constexpr std::uint32_t k_no_tet = 0xffffffffu;
+constexpr std::size_t k_search_chunk = 1 << 13;
+
+/// What a value that is so many times its limit costs: nothing within it.
+double cost_of(double excess) { return excess > 1.0 ? excess * excess - 1.0 : 0.0; }
+
+/// The same first step and the same shape of growth (each step's ratio to the first to one power) with another sum; nothing where no power does it.
+std::optional<std::vector<double>> steps_with_sum(const std::vector<double>& steps, double sum) {
+  std::vector<double> logs, result(steps.size());
+  for (const double step : steps) logs.push_back(std::log(step / steps[0]));
+  double power = 1.0;
+  for (int i = 0; i < k_newton_steps; ++i) {
+    double value = -sum, slope = 0.0;
+    for (std::size_t j = 0; j < steps.size(); ++j) {
+      result[j] = steps[0] * std::exp(power * logs[j]);
+      value += result[j];
+      slope += logs[j] * result[j];
+    }
+    if (std::abs(value) < k_sum_tolerance * sum) return result;
+    if (!(slope > 0.0)) return std::nullopt;  // equal steps
+    power -= value / slope;                   // convex: from above it never falls below the solution, from below it does not matter
+    if (!(power > 0.0 && power < k_most_power)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+double worst_growth(const std::vector<double>& steps) {
+  double worst = 1.0;
+  for (std::size_t i = 1; i < steps.size(); ++i) worst = std::max({worst, steps[i] / steps[i - 1], steps[i - 1] / steps[i]});
+  return worst;
+}
+
+std::vector<double> steps_of(const std::vector<Point>& nodes) {
+  std::vector<double> steps;
+  for (std::size_t j = 1; j < nodes.size(); ++j) steps.push_back(distance(nodes[j - 1], nodes[j]));
+  return steps;
+}
+
+/// The line with `share` of its height: its curve scaled about the wall, nodes on that at the new steps; first cell as it was.
+std::optional<std::vector<Point>> scaled_line(const std::vector<Point>& nodes, double share) {
+  const std::vector<double> steps = steps_of(nodes);
+  double length = 0.0;
+  for (const double step : steps) length += step;
+  const std::optional<std::vector<double>> wanted = steps_with_sum(steps, share * length);
+  if (!wanted) return std::nullopt;
+  std::vector<Point> result = nodes;
+  double along = steps[0], passed = 0.0;  // on the curve as it was, of the new node; before segment k
+  std::size_t k = 0;
+  along = (*wanted)[0] / share;
+  for (std::size_t j = 2; j + 1 < nodes.size(); ++j) {
+    along += (*wanted)[j - 1] / share;
+    while (k + 1 < steps.size() && passed + steps[k] < along) passed += steps[k++];
+    const double part = std::min(1.0, (along - passed) / steps[k]);
+    result[j] = nodes[0] + share * (nodes[k] + part * (nodes[k + 1] - nodes[k]) - nodes[0]);
+  }
+  result.back() = nodes[0] + share * (nodes.back() - nodes[0]);
+  return result;
+}
+
+/// Nodes go with the top, the less the lower: the first cell stays.
+void shift_top(const Vec3& shift, std::vector<Point>& nodes) {
+  for (std::size_t j = 2; j < nodes.size(); ++j) {
+    const double t = distance(nodes[0], nodes[j]) / distance(nodes[0], nodes.back());
+    if (j + 1 < nodes.size()) nodes[j] += t * t * shift;
+  }
+  nodes.back() += shift;
+}
+
+}  // namespace
+
+LineSlider::LineSlider(HybridMesh& layers, FillBoundary& boundary, const ImproveOptions& options, const RunContext& context)
+    : mesh_(layers),
+      boundary_(boundary),
+      limits_(quality_limits(options.improve_min_angle, options.improve_max_angle)),
+      share_(options.slide_share),
+      context_(context) {
+  lock_lines();
+  list_sides();
+}
+
+void LineSlider::lock_lines() {
+  const LayerBlock& layers = mesh_.layers;
+  is_locked_.assign(layers.n_lines(), 0);
+  for (std::size_t line = 0; line < layers.n_lines(); ++line) is_locked_[line] = layers.n_steps(line) < 3;  // nothing to spread
+  for (std::size_t column = 0; column < layers.n_columns(); ++column)
+    if (layers.n_collapsed(column) > 0)
+      for (const Line line : layers.base[column]) is_locked_[line] = 1;
+  for (std::size_t t = layers.n_columns(); t < boundary_.triangles.size(); ++t)
+    for (const std::uint32_t p : boundary_.triangles[t])
+      if (p < layers.n_lines()) is_locked_[p] = 1;
+}
+
+void LineSlider::list_sides() {
+  const LayerBlock& layers = mesh_.layers;
+  sides_.reserve(3 * layers.n_columns());
+  for (std::size_t column = 0; column < layers.n_columns(); ++column)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(layers.base[column][k], layers.base[column][(k + 1) % 3]);
+      sides_.push_back({{a, b}, static_cast<std::uint32_t>(column)});
+    }
+  parallel_sort(context_, sides_, std::less<>());
+}
+
+const Vec3& LineSlider::point(const TetraResult& tets, std::uint32_t v) const {
+  return v < boundary_.points.size() ? boundary_.points[v] : tets.new_points[v - boundary_.points.size()];
+}
+
+std::array<Vec3, 4> LineSlider::corners(const TetraResult& tets, std::uint32_t t) const {
+  const auto& c = tets.tetrahedra[t];
+  return {point(tets, c[0]), point(tets, c[1]), point(tets, c[2]), point(tets, c[3])};
+}
+
+double LineSlider::excess_of_tet(const TetraResult& tets, std::uint32_t t) const {
+  const std::array<Vec3, 4> p = corners(tets, t);
+  const double quality = tet_quality(p[0], p[1], p[2], p[3], limits_.obtuse_weight);
+  return quality > 0.0 ? limits_.target / quality : k_infinity;
+}
+
+LineSlider::Interface LineSlider::interface_of(const TetraResult& tets, std::uint32_t column, std::uint32_t tet) const {
+  const LayerBlock& layers = mesh_.layers;
+  const int n = layers.layers_of_column(column);
+  const Cell cell = layers.cell(column, n - 1);
+  WedgePoints p;
+  for (std::size_t k = 0; k < 6; ++k) p[k] = mesh_.points[cell.nodes[k]];
+  const double edge = (distance(p[3], p[4]) + distance(p[4], p[5]) + distance(p[5], p[3])) / 3.0;
+  const double height = (distance(p[0], p[3]) + distance(p[1], p[4]) + distance(p[2], p[5])) / 3.0;
+  const std::array<Vec3, 4> t = corners(tets, tet);
+  const double volume = tet_volume(t[0], t[1], t[2], t[3]);
+  const Point middle = (p[3] + p[4] + p[5]) / 3.0;
+  const Vec3 normal = normalized(cross(p[4] - p[3], p[5] - p[3]));
+  const double below = std::abs(dot(check_parts::cell_shape(mesh_, cell).centre - middle, normal));
+  const double above = std::abs(dot(0.25 * (t[0] + t[1] + t[2] + t[3]) - middle, normal));
+  const double weight = std::min(below, above) / (below + above);
+  return {check_parts::deviation(k_regular_volumes * volume / wedge_volume(p)) / gates_[Measure::interface_volume].hard,
+          check_parts::interface_jump(height, edge) / gates_[Measure::interface_height].hard, gates_[Measure::face_weight].hard / weight};
+}
+
+/// The first entry of the edge between corners k and k + 1 of a column.
+std::size_t LineSlider::side_of(std::uint32_t column, std::size_t k) const {
+  const auto [a, b] = std::minmax(mesh_.layers.base[column][k], mesh_.layers.base[column][(k + 1) % 3]);
+  return static_cast<std::size_t>(std::ranges::lower_bound(sides_, Side{{a, b}, 0}) - sides_.begin());
+}
+
+/// The other column's entry for the same edge; the side itself where there is none.
+std::size_t LineSlider::partner(std::size_t side) const {
+  if (side + 1 < sides_.size() && sides_[side + 1].ends == sides_[side].ends) return side + 1;
+  if (side > 0 && sides_[side - 1].ends == sides_[side].ends) return side - 1;
+  return side;
+}
+
+double LineSlider::excess_of_side(std::size_t side) const {
+  const LayerBlock& layers = mesh_.layers;
+  const auto nodes = [&](Line line) { return mesh_.points.raw().data() + layers.first_node[line]; };
+  const auto third = [&](std::uint32_t column) -> const Point* {
+    for (const Line line : layers.base[column])
+      if (line != sides_[side].ends[0] && line != sides_[side].ends[1]) return nodes(line);
+    return nullptr;
+  };
+  const std::size_t other = partner(side);
+  const auto& base = layers.base[sides_[side].column];
+  Line from = sides_[side].ends[0], to = sides_[side].ends[1];  // in the sense of the first column
+  for (std::size_t k = 0; k < 3; ++k)
+    if (base[k] == to && base[(k + 1) % 3] == from) std::swap(from, to);
+  const std::uint32_t own = sides_[side].column, beyond = sides_[other].column;
+  const SideLines lines = {nodes(from), nodes(to), third(own), other == side ? nullptr : third(beyond)};
+  const auto excess = [&](const SideShape& shape, double reserve) {
+    return std::max(1.0 + k_cut_slope * (reserve - shape.cut_share), gates_[Measure::face_weight].hard / (k_reserve * shape.weight));
+  };
+  const int n = layers.layers_of_column(own);
+  if (excess(side_shape(lines, n, {}, {}), k_far_reserve) <= k_far_excess) return 0.0;
+  const auto centre_in = [&](std::uint32_t column) {
+    return [&mesh = mesh_, column](int layer) { return check_parts::cell_shape(mesh, mesh.layers.cell(column, layer)).centre; };
+  };
+  return excess(side_shape(lines, n, centre_in(own), centre_in(beyond)), k_cut_reserve);
+}
+
+/// Of each column the tetrahedron on its top; k_no_tet where there is none.
+std::vector<std::uint32_t> LineSlider::tets_on_columns(const TetraResult& tets) const {
+  struct Top {
+    std::array<std::uint32_t, 3> corners;
+    std::uint32_t column;
+    bool operator<(const Top& other) const { return corners < other.corners; }
+  };
+  const std::size_t n_lines = mesh_.layers.n_lines();
+  std::vector<Top> tops;
+  for (std::size_t column = 0; column < mesh_.layers.n_columns(); ++column) {
+    if (mesh_.layers.n_collapsed(column) > 0 || mesh_.layers.layers_of_column(column) == 0) continue;
+    Top& top = tops.emplace_back(mesh_.layers.base[column], static_cast<std::uint32_t>(column));
+    std::ranges::sort(top.corners);
+  }
+  parallel_sort(context_, tops, std::less<>());
+  std::vector<std::uint32_t> tet_on(mesh_.layers.n_columns(), k_no_tet);
+  parallel_for(context_, tets.tetrahedra.size(), [&](std::size_t t) {
+    const auto& c = tets.tetrahedra[t];
+    if (std::ranges::count_if(c, [&](std::uint32_t v) { return v < n_lines; }) < 3) return;
+    for (std::size_t skipped = 0; skipped < 4; ++skipped) {
+      Top face{{c[(skipped + 1) % 4], c[(skipped + 2) % 4], c[(skipped + 3) % 4]}, 0};
+      std::ranges::sort(face.corners);
+      const auto top = std::ranges::lower_bound(tops, face.corners, {}, &Top::corners);
+      if (top != tops.end() && top->corners == face.corners) tet_on[top->column] = static_cast<std::uint32_t>(t);
+    }
+  });
+  return tet_on;
+}
+
+/// Lines at places near or beyond hard limits, worst first; each once.
+std::vector<LineSlider::Fault> LineSlider::find_faults(const TetraResult& tets, const std::vector<std::uint32_t>& tet_on) const {
+  const std::size_t n_lines = mesh_.layers.n_lines();
+  const auto add = [&](double excess, Line line, std::vector<Fault>& faults) {
+    if (line < n_lines && !is_locked_[line]) faults.push_back({excess, line});
+  };
+  std::vector<Fault> faults = parallel_collect<Fault>(
+      context_, tets.tetrahedra.size(),
+      [&](std::size_t begin, std::size_t end, std::vector<Fault>& found) {
+        for (std::size_t t = begin; t < end; ++t) {
+          if (std::ranges::min(tets.tetrahedra[t]) >= n_lines) continue;
+          const double excess = excess_of_tet(tets, static_cast<std::uint32_t>(t));
+          if (excess <= 1.0) continue;
+          for (const std::uint32_t v : tets.tetrahedra[t]) add(excess, v, found);
+        }
+      },
+      k_search_chunk);
+  const auto append = [&](const std::vector<Fault>& more) { faults.insert(faults.end(), more.begin(), more.end()); };
+  append(parallel_collect<Fault>(
+      context_, tet_on.size(),
+      [&](std::size_t begin, std::size_t end, std::vector<Fault>& found) {
+        for (std::size_t column = begin; column < end; ++column) {
+          if (tet_on[column] == k_no_tet) continue;
+          const double excess = interface_of(tets, static_cast<std::uint32_t>(column), tet_on[column]).worst() / k_reserve;
+          if (excess <= 1.0) continue;
+          for (const Line line : mesh_.layers.base[column]) add(excess, line, found);
+        }
+      },
+      k_search_chunk));
+  append(parallel_collect<Fault>(
+      context_, sides_.size(),
+      [&](std::size_t begin, std::size_t end, std::vector<Fault>& found) {
+        for (std::size_t side = begin; side < end; ++side) {
+          const std::size_t other = partner(side);
+          if (other < side || mesh_.layers.n_collapsed(sides_[side].column) > 0 || mesh_.layers.n_collapsed(sides_[other].column) > 0) continue;
+          const double excess = excess_of_side(side);
+          if (excess <= 1.0) continue;
+          for (const std::size_t s : {side, other})
+            for (const Line line : mesh_.layers.base[sides_[s].column]) add(excess, line, found);
+        }
+      },
+      k_search_chunk));
+  std::ranges::sort(faults, [](const Fault& a, const Fault& b) { return a.line != b.line ? a.line < b.line : a.excess > b.excess; });
+  faults.erase(std::unique(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) { return a.line == b.line; }), faults.end());
+  std::ranges::sort(faults, [](const Fault& a, const Fault& b) { return a.excess != b.excess ? a.excess > b.excess : a.line < b.line; });
+  if (faults.size() > k_most_lines) faults.resize(k_most_lines);
+  return faults;
+}
+
+std::vector<LineSlider::Star> LineSlider::stars_of(const TetraResult& tets, const std::vector<Fault>& faults, const std::vector<std::uint32_t>& tet_on) const {
+  constexpr std::uint32_t k_none = 0xffffffffu;
+  std::vector<std::uint32_t> star_of(mesh_.layers.n_lines(), k_none);
+  for (std::size_t i = 0; i < faults.size(); ++i) star_of[faults[i].line] = static_cast<std::uint32_t>(i);
+  std::vector<Star> stars(faults.size());
+  for (std::size_t column = 0; column < mesh_.layers.n_columns(); ++column)
+    for (const Line line : mesh_.layers.base[column])
+      if (star_of[line] != k_none) {
+        stars[star_of[line]].columns.push_back(static_cast<std::uint32_t>(column));
+        stars[star_of[line]].tet_on.push_back(tet_on[column]);
+      }
+  for (std::size_t t = 0; t < tets.tetrahedra.size(); ++t)
+    for (const std::uint32_t v : tets.tetrahedra[t])
+      if (v < star_of.size() && star_of[v] != k_none) stars[star_of[v]].tets.push_back(static_cast<std::uint32_t>(t));
+  return stars;
+}
+
+double LineSlider::cost(const TetraResult& tets, const Star& star) const {
+  double sum = 0.0;
+  for (const std::uint32_t t : star.tets) sum += cost_of(excess_of_tet(tets, t));
+  for (std::size_t i = 0; i < star.columns.size(); ++i) {
+    if (star.tet_on[i] == k_no_tet) continue;
+    const Interface interface = interface_of(tets, star.columns[i], star.tet_on[i]);
+    for (const double excess : {interface.volume, interface.height, interface.weight}) sum += cost_of(excess / k_reserve);
+  }
+  for (const std::uint32_t column : star.columns)
+    for (std::size_t k = 0; k < 3; ++k) sum += cost_of(excess_of_side(side_of(column, k)));
+  return sum;
+}
+
+bool LineSlider::is_valid(const TetraResult& tets, const Star& star) const {
+  for (const std::uint32_t column : star.columns)
+    if (!is_column_certain(column_lines(mesh_.layers, mesh_.points.raw(), column), mesh_.layers.layers_of_column(column))) return false;
+  return std::ranges::all_of(star.tets, [&](std::uint32_t t) { return is_tet_valid(corners(tets, t)); });
+}
+
+std::vector<Point> LineSlider::nodes_of(Line line) const {
+  const auto first = mesh_.points.raw().begin() + mesh_.layers.first_node[line];
+  return {first, first + mesh_.layers.n_steps(line) + 1};
+}
+
+void LineSlider::put(Line line, const std::vector<Point>& nodes) {
+  std::ranges::copy(nodes, mesh_.points.raw().begin() + mesh_.layers.first_node[line]);
+  boundary_.points[line] = nodes.back();
+}
+
+/// Largest ratio of consecutive cells that the line may get.
+double LineSlider::allowed_growth(Line line) const {
+  const LayerRequest& request = mesh_.request;
+  const double asked = request.line_max_growth.empty() ? request.max_growth : request.line_max_growth[line];
+  return std::max(asked, 1.0) * (1.0 + k_growth_rounding);
+}
+
+Vec3 LineSlider::to_middle(Line line, const Star& star) const {
+  Vec3 sum;
+  int n = 0;
+  for (const std::uint32_t column : star.columns)
+    for (const Line other : mesh_.layers.base[column])
+      if (other != line) sum += boundary_.points[other], ++n;
+  return n > 0 ? sum / n - boundary_.points[line] : Vec3{};
+}
+
+/// One move: the best of the smaller and smaller steps up, down and to the sides; false where none helps.
+bool LineSlider::help(const TetraResult& tets, Line line, const Star& star, Moved& state) {
+  const double cost_now = cost(tets, star);
+  if (!(cost_now > 0.0)) return false;
+  const std::vector<Point> now = nodes_of(line);
+  const double height = distance(state.nodes.front(), state.nodes.back()), growth = std::max(worst_growth(steps_of(now)), allowed_growth(line));
+  const Vec3 up = normalized(now.back() - now[now.size() - 2]), middle = to_middle(line, star);
+  const Vec3 aside = normalized(middle - dot(middle, up) * up), across = cross(up, aside);
+  struct Trial {
+    double cost, share;
+    Vec3 shift;
+    std::vector<Point> nodes;
+  };
+  for (const double step : k_tried_steps) {
+    std::vector<Trial> trials;
+    const auto attempt = [&](double share, const Vec3& shift) {
+      if (share < 1.0 - share_ || share > 1.0 + 0.5 * share_ || norm(shift) > share_ * height) return;
+      std::optional<std::vector<Point>> nodes = scaled_line(state.nodes, share);
+      if (!nodes) return;
+      shift_top(shift, *nodes);
+      if (worst_growth(steps_of(*nodes)) > growth) return;
+      put(line, *nodes);
+      const double with = cost(tets, star);
+      if (with < (1.0 - k_least_win) * cost_now) trials.push_back({with, share, shift, std::move(*nodes)});
+    };
+    const double length = step * share_;
+    for (const double sign : {-1.0, 1.0}) {
+      attempt(state.share + sign * length, state.shift);
+      attempt(state.share, state.shift + sign * length * height * aside);
+      attempt(state.share, state.shift + sign * length * height * across);
+    }
+    std::ranges::sort(trials, {}, &Trial::cost);
+    for (Trial& trial : trials) {
+      put(line, trial.nodes);
+      if (!is_valid(tets, star)) continue;
+      state.share = trial.share;
+      state.shift = trial.shift;
+      return true;
+    }
+  }
+  put(line, now);
+  return false;
+}
+
+/// Lines whose nodes the costs around a line depend on, ascending.
+std::vector<LineSlider::Line> LineSlider::lines_seen_from(const TetraResult& tets, const Star& star) const {
+  std::vector<Line> lines;
+  const auto add_column = [&](std::uint32_t column) { lines.insert(lines.end(), mesh_.layers.base[column].begin(), mesh_.layers.base[column].end()); };
+  for (const std::uint32_t column : star.columns) {
+    add_column(column);
+    for (std::size_t k = 0; k < 3; ++k) add_column(sides_[partner(side_of(column, k))].column), add_column(sides_[side_of(column, k)].column);
+  }
+  for (const std::uint32_t t : star.tets)
+    for (const std::uint32_t v : tets.tetrahedra[t])
+      if (v < mesh_.layers.n_lines()) lines.push_back(v);
+  sort_unique(lines);
+  return lines;
+}
+
+/// Groups of faults, first come first served, of which no one sees another: they can be worked on at the same time.
+std::vector<std::vector<std::uint32_t>> LineSlider::independent_groups(const std::vector<Star>& stars,
+                                                                       const std::vector<std::vector<std::uint32_t>>& seen) const {
+  std::vector<std::vector<std::uint32_t>> groups;
+  std::vector<std::uint32_t> group_of(stars.size());
+  for (std::uint32_t i = 0; i < stars.size(); ++i) {
+    std::vector<std::uint32_t> taken;
+    for (const std::uint32_t other : seen[i])
+      if (other < i) taken.push_back(group_of[other]);
+    sort_unique(taken);
+    std::uint32_t group = 0;
+    while (group < taken.size() && taken[group] == group) ++group;
+    group_of[i] = group;
+    if (group == groups.size()) groups.emplace_back();
+    groups[group].push_back(i);
+  }
+  return groups;
+}
+
+std::vector<std::uint32_t> LineSlider::slide(const TetraResult& tets) {
+  const std::vector<std::uint32_t> tet_on = tets_on_columns(tets);
+  const std::vector<Fault> faults = find_faults(tets, tet_on);
+  const std::vector<Star> stars = stars_of(tets, faults, tet_on);
+  const std::vector<std::vector<std::uint32_t>> seen = faults_seen(tets, faults, stars);
+  std::vector<Moved> states(faults.size());
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    const auto known = moved_.find(faults[i].line);
+    states[i] = known == moved_.end() ? Moved{nodes_of(faults[i].line)} : known->second;
+  }
+  std::vector<std::uint8_t> has_moved(faults.size(), 0), moved_now(faults.size(), 0), is_stale(faults.size(), 1);
+  const std::vector<std::vector<std::uint32_t>> groups = independent_groups(stars, seen);
+  for (int sweep = 0; sweep < k_sweeps; ++sweep)
+    for (const std::vector<std::uint32_t>& group : groups) {
+      parallel_for(
+          context_, group.size(),
+          [&](std::size_t k) {
+            const std::uint32_t i = group[k];
+            moved_now[i] = 0;
+            if (!is_stale[i]) return;
+            is_stale[i] = 0;
+            for (int n = 0; n < k_most_moves && help(tets, faults[i].line, stars[i], states[i]); ++n) moved_now[i] = 1;
+          },
+          1);
+      for (const std::uint32_t i : group) {
+        if (!moved_now[i]) continue;
+        has_moved[i] = 1;
+        for (const std::uint32_t other : seen[i]) is_stale[other] = 1;
+      }
+    }
+  std::vector<std::uint32_t> moved;
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    if (!has_moved[i]) continue;
+    moved.push_back(faults[i].line);
+    moved_.insert_or_assign(faults[i].line, std::move(states[i]));
+    for (const std::uint32_t column : stars[i].columns) boundary_.layer_volumes[column] = last_prism_volume(mesh_.layers, mesh_.points.raw(), column);
+  }
+  std::ranges::sort(moved);
+  return moved;
+}
+
+/// Of each fault the others whose costs it changes or that change its own, ascending.
+std::vector<std::vector<std::uint32_t>> LineSlider::faults_seen(const TetraResult& tets, const std::vector<Fault>& faults,
+                                                                const std::vector<Star>& stars) const {
+  std::vector<std::vector<Line>> lines(faults.size());
+  parallel_for(
+      context_, faults.size(), [&](std::size_t i) { lines[i] = lines_seen_from(tets, stars[i]); }, 16);
+  std::map<Line, std::uint32_t> fault_of;
+  for (std::uint32_t i = 0; i < faults.size(); ++i) fault_of[faults[i].line] = i;
+  std::vector<std::vector<std::uint32_t>> seen(faults.size());
+  for (std::uint32_t i = 0; i < faults.size(); ++i)
+    for (const Line line : lines[i]) {
+      const auto other = fault_of.find(line);
+      if (other == fault_of.end() || other->second == i) continue;
+      seen[i].push_back(other->second);
+      seen[other->second].push_back(i);
+    }
+  for (std::vector<std::uint32_t>& others : seen) sort_unique(others);
+  return seen;
+}
+
+}  // namespace sterna::volmesh
