@@ -131,7 +131,7 @@ LaidLayer adopted(SplitLayer& split, const LaidLayer& unsplit, const EnvelopeOpt
   return layer;
 }
 
-constexpr int k_slide_rounds = 2;
+constexpr int k_slide_rounds = 4;
 
 /// Improvement within the boundary; then, where the boundary is at fault, lines of the layer slide, and improvement once more around them.
 ImproveReport improve_with_slides(HybridMesh& layers, FillBoundary& boundary, TetraResult& tets, const ImproveOptions& options, const RunContext& context) {
@@ -144,8 +144,9 @@ ImproveReport improve_with_slides(HybridMesh& layers, FillBoundary& boundary, Te
   for (int round = 0; round < k_slide_rounds; ++round) {
     const std::vector<std::uint32_t> moved = slider.slide(tets);
     if (moved.empty()) break;
-    improve_around(domain(), moved, tets, options, report, context);
+    if (round + 1 < k_slide_rounds) improve_around(domain(), moved, tets, options, report, context);  // slides have the last word
   }
+  if (slider.n_moved() > 0) tell_remaining(domain(), tets, options, report, context);
   report.n_slid = static_cast<std::int64_t>(slider.n_moved());
   return report;
 }

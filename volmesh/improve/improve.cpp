@@ -28,8 +28,8 @@ AngleSurvey survey_of(const TetraBoundary& boundary, const TetraResult& tets, co
   return survey_angles(boundary, tets, quality_limits(options.improve_min_angle, options.improve_max_angle), context);
 }
 
-void tell_remaining(const TetraBoundary& boundary, const TetraResult& tets, const AngleSurvey& survey, const ImproveOptions& options, ImproveReport& report,
-                    const RunContext& context) {
+void tell(const TetraBoundary& boundary, const TetraResult& tets, const AngleSurvey& survey, const ImproveOptions& options, ImproveReport& report,
+          const RunContext& context) {
   report.n_bad_after = static_cast<std::int64_t>(survey.bad.size());
   report.n_at_boundary = survey.n_at_boundary;
   report.min_angle_after = survey.smallest;
@@ -54,7 +54,7 @@ ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tet
       improve_to(quality_limits(options.improve_min_angle, options.improve_max_angle), [&](Improver& improver) { improver.work_on(survey.bad); });
     improve_to(wished_limits(options), [&](Improver& improver) { improver.work_on_all_but(survey.bad); });
   }
-  tell_remaining(boundary, tets, survey, options, report, context);
+  tell(boundary, tets, survey, options, report, context);
   return report;
 }
 
@@ -62,17 +62,18 @@ void improve_around(const TetraBoundary& boundary, std::span<const std::uint32_t
                     ImproveReport& report, const RunContext& context) {
   std::vector<std::uint8_t> is_around(boundary.points.size(), 0);
   for (const std::uint32_t v : around) is_around[v] = 1;
-  for (const QualityLimits& limits : {quality_limits(options.improve_min_angle, options.improve_max_angle), wished_limits(options)}) {
-    std::vector<std::uint32_t> some;
-    for (std::size_t t = 0; t < tets.tetrahedra.size(); ++t)
-      if (std::ranges::any_of(tets.tetrahedra[t], [&](std::uint32_t v) { return v < is_around.size() && is_around[v]; }))
-        some.push_back(static_cast<std::uint32_t>(t));
-    Improver improver(boundary, tets, limits, context);
-    improver.work_on_bad_of(some);
-    report.rounds += improver.run(options.improve_rounds);
-    improver.finish(tets);
-  }
-  tell_remaining(boundary, tets, survey_of(boundary, tets, options, context), options, report, context);
+  std::vector<std::uint32_t> some;
+  for (std::size_t t = 0; t < tets.tetrahedra.size(); ++t)
+    if (std::ranges::any_of(tets.tetrahedra[t], [&](std::uint32_t v) { return v < is_around.size() && is_around[v]; }))
+      some.push_back(static_cast<std::uint32_t>(t));
+  Improver improver(boundary, tets, wished_limits(options), context);  // those for angles alone would take the volumes back
+  improver.work_on_bad_of(some);
+  report.rounds += improver.run(options.improve_rounds);
+  improver.finish(tets);
+}
+
+void tell_remaining(const TetraBoundary& boundary, const TetraResult& tets, const ImproveOptions& options, ImproveReport& report, const RunContext& context) {
+  tell(boundary, tets, survey_of(boundary, tets, options, context), options, report, context);
 }
 
 }  // namespace sterna::volmesh

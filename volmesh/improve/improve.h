@@ -39,9 +39,12 @@ struct ImproveReport {
 /// \post it passes again; points of the boundary and its triangles as before.
 ImproveReport improve_tetrahedra(const TetraBoundary& boundary, TetraResult& tets, const ImproveOptions& options, const RunContext& context);
 
-/// The same once more for the tetrahedra around some points of the boundary, which have moved since; brings the report up to date.
+/// The same once more, for all that gates wish for, with the tetrahedra around some points of the boundary, which have moved since.
 /// \pre, \post as above; `around` ascending
 void improve_around(const TetraBoundary& boundary, std::span<const std::uint32_t> around, TetraResult& tets, const ImproveOptions& options,
                     ImproveReport& report, const RunContext& context);
+
+/// Brings what the report says of the tetrahedra up to date.
+void tell_remaining(const TetraBoundary& boundary, const TetraResult& tets, const ImproveOptions& options, ImproveReport& report, const RunContext& context);
 
 }  // namespace sterna::volmesh

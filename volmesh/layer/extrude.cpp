@@ -180,7 +180,15 @@ std::array<VertexId, 4> Extruder::vertices_at(HalfedgeId side) const {
           twin.is_valid() ? base_.topology.from(previous(twin)) : VertexId()};
 }
 
-/// Edges of some triangles, or of all, over which the sides of the last prisms cannot be cut; each by its lower half-edge.
+/// From where on the side over an edge is worth a look, by both columns.
+int Extruder::first_layer_at(HalfedgeId side) const {
+  const auto first = [&](std::size_t column) { return first_layer_to_look_at(column_lines(layers_, points_, column), layers_.layers_of_column(column)); };
+  const HalfedgeId twin = base_.topology.twin(side);
+  const int own = first(triangle_of(side).index());
+  return twin.is_valid() ? std::min(own, first(triangle_of(twin).index())) : own;
+}
+
+/// Edges of some triangles, or of all, over which the sides of prisms are not good; each by its lower half-edge.
 std::vector<HalfedgeId> Extruder::warped_sides(const Envelope& envelope, const Columns* some) const {
   return parallel_collect<HalfedgeId>(
       context_, some ? some->size() : layers_.n_columns(),
@@ -193,7 +201,8 @@ std::vector<HalfedgeId> Extruder::warped_sides(const Envelope& envelope, const C
             const std::array<VertexId, 4> v = vertices_at(side);
             if (std::ranges::any_of(v, [&](VertexId w) { return w.is_valid() && envelope.is_collapsed(w); })) continue;
             const auto line = [&](VertexId w) { return w.is_valid() ? points_.data() + layers_.first_node[w.index()] : nullptr; };
-            if (!can_side_be_cut({line(v[0]), line(v[1]), line(v[2]), line(v[3])}, layers_.layers_of_column(column))) warped.push_back(side);
+            if (!is_good(side_shape({line(v[0]), line(v[1]), line(v[2]), line(v[3])}, first_layer_at(side), layers_.layers_of_column(column))))
+              warped.push_back(side);
           }
         }
       },
@@ -207,19 +216,20 @@ double Extruder::unwarped_share(const Envelope& envelope, HalfedgeId side) const
   const std::array<VertexId, 4> v = vertices_at(side);
   std::vector<Point> nodes(4 * per_line);
   LinePlacer placer(base_, scale_);
-  const auto is_good = [&](double share) {
+  const int first = first_layer_at(side);
+  const auto is_fine = [&](double share) {
     std::array<const Point*, 4> lines{};
     for (std::size_t k = 0; k < 4; ++k) {
       if (!v[k].is_valid()) continue;
       placer.place(envelope, v[k], share * curving_[v[k]], nodes.data() + k * per_line);
       lines[k] = nodes.data() + k * per_line;
     }
-    return can_side_be_cut({lines[0], lines[1], lines[2], lines[3]}, n);
+    return is_good(side_shape({lines[0], lines[1], lines[2], lines[3]}, first, n));
   };
-  return is_good(0.0) ? largest_share(is_good) : k_hopeless;
+  return is_fine(0.0) ? largest_share(is_fine) : k_hopeless;
 }
 
-/// Limits c_t where the sides of last prisms cannot be cut and less curving helps. True where there is such a place.
+/// Limits c_t where the sides of prisms are not good and less curving helps. True where there is such a place.
 bool Extruder::limit_warp(const Envelope& envelope, const Columns* some) {
   const std::vector<HalfedgeId> warped = warped_sides(envelope, some);
   std::vector<double> share(warped.size());

@@ -44,6 +44,7 @@ class Extruder {
   Columns invalid_among(const Columns* some) const;
   std::vector<HalfedgeId> warped_sides(const Envelope& envelope, const Columns* some) const;
   std::array<VertexId, 4> vertices_at(HalfedgeId side) const;
+  int first_layer_at(HalfedgeId side) const;
   double unwarped_share(const Envelope& envelope, HalfedgeId side) const;
   double valid_share(const Envelope& envelope, std::size_t column) const;
   Columns reduce_curving(const Envelope& envelope, const Columns& bad);

@@ -10,8 +10,8 @@
 namespace sterna::volmesh {
 namespace {
 
-constexpr int k_cut_layers = 3;  ///< at the top; below, lines are nearly normal and cells flat
-constexpr int k_shape_layers = 6;
+constexpr int k_top_layers = 4;             ///< below, lines are nearly normal and cells flat
+constexpr double k_narrow_share = 0.3;      ///< of the wall triangle's area, that a column's cross section has where its sides become of interest
 constexpr std::size_t k_proof_chunk = 256;  ///< columns, some 10^4 cells
 
 WedgePoints wedge_of(const ColumnLines& lines, int layer) {
@@ -133,18 +133,9 @@ Quad side_in(const SideLines& lines, int layer) { return {lines.from[layer], lin
 
 }  // namespace
 
-bool can_side_be_cut(const SideLines& lines, int n_layers) {
-  for (int j = std::max(0, n_layers - k_cut_layers); j < n_layers; ++j) {
-    const Quad side = side_in(lines, j);
-    const Point beyond = lines.beyond ? centre_of(side, lines.beyond, j) : Point{};
-    if (!(cut_share(side, centre_of(side, lines.own, j), lines.beyond ? &beyond : nullptr) >= k_cut_reserve)) return false;
-  }
-  return true;
-}
-
-SideShape side_shape(const SideLines& lines, int n_layers, const PrismCentre& own_centre, const PrismCentre& centre_beyond) {
+SideShape side_shape(const SideLines& lines, int first, int n_layers, const PrismCentre& own_centre, const PrismCentre& centre_beyond) {
   SideShape shape;
-  for (int j = std::max(0, n_layers - k_shape_layers); j < n_layers; ++j) {
+  for (int j = first; j < n_layers; ++j) {
     const Quad side = side_in(lines, j);
     const Point own = own_centre ? own_centre(j) : centre_of(side, lines.own, j);
     const Point beyond = !lines.beyond ? Point{} : centre_beyond ? centre_beyond(j) : centre_of(side, lines.beyond, j);
@@ -156,6 +147,17 @@ SideShape side_shape(const SideLines& lines, int n_layers, const PrismCentre& ow
     if (near + far > 0.0) shape.weight = std::min(shape.weight, std::min(near, far) / (near + far));
   }
   return shape;
+}
+
+int first_layer_to_look_at(const ColumnLines& lines, int n_layers) {
+  const auto& [a, b, c] = lines.nodes;
+  const auto area = [&](int j) { return cross(b[j] - a[j], c[j] - a[j]); };
+  const Vec3 normal = normalized(area(0));
+  const double narrow = k_narrow_share * norm(area(0));
+  const int top = std::max(0, n_layers - k_top_layers);
+  for (int j = 1; j <= top; ++j)
+    if (dot(area(j), normal) < narrow) return j - 1;
+  return top;
 }
 
 LayerCertificate certify_layer(const LayerBlock& layers, std::span<const Point> points, const RunContext& context) {

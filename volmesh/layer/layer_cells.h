@@ -25,21 +25,25 @@ bool is_column_certain(const ColumnLines& lines, int n_layers);
 struct SideLines {
   const Point *from, *to, *own, *beyond;
 };
-/// Of the mean tetrahedron of a side, that each keeps: centres of cells are approximate here.
-inline constexpr double k_cut_reserve = 0.05;
-/// Whether the quadrilaterals of a side at the top of the layer can be cut into tetrahedra with the centres of the prisms on both sides, around their own
-/// centre and along one and the same diagonal, as cell-centred solvers cut them (checkMesh's decomposition tets); with a reserve. \pre no line is collapsed
-bool can_side_be_cut(const SideLines& lines, int n_layers);
-
-/// How good a side's quadrilaterals are for cell-centred solvers, at the layer's top, by the worst.
+/// How good the quadrilaterals of a side are for cell-centred solvers, by the worst of some layers.
 struct SideShape {
-  double cut_share = 1.0;  ///< of the smallest tetrahedron of the best cut (can_side_be_cut: at least k_cut_reserve), in the mean one; negative: none is valid
-  double weight = 0.5;     ///< share of the nearer prism's centre in the distance of both from the side's plane
+  /// Cut into tetrahedra with the centres of the prisms on both sides, around its own centre and along one and the same diagonal (checkMesh's decomposition
+  /// tets): the smallest of these over the mean one, for the better diagonal; negative: it cannot be cut.
+  double cut_share = 1.0;
+  double weight = 0.5;  ///< share of the nearer prism's centre in the distance of both from the side's plane
 };
+/// Sides that are better than both are good enough; centres of cells are approximate here.
+inline constexpr double k_good_cut_share = 0.05, k_good_side_weight = 0.06;
+inline bool is_good(const SideShape& shape) { return shape.cut_share >= k_good_cut_share && shape.weight >= k_good_side_weight; }
+
 /// The centre of a column's prism in a layer, m.
 using PrismCentre = std::function<Point(int layer)>;
-/// Empty functions: the means of the corners, which is near.
-SideShape side_shape(const SideLines& lines, int n_layers, const PrismCentre& own_centre, const PrismCentre& centre_beyond);
+/// In layers from `first` on. Empty functions: the means of the corners, which is near.
+/// \pre no line is collapsed
+SideShape side_shape(const SideLines& lines, int first, int n_layers, const PrismCentre& own_centre = {}, const PrismCentre& centre_beyond = {});
+
+/// From where on the sides of a column are worth a look: the layers at the top, and all where it gets narrow on its way there. \pre no line is collapsed
+int first_layer_to_look_at(const ColumnLines& lines, int n_layers);
 
 /// Every cell of a layer, tested by the exact test of its kind.
 struct LayerCertificate {

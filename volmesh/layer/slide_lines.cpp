@@ -21,7 +21,7 @@ constexpr int k_most_moves = 8;  ///< of one line in a sweep
 constexpr int k_sweeps = 3;
 constexpr double k_reserve = 0.75;                         ///< of a hard limit: beyond it a place is worked on
 constexpr double k_regular_volumes = 3.0;                  ///< volume of a prism over that of the tetrahedron that fits it (G9)
-constexpr double k_cut_slope = 5.0;                        ///< excess of a side by how much its share is below k_cut_reserve
+constexpr double k_cut_slope = 5.0;                        ///< excess of a side by how much its share is below k_good_cut_share
 constexpr double k_least_win = 0.02;                       ///< of the cost: less is no reason to move
 constexpr double k_far_reserve = 0.2, k_far_excess = 0.8;  ///< sides better than this by approximate centres need no others
 constexpr int k_newton_steps = 30;
@@ -91,7 +91,7 @@ std::optional<std::vector<Point>> scaled_line(const std::vector<Point>& nodes, d
 void shift_top(const Vec3& shift, std::vector<Point>& nodes) {
   for (std::size_t j = 2; j < nodes.size(); ++j) {
     const double t = distance(nodes[0], nodes[j]) / distance(nodes[0], nodes.back());
-    if (j + 1 < nodes.size()) nodes[j] += t * t * shift;
+    if (j + 1 < nodes.size()) nodes[j] += t * shift;
   }
   nodes.back() += shift;
 }
@@ -104,6 +104,8 @@ LineSlider::LineSlider(HybridMesh& layers, FillBoundary& boundary, const Improve
       limits_(quality_limits(options.improve_min_angle, options.improve_max_angle)),
       share_(options.slide_share),
       context_(context) {
+  const double least_weight = gates_[Measure::face_weight].hard;
+  largest_step_ = std::min(gates_[Measure::tet_growth].hard, (1.0 - least_weight) / least_weight);
   lock_lines();
   list_sides();
 }
@@ -197,11 +199,13 @@ double LineSlider::excess_of_side(std::size_t side) const {
     return std::max(1.0 + k_cut_slope * (reserve - shape.cut_share), gates_[Measure::face_weight].hard / (k_reserve * shape.weight));
   };
   const int n = layers.layers_of_column(own);
-  if (excess(side_shape(lines, n, {}, {}), k_far_reserve) <= k_far_excess) return 0.0;
+  const auto first_of = [&](std::uint32_t column) { return first_layer_to_look_at(column_lines(layers, mesh_.points.raw(), column), n); };
+  const int first = std::min(first_of(own), first_of(beyond));
+  if (excess(side_shape(lines, first, n), k_far_reserve) <= k_far_excess) return 0.0;
   const auto centre_in = [&](std::uint32_t column) {
     return [&mesh = mesh_, column](int layer) { return check_parts::cell_shape(mesh, mesh.layers.cell(column, layer)).centre; };
   };
-  return excess(side_shape(lines, n, centre_in(own), centre_in(beyond)), k_cut_reserve);
+  return excess(side_shape(lines, first, n, centre_in(own), centre_in(beyond)), k_good_cut_share);
 }
 
 /// Of each column the tetrahedron on its top; k_no_tet where there is none.
@@ -231,6 +235,34 @@ std::vector<std::uint32_t> LineSlider::tets_on_columns(const TetraResult& tets) 
     }
   });
   return tet_on;
+}
+
+/// Lines at steps of volume between tetrahedra near or beyond the limit.
+std::vector<LineSlider::Fault> LineSlider::steps_beyond(const TetraResult& tets) const {
+  const std::size_t n_lines = mesh_.layers.n_lines();
+  std::vector<double> smallest(n_lines, k_infinity), largest(n_lines, 0.0);
+  const auto for_each_line = [&](const auto& visit) {
+    for (std::uint32_t t = 0; t < tets.tetrahedra.size(); ++t)
+      for (const std::uint32_t v : tets.tetrahedra[t])
+        if (v < n_lines && !is_locked_[v]) visit(v, t);
+  };
+  for_each_line([&](Line line, std::uint32_t t) {
+    const std::array<Vec3, 4> p = corners(tets, t);
+    const double volume = tet_volume(p[0], p[1], p[2], p[3]);
+    smallest[line] = std::min(smallest[line], volume);
+    largest[line] = std::max(largest[line], volume);
+  });
+  std::map<Line, std::vector<std::uint32_t>> around;
+  for_each_line([&](Line line, std::uint32_t t) {
+    if (largest[line] > k_reserve * largest_step_ * smallest[line]) around[line].push_back(t);
+  });
+  std::vector<Fault> faults;
+  for (const auto& [line, star] : around)
+    for (const auto& pair : neighbours_in(tets, star)) {
+      const double excess = excess_of_step(tets, pair) / k_reserve;
+      if (excess > 1.0) faults.push_back({excess, line});
+    }
+  return faults;
 }
 
 /// Lines at places near or beyond hard limits, worst first; each once.
@@ -275,6 +307,7 @@ std::vector<LineSlider::Fault> LineSlider::find_faults(const TetraResult& tets, 
         }
       },
       k_search_chunk));
+  append(steps_beyond(tets));
   std::ranges::sort(faults, [](const Fault& a, const Fault& b) { return a.line != b.line ? a.line < b.line : a.excess > b.excess; });
   faults.erase(std::unique(faults.begin(), faults.end(), [](const Fault& a, const Fault& b) { return a.line == b.line; }), faults.end());
   std::ranges::sort(faults, [](const Fault& a, const Fault& b) { return a.excess != b.excess ? a.excess > b.excess : a.line < b.line; });
@@ -296,11 +329,34 @@ std::vector<LineSlider::Star> LineSlider::stars_of(const TetraResult& tets, cons
   for (std::size_t t = 0; t < tets.tetrahedra.size(); ++t)
     for (const std::uint32_t v : tets.tetrahedra[t])
       if (v < star_of.size() && star_of[v] != k_none) stars[star_of[v]].tets.push_back(static_cast<std::uint32_t>(t));
+  parallel_for(
+      context_, stars.size(), [&](std::size_t i) { stars[i].neighbours = neighbours_in(tets, stars[i].tets); }, 16);
   return stars;
+}
+
+/// Pairs of a star's tetrahedra with a common face.
+std::vector<std::array<std::uint32_t, 2>> LineSlider::neighbours_in(const TetraResult& tets, const std::vector<std::uint32_t>& star) const {
+  std::vector<std::array<std::uint32_t, 2>> pairs;
+  for (std::size_t i = 0; i < star.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto &a = tets.tetrahedra[star[i]], &b = tets.tetrahedra[star[j]];
+      if (std::ranges::count_if(a, [&](std::uint32_t v) { return std::ranges::find(b, v) != b.end(); }) == 3) pairs.push_back({star[j], star[i]});
+    }
+  return pairs;
+}
+
+/// The step of volumes between two tetrahedra over the largest allowed.
+double LineSlider::excess_of_step(const TetraResult& tets, const std::array<std::uint32_t, 2>& pair) const {
+  const auto volume = [&](std::uint32_t t) {
+    const std::array<Vec3, 4> p = corners(tets, t);
+    return tet_volume(p[0], p[1], p[2], p[3]);
+  };
+  return check_parts::deviation(volume(pair[0]) / volume(pair[1])) / largest_step_;
 }
 
 double LineSlider::cost(const TetraResult& tets, const Star& star) const {
   double sum = 0.0;
+  for (const auto& pair : star.neighbours) sum += cost_of(excess_of_step(tets, pair) / k_reserve);
   for (const std::uint32_t t : star.tets) sum += cost_of(excess_of_tet(tets, t));
   for (std::size_t i = 0; i < star.columns.size(); ++i) {
     if (star.tet_on[i] == k_no_tet) continue;

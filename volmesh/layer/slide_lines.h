@@ -44,7 +44,8 @@ class LineSlider {
   /// All that depends on a line's height.
   struct Star {
     std::vector<std::uint32_t> columns, tets;
-    std::vector<std::uint32_t> tet_on;  ///< of each column: the tetrahedron on its top
+    std::vector<std::uint32_t> tet_on;                     ///< of each column: the tetrahedron on its top
+    std::vector<std::array<std::uint32_t, 2>> neighbours;  ///< pairs of the tetrahedra with a common face
   };
   struct Fault {
     double excess;  ///< the worst at the line, over its limit
@@ -65,6 +66,9 @@ class LineSlider {
   void list_sides();
   const Vec3& point(const TetraResult& tets, std::uint32_t v) const;
   std::array<Vec3, 4> corners(const TetraResult& tets, std::uint32_t t) const;
+  std::vector<std::array<std::uint32_t, 2>> neighbours_in(const TetraResult& tets, const std::vector<std::uint32_t>& star) const;
+  double excess_of_step(const TetraResult& tets, const std::array<std::uint32_t, 2>& pair) const;
+  std::vector<Fault> steps_beyond(const TetraResult& tets) const;
   double excess_of_tet(const TetraResult& tets, std::uint32_t t) const;
   Interface interface_of(const TetraResult& tets, std::uint32_t column, std::uint32_t tet) const;
   double excess_of_side(std::size_t side) const;
@@ -89,6 +93,7 @@ class LineSlider {
   GateTable gates_;
   QualityLimits limits_;
   double share_;
+  double largest_step_ = 0.0;  ///< of the volumes of tetrahedra with a common face; the weight of a face is that of their volumes
   const RunContext& context_;
   std::vector<std::uint8_t> is_locked_;  ///< of each line
   std::vector<Side> sides_;              ///< of all columns, sorted
