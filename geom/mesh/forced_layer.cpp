@@ -18,7 +18,7 @@ constexpr int k_forced_digits = 3;  ///< of lengths in texts
 /// Proofs about sides hold for lines that lean by at most k_lean_room more than the best direction at their feet; beyond this angle to a normal beside them
 /// (rad) nothing is proven.
 constexpr double k_most_forced_skew = 88 * k_degree;
-/// Tilt of a side's edges against the wall's (sine) beyond which nothing is proven.
+/// Tilt of a side's normal against the plane across the wall's edge (sine) beyond which nothing is proven.
 constexpr double k_most_tilt = 0.4;
 /// A first height that is within its hard limit (G11), and a growth that is as asked for (G8 has the same slack).
 constexpr double k_first_height_room = 1.2, k_growth_room = 1.01;
@@ -49,13 +49,14 @@ struct GivenLayer::Pair {
     double step = 0.0;     ///< m, of the opposite line in the layer
   };
   std::array<Half, 2> halves;
-  double edge = 0.0;    ///< m
-  double steps = 0.0;   ///< m, of the edge's two lines in the layer, together
-  double moved = 0.0;   ///< m, farthest that a corner of the two cells is off the wall
-  double tilt = 0.0;    ///< sine of the largest angle between the side's mean edge and the wall's
-  double carry = 0.0;   ///< least quotient of what a step or a side's normal has along one triangle's axes and along the other's
-  double stand = 0.0;   ///< least cosine between a step and the normal of a triangle beside it
-  double stands = 0.0;  ///< least component of the side's normal along a triangle, across the edge
+  double edge = 0.0;          ///< m
+  double steps = 0.0;         ///< m, of the edge's two lines in the layer, together
+  double moved = 0.0;         ///< m, farthest that a corner of the two cells is off the wall
+  double moved_across = 0.0;  ///< m, the same along the side's normal
+  double tilt = 0.0;          ///< sine of the largest angle between the side's normal and the plane across the wall's edge
+  double carry = 0.0;         ///< least quotient of what a step or a side's normal has along one triangle's axes and along the other's
+  double stand = 0.0;         ///< least cosine between a step and the normal of a triangle beside it
+  double stands = 0.0;        ///< least component of the side's normal along a triangle, across the edge
 };
 
 struct GivenLayer::Room {
@@ -119,20 +120,30 @@ std::optional<GivenLayer::Pair> GivenLayer::pair_of(const ColumnSide& side) cons
   const Point &pa = foot(a), &pb = foot(b), &pc = foot(c), &pe = foot(e);
   Pair pair;
   pair.edge = distance(pa, pb);
-  for (const std::uint32_t line : {a, b, c, e}) pair.moved = std::max(pair.moved, length(line, side.layer + 1));
+  double best = 0.0, least_length = k_infinity;
+  for (const std::uint32_t line : {a, b, c, e}) {
+    best = std::max(best, smallest_spherical_cap(normals_around(line)).angle);
+    pair.moved = std::max(pair.moved, length(line, side.layer + 1));
+    least_length = std::min(least_length, length(line, side.layer));
+  }
+  const double turn = angle_between(area_vector(pa, pb, pc), area_vector(pb, pa, pe)), skew = best + k_lean_room;
+  if (!(skew < k_most_forced_skew)) return std::nullopt;
+  // The side's normal is across a step, so within `skew` of the triangles' planes, and lines are within `skew` of their normals.
+  pair.moved_across = pair.moved * std::sin(std::min(2.0 * skew, 0.5 * std::numbers::pi));
   pair.steps = step(a, side.layer) + step(b, side.layer);
   pair.halves[0] = {triangle_area(pa, pb, pc), 0.0, longest_side(pa, pb, pc), step(c, side.layer)};
   pair.halves[1] = {triangle_area(pb, pa, pe), 0.0, longest_side(pa, pb, pe), step(e, side.layer)};
-  for (Pair::Half& half : pair.halves) half.reach = 2.0 * half.area / pair.edge;
-  pair.tilt = 2.0 * pair.moved / pair.edge;
-  if (!(pair.tilt < k_most_tilt)) return std::nullopt;
-  const double turn = angle_between(area_vector(pa, pb, pc), area_vector(pb, pa, pe));
-  double best = 0.0;
-  for (const std::uint32_t line : {a, b, c, e}) best = std::max(best, smallest_spherical_cap(normals_around(line)).angle);
-  const double skew = best + k_lean_room;
-  // With n the side's normal less its part along the edge: its angles to the two triangles' normals are at most `widest`.
   double turned = 0.0;
-  for (const Pair::Half& half : pair.halves) turned = std::max(turned, std::asin(std::min(1.0, area_error(half.longest, pair.moved) / half.area)));
+  for (Pair::Half& half : pair.halves) {
+    half.reach = 2.0 * half.area / pair.edge;
+    // Heights over a triangle differ by at most `rise`; the plane through them is no steeper than that over the triangle's least height.
+    const double rise = pair.moved - std::cos(skew) * least_length, width = 2.0 * half.area / half.longest - 2.0 * pair.moved * std::sin(skew);
+    if (!(width > 0.0)) return std::nullopt;
+    turned = std::max(turned, std::atan(rise / width));
+  }
+  pair.tilt = 2.0 * pair.moved_across / pair.edge;
+  if (!(pair.tilt < k_most_tilt)) return std::nullopt;
+  // With n the side's normal less its part along the edge: its angles to the two triangles' normals are at most `widest`.
   if (!(skew + turned < k_most_forced_skew)) return std::nullopt;
   const double sine = std::sin(skew) / std::sqrt(1.0 - pair.tilt * pair.tilt);
   if (!(sine < 1.0)) return std::nullopt;
@@ -151,8 +162,8 @@ std::optional<Forcing> GivenLayer::face_weight(const ColumnSide& side, double li
   for (std::size_t k = 0; k < 2; ++k) {
     const Pair::Half &near = pair->halves[k], &far = pair->halves[1 - k];
     // Along the edge points of a triangle are at most its longest side apart; centres of side and cell are `moved` off their places.
-    const double near_error = (pair->tilt * near.longest + 2.0 * pair->moved) / pair->stands;
-    const double far_error = (pair->tilt * far.longest + 2.0 * pair->moved) / pair->stands;
+    const double near_error = (pair->tilt * near.longest + 2.0 * pair->moved_across) / pair->stands;
+    const double far_error = (pair->tilt * far.longest + 2.0 * pair->moved_across) / pair->stands;
     const double to_far = pair->carry * least_share(far.step, pair->steps, pair->stand) * far.reach - far_error;
     const double to_near = largest_share(near.step, pair->steps, pair->stand) * near.reach + near_error;
     const double bound = to_near / (to_near + to_far);
