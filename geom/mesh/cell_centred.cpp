@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "geom/mesh/forced_layer.h"
+
 namespace sterna::check_parts {
 namespace {
 
@@ -382,7 +384,8 @@ CellCentredScan scan_cell_centred(const HybridMesh& mesh, const CellNumbers& cel
   return scan;
 }
 
-void judge_cell_centred(const CellCentredScan& scan, const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, CheckReport& report) {
+void judge_cell_centred(const CellCentredScan& scan, const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots,
+                        std::span<const std::uint32_t> neighbours, const GateTable& limits, LazyGivenLayer& given, CheckReport& report) {
   const auto cell = [&](std::uint64_t id) { return std::pair(cells.center(id), cells.name(id)); };
   const auto face = [&](std::uint64_t id) {
     if (id >= CellCentredScan::k_of_slot) {
@@ -400,8 +403,19 @@ void judge_cell_centred(const CellCentredScan& scan, const HybridMesh& mesh, con
     GateResult result = measure.result(describe);
     report.gates[static_cast<std::size_t>(result.measure)] = std::move(result);
   };
-  for (const GateScan* measure : {&scan.non_orthogonality, &scan.skewness, &scan.face_weight, &scan.volume_ratio, &scan.face_flatness, &scan.face_tets})
-    put(*measure, face);
+  using SideProof = std::optional<Forcing> (GivenLayer::*)(const ColumnSide&, double) const;
+  const auto put_sides = [&](const GateScan& measure, Measure which, SideProof proof) {
+    report.gates[static_cast<std::size_t>(which)] = measure.result(face, [&](std::uint64_t id) {
+      if (id >= CellCentredScan::k_of_slot || id % 8 == k_top) return std::optional<Forcing>();
+      const std::uint64_t number = id / 8, n_layers = static_cast<std::uint64_t>(mesh.layers.n_layers);
+      const std::size_t column = number / n_layers, corner = id % 8;
+      return (given.get().*proof)({column, corner, neighbours[3 * column + corner], static_cast<int>(number % n_layers)}, limits[which].hard);
+    });
+  };
+  put_sides(scan.face_weight, Measure::face_weight, &GivenLayer::face_weight);
+  put_sides(scan.volume_ratio, Measure::volume_ratio, &GivenLayer::volume_ratio);
+  put_sides(scan.skewness, Measure::skewness, &GivenLayer::skewness);
+  for (const GateScan* measure : {&scan.non_orthogonality, &scan.face_flatness, &scan.face_tets}) put(*measure, face);
   for (const GateScan* measure : {&scan.cell_aspect_ratio, &scan.cell_openness, &scan.cell_determinant}) put(*measure, cell);
 }
 

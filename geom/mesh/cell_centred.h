@@ -48,6 +48,7 @@ struct CellCentredScan {
 CellCentredScan scan_cell_centred(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match,
                                   std::span<const std::uint32_t> neighbours, const GateTable& limits, const RunContext& context);
 /// The gates into the report.
-void judge_cell_centred(const CellCentredScan& scan, const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, CheckReport& report);
+void judge_cell_centred(const CellCentredScan& scan, const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots,
+                        std::span<const std::uint32_t> neighbours, const GateTable& limits, LazyGivenLayer& given, CheckReport& report);
 
 }  // namespace sterna::check_parts

@@ -13,10 +13,12 @@ namespace {
 
 /// \pre quality is measured
 void judge_cell_centres(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match,
-                        std::span<const std::uint32_t> neighbours, const CheckOptions& options, const RunContext& context, CheckReport& report) {
+                        std::span<const std::uint32_t> neighbours, const CheckOptions& options, LazyGivenLayer& given, const RunContext& context,
+                        CheckReport& report) {
   if (!report.dual_checked) return;  // the mesh does not conform: said already
   if (options.cell_centred)
-    return judge_cell_centred(scan_cell_centred(mesh, cells, slots, match, neighbours, options.limits, context), mesh, cells, slots, report);
+    return judge_cell_centred(scan_cell_centred(mesh, cells, slots, match, neighbours, options.limits, context), mesh, cells, slots, neighbours, options.limits,
+                              given, report);
   for (GateResult& gate : report.gates)
     if (info_of(gate.measure).gate == "OF") gate.reason = "cell_centred = false";
 }
@@ -66,8 +68,9 @@ CheckReport check(const HybridMesh& mesh, const CheckOptions& options, const Run
     context.progress(0.7);
     if (options.quality) {
       report.quality = scan.quality.result();
-      judge_gates(mesh, cells, slots, match, scan, dual ? &*dual : nullptr, options.limits, context, report);
-      judge_cell_centres(mesh, cells, slots, match, neighbours, options, context, report);
+      LazyGivenLayer given(mesh);
+      judge_gates(mesh, cells, slots, match, scan, dual ? &*dual : nullptr, options.limits, given, context, report);
+      judge_cell_centres(mesh, cells, slots, match, neighbours, options, given, context, report);
       report.quality_measured = true;
     }
 

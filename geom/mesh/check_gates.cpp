@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "geom/mesh/forced.h"
+#include "geom/mesh/forced_layer.h"
 
 namespace sterna::check_parts {
 namespace {
@@ -24,7 +25,7 @@ std::pair<Point, std::string> describe_node(const HybridMesh& mesh, std::uint64_
 }
 
 void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, const CellScan& scan, const DualScan* dual,
-                 const GateTable& limits, const RunContext& context, CheckReport& report) {
+                 const GateTable& limits, LazyGivenLayer& layer, const RunContext& context, CheckReport& report) {
   const auto node = [&](std::uint64_t id) { return describe_node(mesh, id); };
   const auto cell = [&](std::uint64_t id) { return std::pair(cells.center(id), cells.name(id)); };
   const auto face = [&](std::uint64_t id) {
@@ -45,12 +46,12 @@ void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlo
   put(scan.max_dihedral.result(cell));
   if (dual == nullptr) return;
   if (match.tet_growth) put(match.tet_growth->result(face));
-  for (const GateScan* measure : {&dual->closure, &dual->orthogonality, &dual->sub_volume_ratio, &dual->face_area_ratio, &dual->relative_face_area_ratio})
-    put(measure->result(node));
+  put(dual->orthogonality.result(node, [&](std::uint64_t id) { return layer.get().orthogonality(NodeId(id), limits[Measure::orthogonality].hard); }));
+  for (const GateScan* measure : {&dual->closure, &dual->sub_volume_ratio, &dual->face_area_ratio, &dual->relative_face_area_ratio}) put(measure->result(node));
   put(dual->edge_ratio.result(node, [&](std::uint64_t id) { return given->edge_ratio(NodeId(id), limits[Measure::edge_ratio].hard); }));
   if (mesh.layers.n_columns() == 0) report.gates[static_cast<std::size_t>(Measure::relative_face_area_ratio)].reason = "the mesh has no columns of layers";
-  judge_interface(mesh, cells, slots, match, limits, context, report);
-  judge_layers(mesh, slots, match, limits, context, report);
+  const std::vector<double> gaps = judge_layers(mesh, slots, match, limits, context, report);
+  judge_interface(mesh, cells, slots, match, gaps, limits, layer, context, report);
 }
 
 }  // namespace sterna::check_parts

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "geom/math/measures.h"
+#include "geom/mesh/forced_layer.h"
 #include "geom/mesh/line_measures.h"
 
 namespace sterna::check_parts {
@@ -19,8 +20,8 @@ struct InterfaceScan {
 
 }  // namespace
 
-void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, const GateTable& limits,
-                     const RunContext& context, CheckReport& report) {
+void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, std::span<const double> gaps,
+                     const GateTable& limits, LazyGivenLayer& given, const RunContext& context, CheckReport& report) {
   const InterfaceScan scan = parallel_reduce(
       context, match.interface.size(), InterfaceScan(limits),
       [&](std::size_t begin, std::size_t end) {
@@ -50,11 +51,17 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
   const auto face = [&](std::uint64_t id) {
     return std::pair(slots.center(static_cast<std::uint32_t>(id)), "top of " + slots.name(static_cast<std::uint32_t>(id)));
   };
-  for (const GateScan* measure : {&scan.height, &scan.volume}) {
-    GateResult result = measure->result(face);
-    if (measure->empty()) result.reason = "no tet stands on a prism";
+  const auto prove_height = [&](std::uint64_t id) {
+    const std::uint64_t number = slots.owner(static_cast<std::uint32_t>(id));
+    if (gaps.empty() || number >= cells.first_prism()) return std::optional<Forcing>();  // not of a column, or nobody says what was asked for
+    return given.get().interface_height(number / static_cast<std::uint64_t>(mesh.layers.n_layers), gaps, limits[Measure::interface_height].hard);
+  };
+  const auto put = [&](GateResult result) {
+    if (scan.height.empty()) result.reason = "no tet stands on a prism";
     report.gates[static_cast<std::size_t>(result.measure)] = std::move(result);
-  }
+  };
+  put(scan.height.result(face, prove_height));
+  put(scan.volume.result(face));
 }
 
 }  // namespace sterna::check_parts

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "geom/math/constants.h"
 #include "geom/math/measures.h"
 #include "geom/math/spherical_cap.h"
 #include "geom/mesh/layer_room.h"
@@ -185,10 +186,15 @@ std::vector<FacingTriangle> facing_triangles(const HybridMesh& mesh, const Layer
   return facing;
 }
 
-/// Height that the geometry permits each line, m; the target where the line has its full height.
-std::vector<double> permitted_heights(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const std::vector<LineHeight>& heights,
-                                      const RunContext& context) {
-  std::vector<double> permitted = mesh.request.target_height;
+/// Of each line, m. Gaps are looked for where a line is below its full height.
+struct PermittedHeights {
+  std::vector<double> heights;  ///< that the geometry permits; the target where the line has its full height
+  std::vector<double> gaps;     ///< that gaps permit; infinite where none limits the line
+};
+
+PermittedHeights permitted_heights(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const std::vector<LineHeight>& heights,
+                                   const RunContext& context) {
+  PermittedHeights permitted{mesh.request.target_height, std::vector<double>(heights.size(), k_infinity)};
   if (std::all_of(heights.begin(), heights.end(), [](const LineHeight& line) { return line.is_full; })) return permitted;
   const std::vector<double> edges = envelope_edges(mesh, lines, context);
   const LayerRoom room(facing_triangles(mesh, lines, edges), context);
@@ -198,7 +204,9 @@ std::vector<double> permitted_heights(const HybridMesh& mesh, const LayerLines& 
     if (heights[k].is_full || around.empty()) return;
     double edge = 0.0;
     for (const std::uint32_t t : around) edge += edges[t] / static_cast<double>(around.size());
-    permitted[k] = room.permitted({line, mesh.points[lines.node(line, 0)], heights[k].normal, permitted[k], edge, heights[k].visibility});
+    const RoomRequest request{line, mesh.points[lines.node(line, 0)], heights[k].normal, mesh.request.target_height[k], edge, heights[k].visibility};
+    permitted.gaps[k] = room.in_gap(request);
+    permitted.heights[k] = LayerRoom::permitted(request, permitted.gaps[k]);
   });
   return permitted;
 }
@@ -265,10 +273,9 @@ PatchCoverage share_out(const HybridMesh& mesh, std::uint32_t patch, const Patch
   return result;
 }
 
-void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const Fans& fans, const std::vector<LineHeight>& heights, const GateTable& limits,
-                    const RunContext& context, CheckReport& report) {
+void judge_coverage(const HybridMesh& mesh, const LayerLines& lines, const std::vector<LineHeight>& heights, const std::vector<double>& permitted,
+                    const GateTable& limits, const RunContext& context, CheckReport& report) {
   double attained = 0.0, collapsed = 0.0, total = 0.0;
-  const std::vector<double> permitted = permitted_heights(mesh, lines, fans, heights, context);
   for (const auto& [patch, areas] : measure_coverage(mesh, lines, heights, permitted, context)) {
     report.coverage.push_back(share_out(mesh, patch, areas));
     attained += areas.attained;
@@ -298,8 +305,8 @@ GateTable with_requested_growth(GateTable limits, const HybridMesh& mesh) {
 
 }  // namespace
 
-void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const GateTable& user_limits, const RunContext& context,
-                  CheckReport& report) {
+std::vector<double> judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const GateTable& user_limits,
+                                 const RunContext& context, CheckReport& report) {
   const GateTable limits = with_requested_growth(user_limits, mesh);
   const auto put = [&](GateResult result) { report.gates[static_cast<std::size_t>(result.measure)] = std::move(result); };
   const LayerLines lines(mesh, slots, match, context);
@@ -307,7 +314,7 @@ void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatc
     for (const Measure measure :
          {Measure::stack_growth, Measure::stack_angle, Measure::first_height, Measure::coverage, Measure::collapsed, Measure::layer_step})
       put(not_checked(measure, limits, lines.reason()));
-    return;
+    return {};
   }
   const Fans fans(lines);
   const MirrorFeet feet(mesh);
@@ -337,10 +344,12 @@ void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatc
   put(scan.step.result(line));
   if (!is_usable) {
     for (const Measure measure : {Measure::first_height, Measure::coverage, Measure::collapsed}) put(not_checked(measure, limits, k_no_request));
-    return;
+    return {};
   }
   put(scan.first_height.result(line));
-  judge_coverage(mesh, lines, fans, heights, limits, context, report);
+  PermittedHeights permitted = permitted_heights(mesh, lines, fans, heights, context);
+  judge_coverage(mesh, lines, heights, permitted.heights, limits, context, report);
+  return std::move(permitted.gaps);
 }
 
 }  // namespace sterna::check_parts

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -248,14 +249,29 @@ DualScan check_dual(const HybridMesh& mesh, const CellNumbers& cells, const Dual
 void check_symmetry(const HybridMesh& mesh, const RunContext& context, Findings& findings);
 /// Each of HybridMesh::periodic, within periodic_tolerance(); fills the report's list of those that match.
 void check_periodic(const HybridMesh& mesh, CheckReport& report, Findings& findings);
-/// Gates of layers: G8, G10 - G13, and the coverage by patch. G9 is measured face by face at the interface.
-void judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const GateTable& limits, const RunContext& context,
-                  CheckReport& report);
-void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, const GateTable& limits,
-                     const RunContext& context, CheckReport& report);
+class GivenLayer;
+/// What proves that values of layers are forced, made when it is first asked for.
+class LazyGivenLayer {
+ public:
+  explicit LazyGivenLayer(const HybridMesh& mesh);
+  ~LazyGivenLayer();
+  const GivenLayer& get();
+
+ private:
+  const HybridMesh& mesh_;
+  std::unique_ptr<const GivenLayer> given_;
+};
+
+/// Gates of layers: G8, G10 - G13, and the coverage by patch. G9 is measured face by face at the interface. Returns the height along the wall's normal that a
+/// gap permits each line of the columns, m, infinite where none limits it; nothing where it is not known what was asked for.
+std::vector<double> judge_layers(const HybridMesh& mesh, const FaceSlots& slots, const FaceMatch& match, const GateTable& limits, const RunContext& context,
+                                 CheckReport& report);
+/// `gaps`: of judge_layers.
+void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, std::span<const double> gaps,
+                     const GateTable& limits, LazyGivenLayer& given, const RunContext& context, CheckReport& report);
 /// The QUALITY gates into the report.
 void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlots& slots, const FaceMatch& match, const CellScan& scan, const DualScan* dual,
-                 const GateTable& limits, const RunContext& context, CheckReport& report);
+                 const GateTable& limits, LazyGivenLayer& given, const RunContext& context, CheckReport& report);
 /// Middle of an entity and its name for a place of a gate: of a node, with its line and layer if it has any.
 std::pair<Point, std::string> describe_node(const HybridMesh& mesh, std::uint64_t node);
 

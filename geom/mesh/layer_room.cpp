@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geom/math/constants.h"
+
 namespace sterna {
 namespace {
 
@@ -56,15 +58,17 @@ std::optional<LayerRoom::Hit> LayerRoom::nearest_opposite(const RoomRequest& lin
   return nearest;
 }
 
-double LayerRoom::permitted(const RoomRequest& line) const {
-  const double corner = std::clamp(line.visibility / k_full_height_share, 0.0, 1.0);
-  double share = 1.0;
-  if (const std::optional<Hit> hit = nearest_opposite(line)) {
-    const FacingTriangle& opposite = boundary_[hit->triangle];
-    const double kept = std::min(k_kept_edges * std::max(line.edge, opposite.edge) / hit->cosine, k_kept_share * hit->gap);
-    share = (hit->gap - kept) / (line.target + opposite.asked / hit->cosine);
-  }
-  return line.target * std::min({1.0, corner, share});
+double LayerRoom::in_gap(const RoomRequest& line) const {
+  const std::optional<Hit> hit = nearest_opposite(line);
+  if (!hit) return k_infinity;
+  const FacingTriangle& opposite = boundary_[hit->triangle];
+  const double kept = std::min(k_kept_edges * std::max(line.edge, opposite.edge) / hit->cosine, k_kept_share * hit->gap);
+  const double share = (hit->gap - kept) / (line.target + opposite.asked / hit->cosine);
+  return share < 1.0 ? line.target * share : k_infinity;
+}
+
+double LayerRoom::permitted(const RoomRequest& line, double in_gap) {
+  return std::min(line.target * std::clamp(line.visibility / k_full_height_share, 0.0, 1.0), in_gap);
 }
 
 }  // namespace sterna

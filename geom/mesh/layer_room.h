@@ -46,7 +46,11 @@ class LayerRoom {
   /// Gap: where the normal meets a wall that faces it within 45 degrees at distance g, and both layers do not fit into g less what the envelope keeps to
   /// itself, each gets what is left in proportion to what it asks for: equal layers half of it. Corner: a line as long as the target reaches target *
   /// visibility on the worst facet, whatever its direction; that counts as full there.
-  double permitted(const RoomRequest& line) const;
+  double permitted(const RoomRequest& line) const { return permitted(line, in_gap(line)); }
+  /// The same, of a line that in_gap() was asked for.
+  static double permitted(const RoomRequest& line, double in_gap);
+  /// Height along the wall's normal that an opposing wall leaves the line, m; infinite where none limits it.
+  double in_gap(const RoomRequest& line) const;
 
  private:
   struct Hit {

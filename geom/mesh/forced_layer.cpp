@@ -1,0 +1,309 @@
+#include "geom/mesh/forced_layer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geom/base/number_text.h"
+#include "geom/base/print_text.h"
+#include "geom/math/constants.h"
+#include "geom/math/measures.h"
+#include "geom/math/spherical_cap.h"
+#include "geom/mesh/line_measures.h"
+
+namespace sterna::check_parts {
+namespace {
+
+constexpr int k_forced_digits = 3;  ///< of lengths in texts
+/// Proofs about sides hold for lines that lean by at most k_lean_room more than the best direction at their feet; beyond this angle to a normal beside them
+/// (rad) nothing is proven.
+constexpr double k_most_forced_skew = 88 * k_degree;
+/// Tilt of a side's normal against the plane across the wall's edge (sine) beyond which nothing is proven.
+constexpr double k_most_tilt = 0.4;
+/// A first height that is within its hard limit (G11), and a growth that is as asked for (G8 has the same slack).
+constexpr double k_first_height_room = 1.2, k_growth_room = 1.01;
+/// Lines that lean by more than this (cosine) may be any length for their height.
+constexpr double k_least_lean_cosine = 0.1;
+/// Sweeps of the search for a bound's multipliers; any multipliers are a proof, more sweeps a better one.
+constexpr int k_multiplier_sweeps = 100;
+/// Of the measures of this mesh against bounds that must hold for it, too: rounding.
+constexpr double k_bound_slack = 1e-9;
+
+constexpr const char* k_remesh_there = "remesh the wall there (surface_mesh), or split its needles";
+constexpr const char* k_ask_more = "more layers, a larger growth or first height, or a finer wall there";
+constexpr const char* k_fewer_layers = "truncate the layer there, or ask for fewer layers";
+
+/// Least share of corner `own` in the centre of a prism with these lengths at its corners, where heights are at least `stand` of the lengths; and the largest.
+double least_share(double own, double others, double stand) { return (2.0 * stand * own + others) / (4.0 * (stand * own + others)); }
+double largest_share(double own, double others, double stand) { return (2.0 * own + stand * others) / (4.0 * (own + stand * others)); }
+
+}  // namespace
+
+/// Two wall triangles at a common edge, and bounds of the layer above them.
+struct GivenLayer::Pair {
+  /// One of them, seen from the edge.
+  struct Half {
+    double area = 0.0;     ///< m^2
+    double reach = 0.0;    ///< m, of the opposite corner from the edge's line
+    double longest = 0.0;  ///< m, side
+    double step = 0.0;     ///< m, of the opposite line in the layer
+  };
+  std::array<Half, 2> halves;
+  double edge = 0.0;          ///< m
+  double steps = 0.0;         ///< m, of the edge's two lines in the layer, together
+  double moved = 0.0;         ///< m, farthest that a corner of the two cells is off the wall
+  double moved_across = 0.0;  ///< m, the same along the side's normal
+  double tilt = 0.0;          ///< sine of the largest angle between the side's normal and the plane across the wall's edge
+  double carry = 0.0;         ///< least quotient of what a step or a side's normal has along one triangle's axes and along the other's
+  double stand = 0.0;         ///< least cosine between a step and the normal of a triangle beside it
+  double stands = 0.0;        ///< least component of the side's normal along a triangle, across the edge
+};
+
+struct GivenLayer::Room {
+  double last = 0.0, total = 0.0;                    ///< m, largest length of the last cell and of the line
+  double last_as_asked = 0.0, total_as_asked = 0.0;  ///< m, the same without the gap
+};
+
+GivenLayer::GivenLayer(const HybridMesh& mesh) : mesh_(mesh), rings_(mesh.layers), feet_(mesh) {
+  for (std::size_t k = 0; k < mesh.layers.n_lines(); ++k) line_at_.push_back({mesh.layers.first_node[k], static_cast<std::uint32_t>(k)});
+  std::sort(line_at_.begin(), line_at_.end());
+}
+
+double GivenLayer::step(std::uint32_t line, int layer) const {
+  return distance(mesh_.points[mesh_.layers.node(line, layer)], mesh_.points[mesh_.layers.node(line, layer + 1)]);
+}
+
+/// Of a line up to a layer, m.
+double GivenLayer::length(std::uint32_t line, int layer) const {
+  double sum = 0.0;
+  for (int j = 0; j < layer; ++j) sum += step(line, j);
+  return sum;
+}
+
+std::vector<Vec3> GivenLayer::normals_around(std::uint32_t line) const {
+  std::vector<Vec3> normals;
+  for (const std::uint32_t column : rings_.columns(line)) {
+    const auto& base = mesh_.layers.base[column];
+    normals.push_back(normalized(area_vector(foot(base[0]), foot(base[1]), foot(base[2]))));
+  }
+  feet_.add_images(mesh_.layers.node(line, 0), normals);
+  return normals;
+}
+
+/// Whether columns of prisms go all around the line.
+bool GivenLayer::is_closed(std::uint32_t line) const {
+  std::vector<std::uint32_t> before, after;
+  for (const std::uint32_t column : rings_.columns(line)) {
+    if (mesh_.layers.n_collapsed(column) > 0) return false;
+    const auto& base = mesh_.layers.base[column];
+    const std::size_t corner = base[0] == line ? 0 : base[1] == line ? 1 : 2;
+    after.push_back(base[(corner + 1) % 3]);
+    before.push_back(base[(corner + 2) % 3]);
+  }
+  std::sort(before.begin(), before.end());
+  std::sort(after.begin(), after.end());
+  return !before.empty() && before == after;
+}
+
+std::array<std::uint32_t, 4> GivenLayer::lines_of(const ColumnSide& side) const {
+  const auto &base = mesh_.layers.base[side.column], &behind = mesh_.layers.base[side.other];
+  std::array<std::uint32_t, 4> lines = {base[side.corner], base[(side.corner + 1) % 3], base[(side.corner + 2) % 3], behind[0]};
+  for (const std::uint32_t line : behind)
+    if (line != lines[0] && line != lines[1]) lines[3] = line;
+  return lines;
+}
+
+std::optional<GivenLayer::Pair> GivenLayer::pair_of(const ColumnSide& side) const {
+  const LayerBlock& layers = mesh_.layers;
+  if (layers.n_collapsed(side.column) > 0 || layers.n_collapsed(side.other) > 0) return std::nullopt;
+  const auto [a, b, c, e] = lines_of(side);
+  const Point &pa = foot(a), &pb = foot(b), &pc = foot(c), &pe = foot(e);
+  Pair pair;
+  pair.edge = distance(pa, pb);
+  double best = 0.0, least_length = k_infinity;
+  for (const std::uint32_t line : {a, b, c, e}) {
+    best = std::max(best, smallest_spherical_cap(normals_around(line)).angle);
+    pair.moved = std::max(pair.moved, length(line, side.layer + 1));
+    least_length = std::min(least_length, length(line, side.layer));
+  }
+  const double turn = angle_between(area_vector(pa, pb, pc), area_vector(pb, pa, pe)), skew = best + k_lean_room;
+  if (!(skew < k_most_forced_skew)) return std::nullopt;
+  // The side's normal is across a step, so within `skew` of the triangles' planes, and lines are within `skew` of their normals.
+  pair.moved_across = pair.moved * std::sin(std::min(2.0 * skew, 0.5 * std::numbers::pi));
+  pair.steps = step(a, side.layer) + step(b, side.layer);
+  pair.halves[0] = {triangle_area(pa, pb, pc), 0.0, longest_side(pa, pb, pc), step(c, side.layer)};
+  pair.halves[1] = {triangle_area(pb, pa, pe), 0.0, longest_side(pa, pb, pe), step(e, side.layer)};
+  double turned = 0.0;
+  for (Pair::Half& half : pair.halves) {
+    half.reach = 2.0 * half.area / pair.edge;
+    // Heights over a triangle differ by at most `rise`; the plane through them is no steeper than that over the triangle's least height.
+    const double rise = pair.moved - std::cos(skew) * least_length, width = 2.0 * half.area / half.longest - 2.0 * pair.moved * std::sin(skew);
+    if (!(width > 0.0)) return std::nullopt;
+    turned = std::max(turned, std::atan(rise / width));
+  }
+  pair.tilt = 2.0 * pair.moved_across / pair.edge;
+  if (!(pair.tilt < k_most_tilt)) return std::nullopt;
+  // With n the side's normal less its part along the edge: its angles to the two triangles' normals are at most `widest`.
+  if (!(skew + turned < k_most_forced_skew)) return std::nullopt;
+  const double sine = std::sin(skew) / std::sqrt(1.0 - pair.tilt * pair.tilt);
+  if (!(sine < 1.0)) return std::nullopt;
+  const double widest = std::asin(sine);
+  pair.stand = std::cos(skew + turned);
+  pair.carry = std::cos(widest) / std::cos(turn - widest);
+  const double squared = std::cos(skew) * std::cos(skew) - pair.tilt * pair.tilt;
+  if (!(squared > 0.0)) return std::nullopt;
+  pair.stands = std::sqrt(squared);
+  return pair;
+}
+
+std::optional<Forcing> GivenLayer::face_weight(const ColumnSide& side, double limit) const {
+  const std::optional<Pair> pair = pair_of(side);
+  if (!pair) return std::nullopt;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Pair::Half &near = pair->halves[k], &far = pair->halves[1 - k];
+    // Along the edge points of a triangle are at most its longest side apart; centres of side and cell are `moved` off their places.
+    const double near_error = (pair->tilt * near.longest + 2.0 * pair->moved_across) / pair->stands;
+    const double far_error = (pair->tilt * far.longest + 2.0 * pair->moved_across) / pair->stands;
+    const double to_far = pair->carry * least_share(far.step, pair->steps, pair->stand) * far.reach - far_error;
+    const double to_near = largest_share(near.step, pair->steps, pair->stand) * near.reach + near_error;
+    const double bound = to_near / (to_near + to_far);
+    if (to_far > 0.0 && bound < limit)
+      return Forcing{"the wall's triangles reach " + in_metres(near.reach, k_forced_digits) + " and " + in_metres(far.reach, k_forced_digits) +
+                         " from their edge here: no weight above " + print_text("%.3g", bound),
+                     k_remesh_there};
+  }
+  return std::nullopt;
+}
+
+std::optional<Forcing> GivenLayer::volume_ratio(const ColumnSide& side, double limit) const {
+  const std::optional<Pair> pair = pair_of(side);
+  if (!pair) return std::nullopt;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Pair::Half &small = pair->halves[k], &large = pair->halves[1 - k];
+    const double largest = small.area + area_error(small.longest, pair->moved);
+    const double smallest = large.area - area_error(large.longest, pair->moved);
+    if (!(smallest > 0.0)) continue;
+    double heights = 0.0;
+    for (const double stand : {pair->stand, 1.0})
+      heights = std::max(heights, (stand * pair->steps + small.step) / (pair->carry * stand * pair->steps + pair->stand * large.step));
+    const double bound = largest / smallest * heights;
+    if (bound < limit)
+      return Forcing{"the wall's triangles have " + print_text("%.3g", small.area) + " and " + print_text("%.3g", large.area) + " m^2 here: no ratio above " +
+                         print_text("%.3g", bound),
+                     k_remesh_there};
+  }
+  return std::nullopt;
+}
+
+std::optional<Forcing> GivenLayer::orthogonality(NodeId node, double limit) const {
+  const auto next = std::upper_bound(line_at_.begin(), line_at_.end(), node.value(), [](std::uint32_t n, const auto& entry) { return n < entry.first; });
+  if (next == line_at_.begin()) return std::nullopt;
+  const auto [first, line] = *std::prev(next);
+  const auto layer = static_cast<int>(node.value() - first);
+  if (layer >= mesh_.layers.n_steps(line) || !is_closed(line)) return std::nullopt;
+
+  const double own = length(line, layer + 1);
+  const double own_step = std::max(step(line, layer), layer > 0 ? step(line, layer - 1) : 0.0);
+  std::vector<Vec3> normals;
+  Vec3 sum{};
+  double error = 0.0, slack = 0.0, beside = 0.0;
+  for (const std::uint32_t column : rings_.columns(line)) {
+    const auto& base = mesh_.layers.base[column];
+    double moved = 0.0, tallest = own_step;
+    for (const std::uint32_t k : base) {
+      if (k == line) continue;
+      moved = std::max(moved, length(k, layer + 1));
+      tallest = std::max({tallest, step(k, layer), layer > 0 ? step(k, layer - 1) : 0.0});
+    }
+    moved += own;  // of a side of the triangle from the line
+    const double longest = longest_side(foot(base[0]), foot(base[1]), foot(base[2]));
+    const Vec3 area = area_vector(foot(base[0]), foot(base[1]), foot(base[2]));
+    const double off = moved * (longest + 0.5 * moved);
+    normals.push_back(normalized(area));
+    sum += area / 3.0;
+    error += off / 3.0;
+    slack = std::max(slack, off / norm(area));
+    // Dual faces beside the line: two in each cell, each within (|r| 13/6 + t 7/6) t / 2 with t the tallest step, r from an edge's middle to a triangle's.
+    const double r = 0.5 * longest + moved;
+    beside += (layer > 0 ? 2.0 : 1.0) * tallest * (r * 13.0 + tallest * 7.0) / 6.0;
+  }
+  const double size = norm(sum);
+  if (!(size > 2.0 * error)) return std::nullopt;
+  // For any multipliers m >= 0 and any unit step s with s . n_i >= -slack: s . v <= |v + sum m_i n_i| + slack sum m_i.
+  Vec3 rest = sum / size;
+  std::vector<double> multipliers(normals.size(), 0.0);
+  for (int sweep = 0; sweep < k_multiplier_sweeps; ++sweep)
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      const double change = std::max(-multipliers[i], -dot(rest, normals[i]));
+      multipliers[i] += change;
+      rest += change * normals[i];
+    }
+  double all = 0.0;
+  for (const double multiplier : multipliers) all += multiplier;
+  const double sine = (size * (norm(rest) + slack * all) + error) / (size - error);
+  if (!(sine < 1.0)) return std::nullopt;
+  const double across = (layer > 0 ? 2.0 : 1.0) * (size - error), best = std::asin(sine);
+  const double bound = (across * best + beside * 0.5 * std::numbers::pi) / (across + beside);
+  if (!(bound < limit)) return std::nullopt;
+  return Forcing{"lines that see all facets of the wall are at least " + print_text("%.3g deg", (0.5 * std::numbers::pi - best) * k_degrees) +
+                     " off the normal of their sum here: no orthogonality above " + print_text("%.3g deg", bound * k_degrees),
+                 k_more_normals};
+}
+
+std::optional<GivenLayer::Room> GivenLayer::room_of(std::uint32_t line, double gap) const {
+  const LayerRequest& request = mesh_.request;
+  const std::vector<Vec3> normals = normals_around(line);
+  const double lean = std::cos(std::min(smallest_spherical_cap(normals).angle + k_lean_room, 0.5 * std::numbers::pi));
+  if (!(lean > k_least_lean_cosine)) return std::nullopt;
+  const int n = mesh_.layers.n_steps(line);
+  const double growth = k_growth_room * (request.line_max_growth.empty() ? request.max_growth : request.line_max_growth[line]);
+  if (!(growth > 1.0) || n < 1) return std::nullopt;
+  const double power = std::pow(growth, n);
+  const double first = k_first_height_room * request.first_height_of(line) / lean;
+  Room room;
+  room.last_as_asked = room.last = first * power / growth;
+  room.total_as_asked = room.total = first * (power - 1.0) / (growth - 1.0);
+  if (gap < k_infinity) {
+    room.total = std::min(room.total, std::max(gap / lean, length(line, n)));
+    room.last = std::min(room.last, room.total * (1.0 - 1.0 / growth) / (1.0 - 1.0 / power));
+  }
+  return room;
+}
+
+std::optional<Forcing> GivenLayer::interface_height(std::size_t column, std::span<const double> gaps, double limit) const {
+  const LayerBlock& layers = mesh_.layers;
+  if (layers.n_collapsed(column) > 0) return std::nullopt;
+  const int n = layers.layers_of_column(column);
+  const auto& base = layers.base[column];
+  double wall = 0.0, edge = 0.0, height = 0.0;
+  Room most;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t line = base[k], next = base[(k + 1) % 3];
+    const std::optional<Room> room = room_of(line, gaps.empty() ? k_infinity : gaps[line]);
+    if (!room) return std::nullopt;
+    most.last += room->last / 3.0;
+    most.last_as_asked += room->last_as_asked / 3.0;
+    most.total += 2.0 * room->total / 3.0;  // each corner moves two of three edges
+    most.total_as_asked += 2.0 * room->total_as_asked / 3.0;
+    wall += distance(foot(line), foot(next)) / 3.0;
+    edge += distance(mesh_.points[layers.top(line)], mesh_.points[layers.top(next)]) / 3.0;
+    height += step(line, n - 1) / 3.0;
+  }
+  // A mesh that does not keep what the bounds suppose proves nothing.
+  if (height > most.last * (1.0 + k_bound_slack) || edge < (wall - most.total) * (1.0 - k_bound_slack)) return std::nullopt;
+  const double as_asked = k_regular_height * (wall - most.total_as_asked) / most.last_as_asked;
+  const double in_gap = k_regular_height * (wall - most.total) / most.last;
+  const std::string edges = "the wall's edges are " + in_metres(wall, k_forced_digits) + " long here, ";
+  if (as_asked > limit) return Forcing{edges + "and the layer asked for has no last cell above " + in_metres(most.last_as_asked, k_forced_digits), k_ask_more};
+  if (in_gap > limit) return Forcing{edges + "and the gap leaves no last cell above " + in_metres(most.last, k_forced_digits), k_fewer_layers};
+  return std::nullopt;
+}
+
+LazyGivenLayer::LazyGivenLayer(const HybridMesh& mesh) : mesh_(mesh) {}
+LazyGivenLayer::~LazyGivenLayer() = default;
+const GivenLayer& LazyGivenLayer::get() {
+  if (!given_) given_ = std::make_unique<const GivenLayer>(mesh_);
+  return *given_;
+}
+
+}  // namespace sterna::check_parts
