@@ -124,6 +124,7 @@ local mesh = volume_mesh{ wall,
     improve_min_angle = 12*deg,
     improve_max_angle = 160*deg,
     improve_rounds = 30,            -- 0: none
+    slide_share = 0.2,              -- of the layer's height, that lines may end lower where prisms and tetrahedra do not fit; 0: never
   },
 }
 

@@ -83,6 +83,7 @@ Json improvement_json(const volmesh::ImproveReport& report) {
           {"forced", report.n_forced},
           {"unforced", report.n_bad_after - report.n_bad_free_after - report.n_forced},
           {"at_boundary", report.n_at_boundary},
+          {"slid_lines", report.n_slid},
           {"remaining", remaining}};
 }
 

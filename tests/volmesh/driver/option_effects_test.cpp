@@ -155,6 +155,7 @@ const std::map<std::string, std::string> k_elsewhere = {
     {"ends.ends_min_angle", "plane_end_test: a goal that shows where loops leave room for it"},
     {"envelope.untangle_share", "heights grow back to the same limit after untangling, so it shows between the steps: the test below"},
     {"envelope.max_retract_sweeps", "a guard: from then on each sweep collapses a vertex; retraction ends long before on all surfaces of the tests"},
+    {"improve.slide_share", "layer/slide_lines_test: shows where the layer's top has folds"},
     {"tetrahedra.memory_limit", "process_test: an engine that wants more memory"},
     {"tetrahedra.time_limit", "ladder_test: an engine without end"},
     {"tetrahedra.try_other_engine", "ladder_test: engines that fail"},

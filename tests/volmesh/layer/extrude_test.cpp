@@ -207,7 +207,7 @@ TEST(LayerCells, ASideIsCutAlongTheSameDiagonalOnBothSidesOrNotAtAll) {
   const auto can_be_cut = [](double push, bool has_beyond) {
     const std::array<Point, 2> from = {Point{0, 0, 0}, {0, 0, 1}}, to = {Point{1, 0, 0}, {1, push, 1}}, own = {Point{0.5, 1, 0}, {0.5, 1, 1}},
                                beyond = {Point{0.5, -1, 0}, {0.5, -1, 1}};
-    return can_side_be_cut({from.data(), to.data(), own.data(), has_beyond ? beyond.data() : nullptr}, 1);
+    return side_shape({from.data(), to.data(), own.data(), has_beyond ? beyond.data() : nullptr}, 0, 1).cut_share >= k_good_cut_share;
   };
   for (const bool has_beyond : {false, true})
     for (const double push : {-0.5, 0.0, 0.5}) EXPECT_TRUE(can_be_cut(push, has_beyond)) << push;
@@ -224,7 +224,8 @@ TEST(Extrude, LeavesFewSidesThatCannotBeCut) {
       const HalfedgeId side(h), twin = c.base.topology.twin(side);
       const auto line = [&](VertexId v) { return x.points.data() + x.layers.first_node[v.index()]; };
       const Topology& topology = c.base.topology;
-      n += !can_side_be_cut({line(topology.from(side)), line(topology.to(side)), line(topology.from(previous(side))), line(topology.from(previous(twin)))}, 16);
+      const SideLines lines = {line(topology.from(side)), line(topology.to(side)), line(topology.from(previous(side))), line(topology.from(previous(twin)))};
+      n += side_shape(lines, 13, 16).cut_share < k_good_cut_share;
     }
     return n;
   };
