@@ -154,6 +154,16 @@ class GateScan {
     if (classes_->n > 0) histogram_[static_cast<std::size_t>(classes_->of(value))] += weight;
     if (badness >= entry_) remember({badness, id});
   }
+  /// Whether add() of a value at least as good as this would change no more than the number of items; then add_unnoted() does the same. For measures whose
+  /// exact value is dear and has a cheap bound.
+  bool would_not_be_noted(double bound) const {
+    const double badness = sign_ * bound;
+    return classes_->n == 0 && badness < entry_ && badness <= worst_within_ && badness <= usual_ && badness <= hard_;
+  }
+  void add_unnoted() {
+    total_ += 1.0;
+    within_ += 1.0;
+  }
   void merge(const GateScan& other);
   bool empty() const { return worst_.empty(); }
   /// Worst first; equal ones by ascending id.
