@@ -46,7 +46,7 @@ local mesh = volume_mesh{ wall,
 
   needles = {                          -- of the wall: see docs/needles.md
     split_needles = 5*deg,          -- triangles with a smaller angle are flipped and split; 0: never
-    needle_budget = 1.0,            -- triangles that this adds at most, over those of the walls
+    needle_budget = 0.0,            -- triangles that splitting adds at most, over those of the walls; 0: flips only
     flip_angle = 1*deg,             -- edges at which the wall turns by less may be flipped for it
   },
   envelope = {

@@ -52,12 +52,15 @@ TrueSurface true_surface_of(const TrueSurface& of_surface, const Domain& domain)
   };
 }
 
-void tell_needles(const NeedleReport& needles, double limit, const RunContext& context) {
+void tell_needles(const NeedleReport& needles, const NeedleOptions& options, const RunContext& context) {
   if (needles.has_changed()) context.info(describe(needles));
   if (needles.n_left == 0) return;
-  context.warn(std::to_string(needles.n_left) + " triangles of the wall have an angle below " + number_text(limit * 180.0 / std::numbers::pi, 3) +
-               " degrees (needles" + (needles.has_changed() ? " that are left" : "") + "); the first is at " + format_point(needles.first_left) +
-               (needles.is_over_budget ? "; a larger needle_budget would split more of them" : ""));
+  std::string hint;
+  if (options.needle_budget == 0.0) hint = "; needle_budget = 1 splits those that can become better";
+  if (needles.is_over_budget) hint = "; a larger needle_budget splits more of them";
+  context.warn(std::to_string(needles.n_left) + " triangles of the wall have an angle below " +
+               number_text(options.split_needles * 180.0 / std::numbers::pi, 3) + " degrees (needles" + (needles.has_changed() ? " that are left" : "") +
+               "); the first is at " + format_point(needles.first_left) + hint);
 }
 
 /// \p is_clear: proved already; not where patches were triangulated anew.
@@ -173,7 +176,7 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const
 EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunContext& context) {
   const StageTimer timer(context, "envelope");
   const RunContext part = context.part("envelope", 0.0, step_ends(context.threads()).envelope);
-  tell_needles(site.domain.needles, site.options.needles.split_needles, context);
+  tell_needles(site.domain.needles, site.options.needles, context);
   const std::vector<WholePart> parts =
       site.domain.slits.empty() ? whole_parts(site.domain, site.options.parts, context) : std::vector<WholePart>{};  // cut walls are no parts' any more
   const auto of_wall = [&] {

@@ -171,6 +171,9 @@ class StageJson {
     }
   }
 
+  /// Versions that did not made layers on walls as they were given.
+  bool knows_needles() const { return json_.contains(Json::json_pointer("/options/needles")); }
+
   std::vector<volmesh::PatchRule> patch_rules() const {
     return json_.contains("patch_rules") ? layer_rules_of_json(json_.at("patch_rules").dump()) : std::vector<volmesh::PatchRule>{};
   }
@@ -400,6 +403,7 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     const StageJson json(content.manifest, file);
     auto wall = std::make_shared<SurfaceValue>(*surface_of(std::move(*content.surface), json.inputs(), context));
     volmesh::MeshCase options;
+    if (!json.knows_needles()) options.needles.split_needles = 0.0;
     json.read_options(all_options(wall->options, options));
     options.discs = json.discs();
     options.periodic = json.periodic();

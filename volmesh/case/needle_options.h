@@ -10,7 +10,7 @@ namespace sterna::volmesh {
 
 struct NeedleOptions {
   double split_needles = 5.0 * std::numbers::pi / 180.0;
-  double needle_budget = 1.0;
+  double needle_budget = 0.0;
   double flip_angle = 1.0 * std::numbers::pi / 180.0;
 };
 
@@ -29,12 +29,13 @@ struct Schema<volmesh::NeedleOptions> {
                .unit = Unit::radian,
                .min = 0.0,
                .max = 0.35,
-               .help = "triangles of walls with layers that have a smaller angle are flipped and split before the layer is made; 0: never"},
+               .help = "triangles of walls with layers that have a smaller angle are flipped, and split where needle_budget says so, before the layer is made; "
+                       "0: never"},
       Field<O>{.name = "needle_budget",
                .member = &O::needle_budget,
                .min = 0.0,
                .max = 100.0,
-               .help = "largest number of triangles that this adds, over those of the walls with layers; 0: edges are flipped only"},
+               .help = "largest number of triangles that splitting adds, over those of the walls with layers; 0: edges are flipped only"},
       Field<O>{.name = "flip_angle",
                .member = &O::flip_angle,
                .unit = Unit::radian,

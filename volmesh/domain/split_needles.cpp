@@ -454,7 +454,7 @@ NeedleSplits split_needles(TriMesh& boundary, const Column<PatchId, std::uint8_t
       result = splitter.put_into(split);
       result.report.is_over_budget &= pass > 0;
     }
-    if (pass > 0 && !splitter.lock_spoilt(boundary, is_locked)) break;
+    if (options.needle_budget == 0.0 || (pass > 0 && !splitter.lock_spoilt(boundary, is_locked))) break;
     of_pass.needle_budget = options.needle_budget;
   }
   if (!result.report.has_changed()) return unchanged;

@@ -169,7 +169,7 @@ TEST(SplitNeedles, WithoutNeedlesAndWithoutLeaveNothingChanges) {
   };
   expect_unchanged(sphere, {});
   expect_unchanged(strips, {.split_needles = 0.0});
-  expect_unchanged(strips, {.flip_angle = 0.0});
+  expect_unchanged(strips, {.needle_budget = 50.0, .flip_angle = 0.0});
   expect_unchanged(long_strips(24, 1e4), k_rich);  // a thousand pieces each: out of reach
 }
 
@@ -198,10 +198,10 @@ TEST(SplitNeedles, PatchesWithoutLayersAndRimsStayAsTheyAre) {
 TEST(SplitNeedles, TheSameBytesForAnyNumberOfThreads) {
   const TriMesh given = long_strips(48, 20.0);
   TriMesh first = given;
-  split_needles(first, all_layered(given), {}, RunContext({.threads = 1}));
+  split_needles(first, all_layered(given), k_rich, RunContext({.threads = 1}));
   for (const int threads : {2, 7}) {
     TriMesh split = given;
-    split_needles(split, all_layered(given), {}, RunContext({.threads = threads}));
+    split_needles(split, all_layered(given), k_rich, RunContext({.threads = threads}));
     EXPECT_EQ(split.triangles, first.triangles);
     EXPECT_EQ(split.points, first.points);
     EXPECT_EQ(split.triangle_patch, first.triangle_patch);
@@ -212,6 +212,7 @@ TEST(SplitNeedles, MeshesHaveTheFinerWallAndStepsByHandAreTheSame) {
   const TriMesh wall = long_strips(24, 6.0);
   MeshCase options = layers(6, 1e-3);
   options.farfield.farfield_radius = 60.0;
+  options.needles = k_rich;
   const VolumeMeshResult whole = volume_mesh(wall, options, k_context);
   EXPECT_TRUE(whole.check.is_valid());
   EXPECT_EQ(whole.needles.n_needles, 48);
@@ -228,7 +229,9 @@ TEST(SplitNeedles, MeshesHaveTheFinerWallAndStepsByHandAreTheSame) {
 
 TEST(SplitNeedles, HalfModelsKeepTheirRims) {
   const TriMesh wall = long_strips(24, 6.0, true);
-  const VolumeMeshResult result = volume_mesh(wall, layers(6, 1e-3), k_context);
+  MeshCase options = layers(6, 1e-3);
+  options.needles = k_rich;
+  const VolumeMeshResult result = volume_mesh(wall, options, k_context);
   EXPECT_TRUE(result.check.is_valid());
   EXPECT_GT(result.needles.n_triangles, result.needles.n_given);
   EXPECT_EQ(rim_edges(result), (Edges{{"symmetry", 24}}));
@@ -241,6 +244,7 @@ TEST(SplitNeedles, PartsWhoseWallHasChangedAreMadeWhereTheyAre) {
   const auto n_vertices = static_cast<std::uint32_t>(surface.n_vertices()), n_triangles = static_cast<std::uint32_t>(surface.n_triangles());
   append(surface, *strips);
   MeshCase options = layers(6, 1e-3);
+  options.needles = k_rich;
   options.parts = {{.own = sphere}, {.own = strips, .first_triangle = n_triangles, .first_vertex = n_vertices}};
   const MeshingSite site(surface, options, k_context);
   const std::vector<WholePart> parts = whole_parts(site.domain, site.options.parts, k_context);
