@@ -44,6 +44,11 @@ local mesh = volume_mesh{ wall,
   first_height = 1e-6 * wall.length,  -- or of flow conditions: y_plus{ ... }, below
   refinement = 1.0,                 -- of a mesh family: coarse, medium, fine or a number; the same for surface_mesh
 
+  needles = {                          -- of the wall: see docs/needles.md
+    split_needles = 5*deg,          -- triangles with a smaller angle are flipped and split; 0: never
+    needle_budget = 0.0,            -- triangles that splitting adds at most, over those of the walls; 0: flips only
+    flip_angle = 1*deg,             -- edges at which the wall turns by less may be flipped for it
+  },
   envelope = {
     max_growth = 1.4,
     total_height = "automatic",     -- metres, of all layers together: with it one of layers and max_growth is left out and follows

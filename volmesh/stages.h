@@ -24,13 +24,14 @@ struct EnvelopeStage {
 
 /// The layer under the envelope, and the tetrahedra that an engine has made around it.
 struct FilledStage {
-  std::optional<TriMesh> split_wall;  ///< nullopt: the wall as it was given
+  std::optional<TriMesh> split_wall;  ///< nullopt: the wall as it was given, but for its needles
   EnvelopeStage envelope;             ///< of that wall, as the layer ends now
   HybridMesh layers;                  ///< of assemble_layers(): lines of the layer, then the outer boundary; no tetrahedra
   TetraResult tets;                   ///< fill boundary_of(layers); not improved, without splits
   std::vector<std::string> tetra_failures;
   std::array<std::int64_t, 5> curving_shares{};  ///< Extrusion::curving_shares
   std::int64_t n_split_triangles = 0;
+  NeedleReport needles;  ///< of the wall, before all this
 };
 
 /// Called when a step of volume_mesh() has ended; any may be empty.

@@ -1,6 +1,7 @@
 #include "volmesh/volume_mesh.h"
 
 #include <algorithm>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -42,9 +43,25 @@ StepEnds step_ends(int threads) {
 /// The user's own true surface, asked with triangles of the wall.
 TrueSurface true_surface_of(const TrueSurface& of_surface, const Domain& domain) {
   if (!of_surface) return {};
-  return [of_surface, &wall2surface = domain.wall2surface](const Point& p, TriangleId t, const std::array<double, 3>& weights) {
-    return of_surface(p, wall2surface[t], weights);
+  return [of_surface, &domain](const Point& p, TriangleId t, const std::array<double, 3>& weights) {
+    if (domain.wall_weights.empty()) return of_surface(p, domain.wall2surface[t], weights);
+    std::array<double, 3> in_given{};
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t j = 0; j < 3; ++j) in_given[j] += weights[k] * domain.wall_weights[t][k][j];
+    const bool is_of_one = std::ranges::any_of(in_given, [](double weight) { return weight != 0.0; });
+    return is_of_one ? of_surface(p, domain.wall2surface[t], in_given) : p;
   };
+}
+
+void tell_needles(const NeedleReport& needles, const NeedleOptions& options, const RunContext& context) {
+  if (needles.has_changed()) context.info(describe(needles));
+  if (needles.n_left == 0) return;
+  std::string hint;
+  if (options.needle_budget == 0.0) hint = "; needle_budget = 1 splits those that can become better";
+  if (needles.is_over_budget) hint = "; a larger needle_budget splits more of them";
+  context.warn(std::to_string(needles.n_left) + " triangles of the wall have an angle below " +
+               number_text(options.split_needles * 180.0 / std::numbers::pi, 3) + " degrees (needles" + (needles.has_changed() ? " that are left" : "") +
+               "); the first is at " + format_point(needles.first_left) + hint);
 }
 
 /// \p is_clear: proved already; not where patches were triangulated anew.
@@ -180,6 +197,7 @@ VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const
 EnvelopeStage make_envelope(MeshingSite& site, const Makers& makers, const RunContext& context) {
   const StageTimer timer(context, "envelope");
   const RunContext part = context.part("envelope", 0.0, step_ends(context.threads()).envelope);
+  tell_needles(site.domain.needles, site.options.needles, context);
   const std::vector<WholePart> parts =
       site.domain.slits.empty() ? whole_parts(site.domain, site.options.parts, context) : std::vector<WholePart>{};  // cut walls are no parts' any more
   const auto of_wall = [&] {
@@ -202,6 +220,7 @@ FilledStage make_tetrahedra(MeshingSite& site, EnvelopeStage stage, const Makers
   tell_warnings();
 
   FilledStage filled;
+  filled.needles = site.domain.needles;
   Filling filling;
   for (int n_repairs = 0;; ++n_repairs) {
     try {
@@ -242,6 +261,7 @@ VolumeMeshResult finish_mesh(FilledStage filled, LayerKnowledge knowledge, const
   result.tetra_engine = tets.engine + (tets.is_two_pass ? " in two passes" : "");
   result.tetra_failures = std::move(filled.tetra_failures);
   result.n_split_triangles = filled.n_split_triangles;
+  result.needles = filled.needles;
   result.is_reproducible = tets.is_reproducible;
   result.tetra_engine_seconds = tets.engine_seconds;
   result.tetra_engine_peak_bytes = tets.engine_peak_bytes;

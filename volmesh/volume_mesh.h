@@ -9,6 +9,7 @@
 #include "geom/mesh/hybrid_mesh.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/case/mesh_case.h"
+#include "volmesh/domain/split_needles.h"
 #include "volmesh/envelope/certificate.h"
 #include "volmesh/improve/improve.h"
 #include "volmesh/layer/layer_report.h"
@@ -25,14 +26,15 @@ struct VolumeMeshResult {
   std::string tetra_engine;                 ///< "tetgen", "tetgen in two passes" or "hxt"
   std::vector<std::string> tetra_failures;  ///< of the attempts before it, in order
   std::int64_t n_split_triangles = 0;       ///< of wall and outer boundary, by which the mesh has more than were given
+  NeedleReport needles;                     ///< what was done about them before
   bool is_reproducible = true;              ///< false when a time or memory limit decided what was done
   double tetra_engine_seconds = 0.0;        ///< inside the engine alone; log only
   double tetra_engine_peak_bytes = 0.0;     ///< log only
 };
 
-/// Steps: farfield, envelope (build_envelope.h), extrude and repair, certificate, tetrahedra, improve, assemble, check. Where the tetrahedra's engine was to
-/// split triangles of its boundary (tetra.h), wall, envelope and farfield of the mesh are split with them (split_layer.h); where all engines fail, the envelope
-/// is repaired and everything from the extrusion on is done again (repair_envelope.h), 3 times at most.
+/// Steps: farfield, needles of the wall (split_needles.h), envelope (build_envelope.h), extrude and repair, certificate, tetrahedra, improve, assemble, check.
+/// Where the tetrahedra's engine was to split triangles of its boundary (tetra.h), wall, envelope and farfield of the mesh are split with them (split_layer.h);
+/// where all engines fail, the envelope is repaired and everything from the extrusion on is done again (repair_envelope.h), 3 times at most.
 /// \pre wall closed, manifold, free of self-intersection, normals into the fluid.
 /// \throws Error of the stages; mesh_invalid when the final check finds violations.
 VolumeMeshResult volume_mesh(const TriMesh& wall, const MeshCase& options, const RunContext& context);

@@ -72,6 +72,17 @@ std::string layer_json(const volmesh::LayerReport& layer) {
   return json.dump();
 }
 
+std::string needles_json(const volmesh::NeedleReport& needles) {
+  const Json json = {{"given_triangles", needles.n_given},
+                     {"triangles", needles.n_triangles},
+                     {"needles", needles.n_needles},
+                     {"flipped_edges", needles.n_flips},
+                     {"left", needles.n_left},
+                     {"over_budget", needles.is_over_budget},
+                     {"first_left", {needles.first_left.x, needles.first_left.y, needles.first_left.z}}};
+  return json.dump();
+}
+
 std::string certificate_json(const volmesh::EnvelopeCertificate& certificate) {
   const auto worst = [](const volmesh::WorstElement& element) {
     return Json{{"quality", element.quality}, {"at", {element.place.x, element.place.y, element.place.z}}, {"what", element.what}};

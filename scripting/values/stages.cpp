@@ -89,6 +89,7 @@ Json stage_json(const volmesh::FilledStage& filled, std::int64_t n_wall_triangle
   json["failures"] = filled.tetra_failures;
   json["curving_shares"] = filled.curving_shares;
   json["boundary_triangles_added_by_splits"] = filled.n_split_triangles;
+  json["needles"] = Json::parse(needles_json(filled.needles));
   return json;
 }
 
@@ -170,6 +171,9 @@ class StageJson {
     }
   }
 
+  /// Versions that did not made layers on walls as they were given.
+  bool knows_needles() const { return json_.contains(Json::json_pointer("/options/needles")); }
+
   std::vector<volmesh::PatchRule> patch_rules() const {
     return json_.contains("patch_rules") ? layer_rules_of_json(json_.at("patch_rules").dump()) : std::vector<volmesh::PatchRule>{};
   }
@@ -204,6 +208,20 @@ class StageJson {
     return found == json_.end() ? std::vector<volmesh::PeriodicNames>() : periodic_of_json(found->dump());
   }
 
+  /// None in files of versions that did not look for them.
+  volmesh::NeedleReport needles() const {
+    if (!json_.contains(Json::json_pointer("/stage/needles"))) return {};
+    const auto count = [&](const char* name) { return get<std::int64_t>(std::string("/stage/needles/") + name); };
+    const auto first = get<std::array<double, 3>>("/stage/needles/first_left");
+    return {.n_given = count("given_triangles"),
+            .n_triangles = count("triangles"),
+            .n_needles = count("needles"),
+            .n_flips = count("flipped_edges"),
+            .n_left = count("left"),
+            .is_over_budget = get<bool>("/stage/needles/over_budget"),
+            .first_left = {first[0], first[1], first[2]}};
+  }
+
   /// Finished runs list them, the others count them.
   std::size_t n_sources() const {
     const auto found = json_.find("sources");
@@ -227,6 +245,7 @@ volmesh::FilledStage filled_of(const StageJson& json, volmesh::EnvelopeStage env
   filled.tetra_failures = json.get<std::vector<std::string>>("/stage/failures");
   filled.curving_shares = json.get<std::array<std::int64_t, 5>>("/stage/curving_shares");
   filled.n_split_triangles = json.get<std::int64_t>("/stage/boundary_triangles_added_by_splits");
+  filled.needles = json.needles();
   return filled;
 }
 
@@ -257,6 +276,7 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
                             .tetra_engine = result.tetra_engine,
                             .tetra_failures = result.tetra_failures,
                             .n_split_triangles = result.n_split_triangles,
+                            .needles = result.needles,
                             .is_reproducible = result.is_reproducible,
                             .tetra_engine_seconds = result.tetra_engine_seconds,
                             .tetra_engine_peak_bytes = result.tetra_engine_peak_bytes};
@@ -383,6 +403,7 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
     const StageJson json(content.manifest, file);
     auto wall = std::make_shared<SurfaceValue>(*surface_of(std::move(*content.surface), json.inputs(), context));
     volmesh::MeshCase options;
+    if (!json.knows_needles()) options.needles.split_needles = 0.0;
     json.read_options(all_options(wall->options, options));
     options.discs = json.discs();
     options.periodic = json.periodic();

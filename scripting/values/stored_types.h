@@ -114,7 +114,9 @@ inline constexpr std::size_t k_members<volmesh::EnvelopeCertificate> = 10;
 template <>
 inline constexpr std::size_t k_members<volmesh::ImproveReport> = 12;
 template <>
-inline constexpr std::size_t k_members<volmesh::VolumeMeshResult> = 11;
+inline constexpr std::size_t k_members<volmesh::NeedleReport> = 7;
+template <>
+inline constexpr std::size_t k_members<volmesh::VolumeMeshResult> = 12;
 template <>
 inline constexpr std::size_t k_members<volmesh::EnvelopeStage> = 2;
 template <>
@@ -124,7 +126,7 @@ inline constexpr std::size_t k_members<volmesh::BoundarySplits> = 4;
 template <>
 inline constexpr std::size_t k_members<volmesh::TetraResult> = 9;
 template <>
-inline constexpr std::size_t k_members<volmesh::FilledStage> = 7;
+inline constexpr std::size_t k_members<volmesh::FilledStage> = 8;
 template <>
 inline constexpr std::size_t k_members<volmesh::PartEnvelope> = 2;
 

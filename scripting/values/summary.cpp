@@ -141,6 +141,9 @@ std::string summary_text(const MeshValue& mesh) {
   std::string text = fmt::format("  wall        {} triangles, body length {:.6g} m\n", count_text(mesh.origin->n_wall_triangles), layer.body_length);
   text += fmt::format("  mesh        {} nodes: {} prisms in {}{} layers, {} pyramids, {} tetrahedra\n", count_text(n_nodes(mesh)), count_text(cells.prisms),
                       mesh.mesh.layers.is_uniform() ? "" : "up to ", mesh.mesh.layers.n_layers, count_text(cells.pyramids), count_text(cells.tetrahedra));
+  if (const volmesh::NeedleReport& needles = mesh.origin->needles; needles.n_needles > 0)
+    text += fmt::format("  needles     {} of the wall, {} left; {} edges flipped, {} -> {} triangles\n", count_text(needles.n_needles),
+                        count_text(needles.n_left), count_text(needles.n_flips), count_text(needles.n_given), count_text(needles.n_triangles));
   if (mesh.origin->n_split_triangles > 0)
     text += fmt::format("  splits      {} more triangles on wall and farfield, made for the tetrahedra\n", count_text(mesh.origin->n_split_triangles));
   text += fmt::format("  layer       {:.2f} % of the area at its full height along the normal, the geometry permits {:.2f} %; mean height {:.4g} m\n",

@@ -69,6 +69,7 @@ struct MeshOrigin {
   std::string tetra_engine;
   std::vector<std::string> tetra_failures;
   std::int64_t n_split_triangles = 0;
+  volmesh::NeedleReport needles;
   bool is_reproducible = true;
   double tetra_engine_seconds = 0.0;
   double tetra_engine_peak_bytes = 0.0;

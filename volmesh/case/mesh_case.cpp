@@ -16,9 +16,10 @@ void append(OptionTable& table, T& options, MeshSteps steps) {
 
 OptionTable options_of(MeshOptions& options, MeshSteps steps) {
   OptionTable table;
-  auto& [family, envelope, prisms, farfield, ends, size, tetrahedra, improve] = options;  // the one list of them: a new one does not compile until it is here
+  // The one list of them: a new one does not compile until it is here.
+  auto& [family, needles, envelope, prisms, farfield, ends, size, tetrahedra, improve] = options;
   const auto add = [&](auto&... of_stages) { (append(table, of_stages, steps), ...); };
-  add(family, envelope, prisms, farfield, ends, size, tetrahedra, improve);
+  add(family, needles, envelope, prisms, farfield, ends, size, tetrahedra, improve);
   return table;
 }
 

@@ -13,6 +13,7 @@
 #include "volmesh/case/farfield_options.h"
 #include "volmesh/case/first_heights.h"
 #include "volmesh/case/improve_options.h"
+#include "volmesh/case/needle_options.h"
 #include "volmesh/case/patch_rule.h"
 #include "volmesh/case/periodic_names.h"
 #include "volmesh/case/placed_part.h"
@@ -26,6 +27,7 @@ namespace sterna::volmesh {
 /// Options of all stages, in stage order; each has a Schema.
 struct MeshOptions {
   FamilyOptions family;
+  NeedleOptions needles;
   EnvelopeOptions envelope;
   PrismOptions prisms;
   FarfieldOptions farfield;

@@ -9,6 +9,7 @@
 #include "geom/base/run_context.h"
 #include "geom/mesh/tri_mesh.h"
 #include "volmesh/domain/periodic_sides.h"
+#include "volmesh/domain/split_needles.h"
 #include "volmesh/envelope/collide.h"
 #include "volmesh/envelope/constraint.h"
 
@@ -62,6 +63,8 @@ struct Domain {
   std::vector<PeriodicEnds> periodic;
   std::vector<std::array<VertexId, 2>> partners;  ///< of the wall, where it ends on periodic sides: they grow alike
   Column<TriangleId, TriangleId> wall2surface;
+  Column<TriangleId, CornerWeights> wall_weights;  ///< in wall2surface; empty where needles have not changed the wall, and where discs have cut it
+  NeedleReport needles;
   std::vector<DiscSlit> slits;
   std::vector<VertexId>
       slit_vertices;  ///< of the wall: those of all outlines, ascending; the i-th has line n_vertices() + i of the layer too, downstream of its disc

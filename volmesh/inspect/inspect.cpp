@@ -118,6 +118,7 @@ InspectReport inspect_wall(const TriMesh& surface, const InspectRequest& request
   context.progress(0.1);
   const bool is_known = has_first_height(request.volume);
   MeshCase options = request.volume;
+  options.needles.split_needles = 0.0;  // what is told is of the surface as it was given
   if (!is_known) options.envelope.first_height = k_stand_in_height * report.length;
   const std::unique_ptr<MeshingSite> site = site_of(survey, options);
   context.progress(0.5);

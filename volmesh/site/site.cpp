@@ -13,6 +13,7 @@
 #include "volmesh/domain/cut_discs.h"
 #include "volmesh/domain/disc_sheets.h"
 #include "volmesh/domain/periodic_sides.h"
+#include "volmesh/domain/split_needles.h"
 #include "volmesh/envelope/certificate.h"
 #include "volmesh/envelope/feature_angle.h"
 #include "volmesh/envelope/patch_layers.h"
@@ -61,6 +62,7 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
   const Column<PatchId, PatchLayers> layers = layers_of_patches(boundary.patches, options.envelope, options.patches);
   Column<PatchId, std::uint8_t> has_layer(boundary.patches.size(), 0);
   for (const PatchId p : layers.ids()) has_layer[p] = layers[p].carries_layers() ? 1 : 0;
+  const NeedleSplits needles = split_needles(boundary, has_layer, options.needles, context);
   require_own_names(options.discs, boundary.patches, {});
   const DiscCuts cuts = cut_discs(boundary, has_layer, options.discs, context);
   const std::vector<PeriodicPatches> periodic = join_periodic_sides(boundary, options.periodic, context);
@@ -80,6 +82,12 @@ Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunC
   add_slits(boundary, cuts, options.discs, options.size.size_growth, context, domain);
   if (!cuts.sources.empty())
     for (TriangleId& t : domain.wall2surface) t = cuts.sources[t];
+  domain.needles = needles.report;
+  if (!needles.sources.empty()) {
+    if (cuts.sources.empty())
+      for (const TriangleId t : domain.wall2surface) domain.wall_weights.push_back(needles.weights[t]);
+    for (TriangleId& t : domain.wall2surface) t = needles.sources[t];
+  }
   return domain;
 }
 

@@ -18,7 +18,7 @@ namespace sterna::volmesh {
 /// \throws Error(bad_argument) for options that are required or do not agree; Error(empty_surface)
 MeshCase validated(const TriMesh& wall, MeshCase options, const RunContext& context);
 
-/// The fluid's boundary: completed, cut by discs, made periodic, taken apart.
+/// The fluid's boundary: completed, its needles split, cut by discs, made periodic, taken apart.
 /// \pre options validated
 Domain domain_around(const TriMesh& surface, const MeshCase& options, const RunContext& context);
 

@@ -12,6 +12,7 @@
 #include "geom/base/error.h"
 #include "tests/support/constants.h"
 #include "tests/support/shapes.h"
+#include "tests/volmesh/domain/long_strips.h"
 #include "tests/volmesh/domain/room.h"
 #include "volmesh/envelope/initial.h"
 #include "volmesh/envelope/untangle.h"
@@ -56,6 +57,10 @@ MeshCase few_layers() {
 Setting setting_of(const std::string& name) {
   Setting setting{bent_block(), few_layers()};
   if (name == "cubes") setting.wall = near_cubes();
+  if (name == "strips") {
+    setting.wall = long_strips(24, 6.0);
+    setting.mesh_case.needles.needle_budget = 4.0;
+  }
   if (name == "tetgen") setting.mesh_case.tetrahedra.engine = "tetgen";
   if (name == "height") setting.mesh_case.envelope.total_height = 0.03;
   if (name == "coarse") {
@@ -101,6 +106,9 @@ struct Change {
 
 const std::map<std::string, Change> k_changes = {
     {"family.refinement", {"1.3"}},
+    {"needles.split_needles", {"0", "strips"}},
+    {"needles.needle_budget", {"0.1", "strips"}},
+    {"needles.flip_angle", {"0", "strips"}},
     {"envelope.layers", {"5"}},
     {"envelope.first_height", {"3e-3"}},
     {"envelope.max_growth", {"1.2"}},
