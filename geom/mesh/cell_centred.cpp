@@ -18,6 +18,7 @@ constexpr double k_great = 1e15;
 constexpr double k_bound_reserve = 0.99;  ///< for rounding
 /// Columns per chunk; each holds some 30 cells.
 constexpr std::size_t k_cell_column_chunk = 64;
+constexpr std::size_t k_first_columns = 16;
 constexpr std::uint8_t k_top = 7;
 
 struct Corners {
@@ -254,24 +255,25 @@ class Scanner {
   void scan_columns(std::span<const std::uint32_t> neighbours, CellCentredScan& scan) const {
     const LayerBlock& layers = mesh_.layers;
     const auto n_layers = static_cast<std::uint64_t>(layers.n_layers);
+    const auto add_column = [&](std::size_t c, CellCentredScan& part) {
+      if (layers.n_collapsed(c) == 3) return;
+      const int n = layers.layers_of_column(c);
+      for (int j = 0; j < n; ++j) {
+        const std::uint64_t number = c * n_layers + static_cast<std::uint64_t>(j);
+        const Place here = places_.of(number);
+        if (j + 1 < n) add_inner(part, 8 * number + k_top, top_of(mesh_, c, j).span(), here, places_.of(number + 1));
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::uint32_t other = neighbours[3 * c + k];
+          if (other == k_no_slot || other < c) continue;
+          const Corners side = side_of(mesh_, c, k, j);
+          if (side.n >= 3) add_inner(part, 8 * number + k, side.span(), here, places_.of(other * n_layers + static_cast<std::uint64_t>(j)));
+        }
+      }
+    };
+    const std::size_t n_first = layers.n_columns() / k_first_columns;  // what they note need not be beaten by the others
+    gather(scan, n_first, add_column, k_cell_column_chunk);
     gather(
-        scan, layers.n_columns(),
-        [&](std::size_t c, CellCentredScan& part) {
-          if (layers.n_collapsed(c) == 3) return;
-          const int n = layers.layers_of_column(c);
-          for (int j = 0; j < n; ++j) {
-            const std::uint64_t number = c * n_layers + static_cast<std::uint64_t>(j);
-            const Place here = places_.of(number);
-            if (j + 1 < n) add_inner(part, 8 * number + k_top, top_of(mesh_, c, j).span(), here, places_.of(number + 1));
-            for (std::size_t k = 0; k < 3; ++k) {
-              const std::uint32_t other = neighbours[3 * c + k];
-              if (other == k_no_slot || other < c) continue;
-              const Corners side = side_of(mesh_, c, k, j);
-              if (side.n >= 3) add_inner(part, 8 * number + k, side.span(), here, places_.of(other * n_layers + static_cast<std::uint64_t>(j)));
-            }
-          }
-        },
-        k_cell_column_chunk);
+        scan, layers.n_columns() - n_first, [&](std::size_t i, CellCentredScan& part) { add_column(n_first + i, part); }, k_cell_column_chunk);
   }
 
   /// All others.
@@ -289,10 +291,12 @@ class Scanner {
  private:
   template <class Add>
   void gather(CellCentredScan& scan, std::size_t n, const Add& add, std::size_t chunk = k_default_chunk) const {
+    CellCentredScan empty(limits_);
+    empty.face_tets.expect(scan.face_tets);
     scan = parallel_reduce(
         context_, n, std::move(scan),
         [&](std::size_t begin, std::size_t end) {
-          CellCentredScan part(limits_);
+          CellCentredScan part = empty;
           for (std::size_t i = begin; i < end; ++i) add(i, part);
           return part;
         },

@@ -158,7 +158,13 @@ class GateScan {
   /// exact value is dear and has a cheap bound.
   bool would_not_be_noted(double bound) const {
     const double badness = sign_ * bound;
-    return classes_->n == 0 && badness < entry_ && badness <= worst_within_ && badness <= usual_ && badness <= hard_;
+    return classes_->n == 0 && badness < std::max(entry_, expected_entry_) && badness <= std::max(worst_within_, expected_within_) && badness <= usual_ &&
+           badness <= hard_;
+  }
+  /// This scan will be merged into another one, which has noted such items already.
+  void expect(const GateScan& other) {
+    expected_entry_ = other.entry_;
+    expected_within_ = other.worst_within_;
   }
   void add_unnoted() {
     total_ += 1.0;
@@ -219,6 +225,7 @@ class GateScan {
   double sign_;
   double hard_, target_, usual_;  ///< as badness; infinity where there is none
   double entry_ = -std::numeric_limits<double>::infinity();
+  double expected_entry_ = -std::numeric_limits<double>::infinity(), expected_within_ = -std::numeric_limits<double>::infinity();  ///< expect()
   double total_ = 0.0, within_ = 0.0;
   double worst_within_ = -std::numeric_limits<double>::infinity();  ///< badness of what keeps the hard limit
   std::vector<Beyond> beyond_;                                      ///< all beyond the hard limit
