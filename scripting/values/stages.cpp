@@ -171,7 +171,7 @@ class StageJson {
     }
   }
 
-  /// Versions that did not made layers on walls as they were given.
+  /// Older versions did not, and made layers on walls as they were given.
   bool knows_needles() const { return json_.contains(Json::json_pointer("/options/needles")); }
 
   std::vector<volmesh::PatchRule> patch_rules() const {

@@ -74,9 +74,8 @@ std::optional<std::vector<Point>> scaled_line(const std::vector<Point>& nodes, d
   const std::optional<std::vector<double>> wanted = steps_with_sum(steps, share * length);
   if (!wanted) return std::nullopt;
   std::vector<Point> result = nodes;
-  double along = steps[0], passed = 0.0;  // on the curve as it was, of the new node; before segment k
+  double along = (*wanted)[0] / share, passed = 0.0;  // on the curve as it was: the new node; where segment k begins
   std::size_t k = 0;
-  along = (*wanted)[0] / share;
   for (std::size_t j = 2; j + 1 < nodes.size(); ++j) {
     along += (*wanted)[j - 1] / share;
     while (k + 1 < steps.size() && passed + steps[k] < along) passed += steps[k++];
@@ -396,7 +395,10 @@ Vec3 LineSlider::to_middle(Line line, const Star& star) const {
   int n = 0;
   for (const std::uint32_t column : star.columns)
     for (const Line other : mesh_.layers.base[column])
-      if (other != line) sum += boundary_.points[other], ++n;
+      if (other != line) {
+        sum += boundary_.points[other];
+        ++n;
+      }
   return n > 0 ? sum / n - boundary_.points[line] : Vec3{};
 }
 
@@ -450,7 +452,8 @@ std::vector<LineSlider::Line> LineSlider::lines_seen_from(const TetraResult& tet
   const auto add_column = [&](std::uint32_t column) { lines.insert(lines.end(), mesh_.layers.base[column].begin(), mesh_.layers.base[column].end()); };
   for (const std::uint32_t column : star.columns) {
     add_column(column);
-    for (std::size_t k = 0; k < 3; ++k) add_column(sides_[partner(side_of(column, k))].column), add_column(sides_[side_of(column, k)].column);
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const std::size_t side : {side_of(column, k), partner(side_of(column, k))}) add_column(sides_[side].column);
   }
   for (const std::uint32_t t : star.tets)
     for (const std::uint32_t v : tets.tetrahedra[t])

@@ -1,4 +1,4 @@
-// Last prisms and the tetrahedra on them brought to fit each other: tops of lines move a little along their lines after the tetrahedra were made.
+// Last prisms and the tetrahedra on them brought to fit each other: tops of lines move a little after the tetrahedra were made.
 #pragma once
 
 #include <algorithm>
@@ -17,18 +17,20 @@
 
 namespace sterna::volmesh {
 
-/// Improvement of tetrahedra keeps the boundary; where the boundary itself is at fault (folds of the layer's top, sides of last prisms that cannot be cut), a
-/// line ends a little lower or higher instead. Its nodes follow the curve that it had, the first cell stays to the bit, the others keep a geometric growth.
+/// Improvement of tetrahedra keeps the boundary; where the boundary itself is at fault (folds of the layer's top, sides of prisms that cannot be cut, columns
+/// that get narrow), a line ends a little lower, higher or aside instead. Its nodes follow: the first cell stays to the bit, the others keep their kind of
+/// growth.
 class LineSlider {
  public:
   /// \p layers: of assemble_layers(), without tetrahedra; \p boundary: boundary_of() it. Both must outlive this and are changed by slide().
   LineSlider(HybridMesh& layers, FillBoundary& boundary, const ImproveOptions& options, const RunContext& context);
 
-  /// One round: the worst places first, each line there to the height, of a few within `slide_share`, at which the costs around it are lowest: of angles beyond
-  /// the limits of improvement, of steps of volume and height between last prisms and tetrahedra, of face weights there (OpenFOAM), of sides that cannot be
-  /// cut. Lines at rims, beside collapsed ones, and those that end on outer faces stay.
-  /// \pre tets fill the boundary, every cell valid. \post the same, by exact tests of all cells at lines that moved.
-  /// Returns those lines, ascending. Looking for places is parallel; at most k_most_lines are tried, one after the other, 0.1 ms each.
+  /// One round over the lines at the worst places: each moves, by a pattern search of smaller and smaller steps within `slide_share` of its height (half of it
+  /// up), where the costs around it are lower: of angles beyond the limits of improvement, of steps of volume and height between last prisms and tetrahedra and
+  /// among these, of face weights (OpenFOAM), of sides that can hardly be cut. Lines at rims, beside collapsed ones, and those that end on outer faces stay.
+  /// \pre tets fill the boundary, every cell valid. \post the same, by exact tests of all cells at lines that moved; no line grows faster than before or than
+  /// was asked for.
+  /// Returns the lines that moved, ascending. Parallel: lines that do not see each other move at the same time. At most k_most_lines; some ms each.
   std::vector<std::uint32_t> slide(const TetraResult& tets);
   std::size_t n_moved() const { return moved_.size(); }  ///< lines, in all rounds
 
@@ -51,7 +53,7 @@ class LineSlider {
     double excess;  ///< the worst at the line, over its limit
     Line line;
   };
-  /// How a line was when the first round began, and what became of it.
+  /// How a line was when the first round began, and where it is now.
   struct Moved {
     std::vector<Point> nodes;
     double share = 1.0;  ///< of that height
