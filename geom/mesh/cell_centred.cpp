@@ -441,18 +441,20 @@ void judge_cell_centred(const CellCentredScan& scan, const HybridMesh& mesh, con
     GateResult result = measure.result(describe);
     report.gates[static_cast<std::size_t>(result.measure)] = std::move(result);
   };
-  using SideProof = std::optional<Forcing> (GivenLayer::*)(const ColumnSide&, double) const;
-  const auto put_sides = [&](const GateScan& measure, Measure which, SideProof proof) {
-    report.gates[static_cast<std::size_t>(which)] = measure.result(face, [&](std::uint64_t id) {
+  const auto put_sides = [&](const GateScan& measure, Measure which, const auto& prove) {
+    report.gates[static_cast<std::size_t>(which)] = measure.result(face, [&](std::uint64_t id, double value) {
       if (id >= CellCentredScan::k_of_slot || id % 8 == k_top) return std::optional<Forcing>();
       const std::uint64_t number = id / 8, n_layers = static_cast<std::uint64_t>(mesh.layers.n_layers);
       const std::size_t column = number / n_layers, corner = id % 8;
-      return (given.get().*proof)({column, corner, neighbours[3 * column + corner], static_cast<int>(number % n_layers)}, limits[which].hard);
+      return prove(ColumnSide{column, corner, neighbours[3 * column + corner], static_cast<int>(number % n_layers)}, limits[which].hard, value);
     });
   };
-  put_sides(scan.face_weight, Measure::face_weight, &GivenLayer::face_weight);
-  put_sides(scan.volume_ratio, Measure::volume_ratio, &GivenLayer::volume_ratio);
-  put_sides(scan.skewness, Measure::skewness, &GivenLayer::skewness);
+  put_sides(scan.face_weight, Measure::face_weight, [&](const ColumnSide& side, double limit, double) { return given.get().face_weight(side, limit); });
+  put_sides(scan.volume_ratio, Measure::volume_ratio, [&](const ColumnSide& side, double limit, double) { return given.get().volume_ratio(side, limit); });
+  put_sides(scan.skewness, Measure::skewness, [&](const ColumnSide& side, double limit, double value) {
+    const std::optional<Forcing> any_direction = given.get().skewness(side, limit);
+    return any_direction ? any_direction : given.get().skewness_of_edge(side, limit, value);
+  });
   for (const GateScan* measure : {&scan.non_orthogonality, &scan.face_flatness, &scan.face_tets}) put(*measure, face);
   for (const GateScan* measure : {&scan.cell_aspect_ratio, &scan.cell_openness, &scan.cell_determinant}) put(*measure, cell);
 }

@@ -39,16 +39,16 @@ void judge_gates(const HybridMesh& mesh, const CellNumbers& cells, const FaceSlo
   put(scan.scaled_jacobian.result(cell));
   std::optional<GivenBoundary> given;
   if (scan.min_dihedral.has_beyond_hard() || (dual != nullptr && dual->edge_ratio.has_beyond_hard())) given.emplace(mesh);
-  put(scan.min_dihedral.result(cell, [&](std::uint64_t id) {
+  put(scan.min_dihedral.result(cell, [&](std::uint64_t id, double) {
     if (dual == nullptr || id < cells.first_tetrahedron()) return std::optional<Forcing>();  // of columns: their own edges, not the boundary's
     return given->min_dihedral(mesh.tetrahedra[id - cells.first_tetrahedron()], limits[Measure::min_dihedral].hard);
   }));
   put(scan.max_dihedral.result(cell));
   if (dual == nullptr) return;
   if (match.tet_growth) put(match.tet_growth->result(face));
-  put(dual->orthogonality.result(node, [&](std::uint64_t id) { return layer.get().orthogonality(NodeId(id), limits[Measure::orthogonality].hard); }));
+  put(dual->orthogonality.result(node, [&](std::uint64_t id, double) { return layer.get().orthogonality(NodeId(id), limits[Measure::orthogonality].hard); }));
   for (const GateScan* measure : {&dual->closure, &dual->sub_volume_ratio, &dual->face_area_ratio, &dual->relative_face_area_ratio}) put(measure->result(node));
-  put(dual->edge_ratio.result(node, [&](std::uint64_t id) { return given->edge_ratio(NodeId(id), limits[Measure::edge_ratio].hard); }));
+  put(dual->edge_ratio.result(node, [&](std::uint64_t id, double) { return given->edge_ratio(NodeId(id), limits[Measure::edge_ratio].hard); }));
   if (mesh.layers.n_columns() == 0) report.gates[static_cast<std::size_t>(Measure::relative_face_area_ratio)].reason = "the mesh has no columns of layers";
   const std::vector<double> gaps = judge_layers(mesh, slots, match, limits, context, report);
   judge_interface(mesh, cells, slots, match, gaps, limits, layer, context, report);

@@ -51,7 +51,7 @@ void judge_interface(const HybridMesh& mesh, const CellNumbers& cells, const Fac
   const auto face = [&](std::uint64_t id) {
     return std::pair(slots.center(static_cast<std::uint32_t>(id)), "top of " + slots.name(static_cast<std::uint32_t>(id)));
   };
-  const auto prove_height = [&](std::uint64_t id) {
+  const auto prove_height = [&](std::uint64_t id, double) {
     const std::uint64_t number = slots.owner(static_cast<std::uint32_t>(id));
     if (gaps.empty() || number >= cells.first_prism()) return std::optional<Forcing>();  // not of a column, or nobody says what was asked for
     return given.get().interface_height(number / static_cast<std::uint64_t>(mesh.layers.n_layers), gaps, limits[Measure::interface_height].hard);

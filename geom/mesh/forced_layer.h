@@ -50,6 +50,9 @@ class GivenLayer {
   std::optional<Forcing> volume_ratio(const ColumnSide& side, double limit) const;
   /// OpenFOAM's skewness at sharp edges: all directions of the edge's two lines are searched by intervals.
   std::optional<Forcing> skewness(const ColumnSide& side, double limit) const;
+  /// The same for what no search can tell: with one line on each node, in the direction that sees the facets best, the skewness at a sharp edge follows from
+  /// the wall's two triangles as long as the layer is thin; a side whose `value` is like it or better has it from there.
+  std::optional<Forcing> skewness_of_edge(const ColumnSide& side, double limit, double value) const;
   /// G9. No last cell is higher than the request's growth permits, nor than its share of the room in a gap.
   /// `gaps`: height along the wall's normal that a gap permits each line, m, infinite where there is none; may be empty.
   std::optional<Forcing> interface_height(std::size_t column, std::span<const double> gaps, double limit) const;

@@ -26,6 +26,11 @@ constexpr double k_used_wedge = 0.5;
 /// Of the rise of a triangle's end over its other one, over their distance: most that it adds to the angle of a step that leans by 10 degrees along the edge.
 constexpr double k_twist = 0.1;
 
+/// Edges at which the wall turns back within less, rad, are sharp: several normals are for them.
+constexpr double k_sharp = 80 * k_degree;
+/// What a side's skewness may be over that of the bare wall's edge to be the edge's.
+constexpr double k_like = 1.1;
+
 struct Interval {
   double low = 0.0, high = 0.0;
   Interval grown(double by) const { return {low - by, high + by}; }
@@ -163,6 +168,38 @@ std::optional<Forcing> GivenLayer::skewness(const ColumnSide& side, double limit
     }
   return Forcing{"the wall turns back within " + print_text("%.3g deg", 2.0 * wedge.half * k_degrees) + " at its edge here: no skewness below " +
                      print_text("%.3g", bound) + " with one line on each node",
+                 k_more_normals};
+}
+
+std::optional<Forcing> GivenLayer::skewness_of_edge(const ColumnSide& side, double limit, double value) const {
+  const LayerBlock& layers = mesh_.layers;
+  if (layers.n_collapsed(side.column) > 0 || layers.n_collapsed(side.other) > 0) return std::nullopt;
+  const std::array<std::uint32_t, 4> lines = lines_of(side);
+  const Point &a = foot(lines[0]), &b = foot(lines[1]);
+  const std::array<Vec3, 2> normals = {normalized(area_vector(a, b, foot(lines[2]))), normalized(area_vector(b, a, foot(lines[3])))};
+  const double angle = std::numbers::pi - angle_between(normals[0], normals[1]);
+  if (!(dot(normals[0], foot(lines[3]) - a) < 0.0 && angle < k_sharp)) return std::nullopt;
+  const auto best = [&](std::uint32_t line) { return smallest_spherical_cap(normals_around(line)).axis; };
+  const std::array<Vec3, 2> along_lines = {best(lines[0]), best(lines[1])};
+  std::array<Point, 2> centres;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto height = [&](std::uint32_t line, const Vec3& direction) { return step(line, side.layer) * std::max(0.0, dot(direction, normals[i])); };
+    const double first = height(lines[0], along_lines[0]), second = height(lines[1], along_lines[1]), far = height(lines[2 + i], best(lines[2 + i]));
+    if (!(first + second + far > 0.0)) return std::nullopt;
+    centres[i] = share_of(first, second + far) * a + share_of(second, far + first) * b + share_of(far, first + second) * foot(lines[2 + i]);
+  }
+  const double at_a = step(lines[0], side.layer), at_b = step(lines[1], side.layer);
+  const Point middle = a + (at_a + 2.0 * at_b) / (3.0 * (at_a + at_b)) * (b - a);
+  const Vec3 normal = cross(b - a, along_lines[0] + along_lines[1]), between = centres[1] - centres[0], to_side = middle - centres[0];
+  if (dot(normal, between) == 0.0) return std::nullopt;
+  const Vec3 miss = to_side - (dot(normal, to_side) / dot(normal, between)) * between;
+  const Vec3 direction = normalized(miss);
+  const double reach = std::max({k_centre_reach * norm(between), std::abs(dot(direction, a - middle)), std::abs(dot(direction, b - middle))});
+  const double of_wall = norm(miss) / reach;
+  if (!(of_wall > limit && value <= k_like * of_wall)) return std::nullopt;
+  return Forcing{"the wall turns back within " + print_text("%.3g deg", angle * k_degrees) +
+                     " at its edge here: with one line on each node, as it sees both facets " + "best, thin cells have a skewness of " +
+                     print_text("%.3g", of_wall),
                  k_more_normals};
 }
 

@@ -178,9 +178,9 @@ class GateScan {
   /// `describe(id) -> pair(Point, string)` names the places.
   template <class Describe>
   GateResult result(const Describe& describe) const {
-    return result(describe, [](std::uint64_t) { return std::optional<Forcing>(); });
+    return result(describe, [](std::uint64_t, double) { return std::optional<Forcing>(); });
   }
-  /// `prove(id) -> optional<Forcing>` is asked for every item beyond the hard limit.
+  /// `prove(id, value) -> optional<Forcing>` is asked for every item beyond the hard limit.
   template <class Describe, class Prove>
   GateResult result(const Describe& describe, const Prove& prove) const {
     std::vector<GatePlace> places, forced;
@@ -192,7 +192,7 @@ class GateScan {
     std::int64_t n_forced = 0;
     double forced_weight = 0.0;
     for (const Beyond& beyond : beyond_hard()) {
-      std::optional<Forcing> forcing = prove(beyond.item.id);
+      std::optional<Forcing> forcing = prove(beyond.item.id, value_of(beyond.item));
       if (forcing) {
         ++n_forced;
         forced_weight += beyond.weight;
