@@ -20,8 +20,8 @@ constexpr int k_forced_digits = 3;  ///< of lengths in texts
 constexpr double k_most_forced_skew = 88 * k_degree;
 /// Tilt of a side's normal against the plane across the wall's edge (sine) beyond which nothing is proven.
 constexpr double k_most_tilt = 0.4;
-/// A first height that is within its hard limit (G11), and a growth that is as asked for (G8 has the same slack).
-constexpr double k_first_height_room = 1.2, k_growth_room = 1.01;
+/// A first height that is within its target (G11), and a growth that is as asked for.
+constexpr double k_first_height_room = 1.02, k_growth_room = 1.001;
 /// Lines that lean by more than this (cosine) may be any length for their height.
 constexpr double k_least_lean_cosine = 0.1;
 /// Sweeps of the search for a bound's multipliers; any multipliers are a proof, more sweeps a better one.
@@ -62,6 +62,9 @@ struct GivenLayer::Pair {
 struct GivenLayer::Room {
   double last = 0.0, total = 0.0;                    ///< m, largest length of the last cell and of the line
   double last_as_asked = 0.0, total_as_asked = 0.0;  ///< m, the same without the gap
+  Vec3 best;                                         ///< unit, the direction of lines that sees the facets best
+  /// Of a line's length, what it can go along a direction while it is within k_lean_room of the best.
+  double most_along(const Vec3& direction) const { return std::max(0.0, std::cos(std::max(0.0, angle_between(best, direction) - k_lean_room))); }
 };
 
 GivenLayer::GivenLayer(const HybridMesh& mesh) : mesh_(mesh), rings_(mesh.layers), feet_(mesh) {
@@ -253,7 +256,8 @@ std::optional<Forcing> GivenLayer::orthogonality(NodeId node, double limit) cons
 std::optional<GivenLayer::Room> GivenLayer::room_of(std::uint32_t line, double gap) const {
   const LayerRequest& request = mesh_.request;
   const std::vector<Vec3> normals = normals_around(line);
-  const double lean = std::cos(std::min(smallest_spherical_cap(normals).angle + k_lean_room, 0.5 * std::numbers::pi));
+  const SphericalCap cap = smallest_spherical_cap(normals);
+  const double lean = std::cos(std::min(cap.angle + k_lean_room, 0.5 * std::numbers::pi));
   if (!(lean > k_least_lean_cosine)) return std::nullopt;
   const int n = mesh_.layers.n_steps(line);
   const double growth = k_growth_room * (request.line_max_growth.empty() ? request.max_growth : request.line_max_growth[line]);
@@ -261,6 +265,7 @@ std::optional<GivenLayer::Room> GivenLayer::room_of(std::uint32_t line, double g
   const double power = std::pow(growth, n);
   const double first = k_first_height_room * request.first_height_of(line) / lean;
   Room room;
+  room.best = cap.axis;
   room.last_as_asked = room.last = first * power / growth;
   room.total_as_asked = room.total = first * (power - 1.0) / (growth - 1.0);
   if (gap < k_infinity) {
@@ -275,19 +280,25 @@ std::optional<Forcing> GivenLayer::interface_height(std::size_t column, std::spa
   if (layers.n_collapsed(column) > 0) return std::nullopt;
   const int n = layers.layers_of_column(column);
   const auto& base = layers.base[column];
-  double wall = 0.0, edge = 0.0, height = 0.0;
-  Room most;
+  std::array<Room, 3> rooms;
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::uint32_t line = base[k], next = base[(k + 1) % 3];
-    const std::optional<Room> room = room_of(line, gaps.empty() ? k_infinity : gaps[line]);
+    const std::optional<Room> room = room_of(base[k], gaps.empty() ? k_infinity : gaps[base[k]]);
     if (!room) return std::nullopt;
-    most.last += room->last / 3.0;
-    most.last_as_asked += room->last_as_asked / 3.0;
-    most.total += 2.0 * room->total / 3.0;  // each corner moves two of three edges
-    most.total_as_asked += 2.0 * room->total_as_asked / 3.0;
-    wall += distance(foot(line), foot(next)) / 3.0;
-    edge += distance(mesh_.points[layers.top(line)], mesh_.points[layers.top(next)]) / 3.0;
-    height += step(line, n - 1) / 3.0;
+    rooms[k] = *room;
+  }
+  double wall = 0.0, edge = 0.0, height = 0.0;
+  Room most;  // total: by how much the top's edges can be shorter than the wall's, in the mean
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t j = (k + 1) % 3;
+    const Vec3 along = foot(base[j]) - foot(base[k]);
+    const double from = rooms[k].most_along(along), to = rooms[j].most_along(-along);
+    most.total += (from * rooms[k].total + to * rooms[j].total) / 3.0;
+    most.total_as_asked += (from * rooms[k].total_as_asked + to * rooms[j].total_as_asked) / 3.0;
+    most.last += rooms[k].last / 3.0;
+    most.last_as_asked += rooms[k].last_as_asked / 3.0;
+    wall += norm(along) / 3.0;
+    edge += distance(mesh_.points[layers.top(base[k])], mesh_.points[layers.top(base[j])]) / 3.0;
+    height += step(base[k], n - 1) / 3.0;
   }
   // A mesh that does not keep what the bounds suppose proves nothing.
   if (height > most.last * (1.0 + k_bound_slack) || edge < (wall - most.total) * (1.0 - k_bound_slack)) return std::nullopt;

@@ -28,8 +28,8 @@ constexpr double k_twist = 0.1;
 
 /// Edges at which the wall turns back within less, rad, are sharp: several normals are for them.
 constexpr double k_sharp = 80 * k_degree;
-/// What a side's skewness may be over that of the bare wall's edge to be the edge's.
-constexpr double k_like = 1.1;
+/// The bare wall's edge gives the skewness of a thin layer to so much.
+constexpr double k_like = 1.05;
 
 struct Interval {
   double low = 0.0, high = 0.0;
@@ -196,7 +196,7 @@ std::optional<Forcing> GivenLayer::skewness_of_edge(const ColumnSide& side, doub
   const Vec3 direction = normalized(miss);
   const double reach = std::max({k_centre_reach * norm(between), std::abs(dot(direction, a - middle)), std::abs(dot(direction, b - middle))});
   const double of_wall = norm(miss) / reach;
-  if (!(of_wall > limit && value <= k_like * of_wall)) return std::nullopt;
+  if (!(k_like * of_wall > limit && value <= k_like * of_wall)) return std::nullopt;
   return Forcing{"the wall turns back within " + print_text("%.3g deg", angle * k_degrees) +
                      " at its edge here: with one line on each node, as it sees both facets " + "best, thin cells have a skewness of " +
                      print_text("%.3g", of_wall),

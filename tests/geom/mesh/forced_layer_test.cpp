@@ -155,6 +155,25 @@ TEST(ForcedLayer, SkewnessAtASharpEdge) {
   for (const ColumnSide& side : inner_sides(thick)) EXPECT_FALSE(GivenLayer(thick).skewness(side, info_of(Measure::skewness).limits.hard));
 }
 
+TEST(ForcedLayer, SkewnessThatTheBareEdgeHas) {
+  // A wedge of 6 degrees: 5 / (2 sin 3 degrees) with triangles that stand opposite each other, in thin layers.
+  const double hard = info_of(Measure::skewness).limits.hard, value = 2.5 / std::sin(3 * k_degree);
+  const HybridMesh thin = sharp_edge({.half_angle = 3 * k_degree, .height = 1e-4});
+  const GateResult gate = check(thin, {.intersections = false}, RunContext({.threads = 1})).gate(Measure::skewness);
+  EXPECT_NEAR(gate.worst, value, 0.02 * value);
+  EXPECT_GT(gate.n_beyond_hard, 0);
+  EXPECT_EQ(gate.n_forced, gate.n_beyond_hard) << to_text(gate);
+  // What is worse than the edge has it from the layer; blunt edges, and triangles that do not stand opposite each other, have none.
+  const auto n_told = [&](const HybridMesh& mesh, double measured) {
+    const GivenLayer given(mesh);
+    return std::ranges::count_if(inner_sides(mesh), [&](const ColumnSide& side) { return given.skewness_of_edge(side, hard, measured).has_value(); });
+  };
+  EXPECT_EQ(n_told(thin, value), 4 * 3 * 2);  // edges, layers, columns
+  EXPECT_EQ(n_told(thin, 1.2 * value), 0);
+  EXPECT_EQ(n_told(sharp_edge({.half_angle = 8 * k_degree}), hard), 0);
+  EXPECT_EQ(n_told(sharp_edge({.half_angle = 3 * k_degree, .lower_shift = 0.4}), hard), 0);
+}
+
 TEST(ForcedLayer, OrthogonalityBetweenFacetsOfUnequalSize) {
   const double hard = info_of(Measure::orthogonality).limits.hard;
   const GateResult unequal = check(sharp_edge({.lower_chord = 0.3}), {.intersections = false}, RunContext({.threads = 1})).gate(Measure::orthogonality);

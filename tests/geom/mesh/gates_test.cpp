@@ -185,7 +185,7 @@ TEST(Gates, WhatIsForcedDoesNotFailAndIsListedApart) {
   for (std::uint64_t i = 0; i < 100; ++i) scan.add(i < 90 ? 2.0 : 101.0 + static_cast<double>(i), i);
   const auto describe = [](std::uint64_t id) { return std::pair(Point{}, "item " + std::to_string(id)); };
   const auto judged_with = [&](std::uint64_t first_forced) {
-    return scan.result(describe, [=](std::uint64_t id) { return id >= first_forced ? std::optional(Forcing{"the wall", "remesh"}) : std::nullopt; });
+    return scan.result(describe, [=](std::uint64_t id, double) { return id >= first_forced ? std::optional(Forcing{"the wall", "remesh"}) : std::nullopt; });
   };
   const GateResult some = judged_with(92);
   EXPECT_EQ(some.state, GateState::fail);
