@@ -3,6 +3,7 @@
 #include "volmesh/layer/extrude.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geom/base/error.h"
 #include "geom/base/parallel.h"
@@ -26,6 +27,8 @@ constexpr double k_shrink_factor = 0.7;     ///< of the heights of a cell that s
 constexpr double k_growth_reserve = 1.15, k_max_growth = 1.45;
 /// A line whose heights grow by nearly so much themselves has this reserve.
 constexpr double k_least_reserve = 1.02;
+/// Cosine of 65 degrees between a face and the way through it (OpenFOAM's non-orthogonality); and what straight lines have to be better than curved ones.
+constexpr double k_least_top_cosine = 0.42, k_tilt_room = 0.02;
 constexpr double k_hopeless = -1.0;  ///< invalid with straight lines
 constexpr std::size_t k_line_chunk = 512;
 constexpr std::size_t k_column_chunk = 256;
@@ -245,6 +248,67 @@ bool Extruder::limit_warp(const Envelope& envelope, const Columns* some) {
   return has_any;
 }
 
+namespace {
+
+/// Smallest cosine between the normal of a face between two cells of a column and the way from the one's middle to the other's.
+double worst_top_cosine(const ColumnLines& lines, int n_layers) {
+  const auto& [a, b, c] = lines.nodes;
+  double worst = 1.0;
+  for (int j = 1; j < n_layers; ++j) {
+    const Vec3 area = cross(b[j] - a[j], c[j] - a[j]), way = a[j + 1] - a[j - 1] + (b[j + 1] - b[j - 1]) + (c[j + 1] - c[j - 1]);
+    worst = std::min(worst, dot(area, way) / std::sqrt(norm2(area) * norm2(way)));
+  }
+  return worst;
+}
+
+}  // namespace
+
+/// Limits c_t where the faces between the cells of a column are tilted against it and less curving helps. True where there is such a place.
+bool Extruder::limit_tilt(const Envelope& envelope, const Columns* some) {
+  const auto has_lines = [&](std::size_t column) { return layers_.n_collapsed(column) == 0; };
+  const Columns tilted = parallel_collect<std::size_t>(
+      context_, some ? some->size() : layers_.n_columns(),
+      [&](std::size_t begin, std::size_t end, Columns& found) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const std::size_t column = some ? (*some)[i] : i;
+          if (has_lines(column) && worst_top_cosine(column_lines(layers_, points_, column), layers_.layers_of_column(column)) < k_least_top_cosine)
+            found.push_back(column);
+        }
+      },
+      k_column_chunk);
+  std::vector<double> share(tilted.size());
+  parallel_for(
+      context_, tilted.size(), [&](std::size_t i) { share[i] = upright_share(envelope, tilted[i]); }, 8);
+  bool has_any = false;
+  for (std::size_t i = 0; i < tilted.size(); ++i) {
+    if (share[i] == 1.0) continue;
+    has_any = true;
+    for (const VertexId v : base_.wall.triangles[TriangleId(tilted[i])]) curving_.limit(v, share[i] * curving_[v]);
+  }
+  return has_any;
+}
+
+/// Largest common share of the present c_t of its lines with which the faces between a column's cells are within the limit, or as upright as straight lines
+/// make them; 1 where those are no better.
+double Extruder::upright_share(const Envelope& envelope, std::size_t column) const {
+  const int n = layers_.layers_of_column(column);
+  const std::size_t per_line = static_cast<std::size_t>(n) + 1;
+  std::vector<Point> nodes(3 * per_line);
+  LinePlacer placer(base_, scale_);
+  const auto cosine = [&](double share) {
+    ColumnLines lines{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId v(layers_.base[column][k]);
+      placer.place(envelope, v, share * curving_[v], nodes.data() + k * per_line);
+      lines.nodes[k] = nodes.data() + k * per_line;
+    }
+    return worst_top_cosine(lines, n);
+  };
+  const double wanted = std::min(k_least_top_cosine, cosine(0.0) - k_tilt_room);
+  if (cosine(1.0) >= wanted) return 1.0;
+  return largest_share([&](double share) { return cosine(share) >= wanted; });
+}
+
 /// Limits c_t at the lines of invalid columns to what bisection finds; returns the columns that no c_t makes valid.
 Extruder::Columns Extruder::reduce_curving(const Envelope& envelope, const Columns& bad) {
   std::vector<double> share(bad.size());
@@ -292,7 +356,9 @@ void Extruder::extrude(Envelope& envelope) {
   };
   if (limit_growth(envelope, placed)) place_again();
   Columns some = is_first_ ? Columns{} : columns_at(placed);
-  for (int round = 0; round < k_warp_rounds && limit_warp(envelope, is_first_ ? nullptr : &some); ++round) {
+  for (int round = 0; round < k_warp_rounds; ++round) {
+    const bool is_tilted = limit_tilt(envelope, is_first_ ? nullptr : &some), is_warped = limit_warp(envelope, is_first_ ? nullptr : &some);
+    if (!is_tilted && !is_warped) break;
     place_again();
     if (!is_first_) some = columns_at(placed);
   }

@@ -40,6 +40,8 @@ class Extruder {
   std::vector<VertexId> place_stale_lines(const Envelope& envelope);
   bool limit_growth(const Envelope& envelope, const std::vector<VertexId>& lines);
   bool limit_warp(const Envelope& envelope, const Columns* some);
+  bool limit_tilt(const Envelope& envelope, const Columns* some);
+  double upright_share(const Envelope& envelope, std::size_t column) const;
   Columns columns_at(const std::vector<VertexId>& lines) const;
   Columns invalid_among(const Columns* some) const;
   std::vector<HalfedgeId> warped_sides(const Envelope& envelope, const Columns* some) const;

@@ -23,6 +23,7 @@ constexpr double k_reserve = 0.75;                         ///< of a hard limit:
 constexpr double k_regular_volumes = 3.0;                  ///< volume of a prism over that of the tetrahedron that fits it (G9)
 constexpr double k_cut_slope = 5.0;                        ///< excess of a side by how much its share is below k_good_cut_share
 constexpr double k_least_win = 0.02;                       ///< of the cost: less is no reason to move
+constexpr double k_still_share = 0.02;                     ///< of a line's height: cells within it go the less with the top, the nearer the wall
 constexpr double k_far_reserve = 0.2, k_far_excess = 0.8;  ///< sides better than this by approximate centres need no others
 constexpr int k_newton_steps = 30;
 constexpr double k_sum_tolerance = 1e-12;
@@ -90,7 +91,7 @@ std::optional<std::vector<Point>> scaled_line(const std::vector<Point>& nodes, d
 void shift_top(const Vec3& shift, std::vector<Point>& nodes) {
   for (std::size_t j = 2; j < nodes.size(); ++j) {
     const double t = distance(nodes[0], nodes[j]) / distance(nodes[0], nodes.back());
-    if (j + 1 < nodes.size()) nodes[j] += t * shift;
+    if (j + 1 < nodes.size()) nodes[j] += (t * t / (t + k_still_share)) * shift;
   }
   nodes.back() += shift;
 }
@@ -289,7 +290,7 @@ std::vector<LineSlider::Fault> LineSlider::find_faults(const TetraResult& tets, 
           if (tet_on[column] == k_no_tet) continue;
           const double excess = interface_of(tets, static_cast<std::uint32_t>(column), tet_on[column]).worst() / k_reserve;
           if (excess <= 1.0) continue;
-          for (const Line line : mesh_.layers.base[column]) add(excess, line, found);
+          for (const std::uint32_t v : tets.tetrahedra[tet_on[column]]) add(excess, v, found);  // the column's three, and perhaps one across a fold
         }
       },
       k_search_chunk));
