@@ -353,13 +353,14 @@ void Extruder::extrude(Envelope& envelope) {
     curving_.smooth(context_);
     const std::vector<VertexId> again = place_stale_lines(envelope);
     placed.insert(placed.end(), again.begin(), again.end());
+    return again;
   };
   if (limit_growth(envelope, placed)) place_again();
   Columns some = is_first_ ? Columns{} : columns_at(placed);
   for (int round = 0; round < k_warp_rounds; ++round) {
     const bool is_tilted = limit_tilt(envelope, is_first_ ? nullptr : &some), is_warped = limit_warp(envelope, is_first_ ? nullptr : &some);
     if (!is_tilted && !is_warped) break;
-    place_again();
+    if (limit_growth(envelope, place_again())) place_again();  // a line that bends sooner grows more, unless it is straight
     if (!is_first_) some = columns_at(placed);
   }
   Columns bad = invalid_among(is_first_ ? nullptr : &some);

@@ -25,11 +25,11 @@ class Extruder {
  public:
   Extruder(const LayerBase& base, const EnvelopeOptions& envelope_options, const PrismOptions& options, const RunContext& context);
 
-  /// Nodes by LinePlacer, with c_t as large as the growth along the line (G8) and sides of last prisms that can be cut (OpenFOAM) allow. Columns with an
-  /// invalid cell (exact tests of cell and dual sub-volumes) are repaired: c_t of their lines to the largest value, found by bisection, for which the column is
-  /// valid, smoothed over the surface (Curving); only where straight lines do not help, heights are made equal over the column's corners and then lowered
-  /// (through `unwarp`), down to collapse. Changes `envelope` accordingly. \post every cell is valid with positive dual sub-volumes; top nodes are
-  /// envelope.point() to the bit. \throws Error(envelope_failed) when columns stay invalid after 200 rounds.
+  /// Nodes by LinePlacer, with c_t as large as the growth along the line (G8), and sides that can be cut and faces that are not tilted (OpenFOAM) allow.
+  /// Columns with an invalid cell (exact tests of cell and dual sub-volumes) are repaired: c_t of their lines to the largest value, found by bisection, for
+  /// which the column is valid, smoothed over the surface (Curving); only where straight lines do not help, heights are made equal over the column's corners
+  /// and then lowered (through `unwarp`), down to collapse. Changes `envelope` accordingly. \post every cell is valid with positive dual sub-volumes; top nodes
+  /// are envelope.point() to the bit. \throws Error(envelope_failed) when columns stay invalid after 200 rounds.
   void extrude(Envelope& envelope);
   /// The layer of the last extrude(); ends the use of this object.
   Extrusion take();
