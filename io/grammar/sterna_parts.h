@@ -18,7 +18,8 @@ inline constexpr SurfaceNames k_farfield = {"farfield/points", "farfield/triangl
 inline constexpr std::string_view k_direction = "envelope/direction", k_height = "envelope/height", k_target = "envelope/target", k_eq1 = "envelope/eq1",
                                   k_cap = "envelope/cap", k_limit = "envelope/limit", k_first_height = "envelope/first_height";
 inline constexpr std::string_view k_boundary_points = "tetrahedra/n_boundary_points", k_new_points = "tetrahedra/new_points",
-                                  k_engine_tetrahedra = "tetrahedra/tetrahedra";
+                                  k_engine_tetrahedra = "tetrahedra/tetrahedra", k_moved_nodes = "tetrahedra/moved_nodes",
+                                  k_moved_points = "tetrahedra/moved_points";
 inline constexpr std::string_view k_points = "mesh/points", k_prisms = "mesh/prisms", k_pyramids = "mesh/pyramids", k_hexahedra = "mesh/hexahedra",
                                   k_tetrahedra = "mesh/tetrahedra", k_triangles = "mesh/boundary_triangles", k_triangle_patch = "mesh/boundary_triangle_patch",
                                   k_quads = "mesh/boundary_quads", k_quad_patch = "mesh/boundary_quad_patch", k_patches = "mesh/patches",

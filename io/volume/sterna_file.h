@@ -32,6 +32,9 @@ struct StoredTetrahedra {
   std::uint64_t n_boundary_points = 0;
   std::vector<Vec3> new_points;
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;
+  /// Nodes of the mesh's layers that were elsewhere when the tetrahedra were made, ascending, and where: improvement has moved them since.
+  std::vector<std::uint32_t> moved_nodes;
+  std::vector<Vec3> moved_points;  ///< m
 };
 
 /// Parts to write; those that are nullptr or empty are left out. The texts are JSON.

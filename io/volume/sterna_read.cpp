@@ -158,6 +158,12 @@ class PartReader {
     result.n_boundary_points = static_cast<std::uint64_t>(n);
     result.tetrahedra = items<std::array<std::uint32_t, 4>>(part::k_engine_tetrahedra, NumberType::u32, 4);
     require_below(part::k_engine_tetrahedra, result.tetrahedra, result.n_boundary_points + result.new_points.size());
+    if (!file_.has(part::k_moved_nodes)) return result;
+    result.moved_nodes = items<std::uint32_t>(part::k_moved_nodes, NumberType::u32, 1);
+    result.moved_points = points(part::k_moved_points);
+    if (result.moved_points.size() != result.moved_nodes.size())
+      file_.fail(part::k_moved_points,
+                 "found " + std::to_string(result.moved_points.size()) + " places for " + std::to_string(result.moved_nodes.size()) + " nodes");
     return result;
   }
 

@@ -40,7 +40,11 @@ io::StoredEnvelope stored(const volmesh::Envelope& envelope, const TriMesh& surf
 }
 
 io::StoredTetrahedra stored(const volmesh::FilledStage& filled) {
-  return {.n_boundary_points = volmesh::boundary_of(filled.layers).points.size(), .new_points = filled.tets.new_points, .tetrahedra = filled.tets.tetrahedra};
+  return {.n_boundary_points = volmesh::boundary_of(filled.layers).points.size(),
+          .new_points = filled.tets.new_points,
+          .tetrahedra = filled.tets.tetrahedra,
+          .moved_nodes = {},
+          .moved_points = {}};
 }
 
 [[noreturn]] void refuse(const InputPath& file, std::string problem) {
@@ -62,8 +66,9 @@ volmesh::Envelope envelope_of(io::StoredEnvelope file_envelope, const InputPath&
   return envelope;
 }
 
-/// The mesh without what came behind its layer: the first `n_outer` nodes behind the lines stay.
-HybridMesh layers_of(HybridMesh mesh, std::uint64_t n_boundary_points, const InputPath& file) {
+/// The mesh without what came behind its layer: nodes of the boundary that was filled stay, where they were then.
+HybridMesh layers_of(HybridMesh mesh, const io::StoredTetrahedra& tetrahedra, const InputPath& file) {
+  const std::uint64_t n_boundary_points = tetrahedra.n_boundary_points;
   const std::size_t n_lines = mesh.layers.n_lines();
   std::size_t n_nodes = 0;
   for (std::uint32_t line = 0; line < n_lines; ++line) n_nodes = std::max(n_nodes, mesh.layers.top(line).index() + 1);
@@ -72,6 +77,11 @@ HybridMesh layers_of(HybridMesh mesh, std::uint64_t n_boundary_points, const Inp
                      " lines and " + std::to_string(mesh.points.size()) + " nodes");
   mesh.points.raw().resize(n_nodes + (n_boundary_points - n_lines));
   mesh.tetrahedra.clear();
+  for (std::size_t i = 0; i < tetrahedra.moved_nodes.size(); ++i) {
+    const std::uint32_t node = tetrahedra.moved_nodes[i];
+    if (node >= n_nodes) refuse(file, "found the moved node " + std::to_string(node) + " of layers with " + std::to_string(n_nodes) + " nodes");
+    mesh.points[NodeId(node)] = tetrahedra.moved_points[i];
+  }
   return mesh;
 }
 
@@ -236,7 +246,7 @@ class StageJson {
 volmesh::FilledStage filled_of(const StageJson& json, volmesh::EnvelopeStage envelope, io::SternaContent& content, const InputPath& file) {
   volmesh::FilledStage filled;
   filled.envelope = std::move(envelope);
-  filled.layers = layers_of(*content.mesh, content.tetrahedra->n_boundary_points, file);
+  filled.layers = layers_of(*content.mesh, *content.tetrahedra, file);
   filled.tets.new_points = std::move(content.tetrahedra->new_points);
   filled.tets.tetrahedra = std::move(content.tetrahedra->tetrahedra);
   filled.tets.engine = json.get<std::string>("/stage/engine");
@@ -318,17 +328,30 @@ struct FinishedParts {
   std::optional<TriMesh> split_wall;
   io::StoredEnvelope envelope;
   io::StoredTetrahedra tetrahedra;
+  std::vector<Point> layer_points;  ///< m, of the stage's layer
   Json json;
 };
+
+/// The tetrahedra, and the nodes under them that the mesh has elsewhere.
+io::StoredTetrahedra with_moved_nodes(const FinishedParts& parts, const HybridMesh& mesh) {
+  io::StoredTetrahedra tetrahedra = parts.tetrahedra;
+  for (std::size_t i = 0; i < parts.layer_points.size(); ++i) {
+    if (parts.layer_points[i] == mesh.points.raw()[i]) continue;
+    tetrahedra.moved_nodes.push_back(static_cast<std::uint32_t>(i));
+    tetrahedra.moved_points.push_back(parts.layer_points[i]);
+  }
+  return tetrahedra;
+}
 
 void write_finished(const SurfaceValue& wall, const FinishedParts& parts, const MeshValue& mesh, const std::filesystem::path& path, const RunContext& context) {
   const StageTimer timer(context, "write");
   Json manifest = Json::parse(manifest_json(mesh, path, context.seed()));
   manifest["stage"] = parts.json;
+  const io::StoredTetrahedra tetrahedra = with_moved_nodes(parts, mesh.mesh);
   io::write_sterna({.surface = parts.split_wall ? &*parts.split_wall : &wall.mesh,
                     .farfield = mesh.origin->options.farfield_surface.get(),
                     .envelope = &parts.envelope,
-                    .tetrahedra = &parts.tetrahedra,
+                    .tetrahedra = &tetrahedra,
                     .mesh = &mesh.mesh,
                     .manifest = manifest.dump(2) + "\n",
                     .certificate = certificate_json(mesh.origin->certificate),
@@ -386,6 +409,7 @@ MeshValue make_volume_mesh(const SurfaceValue& wall, const volmesh::MeshCase& op
             parts = {.split_wall = stage.split_wall,
                      .envelope = stored(stage.envelope.envelope, stage.split_wall ? *stage.split_wall : wall.mesh, options.first_heights.get()),
                      .tetrahedra = stored(stage),
+                     .layer_points = stage.layers.points.raw(),
                      .json = stage_json(stage, n_triangles(wall))};
           }};
   MeshValue mesh = mesh_value(wall, n_triangles(wall), options, cached_volume_mesh(wall, with_wall_facts(wall, options), watch, reuse, context));
