@@ -110,6 +110,7 @@ std::string manifest_json(const MeshValue& mesh, const std::filesystem::path& ou
     json["options"] = Json::parse(options_to_json(options));
     if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
     if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
+    if (!mesh.origin->changes.empty()) json["changes"] = mesh.origin->changes;
     if (mesh.origin->smooth_angle) json["wall"] = {{"max_smooth_angle", *mesh.origin->smooth_angle}};
     if (!volume.patches.empty()) json["patch_rules"] = Json::parse(layer_rules_json(volume.patches));
     if (volume.first_heights)

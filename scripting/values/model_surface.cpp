@@ -117,6 +117,8 @@ constexpr std::size_t k_listed = 10;
 // Shares of mesh_model_files's progress.
 constexpr double k_model_file_end = 0.3;
 constexpr double k_unite_end = 0.5;
+constexpr double k_first_try_end = 0.6;  ///< of meshing parts that have to be united
+constexpr double k_second_unite_end = 0.8;
 
 bool is_description(const std::filesystem::path& path) { return path.extension() == ".smx" || path.extension() == ".xml"; }
 
@@ -183,6 +185,37 @@ std::string indented(std::string text) {
   while (text.ends_with('\n')) text.pop_back();
   for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 3) text.replace(at, 1, "\n  ");
   return "  " + text;
+}
+
+/// Closed parts that stand in each other or touch, as CAD files of one aircraft have them: united where their triangles cross, and told.
+SurfaceValue mesh_or_unite(const std::vector<ModelHandle>& models, const SurfaceRecipe& recipe, const RunContext& context, const Reuse& reuse) {
+  std::size_t n_solids = 0;
+  bool is_closed = true;
+  for (const ModelHandle& model : models) {
+    n_solids += model->model.solids.size();
+    for (const ModelSolid& solid : model->model.solids) is_closed = is_closed && solid.is_closed;
+  }
+  try {
+    return mesh_models(models, recipe, {}, context.part("parts", 0.0, k_first_try_end), reuse);
+  } catch (const Error& crossing) {
+    if (crossing.code() != ErrorCode::self_intersection || n_solids < 2 || !is_closed) throw;
+    auto united = std::make_shared<ModelValue>();
+    try {
+      *united = unite_solids(models, {}, context.part("union", k_first_try_end, k_second_unite_end));
+    } catch (const Error& failed) {
+      if (failed.code() == ErrorCode::cancelled) throw;
+      ErrorInfo info = crossing.info();
+      info.problem += "; uniting the parts was tried: " + failed.info().problem;
+      throw Error(std::move(info));
+    }
+    KeyMaker maker("united");
+    for (const ModelHandle& model : models) maker.add(model->provenance.key());
+    united->provenance = maker.key();
+    SurfaceValue surface = mesh_models({united}, recipe, {}, context.part("united", k_second_unite_end, 1.0), reuse);
+    surface.changes.push_back(fmt::format("{} closed parts stand in each other and were united: {} closed now", n_solids, united->model.solids.size()));
+    context.info("changed: " + surface.changes.back());
+    return surface;
+  }
 }
 
 SurfaceValue mesh_anew(const std::vector<ModelHandle>& models, const SurfaceRecipe& asked, const std::function<double(const Point&)>& size,
@@ -315,7 +348,7 @@ SurfaceValue mesh_model_files(std::span<const InputPath> files, const ReadCadOpt
     }
     models.push_back(std::move(model));
   }
-  return mesh_models(models, with_files, {}, context.part("surface_mesh", k_unite_end, 1.0), reuse);
+  return mesh_or_unite(models, with_files, context.part("surface_mesh", k_unite_end, 1.0), reuse);
 }
 
 }  // namespace sterna::scripting

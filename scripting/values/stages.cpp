@@ -140,6 +140,7 @@ std::string unfinished_json(const SurfaceValue& wall, const volmesh::MeshCase& o
   json["options"] = Json::parse(options_to_json(table));
   if (!recipe.patches.empty()) json["surface_patches"] = Json::parse(patch_rules_json(recipe.patches));
   if (!recipe.sources_text.empty()) json["surface_sources"] = Json::parse(recipe.sources_text);
+  if (!wall.changes.empty()) json["changes"] = wall.changes;
   if (wall.smooth_angle) json["wall"] = {{"max_smooth_angle", *wall.smooth_angle}};
   if (const std::vector<volmesh::PatchRule> rules = rules_of(wall, options); !rules.empty()) json["patch_rules"] = Json::parse(layer_rules_json(rules));
   json["sources"] = options.sources.size();
@@ -207,6 +208,9 @@ class StageJson {
     if (!json_.contains(Json::json_pointer("/wall/max_smooth_angle"))) return std::nullopt;
     return get<double>("/wall/max_smooth_angle");
   }
+
+  /// Of the wall against the user's files.
+  std::vector<std::string> changes() const { return json_.contains("changes") ? get<std::vector<std::string>>("/changes") : std::vector<std::string>(); }
 
   std::vector<volmesh::ActuatorDisc> discs() const {
     const auto found = json_.find("actuator_discs");
@@ -287,6 +291,7 @@ MeshValue mesh_value(const SurfaceValue& wall, std::int64_t n_wall_triangles, co
                             .tetra_failures = result.tetra_failures,
                             .n_split_triangles = result.n_split_triangles,
                             .needles = result.needles,
+                            .changes = wall.changes,
                             .is_reproducible = result.is_reproducible,
                             .tetra_engine_seconds = result.tetra_engine_seconds,
                             .tetra_engine_peak_bytes = result.tetra_engine_peak_bytes};
@@ -437,6 +442,7 @@ StageContent read_stages(const InputPath& file, const RunContext& context) {
       options.first_heights = std::make_shared<const volmesh::FirstHeights>(wall->mesh, std::move(content.envelope->first_height), context);
     wall->recipe = json.recipe();
     wall->smooth_angle = json.smooth_angle();
+    wall->changes = json.changes();
     result.surface = wall;
     volmesh::EnvelopeStage envelope{.envelope = envelope_of(std::move(*content.envelope), file), .feature_angle = json.get<double>("/stage/feature_angle")};
     result.envelope = std::make_shared<const EnvelopeValue>(

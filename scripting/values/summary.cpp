@@ -138,7 +138,9 @@ std::string quality_text(const CheckReport& report) {
 std::string summary_text(const MeshValue& mesh) {
   const CellCounts cells = count_cells(mesh.mesh);
   const volmesh::LayerReport& layer = mesh.origin->layer;
-  std::string text = fmt::format("  wall        {} triangles, body length {:.6g} m\n", count_text(mesh.origin->n_wall_triangles), layer.body_length);
+  std::string text;
+  for (const std::string& change : mesh.origin->changes) text += "  changed     " + change + "\n";
+  text += fmt::format("  wall        {} triangles, body length {:.6g} m\n", count_text(mesh.origin->n_wall_triangles), layer.body_length);
   text += fmt::format("  mesh        {} nodes: {} prisms in {}{} layers, {} pyramids, {} tetrahedra\n", count_text(n_nodes(mesh)), count_text(cells.prisms),
                       mesh.mesh.layers.is_uniform() ? "" : "up to ", mesh.mesh.layers.n_layers, count_text(cells.pyramids), count_text(cells.tetrahedra));
   if (const volmesh::NeedleReport& needles = mesh.origin->needles; needles.n_needles > 0)

@@ -99,6 +99,15 @@ std::map<std::string, PatchKind> kinds_of(const Json& json, const InputPath& fil
   return kinds;
 }
 
+std::vector<std::string> changes_of(const Json& json, const InputPath& file) {
+  std::vector<std::string> changes;
+  for (const Json& change : json.value("changes", Json::array())) {
+    if (!change.is_string()) refuse_manifest(file, "an entry of its changes is no text");
+    changes.push_back(change.get<std::string>());
+  }
+  return changes;
+}
+
 }  // namespace
 
 std::string surface_manifest_json(const SurfaceValue& surface, const std::filesystem::path& written) {
@@ -118,6 +127,7 @@ std::string surface_manifest_json(const SurfaceValue& surface, const std::filesy
   for (const PatchId patch : surface.mesh.patches.ids())
     json["patches"].push_back(
         {{"name", surface.mesh.patches[patch].name}, {"kind", to_string(surface.mesh.patches[patch].kind)}, {"triangles", n_triangles[patch]}});
+  if (!surface.changes.empty()) json["changes"] = surface.changes;
   if (!surface.layers.empty()) json["layers"] = Json::parse(layer_rules_json(surface.layers));
   json["mesh"] = {{"vertices", surface.mesh.n_vertices()},
                   {"triangles", surface.mesh.n_triangles()},
@@ -147,7 +157,7 @@ std::optional<KnownSurface> read_surface_manifest(const InputPath& file, const s
   const Json::json_pointer inside("/mesh/encloses_fluid");
   const bool encloses = json.contains(inside) && json.at(inside).is_boolean() && json.at(inside).get<bool>();
   return KnownSurface{json.at(pointer).get<double>() / k_degrees, kinds_of(json, file), encloses,
-                      layer_rules_of_json(json.value("layers", Json::array()).dump())};
+                      layer_rules_of_json(json.value("layers", Json::array()).dump()), changes_of(json, file)};
 }
 
 }  // namespace sterna::scripting

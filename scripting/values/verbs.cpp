@@ -71,6 +71,7 @@ WallFiles read_wall_files(std::span<const InputPath> files, const surfmesh::Stit
       if (known->encloses_fluid && options.fluid == "automatic") wall.options.fluid = "inside";
       result.kinds.insert(known->kinds.begin(), known->kinds.end());
       wall.layers.insert(wall.layers.end(), known->layers.begin(), known->layers.end());
+      wall.changes.insert(wall.changes.end(), known->changes.begin(), known->changes.end());
     }
     context.progress(static_cast<double>(result.soups.size()) / static_cast<double>(files.size()));
   }

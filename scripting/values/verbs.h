@@ -53,6 +53,7 @@ struct SurfaceValue {
   std::shared_ptr<const surfmesh::ModelWall> model_wall = {};  ///< of a surface that surface_mesh made in this run: where new vertices belong
   std::vector<volmesh::PlacedPart> parts = {};    ///< that were meshed or read elsewhere and moved to where they are; in ascending order of their triangles
   std::optional<ContentKey> model_wall_key = {};  ///< of what model_wall knows, for caches
+  std::vector<std::string> changes = {};          ///< what makes it another surface than the files: one sentence each, first in summaries and manifests
 };
 
 /// How a volume mesh was made here; absent for one that was read from a file.
@@ -70,6 +71,7 @@ struct MeshOrigin {
   std::vector<std::string> tetra_failures;
   std::int64_t n_split_triangles = 0;
   volmesh::NeedleReport needles;
+  std::vector<std::string> changes;  ///< of the wall
   bool is_reproducible = true;
   double tetra_engine_seconds = 0.0;
   double tetra_engine_peak_bytes = 0.0;
