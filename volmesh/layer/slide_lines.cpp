@@ -23,6 +23,8 @@ constexpr double k_reserve = 0.75;                         ///< of a hard limit:
 constexpr double k_regular_volumes = 3.0;                  ///< volume of a prism over that of the tetrahedron that fits it (G9)
 constexpr double k_cut_slope = 5.0;                        ///< excess of a side by how much its share is below k_good_cut_share
 constexpr double k_least_win = 0.02;                       ///< of the cost: less is no reason to move
+constexpr double k_far_reach = 2.5;                        ///< of slide_share: where less did not do for a hard limit
+constexpr double k_farthest = 0.6;                         ///< of a height: no top moves by more, unless slide_share says so
 constexpr double k_still_share = 0.02;                     ///< of a line's height: cells within it go the less with the top, the nearer the wall
 constexpr double k_far_reserve = 0.2, k_far_excess = 0.8;  ///< sides better than this by approximate centres need no others
 constexpr int k_newton_steps = 30;
@@ -419,7 +421,7 @@ bool LineSlider::help(const TetraResult& tets, Line line, const Star& star, Move
   for (const double step : k_tried_steps) {
     std::vector<Trial> trials;
     const auto attempt = [&](double share, const Vec3& shift) {
-      if (share < 1.0 - share_ || share > 1.0 + 0.5 * share_ || norm(shift) > share_ * height) return;
+      if (share < 1.0 - state.reach || share > 1.0 + 0.5 * state.reach || norm(shift) > state.reach * height) return;
       std::optional<std::vector<Point>> nodes = scaled_line(state.nodes, share);
       if (!nodes) return;
       shift_top(shift, *nodes);
@@ -428,7 +430,7 @@ bool LineSlider::help(const TetraResult& tets, Line line, const Star& star, Move
       const double with = cost(tets, star);
       if (with < (1.0 - k_least_win) * cost_now) trials.push_back({with, share, shift, std::move(*nodes)});
     };
-    const double length = step * share_;
+    const double length = step * state.reach;
     for (const double sign : {-1.0, 1.0}) {
       attempt(state.share + sign * length, state.shift);
       attempt(state.share, state.shift + sign * length * height * aside);
@@ -491,6 +493,7 @@ std::vector<std::uint32_t> LineSlider::slide(const TetraResult& tets) {
   for (std::size_t i = 0; i < faults.size(); ++i) {
     const auto known = moved_.find(faults[i].line);
     states[i] = known == moved_.end() ? Moved{nodes_of(faults[i].line)} : known->second;
+    states[i].reach = n_rounds_ > 0 && k_reserve * faults[i].excess > 1.0 ? std::max(share_, std::min(k_farthest, k_far_reach * share_)) : share_;
   }
   std::vector<std::uint8_t> has_moved(faults.size(), 0), moved_now(faults.size(), 0), is_stale(faults.size(), 1);
   const std::vector<std::vector<std::uint32_t>> groups = independent_groups(stars, seen);
@@ -512,6 +515,7 @@ std::vector<std::uint32_t> LineSlider::slide(const TetraResult& tets) {
         for (const std::uint32_t other : seen[i]) is_stale[other] = 1;
       }
     }
+  ++n_rounds_;
   std::vector<std::uint32_t> moved;
   for (std::size_t i = 0; i < faults.size(); ++i) {
     if (!has_moved[i]) continue;

@@ -26,8 +26,9 @@ class LineSlider {
   LineSlider(HybridMesh& layers, FillBoundary& boundary, const ImproveOptions& options, const RunContext& context);
 
   /// One round over the lines at the worst places: each moves, by a pattern search of smaller and smaller steps within `slide_share` of its height (half of it
-  /// up), where the costs around it are lower: of angles beyond the limits of improvement, of steps of volume and height between last prisms and tetrahedra and
-  /// among these, of face weights (OpenFOAM), of sides that can hardly be cut. Lines at rims, beside collapsed ones, and those that end on outer faces stay.
+  /// up), where the costs around it are lower (k_far_reach times as far from the second round on where a hard limit is missed): of angles beyond the limits of
+  /// improvement, of steps of volume and height between last prisms and tetrahedra and among these, of face weights (OpenFOAM), of sides that can hardly be
+  /// cut. Lines at rims, beside collapsed ones, and those that end on outer faces stay.
   /// \pre tets fill the boundary, every cell valid. \post the same, by exact tests of all cells at lines that moved; no line grows faster than before or than
   /// was asked for.
   /// Returns the lines that moved, ascending. Parallel: lines that do not see each other move at the same time. At most k_most_lines; some ms each.
@@ -58,6 +59,7 @@ class LineSlider {
     std::vector<Point> nodes;
     double share = 1.0;  ///< of that height
     Vec3 shift;          ///< of its top beside that, m
+    double reach = 0.0;  ///< how far share and shift may go, over the height
   };
   struct Interface {
     double volume, height, weight;  ///< each over its limit
@@ -100,6 +102,7 @@ class LineSlider {
   std::vector<std::uint8_t> is_locked_;  ///< of each line
   std::vector<Side> sides_;              ///< of all columns, sorted
   std::map<Line, Moved> moved_;
+  int n_rounds_ = 0;
 };
 
 }  // namespace sterna::volmesh
