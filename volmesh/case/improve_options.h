@@ -47,7 +47,7 @@ struct Schema<volmesh::ImproveOptions> {
                .min = 0.0,
                .max = 0.5,
                .help = "of the layer's height: how much lower (half of it: higher) lines may end after improvement where last prisms and tetrahedra do not fit "
-                       "each other; 0: never"},
+                       "each other; from the second round on 2.5 times that where a hard limit is missed; 0: never"},
   };
 };
 
