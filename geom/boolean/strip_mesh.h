@@ -1,4 +1,4 @@
-// Private to geom/boolean: a closed triangulation that changes by small exchanges of triangles, each of which is proved harmless before it is made.
+// For geom/boolean and surfmesh/wrap: a closed triangulation that changes by small exchanges of triangles, each of which is proved harmless before it is made.
 #pragma once
 
 #include <array>
@@ -58,6 +58,7 @@ struct CollapseLimits {
   double longest = 0.0;      ///< m, of new edges
   double tolerance = 0.0;    ///< m, from the reference, and of kept lines from where they were
   double merge = 0.0;        ///< m; two vertices nearer than this are one place: neither kept lines nor angles keep them apart
+  bool is_one_place = false; ///< the caller knows that the two may be joined as if they were that near
 };
 
 /// Vertices and triangles are never renumbered; dead ones stay as holes.
