@@ -12,7 +12,7 @@ namespace sterna {
 
 struct WrapSurface {
   std::vector<Vec3> points;                             ///< m
-  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< normals out of the soup, or into `seed`'s room
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< normals out of the volume that it encloses
 };
 
 struct AlphaWrapInput {

@@ -100,18 +100,18 @@ class WrapFitter {
   }
 
   FittedWrap run() {
-    { StageTimer timer(context_, "fit: back"); bring_back(surface_.facets(), context_); }
+    bring_back(surface_.facets(), context_);
     context_.progress(0.15);
-    { StageTimer timer(context_, "fit: snap"); snap_to_lines(); }
+    snap_to_lines();
     context_.progress(0.25);
-    { StageTimer timer(context_, "fit: split"); split_crossed(); }
+    split_crossed();
     context_.progress(0.3);
-    { StageTimer timer(context_, "fit: refine"); refine(); }
+    refine();
     context_.progress(0.4);
     now_.patch = patches_of(now_.points, now_.triangles, surface_, sizes_, context_);
     const TriangleTree near(with_closures(), context_);
     for (int round = 0; round < k_improve_rounds; ++round) {
-      improve(near, round);
+      improve(near);
       context_.progress(0.4 + 0.55 * (round + 1.0) / k_improve_rounds);
     }
     bring_back(near, context_);
@@ -159,8 +159,7 @@ class WrapFitter {
       targets[v] = corner[v].point;
       tie[v] = LineTie::corner;
     }
-    ClearMove moved =
-        move_clear(now_.points, now_.triangles, targets, {.max_turn = k_line_turn, .least_angle = k_line_angle, .is_whole = true}, context_);
+    ClearMove moved = move_clear(now_.points, now_.triangles, targets, {.max_turn = k_line_turn, .least_angle = k_line_angle, .is_whole = true}, context_);
     for (std::size_t v = 0; v < n; ++v) now_.tie[v] = moved.has_arrived[v] ? tie[v] : LineTie::none;
     now_.points = std::move(moved.points);
   }
@@ -210,7 +209,8 @@ class WrapFitter {
   std::size_t split_where(const Choose& choose) {
     const std::vector<Ends> edges = edges_of(now_.triangles, context_);
     std::vector<NewPoint> points(edges.size());
-    parallel_for(context_, edges.size(), [&](std::size_t e) { points[e] = choose(edges[e]); }, 512);
+    parallel_for(
+        context_, edges.size(), [&](std::size_t e) { points[e] = choose(edges[e]); }, 512);
     std::vector<std::pair<double, std::size_t>> order;  // longest first
     for (std::size_t e = 0; e < edges.size(); ++e)
       if (points[e].is_wanted) order.push_back({-distance(now_.points[edges[e][0]], now_.points[edges[e][1]]), e});
@@ -342,17 +342,11 @@ class WrapFitter {
     if (now_.tie[from] != LineTie::line || now_.tie[to] == LineTie::none) return false;
     const Vec3 &a = mesh.points[from], &b = mesh.points[to];
     if (!surface_.nearest_line(0.5 * (a + b), 0.05 * distance(a, b)).triangle.is_valid()) return false;
-    return mesh.collapse(from, to,
-                         {.least_angle = 0.0,
-                          .longest = k_long_edge * sizes_.edge,
-                          .tolerance = sizes_.tolerance,
-                          .merge = 0.05 * sizes_.edge,
-                          .is_one_place = true});
+    return mesh.collapse(
+        from, to, {.least_angle = 0.0, .longest = k_long_edge * sizes_.edge, .tolerance = sizes_.tolerance, .merge = 0.05 * sizes_.edge, .is_one_place = true});
   }
 
-  bool try_flip(StripMesh& mesh, std::uint32_t a, std::uint32_t b) const {
-    return !mesh.is_kept_edge(a, b) && mesh.flip(a, b, k_gain, sizes_.tolerance);
-  }
+  bool try_flip(StripMesh& mesh, std::uint32_t a, std::uint32_t b) const { return !mesh.is_kept_edge(a, b) && mesh.flip(a, b, k_gain, sizes_.tolerance); }
 
   void collapse_short(StripMesh& mesh) const {
     std::vector<std::pair<double, Ends>> order;
@@ -417,6 +411,21 @@ class WrapFitter {
     return std::min(mesh.min_angle({e[0], d, c}), mesh.min_angle({d, e[1], c})) > std::min(mesh.min_angle(*left), mesh.min_angle(*right)) + k_gain;
   }
 
+  /// A triangle nearly as flat as its longest edge has no normal of its own: with that of its neighbour there the edge may be flipped.
+  bool try_flip_needle(StripMesh& mesh, std::uint32_t t, std::uint32_t a, std::uint32_t b) const {
+    const auto left = mesh.triangle_at(a, b), right = mesh.triangle_at(b, a);
+    if (!left || !right) return false;
+    const std::uint32_t other = *left == t ? *right : *left;
+    const Vec3 own = mesh.triangles[t].normal;
+    const std::uint32_t region = mesh.triangles[t].region;
+    mesh.triangles[t].normal = mesh.triangles[other].normal;
+    mesh.triangles[t].region = mesh.triangles[other].region;
+    if (mesh.flip(a, b, k_gain, sizes_.tolerance)) return true;
+    mesh.triangles[t].normal = own;
+    mesh.triangles[t].region = region;
+    return false;
+  }
+
   void remove_poor(StripMesh& mesh) const {
     for (int sweep = 0; sweep < 2; ++sweep) {
       std::vector<std::pair<double, std::uint32_t>> poor;
@@ -431,6 +440,7 @@ class WrapFitter {
         for (std::size_t k = 0; k < 3; ++k) edges[k] = {distance(mesh.points[v[k]], mesh.points[v[(k + 1) % 3]]), {v[k], v[(k + 1) % 3]}};
         std::sort(edges.begin(), edges.end());
         bool is_done = try_flip(mesh, edges[2].second[0], edges[2].second[1]) || try_flip(mesh, edges[1].second[0], edges[1].second[1]);
+        if (!is_done && angle < k_needle) is_done = try_flip_needle(mesh, t, edges[2].second[0], edges[2].second[1]);
         for (std::size_t k = 0; k < 3 && !is_done; ++k) {
           const auto [a, b] = edges[k].second;
           is_done = try_collapse(mesh, a, b, angle + k_gain) || try_collapse(mesh, b, a, angle + k_gain);
@@ -475,8 +485,7 @@ class WrapFitter {
           for (const Side& out : around[v]) {
             sum += now_.points[out.to];
             for (const Side& in : towards[v])
-              if (in.from == out.to &&
-                  (dot(normal[in.triangle], normal[out.triangle]) < least || now_.patch[in.triangle] != now_.patch[out.triangle]))
+              if (in.from == out.to && (dot(normal[in.triangle], normal[out.triangle]) < least || now_.patch[in.triangle] != now_.patch[out.triangle]))
                 kept.push_back(out.to);
           }
           if (kept.empty() && now_.tie[v] == LineTie::none) {
@@ -491,15 +500,15 @@ class WrapFitter {
     now_.points = move_clear(std::move(now_.points), triangles, targets, {.max_turn = k_smooth_turn, .least_angle = k_smooth_angle}, context_).points;
   }
 
-  void improve(const TriangleTree& near, int round) {
+  void improve(const TriangleTree& near) {
     {
       StripMesh mesh = strip_mesh(near);
-      { StageTimer timer(context_, "fit: collapse"); merge_onto_lines(mesh); collapse_short(mesh); }
-      { StageTimer timer(context_, "fit: flip"); flip_all(mesh); }
-      { StageTimer timer(context_, "fit: poor"); if (round + 1 == k_improve_rounds) remove_poor(mesh); }
+      merge_onto_lines(mesh);
+      collapse_short(mesh);
+      flip_all(mesh);
+      remove_poor(mesh);
       take(mesh);
     }
-    StageTimer timer(context_, "fit: smooth");
     smooth(near);
   }
 

@@ -12,6 +12,7 @@ namespace sterna::surfmesh {
 
 struct WrapSizes {
   double edge = 0.0, gap = 0.0, tolerance = 0.0, offset = 0.0;  ///< m
+  bool is_fluid_inside = false;
 };
 
 /// What of a vertex of the wrap is tied to the input.

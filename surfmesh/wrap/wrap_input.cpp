@@ -139,8 +139,7 @@ void find_lines(WrapInput& input, double angle) {
   for (const auto& [v, others] : ends) {
     const Vec3 p = mesh.points[VertexId(v)];
     bool is_corner = others.size() != 2;
-    if (!is_corner)
-      is_corner = angle_between(p - mesh.points[VertexId(others[0])], mesh.points[VertexId(others[1])] - p) > k_corner_bend;
+    if (!is_corner) is_corner = angle_between(p - mesh.points[VertexId(others[0])], mesh.points[VertexId(others[1])] - p) > k_corner_bend;
     if (is_corner) input.corners.push_back(p);
   }
 }

@@ -12,18 +12,18 @@
 namespace sterna::surfmesh {
 
 struct WrapInput {
-  TriMesh mesh;                                  ///< facets of one edge-connected part have one sense; nothing else is assumed
-  std::vector<std::uint32_t> part;               ///< per facet
+  TriMesh mesh;                     ///< facets of one edge-connected part have one sense; nothing else is assumed
+  std::vector<std::uint32_t> part;  ///< per facet
   std::uint32_t n_parts = 0;
-  std::vector<std::array<char, 3>> is_border;    ///< per facet and side: no other facet there
-  std::vector<std::array<Vec3, 2>> lines;        ///< sharp edges and patch borders
-  std::vector<char> is_border_of_patches;        ///< per line: not sharp
-  std::vector<Vec3> corners;                     ///< where lines end, meet or bend
-  double length = 0.0;                           ///< m, longest side of the box
-  double area = 0.0;                             ///< m^2
-  std::string half_axis;                         ///< the mesh holds both halves
+  std::vector<std::array<char, 3>> is_border;  ///< per facet and side: no other facet there
+  std::vector<std::array<Vec3, 2>> lines;      ///< sharp edges and patch borders
+  std::vector<char> is_border_of_patches;      ///< per line: not sharp
+  std::vector<Vec3> corners;                   ///< where lines end, meet or bend
+  double length = 0.0;                         ///< m, longest side of the box
+  double area = 0.0;                           ///< m^2
+  std::string half_axis;                       ///< the mesh holds both halves
   double half_at = 0.0;
-  bool is_half_above = true;                     ///< of the given half
+  bool is_half_above = true;  ///< of the given half
   double half_moved = 0.0;
 };
 

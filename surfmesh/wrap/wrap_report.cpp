@@ -14,8 +14,8 @@ namespace sterna::surfmesh {
 namespace {
 
 constexpr double k_fair_angle = 0.2618;  ///< rad, 15 degrees
-/// Winding number of the input beyond which a place is inside of it: well above the half on its surface.
-constexpr double k_inside = 0.75;
+/// Winding number of the input beyond which a place is inside of it: above the half on its surface.
+constexpr double k_inside = 0.55;
 /// Of the edge: in front of the wrap by so much, a leak is looked for.
 constexpr double k_leak_probe = 0.25;
 /// Of the edge squared: leaks smaller than this are folds of the surface.
@@ -154,7 +154,7 @@ void measure_wrap(const FittedWrap& wrap, const InputSurface& surface, const Wra
         const Vec3 middle = (c[0] + c[1] + c[2]) / 3.0;
         for (const Vec3& p : {middle, 0.5 * (c[0] + c[1]), 0.5 * (c[1] + c[2]), 0.5 * (c[2] + c[0]), c[0], c[1], c[2]}) {
           const double distance = tree.nearest(p).distance;
-          const bool is_inside = distance > sizes.tolerance && tree.winding_number(p) > 0.5;
+          const bool is_inside = distance > sizes.tolerance && tree.winding_number(p) > (sizes.is_fluid_inside ? -0.5 : 0.5);
           if (p == middle) inputs[f].is_inside = is_inside;
           if (!is_inside) inputs[f].distance = std::max(inputs[f].distance, distance);
         }

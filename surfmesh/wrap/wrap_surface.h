@@ -21,7 +21,7 @@ struct WrapOptions {
   double features = 0.698;         ///< rad, 40 degrees; edges of the input that bend by more are sharp
   std::string half = "automatic";  ///< automatic: a surface open in a plane x, y or z = constant is half of a model
   int max_triangles = 3'000'000;
-  double unit = 1.0;                ///< metres per file unit
+  double unit = 1.0;                 ///< metres per file unit
   double split_angle = k_automatic;  ///< rad
   std::string fluid = "automatic";   ///< side of the outermost surface
 };
@@ -37,40 +37,40 @@ struct WrapClosure {
 
 /// An opening wider than asked: the wrap lies on the inner side of the input behind it.
 struct WrapLeak {
-  Vec3 position;         ///< m, where the wrap goes in
-  double area = 0.0;     ///< m^2 of the wrap inside
+  Vec3 position;      ///< m, where the wrap goes in
+  double area = 0.0;  ///< m^2 of the wrap inside
 };
 
 /// What the wrap is worth: triangles by their smallest angle.
 struct WrapQuality {
-  double min_angle = 0.0;        ///< rad
-  std::int64_t n_below_15 = 0;   ///< triangles with an angle below 15 degrees
+  double min_angle = 0.0;          ///< rad
+  std::int64_t n_below_15 = 0;     ///< triangles with an angle below 15 degrees
   std::int64_t n_at_features = 0;  ///< of these, with a corner on a sharp edge
 };
 
 struct WrapReport {
   std::int64_t n_facets_read = 0;
   std::int64_t n_triangles = 0, n_vertices = 0, n_components = 0;
-  std::int64_t expected_triangles = 0;   ///< estimated before
+  std::int64_t expected_triangles = 0;                          ///< estimated before
   double edge = 0.0, gap = 0.0, tolerance = 0.0, offset = 0.0;  ///< m, as used
-  std::int64_t n_feature_edges = 0;      ///< sharp edges and patch borders of the input
-  std::int64_t n_on_features = 0;        ///< vertices of the wrap on them
-  std::int64_t n_off_input = 0;          ///< vertices that could not be brought back within the tolerance
-  double to_input = 0.0;                 ///< m; farthest sample of the wrap from the input, outside of closures
-  double to_input_closed = 0.0;          ///< m; the same in closures
-  double from_input = 0.0;               ///< m; farthest sample of the input that is not inside
-  std::int64_t n_beyond_tolerance = 0;   ///< triangles outside of closures that are farther than the tolerance
-  Vec3 farthest;                         ///< m, of the wrap, outside of closures
-  std::int64_t n_inside = 0;             ///< facets of the input inside the wrap: inner parts, walls of what was closed
-  double inside_area = 0.0;              ///< m^2
-  std::int64_t n_closures = 0;           ///< all; `closures` has the largest
-  std::vector<WrapClosure> closures;     ///< by falling size, at most k_max_closures
-  std::vector<WrapLeak> leaks;           ///< by falling area
-  std::string half_axis;                 ///< "x", "y", "z" of a half model; empty: none
-  double half_at = 0.0;                  ///< m
-  double half_moved = 0.0;               ///< m, the input's rim was off the plane by so much
+  std::int64_t n_feature_edges = 0;                             ///< sharp edges and patch borders of the input
+  std::int64_t n_on_features = 0;                               ///< vertices of the wrap on them
+  std::int64_t n_off_input = 0;                                 ///< vertices that could not be brought back within the tolerance
+  double to_input = 0.0;                                        ///< m; farthest sample of the wrap from the input, outside of closures
+  double to_input_closed = 0.0;                                 ///< m; the same in closures
+  double from_input = 0.0;                                      ///< m; farthest sample of the input that is not inside
+  std::int64_t n_beyond_tolerance = 0;                          ///< triangles outside of closures that are farther than the tolerance
+  Vec3 farthest;                                                ///< m, of the wrap, outside of closures
+  std::int64_t n_inside = 0;                                    ///< facets of the input inside the wrap: inner parts, walls of what was closed
+  double inside_area = 0.0;                                     ///< m^2
+  std::int64_t n_closures = 0;                                  ///< all; `closures` has the largest
+  std::vector<WrapClosure> closures;                            ///< by falling size, at most k_max_closures
+  std::vector<WrapLeak> leaks;                                  ///< by falling area
+  std::string half_axis;                                        ///< "x", "y", "z" of a half model; empty: none
+  double half_at = 0.0;                                         ///< m
+  double half_moved = 0.0;                                      ///< m, the input's rim was off the plane by so much
   WrapQuality quality;
-  std::vector<std::string> messages;     ///< one sentence for each, as logged
+  std::vector<std::string> messages;  ///< one sentence for each, as logged
 };
 
 inline constexpr std::size_t k_max_closures = 50;
@@ -111,7 +111,7 @@ struct Schema<surfmesh::WrapOptions> {
                .unit = Unit::metre,
                .min = 0.0,
                .help = "openings up to this are closed",
-               .automatic = "twice the edge, at least 2 % of the body length"},
+               .automatic = "twice the edge, at least 2 % of the body length; doubled, up to 16 %, while the wrap goes inside"},
       Field<O>{.name = "tolerance",
                .member = &O::tolerance,
                .unit = Unit::metre,
