@@ -27,6 +27,9 @@ constexpr double k_automatic_gap = 0.02;                                     ///
 constexpr double k_gap_of_edge = 2.0;
 /// Winding number of the input, on what closes its openings: about a half there, less where many are, zero in front of grooves.
 constexpr double k_closing = 0.15;
+/// Of the edge: between samples of what may close an opening; and at most so many along a side.
+constexpr double k_sample_step = 0.7;
+constexpr int k_most_samples = 12;
 /// Winding number beyond which a place is inside of the input; share of the wrap that lies before such places when it leaks, not just folds; and from where on
 /// (of the body length) an automatic gap is not doubled any more.
 constexpr double k_inside_input = 0.55, k_leaking_share = 0.05, k_widest_gap = 0.08;
@@ -135,9 +138,16 @@ void close_openings(const WrapInput& input, const WrapSizes& sizes, const WrapSu
       context, is_closing.size(),
       [&](std::size_t t) {
         const auto c = corners(mesh, TriangleId(std::uint64_t{t}));
-        const Vec3 normal = normalized(area_vector(c[0], c[1], c[2])), middle = (c[0] + c[1] + c[2]) / 3.0;
-        for (const Vec3& p : {middle, 0.5 * (c[0] + c[1]), 0.5 * (c[1] + c[2]), 0.5 * (c[2] + c[0])})
-          if (!tree.nearest(p, 2.0 * offset).triangle.is_valid() && tree.winding_number(p - offset * normal) > least_winding) is_closing[t] = 1;
+        const Vec3 normal = normalized(area_vector(c[0], c[1], c[2]));
+        // As densely as openings can be narrow that the finer ball passes through.
+        const double longest = std::max({distance(c[0], c[1]), distance(c[1], c[2]), distance(c[2], c[0])});
+        const int n = std::clamp(static_cast<int>(std::ceil(longest / (k_sample_step * sizes.edge))), 2, k_most_samples);
+        for (int i = 0; i <= n && !is_closing[t]; ++i)
+          for (int j = 0; i + j <= n && !is_closing[t]; ++j) {
+            const double u = static_cast<double>(i) / n, v = static_cast<double>(j) / n;
+            const Vec3 p = c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]);
+            if (!tree.nearest(p, 2.0 * offset).triangle.is_valid() && tree.winding_number(p - offset * normal) > least_winding) is_closing[t] = 1;
+          }
       },
       128);
   const auto first = static_cast<std::uint32_t>(soup.points.size());
