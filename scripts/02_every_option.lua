@@ -20,6 +20,21 @@ wall = union{ wall,
   keep_cavities = false,            -- hollows that the parts enclose
 }
 
+-- A surface however torn, wrapped in one that is closed; what it closed and dropped is printed.
+local wrapped = wrap{ wall,
+  edge = 0.04 * wall.length,        -- of its triangles, metres; default: about 60 000 of them
+  gap = 0.08 * wall.length,         -- openings up to this are closed; default: twice the edge, at least 2 % of the length
+  tolerance = 0.004 * wall.length,  -- from the input; default: a tenth of the edge
+  offset = 0.002 * wall.length,     -- at which it is made before it is brought back; default: 1/20 of the edge
+  features = 40*deg,                -- edges that bend by more stay sharp
+  half = "automatic",               -- or never: an opening in a plane x, y or z = constant makes half a model
+  max_triangles = 3000000,          -- more are refused
+  unit = 1,                         -- of files
+  split_angle = "automatic",        -- patches as the input names them
+  fluid = "automatic",              -- or outside, inside (a tunnel)
+}
+print(wrapped)
+
 -- Before anything is meshed: what volume_mesh will refuse, where layers get low. Takes what volume_mesh takes, too.
 local pre = inspect{ wall, layers = 30, first_height = 1e-6 * wall.length,
   min_angle = 1*deg,                -- from here on something is told: needles

@@ -77,3 +77,6 @@ add_custom_target(benches DEPENDS ${benches})
 # Compares our evaluators with OpenCASCADE's own.
 target_include_directories(spline_bench SYSTEM PRIVATE ${OpenCASCADE_INCLUDE_DIR})
 target_link_libraries(spline_bench PRIVATE ${STERNA_OCCT})
+
+# Shapes torn at random: 5 of them in the tests, 200 by hand (tools/build torn_long).
+add_custom_target(torn_long COMMAND ${CMAKE_COMMAND} -E env STERNA_TORN=200 $<TARGET_FILE:test_surfmesh_wrap> --gtest_filter=WrapTorn.Shapes* USES_TERMINAL)

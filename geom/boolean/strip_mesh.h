@@ -1,4 +1,4 @@
-// Private to geom/boolean: a closed triangulation that changes by small exchanges of triangles, each of which is proved harmless before it is made.
+// For geom/boolean and surfmesh/wrap: a closed triangulation that changes by small exchanges of triangles, each of which is proved harmless before it is made.
 #pragma once
 
 #include <array>
@@ -54,10 +54,11 @@ struct StripLimits {
 
 /// What a collapse must respect.
 struct CollapseLimits {
-  double least_angle = 0.0;  ///< rad; no triangle may get a smaller one, unless the worst of those that change gets better
-  double longest = 0.0;      ///< m, of new edges
-  double tolerance = 0.0;    ///< m, from the reference, and of kept lines from where they were
-  double merge = 0.0;        ///< m; two vertices nearer than this are one place: neither kept lines nor angles keep them apart
+  double least_angle = 0.0;   ///< rad; no triangle may get a smaller one, unless the worst of those that change gets better
+  double longest = 0.0;       ///< m, of new edges
+  double tolerance = 0.0;     ///< m, from the reference, and of kept lines from where they were
+  double merge = 0.0;         ///< m; two vertices nearer than this are one place: neither kept lines nor angles keep them apart
+  bool is_one_place = false;  ///< the caller knows that the two may be joined as if they were that near
 };
 
 /// Vertices and triangles are never renumbered; dead ones stay as holes.

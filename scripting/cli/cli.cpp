@@ -167,6 +167,7 @@ void add_mesh_command(CLI::App& app, MeshCommand& mesh, OptionOverrides& set, Re
   command->add_flag(
       "--half", mesh.is_half,
       "mesh the half of the surface beside a plane, by default y = 0 on the side of y > 0; others with --set half.axis=z --set half.at=0.5 --set half.keep=-");
+  command->add_flag("--wrap", mesh.is_wrapped, "wrap the files first: `sterna wrap --help`; its options with --set wrap.edge=5mm --set wrap.gap=20mm");
   surfmesh::StitchOptions surface;
   volmesh::MeshCase volume;
   add_schema_options(*command, all_options(surface, volume), mesh.options);
@@ -254,6 +255,23 @@ void add_union_command(CLI::App& app, UnionCommand& unite, Request& request) {
   command->final_callback([&] {
     request.execute = [&](const CommandContext& context) { return execute(unite, context); };
     request.trouble = beside(unite.output);
+  });
+}
+
+void add_wrap_command(CLI::App& app, WrapCommand& wrap, OptionOverrides& set, Request& request) {
+  CLI::App* command = app.add_subcommand("wrap", "wrap surfaces, however torn, in one that is closed and near to them, with their sharp edges and patches");
+  command->add_option("parts", wrap.inputs, "surface files. `sterna formats` lists what is read")->required();
+  command->add_option("-o,--output", wrap.output, "surface file: " + io::list_formats_with(io::FormatUse::write_surface))->required();
+  surfmesh::WrapOptions options;
+  add_schema_options(*command, sterna::options_of(options), wrap.options);
+  add_set_option(*command, set);
+  add_cache_options(*command, wrap.cache);
+  command->footer("Numbers take units: --edge 5mm, --gap 20mm, --features 35deg, --unit inch. docs/wrap.md says what is done and how far it goes.");
+  command->final_callback([&] {
+    for (auto& [name, text] : wrap.options) text = with_degrees(name, text);
+    wrap.options.insert(wrap.options.end(), set.begin(), set.end());
+    request.execute = [&](const CommandContext& context) { return execute(wrap, context); };
+    request.trouble = beside(wrap.output);
   });
 }
 
@@ -434,6 +452,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   HalfCommand half;
   CacheCommand cache;
   UnionCommand unite;
+  WrapCommand wrap;
   CheckCommand check;
   GateCommands gates;
   InfoCommand info;
@@ -452,6 +471,7 @@ int parse_and_execute(int argc, const char* const* argv) {
   add_half_command(app, half, request);
   add_cache_command(app, cache, request);
   add_union_command(app, unite, request);
+  add_wrap_command(app, wrap, set, request);
   add_check_command(app, check, request);
   add_gate_commands(app, gates, [&](std::function<int(const CommandContext&)> execute) { request.execute = std::move(execute); });
   add_info_command(app, info, request);

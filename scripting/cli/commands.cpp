@@ -31,6 +31,7 @@
 #include "scripting/values/stages.h"
 #include "scripting/values/summary.h"
 #include "scripting/values/verbs.h"
+#include "scripting/values/wrap_surfaces.h"
 #include "scripting/verbs/farfield_verbs.h"
 #include "scripting/verbs/gate_limits.h"
 #include "scripting/verbs/half_verbs.h"
@@ -257,13 +258,25 @@ MeshValue make_mesh(const MeshCommand& command, const Reuse& reuse, const Comman
   volmesh::MeshCase volume_options;
   volume_options.patches = layer_rules_of(command.patches);
   surface_options.allow_open = command.is_half;
+  surfmesh::WrapOptions wrap_options;
   OptionTable table = volmesh::required_options_of(volume_options);
   for (Option& option : sterna::options_of(surface_options)) table.push_back(std::move(option));
+  if (command.is_wrapped)
+    for (Option& option : sterna::options_of(wrap_options))
+      if (option.name != "unit" && option.name != "split_angle" && option.name != "fluid") table.push_back(std::move(option));  // those of reading count
   set_options(table, command.options, context);
   complete_options(volume_options, command, context.run);
   volume_options.discs = discs_of(command);
   volume_options.periodic = periodic_of(command);
-  SurfaceValue wall = read_wall(inputs, surface_options, context.run.part("surface", 0.0, k_read_end));
+  SurfaceValue wall;
+  if (command.is_wrapped) {
+    wrap_options.unit = surface_options.unit;
+    wrap_options.split_angle = surface_options.split_angle;
+    wrap_options.fluid = surface_options.fluid;
+    wall = wrap_surfaces(std::vector<UnionItem>(inputs.begin(), inputs.end()), wrap_options, reuse, context.run.part("surface", 0.0, k_surface_end));
+  } else {
+    wall = read_wall(inputs, surface_options, context.run.part("surface", 0.0, k_read_end));
+  }
   halve(command, wall, context);
   read_farfield_of(volume_options, wall, context.run);
   return make_volume_mesh(wall, volume_options, command.stages, context.run.part("volume_mesh", k_read_end, k_mesh_end), reuse);
@@ -373,6 +386,28 @@ int execute(const HalfCommand& command, const CommandContext& context) {
   write_surface(half, command.output, context.run.part("write", k_mesh_end, 1.0));
   context.console.end_progress();
   context.run.info("wrote " + command.output.string() + ": " + describe(half));
+  return k_exit_success;
+}
+
+int execute(const WrapCommand& command, const CommandContext& context) {
+  for (const std::string& name : command.inputs) {
+    std::error_code none;  // of files that are not there
+    if (std::filesystem::equivalent(name, command.output, none))
+      throw Error({.code = ErrorCode::bad_argument,
+                   .attempted = "wrap",
+                   .problem = "the output " + command.output.string() + " is one of the inputs, which it would replace",
+                   .hint = "give it another name"});
+  }
+  surfmesh::WrapOptions options;
+  set_options(sterna::options_of(options), command.options, context);
+  require_surface_output(command.output);
+  std::vector<UnionItem> items;
+  for (const std::string& name : command.inputs) items.emplace_back(InputPath{name, name});
+  const std::unique_ptr<const StageCache> cache = cache_of(command.cache);
+  const SurfaceValue wrapped = wrap_surfaces(items, options, {.cache = cache.get(), .lines = nullptr}, context.run.part("wrap", 0.0, k_mesh_end));
+  write_surface(wrapped, command.output, context.run.part("write", k_mesh_end, 1.0));
+  context.console.end_progress();
+  context.run.info("wrote " + command.output.string() + ": " + describe(wrapped));
   return k_exit_success;
 }
 

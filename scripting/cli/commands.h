@@ -46,6 +46,7 @@ struct MeshCommand {
   std::vector<std::string> discs;     ///< disc_of_text
   std::vector<std::string> periodic;  ///< periodic_of_text
   bool is_half = false;               ///< the half of the surface
+  bool is_wrapped = false;            ///< --wrap: the files are wrapped first
   OptionOverrides half;               ///< --set half.axis=z; only with is_half
   CacheChoice cache;
 };
@@ -75,6 +76,13 @@ struct UnionCommand {
   std::vector<std::string> inputs;
   std::filesystem::path output;
   OptionOverrides options;
+};
+
+struct WrapCommand {
+  std::vector<std::string> inputs;
+  std::filesystem::path output;
+  OptionOverrides options;
+  CacheChoice cache;
 };
 
 struct CheckCommand {
@@ -119,6 +127,7 @@ int execute(const SurfaceCommand& command, const CommandContext& context);
 int execute(const HalfCommand& command, const CommandContext& context);
 int execute(const CacheCommand& command, const CommandContext& context);
 int execute(const UnionCommand& command, const CommandContext& context);
+int execute(const WrapCommand& command, const CommandContext& context);
 int execute(const CheckCommand& command, const CommandContext& context);
 int execute(const InfoCommand& command, const CommandContext& context);
 int execute(const ConvertCommand& command, const CommandContext& context);

@@ -43,6 +43,7 @@
 #include "scripting/verbs/surface_motion.h"
 #include "scripting/verbs/surface_verbs.h"
 #include "scripting/verbs/tunnel_verbs.h"
+#include "scripting/verbs/wrap_verbs.h"
 
 namespace sterna::scripting {
 namespace {
@@ -364,6 +365,7 @@ const ScriptVerb k_error_field = {"error", "", "", error_field};
 std::span<const ScriptVerb> script_verbs() {
   static const std::vector<ScriptVerb> all = [] {
     std::vector<ScriptVerb> verbs(k_first_verbs.begin(), k_first_verbs.end());
+    verbs.insert(verbs.end(), wrap_verbs().begin(), wrap_verbs().end());
     verbs.insert(verbs.end(), surface_verbs().begin(), surface_verbs().end());
     verbs.insert(verbs.end(), inspect_verbs().begin(), inspect_verbs().end());
     verbs.insert(verbs.end(), stage_verbs().begin(), stage_verbs().end());

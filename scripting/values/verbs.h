@@ -18,6 +18,7 @@
 #include "surfmesh/model/model_wall.h"
 #include "surfmesh/model/surface_mesh.h"
 #include "surfmesh/stitch/stitch_surface.h"
+#include "surfmesh/wrap/wrap_surface.h"
 #include "volmesh/case/patch_rule.h"
 #include "volmesh/case/placed_part.h"
 #include "volmesh/volume_mesh.h"
@@ -45,6 +46,7 @@ struct SurfaceValue {
   surfmesh::StitchOptions options;
   std::vector<InputFile> inputs;
   std::optional<UnionOptions> union_options = {};               ///< of a surface that union made
+  std::optional<surfmesh::WrapOptions> wrap_options = {};       ///< of a surface that wrap made
   std::optional<SurfaceRecipe> recipe = {};                     ///< of a surface that surface_mesh made
   std::optional<surfmesh::SurfaceMeshReport> mesh_report = {};  ///< the same, unless it was read from a file
   std::optional<double> smooth_angle = {};  ///< rad, the same or as the manifest beside the file says: the largest turn where the surface is smooth
@@ -60,6 +62,7 @@ struct SurfaceValue {
 struct MeshOrigin {
   surfmesh::StitchOptions surface_options;
   std::optional<UnionOptions> union_options;
+  std::optional<surfmesh::WrapOptions> wrap_options;
   std::optional<SurfaceRecipe> recipe;
   std::optional<double> smooth_angle;  ///< of the wall
   volmesh::MeshCase options;

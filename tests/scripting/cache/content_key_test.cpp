@@ -141,6 +141,9 @@ TEST(ContentKeys, ASurfaceIsItsMeshAndWhatManifestsSayOfIt) {
   other.union_options = UnionOptions{};
   expect_other(other, "union");
   other = surface;
+  other.wrap_options = surfmesh::WrapOptions{};
+  expect_other(other, "wrap");
+  other = surface;
   other.inputs = {{"a.stl", "0123"}};
   expect_other(other, "an input");
   other = surface;

@@ -1,0 +1,57 @@
+// Private to surfmesh/wrap: the wrap brought back onto the input, with the input's sharp edges and patches, and better triangles on the way.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geom/boolean/cgal_wrap.h"
+#include "geom/mesh/bvh.h"
+#include "surfmesh/wrap/wrap_input.h"
+
+namespace sterna::surfmesh {
+
+struct WrapSizes {
+  double edge = 0.0, gap = 0.0, tolerance = 0.0, offset = 0.0;  ///< m
+  bool is_fluid_inside = false;
+};
+
+/// What of a vertex of the wrap is tied to the input.
+enum class LineTie : char { none, line, corner };
+
+struct FittedWrap {
+  std::vector<Vec3> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::uint32_t> patch;  ///< per triangle, of the input's mesh
+  std::vector<LineTie> tie;          ///< per vertex
+};
+
+/// The input as something to be near to: its facets, its lines and its corners.
+class InputSurface {
+ public:
+  InputSurface(const WrapInput& input, const RunContext& context);
+
+  const WrapInput& input() const { return input_; }
+  const TriangleTree& facets() const { return facets_; }
+  NearestHit nearest(const Vec3& p, double limit = std::numeric_limits<double>::infinity()) const { return facets_.nearest(p, limit); }
+  /// Nearest point of a sharp edge or a patch border.
+  NearestHit nearest_line(const Vec3& p, double limit) const;
+  NearestHit nearest_corner(const Vec3& p, double limit) const;
+  /// Whether the hit lies on a border of the input: what is there is an opening's rim.
+  bool is_on_border(const NearestHit& hit) const;
+  Vec3 normal(TriangleId facet) const;
+
+ private:
+  const WrapInput& input_;
+  TriangleTree facets_, lines_, corners_;
+};
+
+/// \pre `wrap` is closed, manifold and clear of itself. \post so is the result
+FittedWrap fit_wrap(const WrapSurface& wrap, const InputSurface& surface, const WrapSizes& sizes, double feature_angle, const RunContext& context);
+
+/// Per triangle the patch of the nearest facet; connected regions, small ones given to their neighbours.
+std::vector<std::uint32_t> patches_of(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles, const InputSurface& surface,
+                                      const WrapSizes& sizes, const RunContext& context);
+
+TriMesh wrap_mesh(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles);
+
+}  // namespace sterna::surfmesh

@@ -1,0 +1,238 @@
+#include "surfmesh/wrap/wrap_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/disjoint_sets.h"
+#include "geom/base/error.h"
+#include "geom/base/parallel.h"
+#include "geom/math/measures.h"
+#include "geom/mesh/find_crossings.h"
+#include "geom/mesh/topology.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+constexpr double k_fair_angle = 0.2618;  ///< rad, 15 degrees
+/// Winding number of the input beyond which a place is inside of it: above the half on its surface.
+constexpr double k_inside = 0.55;
+/// Of the edge: in front of the wrap by so much, a leak is looked for.
+constexpr double k_leak_probe = 0.25;
+/// Of the edge squared: leaks smaller than this are folds of the surface.
+constexpr double k_leak_area = 20.0;
+
+struct TriangleFinding {
+  double distance = 0.0;  ///< m, of the farthest sample
+  Vec3 sample;
+  bool is_over_border = false;  ///< what is nearest there is a border of the input
+  bool is_leak = false;
+};
+
+struct InputFinding {
+  double distance = 0.0;  ///< m, of the farthest sample that is not inside
+  bool is_inside = false;
+};
+
+std::string places(std::int64_t n) { return n == 1 ? "1 place" : std::to_string(n) + " places"; }
+
+/// Triangles with the flag, in groups that hang together over edges; by first triangle.
+std::vector<std::vector<std::uint32_t>> groups_of(const std::vector<char>& flag, const Topology& topology) {
+  std::vector<std::vector<std::uint32_t>> groups;
+  std::vector<char> is_done(flag.size(), 0);
+  std::vector<std::uint32_t> stack;
+  for (std::uint32_t s = 0; s < flag.size(); ++s) {
+    if (!flag[s] || is_done[s]) continue;
+    groups.emplace_back();
+    is_done[s] = 1;
+    stack.push_back(s);
+    while (!stack.empty()) {
+      const std::uint32_t t = stack.back();
+      stack.pop_back();
+      groups.back().push_back(t);
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const auto o = static_cast<std::uint32_t>(triangle_of(topology.twin(HalfedgeId(3 * t + k))).index());
+        if (!flag[o] || is_done[o]) continue;
+        is_done[o] = 1;
+        stack.push_back(o);
+      }
+    }
+    std::sort(groups.back().begin(), groups.back().end());
+  }
+  return groups;
+}
+
+}  // namespace
+
+void measure_wrap(const FittedWrap& wrap, const InputSurface& surface, const WrapSizes& sizes, WrapReport& report, const RunContext& context) {
+  const TriMesh mesh = wrap_mesh(wrap.points, wrap.triangles);
+  const Topology topology(mesh, context);
+  const TriangleTree tree(mesh, context);
+  const std::size_t n = mesh.n_triangles();
+  report.n_on_features = std::count_if(wrap.tie.begin(), wrap.tie.end(), [](LineTie t) { return t != LineTie::none; });
+  std::vector<TriangleFinding> found(n);
+  parallel_for(
+      context, n,
+      [&](std::size_t t) {
+        const auto c = corners(mesh, TriangleId(std::uint64_t{t}));
+        const Vec3 middle = (c[0] + c[1] + c[2]) / 3.0;
+        for (const Vec3& p : {middle, 0.5 * (c[0] + c[1]), 0.5 * (c[1] + c[2]), 0.5 * (c[2] + c[0]), c[0], c[1], c[2]}) {
+          const NearestHit hit = surface.nearest(p);
+          if (hit.distance <= found[t].distance) continue;
+          found[t].distance = hit.distance;
+          found[t].sample = p;
+          found[t].is_over_border = surface.is_on_border(hit);
+        }
+        const Vec3 outside = middle + k_leak_probe * sizes.edge * normalized(area_vector(c[0], c[1], c[2]));
+        found[t].is_leak = surface.facets().winding_number(outside) > k_inside;
+      },
+      128);
+
+  // Closures: what is beyond the tolerance, in groups; openings where the nearest is a border of the input.
+  std::vector<char> is_far(n, 0), is_closure(n, 0), is_leak(n, 0);
+  for (std::size_t t = 0; t < n; ++t) {
+    is_far[t] = found[t].distance > sizes.tolerance;
+    is_leak[t] = found[t].is_leak;
+  }
+  for (const auto& group : groups_of(is_far, topology)) {
+    WrapClosure closure;
+    Box box;
+    std::size_t n_over_border = 0;
+    for (const std::uint32_t t : group) {
+      const auto c = corners(mesh, TriangleId(t));
+      for (const Vec3& p : c) box.add(p);
+      closure.area += triangle_area(c[0], c[1], c[2]);
+      closure.distance = std::max(closure.distance, found[t].distance);
+      n_over_border += found[t].is_over_border;
+    }
+    closure.is_opening = 2 * n_over_border >= group.size();
+    closure.position = box.center();
+    closure.size = box.longest_side();
+    // A groove this deep was closed; shallower ones are a rough fit and count as such.
+    if (!closure.is_opening && closure.distance < 0.5 * sizes.edge) continue;
+    for (const std::uint32_t t : group) is_closure[t] = 1;
+    ++report.n_closures;
+    report.closures.push_back(closure);
+  }
+  std::stable_sort(report.closures.begin(), report.closures.end(), [](const WrapClosure& a, const WrapClosure& b) { return a.size > b.size; });
+  if (report.closures.size() > k_max_closures) report.closures.resize(k_max_closures);
+  for (std::size_t t = 0; t < n; ++t) {
+    double& farthest = is_closure[t] ? report.to_input_closed : report.to_input;
+    if (!is_closure[t]) {
+      report.n_beyond_tolerance += is_far[t];
+      if (found[t].distance > farthest) report.farthest = found[t].sample;
+    }
+    farthest = std::max(farthest, found[t].distance);
+  }
+  for (std::size_t v = 0; v < wrap.points.size(); ++v) report.n_off_input += !surface.nearest(wrap.points[v], sizes.tolerance).triangle.is_valid();
+
+  for (const auto& group : groups_of(is_leak, topology)) {
+    WrapLeak leak;
+    Vec3 rim;
+    std::int64_t n_rim = 0;
+    for (const std::uint32_t t : group) {
+      const auto c = corners(mesh, TriangleId(t));
+      leak.area += triangle_area(c[0], c[1], c[2]);
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        if (is_leak[triangle_of(topology.twin(HalfedgeId(3 * t + k))).index()]) continue;
+        rim += 0.5 * (c[k] + c[(k + 1) % 3]);
+        ++n_rim;
+      }
+    }
+    if (leak.area < k_leak_area * sizes.edge * sizes.edge) continue;
+    leak.position = n_rim > 0 ? rim / static_cast<double>(n_rim) : corners(mesh, TriangleId(group.front()))[0];
+    report.leaks.push_back(leak);
+  }
+  std::stable_sort(report.leaks.begin(), report.leaks.end(), [](const WrapLeak& a, const WrapLeak& b) { return a.area > b.area; });
+
+  // The input, seen from the wrap.
+  const TriMesh& input = surface.input().mesh;
+  std::vector<InputFinding> inputs(input.n_triangles());
+  parallel_for(
+      context, inputs.size(),
+      [&](std::size_t f) {
+        const auto c = corners(input, TriangleId(std::uint64_t{f}));
+        const Vec3 middle = (c[0] + c[1] + c[2]) / 3.0;
+        for (const Vec3& p : {middle, 0.5 * (c[0] + c[1]), 0.5 * (c[1] + c[2]), 0.5 * (c[2] + c[0]), c[0], c[1], c[2]}) {
+          const double distance = tree.nearest(p).distance;
+          const bool is_inside = distance > sizes.tolerance && tree.winding_number(p) > (sizes.is_fluid_inside ? -0.5 : 0.5);
+          if (p == middle) inputs[f].is_inside = is_inside;
+          if (!is_inside) inputs[f].distance = std::max(inputs[f].distance, distance);
+        }
+      },
+      128);
+  for (std::size_t f = 0; f < inputs.size(); ++f) {
+    report.from_input = std::max(report.from_input, inputs[f].distance);
+    if (!inputs[f].is_inside) continue;
+    ++report.n_inside;
+    const auto c = corners(input, TriangleId(std::uint64_t{f}));
+    report.inside_area += triangle_area(c[0], c[1], c[2]);
+  }
+
+  report.quality.min_angle = 3.2;
+  for (std::size_t t = 0; t < n; ++t) {
+    const auto c = corners(mesh, TriangleId(std::uint64_t{t}));
+    const double angle = std::min({corner_angle(c[0], c[1], c[2]), corner_angle(c[1], c[2], c[0]), corner_angle(c[2], c[0], c[1])});
+    report.quality.min_angle = std::min(report.quality.min_angle, angle);
+    if (angle >= k_fair_angle) continue;
+    ++report.quality.n_below_15;
+    for (const std::uint32_t v : wrap.triangles[t])
+      if (wrap.tie[v] != LineTie::none) {
+        ++report.quality.n_at_features;
+        break;
+      }
+  }
+
+  const auto number = wrap_number;
+  if (report.n_closures > 0) {
+    const WrapClosure& largest = report.closures.front();
+    report.messages.push_back("closed " + places(report.n_closures) + ", the largest " + (largest.is_opening ? "an opening" : "a groove") + " of " +
+                              number(largest.size) + " m at " + format_point(largest.position));
+  }
+  if (report.n_inside > 0)
+    report.messages.push_back("dropped " + std::to_string(report.n_inside) + " facets (" + number(report.inside_area) +
+                              " m^2) that are inside, farther than the tolerance from the wrap");
+  for (const WrapLeak& leak : report.leaks)
+    report.messages.push_back("leak: the wrap goes inside near " + format_point(leak.position) + " and covers " + number(leak.area) +
+                              " m^2 there; an opening is wider than the gap of " + number(sizes.gap) + " m");
+  report.messages.push_back("wrap to input at most " + number(report.to_input) + " m outside of closures, " + number(report.to_input_closed) +
+                            " m in them; input to wrap at most " + number(report.from_input) + " m");
+  if (report.n_beyond_tolerance > 0)
+    report.messages.push_back(std::to_string(report.n_beyond_tolerance) + " triangles are farther from the input than the tolerance of " +
+                              number(sizes.tolerance) + " m, the farthest at " + format_point(report.farthest));
+}
+
+void prove_wrap(const TriMesh& mesh, const WrapReport& report, const RunContext& context) {
+  const Topology topology(mesh, context);
+  if (topology.n_boundary_halfedges() > 0) {
+    ErrorInfo info{.code = ErrorCode::open_surface, .attempted = "wrapping", .problem = "the wrap is open"};
+    const std::size_t axis = report.half_axis == "x" ? 0 : report.half_axis == "y" ? 1 : 2;
+    for (std::uint32_t h = 0; h < topology.n_halfedges(); ++h) {
+      if (!topology.is_boundary(HalfedgeId(h))) continue;
+      const Vec3 &a = mesh.points[topology.from(HalfedgeId(h))], &b = mesh.points[topology.to(HalfedgeId(h))];
+      if (!report.half_axis.empty() && a[axis] == report.half_at && b[axis] == report.half_at) continue;
+      info.add_place(0.5 * (a + b), "edge with one triangle");
+    }
+    if (!info.places.empty()) throw Error(std::move(info));
+  }
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (const TriangleVertices& t : mesh.triangles) triangles.push_back({t[0].value(), t[1].value(), t[2].value()});
+  const CrossingPairs crossings = find_crossings(mesh.points.raw(), triangles, context, k_max_geometry);
+  if (crossings.total == 0) return;
+  ErrorInfo info{.code = ErrorCode::self_intersection,
+                 .attempted = "wrapping",
+                 .problem = "the wrap crosses itself in " + places(crossings.total),
+                 .hint = "a smaller edge, or a larger offset"};
+  for (const auto& pair : crossings.pairs) {
+    const auto c = corners(mesh, TriangleId(pair[0]));
+    info.add_place((c[0] + c[1] + c[2]) / 3.0, "two triangles cross");
+    for (const std::uint32_t t : pair) {
+      const auto n = static_cast<std::uint32_t>(info.geometry.points.size());
+      for (const Vec3& p : corners(mesh, TriangleId(t))) info.geometry.points.push_back(p);
+      info.geometry.triangles.push_back({n, n + 1, n + 2});
+    }
+  }
+  info.n_places = crossings.total;
+  throw Error(std::move(info));
+}
+
+}  // namespace sterna::surfmesh

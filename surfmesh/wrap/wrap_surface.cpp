@@ -1,0 +1,286 @@
+// The driver: the soup in metres (read_wrap_input), a half model mirrored, sizes and the estimate, openings between edge and gap closed by a coarser wrap
+// (close_openings), the wrap, its way back onto the input (fit_wrap), what was changed (measure_wrap), patches, the half cut out, the proof.
+#include "surfmesh/wrap/wrap_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geom/base/error.h"
+#include "geom/base/parallel.h"
+#include "geom/math/measures.h"
+#include "geom/mesh/half.h"
+#include "geom/mesh/topology.h"
+#include "surfmesh/stitch/patches.h"
+#include "surfmesh/wrap/fit_wrap.h"
+#include "surfmesh/wrap/wrap_input.h"
+#include "surfmesh/wrap/wrap_report.h"
+
+namespace sterna::surfmesh {
+namespace {
+
+/// Triangles of an alpha wrap on a plane, per area over alpha^2: measured.
+constexpr double k_triangles_per_area = 2.6;
+constexpr double k_automatic_triangles = 60'000.0;
+constexpr double k_finest_edge = 1.0 / 400.0, k_coarsest_edge = 1.0 / 50.0;  ///< of the body length
+constexpr double k_automatic_gap = 0.02;                                     ///< of the body length
+/// A gap beyond this multiple of the edge needs a wrap of its own: a ball of the edge's radius passes through wider openings.
+constexpr double k_gap_of_edge = 2.0;
+/// Winding number of the input, on what closes its openings: about a half there, less where many are, zero in front of grooves.
+constexpr double k_closing = 0.15;
+/// Of the edge: between samples of what may close an opening; and at most so many along a side.
+constexpr double k_sample_step = 0.7;
+constexpr int k_most_samples = 12;
+/// Winding number beyond which a place is inside of the input; share of the wrap that lies before such places when it leaks, not just folds; and from where on
+/// (of the body length) an automatic gap is not doubled any more.
+constexpr double k_inside_input = 0.55, k_leaking_share = 0.05, k_widest_gap = 0.08;
+/// us, of one point of the alpha wrap with all that follows; for the estimate in the log.
+constexpr double k_seconds_per_triangle = 1.5e-4;
+/// Of the tolerance: cuts beside the plane of a half model that are tried.
+constexpr std::array k_half_shifts{0.0, 0.2, 0.5, 1.0, 2.0};
+constexpr std::size_t k_seed_cells = 24;  ///< along each axis, of the grid on which a place within a tunnel is looked for
+constexpr double k_read_end = 0.05, k_close_end = 0.15, k_wrap_end = 0.5, k_fit_end = 0.85, k_measure_end = 0.95;  ///< shares of the progress
+
+std::int64_t expected_triangles(const WrapInput& input, double edge) { return std::llround(k_triangles_per_area * input.area / (edge * edge)); }
+
+WrapSizes choose_sizes(const WrapInput& input, const WrapOptions& options) {
+  WrapSizes sizes;
+  const double length = input.length;
+  sizes.edge = !is_automatic(options.edge)
+                   ? options.edge
+                   : std::clamp(std::sqrt(k_triangles_per_area * input.area / k_automatic_triangles), k_finest_edge * length, k_coarsest_edge * length);
+  sizes.gap = is_automatic(options.gap) ? std::max(k_gap_of_edge * sizes.edge, k_automatic_gap * length) : options.gap;
+  sizes.tolerance = is_automatic(options.tolerance) ? 0.1 * sizes.edge : options.tolerance;
+  sizes.offset = is_automatic(options.offset) ? 0.05 * sizes.edge : options.offset;
+  return sizes;
+}
+
+void check_sizes(const WrapInput& input, const WrapSizes& sizes, const WrapOptions& options) {
+  const std::string length = short_number(input.length) + " m";
+  if (sizes.edge > 0.5 * input.length)
+    throw_bad_argument("wrapping", "edge = " + short_number(sizes.edge) + " m is more than half the body length of " + length);
+  if (sizes.gap > input.length) throw_bad_argument("wrapping", "gap = " + short_number(sizes.gap) + " m is more than the body length of " + length);
+  if (!(sizes.offset > 0.0) || sizes.offset > sizes.edge)
+    throw_bad_argument("wrapping",
+                       "offset = " + short_number(sizes.offset) + " m must be above 0 and not above the edge of " + short_number(sizes.edge) + " m");
+  if (!(sizes.tolerance > 0.0)) throw_bad_argument("wrapping", "tolerance must be above 0");
+  const std::int64_t expected = expected_triangles(input, sizes.edge);
+  if (expected <= options.max_triangles) return;
+  const double least = std::sqrt(k_triangles_per_area * input.area / options.max_triangles);
+  throw_bad_argument("wrapping",
+                     "edge = " + short_number(sizes.edge) + " m would give about " + short_number(static_cast<double>(expected)) + " triangles (" +
+                         short_number(input.area) + " m^2 of input), more than max_triangles = " + std::to_string(options.max_triangles) + ", in about " +
+                         short_number(k_seconds_per_triangle * static_cast<double>(expected)) + " s",
+                     {}, "edge = " + short_number(least) + " or more, or a larger max_triangles");
+}
+
+AlphaWrapInput alpha_input(const WrapInput& input) {
+  AlphaWrapInput soup;
+  soup.points = input.mesh.points.raw();
+  for (const TriangleVertices& t : input.mesh.triangles) soup.triangles.push_back({t[0].value(), t[1].value(), t[2].value()});
+  return soup;
+}
+
+/// Share of the wrap's area that has the inside of the input before it.
+double leaking_share(const WrapInput& input, const WrapSurface& wrap, double probe, const RunContext& context) {
+  const TriangleTree tree(input.mesh, context);
+  const TriMesh mesh = wrap_mesh(wrap.points, wrap.triangles);
+  std::vector<double> area(mesh.n_triangles()), inside(mesh.n_triangles(), 0.0);
+  parallel_for(
+      context, area.size(),
+      [&](std::size_t t) {
+        const auto c = corners(mesh, TriangleId(std::uint64_t{t}));
+        const Vec3 a = area_vector(c[0], c[1], c[2]);
+        area[t] = norm(a);
+        if (tree.winding_number((c[0] + c[1] + c[2]) / 3.0 + probe * normalized(a)) > k_inside_input) inside[t] = area[t];
+      },
+      128);
+  CompensatedSum all, leaking;
+  for (std::size_t t = 0; t < area.size(); ++t) {
+    all.add(area[t]);
+    leaking.add(inside[t]);
+  }
+  return all.value() > 0.0 ? leaking.value() / all.value() : 0.0;
+}
+
+/// A place within the input, as far from it as can be found on a grid.
+Vec3 find_seed(const WrapInput& input, double alpha, const RunContext& context) {
+  const TriangleTree tree(input.mesh, context);
+  const Box box = bounding_box(input.mesh);
+  const Vec3 size = box.max - box.min;
+  std::vector<double> depth(k_seed_cells * k_seed_cells * k_seed_cells, -1.0);
+  const auto place = [&](std::size_t i) {
+    const std::size_t x = i % k_seed_cells, y = i / k_seed_cells % k_seed_cells, z = i / (k_seed_cells * k_seed_cells);
+    const auto share = [](std::size_t k) { return (static_cast<double>(k) + 0.5) / static_cast<double>(k_seed_cells); };
+    return Vec3{box.min.x + share(x) * size.x, box.min.y + share(y) * size.y, box.min.z + share(z) * size.z};
+  };
+  parallel_for(
+      context, depth.size(),
+      [&](std::size_t i) {
+        if (std::abs(tree.winding_number(place(i))) > 0.5) depth[i] = tree.nearest(place(i)).distance;
+      },
+      64);
+  const auto deepest = std::max_element(depth.begin(), depth.end());
+  if (*deepest < 2.0 * alpha)
+    throw_bad_argument("wrapping", "fluid = \"inside\", but no room within the surface is wider than the gap", {}, "fluid = \"outside\", or a smaller gap");
+  return place(static_cast<std::size_t>(deepest - depth.begin()));
+}
+
+double coarse_offset(const WrapSizes& sizes) { return std::min(0.05 * 0.5 * sizes.gap, sizes.edge); }
+
+/// What closes the openings wider than the edge's ball, from a wrap with a ball of half the gap: facets off the input that the input nearly encloses.
+void close_openings(const WrapInput& input, const WrapSizes& sizes, const WrapSurface& coarse, double least_winding, AlphaWrapInput& soup, WrapReport& report,
+                    const RunContext& context) {
+  const TriMesh mesh = wrap_mesh(coarse.points, coarse.triangles);
+  const TriangleTree tree(input.mesh, context);
+  std::vector<char> is_closing(mesh.n_triangles(), 0);
+  const double alpha = 0.5 * sizes.gap, offset = coarse_offset(sizes);
+  parallel_for(
+      context, is_closing.size(),
+      [&](std::size_t t) {
+        const auto c = corners(mesh, TriangleId(std::uint64_t{t}));
+        const Vec3 normal = normalized(area_vector(c[0], c[1], c[2]));
+        // As densely as openings can be narrow that the finer ball passes through.
+        const double longest = std::max({distance(c[0], c[1]), distance(c[1], c[2]), distance(c[2], c[0])});
+        const int n = std::clamp(static_cast<int>(std::ceil(longest / (k_sample_step * sizes.edge))), 2, k_most_samples);
+        for (int i = 0; i <= n && !is_closing[t]; ++i)
+          for (int j = 0; i + j <= n && !is_closing[t]; ++j) {
+            const double u = static_cast<double>(i) / n, v = static_cast<double>(j) / n;
+            const Vec3 p = c[0] + u * (c[1] - c[0]) + v * (c[2] - c[0]);
+            if (!tree.nearest(p, 2.0 * offset).triangle.is_valid() && tree.winding_number(p - offset * normal) > least_winding) is_closing[t] = 1;
+          }
+      },
+      128);
+  const auto first = static_cast<std::uint32_t>(soup.points.size());
+  std::int64_t n = 0;
+  for (std::size_t t = 0; t < is_closing.size(); ++t) {
+    if (!is_closing[t]) continue;
+    auto triangle = coarse.triangles[t];
+    for (std::uint32_t& v : triangle) v += first;
+    soup.triangles.push_back(triangle);
+    ++n;
+  }
+  if (n == 0) return;
+  soup.points.insert(soup.points.end(), coarse.points.begin(), coarse.points.end());
+  report.messages.push_back("openings between the edge and the gap closed by " + std::to_string(n) + " triangles of a wrap with a ball of " +
+                            short_number(alpha) + " m radius");
+}
+
+/// The given half, its rim in the plane. Where the wrap touches itself or the plane along the cut, the cut is made a little further in, and the half shifted
+/// back.
+TriMesh cut_half(const TriMesh& mesh, const WrapInput& input, const WrapSizes& sizes, WrapReport& report, const RunContext& context) {
+  const std::size_t axis = input.half_axis == "x" ? 0 : input.half_axis == "y" ? 1 : 2;
+  std::optional<Error> first;
+  for (const double shift : k_half_shifts)
+    for (const double snap : {0.3, 0.0}) {
+      context.check_stop();
+      const double by = shift * sizes.tolerance * (input.is_half_above ? 1.0 : -1.0);
+      try {
+        TriMesh half = half_of(
+            mesh,
+            {.axis = input.half_axis, .at = input.half_at + by, .keep = input.is_half_above ? "+" : "-", .tolerance = 0.1 * sizes.tolerance, .snap = snap},
+            context);
+        if (shift > 0.0)
+          for (Vec3& p : half.points) p[axis] = p[axis] == input.half_at + by ? input.half_at : p[axis] - by;
+        prove_wrap(half, report, context);
+        if (shift > 0.0)
+          report.messages.push_back("cut " + short_number(std::abs(by)) + " m beside the plane and shifted back: in the plane the wrap touches itself");
+        return half;
+      } catch (const Error& error) {
+        if (error.code() == ErrorCode::cancelled) throw;
+        if (!first) first = error;
+      }
+    }
+  throw *first;
+}
+
+TriMesh finished_mesh(const FittedWrap& fitted, const TriMesh& input) {
+  TriMesh mesh = wrap_mesh(fitted.points, fitted.triangles);
+  std::vector<char> is_used(input.patches.size(), 0);
+  for (const std::uint32_t p : fitted.patch) is_used[p] = 1;
+  std::vector<PatchId> number(input.patches.size());
+  for (const PatchId p : input.patches.ids())
+    if (is_used[p.index()]) number[p.index()] = mesh.patches.push_back(input.patches[p]);
+  for (const std::uint32_t p : fitted.patch) mesh.triangle_patch.push_back(number[p]);
+  return mesh;
+}
+
+}  // namespace
+
+WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions& options, const RunContext& context) {
+  WrapResult result;
+  WrapReport& report = result.report;
+  WrapInput input = read_wrap_input(soups, options, report, context);
+  WrapSizes sizes = choose_sizes(input, options);
+  check_sizes(input, sizes, options);
+  const bool is_inside = sizes.is_fluid_inside = options.fluid == "inside";
+  if (options.half == "automatic" && !is_inside) mirror_half(input, sizes.gap, report, context);
+  if (!input.half_axis.empty()) find_lines(input, options.features);
+  report.edge = sizes.edge;
+  report.gap = sizes.gap;
+  report.tolerance = sizes.tolerance;
+  report.offset = sizes.offset;
+  report.expected_triangles = expected_triangles(input, sizes.edge);
+  report.n_feature_edges = static_cast<std::int64_t>(input.lines.size());
+  context.info("wrap: edge " + short_number(sizes.edge) + " m, gap " + short_number(sizes.gap) + " m, tolerance " + short_number(sizes.tolerance) +
+               " m; about " + std::to_string(report.expected_triangles) + " triangles expected");
+  context.progress(k_read_end);
+
+  AlphaWrapInput soup;
+  WrapSurface wrap;
+  const auto wrap_with = [&](double alpha, double offset, const RunContext& part) {
+    soup.alpha = alpha;
+    soup.offset = offset;
+    soup.max_points = 2 * static_cast<std::int64_t>(options.max_triangles);
+    soup.expected_points = expected_triangles(input, alpha) / 2;
+    wrap = alpha_wrap(soup, part);
+    if (sizes.is_fluid_inside)
+      for (auto& t : wrap.triangles) std::swap(t[1], t[2]);
+    if (wrap.triangles.empty())
+      throw Error({.code = ErrorCode::geometry_failed,
+                   .attempted = "wrapping",
+                   .problem = "a ball of " + short_number(alpha) + " m radius finds no surface",
+                   .hint = "a smaller edge or gap"});
+  };
+  soup = alpha_input(input);
+  if (is_inside) soup.seeds = {find_seed(input, sizes.edge, context)};
+  const RunContext close_part = context.part("close", k_read_end, k_close_end), wrap_part = context.part("wrap", k_close_end, k_wrap_end);
+  double alpha = sizes.edge;
+  while (true) {
+    const bool is_coarse = !is_inside && sizes.gap > k_gap_of_edge * sizes.edge;
+    alpha = is_coarse ? 0.5 * sizes.gap : sizes.edge;
+    const double offset = is_coarse ? coarse_offset(sizes) : sizes.offset;
+    wrap_with(alpha, offset, is_coarse ? close_part : wrap_part);
+    turn_parts(input, wrap_mesh(wrap.points, wrap.triangles), 2.0 * offset + sizes.tolerance, context);
+    if (!is_automatic(options.gap) || is_inside || sizes.gap > k_widest_gap * input.length) break;
+    if (leaking_share(input, wrap, 0.25 * alpha, context) < k_leaking_share) break;
+    sizes.gap *= 2.0;
+    report.messages.push_back("openings are wider than " + short_number(0.5 * sizes.gap) + " m: the gap is " + short_number(sizes.gap) + " m");
+  }
+  if (alpha > sizes.edge) {
+    const WrapSurface coarse = std::move(wrap);
+    // First what the input nearly encloses, so that grooves keep their depth; if that leaks, all that the coarse wrap closes.
+    for (const double least_winding : {k_closing, -k_unbounded}) {
+      soup = alpha_input(input);
+      close_openings(input, sizes, coarse, least_winding, soup, report, context);
+      wrap_with(sizes.edge, sizes.offset, wrap_part);
+      if (leaking_share(input, wrap, 0.25 * sizes.edge, context) < k_leaking_share) break;
+    }
+  }
+  report.gap = sizes.gap;
+  const InputSurface surface(input, context);
+  const FittedWrap fitted = fit_wrap(wrap, surface, sizes, options.features, context.part("fit", k_wrap_end, k_fit_end));
+  measure_wrap(fitted, surface, sizes, report, context.part("measure", k_fit_end, k_measure_end));
+
+  result.mesh = finished_mesh(fitted, input.mesh);
+  if (!input.half_axis.empty()) result.mesh = cut_half(result.mesh, input, sizes, report, context);
+  if (!is_automatic(options.split_angle)) split_patches(result.mesh, options.split_angle, context);
+  if (input.half_axis.empty()) prove_wrap(result.mesh, report, context.part("prove", k_measure_end, 1.0));
+  report.n_components = connected_components(result.mesh, Topology(result.mesh, context)).count;
+  report.n_triangles = static_cast<std::int64_t>(result.mesh.n_triangles());
+  report.n_vertices = static_cast<std::int64_t>(result.mesh.n_vertices());
+  for (const std::string& message : report.messages) context.info("wrap: " + message);
+  context.progress(1.0);
+  return result;
+}
+
+}  // namespace sterna::surfmesh

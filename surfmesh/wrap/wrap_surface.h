@@ -1,0 +1,158 @@
+// From triangle soups, however torn, to a closed surface around them: alpha wrap, then back onto the input with its sharp edges and patches.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geom/base/run_context.h"
+#include "geom/base/schema.h"
+#include "geom/mesh/surface_soup.h"
+#include "geom/mesh/tri_mesh.h"
+
+namespace sterna::surfmesh {
+
+struct WrapOptions {
+  double edge = k_automatic;       ///< m; triangles of about this size, smaller where the input bends
+  double gap = k_automatic;        ///< m; openings up to this are closed
+  double tolerance = k_automatic;  ///< m; from the wrap to the input, but for what was closed
+  double offset = k_automatic;     ///< m; sheets without thickness get about this
+  double features = 0.698;         ///< rad, 40 degrees; edges of the input that bend by more are sharp
+  std::string half = "automatic";  ///< automatic: a surface open in a plane x, y or z = constant is half of a model
+  int max_triangles = 3'000'000;
+  double unit = 1.0;                 ///< metres per file unit
+  double split_angle = k_automatic;  ///< rad
+  std::string fluid = "automatic";   ///< side of the outermost surface
+};
+
+/// Something that was closed over: an opening, or a groove too narrow for the wrap.
+struct WrapClosure {
+  Vec3 position;           ///< m, of its middle
+  double size = 0.0;       ///< m, longest side of its box
+  double area = 0.0;       ///< m^2
+  double distance = 0.0;   ///< m, farthest from the input
+  bool is_opening = true;  ///< its rim is a border of the input; else a groove, or a corner between parts
+};
+
+/// An opening wider than asked: the wrap lies on the inner side of the input behind it.
+struct WrapLeak {
+  Vec3 position;      ///< m, where the wrap goes in
+  double area = 0.0;  ///< m^2 of the wrap inside
+};
+
+/// What the wrap is worth: triangles by their smallest angle.
+struct WrapQuality {
+  double min_angle = 0.0;          ///< rad
+  std::int64_t n_below_15 = 0;     ///< triangles with an angle below 15 degrees
+  std::int64_t n_at_features = 0;  ///< of these, with a corner on a sharp edge
+};
+
+struct WrapReport {
+  std::int64_t n_facets_read = 0;
+  std::int64_t n_triangles = 0, n_vertices = 0, n_components = 0;
+  std::int64_t expected_triangles = 0;                          ///< estimated before
+  double edge = 0.0, gap = 0.0, tolerance = 0.0, offset = 0.0;  ///< m, as used
+  std::int64_t n_feature_edges = 0;                             ///< sharp edges and patch borders of the input
+  std::int64_t n_on_features = 0;                               ///< vertices of the wrap on them
+  std::int64_t n_off_input = 0;                                 ///< vertices that could not be brought back within the tolerance
+  double to_input = 0.0;                                        ///< m; farthest sample of the wrap from the input, outside of closures
+  double to_input_closed = 0.0;                                 ///< m; the same in closures
+  double from_input = 0.0;                                      ///< m; farthest sample of the input that is not inside
+  std::int64_t n_beyond_tolerance = 0;                          ///< triangles outside of closures that are farther than the tolerance
+  Vec3 farthest;                                                ///< m, of the wrap, outside of closures
+  std::int64_t n_inside = 0;                                    ///< facets of the input inside the wrap: inner parts, walls of what was closed
+  double inside_area = 0.0;                                     ///< m^2
+  std::int64_t n_closures = 0;                                  ///< all; `closures` has the largest
+  std::vector<WrapClosure> closures;                            ///< by falling size, at most k_max_closures
+  std::vector<WrapLeak> leaks;                                  ///< by falling area
+  std::string half_axis;                                        ///< "x", "y", "z" of a half model; empty: none
+  double half_at = 0.0;                                         ///< m
+  double half_moved = 0.0;                                      ///< m, the input's rim was off the plane by so much
+  WrapQuality quality;
+  std::vector<std::string> messages;  ///< one sentence for each, as logged
+};
+
+inline constexpr std::size_t k_max_closures = 50;
+
+struct WrapResult {
+  TriMesh mesh;
+  WrapReport report;
+};
+
+/// Wraps the soups (alpha wrap with a ball of the edge's size; openings between edge and gap are closed by a coarser wrap first), puts its vertices back onto
+/// the input and onto its sharp edges where that keeps the surface clear of itself, splits edges that are farther than the tolerance, improves the triangles,
+/// and gives each the patch of the nearest input facet. Nothing is assumed of the soups but finite coordinates. What is inside vanishes. A surface that is open
+/// in a plane x, y or z = constant by more than `gap` is a half model: mirrored, wrapped, cut in the plane.
+/// Deterministic, the same for any number of threads. Stops between points and between steps.
+/// \post closed (a half model: open in its plane only, exactly), manifold, clear of itself by the exact test, normals into the fluid; patch names unique;
+/// every vertex used
+/// \throws Error(file_malformed) (index out of range, coordinate not finite); empty_surface; bad_argument for an edge that gives more than max_triangles, with
+/// the figure, or a gap below the edge; self_intersection or open_surface when the proof fails
+WrapResult wrap_surface(const std::vector<SurfaceSoup>& soups, const WrapOptions& options, const RunContext& context);
+
+}  // namespace sterna::surfmesh
+
+namespace sterna {
+
+template <>
+struct Schema<surfmesh::WrapOptions> {
+  using O = surfmesh::WrapOptions;
+  static constexpr std::string_view stage = "wrap";
+  static constexpr std::array fields = {
+      Field<O>{.name = "edge",
+               .member = &O::edge,
+               .unit = Unit::metre,
+               .min = 1e-12,
+               .help = "size of the triangles; smaller ones come where the input bends",
+               .automatic = "about 60 000 triangles, between 1/400 and 1/50 of the body length"},
+      Field<O>{.name = "gap",
+               .member = &O::gap,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "openings up to this are closed",
+               .automatic = "twice the edge, at least 2 % of the body length; doubled, up to 16 %, while the wrap goes inside"},
+      Field<O>{.name = "tolerance",
+               .member = &O::tolerance,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "distance of the wrap from the input, but where something was closed",
+               .automatic = "a tenth of the edge"},
+      Field<O>{.name = "offset",
+               .member = &O::offset,
+               .unit = Unit::metre,
+               .min = 0.0,
+               .help = "distance at which the wrap is made before it is brought back; about the thickness that sheets get",
+               .automatic = "1/20 of the edge"},
+      Field<O>{.name = "features",
+               .member = &O::features,
+               .unit = Unit::radian,
+               .min = 0.1,
+               .max = 3.15,
+               .help = "edges of the input that bend by more than this stay sharp"},
+      Field<O>{.name = "half",
+               .member = &O::half,
+               .help = "whether a surface that is open in a plane x, y or z = constant by more than the gap is half of a model, or is closed",
+               .choices = "automatic never"},
+      Field<O>{.name = "max_triangles", .member = &O::max_triangles, .min = 100, .help = "an edge that would give more is refused"},
+      Field<O>{.name = "unit",
+               .member = &O::unit,
+               .unit = Unit::metre,
+               .min = 1e-9,
+               .max = 1e9,
+               .help = "length of one unit of the file (mm, cm, inch, ft are numbers)"},
+      Field<O>{.name = "split_angle",
+               .member = &O::split_angle,
+               .unit = Unit::radian,
+               .min = 0.0,
+               .max = 3.15,
+               .help = "split into patches along edges that bend by more than this",
+               .automatic = "patches as named in the file, else one"},
+      Field<O>{.name = "fluid",
+               .member = &O::fluid,
+               .help = "on which side of the outermost surface the fluid is: wrapped from outside, or from within a tunnel. automatic: outside",
+               .choices = "automatic outside inside"},
+  };
+};
+
+}  // namespace sterna
